@@ -1,0 +1,23 @@
+(** A stretch of source text. *)
+
+type t = { start : Lexing.position; stop : Lexing.position }
+(** From [start] up to, but without, [stop]. Columns count bytes of UTF-8 text. *)
+
+val none : t
+(** The location of what no source text stands for. *)
+
+val make : Lexing.position * Lexing.position -> t
+
+val span : t -> t -> t
+(** [span a b] is from the start of [a] to the stop of [b]. *)
+
+val file : t -> string
+
+val line : t -> int
+(** The line of the start, from 1. *)
+
+val column : t -> int
+(** The column of the start in characters, as an editor shows it, from 1. *)
+
+val pp : Format.formatter -> t -> unit
+(** ["FILE:LINE:COLUMN"]. *)

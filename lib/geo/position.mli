@@ -1,0 +1,30 @@
+(** A point near the Earth's surface, in the WGS84 frame. *)
+
+type t = {
+  latitude : float;  (** degrees, north positive, from -90 to 90 *)
+  longitude : float;  (** degrees, east positive, from -180 to 180 *)
+  height : float;  (** metres above the WGS84 ellipsoid *)
+}
+
+(** What is wrong with three numbers that are no position. *)
+type error =
+  | Latitude of float  (** degrees; not a number, or beyond a pole *)
+  | Longitude of float  (** degrees; not a number, or not from -180 to 180 *)
+  | Height of float  (** metres; not finite *)
+
+val make : latitude:float -> longitude:float -> height:float -> (t, error) result
+(** [make ~latitude ~longitude ~height] is the position with these coordinates (degrees, degrees, metres), or
+    the first of them that is out of range. *)
+
+val equal : t -> t -> bool
+(** [equal a b] is [compare a b = 0]. *)
+
+val compare : t -> t -> int
+(** [compare] orders by latitude, then longitude, then height, as plain numbers: longitudes -180 and 180 differ. *)
+
+val pp : Format.formatter -> t -> unit
+(** ["(LATITUDE, LONGITUDE)"] with six decimals, about a decimetre; a height other than 0 follows, as
+    [", HEIGHT m"] with one decimal. *)
+
+val pp_error : Format.formatter -> error -> unit
+(** One sentence without a full stop: which number is wrong, and what would be right. *)

@@ -1,0 +1,84 @@
+(** N, the tuple space: a multiset of pairs key:value.
+
+    Only [consume k:_], which takes the oldest pair with key [k], can tell in which order pairs were posted. So a
+    space is told once, when it is made, which keys are consumed like that, and remembers an order for these alone:
+    two spaces that no program could tell apart are equal, whatever their histories.
+
+    Spaces are immutable plain data, without functions inside. Compare and hash them with {!S.compare}, {!S.equal}
+    and {!S.hash}, never with the polymorphic operations: equal spaces may be laid out differently in memory. *)
+
+(** Which keys keep their pairs in order of arrival. *)
+type order =
+  | No_key
+  | Keys of string list  (** repetitions do not matter *)
+  | Every_key  (** for programs that compute the key of a [consume k:_] *)
+
+(** What values must offer. *)
+module type VALUE = sig
+  type t
+
+  val compare : t -> t -> int
+  (** A total order. *)
+
+  val hash : t -> int
+  (** Equal for equal values. *)
+
+  val pp : Format.formatter -> t -> unit
+end
+
+(** Metavariables: [k] is a key, [x] a value, [n] a space. Costs: [p] is the number of pairs with key [k]. *)
+module type S = sig
+  type value
+
+  type t
+
+  val empty : order -> t
+  (** [empty order] is the space without pairs, in which [order] says which keys are ordered. *)
+
+  val is_empty : t -> bool
+  (** [is_empty n] is [cardinal n = 0]. *)
+
+  val cardinal : t -> int
+  (** The number of pairs, each as often as it is there; in constant time. *)
+
+  val is_ordered : string -> t -> bool
+  (** [is_ordered k n] is whether [n] remembers the order of its pairs with key [k]. *)
+
+  val post : string -> value -> t -> t
+  (** [post k x n] is [n] with one pair [k:x] more, the youngest. Time: log p. *)
+
+  val consume : string -> value -> t -> t option
+  (** [consume k x n] is [n] without its oldest pair [k:x], or [None] if it has none. Time: log p; p for ordered
+      keys. *)
+
+  val consume_oldest : string -> t -> (value * t) option
+  (** [consume_oldest k n] is the value of the oldest pair with key [k], and [n] without that pair; [None] if there
+      is none. Time: log p.
+
+      @raise Invalid_argument if [k] is not ordered, since its order was not kept. *)
+
+  val poll : string -> value -> t -> bool
+  (** [poll k x n] is whether [n] has a pair [k:x]. Time: log p; p for ordered keys. *)
+
+  val poll_any : string -> t -> bool
+  (** [poll_any k n] is whether [n] has a pair with key [k]. *)
+
+  val bindings : t -> (string * value list) list
+  (** The keys that have pairs, ascending, each with its values, as often as they are there: the oldest first if the
+      key is ordered, ascending if not. *)
+
+  val equal : t -> t -> bool
+  (** [equal n n'] is whether [n] and [n'] order the same keys and have the same {!bindings}. *)
+
+  val compare : t -> t -> int
+  (** A total order in agreement with {!equal}. *)
+
+  val hash : t -> int
+  (** Equal for equal spaces. *)
+
+  val pp : Format.formatter -> t -> unit
+  (** ["{k:x, k:x', k':x}"], in the order of {!bindings}. *)
+end
+
+(** Spaces of these values. *)
+module Make (Value : VALUE) : S with type value = Value.t

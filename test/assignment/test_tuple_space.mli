@@ -1,0 +1,1 @@
+(** Tests of {!Dolphin_semantics.Tuple_space}: examples, and a list as its model. No value of its own. *)

@@ -1,0 +1,159 @@
+(* The core language: what programs become after elaboration, and the values they compute. A types-only
+   module: it has no interface of its own. [Value], [Task] and [Machine] work on these types, which refer
+   to one another: a task holds closures, a closure holds values, a value may be a task.
+
+   Metavariables, as in docs/semantics.md: [e] expression, [t] task, [v] vehicle, [k] and [x] key and value
+   of a tuple, [g] guard, [r] residual, [c] configuration, [l] label. *)
+
+type vehicle = string
+(** A vehicle, by its identifier in the network. *)
+
+type site = int
+(** Where in the program: an index into {!type-program}'s [locations]. *)
+
+(** {1 Values} *)
+
+type value =
+  | Null
+  | Boolean of bool
+  | Integer of int
+  | Number of float
+  | String of string
+  | Wildcard                                    (* [_] *)
+  | Symbol of string                            (* [Speed.Units.METERS_PS], by its last two names *)
+  | List of value array                         (* never mutated *)
+  | Map of (string * value) list                (* keys in order of insertion, none twice *)
+  | Range of int * int                          (* both ends included; counts down if first > last *)
+  | Position of Dolphin_geo.Position.t
+  | Area of Dolphin_geo.Area.t
+  | Vehicles of vehicle list                    (* a set, in pick order *)
+  | Task of task
+  | Closure of closure
+  | Host of string                              (* an object of the host process, by its name there *)
+  | Settings of setting list                    (* a block of settings being read, latest first *)
+
+(** One line of a block of settings: [name positional, k: named]. *)
+and setting = {
+  setting : string;
+  positional : value list;
+  named : (string * value) list;
+  setting_site : site;
+}
+
+and closure = { lambda : lambda; captured : value array }
+
+(** {1 Tasks} *)
+
+and task =
+  | Platform of platform_task
+  | Action of closure
+  | Condition of closure
+  | Sequence of task * task                     (* [T >> T'] *)
+  | Parallel of task * task                     (* [T | T'] *)
+  | Allocated of task * vehicle list            (* [T[V]] *)
+  | All_of of branch list
+  | One_of of branch list                       (* [waitFor { C } then T] is a [One_of] with one branch *)
+  | Until of closure * task
+  | Idle of float                               (* seconds *)
+  | During of duration * task
+  | Watch of task * closure
+
+and branch = { guard : closure; body : task }
+
+and duration = Seconds of float | Given_by of closure
+
+and platform_task = {
+  name : string;                                (* the plan's identifier *)
+  plan : Plan.t option;                         (* [None]: the vehicle knows the plan by name *)
+  task_site : site;
+}
+
+(** {1 Expressions} *)
+
+and expression = { node : node; site : site }
+
+and node =
+  | Constant of value
+  | Local of int
+  | Global of int
+  | Set_local of int * expression
+  | Set_global of int * expression
+  | Apply of operation * expression list        (* arguments left to right, then the operation *)
+  | Make_closure of lambda * int list           (* with the local slots it captures *)
+  | If of expression * expression * expression
+  | Block of expression list
+  | While of expression * expression
+  | For of int * expression * expression        (* slot of the variable, range, body *)
+  | Return of expression
+  | Break
+  | Continue
+
+(** What is done once the arguments are values. *)
+and operation =
+  | Unary of Dolphin_syntax.Ast.unary
+  | Binary of Dolphin_syntax.Ast.binary
+  | Make_list
+  | Make_map of string option list              (* a key each; [None]: the key is an argument before its value *)
+  | Make_range of bool                          (* inclusive *)
+  | Concatenate                                 (* a template's parts *)
+  | Element                                     (* [xs[i]], [m[k]], [T[V]] *)
+  | Replace_element                             (* [xs[i] = e], on the value of [xs] *)
+  | Replace_member of string                    (* [m.k = e] *)
+  | Property of string                          (* [e.x] *)
+  | Call                                        (* first argument is the closure *)
+  | Method of string * string option list       (* receiver first; names of named arguments *)
+  | Builtin of builtin
+  | Add_setting of string * string option list  (* the settings so far first, then arguments *)
+  | Build of Dolphin_syntax.Ast.builder * string (* from the settings; the name of an unnamed plan *)
+  | Make_branch                                 (* [when]: settings so far, guard, body *)
+
+and builtin =
+  | Platform_task                               (* [task], [imcPlan] of a name *)
+  | Make_action
+  | Make_condition
+  | Make_wait_for
+  | Make_until
+  | Make_idle
+  | Make_during
+  | Make_watch
+  | Execute
+  | Execute_for of string list                  (* [execute v1: T1, ...]; names for messages, ["_"] no vehicles *)
+  | Release
+  | Set_connection_timeout                      (* one number, or vehicles and a number *)
+  | Ask
+  | Message
+  | Pause
+  | Halt
+  | Post of string list
+  | Consume of string list
+  | Poll of string list                         (* [[]]: [poll 'k'] *)
+  | Position_of
+  | Battery_of
+  | Location_of
+  | Area_of
+  | Ignore
+  | Propagate
+  | Get_supplier
+  | Math of string
+
+and lambda = {
+  id : int;                                     (* unique in the program *)
+  label : string;                               (* the function's name, or what the closure is for *)
+  parameters : int;
+  implicit : bool;                              (* no arrow: called with or without [it] *)
+  captures : int;
+  slots : int;                                  (* all locals: captured first, then parameters, then others *)
+  mutable code : expression;                    (* set once, by elaboration: functions may refer to themselves *)
+  lambda_site : site;
+}
+
+(** {1 Programs} *)
+
+type program = {
+  source_name : string;
+  locations : Dolphin_syntax.Location.t array;  (* by site *)
+  global_names : string array;
+  main : lambda;
+  ordered_keys : string list;                   (* keys that some [consume k: _] takes the oldest of *)
+  reads_sensors : bool;                         (* some task code reads positions or batteries *)
+}

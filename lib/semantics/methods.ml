@@ -1,0 +1,305 @@
+open Core
+module Suggest = Dolphin_syntax.Diagnostic
+
+let ( let* ) = Result.bind
+
+let one_vehicle world = function
+  | [ v ] -> (
+      match World.find v world with
+      | Some state -> Ok state
+      | None -> Error (Printf.sprintf "nothing is known of vehicle %s" v))
+  | vs -> Error (Printf.sprintf "the set must be a single vehicle, it has %d" (List.length vs))
+
+let strings names = List (Array.of_list (List.map (fun name -> String name) names))
+
+let number_text x = match Value.to_number x with Some n -> n | None -> 0.
+
+let sum items =
+  Array.fold_left (fun total x -> let* total = total in Operators.binary Add total x) (Ok (Integer 0)) items
+
+let extreme better items =
+  if items = [||] then Ok Null
+  else
+    Array.fold_left
+      (fun best x ->
+         let* best = best in
+         let* replace = Operators.binary better x best in
+         Ok (if Value.truth replace then x else best))
+      (Ok items.(0)) items
+
+let distinct items =
+  Array.fold_left
+    (fun kept x -> if List.exists (Value.equals x) kept then kept else x :: kept)
+    [] items
+  |> List.rev |> Array.of_list
+
+let reversed items =
+  let n = Array.length items in
+  Array.init n (fun i -> items.(n - 1 - i))
+
+let part items first count =
+  let n = Array.length items in
+  let first = max 0 (min n first) in
+  Array.sub items first (max 0 (min count (n - first)))
+
+let find_index p items =
+  let rec from i = if i = Array.length items then -1 else if p items.(i) then i else from (i + 1) in
+  from 0
+
+let replace_all text target by =
+  if target = "" then text
+  else begin
+    let b = Buffer.create (String.length text) and n = String.length target in
+    let rec from i =
+      if i + n > String.length text then Buffer.add_substring b text i (String.length text - i)
+      else if String.sub text i n = target then (Buffer.add_string b by; from (i + n))
+      else (Buffer.add_char b text.[i]; from (i + 1))
+    in
+    from 0;
+    Buffer.contents b
+  end
+
+let split text separator =
+  match separator with
+  | "" -> [ text ]
+  | _ when String.length separator = 1 -> String.split_on_char separator.[0] text
+  | _ -> String.split_on_char '\000' (replace_all text separator "\000")
+
+let starts_with prefix s =
+  String.length prefix <= String.length s && String.sub s 0 (String.length prefix) = prefix
+
+let ends_with suffix s =
+  let n = String.length suffix and m = String.length s in
+  n <= m && String.sub s (m - n) n = suffix
+
+let parse_number what text convert =
+  match convert (String.trim text) with
+  | Some x -> Ok x
+  | None -> Error (Printf.sprintf "'%s' is not %s" text what)
+
+(* What a getter without arguments gives; [getX()] is the same as [.x]. *)
+
+let of_vehicles world vs name =
+  let with_state f = let* state = one_vehicle world vs in Ok (f state) in
+  match name with
+  | "id" -> (match vs with [ v ] -> Some (Ok (String v)) | _ -> Some (with_state (fun s -> String s.World.id)))
+  | "ids" -> Some (Ok (strings vs))
+  | "type" -> Some (with_state (fun s -> String s.World.kind))
+  | "position" -> Some (with_state (fun s -> Position s.World.position))
+  | "battery" -> Some (with_state (fun s -> Number s.World.battery))
+  | "payload" -> Some (with_state (fun s -> strings s.World.payload))
+  | _ -> None
+
+let of_position (p : Dolphin_geo.Position.t) = function
+  | "latitude" | "lat" -> Some (Ok (Number p.latitude))
+  | "longitude" | "lon" -> Some (Ok (Number p.longitude))
+  | "height" -> Some (Ok (Number p.height))
+  | _ -> None
+
+let of_area (a : Dolphin_geo.Area.t) = function
+  | "centre" | "center" -> Some (Ok (Position a.centre))
+  | "radius" -> Some (Ok (Number a.radius))
+  | _ -> None
+
+let of_items items = function
+  | "first" -> Some (if items = [||] then Error "an empty list has no first element" else Ok items.(0))
+  | "last" ->
+    Some (if items = [||] then Error "an empty list has no last element" else Ok items.(Array.length items - 1))
+  | "head" -> Some (if items = [||] then Error "an empty list has no head" else Ok items.(0))
+  | "tail" -> Some (Ok (List (part items 1 (Array.length items))))
+  | _ -> None
+
+let getter world x name =
+  let specific =
+    match x with
+    | Vehicles vs -> of_vehicles world vs name
+    | Position p -> of_position p name
+    | Area a -> of_area a name
+    | List _ | Range _ -> (match Value.items x with Some items -> of_items items name | None -> None)
+    | Task (Platform p) when name = "id" || name = "name" -> Some (Ok (String p.name))
+    | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Map _ | Task _ | Closure _
+    | Host _ | Settings _ -> None
+  in
+  match specific, name with
+  | Some result, _ -> Some result
+  | None, ("size" | "length") -> Option.map (fun n -> Ok (Integer n)) (Value.length x)
+  | None, ("empty" | "isEmpty") -> Option.map (fun n -> Ok (Boolean (n = 0))) (Value.length x)
+  | None, _ -> None
+
+let property world x name =
+  match x, getter world x name with
+  | Map entries, _ when List.mem_assoc name entries -> Ok (List.assoc name entries)
+  | _, Some result -> result
+  | Map _, None -> Ok Null
+  | (Integer _ | Number _), None when Operators.unit_factor name <> None -> Operators.in_unit x name
+  | (Integer _ | Number _), None ->
+    let suggestion =
+      match Suggest.suggest name Operators.unit_names with
+      | Some near -> Printf.sprintf "; did you mean '%s'?" near
+      | None -> ""
+    in
+    Error (Printf.sprintf "a number has no unit '%s'%s" name suggestion)
+  | Null, None -> Error (Printf.sprintf "null has no property '%s'" name)
+  | ( ( Boolean _ | String _ | Wildcard | Symbol _ | List _ | Range _ | Position _ | Area _ | Vehicles _ | Task _
+      | Closure _ | Host _ | Settings _ ),
+      None ) -> Error (Printf.sprintf "%s has no property '%s'" (Value.kind x) name)
+
+(* "getId" is a getter of "id". *)
+let property_of_getter name =
+  if String.length name > 3 && String.sub name 0 3 = "get" then
+    Some (String.uncapitalize_ascii (String.sub name 3 (String.length name - 3)))
+  else None
+
+let on_string s name arguments =
+  match name, arguments with
+  | ("toUpperCase" | "toUpper"), [] -> Some (Ok (String (String.uppercase_ascii s)))
+  | ("toLowerCase" | "toLower"), [] -> Some (Ok (String (String.lowercase_ascii s)))
+  | "equalsIgnoreCase", [ String t ] ->
+    Some (Ok (Boolean (String.lowercase_ascii s = String.lowercase_ascii t)))
+  | "capitalize", [] -> Some (Ok (String (String.capitalize_ascii s)))
+  | "trim", [] -> Some (Ok (String (String.trim s)))
+  | "startsWith", [ String t ] -> Some (Ok (Boolean (starts_with t s)))
+  | "endsWith", [ String t ] -> Some (Ok (Boolean (ends_with t s)))
+  | "replace", [ String target; String by ] -> Some (Ok (String (replace_all s target by)))
+  | "split", [ String separator ] -> Some (Ok (strings (split s separator)))
+  | "toInteger", [] ->
+    Some (parse_number "a whole number" s (fun s -> Option.map (fun i -> Integer i) (int_of_string_opt s)))
+  | ("toDouble" | "toFloat" | "toBigDecimal"), [] ->
+    Some (parse_number "a number" s (fun s -> Option.map (fun n -> Number n) (float_of_string_opt s)))
+  | "isNumber", [] -> Some (Ok (Boolean (float_of_string_opt s <> None)))
+  | "padLeft", [ Integer n ] -> Some (Ok (String (String.make (max 0 (n - String.length s)) ' ' ^ s)))
+  | "padRight", [ Integer n ] -> Some (Ok (String (s ^ String.make (max 0 (n - String.length s)) ' ')))
+  | ("substring" | "take" | "drop"), Integer a :: rest -> (
+      match Value.items (String s) with
+      | None -> None
+      | Some characters ->
+        let n = Array.length characters in
+        let join items = String (String.concat "" (List.map Value.to_string (Array.to_list items))) in
+        match name, rest with
+        | "substring", [] when 0 <= a && a <= n -> Some (Ok (join (part characters a n)))
+        | "substring", [ Integer b ] when 0 <= a && a <= b && b <= n ->
+          Some (Ok (join (part characters a (b - a))))
+        | "substring", _ -> Some (Error (Printf.sprintf "the bounds are outside of a string of %d characters" n))
+        | "take", [] -> Some (Ok (join (part characters 0 a)))
+        | "drop", [] -> Some (Ok (join (part characters a n)))
+        | _, _ -> None)
+  | _, _ -> None
+
+let on_items x items name arguments =
+  match name, arguments with
+  | "get", [ i ] -> Some (Operators.element x i)
+  | ("add" | "push" | "leftShift"), [ y ] -> Some (Operators.binary Append x y)
+  | "addAll", [ ys ] -> Some (Operators.binary Add x ys)
+  | ("remove" | "removeAt"), [ Integer i ] when 0 <= i && i < Array.length items ->
+    let kept = List.filteri (fun j _ -> j <> i) (Array.to_list items) in
+    Some (Ok (List (Array.of_list kept)))
+  | ("remove" | "removeAt"), [ Integer i ] ->
+    Some (Error (Printf.sprintf "index %d is out of range: the list has %d elements" i (Array.length items)))
+  | "removeElement", [ y ] ->
+    let at = find_index (Value.equals y) items in
+    Some (Ok (List (Array.of_list (List.filteri (fun j _ -> j <> at) (Array.to_list items)))))
+  | "clear", [] -> Some (Ok (List [||]))
+  | "indexOf", [ y ] -> Some (Ok (Integer (find_index (Value.equals y) items)))
+  | "reverse", [] -> Some (Ok (List (reversed items)))
+  | "sum", [] -> Some (sum items)
+  | "max", [] -> Some (extreme Greater items)
+  | "min", [] -> Some (extreme Less items)
+  | "unique", [] -> Some (Ok (List (distinct items)))
+  | "take", [ Integer n ] -> Some (Ok (List (part items 0 n)))
+  | "drop", [ Integer n ] -> Some (Ok (List (part items n (Array.length items))))
+  | "toList", [] -> Some (Ok (List items))
+  | "join", ([] | [ String _ ]) ->
+    let separator = match arguments with [ String s ] -> s | _ -> "" in
+    Some (Ok (String (String.concat separator (List.map Value.to_string (Array.to_list items)))))
+  | "sort", [] ->
+    let order a b =
+      match Value.to_number a, Value.to_number b with
+      | Some a, Some b -> Float.compare a b
+      | _, _ -> Value.compare a b
+    in
+    Some (Ok (List (Array.of_list (List.stable_sort order (Array.to_list items)))))
+  | _, _ -> None
+
+let on_map entries name arguments =
+  match name, arguments with
+  | ("get" | "getAt"), [ k ] -> Some (Operators.element (Map entries) k)
+  | "get", [ k; default ] ->
+    Some (Ok (Option.value (List.assoc_opt (Value.to_string k) entries) ~default))
+  | "containsKey", [ k ] -> Some (Ok (Boolean (List.mem_assoc (Value.to_string k) entries)))
+  | "containsValue", [ x ] -> Some (Ok (Boolean (List.exists (fun (_, y) -> Value.equals x y) entries)))
+  | ("keySet" | "keys"), [] -> Some (Ok (strings (List.map fst entries)))
+  | "values", [] -> Some (Ok (List (Array.of_list (List.map snd entries))))
+  | "put", [ k; x ] -> Some (Operators.replace_element (Map entries) k x)
+  | "remove", [ k ] -> Some (Ok (Map (List.remove_assoc (Value.to_string k) entries)))
+  | "clear", [] -> Some (Ok (Map []))
+  | _, _ -> None
+
+let on_number n x name arguments =
+  match name, arguments with
+  | ("abs" | "intValue" | "toInteger" | "doubleValue" | "toDouble" | "round"), [] ->
+    let whole f = if Float.abs f < 0x1p62 then Ok (Integer (int_of_float f)) else Error "the number is too large" in
+    Some
+      (match name, x with
+       | "abs", Integer i when i <> min_int -> Ok (Integer (abs i))
+       | "abs", _ -> Ok (Number (Float.abs n))
+       | ("doubleValue" | "toDouble"), _ -> Ok (Number n)
+       | "round", _ -> whole (Float.round n)
+       | _, _ -> whole (Float.trunc n))
+  | "round", [ Integer digits ] ->
+    let scale = Float.pow 10. (float digits) in
+    Some (Ok (Number (Float.round (n *. scale) /. scale)))
+  | _, _ -> None
+
+let on_position p name arguments =
+  match name, arguments with
+  | ("distance" | "distanceTo"), [ Position q ] -> Some (Ok (Number (Dolphin_geo.Wgs84.distance p q)))
+  | ("bearing" | "bearingTo"), [ Position q ] -> Some (Ok (Number (Dolphin_geo.Wgs84.bearing p q)))
+  | "displace", [ north; east ] ->
+    let north = number_text north and east = number_text east in
+    Some (Ok (Position (Dolphin_geo.Wgs84.displace p ~north ~east)))
+  | _, _ -> None
+
+let updates = function
+  | "add" | "push" | "addAll" | "leftShift" | "remove" | "removeAt" | "removeElement" | "clear" | "put" -> true
+  | _ -> false
+
+let specific x name arguments =
+  match x with
+  | String s -> on_string s name arguments
+  | Map entries -> on_map entries name arguments
+  | List _ | Range _ | Vehicles _ -> (
+      match Value.items x with Some items -> on_items x items name arguments | None -> None)
+  | Integer _ | Number _ -> on_number (number_text x) x name arguments
+  | Position p -> on_position p name arguments
+  | Null | Boolean _ | Wildcard | Symbol _ | Area _ | Task _ | Closure _ | Host _ | Settings _ -> None
+
+let known =
+  [ "size"; "isEmpty"; "contains"; "getId"; "getType"; "getPosition"; "getBattery"; "getPayload"; "equals";
+    "toString"; "each"; "collect"; "findAll"; "find"; "any"; "every"; "first"; "last"; "sum"; "max"; "min";
+    "reverse"; "sort"; "unique"; "join"; "add"; "addAll"; "remove"; "indexOf"; "containsKey"; "keySet"; "values";
+    "put"; "get"; "toUpperCase"; "toLowerCase"; "trim"; "startsWith"; "endsWith"; "replace"; "split"; "substring";
+    "toInteger"; "toDouble"; "abs"; "round"; "distance"; "bearing"; "displace"; "inject"; "eachWithIndex"; "take";
+    "drop"; "count"; "times" ]
+
+let call world x name arguments =
+  match name, arguments with
+  | "equals", [ y ] -> Ok (Boolean (Value.equals x y))
+  | "toString", [] -> Ok (String (Value.to_string x))
+  | "contains", [ y ] when Value.length x <> None || (match x with Area _ -> true | _ -> false) ->
+    Operators.binary Member_of y x
+  | _, _ -> (
+      match specific x name arguments with
+      | Some result -> result
+      | None ->
+        let by_getter = match property_of_getter name with Some p -> getter world x p | None -> None in
+        match arguments, by_getter, getter world x name with
+        | [], Some result, _ | [], None, Some result -> result
+        | _, _, _ ->
+          let hint =
+            if List.mem name known then Printf.sprintf " for %d arguments of that kind" (List.length arguments)
+            else
+              match Suggest.suggest name known with
+              | Some near -> Printf.sprintf "; did you mean '%s'?" near
+              | None -> ""
+          in
+          Error (Printf.sprintf "%s has no method '%s'%s" (Value.kind x) name hint))

@@ -1,0 +1,15 @@
+(** Properties and methods of values that need no code of the program: [v.getId()], [xs.size()], [p.latitude]. Those
+    that call a closure, such as [xs.each { ... }], belong to {!Machine}. *)
+
+open Core
+
+val property : World.t -> value -> string -> (value, string) result
+(** [property w x name] is [x.name]. Of a map it is the value of the key, null if there is none; of a vehicle, what
+    world [w] says of it; of a number, the number in that unit. *)
+
+val call : World.t -> value -> string -> value list -> (value, string) result
+(** [call w x name arguments] is [x.name(arguments)]. *)
+
+val updates : string -> bool
+(** [updates name] is whether method [name] changes the variable that it is called on, as [xs.add(x)] does. The value
+    of {!call} is then the variable's new value. *)

@@ -1,0 +1,246 @@
+open Core
+module Ast = Dolphin_syntax.Ast
+
+let expected what x =
+  let text = Value.to_string x in
+  let found =
+    match x with
+    | Null | Closure _ | Settings _ -> Value.kind x
+    | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | List _ | Map _ | Range _ | Position _
+    | Area _ | Vehicles _ | Task _ | Host _ ->
+      if String.length text > 60 then Value.kind x else Format.asprintf "%s, %a" (Value.kind x) Value.pp x
+  in
+  Error (Printf.sprintf "expected %s, found %s" what found)
+
+let symbol : Ast.binary -> string = function
+  | Divide -> "/" | Multiply -> "*" | Remainder -> "%" | Power -> "**" | Add -> "+" | Subtract -> "-"
+  | Sequence -> ">>" | Append -> "<<" | Less -> "<" | Less_equal -> "<=" | Greater -> ">" | Greater_equal -> ">="
+  | Equal -> "==" | Not_equal -> "!=" | Member_of -> "in" | Intersect -> "&" | Around -> "^" | Parallel -> "|"
+  | And -> "&&" | Or -> "||"
+
+let takes : Ast.binary -> string = function
+  | Divide -> "two numbers, or a task and a condition { ... }"
+  | Multiply | Remainder | Power -> "two numbers"
+  | Add -> "numbers, strings, lists, maps or vehicle sets"
+  | Subtract -> "numbers, lists or vehicle sets"
+  | Sequence -> "two tasks"
+  | Append -> "a list and an element"
+  | Less | Less_equal | Greater | Greater_equal -> "two numbers or two strings"
+  | Member_of -> "a value, and a list, range, map, string, area or vehicle set"
+  | Intersect -> "two vehicle sets"
+  | Around -> "a position and a radius in metres"
+  | Parallel -> "two tasks, or a vehicle set and a predicate { v -> ... }"
+  | Equal | Not_equal | And | Or -> "two values"
+
+let mismatch op x y =
+  Error
+    (Printf.sprintf "%s takes %s, not %s and %s" (symbol op) (takes op) (Value.kind x) (Value.kind y))
+
+let unary (op : Ast.unary) x =
+  match op, x with
+  | Not, x -> Ok (Boolean (not (Value.truth x)))
+  | Negate, Integer i when i <> min_int -> Ok (Integer (-i))
+  | Negate, x -> (
+      match Value.to_number x with
+      | Some n -> Ok (Number (-.n))
+      | None -> expected "a number after -" x)
+
+(* Integer operations that leave the integers' range give a float number instead of wrapping around. *)
+
+let add a b =
+  let sum = a + b in
+  if a >= 0 = (b >= 0) && sum >= 0 <> (a >= 0) then Number (float a +. float b) else Integer sum
+
+let subtract a b =
+  let difference = a - b in
+  if a >= 0 <> (b >= 0) && difference >= 0 <> (a >= 0) then Number (float a -. float b) else Integer difference
+
+let multiply a b =
+  let product = a * b in
+  if a <> 0 && (product / a <> b || (a = -1 && b = min_int)) then Number (float a *. float b) else Integer product
+
+let power a b =
+  let result = Float.pow a b in
+  Number result
+
+let integer_power a b =
+  let result = Float.pow (float a) (float b) in
+  if b >= 0 && Float.abs result < 0x1p53 then Integer (int_of_float result) else power (float a) (float b)
+
+let union vs ws = vs @ List.filter (fun w -> not (List.mem w vs)) ws
+let difference vs ws = List.filter (fun v -> not (List.mem v ws)) vs
+let intersection vs ws = List.filter (fun v -> List.mem v ws) vs
+
+let put entries k x =
+  if List.mem_assoc k entries then List.map (fun (k', y) -> if k' = k then (k, x) else (k', y)) entries
+  else entries @ [ (k, x) ]
+
+let member x = function
+  | List xs -> Ok (Boolean (Array.exists (Value.equals x) xs))
+  | Range (first, last) -> (
+      match Value.canonical x with
+      | Integer i -> Ok (Boolean (min first last <= i && i <= max first last))
+      | _ -> Ok (Boolean false))
+  | Map entries -> Ok (Boolean (List.mem_assoc (Value.to_string x) entries))
+  | Vehicles vs as whole -> (
+      match x with
+      | Vehicles ws -> Ok (Boolean (List.for_all (fun w -> List.mem w vs) ws))
+      | x -> mismatch Ast.Member_of x whole)
+  | Area area as whole -> (
+      match x with
+      | Position p -> Ok (Boolean (Dolphin_geo.Area.contains area p))
+      | x -> mismatch Ast.Member_of x whole)
+  | String s as whole -> (
+      match x with
+      | String part ->
+        let n = String.length part in
+        let rec at i = i + n <= String.length s && (String.sub s i n = part || at (i + 1)) in
+        Ok (Boolean (at 0))
+      | x -> mismatch Ast.Member_of x whole)
+  | whole -> mismatch Ast.Member_of x whole
+
+let compared (op : Ast.binary) x y =
+  let decide order =
+    match op with
+    | Less -> Ok (Boolean (order < 0))
+    | Less_equal -> Ok (Boolean (order <= 0))
+    | Greater -> Ok (Boolean (order > 0))
+    | Greater_equal -> Ok (Boolean (order >= 0))
+    | Divide | Multiply | Remainder | Power | Add | Subtract | Sequence | Append | Equal | Not_equal | Member_of
+    | Intersect | Around | Parallel | And | Or -> mismatch op x y
+  in
+  match x, y with
+  | Integer a, Integer b -> decide (Int.compare a b)
+  | String a, String b -> decide (String.compare a b)
+  | x, y -> (
+      match Value.to_number x, Value.to_number y with
+      | Some a, Some b -> decide (Float.compare a b)
+      | _ -> mismatch op x y)
+
+let arithmetic op on_integers on_numbers x y =
+  match x, y with
+  | Integer a, Integer b -> Ok (on_integers a b)
+  | x, y -> (
+      match Value.to_number x, Value.to_number y with
+      | Some a, Some b -> Ok (Number (on_numbers a b))
+      | _ -> mismatch op x y)
+
+let concatenate x y = Ok (String (Value.to_string x ^ Value.to_string y))
+
+let binary (op : Ast.binary) x y =
+  match op, x, y with
+  | Add, (String _ as x), y | Add, x, (String _ as y) -> concatenate x y
+  | Add, Vehicles vs, Vehicles ws -> Ok (Vehicles (union vs ws))
+  | Add, List xs, List ys -> Ok (List (Array.append xs ys))
+  | Add, List xs, y -> Ok (List (Array.append xs [| y |]))
+  | Add, Map a, Map b -> Ok (Map (List.fold_left (fun entries (k, x) -> put entries k x) a b))
+  | Add, x, y -> arithmetic op add ( +. ) x y
+  | Subtract, Vehicles vs, Vehicles ws -> Ok (Vehicles (difference vs ws))
+  | Subtract, List xs, List ys ->
+    let kept x = not (Array.exists (Value.equals x) ys) in
+    Ok (List (Array.of_list (List.filter kept (Array.to_list xs))))
+  | Subtract, x, y -> arithmetic op subtract ( -. ) x y
+  | Multiply, x, y -> arithmetic op multiply ( *. ) x y
+  | Power, x, y -> arithmetic op integer_power Float.pow x y
+  | Divide, Task t, Closure c -> Ok (Task (Until (c, t)))
+  | Divide, x, y -> (
+      match x, y, Value.to_number x, Value.to_number y with
+      | _, _, Some _, Some 0. -> Error "division by zero"
+      | Integer a, Integer b, _, _ when a mod b = 0 -> Ok (Integer (a / b))
+      | _, _, Some a, Some b -> Ok (Number (a /. b))
+      | _, _, _, _ -> mismatch op x y)
+  | Remainder, x, y -> (
+      match x, y, Value.to_number x, Value.to_number y with
+      | _, _, Some _, Some 0. -> Error "remainder of a division by zero"
+      | Integer a, Integer b, _, _ -> Ok (Integer (a mod b))
+      | _, _, Some a, Some b -> Ok (Number (Float.rem a b))
+      | _, _, _, _ -> mismatch op x y)
+  | Sequence, Task a, Task b -> Ok (Task (Sequence (a, b)))
+  | Sequence, x, y -> mismatch op x y
+  | Append, List xs, y -> Ok (List (Array.append xs [| y |]))
+  | Append, x, y -> mismatch op x y
+  | Parallel, Task a, Task b -> Ok (Task (Parallel (a, b)))
+  | Parallel, Boolean a, Boolean b -> Ok (Boolean (a || b))
+  | Parallel, x, y -> mismatch op x y
+  | Intersect, Vehicles vs, Vehicles ws -> Ok (Vehicles (intersection vs ws))
+  | Intersect, Boolean a, Boolean b -> Ok (Boolean (a && b))
+  | Intersect, x, y -> mismatch op x y
+  | Around, Position centre, y -> (
+      match Value.to_number y with
+      | None -> mismatch op x y
+      | Some radius -> (
+          match Dolphin_geo.Area.make centre radius with
+          | Some area -> Ok (Area area)
+          | None -> Error (Printf.sprintf "a radius is 0 m or more, not %g" radius)))
+  | Around, x, y -> mismatch op x y
+  | Equal, x, y -> Ok (Boolean (Value.equals x y))
+  | Not_equal, x, y -> Ok (Boolean (not (Value.equals x y)))
+  | Member_of, x, y -> member x y
+  | (Less | Less_equal | Greater | Greater_equal), x, y -> compared op x y
+  | And, x, y -> Ok (Boolean (Value.truth x && Value.truth y))
+  | Or, x, y -> Ok (Boolean (Value.truth x || Value.truth y))
+
+let index_of length i =
+  let i = if i < 0 then length + i else i in
+  if 0 <= i && i < length then Some i else None
+
+let element x i =
+  match x, Value.canonical i with
+  | Task t, Vehicles vs -> Ok (Task (Allocated (t, vs)))
+  | Task _, i -> expected "a vehicle set between [ and ] after a task" i
+  | Map entries, k -> Ok (Option.value (List.assoc_opt (Value.to_string k) entries) ~default:Null)
+  | (List _ | Range _ | Vehicles _ | String _), Integer i -> (
+      match Value.items x with
+      | None -> expected "a list" x
+      | Some items -> (
+          match index_of (Array.length items) i with
+          | Some i -> Ok items.(i)
+          | None ->
+            Error
+              (Printf.sprintf "index %d is out of range: %s has %d elements" i (Value.kind x) (Array.length items))))
+  | (List _ | Range _ | Vehicles _ | String _), i -> expected "a whole number as index" i
+  | x, _ -> expected "a list, a map or a task before [" x
+
+let replace_element x i y =
+  match x, Value.canonical i with
+  | List xs, Integer i -> (
+      match index_of (Array.length xs) i with
+      | Some i ->
+        let xs = Array.copy xs in
+        xs.(i) <- y;
+        Ok (List xs)
+      | None when i = Array.length xs -> Ok (List (Array.append xs [| y |]))
+      | None -> Error (Printf.sprintf "index %d is out of range: the list has %d elements" i (Array.length xs)))
+  | Map entries, k -> Ok (Map (put entries (Value.to_string k) y))
+  | x, _ -> expected "a list or a map to assign an element of" x
+
+let range ~inclusive first last =
+  match Value.canonical first, Value.canonical last with
+  | Integer a, Integer b when inclusive -> Ok (Range (a, b))
+  | Integer a, Integer b ->
+    if a = b then Ok (List [||]) else Ok (Range (a, if a < b then b - 1 else b + 1))
+  | Integer _, x | x, _ -> expected "a whole number as end of a range" x
+
+let units =
+  [ ("m", 1.); ("meter", 1.); ("meters", 1.); ("metre", 1.); ("metres", 1.);
+    ("km", 1000.); ("kilometer", 1000.); ("kilometers", 1000.); ("kilometre", 1000.); ("kilometres", 1000.);
+    ("second", 1.); ("seconds", 1.); ("sec", 1.); ("ms", 0.001); ("milliseconds", 0.001);
+    ("min", 60.); ("minute", 60.); ("minutes", 60.); ("hour", 3600.); ("hours", 3600.);
+    ("day", 86400.); ("days", 86400.);
+    ("degree", 1.); ("degrees", 1.); ("radian", 180. /. Float.pi); ("radians", 180. /. Float.pi);
+    ("north", 1.); ("east", 1.); ("south", -1.); ("west", -1.);
+    ("percent", 0.01) ]
+
+let unit_factor name = List.assoc_opt name units
+let unit_names = List.map fst units
+
+let in_unit n name =
+  match n, unit_factor name with
+  | Integer i, Some factor when Float.is_integer factor -> Ok (multiply i (int_of_float factor))
+  | n, Some factor -> (
+      match Value.to_number n with
+      | Some n ->
+        (* 10.percent is 0.1: dividing is exact where multiplying with 0.01 is not. *)
+        Ok (Number (if name = "percent" then n /. 100. else n *. factor))
+      | None -> expected (Printf.sprintf "a number before .%s" name) n)
+  | n, None -> Error (Printf.sprintf "%s has no property '%s'" (Value.kind n) name)

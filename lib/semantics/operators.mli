@@ -1,0 +1,31 @@
+(** The language's operators on values. Pure; an [Error] is a sentence that says what is wrong, without a full stop.
+    The two operators that run code of the program, [V | { v -> C }] and calls, belong to {!Machine}. *)
+
+open Core
+
+val unary : Dolphin_syntax.Ast.unary -> value -> (value, string) result
+
+val binary : Dolphin_syntax.Ast.binary -> value -> value -> (value, string) result
+(** [binary op x y] is [x op y]. Whole numbers stay whole where the result is; [/] is exact, so that [7 / 2] is 3.5;
+    a result beyond the range of integers is a number. *)
+
+val element : value -> value -> (value, string) result
+(** [element x i] is [x[i]]: an element of a list, counted from the end if [i < 0]; the value of a key, null if there
+    is none; a vehicle of a set; and [T[V]], task [x] allocated to the vehicles [i]. *)
+
+val replace_element : value -> value -> value -> (value, string) result
+(** [replace_element x i y] is [x] after [x[i] = y]. *)
+
+val range : inclusive:bool -> value -> value -> (value, string) result
+
+val unit_factor : string -> float option
+(** [unit_factor name] is what a number is multiplied with by [n.name], as in [2.km]: results are in metres, degrees,
+    seconds, or shares of 1. *)
+
+val unit_names : string list
+
+val in_unit : value -> string -> (value, string) result
+(** [in_unit n name] is [n.name]. *)
+
+val expected : string -> value -> ('any, string) result
+(** [expected what x] is the error "expected [what], found [kind and text of x]". *)

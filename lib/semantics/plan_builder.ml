@@ -1,0 +1,3 @@
+open Core
+let vocabulary = []
+let build ~name:_ site (_ : setting list) = Error (Fault.make site "no")

@@ -1,0 +1,129 @@
+open Core
+
+type filter = {
+  id : string option;
+  kind : string option;
+  payload : string list;
+  region : Dolphin_geo.Area.t option;
+}
+
+type count = Exactly of int | All
+type pick = { filter : filter; count : count; timeout : float option }
+
+let ( let* ) = Result.bind
+
+let accepts filter (state : World.vehicle_state) =
+  let holds option test = match option with None -> true | Some x -> test x in
+  state.connected
+  && holds filter.id (String.equal state.id)
+  && holds filter.kind (String.equal state.kind)
+  && World.carries filter.payload state
+  && holds filter.region (fun area -> Dolphin_geo.Area.contains area state.position)
+
+let pp_pick ppf pick =
+  let f = pick.filter in
+  (match pick.count with
+   | All -> Format.fprintf ppf "all vehicles"
+   | Exactly 1 -> Format.fprintf ppf "1 vehicle"
+   | Exactly n -> Format.fprintf ppf "%d vehicles" n);
+  Option.iter (Format.fprintf ppf " with id '%s'") f.id;
+  Option.iter (Format.fprintf ppf " of type '%s'") f.kind;
+  if f.payload <> [] then Format.fprintf ppf " with payload %s" (String.concat ", " f.payload);
+  Option.iter (Format.fprintf ppf " in region %a" Dolphin_geo.Area.pp) f.region
+
+let compare_pick (a : pick) (b : pick) = Stdlib.compare a b
+let fault (s : setting) message = Error (Fault.make s.setting_site message)
+
+let wrong s what =
+  match s.positional with
+  | [ x ] -> (
+      match Operators.expected (Printf.sprintf "%s after '%s'" what s.setting) x with
+      | Ok () -> assert false
+      | Error message -> fault s message)
+  | [] | _ :: _ -> fault s (Printf.sprintf "'%s' takes %s" s.setting what)
+
+let number s = match s.positional with [ x ] -> Value.to_number x | _ -> None
+
+let add_to_pick pick s =
+  let* pick = pick in
+  let filter = pick.filter in
+  match s.setting, s.positional with
+  | "id", [ String id ] -> Ok { pick with filter = { filter with id = Some id } }
+  | "id", _ -> wrong s "a string"
+  | "type", [ String kind ] -> Ok { pick with filter = { filter with kind = Some kind } }
+  | "type", _ -> wrong s "a string, as in type 'UUV'"
+  | "payload", (_ :: _ as names) ->
+    let add names x =
+      let* names = names in
+      match x with
+      | String name -> Ok (name :: names)
+      | List xs when Array.for_all (function String _ -> true | _ -> false) xs ->
+        Ok (List.rev_append (List.map Value.to_string (Array.to_list xs)) names)
+      | _ -> wrong { s with positional = [ x ] } "names of devices"
+    in
+    let* names = List.fold_left add (Ok []) names in
+    Ok { pick with filter = { filter with payload = filter.payload @ List.rev names } }
+  | "payload", [] -> wrong s "names of devices, as in payload 'DVL', 'Sidescan'"
+  | "region", [ Area area ] -> Ok { pick with filter = { filter with region = Some area } }
+  | "region", [ Position centre; radius ] -> (
+      match Operators.binary Around (Position centre) radius with
+      | Ok (Area area) -> Ok { pick with filter = { filter with region = Some area } }
+      | Ok _ -> wrong s "an area"
+      | Error message -> fault s message)
+  | "region", _ -> wrong s "an area, or a centre and a radius"
+  | "count", [ Wildcard ] -> Ok { pick with count = All }
+  | "count", [ x ] -> (
+      match Value.canonical x with
+      | Integer n when n > 0 -> Ok { pick with count = Exactly n }
+      | Integer n -> fault s (Printf.sprintf "the number of vehicles must be greater than 0, it is %d" n)
+      | _ -> wrong s "a whole number, or _ for all")
+  | "count", _ -> wrong s "a whole number, or _ for all"
+  | "timeout", _ -> (
+      match number s with
+      | Some seconds when seconds >= 0. -> Ok { pick with timeout = Some seconds }
+      | Some seconds -> fault s (Printf.sprintf "a timeout is 0 seconds or more, not %g" seconds)
+      | None -> wrong s "a time, as in timeout 10.seconds")
+  | other, _ -> fault s (Printf.sprintf "pick has no setting '%s'" other)
+
+let pick settings =
+  let all = { id = None; kind = None; payload = []; region = None } in
+  List.fold_left add_to_pick (Ok { filter = all; count = Exactly 1; timeout = None }) settings
+
+let position site settings =
+  let read (latitude, longitude, height) s =
+    match s.setting, number s with
+    | ("lat" | "latitude"), Some n -> Ok (Some n, longitude, height)
+    | ("lon" | "longitude"), Some n -> Ok (latitude, Some n, height)
+    | ("height" | "hae"), Some n -> Ok (latitude, longitude, n)
+    | ("lat" | "latitude" | "lon" | "longitude" | "height" | "hae"), None -> wrong s "a number"
+    | other, _ -> fault s (Printf.sprintf "pos has no setting '%s': it has lat, lon and height" other)
+  in
+  let* coordinates =
+    List.fold_left
+      (fun coordinates s ->
+         let* coordinates = coordinates in
+         read coordinates s)
+      (Ok (None, None, 0.)) settings
+  in
+  match coordinates with
+  | Some latitude, Some longitude, height -> (
+      match Dolphin_geo.Position.make ~latitude ~longitude ~height with
+      | Ok p -> Ok (Position p)
+      | Error e -> Error (Fault.make site (Format.asprintf "%a" Dolphin_geo.Position.pp_error e)))
+  | None, _, _ -> Error (Fault.make site "pos lacks its latitude: lat DEGREES")
+  | Some _, None, _ -> Error (Fault.make site "pos lacks its longitude: lon DEGREES")
+
+let branches site settings =
+  let read branches s =
+    let* branches = branches in
+    match s.setting, s.positional with
+    | "when", [ Closure guard; Task body ] -> Ok ({ guard; body } :: branches)
+    | "when", [ Closure _; x ] -> (
+        match Operators.expected "a task after then" x with
+        | Ok () -> assert false
+        | Error message -> fault s message)
+    | _, _ -> fault s "only when { ... } then TASK may stand here"
+  in
+  let* branches = List.fold_left read (Ok []) settings in
+  if branches = [] then Error (Fault.make site "no when { ... } then TASK: there is nothing to choose from")
+  else Ok (List.rev branches)

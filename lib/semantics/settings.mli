@@ -1,0 +1,27 @@
+(** Blocks of settings read as what they build: the vehicles that [pick] asks for, positions, choices. Inline plans
+    are {!Plan_builder}'s. *)
+
+open Core
+
+(** Which vehicles a pick accepts. *)
+type filter = {
+  id : string option;
+  kind : string option;  (** [type 'UUV'] *)
+  payload : string list;
+  region : Dolphin_geo.Area.t option;
+}
+
+type count = Exactly of int | All  (** [count _] *)
+
+type pick = { filter : filter; count : count; timeout : float option  (** seconds *) }
+
+val accepts : filter -> World.vehicle_state -> bool
+(** [accepts f s] is whether a connected vehicle in state [s] fulfils [f]. *)
+
+val pp_pick : Format.formatter -> pick -> unit
+(** What was asked for: ["3 of type 'UUV' with DVL"]. *)
+
+val compare_pick : pick -> pick -> int
+val pick : setting list -> (pick, Fault.t) result
+val position : site -> setting list -> (value, Fault.t) result
+val branches : site -> setting list -> (branch list, Fault.t) result

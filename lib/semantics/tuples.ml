@@ -1,0 +1,1 @@
+include Tuple_space.Make (Value)

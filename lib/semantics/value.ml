@@ -1,0 +1,297 @@
+open Core
+module Position = Dolphin_geo.Position
+module Area = Dolphin_geo.Area
+
+type t = value
+
+(* Comparison by cases of one type: first the kind's rank, then what it holds. *)
+
+let rank = function
+  | Null -> 0 | Boolean _ -> 1 | Integer _ -> 2 | Number _ -> 3 | String _ -> 4 | Wildcard -> 5 | Symbol _ -> 6
+  | List _ -> 7 | Map _ -> 8 | Range _ -> 9 | Position _ -> 10 | Area _ -> 11 | Vehicles _ -> 12 | Task _ -> 13
+  | Closure _ -> 14 | Host _ -> 15 | Settings _ -> 16
+
+let rank_task = function
+  | Platform _ -> 0 | Action _ -> 1 | Condition _ -> 2 | Sequence _ -> 3 | Parallel _ -> 4 | Allocated _ -> 5
+  | All_of _ -> 6 | One_of _ -> 7 | Until _ -> 8 | Idle _ -> 9 | During _ -> 10 | Watch _ -> 11
+
+let both first second = if first <> 0 then first else second ()
+
+let rec compare_list compare xs ys =
+  match xs, ys with
+  | [], [] -> 0
+  | [], _ :: _ -> -1
+  | _ :: _, [] -> 1
+  | x :: xs, y :: ys -> both (compare x y) (fun () -> compare_list compare xs ys)
+
+let compare_array compare xs ys =
+  let rec from i =
+    if i = Array.length xs then 0 else both (compare xs.(i) ys.(i)) (fun () -> from (i + 1))
+  in
+  both (Int.compare (Array.length xs) (Array.length ys)) (fun () -> from 0)
+
+let rec compare x y =
+  if x == y then 0
+  else
+    match x, y with
+    | Boolean a, Boolean b -> Bool.compare a b
+    | Integer a, Integer b -> Int.compare a b
+    | Number a, Number b -> Float.compare a b
+    | String a, String b | Symbol a, Symbol b | Host a, Host b -> String.compare a b
+    | List a, List b -> compare_array compare a b
+    | Map a, Map b -> compare_list compare_entry a b
+    | Range (a, b), Range (a', b') -> both (Int.compare a a') (fun () -> Int.compare b b')
+    | Position a, Position b -> Position.compare a b
+    | Area a, Area b -> Area.compare a b
+    | Vehicles a, Vehicles b -> compare_list String.compare a b
+    | Task a, Task b -> compare_task a b
+    | Closure a, Closure b -> compare_closure a b
+    | Settings a, Settings b -> compare_list compare_setting a b
+    | ( ( Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | List _ | Map _ | Range _
+        | Position _ | Area _ | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ ),
+        _ ) -> Int.compare (rank x) (rank y)
+
+and compare_entry (k, x) (k', x') = both (String.compare k k') (fun () -> compare x x')
+
+and compare_setting s s' =
+  both (Int.compare s.setting_site s'.setting_site) (fun () ->
+      both (compare_list compare s.positional s'.positional) (fun () ->
+          compare_list compare_entry s.named s'.named))
+
+and compare_closure c c' =
+  both (Int.compare c.lambda.id c'.lambda.id) (fun () -> compare_array compare c.captured c'.captured)
+
+and compare_task t t' =
+  if t == t' then 0
+  else
+    match t, t' with
+    | Platform p, Platform p' ->
+      both (String.compare p.name p'.name) (fun () ->
+          both (Int.compare p.task_site p'.task_site) (fun () -> Option.compare Plan.compare p.plan p'.plan))
+    | Action c, Action c' | Condition c, Condition c' -> compare_closure c c'
+    | Sequence (a, b), Sequence (a', b') | Parallel (a, b), Parallel (a', b') ->
+      both (compare_task a a') (fun () -> compare_task b b')
+    | Allocated (a, vs), Allocated (a', vs') ->
+      both (compare_list String.compare vs vs') (fun () -> compare_task a a')
+    | All_of bs, All_of bs' | One_of bs, One_of bs' -> compare_list compare_branch bs bs'
+    | Until (c, a), Until (c', a') | Watch (a, c), Watch (a', c') ->
+      both (compare_closure c c') (fun () -> compare_task a a')
+    | Idle d, Idle d' -> Float.compare d d'
+    | During (d, a), During (d', a') -> both (compare_duration d d') (fun () -> compare_task a a')
+    | ( ( Platform _ | Action _ | Condition _ | Sequence _ | Parallel _ | Allocated _ | All_of _ | One_of _
+        | Until _ | Idle _ | During _ | Watch _ ),
+        _ ) -> Int.compare (rank_task t) (rank_task t')
+
+and compare_branch b b' =
+  both (compare_closure b.guard b'.guard) (fun () -> compare_task b.body b'.body)
+
+and compare_duration d d' =
+  match d, d' with
+  | Seconds s, Seconds s' -> Float.compare s s'
+  | Given_by c, Given_by c' -> compare_closure c c'
+  | Seconds _, Given_by _ -> -1
+  | Given_by _, Seconds _ -> 1
+
+let mix h k = (h * 65599) + k
+
+let rec hash x =
+  match x with
+  | Null | Wildcard -> rank x
+  | Boolean b -> mix 1 (Bool.to_int b)
+  | Integer i -> mix 2 i
+  | Number n -> mix 3 (Hashtbl.hash n)
+  | String s | Symbol s | Host s -> mix (rank x) (Hashtbl.hash s)
+  | List xs -> Array.fold_left (fun h x -> mix h (hash x)) 7 xs
+  | Map entries -> List.fold_left (fun h (k, x) -> mix (mix h (Hashtbl.hash k)) (hash x)) 8 entries
+  | Range (a, b) -> mix (mix 9 a) b
+  | Position p -> mix 10 (Hashtbl.hash p)
+  | Area a -> mix 11 (Hashtbl.hash a)
+  | Vehicles vs -> List.fold_left (fun h v -> mix h (Hashtbl.hash v)) 12 vs
+  | Task t -> mix 13 (hash_task t)
+  | Closure c -> mix 14 (hash_closure c)
+  | Settings settings -> mix 16 (List.length settings)
+
+and hash_closure c = Array.fold_left (fun h x -> mix h (hash x)) c.lambda.id c.captured
+
+and hash_task t =
+  match t with
+  | Platform p -> Hashtbl.hash p.name
+  | Action c | Condition c -> mix (rank_task t) (hash_closure c)
+  | Sequence (a, b) | Parallel (a, b) -> mix (mix (rank_task t) (hash_task a)) (hash_task b)
+  | Allocated (a, vs) -> mix (hash_task a) (Hashtbl.hash vs)
+  | All_of bs | One_of bs ->
+    List.fold_left (fun h b -> mix (mix h (hash_closure b.guard)) (hash_task b.body)) (rank_task t) bs
+  | Until (c, a) | Watch (a, c) -> mix (mix (rank_task t) (hash_closure c)) (hash_task a)
+  | Idle d -> mix 9 (Hashtbl.hash d)
+  | During (_, a) -> mix 10 (hash_task a)
+
+let rec canonical x =
+  match x with
+  | Number n when Float.is_integer n && Float.abs n < 0x1p53 -> Integer (int_of_float n)
+  | List xs -> List (Array.map canonical xs)
+  | Map entries -> Map (List.map (fun (k, x) -> (k, canonical x)) entries)
+  | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _
+  | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ -> x
+
+let sorted_entries entries = List.sort compare_entry entries
+
+let equals x y =
+  match canonical x, canonical y with
+  | Map a, Map b -> compare_list compare_entry (sorted_entries a) (sorted_entries b) = 0
+  | Vehicles a, Vehicles b -> List.sort String.compare a = List.sort String.compare b
+  | x, y -> compare x y = 0
+
+let truth = function
+  | Null -> false
+  | Boolean b -> b
+  | Integer i -> i <> 0
+  | Number n -> n <> 0.
+  | String s -> s <> ""
+  | List xs -> xs <> [||]
+  | Map entries -> entries <> []
+  | Vehicles vs -> vs <> []
+  | Wildcard | Symbol _ | Range _ | Position _ | Area _ | Task _ | Closure _ | Host _ | Settings _ -> true
+
+let kind = function
+  | Null -> "null"
+  | Boolean _ -> "a truth value"
+  | Integer _ | Number _ -> "a number"
+  | String _ -> "a string"
+  | Wildcard -> "the wildcard _"
+  | Symbol _ -> "a unit"
+  | List _ -> "a list"
+  | Map _ -> "a map"
+  | Range _ -> "a range"
+  | Position _ -> "a position"
+  | Area _ -> "an area"
+  | Vehicles _ -> "a vehicle set"
+  | Task _ -> "a task"
+  | Closure _ -> "a closure"
+  | Host _ -> "a host object"
+  | Settings _ -> "a block of settings"
+
+let to_number = function
+  | Integer i -> Some (float_of_int i)
+  | Number n -> Some n
+  | Null | Boolean _ | String _ | Wildcard | Symbol _ | List _ | Map _ | Range _ | Position _ | Area _ | Vehicles _
+  | Task _ | Closure _ | Host _ | Settings _ -> None
+
+let of_number n = Number n
+
+let range_length first last = abs (last - first) + 1
+let range_item first last i = if first <= last then first + i else first - i
+
+(* The UTF-8 characters of a string. *)
+let characters s =
+  let continues i = i < String.length s && Char.code s.[i] land 0xC0 = 0x80 in
+  let rec from i characters =
+    if i >= String.length s then List.rev characters
+    else
+      let rec stop j = if continues j then stop (j + 1) else j in
+      let j = stop (i + 1) in
+      from j (String (String.sub s i (j - i)) :: characters)
+  in
+  Array.of_list (from 0 [])
+
+let items = function
+  | List xs -> Some xs
+  | Range (first, last) ->
+    Some (Array.init (range_length first last) (fun i -> Integer (range_item first last i)))
+  | Vehicles vs -> Some (Array.of_list (List.map (fun v -> Vehicles [ v ]) vs))
+  | Map entries ->
+    Some (Array.of_list (List.map (fun (k, x) -> Map [ ("key", String k); ("value", x) ]) entries))
+  | String s -> Some (characters s)
+  | Null | Boolean _ | Integer _ | Number _ | Wildcard | Symbol _ | Position _ | Area _ | Task _ | Closure _
+  | Host _ | Settings _ -> None
+
+let length = function
+  | List xs -> Some (Array.length xs)
+  | Range (first, last) -> Some (range_length first last)
+  | Vehicles vs -> Some (List.length vs)
+  | Map entries -> Some (List.length entries)
+  | String s -> Some (Array.length (characters s))
+  | Null | Boolean _ | Integer _ | Number _ | Wildcard | Symbol _ | Position _ | Area _ | Task _ | Closure _
+  | Host _ | Settings _ -> None
+
+(* The shortest decimal text that reads back as the same number. *)
+let text_of_number n =
+  if Float.is_nan n then "NaN"
+  else if Float.is_integer n && Float.abs n < 1e15 then Printf.sprintf "%.1f" n
+  else
+    let short = Printf.sprintf "%.15g" n in
+    if float_of_string short = n then short else Printf.sprintf "%.17g" n
+
+let quoted s =
+  let b = Buffer.create (String.length s + 2) in
+  Buffer.add_char b '\'';
+  String.iter
+    (function
+      | '\'' -> Buffer.add_string b "\\'"
+      | '\\' -> Buffer.add_string b "\\\\"
+      | '\n' -> Buffer.add_string b "\\n"
+      | c -> Buffer.add_char b c)
+    s;
+  Buffer.add_char b '\'';
+  Buffer.contents b
+
+let comma ppf () = Format.pp_print_string ppf ", "
+
+let rec print ~bare ppf x =
+  let text = Format.pp_print_string ppf in
+  let inside = print ~bare in
+  match x with
+  | Null -> text "null"
+  | Boolean b -> text (string_of_bool b)
+  | Integer i -> text (string_of_int i)
+  | Number n -> text (text_of_number n)
+  | String s -> text (if bare then s else quoted s)
+  | Wildcard -> text "_"
+  | Symbol s -> text s
+  | List xs -> Format.fprintf ppf "[%a]" (Format.pp_print_list ~pp_sep:comma inside) (Array.to_list xs)
+  | Map [] -> text "[:]"
+  | Map entries ->
+    let entry ppf (k, x) = Format.fprintf ppf "%s:%a" k inside x in
+    Format.fprintf ppf "[%a]" (Format.pp_print_list ~pp_sep:comma entry) entries
+  | Range (first, last) -> Format.fprintf ppf "%d..%d" first last
+  | Position p -> Position.pp ppf p
+  | Area a -> Area.pp ppf a
+  | Vehicles [ v ] -> text v
+  | Vehicles vs -> Format.fprintf ppf "[%s]" (String.concat ", " vs)
+  | Task t -> pp_task ppf t
+  | Closure c -> Format.fprintf ppf "{ %s }" c.lambda.label
+  | Host name -> Format.fprintf ppf "host object %s" name
+  | Settings _ -> text "{ ... }"
+
+(* Loosest first: [|], [>>], [/], operands. *)
+and pp_task ppf t = print_task 0 ppf t
+
+and print_task level ppf t =
+  let parenthesised needed body =
+    if level > needed then Format.fprintf ppf "(%t)" body else body ppf
+  in
+  match t with
+  | Platform p -> Format.fprintf ppf "task(%s)" (quoted p.name)
+  | Action c -> Format.fprintf ppf "action { %s }" c.lambda.label
+  | Condition c -> Format.fprintf ppf "condition { %s }" c.lambda.label
+  | Parallel (a, b) ->
+    parenthesised 0 (fun ppf -> Format.fprintf ppf "%a | %a" (print_task 0) a (print_task 1) b)
+  | Sequence (a, b) ->
+    parenthesised 1 (fun ppf -> Format.fprintf ppf "%a >> %a" (print_task 1) a (print_task 2) b)
+  | Allocated (a, vs) -> Format.fprintf ppf "%a[%s]" (print_task 3) a (String.concat " + " vs)
+  | All_of bs -> Format.fprintf ppf "allOf { %a }" (Format.pp_print_list ~pp_sep:comma pp_branch) bs
+  | One_of bs -> Format.fprintf ppf "oneOf { %a }" (Format.pp_print_list ~pp_sep:comma pp_branch) bs
+  | Until (_, a) ->
+    parenthesised 0 (fun ppf -> Format.fprintf ppf "until { ... } run %a" (print_task 1) a)
+  | Idle d -> Format.fprintf ppf "idle(%g.seconds)" d
+  | During (Seconds d, a) ->
+    parenthesised 0 (fun ppf -> Format.fprintf ppf "during %g.seconds run %a" d (print_task 1) a)
+  | During (Given_by _, a) ->
+    parenthesised 0 (fun ppf -> Format.fprintf ppf "during { ... } run %a" (print_task 1) a)
+  | Watch (a, _) ->
+    parenthesised 0 (fun ppf -> Format.fprintf ppf "watch %a onError { ... }" (print_task 1) a)
+
+and pp_branch ppf b = Format.fprintf ppf "when { ... } then %a" (print_task 1) b.body
+
+let to_string x = Format.asprintf "%a" (print ~bare:true) x
+let pp ppf x = print ~bare:false ppf x
+let pp_tuple ppf (k, x) = Format.fprintf ppf "%s:%a" k pp x

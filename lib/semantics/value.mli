@@ -1,0 +1,56 @@
+(** Values and task terms, as programs see them. *)
+
+type t = Core.value
+
+(** {1:order Order and equality of configurations} *)
+
+val compare : t -> t -> int
+(** A total order that tells apart what programs can tell apart, [1] and [1.0] among them. Closures are compared by
+    the piece of program they come from and by what they captured. *)
+
+val compare_task : Core.task -> Core.task -> int
+val compare_closure : Core.closure -> Core.closure -> int
+val hash : t -> int
+val hash_closure : Core.closure -> int
+
+(** {1:language As the language has it} *)
+
+val equals : t -> t -> bool
+(** [equals x y] is [x == y] in a program: numbers by their value, so that [1 == 1.0]. *)
+
+val canonical : t -> t
+(** [canonical x] is [x] with numbers that are whole as integers, so that [equals x y] is
+    [compare (canonical x) (canonical y) = 0]. Tuples hold such values. *)
+
+val truth : t -> bool
+(** [truth x] is how a condition takes [x]: false are [null], [false], 0, and what is empty. *)
+
+val kind : t -> string
+(** [kind x] is what [x] is, with an article: ["a number"], ["a vehicle set"]. *)
+
+val to_number : t -> float option
+(** [to_number x] is [Some] for integers and numbers. *)
+
+val of_number : float -> t
+(** [of_number n] is [Number n]. *)
+
+val items : t -> t array option
+(** [items x] is what a loop over [x] goes through: elements, numbers of a range, single vehicles, entries of a map
+    (each a map with [key] and [value]), characters; [None] if [x] is no such thing. *)
+
+val length : t -> int option
+(** [length x] is the number of items of [x]. *)
+
+(** {1:text Text} *)
+
+val to_string : t -> string
+(** [to_string x] is [x] as [message] shows it: strings bare, [[1, 2]], [[k:v]], vehicle sets as [[a, b]]. *)
+
+val pp : Format.formatter -> t -> unit
+(** As a literal: strings in quotes, else as {!to_string}. *)
+
+val pp_task : Format.formatter -> Core.task -> unit
+(** A short text of a task, in the language's syntax. *)
+
+val pp_tuple : Format.formatter -> string * t -> unit
+(** ["k:x"]. *)

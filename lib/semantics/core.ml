@@ -100,7 +100,7 @@ and operation =
   | Replace_element                             (* [xs[i] = e], on the value of [xs] *)
   | Replace_member of string                    (* [m.k = e] *)
   | Property of string                          (* [e.x] *)
-  | Call                                        (* first argument is the closure *)
+  | Call of string option list                  (* the closure first; names of named arguments *)
   | Method of string * string option list       (* receiver first; names of named arguments *)
   | Builtin of builtin
   | Add_setting of string * string option list  (* the settings so far first, then arguments *)

@@ -1,0 +1,129 @@
+open Core
+
+type leaf = { task : platform_task; allowed : vehicle list option  (* by the [T[V]] around it; [None]: all *) }
+
+let restrict allowed vs =
+  match allowed with
+  | None -> Some vs
+  | Some ws -> Some (List.filter (fun v -> List.mem v ws) vs)
+
+let rec tree_of allowed t : leaf Assignment.tree =
+  match t with
+  | Platform task -> Leaf { task; allowed }
+  | Action _ | Condition _ | Idle _ -> Shared []
+  | Sequence (a, b) -> Shared [ tree_of allowed a; tree_of allowed b ]
+  | Parallel (a, b) -> Disjoint [ tree_of allowed a; tree_of allowed b ]
+  | Allocated (a, vs) -> tree_of (restrict allowed vs) a
+  | All_of branches | One_of branches ->
+    Shared (List.map (fun (b : Core.branch) -> tree_of allowed b.body) branches)
+  | Until (_, a) | During (_, a) | Watch (a, _) -> tree_of allowed a
+
+let rec map_tree f : 'a Assignment.tree -> 'b Assignment.tree = function
+  | Leaf x -> Leaf (f x)
+  | Disjoint trees -> Disjoint (List.map (map_tree f) trees)
+  | Shared trees -> Shared (List.map (map_tree f) trees)
+
+let rec leaves tree rest =
+  match (tree : 'a Assignment.tree) with
+  | Leaf x -> x :: rest
+  | Disjoint trees | Shared trees -> List.fold_right leaves trees rest
+
+(* What a vehicle lacks for a task, or nothing. *)
+let lack world task v =
+  match World.find v world, task.plan with
+  | None, _ -> Some "nothing is known of it"
+  | Some _, None -> None
+  | Some state, Some plan ->
+    let devices = Plan.required_payload plan in
+    if plan.vehicles <> [] && not (List.mem v plan.vehicles) then Some "the plan is for other vehicles"
+    else if World.carries devices state then None
+    else
+      let missing = List.filter (fun d -> not (World.carries [ d ] state)) devices in
+      Some ("it lacks " ^ String.concat ", " missing)
+
+let cost world task v =
+  match task.plan, World.find v world with
+  | Some plan, Some state -> Dolphin_geo.Wgs84.distance state.position (Plan.reference plan)
+  | None, _ | _, None -> 0.
+
+module String_set = Set.Make (String)
+
+let permitted leaf =
+  match leaf.allowed with
+  | None -> fun _ -> true
+  | Some vs ->
+    let set = String_set.of_list vs in
+    fun v -> String_set.mem v set
+
+let candidates world bound leaf : Assignment.leaf =
+  let permitted = permitted leaf in
+  let candidate i v =
+    if permitted v && lack world leaf.task v = None then Some (i, cost world leaf.task v) else None
+  in
+  { candidates = Array.of_seq (Seq.filter_map Fun.id (Array.to_seq (Array.mapi candidate bound))) }
+
+let names vs = String.concat ", " vs
+
+let no_candidate world bound leaf =
+  let permitted = permitted leaf in
+  let some = List.filter permitted (Array.to_list bound) in
+  let reason =
+    match leaf.allowed, some with
+    | _, [] when bound = [||] -> "no vehicle is bound to the program: pick one first"
+    | Some [], _ -> "the vehicle set given to it is empty"
+    | Some vs, [] -> Printf.sprintf "none of the vehicles given to it is bound to the program: %s" (names vs)
+    | None, [] -> "there is no vehicle for it"
+    | _, _ ->
+      let why v = Option.map (Printf.sprintf "%s: %s" v) (lack world leaf.task v) in
+      String.concat "; " (List.filter_map why some)
+  in
+  Fault.make leaf.task.task_site (Printf.sprintf "no vehicle can run task '%s': %s" leaf.task.name reason)
+
+let conflict bound leaves competing vehicles =
+  let competing = List.map (fun i -> leaves.(i)) competing in
+  let first = match competing with leaf :: _ -> leaf.task.task_site | [] -> Fault.unknown_site in
+  Fault.make first
+    (Printf.sprintf "tasks %s run side by side and need different vehicles, but there is only %s"
+       (String.concat ", " (List.map (fun leaf -> Printf.sprintf "'%s'" leaf.task.name) competing))
+       (names (List.map (fun i -> bound.(i)) vehicles)))
+
+(* The task with the vehicles, taken from left to right, and timers numbered from left to right. *)
+let rec residual next_vehicle next_timer t : Residual.t =
+  let recurse = residual next_vehicle next_timer in
+  match t with
+  | Platform p -> Ready (p, next_vehicle ())
+  | Action c -> Action c
+  | Condition c -> Condition c
+  | Sequence (a, b) ->
+    let a = recurse a in
+    Residual.sequence a (recurse b)
+  | Parallel (a, b) ->
+    let a = recurse a in
+    Residual.parallel [ a; recurse b ]
+  | Allocated (a, _) -> recurse a
+  | All_of branches -> Residual.all_of None (List.map (branch next_vehicle next_timer) branches)
+  | One_of branches -> One_of (List.map (branch next_vehicle next_timer) branches)
+  | Until (c, a) -> Until (c, recurse a)
+  | Idle seconds -> Idle { timer = next_timer (); seconds }
+  | During (duration, a) ->
+    let timer = next_timer () in
+    During { timer; duration; started = false; body = recurse a }
+  | Watch (a, c) -> Watch (recurse a, c)
+
+and branch next_vehicle next_timer (b : Core.branch) : Residual.branch =
+  { guard = b.guard; body = residual next_vehicle next_timer b.body }
+
+let counter () =
+  let last = ref 0 in
+  fun () -> incr last; !last
+
+let allocate world bound t =
+  let bound = Array.of_list bound in
+  let tree = tree_of None t in
+  let tasks = Array.of_list (leaves tree []) in
+  match Assignment.solve ~vehicles:(Array.length bound) (map_tree (candidates world bound) tree) with
+  | Ok vehicles ->
+    let next = counter () in
+    Ok (residual (fun () -> bound.(vehicles.(next () - 1))) (counter ()) t)
+  | Error (No_candidate i) -> Error (no_candidate world bound tasks.(i))
+  | Error (Conflict { leaves; vehicles }) -> Error (conflict bound tasks leaves vehicles)

@@ -1,0 +1,24 @@
+(** What a transition asks of the outside: the driver carries it out. *)
+
+open Core
+
+type t =
+  | Start of vehicle * platform_task
+  | Stop of vehicle  (** whatever it runs for the program *)
+  | Set_timer of Residual.timer * float  (** to expire after so many seconds *)
+  | Cancel_timer of Residual.timer
+  | Look_for of Settings.pick
+  (** vehicles are looked for; the script's timer is to expire after the pick's timeout, or without one after the
+      platform's announce period *)
+  | Bind of vehicle list
+  | Release of vehicle list
+  | Set_connection_timeout of vehicle list option * float  (** for these vehicles, or for all; seconds *)
+  | Say of string
+  | Ask of string
+  | Call_host of { subject : string option; member : string; arguments : value list option }
+  | End of Configuration.ending  (** the last effect of a run *)
+
+val script_timer : Residual.timer
+(** The timer of [pick] and [pause]: 0. *)
+
+val pp : Format.formatter -> t -> unit

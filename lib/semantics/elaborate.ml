@@ -1,0 +1,1 @@
+let answer _ _ : (Core.closure, string) result = Error "stub"

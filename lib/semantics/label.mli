@@ -1,0 +1,41 @@
+(** What a transition is called: what an observer of the program and its vehicles can see of it. *)
+
+open Core
+
+type t =
+  | Start of vehicle * string  (** of the plan with this name *)
+  | Done of vehicle * string
+  | Fail of vehicle * string * string  (** why *)
+  | Check of Machine.deed list  (** a guard or condition that held, with what its code did *)
+  | Act of Machine.deed list
+  | Cut of Machine.deed list  (** the condition of an [until] *)
+  | Time_out  (** of [during] or [idle] *)
+  | Set_time of float  (** seconds that [during] starts with, given by code *)
+  | Broken of string  (** code inside of a task that failed *)
+  | Did of Machine.deed  (** by the script *)
+  | Silent
+  | Pick of string  (** what is looked for *)
+  | Bind of vehicle list
+  | No_vehicles of string
+  | Ask of string
+  | Answer of string
+  | No_answer
+  | Pause of float  (** seconds *)
+  | Resume
+  | Call of string
+  | Reply of string
+  | No_reply of string
+  | Execute
+  | Cannot_execute of string
+  | End
+  | Halt of string
+  | Fault of string
+  | Interrupt
+
+val compare : t -> t -> int
+val equal : t -> t -> bool
+
+val pp : Format.formatter -> t -> unit
+(** ["start(noptilus-1, survey1)"], ["check(consume ready:1)"]. *)
+
+val pp_deed : Format.formatter -> Machine.deed -> unit

@@ -1,0 +1,95 @@
+(** What is left of an executing task: its vehicles assigned, what is done dropped. Residuals are kept in normal form
+    (nothing that is done remains; [>>] leans to the right, [|] is flat; an [allOf] with one branch left is a
+    [oneOf]), so that tasks which behave alike are more often equal.
+
+    Residuals offer their steps as data: what a step needs of the rest of the configuration (an {!type-offer}), and
+    what becomes of the residual once that is settled (a {!type-change}). The transition function, and nobody else,
+    makes steps of configurations from these. *)
+
+open Core
+
+(** A timer that [idle] or [during] starts, by its place in the executed task, from 1. *)
+type timer = int
+
+type t =
+  | Ready of platform_task * vehicle  (** about to start *)
+  | Running of platform_task * vehicle
+  | Action of closure
+  | Condition of closure
+  | Sequence of t * t list  (** what runs, which is no [Sequence], and at least one part to come *)
+  | Parallel of t list  (** at least two, none of them [Parallel] *)
+  | All_of of t option * branch list
+  (** the branch that runs and at least one other; or none, and at least two *)
+  | One_of of branch list
+  | Until of closure * t
+  | Idle of { timer : timer; seconds : float }
+  | During of { timer : timer; duration : duration; started : bool; body : t }
+  | Watch of t * closure
+
+and branch = { guard : closure; body : t }
+
+val compare : t -> t -> int
+val equal : t -> t -> bool
+val hash : t -> int
+val pp : Format.formatter -> t -> unit
+
+(** {1:normal Normal forms} *)
+
+val sequence : t -> t -> t
+(** [sequence r r'] is [r >> r']. *)
+
+val parallel : t list -> t
+(** [parallel rs] is the residuals [rs], at least one, side by side. *)
+
+val all_of : t option -> branch list -> t
+
+val activate : t -> t * (timer * float) list
+(** [activate r] is [r] about to run, and the timers that start with it, with their seconds. A [during] whose time is
+    given by code starts in a step of its own. *)
+
+(** {1:steps Local steps} *)
+
+(** What a step needs. *)
+type offer =
+  | Start of platform_task * vehicle  (** nothing; A(v) becomes the task *)
+  | Perform of closure  (** to run this action *)
+  | Check of closure  (** that this condition is true *)
+  | Measure of closure  (** the seconds that this code gives *)
+  | End_of of platform_task * vehicle  (** that the vehicle reports the end *)
+  | Expiry_of of timer  (** that the timer expires *)
+
+(** How it was settled. *)
+type reply = Went | Gave of float  (** to [Measure] *) | Broke of Fault.t
+
+type outcome =
+  | Next of t
+  | Finished
+  | Failed of Fault.t
+  | Handling of {
+      handler : closure;
+      fault : Fault.t;
+      ignored : unit -> change;  (** after [ignore()] *)
+      propagated : Fault.t -> change;  (** after [propagate()], or if the handler itself breaks *)
+    }
+
+and change = {
+  outcome : outcome;
+  rules : Rule.t list;  (** the derivation, innermost rule first *)
+  timers : (timer * float) list;  (** that start *)
+  cancelled : timer list;
+  abandoned : t list;  (** residuals that were cut off: their vehicles stop, their timers are cancelled *)
+}
+
+type step = { offer : offer; continue : reply -> change }
+
+val steps : t -> step Seq.t
+(** [steps r] is all that [r] can do, leftmost first, computed on demand. *)
+
+val running : t -> vehicle list
+(** [running r] is the vehicles that run a task of [r]. *)
+
+val timers : t -> timer list
+(** [timers r] is the timers of [r] that have started. *)
+
+val waits_on_sensors : t -> bool
+(** [waits_on_sensors r] is whether some step of [r] depends on code, and so perhaps on sensors. *)

@@ -1,0 +1,52 @@
+type t =
+  | Start | Done | Fail
+  | Action | Action_err | Condition | Condition_err
+  | Seq_1 | Seq_2 | Seq_err
+  | Par_1 | Par_2 | Par_err
+  | Allof_when | Allof_1 | Allof_2 | Allof_err
+  | Oneof_when | Oneof_err
+  | Until_cut | Until_1 | Until_2 | Until_err
+  | Idle_end
+  | During_set | During_cut | During_1 | During_2 | During_err
+  | Watch_1 | Watch_2 | Watch_ignore | Watch_propagate | Watch_halt
+  | Script | Post | Consume | Message | Release | Set_timeout
+  | Pick | Pick_bind | Pick_err
+  | Ask | Answer | Answer_err
+  | Pause | Resume
+  | Call | Reply | Call_err
+  | Execute | Execute_done | Execute_err | Alloc_err
+  | End | Halt | Fault | Interrupt
+
+let all =
+  [ Start; Done; Fail; Action; Action_err; Condition; Condition_err; Seq_1; Seq_2; Seq_err; Par_1; Par_2; Par_err;
+    Allof_when; Allof_1; Allof_2; Allof_err; Oneof_when; Oneof_err; Until_cut; Until_1; Until_2; Until_err; Idle_end;
+    During_set; During_cut; During_1; During_2; During_err; Watch_1; Watch_2; Watch_ignore; Watch_propagate;
+    Watch_halt; Script; Post; Consume; Message; Release; Set_timeout; Pick; Pick_bind; Pick_err; Ask; Answer;
+    Answer_err; Pause; Resume; Call; Reply; Call_err; Execute; Execute_done; Execute_err; Alloc_err; End; Halt; Fault;
+    Interrupt ]
+
+let name = function
+  | Start -> "START" | Done -> "DONE" | Fail -> "FAIL"
+  | Action -> "ACTION" | Action_err -> "ACTION-ERR" | Condition -> "CONDITION" | Condition_err -> "CONDITION-ERR"
+  | Seq_1 -> "SEQ-1" | Seq_2 -> "SEQ-2" | Seq_err -> "SEQ-ERR"
+  | Par_1 -> "PAR-1" | Par_2 -> "PAR-2" | Par_err -> "PAR-ERR"
+  | Allof_when -> "ALLOF-WHEN" | Allof_1 -> "ALLOF-1" | Allof_2 -> "ALLOF-2" | Allof_err -> "ALLOF-ERR"
+  | Oneof_when -> "ONEOF-WHEN" | Oneof_err -> "ONEOF-ERR"
+  | Until_cut -> "UNTIL-CUT" | Until_1 -> "UNTIL-1" | Until_2 -> "UNTIL-2" | Until_err -> "UNTIL-ERR"
+  | Idle_end -> "IDLE-END"
+  | During_set -> "DURING-SET" | During_cut -> "DURING-CUT" | During_1 -> "DURING-1" | During_2 -> "DURING-2"
+  | During_err -> "DURING-ERR"
+  | Watch_1 -> "WATCH-1" | Watch_2 -> "WATCH-2" | Watch_ignore -> "WATCH-IGNORE"
+  | Watch_propagate -> "WATCH-PROPAGATE" | Watch_halt -> "WATCH-HALT"
+  | Script -> "SCRIPT" | Post -> "POST" | Consume -> "CONSUME" | Message -> "MESSAGE" | Release -> "RELEASE"
+  | Set_timeout -> "SET-TIMEOUT"
+  | Pick -> "PICK" | Pick_bind -> "PICK-BIND" | Pick_err -> "PICK-ERR"
+  | Ask -> "ASK" | Answer -> "ANSWER" | Answer_err -> "ANSWER-ERR"
+  | Pause -> "PAUSE" | Resume -> "RESUME"
+  | Call -> "CALL" | Reply -> "REPLY" | Call_err -> "CALL-ERR"
+  | Execute -> "EXECUTE" | Execute_done -> "EXECUTE-DONE" | Execute_err -> "EXECUTE-ERR"
+  | Alloc_err -> "ALLOC-ERR"
+  | End -> "END" | Halt -> "HALT" | Fault -> "FAULT" | Interrupt -> "INTERRUPT"
+
+let of_name text = List.find_opt (fun rule -> name rule = text) all
+let pp ppf rule = Format.pp_print_string ppf (name rule)

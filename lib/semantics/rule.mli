@@ -1,0 +1,33 @@
+(** The names of the inference rules, as in docs/semantics.md. *)
+
+type t =
+  (* Platform tasks *)
+  | Start | Done | Fail
+  (* Code *)
+  | Action | Action_err | Condition | Condition_err
+  (* Composition *)
+  | Seq_1 | Seq_2 | Seq_err
+  | Par_1 | Par_2 | Par_err
+  | Allof_when | Allof_1 | Allof_2 | Allof_err
+  | Oneof_when | Oneof_err
+  | Until_cut | Until_1 | Until_2 | Until_err
+  | Idle_end
+  | During_set | During_cut | During_1 | During_2 | During_err
+  | Watch_1 | Watch_2 | Watch_ignore | Watch_propagate | Watch_halt
+  (* The program *)
+  | Script | Post | Consume | Message | Release | Set_timeout
+  | Pick | Pick_bind | Pick_err
+  | Ask | Answer | Answer_err
+  | Pause | Resume
+  | Call | Reply | Call_err
+  | Execute | Execute_done | Execute_err | Alloc_err
+  | End | Halt | Fault | Interrupt
+
+val all : t list
+(** Every rule, once. *)
+
+val name : t -> string
+(** [name r] is [r] as the documentation spells it: ["PAR-ERR"]. *)
+
+val of_name : string -> t option
+val pp : Format.formatter -> t -> unit

@@ -1,0 +1,43 @@
+(** The transition function: the whole semantics of Dolphin in one place, pure. The runtime, the explorer and the
+    checker of traces call it and nothing else. docs/semantics.md gives the rules. *)
+
+open Core
+
+(** What happens outside. *)
+type event =
+  | Vehicle_done of vehicle  (** the vehicle ended its task *)
+  | Vehicle_failed of vehicle * string
+  (** it failed, refused the task, or its connection was lost for longer than its timeout: why *)
+  | Timer_expired of Residual.timer
+  | Answered of string  (** to [ask], as typed *)
+  | Nobody_answers of string  (** why *)
+  | Replied of value  (** by the host *)
+  | Host_failed of string  (** why *)
+  | Interruption
+
+type t = {
+  rules : Rule.t list;  (** the derivation, from the axiom outwards *)
+  label : Label.t;
+  next : Configuration.t;
+  effects : Effect.t list;  (** in the order in which they are to be carried out *)
+}
+
+(** Why an event makes no transition. *)
+type refusal =
+  | Not_awaited  (** nothing in the configuration depends on it: it may be forgotten *)
+  | Bad_answer of string  (** the answer is no expression that has a value: why; to be asked again *)
+
+val internal : program -> World.t -> Configuration.t -> t Seq.t
+(** [internal p w c] is the transitions that [c] can make by itself, leftmost first, computed on demand. A [pick] has
+    one for every choice of vehicles, in pick order. *)
+
+val accept : program -> World.t -> Configuration.t -> event -> (t, refusal) result
+(** [accept p w c e] is the transition of [c] on [e]. [Interruption] is accepted wherever the program has not ended. *)
+
+val awaited : Configuration.t -> event list
+(** [awaited c] is the events that [c] has transitions for, less [Interruption]: the ends of tasks that run (as
+    [Vehicle_done]; where it is awaited, [Vehicle_failed] is too), timers that run, an answer or a reply (with empty
+    content). *)
+
+val depends_on_sensors : program -> Configuration.t -> bool
+(** [depends_on_sensors p c] is whether news of positions and batteries may enable a transition of [c]. *)

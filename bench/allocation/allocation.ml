@@ -5,7 +5,8 @@ let random = Random.State.make [| 2016 |]
 
 let metres bound = Random.State.float random bound
 
-let leaf vehicles cost = Leaf { candidates = Array.of_list (List.map (fun vehicle -> (vehicle, cost vehicle)) vehicles) }
+let leaf vehicles cost =
+  Leaf { candidates = Array.of_list (List.map (fun vehicle -> (vehicle, cost vehicle)) vehicles) }
 
 let range first count = List.init count (fun index -> first + index)
 

@@ -260,7 +260,12 @@ module Shape = struct
       Array.fold_left (fun count kind -> match kind with A_leaf _ -> count + 1 | All_different | Any -> count) 0 kind
     in
     let node_of_leaf = Array.make leaf_count 0 in
-    Array.iteri (fun node kind -> match kind with A_leaf leaf -> node_of_leaf.(leaf) <- node | All_different | Any -> ()) kind;
+    Array.iteri
+      (fun node kind ->
+         match kind with
+         | A_leaf leaf -> node_of_leaf.(leaf) <- node
+         | All_different | Any -> ())
+      kind;
     let children = Array.make (Array.length parent) 0 (* that lead to chosen leaves *) in
     let becomes = Array.make (Array.length parent) (-1) in
     fun leaves ->
@@ -673,12 +678,13 @@ let match_clique search clique weight =
    larger problem, or is full of -1. What is still available in it is still of least cost, hence only cliques that
    lost a pair are solved again, in place. Rows with too few vehicles are the error. *)
 let relax search weights matched =
-  let is_intact clique = Array.for_all (fun row -> matched.(row) >= 0 && is_available search row matched.(row)) clique in
+  let is_intact = Array.for_all (fun row -> matched.(row) >= 0 && is_available search row matched.(row)) in
   let solve clique =
     let weight row column =
       if is_available search row column then weights.((row * search.width) + column) else forbidden
     in
-    Result.map (Array.iteri (fun place column -> matched.(clique.(place)) <- column)) (match_clique search clique weight)
+    match_clique search clique weight
+    |> Result.map (Array.iteri (fun place column -> matched.(clique.(place)) <- column))
   in
   let rec solve_all index =
     if index = Array.length search.cliques then Ok ()
@@ -699,6 +705,7 @@ let single_services search branches =
   let rec place visited branch =
     List.exists
       (fun column ->
+         incr search.spent;
          (not visited.(column))
          && begin
            visited.(column) <- true;
@@ -713,7 +720,6 @@ let single_services search branches =
   let count = ref 0 in
   Array.iteri
     (fun branch _ ->
-       search.spent := !(search.spent) + (2 * search.width);
        if place (Array.make search.width false) branch then incr count)
     branches;
   !count
@@ -757,7 +763,8 @@ let least_vehicles search sizes =
       let more = if is_plain then 0 else List.length single - single_services search single in
       (need + more, None)
   in
-  search.spent := !(search.spent) + (search.rows * search.width);
+  (* The rows are gone through for their sizes, twice for being apart, and once for single services. *)
+  search.spent := !(search.spent) + (4 * search.rows * search.width);
   let needs = Shape.bottom_up search.part.shape ~leaf:(fun row -> (1, Some [ row ])) ~inner in
   max search.used (fst needs.(0))
 
@@ -917,6 +924,115 @@ let polish search allocation =
   release search;
   better
 
+(* {2 Branches that need several vehicles}
+
+   If the branches of the root exclude each other, and have no [All_different] inside, all that is hard is which rows of
+   a branch share a vehicle. Once that is settled for all branches, the rest is one assignment problem. *)
+
+let rec partitions = function
+  | [] -> [ [] ]
+  | row :: rows ->
+    let rec join before = function
+      | [] -> []
+      | block :: after -> List.rev_append before ((row :: block) :: after) :: join (block :: before) after
+    in
+    List.concat_map (fun blocks -> ([ row ] :: blocks) :: join [] blocks) (partitions rows)
+
+(* A set of rows that share a vehicle, and what it costs by column. *)
+type block = { members : int list; costs : int array }
+
+(* A branch: its partitions into blocks, the fewest blocks first; how many these are; and costs by column that bound
+   those of the branch from below if its first row has the column. *)
+type choice = { ways : block list list; fewest : int; relaxed : int array }
+
+let choice_of search rows =
+  let cost row column = search.part.cost.((row * search.width) + column) in
+  let sum members column =
+    let add sum row =
+      let c = cost row column in
+      if sum >= forbidden || c >= forbidden then forbidden else sum + c
+    in
+    List.fold_left add 0 members
+  in
+  let block members =
+    let members = List.sort Int.compare members in
+    { members; costs = Array.init search.width (sum members) }
+  in
+  let is_possible { costs; _ } = Array.exists (fun c -> c < forbidden) costs in
+  let by_count a b = List.compare_lengths a b in
+  let by_first a b = Int.compare (List.hd a.members) (List.hd b.members) in
+  let ways =
+    partitions rows
+    |> List.map (List.map block)
+    |> List.filter (List.for_all is_possible)
+    |> List.map (List.sort by_first) |> List.stable_sort by_count
+  in
+  let least row = Array.fold_left min forbidden (Array.init search.width (cost row)) in
+  let others = List.fold_left (fun sum row -> sum + least row) 0 (List.tl rows) in
+  let relaxed =
+    Array.init search.width (fun column ->
+        let c = cost (List.hd rows) column in
+        if c >= forbidden then forbidden else c + others)
+  in
+  { ways; fewest = List.length (List.hd ways); relaxed }
+
+let largest_branch = 5 (* which has 52 partitions *)
+
+(* [by_partitions search allocation] is the best of the allocations with as many vehicles as [allocation], and whether
+   all of them have been considered. *)
+let by_partitions search allocation =
+  match Shape.simple_branches search.part.shape with
+  | None -> (allocation, false)
+  | Some branches when List.exists (fun rows -> List.compare_length_with rows largest_branch > 0) branches ->
+    (allocation, false)
+  | Some branches ->
+    let choices = Array.of_list (List.map (choice_of search) branches) in
+    let count = Array.length choices in
+    let limit = count_of allocation in
+    let later = Array.make (count + 1) 0 (* the fewest blocks of this branch and all later ones *) in
+    for branch = count - 1 downto 0 do
+      later.(branch) <- later.(branch + 1) + choices.(branch).fewest
+    done;
+    let best = ref allocation and least = ref (cost_of search search.part.cost allocation) in
+    let rec decide branch blocks used =
+      if !(search.spent) > search.ceiling then raise_notrace Exhausted;
+      let slack = limit - used - later.(branch) in
+      if slack >= 0 then begin
+        let undecided index =
+          let choice = choices.(branch + index) in
+          match choice.ways with
+          | [ { costs; _ } ] :: _ when slack = 0 -> costs
+          | _ -> choice.relaxed
+        in
+        let decided = List.rev_map (fun block -> block.costs) blocks in
+        let matrix = Array.concat (decided @ List.init (count - branch) undecided) in
+        let rows = used + count - branch in
+        search.spent := !(search.spent) + (rows * search.width);
+        match Matching.solve ~spent:search.spent ~rows ~columns:search.width matrix with
+        | Error _ -> ()
+        | Ok matching ->
+          let sum = ref 0 in
+          Array.iteri (fun row column -> sum := !sum + matrix.((row * search.width) + column)) matching.column_of;
+          if !sum <= !least then
+            if branch < count then
+              List.iter
+                (fun way -> decide (branch + 1) (List.rev_append way blocks) (used + List.length way))
+                choices.(branch).ways
+            else begin
+              let column_of = Matching.in_pick_order ~rows ~columns:search.width matrix matching in
+              let found = Array.make search.rows 0 in
+              List.iteri
+                (fun index block -> List.iter (fun row -> found.(row) <- column_of.(index)) block.members)
+                (List.rev blocks);
+              if !sum < !least || compare found !best < 0 then begin
+                least := !sum;
+                best := found
+              end
+            end
+      end
+    in
+    (match decide 0 [] 0 with () -> (!best, true) | exception Exhausted -> (!best, false))
+
 (* {2 The phases: any allocation, the fewest vehicles, the least cost, pick order} *)
 
 let rec fewest_vehicles search weights ~least allocation =
@@ -949,13 +1065,14 @@ let pick_order search allocation =
     (* Whether [column], just assigned to [row], can stay. *)
     let works column =
       let before = !best.(row) in
-      if search.uses.(column) = 1 && search.uses.(before) = 0 && search.alike.(column) = search.alike.(before) then begin
+      let is_new = search.uses.(column) = 1 in
+      if is_new && search.uses.(before) = 0 && search.alike.(column) = search.alike.(before) then begin
         best := exchange column before;
         true
       end
-      else if search.uses.(column) = 1 && Hashtbl.mem tried search.alike.(column) then false
+      else if is_new && Hashtbl.mem tried search.alike.(column) then false
       else begin
-        if search.uses.(column) = 1 then Hashtbl.replace tried search.alike.(column) ();
+        if is_new then Hashtbl.replace tried search.alike.(column) ();
         match explore search cost ~bound ~is_enough:true matched with
         | Some lower, _ ->
           best := lower;
@@ -1034,11 +1151,18 @@ let branch_and_bound ~restricted ~spent ~budget candidates part =
     until 0.4;
     let allocation, has_fewest = fewest_vehicles search weights ~least allocation in
     let allocation = polish search allocation in
-    until 0.8;
+    until 0.6;
     let allocation, has_least = least_cost search allocation in
-    until 1.;
-    let allocation, is_first = pick_order search allocation in
-    Ok (allocation, has_fewest && has_least && is_first)
+    until 0.7;
+    let allocation, is_first = if has_least then pick_order search allocation else (allocation, false) in
+    if has_fewest && has_least && is_first then Ok (allocation, true)
+    else begin
+      until 0.9;
+      let allocation, is_best = if has_fewest then by_partitions search allocation else (allocation, false) in
+      until 1.;
+      let allocation = if is_best then allocation else fst (pick_order search allocation) in
+      Ok (allocation, is_best)
+    end
 
 (* {1 All together} *)
 

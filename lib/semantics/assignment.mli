@@ -21,7 +21,8 @@
     aircraft are solved each for itself; and leaves that may share and have the same candidates at the same costs are
     one.
 
-    What remains goes through branch and bound, with assignment problems on the cliques of the tree as bounds. Whether
+    What remains goes through branch and bound, with assignment problems on the cliques of the tree as bounds; where
+    branches that exclude each other need several vehicles each, over the ways to split them up. Whether
     an allocation exists is searched to the end, however long. To better one that was found is limited to {!effort}
     steps; beyond, the best so far is given, and {!type-solution.proven} says so. *)
 

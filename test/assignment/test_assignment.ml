@@ -228,11 +228,31 @@ let is_best tree vehicles =
     && List.for_all (fun leaf -> not (conflict_is_real tree (List.filter (( <> ) leaf) leaves))) leaves
   | Error (No_candidate _), _ | Ok _, None | Error (Conflict _), Some _ -> false
 
-let law ~count name ~leaves ~vehicles =
-  let print = Fmt.str "%a" pp_tree in
-  let generator = tree_generator ~leaves ~vehicles in
-  let cell = QCheck2.Test.make_cell ~count ~name ~print generator (fun tree -> is_best tree vehicles) in
+(* However early it is stopped, what is given is allowed, and the best if it claims to be. *)
+let is_honest (tree, effort) vehicles =
+  let leaves, pairs, _ = flatten 0 tree in
+  match (solve_within ~effort ~vehicles tree, best tree) with
+  | Ok { vehicles; proven }, Some expected ->
+    let vehicles = Array.to_list vehicles in
+    is_allowed pairs vehicles
+    && List.for_all2 (fun leaf vehicle -> List.mem_assoc vehicle (Array.to_list leaf.candidates)) leaves vehicles
+    && ((not proven) || vehicles = expected)
+  | Error (Conflict { leaves; _ }), None -> conflict_is_real tree leaves
+  | Error (No_candidate _), _ | Ok _, None | Error (Conflict _), Some _ -> false
+
+let law_of generator print property ~count name =
+  let cell = QCheck2.Test.make_cell ~count ~name ~print generator property in
   case name (fun () -> QCheck2.Test.check_cell_exn ~rand:(Random.State.make [| 2016 |]) cell)
+
+let print_tree = Fmt.str "%a" pp_tree
+
+let law ~count name ~leaves ~vehicles =
+  law_of (tree_generator ~leaves ~vehicles) print_tree (fun tree -> is_best tree vehicles) ~count name
+
+let law_of_effort ~count name ~leaves ~vehicles =
+  let generator = QCheck2.Gen.(pair (tree_generator ~leaves ~vehicles) (int_bound 10_000)) in
+  let print (tree, effort) = Fmt.str "%s within %d" (print_tree tree) effort in
+  law_of generator print (fun problem -> is_honest problem vehicles) ~count name
 
 let () =
   Alcotest.run "assignment"
@@ -254,5 +274,6 @@ let () =
           law "5 leaves, 4 vehicles" ~count:4000 ~leaves:5 ~vehicles:4;
           law "5 leaves, 2 vehicles" ~count:1000 ~leaves:5 ~vehicles:2;
           law "7 leaves, 3 vehicles" ~count:1000 ~leaves:7 ~vehicles:3;
+          law_of_effort "stopped early" ~count:2000 ~leaves:6 ~vehicles:4;
         ] );
     ]

@@ -1,0 +1,279 @@
+open Dolphin_semantics
+open Assignment
+
+let case name run = Alcotest.test_case name `Quick run
+
+(* [leaf [ (v, cost); ... ]] and, where costs do not matter, [any [ v; ... ]]. *)
+let leaf candidates = Leaf { candidates = Array.of_list candidates }
+
+let any vehicles = leaf (List.map (fun vehicle -> (vehicle, 0.)) vehicles)
+
+let show = function
+  | Ok vehicles -> Fmt.str "%a" Fmt.(array ~sep:(any " ") int) vehicles
+  | Error failure -> Fmt.str "%a" pp_failure failure
+
+let gives name ~vehicles expected tree = Alcotest.(check string) name expected (show (solve ~vehicles tree))
+
+(* {1 Examples} *)
+
+(* First come, first served would give vehicle 0 to leaf 0, and none to leaf 1. *)
+let greedy_fails () =
+  gives "leaf 1 wants 0" ~vehicles:2 "1 0" (Disjoint [ any [ 0; 1 ]; any [ 0 ] ]);
+  gives "a chain of changes" ~vehicles:4 "3 2 1 0" (Disjoint [ any [ 2; 3 ]; any [ 1; 2 ]; any [ 0; 1 ]; any [ 0 ] ]);
+  (* The nearest vehicle first would cost 1 + 100. *)
+  gives "cost of both" ~vehicles:2 "1 0"
+    (Disjoint [ leaf [ (0, 1.); (1, 2.) ]; leaf [ (0, 5.); (1, 100.) ] ])
+
+let failures () =
+  gives "no candidate" ~vehicles:2 "leaf 1 has no candidate" (Disjoint [ any [ 0 ]; any []; any [ 1 ] ]);
+  gives "three for two" ~vehicles:4 "leaves 1, 2, 4 cannot all be served by vehicles 0, 1"
+    (Disjoint [ any [ 0; 2; 3 ]; any [ 0; 1 ]; Shared [ any [ 0; 1 ]; any [ 2 ] ]; any [ 1; 0 ] ]);
+  gives "two for one" ~vehicles:5 "leaves 1, 3 cannot all be served by vehicles 4"
+    (Disjoint [ any [ 0; 4 ]; any [ 4 ]; any [ 0; 1 ]; any [ 4 ]; any [ 2 ] ])
+
+(* Any leaves that all exclude each other have vehicles enough, but the six together do not: whatever leaves 0 and 1
+   take, one of the others has both. Leaf 6 has nothing to do with it. *)
+let conflict_without_clique () =
+  let complete_bipartite lists = Disjoint (List.map (fun lists -> Shared (List.map any lists)) lists) in
+  gives "K(2,4)" ~vehicles:5 "leaves 0, 1, 2, 3, 4, 5 cannot all be served by vehicles 0, 1, 2, 3"
+    (Shared
+       [ complete_bipartite [ [ [ 0; 1 ]; [ 2; 3 ] ]; [ [ 0; 2 ]; [ 0; 3 ]; [ 1; 2 ]; [ 1; 3 ] ] ]; any [ 0; 4 ] ])
+
+let sharing_is_preferred () =
+  gives "one vehicle in sequence, though dearer" ~vehicles:2 "1 1"
+    (Shared [ leaf [ (0, 0.); (1, 1000.) ]; leaf [ (1, 1000.) ] ]);
+  gives "two stages" ~vehicles:4 "0 1 0 1"
+    (Shared [ Disjoint [ any [ 0; 1; 2 ]; any [ 1; 2 ] ]; Disjoint [ any [ 0; 1; 3 ]; any [ 1; 3 ] ] ]);
+  gives "what cannot be one is two, and no more" ~vehicles:3 "0 2 2"
+    (Shared [ any [ 0; 1 ]; any [ 1; 2 ]; any [ 2 ] ]);
+  gives "survey and station keeping on the same vehicles" ~vehicles:3 "0 0 1 1"
+    (Disjoint [ Shared [ any [ 0; 1 ]; any [ 0; 1; 2 ] ]; Shared [ any [ 0; 1 ]; any [ 1; 2 ] ] ])
+
+let distance_decides () =
+  gives "crossing ways are uncrossed" ~vehicles:3 "2 0"
+    (Disjoint [ leaf [ (0, 10.); (1, 30.); (2, 5.) ]; leaf [ (0, 7.); (1, 40.); (2, 6.) ] ]);
+  gives "the whole branch counts" ~vehicles:2 "1 1 0"
+    (Disjoint [ Shared [ leaf [ (0, 1.); (1, 2.) ]; leaf [ (0, 9.); (1, 2.) ] ]; leaf [ (0, 3.); (1, 3.) ] ]);
+  gives "less than half a millimetre is nothing" ~vehicles:2 "0" (leaf [ (0, 100.0004); (1, 100.) ]);
+  gives "an unknown distance is the last resort" ~vehicles:2 "1" (leaf [ (0, Float.infinity); (1, 20e6) ])
+
+let pick_order_decides () =
+  gives "ties" ~vehicles:4 "0 1 2" (Disjoint [ any [ 3; 2; 1; 0 ]; any [ 0; 1; 2; 3 ]; any [ 0; 1; 2; 3 ] ]);
+  gives "ties, the first leaf first" ~vehicles:3 "0 2 1"
+    (Disjoint [ any [ 0; 1; 2 ]; any [ 0; 2 ]; any [ 0; 1 ] ]);
+  gives "ties of sums" ~vehicles:2 "0 1" (Disjoint [ leaf [ (0, 4.); (1, 3.) ]; leaf [ (0, 2.); (1, 1.) ] ]);
+  gives "a vehicle that is left free" ~vehicles:3 "0 1"
+    (Disjoint [ leaf [ (0, 1.); (2, 1.) ]; leaf [ (0, 1.); (1, 1.) ] ])
+
+let odd_trees () =
+  gives "nothing" ~vehicles:0 "" (Disjoint []);
+  gives "nothing in parts" ~vehicles:1 "0" (Shared [ Disjoint []; Disjoint [ Shared [ any [ 0 ] ]; Shared [] ] ]);
+  gives "listed twice" ~vehicles:2 "1" (leaf [ (1, 5.); (0, 2.); (1, 1.) ]);
+  let rejects name message tree =
+    Alcotest.check_raises name (Invalid_argument message) (fun () -> ignore (solve ~vehicles:1 tree))
+  in
+  rejects "no such vehicle" "Assignment.solve: no vehicle 1" (any [ 1 ]);
+  rejects "negative" "Assignment.solve: a cost of -1" (leaf [ (0, -1.) ]);
+  rejects "not a number" "Assignment.solve: a cost of nan" (leaf [ (0, Float.nan) ])
+
+let deep_trees () =
+  let rec nest count wrap tree = if count = 0 then tree else nest (count - 1) wrap (wrap tree) in
+  let all n expected = function
+    | Ok vehicles -> Array.length vehicles = n && Array.for_all (( = ) expected) vehicles
+    | Error _ -> false
+  in
+  let first = nest 10_000 (fun tree -> Shared [ tree; any [ 0; 1 ] ]) (any [ 1; 0 ]) in
+  let last = nest 10_000 (fun tree -> Shared [ any [ 0; 1 ]; tree ]) (any [ 1 ]) in
+  Alcotest.(check bool) "chain to the left" true (all 10_001 0 (solve ~vehicles:2 first));
+  Alcotest.(check bool) "chain to the right" true (all 10_001 1 (solve ~vehicles:2 last));
+  let lonely = nest 100_000 (fun tree -> Disjoint [ Shared [ tree ] ]) (any [ 0 ]) in
+  Alcotest.(check bool) "lonely branches" true (all 1 0 (solve ~vehicles:1 lonely));
+  let alternating = nest 300 (fun tree -> Shared [ any [ 0 ]; Disjoint [ any [ 1; 2 ]; tree ] ]) (any [ 0; 3 ]) in
+  gives "an alternation has a conflict" ~vehicles:4 "leaves 1, 3, 5 cannot all be served by vehicles 1, 2"
+    (nest 2 (fun tree -> Shared [ any [ 0 ]; Disjoint [ any [ 1; 2 ]; tree ] ]) (Disjoint [ any [ 3 ]; any [ 1; 2 ] ]));
+  match solve ~vehicles:4 alternating with
+  | Ok _ -> Alcotest.fail "three hundred on two vehicles"
+  | Error (No_candidate _) -> Alcotest.fail "all have candidates"
+  | Error (Conflict { leaves; _ }) -> Alcotest.(check int) "three are too many" 3 (List.length leaves)
+
+(* {1 Large problems}
+
+   The bounds, on processor time, are generous: only another order of growth breaks them. *)
+
+let within_seconds bound run =
+  let start = Sys.time () in
+  let result = run () in
+  let elapsed = Sys.time () -. start in
+  if elapsed > bound then Alcotest.failf "took %.1f s" elapsed;
+  result
+
+let is_permutation vehicles = List.sort_uniq compare (Array.to_list vehicles) = List.init (Array.length vehicles) Fun.id
+
+let thousand_by_thousand () =
+  let numbers = List.init 1000 Fun.id in
+  let parallel cost = Disjoint (List.map (fun task -> leaf (List.map (fun v -> (v, cost task v)) numbers)) numbers) in
+  let solve tree = within_seconds 5. (fun () -> solve_within ~effort ~vehicles:1000 tree) in
+  (match solve (parallel (fun _ _ -> 500.)) with
+   | Ok { vehicles; proven } ->
+     Alcotest.(check (list int)) "all at one place: pick order" numbers (Array.to_list vehicles);
+     Alcotest.(check bool) "proven" true proven
+   | Error failure -> Alcotest.failf "%a" pp_failure failure);
+  (match solve (parallel (fun task v -> float_of_int (abs (task - (999 - v))))) with
+   | Ok { vehicles; _ } -> Alcotest.(check bool) "a permutation" true (is_permutation vehicles)
+   | Error failure -> Alcotest.failf "%a" pp_failure failure);
+  let random = Random.State.make [| 1 |] in
+  let place _ = (Random.State.float random 1e4, Random.State.float random 1e4) in
+  let tasks = Array.init 1000 place and places = Array.init 1000 place in
+  let cost task v = hypot (fst tasks.(task) -. fst places.(v)) (snd tasks.(task) -. snd places.(v)) in
+  match solve (parallel cost) with
+  | Ok { vehicles; proven } ->
+    Alcotest.(check bool) "a permutation" true (is_permutation vehicles);
+    Alcotest.(check bool) "proven" true proven
+  | Error failure -> Alcotest.failf "%a" pp_failure failure
+
+let effort_is_a_bound () =
+  let random = Random.State.make [| 2 |] in
+  let any_leaf _ = leaf (List.init 30 (fun v -> (v, Random.State.float random 1000.))) in
+  let tree = Shared (List.init 3 (fun _ -> Disjoint (List.init 15 any_leaf))) in
+  match within_seconds 5. (fun () -> solve_within ~effort:1_000_000 ~vehicles:30 tree) with
+  | Ok { vehicles; proven } ->
+    Alcotest.(check bool) "not proven" false proven;
+    let used = List.sort_uniq compare (Array.to_list vehicles) in
+    Alcotest.(check int) "fifteen vehicles all the same" 15 (List.length used)
+  | Error failure -> Alcotest.failf "%a" pp_failure failure
+
+(* {1 All allocations of small problems} *)
+
+(* The leaves, and the pairs of them that exclude each other. *)
+let rec flatten first = function
+  | Leaf leaf -> ([ leaf ], [], first + 1)
+  | Disjoint children -> flatten_all first children ~exclusive:true
+  | Shared children -> flatten_all first children ~exclusive:false
+
+and flatten_all first children ~exclusive =
+  let add (leaves, pairs, next) child =
+    let leaves', pairs', after = flatten next child in
+    let across =
+      if not exclusive then []
+      else
+        List.concat_map
+          (fun a -> List.init (after - next) (fun index -> (a, next + index)))
+          (List.init (next - first) (fun index -> first + index))
+    in
+    (leaves @ leaves', across @ pairs @ pairs', after)
+  in
+  List.fold_left add ([], [], first) children
+
+let allocations leaves =
+  let extend { candidates } rest =
+    List.concat_map
+      (fun (vehicle, cost) -> List.map (fun (vehicles, sum) -> (vehicle :: vehicles, cost +. sum)) rest)
+      (Array.to_list candidates)
+  in
+  List.fold_right extend leaves [ ([], 0.) ]
+
+let is_allowed pairs vehicles =
+  let vehicles = Array.of_list vehicles in
+  List.for_all (fun (a, b) -> vehicles.(a) <> vehicles.(b)) pairs
+
+(* The objective, as it is written in the interface. Costs are whole metres here. *)
+let best tree =
+  let leaves, pairs, _ = flatten 0 tree in
+  let value (vehicles, cost) = (List.length (List.sort_uniq compare vehicles), cost, vehicles) in
+  allocations leaves
+  |> List.filter (fun (vehicles, _) -> is_allowed pairs vehicles)
+  |> List.map value |> List.sort compare
+  |> function [] -> None | (_, _, vehicles) :: _ -> Some vehicles
+
+let rec pp_tree ppf = function
+  | Leaf { candidates } -> Fmt.pf ppf "[%a]" Fmt.(array ~sep:semi (pair ~sep:(any ":") int float)) candidates
+  | Disjoint children -> Fmt.pf ppf "(%a)" Fmt.(list ~sep:(any " | ") pp_tree) children
+  | Shared children -> Fmt.pf ppf "(%a)" Fmt.(list ~sep:(any " >> ") pp_tree) children
+
+let tree_generator ~leaves ~vehicles =
+  let open QCheck2.Gen in
+  let leaf highest =
+    let* present = flatten_l (List.init vehicles (fun _ -> int_bound 2)) in
+    let* costs = flatten_l (List.init vehicles (fun _ -> int_bound highest)) in
+    let candidate vehicle (present, cost) = if present > 0 then Some (vehicle, float_of_int cost) else None in
+    let candidates = List.filter_map Fun.id (List.mapi candidate (List.combine present costs)) in
+    let+ candidates = if candidates = [] then return [ (0, 1.) ] else shuffle_l candidates in
+    Leaf { candidates = Array.of_list candidates }
+  in
+  let rec tree highest count =
+    if count = 1 then leaf highest
+    else
+      let* first = int_range 1 (count - 1) in
+      let* a = tree highest first and* b = tree highest (count - first) in
+      let+ disjoint = bool in
+      if disjoint then Disjoint [ a; b ] else Shared [ a; b ]
+  in
+  let* count = int_range 1 leaves in
+  let* highest = oneofl [ 0; 1; 3; 50 ] in
+  tree highest count
+
+let conflict_is_real tree leaves =
+  let all, pairs, _ = flatten 0 tree in
+  let chosen = List.filter (fun (a, b) -> List.mem a leaves && List.mem b leaves) pairs in
+  let free index leaf = if List.mem index leaves then leaf else { candidates = [| (0, 0.) |] } in
+  let possible = allocations (List.mapi free all) in
+  not (List.exists (fun (vehicles, _) -> is_allowed chosen vehicles) possible)
+
+(* Conflicts are minimal: any of the leaves left out, the others can be served. *)
+let is_best tree vehicles =
+  match (solve_within ~effort ~vehicles tree, best tree) with
+  | Ok { vehicles; proven }, Some expected -> proven && Array.to_list vehicles = expected
+  | Error (Conflict { leaves; vehicles = _ }), None ->
+    conflict_is_real tree leaves
+    && List.for_all (fun leaf -> not (conflict_is_real tree (List.filter (( <> ) leaf) leaves))) leaves
+  | Error (No_candidate _), _ | Ok _, None | Error (Conflict _), Some _ -> false
+
+(* However early it is stopped, what is given is allowed, and the best if it claims to be. *)
+let is_honest (tree, effort) vehicles =
+  let leaves, pairs, _ = flatten 0 tree in
+  match (solve_within ~effort ~vehicles tree, best tree) with
+  | Ok { vehicles; proven }, Some expected ->
+    let vehicles = Array.to_list vehicles in
+    is_allowed pairs vehicles
+    && List.for_all2 (fun leaf vehicle -> List.mem_assoc vehicle (Array.to_list leaf.candidates)) leaves vehicles
+    && ((not proven) || vehicles = expected)
+  | Error (Conflict { leaves; _ }), None -> conflict_is_real tree leaves
+  | Error (No_candidate _), _ | Ok _, None | Error (Conflict _), Some _ -> false
+
+let law_of generator print property ~count name =
+  let cell = QCheck2.Test.make_cell ~count ~name ~print generator property in
+  case name (fun () -> QCheck2.Test.check_cell_exn ~rand:(Random.State.make [| 2016 |]) cell)
+
+let print_tree = Fmt.str "%a" pp_tree
+
+let law ~count name ~leaves ~vehicles =
+  law_of (tree_generator ~leaves ~vehicles) print_tree (fun tree -> is_best tree vehicles) ~count name
+
+let law_of_effort ~count name ~leaves ~vehicles =
+  let generator = QCheck2.Gen.(pair (tree_generator ~leaves ~vehicles) (int_bound 10_000)) in
+  let print (tree, effort) = Fmt.str "%s within %d" (print_tree tree) effort in
+  law_of generator print (fun problem -> is_honest problem vehicles) ~count name
+
+let () =
+  Alcotest.run "assignment"
+    [
+      ( "examples",
+        [
+          case "greedy fails" greedy_fails;
+          case "failures" failures;
+          case "a conflict without a clique" conflict_without_clique;
+          case "sharing is preferred" sharing_is_preferred;
+          case "distance decides" distance_decides;
+          case "pick order decides" pick_order_decides;
+          case "odd trees" odd_trees;
+          case "deep trees" deep_trees;
+        ] );
+      ("large", [ case "1000 x 1000" thousand_by_thousand; case "effort is a bound" effort_is_a_bound ]);
+      ( "all allocations",
+        [
+          law "5 leaves, 4 vehicles" ~count:4000 ~leaves:5 ~vehicles:4;
+          law "5 leaves, 2 vehicles" ~count:1000 ~leaves:5 ~vehicles:2;
+          law "7 leaves, 3 vehicles" ~count:1000 ~leaves:7 ~vehicles:3;
+          law_of_effort "stopped early" ~count:2000 ~leaves:6 ~vehicles:4;
+        ] );
+    ]

@@ -1,0 +1,1 @@
+(** Tests of {!Dolphin_semantics.Assignment}: examples, and all allocations of small problems. No value of its own. *)

@@ -1,0 +1,61 @@
+(* What the runtime asks of a platform: of a network of vehicles, real or simulated. A types-only module: it has no
+   interface of its own. [Dolphin_platform_sim] is the first platform and the tutorial for whoever writes another.
+
+   A platform decides nothing about programs. It tells what happens, as events, and carries out what it is asked. *)
+
+open Dolphin_semantics
+
+type event =
+  | Vehicle of World.vehicle_state
+  (* First heard of, or changed: connection at once, position and battery at least when {!S.telemetry} is on. *)
+  | Task_done of Core.vehicle
+  | Task_failed of Core.vehicle * string
+  (* In the vehicle's own words: it failed, refused, or its link was lost for longer than its connection timeout. *)
+  | Timer of Residual.timer
+
+module type S = sig
+  type t
+
+  val name : string
+  (** As users know it: ["sim"]. *)
+
+  val virtual_time : bool
+  (** Whether time passes only inside {!next}. A driver then does not call {!next} while it waits for people or other
+      processes. *)
+
+  val now : t -> float
+  (** Seconds since the platform started, by its own clock. *)
+
+  val announce_period : t -> float
+  (** After so many seconds every vehicle in reach has been heard of: how long a [pick] without a timeout looks. *)
+
+  val next : t -> event Lwt.t
+  (** [next p] is the next event, when it comes. Nothing else calls it before it resolves, or is cancelled. *)
+
+  val set_timer : t -> Residual.timer -> float -> unit
+  (** [set_timer p timer seconds] makes the event [Timer timer] happen after [seconds]. *)
+
+  val cancel_timer : t -> Residual.timer -> unit
+  (** The event of this timer no longer happens. *)
+
+  val bind : t -> Core.vehicle list -> unit
+  (** The program holds these vehicles now. *)
+
+  val release : t -> Core.vehicle list -> unit
+
+  val start : t -> Core.vehicle -> Core.platform_task -> unit
+  (** [start p v task] makes [v] run [task], once it has confirmed a stop under way. [Task_done v] or
+      [Task_failed (v, why)] follows, unless {!stop} comes first. *)
+
+  val stop : t -> Core.vehicle -> unit
+  (** [stop p v] stops what [v] runs for the program. No event about that task follows. *)
+
+  val set_connection_timeout : t -> Core.vehicle list option -> float -> unit
+  (** For these vehicles, or for all, present and future; seconds. *)
+
+  val telemetry : t -> bool -> unit
+  (** Whether changes of positions and batteries are to be told as events, about once a second. *)
+
+  val close : t -> unit Lwt.t
+  (** Resolves once every stop is confirmed or given up, and what the platform held is closed. *)
+end

@@ -134,16 +134,18 @@ and builtin =
   | Ignore
   | Propagate
   | Get_supplier
+  | Is_host                                     (* made by elaboration, for updates of what may be a host object *)
   | Math of string
 
+(** What a closure runs. The mutable fields are set once, by elaboration: functions may refer to themselves. *)
 and lambda = {
   id : int;                                     (* unique in the program *)
   label : string;                               (* the function's name, or what the closure is for *)
   parameters : int;
   implicit : bool;                              (* no arrow: called with or without [it] *)
-  captures : int;
-  slots : int;                                  (* all locals: captured first, then parameters, then others *)
-  mutable code : expression;                    (* set once, by elaboration: functions may refer to themselves *)
+  mutable captures : int array;                 (* the slots that captured values go to *)
+  mutable slots : int;                          (* all locals, parameters first *)
+  mutable code : expression;
   lambda_site : site;
 }
 
@@ -153,6 +155,7 @@ type program = {
   source_name : string;
   locations : Dolphin_syntax.Location.t array;  (* by site *)
   global_names : string array;
+  functions : (string * lambda) list;
   main : lambda;
   ordered_keys : string list;                   (* keys that some [consume k: _] takes the oldest of *)
   reads_sensors : bool;                         (* some task code reads positions or batteries *)

@@ -166,8 +166,8 @@ let maximum_calls = 10_000
 let locals_of closure arguments =
   let { lambda; captured } = closure in
   let locals = Array.make lambda.slots Null in
-  Array.blit captured 0 locals 0 lambda.captures;
-  List.iteri (fun i x -> if i < lambda.parameters then locals.(lambda.captures + i) <- x) arguments;
+  List.iteri (fun i x -> if i < lambda.parameters then locals.(i) <- x) arguments;
+  Array.iteri (fun i slot -> locals.(slot) <- captured.(i)) lambda.captures;
   locals
 
 let call closure arguments =
@@ -379,9 +379,10 @@ let builtin context at operation arguments =
   | Propagate, [] -> settle context Propagated
   | Get_supplier, [] ->
     blocking context "getSupplier" (Host_call { subject = None; member = "getSupplier"; arguments = Some [] })
+  | Is_host, [ x ] -> Value (Boolean (match x with Host _ -> true | _ -> false))
   | Math name, arguments -> mathematics name arguments
   | ( ( Execute | Release | Set_connection_timeout | Ask | Message | Pause | Halt | Position_of | Battery_of
-      | Location_of | Area_of | Ignore | Propagate | Get_supplier ),
+      | Location_of | Area_of | Ignore | Propagate | Get_supplier | Is_host ),
       _ ) -> Wrong (Printf.sprintf "wrong number of arguments, %d" (List.length arguments))
 
 (* {1 Methods that call closures} *)

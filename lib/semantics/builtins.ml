@@ -1,0 +1,82 @@
+type kind = Any | Number | String | Closure | Task | Vehicles | Position | Other
+
+let describe = function
+  | Any | Other -> "a value"
+  | Number -> "a number"
+  | String -> "a string"
+  | Closure -> "code { ... }"
+  | Task -> "a task"
+  | Vehicles -> "a vehicle set"
+  | Position -> "a position"
+
+type arguments =
+  | These of { required : kind list; optional : kind list; operation : Core.builtin }
+  | Pairs of (string list -> Core.builtin)
+  | Pairs_or_key of (string list -> Core.builtin)
+  | Execute
+  | Set_connection_timeout
+
+type place = Anywhere | Script_only | Handler_only
+type t = { arguments : arguments; place : place; result : kind; reads_sensors : bool }
+
+let these ?(place = Anywhere) ?(result = Any) ?(optional = []) ?(reads_sensors = false) operation required =
+  { arguments = These { required; optional; operation }; place; result; reads_sensors }
+
+let other ?(place = Anywhere) arguments = { arguments; place; result = Other; reads_sensors = false }
+
+let table : (string * t) list =
+  [ ("task", these Platform_task [ String ] ~result:Task);
+    ("imcPlan", these Platform_task [ String ] ~result:Task);
+    ("action", these Make_action [ Closure ] ~result:Task);
+    ("condition", these Make_condition [ Closure ] ~result:Task);
+    ("idle", these Make_idle [ Number ] ~result:Task);
+    ("execute", other Execute ~place:Script_only);
+    ("release", these Release [ Vehicles ] ~place:Script_only ~result:Other);
+    ("setConnectionTimeout", other Set_connection_timeout);
+    ("ask", these Ask [ Any ] ~place:Script_only);
+    ("message", these Message [ Any ] ~result:Other);
+    ("println", these Message [ Any ] ~result:Other);
+    ("pause", these Pause [ Number ] ~place:Script_only ~result:Other);
+    ("halt", these Halt [] ~optional:[ Any ] ~result:Other);
+    ("post", other (Pairs (fun keys -> Core.Post keys)));
+    ("consume", other (Pairs (fun keys -> Core.Consume keys)));
+    ("poll", other (Pairs_or_key (fun keys -> Core.Poll keys)));
+    ("position", these Position_of [ Vehicles ] ~result:Position ~reads_sensors:true);
+    ("battery", these Battery_of [ Vehicles ] ~result:Number ~reads_sensors:true);
+    ("location", these Location_of [ Number; Number ] ~optional:[ Number ] ~result:Position);
+    ("area", these Area_of [ Position; Number ] ~result:Other);
+    ("ignore", these Ignore [] ~place:Handler_only ~result:Other);
+    ("propagate", these Propagate [] ~place:Handler_only ~result:Other);
+    ("getSupplier", these Get_supplier [] ~place:Script_only) ]
+
+let by_name : (string, t) Hashtbl.t Lazy.t =
+  lazy
+    (let by_name = Hashtbl.create 64 in
+     List.iter (fun (name, t) -> Hashtbl.replace by_name name t) table;
+     by_name)
+
+let find name = Hashtbl.find_opt (Lazy.force by_name) name
+let names = List.map fst table
+
+let math_names =
+  [ "abs"; "max"; "min"; "round"; "floor"; "ceil"; "sqrt"; "exp"; "log"; "log10"; "sin"; "cos"; "tan"; "asin"; "acos";
+    "atan"; "atan2"; "pow"; "hypot"; "toRadians"; "toDegrees"; "signum" ]
+
+let math name = List.mem name math_names
+
+let units = Plan_builder.units
+
+let table_of_constants : (string * Core.value) list =
+  [ ("Math.PI", Core.Number Float.pi); ("Math.E", Number (Float.exp 1.)) ]
+  @ List.map (fun (name, p) -> ("Location." ^ name, Core.Position p)) Dolphin_geo.Place.all
+  @ List.map (fun unit -> (unit, Core.Symbol unit)) units
+
+let constant name = List.assoc_opt name table_of_constants
+let constants = List.map fst table_of_constants
+let owners = [ "Location"; "Math"; "Speed"; "Z" ]
+
+let settings : Dolphin_syntax.Ast.builder -> string list = function
+  | Pick -> [ "id"; "type"; "payload"; "region"; "count"; "timeout" ]
+  | Pos -> [ "lat"; "latitude"; "lon"; "longitude"; "height"; "hae" ]
+  | Imc_plan -> List.map fst Plan_builder.vocabulary
+  | All_of | One_of -> []

@@ -1,0 +1,49 @@
+(** The functions and constants that every program has, with what they take: for checking before anything runs. *)
+
+(** What can be said of a value before the program runs. *)
+type kind =
+  | Any
+  | Number
+  | String
+  | Closure
+  | Task
+  | Vehicles
+  | Position
+  | Other  (** none of the above, as lists are *)
+
+val describe : kind -> string
+(** ["a number"]; {!Other} and {!Any} are ["a value"]. *)
+
+(** What a function's arguments are. *)
+type arguments =
+  | These of { required : kind list; optional : kind list; operation : Core.builtin }
+  | Pairs of (string list -> Core.builtin)  (** [post ready: 1]: named arguments, at least one *)
+  | Pairs_or_key of (string list -> Core.builtin)  (** [poll]: pairs, or one key *)
+  | Execute
+  | Set_connection_timeout
+
+type place =
+  | Anywhere
+  | Script_only  (** may wait, or changes B: not in code inside of a task *)
+  | Handler_only  (** in [onError] *)
+
+type t = { arguments : arguments; place : place; result : kind; reads_sensors : bool }
+
+val find : string -> t option
+val names : string list
+
+val constant : string -> Core.value option
+(** [constant "Location.APDL"]: constants by their full name. *)
+
+val constants : string list
+
+val owners : string list
+(** The first names of constants and of [Math]'s functions: [Location], [Speed], [Z], [Math]. *)
+
+val math : string -> bool
+(** Whether [Math] has a function of this name. *)
+
+val math_names : string list
+
+val settings : Dolphin_syntax.Ast.builder -> string list
+(** The settings that a block may have. *)

@@ -49,13 +49,10 @@ let table : (string * t) list =
     ("propagate", these Propagate [] ~place:Handler_only ~result:Other);
     ("getSupplier", these Get_supplier [] ~place:Script_only) ]
 
-let by_name : (string, t) Hashtbl.t Lazy.t =
-  lazy
-    (let by_name = Hashtbl.create 64 in
-     List.iter (fun (name, t) -> Hashtbl.replace by_name name t) table;
-     by_name)
+module String_map = Map.Make (String)
 
-let find name = Hashtbl.find_opt (Lazy.force by_name) name
+let by_name = String_map.of_seq (List.to_seq table)
+let find name = String_map.find_opt name by_name
 let names = List.map fst table
 
 let math_names =

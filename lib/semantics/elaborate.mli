@@ -1,0 +1,17 @@
+(** From the abstract syntax to the core: names become places, constructs become operations, and everything that can
+    be known to be wrong is said before anything moves. *)
+
+module Diagnostic = Dolphin_syntax.Diagnostic
+
+val program :
+  source_name:string ->
+  Dolphin_syntax.Ast.program ->
+  (Core.program * Diagnostic.t list, Diagnostic.t list) result
+(** [program ~source_name ast] is the core program of [ast], and warnings; or the errors, with the warnings. Checked
+    are: unknown names, settings, constants and units; numbers of arguments and kinds of literals; what belongs to the
+    script inside of a task's code; assignments to captured locals; [break], [return], [_] and [ignore()] out of place;
+    one vehicle needed twice at once, where that can be seen. *)
+
+val answer : Core.program -> string -> (Core.closure, string) result
+(** [answer p text] is the expression [text], to be evaluated with the variables of [p] in sight, or what is wrong with
+    it in one sentence. *)

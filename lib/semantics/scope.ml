@@ -1,0 +1,218 @@
+module Ast = Dolphin_syntax.Ast
+module Location = Dolphin_syntax.Location
+module Diagnostic = Dolphin_syntax.Diagnostic
+
+type purpose = Main | Named_function of string | Plain | Task_code of string | Handler
+
+type global = { index : int; mutable assigned : bool; mutable uses : Location.t list }
+
+type call = { caller : string option; in_task : string option; callee : string; at : Location.t }
+
+type program = {
+  functions : (string, Core.lambda) Hashtbl.t;
+  table : (string, global) Hashtbl.t;
+  mutable global_names : string list;  (* latest first *)
+  mutable locations : Location.t list;  (* latest first *)
+  mutable sites : int;
+  mutable lambdas : int;
+  mutable reports : Diagnostic.t list;
+  mutable ordered_keys : string list;
+  mutable reads_sensors : bool;
+  mutable calls : call list;
+  blocking : (string, string) Hashtbl.t;  (* function, and what it uses *)
+}
+
+let global program name =
+  match Hashtbl.find_opt program.table name with
+  | Some global -> global
+  | None ->
+    let global = { index = Hashtbl.length program.table; assigned = false; uses = [] } in
+    Hashtbl.replace program.table name global;
+    program.global_names <- name :: program.global_names;
+    global
+
+let assigned_global program name =
+  let global = global program name in
+  global.assigned <- true;
+  global.index
+
+let create ~functions ~globals =
+  let program =
+    {
+      functions = Hashtbl.create 16;
+      table = Hashtbl.create 64;
+      global_names = [];
+      locations = [];
+      sites = 0;
+      lambdas = 0;
+      reports = [];
+      ordered_keys = [];
+      reads_sensors = false;
+      calls = [];
+      blocking = Hashtbl.create 16;
+    }
+  in
+  List.iter (fun (name, lambda) -> Hashtbl.replace program.functions name lambda) functions;
+  List.iter (fun name -> ignore (assigned_global program name)) globals;
+  program
+
+let site program at =
+  program.locations <- at :: program.locations;
+  program.sites <- program.sites + 1;
+  program.sites - 1
+
+let fresh_lambda_id program =
+  program.lambdas <- program.lambdas + 1;
+  program.lambdas - 1
+
+let report program diagnostic = program.reports <- diagnostic :: program.reports
+let reports program = List.stable_sort Diagnostic.compare (List.rev program.reports)
+let locations program = Array.of_list (List.rev program.locations)
+let globals program = Array.of_list (List.rev program.global_names)
+let add_function program name lambda = Hashtbl.replace program.functions name lambda
+let find_function program name = Hashtbl.find_opt program.functions name
+
+let used_global program name at =
+  let global = global program name in
+  global.uses <- at :: global.uses;
+  global.index
+
+let unknown program =
+  Hashtbl.fold
+    (fun name global unknown ->
+       if global.assigned then unknown else List.map (fun at -> (name, at)) global.uses @ unknown)
+    program.table []
+
+let note_ordered_key program key =
+  if not (List.mem key program.ordered_keys) then program.ordered_keys <- key :: program.ordered_keys
+
+let ordered_keys program = List.sort String.compare program.ordered_keys
+let note_sensor program = program.reads_sensors <- true
+let reads_sensors program = program.reads_sensors
+
+type code = {
+  program : program;
+  purpose : purpose;
+  outer : code option;
+  mutable names : (string * int) list;  (* the nearest first *)
+  mutable slots : int;
+  mutable captured : (string * (int * int)) list;  (* latest first *)
+  mutable blocks : int;
+  mutable loops : int;
+  mutable builder : (Ast.builder * int) option;
+}
+
+let code program purpose outer =
+  { program; purpose; outer; names = []; slots = 0; captured = []; blocks = 0; loops = 0; builder = None }
+
+let purpose code = code.purpose
+
+let rec in_task code =
+  match code.purpose, code.outer with
+  | Task_code construct, _ -> Some construct
+  | Handler, _ -> Some "onError"
+  | (Main | Named_function _ | Plain), Some outer -> in_task outer
+  | (Main | Named_function _ | Plain), None -> None
+
+let new_slot code =
+  code.slots <- code.slots + 1;
+  code.slots - 1
+
+let slots code = code.slots
+
+let define code name =
+  let slot = new_slot code in
+  code.names <- (name, slot) :: code.names;
+  slot
+
+let in_block code f =
+  let names = code.names in
+  code.blocks <- code.blocks + 1;
+  let x = f () in
+  code.blocks <- code.blocks - 1;
+  code.names <- names;
+  x
+
+let at_top code = code.purpose = Main && code.blocks = 0
+
+type local = Own of int | Captured of int
+
+let rec find_local code name =
+  match List.assoc_opt name code.names with
+  | Some slot -> Some (Own slot)
+  | None -> (
+      match List.assoc_opt name code.captured, code.outer with
+      | Some (_, slot), _ -> Some (Captured slot)
+      | None, None -> None
+      | None, Some outer -> (
+          match find_local outer name with
+          | None -> None
+          | Some (Own outer_slot | Captured outer_slot) ->
+            let slot = new_slot code in
+            code.captured <- (name, (outer_slot, slot)) :: code.captured;
+            Some (Captured slot)))
+
+let captures code = List.rev_map snd code.captured
+let in_loop code = code.loops > 0
+
+let inside_loop code f =
+  code.loops <- code.loops + 1;
+  let x = f () in
+  code.loops <- code.loops - 1;
+  x
+
+let settings code = code.builder
+
+let inside_settings code builder f =
+  let before = code.builder and loops = code.loops in
+  code.builder <- builder;
+  code.loops <- 0;
+  let x = f () in
+  code.builder <- before;
+  code.loops <- loops;
+  x
+
+let rec local_names code =
+  List.map fst code.names @ match code.outer with Some outer -> local_names outer | None -> []
+
+let visible_names code =
+  let program = code.program in
+  let assigned = Hashtbl.fold (fun name g names -> if g.assigned then name :: names else names) program.table [] in
+  let functions = Hashtbl.fold (fun name _ names -> name :: names) program.functions [] in
+  local_names code @ assigned @ functions @ Builtins.names
+
+let rec function_of code =
+  match code.purpose, code.outer with
+  | Named_function name, _ -> Some name
+  | (Main | Plain | Task_code _ | Handler), Some outer -> function_of outer
+  | (Main | Plain | Task_code _ | Handler), None -> None
+
+(* What a closure inside of a function does counts as the function's doing, unless it is code of a task. *)
+let note_blocking code what =
+  match in_task code, function_of code with
+  | None, Some name -> if not (Hashtbl.mem code.program.blocking name) then Hashtbl.replace code.program.blocking name what
+  | Some _, _ | None, None -> ()
+
+let note_call code callee at =
+  let call = { caller = function_of code; in_task = in_task code; callee; at } in
+  code.program.calls <- call :: code.program.calls
+
+let spread program =
+  let reach call =
+    match call.caller, call.in_task, Hashtbl.find_opt program.blocking call.callee with
+    | Some caller, None, Some what when not (Hashtbl.mem program.blocking caller) ->
+      Hashtbl.replace program.blocking caller what;
+      true
+    | _, _, _ -> false
+  in
+  let rec again () = if List.fold_left (fun any call -> reach call || any) false program.calls then again () in
+  again ()
+
+let blocking_calls_in_tasks program =
+  spread program;
+  List.filter_map
+    (fun call ->
+       match call.in_task, Hashtbl.find_opt program.blocking call.callee with
+       | Some construct, Some what -> Some (construct, call.callee, what, call.at)
+       | _, _ -> None)
+    program.calls

@@ -1,0 +1,102 @@
+(** The names of a program while it is elaborated: globals, functions, and the locals of each piece of code. Mutable,
+    and gone once the program is made. *)
+
+module Ast = Dolphin_syntax.Ast
+module Location = Dolphin_syntax.Location
+
+(** {1:program One program} *)
+
+type program
+
+val create : functions:(string * Core.lambda) list -> globals:string list -> program
+(** [globals] exist already, as for an answer to [ask]. *)
+
+val site : program -> Location.t -> Core.site
+(** A new site there. *)
+
+val fresh_lambda_id : program -> int
+val report : program -> Dolphin_syntax.Diagnostic.t -> unit
+val reports : program -> Dolphin_syntax.Diagnostic.t list
+val locations : program -> Location.t array
+val globals : program -> string array
+val add_function : program -> string -> Core.lambda -> unit
+val find_function : program -> string -> Core.lambda option
+
+val assigned_global : program -> string -> int
+(** The index of a global that something assigns. *)
+
+val used_global : program -> string -> Location.t -> int
+(** The index of a global that is read there; {!unknown} tells whether anything assigns it. *)
+
+val unknown : program -> (string * Location.t) list
+(** Names that are read but that nothing assigns, with each place. *)
+
+val note_ordered_key : program -> string -> unit
+val ordered_keys : program -> string list
+val note_sensor : program -> unit
+val reads_sensors : program -> bool
+
+(** {1:code One piece of code} *)
+
+(** What a piece of code is for, which decides what it may do. *)
+type purpose =
+  | Main
+  | Named_function of string
+  | Plain  (** a closure of the script *)
+  | Task_code of string  (** of this construct: ["action"] *)
+  | Handler
+
+type code
+
+val code : program -> purpose -> code option -> code
+(** [code p purpose outer] is a new piece inside of [outer]. *)
+
+val purpose : code -> purpose
+
+val in_task : code -> string option
+(** The task construct that the piece is in, directly or not. *)
+
+val new_slot : code -> int
+val slots : code -> int
+
+val define : code -> string -> int
+(** A new local of this name, visible until the end of the block. *)
+
+val in_block : code -> (unit -> 'a) -> 'a
+(** Names defined inside are forgotten after. *)
+
+val at_top : code -> bool
+(** Whether a [def] here makes a global: in the script, outside of any block. *)
+
+type local = Own of int | Captured of int
+
+val find_local : code -> string -> local option
+(** A local of this piece, or of a piece around it, which is then captured; by its slot in this piece. *)
+
+val captures : code -> (int * int) list
+(** For each captured value, its slot in the piece around and its slot here. *)
+
+(** {1:loops Loops and settings} *)
+
+val in_loop : code -> bool
+val inside_loop : code -> (unit -> 'a) -> 'a
+val settings : code -> (Ast.builder * int) option
+
+val inside_settings : code -> (Ast.builder * int) option -> (unit -> 'a) -> 'a
+(** Inside of a block of settings, kept in that slot, names of settings have their meaning; loops around it cannot be
+    left from inside. *)
+
+val visible_names : code -> string list
+(** All names that could have been meant here. *)
+
+(** {1:calls Who calls whom} *)
+
+val note_blocking : code -> string -> unit
+(** This piece uses something that belongs to the script. *)
+
+val note_call : code -> string -> Location.t -> unit
+(** This piece calls a function of the program. *)
+
+val blocking_calls_in_tasks : program -> (string * string * string * Location.t) list
+(** For each call in code of a task that reaches something that belongs to the script: the task construct, the
+    function called, what it reaches, where. *)

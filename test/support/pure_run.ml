@@ -1,0 +1,50 @@
+(* Runs of programs without any platform: every event that is awaited may come at once. *)
+
+open Dolphin_semantics
+
+let compile source =
+  match Dolphin_syntax.Parse.program ~file:"test.dol" source with
+  | Error ds -> Error ds
+  | Ok ast -> Result.map fst (Elaborate.program ~source_name:"test.dol" ast)
+
+let explain source ds = Format.asprintf "%a" (Fmt.list (Dolphin_syntax.Diagnostic.pp ~source)) ds
+
+let compile_exn source =
+  match compile source with Ok program -> program | Error ds -> failwith (explain source ds)
+
+let vehicle ?(kind = "UUV") ?(payload = [ "DVL"; "Sidescan"; "Camera" ]) ?(battery = 1.) ?(north = 0.) id =
+  let position = Dolphin_geo.Wgs84.displace Dolphin_geo.Place.apdl ~north ~east:0. in
+  { World.id; kind; payload; position; battery; connected = true }
+
+let world vehicles = List.fold_left (fun w v -> World.add v w) World.empty vehicles
+
+let fleet =
+  world
+    [ vehicle "noptilus-1"; vehicle "noptilus-2" ~north:100.; vehicle "noptilus-3" ~north:200.;
+      vehicle "x8-02" ~kind:"UAV" ~north:300. ]
+
+(* What may happen in [c]: its own steps, and the events it awaits. *)
+let successors ?(answers = []) program world c =
+  let internal = List.of_seq (Transition.internal program world c) in
+  let event (e : Transition.event) =
+    let e = match e, answers with Answered _, text :: _ -> Transition.Answered text | e, _ -> e in
+    match Transition.accept program world c e with Ok t -> Some t | Error _ -> None
+  in
+  (internal, List.filter_map event (Transition.awaited c))
+
+(* A run in which the program's own steps come first, then the first event that is awaited. *)
+let run ?(limit = 10_000) ?(answers = []) ?(world = fleet) program =
+  let rec go n answers c trace =
+    if n = 0 then List.rev trace
+    else
+      match successors ~answers program world c with
+      | t :: _, _ | [], t :: _ ->
+        let answers = match t.Transition.label, answers with Answer _, _ :: rest -> rest | _, answers -> answers in
+        go (n - 1) answers t.next (t :: trace)
+      | [], [] -> List.rev trace
+  in
+  go limit answers (Configuration.initial program) []
+
+let labels trace = List.map (fun (t : Transition.t) -> Format.asprintf "%a" Label.pp t.label) trace
+
+let last trace = match List.rev trace with [] -> None | (t : Transition.t) :: _ -> Some t.next

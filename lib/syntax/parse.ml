@@ -29,7 +29,8 @@ let run start (tokens : Token.t array) first stop =
 (* The brackets of arranged tokens. *)
 type nesting = {
   partner : int array;
-  outside : int array;      (* the brace that encloses a token, itself excluded; -1 at the top *)
+  outside : int array;
+  (* The brace that encloses a token, itself excluded; -1 at the top. For a [;] that stands wrong, -2. *)
 }
 
 let nesting (tokens : Token.t array) =
@@ -52,6 +53,9 @@ let nesting (tokens : Token.t array) =
           partner.(opener) <- index;
           rest
       end
+    | SEPARATOR ->
+      outside.(index) <- (match openers with (brace, opener) :: _ when brace <> opener -> -2 | _ -> brace openers);
+      openers
     | _ ->
       outside.(index) <- brace openers;
       openers
@@ -103,17 +107,19 @@ let rec take n = function
   | _ -> []
 
 (* Of several faults, those that are not mere consequences of others: what the grammar finds on a line with
-   a misspelt token, or after a bracket without a partner, is not told. *)
-let select ~scanned ~brackets ~parsed =
+   a misspelt token, or after a bracket without a partner or a foreign construct, is not told. *)
+let select ~scanned ~structure ~parsed =
   let line (d : Diagnostic.t) = Location.line d.at in
   let spoilt = Hashtbl.create 16 in
   List.iter (fun d -> Hashtbl.replace spoilt (line d) ()) scanned;
   let unspoilt = List.filter (fun d -> not (Hashtbl.mem spoilt (line d))) in
   let parsed =
-    match brackets with
+    match structure with
     | [] -> parsed
-    | first :: _ -> List.filter (fun d -> Diagnostic.compare d first < 0) parsed in
-  take most_faults (List.sort_uniq Diagnostic.compare (scanned @ unspoilt brackets @ unspoilt parsed))
+    | first :: others ->
+      let first = List.fold_left (fun a b -> if Diagnostic.compare b a < 0 then b else a) first others in
+      List.filter (fun d -> Diagnostic.compare d first < 0) parsed in
+  take most_faults (List.sort_uniq Diagnostic.compare (scanned @ unspoilt structure @ unspoilt parsed))
 
 let read ~file source start shape faults_from =
   match Text.fault ~file source with
@@ -121,19 +127,20 @@ let read ~file source start shape faults_from =
   | None ->
     let { Scanner.tokens; faults = scanned } = Scanner.scan ~file source in
     match Brackets.match_up (Array.of_list tokens) with
-    | Result.Error fault -> Result.Error (select ~scanned ~brackets:[ fault ] ~parsed:[])
+    | Result.Error fault -> Result.Error (select ~scanned ~structure:[ fault ] ~parsed:[])
     | Ok matched ->
       let tokens = Layout.arrange ~source matched in
-      let brackets = matched.faults in
+      (* After one of these, what the grammar says is of no worth. *)
+      let structure = matched.faults @ Foreign.faults tokens in
       match run start tokens 0 (Array.length tokens - 1) with
       | Accepted result ->
-        begin match select ~scanned ~brackets ~parsed:(shape result) with
+        begin match select ~scanned ~structure ~parsed:(shape result) with
           | [] -> Ok result
           | faults -> Result.Error faults
         end
       | Stuck { index; before } ->
         let acceptable token = Machine.acceptable before token tokens.(index).start in
-        Result.Error (select ~scanned ~brackets ~parsed:(faults_from ~source tokens index acceptable))
+        Result.Error (select ~scanned ~structure ~parsed:(faults_from ~source tokens index acceptable))
 
 let program ~file source = read ~file source Incremental.program Shape.program statement_faults
 

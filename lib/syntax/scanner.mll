@@ -148,6 +148,8 @@ let unterminated state offset =
   let stop = Cursor.position state.cursor offset in
   begin match innermost_text state.modes, state.modes with
     | None, _ -> ()
+    (* In ["a ${x"] the second quote is more likely meant to close than to open. *)
+    | Some _, Text { triple = false; _ } :: Hole _ :: Text ({ triple = false; _ } as text) :: _
     | Some text, Hole _ :: _ ->
       fault state (text.opening, stop) "the hole '${' in this string is never closed" ~hint:"close it with '}'"
     | Some text, (Text _ :: _ | []) ->

@@ -10,6 +10,8 @@ let advice = function
   | "do" -> Some "write while (...) { }"
   | _ -> None
 
+let is_word word = advice word <> None
+
 (* Whether a word is followed as only the construct of that name is. *)
 let is_used word following =
   match word, following with

@@ -3,3 +3,6 @@
 val faults : Token.t array -> Diagnostic.t list
 (** [faults tokens] tells of each [try], [switch], [class], [import], [new] ... in arranged [tokens] that is
     used as in Groovy; not of a variable that happens to have such a name. *)
+
+val is_word : string -> bool
+(** [is_word x] is whether [x] is among those words. *)

@@ -125,6 +125,7 @@ let brace state i =
 (* What the token at [i] is, given those before and after it. *)
 let classify state i (token : Token.t) =
   match token.token with
+  | TRUE | FALSE | NULL when after_point state -> NAME (Token.text ~source:state.source token)
   | word when is_word word && (after_point state || is_key state i) -> NAME (Token.text ~source:state.source token)
   | (UNTIL | DURING) as word when ends_operand state.last && not state.last_is_header -> if word = UNTIL then AFTER_UNTIL else AFTER_DURING
   | NAME x as name ->

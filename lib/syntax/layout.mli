@@ -7,3 +7,6 @@ val arrange : source:string -> Brackets.t -> Token.t array
     - a brace is [BLOCK] if it opens statements, [TRAILING] if it opens a closure after a call, else [LBRACE];
     - [until] and [during] after a task are [AFTER_UNTIL] and [AFTER_DURING];
     - a word of a construct is a [NAME] after a point, and before a colon. *)
+
+val builder : string -> Ast.builder option
+(** [builder x] is the builder that the name [x] stands for before a brace. *)

@@ -118,7 +118,7 @@ let select ~scanned ~structure ~parsed =
     | [] -> parsed
     | first :: others ->
       let first = List.fold_left (fun a b -> if Diagnostic.compare b a < 0 then b else a) first others in
-      List.filter (fun d -> Diagnostic.compare d first < 0) parsed in
+      List.filter (fun d -> Diagnostic.compare d first < 0 && line d <> line first) parsed in
   take most_faults (List.sort_uniq Diagnostic.compare (scanned @ unspoilt structure @ unspoilt parsed))
 
 let read ~file source start shape faults_from =

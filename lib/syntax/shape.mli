@@ -10,3 +10,8 @@ val program : Ast.program -> Diagnostic.t list
 
 val expression : Ast.expression -> Diagnostic.t list
 (** [expression e] is the faults of [e]. *)
+
+type node = Expression_node of Ast.expression | Statement_node of Ast.statement
+
+val children : node -> node list
+(** [children n] is the expressions and statements directly within [n], in no particular order. *)

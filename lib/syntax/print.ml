@@ -1,0 +1,492 @@
+open Ast
+
+(* {1 Precedence}
+
+   An expression stands without parentheses where its level is at least the one asked for. *)
+
+let whole = 0          (* where [waitFor { } then t] may stand bare *)
+let conditional = 1
+let unary = 12
+let power = 13
+let step = 14          (* [x++] *)
+let postfix = 15
+
+let level_of_operator = function
+  | Or -> 2
+  | And -> 3
+  | Parallel -> 4
+  | Around -> 5
+  | Intersect -> 6
+  | Equal | Not_equal -> 7
+  | Less | Less_equal | Greater | Greater_equal | Member_of -> 8
+  | Sequence | Append -> 9
+  | Add | Subtract -> 10
+  | Multiply | Divide | Remainder -> 11
+  | Power -> power
+
+let range = level_of_operator Sequence
+
+let level e =
+  match e.it with
+  | When _ | Wait_for _ | Until _ | During _ | Watch _ -> whole
+  | Conditional _ | Elvis _ -> conditional
+  | Binary (operator, _, _) -> level_of_operator operator
+  | Range _ -> range
+  | Unary _ -> unary
+  | Increment _ -> step
+  | Integer n when n < 0 -> unary
+  | Number x when x < 0. -> unary
+  | Null | Boolean _ | Integer _ | Number _ | String _ | Template _ | Variable _ | Wildcard | List _ | Map _
+  | Closure _ | Call _ | Member _ | Index _ | Builder _ -> postfix
+
+let operator = function
+  | Divide -> "/"
+  | Multiply -> "*"
+  | Remainder -> "%"
+  | Power -> "**"
+  | Add -> "+"
+  | Subtract -> "-"
+  | Sequence -> ">>"
+  | Append -> "<<"
+  | Less -> "<"
+  | Less_equal -> "<="
+  | Greater -> ">"
+  | Greater_equal -> ">="
+  | Equal -> "=="
+  | Not_equal -> "!="
+  | Member_of -> "in"
+  | Intersect -> "&"
+  | Around -> "^"
+  | Parallel -> "|"
+  | And -> "&&"
+  | Or -> "||"
+
+let builder = function
+  | Pick -> "pick"
+  | Imc_plan -> "imcPlan"
+  | Pos -> "pos"
+  | All_of -> "allOf"
+  | One_of -> "oneOf"
+
+(* {1 Words and texts} *)
+
+let escaped ~quote text =
+  let buffer = Buffer.create (String.length text + 8) in
+  let add = function
+    | '\\' -> Buffer.add_string buffer "\\\\"
+    | '\n' -> Buffer.add_string buffer "\\n"
+    | '\t' -> Buffer.add_string buffer "\\t"
+    | '\r' -> Buffer.add_string buffer "\\r"
+    | '$' when quote = '"' -> Buffer.add_string buffer "\\$"
+    | c when c = quote -> Buffer.add_char buffer '\\'; Buffer.add_char buffer c
+    | c when c < ' ' || c = '\x7F' -> Buffer.add_string buffer (Printf.sprintf "\\u%04x" (Char.code c))
+    | c -> Buffer.add_char buffer c
+  in
+  String.iter add text;
+  Buffer.contents buffer
+
+let quoted text = "'" ^ escaped ~quote:'\'' text ^ "'"
+
+let is_name text =
+  let letter = function 'a' .. 'z' | 'A' .. 'Z' | '_' -> true | _ -> false in
+  let follows = function '0' .. '9' -> true | c -> letter c in
+  text <> "" && letter text.[0]
+  && (let rec all i = i = String.length text || follows text.[i] && all (i + 1) in all 1)
+
+let key_name text =
+  if is_name text && not (List.mem text [ "true"; "false"; "null" ]) then text else quoted text
+
+(* The shortest decimal that is read as [x]. *)
+let decimal x =
+  let text =
+    let rec shortest digits =
+      let text = Printf.sprintf "%.*g" digits x in
+      if digits >= 17 || float_of_string text = x then text else shortest (digits + 1)
+    in
+    shortest 1
+  in
+  if String.contains text '.' || String.contains text 'e' then text else text ^ ".0"
+
+(* {1 Layout} *)
+
+(* Whether braces with [body] fit on one line: few simple statements. *)
+let is_short body =
+  let simple s =
+    match s.it with
+    | Expression _ | Assign _ | Define _ | Return _ | Break | Continue | Setting _ -> true
+    | Function _ | If _ | While _ | For _ | Block _ -> false
+  in
+  let rec within budget = function
+    | [] -> true
+    | _ when budget = 0 -> false
+    | Shape.Statement_node s :: _ when not (simple s) -> false
+    | node :: rest -> within (budget - 1) (List.rev_append (Shape.children node) rest)
+  in
+  List.compare_length_with body 4 < 0 && within 24 (List.map (fun s -> Shape.Statement_node s) body)
+
+let width = 100
+let tab = 4
+
+(* A name that may stand before a brace or an argument, and be called by that. *)
+let is_plain name = Layout.builder name = None && not (Foreign.is_word name)
+
+let is_closure = function
+  | Positional { it = Closure _; _ } -> true
+  | Positional _ | Named _ -> false
+
+(* The arguments between parentheses, and the closure after them. *)
+let split_trailing callee arguments =
+  let may_trail =
+    match callee.it with
+    | Variable name -> is_plain name
+    | Member _ | Index _ -> true
+    | _ -> false
+  in
+  match List.rev arguments with
+  | Positional ({ it = Closure _; _ } as closure) :: reversed
+    when may_trail && not (List.exists is_closure reversed) -> List.rev reversed, Some closure
+  | _ -> arguments, None
+
+(* Whether [e] is spelt with a [-] at its start. *)
+let rec starts_with_minus e =
+  match e.it with
+  | Unary (Negate, _) | Increment { by = -1; prefix = true; _ } -> true
+  | Binary (_, e, _) -> starts_with_minus e
+  | Integer n -> n < 0
+  | Number x -> x < 0.
+  | _ -> false
+
+(* Whether [e] is spelt with a brace at its start. *)
+let rec starts_with_brace e =
+  match e.it with
+  | Closure _ -> true
+  | Binary (_, e, _) | Conditional (e, _, _) | Elvis (e, _) | Range { first = e; _ } | Index (e, _)
+  | Member { subject = e; _ } | Call { callee = e; _ } | Increment { target = e; prefix = false; _ } ->
+    starts_with_brace e
+  | _ -> false
+
+let is_block s =
+  match s.it with
+  | Block _ -> true
+  | Function _ | Expression _ | Assign _ | Define _ | If _ | While _ | For _ | Return _ | Break | Continue
+  | Setting _ -> false
+
+type out = { buffer : Buffer.t; indent : int }
+
+let put out text = Buffer.add_string out.buffer text
+let inner out = { out with indent = out.indent + tab }
+
+let line out =
+  put out "\n";
+  put out (String.make out.indent ' ')
+
+(* Whether what is out so far ends with the name of a builder, to which a brace on the next line would belong. *)
+let ends_with_builder out =
+  let length = Buffer.length out.buffer in
+  let ends word =
+    let n = String.length word in
+    length >= n && Buffer.sub out.buffer (length - n) n = word in
+  List.exists ends [ "pick"; "imcPlan"; "pos"; "allOf"; "oneOf"; "choose" ]
+
+(* What comes between a statement and the next, before the end of the line. *)
+let finish_before out next = if is_block next && ends_with_builder out then put out ";"
+
+let rec separated out separator print = function
+  | [] -> ()
+  | [ x ] -> print x
+  | x :: rest ->
+    print x;
+    put out separator;
+    separated out separator print rest
+
+(* {1 Expressions} *)
+
+let rec expression out asked e =
+  if level e >= asked then bare out e
+  else begin
+    put out "(";
+    bare out e;
+    put out ")"
+  end
+
+and bare out e =
+  match e.it with
+  | Null -> put out "null"
+  | Boolean b -> put out (string_of_bool b)
+  | Integer n -> put out (string_of_int n)
+  | Number x -> put out (decimal x)
+  | String text -> put out (quoted text)
+  | Template parts ->
+    put out "\"";
+    List.iter (part out) parts;
+    put out "\""
+  | Variable name -> put out name
+  | Wildcard -> put out "_"
+  | List es ->
+    put out "[";
+    separated out ", " (expression out whole) es;
+    put out "]"
+  | Map [] -> put out "[:]"
+  | Map entries ->
+    put out "[";
+    separated out ", " (entry out) entries;
+    put out "]"
+  | Range { first; last; inclusive } ->
+    binary out range first (if inclusive then ".." else "..<") last
+  | Closure c -> closure out c
+  | Unary (Not, e) ->
+    put out "!";
+    expression out unary e
+  | Unary (Negate, e) ->
+    put out "-";
+    expression out (if starts_with_minus e then postfix else unary) e
+  | Binary (o, a, b) -> binary out (level_of_operator o) a (" " ^ operator o ^ " ") b
+  | Conditional (c, a, b) ->
+    expression out (conditional + 1) c;
+    put out " ? ";
+    expression out conditional a;
+    put out " : ";
+    expression out conditional b
+  | Elvis (a, b) ->
+    expression out (conditional + 1) a;
+    put out " ?: ";
+    expression out conditional b
+  | Increment { target; by; prefix } ->
+    let sign = if by > 0 then "++" else "--" in
+    if prefix then put out sign;
+    expression out postfix target;
+    if not prefix then put out sign
+  | Call { callee; arguments } -> call out callee arguments
+  | Member { subject; name; safe } ->
+    expression out postfix subject;
+    put out (if safe then "?." else ".");
+    put out name.it
+  | Index (e, i) ->
+    expression out postfix e;
+    put out "[";
+    expression out whole i;
+    put out "]"
+  | Builder (b, body) ->
+    put out (builder b);
+    put out " ";
+    braces out "" body
+  | When (c, t) -> guarded out "when" c "then" t
+  | Wait_for (c, t) -> guarded out "waitFor" c "then" t
+  | Until (c, t) -> guarded out "until" c "run" t
+  | During (d, t) ->
+    put out "during ";
+    expression out conditional d;
+    put out " run ";
+    expression out whole t
+  | Watch (t, c) ->
+    put out "watch ";
+    expression out conditional t;
+    put out " onError ";
+    closure out c
+
+and binary out level a operator b =
+  expression out level a;
+  put out operator;
+  expression out (level + 1) b
+
+and guarded out word c joint t =
+  put out word;
+  put out " ";
+  closure out c;
+  put out (" " ^ joint ^ " ");
+  expression out whole t
+
+and part out = function
+  | Literal text -> put out (escaped ~quote:'"' text)
+  | Hole e ->
+    put out "${";
+    expression out whole e;
+    put out "}"
+
+and entry out (key, e) =
+  begin match key.it with
+    | Name name -> put out (key_name name)
+    | Computed ({ it = Integer n; _ } as k) when n >= 0 -> bare out k
+    | Computed k ->
+      put out "(";
+      bare out k;
+      put out ")"
+  end;
+  put out ": ";
+  expression out whole e
+
+and argument out = function
+  | Positional e -> expression out whole e
+  | Named (name, e) ->
+    put out (key_name name.it);
+    put out ": ";
+    expression out whole e
+
+and call out callee arguments =
+  expression out postfix callee;
+  let enclosed, trailing = split_trailing callee arguments in
+  if enclosed <> [] || trailing = None then begin
+    put out "(";
+    separated out ", " (argument out) enclosed;
+    put out ")"
+  end;
+  Option.iter (fun closure -> put out " "; bare out closure) trailing
+
+and closure out { parameters; body } =
+  let head =
+    match parameters with
+    | None -> ""
+    | Some [] -> "->"
+    | Some names -> String.concat ", " (List.map (fun name -> name.it) names) ^ " ->"
+  in
+  braces out head body
+
+and braces out head body =
+  put out "{";
+  if head <> "" then put out (" " ^ head);
+  if body = [] then put out " }"
+  else if is_short body then begin
+    put out " ";
+    separated out "; " (statement out) body;
+    put out " }"
+  end
+  else block out body
+
+(* Statements on lines of their own, and the closing brace. *)
+and block out body =
+  let within = inner out in
+  List.iter (fun s -> finish_before out s; line within; statement within s) body;
+  line out;
+  put out "}"
+
+(* {1 Statements} *)
+
+and body out statements =
+  if statements = [] then put out "{ }"
+  else begin
+    put out "{";
+    block out statements
+  end
+
+and statement out s =
+  match s.it with
+  | Expression { it = Call { callee = { it = Variable name; _ }; arguments = _ :: _ as arguments }; _ }
+    when is_plain name && not (List.compare_length_with arguments 1 = 0 && List.exists is_closure arguments) ->
+    command out name arguments
+  | Expression e -> opening out e
+  | Assign { target; operator = o; value } ->
+    opening out target;
+    put out (Printf.sprintf " %s= " (Option.fold o ~none:"" ~some:operator));
+    expression out whole value
+  | Define (name, None) -> put out ("def " ^ name.it)
+  | Define (name, Some e) ->
+    put out (Printf.sprintf "def %s = " name.it);
+    expression out whole e
+  | Function { name; parameters; body = statements } ->
+    let parameters = List.map (fun name -> name.it) parameters in
+    put out (Printf.sprintf "def %s(%s) " name.it (String.concat ", " parameters));
+    body out statements
+  | If (condition, yes, no) -> conditional_statement out condition yes no
+  | While (condition, statements) ->
+    put out "while (";
+    expression out whole condition;
+    put out ") ";
+    body out statements
+  | For (name, e, statements) ->
+    put out (Printf.sprintf "for (%s in " name.it);
+    expression out whole e;
+    put out ") ";
+    body out statements
+  | Return None -> put out "return"
+  | Return (Some e) ->
+    put out "return ";
+    expression out whole e
+  | Break -> put out "break"
+  | Continue -> put out "continue"
+  | Block statements -> body out statements
+  | Setting (name, e) ->
+    put out (name.it ^ ": ");
+    expression out whole e
+
+and conditional_statement out condition yes no =
+  put out "if (";
+  expression out whole condition;
+  put out ") ";
+  body out yes;
+  match no with
+  | [] -> ()
+  | [ { it = If (condition, yes, no); _ } ] ->
+    put out " else ";
+    conditional_statement out condition yes no
+  | no ->
+    put out " else ";
+    body out no
+
+(* An expression at the start of a statement, where a brace opens a block. *)
+and opening out e = expression out (if starts_with_brace e then postfix + 1 else whole) e
+
+(* A call at the start of a statement: without parentheses if its first argument can begin nothing else. *)
+and command out name arguments =
+  let rendered out =
+    let render a =
+      let buffer = Buffer.create 64 in
+      argument { out with buffer } a;
+      Buffer.contents buffer in
+    List.map render arguments
+  in
+  let texts = rendered out in
+  let begins_argument text =
+    let begins word = String.length text > String.length word && String.sub text 0 (String.length word) = word in
+    match text.[0] with
+    | 'a' .. 'z' | 'A' .. 'Z' | '_' | '0' .. '9' | '\'' | '"' | '!' | '\xC0' .. '\xFF' ->
+      not (begins "until " || begins "during ")
+    | _ -> false
+  in
+  put out name;
+  if begins_argument (List.hd texts) then begin
+    let long =
+      List.fold_left (fun n text -> n + 2 + String.length text) (out.indent + String.length name) texts > width in
+    if long && List.compare_length_with texts 1 > 0 && not (List.exists (fun text -> String.contains text '\n') texts)
+    then begin
+      put out " ";
+      let within = inner out in
+      List.iteri (fun i text -> if i > 0 then begin put out ","; line within end; put out text) (rendered within)
+    end
+    else begin
+      put out " ";
+      separated out ", " (put out) texts
+    end
+  end
+  else begin
+    put out "(";
+    separated out ", " (put out) texts;
+    put out ")"
+  end
+
+(* {1 Programs} *)
+
+let is_function s =
+  match s.it with
+  | Function _ -> true
+  | Expression _ | Assign _ | Define _ | If _ | While _ | For _ | Return _ | Break | Continue | Block _
+  | Setting _ -> false
+
+let program ppf statements =
+  let buffer = Buffer.create 4096 in
+  let out = { buffer; indent = 0 } in
+  let rec go = function
+    | [] -> ()
+    | [ s ] -> statement out s; put out "\n"
+    | s :: (next :: _ as rest) ->
+      statement out s;
+      finish_before out next;
+      put out (if is_function s || is_function next then "\n\n" else "\n");
+      go rest
+  in
+  go statements;
+  Format.pp_print_string ppf (Buffer.contents buffer)
+
+let expression ppf e =
+  let buffer = Buffer.create 256 in
+  expression { buffer; indent = 0 } whole e;
+  Format.pp_print_string ppf (Buffer.contents buffer)

@@ -1,0 +1,1 @@
+let () = Alcotest.run "syntax" [ "print", Test_print.suite ]

@@ -1,0 +1,92 @@
+(** Inline plans: what [imcPlan { ... }] describes, ready for any platform that flies maneuvers. *)
+
+type speed_unit = Metres_per_second | Revolutions_per_minute | Percent  (** of full thrust *)
+
+(** What a [z] is measured from: metres below the surface, above the ground, above the ellipsoid; or the vehicle's own
+    way of keeping its height, whatever [z] is. *)
+type z_unit = Depth | Altitude | Height | Unspecified
+
+type direction = Vehicle_dependent | Clockwise | Counter_clockwise | Into_wind_or_current
+
+(** A device that a maneuver switches on, with its parameters by name. *)
+type payload = { name : string; parameters : (string * string) list }
+
+(** What is done; lengths in metres, times in seconds, angles in degrees. Durations are whole, from 0 to 65535: 0 is
+    without end, but for [Pop_up]. *)
+type kind =
+  | Go_to
+  | Loiter of { radius : float; duration : float; direction : direction }
+  | Yo_yo of {
+      amplitude : float;  (** from the shallowest to the deepest point; [z] is half-way *)
+      pitch : float;
+    }
+  | Pop_up of { duration : float; current_position : bool; wait_at_surface : bool; station_keep : bool }
+  | Station_keeping of { radius : float; duration : float }
+  | Compass_calibration of {
+      amplitude : float;  (** up and down from [z], as in IMC *)
+      radius : float;
+      pitch : float;
+      duration : float;
+      direction : direction;
+    }
+  | Launch
+  | Rows of {
+      bearing : float;
+      cross_angle : float;
+      width : float;
+      length : float;
+      horizontal_step : float;
+      curve_offset : float;
+      alternation : float;  (** percent *)
+      square_curve : bool;
+      first_curve_right : bool;
+    }
+  | Follow_path of (float * float * float) list  (** north, east, down from the maneuver's location *)
+
+type maneuver = {
+  id : string;  (** ["1.Goto"], ["2.Loiter"]: unique in its plan *)
+  kind : kind;
+  location : Dolphin_geo.Position.t;  (** where it starts *)
+  speed : float * speed_unit;
+  z : float * z_unit;
+  payloads : payload list;
+}
+
+type t = {
+  name : string;
+  description : string;
+  vehicles : string list;  (** the only ones that may run it; [[]]: any *)
+  maneuvers : maneuver list;  (** in order, at least one *)
+}
+
+val required_payload : t -> string list
+(** [required_payload p] names the devices that [p] switches on, each once, in order of first use: the plan's
+    requirement of its vehicle. *)
+
+val reference : t -> Dolphin_geo.Position.t
+(** [reference p] is where the first maneuver is: allocation prefers vehicles near it. *)
+
+(** {1:path The way that a vehicle goes} *)
+
+(** One maneuver as a simulated vehicle carries it out. *)
+type leg = {
+  maneuver : string;  (** its identifier *)
+  waypoints : Dolphin_geo.Position.t list;  (** visited in order; [[]] if it is done wherever the vehicle is *)
+  dwell : float;  (** seconds at the last of them; [infinity] for a maneuver without end *)
+}
+
+val path : t -> leg list
+(** [path p] is a leg for each maneuver of [p], in order: the rows of [Rows] as DUNE runs them, the points of
+    [Follow_path], for others the location. Circles and movements up and down are left out, and heights are those of
+    the locations. *)
+
+val metres_per_second : maneuver -> default:float -> float
+(** [metres_per_second m ~default] is the speed of [m] in metres per second. What revolutions per minute or percent of
+    thrust amount to depends on the vehicle: that is [default]. *)
+
+(** {1:plans Plans as values} *)
+
+val compare : t -> t -> int
+
+val pp : Format.formatter -> t -> unit
+(** The plan's name and its maneuvers' identifiers. *)

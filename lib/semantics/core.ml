@@ -20,7 +20,7 @@ type value =
   | Number of float
   | String of string
   | Wildcard                                    (* [_] *)
-  | Symbol of string                            (* [Speed.Units.METERS_PS], by its last two names *)
+  | Symbol of string                            (* [Speed.Units.METERS_PS], by its full name *)
   | List of value array                         (* never mutated *)
   | Map of (string * value) list                (* keys in order of insertion, none twice *)
   | Range of int * int                          (* both ends included; counts down if first > last *)

@@ -82,7 +82,8 @@ let stretches (tokens : Token.t array) { partner; outside } index stop =
     if brace < 0 || last >= stop then List.rev reversed
     else climb (last + 1) outside.(brace) reversed
   in
-  climb index outside.(index) []
+  let rec home index = if outside.(index) = -2 then home (index - 1) else outside.(index) in
+  climb index (home index) []
 
 let statement_faults ~source tokens index acceptable =
   let nesting = nesting tokens in

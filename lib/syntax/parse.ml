@@ -70,7 +70,8 @@ let stretches (tokens : Token.t array) { partner; outside } index stop =
   let last brace = if brace < 0 then Array.length tokens - 1 else partner.(brace) in
   let rec separator index brace =
     if index >= last brace then None
-    else if tokens.(index).token = SEPARATOR && outside.(index) = brace then Some index
+    else if tokens.(index).token = SEPARATOR && outside.(index) = brace
+            && not (Layout.continues tokens.(index + 1).token) then Some index
     else separator (index + 1) brace
   in
   let rec climb index brace reversed =

@@ -62,6 +62,18 @@ let candidates world bound leaf : Assignment.leaf =
   in
   { candidates = Array.of_seq (Seq.filter_map Fun.id (Array.to_seq (Array.mapi candidate bound))) }
 
+(* Tasks by name under one [T[V]] have the same candidates, computed once. *)
+let candidates_once world bound =
+  let known = ref [] in
+  fun leaf ->
+    match leaf.task.plan, List.assq_opt leaf.allowed !known with
+    | None, Some candidates -> candidates
+    | None, None ->
+      let candidates = candidates world bound leaf in
+      known := (leaf.allowed, candidates) :: !known;
+      candidates
+    | Some _, _ -> candidates world bound leaf
+
 let names vs = String.concat ", " vs
 
 let no_candidate world bound leaf =
@@ -121,7 +133,7 @@ let allocate world bound t =
   let bound = Array.of_list bound in
   let tree = tree_of None t in
   let tasks = Array.of_list (leaves tree []) in
-  match Assignment.solve ~vehicles:(Array.length bound) (map_tree (candidates world bound) tree) with
+  match Assignment.solve ~vehicles:(Array.length bound) (map_tree (candidates_once world bound) tree) with
   | Ok vehicles ->
     let next = counter () in
     Ok (residual (fun () -> bound.(vehicles.(next () - 1))) (counter ()) t)

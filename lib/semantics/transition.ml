@@ -285,7 +285,7 @@ let internal program world (c : Configuration.t) : t Seq.t =
   | Waiting (m, Pick ({ count = Exactly n; _ } as pick)) ->
     fun () -> Seq.map (bind c m) (choices n (candidates world c pick)) ()
   | Waiting (_, (Pick _ | Ask _ | Pause _ | Execute _ | Host_call _)) -> Seq.empty
-  | Executing (m, r) -> Seq.filter_map (internal_step program world c m) (Residual.steps r)
+  | Executing (m, r) -> Seq.filter_map (internal_step program world c m) (Residual.internal_steps r)
 
 (* {1 Events} *)
 
@@ -296,7 +296,7 @@ let rec find_step p (steps : Residual.step Seq.t) =
 
 let vehicle_ended program world (c : Configuration.t) m r v label (reply : Residual.reply) =
   let ends = function Residual.End_of (_, v') -> v = v' | _ -> false in
-  match find_step ends (Residual.steps r) with
+  match find_step ends (Residual.steps_of_vehicle v r) with
   | None -> Error Not_awaited
   | Some step ->
     let name = match step.offer with End_of (p, _) -> p.name | _ -> "" in

@@ -49,7 +49,8 @@ let runs_tasks () =
   texts "shown" [ "done" ] (shown ())
 
 let waits_for_vehicles () =
-  let mock = Mock_platform.make [ Mock_platform.seen 0. "v1"; Mock_platform.seen 4. "v2"; Mock_platform.seen 5. "v3" ] in
+  let events = [ Mock_platform.seen 0. "v1"; Mock_platform.seen 4. "v2"; Mock_platform.seen 5. "v3" ] in
+  let mock = Mock_platform.make events in
   run mock (program [ pick 2; call Pause [ number 20. ] ]) |> outcome_is "end";
   log_is mock [ "0 telemetry true"; "4 bind v1 v2"; "4 telemetry false"; "24 release v1 v2"; "24 close" ]
 
@@ -273,7 +274,8 @@ let broken_run ?observer mock =
     start (module Mock_platform.Virtual) ?observer mock
       (program [ pick_all (); call Execute [ parallel (task "a") (task "b") ] ])
   in
-  Lwt_main.run (Lwt.catch (fun () -> whole () >|= fun _ -> "no exception") (fun e -> Lwt.return (Printexc.to_string e)))
+  let failure error = Lwt.return (Printexc.to_string error) in
+  Lwt_main.run (Lwt.try_bind whole (fun _ -> Lwt.return "no exception") failure)
 
 let broken_observer () =
   let mock = Mock_platform.make two_vehicles in

@@ -144,13 +144,15 @@ let broken_hosts =
     broken "a host that replies nothing" (reply "{\"id\":1}")
       "the host process replied \"{\\\"id\\\":1}\", which has neither a value nor an error";
     broken "a host that replies no value" (reply "{\"id\":1,\"value\":{\"task\":1}}")
-      "the host process replied \"{\\\"id\\\":1,\\\"value\\\":{\\\"task\\\":1}}\", which is no value for a program: the \
-       name of a task is expected, not 1";
-    broken "a host that writes without end" "yes | tr -d '\\n'" "the host process's reply is longer than 1048576 bytes" ]
+      "the host process replied \"{\\\"id\\\":1,\\\"value\\\":{\\\"task\\\":1}}\", which is no value for a program: \
+       the name of a task is expected, not 1";
+    broken "a host that writes without end" "yes | tr -d '\\n'"
+      "the host process's reply is longer than 1048576 bytes" ]
 
 let takes_long_lines () =
   let x = String.make 1_000_000 'x' in
-  let command = "read -r request; printf '{\"id\":1,\"value\":\"'; head -c 1000000 /dev/zero | tr '\\0' x; echo '\"}'" in
+  let many = "head -c 1000000 /dev/zero | tr '\\0' x" in
+  let command = "read -r request; printf '{\"id\":1,\"value\":\"'; " ^ many ^ "; echo '\"}'" in
   with_host command (fun host -> call host "f" |> gives (String x))
 
 (* The request does not fit into the pipe: the write waits, and the time-out holds for it too. *)

@@ -1,7 +1,8 @@
 (** A stretch of source text. *)
 
 type t = { start : Lexing.position; stop : Lexing.position }
-(** From [start] up to, but without, [stop]. Columns count bytes of UTF-8 text. *)
+(** From [start] up to, but without, [stop]. [pos_cnum] counts bytes of UTF-8 text; [pos_bol] is such that
+    [pos_cnum - pos_bol] counts the characters before it on its line (see {!Cursor}). *)
 
 val none : t
 (** The location of what no source text stands for. *)

@@ -1,0 +1,14 @@
+(** Brackets and their partners. *)
+
+type t = {
+  tokens : Token.t array;          (** The tokens, in which every bracket has its partner. *)
+  partner : int array;             (** Where the partner of a bracket stands; -1 for other tokens. *)
+  faults : Diagnostic.t list;      (** The brackets without a partner: those are dropped, or given one. *)
+}
+
+val limit : int
+(** The deepest nesting of brackets that is read: 1,000. *)
+
+val match_up : Token.t array -> (t, Diagnostic.t) result
+(** [match_up tokens] pairs the brackets of [tokens]: parentheses, square brackets, braces, and holes
+    of strings. It is an error if they nest deeper than {!limit}. *)

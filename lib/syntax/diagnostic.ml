@@ -1,0 +1,133 @@
+type severity = Error | Warning
+
+type t = { at : Location.t; message : string; hint : string option; severity : severity }
+
+let error ?hint at message = { at; message; hint; severity = Error }
+let warning ?hint at message = { at; message; hint; severity = Warning }
+
+let offset d = d.at.Location.start.Lexing.pos_cnum
+
+let compare a b =
+  match Int.compare (offset a) (offset b) with
+  | 0 -> String.compare a.message b.message
+  | order -> order
+
+(* {1 The line a diagnostic points at} *)
+
+let is_continuation c = Char.code c land 0xC0 = 0x80
+
+(* The characters of [source] from [first] up to [last], each as it is shown: one column each, but for a
+   tab, which takes four. *)
+let shown source first last =
+  let rec stop i = if i < last && is_continuation source.[i] then stop (i + 1) else i in
+  let rec characters i reversed =
+    if i >= last then List.rev reversed
+    else
+      let next = stop (i + 1) in
+      let cell =
+        match source.[i] with
+        | '\t' -> "    "
+        | '\r' -> ""
+        | c when Char.code c < 0x20 || Char.code c = 0x7F || is_continuation c -> "?"
+        | c when Char.code c >= 0x80 && next = i + 1 -> "?"
+        | _ -> String.sub source i (next - i)
+      in
+      characters next (cell :: reversed)
+  in
+  characters first []
+
+let columns cells = List.fold_left (fun n cell -> if cell = "    " then n + 4 else if cell = "" then n else n + 1) 0 cells
+
+let rec drop n = function
+  | _ :: rest when n > 0 -> drop (n - 1) rest
+  | rest -> rest
+
+let take n cells =
+  let rec go n reversed = function
+    | cell :: rest when n > 0 -> go (n - 1) (cell :: reversed) rest
+    | _ -> List.rev reversed
+  in
+  go n [] cells
+
+(* How much of a long line is shown: in all, and before the caret. *)
+let width = 110
+let lead = 50
+
+(* Where the line with byte [at] begins and ends. *)
+let line_bounds source at =
+  let first = match String.rindex_from_opt source (at - 1) '\n' with Some i -> i + 1 | None -> 0 in
+  let last = match String.index_from_opt source at '\n' with Some i -> i | None -> String.length source in
+  first, last
+
+let pp_line source ppf at =
+  let { Location.start; stop } = at in
+  let here = max 0 (min start.Lexing.pos_cnum (String.length source)) in
+  let first, last = line_bounds source here in
+  (* Only what is near the caret is ever looked at: a line may have a megabyte. *)
+  let near = 4 * (width + lead) in
+  let before_first = max first (here - near) in
+  let before = shown source before_first here in
+  let marked = shown source here (min last (min (here + near) (max here stop.Lexing.pos_cnum))) in
+  let after = shown source (min last (max here stop.Lexing.pos_cnum)) (min last (max here stop.Lexing.pos_cnum + near)) in
+  let cut_before = before_first > first || List.length before + List.length marked + List.length after > width && List.length before > lead in
+  let before = if cut_before then drop (List.length before - lead) before else before in
+  let room = max 1 (width - List.length before) in
+  let marked' = take room marked in
+  let after' = take (room - List.length marked') after in
+  let cut_after =
+    List.length marked' < List.length marked || List.length after' < List.length after || last - here > 3 * near in
+  let number = string_of_int (Location.line at) in
+  let gutter = String.make (String.length number) ' ' in
+  let before_width = columns before + if cut_before then 3 else 0 in
+  Format.fprintf ppf "@\n  %s | %s%s%s%s%s" number (if cut_before then "..." else "") (String.concat "" before)
+    (String.concat "" marked') (String.concat "" after') (if cut_after then "..." else "");
+  Format.fprintf ppf "@\n  %s | %s%s" gutter (String.make before_width ' ') (String.make (max 1 (columns marked')) '^')
+
+let pp ~source ppf d =
+  let word = match d.severity with Error -> "error" | Warning -> "warning" in
+  let placed = d.at <> Location.none in
+  if placed then Format.fprintf ppf "%a: " Location.pp d.at;
+  Format.fprintf ppf "%s: %s" word d.message;
+  if placed then pp_line source ppf d.at;
+  match d.hint with
+  | None -> ()
+  | Some hint ->
+    let indent = if placed then 3 + String.length (string_of_int (Location.line d.at)) else 2 in
+    Format.fprintf ppf "@\n%shint: %s" (String.make indent ' ') hint
+
+(* {1 Did you mean} *)
+
+(* The Damerau-Levenshtein distance (neighbours may be swapped). *)
+let distance a b =
+  let m = String.length a and n = String.length b in
+  let d = Array.make_matrix (m + 1) (n + 1) 0 in
+  for i = 0 to m do d.(i).(0) <- i done;
+  for j = 0 to n do d.(0).(j) <- j done;
+  for i = 1 to m do
+    for j = 1 to n do
+      let cost = if a.[i - 1] = b.[j - 1] then 0 else 1 in
+      d.(i).(j) <- min (min (d.(i - 1).(j) + 1) (d.(i).(j - 1) + 1)) (d.(i - 1).(j - 1) + cost);
+      if i > 1 && j > 1 && a.[i - 1] = b.[j - 2] && a.[i - 2] = b.[j - 1] then
+        d.(i).(j) <- min d.(i).(j) (d.(i - 2).(j - 2) + 1)
+    done
+  done;
+  d.(m).(n)
+
+let suggest x xs =
+  let length = String.length x in
+  if length > 64 then None
+  else
+    let bound = if length <= 2 then 1 else if length <= 5 then 2 else 3 in
+    let lower = String.lowercase_ascii x in
+    let nearer best candidate =
+      if candidate = x || abs (String.length candidate - length) > bound then best
+      else
+        let found = distance lower (String.lowercase_ascii candidate) in
+        (* Nothing in common but the length is no misspelling. *)
+        if found > bound || found >= length then best
+        else
+          match best with
+          | Some (least, _) when least <= found -> best
+          | Some _ | None -> Some (found, candidate)
+    in
+    Option.map snd (List.fold_left nearer None xs)

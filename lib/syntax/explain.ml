@@ -1,0 +1,273 @@
+open Grammar
+
+(* Where the grammar is stuck. *)
+type place = {
+  source : string;
+  tokens : Token.t array;
+  index : int;
+  acceptable : Grammar.token -> bool;
+}
+
+let kind place i = if i >= 0 && i < Array.length place.tokens then place.tokens.(i).token else EOF
+let this place = kind place place.index
+let before place n = kind place (place.index - n)
+let text_of place i = Token.text ~source:place.source place.tokens.(i)
+
+(* {1 Names of tokens} *)
+
+let quoted text =
+  if String.length text <= 40 && not (String.contains text '\n') then Printf.sprintf "'%s'" text
+  else "this text"
+
+(* How the program spells token [i]. *)
+let spelt place i =
+  match kind place i with
+  | EOF -> "end of the text"
+  | SEPARATOR when text_of place i = ";" -> "';'"
+  | SEPARATOR ->
+    let stop = place.tokens.(i).stop.Lexing.pos_cnum in
+    let rec next i =
+      if i < String.length place.source && (place.source.[i] = ' ' || place.source.[i] = '\t') then next (i + 1)
+      else i in
+    let next = next stop in
+    if next < String.length place.source && place.source.[next] = ';' then "';'"
+    else if next < String.length place.source && place.source.[next] = '\n' then "end of the line"
+    else "end of the statement"
+  | STRING _ ->
+    let text = text_of place i in
+    if String.length text <= 40 && not (String.contains text '\n') then "text " ^ text else "text"
+  | TEMPLATE_OPEN | TEXT _ -> "text"
+  | TEMPLATE_CLOSE -> "end of the string"
+  | _ -> quoted (text_of place i)
+
+let listed = function
+  | [] -> None
+  | [ one ] -> Some one
+  | several ->
+    let reversed = List.rev several in
+    Some (String.concat ", " (List.rev (List.tl reversed)) ^ " or " ^ List.hd reversed)
+
+(* What could stand here instead. *)
+let expected place =
+  let when_acceptable token name = if place.acceptable token then [ name ] else [] in
+  let operand =
+    if place.acceptable (INTEGER 0) then [ "an expression" ] else when_acceptable (NAME "x") "a name" in
+  let rest =
+    if place.acceptable (INTEGER 0) then
+      when_acceptable RPAREN "')'" @ when_acceptable RBRACKET "']'"
+    else
+      List.concat
+        [ when_acceptable LPAREN (if place.acceptable PLUS then "" else "'('");
+          when_acceptable BLOCK "'{'"; when_acceptable LBRACE "'{'";
+          when_acceptable IN (if place.acceptable PLUS then "" else "'in'");
+          when_acceptable ASSIGN (if place.acceptable PLUS then "" else "'='"); when_acceptable ARROW "'->'"; when_acceptable COLON "':'";
+          when_acceptable PLUS "an operator"; when_acceptable COMMA "','";
+          when_acceptable RPAREN "')'"; when_acceptable RBRACKET "']'"; when_acceptable HOLE_CLOSE "'}'";
+          when_acceptable SEPARATOR "the end of the statement" ]
+  in
+  listed (List.filter (fun name -> name <> "") (operand @ rest))
+
+(* {1 Surroundings} *)
+
+(* How far back one looks. *)
+let horizon = 2_000
+
+let is_opener = function LPAREN | LBRACKET | LBRACE | TRAILING | BLOCK | HOLE_OPEN -> true | _ -> false
+let is_closer = function RPAREN | RBRACKET | RBRACE | HOLE_CLOSE -> true | _ -> false
+
+(* The nearest token before [i], brackets taken as wholes, at which [stops]; brackets that are still open
+   always stop. *)
+let back place i stops =
+  let rec go i depth fuel =
+    if i < 0 || fuel = 0 then -1
+    else
+      let token = kind place i in
+      if is_closer token then go (i - 1) (depth + 1) (fuel - 1)
+      else if is_opener token then if depth = 0 then i else go (i - 1) (depth - 1) (fuel - 1)
+      else if depth = 0 && stops token then i
+      else go (i - 1) depth (fuel - 1)
+  in
+  go (i - 1) 0 horizon
+
+(* The bracket that is open around the place. *)
+let opener place = back place place.index (fun _ -> false)
+
+(* Where the statement begins. *)
+let statement place = back place place.index (function SEPARATOR | ARROW -> true | _ -> false) + 1
+
+(* The word that heads the parenthesis around the place: [if], [while], [for] or another. *)
+let head place =
+  let opener = opener place in
+  match kind place opener with
+  | LPAREN when opener > 0 -> kind place (opener - 1)
+  | _ -> EOF
+
+(* The word before the closure that ends right before the place. *)
+let word_before_closure place =
+  match before place 1 with
+  | RBRACE ->
+    let opener = opener { place with index = place.index - 1 } in
+    if opener > 0 then kind place (opener - 1) else EOF
+  | _ -> EOF
+
+(* The rest of the statement from token [i], as written. *)
+let rest_of_statement place i =
+  let rec last i depth =
+    match kind place (i + 1) with
+    | EOF -> i
+    | SEPARATOR when depth = 0 -> i
+    | token when is_opener token -> last (i + 1) (depth + 1)
+    | token when is_closer token -> if depth = 0 then i else last (i + 1) (depth - 1)
+    | _ -> last (i + 1) depth
+  in
+  let first = place.tokens.(i).start.Lexing.pos_cnum in
+  let last = place.tokens.(last i 0).stop.Lexing.pos_cnum in
+  let text = String.sub place.source first (last - first) in
+  if String.length text <= 60 && not (String.contains text '\n') then text else "..."
+
+(* {1 Likely mistakes}
+
+    Each rule gives a message and a hint, or leaves the place to the next rule. *)
+
+let is_word = function
+  | DEF | IF | ELSE | WHILE | FOR | IN | RETURN | BREAK | CONTINUE | WHEN | WATCH | WAIT_FOR | UNTIL | DURING
+  | AFTER_UNTIL | AFTER_DURING | THEN | RUN | ON_ERROR | TRUE | FALSE | NULL -> true
+  | _ -> false
+
+let assignment place =
+  match this place, head place with
+  | ASSIGN, (IF | WHILE) -> Some ("'=' does not compare", "write '==' to compare")
+  | _, FOR -> Some ("a 'for' runs over the elements of something", "write for (x in xs) { ... }, such as for (i in 1..3)")
+  | ASSIGN, _ when not (place.acceptable (INTEGER 0)) ->
+    begin match before place 2, before place 1, kind place (opener place) with
+      | COMMAND _, NAME x, _ ->
+        Some ("a variable has no type before its name", Printf.sprintf "write def %s = ..." x)
+      | _, NAME x, LPAREN ->
+        Some ("'=' cannot stand within an expression", Printf.sprintf "a named argument is written %s: value" x)
+      | _, NAME x, LBRACKET ->
+        Some ("'=' cannot stand within an expression", Printf.sprintf "an entry of a map is written %s: value" x)
+      | _ -> Some ("this cannot be assigned to", "only a variable, an element xs[i] or a member m.k can")
+    end
+  | ASSIGN_OPERATOR _, _ -> Some ("this cannot be assigned to", "only a variable, an element xs[i] or a member m.k can")
+  | _ -> None
+
+let constructs = [
+  WHEN, ("when", "when { condition } then task");
+  WAIT_FOR, ("waitFor", "waitFor { condition } then task");
+  UNTIL, ("until", "until { condition } run task");
+  AFTER_UNTIL, ("until", "until { condition } run task");
+  ON_ERROR, ("onError", "watch task onError { error -> ... }");
+]
+
+let missing_word place =
+  let missing word form = Some (Printf.sprintf "'%s' is missing here" word, "write " ^ form) in
+  match word_before_closure place with
+  | (WHEN | WAIT_FOR | UNTIL) as word ->
+    let _, form = List.assoc word constructs in
+    missing (if word = UNTIL then "run" else "then") form
+  | AFTER_UNTIL when not (is_closer (this place) || this place = SEPARATOR) ->
+    missing "run" "until { condition } run task, or task until { condition }"
+  | _ ->
+    if place.acceptable ON_ERROR then missing "onError" "watch task onError { error -> ... }"
+    else if place.acceptable RUN then missing "run" "during time run task"
+    else
+      let during = back place place.index (function AFTER_DURING | SEPARATOR | COMMA -> true | _ -> false) in
+      match this place, kind place during with
+      | (NAME _ | COMMAND _ | BUILDER _), AFTER_DURING -> missing "run" "during time run task, or task during time"
+      | _ -> None
+
+let missing_brace place =
+  match before place 1 with
+  | (WHEN | WAIT_FOR | UNTIL | AFTER_UNTIL | ON_ERROR) as word ->
+    let word, form = List.assoc word constructs in
+    Some (Printf.sprintf "a '{' is missing after '%s'" word, "write " ^ form)
+  | RPAREN when place.acceptable BLOCK && not (place.acceptable (INTEGER 0)) ->
+    Some ("a '{' is missing here", "the body of a function stands in braces")
+  | _ -> None
+
+let missing_parenthesis place =
+  match before place 1 with
+  | IF -> Some ("a '(' is missing after 'if'", "write if (condition) { ... }")
+  | WHILE -> Some ("a '(' is missing after 'while'", "write while (condition) { ... }")
+  | FOR -> Some ("a '(' is missing after 'for'", "write for (x in xs) { ... }")
+  | _ -> None
+
+let missing_parameters place =
+  match before place 2, before place 1, this place with
+  | DEF, NAME f, (LBRACE | TRAILING | BLOCK) ->
+    Some (Printf.sprintf "the parameters of '%s' are missing" f, Printf.sprintf "write def %s() { ... }" f)
+  | _ -> None
+
+let misplaced_word place =
+  match this place with
+  | ELSE -> Some ("'else' without an 'if'", "an 'else' follows the body of an 'if'")
+  | THEN -> Some ("'then' cannot stand here", "'then' follows when { ... } and waitFor { ... }")
+  | RUN -> Some ("'run' cannot stand here", "'run' follows until { ... }, waitFor { ... } and during time")
+  | ON_ERROR -> Some ("'onError' cannot stand here", "write watch task onError { error -> ... }")
+  | ARROW -> Some ("'->' cannot stand here", "'->' ends the parameters of a closure: { a, b -> ... }")
+  | (IF | WHILE | FOR | RETURN | BREAK | CONTINUE | DEF) as word when place.acceptable (INTEGER 0) ->
+    let spelling = text_of place place.index in
+    Some (Printf.sprintf "'%s' begins a statement; it cannot stand within an expression" spelling,
+          if word = IF then "write condition ? a : b" else "put it on a line of its own")
+  | word when is_word word && place.acceptable (NAME "x") && not (place.acceptable (INTEGER 0)) ->
+    Some (Printf.sprintf "'%s' is a word of the language" (text_of place place.index), "choose another name")
+  | _ -> None
+
+let command place =
+  match this place, kind place (place.index + 1) with
+  | COMMAND f, _ when place.acceptable (INTEGER 0) ->
+    Some ("a call within an expression needs parentheses",
+          Printf.sprintf "write %s(%s)" f (rest_of_statement place (place.index + 1)))
+  | COMMAND _, NAME x when place.acceptable (NAME x) ->
+    Some ("a name has no type before it", Printf.sprintf "write only %s" x)
+  | _ -> None
+
+(* [move -30, -50] reads as a subtraction, up to the comma. *)
+let negative_argument place =
+  let first = statement place in
+  match this place, kind place first, kind place (first + 1) with
+  | COMMA, NAME f, MINUS ->
+    Some (Printf.sprintf "'%s -' is read as a subtraction" f,
+          Printf.sprintf "write %s(%s)" f (rest_of_statement place (first + 1)))
+  | _ -> None
+
+let stray place =
+  match this place, before place 1 with
+  | (LBRACE | TRAILING), (STRING _ | TEMPLATE_CLOSE | INTEGER _ | NUMBER _) ->
+    Some ("unexpected '{'", "a ',' is missing before it")
+  | COMMA, _ when opener place < 0 || kind place (opener place) <> LPAREN && kind place (opener place) <> LBRACKET ->
+    Some ("unexpected ','", "only arguments and elements are separated by ','")
+  | COLON, _ -> Some ("unexpected ':'", "before a ':' stands a name or a text: key: value")
+  | SEPARATOR, _ when spelt place place.index = "';'" && not (place.acceptable (INTEGER 0)) ->
+    Some ("unexpected ';'", "a ')' or a ']' is missing before it")
+  | (NAME _ | COMMAND _ | BUILDER _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN), _
+    when place.acceptable PLUS && place.acceptable SEPARATOR ->
+    Some (Printf.sprintf "unexpected %s" (spelt place place.index),
+          "an operator or a ',' is missing before it, or a new line")
+  | (NAME _ | COMMAND _ | BUILDER _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN), _
+    when place.acceptable PLUS && place.acceptable COMMA ->
+    Some (Printf.sprintf "unexpected %s" (spelt place place.index), "an operator or a ',' is missing before it")
+  | _ -> None
+
+let rules = [
+  missing_parenthesis; missing_brace; missing_parameters; negative_argument; assignment; missing_word;
+  misplaced_word; command; stray;
+]
+
+let fault ~source ~tokens ~index ~acceptable =
+  let place = { source; tokens; index; acceptable } in
+  let message, hint =
+    match List.find_map (fun rule -> rule place) rules with
+    | Some (message, hint) -> message, Some hint
+    | None ->
+      let hint = Option.map (fun expected -> expected ^ " is expected here") (expected place) in
+      Printf.sprintf "unexpected %s" (spelt place index), hint
+  in
+  let at =
+    match kind place index with
+    | EOF when index > 0 ->
+      let last = tokens.(index - 1).stop in
+      Location.make (last, last)
+    | _ -> Token.at tokens.(index)
+  in
+  Diagnostic.error ?hint at message

@@ -1,0 +1,36 @@
+open Grammar
+
+let advice = function
+  | "try" -> Some "errors of tasks are handled by watch task onError { error -> ... }"
+  | "switch" -> Some "write if (...) { } else if (...) { } else { }"
+  | "class" | "interface" | "enum" -> Some "a map [name: value] holds what belongs together"
+  | "import" | "package" -> Some "everything there is can be used as it is"
+  | "new" -> Some "write a map [name: value], or call a function"
+  | "throw" -> Some "write halt 'reason'"
+  | "do" -> Some "write while (...) { }"
+  | _ -> None
+
+(* Whether a word is followed as only the construct of that name is. *)
+let is_used word following =
+  match word, following with
+  | ("try" | "do"), (TRAILING | BLOCK) -> true
+  | "switch", LPAREN -> true
+  | ("class" | "interface" | "enum" | "import" | "package" | "new"), (NAME _ | COMMAND _) -> true
+  | "throw", (NAME _ | COMMAND _ | STRING _ | TEMPLATE_OPEN) -> true
+  | _ -> false
+
+let faults (tokens : Token.t array) =
+  let found = ref [] in
+  let look i (token : Token.t) =
+    match token.token with
+    | NAME word | COMMAND word when i + 1 < Array.length tokens && is_used word tokens.(i + 1).token ->
+      let is_member = i > 0 && (match tokens.(i - 1).token with DOT | SAFE_DOT | DEF -> true | _ -> false) in
+      begin match advice word with
+        | Some hint when not is_member ->
+          found := Diagnostic.error (Token.at token) (Printf.sprintf "there is no '%s' in this language" word) ~hint :: !found
+        | Some _ | None -> ()
+      end
+    | _ -> ()
+  in
+  Array.iteri look tokens;
+  List.rev !found

@@ -1,0 +1,196 @@
+open Grammar
+
+(* {1 Kinds of tokens} *)
+
+(* Whether a statement cannot end after [token], so that the next line belongs to it. *)
+let is_incomplete = function
+  | RANGE | RANGE_LESS | POWER | STAR | SLASH | PERCENT | PLUS | MINUS | SHIFT_LEFT | SHIFT_RIGHT | LESS
+  | LESS_EQUAL | GREATER | GREATER_EQUAL | EQUAL | NOT_EQUAL | AMPERSAND | CARET | BAR | AND | OR | IN | NOT
+  | COMMA | COLON | ARROW | DOT | SAFE_DOT | QUESTION | ELVIS | ASSIGN | ASSIGN_OPERATOR _
+  | LPAREN | LBRACKET | LBRACE | TRAILING | BLOCK | HOLE_OPEN | SEPARATOR | BUILDER _ | COMMAND _
+  | DEF | IF | ELSE | WHILE | FOR | WHEN | WATCH | WAIT_FOR | UNTIL | DURING | AFTER_UNTIL | AFTER_DURING
+  | THEN | RUN | ON_ERROR -> true
+  | NAME _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | TEMPLATE_CLOSE | HOLE_CLOSE | TEXT _ | WILDCARD
+  | TRUE | FALSE | NULL | RETURN | BREAK | CONTINUE | RPAREN | RBRACKET | RBRACE | STEP _ | EOF -> false
+
+(* Whether no statement can begin with [token], so that it belongs to the line before. *)
+let continues = function
+  | RANGE | RANGE_LESS | POWER | STAR | SLASH | PERCENT | SHIFT_LEFT | SHIFT_RIGHT | LESS | LESS_EQUAL
+  | GREATER | GREATER_EQUAL | EQUAL | NOT_EQUAL | AMPERSAND | CARET | BAR | AND | OR | IN
+  | COMMA | COLON | DOT | SAFE_DOT | QUESTION | ELVIS | THEN | RUN | ON_ERROR | ELSE
+  | RPAREN | RBRACKET | RBRACE | HOLE_CLOSE | SEPARATOR | EOF -> true
+  | NAME _ | COMMAND _ | BUILDER _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | TEMPLATE_CLOSE
+  | HOLE_OPEN | TEXT _ | WILDCARD | TRUE | FALSE | NULL | DEF | IF | WHILE | FOR | RETURN | BREAK | CONTINUE
+  | WHEN | WATCH | WAIT_FOR | UNTIL | DURING | AFTER_UNTIL | AFTER_DURING | LPAREN | LBRACKET | LBRACE
+  | TRAILING | BLOCK | ARROW | ASSIGN | ASSIGN_OPERATOR _ | STEP _ | PLUS | MINUS | NOT -> false
+
+(* Whether an operand can end with [token]. *)
+let ends_operand = function
+  | NAME _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_CLOSE | WILDCARD | TRUE | FALSE | NULL | RPAREN
+  | RBRACKET | RBRACE | STEP _ -> true
+  | _ -> false
+
+(* Whether a brace after [token] on the same line opens a closure that is one more argument. *)
+let takes_closure = function
+  | NAME _ | RPAREN | RBRACKET | RBRACE -> true
+  | _ -> false
+
+let is_word = function
+  | DEF | IF | ELSE | WHILE | FOR | IN | RETURN | BREAK | CONTINUE | WHEN | WATCH | WAIT_FOR | UNTIL | DURING
+  | THEN | RUN | ON_ERROR -> true
+  | _ -> false
+
+let builder = function
+  | "pick" -> Some Ast.Pick
+  | "imcPlan" -> Some Ast.Imc_plan
+  | "pos" -> Some Ast.Pos
+  | "allOf" -> Some Ast.All_of
+  | "oneOf" | "choose" -> Some Ast.One_of
+  | _ -> None
+
+(* {1 Reading} *)
+
+(* What an open bracket encloses. *)
+type frame =
+  | Enclosed                   (* [( )], [[ ]], a hole: lines do not matter *)
+  | Body                       (* statements that are a statement, or the body of one *)
+  | Value                      (* statements that are part of an expression *)
+
+type state = {
+  source : string;
+  raw : Token.t array;
+  partner : int array;
+  header : bool array;                 (* which closing parentheses end the head of an [if], [def] ... *)
+  mutable arranged : Token.t list;     (* in reverse *)
+  mutable last : Grammar.token;        (* the one handed on last; SEPARATOR at the start *)
+  mutable last_is_header : bool;
+  mutable frames : frame list;
+  mutable separate : bool;             (* whether a [;] or the end of a body calls for a separator *)
+}
+
+let raw_token state i = if i < Array.length state.raw then state.raw.(i).token else EOF
+let same_line state i = i < Array.length state.raw && not state.raw.(i).newline
+
+let is_key state i = raw_token state (i + 1) = COLON
+
+(* How far ahead a [run] is looked for. *)
+let horizon = 100
+
+(* Whether the [until] or [during] at [i], which follows a name, begins an expression: whether its [run]
+   follows. *)
+let begins_expression state i =
+  let rec run_follows i fuel =
+    fuel > 0
+    && match raw_token state i with
+    | RUN -> true
+    | SEPARATOR | COMMA | RPAREN | RBRACKET | RBRACE | HOLE_CLOSE | EOF -> false
+    | LPAREN | LBRACKET | LBRACE | HOLE_OPEN -> run_follows (state.partner.(i) + 1) (fuel - 1)
+    | token when state.raw.(i).newline && not (continues token) -> false
+    | _ -> run_follows (i + 1) (fuel - 1)
+  in
+  run_follows (i + 1) horizon
+
+(* Whether the token at [i] can only begin an argument, when it follows a name. *)
+let begins_argument state i =
+  match raw_token state i with
+  | NAME _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | WILDCARD | TRUE | FALSE | NULL | WHEN | WATCH
+  | WAIT_FOR | NOT -> true
+  | UNTIL | DURING -> is_key state i || begins_expression state i
+  | token -> is_word token && is_key state i
+
+let push state (token : Token.t) kind =
+  state.arranged <- { token with token = kind } :: state.arranged;
+  state.last <- kind;
+  state.last_is_header <- false
+
+let after_point state = match state.last with DOT | SAFE_DOT -> true | _ -> false
+
+(* Marks the parenthesis that closes the head which the word at [i] begins. *)
+let mark_header state i kind =
+  let mark i = if raw_token state i = LPAREN then state.header.(state.partner.(i)) <- true in
+  match kind with
+  | IF | WHILE | FOR -> mark (i + 1)
+  | DEF -> mark (i + 2)
+  | _ -> ()
+
+let brace state i =
+  let same_line = same_line state i in
+  match state.last with
+  | SEPARATOR | LBRACE | TRAILING | BLOCK | ARROW | ELSE -> BLOCK, Body
+  | BUILDER _ -> BLOCK, Value
+  | RPAREN when state.last_is_header -> BLOCK, Body
+  | last when takes_closure last && same_line -> TRAILING, Value
+  | _ -> LBRACE, Value
+
+(* What the token at [i] is, given those before and after it. *)
+let classify state i (token : Token.t) =
+  match token.token with
+  | word when is_word word && (after_point state || is_key state i) -> NAME (Token.text ~source:state.source token)
+  | (UNTIL | DURING) as word when ends_operand state.last && not state.last_is_header -> if word = UNTIL then AFTER_UNTIL else AFTER_DURING
+  | NAME x as name ->
+    if after_point state || raw_token state (i + 1) <> LBRACE then
+      if same_line state (i + 1) && begins_argument state (i + 1) && state.last <> DEF then COMMAND x else name
+    else Option.fold (builder x) ~none:name ~some:(fun builder -> BUILDER builder)
+  | kind -> kind
+
+let in_statements state =
+  match state.frames with
+  | [] | (Body | Value) :: _ -> true
+  | Enclosed :: _ -> false
+
+(* Whether a separator belongs between the last token and one of this [kind]. *)
+let separates state (token : Token.t) kind =
+  in_statements state
+  && state.last <> SEPARATOR
+  && (match state.last with LBRACE | TRAILING | BLOCK | ARROW -> false | _ -> true)
+  && (match kind with RBRACE | EOF | ELSE -> false | _ -> true)
+  && (state.separate
+      || token.newline
+         && not (is_incomplete state.last)
+         && not state.last_is_header
+         && not (continues kind))
+
+(* A separator stands right after the last token. *)
+let push_separator state =
+  match state.arranged with
+  | [] -> ()
+  | last :: _ -> push state { last with start = last.stop; newline = false } SEPARATOR
+
+let open_frame state i kind frame token =
+  mark_header state i kind;
+  push state token kind;
+  state.frames <- frame :: state.frames
+
+let step state i (token : Token.t) =
+  let kind = classify state i token in
+  match kind with
+  | SEPARATOR when in_statements state -> state.separate <- true
+  | _ ->
+    if separates state token kind then push_separator state;
+    state.separate <- false;
+    (* A separator before it tells what an [until] or a [during] is. *)
+    let kind = if state.last = SEPARATOR then classify state i token else kind in
+    match kind with
+    | LPAREN | LBRACKET | HOLE_OPEN -> open_frame state i kind Enclosed token
+    | LBRACE ->
+      let kind, frame = brace state i in
+      open_frame state i kind frame token
+    | RPAREN | RBRACKET | HOLE_CLOSE | RBRACE ->
+      push state token kind;
+      if kind = RPAREN then state.last_is_header <- state.header.(i);
+      let closed, frames =
+        match state.frames with
+        | [] -> Enclosed, []
+        | frame :: frames -> frame, frames in
+      state.frames <- frames;
+      state.separate <- (closed = Body)
+    | _ ->
+      mark_header state i kind;
+      push state token kind
+
+let arrange ~source { Brackets.tokens; partner; faults = _ } =
+  let state =
+    { source; raw = tokens; partner; header = Array.make (Array.length tokens) false; arranged = [];
+      last = SEPARATOR; last_is_header = false; frames = []; separate = false } in
+  Array.iteri (step state) tokens;
+  Array.of_list (List.rev state.arranged)

@@ -1,0 +1,9 @@
+(** Where statements end, and what a name or a brace stands for: all that the grammar need not know of lines. *)
+
+val arrange : source:string -> Brackets.t -> Token.t array
+(** [arrange ~source brackets] is the tokens of [brackets] with a [SEPARATOR] between every two statements, and
+    nowhere else but where a [;] stands wrong, in which
+    - a name that is called without parentheses is [COMMAND], a builder's name before a brace is [BUILDER];
+    - a brace is [BLOCK] if it opens statements, [TRAILING] if it opens a closure after a call, else [LBRACE];
+    - [until] and [during] after a task are [AFTER_UNTIL] and [AFTER_DURING];
+    - a word of a construct is a [NAME] after a point, and before a colon. *)

@@ -1,0 +1,35 @@
+(** Building nodes: what the grammar's actions share. *)
+
+open Ast
+
+val located : Lexing.position * Lexing.position -> 'a -> 'a located
+
+(** What follows a task in the postfix forms [T during D] and [T until { C }]. *)
+type limit = During_limit of expression | Until_limit of closure
+
+(** An expression, and the limits written after it, outermost first. *)
+type item = { base : expression; limits : (limit * Lexing.position) list }
+
+val item : expression -> item
+(** [item e] is [e] without limits. *)
+
+val limit : item -> limit -> Lexing.position -> item
+(** [limit i l stop] is [i] with [l], which ends at [stop], after it. *)
+
+val settle : item -> expression
+(** [settle i] is the base of [i] within its limits. *)
+
+type argument_item =
+  | Positional_item of item
+  | Named_item of string located * item
+
+val argument : argument_item -> argument
+(** [argument a] is [a], settled. *)
+
+val command : Lexing.position * Lexing.position -> expression -> argument_item list -> item
+(** [command place callee arguments] is a call without parentheses, [arguments] in reverse. The limits after
+    its last argument are those of the whole call ([task 't' during 2.seconds]), unless it is [execute]: a
+    limit is for tasks. *)
+
+val trailing : Lexing.position * Lexing.position -> expression -> expression -> expression
+(** [trailing place call closure] is [call] with one more argument, a closure after the parentheses. *)

@@ -1,6 +1,6 @@
 type speed_unit = Metres_per_second | Revolutions_per_minute | Percent
-type z_unit = Depth | Altitude | Height
-type direction = Vehicle_dependent | Clockwise | Counter_clockwise
+type z_unit = Depth | Altitude | Height | Unspecified
+type direction = Vehicle_dependent | Clockwise | Counter_clockwise | Into_wind_or_current
 type payload = { name : string; parameters : (string * string) list }
 
 type kind =
@@ -50,6 +50,69 @@ let reference p =
   match p.maneuvers with
   | first :: _ -> first.location
   | [] -> invalid_arg "Plan.reference: a plan without maneuvers"
+
+(* {1 The way} *)
+
+type leg = { maneuver : string; waypoints : Dolphin_geo.Position.t list; dwell : float }
+
+let radians degrees = degrees *. Float.pi /. 180.
+
+(* How the rows run: metres ahead of the start (along the bearing) and metres to the right of it. The first point lies
+   [offset] before the start, so that the vehicle is on course when it gets there; each row runs on for [offset] too.
+   At the far end a vehicle shifts sideways by [share] steps, at the near end by [2 - share], so that two shifts are
+   two steps. A square curve shifts first and then comes back; another does both on a diagonal. *)
+let offsets_of_rows ~length ~offset ~step ~share ~curves ~cross_angle ~square ~right =
+  let sideways = if right then 1. else -1. in
+  let rec row ahead (x, y) curves points =
+    let forward = if ahead then 1. else -1. in
+    let x = x +. (forward *. (length +. offset)) in
+    let points = (x, y) :: points in
+    let share = if ahead then share else 2. -. share in
+    if share > 0. && curves <= 0 then List.rev points
+    else
+      let shift = share *. step in
+      let x = x -. (shift *. sin cross_angle) and y = y +. (sideways *. shift *. cos cross_angle) in
+      let next = (x -. (forward *. offset), y) in
+      let points = if square then next :: (x, y) :: points else next :: points in
+      row (not ahead) next (if share > 0. then curves - 1 else curves) points
+  in
+  row true (0., 0.) curves [ (0., 0.); (-.offset, 0.) ]
+
+let turned bearing (x, y) =
+  let sine = sin bearing and cosine = cos bearing in
+  ((x *. cosine) -. (y *. sine), (x *. sine) +. (y *. cosine))
+
+let unending seconds = if seconds > 0. then seconds else infinity
+
+let leg (m : maneuver) =
+  let at_location dwell = { maneuver = m.id; waypoints = [ m.location ]; dwell } in
+  let through offsets =
+    let waypoint (north, east) = Dolphin_geo.Wgs84.displace m.location ~north ~east in
+    { maneuver = m.id; waypoints = List.rev (List.rev_map waypoint offsets); dwell = 0. }
+  in
+  match m.kind with
+  | Go_to | Yo_yo _ | Launch -> at_location 0.
+  | Loiter { duration; _ } | Station_keeping { duration; _ } | Compass_calibration { duration; _ } ->
+    at_location (unending duration)
+  | Pop_up { duration; current_position; wait_at_surface; station_keep } ->
+    (* Without reason to stay, a vehicle dives again as soon as it has a fix. *)
+    let dwell = if wait_at_surface || station_keep then duration else 0. in
+    { (at_location dwell) with waypoints = (if current_position then [] else [ m.location ]) }
+  | Follow_path points -> through (List.rev (List.rev_map (fun (north, east, _) -> (north, east)) points))
+  | Rows r ->
+    let step = r.horizontal_step in
+    let curves = if step > 0. then int_of_float (r.width /. step) else 0 in
+    offsets_of_rows ~length:r.length ~offset:r.curve_offset ~step ~share:(r.alternation /. 100.) ~curves
+      ~cross_angle:(radians r.cross_angle) ~square:r.square_curve ~right:r.first_curve_right
+    |> List.rev_map (turned (radians r.bearing))
+    |> List.rev |> through
+
+let path p = List.map leg p.maneuvers
+
+let metres_per_second (m : maneuver) ~default =
+  match m.speed with
+  | metres, Metres_per_second -> metres
+  | _, (Revolutions_per_minute | Percent) -> default
 
 (* Plans are plain data without functions or cycles. *)
 let compare (a : t) (b : t) = Stdlib.compare a b

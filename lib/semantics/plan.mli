@@ -2,23 +2,28 @@
 
 type speed_unit = Metres_per_second | Revolutions_per_minute | Percent  (** of full thrust *)
 
-(** What a [z] is measured from: metres below the surface, above the ground, above the ellipsoid. *)
-type z_unit = Depth | Altitude | Height
+(** What a [z] is measured from: metres below the surface, above the ground, above the ellipsoid; or the vehicle's own
+    way of keeping its height, whatever [z] is. *)
+type z_unit = Depth | Altitude | Height | Unspecified
 
-type direction = Vehicle_dependent | Clockwise | Counter_clockwise
+type direction = Vehicle_dependent | Clockwise | Counter_clockwise | Into_wind_or_current
 
 (** A device that a maneuver switches on, with its parameters by name. *)
 type payload = { name : string; parameters : (string * string) list }
 
-(** What is done; lengths in metres, times in seconds, angles in degrees. *)
+(** What is done; lengths in metres, times in seconds, angles in degrees. Durations are whole, from 0 to 65535: 0 is
+    without end, but for [Pop_up]. *)
 type kind =
   | Go_to
   | Loiter of { radius : float; duration : float; direction : direction }
-  | Yo_yo of { amplitude : float; pitch : float }
+  | Yo_yo of {
+      amplitude : float;  (** from the shallowest to the deepest point; [z] is half-way *)
+      pitch : float;
+    }
   | Pop_up of { duration : float; current_position : bool; wait_at_surface : bool; station_keep : bool }
   | Station_keeping of { radius : float; duration : float }
   | Compass_calibration of {
-      amplitude : float;
+      amplitude : float;  (** up and down from [z], as in IMC *)
       radius : float;
       pitch : float;
       duration : float;
@@ -60,6 +65,26 @@ val required_payload : t -> string list
 
 val reference : t -> Dolphin_geo.Position.t
 (** [reference p] is where the first maneuver is: allocation prefers vehicles near it. *)
+
+(** {1:path The way that a vehicle goes} *)
+
+(** One maneuver as a simulated vehicle carries it out. *)
+type leg = {
+  maneuver : string;  (** its identifier *)
+  waypoints : Dolphin_geo.Position.t list;  (** visited in order; [[]] if it is done wherever the vehicle is *)
+  dwell : float;  (** seconds at the last of them; [infinity] for a maneuver without end *)
+}
+
+val path : t -> leg list
+(** [path p] is a leg for each maneuver of [p], in order: the rows of [Rows] as DUNE runs them, the points of
+    [Follow_path], for others the location. Circles and movements up and down are left out, and heights are those of
+    the locations. *)
+
+val metres_per_second : maneuver -> default:float -> float
+(** [metres_per_second m ~default] is the speed of [m] in metres per second. What revolutions per minute or percent of
+    thrust amount to depends on the vehicle: that is [default]. *)
+
+(** {1:plans Plans as values} *)
 
 val compare : t -> t -> int
 

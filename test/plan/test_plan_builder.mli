@@ -1,0 +1,1 @@
+(** Tests of {!Dolphin_semantics.Plan_builder}: every setting and every default. No value of its own. *)

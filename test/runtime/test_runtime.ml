@@ -1,0 +1,1 @@
+let () = Alcotest.run "runtime" [ ("driver", Test_driver.tests); ("console", Test_console.tests) ]

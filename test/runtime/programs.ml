@@ -23,8 +23,7 @@ let method_of subject name arguments =
 let property subject name = apply (Property name) [ subject ]
 
 let lambda label parameters code =
-  { id = fresh (); label; parameters; implicit = false; captures = 0; slots = parameters; code;
-    lambda_site = fresh () }
+  { id = fresh (); label; parameters; implicit = false; captures = [||]; slots = parameters; code; lambda_site = fresh () }
 
 let code e = expression (Make_closure (lambda "code" 0 e, []))
 let handler e = expression (Make_closure (lambda "handler" 1 e, []))
@@ -49,6 +48,7 @@ let program ?(reads_sensors = false) ?(globals = 0) script =
   { source_name = "test.dol";
     locations = [||];
     global_names = Array.init globals (Printf.sprintf "g%d");
+    functions = [];
     main = lambda "script" 0 (block script);
     ordered_keys = [];
     reads_sensors }

@@ -380,6 +380,6 @@ let awaited (c : Configuration.t) =
 
 let depends_on_sensors (program : program) (c : Configuration.t) =
   match c.control with
-  | Executing (_, r) -> program.reads_sensors && Residual.waits_on_sensors r
   | Waiting (_, Pick _) -> true
-  | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) | Script _ | Ended _ -> false
+  | Executing _ | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) | Script _ -> program.reads_sensors
+  | Ended _ -> false

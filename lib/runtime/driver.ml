@@ -196,11 +196,14 @@ module Make (P : Platform.S) = struct
         | Seq.Cons (t, _) -> take s t; continue s advance
         | Seq.Nil -> pass s)
 
-  (* No internal transition is left. *)
+  (* No internal transition is left. That something runs in A is the usual case, and quicker to see than all of what is
+     awaited. *)
   and pass s =
-    let sensitive = Transition.depends_on_sensors s.program s.configuration in
-    match s.configuration.control with
-    | Executing (_, r) when (not sensitive) && Transition.awaited s.configuration = [] ->
+    let c = s.configuration in
+    let sensitive = Transition.depends_on_sensors s.program c in
+    match c.control with
+    | Executing (_, r)
+      when (not sensitive) && Configuration.Vehicle_map.is_empty c.allocation && Transition.awaited c = [] ->
       interrupt s;
       Lwt.return (Stuck r)
     | Script _ | Waiting _ | Executing _ | Ended _ ->

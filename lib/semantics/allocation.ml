@@ -62,6 +62,18 @@ let candidates world bound leaf : Assignment.leaf =
   in
   { candidates = Array.of_seq (Seq.filter_map Fun.id (Array.to_seq (Array.mapi candidate bound))) }
 
+(* Tasks by name under one [T[V]] have the same candidates, computed once. *)
+let candidates_once world bound =
+  let known = ref [] in
+  fun leaf ->
+    match leaf.task.plan, List.assq_opt leaf.allowed !known with
+    | None, Some candidates -> candidates
+    | None, None ->
+      let candidates = candidates world bound leaf in
+      known := (leaf.allowed, candidates) :: !known;
+      candidates
+    | Some _, _ -> candidates world bound leaf
+
 let names vs = String.concat ", " vs
 
 let no_candidate world bound leaf =
@@ -113,17 +125,42 @@ let rec residual next_vehicle next_timer t : Residual.t =
 and branch next_vehicle next_timer (b : Core.branch) : Residual.branch =
   { guard = b.guard; body = residual next_vehicle next_timer b.body }
 
+let most_parts = 1_000_000
+let deepest = 10_000
+
+(* A loop that doubles a task makes one that no memory could hold: such tasks, and too deep ones, are not walked. *)
+let is_too_large t =
+  let rec from count = function
+    | [] -> false
+    | (depth, t) :: rest ->
+      if count > most_parts || depth > deepest then true
+      else
+        let down ts = from (count + 1) (List.rev_append (List.rev_map (fun t -> (depth + 1, t)) ts) rest) in
+        (match t with
+         | Platform _ | Action _ | Condition _ | Idle _ -> from (count + 1) rest
+         | Sequence (a, b) | Parallel (a, b) -> down [ a; b ]
+         | Allocated (a, _) | Until (_, a) | During (_, a) | Watch (a, _) -> down [ a ]
+         | All_of bs | One_of bs -> down (List.map (fun (b : Core.branch) -> b.body) bs))
+  in
+  from 0 [ (0, t) ]
+
 let counter () =
   let last = ref 0 in
   fun () -> incr last; !last
 
-let allocate world bound t =
+let too_large =
+  Printf.sprintf "the task has more than %d parts, or is nested more than %d deep" most_parts deepest
+
+let allocate_small world bound t =
   let bound = Array.of_list bound in
   let tree = tree_of None t in
   let tasks = Array.of_list (leaves tree []) in
-  match Assignment.solve ~vehicles:(Array.length bound) (map_tree (candidates world bound) tree) with
+  match Assignment.solve ~vehicles:(Array.length bound) (map_tree (candidates_once world bound) tree) with
   | Ok vehicles ->
     let next = counter () in
     Ok (residual (fun () -> bound.(vehicles.(next () - 1))) (counter ()) t)
   | Error (No_candidate i) -> Error (no_candidate world bound tasks.(i))
   | Error (Conflict { leaves; vehicles }) -> Error (conflict bound tasks leaves vehicles)
+
+let allocate world bound t =
+  if is_too_large t then Error (Fault.make Fault.unknown_site too_large) else allocate_small world bound t

@@ -125,14 +125,24 @@ let arithmetic op on_integers on_numbers x y =
       | Some a, Some b -> Ok (Number (on_numbers a b))
       | _ -> mismatch op x y)
 
-let concatenate x y = Ok (String (Value.to_string x ^ Value.to_string y))
+(* A loop that doubles a list must end in a fault, not without memory. *)
+let longest = 1_000_000
+
+let too_long what = Error (Printf.sprintf "%s of more than %d elements is too long" what longest)
+
+let concatenate x y =
+  let x = Value.to_string x and y = Value.to_string y in
+  if String.length x + String.length y > longest then too_long "a string" else Ok (String (x ^ y))
+
+let append xs ys =
+  if Array.length xs + Array.length ys > longest then too_long "a list" else Ok (List (Array.append xs ys))
 
 let binary (op : Ast.binary) x y =
   match op, x, y with
   | Add, (String _ as x), y | Add, x, (String _ as y) -> concatenate x y
   | Add, Vehicles vs, Vehicles ws -> Ok (Vehicles (union vs ws))
-  | Add, List xs, List ys -> Ok (List (Array.append xs ys))
-  | Add, List xs, y -> Ok (List (Array.append xs [| y |]))
+  | Add, List xs, List ys -> append xs ys
+  | Add, List xs, y -> append xs [| y |]
   | Add, Map a, Map b -> Ok (Map (List.fold_left (fun entries (k, x) -> put entries k x) a b))
   | Add, x, y -> arithmetic op add ( +. ) x y
   | Subtract, Vehicles vs, Vehicles ws -> Ok (Vehicles (difference vs ws))
@@ -157,7 +167,7 @@ let binary (op : Ast.binary) x y =
       | _, _, _, _ -> mismatch op x y)
   | Sequence, Task a, Task b -> Ok (Task (Sequence (a, b)))
   | Sequence, x, y -> mismatch op x y
-  | Append, List xs, y -> Ok (List (Array.append xs [| y |]))
+  | Append, List xs, y -> append xs [| y |]
   | Append, x, y -> mismatch op x y
   | Parallel, Task a, Task b -> Ok (Task (Parallel (a, b)))
   | Parallel, Boolean a, Boolean b -> Ok (Boolean (a || b))

@@ -16,7 +16,7 @@ type refusal = Not_awaited | Bad_answer of string
 
 (* The script runs so many expressions in one silent transition, then lets others see it; atomic code may take so
    many before it counts as endless. *)
-let script_fuel = 100_000
+let script_fuel = 10_000
 let atomic_fuel = 2_000_000
 
 let context program world (c : Configuration.t) mode : Machine.context =
@@ -80,6 +80,7 @@ let timers_started = List.map (fun (timer, seconds) -> Effect.Set_timer (timer, 
 let start_execution world (c : Configuration.t) m t =
   match Allocation.allocate world c.bound t with
   | Error fault ->
+    let fault = if fault.site = Fault.unknown_site then { fault with site = Machine.site m } else fault in
     ending_transition c [ Rule.Alloc_err ] (Label.Cannot_execute fault.message) (Failed fault) []
   | Ok r ->
     let r, timers = Residual.activate r in
@@ -125,12 +126,16 @@ let candidates world (c : Configuration.t) (pick : Settings.pick) =
   List.map (fun (s : World.vehicle_state) -> s.id) (List.filter fits (World.vehicles world))
 
 (* All lists of [n] elements of [xs] in their order, the first ones first. *)
-let rec choices n xs : 'a list Seq.t =
-  match n, xs with
-  | 0, _ -> Seq.return []
-  | _, [] -> Seq.empty
-  | n, x :: rest ->
-    fun () -> Seq.append (Seq.map (fun chosen -> x :: chosen) (choices (n - 1) rest)) (choices n rest) ()
+let choices n xs : 'a list Seq.t =
+  let rec from n xs length () =
+    match xs with
+    | _ when n = 0 -> Seq.return [] ()
+    | x :: rest when n <= length ->
+      let chosen = Seq.map (fun chosen -> x :: chosen) (from (n - 1) rest (length - 1)) in
+      Seq.append chosen (from n rest (length - 1)) ()
+    | _ -> Seq.Nil
+  in
+  from n xs (List.length xs)
 
 let bind (c : Configuration.t) m vs =
   let next = { c with control = Script (Machine.give (Vehicles vs) m); bound = c.bound @ vs } in
@@ -285,7 +290,7 @@ let internal program world (c : Configuration.t) : t Seq.t =
   | Waiting (m, Pick ({ count = Exactly n; _ } as pick)) ->
     fun () -> Seq.map (bind c m) (choices n (candidates world c pick)) ()
   | Waiting (_, (Pick _ | Ask _ | Pause _ | Execute _ | Host_call _)) -> Seq.empty
-  | Executing (m, r) -> Seq.filter_map (internal_step program world c m) (Residual.steps r)
+  | Executing (m, r) -> Seq.filter_map (internal_step program world c m) (Residual.internal_steps r)
 
 (* {1 Events} *)
 
@@ -296,7 +301,7 @@ let rec find_step p (steps : Residual.step Seq.t) =
 
 let vehicle_ended program world (c : Configuration.t) m r v label (reply : Residual.reply) =
   let ends = function Residual.End_of (_, v') -> v = v' | _ -> false in
-  match find_step ends (Residual.steps r) with
+  match find_step ends (Residual.steps_of_vehicle v r) with
   | None -> Error Not_awaited
   | Some step ->
     let name = match step.offer with End_of (p, _) -> p.name | _ -> "" in

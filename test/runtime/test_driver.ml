@@ -49,7 +49,8 @@ let runs_tasks () =
   texts "shown" [ "done" ] (shown ())
 
 let waits_for_vehicles () =
-  let mock = Mock_platform.make [ Mock_platform.seen 0. "v1"; Mock_platform.seen 4. "v2"; Mock_platform.seen 5. "v3" ] in
+  let events = [ Mock_platform.seen 0. "v1"; Mock_platform.seen 4. "v2"; Mock_platform.seen 5. "v3" ] in
+  let mock = Mock_platform.make events in
   run mock (program [ pick 2; call Pause [ number 20. ] ]) |> outcome_is "end";
   log_is mock [ "0 telemetry true"; "4 bind v1 v2"; "4 telemetry false"; "24 release v1 v2"; "24 close" ]
 
@@ -236,6 +237,16 @@ let interrupted_in_question () =
   run ~console ~interruption:(soon ()) mock (program [ call Ask [ string "well?" ] ]) |> outcome_is "end: interrupted";
   Alcotest.(check bool) "the question is cancelled" true (Lwt.state promise = Lwt.Fail Lwt.Canceled)
 
+(* The real thing: a process that never replies. *)
+let interrupted_in_call () =
+  match Host.start "sleep 30" with
+  | Error why -> Alcotest.fail why
+  | Ok host ->
+    let mock = Mock_platform.make [] in
+    run ~host:(Host.call host) ~interruption:(soon ()) mock (program [ call Get_supplier [] ])
+    |> outcome_is "end: interrupted";
+    Lwt_main.run (Host.close host)
+
 (* A stream of events that come at once and change nothing. *)
 let interrupted_in_flood () =
   let flood = List.init 100_000 (fun i -> Mock_platform.seen (float_of_int i) "v1") in
@@ -263,7 +274,8 @@ let broken_run ?observer mock =
     start (module Mock_platform.Virtual) ?observer mock
       (program [ pick_all (); call Execute [ parallel (task "a") (task "b") ] ])
   in
-  Lwt_main.run (Lwt.catch (fun () -> whole () >|= fun _ -> "no exception") (fun e -> Lwt.return (Printexc.to_string e)))
+  let failure error = Lwt.return (Printexc.to_string error) in
+  Lwt_main.run (Lwt.try_bind whole (fun _ -> Lwt.return "no exception") failure)
 
 let broken_observer () =
   let mock = Mock_platform.make two_vehicles in
@@ -287,7 +299,11 @@ let thousand_branches () =
   let names = repeat 1000 (Printf.sprintf "v%d") in
   let mock = Mock_platform.make (List.map (Mock_platform.seen 0.) names) in
   let transitions = ref 0 in
-  let transition ~time:_ _ = incr transitions in
+  let executed = ref 0. in
+  let transition ~time:_ (t : Transition.t) =
+    incr transitions;
+    match t.label with Execute -> executed := Sys.time () | _ -> ()
+  in
   let branch i =
     match repeat 10 (fun j -> task (Printf.sprintf "t%d.%d" i j)) with
     | first :: others -> List.fold_left sequence first others
@@ -297,7 +313,8 @@ let thousand_branches () =
   let began = Sys.time () in
   run ~observer:{ Observer.nobody with transition } mock (program [ pick_all (); call Execute [ all ] ])
   |> outcome_is "end";
-  Printf.printf "%d transitions in %.2f s\n" !transitions (Sys.time () -. began);
+  Printf.printf "allocation: %.2f s; then %d transitions: %.2f s\n" (!executed -. began) !transitions
+    (Sys.time () -. !executed);
   Alcotest.(check int) "transitions" 20_004 !transitions
 
 let tests =
@@ -322,6 +339,7 @@ let tests =
     case "interrupted in an endless loop" interrupted_in_loop;
     case "interrupted while tasks run" interrupted_in_task;
     case "interrupted while a question is open" interrupted_in_question;
+    case "interrupted while the host hangs" interrupted_in_call;
     case "interrupted among many events" interrupted_in_flood;
     case "observers are told ahead" told_ahead;
     case "a broken observer ends the run safely" broken_observer;

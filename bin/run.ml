@@ -70,13 +70,44 @@ let start_host s =
   | None -> Ok None
   | Some command -> Result.map Option.some (Host.start ?timeout:s.supplier_timeout command)
 
+(* A program that waits for what batteries or positions will be is stuck when they will not change any more. The driver
+   cannot know; the fleet does. [P] tells, by [stuck], when it is asked for an event that will never come. *)
+let watched (type p) (module P : Simulator.S with type t = p) stuck =
+  let module Watched = struct
+    include P
+
+    let next p =
+      let promise = P.next p in
+      if P.idle p && Lwt.is_sleeping promise then stuck ();
+      promise
+  end in
+  (module Watched : Simulator.S with type t = p)
+
+(* The simulated fleet passes its time at once, or as a clock does. *)
+type platform = Platform : (module Simulator.S with type t = 'p) * 'p -> platform
+
+let simulated s =
+  match s.speed with
+  | None -> Platform ((module Simulator.Virtual), Simulator.Virtual.create ~seed:s.seed s.scenario)
+  | Some speed -> Platform ((module Simulator.Paced), Simulator.Paced.create ~speed ~seed:s.seed s.scenario)
+
 let drive s host =
   let interruption = Interruption.make () in
   let live = is_live () in
   let screen = Screen.make ~live ~on_closed:(fun () -> Interruption.interrupt interruption) Unix.stdout in
   let log = ref Log.start and board = ref Board.start in
-  let platform = Simulator.create ?speed:s.speed ~seed:s.seed s.scenario in
-  let time () = Simulator.now platform in
+  let control = ref None and stuck = ref None in
+  let notice_stuck () =
+    match !control with
+    | Some (Configuration.Executing (_, r)) -> stuck := Some r; Interruption.interrupt interruption
+    | Some (Script _ | Waiting _ | Ended _) | None -> ()
+  in
+  let remember : Observer.t =
+    { Observer.nobody with transition = (fun ~time:_ t -> control := Some t.next.control) }
+  in
+  let (Platform (simulator, platform)) = simulated s in
+  let (module P) = watched simulator notice_stuck in
+  let time () = P.now platform in
   Screen.show screen (fun () -> Board.lines !board);
   let shown : Questions.shown =
     { ask = (fun prompt -> Screen.ask screen (Log.question !log ~time:(time ()) prompt));
@@ -84,7 +115,7 @@ let drive s host =
       refused = (fun why -> Screen.print screen (Log.remark !log ~time:(time ()) ("cannot take this answer: " ^ why))) }
   in
   let run () =
-    Driver.run (module Simulator) platform ~always_telemetry:live ~observer:(observe screen log board)
+    Driver.run (module P) platform ~always_telemetry:live ~observer:(Observer.both remember (observe screen log board))
       ?host:(Option.map Host.call host)
       ~console:(Questions.console shown ~answers:s.answers ~scenario:s.scenario)
       ~interruption:(Interruption.promise interruption) s.program.program
@@ -93,7 +124,10 @@ let drive s host =
     Screen.close screen;
     match host with None -> Lwt.return_unit | Some host -> Host.close host
   in
-  Lwt_main.run (Lwt.finalize run close >|= status s)
+  Lwt_main.run (Lwt.finalize run close >|= fun outcome ->
+                match outcome, !stuck with
+                | Ended Interrupted, Some r -> status s (Stuck r)
+                | outcome, _ -> status s outcome)
 
 let run s =
   Sys.set_signal Sys.sigpipe Signal_ignore;

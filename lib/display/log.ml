@@ -53,13 +53,13 @@ let of_label (s : Transition.t) =
   match s.label with
   | Done (v, name) -> [ (v, "ends " ^ name) ]
   | Fail (v, name, why) -> [ (v, Printf.sprintf "fails in %s: %s" name why) ]
-  | Check [] -> by_program "sees a condition hold"
-  | Cut ds -> by_program "sees the condition of until hold" @ deeds ds
+  | Check [] -> by_program "sees that a condition holds"
+  | Cut ds -> by_program "sees that the condition of until holds" @ deeds ds
   | Check ds | Act ds -> deeds ds
   | Did d -> deeds [ d ]
   | Time_out when List.mem Rule.Idle_end s.rules -> by_program "idled long enough"
   | Time_out -> by_program "cuts a task short: its time is up"
-  | Set_time seconds -> by_program ("gives a task " ^ Wording.duration seconds)
+  | Set_time seconds -> by_program ("allows a task " ^ Wording.duration seconds)
   | Broken why -> by_program ("has an error in a task: " ^ why)
   | Pause seconds -> by_program ("pauses for " ^ Wording.duration seconds)
   | Call what -> by_program ("calls " ^ what)

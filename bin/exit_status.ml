@@ -1,0 +1,20 @@
+type t = Done | Failed | Bad_input | Platform_trouble | Bug | Interrupted
+
+let code = function
+  | Done -> 0
+  | Failed -> 1
+  | Bad_input -> 2
+  | Platform_trouble -> 3
+  | Bug -> 125
+  | Interrupted -> 130
+
+let meaning = function
+  | Done -> "all is well."
+  | Failed -> "the program halted or failed, or got stuck; what went wrong is told on standard error."
+  | Bad_input -> "the program, the fleet or the command line is not right; nothing was started."
+  | Platform_trouble -> "the platform, not the program, is in trouble."
+  | Bug -> "a fault of $(mname) itself. Please report it."
+  | Interrupted ->
+    "the run was interrupted: by Ctrl-C, by a request to terminate, or because nobody reads its log any more."
+
+let info statuses = List.map (fun s -> Cmdliner.Cmd.Exit.info (code s) ~doc:(meaning s)) statuses

@@ -1,0 +1,14 @@
+(** How [dolphin] ends. *)
+
+type t =
+  | Done
+  | Failed  (** the program halted, failed or got stuck *)
+  | Bad_input  (** a bad program, fleet or command line *)
+  | Platform_trouble
+  | Bug  (** a fault of [dolphin] itself *)
+  | Interrupted
+
+val code : t -> int
+
+val info : t list -> Cmdliner.Cmd.Exit.info list
+(** For manual pages. *)

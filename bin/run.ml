@@ -1,0 +1,138 @@
+open Dolphin_semantics
+open Dolphin_runtime
+open Dolphin_display
+open Lwt.Infix
+module Diagnostic = Dolphin_syntax.Diagnostic
+module Location = Dolphin_syntax.Location
+module Simulator = Dolphin_platform_sim.Simulator
+
+type settings = {
+  program : Program_file.t;
+  scenario : Dolphin_scenario.Scenario.t;
+  speed : float option;
+  seed : int;
+  answers : string list;
+  supplier : string option;
+  supplier_timeout : float option;
+}
+
+(* {1 What is seen} *)
+
+let is_live () =
+  let dumb = match Sys.getenv_opt "TERM" with None | Some ("" | "dumb") -> true | Some _ -> false in
+  Unix.isatty Unix.stdout && not dumb
+
+(* The log on [screen] and its board, as an observer. *)
+let observe screen log board : Observer.t =
+  let print lines = List.iter (Screen.print screen) lines in
+  let transition ~time s =
+    board := Board.transition !board ~time s;
+    let next, lines = Log.transition !log ~time s in
+    log := next;
+    print lines
+  in
+  let news ~time state =
+    board := Board.news !board ~time state;
+    let next, lines = Log.news !log ~time state in
+    log := next;
+    print lines;
+    Screen.changed screen
+  in
+  { transition; news }
+
+(* {1 What went wrong} *)
+
+let tell_fault s (fault : Fault.t) =
+  let at = Option.value (Fault.location s.program.program fault) ~default:Location.none in
+  Report.diagnostics ~source:s.program.source [ Diagnostic.error at fault.message ]
+
+let tell_stuck s residual =
+  let guard (c : Core.closure) =
+    let at = s.program.program.locations.(c.lambda.lambda_site) in
+    Diagnostic.error at "the program is stuck: nothing can make this condition true any more"
+  in
+  let in_text a b = Diagnostic.compare a b in
+  match List.sort_uniq in_text (List.map guard (Driver.guards residual)) with
+  | [] -> Report.complain "the program is stuck: nothing more can happen"
+  | found -> Report.diagnostics ~source:s.program.source found
+
+let status s : Driver.outcome -> Exit_status.t = function
+  | Ended Completed -> Done
+  | Ended (Halted _) -> Failed
+  | Ended (Failed fault) -> tell_fault s fault; Failed
+  | Ended Interrupted -> Interrupted
+  | Stuck residual -> tell_stuck s residual; Failed
+
+(* {1 The run} *)
+
+let start_host s =
+  match s.supplier with
+  | None -> Ok None
+  | Some command -> Result.map Option.some (Host.start ?timeout:s.supplier_timeout command)
+
+(* A program that waits for what batteries or positions will be is stuck when they will not change any more. The driver
+   cannot know; the fleet does. [P] tells, by [stuck], when it is asked for an event that will never come. *)
+let watched (type p) (module P : Simulator.S with type t = p) stuck =
+  let module Watched = struct
+    include P
+
+    let next p =
+      let promise = P.next p in
+      if P.idle p && Lwt.is_sleeping promise then stuck ();
+      promise
+  end in
+  (module Watched : Simulator.S with type t = p)
+
+(* The simulated fleet passes its time at once, or as a clock does. *)
+type platform = Platform : (module Simulator.S with type t = 'p) * 'p -> platform
+
+let simulated s =
+  match s.speed with
+  | None -> Platform ((module Simulator.Virtual), Simulator.Virtual.create ~seed:s.seed s.scenario)
+  | Some speed -> Platform ((module Simulator.Paced), Simulator.Paced.create ~speed ~seed:s.seed s.scenario)
+
+let drive s host =
+  let interruption = Interruption.make () in
+  let live = is_live () in
+  let screen = Screen.make ~live ~on_closed:(fun () -> Interruption.interrupt interruption) Unix.stdout in
+  let log = ref Log.start and board = ref Board.start in
+  let control = ref None and stuck = ref None in
+  let notice_stuck () =
+    match !control with
+    | Some (Configuration.Executing (_, r)) -> stuck := Some r; Interruption.interrupt interruption
+    | Some (Script _ | Waiting _ | Ended _) | None -> ()
+  in
+  let remember : Observer.t =
+    { Observer.nobody with transition = (fun ~time:_ t -> control := Some t.next.control) }
+  in
+  let (Platform (simulator, platform)) = simulated s in
+  let (module P) = watched simulator notice_stuck in
+  let time () = P.now platform in
+  Screen.show screen (fun () -> Board.lines !board);
+  let shown : Questions.shown =
+    { ask = (fun prompt -> Screen.ask screen (Log.question !log ~time:(time ()) prompt));
+      answered = Screen.answered screen;
+      refused = (fun why -> Screen.print screen (Log.remark !log ~time:(time ()) ("cannot take this answer: " ^ why))) }
+  in
+  let run () =
+    Driver.run (module P) platform ~always_telemetry:live ~observer:(Observer.both remember (observe screen log board))
+      ?host:(Option.map Host.call host)
+      ~console:(Questions.console shown ~answers:s.answers ~scenario:s.scenario)
+      ~interruption:(Interruption.promise interruption) s.program.program
+  in
+  let close () =
+    Screen.close screen;
+    match host with None -> Lwt.return_unit | Some host -> Host.close host
+  in
+  Lwt_main.run (Lwt.finalize run close >|= fun outcome ->
+                match outcome, !stuck with
+                | Ended Interrupted, Some r -> status s (Stuck r)
+                | outcome, _ -> status s outcome)
+
+let run s =
+  Sys.set_signal Sys.sigpipe Signal_ignore;
+  match start_host s with
+  | Ok host -> drive s host
+  | Error why ->
+    Report.complain ("the supplier cannot be started: " ^ why);
+    Platform_trouble

@@ -1,0 +1,15 @@
+  $ dolphin parse ../../examples/until.dol
+  v = pick { type 'UAV' }
+  survey = imcPlan('long_survey')
+  execute v: survey / { battery(v) < 0.3 } >> imcPlan('return_home')
+  message "landed with ${(battery(v) * 100).round()} percent"
+
+What it prints means the same.
+
+  $ for program in ../../examples/*.dol; do
+  >   dolphin parse "$program" > once.dol && dolphin parse once.dol | diff -q once.dol - || echo "$program"
+  > done
+  $ dolphin parse ../../examples/rendezvous.dol > again.dol
+  $ cp ../../examples/rendezvous.fleet again.fleet
+  $ dolphin exec again.dol > again.log
+  $ dolphin exec ../../examples/rendezvous.dol | diff again.log -

@@ -30,9 +30,20 @@ let header () =
   (* The header alone does not mind the checksum; [check] does. *)
   let broken = heartbeat ^ "\000\000" in
   check Alcotest.bool "the same header" true (Header.read broken = Ok h);
-  match Header.check h broken with
-  | Error (Bad_checksum { stated = 0; _ }) -> ()
-  | Ok () | Error _ -> Alcotest.fail "a wrong checksum"
+  (match Header.check h broken with
+   | Error (Bad_checksum { stated = 0; _ }) -> ()
+   | Ok () | Error _ -> Alcotest.fail "a wrong checksum");
+  (* Nor does a header that belongs elsewhere make it read outside. *)
+  let elsewhere ~pos size =
+    match (Header.check ~pos { h with size } s, Packet.decode_after ~pos { h with size } s) with
+    | Error (Truncated _), Error (Truncated _) -> ()
+    | _ -> Alcotest.failf "%d bytes at %d" size pos
+  in
+  elsewhere ~pos:0 1;
+  elsewhere ~pos:1 0;
+  elsewhere ~pos:(-1) 0;
+  elsewhere ~pos:max_int 0;
+  elsewhere ~pos:0 (-5)
 
 let make () =
   let p = Packet.make ~src:0x4001 ~timestamp:1.5 Heartbeat in

@@ -40,6 +40,7 @@ let field_type o (f : field) =
   | Inline of_ -> contained of_ ^ " option"
   | List of_ -> contained of_ ^ " list"
 
+<<<<<<< HEAD
 let with_comment text comment = line "%s%s" text (if comment = "" then "" else "  " ^ comment)
 
 let record o m ~comment =
@@ -62,3 +63,33 @@ let constructor o item =
   | Message _ | Group _ ->
     let parameter = if Outline.is_open o item then "t " else "" in
     Printf.sprintf "%s of %s%s.t" name parameter name
+=======
+let commented text comment = line "%s%s" text (if comment = "" then "" else "  " ^ comment)
+
+let record o m ~comment =
+  let field (f : field) =
+    commented (Printf.sprintf "%s : %s;" (Names.label f.name) (field_type o f)) (comment f)
+  in
+  let head = Printf.sprintf "type %st = {" (parameter o (Message m)) in
+  enclosed head (List.map field m.fields) "}"
+
+let enumeration members ~comment =
+  let case (n : named) = commented ("| " ^ Names.constructor n.name) (comment n) in
+  under "type t =" (List.map case members @ [ line "| Other of int" ])
+
+(* [constructor o parameter i] is the case of [i] in a type whose parameter is [parameter]. *)
+let constructor o parameter item =
+  let name = Names.module_ (Outline.name item) in
+  match item with
+  | Outline.Message { fields = []; _ } -> line "| %s" name
+  | Outline.Message _ | Outline.Group _ ->
+    line "| %s of %s%s.t" name (if Outline.is_open o item then parameter else "") name
+
+let variant o item members =
+  let head = Printf.sprintf "type %st =" (parameter o item) in
+  under head (List.map (constructor o "'message ") members)
+
+let all o =
+  let items = Outline.all_groups o @ List.map (fun m -> Outline.Message m) (Outline.loose o) in
+  under "type t =" (List.map (constructor o "t ") items)
+>>>>>>> wt-imc

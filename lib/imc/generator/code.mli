@@ -3,9 +3,6 @@
 type t = Line of string | Nest of t list
 
 val line : ('a, unit, string, t) format4 -> 'a
-<<<<<<< HEAD
-(** [line format ...] is one line. The empty one separates items. *)
-=======
 (** [line format ...] is one line. *)
 
 val under : string -> t list -> t list
@@ -16,7 +13,6 @@ val enclosed : string -> t list -> string -> t list
 
 val paragraphs : t list list -> t list
 (** The parts that are not empty, with an empty line between each two. *)
->>>>>>> wt-imc
 
 val to_string : t list -> string
 (** The text: each {!Nest} is indented by two blanks more than what surrounds it. *)

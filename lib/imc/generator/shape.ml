@@ -40,30 +40,6 @@ let field_type o (f : field) =
   | Inline of_ -> contained of_ ^ " option"
   | List of_ -> contained of_ ^ " list"
 
-<<<<<<< HEAD
-let with_comment text comment = line "%s%s" text (if comment = "" then "" else "  " ^ comment)
-
-let record o m ~comment =
-  let field (f : field) =
-    with_comment (Printf.sprintf "%s : %s;" (Names.label f.name) (field_type o f)) (comment f)
-  in
-  [ line "type %st = {" (parameter o (Message m)); Nest (List.map field m.fields); line "}" ]
-
-let enumeration members ~comment =
-  let case (n : named) = with_comment ("| " ^ Names.constructor n.name) (comment n) in
-  [
-    line "type t =";
-    Nest (List.map case members @ [ line "| Other of int" ]);
-  ]
-
-let constructor o item =
-  let name = Names.module_ (Outline.name item) in
-  match item with
-  | Message { fields = []; _ } -> name
-  | Message _ | Group _ ->
-    let parameter = if Outline.is_open o item then "t " else "" in
-    Printf.sprintf "%s of %s%s.t" name parameter name
-=======
 let commented text comment = line "%s%s" text (if comment = "" then "" else "  " ^ comment)
 
 let record o m ~comment =
@@ -92,4 +68,3 @@ let variant o item members =
 let all o =
   let items = Outline.all_groups o @ List.map (fun m -> Outline.Message m) (Outline.loose o) in
   under "type t =" (List.map (constructor o "t ") items)
->>>>>>> wt-imc

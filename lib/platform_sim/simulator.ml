@@ -67,6 +67,7 @@ module Make (Clock : Clock) = struct
   let rec next p =
     catch_up p;
     match Fleet.due p.fleet with
+    | None when Clock.virtual_time -> Lwt.return Platform.Quiet
     | None -> Lwt.bind (change p) (fun () -> next p)
     | Some time when Clock.virtual_time || time <= Clock.elapsed p.clock -> take p
     | Some time -> Lwt.bind (Lwt.pick [ change p; Clock.until p.clock time ]) (fun () -> next p)

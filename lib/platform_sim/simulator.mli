@@ -81,8 +81,8 @@ module type S = sig
   include Platform.S
 
   val idle : t -> bool
-  (** [idle p] is whether no event will ever come of [p] unless it is commanded: [next p] would be pending for good. A
-      driver that waits for nothing else is stuck then. *)
+  (** [idle p] is whether no event will ever come of [p] unless it is commanded. In virtual time [next p] is [Quiet]
+      then; in real time it is pending until a command causes an event. *)
 
   val vehicles : t -> World.vehicle_state list
   (** All vehicles that were heard of, in the scenario's order: as they are now, or, without a link, as they were last
@@ -93,7 +93,7 @@ module type S = sig
 end
 
 (** Time passes only in [next], at once: a mission of an hour takes milliseconds. [next p] is resolved whenever it is
-    called, unless [p] is idle; then it is pending until a command causes an event. *)
+    called. *)
 module Virtual : sig
   include S
 

@@ -29,7 +29,7 @@ let no_host ~site:_ ~subject:_ ~member:_ ~arguments:_ =
 let breath = 100
 
 (* What happens outside. *)
-type news = Seen of World.vehicle_state | Event of Transition.event
+type news = Seen of World.vehicle_state | Event of Transition.event | Nothing_more
 
 module Make (P : Platform.S) = struct
   type t = {
@@ -131,6 +131,7 @@ module Make (P : Platform.S) = struct
         | Task_done v -> Event (Vehicle_done v)
         | Task_failed (v, why) -> Event (Vehicle_failed (v, why))
         | Timer timer -> Event (Timer_expired timer)
+        | Quiet -> Nothing_more
       in
       let promise = P.next s.platform >|= news in
       s.upcoming <- Some promise;
@@ -170,7 +171,10 @@ module Make (P : Platform.S) = struct
           | Sleep | Fail _ -> ()
           | Return news ->
             forget s promise;
-            (match news with Seen state -> see s state | Event event -> ignore (deliver s event));
+            (match news with
+             | Seen state -> see s state
+             | Event event -> ignore (deliver s event)
+             | Nothing_more -> ());
             catch_up s)
 
   (* {1 The run} *)
@@ -215,6 +219,10 @@ module Make (P : Platform.S) = struct
     next_news s >>= function
     | Seen state -> see s state; continue s (if sensitive then advance else wait ~sensitive)
     | Event event -> continue s (if deliver s event then advance else wait ~sensitive)
+    | Nothing_more -> (
+        match s.configuration.control with
+        | Executing (_, r) -> interrupt s; Lwt.return (Stuck r)
+        | Script _ | Waiting _ | Ended _ -> advance s)
 
   let finish s =
     Option.iter Lwt.cancel s.upcoming;

@@ -1,4 +1,5 @@
 open Core
+module Assignment = Dolphin_assignment.Assignment
 
 type leaf = { task : platform_task; allowed : vehicle list option  (* by the [T[V]] around it; [None]: all *) }
 

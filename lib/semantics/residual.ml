@@ -177,12 +177,6 @@ let timers =
       | Idle { timer; _ } | During { started = true; timer; _ } -> Some timer
       | _ -> None)
 
-let waits_on_sensors =
-  exists_active (function
-      | Condition _ | One_of _ | All_of (None, _) | Until _ -> true
-      | Ready _ | Running _ | Action _ | Idle _ | Sequence _ | All_of (Some _, _) | Parallel _ | During _ | Watch _ ->
-        false)
-
 (* {1 Steps} *)
 
 type offer =

@@ -96,6 +96,3 @@ val running : t -> vehicle list
 
 val timers : t -> timer list
 (** [timers r] is the timers of [r] that have started. *)
-
-val waits_on_sensors : t -> bool
-(** [waits_on_sensors r] is whether some step of [r] depends on code, and so perhaps on sensors. *)

@@ -29,16 +29,17 @@ let timers_of = function
   | Waiting (_, (Pick _ | Pause _)) -> [ Effect.script_timer ]
   | Waiting (_, (Ask _ | Execute _ | Host_call _)) | Script _ | Ended _ -> []
 
-(* Everything stops, all of B is released. *)
-let ended (c : Configuration.t) ending =
+(* Everything stops, all of B is released; timers that the effects [before] cancel already are left alone. *)
+let ended (c : Configuration.t) ending before =
   let cancelled = List.map (fun timer -> Effect.Cancel_timer timer) (timers_of c.control) in
+  let cancelled = List.filter (fun cancel -> not (List.mem cancel before)) cancelled in
   let stopped = List.map (fun (v, _) -> Effect.Stop v) (Vehicle_map.bindings c.allocation) in
   let released = if c.bound = [] then [] else [ Effect.Release c.bound ] in
   let next = { c with control = Ended ending; allocation = Vehicle_map.empty; bound = [] } in
   (next, cancelled @ stopped @ released @ [ Effect.End ending ])
 
 let ending_transition c rules label ending before =
-  let next, effects = ended c ending in
+  let next, effects = ended c ending before in
   { rules; label; next; effects = before @ effects }
 
 (* {1 Deeds of code} *)
@@ -137,10 +138,16 @@ let choices n xs : 'a list Seq.t =
   in
   from n xs (List.length xs)
 
-let bind (c : Configuration.t) m vs =
+let bind (c : Configuration.t) m effects vs =
   let next = { c with control = Script (Machine.give (Vehicles vs) m); bound = c.bound @ vs } in
-  let effects = [ Effect.Cancel_timer Effect.script_timer; Effect.Bind vs ] in
-  { rules = [ Rule.Pick_bind ]; label = Label.Bind vs; next; effects }
+  { rules = [ Rule.Pick_bind ]; label = Label.Bind vs; next; effects = effects @ [ Effect.Bind vs ] }
+
+(* The ways to meet a [pick] now. One that takes all there are waits for its whole time-out. *)
+let bindings world (c : Configuration.t) m (pick : Settings.pick) =
+  match pick.count with
+  | All -> Seq.empty
+  | Exactly n ->
+    Seq.map (bind c m [ Effect.Cancel_timer Effect.script_timer ]) (choices n (candidates world c pick))
 
 let why_not world (c : Configuration.t) (pick : Settings.pick) (s : World.vehicle_state) =
   let f = pick.filter in
@@ -175,10 +182,12 @@ let no_vehicles world (c : Configuration.t) m pick =
     (Failed (Fault.make (Machine.site m) message))
     []
 
+(* A [pick] that can be met is met, however late: its time is up for those only that cannot. *)
 let pick_timed_out world c m (pick : Settings.pick) =
   match pick.count, candidates world c pick with
-  | All, (_ :: _ as vs) -> bind c m vs
-  | (All | Exactly _), _ -> no_vehicles world c m pick
+  | All, (_ :: _ as vs) -> Ok (bind c m [] vs)
+  | All, [] -> Ok (no_vehicles world c m pick)
+  | Exactly n, vs -> if List.length vs >= n then Error Not_awaited else Ok (no_vehicles world c m pick)
 
 (* {1 Steps of the executing task} *)
 
@@ -287,9 +296,8 @@ let internal program world (c : Configuration.t) : t Seq.t =
   match c.control with
   | Ended _ -> Seq.empty
   | Script m -> fun () -> Seq.Cons (run_script program world c m, Seq.empty)
-  | Waiting (m, Pick ({ count = Exactly n; _ } as pick)) ->
-    fun () -> Seq.map (bind c m) (choices n (candidates world c pick)) ()
-  | Waiting (_, (Pick _ | Ask _ | Pause _ | Execute _ | Host_call _)) -> Seq.empty
+  | Waiting (m, Pick pick) -> fun () -> bindings world c m pick ()
+  | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) -> Seq.empty
   | Executing (m, r) -> Seq.filter_map (internal_step program world c m) (Residual.internal_steps r)
 
 (* {1 Events} *)
@@ -349,7 +357,7 @@ let accept program world (c : Configuration.t) event =
     vehicle_ended program world c m r v label (Broke (Fault.make Fault.unknown_site (told name)))
   | Timer_expired timer, Executing (m, r) -> timer_expired program world c m r timer
   | Timer_expired timer, Waiting (m, Pick pick) when timer = Effect.script_timer ->
-    Ok (pick_timed_out world c m pick)
+    pick_timed_out world c m pick
   | Timer_expired timer, Waiting (m, Pause _) when timer = Effect.script_timer ->
     Ok (resume c m Null Rule.Resume Label.Resume)
   | Answered text, Waiting (m, Ask _) -> answered program world c m text
@@ -380,6 +388,6 @@ let awaited (c : Configuration.t) =
 
 let depends_on_sensors (program : program) (c : Configuration.t) =
   match c.control with
-  | Executing (_, r) -> program.reads_sensors && Residual.waits_on_sensors r
   | Waiting (_, Pick _) -> true
-  | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) | Script _ | Ended _ -> false
+  | Executing _ | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) | Script _ -> program.reads_sensors
+  | Ended _ -> false

@@ -36,3 +36,4 @@ let show : Dolphin_runtime.Platform.event -> string = function
   | Task_done v -> v ^ " done"
   | Task_failed (v, why) -> v ^ " failed: " ^ why
   | Timer timer -> Printf.sprintf "timer %d" timer
+  | Quiet -> "quiet"

@@ -68,6 +68,7 @@ let hear e event =
   | Timer timer ->
     require "a timer that was set" (List.mem timer e.timers);
     { e with timers = without timer e.timers }
+  | Quiet -> raise (Broken "the fleet itself does not say that it is quiet")
 
 let step e =
   let before = Fleet.now e.fleet and due = Fleet.due e.fleet and quiet = Fleet.quiet e.fleet in

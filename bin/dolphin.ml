@@ -21,8 +21,18 @@ let command =
   in
   Cmd.group info [ Exec_command.command; Check_command.command; Parse_command.command ]
 
+(* [--sim] alone would take the next argument for its fleet. *)
+let arguments =
+  let rec complete = function
+    | [] -> []
+    | "--" :: _ as rest -> rest
+    | "--sim" :: rest -> "--sim=" :: complete rest
+    | argument :: rest -> argument :: complete rest
+  in
+  Array.of_list (complete (Array.to_list Sys.argv))
+
 let evaluate () =
-  match Cmd.eval_value ~catch:false command with
+  match Cmd.eval_value ~catch:false ~argv:arguments command with
   | Ok (`Ok status) -> status
   | Ok (`Help | `Version) -> Exit_status.Done
   | Error (`Parse | `Term) -> Exit_status.Bad_input

@@ -2,7 +2,7 @@ open Cmdliner
 
 let run path sim fleet speed seed answers supplier supplier_timeout =
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
-  let named = match fleet with Some _ -> fleet | None -> Option.join sim in
+  let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
   match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path named) with
   | Error trouble, _ ->
     Program_file.tell trouble;
@@ -27,7 +27,7 @@ let sim =
     "Run on the simulated fleet that the file $(docv) describes. Without $(docv), as by default: the file beside \
      $(i,PROG) with the ending $(b,.fleet), or else the built-in fleet."
   in
-  Arg.(value & opt ~vopt:(Some None) (some (some string)) None & info [ "sim" ] ~docv:"FLEET" ~doc)
+  Arg.(value & opt ~vopt:(Some "") (some string) None & info [ "sim" ] ~docv:"FLEET" ~doc)
 
 let fleet =
   let doc = "The same as $(b,--sim=)$(docv)." in

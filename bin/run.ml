@@ -22,12 +22,13 @@ let is_live () =
   let dumb = match Sys.getenv_opt "TERM" with None | Some ("" | "dumb") -> true | Some _ -> false in
   Unix.isatty Unix.stdout && not dumb
 
-(* The log on [screen] and its board, as an observer. *)
-let observe screen log board : Observer.t =
+(* The log on [screen] and its board, as an observer. The driver interrupts stuck programs by itself; [is_stuck] tells
+   whether an interruption is of that kind. *)
+let observe screen log board ~is_stuck : Observer.t =
   let print lines = List.iter (Screen.print screen) lines in
   let transition ~time s =
     board := Board.transition !board ~time s;
-    let next, lines = Log.transition !log ~time s in
+    let next, lines = Log.transition ~stuck:(is_stuck ()) !log ~time s in
     log := next;
     print lines
   in
@@ -105,6 +106,7 @@ let drive s host =
   let remember : Observer.t =
     { Observer.nobody with transition = (fun ~time:_ t -> control := Some t.next.control) }
   in
+  let is_stuck () = !stuck <> None || not (Interruption.happened interruption) in
   let (Platform (simulator, platform)) = simulated s in
   let (module P) = watched simulator notice_stuck in
   let time () = P.now platform in
@@ -115,7 +117,7 @@ let drive s host =
       refused = (fun why -> Screen.print screen (Log.remark !log ~time:(time ()) ("cannot take this answer: " ^ why))) }
   in
   let run () =
-    Driver.run (module P) platform ~always_telemetry:live ~observer:(Observer.both remember (observe screen log board))
+    Driver.run (module P) platform ~always_telemetry:live ~observer:(Observer.both remember (observe screen log board ~is_stuck))
       ?host:(Option.map Host.call host)
       ~console:(Questions.console shown ~answers:s.answers ~scenario:s.scenario)
       ~interruption:(Interruption.promise interruption) s.program.program

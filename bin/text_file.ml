@@ -14,15 +14,16 @@ let read_all channel =
 
 let read path =
   let read () =
-    if path = "" then Error "the name of the file is empty"
-    else if Sys.file_exists path && Sys.is_directory path then Error "this is a directory, not a file"
+    if Sys.file_exists path && Sys.is_directory path then Error "this is a directory, not a file"
     else
       let channel = open_in_bin path in
       Fun.protect ~finally:(fun () -> close_in_noerr channel) (fun () -> read_all channel)
   in
-  match read () with
-  | result -> Result.map_error (fun why -> path ^ ": " ^ why) result
-  | exception Sys_error why ->
-    (* "x.dol: No such file or directory"; reading, not opening, leaves out the name. *)
-    let named = String.length why > String.length path && String.sub why 0 (String.length path) = path in
-    Error (if named then why else path ^ ": " ^ why)
+  if path = "" then Error "the name of the file is empty"
+  else
+    match read () with
+    | result -> Result.map_error (fun why -> path ^ ": " ^ why) result
+    | exception Sys_error why ->
+      (* "x.dol: No such file or directory"; reading, not opening, leaves out the name. *)
+      let named = String.length why > String.length path && String.sub why 0 (String.length path) = path in
+      Error (if named then why else path ^ ": " ^ why)

@@ -37,12 +37,12 @@ let deed : Machine.deed -> string = function
   | Set_connection_timeout (Some vs, seconds) ->
     Printf.sprintf "sets the connection timeout of %s to %s" (Wording.vehicles vs) (Wording.duration seconds)
 
-let ending : Configuration.ending -> string = function
+let ending ~stuck : Configuration.ending -> string = function
   | Completed -> "ends"
   | Halted "" -> "halts"
   | Halted message -> "halts: " ^ message
   | Failed fault -> "fails: " ^ fault.message
-  | Interrupted -> "is interrupted"
+  | Interrupted -> if stuck then "is stuck" else "is interrupted"
 
 let task_of l v = match Vehicle_map.find_opt v l.before with Some p -> p.Core.name | None -> "its task"
 
@@ -80,23 +80,23 @@ let told_by_label (label : Label.t) =
   | Answer _ | No_answer | Pause _ | Resume | Call _ | Reply _ | No_reply _ | Execute | Cannot_execute _ | End
   | Halt _ | Fault _ | Interrupt -> 0
 
-let of_effect l : Effect.t -> (string * string) list = function
+let of_effect ~stuck l : Effect.t -> (string * string) list = function
   | Start (v, p) -> [ (v, "starts " ^ p.name) ]
   | Stop v -> [ (v, "stops " ^ task_of l v) ]
   | Bind vs -> [ (program, "picks " ^ Wording.vehicles vs) ]
   | Release vs -> [ (program, deed (Released vs)) ]
   | Say text -> [ (program, deed (Said text)) ]
   | Set_connection_timeout (vs, seconds) -> [ (program, deed (Set_connection_timeout (vs, seconds))) ]
-  | End e -> [ (program, ending e) ]
+  | End e -> [ (program, ending ~stuck e) ]
   | Set_timer _ | Cancel_timer _ | Look_for _ | Ask _ | Call_host _ -> []
 
-let transition l ~time (s : Transition.t) =
+let transition ?(stuck = false) l ~time (s : Transition.t) =
   let bound = s.next.bound in
   let wider column v = max column (min widest (Wording.width v)) in
   let column = if bound == l.bound then l.column else List.fold_left wider l.column bound in
   let l = { l with column } in
   let further = List.filteri (fun i _ -> i >= told_by_label s.label) s.effects in
-  let happenings = of_label s @ List.concat_map (of_effect l) further in
+  let happenings = of_label s @ List.concat_map (of_effect ~stuck l) further in
   let lines = List.map (fun (actor, text) -> line l ~time actor text) happenings in
   ({ l with before = s.next.allocation; bound }, lines)
 

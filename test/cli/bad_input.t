@@ -14,7 +14,7 @@ Whatever is given, the answer is a sentence and status 2, never an exception.
   dolphin: folder: this is a directory, not a file
   [2]
   $ dolphin exec ''
-  dolphin: : the name of the file is empty
+  dolphin: the name of the file is empty
   [2]
   $ echo "message 'hello'" > hello.dol
   $ dolphin exec hello.dol/deeper

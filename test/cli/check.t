@@ -5,7 +5,8 @@
 
 Every example is free of faults.
 
-  $ for program in *.dol; do dolphin check "$program" > told.txt 2>&1 || cat told.txt; done
+  $ for program in *.dol; do dolphin check "$program" 2>&1; done | grep -v ': no errors$'
+  [1]
 
 Faults of the program and of the fleet are told together.
 

@@ -112,12 +112,11 @@ Suppliers that die, hang or talk nonsense end the program, at the place of the c
      0:00  program     calls supplier.queue
      0:00  program     is told host object queue
      0:00  program     calls queue.await
-     0:00  program     is told null
      0:00  program     releases x8-02
-     0:00  program     fails: expected a task after v:, found null
-  program.dol:4:5: error: expected a task after v:, found null
+     0:00  program     fails: queue.await: the host process did not reply within 2 seconds
+  program.dol:4:16: error: queue.await: the host process did not reply within 2 seconds
     4 |     execute v: supplier.queue.await()
-      |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+      |                ^^^^^^^^^^^^^^^^^^^^^^
   status 1
 
 Values there and back.

@@ -1,6 +1,5 @@
 """Suppliers that misbehave, each in its own way: the first argument says how."""
 import json
-import os
 import sys
 import time
 
@@ -18,7 +17,7 @@ for number, line in enumerate(sys.stdin):
     if number == 0:
         reply(request, {"object": "supplier"})
     elif how == "dies":
-        os.abort() if "core" in sys.argv else sys.exit(4)
+        sys.exit(4)
     elif how == "hangs":
         time.sleep(600)
     elif how == "talks nonsense":
@@ -29,9 +28,9 @@ for number, line in enumerate(sys.stdin):
     elif how == "refuses":
         print(json.dumps({"id": request["id"], "error": "the queue is closed"}), flush=True)
     elif how == "hangs later":
-        reply(request, {"active": True, "queue": {"object": "queue"}}.get(request.get("call") or request.get("get")))
         if request.get("call") == "await":
             time.sleep(600)
+        reply(request, True if request.get("call") == "active" else {"object": "queue"})
     elif how == "echoes":
         arguments = request.get("arguments", [])
         reply(request, arguments[0] if arguments else {"object": "supplier"})

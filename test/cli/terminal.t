@@ -12,8 +12,8 @@ stands in for one.
   > plan 'right', { duration 1.min }
   > EOF
   $ TERM=xterm script -q -c 'dolphin exec mission.dol --speed 60' typescript > /dev/null
-  $ tr -d '\r' < typescript | grep -o 'left-1 .*left  .*%' | head -1 | sed 's/[0-9]\.[0-9]*/N/g; s/0:[0-9]*/T/'
-  left-1   left   T  4N, -N  100%
+  $ grep -o 'left-1 .*left .*%' typescript | head -1 | sed 's/0:[0-9]*/TIME/; s/[0-9.]*, -[0-9.]*/POSITION/'
+  left-1   left   TIME  POSITION  100%
   $ grep -c 'starts left' typescript
   1
 

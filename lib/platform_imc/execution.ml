@@ -83,6 +83,11 @@ let create ~request =
 
 let idle x = match x.phase with Idle -> true | Starting _ | Running _ | Ending _ | Stopping _ -> false
 
+let owes x =
+  match x.phase with
+  | Starting _ | Running _ | Ending _ | Stopping { next = Some _; _ } -> true
+  | Idle | Stopping { next = None; _ } -> false
+
 let due x =
   match x.phase with
   | Idle | Starting _ | Running _ -> infinity
@@ -410,7 +415,8 @@ let executing x =
   | Some { state = { state = Executing; plan_id; _ }; _ } -> Some plan_id
   | Some _ | None -> None
 
-let ready x =
+let readiness x =
   match x.seen with
-  | Some { sent; state = { state = Ready; _ } } -> Some sent
-  | Some _ | None -> None
+  | None | Some { state = { state = Initializing | Other _; _ }; _ } -> None
+  | Some { sent; state = { state = Ready; _ } } -> Some (sent, true)
+  | Some { sent; state = { state = Executing | Blocked; _ } } -> Some (sent, false)

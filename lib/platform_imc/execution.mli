@@ -65,6 +65,9 @@ val due : t -> float
 val idle : t -> bool
 (** [idle x]: no plan is ordered, and no stop waits for its confirmation. *)
 
+val owes : t -> bool
+(** [owes x]: [Done] or [Failed] is still to come. *)
+
 (** {1:displays For displays} *)
 
 type stage = Starting | Running | Stopping
@@ -82,8 +85,9 @@ val progress : t -> progress option
 val executing : t -> string option
 (** The plan that the vehicle says it executes, ours or not. *)
 
-val ready : t -> float option
-(** When, by the vehicle's clock, it said that it is READY for a plan, if that is the last it said. *)
+val readiness : t -> (float * bool) option
+(** When, by the vehicle's clock, it last said something of its plan from which one knows whether it could be given a
+    plan, and whether it could: READY. *)
 
 (** {1:constants Constants} Seconds, but for the first. *)
 

@@ -59,6 +59,14 @@ let check_kind env what wanted (e : Ast.expression) =
     error env e.at "%s takes %s, this is %s" what (Builtins.describe wanted)
       (match found with Other -> "none" | found -> Builtins.describe found)
 
+(* [execute (a | b) >> c], where the parenthesis is meant to group. *)
+let ended_early (e : Ast.expression) =
+  match e.it with
+  | Call { callee = { it = Variable ("execute" as name); _ }; _ } ->
+    Some
+      (Printf.sprintf "the arguments of %s end at this ')': put another pair of parentheses around all of them" name)
+  | _ -> None
+
 let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expression) =
   let symbol = match op with Sequence -> ">>" | _ -> "|" in
   let need (e : Ast.expression) =
@@ -66,7 +74,7 @@ let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expressio
       match e.it with
       | String name -> Some (Printf.sprintf "a plan is named by task('%s')" name)
       | Closure _ -> Some "code becomes a task by action { ... } or condition { ... }"
-      | _ -> None
+      | _ -> ended_early e
     in
     if not (could_be Task (known_kind env e)) then
       error env ?hint e.at "%s composes tasks, and this is %s" symbol (Builtins.describe (known_kind env e))
@@ -201,6 +209,9 @@ let rec elaborate env (e : Ast.expression) : expression =
     if known_kind env subject = Task && not (could_be Vehicles (known_kind env index)) then
       error env index.at "between [ and ] after a task stands a vehicle set, this is %s"
         (Builtins.describe (known_kind env index));
+    (match ended_early subject with
+     | Some hint when not (is_hidden env "execute") -> error env at "execute has no value" ~hint
+     | Some _ | None -> ());
     let subject = elaborate env subject in
     apply env at Element [ subject; elaborate env index ]
   | Builder (builder, body) -> build env at builder body

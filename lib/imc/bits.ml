@@ -36,5 +36,5 @@ struct
   let ( + ) = ( lor )
   let ( - ) x y = x land lnot y
   let to_json x = `List (List.map (fun name -> `String name) (names Named.names x))
-  let pp ppf x = Fmt.(list ~sep:sp string) ppf (names Named.names x)
+  let pp ppf x = Fmt.(list ~sep:(any " ") string) ppf (names Named.names x)
 end

@@ -60,20 +60,13 @@ let read ?(pos = 0) ?len s =
     | sync -> Error (Error.Not_imc sync)
 
 let check ?(pos = 0) h s =
-  let stated = u16 h.order s (pos + size + h.size) in
-  let computed = Crc.arc s ~pos ~len:(size + h.size) in
-  if stated = computed then Ok () else Error (Error.Bad_checksum { stated; computed })
-
-let write buffer h =
-  let w = Writer.make h.order buffer in
-  Writer.u16 w "sync" 0xFE54;
-  Writer.u16 w "mgid" h.id;
-  Writer.u16 w "size" h.size;
-  Writer.f64 w h.timestamp;
-  Writer.u16 w "src" h.src;
-  Writer.u8 w "src_ent" h.src_ent;
-  Writer.u16 w "dst" h.dst;
-  Writer.u8 w "dst_ent" h.dst_ent
+  let present = extent ~pos ~len:None s in
+  if h.size < 0 || h.size + overhead > present then
+    Error (Error.Truncated { stated = h.size + overhead; present })
+  else
+    let stated = u16 h.order s (pos + size + h.size) in
+    let computed = Crc.arc s ~pos ~len:(size + h.size) in
+    if stated = computed then Ok () else Error (Error.Bad_checksum { stated; computed })
 
 let pp ppf h =
   Fmt.pf ppf "message %d, %d bytes, from 0x%04x.%d to 0x%04x.%d at %.3f" h.id h.size h.src h.src_ent h.dst

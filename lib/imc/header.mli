@@ -47,11 +47,7 @@ val read : ?pos:int -> ?len:int -> string -> (t, Error.decode) result
 
 val check : ?pos:int -> t -> string -> (unit, Error.decode) result
 (** [check ~pos h s] compares the checksum of the packet at [pos], whose header is [h], as read by
-    {!read} from the same place. *)
-
-val write : Buffer.t -> t -> unit
-(** For {!Packet.encode}.
-    @raise Writer.Fault *)
+    {!read} from the same place. It never raises: a packet that is not in [s] is [Truncated]. *)
 
 val pp : Format.formatter -> t -> unit
 (** ["message 350, 88 bytes, from 0x001a.255 to 0xffff.255 at 1700000000.250"]. *)

@@ -47,9 +47,15 @@ let decode ?(pos = 0) ?len s =
 
 (* {1 Encoding} *)
 
-let header p ~size =
-  let { order; timestamp; src; src_ent; dst; dst_ent; _ } = p in
-  { Header.order; id = id p; size; timestamp; src; src_ent; dst; dst_ent }
+let write_header p ~size w =
+  Writer.u16 w "sync" 0xFE54;
+  Writer.u16 w "mgid" (id p);
+  Writer.u16 w "size" size;
+  Writer.f64 w p.timestamp;
+  Writer.u16 w "src" p.src;
+  Writer.u8 w "src_ent" p.src_ent;
+  Writer.u16 w "dst" p.dst;
+  Writer.u8 w "dst_ent" p.dst_ent
 
 let payload p =
   let buffer = Buffer.create 128 in
@@ -65,10 +71,10 @@ let encode p =
     let payload = payload p in
     let size = Buffer.length payload in
     let packet = Buffer.create (size + Header.overhead) in
-    Header.write packet (header p ~size);
+    let w = Writer.make p.order packet in
+    write_header p ~size w;
     Buffer.add_buffer packet payload;
-    let crc = Crc.arc (Buffer.contents packet) ~pos:0 ~len:(Buffer.length packet) in
-    Writer.u16 (Writer.make p.order packet) "crc" crc;
+    Writer.u16 w "crc" (Crc.arc (Buffer.contents packet) ~pos:0 ~len:(Buffer.length packet));
     Ok (Buffer.contents packet)
   with Writer.Fault error -> Error error
 

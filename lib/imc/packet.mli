@@ -34,8 +34,12 @@ val id : t -> int
 (** {1:decoding Decoding}
 
     These never raise, never read outside the bytes they are given, and keep none of them: texts are
-    copies, so that a buffer can be used again. They allocate at most 64 bytes for each byte of the
-    packet, and nest at most {!Error.max_depth} deep. *)
+    copies, so that a socket's buffer [b], seen as [Bytes.unsafe_to_string b], can be filled again
+    afterwards. They allocate at most 64 bytes for each byte of the packet, and nest at most
+    {!Error.max_depth} deep.
+
+    Where most packets are not wanted, [Header.read] and then [decode_after] for some is the cheap way:
+    nothing but the header of the others is looked at. *)
 
 val decode : ?pos:int -> ?len:int -> string -> (t, Error.decode) result
 (** [decode ~pos ~len s] is the packet that is the [len] bytes of [s] from [pos] (all of [s]): one

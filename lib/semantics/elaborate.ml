@@ -59,14 +59,6 @@ let check_kind env what wanted (e : Ast.expression) =
     error env e.at "%s takes %s, this is %s" what (Builtins.describe wanted)
       (match found with Other -> "none" | found -> Builtins.describe found)
 
-(* [execute (a | b) >> c], where the parenthesis is meant to group. *)
-let ended_early (e : Ast.expression) =
-  match e.it with
-  | Call { callee = { it = Variable ("execute" as name); _ }; _ } ->
-    Some
-      (Printf.sprintf "the arguments of %s end at this ')': put another pair of parentheses around all of them" name)
-  | _ -> None
-
 let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expression) =
   let symbol = match op with Sequence -> ">>" | _ -> "|" in
   let need (e : Ast.expression) =
@@ -74,7 +66,9 @@ let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expressio
       match e.it with
       | String name -> Some (Printf.sprintf "a plan is named by task('%s')" name)
       | Closure _ -> Some "code becomes a task by action { ... } or condition { ... }"
-      | _ -> ended_early e
+      | Call { callee = { it = Variable "execute"; _ }; _ } ->
+        Some (Printf.sprintf "execute takes what the parentheses right after it hold: write execute((T) %s T')" symbol)
+      | _ -> None
     in
     if not (could_be Task (known_kind env e)) then
       error env ?hint e.at "%s composes tasks, and this is %s" symbol (Builtins.describe (known_kind env e))
@@ -82,7 +76,6 @@ let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expressio
   match op, known_kind env a, known_kind env b with
   | Sequence, _, _ -> need a; need b
   | Parallel, Task, _ -> need b
-  | Parallel, (Vehicles | Other), _ -> ()
   | Parallel, _, Task -> need a
   | _, _, _ -> ()
 
@@ -209,9 +202,11 @@ let rec elaborate env (e : Ast.expression) : expression =
     if known_kind env subject = Task && not (could_be Vehicles (known_kind env index)) then
       error env index.at "between [ and ] after a task stands a vehicle set, this is %s"
         (Builtins.describe (known_kind env index));
-    (match ended_early subject with
-     | Some hint when not (is_hidden env "execute") -> error env at "execute has no value" ~hint
-     | Some _ | None -> ());
+    (match subject.it with
+     | Call { callee = { it = Variable "execute"; _ }; _ } when not (is_hidden env "execute") ->
+       error env at "execute has no value"
+         ~hint:"execute takes what the parentheses right after it hold: write execute((T)[V])"
+     | _ -> ());
     let subject = elaborate env subject in
     apply env at Element [ subject; elaborate env index ]
   | Builder (builder, body) -> build env at builder body
@@ -754,14 +749,14 @@ let program ~source_name (ast : Ast.program) =
   else
     Ok
       ( {
-          source_name;
-          locations = Scope.locations program;
-          global_names = Scope.globals program;
-          functions = List.map (fun ((name : string Ast.located), lambda, _, _, _) -> (name.it, lambda)) defined;
-          main;
-          ordered_keys = Scope.ordered_keys program;
-          reads_sensors = Scope.reads_sensors program;
-        },
+        source_name;
+        locations = Scope.locations program;
+        global_names = Scope.globals program;
+        functions = List.map (fun ((name : string Ast.located), lambda, _, _, _) -> (name.it, lambda)) defined;
+        main;
+        ordered_keys = Scope.ordered_keys program;
+        reads_sensors = Scope.reads_sensors program;
+      },
         reports )
 
 let first_message = function

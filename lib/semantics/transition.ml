@@ -276,21 +276,15 @@ let internal_step program world (c : Configuration.t) m (step : Residual.step) =
           Some (settle program world c m (check_label change d) [] (effects_of d) change)
         else None)
   | Measure closure ->
-    coded closure (fun x c d ->
-        let reply : Residual.reply =
-          match Value.to_number x with
-          | Some seconds when seconds >= 0. && seconds < infinity -> Gave seconds
-          | Some _ | None ->
-            let message = "during takes a time of 0 seconds or more, this code gives " ^ Value.to_string x in
-            Broke (Fault.make closure.lambda.lambda_site message)
-        in
-        let label =
-          match reply with
-          | Gave seconds -> Label.Set_time seconds
-          | Broke fault -> Label.Broken fault.message
-          | Went -> Label.Silent
-        in
-        Some (settle program world c m label [] (effects_of d) (step.continue reply)))
+    coded closure (fun x after d ->
+        match Value.to_number x with
+        | Some seconds when seconds >= 0. && seconds < infinity ->
+          let label = Label.Set_time seconds in
+          Some (settle program world after m label [] (effects_of d) (step.continue (Gave seconds)))
+        | Some _ | None ->
+          let message = "during takes a time of 0 seconds or more, this code gives " ^ Value.to_string x in
+          let fault = Fault.make closure.lambda.lambda_site message in
+          Some (settle program world c m (Label.Broken message) [] [] (step.continue (Broke fault))))
 
 let internal program world (c : Configuration.t) : t Seq.t =
   match c.control with

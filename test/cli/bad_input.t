@@ -139,11 +139,11 @@ Parentheses that end the arguments of execute too early.
   early.dol:4:1: error: >> composes tasks, and this is a value
     4 | execute (a | b) >> a
       | ^^^^^^^^^^^^^^^
-      hint: the arguments of execute end at this ')': put another pair of parentheses around all of them
+      hint: execute takes what the parentheses right after it hold: write execute((T) >> T')
   early.dol:5:1: error: execute has no value
     5 | execute (a | b)[v]
       | ^^^^^^^^^^^^^^^^^^
-      hint: the arguments of execute end at this ')': put another pair of parentheses around all of them
+      hint: execute takes what the parentheses right after it hold: write execute((T)[V])
   early.dol: 2 errors
   [2]
 

@@ -13,7 +13,7 @@ let fail (line, column) format = Printf.ksprintf (fun why -> raise (Error { line
 (* {1 Elements: the text between them is prose, and left out} *)
 
 type element = {
-  at : Xmlm.pos;
+  at : Xmlm.pos;  (* The end of its first tag, which is as far as xmlm has looked. *)
   tag : string;
   attributes : (string * string) list;
   parts : element list;
@@ -125,7 +125,8 @@ let definition root =
   let enumerations = List.map set (grandchildren root "enumerations" "def") in
   let bits = List.map set (grandchildren root "bitfields" "def") in
   let groups = List.map group (grandchildren root "message-groups" "message-group") in
-  match make ~enumerations ~bits ~groups (List.map (message ~enumerations ~bits) (children root "message")) with
+  let messages = List.map (message ~enumerations ~bits) (children root "message") in
+  match make ~enumerations ~bits ~groups messages with
   | Ok definition -> definition
   | Error why -> fail (0, 0) "%s" why
 

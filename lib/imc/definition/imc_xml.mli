@@ -3,7 +3,7 @@
     The file is the user's: any version, extended or not. Sources: [IMC.xsd] beside it. *)
 
 type error = {
-  line : int;  (** From 1; 0 if the fault is not of one line. *)
+  line : int;  (** Where the tag ends that is at fault, from 1; 0 if the fault is not of one tag. *)
   column : int;
   why : string;
 }
@@ -15,4 +15,4 @@ val read : string -> (Definition.t, error) result
 (** [read path] is [parse] of the file at [path], or the reason why that cannot be read. *)
 
 val pp_error : Format.formatter -> error -> unit
-(** ["12:7: <message>: the attribute id is missing"]. *)
+(** ["12:24: <message>: the attribute id is missing"]. *)

@@ -72,6 +72,8 @@ let make definition =
   check definition;
   { definition; items }
 
+let all_groups o = List.map (fun (g : group) -> item o g.name) (groups o.definition)
+
 let loose o =
   let grouped (m : message) = List.exists (fun g -> List.mem m.name g.members) (groups o.definition) in
   List.filter (fun m -> not (grouped m)) (messages o.definition)

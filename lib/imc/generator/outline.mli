@@ -29,5 +29,7 @@ val is_open : t -> item -> bool
 (** [is_open o i]: [i] can contain any message, so that its type has the type of all messages as a
     parameter. That type comes last, and ties the knot. *)
 
+val all_groups : t -> item list
+
 val loose : t -> Definition.message list
 (** The messages of no group. *)

@@ -40,25 +40,31 @@ let field_type o (f : field) =
   | Inline of_ -> contained of_ ^ " option"
   | List of_ -> contained of_ ^ " list"
 
-let with_comment text comment = line "%s%s" text (if comment = "" then "" else "  " ^ comment)
+let commented text comment = line "%s%s" text (if comment = "" then "" else "  " ^ comment)
 
 let record o m ~comment =
   let field (f : field) =
-    with_comment (Printf.sprintf "%s : %s;" (Names.label f.name) (field_type o f)) (comment f)
+    commented (Printf.sprintf "%s : %s;" (Names.label f.name) (field_type o f)) (comment f)
   in
-  [ line "type %st = {" (parameter o (Message m)); Nest (List.map field m.fields); line "}" ]
+  let head = Printf.sprintf "type %st = {" (parameter o (Message m)) in
+  enclosed head (List.map field m.fields) "}"
 
 let enumeration members ~comment =
-  let case (n : named) = with_comment ("| " ^ Names.constructor n.name) (comment n) in
-  [
-    line "type t =";
-    Nest (List.map case members @ [ line "| Other of int" ]);
-  ]
+  let case (n : named) = commented ("| " ^ Names.constructor n.name) (comment n) in
+  under "type t =" (List.map case members @ [ line "| Other of int" ])
 
-let constructor o item =
+(* [constructor o parameter i] is the case of [i] in a type whose parameter is [parameter]. *)
+let constructor o parameter item =
   let name = Names.module_ (Outline.name item) in
   match item with
-  | Message { fields = []; _ } -> name
-  | Message _ | Group _ ->
-    let parameter = if Outline.is_open o item then "t " else "" in
-    Printf.sprintf "%s of %s%s.t" name parameter name
+  | Outline.Message { fields = []; _ } -> line "| %s" name
+  | Outline.Message _ | Outline.Group _ ->
+    line "| %s of %s%s.t" name (if Outline.is_open o item then parameter else "") name
+
+let variant o item members =
+  let head = Printf.sprintf "type %st =" (parameter o item) in
+  under head (List.map (constructor o "'message ") members)
+
+let all o =
+  let items = Outline.all_groups o @ List.map (fun m -> Outline.Message m) (Outline.loose o) in
+  under "type t =" (List.map (constructor o "t ") items)

@@ -31,5 +31,9 @@ val record : Outline.t -> message -> comment:(field -> string) -> Code.t list
 val enumeration : named list -> comment:(named -> string) -> Code.t list
 (** The variant type of an enumeration. *)
 
-val constructor : Outline.t -> Outline.item -> string
-(** [Goto of Goto.t], or only [Abort] if there are no fields. *)
+val variant : Outline.t -> Outline.item -> Outline.item list -> Code.t list
+(** [variant o i is] is the type of the group [i], of the members [is]: a constructor each, [Goto of
+    Goto.t], or only [Abort] if there are no fields. *)
+
+val all : Outline.t -> Code.t list
+(** The type [t] of all messages: the groups, then {!Outline.loose}. *)

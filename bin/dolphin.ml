@@ -44,6 +44,9 @@ let bug error =
        (Printexc.to_string error));
   Exit_status.Bug
 
+(* Programs of many lines, and runs of many vehicles, make much that lives long: a roomy nursery saves a fifth of the time. *)
+let () = Gc.set { (Gc.get ()) with minor_heap_size = 1024 * 1024 }
+
 let () =
   let status =
     match evaluate () with

@@ -59,6 +59,13 @@ let check_kind env what wanted (e : Ast.expression) =
     error env e.at "%s takes %s, this is %s" what (Builtins.describe wanted)
       (match found with Other -> "none" | found -> Builtins.describe found)
 
+let ended_early (e : Ast.expression) =
+  match e.it with
+  | Call { callee = { it = Variable ("execute" as name); _ }; _ } ->
+    Some
+      (Printf.sprintf "the arguments of %s end at this ')': put another pair of parentheses around all of them" name)
+  | _ -> None
+
 let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expression) =
   let symbol = match op with Sequence -> ">>" | _ -> "|" in
   let need (e : Ast.expression) =

@@ -71,6 +71,9 @@ let rec elaborate env (e : Ast.expression) : expression =
     if known_kind env subject = Task && not (could_be Vehicles (known_kind env index)) then
       error env index.at "between [ and ] after a task stands a vehicle set, this is %s"
         (Builtins.describe (known_kind env index));
+    (match ended_early subject with
+     | Some hint when not (is_hidden env "execute") -> error env at "execute has no value" ~hint
+     | Some _ | None -> ());
     let subject = elaborate env subject in
     apply env at Element [ subject; elaborate env index ]
   | Builder (builder, body) -> build env at builder body

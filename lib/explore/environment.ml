@@ -6,10 +6,9 @@ type options = {
   endings : Core.vehicle -> string -> endings;
   failures : int option;
   answers : string -> string list list;
-  unmet_picks : bool;
 }
 
-let default = { endings = (fun _ _ -> Succeeds); failures = None; answers = (fun _ -> []); unmet_picks = false }
+let default = { endings = (fun _ _ -> Succeeds); failures = None; answers = (fun _ -> []) }
 
 let failing ?failures options =
   let endings v name =
@@ -61,13 +60,12 @@ let answered options e prompt : (Transition.event * t) list =
   | [] -> [ (Transition.Nobody_answers "none is given", e) ]
   | texts -> List.map (fun text -> (Transition.Answered text, asked_again options e prompt)) texts
 
-let events options e (c : Configuration.t) internal (event : Transition.event) : (Transition.event * t) list =
+let events options e (c : Configuration.t) (event : Transition.event) : (Transition.event * t) list =
   match event, c.control with
   | Vehicle_done v, _ -> (
       match Configuration.Vehicle_map.find_opt v c.allocation with
       | Some p -> task_ends options e v p
       | None -> [])
-  | Timer_expired _, Waiting (_, Pick _) when internal <> [] && not options.unmet_picks -> []
   | Answered _, Waiting (_, Ask prompt) -> answered options e prompt
   | Replied _, _ -> [ (Host_failed "a host's procedures are not explored", e) ]
   | ( ( Answered _ | Vehicle_failed _ | Timer_expired _ | Nobody_answers _ | Host_failed _ | Interruption),
@@ -81,5 +79,5 @@ let choices options program world e c =
     | Error Not_awaited -> None
     | Error (Bad_answer why) -> accept (Transition.Nobody_answers why, e)
   in
-  let on_event event = List.filter_map accept (events options e c internal event) in
+  let on_event event = List.filter_map accept (events options e c event) in
   internal @ List.concat_map on_event (Transition.awaited c)

@@ -13,12 +13,10 @@ type options = {
   answers : string -> string list list;
   (** by prompt, for the first time it is asked, the second and so on: what may be answered then. The last item is for
       all later times. Where there is none, nobody answers. *)
-  unmet_picks : bool;
-  (** whether the time of a [pick] may run out although the vehicles are there, as when they are heard of too late *)
 }
 
 val default : options
-(** Tasks succeed, nobody answers, a [pick] finds the vehicles that are there. *)
+(** Tasks succeed, nobody answers. *)
 
 val failing : ?failures:int -> options -> options
 (** [failing options] is [options] with every task that may succeed failing too, at most [failures] times. *)

@@ -66,6 +66,8 @@ let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expressio
       match e.it with
       | String name -> Some (Printf.sprintf "a plan is named by task('%s')" name)
       | Closure _ -> Some "code becomes a task by action { ... } or condition { ... }"
+      | Call { callee = { it = Variable "execute"; _ }; _ } ->
+        Some (Printf.sprintf "execute takes what the parentheses right after it hold: write execute((T) %s T')" symbol)
       | _ -> None
     in
     if not (could_be Task (known_kind env e)) then
@@ -74,7 +76,6 @@ let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expressio
   match op, known_kind env a, known_kind env b with
   | Sequence, _, _ -> need a; need b
   | Parallel, Task, _ -> need b
-  | Parallel, (Vehicles | Other), _ -> ()
   | Parallel, _, Task -> need a
   | _, _, _ -> ()
 
@@ -741,14 +742,14 @@ let program ~source_name (ast : Ast.program) =
   else
     Ok
       ( {
-          source_name;
-          locations = Scope.locations program;
-          global_names = Scope.globals program;
-          functions = List.map (fun ((name : string Ast.located), lambda, _, _, _) -> (name.it, lambda)) defined;
-          main;
-          ordered_keys = Scope.ordered_keys program;
-          reads_sensors = Scope.reads_sensors program;
-        },
+        source_name;
+        locations = Scope.locations program;
+        global_names = Scope.globals program;
+        functions = List.map (fun ((name : string Ast.located), lambda, _, _, _) -> (name.it, lambda)) defined;
+        main;
+        ordered_keys = Scope.ordered_keys program;
+        reads_sensors = Scope.reads_sensors program;
+      },
         reports )
 
 let first_message = function

@@ -29,16 +29,17 @@ let timers_of = function
   | Waiting (_, (Pick _ | Pause _)) -> [ Effect.script_timer ]
   | Waiting (_, (Ask _ | Execute _ | Host_call _)) | Script _ | Ended _ -> []
 
-(* Everything stops, all of B is released. *)
-let ended (c : Configuration.t) ending =
+(* Everything stops, all of B is released; timers that the effects [before] cancel already are left alone. *)
+let ended (c : Configuration.t) ending before =
   let cancelled = List.map (fun timer -> Effect.Cancel_timer timer) (timers_of c.control) in
+  let cancelled = List.filter (fun cancel -> not (List.mem cancel before)) cancelled in
   let stopped = List.map (fun (v, _) -> Effect.Stop v) (Vehicle_map.bindings c.allocation) in
   let released = if c.bound = [] then [] else [ Effect.Release c.bound ] in
   let next = { c with control = Ended ending; allocation = Vehicle_map.empty; bound = [] } in
   (next, cancelled @ stopped @ released @ [ Effect.End ending ])
 
 let ending_transition c rules label ending before =
-  let next, effects = ended c ending in
+  let next, effects = ended c ending before in
   { rules; label; next; effects = before @ effects }
 
 (* {1 Deeds of code} *)
@@ -132,10 +133,16 @@ let rec choices n xs : 'a list Seq.t =
   | n, x :: rest ->
     fun () -> Seq.append (Seq.map (fun chosen -> x :: chosen) (choices (n - 1) rest)) (choices n rest) ()
 
-let bind (c : Configuration.t) m vs =
+let bind (c : Configuration.t) m effects vs =
   let next = { c with control = Script (Machine.give (Vehicles vs) m); bound = c.bound @ vs } in
-  let effects = [ Effect.Cancel_timer Effect.script_timer; Effect.Bind vs ] in
-  { rules = [ Rule.Pick_bind ]; label = Label.Bind vs; next; effects }
+  { rules = [ Rule.Pick_bind ]; label = Label.Bind vs; next; effects = effects @ [ Effect.Bind vs ] }
+
+(* The ways to meet a [pick] now. One that takes all there are waits for its whole time-out. *)
+let bindings world (c : Configuration.t) m (pick : Settings.pick) =
+  match pick.count with
+  | All -> Seq.empty
+  | Exactly n ->
+    Seq.map (bind c m [ Effect.Cancel_timer Effect.script_timer ]) (choices n (candidates world c pick))
 
 let why_not world (c : Configuration.t) (pick : Settings.pick) (s : World.vehicle_state) =
   let f = pick.filter in
@@ -170,10 +177,12 @@ let no_vehicles world (c : Configuration.t) m pick =
     (Failed (Fault.make (Machine.site m) message))
     []
 
+(* A [pick] that can be met is met, however late: its time is up for those only that cannot. *)
 let pick_timed_out world c m (pick : Settings.pick) =
   match pick.count, candidates world c pick with
-  | All, (_ :: _ as vs) -> bind c m vs
-  | (All | Exactly _), _ -> no_vehicles world c m pick
+  | All, (_ :: _ as vs) -> Ok (bind c m [] vs)
+  | All, [] -> Ok (no_vehicles world c m pick)
+  | Exactly n, vs -> if List.length vs >= n then Error Not_awaited else Ok (no_vehicles world c m pick)
 
 (* {1 Steps of the executing task} *)
 
@@ -281,21 +290,15 @@ let local_internal program world (c : Configuration.t) (step : Residual.step) =
           Some (settle program world c (check_label change d) [] (effects_of d) change)
         else None)
   | Measure closure ->
-    coded closure (fun x c d ->
-        let reply : Residual.reply =
-          match Value.to_number x with
-          | Some seconds when seconds >= 0. && seconds < infinity -> Gave seconds
-          | Some _ | None ->
-            let message = "during takes a time of 0 seconds or more, this code gives " ^ Value.to_string x in
-            Broke (Fault.make closure.lambda.lambda_site message)
-        in
-        let label =
-          match reply with
-          | Gave seconds -> Label.Set_time seconds
-          | Broke fault -> Label.Broken fault.message
-          | Went -> Label.Silent
-        in
-        Some (settle program world c label [] (effects_of d) (step.continue reply)))
+    coded closure (fun x after d ->
+        match Value.to_number x with
+        | Some seconds when seconds >= 0. && seconds < infinity ->
+          let label = Label.Set_time seconds in
+          Some (settle program world after label [] (effects_of d) (step.continue (Gave seconds)))
+        | Some _ | None ->
+          let message = "during takes a time of 0 seconds or more, this code gives " ^ Value.to_string x in
+          let fault = Fault.make closure.lambda.lambda_site message in
+          Some (settle program world c (Label.Broken message) [] [] (step.continue (Broke fault))))
 
 (* What one local step does on the event that it awaits. *)
 let local_event program world (c : Configuration.t) (step : Residual.step) event =
@@ -318,9 +321,8 @@ let internal program world (c : Configuration.t) : t Seq.t =
   match c.control with
   | Ended _ -> Seq.empty
   | Script m -> fun () -> Seq.Cons (run_script program world c m, Seq.empty)
-  | Waiting (m, Pick ({ count = Exactly n; _ } as pick)) ->
-    fun () -> Seq.map (bind c m) (choices n (candidates world c pick)) ()
-  | Waiting (_, (Pick _ | Ask _ | Pause _ | Execute _ | Host_call _)) -> Seq.empty
+  | Waiting (m, Pick pick) -> fun () -> bindings world c m pick ()
+  | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) -> Seq.empty
   | Executing (m, r) ->
     let step s = Option.map (conclude c m) (local_internal program world c s) in
     Seq.filter_map step (Residual.steps r)
@@ -364,7 +366,7 @@ let accept program world (c : Configuration.t) event =
   | (Vehicle_done _ | Vehicle_failed _ | Timer_expired _), Executing (m, r) ->
     executing_event program world c m r event
   | Timer_expired timer, Waiting (m, Pick pick) when timer = Effect.script_timer ->
-    Ok (pick_timed_out world c m pick)
+    pick_timed_out world c m pick
   | Timer_expired timer, Waiting (m, Pause _) when timer = Effect.script_timer ->
     Ok (resume c m Null Rule.Resume Label.Resume)
   | Answered text, Waiting (m, Ask _) -> answered program world c m text

@@ -37,7 +37,7 @@ val accept : program -> World.t -> Configuration.t -> event -> (t, refusal) resu
 val awaited : Configuration.t -> event list
 (** [awaited c] is the events that [c] has transitions for, less [Interruption]: the ends of tasks that run (as
     [Vehicle_done]; where it is awaited, [Vehicle_failed] is too), timers that run, an answer or a reply (with empty
-    content). *)
+    content). The time-out of a [pick] is among them, but not accepted while the pick can be met: then it must be. *)
 
 val depends_on_sensors : program -> Configuration.t -> bool
 (** [depends_on_sensors p c] is whether news of positions and batteries may enable a transition of [c]. *)

@@ -48,3 +48,22 @@ let run ?(limit = 10_000) ?(answers = []) ?(world = fleet) program =
 let labels trace = List.map (fun (t : Transition.t) -> Format.asprintf "%a" Label.pp t.label) trace
 
 let last trace = match List.rev trace with [] -> None | (t : Transition.t) :: _ -> Some t.next
+
+let rules (t : Transition.t) = String.concat ", " (List.map Rule.name t.rules)
+
+let said trace =
+  let of_effect (e : Effect.t) =
+    match e with
+    | Say text -> Some text
+    | Start _ | Stop _ | Set_timer _ | Cancel_timer _ | Look_for _ | Bind _ | Release _ | Set_connection_timeout _
+    | Ask _ | Call_host _ | End _ -> None
+  in
+  List.concat_map (fun (t : Transition.t) -> List.filter_map of_effect t.effects) trace
+
+let ending trace =
+  match last trace with
+  | Some { control = Ended Completed; _ } -> "completed"
+  | Some { control = Ended (Halted message); _ } -> "halted: " ^ message
+  | Some { control = Ended (Failed fault); _ } -> "failed: " ^ fault.message
+  | Some { control = Ended Interrupted; _ } -> "interrupted"
+  | Some { control = Script _ | Waiting _ | Executing _; _ } | None -> "goes on"

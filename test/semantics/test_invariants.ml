@@ -1,0 +1,245 @@
+open Dolphin_semantics
+open Test_support
+module Gen = QCheck2.Gen
+
+let fail format = Printf.ksprintf QCheck2.Test.fail_report format
+let label (t : Transition.t) = Format.asprintf "%a" Label.pp t.label
+
+(* What a step did, for the message when it did wrong. *)
+let shown (s : Walk.step) = Printf.sprintf "%s (%s)" (label s.transition) (Pure_run.rules s.transition)
+
+let has rules (t : Transition.t) = List.exists (fun r -> List.mem r rules) t.rules
+
+let is_ended (c : Configuration.t) =
+  match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false
+
+(* {1 Walks} *)
+
+let walks = Gen.pair Generate.program Walk.choices
+
+let print (program, choices) =
+  let walk = Walk.run ~choices (Generate.compile program) Generate.world in
+  Printf.sprintf "%s\n%s" (Generate.print program) (String.concat "\n" (List.map shown walk))
+
+(* [along name property] is the case that [property] holds of each step of walks. *)
+let along ?(count = 3_000) name property =
+  Property.case ~count name ~print walks (fun (program, choices) ->
+      let program = Generate.compile program in
+      List.for_all (property program) (Walk.run ~choices program Generate.world))
+
+(* {1 Properties of one step} *)
+
+let keeps_the_invariant _ (s : Walk.step) =
+  match Configuration.invariant s.transition.next with
+  | Ok () -> true
+  | Error why -> fail "after %s: %s" (shown s) why
+
+let bound_by = [ Rule.Pick_bind; Release; End; Halt; Fault; Interrupt; Pick_err; Answer_err; Call_err; Execute_err;
+                 Alloc_err; Watch_halt ]
+
+let b_changes_only_so _ (s : Walk.step) =
+  s.before.bound = s.transition.next.bound
+  || has bound_by s.transition
+  || fail "%s changed B" (shown s)
+
+let pairs n = List.concat_map (fun (k, xs) -> List.map (fun x -> Format.asprintf "%a" Value.pp_tuple (k, x)) xs) (Tuples.bindings n)
+
+let deeds_of (l : Label.t) : Machine.deed list =
+  match l with
+  | Check deeds | Act deeds | Cut deeds -> deeds
+  | Did deed -> [ deed ]
+  | Start _ | Done _ | Fail _ | Time_out | Set_time _ | Broken _ | Silent | Pick _ | Bind _ | No_vehicles _ | Ask _
+  | Answer _ | No_answer | Pause _ | Resume | Call _ | Reply _ | No_reply _ | Execute | Cannot_execute _ | End | Halt _
+  | Fault _ | Interrupt -> []
+
+(* Handlers, halting code and the code of [during] post and consume unseen by labels. *)
+let unseen = [ Rule.Watch_ignore; Watch_propagate; Watch_halt; Halt; During_set ]
+
+let tuples_are_conserved _ (s : Walk.step) =
+  let texts = List.map (Format.asprintf "%a" Value.pp_tuple) in
+  let posted, consumed =
+    List.fold_left
+      (fun (posted, consumed) (deed : Machine.deed) ->
+         match deed with
+         | Posted xs -> (texts xs @ posted, consumed)
+         | Consumed xs -> (posted, texts xs @ consumed)
+         | Said _ | Released _ | Set_connection_timeout _ -> (posted, consumed))
+      ([], []) (deeds_of s.transition.label)
+  in
+  let sorted = List.sort String.compare in
+  has unseen s.transition
+  || sorted (pairs s.before.tuples @ posted) = sorted (pairs s.transition.next.tuples @ consumed)
+  || fail "%s: N was {%s}, is {%s}" (shown s)
+    (String.concat ", " (pairs s.before.tuples))
+    (String.concat ", " (pairs s.transition.next.tuples))
+
+(* The end is the end: nothing is bound, nothing runs, nothing can follow; and the last effect says so. *)
+let ends_well program (s : Walk.step) =
+  let { Transition.next; effects; _ } = s.transition in
+  let says_so =
+    match List.rev effects with
+    | Effect.End e :: earlier ->
+      List.for_all (function Effect.End _ -> false | _ -> true) earlier && next.control = Ended e
+    | _ -> false
+  in
+  if is_ended next then
+    (says_so || fail "%s: no effect End" (shown s))
+    && (next.bound = [] && Configuration.Vehicle_map.is_empty next.allocation
+        || fail "%s: vehicles are left" (shown s))
+    && (s.before.bound = [] || List.mem (Effect.Release s.before.bound) effects
+        || fail "%s: not released" (shown s))
+    && (Graph.outcomes ~interruption:true program Generate.world next = [] || fail "%s: goes on" (shown s))
+  else not says_so || fail "%s: ends and goes on" (shown s)
+
+let vehicles_of map = List.map fst (Configuration.Vehicle_map.bindings map)
+
+(* Starts and stops, applied to what ran before, give what runs after; nobody starts twice, and who stops ran. *)
+let starts_and_stops_balance _ (s : Walk.step) =
+  let ended = match s.transition.label with Done (v, _) | Fail (v, _, _) -> [ v ] | _ -> [] in
+  let running = List.filter (fun v -> not (List.mem v ended)) (vehicles_of s.before.allocation) in
+  let carry running (e : Effect.t) =
+    match e with
+    | Start (v, _) -> if List.mem v running then fail "%s: %s starts twice" (shown s) v else v :: running
+    | Stop v ->
+      if List.mem v running then List.filter (( <> ) v) running else fail "%s: %s does not run" (shown s) v
+    | Set_timer _ | Cancel_timer _ | Look_for _ | Bind _ | Release _ | Set_connection_timeout _ | Say _ | Ask _
+    | Call_host _ | End _ -> running
+  in
+  let running = List.fold_left carry running s.transition.effects in
+  List.sort String.compare running = vehicles_of s.transition.next.allocation
+  || fail "%s: A differs from what was started and stopped" (shown s)
+
+let timers_of (c : Configuration.t) =
+  match c.control with
+  | Executing (_, r) -> Residual.timers r
+  | Waiting (_, (Pick _ | Pause _)) -> [ Effect.script_timer ]
+  | Waiting (_, (Ask _ | Execute _ | Host_call _)) | Script _ | Ended _ -> []
+
+let expires (l : Label.t) = match l with Time_out | Resume | Bind _ | No_vehicles _ -> true | _ -> false
+
+(* A timer that was set runs until it is cancelled, once, or expires. *)
+let timers_balance _ (s : Walk.step) =
+  let start timer pending =
+    if List.mem timer pending then fail "%s: timer %d runs already" (shown s) timer else timer :: pending
+  in
+  let carry pending (e : Effect.t) =
+    match e with
+    | Set_timer (timer, _) -> start timer pending
+    | Look_for _ -> start Effect.script_timer pending
+    | Cancel_timer timer ->
+      if List.mem timer pending then List.filter (( <> ) timer) pending
+      else fail "%s: timer %d does not run" (shown s) timer
+    | Start _ | Stop _ | Bind _ | Release _ | Set_connection_timeout _ | Say _ | Ask _ | Call_host _ | End _ -> pending
+  in
+  let pending = List.fold_left carry (timers_of s.before) s.transition.effects in
+  let after = timers_of s.transition.next in
+  let gone = List.filter (fun timer -> not (List.mem timer after)) pending in
+  List.for_all (fun timer -> List.mem timer pending) after
+  && List.length gone <= (if expires s.transition.label then 1 else 0)
+  || fail "%s: timers %s were running, %s are expected to run" (shown s)
+    (String.concat ", " (List.map string_of_int pending))
+    (String.concat ", " (List.map string_of_int after))
+
+(* What is awaited is accepted, and what is not is refused. *)
+let awaits_what_it_accepts program (s : Walk.step) =
+  let c = s.before in
+  let awaited = Transition.awaited c in
+  let accepts e = Result.is_ok (Transition.accept program Generate.world c e) in
+  List.for_all
+    (fun v ->
+       let expected = List.mem (Transition.Vehicle_done v) awaited in
+       accepts (Vehicle_done v) = expected && accepts (Vehicle_failed (v, "")) = expected
+       || fail "before %s: %s is %sawaited" (shown s) v (if expected then "" else "not "))
+    [ "a"; "b"; "c"; "d" ]
+  && List.for_all
+    (fun timer ->
+       (not (accepts (Timer_expired timer))) || List.mem (Transition.Timer_expired timer) awaited
+       || fail "before %s: timer %d is not awaited" (shown s) timer)
+    [ 0; 1; 2; 3; 4; 5 ]
+
+(* {1 Properties of whole walks} *)
+
+let same_run (a : Walk.step list) (b : Walk.step list) =
+  List.equal
+    (fun (a : Walk.step) (b : Walk.step) ->
+       Configuration.equal a.before b.before
+       && Configuration.equal a.transition.next b.transition.next
+       && Label.equal a.transition.label b.transition.label
+       && a.transition.rules = b.transition.rules)
+    a b
+
+let is_reproducible (program, choices) =
+  let walk () = Walk.run ~choices (Generate.compile program) Generate.world in
+  same_run (walk ()) (walk ())
+
+let sign n = Int.compare n 0
+
+(* Of two walks through one program, all configurations with each other. *)
+let is_coherent (program, (choices, choices')) =
+  let program = Generate.compile program in
+  let through choices = List.map (fun (s : Walk.step) -> s.transition.next) (Walk.run ~choices program Generate.world) in
+  let all = through choices @ through choices' in
+  let text = Format.asprintf "%a" (Configuration.pp program) in
+  let described = List.map (fun c -> (c, Configuration.hash c, text c)) all in
+  let agree (c, hash, text) (c', hash', text') =
+    let order = Configuration.compare c c' in
+    sign order = -sign (Configuration.compare c' c)
+    && Configuration.equal c c' = (order = 0)
+    && (order <> 0 || (hash = hash' || fail "unequal hashes of %s" text) && (text = text' || fail "%s\n%s" text text'))
+  in
+  let transitive a b c =
+    let ( <= ) (a, _, _) (b, _, _) = Stdlib.( <= ) (Configuration.compare a b) 0 in
+    not (a <= b && b <= c) || a <= c
+  in
+  let few = List.filteri (fun i _ -> i < 15) described in
+  List.for_all (fun a -> List.for_all (agree a) described) described
+  && List.for_all (fun a -> List.for_all (fun b -> List.for_all (transitive a b) few) few) few
+
+(* {1 Guards are transactions} *)
+
+(* [refused guard] checks that a condition that is false leaves everything as it was, and does not go on. *)
+let refused guard () =
+  let program = Pure_run.compile_exn (Printf.sprintf "g = 0\npost a: 1\nexecute condition { %s }" guard) in
+  let c = Option.get (Pure_run.last (Pure_run.run program)) in
+  Alcotest.(check int) "no step" 0 (List.length (Graph.outcomes program Pure_run.fleet c));
+  Alcotest.(check (list string)) "N" [ "a:1" ] (pairs c.tuples);
+  Alcotest.(check (list string)) "store" [ "0" ] (List.map (fun (_, x) -> Value.to_string x) (Store.bindings c.store))
+
+(* A branch that is not taken leaves nothing to the one that is. *)
+let refused_then_taken () =
+  let source =
+    "g = 0\npost a: 1\n\
+     execute oneOf {\n\
+     when { post b: 1; g = 7; message 'no'; consume a: 1, c: 1 } then action { message 'first' }\n\
+     when { poll(b: 1) } then action { message 'second' }\n\
+     when { consume a: 1 } then action { message \"third ${g}\" } }"
+  in
+  let run = Pure_run.run (Pure_run.compile_exn source) in
+  Alcotest.(check (list string)) "said" [ "third 0" ] (Pure_run.said run);
+  Alcotest.(check (list string)) "N" [] (pairs (Option.get (Pure_run.last run)).tuples)
+
+let case name f = Alcotest.test_case name `Quick f
+
+let () =
+  let two_walks = Gen.pair Generate.program (Gen.pair Walk.choices Walk.choices) in
+  Alcotest.run "invariants"
+    [ ( "every step",
+        [ along "keeps the invariant of configurations" keeps_the_invariant;
+          along "changes B by PICK-BIND, RELEASE or the end alone" b_changes_only_so;
+          along "conserves tuples" tuples_are_conserved;
+          along "ends well" ends_well;
+          along "balances starts and stops" starts_and_stops_balance;
+          along "balances timers" timers_balance;
+          along "awaits what it accepts" awaits_what_it_accepts ] );
+      ( "walks",
+        [ Property.case ~count:300 "are reproducible" ~print walks is_reproducible;
+          Property.case ~count:150 "have coherent configurations" two_walks is_coherent
+            ~print:(fun (program, (choices, _)) -> print (program, choices)) ] );
+      ( "guards",
+        [ case "false with a post" (refused "post b: 1; false");
+          case "false with an assignment" (refused "g = 5; g == 0");
+          case "false with a consume" (refused "consume a: 1; false");
+          case "one pair of two" (refused "consume a: 1, b: 1");
+          case "two consumes" (refused "consume(a: 1) && consume(b: 1)");
+          case "the same pair twice" (refused "consume a: 1, a: 1");
+          case "refused, then another taken" refused_then_taken ] ) ]

@@ -1,0 +1,228 @@
+open Dolphin_semantics
+open Test_support
+open Generate
+module Gen = QCheck2.Gen
+open Gen
+
+(* {1 Comparing tasks} *)
+
+let closure body = expression (Closure (code body))
+let message text = statement (call "message" [ Positional (expression (String text)) ])
+
+(* What may stand around a task that is compared, and what runs beside it; no vehicles. *)
+let contexts : (Ast.expression -> Ast.expression) list =
+  let action body = call "action" [ Positional (closure body) ] in
+  let consumed k = call "consume" [ Named ({ it = k; at = Dolphin_syntax.Location.none }, expression Wildcard) ] in
+  [ Fun.id;
+    (fun t -> binary Sequence t (action [ message "next" ]));
+    (fun t -> binary Parallel (action [ statement (post "x" 1); statement (post "z" 2) ]) t);
+    (fun t -> expression (Until (code [ statement (consumed "y") ], t)));
+    (fun t -> expression (Watch (t, code [ message "handled"; statement (call "ignore" []) ])));
+    (fun t -> binary Sequence (action [ statement (post "y" 2) ]) t) ]
+
+type tasks = { around : int; posts : bool; a : Ast.expression; b : Ast.expression; c : Ast.expression; g : Ast.closure }
+
+(* Tasks on disjoint vehicles, so that they may stand side by side. *)
+let tasks =
+  let* around = int_bound (List.length contexts - 1) in
+  let* posts = bool in
+  let* order = shuffle_l vehicles in
+  let one i = [ List.nth order i ] in
+  let* a = task ~vehicles:(one 0) ~depth:2 in
+  let* b = task ~vehicles:(one 1) ~depth:2 in
+  let* c = task ~vehicles:(one 2) ~depth:1 in
+  let* g = guard in
+  return { around; posts; a; b; c; g }
+
+let program_of x t =
+  let before = if x.posts then [ statement (post "x" 1); statement (post "y" 2) ] else [] in
+  executing ~before ((List.nth contexts x.around) t)
+
+let graph x t = Graph.explore ~limit:1_500 (compile (program_of x t)) world
+
+(* Graphs that are too large prove nothing; how many pairs were compared is checked at the end. *)
+let compared = ref 0
+let skipped = ref 0
+
+let alike x t t' =
+  match graph x t, graph x t' with
+  | Some g, Some g' ->
+    incr compared;
+    Bisimulation.equivalent g g'
+  | None, _ | _, None ->
+    incr skipped;
+    true
+
+let law ?(count = 500) name left right =
+  let print x = Printf.sprintf "%s\n---\n%s" (print (program_of x (left x))) (print (program_of x (right x))) in
+  Property.case ~count name ~print tasks (fun x -> alike x (left x) (right x))
+
+(* {1 The laws} *)
+
+let ( >> ) = binary Sequence
+let ( <|> ) = binary Parallel
+let until g t = expression (Until (g, t))
+let during n t = expression (During (expression (Integer n), t))
+let watch t h = expression (Watch (t, code h))
+let branches builder bs = expression (Builder (builder, List.map (fun (g, t) -> statement (expression (When (g, t)))) bs))
+
+(* The union of at least one vehicle; one twice, for the static check that knows what does not fit on one vehicle. *)
+let set vs = List.fold_left (binary Add) (variable (List.hd vs)) (List.map variable vs)
+
+let on t vs = expression (Index (t, set vs))
+let propagate = [ statement (call "propagate" []) ]
+let never = code [ statement (expression (Boolean false)) ]
+
+let laws =
+  [ law ">> is associative" (fun x -> (x.a >> x.b) >> x.c) (fun x -> x.a >> (x.b >> x.c));
+    law "| is associative" (fun x -> (x.a <|> x.b) <|> x.c) (fun x -> x.a <|> (x.b <|> x.c));
+    law "| is commutative" (fun x -> x.a <|> x.b) (fun x -> x.b <|> x.a);
+    law "during a run during b run T is the shorter" (fun x -> during 5 (during 3 x.a)) (fun x -> during 3 x.a);
+    law "during a run during b run T is the shorter, whichever it is" (fun x -> during 3 (during 5 x.a))
+      (fun x -> during 3 x.a);
+    law "watch T onError { propagate() } is T" (fun x -> watch x.a propagate) (fun x -> x.a);
+    law "watch T onError { } is T" (fun x -> watch x.a []) (fun x -> x.a);
+    law "oneOf with one branch is waitFor" (fun x -> branches One_of [ (x.g, x.a) ]) (fun x -> expression (Wait_for (x.g, x.a)));
+    law "allOf with one branch is waitFor" (fun x -> branches All_of [ (x.g, x.a) ]) (fun x -> expression (Wait_for (x.g, x.a)));
+    law "until { false } run T is T" (fun x -> until never x.a) (fun x -> x.a);
+    law ">> goes into oneOf from the right"
+      (fun x -> branches One_of [ (x.g, x.a); (never, x.b) ] >> x.c)
+      (fun x -> branches One_of [ (x.g, x.a >> x.c); (never, x.b >> x.c) ]);
+    law "the branches of oneOf commute" (fun x -> branches One_of [ (x.g, x.a); (never, x.b); (x.g, x.c) ])
+      (fun x -> branches One_of [ (x.g, x.c); (x.g, x.a); (never, x.b) ]);
+    law "the branches of allOf commute" (fun x -> branches All_of [ (x.g, x.a); (x.g, x.c) ])
+      (fun x -> branches All_of [ (x.g, x.c); (x.g, x.a) ]) ]
+
+(* {1 Laws of allocation} *)
+
+(* Tasks that name no vehicles, and sets of vehicles. *)
+let free_task =
+  let plan name = call "task" [ Positional (expression (String name)) ] in
+  let rec free depth =
+    if depth = 0 then oneofl [ plan "p"; plan "q"; call "idle" [ Positional (expression (Integer 1)) ] ]
+    else
+      let* shape = int_bound 4 in
+      let part () = free (depth - 1) in
+      match shape with
+      | 0 -> free 0
+      | 1 -> map2 ( >> ) (part ()) (part ())
+      | 2 -> map2 ( <|> ) (part ()) (part ())
+      | 3 -> map2 (fun g t -> branches All_of [ (g, t); (never, t) ]) guard (part ())
+      | _ -> map2 until guard (part ())
+  in
+  free 2
+
+let some_vehicles =
+  let* chosen = flatten_l (List.map (fun v -> map (fun yes -> (v, yes)) bool) vehicles) in
+  match List.filter_map (fun (v, yes) -> if yes then Some v else None) chosen with
+  | [] -> return [ "va" ]
+  | vs -> return vs
+
+let allocation_law name left right =
+  let generator = Gen.quad free_task free_task some_vehicles some_vehicles in
+  let program side (a, b, vs, ws) = executing (side a b vs ws) in
+  let explored side x = Graph.explore (compile (program side x)) world in
+  let print x = Generate.print (program left x) ^ "---\n" ^ Generate.print (program right x) in
+  Property.case ~count:400 name ~print generator (fun x ->
+      match explored left x, explored right x with
+      | Some g, Some g' ->
+        incr compared;
+        Bisimulation.equivalent g g'
+      | None, _ | _, None ->
+        incr skipped;
+        true)
+
+let allocation_laws =
+  [ allocation_law "T[V][W] is T[V & W]"
+      (fun a _ vs ws -> on (on a vs) ws)
+      (fun a _ vs ws -> expression (Index (a, binary Intersect (set vs) (set ws))));
+    allocation_law "[V] goes into >>" (fun a b vs _ -> on (a >> b) vs) (fun a b vs _ -> on a vs >> on b vs);
+    allocation_law "[V] goes into |" (fun a b vs _ -> on (a <|> b) vs) (fun a b vs _ -> on a vs <|> on b vs);
+    allocation_law ">> is associative without vehicles" (fun a b vs _ -> (a >> b) >> on a vs) (fun a b vs _ -> a >> (b >> on a vs));
+    allocation_law "| is associative without vehicles"
+      (fun a b vs _ -> (a <|> b) <|> on a vs)
+      (fun a b vs _ -> a <|> (b <|> on a vs)) ]
+
+(* {1 What is no law} *)
+
+(* [differ name left right] checks that the two tasks are told apart. *)
+let differ name left right =
+  let explored text = Graph.explore ~limit:5_000 (Pure_run.compile_exn text) world in
+  let program t =
+    Printf.sprintf "g = 0\nva = pick { id 'a' }\nvb = pick { id 'b' }\npost x: 1\nexecute(%s)\nmessage 'after'" t
+  in
+  Alcotest.test_case name `Quick (fun () ->
+      match explored (program left), explored (program right) with
+      | Some g, Some g' ->
+        Alcotest.(check bool) "like itself" true (Bisimulation.equivalent g g);
+        Alcotest.(check bool) "told apart" false (Bisimulation.equivalent g g')
+      | None, _ | _, None -> Alcotest.fail "too many states")
+
+let p = "task('p')[va]"
+let q = "task('q')[vb]"
+
+let no_laws =
+  [ differ "idle 0 is no unit of >>" ("idle(0) >> " ^ p) p;
+    differ "idle 0 is no unit of |" (p ^ " | idle(0)") p;
+    differ "action { } is no unit of >>" ("action { } >> " ^ p) p;
+    differ "condition { true } is no unit of >>" ("condition { true } >> " ^ p) p;
+    differ "| is not idempotent" "task('p') | task('p')" "task('p')";
+    differ "| is not commutative where allocation chooses" "task('p') | task('q')" "task('q') | task('p')";
+    differ ">> is not commutative" (p ^ " >> " ^ q) (q ^ " >> " ^ p);
+    differ ">> does not go into |" (p ^ " >> (idle(1) | idle(2))") (Printf.sprintf "(%s >> idle(1)) | (task('p')[vb] >> idle(2))" p);
+    differ "what follows | waits for both" (Printf.sprintf "(%s | idle(1)) >> %s" p q) (Printf.sprintf "%s | (idle(1) >> %s)" p q);
+    differ ">> does not go into oneOf from the left" (p ^ " >> oneOf { when { consume x: 1 } then idle(1) }")
+      (Printf.sprintf "oneOf { when { consume x: 1 } then %s >> idle(1) }" p);
+    differ "watch does not go into >>" (Printf.sprintf "watch (%s >> %s) onError { ignore() }" p q)
+      (Printf.sprintf "(watch %s onError { ignore() }) >> (watch %s onError { ignore() })" p q);
+    differ "watch does not go into |" (Printf.sprintf "watch (%s | %s) onError { ignore() }" p q)
+      (Printf.sprintf "(watch %s onError { ignore() }) | (watch %s onError { ignore() })" p q);
+    differ "ignore() is no propagate()" (Printf.sprintf "watch %s onError { ignore() }" p) p;
+    differ "until does not go into >>" (Printf.sprintf "until { poll(x: 1) } run (%s >> %s)" p q)
+      (Printf.sprintf "(until { poll(x: 1) } run %s) >> (until { poll(x: 1) } run %s)" p q);
+    differ "until { true } run T is not nothing" (Printf.sprintf "until { true } run %s" p) "action { }";
+    differ "during { n } is not during n" (Printf.sprintf "during { 5 } run %s" p) (Printf.sprintf "during 5 run %s" p);
+    differ "allOf is not |"
+      (Printf.sprintf "allOf { when { true } then %s\nwhen { true } then %s }" p q)
+      (Printf.sprintf "(condition { true } >> %s) | (condition { true } >> %s)" p q);
+    differ "[V + W] of | is not [V] and [W]" "(task('p') | task('q'))[va + vb]" "task('p')[vb] | task('q')[va]" ]
+
+(* {1 The checker itself} *)
+
+(* Bisimilarity is an equivalence on the graphs of random tasks, finer than having the same labels. *)
+let checker =
+  [ Property.case ~count:100 "is reflexive" ~print:(fun x -> print (program_of x x.a)) tasks (fun x -> alike x x.a x.a);
+    Property.case ~count:150 "is symmetric" ~print:(fun x -> print (program_of x (x.a >> x.b))) tasks (fun x ->
+        match graph x x.a, graph x x.b with
+        | Some g, Some g' -> Bisimulation.equivalent g g' = Bisimulation.equivalent g' g
+        | None, _ | _, None -> true) ]
+
+(* The classic: a.(b + c) and a.b + a.c have the same runs, but choose at different moments. *)
+let branching_time () =
+  let graph text = Option.get (Graph.explore (Pure_run.compile_exn text) Generate.world) in
+  let branch g k = Printf.sprintf "when { %s } then condition { consume %s: 1 }" g k in
+  let late =
+    "post b: 1, c: 1\nexecute oneOf { when { true } then oneOf { when { consume b: 1 } then idle(1)\nwhen { consume c: 1 } then idle(1) } }"
+  in
+  let early = Printf.sprintf "post b: 1, c: 1\nexecute(oneOf { %s\n%s } >> idle(1))" (branch "true" "b") (branch "true" "c") in
+  let labels g =
+    List.sort_uniq String.compare
+      (List.concat_map
+         (List.map (fun ((t : Transition.t), _) -> Format.asprintf "%a" Label.pp t.label))
+         (Array.to_list g.Graph.edges))
+  in
+  Alcotest.(check (list string)) "same labels" (labels (graph late)) (labels (graph early));
+  Alcotest.(check bool) "told apart" false (Bisimulation.equivalent (graph late) (graph early))
+
+let enough () =
+  Printf.printf "%d pairs compared, %d too large\n" !compared !skipped;
+  Alcotest.(check bool) "most graphs were small enough" true (!compared > 10 * !skipped)
+
+let case name f = Alcotest.test_case name `Quick f
+
+let () =
+  Alcotest.run "laws"
+    [ ("laws", laws);
+      ("allocation", allocation_laws);
+      ("no laws", no_laws);
+      ("checker", (case "sees when a choice is made" branching_time :: checker) @ [ case "compared enough" enough ]) ]

@@ -1,0 +1,254 @@
+open Dolphin_semantics
+open Test_support
+
+(* Somewhere in the program's state graph there is this transition. *)
+type example = {
+  rule : Rule.t;
+  shows : string;
+  source : string;
+  label : string;
+  derivation : string;
+  next : string;  (* what is left to execute, or what the script does *)
+  effects : string list;
+}
+
+let pick_v = "v = pick { id 'noptilus-1' }\n"
+let pick_both = pick_v ^ "w = pick { id 'noptilus-2' }\n"
+
+(* [%p] is a platform task of vehicle [v], [%q] one of [w]. *)
+let task text =
+  let replace target by text = String.concat by (Str.split_delim (Str.regexp_string target) text) in
+  pick_both ^ "execute(" ^ replace "%p" "task('p')[v]" (replace "%q" "task('q')[w]" text) ^ ")"
+
+let released = "release noptilus-1, noptilus-2"
+
+let example rule shows source label derivation next effects =
+  { rule; shows; source; label; derivation; next; effects }
+
+let tasks : example list =
+  [ example Start "a vehicle begins" (task "%p") "start(noptilus-1, p)" "START" "p[noptilus-1]..."
+      [ "start p on noptilus-1" ];
+    example Done "a vehicle ends its task" (task "%p") "done(noptilus-1, p)" "DONE, EXECUTE-DONE" "script" [];
+    example Fail "a vehicle fails" (task "%p") "fail(noptilus-1, p, broken)" "FAIL, EXECUTE-ERR"
+      "failed: p failed on noptilus-1: broken"
+      [ released; "end: p failed on noptilus-1: broken" ];
+    example Action "code runs in one step" (task "action { post a: 1; post b: 2 } >> idle(1)") "act(post a:1; post b:2)"
+      "ACTION, SEQ-2" "idle(1)" [ "set timer 1 to 1 s" ];
+    example Action_err "code breaks" (task "action { post a: 1; 1 / 0 }") "broken(division by zero)"
+      "ACTION-ERR, EXECUTE-ERR" "failed: division by zero" [ released; "end: division by zero" ];
+    example Condition "true at last" (task "condition { poll(a: 1) } | action { post a: 1 }") "check"
+      "CONDITION, EXECUTE-DONE" "script" [];
+    example Condition_err "its code breaks" (task "condition { 1 / 0 }") "broken(division by zero)"
+      "CONDITION-ERR, EXECUTE-ERR" "failed: division by zero" [ released; "end: division by zero" ];
+    example Seq_1 "the first part goes on" (task "%p >> idle(1)") "start(noptilus-1, p)" "START, SEQ-1"
+      "(p[noptilus-1]... >> idle(1))" [ "start p on noptilus-1" ];
+    example Seq_2 "the first part ends, the next is active" (task "%p >> idle(1)") "done(noptilus-1, p)" "DONE, SEQ-2"
+      "idle(1)" [ "set timer 1 to 1 s" ];
+    example Seq_err "what follows a failure never starts" (task "(watch (%p >> idle(1)) onError { ignore() }) >> idle(2)")
+      "fail(noptilus-1, p, broken)" "FAIL, SEQ-ERR, WATCH-IGNORE, SEQ-2" "idle(2)" [ "set timer 2 to 2 s" ];
+    example Par_1 "the left goes on" (task "%p | %q") "start(noptilus-1, p)" "START, PAR-1"
+      "(p[noptilus-1]... | q[noptilus-2])" [ "start p on noptilus-1" ];
+    example Par_1 "the right goes on" (task "%p | %q") "start(noptilus-2, q)" "START, PAR-1"
+      "(p[noptilus-1] | q[noptilus-2]...)" [ "start q on noptilus-2" ];
+    example Par_2 "one branch is left" (task "%p | %q") "done(noptilus-2, q)" "DONE, PAR-2" "p[noptilus-1]..." [];
+    example Par_err "the sibling is stopped" (task "watch (%p | (during 5 run %q)) onError { ignore() }")
+      "fail(noptilus-1, p, broken)" "FAIL, PAR-ERR, WATCH-IGNORE, EXECUTE-DONE" "script"
+      [ "cancel timer 1"; "stop noptilus-2" ];
+    example Par_err "the sibling that has not started is forgotten" (task "watch (%p | %q) onError { ignore() }")
+      "fail(noptilus-1, p, broken)" "FAIL, PAR-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [];
+    example Allof_when "any ready branch" (task "allOf { when { poll(a: _) } then idle(1)\nwhen { true } then idle(2) }")
+      "check" "ALLOF-WHEN" "allOf { idle(2); when { when } then idle(1) }" [ "set timer 2 to 2 s" ];
+    example Allof_1 "the branch goes on" (task "allOf { when { false } then idle(1)\nwhen { true } then %p }")
+      "start(noptilus-1, p)" "START, ALLOF-1" "allOf { p[noptilus-1]...; when { when } then idle(1) }"
+      [ "start p on noptilus-1" ];
+    example Allof_2 "the branch ends, the others are left" (task "allOf { when { false } then idle(1)\nwhen { true } then %p }")
+      "done(noptilus-1, p)" "DONE, ALLOF-2" "oneOf { when { when } then idle(1) }" [];
+    example Allof_err "the branch fails, the others never start"
+      (task "watch (allOf { when { false } then idle(1)\nwhen { true } then %p }) onError { ignore() }")
+      "fail(noptilus-1, p, broken)" "FAIL, ALLOF-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [];
+    example Allof_err "a guard breaks" (task "allOf { when { 1 / 0 } then idle(1)\nwhen { true } then %p }")
+      "broken(division by zero)" "ALLOF-ERR, EXECUTE-ERR" "failed: division by zero" [ released; "end: division by zero" ];
+    example Oneof_when "the guard's deeds are part of the step"
+      ("post a: 1\n" ^ task "oneOf { when { consume a: 1 } then idle(1)\nwhen { true } then idle(2) }")
+      "check(consume a:1)" "ONEOF-WHEN" "idle(1)" [ "set timer 1 to 1 s" ];
+    example Oneof_when "any of the ready branches"
+      ("post a: 1\n" ^ task "oneOf { when { consume a: 1 } then idle(1)\nwhen { true } then idle(2) }")
+      "check" "ONEOF-WHEN" "idle(2)" [ "set timer 2 to 2 s" ];
+    example Oneof_err "a guard breaks" (task "oneOf { when { 1 / 0 } then idle(1)\nwhen { true } then idle(2) }")
+      "broken(division by zero)" "ONEOF-ERR, EXECUTE-ERR" "failed: division by zero" [ released; "end: division by zero" ];
+    example Until_cut "what runs is stopped" (task "(until { consume a: 1 } run during 5 run %p) | action { post a: 1 }")
+      "cut(consume a:1)" "UNTIL-CUT, EXECUTE-DONE" "script" [ "cancel timer 1"; "stop noptilus-1" ];
+    example Until_cut "before anything started" (task "until { true } run %p") "cut" "UNTIL-CUT, EXECUTE-DONE" "script" [];
+    example Until_1 "the task goes on" (task "until { false } run %p") "start(noptilus-1, p)" "START, UNTIL-1"
+      "until { until } run p[noptilus-1]..." [ "start p on noptilus-1" ];
+    example Until_2 "the task ends by itself" (task "until { false } run %p") "done(noptilus-1, p)"
+      "DONE, UNTIL-2, EXECUTE-DONE" "script" [];
+    example Until_err "the task fails" (task "until { false } run %p") "fail(noptilus-1, p, broken)"
+      "FAIL, UNTIL-ERR, EXECUTE-ERR" "failed: p failed on noptilus-1: broken"
+      [ released; "end: p failed on noptilus-1: broken" ];
+    example Until_err "the condition breaks, the task is stopped" (task "watch (until { 1 / 0 } run %p) onError { ignore() }")
+      "broken(division by zero)" "UNTIL-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [ "stop noptilus-1" ];
+    example Idle_end "the time is up" (task "idle(5) >> idle(1)") "timeout" "IDLE-END, SEQ-2" "idle(1)"
+      [ "set timer 2 to 1 s" ];
+    example During_set "code gives the time when the task starts" (task "during { 2 * 30 } run %p") "set-time(60)"
+      "DURING-SET" "during 60 run p[noptilus-1]" [ "set timer 1 to 60 s" ];
+    example During_cut "what runs is stopped" (task "during 60 run %p") "timeout" "DURING-CUT, EXECUTE-DONE" "script"
+      [ "stop noptilus-1" ];
+    example During_cut "inner timers are cancelled" (task "during 60 run (%p | idle(5))") "timeout"
+      "DURING-CUT, EXECUTE-DONE" "script" [ "cancel timer 2"; "stop noptilus-1" ];
+    example During_1 "the task goes on" (task "during 60 run %p") "start(noptilus-1, p)" "START, DURING-1"
+      "during 60 run p[noptilus-1]..." [ "start p on noptilus-1" ];
+    example During_2 "the task ends in time" (task "during 60 run %p") "done(noptilus-1, p)"
+      "DONE, DURING-2, EXECUTE-DONE" "script" [ "cancel timer 1" ];
+    example During_err "the task fails in time" (task "watch (during 60 run %p) onError { ignore() }")
+      "fail(noptilus-1, p, broken)" "FAIL, DURING-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [ "cancel timer 1" ];
+    example During_err "code gives no time, and leaves no effect"
+      (task "watch (during { message 'm'; 'soon' } run %p) onError { ignore() }")
+      "broken(during takes a time of 0 seconds or more, this code gives soon)"
+      "DURING-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [];
+    example Watch_1 "the task goes on" (task "watch %p onError { }") "start(noptilus-1, p)" "START, WATCH-1"
+      "watch p[noptilus-1]..." [ "start p on noptilus-1" ];
+    example Watch_2 "the task ends well" (task "watch %p onError { }") "done(noptilus-1, p)" "DONE, WATCH-2, EXECUTE-DONE"
+      "script" [];
+    example Watch_ignore "siblings inside stop, the handler runs, what follows starts: in one step"
+      (task "(watch (%p | %q) onError { message it; ignore() }) >> idle(1)")
+      "fail(noptilus-1, p, broken)" "FAIL, PAR-ERR, WATCH-IGNORE, SEQ-2" "idle(1)"
+      [ "stop noptilus-2"; "say p failed on noptilus-1: broken"; "set timer 1 to 1 s" ];
+    example Watch_propagate "the error climbs to the next watch"
+      (task "watch (watch %p onError { message 'in' }) onError { message 'out'; ignore() }")
+      "fail(noptilus-1, p, broken)" "FAIL, WATCH-PROPAGATE, WATCH-IGNORE, EXECUTE-DONE" "script" [ "say in"; "say out" ];
+    example Watch_propagate "a handler that breaks is an error itself, and leaves no effect"
+      (task "watch (watch %p onError { message 'in'; ignore(); 1 / 0 }) onError { message it; ignore() }")
+      "fail(noptilus-1, p, broken)" "FAIL, WATCH-PROPAGATE, WATCH-IGNORE, EXECUTE-DONE" "script"
+      [ "say division by zero" ];
+    example Watch_halt "the program ends" (task "(watch (during 5 run %p) onError { message 'm'; halt 'enough' }) | %q")
+      "fail(noptilus-1, p, broken)" "FAIL, DURING-ERR, WATCH-HALT" "halted: enough"
+      [ "cancel timer 1"; "say m"; "stop noptilus-2"; released; "end: halted enough" ] ]
+
+let nothing_there = "could not pick 1 vehicle of type 'ROV': noptilus-1 is a UUV; noptilus-2 is a UUV; noptilus-3 is a UUV; \
+                     x8-02 is a UAV"
+
+let too_few = "tasks 'p', 'q' run side by side and need different vehicles, but there is only noptilus-1"
+
+let script : example list =
+  [ example Script "a script that computes for long lets others go on" "while (true) { }" "script" "SCRIPT" "script" [];
+    example Post "pairs go to N" "post a: 1, b: 'x'" "post a:1, b:'x'" "POST" "script" [];
+    example Consume "the oldest pair" "post a: 2, a: 1\nconsume a: _" "consume a:2" "CONSUME" "script" [];
+    example Message "told to the user" "message \"${1 + 1} boats\"" "message '2 boats'" "MESSAGE" "script"
+      [ "say 2 boats" ];
+    example Release "vehicles leave B" (pick_both ^ "release v") "release noptilus-1" "RELEASE" "script"
+      [ "release noptilus-1" ];
+    example Set_timeout "of some vehicles" (pick_v ^ "setConnectionTimeout v, 2.min")
+      "setConnectionTimeout noptilus-1, 120" "SET-TIMEOUT" "script" [ "connection timeout 120 s for noptilus-1" ];
+    example Pick "waits" "v = pick { type 'UAV'; timeout 5.seconds }" "pick(1 vehicle of type 'UAV')" "PICK" "waiting"
+      [ "look for 1 vehicle of type 'UAV'" ];
+    example Pick_bind "the first choice" "v = pick { count 2; type 'UUV' }" "bind(noptilus-1, noptilus-2)" "PICK-BIND"
+      "script" [ "cancel timer 0"; "bind noptilus-1, noptilus-2" ];
+    example Pick_bind "the last choice" "v = pick { count 2; type 'UUV' }" "bind(noptilus-2, noptilus-3)" "PICK-BIND"
+      "script" [ "cancel timer 0"; "bind noptilus-2, noptilus-3" ];
+    example Pick_bind "all that are there when the time is up" "v = pick { count _; type 'UUV' }"
+      "bind(noptilus-1, noptilus-2, noptilus-3)" "PICK-BIND" "script" [ "bind noptilus-1, noptilus-2, noptilus-3" ];
+    example Pick_err "nothing fits when the time is up" "v = pick { type 'ROV' }" ("no-vehicles(" ^ nothing_there ^ ")")
+      "PICK-ERR" ("failed: " ^ nothing_there) [ "end: " ^ nothing_there ];
+    example Ask "waits" "n = ask 'how many?'" "ask(how many?)" "ASK" "waiting" [ "ask how many?" ];
+    example Answer "the expression's value" "n = ask 'how many?'" "answer(1)" "ANSWER" "script" [];
+    example Answer_err "nobody answers" "n = ask 'how many?'" "no-answer" "ANSWER-ERR"
+      "failed: no answer to 'how many?': end of input" [ "end: no answer to 'how many?': end of input" ];
+    example Pause "waits" "pause 2.seconds" "pause(2)" "PAUSE" "waiting" [ "set timer 0 to 2 s" ];
+    example Resume "the time is up" "pause 2.seconds" "resume" "RESUME" "script" [];
+    example Call "asks the host" "s = getSupplier()" "call(getSupplier)" "CALL" "waiting" [ "call getSupplier" ];
+    example Reply "goes on with the reply" "s = getSupplier()" "reply(null)" "REPLY" "script" [];
+    example Call_err "the host fails" "s = getSupplier()" "no-reply(gone)" "CALL-ERR" "failed: getSupplier: gone"
+      [ "end: getSupplier: gone" ];
+    example Execute "the task is active, its timers run" (task "idle(3) | %p") "execute" "EXECUTE"
+      "(idle(3) | p[noptilus-1])" [ "set timer 1 to 3 s" ];
+    example Execute_done "the script goes on" (task "%p") "done(noptilus-1, p)" "DONE, EXECUTE-DONE" "script" [];
+    example Execute_err "an error that nobody handles" (task "%p | %q") "fail(noptilus-2, q, broken)"
+      "FAIL, PAR-ERR, EXECUTE-ERR" "failed: q failed on noptilus-2: broken"
+      [ "stop noptilus-1"; released; "end: q failed on noptilus-2: broken" ];
+    example Alloc_err "too few vehicles" (pick_v ^ "execute task('p') | task('q')") ("cannot-execute(" ^ too_few ^ ")")
+      "ALLOC-ERR" ("failed: " ^ too_few) [ "release noptilus-1"; "end: " ^ too_few ];
+    example End "B is released" pick_v "end" "END" "completed" [ "release noptilus-1"; "end" ];
+    example Halt "by the script" (pick_v ^ "halt 'enough'") "halt(enough)" "HALT" "halted: enough"
+      [ "release noptilus-1"; "end: halted enough" ];
+    example Halt "by code inside of a task, whatever runs" (task "%p | action { message 'm'; halt 'enough' }")
+      "halt(enough)" "HALT" "halted: enough"
+      [ "say m"; "stop noptilus-1"; released; "end: halted enough" ];
+    example Fault "the script breaks" (pick_v ^ "x = 1 / 0") "fault(division by zero)" "FAULT" "failed: division by zero"
+      [ "release noptilus-1"; "end: division by zero" ];
+    example Interrupt "at any moment" (task "during 5 run %p") "interrupt" "INTERRUPT" "interrupted"
+      [ "cancel timer 1"; "stop noptilus-1"; released; "end: interrupted" ] ]
+
+let examples = tasks @ script
+
+(* {1 Looking for the transition} *)
+
+let next_of (c : Configuration.t) =
+  match c.control with
+  | Script _ -> "script"
+  | Waiting _ -> "waiting"
+  | Executing (_, r) -> Format.asprintf "%a" Residual.pp r
+  | Ended Completed -> "completed"
+  | Ended Interrupted -> "interrupted"
+  | Ended (Halted message) -> "halted: " ^ message
+  | Ended (Failed fault) -> "failed: " ^ fault.message
+
+let text label derivation next effects =
+  Printf.sprintf "%s by %s to %s; %s" label derivation next (String.concat "; " effects)
+
+let text_of (t : Transition.t) =
+  let effects = List.map (Format.asprintf "%a" Effect.pp) t.effects in
+  text (Format.asprintf "%a" Label.pp t.label) (Pure_run.rules t) (next_of t.next) effects
+
+let holds e () =
+  let program = Pure_run.compile_exn e.source in
+  match Graph.explore ~limit:200 program Pure_run.fleet with
+  | None -> Alcotest.fail "more than 200 states"
+  | Some graph ->
+    let leaving = Graph.outcomes ~interruption:true program Pure_run.fleet in
+    let all = List.concat_map leaving (Array.to_list graph.states) in
+    let by_rule = List.filter (fun (t : Transition.t) -> List.mem e.rule t.rules) all in
+    let found = List.sort_uniq String.compare (List.map text_of by_rule) in
+    let expected = text e.label e.derivation e.next e.effects in
+    if not (List.mem expected found) then
+      Alcotest.failf "expected\n%s\nfound\n%s" expected (String.concat "\n" found)
+
+(* {1 The rules have the same names everywhere} *)
+
+let read file =
+  let channel = open_in_bin file in
+  let text = really_input_string channel (in_channel_length channel) in
+  close_in channel;
+  text
+
+(* A rule's name stands in brackets after the line between premises and conclusion: [---- [SEQ-1]]. *)
+let documented () =
+  let rule = Str.regexp "^ *---+ *\\[\\([A-Z0-9-]+\\)\\]" in
+  List.filter_map
+    (fun line -> if Str.string_match rule line 0 then Some (Str.matched_group 1 line) else None)
+    (String.split_on_char '\n' (read "../../docs/semantics.md"))
+
+let names = List.map Rule.name Rule.all
+let sorted = List.sort String.compare
+
+let are_documented () =
+  Alcotest.(check (list string)) "each rule once in docs/semantics.md" (sorted names) (sorted (documented ()))
+
+let are_tested () =
+  let tested = List.sort_uniq String.compare (List.map (fun e -> Rule.name e.rule) examples) in
+  Alcotest.(check (list string)) "each rule has an example" (sorted names) tested
+
+let are_spelt () =
+  let again = List.map (fun name -> Option.map Rule.name (Rule.of_name name)) names in
+  Alcotest.(check (list (option string))) "of_name undoes name" (List.map Option.some names) again;
+  Alcotest.(check int) "no name twice" (List.length names) (List.length (List.sort_uniq String.compare names))
+
+let case name f = Alcotest.test_case name `Quick f
+let rule_case e = case (Printf.sprintf "%s: %s" (Rule.name e.rule) e.shows) (holds e)
+
+let () =
+  Alcotest.run "rules"
+    [ ( "names",
+        [ case "are spelt once" are_spelt; case "are documented" are_documented; case "are tested" are_tested ] );
+      ("tasks", List.map rule_case tasks);
+      ("script", List.map rule_case script) ]

@@ -1,0 +1,8 @@
+(** Strong bisimilarity of state graphs, by labels and by how runs end. *)
+
+val equivalent : Graph.t -> Graph.t -> bool
+(** [equivalent a b] is whether the initial states of [a] and [b] are strongly bisimilar: whatever one can do, the other
+    can, with the same label, to states of which the same holds; and ended runs ended alike, message included. *)
+
+val classes : Graph.t -> int
+(** [classes a] is the number of states of [a] that differ from one another. *)

@@ -1,0 +1,217 @@
+open Dolphin_syntax
+module Gen = QCheck2.Gen
+open Gen
+module Ast = Dolphin_syntax.Ast
+open Ast
+
+let world =
+  Pure_run.world
+    [ Pure_run.vehicle "a"; Pure_run.vehicle "b" ~north:100.; Pure_run.vehicle "c" ~kind:"UAV" ~north:200. ]
+
+let answer = "1"
+
+(* {1 Building syntax} *)
+
+let located it = { it; at = Location.none }
+let expression (it : expression_node) : expression = located it
+let variable x = expression (Variable x)
+let integer i = expression (Integer i)
+let string s = expression (String s)
+let binary op a b = expression (Binary (op, a, b))
+let call name arguments = expression (Call { callee = variable name; arguments })
+let named k e = Named (located k, e)
+let code body = { parameters = None; body }
+let statement e : statement = located (Ast.Expression e)
+let assign x value : statement = located (Assign { target = variable x; operator = None; value })
+let post k x = call "post" [ named k (integer x) ]
+
+(* {1 Code} *)
+
+let key = oneofl [ "x"; "y"; "z" ]
+let number = oneofl [ 1; 2 ]
+let posting = map2 post key number
+
+let taking name =
+  let* k = key in
+  let* x = frequency [ (3, map integer number); (1, return (expression Wildcard)) ] in
+  return (call name [ named k x ])
+
+let counted = assign "g" (binary Add (variable "g") (integer 1))
+let this body = map (fun body -> code (List.map statement body)) body
+
+let guard =
+  frequency
+    [ (1, return (code [ statement (expression (Boolean true)) ]));
+      (4, this (map (fun e -> [ e ]) (taking "poll")));
+      (4, this (map (fun e -> [ e ]) (taking "consume")));
+      (1, return (code [ statement (expression (Boolean false)) ]));
+      (1, return (code [ statement (binary Greater_equal (variable "g") (integer 1)) ]));
+      (1, map2 (fun p e -> code [ statement p; counted; statement e ]) posting (taking "consume"));
+      (1, map (fun e -> code [ counted; statement e ]) (taking "poll")) ]
+
+let division_by_zero = binary Divide (integer 1) (integer 0)
+
+let action_code =
+  frequency
+    [ (1, return (code []));
+      (6, this (map (fun e -> [ e ]) posting));
+      (2, this (map (fun e -> [ e ]) (taking "consume")));
+      (2, return (code [ counted ]));
+      (2, return (code [ statement (call "message" [ Positional (string "m") ]) ]));
+      (2, this (map2 (fun a b -> [ a; b ]) posting posting));
+      (1, return (code [ statement division_by_zero ])) ]
+
+let handler =
+  let no_arguments name = statement (call name []) in
+  oneof
+    [ return (code []);
+      return (code [ no_arguments "ignore" ]);
+      return (code [ no_arguments "propagate" ]);
+      map (fun e -> code [ statement e; no_arguments "ignore" ]) posting;
+      map (fun e -> code [ statement e ]) posting;
+      return (code [ statement (call "message" [ Positional (variable "it") ]); no_arguments "ignore" ]);
+      return (code [ statement (call "halt" [ Positional (string "h") ]) ]);
+      return (code [ statement division_by_zero ]) ]
+
+let duration =
+  frequency
+    [ (4, map integer (int_range 1 3));
+      (2, map (fun i -> expression (Closure (code [ statement (integer i) ]))) (int_range 1 3));
+      (1, return (expression (Closure (code [ counted; statement division_by_zero ])))) ]
+
+(* {1 Tasks} *)
+
+let code_task =
+  frequency
+    [ (3, map (fun c -> call "action" [ Positional (expression (Closure c)) ]) action_code);
+      (2, map (fun c -> call "condition" [ Positional (expression (Closure c)) ]) guard);
+      (1, map (fun i -> call "idle" [ Positional (integer i) ]) (int_range 0 2)) ]
+
+let platform_task vehicles =
+  let* plan = oneofl [ "p"; "q" ] in
+  let* v = oneofl vehicles in
+  return (expression (Index (call "task" [ Positional (string plan) ], variable v)))
+
+let leaf = function
+  | [] -> code_task
+  | vehicles -> frequency [ (2, platform_task vehicles); (1, code_task) ]
+
+(* [vehicles] shared out to two branches. *)
+let shared_out vehicles =
+  let* lefts = flatten_l (List.map (fun _ -> bool) vehicles) in
+  let both = List.combine vehicles lefts in
+  let side wanted = List.filter_map (fun (v, left) -> if left = wanted then Some v else None) both in
+  return (side true, side false)
+
+let rec task ~vehicles ~depth : expression Gen.t =
+  if depth <= 0 then leaf vehicles
+  else
+    let part = fun () -> task ~vehicles ~depth:(depth - 1) in
+    let* shape =
+      frequencyl
+        [ (2, `Leaf); (5, `Sequence); (5, `Parallel); (2, `All_of); (2, `One_of); (1, `Wait_for); (2, `Until);
+          (2, `During); (2, `Watch); (1, `Allocated) ]
+    in
+    match shape with
+    | `Leaf -> leaf vehicles
+    | `Sequence -> map2 (binary Sequence) (part ()) (part ())
+    | `Parallel ->
+      let* left, right = shared_out vehicles in
+      let* a = task ~vehicles:left ~depth:(depth - 1) in
+      map (binary Parallel a) (task ~vehicles:right ~depth:(depth - 1))
+    | `All_of -> map (fun branches -> expression (Builder (All_of, branches))) (branches part)
+    | `One_of -> map (fun branches -> expression (Builder (One_of, branches))) (branches part)
+    | `Wait_for -> map2 (fun c t -> expression (Wait_for (c, t))) guard (part ())
+    | `Until -> map2 (fun c t -> expression (Until (c, t))) guard (part ())
+    | `During -> map2 (fun d t -> expression (During (d, t))) duration (part ())
+    | `Watch -> map2 (fun t c -> expression (Watch (t, c))) (part ()) handler
+    | `Allocated ->
+      let all = match vehicles with [] -> [ "va" ] | vehicles -> vehicles in
+      let set = List.map variable all in
+      let set = List.fold_left (binary Add) (List.hd set) (List.tl set) in
+      map (fun t -> expression (Index (t, set))) (part ())
+
+and branches part =
+  let branch () = map2 (fun c t -> statement (expression (When (c, t)))) guard (part ()) in
+  let* n = int_range 1 3 in
+  flatten_l (List.init n (fun _ -> branch ()))
+
+(* {1 Scripts} *)
+
+let pick_by_id (v, id) =
+  assign v (expression (Builder (Pick, [ statement (call "id" [ Positional (string id) ]) ])))
+
+let all = [ ("va", "a"); ("vb", "b"); ("vc", "c") ]
+let vehicles = List.map fst all
+let start = assign "g" (integer 0)
+
+let executing ?(before = []) t =
+  (start :: List.map pick_by_id all)
+  @ before
+  @ [ statement (call "execute" [ Positional t ]); statement (call "message" [ Positional (string "after") ]) ]
+
+let picks =
+  let by_type =
+    assign "va" (expression (Builder (Pick, [ statement (call "type" [ Positional (string "UUV") ]) ])))
+  in
+  let everything =
+    assign "va"
+      (expression (Builder (Pick, [ statement (call "count" [ Positional (expression Wildcard) ]) ])))
+  in
+  frequency
+    [ (2, return ([ pick_by_id ("va", "a") ], [ "va" ]));
+      (3, return (List.map pick_by_id [ ("va", "a"); ("vb", "b") ], [ "va"; "vb" ]));
+      (2, return (List.map pick_by_id all, vehicles));
+      (1, return ([ by_type ], [ "va" ]));
+      (1, return ([ everything ], [ "va" ])) ]
+
+let rec body vehicles level : statement list Gen.t =
+  let* n = int_range 1 (if level = 0 then 3 else 2) in
+  let* parts = flatten_l (List.init n (fun _ -> some_statements vehicles level)) in
+  return (List.concat parts)
+
+and some_statements vehicles level =
+  let* shape =
+    frequencyl
+      ([ (6, `Execute); (2, `Post); (1, `Message); (1, `Pause); (1, `Ask); (1, `Release); (1, `Set_timeout);
+         (1, `Consume) ]
+       @ if level < 2 then [ (2, `If); (1, `While) ] else [])
+  in
+  let one s = return [ s ] in
+  match shape with
+  | `Execute ->
+    let* depth = int_bound (3 - level) in
+    map (fun t -> [ statement (call "execute" [ Positional t ]) ]) (task ~vehicles ~depth)
+  | `Post -> map (fun e -> [ statement e ]) posting
+  | `Consume -> map (fun e -> [ statement e ]) (taking "consume")
+  | `Message -> one (statement (call "message" [ Positional (variable "g") ]))
+  | `Pause -> one (statement (call "pause" [ Positional (integer 1) ]))
+  | `Ask -> one (assign "g" (call "ask" [ Positional (string "how many?") ]))
+  | `Release -> map (fun v -> [ statement (call "release" [ Positional (variable v) ]) ]) (oneofl vehicles)
+  | `Set_timeout -> one (statement (call "setConnectionTimeout" [ Positional (integer 10) ]))
+  | `If ->
+    let* test = taking "poll" in
+    let* yes = body vehicles (level + 1) in
+    let* no = body vehicles (level + 1) in
+    one (located (If (test, yes, no)))
+  | `While ->
+    let i = Printf.sprintf "i%d" level in
+    let* inside = body vehicles (level + 1) in
+    let next = assign i (binary Add (variable i) (integer 1)) in
+    return [ assign i (integer 0); located (While (binary Less (variable i) (integer 2), next :: inside)) ]
+
+let program =
+  let* picked, vehicles = picks in
+  let* before = body vehicles 1 in
+  let* depth = frequencyl [ (1, 0); (1, 1); (2, 2); (5, 3); (4, 4) ] in
+  let* posts = oneofl [ []; [ ("x", 1) ]; [ ("x", 1); ("y", 2); ("z", 1) ] ] in
+  let posts = List.map (fun (k, x) -> statement (post k x)) posts in
+  let* t = task ~vehicles ~depth in
+  let* after = body vehicles 0 in
+  let* first = bool in
+  let executed = [ statement (call "execute" [ Positional t ]) ] in
+  return ((start :: picked) @ posts @ if first then executed @ after else before @ executed @ after)
+
+let print p = Format.asprintf "%a" Print.program p
+let source = map print program
+let compile p = Pure_run.compile_exn (print p)

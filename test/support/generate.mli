@@ -1,0 +1,49 @@
+(** Random programs for property tests: always free of static errors, with few vehicles, keys and plans, so that their
+    state spaces are small and their parts meet. *)
+
+module Ast = Dolphin_syntax.Ast
+
+val world : Dolphin_semantics.World.t
+(** The world of these programs: the UUVs [a] and [b], and the UAV [c]. *)
+
+val answer : string
+(** What any [ask] of these programs may be answered. *)
+
+(** {1:programs Programs} *)
+
+val program : Ast.program QCheck2.Gen.t
+(** A script that picks one to three vehicles and then executes tasks, posts, polls, asks, releases... It shrinks. *)
+
+val source : string QCheck2.Gen.t
+(** {!program} as text. *)
+
+val print : Ast.program -> string
+(** [print p] is the text of [p]. *)
+
+val compile : Ast.program -> Dolphin_semantics.Core.program
+(** [compile p] is the core program of [print p]. *)
+
+(** {1:tasks Tasks} *)
+
+val task : vehicles:string list -> depth:int -> Ast.expression QCheck2.Gen.t
+(** [task ~vehicles ~depth] is a task of at most that depth, each of whose platform tasks names its vehicle, by one of
+    these variables; branches of [|] name different ones. Without vehicles it has no platform tasks. *)
+
+val guard : Ast.closure QCheck2.Gen.t
+(** Code of a [when], [waitFor], [condition] or [until]. *)
+
+val vehicles : string list
+(** The variables that {!executing} binds: [va], [vb], [vc]. *)
+
+val executing : ?before:Ast.statement list -> Ast.expression -> Ast.program
+(** [executing t] picks the three vehicles, does what is to be done [before], executes [t], and says so. *)
+
+(** {1:builders Building syntax} *)
+
+val variable : string -> Ast.expression
+val code : Ast.statement list -> Ast.closure
+val statement : Ast.expression -> Ast.statement
+val call : string -> Ast.argument list -> Ast.expression
+val binary : Ast.binary -> Ast.expression -> Ast.expression -> Ast.expression
+val expression : Ast.expression_node -> Ast.expression
+val post : string -> int -> Ast.expression

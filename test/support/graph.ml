@@ -1,0 +1,56 @@
+open Dolphin_semantics
+
+type t = { states : Configuration.t array; edges : (Transition.t * int) list array }
+
+module Table = Hashtbl.Make (Configuration)
+
+let failure_of (e : Transition.event) : Transition.event option =
+  match e with
+  | Vehicle_done v -> Some (Vehicle_failed (v, "broken"))
+  | Answered _ -> Some (Nobody_answers "end of input")
+  | Replied _ -> Some (Host_failed "gone")
+  | Timer_expired _ | Vehicle_failed _ | Nobody_answers _ | Host_failed _ | Interruption -> None
+
+let outcomes ?(failures = true) ?(interruption = false) program world c =
+  let events =
+    List.map
+      (fun (e : Transition.event) ->
+         match e with
+         | Answered _ -> Transition.Answered Generate.answer
+         | Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Nobody_answers _ | Replied _ | Host_failed _
+         | Interruption -> e)
+      (Transition.awaited c)
+  in
+  let failed = if failures then List.filter_map failure_of events else [] in
+  let stopped = if interruption then [ Transition.Interruption ] else [] in
+  let accepted e = Result.to_option (Transition.accept program world c e) in
+  List.of_seq (Transition.internal program world c) @ List.filter_map accepted (events @ failed @ stopped)
+
+exception Too_many
+
+let explore ?(limit = 2_000) ?(failures = true) program world =
+  let numbers = Table.create 256 and found = Queue.create () and count = ref 0 in
+  let number c =
+    match Table.find_opt numbers c with
+    | Some i -> i
+    | None ->
+      if !count >= limit then raise Too_many;
+      Table.replace numbers c !count;
+      Queue.add c found;
+      incr count;
+      !count - 1
+  in
+  let rec all visited =
+    match Queue.take_opt found with
+    | None -> List.rev visited
+    | Some c ->
+      let edges = List.map (fun (t : Transition.t) -> (t, number t.next)) (outcomes ~failures program world c) in
+      all ((c, edges) :: visited)
+  in
+  match
+    ignore (number (Configuration.initial program));
+    all []
+  with
+  | visited ->
+    Some { states = Array.of_list (List.map fst visited); edges = Array.of_list (List.map snd visited) }
+  | exception Too_many -> None

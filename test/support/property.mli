@@ -1,0 +1,5 @@
+(** Properties of random inputs as alcotest cases, the same inputs every time. *)
+
+val case : ?count:int -> string -> print:('a -> string) -> 'a QCheck2.Gen.t -> ('a -> bool) -> unit Alcotest.test_case
+(** [case name ~print generator property] fails with a small counterexample, as [print] shows it, if [property] is false
+    or raises on one of [count] (100 by default) inputs. *)

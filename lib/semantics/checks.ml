@@ -59,13 +59,6 @@ let check_kind env what wanted (e : Ast.expression) =
     error env e.at "%s takes %s, this is %s" what (Builtins.describe wanted)
       (match found with Other -> "none" | found -> Builtins.describe found)
 
-let ended_early (e : Ast.expression) =
-  match e.it with
-  | Call { callee = { it = Variable ("execute" as name); _ }; _ } ->
-    Some
-      (Printf.sprintf "the arguments of %s end at this ')': put another pair of parentheses around all of them" name)
-  | _ -> None
-
 let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expression) =
   let symbol = match op with Sequence -> ">>" | _ -> "|" in
   let need (e : Ast.expression) =
@@ -73,8 +66,6 @@ let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expressio
       match e.it with
       | String name -> Some (Printf.sprintf "a plan is named by task('%s')" name)
       | Closure _ -> Some "code becomes a task by action { ... } or condition { ... }"
-      | Call { callee = { it = Variable "execute"; _ }; _ } ->
-        Some (Printf.sprintf "execute takes what the parentheses right after it hold: write execute((T) %s T')" symbol)
       | _ -> None
     in
     if not (could_be Task (known_kind env e)) then

@@ -39,9 +39,6 @@ val could_be : Builtins.kind -> Builtins.kind -> bool
 val check_kind : env -> string -> Builtins.kind -> Ast.expression -> unit
 (** [check_kind env what wanted e] reports [e] if it cannot be what [what] takes. *)
 
-val ended_early : Ast.expression -> string option
-(** A hint, if [e] is a call of [execute] whose parentheses were perhaps meant to group: [execute (a | b) >> c]. *)
-
 val check_operator : env -> Ast.binary -> Ast.expression -> Ast.expression -> unit
 (** Reports operands of [>>] and [|] that are no tasks. *)
 

@@ -59,6 +59,14 @@ let check_kind env what wanted (e : Ast.expression) =
     error env e.at "%s takes %s, this is %s" what (Builtins.describe wanted)
       (match found with Other -> "none" | found -> Builtins.describe found)
 
+(* [execute (T)[V]] reads as [(execute(T))[V]], which nobody means. *)
+let check_not_executed env (e : Ast.expression) what =
+  match e.it with
+  | Call { callee = { it = Variable "execute"; _ }; _ } when Scope.find_function env.program "execute" = None ->
+    error env e.at "%s comes after execute has run its task" what
+      ~hint:(Printf.sprintf "execute takes what the parentheses right after it hold: write execute((T)%s)" what)
+  | _ -> ()
+
 let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expression) =
   let symbol = match op with Sequence -> ">>" | _ -> "|" in
   let need (e : Ast.expression) =
@@ -181,6 +189,7 @@ let rec elaborate env (e : Ast.expression) : expression =
   | Binary (Append, target, e) when is_path target ->
     update env at target (fun current -> apply env at (Binary Append) [ current; elaborate env e ])
   | Binary (Divide, t, { it = Closure c; at = closure_at }) ->
+    check_not_executed env t "/ { ... }";
     let t = elaborate env t in
     apply env at (Binary Divide) [ t; task_code env closure_at "until" c ]
   | Binary (op, a, b) ->
@@ -199,6 +208,7 @@ let rec elaborate env (e : Ast.expression) : expression =
   | Call { callee; arguments } -> call env at callee arguments
   | Member { subject; name; safe } -> member env e subject name safe
   | Index (subject, index) ->
+    check_not_executed env subject "[V]";
     if known_kind env subject = Task && not (could_be Vehicles (known_kind env index)) then
       error env index.at "between [ and ] after a task stands a vehicle set, this is %s"
         (Builtins.describe (known_kind env index));
@@ -715,7 +725,7 @@ let fill env (lambda : lambda) purpose parameters at body =
 let is_error (d : Diagnostic.t) = match d.severity with Error -> true | Warning -> false
 
 let program ~source_name (ast : Ast.program) =
-  let program = Scope.create ~functions:[] ~globals:[] in
+  let program = Scope.create ~functions:[] ~globals:[] () in
   let defined =
     List.filter_map
       (fun (s : Ast.statement) ->
@@ -761,7 +771,9 @@ let answer (p : Core.program) text =
   match Dolphin_syntax.Parse.expression ~file:"answer" text with
   | Error ds -> Error (first_message ds)
   | Ok e -> (
-      let program = Scope.create ~functions:p.functions ~globals:(Array.to_list p.global_names) in
+      (* Beyond the program's own sites: what an answer makes has no place in the program's text. *)
+      let first_site = Array.length p.locations in
+      let program = Scope.create ~first_site ~functions:p.functions ~globals:(Array.to_list p.global_names) () in
       let lambda = shell program e.at "answer" 0 in
       let env = { program; code = Scope.code program Main None; answer = true } in
       fill env lambda Main [] e.at [ { Ast.it = Expression e; at = e.at } ];

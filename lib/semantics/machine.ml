@@ -24,6 +24,7 @@ type context = {
 type iteration =
   | Each | Collect | Find_all | Find | Any | Every | Count | Sum | Inject | Sort | Greatest | Least
 
+(* What a loop has yet to go through: elements from an index on, or numbers up to and with the last, up or down. *)
 type items = Items of value array * int | Counting of int * int
 
 type frame =
@@ -155,7 +156,7 @@ type outcome =
   | Value of value
   | Done of context * value  (* with deeds, or a verdict *)
   | Enter of closure * value list
-  | Walk of iteration * closure * value * value list  (* subject; initial results *)
+  | Walk of iteration * closure * value * value array * value list  (* subject, its items; initial results *)
   | Wait of request
   | Stop of string
   | Wrong of string  (* a fault of this very operation *)
@@ -405,7 +406,8 @@ let iteration_of name arguments =
 
 let collection subject name =
   match subject, name with
-  | Integer n, "times" -> Some (if n <= 0 then [||] else Array.init n (fun i -> Integer i))
+  | Integer n, "times" when n > Value.most_items -> None
+  | Integer n, "times" -> Some (Array.init (max n 0) (fun i -> Integer i))
   | _, _ -> Value.items subject
 
 (* A closure with two parameters gets key and value of a map's entry, or item and index. *)
@@ -522,16 +524,16 @@ let call_method context name names arguments =
       | Closure c -> Enter (c, arguments)
       | x -> expected "a closure" x)
   | subject :: arguments -> (
-      match iteration_of name arguments with
-      | Some (iteration, closure, initial) when collection subject name <> None ->
-        Walk (iteration, closure, subject, initial)
-      | Some _ | None -> of_result (Methods.call context.world subject name arguments))
+      match iteration_of name arguments, lazy (collection subject name) with
+      | Some (iteration, closure, initial), (lazy (Some items)) -> Walk (iteration, closure, subject, items, initial)
+      | (Some _ | None), _ -> of_result (Methods.call context.world subject name arguments))
   | [] -> Wrong "a method needs something to be called on"
 
 let apply context at operation arguments =
   match operation, arguments with
   | Unary op, [ x ] -> of_result (Operators.unary op x)
-  | Binary Parallel, [ (Vehicles _ as vs); Closure c ] -> Walk (Find_all, c, vs, [])
+  | Binary Parallel, [ (Vehicles _ as vs); Closure c ] ->
+    Walk (Find_all, c, vs, Option.value (Value.items vs) ~default:[||], [])
   | Binary op, [ x; y ] -> of_result (Operators.binary op x y)
   | Make_list, xs -> Value (List (Array.of_list xs))
   | Make_map keys, arguments -> of_result (make_map keys arguments)
@@ -659,7 +661,7 @@ and proceed context fuel x locals stack calls at =
 and begin_loop context fuel x slot body locals stack calls at =
   let start items = next_item context fuel slot items body locals stack calls at in
   match x with
-  | Range (first, last) when first <= last -> start (Counting (first, last))
+  | Range (first, last) -> start (Counting (first, last))
   | Null -> proceed context fuel Null locals stack calls at
   | x -> (
       match Value.items x with
@@ -676,8 +678,9 @@ and next_item context fuel slot items body locals stack calls at =
   in
   match items with
   | Items (xs, i) when i < Array.length xs -> go xs.(i) (Items (xs, i + 1))
-  | Counting (i, last) when i <= last -> go (Integer i) (Counting (i + 1, last))
-  | Items _ | Counting _ -> proceed context fuel Null locals stack calls at
+  | Counting (i, last) when i = last -> go (Integer i) (Items ([||], 0))
+  | Counting (i, last) -> go (Integer i) (Counting ((if i < last then i + 1 else i - 1), last))
+  | Items _ -> proceed context fuel Null locals stack calls at
 
 and iterate context fuel frame locals stack calls =
   match frame with
@@ -717,12 +720,7 @@ and settle_outcome context fuel outcome at locals stack calls =
       | Script -> (Did, stopped (Give x), context)
       | Task_code | Handler _ -> proceed context fuel x locals stack calls at)
   | Enter (closure, arguments) -> enter context fuel closure arguments at locals stack calls
-  | Walk (iteration, closure, subject, gathered) ->
-    let items =
-      match subject with
-      | Integer n -> Array.init (max n 0) (fun i -> Integer i)
-      | subject -> Option.value (Value.items subject) ~default:[||]
-    in
+  | Walk (iteration, closure, subject, items, gathered) ->
     iterate context fuel
       (Iterate { iteration; closure; subject; items; index = 0; gathered; at })
       locals stack calls

@@ -36,7 +36,11 @@ val of_number : float -> t
 
 val items : t -> t array option
 (** [items x] is what a loop over [x] goes through: elements, numbers of a range, single vehicles, entries of a map
-    (each a map with [key] and [value]), characters; [None] if [x] is no such thing. *)
+    (each a map with [key] and [value]), characters; [None] if [x] is no such thing, or a range of more than
+    {!most_items} numbers. *)
+
+val most_items : int
+(** The longest range that may be made into a list, one million: a range takes no space, its numbers do. *)
 
 val length : t -> int option
 (** [length x] is the number of items of [x]. *)

@@ -126,6 +126,13 @@ let getter world x name =
   | None, ("empty" | "isEmpty") -> Option.map (fun n -> Ok (Boolean (n = 0))) (Value.length x)
   | None, _ -> None
 
+let properties =
+  [ "id"; "ids"; "type"; "position"; "battery"; "payload"; "size"; "length"; "latitude"; "longitude"; "height"; "centre";
+    "radius"; "first"; "last"; "head"; "tail"; "name" ]
+
+let near name names =
+  match Suggest.suggest name names with Some near -> Printf.sprintf "; did you mean '%s'?" near | None -> ""
+
 let property world x name =
   match x, getter world x name with
   | Map entries, _ when List.mem_assoc name entries -> Ok (List.assoc name entries)
@@ -133,16 +140,11 @@ let property world x name =
   | Map _, None -> Ok Null
   | (Integer _ | Number _), None when Operators.unit_factor name <> None -> Operators.in_unit x name
   | (Integer _ | Number _), None ->
-    let suggestion =
-      match Suggest.suggest name Operators.unit_names with
-      | Some near -> Printf.sprintf "; did you mean '%s'?" near
-      | None -> ""
-    in
-    Error (Printf.sprintf "a number has no unit '%s'%s" name suggestion)
+    Error (Printf.sprintf "a number has no unit '%s'%s" name (near name Operators.unit_names))
   | Null, None -> Error (Printf.sprintf "null has no property '%s'" name)
   | ( ( Boolean _ | String _ | Wildcard | Symbol _ | List _ | Range _ | Position _ | Area _ | Vehicles _ | Task _
       | Closure _ | Host _ | Settings _ ),
-      None ) -> Error (Printf.sprintf "%s has no property '%s'" (Value.kind x) name)
+      None ) -> Error (Printf.sprintf "%s has no property '%s'%s" (Value.kind x) name (near name properties))
 
 (* "getId" is a getter of "id". *)
 let property_of_getter name =
@@ -310,9 +312,6 @@ let call world x name arguments =
           let hint =
             if too_many x name then Printf.sprintf " for more than %d elements" Value.most_items
             else if List.mem name known then Printf.sprintf " for %d arguments of that kind" (List.length arguments)
-            else
-              match Suggest.suggest name known with
-              | Some near -> Printf.sprintf "; did you mean '%s'?" near
-              | None -> ""
+            else near name known
           in
           Error (Printf.sprintf "%s has no method '%s'%s" (Value.kind x) name hint))

@@ -125,17 +125,14 @@ let arithmetic op on_integers on_numbers x y =
       | Some a, Some b -> Ok (Number (on_numbers a b))
       | _ -> mismatch op x y)
 
-(* A loop that doubles a list must end in a fault, not without memory. *)
-let longest = 1_000_000
-
-let too_long what = Error (Printf.sprintf "%s of more than %d elements is too long" what longest)
+let too_long what = Error (Printf.sprintf "%s of more than %d elements is too long" what Value.longest)
 
 let concatenate x y =
   let x = Value.to_string x and y = Value.to_string y in
-  if String.length x + String.length y > longest then too_long "a string" else Ok (String (x ^ y))
+  if String.length x + String.length y > Value.longest then too_long "a string" else Ok (String (x ^ y))
 
 let append xs ys =
-  if Array.length xs + Array.length ys > longest then too_long "a list" else Ok (List (Array.append xs ys))
+  if Array.length xs + Array.length ys > Value.longest then too_long "a list" else Ok (List (Array.append xs ys))
 
 let binary (op : Ast.binary) x y =
   match op, x, y with

@@ -199,8 +199,11 @@ let characters s =
   in
   Array.of_list (from 0 [])
 
+let longest = 1_000_000
+
 let items = function
   | List xs -> Some xs
+  | Range (first, last) when range_length first last > longest -> None
   | Range (first, last) ->
     Some (Array.init (range_length first last) (fun i -> Integer (range_item first last i)))
   | Vehicles vs -> Some (Array.of_list (List.map (fun v -> Vehicles [ v ]) vs))

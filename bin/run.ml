@@ -26,7 +26,7 @@ let is_live () =
    whether an interruption is of that kind. *)
 let observe screen log board ~is_stuck : Observer.t =
   let print lines = List.iter (Screen.print screen) lines in
-  let transition ~time s =
+  let transition ~time ~cause:_ s =
     board := Board.transition !board ~time s;
     let next, lines = Log.transition ~stuck:(is_stuck ()) !log ~time s in
     log := next;
@@ -104,7 +104,7 @@ let drive s host =
     | Some (Script _ | Waiting _ | Ended _) | None -> ()
   in
   let remember : Observer.t =
-    { Observer.nobody with transition = (fun ~time:_ t -> control := Some t.next.control) }
+    { Observer.nobody with transition = (fun ~time:_ ~cause:_ t -> control := Some t.next.control) }
   in
   let is_stuck () = !stuck <> None || not (Interruption.happened interruption) in
   let (Platform (simulator, platform)) = simulated s in

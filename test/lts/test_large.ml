@@ -1,5 +1,5 @@
-(* Graphs of a million states: everything is done in seconds (of processor time), and nothing overflows the stack. The times are printed:
-   [dune exec test/lts/test_large.exe]. *)
+(* Graphs of a million states: everything takes seconds of processor time, and nothing overflows the stack. The times
+   are printed: [dune exec test/lts/test_large.exe -- -v]. *)
 
 open Dolphin_lts
 

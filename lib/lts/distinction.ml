@@ -2,7 +2,10 @@ module Pairs = Hashtbl.Make (struct
     type t = int * int
 
     let equal (b, c) (b', c') = b = b' && c = c'
-    let hash (b, c) = ((b * 0x2545f491) lxor c) land max_int
+
+    let hash (b, c) =
+      let mixed = ((b * 0x2545f4914f6cdd1d) + c) * 0x1f3d5b79a2c4e683 in
+      (mixed lxor (mixed lsr 32)) land max_int
   end)
 
 (* Why a block differs from another: it can do [label] to a state in [next], and of the blocks in [others], where the

@@ -5,8 +5,11 @@ module Pairs = Hashtbl.Make (struct
     type t = int list * int list
 
     let equal (x, y) (x', y') = List.equal Int.equal x x' && List.equal Int.equal y y'
-    let hash_set hash set = List.fold_left (fun hash s -> (hash * 0x2545f491) + s + 1) hash set
-    let hash (x, y) = hash_set (hash_set 17 x * 31) y land max_int
+    let hash_set hash set = List.fold_left (fun hash s -> ((hash lxor (hash lsr 32)) * 0x1f3d5b79a2c4e683) + s) hash set
+
+    let hash (x, y) =
+      let mixed = hash_set (hash_set 1 x * 31) y in
+      (mixed lxor (mixed lsr 32)) land max_int
   end)
 
 type node = { states : int list * int list; trace : string list  (* the last label first *) }

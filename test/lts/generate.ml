@@ -6,7 +6,9 @@ let gen ~states ~labels ~transitions =
   let open QCheck2.Gen in
   let* n = int_range 1 states in
   let* initial = int_bound (n - 1) in
-  let transition = triple (int_bound (n - 1)) (map (fun l -> String.make 1 (Char.chr (97 + l))) (int_bound (labels - 1))) (int_bound (n - 1)) in
+  let state = int_bound (n - 1) in
+  let label = map (fun l -> String.make 1 (Char.chr (Char.code 'a' + l))) (int_bound (labels - 1)) in
+  let transition = triple state label state in
   let* all = list_size (int_bound transitions) transition in
   return (Graph.of_list ~initial ~states:n all)
 
@@ -21,10 +23,12 @@ let successors g s = Graph.fold_from g s (fun all l s' -> (Graph.label g l, s') 
    pairs until nothing changes. *)
 let bisimilarity g h =
   let related = Array.make_matrix (Graph.states g) (Graph.states h) true in
-  let matched flip s t =
+  (* [related] is between states of [g] and [h]; if [flip], [of_s] are moves in [h]. *)
+  let matched flip of_s of_t =
     List.for_all
-      (fun (l, s') -> List.exists (fun (l', t') -> l = l' && if flip then related.(t').(s') else related.(s').(t')) (snd t))
-      (snd s)
+      (fun (l, s') ->
+         List.exists (fun (l', t') -> l = l' && if flip then related.(t').(s') else related.(s').(t')) of_t)
+      of_s
   in
   let changed = ref true in
   while !changed do
@@ -33,9 +37,9 @@ let bisimilarity g h =
       (fun s row ->
          Array.iteri
            (fun t holds ->
-              let s = (s, successors g s) and t = (t, successors h t) in
-              if holds && not (matched false s t && matched true t s) then begin
-                related.(fst s).(fst t) <- false;
+              let of_s = successors g s and of_t = successors h t in
+              if holds && not (matched false of_s of_t && matched true of_t of_s) then begin
+                related.(s).(t) <- false;
                 changed := true
               end)
            row)
@@ -47,10 +51,8 @@ let bisimilar g h = (bisimilarity g h).(Graph.initial g).(Graph.initial h)
 
 (* Whether [trace] is one of [g]. *)
 let has_trace g trace =
-  let step states label =
-    List.sort_uniq compare
-      (List.concat_map (fun s -> List.filter_map (fun (l, s') -> if l = label then Some s' else None) (successors g s)) states)
-  in
+  let by label s = List.filter_map (fun (l, s') -> if l = label then Some s' else None) (successors g s) in
+  let step states label = List.sort_uniq compare (List.concat_map (by label) states) in
   List.fold_left step [ Graph.initial g ] trace <> []
 
 (* The traces of [g] of a length. *)

@@ -33,12 +33,14 @@ let exact () =
     (Graphviz.to_string
        (Graph.with_text (fun s -> if s = 0 then "say \"hi\"" else "") (Graph.of_list [ (0, "a\\b", 1) ])))
 
-let awkward = [ "say \"hi\""; "a,b"; "f(x), g(\"y\",1)"; ")"; "(0,\"a\",1)"; "Leixões"; "\\x41"; "\\"; ""; " a "; "\n"; "\"" ]
+let awkward =
+  [ "say \"hi\""; "a,b"; "f(x), g(\"y\",1)"; ")"; "(0,\"a\",1)"; "Leixões"; "\\x41"; "\\"; ""; " a "; "\n"; "\"" ]
 
 let awkward_labels () =
   let g = Graph.of_list (List.mapi (fun i label -> (i, label, i + 1)) awkward) in
   Alcotest.check graph "Aldebaran" g (aldebaran (Aldebaran.of_string (Aldebaran.to_string g)));
-  Alcotest.(check string) "one label as it is written" "des (0, 1, 2)\n(0,\"say \\x22h\\xc3\\xa9\\x22, (\\\\x5cx41)\",1)\n"
+  Alcotest.(check string) "one label as it is written"
+    "des (0, 1, 2)\n(0,\"say \\x22h\\xc3\\xa9\\x22, (\\\\x5cx41)\",1)\n"
     (Aldebaran.to_string (Graph.of_list [ (0, "say \"h\xc3\xa9\", (\\\\x41)", 1) ]));
   match Json.of_string (Json.to_string g) with
   | Ok h -> Alcotest.check graph "JSON" g h
@@ -47,10 +49,13 @@ let awkward_labels () =
 (* As other tools write: inner quotes, no quotes, blanks, carriage returns, no last line feed, doubles. *)
 let of_others () =
   let expected =
-    Graph.of_list ~initial:1 ~states:4 [ (1, "SEND !\"hello, \"world", 0); (0, "tau", 2); (2, "lock(p2, f2)", 1); (0, "i", 2) ]
+    Graph.of_list ~initial:1 ~states:4
+      [ (1, "SEND !\"hello, \"world", 0); (0, "tau", 2); (2, "lock(p2, f2)", 1); (0, "i", 2) ]
   in
   let text =
-    "des(1,5, 4)\r\n\n( 1 , \"SEND !\"hello, \"world\" , 0 )\r\n(0,tau,2)\n(0, i, 2) \n(2,\"lock(p2, f2)\",1)\n(0,\"i\",2)"
+    "des(1,5, 4)\r\n\n\
+     ( 1 , \"SEND !\"hello, \"world\" , 0 )\r\n\
+     (0,tau,2)\n(0, i, 2) \n(2,\"lock(p2, f2)\",1)\n(0,\"i\",2)"
   in
   Alcotest.check graph "read" expected (aldebaran (Aldebaran.of_string text))
 

@@ -24,7 +24,7 @@ let coffee () =
     "Only the left one satisfies not <coin> not <tea>\nThey have the same traces, but choose at different times."
     (show late early);
   Alcotest.(check string) "early against late"
-    "Only the left one satisfies <coin> not <coffee>\nThey have the same traces, but choose at different times."
+    "Only the left one satisfies <coin> not <tea>\nThey have the same traces, but choose at different times."
     (show early late);
   Alcotest.(check int) "three kinds of states" 3 (Partition.blocks (Partition.strong late))
 
@@ -43,7 +43,9 @@ let vending () =
 
 (* Milner's vending machines, with a conjunction. *)
 let conjunction () =
-  let some = Graph.of_list [ (0, "a", 1); (0, "a", 2); (0, "a", 3); (1, "b", 4); (2, "c", 4); (3, "b", 4); (3, "c", 4) ] in
+  let some =
+    Graph.of_list [ (0, "a", 1); (0, "a", 2); (0, "a", 3); (1, "b", 4); (2, "c", 4); (3, "b", 4); (3, "c", 4) ]
+  in
   let fewer = Graph.of_list [ (0, "a", 1); (0, "a", 2); (1, "b", 4); (2, "c", 4) ] in
   Alcotest.(check string) "both at once"
     "Only the left one satisfies <a>(<b> and <c>)\nThey have the same traces, but choose at different times."
@@ -116,7 +118,9 @@ let reachability () =
 
 let fairness () =
   (* Two cycles, the first can be left; a state without transitions. *)
-  let g = Graph.of_list [ (0, "try", 1); (1, "lose", 0); (1, "send", 2); (2, "work", 3); (3, "rest", 2); (3, "stop", 4) ] in
+  let g =
+    Graph.of_list [ (0, "try", 1); (1, "lose", 0); (1, "send", 2); (2, "work", 3); (3, "rest", 2); (3, "stop", 4) ]
+  in
   let c = Fairness.components g in
   let of_state s = Option.get (Fairness.component c s) in
   Alcotest.(check int) "three components" 3 (Fairness.count c);
@@ -130,7 +134,8 @@ let fairness () =
   let double = Graph.of_list [ (0, "a", 1); (1, "b", 0); (1, "c", 2); (2, "d", 0) ] in
   let through _ l _ = List.mem (Graph.label double l) [ "b"; "d" ] in
   let lasso = Option.get (Fairness.lasso ~through (Fairness.components double) (fun _ -> true)) in
-  Alcotest.(check strings) "through both" [ "a"; "a"; "b"; "c"; "d" ] (List.sort compare (Reachability.trace lasso.cycle));
+  Alcotest.(check strings) "through both" [ "a"; "a"; "b"; "c"; "d" ]
+    (List.sort compare (Reachability.trace lasso.cycle));
   let without_d = Fairness.components ~keep:(fun _ l _ -> Graph.label double l <> "d") double in
   Alcotest.(check int) "components of what is kept" 2 (Fairness.count without_d)
 
@@ -226,7 +231,8 @@ let tiny_near =
 let difference_is_so g h = function
   | { Isomorphism.reason = Enabled { trace; left; right }; _ } ->
     has_trace g trace && has_trace h trace && left <> right
-  | { reason = Merged { trace; other; _ }; _ } -> List.for_all (fun x -> has_trace g x && has_trace h x) [ trace; other ]
+  | { reason = Merged { trace; other; _ }; _ } ->
+    List.for_all (fun x -> has_trace g x && has_trace h x) [ trace; other ]
   | { reason = Unmatched { side; trace; left; right; _ }; _ } -> (
       left <> right
       && match trace with None -> true | Some trace -> has_trace (match side with Left -> g | Right -> h) trace)
@@ -267,8 +273,8 @@ let lasso_is_a_run g =
     let i = Option.get (Fairness.component c cycle.start) in
     let wanted = ref [] in
     Fairness.iter_inside c i (fun s l s' -> if through s l s' then wanted := (s, s') :: !wanted);
-    let sources = cycle.start :: List.map (fun (step : Reachability.step) -> step.target) cycle.steps in
-    let taken = List.map2 (fun s (step : Reachability.step) -> (step.label, s, step.target)) (List.rev (List.tl (List.rev sources))) cycle.steps in
+    let add (s, taken) (step : Reachability.step) = (step.target, (step.label, s, step.target) :: taken) in
+    let _, taken = List.fold_left add (cycle.start, []) cycle.steps in
     prefix.start = Graph.initial g
     && runs g prefix = Some cycle.start
     && runs g cycle = Some cycle.start
@@ -299,8 +305,10 @@ let () =
           law "also of strangers" ~print:print_pair pairs comparison_is_bisimilarity;
           law "no formula is less deep" ~print:print_pair near formula_is_least_deep;
           law "traces are as said, and shortest" ~print:print_pair near traces_are_as_said;
-          law "a permuted graph is isomorphic" ~print:print_pair permuted (fun (g, h) -> Compare.isomorphic g h = Ok ());
-          law "isomorphic exactly if some permutation does it" ~print:print_pair tiny_near isomorphism_is_by_permutation;
+          law "a permuted graph is isomorphic" ~print:print_pair permuted (fun (g, h) ->
+              Compare.isomorphic g h = Ok ());
+          law "isomorphic exactly if some permutation does it" ~print:print_pair tiny_near
+            isomorphism_is_by_permutation;
           law "components are the classes of mutual reachability" ~print sparse components_are_mutual_reachability;
           law "a lasso is a run through what was asked" ~print sparse lasso_is_a_run;
         ] );

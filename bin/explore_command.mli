@@ -1,0 +1,3 @@
+(** [dolphin explore]: is every run of a program sound? *)
+
+val command : Exit_status.t Cmdliner.Cmd.t

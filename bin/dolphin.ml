@@ -19,7 +19,7 @@ let command =
     Cmd.info "dolphin" ~version:Version.number ~doc:"orchestrate tasks of autonomous vehicles" ~man
       ~exits:(Options.exits [ Done; Failed; Bad_input; Platform_trouble; Bug; Interrupted ])
   in
-  Cmd.group info [ Exec_command.command; Check_command.command; Parse_command.command ]
+  Cmd.group info [ Exec_command.command; Check_command.command; Explore_command.command; Lts_command.command; Parse_command.command ]
 
 (* [--sim] alone would take the next argument for its fleet. *)
 let arguments =

@@ -126,27 +126,6 @@ Wrong types that can be seen beforehand, and those that cannot.
       |         ^^^^^^^^^^
   [1]
 
-Parentheses that end the arguments of execute too early.
-
-  $ cat > early.dol <<'EOF'
-  > a = imcPlan('a')
-  > b = imcPlan('b')
-  > v = pick { count 2; type 'UUV' }
-  > execute (a | b) >> a
-  > execute (a | b)[v]
-  > EOF
-  $ dolphin check early.dol
-  early.dol:4:1: error: >> composes tasks, and this is a value
-    4 | execute (a | b) >> a
-      | ^^^^^^^^^^^^^^^
-      hint: execute takes what the parentheses right after it hold: write execute((T) >> T')
-  early.dol:5:1: error: execute has no value
-    5 | execute (a | b)[v]
-      | ^^^^^^^^^^^^^^^^^^
-      hint: execute takes what the parentheses right after it hold: write execute((T)[V])
-  early.dol: 2 errors
-  [2]
-
 What belongs to the script, in a task.
 
   $ echo "execute action { release pick { type 'UUV' } }" > blocking.dol

@@ -1,7 +1,6 @@
 open Dolphin_semantics
 open Dolphin_runtime
 open Dolphin_display
-open Lwt.Infix
 module Diagnostic = Dolphin_syntax.Diagnostic
 module Location = Dolphin_syntax.Location
 module Simulator = Dolphin_platform_sim.Simulator
@@ -104,7 +103,17 @@ let drive s host =
     Screen.close screen;
     match host with None -> Lwt.return_unit | Some host -> Host.close host
   in
-  Lwt_main.run (Lwt.finalize run close >|= status s)
+  let platform_trouble call error =
+    Report.complain (Printf.sprintf "trouble of the platform: %s: %s" call (Unix.error_message error));
+    Exit_status.Platform_trouble
+  in
+  Lwt_main.run
+    (Lwt.try_bind
+       (fun () -> Lwt.finalize run close)
+       (fun outcome -> Lwt.return (status s outcome))
+       (function
+         | Unix.Unix_error (error, call, _) -> Lwt.return (platform_trouble call error)
+         | error -> Lwt.fail error))
 
 let run s =
   Sys.set_signal Sys.sigpipe Signal_ignore;

@@ -13,3 +13,9 @@ What it prints means the same.
   $ cp ../../examples/rendezvous.fleet again.fleet
   $ dolphin exec again.dol > again.log
   $ dolphin exec ../../examples/rendezvous.dol | diff again.log -
+
+Nobody need read all of it.
+
+  $ python3 -c 'print("message 1\n" * 100000)' > long.dol
+  $ dolphin parse long.dol | head -1
+  message 1

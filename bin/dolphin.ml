@@ -51,8 +51,17 @@ let () = Gc.set { (Gc.get ()) with minor_heap_size = 1024 * 1024 }
 
 let () =
   let status =
-    match evaluate () with
+    match
+      let status = evaluate () in
+      Format.print_flush ();
+      flush stdout;
+      status
+    with
     | status -> status
+    | exception Sys_error why ->
+      Report.complain ("the output cannot be written: " ^ why);
+      (* What is at the exit would try once more. *)
+      Unix._exit (Exit_status.code Platform_trouble)
     | exception Stack_overflow -> bug Stack_overflow
     | exception error -> bug error
   in

@@ -10,7 +10,8 @@
          2   the program, the fleet or the command line is not right; nothing
              was started.
   
-         3   the platform, not the program, is in trouble.
+         3   not the program is in trouble but what is around it: the platform,
+             or where the output goes.
   
          125 a fault of dolphin itself. Please report it.
   
@@ -31,7 +32,6 @@
          question:
   
            dolphin exec mission.dol --fleet harbour.fleet --seed 7 --answer 2
-  
   $ dolphin exec --help=plain | grep -c '^EXAMPLES\|^FILES\|^OPTIONS\|^DESCRIPTION'
   4
   $ dolphin --help=plain | sed -n '/^COMMANDS/,/^[A-Z]* OPTIONS/p' | grep '^       \(check\|exec\|parse\) '

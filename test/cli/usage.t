@@ -42,8 +42,17 @@
          exec [OPTION]… PROG
              run a program on a simulated fleet
   
+         explore [OPTION]… PROG
+             check every run of a program
+  
+         lts [OPTION]… PROG
+             write the state graph of a program, or compare graphs
+  
          parse [OPTION]… PROG
              print a program as it was understood
+  
+         trace COMMAND …
+             check, show and draw journals of runs
   
   COMMON OPTIONS
          --help[=FMT] (default=auto)

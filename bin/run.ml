@@ -1,6 +1,7 @@
 open Dolphin_semantics
 open Dolphin_runtime
 open Dolphin_display
+open Lwt.Infix
 module Diagnostic = Dolphin_syntax.Diagnostic
 module Location = Dolphin_syntax.Location
 module Simulator = Dolphin_platform_sim.Simulator
@@ -13,6 +14,7 @@ type settings = {
   answers : string list;
   supplier : string option;
   supplier_timeout : float option;
+  record : Record.settings;
 }
 
 (* {1 What is seen} *)
@@ -63,6 +65,10 @@ let status s : Driver.outcome -> Exit_status.t = function
   | Ended Interrupted -> Interrupted
   | Stuck residual -> tell_stuck s residual; Failed
 
+let in_trouble why : Exit_status.t =
+  Report.complain why;
+  Platform_trouble
+
 (* {1 The run} *)
 
 let start_host s =
@@ -78,7 +84,7 @@ let simulated s =
   | None -> Platform ((module Simulator.Virtual), Simulator.Virtual.create ~seed:s.seed s.scenario)
   | Some speed -> Platform ((module Simulator.Paced), Simulator.Paced.create ~speed ~seed:s.seed s.scenario)
 
-let drive s host =
+let drive s record host =
   let interruption = Interruption.make () in
   let live = is_live () in
   let screen = Screen.make ~live ~on_closed:(fun () -> Interruption.interrupt interruption) Unix.stdout in
@@ -94,7 +100,8 @@ let drive s host =
       refused = (fun why -> Screen.print screen (Log.remark !log ~time:(time ()) ("cannot take this answer: " ^ why))) }
   in
   let run () =
-    Driver.run (module P) platform ~always_telemetry:live ~observer:(observe screen log board ~is_stuck)
+    Driver.run (module P) platform ~always_telemetry:(live || Record.is_wanted s.record)
+      ~observer:(Observer.both (Record.observer record) (observe screen log board ~is_stuck))
       ?host:(Option.map Host.call host)
       ~console:(Questions.console shown ~answers:s.answers ~scenario:s.scenario)
       ~interruption:(Interruption.promise interruption) s.program.program
@@ -103,22 +110,25 @@ let drive s host =
     Screen.close screen;
     match host with None -> Lwt.return_unit | Some host -> Host.close host
   in
-  let platform_trouble call error =
-    Report.complain (Printf.sprintf "trouble of the platform: %s: %s" call (Unix.error_message error));
-    Exit_status.Platform_trouble
+  let finish outcome =
+    let is_stuck = match (outcome : Driver.outcome) with Stuck _ -> true | Ended _ -> false in
+    match Record.finish record ~time:(time ()) ~stuck:is_stuck with
+    | Ok () -> status s outcome
+    | Error why -> in_trouble why
   in
-  Lwt_main.run
-    (Lwt.try_bind
-       (fun () -> Lwt.finalize run close)
-       (fun outcome -> Lwt.return (status s outcome))
-       (function
-         | Unix.Unix_error (error, call, _) -> Lwt.return (platform_trouble call error)
-         | error -> Lwt.fail error))
+  let broken = function
+    | Record.Broken why -> Lwt.return (in_trouble why)
+    | Unix.Unix_error (error, call, _) ->
+      Lwt.return (in_trouble (Printf.sprintf "trouble of the platform: %s: %s" call (Unix.error_message error)))
+    | error -> Lwt.fail error
+  in
+  Lwt_main.run (Lwt.catch (fun () -> Lwt.finalize run close >|= finish) broken)
 
 let run s =
   Sys.set_signal Sys.sigpipe Signal_ignore;
-  match start_host s with
-  | Ok host -> drive s host
-  | Error why ->
-    Report.complain ("the supplier cannot be started: " ^ why);
-    Platform_trouble
+  match Record.start s.record s.program.program with
+  | Error why -> in_trouble why
+  | Ok record -> (
+      match start_host s with
+      | Ok host -> drive s record host
+      | Error why -> in_trouble ("the supplier cannot be started: " ^ why))

@@ -1,0 +1,2 @@
+let svg _ = ""
+let html _ = ""

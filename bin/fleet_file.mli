@@ -2,6 +2,7 @@
 
 type t = {
   path : string option;  (** [None]: the built-in fleet *)
+  source : string;  (** its text; [""] for the built-in fleet *)
   scenario : Dolphin_scenario.Scenario.t;
 }
 

@@ -8,6 +8,7 @@ type settings = {
   answers : string list;
   supplier : string option;  (** a command *)
   supplier_timeout : float option;  (** seconds *)
+  record : Record.settings;  (** what is kept of the run *)
 }
 
 val run : settings -> Exit_status.t

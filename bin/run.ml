@@ -1,6 +1,7 @@
 open Dolphin_semantics
 open Dolphin_runtime
 open Dolphin_display
+open Lwt.Infix
 module Diagnostic = Dolphin_syntax.Diagnostic
 module Location = Dolphin_syntax.Location
 module Simulator = Dolphin_platform_sim.Simulator
@@ -109,28 +110,19 @@ let drive s record host =
     Screen.close screen;
     match host with None -> Lwt.return_unit | Some host -> Host.close host
   in
-<<<<<<< HEAD
-  let platform_trouble call error =
-    Report.complain (Printf.sprintf "trouble of the platform: %s: %s" call (Unix.error_message error));
-    Exit_status.Platform_trouble
-  in
-  Lwt_main.run
-    (Lwt.try_bind
-       (fun () -> Lwt.finalize run close)
-       (fun outcome -> Lwt.return (status s outcome))
-       (function
-         | Unix.Unix_error (error, call, _) -> Lwt.return (platform_trouble call error)
-         | error -> Lwt.fail error))
-=======
   let finish outcome =
     let is_stuck = match (outcome : Driver.outcome) with Stuck _ -> true | Ended _ -> false in
     match Record.finish record ~time:(time ()) ~stuck:is_stuck with
     | Ok () -> status s outcome
     | Error why -> in_trouble why
   in
-  let broken = function Record.Broken why -> Lwt.return (in_trouble why) | error -> Lwt.fail error in
+  let broken = function
+    | Record.Broken why -> Lwt.return (in_trouble why)
+    | Unix.Unix_error (error, call, _) ->
+      Lwt.return (in_trouble (Printf.sprintf "trouble of the platform: %s: %s" call (Unix.error_message error)))
+    | error -> Lwt.fail error
+  in
   Lwt_main.run (Lwt.catch (fun () -> Lwt.finalize run close >|= finish) broken)
->>>>>>> main
 
 let run s =
   Sys.set_signal Sys.sigpipe Signal_ignore;

@@ -236,15 +236,10 @@ Fleets that are not right.
 
 Usage.
 
-<<<<<<< HEAD
   $ dolphin > told.txt 2>&1
   [2]
   $ sed 's/, must be .*//' told.txt
   dolphin: required COMMAND name is missing
-=======
-  $ dolphin
-  dolphin: required COMMAND name is missing, must be one of 'check', 'exec', 'explore', 'lts', 'parse' or 'trace'.
->>>>>>> main
   Usage: dolphin COMMAND …
   Try 'dolphin --help' for more information.
   $ dolphin exec
@@ -252,14 +247,7 @@ Usage.
   Usage: dolphin exec [OPTION]… PROG
   Try 'dolphin exec --help' or 'dolphin --help' for more information.
   [2]
-<<<<<<< HEAD
   $ dolphin fly hello.dol > told.txt 2>&1
-=======
-  $ dolphin fly hello.dol
-  dolphin: unknown command 'fly', must be one of 'check', 'exec', 'explore', 'lts', 'parse' or 'trace'.
-  Usage: dolphin COMMAND …
-  Try 'dolphin --help' for more information.
->>>>>>> main
   [2]
   $ head -1 told.txt | sed 's/, must be .*//'
   dolphin: unknown command 'fly'

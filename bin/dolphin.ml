@@ -6,7 +6,8 @@ let man =
         them tasks, and composes those tasks: one after another, at once, when a condition holds, for so long, until an \
         error.";
     `P "$(mname) $(b,exec) runs a program on a simulated fleet, $(mname) $(b,check) finds its faults, $(mname) $(b,parse) \
-        shows how it was read. Each has a manual: $(mname) $(i,COMMAND) $(b,--help).";
+        shows how it was read, $(mname) $(b,sim) puts simulated vehicles on the network. Each has a manual: $(mname) \
+        $(i,COMMAND) $(b,--help).";
     `S Manpage.s_examples;
     `Pre "  $(mname) exec examples/rendezvous.dol\n  $(mname) check mission.dol";
     `S Manpage.s_files;
@@ -19,7 +20,7 @@ let command =
     Cmd.info "dolphin" ~version:Version.number ~doc:"orchestrate tasks of autonomous vehicles" ~man
       ~exits:(Options.exits [ Done; Failed; Bad_input; Platform_trouble; Bug; Interrupted ])
   in
-  Cmd.group info [ Exec_command.command; Check_command.command; Parse_command.command ]
+  Cmd.group info [ Exec_command.command; Check_command.command; Parse_command.command; Sim_command.command ]
 
 (* [--sim] alone would take the next argument for its fleet. *)
 let arguments =

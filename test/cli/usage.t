@@ -45,6 +45,9 @@
          parse [OPTION]… PROG
              print a program as it was understood
   
+         sim [OPTION]… [FLEET]
+             put simulated vehicles on the network
+  
   COMMON OPTIONS
          --help[=FMT] (default=auto)
              Show this help in format FMT. The value FMT must be one of auto,

@@ -15,9 +15,23 @@ let pp_failure ppf = function
     let numbers = Format.(pp_print_list ~pp_sep:comma pp_print_int) in
     Format.fprintf ppf "leaves %a cannot all be served by vehicles %a" numbers leaves numbers vehicles
 
+(* Neighbours that share one array of candidates, as the parts of a long [>>] do, share what is made of it. *)
+let candidates_of ~vehicles leaves =
+  let latest = ref ([||], [||]) in
+  Array.map
+    (fun leaf ->
+       let given, made = !latest in
+       if leaf.candidates == given && given <> [||] then made
+       else begin
+         let made = Part.candidates ~vehicles leaf.candidates in
+         latest := (leaf.candidates, made);
+         made
+       end)
+    leaves
+
 let solve_within ~effort ~vehicles tree =
   let cotree, leaves = Cotree.of_tree tree in
-  let candidates = Array.map (fun { candidates } -> Part.candidates ~vehicles candidates) leaves in
+  let candidates = candidates_of ~vehicles leaves in
   let restricted = Cotree.restriction cotree in
   let spent = ref 0 in
   let result = Array.make (Array.length leaves) (-1) in

@@ -84,7 +84,7 @@ let twins (cotree : Cotree.t) candidates =
        | Cotree.All_different | Any -> ()
        | A_leaf row ->
          let parent = cotree.parent.(node) in
-         let is_twin other = candidates.(other) = candidates.(row) in
+         let is_twin other = candidates.(other) == candidates.(row) || candidates.(other) = candidates.(row) in
          twin.(row) <-
            (if parent < 0 || cotree.kind.(parent) <> Any then row
             else

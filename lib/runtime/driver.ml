@@ -97,9 +97,9 @@ module Make (P : Platform.S) = struct
 
   (* {1 Transitions} *)
 
-  let take s (t : Transition.t) =
+  let take s ~cause (t : Transition.t) =
     s.unbroken <- (match t.label with Silent -> breath | _ -> s.unbroken + 1);
-    s.observer.transition ~time:(P.now s.platform) t;
+    s.observer.transition ~time:(P.now s.platform) ~cause t;
     s.configuration <- t.next;
     carry_out_all s t.effects
 
@@ -111,7 +111,7 @@ module Make (P : Platform.S) = struct
   (* [deliver s e] is whether [e] changed the configuration. *)
   let deliver s event =
     match Transition.accept s.program s.world s.configuration event with
-    | Ok t -> take s t; true
+    | Ok t -> take s ~cause:(Some event) t; true
     | Error Not_awaited -> s.unbroken <- s.unbroken + 1; false
     | Error (Bad_answer why) ->
       s.console.refused why;
@@ -197,7 +197,7 @@ module Make (P : Platform.S) = struct
     | Script _ | Waiting _ | Executing _ when is_resolved s.interruption -> interrupt s; advance s
     | Script _ | Waiting _ | Executing _ -> (
         match Transition.internal s.program s.world s.configuration () with
-        | Seq.Cons (t, _) -> take s t; continue s advance
+        | Seq.Cons (t, _) -> take s ~cause:None t; continue s advance
         | Seq.Nil -> pass s)
 
   (* No internal transition is left. That something runs in A is the usual case, and quicker to see than all of what is

@@ -1,4 +1,5 @@
 open Dolphin_semantics
+open Dolphin_json
 open Lwt.Infix
 
 let ( let* ) = Result.bind

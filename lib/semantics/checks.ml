@@ -50,7 +50,8 @@ let could_be (wanted : Builtins.kind) (found : Builtins.kind) =
 (* A name that the program defines hides the built-in of that name from this check. *)
 let known_kind env (e : Ast.expression) =
   match e.it with
-  | Call { callee = { it = Variable name; _ }; _ } when Scope.find_function env.program name <> None -> Builtins.Any
+  | Call { callee = { it = Variable name; _ }; _ }
+    when Scope.find_local env.code name <> None || Scope.find_function env.program name <> None -> Builtins.Any
   | _ -> kind_of e
 
 let check_kind env what wanted (e : Ast.expression) =
@@ -66,8 +67,6 @@ let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expressio
       match e.it with
       | String name -> Some (Printf.sprintf "a plan is named by task('%s')" name)
       | Closure _ -> Some "code becomes a task by action { ... } or condition { ... }"
-      | Call { callee = { it = Variable "execute"; _ }; _ } ->
-        Some (Printf.sprintf "execute takes what the parentheses right after it hold: write execute((T) %s T')" symbol)
       | _ -> None
     in
     if not (could_be Task (known_kind env e)) then

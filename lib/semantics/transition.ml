@@ -210,81 +210,117 @@ let active_changes (change : Residual.change) =
   let cancelled = change.cancelled @ List.concat_map Residual.timers cut in
   (cancelled, List.concat_map Residual.running cut)
 
-(* [settle c m change] carries a change of the residual over to the configuration, handlers of errors included.
-   [effects] are those of the step itself. *)
-let rec settle program world (c : Configuration.t) m label rules effects (change : Residual.change) =
+type outcome = Goes_on of Residual.t | Over | Ends of Configuration.ending
+
+type local = {
+  after : Configuration.t;
+  outcome : outcome;
+  derivation : Rule.t list;
+  named : Label.t;
+  asked : Effect.t list;
+}
+
+(* [settle c change] carries a change of the residual over to the rest of the configuration, handlers of errors
+   included. [asked] are the effects of the step itself. *)
+let rec settle program world (c : Configuration.t) named derivation asked (change : Residual.change) =
   let cancelled, stopped = active_changes change in
-  let rules = rules @ change.rules in
+  let derivation = derivation @ change.rules in
   let allocation = List.fold_left (fun a v -> Vehicle_map.remove v a) c.allocation stopped in
   let settled = { c with allocation } in
-  let effects =
-    effects
+  let asked =
+    asked
     @ List.map (fun timer -> Effect.Cancel_timer timer) cancelled
     @ List.map (fun v -> Effect.Stop v) stopped
     @ timers_started change.timers
   in
   match change.outcome with
-  | Next r -> { rules; label; next = { settled with control = Executing (m, r) }; effects }
-  | Finished ->
-    let next = { settled with control = Script (Machine.give Null m) } in
-    { rules = rules @ [ Rule.Execute_done ]; label; next; effects }
-  | Failed fault ->
-    ending_transition { settled with control = Script m } (rules @ [ Rule.Execute_err ]) label (Failed fault) effects
+  | Next r -> { after = settled; outcome = Goes_on r; derivation; named; asked }
+  | Finished -> { after = settled; outcome = Over; derivation; named; asked }
+  | Failed fault -> { after = settled; outcome = Ends (Failed fault); derivation; named; asked }
   | Handling { handler; fault; ignored; propagated } -> (
       let mode = Machine.Handler Propagated in
       let result, context = run_code program world settled mode handler [ String fault.message ] in
       let settled = after context settled in
-      let effects = effects @ effects_of (deeds context) in
+      let asked = asked @ effects_of (deeds context) in
       match result, context.mode with
       | Halted_with message, _ ->
-        ending_transition
-          { settled with control = c.control }
-          (rules @ [ Rule.Watch_halt ])
-          label (Halted message) effects
-      | Broke fault, _ -> settle program world settled m label rules effects (propagated fault)
-      | Value_of _, Handler Ignored -> settle program world settled m label rules effects (ignored ())
+        let derivation = derivation @ [ Rule.Watch_halt ] in
+        { after = settled; outcome = Ends (Halted message); derivation; named; asked }
+      | Broke fault, _ -> settle program world settled named derivation asked (propagated fault)
+      | Value_of _, Handler Ignored -> settle program world settled named derivation asked (ignored ())
       | Value_of _, (Handler Propagated | Script | Task_code) ->
-        settle program world settled m label rules effects (propagated fault))
+        settle program world settled named derivation asked (propagated fault))
+
+let conclude (c : Configuration.t) m { after; outcome; derivation; named; asked } =
+  match outcome with
+  | Goes_on r ->
+    { rules = derivation; label = named; next = { after with control = Executing (m, r) }; effects = asked }
+  | Over ->
+    let next = { after with control = Script (Machine.give Null m) } in
+    { rules = derivation @ [ Rule.Execute_done ]; label = named; next; effects = asked }
+  | Ends (Failed _ as ending) ->
+    (* The failure has cut off all that ran. *)
+    ending_transition { after with control = Script m } (derivation @ [ Rule.Execute_err ]) named ending asked
+  | Ends ((Completed | Halted _ | Interrupted) as ending) ->
+    ending_transition { after with control = c.control } derivation named ending asked
 
 let check_label (change : Residual.change) deeds =
   match change.rules with Rule.Until_cut :: _ -> Label.Cut deeds | _ -> Label.Check deeds
 
-(* The transition of one local step that needs no event, if it is enabled. *)
-let internal_step program world (c : Configuration.t) m (step : Residual.step) =
+(* What one local step does that needs no event, if it is enabled. *)
+let local_internal program world (c : Configuration.t) (step : Residual.step) =
   let coded closure continue =
     let result, context = run_code program world c Task_code closure [] in
     let d = deeds context in
     match result with
     | Broke fault ->
-      Some (settle program world c m (Label.Broken fault.message) [] [] (step.continue (Broke fault)))
+      Some (settle program world c (Label.Broken fault.message) [] [] (step.continue (Broke fault)))
     | Halted_with message ->
-      let c = after context c in
-      Some (ending_transition c [ Rule.Halt ] (Label.Halt message) (Halted message) (effects_of d))
+      let outcome = Ends (Halted message) in
+      let derivation = [ Rule.Halt ] and named = Label.Halt message in
+      Some { after = after context c; outcome; derivation; named; asked = effects_of d }
     | Value_of x -> continue x (after context c) d
   in
   match step.offer with
   | End_of _ | Expiry_of _ -> None
   | Start (p, v) ->
     let c = { c with allocation = Vehicle_map.add v p c.allocation } in
-    Some (settle program world c m (Label.Start (v, p.name)) [] [ Start (v, p) ] (step.continue Went))
+    Some (settle program world c (Label.Start (v, p.name)) [] [ Start (v, p) ] (step.continue Went))
   | Perform closure ->
-    coded closure (fun _ c d -> Some (settle program world c m (Label.Act d) [] (effects_of d) (step.continue Went)))
+    coded closure (fun _ c d -> Some (settle program world c (Label.Act d) [] (effects_of d) (step.continue Went)))
   | Check closure ->
     coded closure (fun x c d ->
         if Value.truth x then
           let change = step.continue Went in
-          Some (settle program world c m (check_label change d) [] (effects_of d) change)
+          Some (settle program world c (check_label change d) [] (effects_of d) change)
         else None)
   | Measure closure ->
     coded closure (fun x after d ->
         match Value.to_number x with
         | Some seconds when seconds >= 0. && seconds < infinity ->
           let label = Label.Set_time seconds in
-          Some (settle program world after m label [] (effects_of d) (step.continue (Gave seconds)))
+          Some (settle program world after label [] (effects_of d) (step.continue (Gave seconds)))
         | Some _ | None ->
           let message = "during takes a time of 0 seconds or more, this code gives " ^ Value.to_string x in
           let fault = Fault.make closure.lambda.lambda_site message in
-          Some (settle program world c m (Label.Broken message) [] [] (step.continue (Broke fault))))
+          Some (settle program world c (Label.Broken message) [] [] (step.continue (Broke fault))))
+
+(* What one local step does on the event that it awaits. *)
+let local_event program world (c : Configuration.t) (step : Residual.step) event =
+  let ended v named reply =
+    let c = { c with allocation = Vehicle_map.remove v c.allocation } in
+    Some (settle program world c named [] [] (step.continue reply))
+  in
+  match event, step.offer with
+  | Vehicle_done v, End_of (p, v') when v = v' -> ended v (Label.Done (v, p.name)) Went
+  | Vehicle_failed (v, why), End_of (p, v') when v = v' ->
+    let fault = Fault.make p.task_site (Printf.sprintf "%s failed on %s: %s" p.name v why) in
+    ended v (Label.Fail (v, p.name, why)) (Broke fault)
+  | Timer_expired timer, Expiry_of timer' when timer = timer' ->
+    Some (settle program world c Label.Time_out [] [] (step.continue Went))
+  | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _
+      | Host_failed _ | Interruption ),
+      (Start _ | Perform _ | Check _ | Measure _ | End_of _ | Expiry_of _) ) -> None
 
 let internal program world (c : Configuration.t) : t Seq.t =
   match c.control with
@@ -292,33 +328,26 @@ let internal program world (c : Configuration.t) : t Seq.t =
   | Script m -> fun () -> Seq.Cons (run_script program world c m, Seq.empty)
   | Waiting (m, Pick pick) -> fun () -> bindings world c m pick ()
   | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) -> Seq.empty
-  | Executing (m, r) -> Seq.filter_map (internal_step program world c m) (Residual.internal_steps r)
+  | Executing (m, r) ->
+    let step s = Option.map (conclude c m) (local_internal program world c s) in
+    Seq.filter_map step (Residual.internal_steps r)
 
 (* {1 Events} *)
 
-let rec find_step p (steps : Residual.step Seq.t) =
-  match steps () with
-  | Seq.Nil -> None
-  | Seq.Cons (step, rest) -> if p step.Residual.offer then Some step else find_step p rest
-
-let vehicle_ended program world (c : Configuration.t) m r v label (reply : Residual.reply) =
-  let ends = function Residual.End_of (_, v') -> v = v' | _ -> false in
-  match find_step ends (Residual.steps_of_vehicle v r) with
-  | None -> Error Not_awaited
-  | Some step ->
-    let name = match step.offer with End_of (p, _) -> p.name | _ -> "" in
-    let reply : Residual.reply =
-      match step.offer, reply with
-      | End_of (p, _), Broke fault -> Broke { fault with site = p.task_site }
-      | _, reply -> reply
-    in
-    let c = { c with allocation = Vehicle_map.remove v c.allocation } in
-    Ok (settle program world c m (label name) [] [] (step.continue reply))
-
-let timer_expired program world c m r timer =
-  match find_step (fun offer -> offer = Residual.Expiry_of timer) (Residual.steps r) with
-  | None -> Error Not_awaited
-  | Some step -> Ok (settle program world c m Label.Time_out [] [] (step.continue Went))
+(* Vehicles and timers are in one place of a residual only: at most one step takes the event. *)
+let executing_event program world c m r event =
+  let rec first (steps : Residual.step Seq.t) =
+    match steps () with
+    | Seq.Nil -> Error Not_awaited
+    | Seq.Cons (step, rest) -> (
+        match local_event program world c step event with
+        | Some local -> Ok (conclude c m local)
+        | None -> first rest)
+  in
+  match event with
+  | Vehicle_done v | Vehicle_failed (v, _) -> first (Residual.steps_of_vehicle v r)
+  | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Interruption ->
+    first (Residual.steps r)
 
 let resume (c : Configuration.t) m x rule label =
   { rules = [ rule ]; label; next = { c with control = Script (Machine.give x m) }; effects = [] }
@@ -332,7 +361,7 @@ let answered program world (c : Configuration.t) m text =
   | Error why -> Error (Bad_answer why)
   | Ok closure -> (
       match run_code program world c Task_code closure [] with
-      | Value_of x, { deeds = []; _ } -> Ok (resume c m x Rule.Answer (Label.Answer text))
+      | Value_of x, { deeds = []; store; _ } when Store.compare store c.store = 0 -> Ok (resume c m x Rule.Answer (Label.Answer text))
       | Value_of _, _ -> Error (Bad_answer "an answer may only compute a value")
       | Broke fault, _ -> Error (Bad_answer fault.message)
       | Halted_with _, _ -> Error (Bad_answer "an answer may only compute a value"))
@@ -342,14 +371,8 @@ let accept program world (c : Configuration.t) event =
   | _, Ended _ -> Error Not_awaited
   | Interruption, (Script _ | Waiting _ | Executing _) ->
     Ok (ending_transition c [ Rule.Interrupt ] Label.Interrupt Interrupted [])
-  | Vehicle_done v, Executing (m, r) ->
-    vehicle_ended program world c m r v (fun name -> Label.Done (v, name)) Went
-  | Vehicle_failed (v, why), Executing (m, r) ->
-    let told name = Printf.sprintf "%s failed on %s: %s" name v why in
-    let label name = Label.Fail (v, name, why) in
-    let name = match Vehicle_map.find_opt v c.allocation with Some p -> p.name | None -> "" in
-    vehicle_ended program world c m r v label (Broke (Fault.make Fault.unknown_site (told name)))
-  | Timer_expired timer, Executing (m, r) -> timer_expired program world c m r timer
+  | (Vehicle_done _ | Vehicle_failed _ | Timer_expired _), Executing (m, r) ->
+    executing_event program world c m r event
   | Timer_expired timer, Waiting (m, Pick pick) when timer = Effect.script_timer ->
     pick_timed_out world c m pick
   | Timer_expired timer, Waiting (m, Pause _) when timer = Effect.script_timer ->

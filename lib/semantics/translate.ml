@@ -16,6 +16,23 @@ let check_not_in_settings env at what =
   | Some (builder, _) -> error env at "%s may not stand in %s { ... }" what (builder_name builder)
   | None -> ()
 
+(* [execute (a | b) >> c] executes all of [(a | b) >> c]: a procedure that gives nothing is no operand, so what follows
+   its parenthesis belongs to its argument. *)
+let rec regroup env (e : Ast.expression) : Ast.expression option =
+  let around first rebuild =
+    match regroup env first with
+    | Some ({ it = Call { callee; arguments = [ Positional argument ] }; _ } as whole) ->
+      let argument = { e with it = rebuild argument } in
+      Some { whole with it = Ast.Call { callee; arguments = [ Ast.Positional argument ] } }
+    | Some _ | None -> None
+  in
+  match e.it with
+  | Call { callee = { it = Variable name; _ }; arguments = [ Positional _ ] } when not (is_hidden env name) -> (
+      match Builtins.find name with Some { result = Other; _ } -> Some e | Some _ | None -> None)
+  | Binary (op, first, second) -> around first (fun first -> Ast.Binary (op, first, second))
+  | Index (first, index) -> around first (fun first -> Ast.Index (first, index))
+  | _ -> None
+
 let rec elaborate env (e : Ast.expression) : expression =
   let at = e.at in
   let this x = constant env at x in
@@ -487,6 +504,7 @@ and statement env (s : Ast.statement) : expression =
   let at = s.at in
   match s.it with
   | Expression e ->
+    let e = Option.value (regroup env e) ~default:e in
     if Scope.at_top env.code && known_kind env e = Task && Scope.settings env.code = None then
       Scope.report env.program
         (Diagnostic.warning e.at "this task is made but not executed" ~hint:"write execute before it, or give it a name");

@@ -281,7 +281,7 @@ let interrupted_in_flood () =
 let told_ahead () =
   let mock = Mock_platform.make two_vehicles in
   let behind = ref 0 in
-  let transition ~time:_ (t : Transition.t) =
+  let transition ~time:_ ~cause:_ (t : Transition.t) =
     let logged = List.length (Mock_platform.log mock) in
     (match t.label with
      | Start _ -> if logged <> !behind + 2 then Alcotest.failf "%d commands before a start" logged; incr behind
@@ -302,7 +302,7 @@ let broken_run ?observer mock =
 
 let broken_observer () =
   let mock = Mock_platform.make two_vehicles in
-  let transition ~time:_ (t : Transition.t) =
+  let transition ~time:_ ~cause:_ (t : Transition.t) =
     match t.label with Start ("v2", _) -> failwith "disk full" | _ -> ()
   in
   Alcotest.(check string) "failure" "Failure(\"disk full\")"
@@ -323,7 +323,7 @@ let thousand_branches () =
   let mock = Mock_platform.make (List.map (Mock_platform.seen 0.) names) in
   let transitions = ref 0 in
   let executed = ref 0. in
-  let transition ~time:_ (t : Transition.t) =
+  let transition ~time:_ ~cause:_ (t : Transition.t) =
     match t.label with
     | Execute -> executed := Sys.time ()
     | Start _ | Done _ -> incr transitions

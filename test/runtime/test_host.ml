@@ -1,4 +1,5 @@
 open Dolphin_semantics
+open Dolphin_json
 open Dolphin_runtime
 open Lwt.Infix
 

@@ -1,0 +1,79 @@
+open Dolphin_semantics
+open Core
+module Sites = Set.Make (Int)
+
+type t = { mutable reached : Sites.t; mutable lambdas : Sites.t }
+
+let create () = { reached = Sites.empty; lambdas = Sites.empty }
+let run t (c : closure) = t.lambdas <- Sites.add c.lambda.id t.lambdas
+let start t (p : platform_task) = t.reached <- Sites.add p.task_site t.reached
+
+let transition t (before : Configuration.t) (after : Transition.t) =
+  let at m = t.reached <- Sites.add (Machine.site m) t.reached in
+  match before.control, after.next.control with
+  | Script _, (Script m | Waiting (m, _) | Executing (m, _)) -> at m
+  | (Script _ | Waiting _ | Executing _ | Ended _), _ -> ()
+
+type piece = { site : Core.site; what : string }
+
+let of_builtin = function
+  | Execute | Execute_for _ -> Some "execute"
+  | Release -> Some "release"
+  | Ask -> Some "ask"
+  | Message -> Some "message"
+  | Pause -> Some "pause"
+  | Post _ -> Some "post"
+  | Set_connection_timeout -> Some "setConnectionTimeout"
+  | Platform_task | Make_action | Make_condition | Make_wait_for | Make_until | Make_idle | Make_during | Make_watch
+  | Halt | Consume _ | Poll _ | Position_of | Battery_of | Location_of | Area_of | Ignore | Propagate | Get_supplier
+  | Is_host | Math _ -> None
+
+(* What the code in an argument of this operation is for. *)
+let code_of = function
+  | Builtin Make_action -> Some "action"
+  | Builtin Make_condition -> Some "condition"
+  | Builtin Make_wait_for -> Some "waitFor"
+  | Builtin Make_until -> Some "until"
+  | Builtin Make_during -> Some "during"
+  | Builtin Make_watch -> Some "onError"
+  | Make_branch -> Some "when"
+  | _ -> None
+
+let unreached t program =
+  let found = ref [] and walked = ref Sites.empty in
+  let note site what reached = if not reached then found := { site; what } :: !found in
+  let at_site site what = note site what (Sites.mem site t.reached) in
+  (* [script] is whether the expression is the script's own, outside of any function or closure. *)
+  let rec expression ~script e =
+    let all = List.iter (expression ~script) in
+    match e.node with
+    | Constant (Task (Platform p)) -> at_site p.task_site "task"
+    | Constant _ | Local _ | Global _ | Break | Continue -> ()
+    | Set_local (_, e) | Set_global (_, e) | Return e -> expression ~script e
+    | If (a, b, c) -> all [ a; b; c ]
+    | Block es -> all es
+    | While (a, b) | For (_, a, b) -> all [ a; b ]
+    | Make_closure (lambda, _) -> code lambda
+    | Apply (operation, arguments) ->
+      let code_for what argument =
+        match argument.node with
+        | Make_closure (lambda, _) -> note lambda.lambda_site what (Sites.mem lambda.id t.lambdas)
+        | Constant (Closure c) -> note c.lambda.lambda_site what (Sites.mem c.lambda.id t.lambdas)
+        | _ -> ()
+      in
+      Option.iter (fun what -> List.iter (code_for what) arguments) (code_of operation);
+      (match operation with
+       | Builtin Platform_task | Build (Imc_plan, _) -> at_site e.site "task"
+       | Builtin b when script -> Option.iter (at_site e.site) (of_builtin b)
+       | Build (Pick, _) when script -> at_site e.site "pick"
+       | _ -> ());
+      all arguments
+  and code lambda =
+    if not (Sites.mem lambda.id !walked) then begin
+      walked := Sites.add lambda.id !walked;
+      expression ~script:false lambda.code
+    end
+  in
+  expression ~script:true program.main.code;
+  List.iter (fun (_, lambda) -> code lambda) program.functions;
+  List.sort_uniq Stdlib.compare !found

@@ -1,0 +1,34 @@
+open Dolphin_semantics
+
+type t = No_deadlock | Termination | No_error | Vehicles | No_halt | No_leftover | All_reached
+
+let all = [ No_deadlock; Termination; No_error; Vehicles; No_halt; No_leftover; All_reached ]
+
+let name = function
+  | No_deadlock -> "no deadlock"
+  | Termination -> "termination"
+  | No_error -> "no unhandled error"
+  | Vehicles -> "vehicles for all tasks"
+  | No_halt -> "no halt"
+  | No_leftover -> "no leftover tuples"
+  | All_reached -> "all code reached"
+
+let question = function
+  | No_deadlock -> "nothing can happen any more, and the program has not ended"
+  | Termination -> "the program can go on for ever"
+  | No_error -> "an error that nobody handles ends the program"
+  | Vehicles -> "vehicles are missing"
+  | No_halt -> "the program halts"
+  | No_leftover -> "tuples are left when the program completes"
+  | All_reached -> "no run reaches this"
+
+let pp ppf p = Format.pp_print_string ppf (name p)
+
+let broken_by_end rules (c : Configuration.t) =
+  match c.control with
+  | Ended (Failed _) ->
+    let of_vehicles = function Rule.Alloc_err | Pick_err -> true | _ -> false in
+    Some (if List.exists of_vehicles rules then Vehicles else No_error)
+  | Ended (Halted _) -> Some No_halt
+  | Ended Completed when not (Tuples.is_empty c.tuples) -> Some No_leftover
+  | Ended (Completed | Interrupted) | Script _ | Waiting _ | Executing _ -> None

@@ -1,0 +1,28 @@
+(** What is asked of every run of a program. *)
+
+open Dolphin_semantics
+
+type t =
+  | No_deadlock  (** some transition is possible until the program ends *)
+  | Termination
+  (** every fair run ends: each task that runs ends at some time, each timer expires, and no step of the program that
+      stays possible is put off for ever *)
+  | No_error  (** no fault, and no error of a task, is left to end the program *)
+  | Vehicles  (** every [pick] and every [execute] gets its vehicles *)
+  | No_halt  (** [halt] is not called *)
+  | No_leftover  (** no tuples are left when the program completes *)
+  | All_reached  (** every task and every piece of code inside of tasks is used by some run *)
+
+val all : t list
+(** In this order. *)
+
+val name : t -> string
+(** A short phrase: ["no deadlock"]. *)
+
+val question : t -> string
+(** What a violation means, in a sentence without a full stop. *)
+
+val pp : Format.formatter -> t -> unit
+
+val broken_by_end : Rule.t list -> Configuration.t -> t option
+(** [broken_by_end rules c] is what a run breaks that reaches [c] by a transition with these rules, if [c] is an end. *)

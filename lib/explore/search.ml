@@ -1,0 +1,206 @@
+open Dolphin_semantics
+
+type options = {
+  environment : Environment.options;
+  max_states : int option;
+  max_depth : int option;
+  max_memory : int option;
+  timeout : float option;
+  clock : unit -> float;
+  interrupted : unit -> bool;
+  progress : progress -> unit;
+}
+
+and progress = {
+  phase : string;
+  states : int;
+  rate : float;
+  frontier : int;
+  depth : int;
+  memory : int;
+  elapsed : float;
+}
+
+let default =
+  {
+    environment = Environment.default;
+    max_states = None;
+    max_depth = None;
+    max_memory = None;
+    timeout = None;
+    clock = Sys.time;
+    interrupted = (fun () -> false);
+    progress = ignore;
+  }
+
+type run = { steps : Transition.t list; cycle : Transition.t list }
+type bound = States | Depth | Memory | Time | Interruption
+
+type verdict =
+  | Holds
+  | Violated of run
+  | Unreached of Coverage.piece list
+  | Inconclusive of bound
+
+type outcome = {
+  states : int;
+  transitions : int;
+  expanded : int;
+  depth : int;
+  bytes : int;
+  seconds : float;
+  stopped : bound option;
+  verdicts : (Property.t * verdict) list;
+}
+
+(* A search under way. *)
+type t = {
+  options : options;
+  space : Space.t;
+  started : float;
+  mutable reported : float;
+  mutable next : int;  (* to be expanded *)
+  mutable depth : int;  (* of [next] *)
+  mutable level_end : int;  (* the first state that is deeper *)
+}
+
+exception Stop of bound
+
+(* {1 Bounds and progress} *)
+
+let memory t = Space.bytes t.space + (8 * (Gc.quick_stat ()).heap_words)
+let exceeds bound n = match bound with Some most -> n > most | None -> false
+
+(* Doing this for every state would cost more than the state. *)
+let look_around t phase =
+  let options = t.options in
+  let now = options.clock () in
+  let elapsed = now -. t.started in
+  if options.interrupted () then raise (Stop Interruption);
+  if (match options.timeout with Some most -> elapsed > most | None -> false) then raise (Stop Time);
+  if options.max_memory <> None && exceeds options.max_memory (memory t + Space.bytes_to_grow t.space) then
+    raise (Stop Memory);
+  if now -. t.reported >= 1. then begin
+    t.reported <- now;
+    let states = Space.count t.space in
+    options.progress
+      {
+        phase;
+        states;
+        rate = float_of_int states /. Float.max elapsed 1e-3;
+        frontier = states - t.next;
+        depth = t.depth;
+        memory = memory t;
+        elapsed;
+      }
+  end
+
+(* States between two looks around; memory can grow by one chunk meanwhile, or by a doubled table. *)
+let stride = 4_096
+
+let explore t =
+  let space = t.space in
+  let next_look = ref 0 in
+  while t.next < Space.count space do
+    if t.next >= t.level_end then begin
+      t.depth <- t.depth + 1;
+      t.level_end <- Space.count space;
+      if t.options.max_depth = Some t.depth then raise (Stop Depth)
+    end;
+    if t.next >= !next_look || Space.bytes_to_grow space > 0 then begin
+      next_look := t.next + stride;
+      look_around t "exploring"
+    end;
+    Space.expand space t.next;
+    t.next <- t.next + 1;
+    if exceeds t.options.max_states (Space.count space) then raise (Stop States)
+  done
+
+(* {1 Verdicts} *)
+
+let verdicts t program world stopped =
+  let transitions = Replay.between t.options.environment program world t.space in
+  let run_to i = { steps = transitions (Replay.shortest t.space i); cycle = [] } in
+  let unless_stopped otherwise = match stopped with Some bound -> Inconclusive bound | None -> otherwise () in
+  let interrupted () =
+    look_around t "looking for cycles";
+    false
+  in
+  let termination () =
+    match Cycle.find ~interrupted t.space with
+    | None -> Holds
+    | Some { stem; around } -> Violated { steps = transitions stem; cycle = transitions around }
+    | exception Stop bound -> Inconclusive bound
+  in
+  let verdict property =
+    match (property : Property.t) with
+    | No_deadlock | No_error | Vehicles | No_halt | No_leftover -> (
+        match Space.broken t.space property with
+        | Some i -> Violated (run_to i)
+        | None -> unless_stopped (fun () -> Holds))
+    | Termination -> unless_stopped termination
+    | All_reached ->
+      unless_stopped (fun () ->
+          match Coverage.unreached (Space.coverage t.space) program with [] -> Holds | pieces -> Unreached pieces)
+  in
+  List.map (fun property -> (property, verdict property)) Property.all
+
+let run options program world =
+  let started = options.clock () in
+  let space = Space.create options.environment program world in
+  let t = { options; space; started; reported = started; next = 0; depth = -1; level_end = 0 } in
+  let stopped =
+    match explore t with
+    | () -> None
+    | exception Stop bound -> Some bound
+    | exception Out_of_memory -> Some Memory
+  in
+  let verdicts = verdicts t program world stopped in
+  {
+    states = Space.count space;
+    transitions = Space.transitions space;
+    expanded = t.next;
+    depth = t.depth;
+    bytes = memory t;
+    seconds = options.clock () -. started;
+    stopped;
+    verdicts;
+  }
+
+(* {1 Text} *)
+
+let pp_bound ppf bound =
+  Format.pp_print_string ppf
+    (match bound with
+     | States -> "the bound on states was met"
+     | Depth -> "the bound on depth was met"
+     | Memory -> "the bound on memory was met"
+     | Time -> "the time was up"
+     | Interruption -> "it was interrupted")
+
+let pp_verdict (program : Core.program) ppf (property, verdict) =
+  let print format = Format.fprintf ppf format in
+  let steps n = if n = 1 then "1 step" else Printf.sprintf "%d steps" n in
+  print "%a: " Property.pp property;
+  match verdict with
+  | Holds -> print "holds"
+  | Violated { steps = run; cycle = [] } ->
+    print "violated after %s: %s" (steps (List.length run)) (Property.question property)
+  | Violated { steps = run; cycle } ->
+    print "violated: after %s, %s that can repeat for ever" (steps (List.length run)) (steps (List.length cycle))
+  | Unreached pieces ->
+    let piece ppf (p : Coverage.piece) =
+      match Fault.location program (Fault.make p.site "") with
+      | Some at -> Format.fprintf ppf "%s at %a" p.what Dolphin_syntax.Location.pp at
+      | None -> Format.pp_print_string ppf p.what
+    in
+    print "violated: no run reaches %a" (Fmt.list ~sep:(Fmt.any ", ") piece) pieces
+  | Inconclusive bound -> print "inconclusive, %a" pp_bound bound
+
+let pp_run ppf { steps; cycle } =
+  let line i (t : Transition.t) = Format.fprintf ppf "%4d  %a@." (i + 1) Label.pp t.label in
+  List.iteri line steps;
+  if cycle <> [] then begin
+    Format.fprintf ppf "      and for ever again@.";
+    List.iteri (fun i -> line (List.length steps + i)) cycle
+  end

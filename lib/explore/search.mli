@@ -1,0 +1,69 @@
+(** [dolphin explore]: every interleaving of a program, and every choice of its outside, breadth first. *)
+
+open Dolphin_semantics
+
+(** {1:options Options} *)
+
+(** How far to go, and who is told. *)
+type options = {
+  environment : Environment.options;
+  max_states : int option;
+  max_depth : int option;  (** in transitions *)
+  max_memory : int option;  (** in bytes, of the whole process but for code and libraries *)
+  timeout : float option;  (** in seconds of [clock] *)
+  clock : unit -> float;  (** seconds, from any start *)
+  interrupted : unit -> bool;  (** asked often: whether to stop *)
+  progress : progress -> unit;  (** called about once a second *)
+}
+
+and progress = {
+  phase : string;  (** what is being done *)
+  states : int;
+  rate : float;  (** states a second, since the start *)
+  frontier : int;  (** states still to be expanded *)
+  depth : int;
+  memory : int;  (** bytes *)
+  elapsed : float;  (** seconds *)
+}
+
+val default : options
+(** No bounds, the default environment, [Sys.time], no reports. *)
+
+(** {1:outcomes Outcomes} *)
+
+(** A run from the initial configuration. *)
+type run = {
+  steps : Transition.t list;
+  cycle : Transition.t list;  (** goes on from there for ever, if there is any *)
+}
+
+type bound = States | Depth | Memory | Time | Interruption
+
+type verdict =
+  | Holds
+  | Violated of run  (** by a shortest run; for cycles, one with a shortest way to where it comes around *)
+  | Unreached of Coverage.piece list
+  | Inconclusive of bound
+
+type outcome = {
+  states : int;
+  transitions : int;
+  expanded : int;  (** states whose transitions were followed: all, if no bound was met *)
+  depth : int;  (** most transitions of a shortest run to a state *)
+  bytes : int;  (** of memory, as [max_memory] counts it *)
+  seconds : float;
+  stopped : bound option;
+  verdicts : (Property.t * verdict) list;  (** for each of {!Property.all} *)
+}
+
+val run : options -> Core.program -> World.t -> outcome
+(** [run o p w] explores [p] in [w]. A property is said to hold only if all states were visited; a violation found
+    before a bound was met is one. *)
+
+val pp_bound : Format.formatter -> bound -> unit
+
+val pp_verdict : Core.program -> Format.formatter -> Property.t * verdict -> unit
+(** One line, without the runs: ["no deadlock: violated after 12 steps"]. *)
+
+val pp_run : Format.formatter -> run -> unit
+(** The labels of its transitions, numbered, one a line. *)

@@ -1,0 +1,46 @@
+(** The state space of a program, state by state. A state is the configuration and what the outside remembers; it is
+    kept as a few words (see {!Shape}), configurations that execute nothing as a number. Steps of executing
+    configurations are found in the parts (see {!Parts}): nothing is computed twice, and the transition function computes
+    all of it. *)
+
+open Dolphin_semantics
+
+type t
+
+val create : Environment.options -> Core.program -> World.t -> t
+(** With the initial state, number 0. *)
+
+val expand : t -> int -> unit
+(** [expand t i] adds the states that transitions of state [i] lead to. *)
+
+val successors : t -> int -> int list
+(** [successors t i] is the states that transitions of [i] lead to, which have all been added before. *)
+
+val state : t -> int -> Configuration.t * Environment.t
+(** [state t i] is state [i]. *)
+
+val parent : t -> int -> int
+(** [parent t i] is the state from which [i] was reached first; 0 is its own. *)
+
+(** {1:findings What was found on the way} *)
+
+val count : t -> int
+val transitions : t -> int
+
+val broken : t -> Property.t -> int option
+(** [broken t p] is the first state that shows that [p] is broken, for [No_deadlock] and for what ends break. *)
+
+val may_cycle : t -> bool
+(** Whether a run can come back to where it was, as far as can be seen from the places of the script alone: [false] is
+    certain. *)
+
+val coverage : t -> Coverage.t
+
+val bytes : t -> int
+(** Memory outside of OCaml's heap. *)
+
+val bytes_to_grow : t -> int
+val words : t -> int
+
+val statistics : Format.formatter -> t -> unit
+(** How many parts, shapes, ... there are: for measuring. *)

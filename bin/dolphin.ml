@@ -6,8 +6,8 @@ let man =
         hands them tasks, and composes those tasks: one after another, at once, when a condition holds, for so long, \
         until an error.";
     `P "$(mname) $(b,exec) runs a program on a simulated fleet, $(mname) $(b,check) finds its faults, $(mname) \
-        $(b,parse) shows how it was read, $(mname) $(b,trace) judges, shows and draws journals of runs. Each has a \
-        manual: $(mname) $(i,COMMAND) $(b,--help).";
+        $(b,parse) shows how it was read, $(mname) $(b,trace) judges, shows and draws journals of runs, $(mname) \
+        $(b,sim) puts simulated vehicles on the network. Each has a manual: $(mname) $(i,COMMAND) $(b,--help).";
     `S Manpage.s_examples;
     `Pre "  $(mname) exec examples/rendezvous.dol\n  $(mname) check mission.dol";
     `S Manpage.s_files;
@@ -22,7 +22,8 @@ let command =
   in
   Cmd.group info
     [ Exec_command.command; Check_command.command; Explore_command.command; Lts_command.command;
-      Parse_command.command; Trace_command.command; Fleet_command.command; Plan_command.command ]
+      Fleet_command.command; Parse_command.command; Plan_command.command; Sim_command.command;
+      Trace_command.command ]
 
 (* [--sim] alone would take the next argument for its fleet. *)
 let arguments =

@@ -62,9 +62,8 @@ let next r =
   let number = r.number in
   let wrong why = Wrong { number; why } in
   let entry text ~otherwise =
-    match Entry.of_string text with
-    | Ok (Header _ as entry) -> if number = 1 then Line { number; entry } else wrong "a second header"
-    | Ok _ when number = 1 -> wrong "this is no journal: its first line is not the header of one"
+    match if number = 1 then Entry.first_of_string text else Entry.of_string text with
+    | Ok (Header _) when number > 1 -> wrong "a second header"
     | Ok entry -> Line { number; entry }
     | Error why -> otherwise why
   in

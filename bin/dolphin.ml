@@ -6,7 +6,8 @@ let man =
         them tasks, and composes those tasks: one after another, at once, when a condition holds, for so long, until an \
         error.";
     `P "$(mname) $(b,exec) runs a program on a simulated fleet, $(mname) $(b,check) finds its faults, $(mname) $(b,parse) \
-        shows how it was read, $(mname) $(b,trace) judges, shows and draws journals of runs. Each has a manual: $(mname) $(i,COMMAND) $(b,--help).";
+        shows how it was read, $(mname) $(b,trace) judges, shows and draws journals \
+        of runs. Each has a manual: $(mname) $(i,COMMAND) $(b,--help).";
     `S Manpage.s_examples;
     `Pre "  $(mname) exec examples/rendezvous.dol\n  $(mname) check mission.dol";
     `S Manpage.s_files;

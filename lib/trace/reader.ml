@@ -73,5 +73,5 @@ let next r =
   | Unfinished "" -> if number = 1 then wrong "the journal is empty" else End_of_file
   | Unfinished text ->
     (* What is left of a line never is a whole line of JSON. *)
-    entry text ~otherwise:(fun _ ->
-        if number = 1 then wrong "this is no journal, or not even its first line was written to its end" else Torn number)
+    let first = "this is no journal, or not even its first line was written to its end" in
+    entry text ~otherwise:(fun _ -> if number = 1 then wrong first else Torn number)

@@ -237,7 +237,7 @@ Fleets that are not right.
 Usage.
 
   $ dolphin
-  dolphin: required COMMAND name is missing, must be one of 'check', 'exec' or 'parse'.
+  dolphin: required COMMAND name is missing, must be one of 'check', 'exec', 'parse' or 'trace'.
   Usage: dolphin COMMAND …
   Try 'dolphin --help' for more information.
   [2]
@@ -247,7 +247,7 @@ Usage.
   Try 'dolphin exec --help' or 'dolphin --help' for more information.
   [2]
   $ dolphin fly hello.dol
-  dolphin: unknown command 'fly', must be one of 'check', 'exec' or 'parse'.
+  dolphin: unknown command 'fly', must be one of 'check', 'exec', 'parse' or 'trace'.
   Usage: dolphin COMMAND …
   Try 'dolphin --help' for more information.
   [2]

@@ -45,6 +45,9 @@
          parse [OPTION]… PROG
              print a program as it was understood
   
+         trace COMMAND …
+             check, show and draw journals of runs
+  
   COMMON OPTIONS
          --help[=FMT] (default=auto)
              Show this help in format FMT. The value FMT must be one of auto,

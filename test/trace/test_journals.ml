@@ -1,7 +1,7 @@
 open Dolphin_trace
 
 let case name test = Alcotest.test_case name `Quick test
-let show verdict = Format.asprintf "%a" Verdict.pp verdict
+let show verdict = Format.asprintf "@[<v>%a@]" Verdict.pp verdict
 
 let is_run name verdict =
   match verdict with

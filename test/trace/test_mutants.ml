@@ -1,7 +1,7 @@
 open Dolphin_trace
 
 let wanted = 500
-let show verdict = Format.asprintf "%a" Verdict.pp verdict
+let show verdict = Format.asprintf "@[<v>%a@]" Verdict.pp verdict
 
 (* {1 Mutants} *)
 
@@ -32,7 +32,8 @@ let drop random lines =
 
 let double random lines =
   let i = Random.State.int random (Array.length lines) in
-  let twice = List.concat (List.mapi (fun j line -> if j = i then [ line; line ] else [ line ]) (Array.to_list lines)) in
+  let copies j line = if j = i then [ line; line ] else [ line ] in
+  let twice = List.concat (List.mapi copies (Array.to_list lines)) in
   { text = Runs.text twice; harmless = kind lines.(i) = `Vehicle; what = Printf.sprintf "line %d doubled" (i + 1) }
 
 let swap random lines =

@@ -1,5 +1,4 @@
-open Dolphin_semantics
-open Assignment
+open Dolphin_assignment.Assignment
 
 let random = Random.State.make [| 2016 |]
 

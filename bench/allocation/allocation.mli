@@ -1,1 +1,1 @@
-(** How long {!Dolphin_semantics.Assignment} takes on large problems: one line each. No value of its own. *)
+(** How long {!Dolphin_assignment.Assignment} takes on large problems: one line each. No value of its own. *)

@@ -7,11 +7,14 @@ open Dolphin_semantics
 
 type event =
   | Vehicle of World.vehicle_state
-  (* First heard of, or changed: connection at once, position and battery at least when {!S.telemetry} is on. *)
+  (* First heard of, or changed: connection at once, position and battery at least while {!S.telemetry} is on. *)
   | Task_done of Core.vehicle
   | Task_failed of Core.vehicle * string
   (* In the vehicle's own words: it failed, refused, or its link was lost for longer than its connection timeout. *)
   | Timer of Residual.timer
+  | Quiet
+  (* Nothing will ever happen again by itself, and no position or battery will change: only a platform of virtual time
+     can know. *)
 
 module type S = sig
   type t
@@ -36,7 +39,7 @@ module type S = sig
   (** [set_timer p timer seconds] makes the event [Timer timer] happen after [seconds]. *)
 
   val cancel_timer : t -> Residual.timer -> unit
-  (** The event of this timer no longer happens. *)
+  (** The event of this timer no longer happens. A timer that expired, or was never set, is no error. *)
 
   val bind : t -> Core.vehicle list -> unit
   (** The program holds these vehicles now. *)
@@ -54,7 +57,8 @@ module type S = sig
   (** For these vehicles, or for all, present and future; seconds. *)
 
   val telemetry : t -> bool -> unit
-  (** Whether changes of positions and batteries are to be told as events, about once a second. *)
+  (** Whether changes of positions and batteries are to be told as events, about once a second; and of a vehicle that
+      ends a task, just before that end. *)
 
   val close : t -> unit Lwt.t
   (** Resolves once every stop is confirmed or given up, and what the platform held is closed. *)

@@ -59,7 +59,7 @@ type request =
   | Pause of float  (** seconds *)
   | Execute of task
   | Host_call of { subject : string option; member : string; arguments : value list option }
-      (** a method of a host object, or with [None] a property; without subject, a procedure of the host itself *)
+  (** a method of a host object, or with [None] a property; without subject, a procedure of the host itself *)
 
 val compare_request : request -> request -> int
 

@@ -147,6 +147,36 @@ let rec activate r =
     let body, timers = activate body in
     (During { d with started = true; body }, (timer, seconds) :: timers)
 
+(* {1 What is active} *)
+
+(* [exists_active p r] is whether [p] holds of a node of [r] that has begun. *)
+let rec exists_active p r =
+  p r
+  ||
+  match r with
+  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | One_of _ | All_of (None, _) -> false
+  | During { started = false; _ } -> false
+  | Sequence (a, _) | All_of (Some a, _) | Until (_, a) | Watch (a, _) | During { body = a; _ } -> exists_active p a
+  | Parallel rs -> List.exists (exists_active p) rs
+
+let rec fold_active f acc r =
+  let acc = f acc r in
+  match r with
+  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | One_of _ | All_of (None, _) -> acc
+  | During { started = false; _ } -> acc
+  | Sequence (a, _) | All_of (Some a, _) | Until (_, a) | Watch (a, _) | During { body = a; _ } ->
+    fold_active f acc a
+  | Parallel rs -> List.fold_left (fold_active f) acc rs
+
+let collect f r = List.rev (fold_active (fun found r -> match f r with Some x -> x :: found | None -> found) [] r)
+
+let running = collect (function Running (_, v) -> Some v | _ -> None)
+
+let timers =
+  collect (function
+      | Idle { timer; _ } | During { started = true; timer; _ } -> Some timer
+      | _ -> None)
+
 (* {1 Steps} *)
 
 type offer =
@@ -277,15 +307,20 @@ let around_watch handler =
 
 let one step = Seq.return step
 
-(* [each f xs] is [f before x after] for each [x] of [xs]; [before] is reversed. *)
-let each f xs =
-  let rec from before = function
-    | [] -> Seq.empty
-    | x :: after -> fun () -> Seq.append (f before x after) (from (x :: before) after) ()
+(* [each ~relevant f xs] is [f before x after] for each relevant [x] of [xs]; [before] is reversed. *)
+let each ~relevant f xs =
+  let rec from before xs () =
+    match xs with
+    | [] -> Seq.Nil
+    | x :: after ->
+      let rest = from (x :: before) after in
+      if relevant x then Seq.append (f before x after) rest () else rest ()
   in
   from [] xs
 
-let rec steps r : step Seq.t =
+(* The parts of a [|] in which no active node is [relevant] are passed over: there may be thousands. *)
+let rec steps_at relevant r : step Seq.t =
+  let steps = steps_at relevant in
   match r with
   | Ready (p, v) -> one { offer = Start (p, v); continue = (fun _ -> change Rule.Start (Next (Running (p, v)))) }
   | Running (p, v) ->
@@ -300,7 +335,7 @@ let rec steps r : step Seq.t =
   | Sequence (a, rest) -> Seq.map (within (around_sequence rest)) (steps a)
   | Parallel rs ->
     let part before r after = Seq.map (within (around_parallel before after)) (steps r) in
-    each part rs
+    each ~relevant:(exists_active relevant) part rs
   | All_of (Some a, remaining) -> Seq.map (within (around_branch remaining)) (steps a)
   | All_of (None, branches) ->
     let choose before b after =
@@ -308,13 +343,13 @@ let rec steps r : step Seq.t =
       let went () = enter Rule.Allof_when (fun r -> all_of (Some r) remaining) b.body in
       one { offer = Check b.guard; continue = settled ~went ~broke:(failing Rule.Allof_err) }
     in
-    each choose branches
+    each ~relevant:(fun _ -> true) choose branches
   | One_of branches ->
     let choose _ b _ =
       let went () = enter Rule.Oneof_when Fun.id b.body in
       one { offer = Check b.guard; continue = settled ~went ~broke:(failing Rule.Oneof_err) }
     in
-    each choose branches
+    each ~relevant:(fun _ -> true) choose branches
   | Until (condition, a) ->
     let went () = { (change Rule.Until_cut Finished) with abandoned = [ a ] } in
     let broke fault = { (failing Rule.Until_err fault) with abandoned = [ a ] } in
@@ -340,25 +375,14 @@ let rec steps r : step Seq.t =
     fun () -> Seq.Cons (expiry, Seq.map (within (around_during timer duration)) (steps body))
   | Watch (a, handler) -> Seq.map (within (around_watch handler)) (steps a)
 
-(* {1 What is active} *)
+let steps = steps_at (fun _ -> true)
 
-let rec fold_active f acc r =
-  let acc = f acc r in
-  match r with
-  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | One_of _ | All_of (None, _) -> acc
-  | During { started = false; _ } -> acc
-  | Sequence (a, _) | All_of (Some a, _) | Until (_, a) | Watch (a, _) | During { body = a; _ } ->
-    fold_active f acc a
-  | Parallel rs -> List.fold_left (fold_active f) acc rs
+let may_step_alone = function
+  | Running _ | Idle _ | During { duration = Seconds _; _ } | Sequence _ | Parallel _ | All_of (Some _, _) | Watch _ ->
+    false
+  | Ready _ | Action _ | Condition _ | All_of (None, _) | One_of _ | Until _ | During { duration = Given_by _; _ } ->
+    true
 
-let collect f r = List.rev (fold_active (fun found r -> match f r with Some x -> x :: found | None -> found) [] r)
+let internal_steps = steps_at may_step_alone
 
-let running = collect (function Running (_, v) -> Some v | _ -> None)
-
-let timers =
-  collect (function
-      | Idle { timer; _ } | During { started = true; timer; _ } -> Some timer
-      | _ -> None)
-
-let waits_on_sensors r =
-  collect (function Condition _ | One_of _ | All_of (None, _) | Until _ -> Some () | _ -> None) r <> []
+let steps_of_vehicle v = steps_at (function Running (_, v') -> String.equal v v' | _ -> false)

@@ -85,11 +85,14 @@ type step = { offer : offer; continue : reply -> change }
 val steps : t -> step Seq.t
 (** [steps r] is all that [r] can do, leftmost first, computed on demand. *)
 
+val internal_steps : t -> step Seq.t
+(** [internal_steps r] is [steps r], less some of those that wait for an end or an expiry. *)
+
+val steps_of_vehicle : vehicle -> t -> step Seq.t
+(** [steps_of_vehicle v r] is [steps r], less some that do not wait for the end of a task of [v]. *)
+
 val running : t -> vehicle list
 (** [running r] is the vehicles that run a task of [r]. *)
 
 val timers : t -> timer list
 (** [timers r] is the timers of [r] that have started. *)
-
-val waits_on_sensors : t -> bool
-(** [waits_on_sensors r] is whether some step of [r] depends on code, and so perhaps on sensors. *)

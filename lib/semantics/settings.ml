@@ -44,11 +44,28 @@ let wrong s what =
 
 let number s = match s.positional with [ x ] -> Value.to_number x | _ -> None
 
+(* The original's programs escape ids as for a pattern: 'x8\\-02' is the vehicle x8-02. *)
+let unescape id =
+  let b = Buffer.create (String.length id) in
+  let rec from i =
+    if i < String.length id then
+      if id.[i] = '\\' && i + 1 < String.length id then begin
+        Buffer.add_char b id.[i + 1];
+        from (i + 2)
+      end
+      else begin
+        Buffer.add_char b id.[i];
+        from (i + 1)
+      end
+  in
+  from 0;
+  Buffer.contents b
+
 let add_to_pick pick s =
   let* pick = pick in
   let filter = pick.filter in
   match s.setting, s.positional with
-  | "id", [ String id ] -> Ok { pick with filter = { filter with id = Some id } }
+  | "id", [ String id ] -> Ok { pick with filter = { filter with id = Some (unescape id) } }
   | "id", _ -> wrong s "a string"
   | "type", [ String kind ] -> Ok { pick with filter = { filter with kind = Some kind } }
   | "type", _ -> wrong s "a string, as in type 'UUV'"

@@ -23,5 +23,8 @@ val pp_pick : Format.formatter -> pick -> unit
 
 val compare_pick : pick -> pick -> int
 val pick : setting list -> (pick, Fault.t) result
+(** [pick settings] is the pick that [settings] (first one first) ask for: one vehicle, unless they say otherwise. An id
+    is compared as plain text, after its backslashes are taken as escapes. *)
+
 val position : site -> setting list -> (value, Fault.t) result
 val branches : site -> setting list -> (branch list, Fault.t) result

@@ -16,7 +16,7 @@ type refusal = Not_awaited | Bad_answer of string
 
 (* The script runs so many expressions in one silent transition, then lets others see it; atomic code may take so
    many before it counts as endless. *)
-let script_fuel = 100_000
+let script_fuel = 10_000
 let atomic_fuel = 2_000_000
 
 let context program world (c : Configuration.t) mode : Machine.context =
@@ -81,6 +81,7 @@ let timers_started = List.map (fun (timer, seconds) -> Effect.Set_timer (timer, 
 let start_execution world (c : Configuration.t) m t =
   match Allocation.allocate world c.bound t with
   | Error fault ->
+    let fault = if fault.site = Fault.unknown_site then { fault with site = Machine.site m } else fault in
     ending_transition c [ Rule.Alloc_err ] (Label.Cannot_execute fault.message) (Failed fault) []
   | Ok r ->
     let r, timers = Residual.activate r in
@@ -126,12 +127,16 @@ let candidates world (c : Configuration.t) (pick : Settings.pick) =
   List.map (fun (s : World.vehicle_state) -> s.id) (List.filter fits (World.vehicles world))
 
 (* All lists of [n] elements of [xs] in their order, the first ones first. *)
-let rec choices n xs : 'a list Seq.t =
-  match n, xs with
-  | 0, _ -> Seq.return []
-  | _, [] -> Seq.empty
-  | n, x :: rest ->
-    fun () -> Seq.append (Seq.map (fun chosen -> x :: chosen) (choices (n - 1) rest)) (choices n rest) ()
+let choices n xs : 'a list Seq.t =
+  let rec from n xs length () =
+    match xs with
+    | _ when n = 0 -> Seq.return [] ()
+    | x :: rest when n <= length ->
+      let chosen = Seq.map (fun chosen -> x :: chosen) (from (n - 1) rest (length - 1)) in
+      Seq.append chosen (from n rest (length - 1)) ()
+    | _ -> Seq.Nil
+  in
+  from n xs (List.length xs)
 
 let bind (c : Configuration.t) m effects vs =
   let next = { c with control = Script (Machine.give (Vehicles vs) m); bound = c.bound @ vs } in
@@ -325,7 +330,7 @@ let internal program world (c : Configuration.t) : t Seq.t =
   | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) -> Seq.empty
   | Executing (m, r) ->
     let step s = Option.map (conclude c m) (local_internal program world c s) in
-    Seq.filter_map step (Residual.steps r)
+    Seq.filter_map step (Residual.internal_steps r)
 
 (* {1 Events} *)
 
@@ -339,7 +344,10 @@ let executing_event program world c m r event =
         | Some local -> Ok (conclude c m local)
         | None -> first rest)
   in
-  first (Residual.steps r)
+  match event with
+  | Vehicle_done v | Vehicle_failed (v, _) -> first (Residual.steps_of_vehicle v r)
+  | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Interruption ->
+    first (Residual.steps r)
 
 let resume (c : Configuration.t) m x rule label =
   { rules = [ rule ]; label; next = { c with control = Script (Machine.give x m) }; effects = [] }
@@ -353,7 +361,7 @@ let answered program world (c : Configuration.t) m text =
   | Error why -> Error (Bad_answer why)
   | Ok closure -> (
       match run_code program world c Task_code closure [] with
-      | Value_of x, { deeds = []; _ } -> Ok (resume c m x Rule.Answer (Label.Answer text))
+      | Value_of x, { deeds = []; store; _ } when Store.compare store c.store = 0 -> Ok (resume c m x Rule.Answer (Label.Answer text))
       | Value_of _, _ -> Error (Bad_answer "an answer may only compute a value")
       | Broke fault, _ -> Error (Bad_answer fault.message)
       | Halted_with _, _ -> Error (Bad_answer "an answer may only compute a value"))
@@ -397,6 +405,6 @@ let awaited (c : Configuration.t) =
 
 let depends_on_sensors (program : program) (c : Configuration.t) =
   match c.control with
-  | Executing (_, r) -> program.reads_sensors && Residual.waits_on_sensors r
   | Waiting (_, Pick _) -> true
-  | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) | Script _ | Ended _ -> false
+  | Executing _ | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) | Script _ -> program.reads_sensors
+  | Ended _ -> false

@@ -40,7 +40,8 @@ val awaited : Configuration.t -> event list
     content). The time-out of a [pick] is among them, but not accepted while the pick can be met: then it must be. *)
 
 val depends_on_sensors : program -> Configuration.t -> bool
-(** [depends_on_sensors p c] is whether news of positions and batteries may enable a transition of [c]. *)
+(** [depends_on_sensors p c] is whether the positions and batteries of the world may matter to [c] or to what follows:
+    a driver then keeps them up to date. *)
 
 (** {1:local Local steps}
 

@@ -94,6 +94,8 @@ and compare_duration d d' =
 
 let mix h k = (h * 65599) + k
 
+let hashed_depth = 6
+
 let rec hash x =
   match x with
   | Null | Wildcard -> rank x
@@ -107,27 +109,31 @@ let rec hash x =
   | Position p -> mix 10 (Hashtbl.hash p)
   | Area a -> mix 11 (Hashtbl.hash a)
   | Vehicles vs -> List.fold_left (fun h v -> mix h (Hashtbl.hash v)) 12 vs
-  | Task t -> mix 13 (hash_task t)
+  | Task t -> mix 13 (hash_task hashed_depth t)
   | Closure c -> mix 14 (hash_closure c)
   | Settings settings -> mix 16 (List.length settings)
 
 and hash_closure c = Array.fold_left (fun h x -> mix h (hash x)) c.lambda.id c.captured
 
-and hash_task t =
-  match t with
-  | Platform p -> Hashtbl.hash p.name
-  | Action c | Condition c -> mix (rank_task t) (hash_closure c)
-  | Sequence (a, b) | Parallel (a, b) -> mix (mix (rank_task t) (hash_task a)) (hash_task b)
-  | Allocated (a, vs) -> mix (hash_task a) (Hashtbl.hash vs)
-  | All_of bs | One_of bs ->
-    List.fold_left (fun h b -> mix (mix h (hash_closure b.guard)) (hash_task b.body)) (rank_task t) bs
-  | Until (c, a) | Watch (a, c) -> mix (mix (rank_task t) (hash_closure c)) (hash_task a)
-  | Idle d -> mix 9 (Hashtbl.hash d)
-  | During (_, a) -> mix 10 (hash_task a)
+(* Of a deep task, which may share its parts with itself many times over, the upper levels are enough. *)
+and hash_task depth t =
+  let part = hash_task (depth - 1) in
+  if depth = 0 then 0
+  else
+    match t with
+    | Platform p -> Hashtbl.hash p.name
+    | Action c | Condition c -> mix (rank_task t) (hash_closure c)
+    | Sequence (a, b) | Parallel (a, b) -> mix (mix (rank_task t) (part a)) (part b)
+    | Allocated (a, vs) -> mix (part a) (Hashtbl.hash vs)
+    | All_of bs | One_of bs ->
+      List.fold_left (fun h b -> mix (mix h (hash_closure b.guard)) (part b.body)) (rank_task t) bs
+    | Until (c, a) | Watch (a, c) -> mix (mix (rank_task t) (hash_closure c)) (part a)
+    | Idle d -> mix 9 (Hashtbl.hash d)
+    | During (_, a) -> mix 10 (part a)
 
 let rec canonical x =
   match x with
-  | Number n when Float.is_integer n && Float.abs n < 0x1p53 -> Integer (int_of_float n)
+  | Number n when Float.is_integer n && Float.abs n < 0x1p62 -> Integer (int_of_float n)
   | List xs -> List (Array.map canonical xs)
   | Map entries -> Map (List.map (fun (k, x) -> (k, canonical x)) entries)
   | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _
@@ -193,8 +199,11 @@ let characters s =
   in
   Array.of_list (from 0 [])
 
+let most_items = 1_000_000
+
 let items = function
   | List xs -> Some xs
+  | Range (first, last) when not (0 < range_length first last && range_length first last <= most_items) -> None
   | Range (first, last) ->
     Some (Array.init (range_length first last) (fun i -> Integer (range_item first last i)))
   | Vehicles vs -> Some (Array.of_list (List.map (fun v -> Vehicles [ v ]) vs))
@@ -216,6 +225,7 @@ let length = function
 (* The shortest decimal text that reads back as the same number. *)
 let text_of_number n =
   if Float.is_nan n then "NaN"
+  else if n = 0. then "0.0" (* -0.0 is the same number *)
   else if Float.is_integer n && Float.abs n < 1e15 then Printf.sprintf "%.1f" n
   else
     let short = Printf.sprintf "%.15g" n in
@@ -233,6 +243,9 @@ let quoted s =
     s;
   Buffer.add_char b '\'';
   Buffer.contents b
+
+(* Of a long task the first parts are shown. *)
+let shown_parts = 100
 
 let comma ppf () = Format.pp_print_string ppf ", "
 
@@ -262,35 +275,34 @@ let rec print ~bare ppf x =
   | Host name -> Format.fprintf ppf "host object %s" name
   | Settings _ -> text "{ ... }"
 
-(* Loosest first: [|], [>>], [/], operands. *)
-and pp_task ppf t = print_task 0 ppf t
+and pp_task ppf t =
+  let left = ref shown_parts in
+  print_task left 0 ppf t
 
-and print_task level ppf t =
-  let parenthesised needed body =
-    if level > needed then Format.fprintf ppf "(%t)" body else body ppf
-  in
-  match t with
-  | Platform p -> Format.fprintf ppf "task(%s)" (quoted p.name)
-  | Action c -> Format.fprintf ppf "action { %s }" c.lambda.label
-  | Condition c -> Format.fprintf ppf "condition { %s }" c.lambda.label
-  | Parallel (a, b) ->
-    parenthesised 0 (fun ppf -> Format.fprintf ppf "%a | %a" (print_task 0) a (print_task 1) b)
-  | Sequence (a, b) ->
-    parenthesised 1 (fun ppf -> Format.fprintf ppf "%a >> %a" (print_task 1) a (print_task 2) b)
-  | Allocated (a, vs) -> Format.fprintf ppf "%a[%s]" (print_task 3) a (String.concat " + " vs)
-  | All_of bs -> Format.fprintf ppf "allOf { %a }" (Format.pp_print_list ~pp_sep:comma pp_branch) bs
-  | One_of bs -> Format.fprintf ppf "oneOf { %a }" (Format.pp_print_list ~pp_sep:comma pp_branch) bs
-  | Until (_, a) ->
-    parenthesised 0 (fun ppf -> Format.fprintf ppf "until { ... } run %a" (print_task 1) a)
-  | Idle d -> Format.fprintf ppf "idle(%g.seconds)" d
-  | During (Seconds d, a) ->
-    parenthesised 0 (fun ppf -> Format.fprintf ppf "during %g.seconds run %a" d (print_task 1) a)
-  | During (Given_by _, a) ->
-    parenthesised 0 (fun ppf -> Format.fprintf ppf "during { ... } run %a" (print_task 1) a)
-  | Watch (a, _) ->
-    parenthesised 0 (fun ppf -> Format.fprintf ppf "watch %a onError { ... }" (print_task 1) a)
-
-and pp_branch ppf b = Format.fprintf ppf "when { ... } then %a" (print_task 1) b.body
+(* Loosest first: [|], [>>], [/], operands. [left] is how many more parts are shown. *)
+and print_task left level ppf t =
+  decr left;
+  let print format = Format.fprintf ppf format in
+  let parenthesised needed body = if level > needed then print "(%t)" body else body ppf in
+  let task level ppf t = print_task left level ppf t in
+  let branch ppf b = Format.fprintf ppf "when { ... } then %a" (task 1) b.body in
+  let prefixed text a = parenthesised 0 (fun ppf -> Format.fprintf ppf "%s run %a" text (task 1) a) in
+  if !left < 0 then print "..."
+  else
+    match t with
+    | Platform p -> print "task(%s)" (quoted p.name)
+    | Action c -> print "action { %s }" c.lambda.label
+    | Condition c -> print "condition { %s }" c.lambda.label
+    | Parallel (a, b) -> parenthesised 0 (fun ppf -> Format.fprintf ppf "%a | %a" (task 0) a (task 1) b)
+    | Sequence (a, b) -> parenthesised 1 (fun ppf -> Format.fprintf ppf "%a >> %a" (task 1) a (task 2) b)
+    | Allocated (a, vs) -> print "%a[%s]" (task 3) a (String.concat " + " vs)
+    | All_of bs -> print "allOf { %a }" (Format.pp_print_list ~pp_sep:comma branch) bs
+    | One_of bs -> print "oneOf { %a }" (Format.pp_print_list ~pp_sep:comma branch) bs
+    | Until (_, a) -> prefixed "until { ... }" a
+    | Idle d -> print "idle(%g.seconds)" d
+    | During (Seconds d, a) -> prefixed (Printf.sprintf "during %g.seconds" d) a
+    | During (Given_by _, a) -> prefixed "during { ... }" a
+    | Watch (a, _) -> parenthesised 0 (fun ppf -> Format.fprintf ppf "watch %a onError { ... }" (task 1) a)
 
 let to_string x = Format.asprintf "%a" (print ~bare:true) x
 let pp ppf x = print ~bare:false ppf x

@@ -137,6 +137,7 @@ let is_word = function
 let assignment place =
   match this place, head place with
   | ASSIGN, (IF | WHILE) -> Some ("'=' does not compare", "write '==' to compare")
+  | COMMAND _, FOR -> None
   | _, FOR -> Some ("a 'for' runs over the elements of something", "write for (x in xs) { ... }, such as for (i in 1..3)")
   | ASSIGN, _ when not (place.acceptable (INTEGER 0)) ->
     begin match before place 2, before place 1, kind place (opener place) with
@@ -204,6 +205,9 @@ let misplaced_word place =
   | THEN -> Some ("'then' cannot stand here", "'then' follows when { ... } and waitFor { ... }")
   | RUN -> Some ("'run' cannot stand here", "'run' follows until { ... }, waitFor { ... } and during time")
   | ON_ERROR -> Some ("'onError' cannot stand here", "write watch task onError { error -> ... }")
+  | ARROW when kind place (opener place) = BLOCK ->
+    Some ("'->' cannot stand here",
+          "a '{' at the start of a statement opens a block; put a closure in parentheses: ({ a -> ... })")
   | ARROW -> Some ("'->' cannot stand here", "'->' ends the parameters of a closure: { a, b -> ... }")
   | (IF | WHILE | FOR | RETURN | BREAK | CONTINUE | DEF) as word when place.acceptable (INTEGER 0) ->
     let spelling = text_of place place.index in

@@ -10,3 +10,6 @@ val arrange : source:string -> Brackets.t -> Token.t array
 
 val builder : string -> Ast.builder option
 (** [builder x] is the builder that the name [x] stands for before a brace. *)
+
+val continues : Grammar.token -> bool
+(** [continues t] is whether no statement can begin with [t], so that it belongs to the line before. *)

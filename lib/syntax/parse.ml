@@ -70,7 +70,8 @@ let stretches (tokens : Token.t array) { partner; outside } index stop =
   let last brace = if brace < 0 then Array.length tokens - 1 else partner.(brace) in
   let rec separator index brace =
     if index >= last brace then None
-    else if tokens.(index).token = SEPARATOR && outside.(index) = brace then Some index
+    else if tokens.(index).token = SEPARATOR && outside.(index) = brace
+            && not (Layout.continues tokens.(index + 1).token) then Some index
     else separator (index + 1) brace
   in
   let rec climb index brace reversed =
@@ -82,7 +83,8 @@ let stretches (tokens : Token.t array) { partner; outside } index stop =
     if brace < 0 || last >= stop then List.rev reversed
     else climb (last + 1) outside.(brace) reversed
   in
-  climb index outside.(index) []
+  let rec home index = if outside.(index) = -2 then home (index - 1) else outside.(index) in
+  climb index (home index) []
 
 let statement_faults ~source tokens index acceptable =
   let nesting = nesting tokens in

@@ -1,5 +1,4 @@
-open Dolphin_semantics
-open Assignment
+open Dolphin_assignment.Assignment
 
 let case name run = Alcotest.test_case name `Quick run
 

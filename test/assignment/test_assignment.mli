@@ -1,1 +1,1 @@
-(** Tests of {!Dolphin_semantics.Assignment}: examples, and all allocations of small problems. No value of its own. *)
+(** Tests of {!Dolphin_assignment.Assignment}: examples, and all allocations of small problems. No value of its own. *)

@@ -1,1 +1,4 @@
-let () = Alcotest.run "syntax" [ "print", Test_print.suite ]
+let () =
+  Alcotest.run "syntax"
+    [ "parse", Test_parse.suite; "print", Test_print.suite; "depth", Test_depth.suite;
+      "diagnostic", Test_diagnostic.suite ]

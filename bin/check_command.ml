@@ -1,0 +1,57 @@
+open Cmdliner
+
+let verdict path found = Format.printf "%s: %s@." path (Report.counts found)
+
+let check_program path =
+  match Program_file.load path with
+  | Ok p -> Some p
+  | Error trouble ->
+    Program_file.tell trouble;
+    (match trouble with Wrong { found; _ } -> verdict path found | Unreadable _ -> ());
+    None
+
+let check_fleet path =
+  match Fleet_file.load path with
+  | Ok fleet -> Some fleet
+  | Error trouble ->
+    Fleet_file.tell trouble;
+    (match trouble, path with Wrong { found; _ }, Some path -> verdict path found | _, _ -> ());
+    None
+
+let run path fleet =
+  let program = check_program path in
+  let fleet = check_fleet (Fleet_file.choose ~program:path fleet) in
+  let of_plans = match program, fleet with
+    | Some p, Some f -> Plan_names.misspelt p.program f.scenario
+    | _, _ -> []
+  in
+  Option.iter
+    (fun (p : Program_file.t) ->
+       let found = p.warnings @ of_plans in
+       Report.diagnostics ~source:p.source found;
+       verdict path found)
+    program;
+  Option.iter (fun (f : Fleet_file.t) -> Option.iter (fun path -> verdict path []) f.path) fleet;
+  match program, fleet with
+  | Some _, Some _ -> Exit_status.Done
+  | None, _ | _, None -> Exit_status.Bad_input
+
+let man =
+  [ `S Manpage.s_description;
+    `P "$(tname) finds what can be known to be wrong with a program without running it: syntax, unknown names, numbers \
+        of arguments and kinds of literals, what belongs to the script inside of a task's code, one vehicle needed \
+        twice at once. Each fault is told with its line and, if there is one, what would be right. $(b,exec) checks the \
+        same before it starts.";
+    `P "The fleet that the program would run with is checked too, and plans that the program seems to misspell.";
+    `S Manpage.s_files;
+    `I ("$(i,PROG) with the ending $(b,.fleet)", "The fleet, unless $(b,--fleet) names another.");
+    `S Manpage.s_examples;
+    `Pre "  $(mname) $(tname) mission.dol\n  $(mname) $(tname) mission.dol --fleet harbour.fleet" ]
+  @ Options.see_also
+
+let command =
+  let info =
+    Cmd.info "check" ~doc:"find what is wrong with a program, without running it" ~man
+      ~exits:(Options.exits [ Done; Bad_input; Bug ])
+  in
+  Cmd.v info Term.(const run $ Options.program $ Options.fleet)

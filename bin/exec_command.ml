@@ -1,0 +1,109 @@
+open Cmdliner
+
+let run path sim fleet speed seed answers supplier supplier_timeout journal drawing =
+  (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
+  let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
+  match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path named) with
+  | Error trouble, _ ->
+    Program_file.tell trouble;
+    Exit_status.Bad_input
+  | Ok _, Error trouble ->
+    Fleet_file.tell trouble;
+    Exit_status.Bad_input
+  | Ok program, Ok fleet ->
+    Report.diagnostics ~source:program.source program.warnings;
+    let record = { Record.journal; drawing; header = Record.header program fleet ~seed ~speed } in
+    Run.run { program; scenario = fleet.scenario; speed; seed; answers; supplier; supplier_timeout; record }
+
+let positive =
+  let parse text =
+    match float_of_string_opt text with
+    | Some x when x > 0. && x < infinity -> Ok x
+    | Some _ | None -> Error (`Msg (Printf.sprintf "'%s' is not a number greater than 0" text))
+  in
+  Arg.conv ~docv:"NUMBER" (parse, Format.pp_print_float)
+
+let sim =
+  let doc =
+    "Run on the simulated fleet that the file $(docv) describes. Without $(docv), as by default: the file beside \
+     $(i,PROG) with the ending $(b,.fleet), or else the built-in fleet."
+  in
+  Arg.(value & opt ~vopt:(Some "") (some string) None & info [ "sim" ] ~docv:"FLEET" ~doc)
+
+let fleet =
+  let doc = "The same as $(b,--sim=)$(docv)." in
+  Arg.(value & opt (some string) None & info [ "fleet" ] ~docv:"FLEET" ~doc)
+
+let speed =
+  let doc = "Let time pass $(docv) times as fast as in reality. By default nothing is waited for." in
+  Arg.(value & opt (some positive) None & info [ "speed" ] ~docv:"X" ~doc)
+
+let seed =
+  let doc = "What chance depends on: two runs with the same seed have the same log." in
+  Arg.(value & opt int 0 & info [ "seed" ] ~docv:"N" ~doc)
+
+let answers =
+  let doc =
+    "Answer a question of the program ($(b,ask)) with $(docv), an expression. May be repeated: the first one answers \
+     the first question. Further questions are answered by the fleet, or else on standard input."
+  in
+  Arg.(value & opt_all string [] & info [ "answer" ] ~docv:"TEXT" ~doc)
+
+let supplier =
+  let doc =
+    "The command that starts the supplier, the process that $(b,getSupplier()) speaks to. It is given to $(b,/bin/sh)."
+  in
+  Arg.(value & opt (some string) None & info [ "supplier" ] ~docv:"CMD" ~doc)
+
+let supplier_timeout =
+  let doc = "Give the supplier $(docv) seconds for each reply. By default it may take as long as it likes." in
+  Arg.(value & opt (some positive) None & info [ "supplier-timeout" ] ~docv:"SECONDS" ~doc)
+
+let journal =
+  let doc =
+    "Keep a journal of the run in the file $(docv): every transition, what caused it, where the vehicles were. \
+     $(mname) $(b,trace) checks, shows and draws journals."
+  in
+  Arg.(value & opt (some string) None & info [ "o"; "journal" ] ~docv:"FILE" ~doc)
+
+let drawing =
+  let doc =
+    "Draw the run in the file $(docv), $(i,*.svg) or $(i,*.html), when it is over: who did what when, the ways of the \
+     vehicles, their batteries."
+  in
+  Arg.(value & opt (some Drawing_file.argument) None & info [ "draw" ] ~docv:"FILE" ~doc)
+
+let man =
+  [ `S Manpage.s_description;
+    `P "$(tname) checks the program $(i,PROG) as $(mname) $(b,check) does and runs it on a fleet of simulated \
+        vehicles. The vehicles move, their batteries drain, their plans take the time that the fleet file says and may fail. \
+        Unless $(b,--speed) is given the run takes no longer than it takes to compute: a mission of an hour is over at \
+        once.";
+    `P "The log on standard output has a line for whatever happens: the time since the start, who, what. On a terminal \
+        a board below it shows each vehicle of the program: its task, for how long it has been running, its position \
+        and its battery.";
+    `P "Ctrl-C interrupts the program: running tasks are stopped, vehicles are released. A second Ctrl-C ends \
+        $(mname) at once.";
+    `S Manpage.s_arguments;
+    `S Manpage.s_options;
+    `S Manpage.s_exit_status;
+    `S Manpage.s_files;
+    `I ("$(i,PROG) with the ending $(b,.fleet)", "The fleet, unless $(b,--sim) or $(b,--fleet) names another.");
+    `S Manpage.s_examples;
+    `P "The mission of the paper, as fast as it goes; then at sixty times the speed of reality, which shows the board:";
+    `Pre "  $(mname) $(tname) examples/rendezvous.dol\n  $(mname) $(tname) examples/rendezvous.dol --speed 60";
+    `P "On another fleet, with other luck, and answering the program's question:";
+    `Pre "  $(mname) $(tname) mission.dol --fleet harbour.fleet --seed 7 --answer 2";
+    `P "With tasks from a script, which has ten seconds for each reply:";
+    `Pre "  $(mname) $(tname) examples/supplier.dol \\\\\n    --supplier examples/supplier.py --supplier-timeout 10";
+    `P "With a journal of the run, and a picture of it:";
+    `Pre "  $(mname) $(tname) mission.dol --journal mission.run --draw mission.svg" ]
+  @ Options.see_also
+
+let command =
+  let info =
+    Cmd.info "exec" ~doc:"run a program on a simulated fleet" ~man
+      ~exits:(Options.exits [ Done; Failed; Bad_input; Platform_trouble; Bug; Interrupted ])
+  in
+  Cmd.v info
+    Term.(const run $ Options.program $ sim $ fleet $ speed $ seed $ answers $ supplier $ supplier_timeout $ journal $ drawing)

@@ -1,0 +1,3 @@
+(** [dolphin exec]: runs a program. *)
+
+val command : Exit_status.t Cmdliner.Cmd.t

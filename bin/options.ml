@@ -1,0 +1,16 @@
+open Cmdliner
+
+let program =
+  let doc = "The program, a file such as $(i,mission.dol)." in
+  Arg.(required & pos 0 (some string) None & info [] ~docv:"PROG" ~doc)
+
+let fleet =
+  let doc = "The fleet, a file such as $(i,mission.fleet). By default the file beside $(i,PROG) with that ending." in
+  Arg.(value & opt (some string) None & info [ "fleet" ] ~docv:"FLEET" ~doc)
+
+let exits = Exit_status.info
+
+let see_also =
+  [ `S Manpage.s_see_also;
+    `P "The reference manual of the language, of fleets and of the supplier's protocol is $(i,docs/language.md); \
+        $(i,examples/) has a program for every construct." ]

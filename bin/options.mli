@@ -1,0 +1,14 @@
+(** What commands share on their command lines. *)
+
+open Cmdliner
+
+val program : string Term.t
+(** The file of the program, the first argument. *)
+
+val fleet : string option Term.t
+(** [--fleet FLEET]. *)
+
+val exits : Exit_status.t list -> Cmd.Exit.info list
+
+val see_also : Manpage.block list
+(** The end of every manual page. *)

@@ -1,0 +1,28 @@
+open Cmdliner
+
+let run path =
+  match Program_file.parse path with
+  | Error trouble ->
+    Program_file.tell trouble;
+    Exit_status.Bad_input
+  | Ok program ->
+    Format.printf "%a@?" Dolphin_syntax.Print.program program;
+    Exit_status.Done
+
+let man =
+  [ `S Manpage.s_description;
+    `P "$(tname) reads the program and writes it on standard output as $(mname) has understood it: one statement a \
+        line, four spaces a level, no parentheses but those needed, every operator in its one spelling. What it writes \
+        means the same as what it has read. Comments are left out.";
+    `P "It shows how the program was read where that is in doubt: which operator binds closer, where a command without \
+        parentheses ends.";
+    `S Manpage.s_examples;
+    `Pre "  $(mname) $(tname) examples/rendezvous.dol" ]
+  @ Options.see_also
+
+let command =
+  let info =
+    Cmd.info "parse" ~doc:"print a program as it was understood" ~man
+      ~exits:(Options.exits [ Done; Bad_input; Bug ])
+  in
+  Cmd.v info Term.(const run $ Options.program)

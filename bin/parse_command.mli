@@ -1,0 +1,3 @@
+(** [dolphin parse]: a program in its canonical form. *)
+
+val command : Exit_status.t Cmdliner.Cmd.t

@@ -1,0 +1,28 @@
+open Dolphin_syntax
+
+type t = {
+  path : string;
+  source : string;
+  program : Dolphin_semantics.Core.program;
+  warnings : Diagnostic.t list;
+}
+
+type trouble = Unreadable of string | Wrong of { source : string; found : Diagnostic.t list }
+
+let ( let* ) = Result.bind
+let read path = Result.map_error (fun why -> Unreadable why) (Text_file.read path)
+let wrong source result = Result.map_error (fun found -> Wrong { source; found }) result
+
+let parse path =
+  let* source = read path in
+  wrong source (Parse.program ~file:path source)
+
+let load path =
+  let* source = read path in
+  let* ast = wrong source (Parse.program ~file:path source) in
+  let* program, warnings = wrong source (Dolphin_semantics.Elaborate.program ~source_name:path ast) in
+  Ok { path; source; program; warnings }
+
+let tell = function
+  | Unreadable why -> Report.complain why
+  | Wrong { source; found } -> Report.diagnostics ~source found

@@ -1,0 +1,14 @@
+(** Who answers a program: the command line, then the fleet, then the person at the terminal. *)
+
+type shown = {
+  ask : string -> unit;  (** shows the prompt *)
+  answered : string -> unit;  (** shows the answer behind it; [""] if it stands there *)
+  refused : string -> unit;  (** tells why an answer was no good *)
+}
+
+val console :
+  shown -> answers:string list -> scenario:Dolphin_scenario.Scenario.t -> Dolphin_runtime.Console.t
+(** [console shown ~answers ~scenario] answers with each of [answers] in turn, then with what [scenario] has for the
+    prompt, then with lines of standard input. What the program says is shown by the log, not by this console.
+
+    An answer of the fleet that is refused would be refused for ever: it is not given twice. *)

@@ -1,0 +1,10 @@
+(** What is told on standard error. *)
+
+val complain : string -> unit
+(** [complain sentence] tells what the trouble is, as ["dolphin: ..."]. *)
+
+val diagnostics : source:string -> Dolphin_syntax.Diagnostic.t list -> unit
+(** Each with the line of [source] that it points at, in the order of the text. *)
+
+val counts : Dolphin_syntax.Diagnostic.t list -> string
+(** ["no errors"], ["1 error, 2 warnings"]. *)

@@ -1,0 +1,134 @@
+open Dolphin_semantics
+open Dolphin_runtime
+open Dolphin_display
+open Lwt.Infix
+module Diagnostic = Dolphin_syntax.Diagnostic
+module Location = Dolphin_syntax.Location
+module Simulator = Dolphin_platform_sim.Simulator
+
+type settings = {
+  program : Program_file.t;
+  scenario : Dolphin_scenario.Scenario.t;
+  speed : float option;
+  seed : int;
+  answers : string list;
+  supplier : string option;
+  supplier_timeout : float option;
+  record : Record.settings;
+}
+
+(* {1 What is seen} *)
+
+let is_live () =
+  let dumb = match Sys.getenv_opt "TERM" with None | Some ("" | "dumb") -> true | Some _ -> false in
+  Unix.isatty Unix.stdout && not dumb
+
+(* The log on [screen] and its board, as an observer. [is_stuck] tells whether an interruption is the driver's, of a
+   program that is stuck. *)
+let observe screen log board ~is_stuck : Observer.t =
+  let print lines = List.iter (Screen.print screen) lines in
+  let transition ~time ~cause:_ s =
+    board := Board.transition !board ~time s;
+    let next, lines = Log.transition ~stuck:(is_stuck ()) !log ~time s in
+    log := next;
+    print lines
+  in
+  let news ~time state =
+    board := Board.news !board ~time state;
+    let next, lines = Log.news !log ~time state in
+    log := next;
+    print lines;
+    Screen.changed screen
+  in
+  { transition; news }
+
+(* {1 What went wrong} *)
+
+let tell_fault s (fault : Fault.t) =
+  let at = Option.value (Fault.location s.program.program fault) ~default:Location.none in
+  Report.diagnostics ~source:s.program.source [ Diagnostic.error at fault.message ]
+
+let tell_stuck s residual =
+  let guard (c : Core.closure) =
+    let at = s.program.program.locations.(c.lambda.lambda_site) in
+    Diagnostic.error at "the program is stuck: nothing can make this condition true any more"
+  in
+  let in_text a b = Diagnostic.compare a b in
+  match List.sort_uniq in_text (List.map guard (Driver.guards residual)) with
+  | [] -> Report.complain "the program is stuck: nothing more can happen"
+  | found -> Report.diagnostics ~source:s.program.source found
+
+let status s : Driver.outcome -> Exit_status.t = function
+  | Ended Completed -> Done
+  | Ended (Halted _) -> Failed
+  | Ended (Failed fault) -> tell_fault s fault; Failed
+  | Ended Interrupted -> Interrupted
+  | Stuck residual -> tell_stuck s residual; Failed
+
+let in_trouble why : Exit_status.t =
+  Report.complain why;
+  Platform_trouble
+
+(* {1 The run} *)
+
+let start_host s =
+  match s.supplier with
+  | None -> Ok None
+  | Some command -> Result.map Option.some (Host.start ?timeout:s.supplier_timeout command)
+
+(* The simulated fleet passes its time at once, or as a clock does. *)
+type platform = Platform : (module Simulator.S with type t = 'p) * 'p -> platform
+
+let simulated s =
+  match s.speed with
+  | None -> Platform ((module Simulator.Virtual), Simulator.Virtual.create ~seed:s.seed s.scenario)
+  | Some speed -> Platform ((module Simulator.Paced), Simulator.Paced.create ~speed ~seed:s.seed s.scenario)
+
+let drive s record host =
+  let interruption = Interruption.make () in
+  let live = is_live () in
+  let screen = Screen.make ~live ~on_closed:(fun () -> Interruption.interrupt interruption) Unix.stdout in
+  let log = ref Log.start and board = ref Board.start in
+  (* The driver interrupts stuck programs by itself. *)
+  let is_stuck () = not (Interruption.happened interruption) in
+  let (Platform ((module P), platform)) = simulated s in
+  let time () = P.now platform in
+  Screen.show screen (fun () -> Board.lines !board);
+  let shown : Questions.shown =
+    { ask = (fun prompt -> Screen.ask screen (Log.question !log ~time:(time ()) prompt));
+      answered = Screen.answered screen;
+      refused = (fun why -> Screen.print screen (Log.remark !log ~time:(time ()) ("cannot take this answer: " ^ why))) }
+  in
+  let run () =
+    Driver.run (module P) platform ~always_telemetry:(live || Record.is_wanted s.record)
+      ~observer:(Observer.both (Record.observer record) (observe screen log board ~is_stuck))
+      ?host:(Option.map Host.call host)
+      ~console:(Questions.console shown ~answers:s.answers ~scenario:s.scenario)
+      ~interruption:(Interruption.promise interruption) s.program.program
+  in
+  let close () =
+    Screen.close screen;
+    match host with None -> Lwt.return_unit | Some host -> Host.close host
+  in
+  let finish outcome =
+    let is_stuck = match (outcome : Driver.outcome) with Stuck _ -> true | Ended _ -> false in
+    match Record.finish record ~time:(time ()) ~stuck:is_stuck with
+    | Ok () -> status s outcome
+    | Error why -> in_trouble why
+  in
+  let broken = function
+    | Record.Broken why -> Lwt.return (in_trouble why)
+    | Unix.Unix_error (error, call, _) ->
+      Lwt.return (in_trouble (Printf.sprintf "trouble of the platform: %s: %s" call (Unix.error_message error)))
+    | error -> Lwt.fail error
+  in
+  Lwt_main.run (Lwt.catch (fun () -> Lwt.finalize run close >|= finish) broken)
+
+let run s =
+  Sys.set_signal Sys.sigpipe Signal_ignore;
+  match Record.start s.record s.program.program with
+  | Error why -> in_trouble why
+  | Ok record -> (
+      match start_host s with
+      | Ok host -> drive s record host
+      | Error why -> in_trouble ("the supplier cannot be started: " ^ why))

@@ -1,0 +1,104 @@
+open Lwt.Infix
+
+type t = {
+  output : Unix.file_descr;
+  live : bool;
+  on_closed : unit -> unit;
+  mutable closed : bool;  (* nobody reads *)
+  mutable board : unit -> string list;
+  mutable drawn : int;  (* lines of the board on the terminal *)
+  mutable asking : bool;  (* the last line is a question, without its end *)
+  pending : Buffer.t;  (* lines of the log that the terminal has not *)
+  mutable due : bool;  (* whether a redraw is scheduled *)
+  mutable last : float;  (* when the last one was *)
+}
+
+let period = 0.1
+
+let make ~live ~on_closed output =
+  { output; live; on_closed; closed = false; board = (fun () -> []); drawn = 0; asking = false;
+    pending = Buffer.create 256; due = false; last = neg_infinity }
+
+let rec write_from s text from =
+  let left = String.length text - from in
+  if left > 0 && not s.closed then
+    match Unix.write_substring s.output text from left with
+    | written -> write_from s text (from + written)
+    | exception Unix.Unix_error (EINTR, _, _) -> write_from s text from
+    | exception Unix.Unix_error ((EAGAIN | EWOULDBLOCK), _, _) ->
+      ignore (Unix.select [] [ s.output ] [] 1.);
+      write_from s text from
+    | exception Unix.Unix_error (_, _, _) ->
+      s.closed <- true;
+      s.on_closed ()
+
+let write s text = write_from s text 0
+
+(* {1 The terminal} *)
+
+(* Up over the board, and away with it. *)
+let erase s =
+  let n = s.drawn in
+  s.drawn <- 0;
+  if n = 0 then "" else Printf.sprintf "\r\027[%dA\027[J" n
+
+(* The log's new lines, and the board below. A line of the board that is too long is cut by the terminal, for a line
+   that went on below would not be erased. *)
+let draw s ~board =
+  let erased = erase s in
+  let text = Buffer.contents s.pending in
+  Buffer.clear s.pending;
+  let lines = if board then s.board () else [] in
+  s.drawn <- List.length lines;
+  let below = if lines = [] then "" else "\027[?7l" ^ String.concat "\n" lines ^ "\n\027[?7h" in
+  s.last <- Unix.gettimeofday ();
+  write s (erased ^ text ^ below)
+
+let redraw s =
+  let wait = s.last +. period -. Unix.gettimeofday () in
+  if s.asking || s.due then ()
+  else if wait <= 0. then draw s ~board:true
+  else begin
+    s.due <- true;
+    Lwt.async (fun () ->
+        Lwt_unix.sleep wait >|= fun () ->
+        s.due <- false;
+        if not (s.asking || s.closed) then draw s ~board:true)
+  end
+
+(* {1 Either} *)
+
+(* Nobody answers a question that is still open when the log goes on. *)
+let give_up s =
+  if s.asking then begin
+    s.asking <- false;
+    write s "\n"
+  end
+
+let print s text =
+  give_up s;
+  if s.live then begin
+    Buffer.add_string s.pending (text ^ "\n");
+    redraw s
+  end
+  else write s (text ^ "\n")
+
+let changed s = if s.live then redraw s
+
+let show s board =
+  s.board <- board;
+  changed s
+
+let ask s prompt =
+  if s.live then draw s ~board:false;
+  s.asking <- true;
+  write s (prompt ^ " ")
+
+let answered s text =
+  s.asking <- false;
+  if text <> "" then write s (text ^ "\n");
+  changed s
+
+let close s =
+  give_up s;
+  if s.live then draw s ~board:false

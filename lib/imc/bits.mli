@@ -1,0 +1,33 @@
+(** Sets of named bits. *)
+
+module type S = sig
+  type t = private int
+  (** The union of some bits, of those without a name too. *)
+
+  val none : t
+  val of_int : int -> t
+  val to_int : t -> int
+
+  val mem : t -> t -> bool
+  (** [mem x y]: every bit of [x] is in [y]. *)
+
+  val ( + ) : t -> t -> t
+  (** Union. *)
+
+  val ( - ) : t -> t -> t
+  (** Difference. *)
+
+  val to_json : t -> Yojson.Safe.t
+  (** {!names} as a list. *)
+
+  val pp : Format.formatter -> t -> unit
+  (** ["CALIBRATE IGNORE_ERRORS"]. *)
+end
+
+module Make (_ : sig
+    val names : (int * string) list
+  end) : S
+
+val names : (int * string) list -> int -> string list
+(** [names ns x] spells [x] with the names [ns]: the one name for all of [x], if there is one; otherwise
+    the names of its single bits, and what remains in hexadecimal, ["0x40"]. *)

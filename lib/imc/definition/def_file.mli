@@ -1,0 +1,12 @@
+(** The project's own format for message definitions. [lib/imc/messages.def] describes it at its head. *)
+
+type error = {
+  line : int;  (** From 1; 0 if the fault is not of one line: a name that nothing defines. *)
+  why : string;
+}
+
+val parse : string -> (Definition.t, error) result
+(** [parse text] is the definition that [text] spells. *)
+
+val pp_error : Format.formatter -> error -> unit
+(** ["line 12: expected a value and its name"]. *)

@@ -1,0 +1,81 @@
+(** What messages there are: ids, names, fields, types, units.
+
+    A definition comes from the project's own page ({!Def_file}), from which the typed messages are
+    generated, or from a user's [IMC.xml] ({!Imc_xml}). *)
+
+(** {1:numbers Numbers and their meaning} *)
+
+type scalar = U8 | U16 | U32 | I8 | I16 | I32 | I64 | F32 | F64
+
+val scalar_name : scalar -> string
+(** ["u8"], ["f64"]: as {!Def_file} spells it. *)
+
+type named = { value : int; name : string; title : string }
+(** A value with a name: [2 METERS_PS -- Meters per second]. *)
+
+type names = {
+  shared : string option;  (** The name of the set, if several messages share it. *)
+  members : named list;  (** In the order of the definition. *)
+}
+
+type meaning =
+  | Quantity of named list
+  (** A plain number. The names are exceptions to its unit: [65535] is [ALT_UNKNOWN]. *)
+  | Enumeration of names  (** One of the named values, or a value that a later version added. *)
+  | Bits of names  (** A union of named bits. *)
+
+(** {1:messages Messages} *)
+
+type typ =
+  | Number of scalar * meaning
+  | Text of { tuples : bool }
+  (** A [u16] length and that many bytes, UTF-8 by custom. [tuples]: of the form [a=1;b=2]. *)
+  | Raw  (** A [u16] length and that many bytes. *)
+  | Inline of string option
+  (** A message or none; [Some name] restricts it to a message or a group. *)
+  | List of string option  (** Any number of messages, restricted likewise. *)
+
+type field = {
+  name : string;
+  typ : typ;
+  unit : string option;  (** Unit of the number: [rad], [m/s], [%]. *)
+  title : string;  (** What it is, when the name does not say it. May be empty. *)
+}
+
+type message = { id : int; name : string; title : string; fields : field list }
+type group = { name : string; members : string list }
+
+(** {1:definitions Definitions} *)
+
+type t
+(** A set of messages in which every name that is mentioned is defined. *)
+
+val make :
+  enumerations:(string * named list) list ->
+  bits:(string * named list) list ->
+  groups:group list ->
+  message list ->
+  (t, string) result
+(** [make ~enumerations ~bits ~groups ms] is the definition of [ms], or why it cannot be: two messages
+    with one id or name, or a name that stands for nothing. *)
+
+val enumerations : t -> (string * named list) list
+(** The shared enumerations. *)
+
+val bits : t -> (string * named list) list
+(** The shared sets of bits. *)
+
+val groups : t -> group list
+val messages : t -> message list
+
+val find : t -> int -> message option
+(** [find d id] is the message with the number [id]. *)
+
+val find_name : t -> string -> message option
+
+val admits : t -> string -> message -> bool
+(** [admits d name m]: [name] is that of [m], or of a group with [m] in it. *)
+
+val pp : Format.formatter -> t -> unit
+(** The definition as {!Def_file} spells it: if [d] was read by {!Def_file.parse}, then
+    [Def_file.parse (Format.asprintf "%a" pp d)] is [Ok d]. *)

@@ -1,0 +1,25 @@
+(** Messages read by a definition that is known only at run time, for display.
+
+    What {!Message} does for the messages built in, this does for any, slower and without types: with a
+    user's [IMC.xml], {!Packet.Unknown} becomes readable. *)
+
+type value =
+  | Int of int
+  | Int64 of int64
+  | Float of float
+  | Bytes of string  (** Of a text, or raw. *)
+  | Inline of t option
+  | List of t list
+
+and t = { definition : Definition.message; values : value list  (** One for each field. *) }
+
+val decode : Definition.t -> Byte_order.t -> id:int -> string -> (t, Error.decode) result
+(** [decode d order ~id payload] is [payload] as the message [id] of [d]. The error is
+    [Bad_payload], with [Unknown_message id] if [d] has none. Limits are those of {!Packet.decode}. *)
+
+val to_json : t -> Yojson.Safe.t
+(** As {!Message.to_json} shows it. *)
+
+val packet_to_json : Definition.t -> Packet.t -> Yojson.Safe.t
+(** As {!Packet.to_json} shows it, but a message that is unknown there and known to the definition is
+    shown by that. *)

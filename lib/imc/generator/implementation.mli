@@ -1,0 +1,3 @@
+(** The implementation of the generated module [Message]: reading, writing, JSON. *)
+
+val code : Outline.t -> Code.t list

@@ -1,0 +1,3 @@
+(** The interface of the generated module [Message]: types and their documentation. *)
+
+val code : Outline.t -> Code.t list

@@ -1,0 +1,26 @@
+(** Values of programs as JSON, for the host process.
+
+    [null], booleans, numbers, strings and lists are what they look like; an object is a map, in order. Values that
+    JSON lacks are objects with keys of their own:
+    {v
+{"object": "queue"}                                     an object of the host, by its name there
+{"task": "survey1"}                                     the platform task (the plan) of this name
+{"vehicles": ["x8-02", "noptilus-1"]}                   a vehicle set
+{"latitude": 41.18, "longitude": -8.70, "height": 10}   a position; without height: 0
+{"centre": {"latitude": ...}, "radius": 200}            an area; metres
+{"map": {"object": "a plain key"}}                      a map, whatever its keys are
+    v} *)
+
+open Dolphin_semantics
+
+val to_json : Core.value -> (Yojson.Safe.t, string) result
+(** [to_json x] is [x] in JSON. A range goes as a list, a symbol as a string. Or why it cannot go: closures, inline
+    plans, composed tasks and [_] stay in the program, and so do numbers that are not finite. *)
+
+val of_json : site:Core.site -> Yojson.Safe.t -> (Core.value, string) result
+(** [of_json ~site json] is the value that [json] stands for; its tasks come from [site]. A whole number is an integer
+    if it is written as one and fits. *)
+
+val parse : string -> (Yojson.Safe.t, string) result
+(** [parse text] is the JSON value that [text] is, or what is wrong. Nesting is bounded, so that no text exhausts the
+    stack. *)

@@ -1,0 +1,54 @@
+open Dolphin_semantics
+open Dolphin_scenario
+
+type t = { way : Track.t; lasts : float; outcome : (unit, string) result }
+
+let duration : Scenario.duration = { least = 60.; most = 180. }
+let refuse position why = { way = Track.stay position; lasts = 0.; outcome = Error why }
+
+let drawn_duration draw (plan : Scenario.plan option) =
+  let { Scenario.least; most } = Option.value (Option.bind plan (fun p -> p.duration)) ~default:duration in
+  Draw.between least most (draw Draw.Length)
+
+let by_name draw (plan : Scenario.plan option) (vehicle : Scenario.vehicle) position =
+  let drawn = drawn_duration draw plan in
+  match plan with
+  | Some { place = Some place; duration; _ } ->
+    let needed = 2. *. Dolphin_geo.Wgs84.distance position place /. vehicle.speed in
+    let duration = if duration = None then Float.max drawn needed else drawn in
+    Track.there_and_back position place ~speed:vehicle.speed ~duration, duration
+  | Some { place = None; _ } | None ->
+    Track.circuit position ~bearing:(360. *. draw Course) ~speed:vehicle.speed ~duration:drawn, drawn
+
+let inline (p : Plan.t) (vehicle : Scenario.vehicle) position =
+  let leg maneuver ({ waypoints; dwell; _ } : Plan.leg) : Track.leg =
+    let speed = Plan.metres_per_second maneuver ~default:vehicle.speed in
+    { waypoints; dwell; speed = (if speed > 0. then speed else vehicle.speed) } in
+  let way = Track.through position (List.rev (List.rev_map2 leg p.maneuvers (Plan.path p))) in
+  way, Track.duration way
+
+let fails draw (plan : Scenario.plan option) =
+  match plan with
+  | None | Some { ending = Succeeds; _ } -> false
+  | Some { ending = Fails; _ } -> true
+  | Some { ending = May_fail share; _ } -> draw Draw.Failure < share
+
+let make ~draw plan (vehicle : Scenario.vehicle) position (task : Core.platform_task) =
+  let known = match plan with Some p -> Scenario.knows p vehicle | None -> true in
+  let allowed =
+    match task.plan with
+    | Some { vehicles = _ :: _ as vehicles; _ } -> List.mem vehicle.id vehicles
+    | Some { vehicles = []; _ } | None -> true
+  in
+  if not known then refuse position (Printf.sprintf "unknown plan '%s'" task.name)
+  else if not allowed then refuse position (Printf.sprintf "plan '%s' is not for this vehicle" task.name)
+  else
+    let way, lasts =
+      match task.plan with
+      | Some p -> inline p vehicle position
+      | None -> by_name draw plan vehicle position
+    in
+    if fails draw plan then
+      let lasts = if lasts < infinity then lasts else drawn_duration draw plan in
+      { way; lasts = draw Moment *. lasts; outcome = Error "plan failed" }
+    else { way; lasts; outcome = Ok () }

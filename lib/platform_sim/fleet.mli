@@ -1,0 +1,56 @@
+(** The simulated fleet itself: a pure state machine. Time passes only when it is told to; nothing here sleeps, draws
+    from a hidden source or waits. {!Simulator} is the shell that makes a platform of it.
+
+    A fleet is a set of vehicles and an {!Agenda} of what will happen to them. {!step} takes the next occurrence; the
+    commands of a platform change the vehicles and the agenda. Everything costs O(log n) but {!vehicles}, {!quiet},
+    telemetry (each second, O(n) in the vehicles that are bound) and a change of the timeout of all. *)
+
+open Dolphin_semantics
+open Dolphin_runtime
+
+type t
+
+val create : seed:int -> Dolphin_scenario.Scenario.t -> t
+(** [create ~seed s] is the fleet of [s] at time 0. Fleets of one seed and scenario that are commanded alike behave
+    alike. *)
+
+(** {1:time Time} *)
+
+val now : t -> float
+(** Seconds since the start. *)
+
+val due : t -> float option
+(** When something happens next: not before [now]. [None]: nothing will, unless the fleet is commanded. *)
+
+val advance : t -> float -> t
+(** [advance f time] is [f] at [time], but not later than [due f], and not earlier than [now f]. *)
+
+val step : t -> (Platform.event option * t) option
+(** [step f] is what happens next, at time [due f], and the fleet after it; [None] if [due f] is. Not all that happens
+    is news: the end of a task, for one, while the link is silent. *)
+
+val quiet : t -> bool
+(** [quiet f] is whether no event will ever come of [f] unless it is commanded. *)
+
+(** {1:commands Commands}
+
+    See {!Dolphin_runtime.Platform.S}. A vehicle that is not in the scenario is one that never answers. A stop always
+    succeeds: a vehicle that does not hear it is taken to stop because it lost the link. *)
+
+val start : Core.vehicle -> Core.platform_task -> t -> t
+val stop : Core.vehicle -> t -> t
+val bind : Core.vehicle list -> t -> t
+val release : Core.vehicle list -> t -> t
+val set_timer : Residual.timer -> float -> t -> t
+val cancel_timer : Residual.timer -> t -> t
+val set_connection_timeout : Core.vehicle list option -> float -> t -> t
+val telemetry : bool -> t -> t
+
+(** {1:displays For displays} *)
+
+val vehicles : t -> World.vehicle_state list
+(** All vehicles that were heard of, in the scenario's order: as they are now, or, without a link, as they were last
+    seen. *)
+
+val running : t -> Core.vehicle -> string option
+(** [running f v] is the name of the task that [v] runs, or has been told to run, for the program. *)

@@ -1,0 +1,124 @@
+open Dolphin_semantics
+open Dolphin_runtime
+
+module type S = sig
+  include Platform.S
+
+  val idle : t -> bool
+  val vehicles : t -> World.vehicle_state list
+  val running : t -> Core.vehicle -> string option
+end
+
+(* How time passes while nobody looks. *)
+module type Clock = sig
+  type t
+
+  val virtual_time : bool
+
+  val elapsed : t -> float
+  (* How far it has passed by itself. *)
+
+  val until : t -> float -> unit Lwt.t
+  (* [until c time] is when [time] has come, or it is time to look again. *)
+end
+
+(* The shell: one state, and a pending [next] that looks at it again when a command has changed it. *)
+module Make (Clock : Clock) = struct
+  type t = { clock : Clock.t; mutable fleet : Fleet.t; mutable changed : unit Lwt.u option }
+
+  let name = "sim"
+  let virtual_time = Clock.virtual_time
+  let announce_period _ = 10.
+  let make clock ~seed scenario = { clock; fleet = Fleet.create ~seed scenario; changed = None }
+  let catch_up p = p.fleet <- Fleet.advance p.fleet (Clock.elapsed p.clock)
+
+  let now p =
+    catch_up p;
+    Fleet.now p.fleet
+
+  (* {1 Commands} *)
+
+  let command p change =
+    catch_up p;
+    p.fleet <- change p.fleet;
+    match p.changed with
+    | None -> ()
+    | Some waiting ->
+      p.changed <- None;
+      Lwt.wakeup_later waiting ()
+
+  let set_timer p timer seconds = command p (Fleet.set_timer timer seconds)
+  let cancel_timer p timer = command p (Fleet.cancel_timer timer)
+  let bind p vehicles = command p (Fleet.bind vehicles)
+  let release p vehicles = command p (Fleet.release vehicles)
+  let start p vehicle task = command p (Fleet.start vehicle task)
+  let stop p vehicle = command p (Fleet.stop vehicle)
+  let set_connection_timeout p vehicles seconds = command p (Fleet.set_connection_timeout vehicles seconds)
+  let telemetry p on = command p (Fleet.telemetry on)
+  let close _ = Lwt.return_unit
+
+  (* {1 Events} *)
+
+  let change p =
+    let promise, waiting = Lwt.task () in
+    p.changed <- Some waiting;
+    promise
+
+  let rec next p =
+    catch_up p;
+    match Fleet.due p.fleet with
+    | None when Clock.virtual_time -> Lwt.return Platform.Quiet
+    | None -> Lwt.bind (change p) (fun () -> next p)
+    | Some time when Clock.virtual_time || time <= Clock.elapsed p.clock -> take p
+    | Some time -> Lwt.bind (Lwt.pick [ change p; Clock.until p.clock time ]) (fun () -> next p)
+
+  (* An event is taken and handed out in one go: it cannot be lost in between. *)
+  and take p =
+    match Fleet.step p.fleet with
+    | None -> next p
+    | Some (event, fleet) ->
+      p.fleet <- fleet;
+      (match event with Some event -> Lwt.return event | None -> next p)
+
+  (* {1 Displays} *)
+
+  let idle p = Fleet.quiet p.fleet
+
+  let vehicles p =
+    catch_up p;
+    Fleet.vehicles p.fleet
+
+  let running p vehicle = Fleet.running p.fleet vehicle
+end
+
+module Virtual = struct
+  include Make (struct
+      type t = unit
+
+      let virtual_time = true
+      let elapsed () = 0.
+      let until () _ = Lwt.return_unit
+    end)
+
+  let create ~seed scenario = make () ~seed scenario
+end
+
+module Pace = struct
+  type t = { origin : float; speed : float }
+
+  let virtual_time = false
+  let elapsed clock = (Unix.gettimeofday () -. clock.origin) *. clock.speed
+
+  (* A sleep of days is none that a system takes for granted. *)
+  let longest_sleep = 3600.
+  let until clock time = 
+    Lwt_unix.sleep (Float.max 0. (Float.min longest_sleep ((time -. elapsed clock) /. clock.speed)))
+end
+
+module Paced = struct
+  include Make (Pace)
+
+  let create ?(speed = 1.) ~seed scenario =
+    if not (Float.is_finite speed && speed > 0.) then Fmt.invalid_arg "Simulator.Paced.create: speed %g" speed;
+    make { Pace.origin = Unix.gettimeofday (); speed } ~seed scenario
+end

@@ -1,0 +1,34 @@
+(** One vehicle as a body: where it is and how much battery is left, at any time. Neither is computed before it is asked
+    for: between two commands both are functions of time. Times are seconds since the start. *)
+
+open Dolphin_scenario
+
+type t
+
+val make : Scenario.vehicle -> t
+(** At its place and at rest, at time 0. *)
+
+val scenario : t -> Scenario.vehicle
+
+val set_out : t -> at:float -> Track.t -> t
+(** [set_out v ~at way] is [v] leaving at time [at] to go [way]. *)
+
+val rest : t -> at:float -> t
+(** [rest v ~at] is [v] staying where it is at time [at]. *)
+
+(** {1:state Its state}
+
+    At a time not before the last command. *)
+
+val position : t -> at:float -> Dolphin_geo.Position.t
+
+val battery : t -> at:float -> float
+(** From 0 to 1: under way it falls by [drain] each hour; at rest it rises by [charge], or if that is 0 falls by a
+    quarter of [drain]. *)
+
+val empty_from : t -> float
+(** [empty_from v] is when the battery is empty, if [v] goes on as it does; [infinity] if never. *)
+
+val is_steady : t -> at:float -> bool
+(** [is_steady v ~at] is whether neither position nor battery change any more from [at] on, if [v] goes on as it
+    does. *)

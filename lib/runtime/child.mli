@@ -1,0 +1,25 @@
+(** A child process that is spoken to through its standard input and output. Its errors go where ours go. *)
+
+type t
+
+val start : environment:(string * string) list -> string -> (t, string) result
+(** [start ~environment command] runs [command] with [/bin/sh], with [environment] added to ours. It leads a session of
+    its own: the terminal's Ctrl-C is for Dolphin, which ends the child in good order. From then on SIGPIPE is
+    ignored. The error says why no process could be made. *)
+
+val input : t -> Lwt_unix.file_descr
+(** What we write to. *)
+
+val output : t -> Lwt_unix.file_descr
+(** What we read from. *)
+
+val exited : t -> Unix.process_status Lwt.t
+(** Resolves once the child has ended and is reaped; what it left behind of its session's processes is killed then.
+    May be cancelled, which means nothing. *)
+
+val pp_status : Format.formatter -> Unix.process_status -> unit
+(** ["ended with exit status 3"], ["was killed by SIGTERM"]. *)
+
+val close : t -> unit Lwt.t
+(** [close c] closes the child's input, and if the child does not end by itself within half a second terminates it, and
+    a second later kills it. Resolves once it is reaped. May be called more than once. *)

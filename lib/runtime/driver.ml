@@ -1,0 +1,261 @@
+open Dolphin_semantics
+open Lwt.Infix
+
+type outcome = Ended of Configuration.ending | Stuck of Residual.t
+
+let guards r =
+  let guard (step : Residual.step) =
+    match step.offer with
+    | Check closure -> Some closure
+    | Start _ | Perform _ | Measure _ | End_of _ | Expiry_of _ -> None
+  in
+  List.of_seq (Seq.filter_map guard (Residual.steps r))
+
+let pp_outcome ppf = function
+  | Ended ending -> Effect.pp ppf (End ending)
+  | Stuck r -> Format.fprintf ppf "stuck: nothing can make these guards true any more: %a" Residual.pp r
+
+type call =
+  site:Core.site ->
+  subject:string option ->
+  member:string ->
+  arguments:Core.value list option ->
+  (Core.value, string) result Lwt.t
+
+let no_host ~site:_ ~subject:_ ~member:_ ~arguments:_ =
+  Lwt.return (Error "there is no host process to call: name one with --supplier")
+
+(* So many transitions and events may pass before others get their turn. *)
+let breath = 100
+
+(* What happens outside. *)
+type news = Seen of World.vehicle_state | Event of Transition.event | Nothing_more
+
+module Make (P : Platform.S) = struct
+  type t = {
+    platform : P.t;
+    program : Core.program;
+    console : Console.t;
+    call : call;
+    observer : Observer.t;
+    always_telemetry : bool;
+    interruption : news Lwt.t;
+    mutable configuration : Configuration.t;
+    mutable world : World.t;
+    mutable telemetry : bool;  (* as the platform was told last *)
+    mutable upcoming : news Lwt.t option;  (* the platform's next event, if it was asked for *)
+    mutable reply : news Lwt.t option;  (* from the console or the host, if it is awaited *)
+    mutable unbroken : int;  (* transitions and events since others had their turn *)
+  }
+
+  let is_resolved promise = match Lwt.state promise with Lwt.Sleep -> false | Return _ | Fail _ -> true
+
+  (* {1 Effects} *)
+
+  let ask s prompt =
+    let answer = function
+      | Ok text -> Event (Answered text)
+      | Error why -> Event (Nobody_answers why)
+    in
+    s.reply <- Some (s.console.ask prompt >|= answer)
+
+  let call_host s subject member arguments =
+    let site =
+      match s.configuration.control with
+      | Script m | Waiting (m, _) | Executing (m, _) -> Machine.site m
+      | Ended _ -> Fault.unknown_site
+    in
+    let reply = function Ok x -> Event (Replied x) | Error why -> Event (Host_failed why) in
+    s.reply <- Some (s.call ~site ~subject ~member ~arguments >|= reply)
+
+  let carry_out s : Effect.t -> unit = function
+    | Start (v, p) -> P.start s.platform v p
+    | Stop v -> P.stop s.platform v
+    | Set_timer (timer, seconds) -> P.set_timer s.platform timer seconds
+    | Cancel_timer timer -> P.cancel_timer s.platform timer
+    | Look_for pick ->
+      let seconds = Option.value pick.timeout ~default:(P.announce_period s.platform) in
+      P.set_timer s.platform Effect.script_timer seconds
+    | Bind vs -> P.bind s.platform vs
+    | Release vs -> P.release s.platform vs
+    | Set_connection_timeout (vs, seconds) -> P.set_connection_timeout s.platform vs seconds
+    | Say text -> s.console.say text
+    | Ask prompt -> ask s prompt
+    | Call_host { subject; member; arguments } -> call_host s subject member arguments
+    | End _ -> ()
+
+  (* One effect that cannot be carried out does not keep the others, a vehicle's stop perhaps, from being so. *)
+  let carry_out_all s effects =
+    let attempt failure effect =
+      match carry_out s effect with
+      | () -> failure
+      | exception error -> if failure = None then Some (error, Printexc.get_raw_backtrace ()) else failure
+    in
+    match List.fold_left attempt None effects with
+    | None -> ()
+    | Some (error, backtrace) -> Printexc.raise_with_backtrace error backtrace
+
+  (* {1 Transitions} *)
+
+  let take s ~cause (t : Transition.t) =
+    s.unbroken <- (match t.label with Silent -> breath | _ -> s.unbroken + 1);
+    s.observer.transition ~time:(P.now s.platform) ~cause t;
+    s.configuration <- t.next;
+    carry_out_all s t.effects
+
+  let see s state =
+    s.unbroken <- s.unbroken + 1;
+    s.world <- World.add state s.world;
+    s.observer.news ~time:(P.now s.platform) state
+
+  (* [deliver s e] is whether [e] changed the configuration. *)
+  let deliver s event =
+    match Transition.accept s.program s.world s.configuration event with
+    | Ok t -> take s ~cause:(Some event) t; true
+    | Error Not_awaited -> s.unbroken <- s.unbroken + 1; false
+    | Error (Bad_answer why) ->
+      s.console.refused why;
+      (match s.configuration.control with
+       | Waiting (_, Ask prompt) -> ask s prompt
+       | Waiting (_, (Pick _ | Pause _ | Execute _ | Host_call _)) | Script _ | Executing _ | Ended _ -> ());
+      false
+
+  (* {1 Waiting} *)
+
+  let next_of_platform s =
+    match s.upcoming with
+    | Some promise -> promise
+    | None ->
+      let news : Platform.event -> news = function
+        | Vehicle state -> Seen state
+        | Task_done v -> Event (Vehicle_done v)
+        | Task_failed (v, why) -> Event (Vehicle_failed (v, why))
+        | Timer timer -> Event (Timer_expired timer)
+        | Quiet -> Nothing_more
+      in
+      let promise = P.next s.platform >|= news in
+      s.upcoming <- Some promise;
+      promise
+
+  let forget s promise =
+    let unless p = if p == promise then None else Some p in
+    s.upcoming <- Option.bind s.upcoming unless;
+    s.reply <- Option.bind s.reply unless
+
+  (* The next piece of news: of several that are there, an interruption before a reply before the platform's. *)
+  let next_news s =
+    let platform = if P.virtual_time && s.reply <> None then [] else [ next_of_platform s ] in
+    let sources = (s.interruption :: Option.to_list s.reply) @ platform in
+    let rec first_of = function
+      | promise :: _ when is_resolved promise -> forget s promise; promise
+      | _ :: others -> first_of others
+      | [] -> Lwt.choose sources >>= fun _ -> first_of sources
+    in
+    first_of sources
+
+  let switch_telemetry s on =
+    if on <> s.telemetry then begin
+      s.telemetry <- on;
+      P.telemetry s.platform on
+    end
+
+  (* What a long script does not wait for all the same happens: on a platform whose time passes by itself, news of
+     vehicles that came meanwhile reach the program. *)
+  let rec catch_up s =
+    if not P.virtual_time then
+      match s.configuration.control with
+      | Waiting _ | Executing _ | Ended _ -> ()
+      | Script _ -> (
+          let promise = next_of_platform s in
+          match Lwt.state promise with
+          | Sleep | Fail _ -> ()
+          | Return news ->
+            forget s promise;
+            (match news with
+             | Seen state -> see s state
+             | Event event -> ignore (deliver s event)
+             | Nothing_more -> ());
+            catch_up s)
+
+  (* {1 The run} *)
+
+  let interrupt s = ignore (deliver s Interruption)
+
+  (* Goes on with [f s], after others had their turn if it is time. *)
+  let continue s f =
+    if s.unbroken < breath then f s
+    else begin
+      s.unbroken <- 0;
+      Lwt.pause () >>= fun () ->
+      catch_up s;
+      f s
+    end
+
+  let rec advance s =
+    match s.configuration.control with
+    | Ended ending -> Lwt.return (Ended ending)
+    | Script _ | Waiting _ | Executing _ when is_resolved s.interruption -> interrupt s; advance s
+    | Script _ | Waiting _ | Executing _ -> (
+        match Transition.internal s.program s.world s.configuration () with
+        | Seq.Cons (t, _) -> take s ~cause:None t; continue s advance
+        | Seq.Nil -> pass s)
+
+  (* No internal transition is left. That something runs in A is the usual case, and quicker to see than all of what is
+     awaited. *)
+  and pass s =
+    let c = s.configuration in
+    let sensitive = Transition.depends_on_sensors s.program c in
+    match c.control with
+    | Executing (_, r)
+      when (not sensitive) && Configuration.Vehicle_map.is_empty c.allocation && Transition.awaited c = [] ->
+      interrupt s;
+      Lwt.return (Stuck r)
+    | Script _ | Waiting _ | Executing _ | Ended _ ->
+      switch_telemetry s (sensitive || s.always_telemetry);
+      wait ~sensitive s
+
+  (* News that cannot enable a transition do not make the driver look for one. *)
+  and wait ~sensitive s =
+    next_news s >>= function
+    | Seen state -> see s state; continue s (if sensitive then advance else wait ~sensitive)
+    | Event event -> continue s (if deliver s event then advance else wait ~sensitive)
+    | Nothing_more -> (
+        match s.configuration.control with
+        | Executing (_, r) -> interrupt s; Lwt.return (Stuck r)
+        | Script _ | Waiting _ | Ended _ -> advance s)
+
+  let finish s =
+    Option.iter Lwt.cancel s.upcoming;
+    Option.iter Lwt.cancel s.reply;
+    P.close s.platform
+
+  (* The end of a run that an exception broke: vehicles are stopped as by an interruption, as far as possible. *)
+  let abort s =
+    let attempt f = try f () with _ -> () in
+    attempt (fun () ->
+        match Transition.accept s.program s.world s.configuration Interruption with
+        | Ok t -> carry_out_all s t.effects
+        | Error (Not_awaited | Bad_answer _) -> ());
+    Lwt.catch (fun () -> finish s) (fun _ -> Lwt.return_unit)
+
+  let run platform ~always_telemetry ~observer ~call ~console ~interruption program =
+    let s =
+      { platform; program; console; call; observer; always_telemetry;
+        interruption = (Lwt.protected interruption >|= fun () -> Event Interruption);
+        configuration = Configuration.initial program;
+        world = World.empty;
+        telemetry = false; upcoming = None; reply = None; unbroken = 0 }
+    in
+    let whole () =
+      switch_telemetry s always_telemetry;
+      advance s
+    in
+    Lwt.try_bind whole
+      (fun outcome -> finish s >|= fun () -> outcome)
+      (fun error -> abort s >>= fun () -> Lwt.fail error)
+end
+
+let run (type platform) (module P : Platform.S with type t = platform) (platform : platform)
+    ?(always_telemetry = false) ?(observer = Observer.nobody) ?(host = no_host) ~console ~interruption program =
+  let module Driver = Make (P) in
+  Driver.run platform ~always_telemetry ~observer ~call:host ~console ~interruption program

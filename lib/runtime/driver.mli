@@ -1,0 +1,50 @@
+(** Runs a program on a platform: asks {!Dolphin_semantics.Transition} what happens next, and carries it out. The
+    driver has no semantics of its own.
+
+    It takes the transitions that the program can make by itself, the leftmost first, until there is none, then waits
+    for an event: of the platform, from the console, from the host process, or an interruption. Runs are reproducible
+    from these events and their order. Nothing is polled. *)
+
+open Dolphin_semantics
+
+type outcome =
+  | Ended of Configuration.ending
+  | Stuck of Residual.t
+  (** A deadlock: no task runs, no timer runs, no sensor matters, and every guard that the residual waits for is
+      false, now and for ever. The run was interrupted: vehicles are released. *)
+
+val guards : Residual.t -> Core.closure list
+(** [guards r] is the code of the guards and conditions that [r] waits for, leftmost first. *)
+
+val pp_outcome : Format.formatter -> outcome -> unit
+(** One sentence without a full stop. *)
+
+(** Calls to the host process: see {!Host.call}. *)
+type call =
+  site:Core.site ->
+  subject:string option ->
+  member:string ->
+  arguments:Core.value list option ->
+  (Core.value, string) result Lwt.t
+
+val run :
+  (module Platform.S with type t = 'platform) ->
+  'platform ->
+  ?always_telemetry:bool ->
+  ?observer:Observer.t ->
+  ?host:call ->
+  console:Console.t ->
+  interruption:unit Lwt.t ->
+  Core.program ->
+  outcome Lwt.t
+(** [run (module P) platform ~console ~interruption program] runs [program] until it ends, closes [platform], and is
+    the outcome. When [interruption] resolves, the program is interrupted, whatever it is doing.
+
+    The platform's telemetry is on while it may matter to the program, or with [~always_telemetry:true] (by default
+    false), for displays, all the time. Without [host], calls to the host process fail.
+
+    While the program waits for the console or the host, a platform of virtual time stands still.
+
+    If the observer, the console, the host or the platform raises an exception, or the promise is cancelled, then all
+    vehicles are stopped and released and [platform] is closed; then the promise fails with the exception. The
+    observer is not told of this end. *)

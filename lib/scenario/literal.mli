@@ -1,0 +1,20 @@
+(** The values that a fleet file is written with. Nothing is computed in it: numbers with or without a unit, texts and
+    places that have a name. *)
+
+open Dolphin_syntax
+
+type dimension = Length | Time | Angle | Share
+
+type t =
+  | Number of float * dimension option  (** in metres, seconds, degrees or shares of 1; [None]: without a unit *)
+  | Text of string
+  | Position of Dolphin_geo.Position.t
+
+val dimension : string -> dimension option
+(** [dimension name] is what unit [name] measures: [Some] for each of {!Dolphin_semantics.Operators.unit_names}. *)
+
+val read : Ast.expression -> (t, Diagnostic.t) result
+(** [read e] is the value that [e] spells: [2], [-8.7], [30.seconds], ['x8-02'], [Location.APDL]. *)
+
+val describe : t -> string
+(** [describe x] is what [x] is: ["a time"], ["the number 3"], ["the text 'x'"]. *)

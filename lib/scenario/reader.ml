@@ -1,0 +1,216 @@
+open Dolphin_syntax
+open Ast
+open Entry
+
+let error ?hint at fmt = Format.kasprintf (fun message -> Result.Error (Diagnostic.error ?hint at message)) fmt
+let ( let* ) = Result.bind
+
+(* {1 Settings} *)
+
+let one read set draft = function
+  | [ value ] -> Some (Result.map (set draft) (read value))
+  | _ -> None
+
+let two read set draft = function
+  | [ first; second ] ->
+    Some
+      (let* a = read first in
+       let* b = read second in
+       set draft (first, a) (second, b))
+  | _ -> None
+
+let several read set draft = function
+  | [] -> None
+  | values ->
+    let add read_so_far value =
+      let* xs = read_so_far in
+      Result.map (fun x -> x :: xs) (read value)
+    in
+    Some (Result.map (fun xs -> set draft (List.rev xs)) (List.fold_left add (Ok []) values))
+
+let place set draft values = Option.map (Result.map (set draft)) (Setting.position values)
+let setting ?(again = false) word takes read : 'draft Setting.t = { word; takes; again; read }
+let position_takes = "a latitude and a longitude in degrees or a place, as in at 41.185, -8.706 or at Location.APDL"
+
+let drop vehicle (_, from) ((second : Setting.value), lasts) =
+  if lasts > 0. then Ok { vehicle with drops = vehicle.drops @ [ { from; lasts } ] }
+  else error second.at "a drop lasts longer than 0 seconds"
+
+let vehicle_table : vehicle Setting.t list =
+  [ setting "type" "a text, as in type 'UUV'" (one Setting.text (fun v kind -> { v with kind }));
+    setting "payload" ~again:true "names of devices, as in payload 'DVL', 'Sidescan'"
+      (several Setting.text (fun v payload -> { v with payload = v.payload @ payload }));
+    setting "at" position_takes (place (fun (v : vehicle) position -> { v with position }));
+    setting "speed" "metres per second, as in speed 1.5" (one Setting.speed (fun v speed -> { v with speed }));
+    setting "battery" "a share, as in battery 80.percent" (one Setting.share (fun v battery -> { v with battery }));
+    setting "drain" "the share of the battery that an hour's work takes, as in drain 10.percent"
+      (one Setting.per_hour (fun v drain -> { v with drain }));
+    setting "charge" "the share of the battery that an hour's rest gives, as in charge 50.percent"
+      (one Setting.per_hour (fun v charge -> { v with charge }));
+    setting "joins" "a time, as in joins 30.seconds" (one Setting.time (fun v joins -> { v with joins }));
+    setting "leaves" "a time, as in leaves 10.min" (one Setting.time (fun v time -> { v with leaves = Some time }));
+    setting "drops" ~again:true "two times, when the link drops and for how long, as in drops 60.seconds, 30.seconds"
+      (two Setting.time drop) ]
+
+let duration plan = function
+  | [ _ ] as values ->
+    one Setting.time (fun plan n -> { plan with duration = Some { least = n; most = n } }) plan values
+  | values ->
+    let set plan (_, least) ((second : Setting.value), most) =
+      if least <= most then Ok { plan with duration = Some { least; most } }
+      else
+        error second.at "this range is reversed: from %g to %g seconds" least most
+          ~hint:"the shortest time comes first, as in duration 3.min, 9.min"
+    in
+    two Setting.time set plan values
+
+let may_fail plan = function
+  | [] -> Some (Ok { plan with ending = May_fail Defaults.failure })
+  | values -> one Setting.share (fun plan share -> { plan with ending = May_fail share }) plan values
+
+let fails plan = function
+  | [] -> Some (Ok { plan with ending = Fails })
+  | _ :: _ -> None
+
+let plan_table : plan Setting.t list =
+  [ setting "duration" "a time, or the shortest and the longest, as in duration 3.min, 9.min" duration;
+    setting "mayFail" "nothing, or how often it fails, as in mayFail 20.percent" may_fail;
+    setting "fails" "no value" fails;
+    setting "at" position_takes (place (fun (p : plan) position -> { p with place = Some position }));
+    setting "only" "types or ids of vehicles, as in only 'UUV', 'x8-02'"
+      (several Setting.text (fun plan only -> { plan with only })) ]
+
+let words table = List.map (fun (setting : 'draft Setting.t) -> setting.word) table
+let vehicle_settings = words vehicle_table
+let plan_settings = words plan_table
+
+(* {1 Entries} *)
+
+type 'entry named = { entry : 'entry; name_at : Location.t }
+
+(* What has been read, latest first. *)
+type state = {
+  source : string;
+  vehicles : vehicle named list;
+  plans : plan named list;
+  answers : answer named list;
+  unplaced : int;                               (* vehicles without a position *)
+  faults : Diagnostic.t list;
+}
+
+let add_faults state faults = { state with faults = List.rev_append faults state.faults }
+let add_fault state fault = add_faults state [ fault ]
+
+let vehicle state (id : string located) body =
+  let draft =
+    { id = id.it; kind = ""; payload = []; position = Defaults.position state.unplaced; speed = 0.;
+      battery = Defaults.battery; drain = Defaults.drain; charge = 0.; joins = 0.; leaves = None; drops = [] } in
+  let v, seen, faults = Setting.block ~what:"a vehicle" vehicle_table draft body in
+  let given word = List.mem word seen in
+  let v = if given "speed" then v else { v with speed = Defaults.speed ~kind:v.kind } in
+  let untyped =
+    if given "type" then []
+    else
+      [ Diagnostic.error id.at (Printf.sprintf "vehicle '%s' has no type" id.it) ~hint:"add its type: type 'UUV'" ] in
+  let early =
+    match v.leaves with
+    | Some time when time <= v.joins ->
+      [ Diagnostic.error id.at
+          (Printf.sprintf "vehicle '%s' leaves at %g seconds, before it joins at %g" id.it time v.joins) ]
+    | Some _ | None -> []
+  in
+  let state = add_faults state (faults @ untyped @ early) in
+  let unplaced = if given "at" then state.unplaced else state.unplaced + 1 in
+  { state with vehicles = { entry = v; name_at = id.at } :: state.vehicles; unplaced }
+
+let plan state (name : string located) body =
+  let draft = { name = name.it; duration = None; ending = Succeeds; place = None; only = [] } in
+  let p, seen, faults = Setting.block ~what:"a plan" plan_table draft body in
+  let both =
+    if List.mem "fails" seen && List.mem "mayFail" seen then
+      [ Diagnostic.error name.at (Printf.sprintf "plan '%s' has both fails and mayFail" name.it) ~hint:"leave one out" ]
+    else [] in
+  { (add_faults state (faults @ both)) with plans = { entry = p; name_at = name.at } :: state.plans }
+
+(* An answer is what a person would type: the very text of the expression. *)
+let spelling state (e : expression) =
+  let start = e.at.Location.start.pos_cnum in
+  String.sub state.source start (e.at.Location.stop.pos_cnum - start)
+
+let answer state (prompt : string located) values =
+  let texts = List.map (spelling state) values in
+  { state with answers = { entry = { prompt = prompt.it; texts }; name_at = prompt.at } :: state.answers }
+
+let usage = function
+  | "vehicle" -> "vehicle takes an id and a block of settings, as in vehicle 'x8-02', { type 'UAV' }"
+  | "plan" -> "plan takes a name and a block of settings, as in plan 'survey1', { duration 3.min, 9.min }"
+  | _ -> "answer takes a prompt and a value, as in answer 'Radius of the area? (km)', 2"
+
+let entries = [ "vehicle"; "plan"; "answer" ]
+
+let entry state (word : string located) arguments =
+  let misused state = add_fault state (Diagnostic.error word.at (usage word.it)) in
+  let positional = List.filter_map (function Positional e -> Some e | Named _ -> None) arguments in
+  if List.length positional < List.length arguments then misused state
+  else
+    match word.it, positional with
+    | _, { it = String ""; at } :: _ -> add_fault state (Diagnostic.error at "this name is empty")
+    | "vehicle", [ { it = String id; at }; { it = Closure { parameters = None; body }; at = _ } ] ->
+      vehicle state { it = id; at } body
+    | "plan", [ { it = String name; at } ] -> plan state { it = name; at } []
+    | "plan", [ { it = String name; at }; { it = Closure { parameters = None; body }; at = _ } ] ->
+      plan state { it = name; at } body
+    | "answer", { it = String prompt; at } :: (_ :: _ as values) -> answer state { it = prompt; at } values
+    | ("vehicle" | "plan" | "answer"), _ -> misused state
+    | other, _ ->
+      let hint =
+        match Diagnostic.suggest other entries with
+        | Some near -> Printf.sprintf "did you mean '%s'?" near
+        | None -> "a fleet consists of vehicle, plan and answer"
+      in
+      add_fault state (Diagnostic.error word.at (Printf.sprintf "there is no '%s' in a fleet" other) ~hint)
+
+let statement state (s : statement) =
+  match s.it with
+  | Expression { it = Call { callee = { it = Variable word; at }; arguments }; at = _ } ->
+    entry state { it = word; at } arguments
+  | Expression { it = Variable word; at } -> entry state { it = word; at } []
+  | _ ->
+    add_fault state
+      (Diagnostic.error s.at "only vehicle, plan and answer may stand in a fleet"
+         ~hint:"as in vehicle 'x8-02', { type 'UAV' }")
+
+(* {1 All together} *)
+
+let repeated what name named =
+  let first = Hashtbl.create 64 in
+  let check faults { entry; name_at } =
+    match Hashtbl.find_opt first (name entry) with
+    | None ->
+      Hashtbl.add first (name entry) name_at;
+      faults
+    | Some earlier ->
+      Diagnostic.error name_at
+        (Printf.sprintf "%s '%s' stands twice" what (name entry))
+        ~hint:(Printf.sprintf "the first is on line %d" (Location.line earlier))
+      :: faults
+  in
+  List.fold_left check [] (List.rev named)
+
+let rec take n = function
+  | x :: rest when n > 0 -> x :: take (n - 1) rest
+  | _ -> []
+
+let read ~file source =
+  let* program = Parse.program ~file source in
+  let start = { source; vehicles = []; plans = []; answers = []; unplaced = 0; faults = [] } in
+  let state = List.fold_left statement start program in
+  let faults =
+    repeated "vehicle" (fun (v : vehicle) -> v.id) state.vehicles
+    @ repeated "plan" (fun (p : plan) -> p.name) state.plans
+    @ repeated "answer" (fun a -> a.prompt) state.answers
+    @ state.faults in
+  let entries named = List.rev_map (fun { entry; name_at = _ } -> entry) named in
+  if faults = [] then
+    Ok { Entry.vehicles = entries state.vehicles; plans = entries state.plans; answers = entries state.answers }
+  else Error (take Parse.most_faults (List.sort Diagnostic.compare faults))

@@ -1,0 +1,11 @@
+(** Fleet files, from the text to the entries. The grammar of programs is theirs too; what each setting takes is in
+    one table for vehicles and one for plans. *)
+
+open Dolphin_syntax
+
+val read : file:string -> string -> (Entry.t, Diagnostic.t list) result
+(** See {!Scenario.read}. *)
+
+val vehicle_settings : string list
+val plan_settings : string list
+(** The names of settings, as in {!Scenario}. *)

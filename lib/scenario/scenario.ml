@@ -1,0 +1,150 @@
+open Dolphin_semantics
+
+type drop = Entry.drop = { from : float; lasts : float }
+
+type vehicle = Entry.vehicle = {
+  id : Core.vehicle;
+  kind : string;
+  payload : string list;
+  position : Dolphin_geo.Position.t;
+  speed : float;
+  battery : float;
+  drain : float;
+  charge : float;
+  joins : float;
+  leaves : float option;
+  drops : drop list;
+}
+
+type duration = Entry.duration = { least : float; most : float }
+type ending = Entry.ending = Succeeds | May_fail of float | Fails
+
+type plan = Entry.plan = {
+  name : string;
+  duration : duration option;
+  ending : ending;
+  place : Dolphin_geo.Position.t option;
+  only : string list;
+}
+
+type answer = Entry.answer = { prompt : string; texts : string list }
+type t = Entry.t = { vehicles : vehicle list; plans : plan list; answers : answer list }
+
+let read = Reader.read
+
+(* Plain data without functions or cycles, and without numbers that are none. *)
+let equal (a : t) (b : t) = a = b
+
+let beside program = Filename.remove_extension program ^ ".fleet"
+
+(* {1 Questions} *)
+
+let plan s name = List.find_opt (fun (p : plan) -> p.name = name) s.plans
+
+let knows (p : plan) (v : vehicle) =
+  let kind = String.lowercase_ascii v.kind in
+  p.only = [] || List.exists (fun name -> name = v.id || String.lowercase_ascii name = kind) p.only
+
+let answer s prompt n =
+  let rec nth n = function
+    | [] -> None
+    | [ last ] -> Some last
+    | text :: rest -> if n <= 0 then Some text else nth (n - 1) rest
+  in
+  Option.bind (List.find_opt (fun a -> a.prompt = prompt) s.answers) (fun a -> nth n a.texts)
+
+let silences v =
+  let before = if v.joins > 0. then [ (0., v.joins) ] else [] in
+  let drops = List.map (fun drop -> (drop.from, drop.from +. drop.lasts)) v.drops in
+  let after = match v.leaves with Some time -> [ (time, infinity) ] | None -> [] in
+  let rec merge = function
+    | (from, until) :: (from', until') :: rest when from' <= until -> merge ((from, Float.max until until') :: rest)
+    | span :: rest -> span :: merge rest
+    | [] -> []
+  in
+  before @ drops @ after
+  |> List.filter (fun (from, until) -> from < until)
+  |> List.sort (fun (a, _) (b, _) -> Float.compare a b)
+  |> merge
+
+let states s =
+  let state (v : vehicle) : World.vehicle_state =
+    let connected = match silences v with (from, _) :: _ -> from > 0. | [] -> true in
+    { id = v.id; kind = v.kind; payload = v.payload; position = v.position; battery = v.battery; connected } in
+  List.map state s.vehicles
+
+(* {1 Writing} *)
+
+let pp_text ppf text = Value.pp ppf (String text)
+let pp_texts = Fmt.(list ~sep:(any ", ") pp_text)
+let pp_number ppf n = Value.pp ppf (Value.canonical (Number n))
+let pp_time ppf seconds = Format.fprintf ppf "%a.seconds" pp_number seconds
+
+let pp_share ppf share =
+  let percent = Float.round (share *. 100.) in
+  if percent /. 100. = share then Format.fprintf ppf "%a.percent" pp_number percent else pp_number ppf share
+
+let pp_place ppf (p : Dolphin_geo.Position.t) =
+  let coordinates ppf () =
+    Format.fprintf ppf "%a, %a" pp_number p.latitude pp_number p.longitude;
+    if p.height <> 0. then Format.fprintf ppf ", %a" pp_number p.height
+  in
+  if p.latitude < 0. then Format.fprintf ppf "at(%a)" coordinates () else Format.fprintf ppf "at %a" coordinates ()
+
+let pp_vehicle ppf v =
+  let line fmt = Format.fprintf ppf ("  " ^^ fmt ^^ "@\n") in
+  Format.fprintf ppf "vehicle %a, {@\n" pp_text v.id;
+  line "type %a" pp_text v.kind;
+  if v.payload <> [] then line "payload %a" pp_texts v.payload;
+  line "%a" pp_place v.position;
+  line "speed %a" pp_number v.speed;
+  line "battery %a" pp_share v.battery;
+  line "drain %a" pp_share v.drain;
+  if v.charge > 0. then line "charge %a" pp_share v.charge;
+  if v.joins > 0. then line "joins %a" pp_time v.joins;
+  Option.iter (line "leaves %a" pp_time) v.leaves;
+  List.iter (fun drop -> line "drops %a, %a" pp_time drop.from pp_time drop.lasts) v.drops;
+  Format.fprintf ppf "}@\n"
+
+let pp_plan ppf (p : plan) =
+  let duration ppf { least; most } =
+    if least = most then Format.fprintf ppf "duration %a" pp_time least
+    else Format.fprintf ppf "duration %a, %a" pp_time least pp_time most
+  in
+  let ending =
+    match p.ending with
+    | Succeeds -> []
+    | May_fail share -> [ Fmt.str "mayFail %a" pp_share share ]
+    | Fails -> [ "fails" ]
+  in
+  let settings =
+    List.map (Fmt.str "%a" duration) (Option.to_list p.duration)
+    @ ending
+    @ List.map (Fmt.str "%a" pp_place) (Option.to_list p.place)
+    @ if p.only = [] then [] else [ Fmt.str "only %a" pp_texts p.only ]
+  in
+  match settings with
+  | [] -> Format.fprintf ppf "plan %a@\n" pp_text p.name
+  | _ :: _ -> Format.fprintf ppf "plan %a, { %s }@\n" pp_text p.name (String.concat "; " settings)
+
+let pp_answer ppf a = Format.fprintf ppf "answer %a, %s@\n" pp_text a.prompt (String.concat ", " a.texts)
+
+let pp ppf (s : t) =
+  List.iter (pp_vehicle ppf) s.vehicles;
+  List.iter (pp_plan ppf) s.plans;
+  List.iter (pp_answer ppf) s.answers
+
+(* {1 The default} *)
+
+let default =
+  let at latitude longitude : Dolphin_geo.Position.t = { latitude; longitude; height = 0. } in
+  let vehicle id kind payload position drain =
+    { id; kind; payload; position; speed = Defaults.speed ~kind; battery = Defaults.battery; drain; charge = 0.;
+      joins = 0.; leaves = None; drops = [] } in
+  let underwater id position = vehicle id "UUV" [ "DVL"; "Sidescan"; "Camera" ] position Defaults.drain in
+  { vehicles =
+      [ underwater "noptilus-1" (at 41.18500 (-8.70620));
+        underwater "noptilus-2" (at 41.18600 (-8.70720));
+        underwater "noptilus-3" (at 41.18400 (-8.70760));
+        vehicle "x8-02" "UAV" [ "Camera" ] (at 41.18450 (-8.70500)) 0.4 ];
+    plans = []; answers = [] }

@@ -1,0 +1,128 @@
+(** A world to run programs in: vehicles, what they make of plans, and what people answer. It is the contents of a
+    fleet file, [*.fleet]; {!section:grammar} says how one is written. *)
+
+(** {1:types What there is} *)
+
+(** Nothing is heard of a vehicle for a while; both in seconds, [lasts] more than 0. *)
+type drop = Entry.drop = { from : float;  (** since the start *) lasts : float }
+
+type vehicle = Entry.vehicle = {
+  id : Dolphin_semantics.Core.vehicle;
+  kind : string;  (** ["UUV"], ["UAV"], ... *)
+  payload : string list;  (** the devices that it carries *)
+  position : Dolphin_geo.Position.t;  (** at the start *)
+  speed : float;  (** metres per second, more than 0 *)
+  battery : float;  (** at the start, from 0 to 1 *)
+  drain : float;  (** the share of the battery that an hour's work takes; rest takes a quarter of that *)
+  charge : float;  (** the share that an hour's rest gives, instead; 0: it does not charge *)
+  joins : float;  (** seconds since the start *)
+  leaves : float option;  (** seconds since the start, after [joins]; [None]: it stays *)
+  drops : drop list;  (** in the order of the file *)
+}
+
+(** How long a plan takes, in seconds: [0 <= least <= most]. *)
+type duration = Entry.duration = { least : float; most : float }
+
+type ending = Entry.ending =
+  | Succeeds
+  | May_fail of float  (** how often, from 0 to 1; who looks at all that can happen does not care how often *)
+  | Fails
+
+(** What becomes of the platform tasks of one name. *)
+type plan = Entry.plan = {
+  name : string;
+  duration : duration option;  (** [None]: any time *)
+  ending : ending;
+  place : Dolphin_geo.Position.t option;  (** where it is run; [None]: wherever the vehicle is *)
+  only : string list;  (** types and ids of the vehicles that know it; others refuse. [[]]: all know it *)
+}
+
+(** What is typed when a program asks [prompt]: the text of an expression, such as ["2"] or ["'x8-02'"]. *)
+type answer = Entry.answer = { prompt : string; texts : string list  (** one for each asking, at least one *) }
+
+type t = Entry.t = { vehicles : vehicle list; plans : plan list; answers : answer list }
+(** Vehicles, plans and prompts are unique by their names, and in the order of the file. *)
+
+(** {1:reading Reading and writing} *)
+
+val read : file:string -> string -> (t, Dolphin_syntax.Diagnostic.t list) result
+(** [read ~file source] is the scenario that [source] describes, or what is wrong with it: at least one diagnostic and
+    at most {!Dolphin_syntax.Parse.most_faults}, in the order of the text. [file] is only a name. No text makes it
+    raise. *)
+
+val pp : Format.formatter -> t -> unit
+(** As a fleet file: [read ~file (Fmt.str "%a" pp s)] is [Ok s]. *)
+
+val equal : t -> t -> bool
+
+val default : t
+(** The fleet that stands in where none is given: three UUVs, [noptilus-1] to [noptilus-3], and the UAV [x8-02], off
+    Leixões. *)
+
+val beside : string -> string
+(** [beside program] is where the fleet of the program in file [program] is looked for: the same name, ending in
+    [.fleet]. *)
+
+(** {1:questions Questions} *)
+
+val plan : t -> string -> plan option
+(** [plan s name] is the entry of plan [name]. *)
+
+val knows : plan -> vehicle -> bool
+(** [knows p v] is whether [v] can run [p]: [p.only] is empty, or has the id or the type of [v] (types without regard
+    to case). *)
+
+val answer : t -> string -> int -> string option
+(** [answer s prompt n] is what is typed when [prompt] is asked for the [n]-th time, from 0. The last text answers all
+    later ones. [None] if the scenario has nothing for that prompt. *)
+
+val silences : vehicle -> (float * float) list
+(** [silences v] is the spans of time, from and until, in which nothing is heard of [v]: before it joins, while its link
+    drops, and after it leaves, until [infinity]. They are in order and apart: none empty, none touches the next. *)
+
+val states : t -> Dolphin_semantics.World.vehicle_state list
+(** [states s] is what can be known of the vehicles at the start; those that join later, or whose link drops right then,
+    are not connected. *)
+
+(** {1:grammar The fleet file}
+
+    A fleet is a sequence of entries in the syntax of programs, comments and all, whose values are literals: numbers,
+    with or without a unit ([2.km], [9.min], [80.percent]), texts in quotes, places ([Location.APDL]).
+
+    {v
+vehicle 'noptilus-1', { type 'UUV'; payload 'DVL', 'Sidescan'; at 41.1850, -8.7060; speed 1.5; battery 100.percent }
+vehicle 'x8-02', {
+  type 'UAV'
+  at Location.APDL
+  joins 30.seconds
+  drops 60.seconds, 30.seconds
+}
+plan 'survey1', { duration 3.min, 9.min; mayFail }
+answer 'Radius of operation area? (km)', 2
+    v}
+
+    [vehicle ID, { ... }]. Settings in any order, each at most once unless said otherwise:
+    - [type TEXT]: must be there.
+    - [payload TEXT, ...]: may stand again. Default: none.
+    - [at LATITUDE, LONGITUDE], in degrees, [at LATITUDE, LONGITUDE, HEIGHT], in metres, or [at Location.APDL]. Default:
+      off Leixões, beside one another ({!Defaults.position}). South of the equator write [at(-33.9, 18.4)] or
+      [at 33.9.south, 18.4.east]: without parentheses the first minus sign would be a subtraction.
+    - [speed NUMBER]: m/s. Default: 18 for a UAV, 1.5 for others.
+    - [battery SHARE]. Default: [100.percent].
+    - [drain SHARE]: an hour's work takes so much, an hour's rest a quarter of it. Default: [10.percent].
+    - [charge SHARE]: an hour's rest gives so much instead. Default: it does not charge.
+    - [joins TIME], [leaves TIME]. Default: there from the start, and for good.
+    - [drops FROM, LASTING]: its link drops; may stand again. Default: never.
+
+    [plan NAME], [plan NAME, { ... }]. What of it concerns plans that are described in the program itself is only how
+    they end and who knows them; their way says how long they take.
+    - [duration TIME] or [duration SHORTEST, LONGEST]. Default: any time; the simulator draws from 1 to 3 minutes.
+    - [mayFail], [mayFail SHARE]: it fails now and then, or so often ([mayFail] alone: [10.percent]); [fails]: always.
+      Default: it succeeds.
+    - [at ...]: where it is run, as for vehicles. Default: where the vehicle is.
+    - [only TEXT, ...]: types or ids of the vehicles that know it. Default: all do.
+
+    [answer PROMPT, EXPRESSION, ...]. What is typed when the program asks PROMPT: the expressions one after another, the
+    last for good. Any expression will do here, for it is only kept as text.
+
+    Times without a unit are seconds. *)

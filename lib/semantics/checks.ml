@@ -1,0 +1,131 @@
+module Ast = Dolphin_syntax.Ast
+module Location = Dolphin_syntax.Location
+module Diagnostic = Dolphin_syntax.Diagnostic
+open Core
+
+(* What elaboration needs at hand: the program's tables, and the piece of code it is in. *)
+type env = { program : Scope.program; code : Scope.code; answer : bool }
+
+let expression env at node = { node; site = Scope.site env.program at }
+let constant env at x = expression env at (Constant x)
+let apply env at operation arguments = expression env at (Apply (operation, arguments))
+let block env at = function [ e ] -> e | es -> expression env at (Block es)
+let local env at slot = expression env at (Local slot)
+let set_local env at slot e = expression env at (Set_local (slot, e))
+
+let error env ?hint at format =
+  Printf.ksprintf (fun message -> Scope.report env.program (Diagnostic.error ?hint at message)) format
+
+let null env at = constant env at Null
+
+let did_you_mean name names =
+  Option.map (Printf.sprintf "did you mean '%s'?") (Diagnostic.suggest name names)
+
+(* {1 What is known of an expression before it runs} *)
+
+let rec kind_of (e : Ast.expression) : Builtins.kind =
+  match e.it with
+  | Integer _ | Number _ -> Number
+  | String _ | Template _ -> String
+  | Closure _ -> Closure
+  | Builder ((Imc_plan | All_of | One_of), _) | Wait_for _ | Until _ | During _ | Watch _ -> Task
+  | Builder (Pick, _) -> Vehicles
+  | Builder (Pos, _) -> Position
+  | Boolean _ | Null | List _ | Map _ | Range _ -> Other
+  | Member { subject; name; safe = false } when kind_of subject = Number && Operators.unit_factor name.it <> None ->
+    Number
+  | Unary (Negate, e) -> kind_of e
+  | Binary ((Sequence | Parallel | Divide), a, _) when kind_of a = Task -> Task
+  | Index (a, _) when kind_of a = Task -> Task
+  | Call { callee = { it = Variable name; _ }; _ } -> (
+      match Builtins.find name with Some builtin -> builtin.result | None -> Any)
+  | Variable _ | Wildcard | Unary _ | Binary _ | Conditional _ | Elvis _ | Increment _ | Call _ | Member _ | Index _
+  | When _ -> Any
+
+let could_be (wanted : Builtins.kind) (found : Builtins.kind) =
+  match wanted, found with
+  | Any, _ | _, Any -> true
+  | (Number | String | Closure | Task | Vehicles | Position | Other), _ -> wanted = found
+
+(* A name that the program defines hides the built-in of that name from this check. *)
+let known_kind env (e : Ast.expression) =
+  match e.it with
+  | Call { callee = { it = Variable name; _ }; _ }
+    when Scope.find_local env.code name <> None || Scope.find_function env.program name <> None -> Builtins.Any
+  | _ -> kind_of e
+
+let check_kind env what wanted (e : Ast.expression) =
+  let found = known_kind env e in
+  if not (could_be wanted found) then
+    error env e.at "%s takes %s, this is %s" what (Builtins.describe wanted)
+      (match found with Other -> "none" | found -> Builtins.describe found)
+
+let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expression) =
+  let symbol = match op with Sequence -> ">>" | _ -> "|" in
+  let need (e : Ast.expression) =
+    let hint =
+      match e.it with
+      | String name -> Some (Printf.sprintf "a plan is named by task('%s')" name)
+      | Closure _ -> Some "code becomes a task by action { ... } or condition { ... }"
+      | _ -> None
+    in
+    if not (could_be Task (known_kind env e)) then
+      error env ?hint e.at "%s composes tasks, and this is %s" symbol (Builtins.describe (known_kind env e))
+  in
+  match op, known_kind env a, known_kind env b with
+  | Sequence, _, _ -> need a; need b
+  | Parallel, Task, _ -> need b
+  | Parallel, _, Task -> need a
+  | _, _, _ -> ()
+
+(* {1 Places of names} *)
+
+let keys_of arguments =
+  List.map (function Ast.Positional _ -> None | Ast.Named (name, _) -> Some name.Ast.it) arguments
+
+let value_of = function Ast.Positional e | Ast.Named (_, e) -> e
+
+(* "Speed.Units.RPM" of the members that spell it. *)
+let rec dotted (e : Ast.expression) =
+  match e.it with
+  | Variable name -> Some name
+  | Member { subject; name; safe = false } ->
+    Option.map (fun subject -> subject ^ "." ^ name.it) (dotted subject)
+  | _ -> None
+
+let root name = match String.index_opt name '.' with Some i -> String.sub name 0 i | None -> name
+
+let is_hidden env name =
+  Scope.find_local env.code name <> None || Scope.find_function env.program name <> None
+
+let in_settings env name =
+  match Scope.settings env.code with
+  | Some (builder, slot) when List.mem name (Builtins.settings builder) -> Some slot
+  | Some _ | None -> None
+
+let builder_name : Ast.builder -> string = function
+  | Pick -> "pick"
+  | Imc_plan -> "imcPlan"
+  | Pos -> "pos"
+  | All_of -> "allOf"
+  | One_of -> "oneOf"
+
+let check_place env (builtin : Builtins.t) name at =
+  if builtin.reads_sensors then Scope.note_sensor env.program;
+  match builtin.place with
+  | Anywhere -> ()
+  | Script_only -> (
+      if env.answer then error env at "%s may not stand in an answer" name;
+      Scope.note_blocking env.code name;
+      match Scope.in_task env.code with
+      | Some construct ->
+        error env at "%s belongs to the script: the code of %s is part of a task and cannot wait" name construct
+          ~hint:"do it before execute, or split the task"
+      | None -> ())
+  | Handler_only -> (
+      match Scope.purpose env.code with
+      | Handler | Named_function _ | Plain -> ()
+      | Main | Task_code _ -> error env at "%s() belongs in onError { ... }" name)
+
+let sensor_members =
+  [ "position"; "battery"; "getPosition"; "getBattery"; "latitude"; "longitude"; "getType"; "type" ]

@@ -1,0 +1,68 @@
+(** What translation needs at hand, and the checks of what it meets: kinds of literals, operands, settings, and where
+    procedures may stand. *)
+
+module Ast = Dolphin_syntax.Ast
+module Location = Dolphin_syntax.Location
+open Core
+
+(** The program's tables, the piece of code that is being translated, and whether it is an answer to [ask]. *)
+type env = { program : Scope.program; code : Scope.code; answer : bool }
+
+(** {1:make Core expressions} *)
+
+val expression : env -> Location.t -> node -> expression
+(** [expression env at node] is [node] with a site of its own. *)
+
+val constant : env -> Location.t -> value -> expression
+val apply : env -> Location.t -> operation -> expression list -> expression
+val block : env -> Location.t -> expression list -> expression
+val local : env -> Location.t -> int -> expression
+val set_local : env -> Location.t -> int -> expression -> expression
+val null : env -> Location.t -> expression
+
+(** {1:report Reports} *)
+
+val error : env -> ?hint:string -> Location.t -> ('a, unit, string, unit) format4 -> 'a
+val did_you_mean : string -> string list -> string option
+
+(** {1:kinds Kinds} *)
+
+val kind_of : Ast.expression -> Builtins.kind
+(** [kind_of e] is what can be said of the value of [e], names of the language taken for what they are. *)
+
+val known_kind : env -> Ast.expression -> Builtins.kind
+(** As {!kind_of}, but functions of the program hide names of the language. *)
+
+val could_be : Builtins.kind -> Builtins.kind -> bool
+(** [could_be wanted found] is whether a value of kind [found] may be one of kind [wanted]. *)
+
+val check_kind : env -> string -> Builtins.kind -> Ast.expression -> unit
+(** [check_kind env what wanted e] reports [e] if it cannot be what [what] takes. *)
+
+val check_operator : env -> Ast.binary -> Ast.expression -> Ast.expression -> unit
+(** Reports operands of [>>] and [|] that are no tasks. *)
+
+(** {1:names Names} *)
+
+val keys_of : Ast.argument list -> string option list
+val value_of : Ast.argument -> Ast.expression
+
+val dotted : Ast.expression -> string option
+(** ["Speed.Units.RPM"] of the members that spell it. *)
+
+val root : string -> string
+(** [root "Speed.Units.RPM"] is ["Speed"]. *)
+
+val is_hidden : env -> string -> bool
+(** Whether the program gives the name a meaning of its own. *)
+
+val in_settings : env -> string -> int option
+(** The slot of the block of settings around, if it has a setting of this name. *)
+
+val builder_name : Ast.builder -> string
+
+val check_place : env -> Builtins.t -> string -> Location.t -> unit
+(** Reports a procedure that may not stand here, and notes what the program uses. *)
+
+val sensor_members : string list
+(** Properties and methods that read positions or batteries. *)

@@ -1,0 +1,53 @@
+(* What pieces of code see, do and ask for: the types that the machine and its operations share. A types-only module:
+   it has no interface of its own. *)
+
+open Core
+
+(** What code did that others can see. *)
+type deed =
+  | Posted of (string * value) list
+  | Consumed of (string * value) list
+  | Said of string
+  | Released of vehicle list
+  | Set_connection_timeout of vehicle list option * float
+
+(** How an error handler settles the error: [ignore()], or [propagate()], which is the default. *)
+type verdict = Ignored | Propagated
+type mode =
+  | Script                                      (* stops after every deed and may wait *)
+  | Task_code                                   (* guards, conditions, actions: atomic, may not wait *)
+  | Handler of verdict                          (* [onError] code: as task code, and gives a verdict *)
+
+(** What code sees and changes. *)
+type context = {
+  program : program;
+  world : World.t;
+  bound : vehicle list;                         (* B, in pick order *)
+  store : Store.t;
+  tuples : Tuples.t;                            (* N *)
+  mode : mode;
+  deeds : deed list;                            (* latest first *)
+}
+
+(** What the script waits for. *)
+type request =
+  | Pick of Settings.pick
+  | Ask of string
+  | Pause of float
+  | Execute of task
+  | Host_call of { subject : string option; member : string; arguments : value list option }
+
+(** What a method that calls a closure for each item does with the results. *)
+type iteration =
+  | Each | Collect | Find_all | Find | Any | Every | Count | Sum | Inject | Sort | Greatest | Least
+
+(** The result of an operation whose arguments are values. *)
+type outcome =
+  | Value of value
+  | Done of context * value  (* with deeds, or a verdict *)
+  | Enter of closure * value list
+  | Walk of iteration * closure * value * value list  (* subject; initial results *)
+  | Wait of request
+  | Stop of string
+  | Wrong of string  (* a fault of this very operation *)
+  | Wrong_at of Fault.t

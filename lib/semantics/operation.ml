@@ -1,0 +1,95 @@
+open Core
+open Code
+
+let of_result = Procedures.of_result
+let blocking = Procedures.blocking
+let expected what x = of_result (Operators.expected what x)
+
+(* Named arguments of methods and of the program's own functions come as a map, first, as in Groovy. *)
+let with_named names arguments =
+  let named = List.combine names arguments in
+  let positional = List.filter_map (function None, x -> Some x | Some _, _ -> None) named in
+  match List.filter_map (function Some k, x -> Some (k, x) | None, _ -> None) named with
+  | [] -> positional
+  | entries -> Map entries :: positional
+
+let make_map keys arguments =
+  let rec entries keys arguments map =
+    match keys, arguments with
+    | Some k :: keys, x :: arguments -> add keys arguments map (String k) x
+    | None :: keys, k :: x :: arguments -> add keys arguments map k x
+    | _, _ -> Ok map
+  and add keys arguments map k x = Result.bind (Operators.replace_element map k x) (entries keys arguments) in
+  entries keys arguments (Map [])
+
+let build context at builder name arguments =
+  match (builder : Dolphin_syntax.Ast.builder), arguments with
+  | builder, [ Settings latest_first ] -> (
+      let settings = List.rev latest_first in
+      let value to_value = function Ok x -> Value (to_value x) | Error fault -> Wrong_at fault in
+      match builder with
+      | Pick -> (
+          match Settings.pick settings with
+          | Ok pick -> blocking context "pick" (Pick pick)
+          | Error fault -> Wrong_at fault)
+      | Imc_plan ->
+        value
+          (fun plan -> Task (Platform { name = plan.Plan.name; plan = Some plan; task_site = at }))
+          (Plan_builder.build ~name at settings)
+      | Pos -> value Fun.id (Settings.position at settings)
+      | All_of -> value (fun branches -> Task (All_of branches)) (Settings.branches at settings)
+      | One_of -> value (fun branches -> Task (One_of branches)) (Settings.branches at settings))
+  | _, _ -> Wrong "a block of settings is missing"
+
+let add_setting at setting names arguments =
+  match arguments with
+  | Settings so_far :: arguments ->
+    let all = List.combine names arguments in
+    let positional = List.filter_map (function None, x -> Some x | Some _, _ -> None) all in
+    let named = List.filter_map (function Some k, x -> Some (k, x) | None, _ -> None) all in
+    Value (Settings ({ setting; positional; named; setting_site = at } :: so_far))
+  | _ -> Wrong (Printf.sprintf "'%s' stands outside of a block of settings" setting)
+
+let host_call context subject member arguments =
+  blocking context
+    (Printf.sprintf "%s.%s" subject member)
+    (Host_call { subject = Some subject; member; arguments })
+
+let call_method context name names arguments =
+  match with_named names arguments with
+  | Host subject :: arguments -> host_call context subject name (Some arguments)
+  | Closure c :: arguments when name = "call" -> Enter (c, arguments)
+  | Map entries :: arguments when (match List.assoc_opt name entries with Some (Closure _) -> true | _ -> false) -> (
+      match List.assoc name entries with
+      | Closure c -> Enter (c, arguments)
+      | x -> expected "a closure" x)
+  | subject :: arguments -> (
+      match Iteration.find subject name arguments with
+      | Some (iteration, closure, initial) -> Walk (iteration, closure, subject, initial)
+      | None -> of_result (Methods.call context.world subject name arguments))
+  | [] -> Wrong "a method needs something to be called on"
+
+let apply context at operation arguments =
+  match operation, arguments with
+  | Unary op, [ x ] -> of_result (Operators.unary op x)
+  | Binary Parallel, [ (Vehicles _ as vs); Closure c ] -> Walk (Find_all, c, vs, [])
+  | Binary op, [ x; y ] -> of_result (Operators.binary op x y)
+  | Make_list, xs -> Value (List (Array.of_list xs))
+  | Make_map keys, arguments -> of_result (make_map keys arguments)
+  | Make_range inclusive, [ first; last ] -> of_result (Operators.range ~inclusive first last)
+  | Concatenate, parts -> Value (String (String.concat "" (List.map Value.to_string parts)))
+  | Element, [ x; i ] -> of_result (Operators.element x i)
+  | Replace_element, [ x; i; y ] -> of_result (Operators.replace_element x i y)
+  | Replace_member k, [ x; y ] -> of_result (Operators.replace_element x (String k) y)
+  | Property name, [ Host subject ] -> host_call context subject name None
+  | Property name, [ x ] -> of_result (Methods.property context.world x name)
+  | Call names, Closure c :: arguments -> Enter (c, with_named names arguments)
+  | Call _, x :: _ -> expected "a function or closure to call" x
+  | Method (name, names), (_ :: _ as arguments) -> call_method context name (None :: names) arguments
+  | Builtin procedure, arguments -> Procedures.apply context at procedure arguments
+  | Add_setting (name, names), arguments -> add_setting at name names arguments
+  | Build (builder, name), arguments -> build context at builder name arguments
+  | Make_branch, arguments -> add_setting at "when" [ None; None ] arguments
+  | ( ( Unary _ | Binary _ | Make_range _ | Element | Replace_element | Replace_member _ | Property _ | Call _
+      | Method _ ),
+      _ ) -> Wrong "wrong number of operands"

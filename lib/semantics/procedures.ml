@@ -1,0 +1,209 @@
+open Core
+open Code
+
+let of_result = function Ok x -> Value x | Error message -> Wrong message
+
+let expected what x = of_result (Operators.expected what x)
+
+let did context deed = { context with deeds = deed :: context.deeds }
+
+let make_task = function
+  | Platform_task, [ String "" ] -> Wrong "a plan's name may not be empty"
+  | Platform_task, [ x ] -> expected "the name of a plan, a string" x
+  | Make_action, [ Closure c ] -> Value (Task (Action c))
+  | Make_condition, [ Closure c ] -> Value (Task (Condition c))
+  | (Make_action | Make_condition), [ x ] -> expected "code { ... }" x
+  | Make_wait_for, [ Closure guard; Task body ] -> Value (Task (One_of [ { guard; body } ]))
+  | Make_until, [ Closure c; Task t ] -> Value (Task (Until (c, t)))
+  | (Make_wait_for | Make_until), ([ Closure _; x ] | [ x; _ ]) -> expected "a task" x
+  | Make_watch, [ Task t; Closure c ] -> Value (Task (Watch (t, c)))
+  | Make_watch, (x :: _) -> expected "a task after watch" x
+  | Make_idle, [ x ] -> (
+      match Value.to_number x with
+      | Some seconds when seconds >= 0. && seconds < infinity -> Value (Task (Idle seconds))
+      | Some seconds -> Wrong (Printf.sprintf "idle takes a time of 0 seconds or more, not %g" seconds)
+      | None -> expected "a time after idle, as in idle(10.seconds)" x)
+  | Make_during, [ Closure c; Task t ] -> Value (Task (During (Given_by c, t)))
+  | Make_during, [ x; Task t ] -> (
+      match Value.to_number x with
+      | Some seconds when seconds >= 0. && seconds < infinity -> Value (Task (During (Seconds seconds, t)))
+      | Some seconds -> Wrong (Printf.sprintf "during takes a time of 0 seconds or more, not %g" seconds)
+      | None -> expected "a time after during, as in during 10.minutes run T" x)
+  | Make_during, [ _; x ] -> expected "a task" x
+  | _, _ -> Wrong "this construct has the wrong number of parts"
+
+let rec allocate_each names arguments tasks =
+  match names, arguments with
+  | "_" :: names, Task t :: arguments -> allocate_each names arguments (t :: tasks)
+  | _ :: names, Vehicles vs :: Task t :: arguments -> allocate_each names arguments (Allocated (t, vs) :: tasks)
+  | "_" :: _, x :: _ -> Error (Operators.expected "a task after _:" x)
+  | name :: _, Vehicles _ :: x :: _ -> Error (Operators.expected (Printf.sprintf "a task after %s:" name) x)
+  | name :: _, x :: _ ->
+    Error (Operators.expected (Printf.sprintf "'%s' to name a vehicle set" name) x)
+  | _, [] -> (
+      match tasks with
+      | [] -> Error (Error "nothing to execute")
+      | last :: before -> Ok (List.fold_left (fun all t -> Parallel (t, all)) last before))
+  | [], _ :: _ -> Error (Error "more tasks than names")
+
+let blocking context name request =
+  match context.mode with
+  | Script -> Wait request
+  | Task_code | Handler _ ->
+    Wrong (Printf.sprintf "%s belongs to the script: code inside of a task cannot wait" name)
+
+let pair keys arguments = List.map2 (fun k x -> (k, Value.canonical x)) keys arguments
+
+let consume context pairs =
+  let take taken (k, x) =
+    match taken with
+    | None -> None
+    | Some (tuples, taken) -> (
+        match x with
+        | Wildcard ->
+          Option.map (fun (x, tuples) -> (tuples, (k, x) :: taken)) (Tuples.consume_oldest k tuples)
+        | x -> Option.map (fun tuples -> (tuples, (k, x) :: taken)) (Tuples.consume k x tuples))
+  in
+  match List.fold_left take (Some (context.tuples, [])) pairs with
+  | None -> Value (Boolean false)
+  | Some (tuples, taken) -> Done (did { context with tuples } (Consumed (List.rev taken)), Boolean true)
+
+let poll context pairs =
+  let there (k, x) =
+    match x with
+    | Wildcard -> Tuples.poll_any k context.tuples
+    | x -> Tuples.poll k x context.tuples
+  in
+  Value (Boolean (List.for_all there pairs))
+
+let one_vehicle context = function
+  | Vehicles [ v ] -> (
+      match World.find v context.world with
+      | Some state -> Ok state
+      | None -> Error (Error (Printf.sprintf "nothing is known of vehicle %s" v)))
+  | Vehicles vs ->
+    Error (Error (Printf.sprintf "the set must be a single vehicle, it has %d" (List.length vs)))
+  | x -> Error (Operators.expected "a vehicle" x)
+
+let minimum_connection_timeout = 5.
+let maximum_connection_timeout = 3600.
+
+let set_connection_timeout context vehicles x =
+  match Value.to_number x with
+  | None -> expected "a time, as in 2.min" x
+  | Some seconds when seconds < minimum_connection_timeout || seconds > maximum_connection_timeout ->
+    Wrong (Printf.sprintf "a connection timeout is from 5 seconds to 1 hour, not %g seconds" seconds)
+  | Some seconds -> Done (did context (Set_connection_timeout (vehicles, seconds)), Null)
+
+let numbers arguments =
+  let numbers = List.filter_map Value.to_number arguments in
+  if List.compare_lengths numbers arguments = 0 then Some numbers else None
+
+let mathematics name arguments =
+  let whole f = if Float.abs f < 0x1p62 then Value (Integer (int_of_float f)) else Value (Number f) in
+  let result f = if Float.is_nan f then Wrong (Printf.sprintf "Math.%s has no result there" name) else Value (Number f) in
+  match name, arguments, numbers arguments with
+  | "abs", [ Integer i ], _ when i <> min_int -> Value (Integer (abs i))
+  | "max", [ x; y ], Some [ a; b ] -> Value (if a >= b then x else y)
+  | "min", [ x; y ], Some [ a; b ] -> Value (if a <= b then x else y)
+  | "round", _, Some [ a ] -> whole (Float.floor (a +. 0.5))
+  | _, _, Some [ a ] -> (
+      match name with
+      | "abs" -> result (Float.abs a)
+      | "floor" -> result (Float.floor a)
+      | "ceil" -> result (Float.ceil a)
+      | "sqrt" -> result (Float.sqrt a)
+      | "exp" -> result (Float.exp a)
+      | "log" -> result (Float.log a)
+      | "log10" -> result (Float.log10 a)
+      | "sin" -> result (Float.sin a)
+      | "cos" -> result (Float.cos a)
+      | "tan" -> result (Float.tan a)
+      | "asin" -> result (Float.asin a)
+      | "acos" -> result (Float.acos a)
+      | "atan" -> result (Float.atan a)
+      | "toRadians" -> result (a *. Float.pi /. 180.)
+      | "toDegrees" -> result (a *. 180. /. Float.pi)
+      | "signum" -> result (if a > 0. then 1. else if a < 0. then -1. else 0.)
+      | _ -> Wrong (Printf.sprintf "Math.%s does not take one number" name))
+  | _, _, Some [ a; b ] -> (
+      match name with
+      | "pow" -> result (Float.pow a b)
+      | "atan2" -> result (Float.atan2 a b)
+      | "hypot" -> result (Float.hypot a b)
+      | _ -> Wrong (Printf.sprintf "Math.%s does not take two numbers" name))
+  | _, _, _ -> Wrong (Printf.sprintf "Math.%s takes numbers" name)
+
+let settle context verdict =
+  match context.mode with
+  | Handler _ -> Done ({ context with mode = Handler verdict }, Null)
+  | Script | Task_code -> Wrong "ignore() and propagate() belong in onError { ... }"
+
+let apply context at operation arguments =
+  match operation, arguments with
+  | Platform_task, [ String name ] when name <> "" ->
+    Value (Task (Platform { name; plan = None; task_site = at }))
+  | ( (Platform_task | Make_action | Make_condition | Make_wait_for | Make_until | Make_idle | Make_during | Make_watch),
+      _ ) -> make_task (operation, arguments)
+  | Execute, [ Task t ] -> blocking context "execute" (Execute t)
+  | Execute, [ x ] -> expected "a task to execute" x
+  | Execute_for names, arguments -> (
+      match allocate_each names arguments [] with
+      | Ok t -> blocking context "execute" (Execute t)
+      | Error e -> of_result e)
+  | Release, [ Vehicles vs ] -> (
+      match context.mode with
+      | Script -> (
+          match Operators.binary Intersect (Vehicles vs) (Vehicles context.bound) with
+          | Ok (Vehicles []) -> Value Null
+          | Ok (Vehicles bound) -> Done (did context (Released bound), Null)
+          | Ok x -> expected "a vehicle set" x
+          | Error message -> Wrong message)
+      | Task_code | Handler _ -> Wrong "release belongs to the script, not to code inside of a task")
+  | Release, [ x ] -> expected "a vehicle set to release" x
+  | Set_connection_timeout, [ x ] -> set_connection_timeout context None x
+  | Set_connection_timeout, [ Vehicles vs; x ] -> set_connection_timeout context (Some vs) x
+  | Set_connection_timeout, [ x; _ ] -> expected "a vehicle set" x
+  | Ask, [ prompt ] -> blocking context "ask" (Ask (Value.to_string prompt))
+  | Message, [ x ] -> Done (did context (Said (Value.to_string x)), Null)
+  | Pause, [ x ] -> (
+      match Value.to_number x with
+      | Some seconds when seconds >= 0. && seconds < infinity -> blocking context "pause" (Pause seconds)
+      | Some seconds -> Wrong (Printf.sprintf "pause takes a time of 0 seconds or more, not %g" seconds)
+      | None -> expected "a time after pause, as in pause 12.seconds" x)
+  | Halt, [] -> Stop ""
+  | Halt, [ x ] -> Stop (Value.to_string x)
+  | Post keys, arguments ->
+    let pairs = pair keys arguments in
+    if List.exists (function _, Wildcard -> true | _, _ -> false) pairs then Wrong "only consume and poll take the wildcard _"
+    else
+      let tuples = List.fold_left (fun n (k, x) -> Tuples.post k x n) context.tuples pairs in
+      Done (did { context with tuples } (Posted pairs), Null)
+  | Consume keys, arguments -> consume context (pair keys arguments)
+  | Poll [], [ String k ] -> poll context [ (k, Wildcard) ]
+  | Poll [], [ x ] -> expected "a key, as in poll 'ready', or pairs, as in poll(ready: 1)" x
+  | Poll keys, arguments -> poll context (pair keys arguments)
+  | Position_of, [ x ] -> (
+      match one_vehicle context x with
+      | Ok state -> Value (Position state.position)
+      | Error e -> of_result e)
+  | Battery_of, [ x ] -> (
+      match one_vehicle context x with Ok state -> Value (Number state.battery) | Error e -> of_result e)
+  | Location_of, ([ _; _ ] | [ _; _; _ ]) -> (
+      match numbers arguments with
+      | Some (latitude :: longitude :: height) -> (
+          let height = match height with h :: _ -> h | [] -> 0. in
+          match Dolphin_geo.Position.make ~latitude ~longitude ~height with
+          | Ok p -> Value (Position p)
+          | Error e -> Wrong (Format.asprintf "%a" Dolphin_geo.Position.pp_error e))
+      | Some [] | Some [ _ ] | None -> Wrong "location takes latitude and longitude in degrees, and a height in metres")
+  | Area_of, [ centre; radius ] -> of_result (Operators.binary Around centre radius)
+  | Ignore, [] -> settle context Ignored
+  | Propagate, [] -> settle context Propagated
+  | Get_supplier, [] ->
+    blocking context "getSupplier" (Host_call { subject = None; member = "getSupplier"; arguments = Some [] })
+  | Is_host, [ x ] -> Value (Boolean (match x with Host _ -> true | _ -> false))
+  | Math name, arguments -> mathematics name arguments
+  | ( ( Execute | Release | Set_connection_timeout | Ask | Message | Pause | Halt | Position_of | Battery_of
+      | Location_of | Area_of | Ignore | Propagate | Get_supplier | Is_host ),
+      _ ) -> Wrong (Printf.sprintf "wrong number of arguments, %d" (List.length arguments))

@@ -1,0 +1,13 @@
+(** What the language's procedures do: [task], [post], [consume], [battery], [Math.sqrt] ... *)
+
+open Core
+
+val apply : Code.context -> site -> builtin -> value list -> Code.outcome
+(** [apply context site procedure arguments] is what [procedure] gives. It is called at [site], which platform tasks made
+    there remember. *)
+
+val blocking : Code.context -> string -> Code.request -> Code.outcome
+(** [blocking context name request] waits for [request] in the script, and is a fault elsewhere, where [name] cannot
+    stand. *)
+
+val of_result : (value, string) result -> Code.outcome

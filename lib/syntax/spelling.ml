@@ -1,0 +1,108 @@
+open Ast
+
+(* {1 Precedence}
+
+   An expression stands without parentheses where its level is at least the one asked for. *)
+
+let whole = 0          (* where [waitFor { } then t] may stand bare *)
+let conditional = 1
+let unary = 12
+let power = 13
+let step = 14          (* [x++] *)
+let postfix = 15
+
+let level_of_operator = function
+  | Or -> 2
+  | And -> 3
+  | Parallel -> 4
+  | Around -> 5
+  | Intersect -> 6
+  | Equal | Not_equal -> 7
+  | Less | Less_equal | Greater | Greater_equal | Member_of -> 8
+  | Sequence | Append -> 9
+  | Add | Subtract -> 10
+  | Multiply | Divide | Remainder -> 11
+  | Power -> power
+
+let range = level_of_operator Sequence
+
+let level e =
+  match e.it with
+  | When _ | Wait_for _ | Until _ | During _ | Watch _ -> whole
+  | Conditional _ | Elvis _ -> conditional
+  | Binary (operator, _, _) -> level_of_operator operator
+  | Range _ -> range
+  | Unary _ -> unary
+  | Increment _ -> step
+  | Integer n when n < 0 -> unary
+  | Number x when x < 0. -> unary
+  | Null | Boolean _ | Integer _ | Number _ | String _ | Template _ | Variable _ | Wildcard | List _ | Map _
+  | Closure _ | Call _ | Member _ | Index _ | Builder _ -> postfix
+
+let operator = function
+  | Divide -> "/"
+  | Multiply -> "*"
+  | Remainder -> "%"
+  | Power -> "**"
+  | Add -> "+"
+  | Subtract -> "-"
+  | Sequence -> ">>"
+  | Append -> "<<"
+  | Less -> "<"
+  | Less_equal -> "<="
+  | Greater -> ">"
+  | Greater_equal -> ">="
+  | Equal -> "=="
+  | Not_equal -> "!="
+  | Member_of -> "in"
+  | Intersect -> "&"
+  | Around -> "^"
+  | Parallel -> "|"
+  | And -> "&&"
+  | Or -> "||"
+
+let builder = function
+  | Pick -> "pick"
+  | Imc_plan -> "imcPlan"
+  | Pos -> "pos"
+  | All_of -> "allOf"
+  | One_of -> "oneOf"
+
+(* {1 Words and texts} *)
+
+let escaped ~quote text =
+  let buffer = Buffer.create (String.length text + 8) in
+  let add = function
+    | '\\' -> Buffer.add_string buffer "\\\\"
+    | '\n' -> Buffer.add_string buffer "\\n"
+    | '\t' -> Buffer.add_string buffer "\\t"
+    | '\r' -> Buffer.add_string buffer "\\r"
+    | '$' when quote = '"' -> Buffer.add_string buffer "\\$"
+    | c when c = quote -> Buffer.add_char buffer '\\'; Buffer.add_char buffer c
+    | c when c < ' ' || c = '\x7F' -> Buffer.add_string buffer (Printf.sprintf "\\u%04x" (Char.code c))
+    | c -> Buffer.add_char buffer c
+  in
+  String.iter add text;
+  Buffer.contents buffer
+
+let quoted text = "'" ^ escaped ~quote:'\'' text ^ "'"
+
+let is_name text =
+  let letter = function 'a' .. 'z' | 'A' .. 'Z' | '_' -> true | _ -> false in
+  let follows = function '0' .. '9' -> true | c -> letter c in
+  text <> "" && letter text.[0]
+  && (let rec all i = i = String.length text || follows text.[i] && all (i + 1) in all 1)
+
+let key_name text =
+  if is_name text && not (List.mem text [ "true"; "false"; "null" ]) then text else quoted text
+
+(* The shortest decimal that is read as [x]. *)
+let decimal x =
+  let text =
+    let rec shortest digits =
+      let text = Printf.sprintf "%.*g" digits x in
+      if digits >= 17 || float_of_string text = x then text else shortest (digits + 1)
+    in
+    shortest 1
+  in
+  if String.contains text '.' || String.contains text 'e' then text else text ^ ".0"

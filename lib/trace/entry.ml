@@ -1,0 +1,78 @@
+open Dolphin_semantics
+open Dolphin_json
+open Dolphin_geo
+open Field
+
+type t =
+  | Header of Header.t
+  | Vehicle of { time : float; state : World.vehicle_state }
+  | Event of { time : float; happening : Happening.t }
+  | Transition of { time : float; index : int; step : Step.t }
+  | End of { time : float; transitions : int; ending : Request.ending }
+
+let time = function
+  | Header _ -> 0.
+  | Vehicle { time; _ } | Event { time; _ } | Transition { time; _ } | End { time; _ } -> time
+
+(* {1 Writing} *)
+
+let of_position (p : Position.t) : members =
+  [ ("latitude", Canonical.number p.latitude); ("longitude", Canonical.number p.longitude);
+    ("height", Canonical.number p.height) ]
+
+let of_state (s : World.vehicle_state) : members =
+  [ ("vehicle", `String s.id); ("type", `String s.kind); ("payload", texts s.payload) ]
+  @ of_position s.position
+  @ [ ("battery", Canonical.number s.battery); ("connected", `Bool s.connected) ]
+
+let to_json entry : Yojson.Safe.t =
+  let line kind time rest = `Assoc (("kind", `String kind) :: ("time", Canonical.number time) :: rest) in
+  match entry with
+  | Header h -> Header.to_json h
+  | Vehicle { time; state } -> line "vehicle" time (of_state state)
+  | Event { time; happening } -> line "event" time (Happening.members happening)
+  | Transition { time; index; step } -> line "transition" time (("i", `Int index) :: Step.members step)
+  | End { time; transitions; ending } ->
+    line "end" time (("transitions", `Int transitions) :: Request.ending_members ending)
+
+let to_string entry = Canonical.to_string (to_json entry)
+
+(* {1 Reading} *)
+
+let to_position found =
+  let* latitude = get number "latitude" found in
+  let* longitude = get number "longitude" found in
+  let* height = get number "height" found in
+  Result.map_error (Format.asprintf "%a" Position.pp_error) (Position.make ~latitude ~longitude ~height)
+
+let to_state found =
+  let* id = get text "vehicle" found in
+  let* kind = get text "type" found in
+  let* payload = get (list text) "payload" found in
+  let* position = to_position found in
+  let* battery = get number "battery" found in
+  let* connected = get truth "connected" found in
+  Ok { World.id; kind; payload; position; battery; connected }
+
+let of_members found =
+  let* kind = get text "kind" found in
+  let* time = get number "time" found in
+  match kind with
+  | "vehicle" -> Result.map (fun state -> Vehicle { time; state }) (to_state found)
+  | "event" -> Result.map (fun happening -> Event { time; happening }) (Happening.of_members found)
+  | "transition" ->
+    let* index = get whole "i" found in
+    let* step = Step.of_members found in
+    Ok (Transition { time; index; step })
+  | "end" ->
+    let* transitions = get whole "transitions" found in
+    let* ending = Request.ending_of_members found in
+    Ok (End { time; transitions; ending })
+  | other -> Error (Printf.sprintf "there are no lines of kind %S" other)
+
+let of_string line =
+  match Host_value.parse line with
+  | Error why -> Error ("this is no JSON: " ^ why)
+  | Ok (`Assoc (("format", _) :: _) as json) -> Result.map (fun h -> Header h) (Header.of_json json)
+  | Ok (`Assoc found) -> of_members found
+  | Ok _ -> Error "this is no JSON object"

@@ -1,0 +1,19 @@
+(** The lines of a journal. [docs/trace.md] describes them field by field. *)
+
+open Dolphin_semantics
+
+type t =
+  | Header of Header.t  (** the first line, and only that *)
+  | Vehicle of { time : float; state : World.vehicle_state }  (** what is known of a vehicle *)
+  | Event of { time : float; happening : Happening.t }  (** what the transition that follows is caused by *)
+  | Transition of { time : float; index : int;  (** from 0 *) step : Step.t }
+  | End of { time : float; transitions : int; ending : Request.ending }  (** the last line of a run that ended *)
+
+val time : t -> float
+(** Seconds since the start; 0 for the header. *)
+
+val to_string : t -> string
+(** One line, without its end. *)
+
+val of_string : string -> (t, string) result
+(** Or what is wrong, in a sentence without a full stop. Members that are not known are passed over. *)

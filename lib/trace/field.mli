@@ -1,0 +1,33 @@
+(** Members of JSON objects, read with a reason where they are not what they should be. *)
+
+type members = (string * Yojson.Safe.t) list
+
+val ( let* ) : ('a, 'e) result -> ('a -> ('b, 'e) result) -> ('b, 'e) result
+
+val get : (Yojson.Safe.t -> ('a, string) result) -> string -> members -> ('a, string) result
+(** [get read name members] is what [read] makes of member [name], which must be there. *)
+
+val optional : (Yojson.Safe.t -> ('a, string) result) -> default:'a -> string -> members -> ('a, string) result
+(** [optional read ~default name members] is the same, or [default] if there is no member [name]. *)
+
+(** {1:readers What members may be} *)
+
+val text : Yojson.Safe.t -> (string, string) result
+val number : Yojson.Safe.t -> (float, string) result
+val whole : Yojson.Safe.t -> (int, string) result
+val truth : Yojson.Safe.t -> (bool, string) result
+val members : Yojson.Safe.t -> (members, string) result
+val list : (Yojson.Safe.t -> ('a, string) result) -> Yojson.Safe.t -> ('a list, string) result
+
+val nullable : (Yojson.Safe.t -> ('a, string) result) -> Yojson.Safe.t -> ('a option, string) result
+(** [null] is [None]. *)
+
+val any : Yojson.Safe.t -> (Yojson.Safe.t, string) result
+
+(** {1:writers And how they are written} *)
+
+val texts : string list -> Yojson.Safe.t
+val unless_empty : string -> ('a list -> Yojson.Safe.t) -> 'a list -> members
+(** [unless_empty name write xs] is the member [name], or none if [xs] is empty. *)
+
+val of_option : ('a -> Yojson.Safe.t) -> 'a option -> Yojson.Safe.t

@@ -1,0 +1,77 @@
+open Dolphin_semantics
+open Dolphin_json
+open Field
+
+type t =
+  | Done of string
+  | Failed of { vehicle : string; why : string }
+  | Timer of int
+  | Answer of string
+  | No_answer of string
+  | Reply of Yojson.Safe.t
+  | No_reply of string
+  | Interruption
+
+let of_event : Transition.event -> t = function
+  | Vehicle_done v -> Done v
+  | Vehicle_failed (vehicle, why) -> Failed { vehicle; why }
+  | Timer_expired timer -> Timer timer
+  | Answered text -> Answer text
+  | Nobody_answers why -> No_answer why
+  | Replied x -> (
+      match Host_value.to_json x with
+      | Ok json -> Reply json
+      | Error why -> invalid_arg ("Happening.of_event: " ^ why))
+  | Host_failed why -> No_reply why
+  | Interruption -> Interruption
+
+let to_event ~site : t -> (Transition.event, string) result = function
+  | Done v -> Ok (Vehicle_done v)
+  | Failed { vehicle; why } -> Ok (Vehicle_failed (vehicle, why))
+  | Timer timer -> Ok (Timer_expired timer)
+  | Answer text -> Ok (Answered text)
+  | No_answer why -> Ok (Nobody_answers why)
+  | Reply json -> Result.map (fun x -> Transition.Replied x) (Host_value.of_json ~site json)
+  | No_reply why -> Ok (Host_failed why)
+  | Interruption -> Ok Interruption
+
+let members h : members =
+  let event name rest = ("event", `String name) :: rest in
+  match h with
+  | Done v -> event "done" [ ("vehicle", `String v) ]
+  | Failed { vehicle; why } -> event "failed" [ ("vehicle", `String vehicle); ("why", `String why) ]
+  | Timer timer -> event "timer" [ ("timer", `Int timer) ]
+  | Answer text -> event "answer" [ ("text", `String text) ]
+  | No_answer why -> event "no-answer" [ ("why", `String why) ]
+  | Reply json -> event "reply" [ ("value", json) ]
+  | No_reply why -> event "no-reply" [ ("why", `String why) ]
+  | Interruption -> event "interruption" []
+
+let of_members found =
+  let* event = get text "event" found in
+  match event with
+  | "done" -> Result.map (fun v -> Done v) (get text "vehicle" found)
+  | "failed" ->
+    let* vehicle = get text "vehicle" found in
+    let* why = get text "why" found in
+    Ok (Failed { vehicle; why })
+  | "timer" -> Result.map (fun timer -> Timer timer) (get whole "timer" found)
+  | "answer" -> Result.map (fun text -> Answer text) (get text "text" found)
+  | "no-answer" -> Result.map (fun why -> No_answer why) (get text "why" found)
+  | "reply" -> Result.map (fun json -> Reply json) (get any "value" found)
+  | "no-reply" -> Result.map (fun why -> No_reply why) (get text "why" found)
+  | "interruption" -> Ok Interruption
+  | other -> Error (Printf.sprintf "there are no events of kind %S" other)
+
+let pp ppf h =
+  let print format = Format.fprintf ppf format in
+  match h with
+  | Done v -> print "the end of %s's task" v
+  | Failed { vehicle; why } -> print "the failure of %s's task (%s)" vehicle why
+  | Timer 0 -> print "the end of the script's pause or pick"
+  | Timer timer -> print "the end of timer %d" timer
+  | Answer text -> print "the answer %s" text
+  | No_answer _ -> print "no answer"
+  | Reply json -> print "the host's reply %s" (Canonical.to_string json)
+  | No_reply _ -> print "no reply of the host"
+  | Interruption -> print "an interruption"

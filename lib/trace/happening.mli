@@ -1,0 +1,25 @@
+(** What happened outside, as journals have it: the events of {!Dolphin_semantics.Transition.event}. *)
+
+open Dolphin_semantics
+
+type t =
+  | Done of string
+  | Failed of { vehicle : string; why : string }
+  | Timer of int
+  | Answer of string
+  | No_answer of string
+  | Reply of Yojson.Safe.t  (** a value as {!Dolphin_json.Host_value} writes it *)
+  | No_reply of string
+  | Interruption
+
+val of_event : Transition.event -> t
+(** @raise Invalid_argument for a reply that no host process can give: a closure, for example. *)
+
+val to_event : site:Core.site -> t -> (Transition.event, string) result
+(** [to_event ~site h] is the event; tasks in a reply come from [site]. The error says why the reply is no value. *)
+
+val members : t -> Field.members
+val of_members : Field.members -> (t, string) result
+
+val pp : Format.formatter -> t -> unit
+(** ["the end of noptilus-1's task"]. *)

@@ -1,0 +1,51 @@
+open Field
+
+type source = { path : string; hash : string }
+
+type t = {
+  program : source;
+  fleet : source option;
+  platform : string;
+  seed : int;
+  speed : float option;
+  started : string;
+}
+
+let format = "dolphin-journal"
+let version = 1
+let source ~path text = { path; hash = Digest.to_hex (Digest.string text) }
+let of_source s : Yojson.Safe.t = `Assoc [ ("path", `String s.path); ("md5", `String s.hash) ]
+
+let to_json h : Yojson.Safe.t =
+  `Assoc
+    [ ("format", `String format);
+      ("version", `Int version);
+      ("program", of_source h.program);
+      ("fleet", of_option of_source h.fleet);
+      ("platform", `String h.platform);
+      ("seed", `Int h.seed);
+      ("speed", of_option Dolphin_json.Canonical.number h.speed);
+      ("started", `String h.started) ]
+
+let to_source json =
+  let* found = members json in
+  let* path = get text "path" found in
+  let* hash = get text "md5" found in
+  Ok { path; hash }
+
+let of_json json =
+  let no_journal = Error "this is no journal: its first line is not the header of one" in
+  match json with
+  | `Assoc found when List.assoc_opt "format" found = Some (`String format) ->
+    let* its_version = get whole "version" found in
+    if its_version <> version then
+      Error (Printf.sprintf "this journal is of version %d; version %d is known here" its_version version)
+    else
+      let* program = get to_source "program" found in
+      let* fleet = get (nullable to_source) "fleet" found in
+      let* platform = get text "platform" found in
+      let* seed = get whole "seed" found in
+      let* speed = get (nullable number) "speed" found in
+      let* started = get text "started" found in
+      Ok { program; fleet; platform; seed; speed; started }
+  | _ -> no_journal

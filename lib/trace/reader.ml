@@ -1,0 +1,78 @@
+type t = {
+  input : bytes -> int -> int -> int;
+  chunk : bytes;
+  mutable from : int;
+  mutable until : int;
+  line : Buffer.t;  (* what chunks before this one had of the line *)
+  mutable number : int;
+}
+
+let longest = 16 * 1024 * 1024
+
+let make input =
+  { input; chunk = Bytes.create 65536; from = 0; until = 0; line = Buffer.create 1024; number = 0 }
+
+let of_channel channel = make (input channel)
+
+let of_string text =
+  let at = ref 0 in
+  let input bytes from length =
+    let n = min length (String.length text - !at) in
+    Bytes.blit_string text !at bytes from n;
+    at := !at + n;
+    n
+  in
+  make input
+
+type item =
+  | Line of { number : int; entry : Entry.t }
+  | Torn of int
+  | End_of_file
+  | Wrong of { number : int; why : string }
+
+(* Bytes of the chunk up to its first line break, if it has one. *)
+let in_chunk r =
+  match Bytes.index_from r.chunk r.from '\n' with
+  | stop when stop < r.until -> Some (stop - r.from)
+  | _ | (exception Not_found) -> None
+
+type text = Whole of string | Unfinished of string | Too_long
+
+let rec read r =
+  match in_chunk r with
+  | Some length ->
+    Buffer.add_subbytes r.line r.chunk r.from length;
+    r.from <- r.from + length + 1;
+    let text = Buffer.contents r.line in
+    Buffer.clear r.line;
+    Whole text
+  | None ->
+    Buffer.add_subbytes r.line r.chunk r.from (r.until - r.from);
+    r.from <- 0;
+    r.until <- r.input r.chunk 0 (Bytes.length r.chunk);
+    if Buffer.length r.line > longest then Too_long
+    else if r.until > 0 then read r
+    else
+      let text = Buffer.contents r.line in
+      Buffer.clear r.line;
+      Unfinished text
+
+let next r =
+  r.number <- r.number + 1;
+  let number = r.number in
+  let wrong why = Wrong { number; why } in
+  let entry text ~otherwise =
+    match Entry.of_string text with
+    | Ok (Header _ as entry) -> if number = 1 then Line { number; entry } else wrong "a second header"
+    | Ok _ when number = 1 -> wrong "this is no journal: its first line is not the header of one"
+    | Ok entry -> Line { number; entry }
+    | Error why -> otherwise why
+  in
+  match read r with
+  | Too_long -> wrong "this line is longer than 16 MiB"
+  | Whole text -> entry text ~otherwise:wrong
+  | Unfinished "" -> if number = 1 then wrong "the journal is empty" else End_of_file
+  | Unfinished text ->
+    (* What is left of a line never is a whole line of JSON. *)
+    entry text ~otherwise:(fun _ ->
+        if number = 1 then wrong "this is no journal, or not even its first line was written to its end" else Torn number)

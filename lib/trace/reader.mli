@@ -1,0 +1,20 @@
+(** Journals, read line by line. No line takes more memory than {!longest}. *)
+
+type t
+
+val of_channel : in_channel -> t
+(** The channel is in binary mode, and read by nobody else. Reading may raise [Sys_error]. *)
+
+val of_string : string -> t
+
+type item =
+  | Line of { number : int;  (** from 1 *) entry : Entry.t }
+  | Torn of int  (** the last line, of this number, was not written to its end: the console died *)
+  | End_of_file
+  | Wrong of { number : int; why : string }  (** a line that is no line of a journal *)
+
+val next : t -> item
+(** The first line is a header, and no other one is: else it is [Wrong]. *)
+
+val longest : int
+(** 16 MiB. *)

@@ -1,0 +1,87 @@
+open Dolphin_semantics
+
+(* A vehicle as it was last written, and what was told since. *)
+type vehicle = {
+  mutable written : World.vehicle_state;
+  mutable written_at : float;
+  mutable untold : World.vehicle_state option;
+}
+
+type t = {
+  program : Core.program;
+  period : float;
+  write : Entry.t -> unit;
+  vehicles : (Core.vehicle, vehicle) Hashtbl.t;
+  mutable behind : vehicle list;  (* those with something untold, latest first *)
+  mutable configuration : Configuration.t;
+  mutable transitions : int;
+  mutable time : float;
+}
+
+let make ?(period = 5.) program header write =
+  write (Entry.Header header);
+  { program; period; write; vehicles = Hashtbl.create 16; behind = [];
+    configuration = Configuration.initial program; transitions = 0; time = 0. }
+
+(* Metres. Who is fast has more samples, or its way could not be drawn. *)
+let nearby = 10.
+
+(* Journals never go back in time, whatever clocks do. *)
+let pass r time = r.time <- Float.max r.time time
+
+(* {1 Vehicles} *)
+
+let write_state r vehicle state =
+  vehicle.untold <- None;
+  vehicle.written <- state;
+  vehicle.written_at <- r.time;
+  r.write (Vehicle { time = r.time; state })
+
+let catch_up r =
+  let behind = List.rev r.behind in
+  r.behind <- [];
+  List.iter (fun vehicle -> Option.iter (write_state r vehicle) vehicle.untold) behind
+
+let news r ~time (state : World.vehicle_state) =
+  pass r time;
+  match Hashtbl.find_opt r.vehicles state.id with
+  | None ->
+    let vehicle = { written = state; written_at = r.time; untold = None } in
+    Hashtbl.replace r.vehicles state.id vehicle;
+    write_state r vehicle state
+  | Some vehicle ->
+    let { World.position; battery; _ } = vehicle.written in
+    let is_sample = { state with position; battery } = vehicle.written in
+    let is_near () = Dolphin_geo.Wgs84.distance position state.position < nearby in
+    if is_sample && r.time -. vehicle.written_at < r.period && is_near () then begin
+      if vehicle.untold = None then r.behind <- vehicle :: r.behind;
+      vehicle.untold <- Some state
+    end
+    else begin
+      if vehicle.untold <> None then r.behind <- List.filter (fun other -> other != vehicle) r.behind;
+      write_state r vehicle state
+    end
+
+(* {1 Transitions} *)
+
+let may_depend_on_vehicles r =
+  r.program.reads_sensors || Transition.depends_on_sensors r.program r.configuration
+
+let transition r ~time ~cause (t : Transition.t) =
+  pass r time;
+  if r.behind <> [] && may_depend_on_vehicles r then catch_up r;
+  let event event = r.write (Event { time = r.time; happening = Happening.of_event event }) in
+  Option.iter event cause;
+  let step = Step.of_transition r.program r.configuration t in
+  r.write (Transition { time = r.time; index = r.transitions; step });
+  r.transitions <- r.transitions + 1;
+  r.configuration <- t.next
+
+let finish r ~time ~stuck =
+  pass r time;
+  match r.configuration.control with
+  | Ended ending ->
+    catch_up r;
+    let ending : Request.ending = if stuck then { how = "stuck"; message = None } else Request.ending ending in
+    r.write (End { time = r.time; transitions = r.transitions; ending })
+  | Script _ | Waiting _ | Executing _ -> ()

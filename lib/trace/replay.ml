@@ -1,0 +1,201 @@
+open Dolphin_semantics
+module Location = Dolphin_syntax.Location
+
+type t = {
+  program : Core.program;
+  places : bool;
+  configuration : Configuration.t;
+  world : World.t;
+  transitions : int;
+  time : float;
+  event : Happening.t option;  (* whose transition comes next *)
+  stuck : bool;  (* the run was interrupted when nothing was left to do *)
+  ending : Request.ending option;
+}
+
+let start ~places program =
+  { program; places; configuration = Configuration.initial program; world = World.empty; transitions = 0; time = 0.;
+    event = None; stuck = false; ending = None }
+
+let configuration r = r.configuration
+let world r = r.world
+let transitions r = r.transitions
+let time r = r.time
+let ending r = r.ending
+
+(* {1 Mismatches} *)
+
+type mismatch = {
+  reason : string;
+  false_guards : (Location.t * string) list;
+  enabled : string list;
+  awaited : string list;
+}
+
+let most_shown = 8
+
+let rec first n (xs : 'a Seq.t) =
+  if n = 0 then [] else match xs () with Seq.Nil -> [] | Seq.Cons (x, rest) -> x :: first (n - 1) rest
+
+let show_label l = Format.asprintf "%a" Label.pp l
+
+let enabled r =
+  let shown = first (most_shown + 1) (Transition.internal r.program r.world r.configuration) in
+  let labels = List.map (fun (t : Transition.t) -> show_label t.label) shown in
+  if List.length labels > most_shown then List.filteri (fun i _ -> i < most_shown) labels @ [ "and more" ] else labels
+
+let awaited r =
+  let show event = Format.asprintf "%a" Happening.pp (Happening.of_event event) in
+  match r.configuration.control with
+  | Waiting (_, Ask _) -> [ "an answer" ]
+  | Waiting (_, Host_call _) -> [ "a reply of the host" ]
+  | Script _ | Waiting _ | Executing _ | Ended _ ->
+    let events = Transition.awaited r.configuration in
+    let shown = List.filteri (fun i _ -> i < most_shown) events in
+    List.map show shown @ if List.length events > most_shown then [ "and more" ] else []
+
+(* A check that is offered and not enabled is false. *)
+let false_guards r =
+  match r.configuration.control with
+  | Script _ | Waiting _ | Ended _ -> []
+  | Executing (m, residual) ->
+    let located (c : Core.closure) =
+      Option.map (fun at -> (at, c.lambda.label)) (Fault.location r.program (Fault.make c.lambda.lambda_site ""))
+    in
+    let is_false (step : Residual.step) =
+      match step.offer with
+      | Check c ->
+        let alone = { r.configuration with control = Executing (m, Condition c) } in
+        if Transition.internal r.program r.world alone () = Seq.Nil then located c else None
+      | Start _ | Perform _ | Measure _ | End_of _ | Expiry_of _ -> None
+    in
+    first most_shown (Seq.filter_map is_false (Residual.internal_steps residual))
+
+let mismatch r reason =
+  Error { reason; false_guards = false_guards r; enabled = enabled r; awaited = awaited r }
+
+let pp_mismatch ppf m =
+  let items name = function
+    | [] -> Format.fprintf ppf "@,%s: nothing" name
+    | xs -> Format.fprintf ppf "@,%s: %s" name (String.concat ", " xs)
+  in
+  Format.fprintf ppf "@[<v>%s" m.reason;
+  (match m.false_guards with
+   | [] -> ()
+   | guards ->
+     let show (at, label) = Printf.sprintf "%s at %d:%d" label (Location.line at) (Location.column at) in
+     items "false then" (List.map show guards));
+  items "enabled then" m.enabled;
+  items "awaited then" m.awaited;
+  Format.fprintf ppf "@]"
+
+(* {1 Transitions} *)
+
+(* [nth n p xs] is the [n]-th of [xs] of which [p] holds, from 0. *)
+let rec nth n p (xs : 'a Seq.t) =
+  match xs () with
+  | Seq.Nil -> None
+  | Seq.Cons (x, rest) -> if not (p x) then nth n p rest else if n = 0 then Some x else nth (n - 1) p rest
+
+(* A pick may be met in more ways than can be gone through: only the one that is meant is looked at. *)
+let picking r (step : Step.t) =
+  let binding = List.find_map (function Request.Bind vs -> Some vs | _ -> None) step.requests in
+  match binding with
+  | None -> Seq.empty
+  | Some vs ->
+    let chosen = List.filter (fun (s : World.vehicle_state) -> List.mem s.id vs) (World.vehicles r.world) in
+    let world = List.fold_left (fun w s -> World.add s w) World.empty chosen in
+    fun () ->
+      match Transition.internal r.program world r.configuration () with
+      | Seq.Nil -> Seq.Nil
+      | Seq.Cons (t, _) -> Seq.Cons (t, Seq.empty)
+
+let candidates r (step : Step.t) =
+  match r.configuration.control with
+  | Waiting (_, Pick _) -> picking r step
+  | Script _ | Waiting _ | Executing _ | Ended _ -> Transition.internal r.program r.world r.configuration
+
+(* The name of a label, less what is in its parentheses. *)
+let kind label = match String.index_opt label '(' with Some i -> String.sub label 0 i | None -> label
+
+let no_transition r (step : Step.t) =
+  let there = first most_shown (candidates r step) in
+  let expected t = Step.of_transition r.program r.configuration t in
+  let nearest = List.find_opt (fun t -> show_label t.Transition.label = step.label) there in
+  let nearest =
+    match nearest, there with
+    | Some t, _ | None, [ t ] -> Some t
+    | None, _ -> List.find_opt (fun (t : Transition.t) -> kind (show_label t.label) = kind step.label) there
+  in
+  let difference = Option.bind nearest (fun t -> Step.difference ~places:r.places (expected t) step) in
+  match difference with
+  | Some what -> mismatch r ("no transition is like this one; the nearest differs: " ^ what)
+  | None when there = [] -> mismatch r (Printf.sprintf "nothing could happen by itself, so %s could not" step.label)
+  | None -> mismatch r (Printf.sprintf "%s could not happen" step.label)
+
+let moved r (t : Transition.t) =
+  { r with configuration = t.next; transitions = r.transitions + 1; event = None }
+
+let alone r (step : Step.t) =
+  let fits (t : Transition.t) =
+    String.equal (show_label t.label) step.label
+    && Step.same ~places:r.places (Step.of_transition r.program r.configuration t) step
+  in
+  match nth step.choice fits (candidates r step) with
+  | Some t -> Ok (moved r t)
+  | None -> no_transition r step
+
+let caused r (step : Step.t) event =
+  let site =
+    match r.configuration.control with
+    | Script m | Waiting (m, _) | Executing (m, _) -> Machine.site m
+    | Ended _ -> Fault.unknown_site
+  in
+  let by = Format.asprintf "%a" Happening.pp event in
+  match Happening.to_event ~site event with
+  | Error why -> mismatch r (Printf.sprintf "%s is no event: %s" by why)
+  | Ok e -> (
+      match Transition.accept r.program r.world r.configuration e with
+      | Error Not_awaited -> mismatch r (Printf.sprintf "%s makes no transition: it was not awaited" by)
+      | Error (Bad_answer why) -> mismatch r (Printf.sprintf "%s makes no transition: %s" by why)
+      | Ok t -> (
+          let expected = Step.of_transition r.program r.configuration t in
+          match Step.difference ~places:r.places expected step with
+          | Some what -> mismatch r (Printf.sprintf "%s makes another transition: %s" by what)
+          | None ->
+            let is_left () = Transition.internal r.program r.world r.configuration () <> Seq.Nil in
+            let stuck = event = Interruption && not (is_left ()) in
+            Ok { (moved r t) with stuck }))
+
+(* {1 Lines} *)
+
+let has_ended r = match r.configuration.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false
+
+let finish r transitions (ending : Request.ending) =
+  match r.configuration.control with
+  | Script _ | Waiting _ | Executing _ -> mismatch r "the run had not ended"
+  | Ended its_ending ->
+    let expected = Request.ending its_ending in
+    if transitions <> r.transitions then
+      mismatch r (Printf.sprintf "there were %d transitions, not %d" r.transitions transitions)
+    else if ending = expected || (ending.how = "stuck" && r.stuck) then Ok { r with ending = Some ending }
+    else mismatch r (Printf.sprintf "the run ended %s, not %s" expected.how ending.how)
+
+let feed r (entry : Entry.t) =
+  let time = match entry with Header _ -> r.time | entry -> Entry.time entry in
+  if r.ending <> None then mismatch r "the journal goes on after its last line"
+  else if time < r.time then mismatch r (Printf.sprintf "time goes back, from %g to %g" r.time time)
+  else
+    let r = { r with time } in
+    match entry, r.event with
+    | (Header _ | Vehicle _ | Event _ | End _), Some event ->
+      mismatch r (Format.asprintf "the transition on %a is missing" Happening.pp event)
+    | Header _, None -> Ok r
+    | Vehicle { state; _ }, None -> Ok { r with world = World.add state r.world }
+    | Event { happening; _ }, None -> Ok { r with event = Some happening }
+    | Transition { index; step; _ }, event ->
+      if index <> r.transitions then
+        mismatch r (Printf.sprintf "transition %d is expected, not %d" r.transitions index)
+      else if has_ended r then mismatch r "the run had ended"
+      else (match event with None -> alone r step | Some event -> caused r step event)
+    | End { transitions; ending; _ }, None -> finish r transitions ending

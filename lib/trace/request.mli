@@ -1,0 +1,32 @@
+(** What a transition asks of the outside, as journals have it: {!Dolphin_semantics.Effect.t} with texts for what a
+    reader need not take apart. *)
+
+open Dolphin_semantics
+
+type ending = { how : string;  (** see {!how} *) message : string option }
+
+type t =
+  | Start of { vehicle : string; plan : string }
+  | Stop of string
+  | Set_timer of { timer : int; seconds : float }
+  | Cancel_timer of int
+  | Look_for of string
+  | Bind of string list
+  | Release of string list
+  | Set_connection_timeout of { vehicles : string list option; seconds : float }
+  | Say of string
+  | Ask of string
+  | Call of string
+  | End of ending
+
+val of_effect : Effect.t -> t
+val ending : Configuration.ending -> ending
+
+val how : string list
+(** How runs end: ["completed"], ["halted"], ["failed"], ["interrupted"], and, of whole runs but not of their last
+    effects, ["stuck"]. *)
+
+val to_json : t -> Yojson.Safe.t
+val of_json : Yojson.Safe.t -> (t, string) result
+val ending_members : ending -> Field.members
+val ending_of_members : Field.members -> (ending, string) result

@@ -1,0 +1,189 @@
+open Dolphin_semantics
+open Field
+module Vehicle_map = Configuration.Vehicle_map
+module Location = Dolphin_syntax.Location
+module String_set = Set.Make (String)
+
+type t = {
+  rules : string list;
+  label : string;
+  at : (int * int) option;
+  choice : int;
+  allocated : (string * string option) list;
+  bound : string list;
+  released : string list;
+  posted : string list;
+  consumed : string list;
+  requests : Request.t list;
+}
+
+(* {1 From transitions} *)
+
+let site_of_control : Configuration.control -> Core.site option = function
+  | Script m | Waiting (m, _) | Executing (m, _) -> Some (Machine.site m)
+  | Ended (Failed fault) when fault.site <> Fault.unknown_site -> Some fault.site
+  | Ended (Completed | Halted _ | Failed _ | Interrupted) -> None
+
+(* Tasks are at home where they are made; other steps of an executing task, where it is executed. *)
+let site (before : Configuration.t) (t : Transition.t) =
+  let of_task v (c : Configuration.t) =
+    Option.map (fun (p : Core.platform_task) -> p.task_site) (Vehicle_map.find_opt v c.allocation)
+  in
+  let of_label =
+    match t.label with
+    | Start (v, _) -> of_task v t.next
+    | Done (v, _) | Fail (v, _, _) -> of_task v before
+    | _ -> None
+  in
+  match of_label, site_of_control t.next.control with
+  | Some site, _ | None, Some site -> Some site
+  | None, None -> site_of_control before.control
+
+let place program before t =
+  let located site = Fault.location program (Fault.make site "") in
+  match Option.bind (site before t) located with
+  | Some at when Location.line at > 0 -> Some (Location.line at, Location.column at)
+  | Some _ | None -> None
+
+let allocation_changes (before : Configuration.t) (after : Configuration.t) =
+  if before.allocation == after.allocation then []
+  else
+    let change _ (p : Core.platform_task option) (p' : Core.platform_task option) =
+      match p, p' with
+      | Some p, Some p' when p == p' -> None
+      | None, None -> None
+      | (Some _ | None), p' -> Some (Option.map (fun (p : Core.platform_task) -> p.name) p')
+    in
+    Vehicle_map.bindings (Vehicle_map.merge change before.allocation after.allocation)
+
+(* [without vs vs'] is [vs] less [vs'], in order. *)
+let without vs vs' =
+  if vs == vs' then []
+  else
+    let set = String_set.of_list vs' in
+    List.filter (fun v -> not (String_set.mem v set)) vs
+
+(* [less xs ys] is [xs] without one occurrence of each of [ys]. *)
+let less xs ys =
+  match ys with
+  | [] -> xs
+  | ys ->
+    let left = Hashtbl.create 8 in
+    let count x = Option.value (Hashtbl.find_opt left x) ~default:0 in
+    List.iter (fun y -> Hashtbl.replace left y (count y + 1)) ys;
+    let stays x =
+      let n = count x in
+      if n > 0 then Hashtbl.replace left x (n - 1);
+      n = 0
+    in
+    List.filter stays xs
+
+let show_pair pair = Format.asprintf "%a" Value.pp_tuple pair
+
+(* What was posted and consumed on balance. Labels have all that code did with N, but for handlers of errors. *)
+let tuple_changes (before : Configuration.t) (t : Transition.t) =
+  let balance posted consumed =
+    let posted = List.map show_pair posted and consumed = List.map show_pair consumed in
+    (less posted consumed, less consumed posted)
+  in
+  if before.tuples == t.next.tuples then ([], [])
+  else
+    let all tuples = List.concat_map (fun (k, xs) -> List.map (fun x -> (k, x)) xs) (Tuples.bindings tuples) in
+    let of_deeds deeds =
+      let posted = List.concat_map (function Machine.Posted pairs -> pairs | _ -> []) deeds in
+      let consumed = List.concat_map (function Machine.Consumed pairs -> pairs | _ -> []) deeds in
+      balance posted consumed
+    in
+    let is_handling = function
+      | Rule.Watch_ignore | Watch_propagate | Watch_halt -> true
+      | _ -> false
+    in
+    match t.label with
+    | (Did _ | Check _ | Act _ | Cut _) when not (List.exists is_handling t.rules) ->
+      of_deeds (match t.label with Did deed -> [ deed ] | Check ds | Act ds | Cut ds -> ds | _ -> [])
+    | _ -> balance (all t.next.tuples) (all before.tuples)
+
+let of_transition program (before : Configuration.t) (t : Transition.t) =
+  let posted, consumed = tuple_changes before t in
+  { rules = List.map Rule.name t.rules;
+    label = Format.asprintf "%a" Label.pp t.label;
+    at = place program before t;
+    choice = 0;
+    allocated = allocation_changes before t.next;
+    bound = without t.next.bound before.bound;
+    released = without before.bound t.next.bound;
+    posted;
+    consumed;
+    requests = List.map Request.of_effect t.effects }
+
+(* {1 JSON} *)
+
+let of_place (line, column) : Yojson.Safe.t = `String (Printf.sprintf "%d:%d" line column)
+
+let to_place json =
+  let* place = text json in
+  let wrong = Error (Printf.sprintf "%S, not a line and a column" place) in
+  match List.map int_of_string_opt (String.split_on_char ':' place) with
+  | [ Some line; Some column ] -> Ok (line, column)
+  | _ -> wrong
+
+let of_allocated changes : Yojson.Safe.t =
+  `Assoc (List.map (fun (v, name) -> (v, of_option (fun name -> `String name) name)) changes)
+
+let to_allocated json =
+  let* changes = members json in
+  let add found (v, json) =
+    let* found = found in
+    let* name = nullable text json in
+    Ok ((v, name) :: found)
+  in
+  Result.map List.rev (List.fold_left add (Ok []) changes)
+
+(* What came to B or N, and what went. *)
+let of_difference name ~come:(come, xs) ~gone:(gone, ys) : members =
+  match unless_empty come texts xs @ unless_empty gone texts ys with
+  | [] -> []
+  | differences -> [ (name, `Assoc differences) ]
+
+let to_difference ~come ~gone json =
+  let* found = Field.members json in
+  let* come = optional (list text) ~default:[] come found in
+  let* gone = optional (list text) ~default:[] gone found in
+  Ok (come, gone)
+
+let members s : members =
+  [ ("rule", texts s.rules); ("label", `String s.label) ]
+  @ (match s.at with None -> [] | Some place -> [ ("at", of_place place) ])
+  @ (if s.choice = 0 then [] else [ ("choice", `Int s.choice) ])
+  @ unless_empty "A" of_allocated s.allocated
+  @ of_difference "B" ~come:("bound", s.bound) ~gone:("released", s.released)
+  @ of_difference "N" ~come:("posted", s.posted) ~gone:("consumed", s.consumed)
+  @ unless_empty "effects" (fun requests -> `List (List.map Request.to_json requests)) s.requests
+
+let of_members found =
+  let* rules = get (list text) "rule" found in
+  let* label = get text "label" found in
+  let* at = optional (fun json -> Result.map Option.some (to_place json)) ~default:None "at" found in
+  let* choice = optional whole ~default:0 "choice" found in
+  let* allocated = optional to_allocated ~default:[] "A" found in
+  let* bound, released = optional (to_difference ~come:"bound" ~gone:"released") ~default:([], []) "B" found in
+  let* posted, consumed = optional (to_difference ~come:"posted" ~gone:"consumed") ~default:([], []) "N" found in
+  let* requests = optional (list Request.of_json) ~default:[] "effects" found in
+  Ok { rules; label; at; choice; allocated; bound; released; posted; consumed; requests }
+
+(* {1 Comparison} *)
+
+let same ~places s s' =
+  let at = if places then s.at else s'.at in
+  String.equal s.label s'.label && { s with at; choice = s'.choice } = s'
+
+let difference ~places expected found =
+  let json name s = Option.map Dolphin_json.Canonical.to_string (List.assoc_opt name (members s)) in
+  let differs name =
+    let e = json name expected and f = json name found in
+    if e = f then None
+    else
+      let show = Option.value ~default:"nothing" in
+      Some (Printf.sprintf "\"%s\" should be %s, not %s" name (show e) (show f))
+  in
+  List.find_map differs ([ "rule"; "label" ] @ (if places then [ "at" ] else []) @ [ "A"; "B"; "N"; "effects" ])

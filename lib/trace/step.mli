@@ -1,0 +1,34 @@
+(** A transition, as journals have it: what can be told from outside, as plain texts. *)
+
+open Dolphin_semantics
+
+type t = {
+  rules : string list;  (** the derivation, from the axiom outwards *)
+  label : string;
+  at : (int * int) option;  (** line and column of the code that takes it *)
+  choice : int;  (** see {!section:choice} *)
+  allocated : (string * string option) list;  (** where A changed: the vehicle's task now, or none *)
+  bound : string list;  (** that joined B *)
+  released : string list;  (** that left it *)
+  posted : string list;  (** pairs ["k:x"] of N that are new, by key and value *)
+  consumed : string list;  (** pairs of N that are gone *)
+  requests : Request.t list;
+}
+
+(** {1:choice Choices}
+
+    Of several transitions that are enabled and look the same, [choice] is how many there are to the left of the one
+    that is meant. It is 0, and left out of the journal, if the leftmost is taken, as the runtime does. *)
+
+val of_transition : Core.program -> Configuration.t -> Transition.t -> t
+(** [of_transition p c t] is [t], taken from [c]. *)
+
+val same : places:bool -> t -> t -> bool
+(** [same ~places s s'] is whether [s] and [s'] are one but for the choice; without [places], wherever they are. *)
+
+val difference : places:bool -> t -> t -> string option
+(** [difference ~places expected found] is in what [found] is not {!same} as [expected], in a sentence without a full
+    stop. *)
+
+val members : t -> Field.members
+val of_members : Field.members -> (t, string) result

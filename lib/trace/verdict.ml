@@ -1,0 +1,60 @@
+type t =
+  | Run of { transitions : int; time : float; ending : Request.ending }
+  | Prefix of { transitions : int; time : float; torn : bool }
+  | No_run of { number : int; entry : Entry.t; transitions : int; mismatch : Replay.mismatch }
+  | Unreadable of { number : int; why : string }
+
+let over replay ~torn =
+  let transitions = Replay.transitions replay and time = Replay.time replay in
+  match Replay.ending replay with
+  | Some ending when not torn -> Run { transitions; time; ending }
+  | Some _ | None -> Prefix { transitions; time; torn }
+
+let rec go reader replay =
+  match Reader.next reader with
+  | Line { number; entry } -> (
+      match Replay.feed replay entry with
+      | Ok replay -> go reader replay
+      | Error mismatch -> No_run { number; entry; transitions = Replay.transitions replay; mismatch })
+  | Torn _ -> over replay ~torn:true
+  | End_of_file -> over replay ~torn:false
+  | Wrong { number; why } -> Unreadable { number; why }
+
+let check program ~hash reader =
+  match Reader.next reader with
+  | Line { entry = Header header; _ } ->
+    let places = header.program.hash = hash in
+    (Some header, go reader (Replay.start ~places program))
+  | Line { number; _ } | Torn number -> (None, Unreadable { number; why = "there is no header" })
+  | End_of_file -> (None, Unreadable { number = 1; why = "the journal is empty" })
+  | Wrong { number; why } -> (None, Unreadable { number; why })
+
+let is_legal = function Run _ | Prefix _ -> true | No_run _ | Unreadable _ -> false
+
+let pp_ending ppf (e : Request.ending) =
+  match e.message with
+  | None | Some "" -> Format.pp_print_string ppf e.how
+  | Some message -> Format.fprintf ppf "%s: %s" e.how message
+
+let describe (entry : Entry.t) =
+  match entry with
+  | Header _ -> "a header"
+  | Vehicle { state; _ } -> "what is known of " ^ state.id
+  | Event { happening; _ } -> Format.asprintf "%a" Happening.pp happening
+  | Transition { index; step; _ } ->
+    let at = match step.at with Some (line, column) -> Printf.sprintf ", at %d:%d" line column | None -> "" in
+    Printf.sprintf "transition %d%s: %s" index at step.label
+  | End { ending; _ } -> Format.asprintf "the end: %a" pp_ending ending
+
+let count n = Printf.sprintf "%d transition%s" n (if n = 1 then "" else "s")
+
+let pp ppf = function
+  | Run { transitions; time; ending } ->
+    Format.fprintf ppf "a run, of %s in %s; %a" (count transitions) (Clock.text time) pp_ending ending
+  | Prefix { transitions; time; torn } ->
+    Format.fprintf ppf "the beginning of a run, of %s in %s; it breaks off%s" (count transitions) (Clock.text time)
+      (if torn then " in the middle of a line" else "")
+  | No_run { number; entry; transitions; mismatch } ->
+    Format.fprintf ppf "@[<v>line %d is none of a run: %s@,%a@,before it: %s of a run@]" number (describe entry)
+      Replay.pp_mismatch mismatch (count transitions)
+  | Unreadable { number; why } -> Format.fprintf ppf "line %d: %s" number why

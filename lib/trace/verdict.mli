@@ -1,0 +1,21 @@
+(** Whether a journal is one of a run of a program. *)
+
+open Dolphin_semantics
+
+type t =
+  | Run of { transitions : int; time : float; ending : Request.ending }  (** of a whole run *)
+  | Prefix of { transitions : int; time : float; torn : bool  (** in the middle of a line *) }
+  (** of the beginning of one: the console died *)
+  | No_run of { number : int;  (** of the first line that is wrong *) entry : Entry.t; transitions : int;
+                mismatch : Replay.mismatch }
+  (** the [transitions] transitions before that line are the beginning of a run *)
+  | Unreadable of { number : int; why : string }  (** this line is no line of a journal *)
+
+val check : Core.program -> hash:string -> Reader.t -> Header.t option * t
+(** [check program ~hash reader] reads the journal to its end, or to what is wrong with it; [hash] is that of the
+    program's text, as in {!Header.source}. Where transitions are in the program only matters if the program is that of
+    the journal. *)
+
+val is_legal : t -> bool
+val pp : Format.formatter -> t -> unit
+(** A sentence without a full stop, and for what is no run, further lines. *)

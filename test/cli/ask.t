@@ -1,0 +1,75 @@
+Questions are answered by the command line, then by the fleet, then on standard input.
+
+  $ cat > ask.dol <<'EOF'
+  > a = 5
+  > for (i in 1..3) {
+  >     b = ask 'b?'
+  >     message "b=${b}"
+  > }
+  > c = ask 'c?'
+  > EOF
+  $ cat > ask.fleet <<'EOF'
+  > vehicle 'a', { type 'UUV' }
+  > answer 'b?', a * a + 1
+  > EOF
+  $ echo '[1, 2]' | dolphin exec ask.dol --answer 2
+     0:00  program     asks: b? 2
+     0:00  program     says: b=2
+     0:00  program     asks: b? a * a + 1
+     0:00  program     says: b=26
+     0:00  program     asks: b? a * a + 1
+     0:00  program     says: b=26
+     0:00  program     asks: c? [1, 2]
+     0:00  program     ends
+
+Bad answers are asked for again.
+
+  $ dolphin exec ask.dol --answer 'a +' --answer 1 --answer 'aa' --answer '"two"' --answer 'halt()' --answer 3 --answer 4
+     0:00  program     asks: b? a +
+     0:00  program     cannot take this answer: unexpected end of the text (an expression is expected here)
+     0:00  program     asks: b? 1
+     0:00  program     says: b=1
+     0:00  program     asks: b? aa
+     0:00  program     cannot take this answer: unknown name 'aa' (did you mean 'a'?)
+     0:00  program     asks: b? "two"
+     0:00  program     says: b=two
+     0:00  program     asks: b? halt()
+     0:00  program     cannot take this answer: an answer may only compute a value
+     0:00  program     asks: b? 3
+     0:00  program     says: b=3
+     0:00  program     asks: c? 4
+     0:00  program     ends
+
+So are those of the fleet: what comes next is standard input.
+
+  $ cat > bad.fleet <<'EOF'
+  > vehicle 'a', { type 'UUV' }
+  > answer 'b?', 1 / 0
+  > EOF
+  $ printf '1\n2\n3\n4' | dolphin exec ask.dol --fleet bad.fleet
+     0:00  program     asks: b? 1 / 0
+     0:00  program     cannot take this answer: division by zero
+     0:00  program     asks: b? 1
+     0:00  program     says: b=1
+     0:00  program     asks: b? 2
+     0:00  program     says: b=2
+     0:00  program     asks: b? 3
+     0:00  program     says: b=3
+     0:00  program     asks: c? 4
+     0:00  program     ends
+
+The end of the input is no answer.
+
+  $ dolphin exec ask.dol --answer 1 --answer 2 --answer 3 < /dev/null
+     0:00  program     asks: b? 1
+     0:00  program     says: b=1
+     0:00  program     asks: b? 2
+     0:00  program     says: b=2
+     0:00  program     asks: b? 3
+     0:00  program     says: b=3
+     0:00  program     asks: c? 
+     0:00  program     fails: no answer to 'c?': end of input
+  ask.dol:6:5: error: no answer to 'c?': end of input
+    6 | c = ask 'c?'
+      |     ^^^^^^^^
+  [1]

@@ -1,0 +1,30 @@
+  $ dolphin parse ../../examples/until.dol
+  v = pick { type 'UAV' }
+  survey = imcPlan('long_survey')
+  execute v: survey / { battery(v) < 0.3 } >> imcPlan('return_home')
+  message "landed with ${(battery(v) * 100).round()} percent"
+
+What it prints means the same.
+
+  $ for program in ../../examples/*.dol; do
+  >   dolphin parse "$program" > once.dol && dolphin parse once.dol | diff -q once.dol - || echo "$program"
+  > done
+  $ dolphin parse ../../examples/rendezvous.dol > again.dol
+  $ cp ../../examples/rendezvous.fleet again.fleet
+  $ dolphin exec again.dol > again.log
+  $ dolphin exec ../../examples/rendezvous.dol | diff again.log -
+
+Nobody need read all of it.
+
+  $ python3 -c 'print("message 1\n" * 100000)' > long.dol
+  $ dolphin parse long.dol | head -1
+  message 1
+
+Nor need there be room for it.
+
+  $ dolphin parse long.dol > /dev/full
+  dolphin: the output cannot be written: No space left on device
+  [3]
+  $ dolphin check long.dol > /dev/full
+  dolphin: the output cannot be written: No space left on device
+  [3]

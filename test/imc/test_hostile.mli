@@ -1,0 +1,3 @@
+(** The codec against bytes that are no packet. *)
+
+val suite : unit Alcotest.test_case list

@@ -1,0 +1,1 @@
+(** Tests of {!Dolphin_runtime}. No value of its own. *)

@@ -1,0 +1,174 @@
+open Dolphin_scenario
+open Dolphin_syntax
+
+let case name run = Alcotest.test_case name `Quick run
+
+let law name generator ~print property =
+  let cell = QCheck2.Test.make_cell ~count:300 ~name ~print generator property in
+  case name (fun () -> QCheck2.Test.check_cell_exn ~rand:(Random.State.make [| 2016 |]) cell)
+
+let text = Alcotest.(check string)
+
+let contents file =
+  let channel = open_in_bin file in
+  Fun.protect ~finally:(fun () -> close_in channel) (fun () -> really_input_string channel (in_channel_length channel))
+
+let shown ~file source =
+  match Scenario.read ~file source with
+  | Ok s -> Fmt.str "%a" Scenario.pp s
+  | Error faults -> String.concat "" (List.map (Fmt.str "%a\n" (Diagnostic.pp ~source)) faults)
+
+let reads source =
+  match Scenario.read ~file:"test.fleet" source with
+  | Ok s -> s
+  | Error faults -> Alcotest.failf "%a" (Fmt.list (Diagnostic.pp ~source)) faults
+
+(* {1 Golden fleets} *)
+
+let golden folder is_right =
+  let fleets = List.filter (fun file -> Filename.check_suffix file ".fleet") (Array.to_list (Sys.readdir folder)) in
+  let check name =
+    let file = folder ^ "/" ^ name in
+    let source = contents file in
+    case file (fun () ->
+        Alcotest.(check bool) "accepted" is_right (Result.is_ok (Scenario.read ~file source));
+        text "as expected" (contents (Filename.remove_extension file ^ ".expected")) (shown ~file source))
+  in
+  List.map check (List.sort String.compare fleets)
+
+(* {1 Reading} *)
+
+let defaults () =
+  let s =
+    reads "vehicle 'a', { type 'UUV' }; vehicle 'b', { type 'UAV'; at 0, 0 }; vehicle 'c', { type 'UUV' }; plan 'p'" in
+  let vehicle n = List.nth s.vehicles n in
+  Alcotest.(check (float 0.)) "speed" 1.5 (vehicle 0).speed;
+  Alcotest.(check (float 0.)) "speed of a UAV" 18. (vehicle 1).speed;
+  Alcotest.(check (float 1e-3)) "side by side" 20.
+    (Dolphin_geo.Wgs84.distance (vehicle 0).position (vehicle 2).position);
+  Alcotest.(check bool) "off Leixões" true
+    (Dolphin_geo.Wgs84.distance (vehicle 0).position Dolphin_geo.Place.apdl < 1000.);
+  Alcotest.(check bool) "plan" true
+    (Scenario.plan s "p" = Some { name = "p"; duration = None; ending = Succeeds; place = None; only = [] })
+
+let default_fleet () =
+  let s = Scenario.default in
+  Alcotest.(check (list (pair string string)))
+    "vehicles"
+    [ ("noptilus-1", "UUV"); ("noptilus-2", "UUV"); ("noptilus-3", "UUV"); ("x8-02", "UAV") ]
+    (List.map (fun (v : Scenario.vehicle) -> (v.id, v.kind)) s.vehicles);
+  let off_leixoes (v : Scenario.vehicle) =
+    Dolphin_geo.Wgs84.distance v.position { latitude = 41.185; longitude = -8.7062; height = 0. } < 2000. in
+  Alcotest.(check bool) "off Leixões" true (List.for_all off_leixoes s.vehicles);
+  Alcotest.(check bool) "reads as written" true (Scenario.equal s (reads (Fmt.str "%a" Scenario.pp s)))
+
+let beside () =
+  text "same folder" "a.b/prog.fleet" (Scenario.beside "a.b/prog.dol");
+  text "no ending" "a.b/prog.fleet" (Scenario.beside "a.b/prog");
+  text "two points" "x.y.fleet" (Scenario.beside "x.y.dolphin")
+
+let answers () =
+  let s = reads "answer 'one', 2\nanswer 'many', 'x', 3.km" in
+  let check expected prompt n = Alcotest.(check (option string)) prompt expected (Scenario.answer s prompt n) in
+  check (Some "2") "one" 0;
+  check (Some "2") "one" 7;
+  check (Some "'x'") "many" 0;
+  check (Some "3.km") "many" 1;
+  check (Some "3.km") "many" 2;
+  check None "none" 0
+
+let silences () =
+  let spans settings =
+    match (reads (Printf.sprintf "vehicle 'a', { type 'UUV'; %s }" settings)).vehicles with
+    | [ v ] -> Scenario.silences v
+    | _ -> Alcotest.fail "one vehicle"
+  in
+  let check name expected settings =
+    Alcotest.(check (list (pair (float 0.) (float 0.)))) name expected (spans settings) in
+  check "always there" [] "speed 1";
+  check "joins and leaves" [ (0., 30.); (90., infinity) ] "joins 30; leaves 90";
+  check "overlapping" [ (5., 20.) ] "drops 10, 10; drops 5, 6";
+  check "touching" [ (0., 40.); (80., infinity) ] "joins 30; drops 30, 10; leaves 90; drops 80, 10"
+
+let states () =
+  let s =
+    reads "vehicle 'a', { type 'UUV' }; vehicle 'b', { type 'UAV'; joins 1 }; vehicle 'c', { type 'X'; drops 0, 9 }" in
+  Alcotest.(check (list (pair string bool)))
+    "connected"
+    [ ("a", true); ("b", false); ("c", false) ]
+    (List.map (fun (v : Dolphin_semantics.World.vehicle_state) -> (v.id, v.connected)) (Scenario.states s))
+
+let knowing () =
+  let vehicles = "vehicle 'a', { type 'UUV' }; vehicle 'x8-02', { type 'UAV' }; vehicle 'X8-03', { type 'UAV' }" in
+  let s = reads ("plan 'p', { only 'uuv', 'x8-02' }; " ^ vehicles) in
+  let p = Option.get (Scenario.plan s "p") in
+  Alcotest.(check (list bool)) "knows" [ true; true; false ] (List.map (Scenario.knows p) s.vehicles)
+
+(* Every unit of the language measures something here too. *)
+let units () =
+  List.iter
+    (fun unit -> Alcotest.(check bool) unit true (Literal.dimension unit <> None))
+    Dolphin_semantics.Operators.unit_names
+
+(* {1 Laws} *)
+
+let scenario =
+  let open QCheck2.Gen in
+  let odd = oneofl [ '\''; '\\'; '$'; '\n'; '\t'; '"'; '{' ] in
+  let name = string_size ~gen:(oneof [ char_range 'a' 'z'; odd ]) (int_range 1 8) in
+  let amount = oneof [ float_range 0.001 1e6; map float_of_int (int_range 1 10_000) ] in
+  let share = oneof [ float_range 0. 1.; map (fun n -> float_of_int n /. 100.) (int_range 0 100) ] in
+  let position =
+    map3
+      (fun latitude longitude height : Dolphin_geo.Position.t -> { latitude; longitude; height })
+      (float_range (-90.) 90.) (float_range (-180.) 180.) (oneof [ return 0.; float_range (-100.) 100. ]) in
+  let drop = map2 (fun from lasts : Scenario.drop -> { from; lasts }) amount amount in
+  let vehicle id =
+    let* kind = name and* payload = list_size (int_bound 4) name and* position = position in
+    let* speed = amount and* battery = share and* drain = share and* charge = share in
+    let* joins = oneof [ return 0.; amount ] and* stay = opt amount and* drops = list_size (int_bound 4) drop in
+    let leaves = Option.map (fun stay -> joins +. stay) stay in
+    return { Scenario.id; kind; payload; position; speed; battery; drain; charge; joins; leaves; drops } in
+  let plan name_of_it =
+    let* least = amount and* more = oneof [ return 0.; amount ] and* timed = bool in
+    let duration = if timed then Some { Scenario.least; most = least +. more } else None in
+    let* ending = oneof [ return Scenario.Succeeds; return Scenario.Fails; map (fun n -> Scenario.May_fail n) share ] in
+    let* place = opt position and* only = list_size (int_bound 4) name in
+    return { Scenario.name = name_of_it; duration; ending; place; only } in
+  let answer prompt =
+    let texts = list_size (int_range 1 3) (oneofl [ "2"; "'x'"; "3.km"; "[1, _]" ]) in
+    map (fun texts -> { Scenario.prompt; texts }) texts in
+  let distinct entry =
+    let* names = list_size (int_bound 4) name in
+    flatten_l (List.map entry (List.sort_uniq String.compare names)) in
+  let* vehicles = distinct vehicle and* plans = distinct plan and* answers = distinct answer in
+  return { Scenario.vehicles; plans; answers }
+
+let shown_scenario s = Fmt.str "%a" Scenario.pp s
+
+let laws =
+  [ law "what is written is read back" scenario ~print:shown_scenario (fun s ->
+        Scenario.equal s (reads (shown_scenario s)));
+    law "no text makes reading raise"
+      QCheck2.Gen.(pair scenario (pair (int_bound 2000) (int_bound 30)))
+      ~print:(fun (s, _) -> shown_scenario s)
+      (fun (s, (from, length)) ->
+         let whole = shown_scenario s in
+         let size = String.length whole in
+         let from = min from size in
+         let after = min size (from + length) in
+         let cut = String.sub whole 0 from ^ String.sub whole after (size - after) in
+         match Scenario.read ~file:"cut.fleet" cut with Ok _ -> true | Error faults -> faults <> []) ]
+
+let () =
+  match Sys.argv with
+  | [| _; file |] when Filename.check_suffix file ".fleet" -> print_string (shown ~file (contents file))
+  | _ ->
+    Alcotest.run "scenario"
+      [ ("good", golden "good" true);
+        ("bad", golden "bad" false);
+        ( "entries",
+          [ case "defaults" defaults; case "default fleet" default_fleet; case "beside a program" beside;
+            case "answers" answers; case "silences" silences; case "states at the start" states;
+            case "who knows a plan" knowing; case "units" units ] );
+        ("laws", laws) ]

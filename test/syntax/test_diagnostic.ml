@@ -1,0 +1,40 @@
+(* How faults are shown, and what is suggested. *)
+
+open Dolphin_syntax
+
+let shown name ~source ~first ~last expected =
+  Alcotest.test_case name `Quick (fun () ->
+      let cursor = Cursor.make ~file:"f.dol" source in
+      let start = Cursor.position cursor first in
+      let at = Location.make (start, Cursor.position cursor last) in
+      let text = Format.asprintf "@[<v>%a@]" (Diagnostic.pp ~source) (Diagnostic.error at "wrong" ~hint:"right") in
+      Alcotest.(check string) name expected text)
+
+let long = String.make 200 'a' ^ "!!" ^ String.make 200 'b'
+
+let pp =
+  [ shown "plain" ~source:"x = 1\ny = ab\n" ~first:10 ~last:12 "f.dol:2:5: error: wrong\n  2 | y = ab\n    |     ^^\n    hint: right";
+    shown "tabs" ~source:"\tx = 1" ~first:1 ~last:2 "f.dol:1:2: error: wrong\n  1 |     x = 1\n    |     ^\n    hint: right";
+    shown "UTF-8" ~source:"'é€' + b" ~first:10 ~last:11 "f.dol:1:8: error: wrong\n  1 | 'é€' + b\n    |        ^\n    hint: right";
+    shown "several lines" ~source:"ab\ncd" ~first:1 ~last:4 "f.dol:1:2: error: wrong\n  1 | ab\n    |  ^\n    hint: right";
+    shown "the end" ~source:"ab" ~first:2 ~last:2 "f.dol:1:3: error: wrong\n  1 | ab\n    |   ^\n    hint: right";
+    shown "an empty text" ~source:"" ~first:0 ~last:0 "f.dol:1:1: error: wrong\n  1 | \n    | ^\n    hint: right";
+    shown "a long line" ~source:long ~first:200 ~last:202
+      (Printf.sprintf "f.dol:1:201: error: wrong\n  1 | ...%s!!%s...\n    | %s^^\n    hint: right" (String.make 50 'a')
+         (String.make 58 'b') (String.make 53 ' ')) ]
+
+let placeless =
+  Alcotest.test_case "without a place" `Quick (fun () ->
+      let text = Format.asprintf "@[<v>%a@]" (Diagnostic.pp ~source:"") (Diagnostic.warning Location.none "wrong" ~hint:"right") in
+      Alcotest.(check string) "text" "warning: wrong\n  hint: right" text)
+
+let suggested x xs expected =
+  Alcotest.test_case ("suggest " ^ x) `Quick (fun () ->
+      Alcotest.(check (option string)) x expected (Diagnostic.suggest x xs))
+
+let suggest =
+  [ suggested "mesage" [ "post"; "message"; "pause" ] (Some "message"); suggested "pasue" [ "post"; "pause" ] (Some "pause");
+    suggested "uuvs" [ "UAV"; "UUVs" ] (Some "UUVs"); suggested "x" [ "y"; "z" ] None; suggested "abc" [ "xyz" ] None;
+    suggested "execute" [ "exeucte"; "execte" ] (Some "exeucte"); suggested "a" [] None; suggested (String.make 10_000 'a') [ "a" ] None ]
+
+let suite = pp @ [ placeless ] @ suggest

@@ -3,8 +3,10 @@
 type t =
   | Done
   | Failed  (** the program halted, failed or got stuck *)
+  | Violated  (** a run breaks what was asked of all *)
   | Bad_input  (** a bad program, fleet or command line *)
   | Platform_trouble
+  | Inconclusive  (** a bound was met before an answer was found *)
   | Bug  (** a fault of [dolphin] itself *)
   | Interrupted
 

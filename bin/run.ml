@@ -23,8 +23,8 @@ let is_live () =
   let dumb = match Sys.getenv_opt "TERM" with None | Some ("" | "dumb") -> true | Some _ -> false in
   Unix.isatty Unix.stdout && not dumb
 
-(* The log on [screen] and its board, as an observer. The driver interrupts stuck programs by itself; [is_stuck] tells
-   whether an interruption is of that kind. *)
+(* The log on [screen] and its board, as an observer. [is_stuck] tells whether an interruption is the driver's, of a
+   program that is stuck. *)
 let observe screen log board ~is_stuck : Observer.t =
   let print lines = List.iter (Screen.print screen) lines in
   let transition ~time ~cause:_ s =
@@ -76,19 +76,6 @@ let start_host s =
   | None -> Ok None
   | Some command -> Result.map Option.some (Host.start ?timeout:s.supplier_timeout command)
 
-(* A program that waits for what batteries or positions will be is stuck when they will not change any more. The driver
-   cannot know; the fleet does. [P] tells, by [stuck], when it is asked for an event that will never come. *)
-let watched (type p) (module P : Simulator.S with type t = p) stuck =
-  let module Watched = struct
-    include P
-
-    let next p =
-      let promise = P.next p in
-      if P.idle p && Lwt.is_sleeping promise then stuck ();
-      promise
-  end in
-  (module Watched : Simulator.S with type t = p)
-
 (* The simulated fleet passes its time at once, or as a clock does. *)
 type platform = Platform : (module Simulator.S with type t = 'p) * 'p -> platform
 
@@ -102,18 +89,9 @@ let drive s record host =
   let live = is_live () in
   let screen = Screen.make ~live ~on_closed:(fun () -> Interruption.interrupt interruption) Unix.stdout in
   let log = ref Log.start and board = ref Board.start in
-  let control = ref None and stuck = ref None in
-  let notice_stuck () =
-    match !control with
-    | Some (Configuration.Executing (_, r)) -> stuck := Some r; Interruption.interrupt interruption
-    | Some (Script _ | Waiting _ | Ended _) | None -> ()
-  in
-  let remember : Observer.t =
-    { Observer.nobody with transition = (fun ~time:_ ~cause:_ t -> control := Some t.next.control) }
-  in
-  let is_stuck () = !stuck <> None || not (Interruption.happened interruption) in
-  let (Platform (simulator, platform)) = simulated s in
-  let (module P) = watched simulator notice_stuck in
+  (* The driver interrupts stuck programs by itself. *)
+  let is_stuck () = not (Interruption.happened interruption) in
+  let (Platform ((module P), platform)) = simulated s in
   let time () = P.now platform in
   Screen.show screen (fun () -> Board.lines !board);
   let shown : Questions.shown =
@@ -123,7 +101,7 @@ let drive s record host =
   in
   let run () =
     Driver.run (module P) platform ~always_telemetry:(live || Record.is_wanted s.record)
-      ~observer:(Observer.both (Record.observer record) (Observer.both remember (observe screen log board ~is_stuck)))
+      ~observer:(Observer.both (Record.observer record) (observe screen log board ~is_stuck))
       ?host:(Option.map Host.call host)
       ~console:(Questions.console shown ~answers:s.answers ~scenario:s.scenario)
       ~interruption:(Interruption.promise interruption) s.program.program
@@ -133,17 +111,17 @@ let drive s record host =
     match host with None -> Lwt.return_unit | Some host -> Host.close host
   in
   let finish outcome =
-    let outcome =
-      match outcome, !stuck with
-      | Driver.Ended Interrupted, Some r -> Driver.Stuck r
-      | outcome, _ -> outcome
-    in
-    let is_stuck = match outcome with Stuck _ -> true | Ended _ -> false in
+    let is_stuck = match (outcome : Driver.outcome) with Stuck _ -> true | Ended _ -> false in
     match Record.finish record ~time:(time ()) ~stuck:is_stuck with
     | Ok () -> status s outcome
     | Error why -> in_trouble why
   in
-  let broken = function Record.Broken why -> Lwt.return (in_trouble why) | error -> Lwt.fail error in
+  let broken = function
+    | Record.Broken why -> Lwt.return (in_trouble why)
+    | Unix.Unix_error (error, call, _) ->
+      Lwt.return (in_trouble (Printf.sprintf "trouble of the platform: %s: %s" call (Unix.error_message error)))
+    | error -> Lwt.fail error
+  in
   Lwt_main.run (Lwt.catch (fun () -> Lwt.finalize run close >|= finish) broken)
 
 let run s =

@@ -123,7 +123,7 @@ let draw path drawing =
       match Drawing_file.write drawing (Story.finish teller) with
       | Ok () -> Exit_status.Done
       | Error why -> bad why)
-  | (Failed | Bad_input | Platform_trouble | Bug | Interrupted) as status -> status
+  | (Failed | Violated | Bad_input | Platform_trouble | Inconclusive | Bug | Interrupted) as status -> status
 
 let draw_command =
   let drawing =

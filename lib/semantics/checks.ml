@@ -50,7 +50,8 @@ let could_be (wanted : Builtins.kind) (found : Builtins.kind) =
 (* A name that the program defines hides the built-in of that name from this check. *)
 let known_kind env (e : Ast.expression) =
   match e.it with
-  | Call { callee = { it = Variable name; _ }; _ } when Scope.find_function env.program name <> None -> Builtins.Any
+  | Call { callee = { it = Variable name; _ }; _ }
+    when Scope.find_local env.code name <> None || Scope.find_function env.program name <> None -> Builtins.Any
   | _ -> kind_of e
 
 let check_kind env what wanted (e : Ast.expression) =

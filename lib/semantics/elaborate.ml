@@ -53,7 +53,7 @@ let fill (env : Checks.env) (lambda : lambda) purpose parameters at body =
 let is_error (d : Diagnostic.t) = match d.severity with Error -> true | Warning -> false
 
 let program ~source_name (ast : Ast.program) =
-  let program = Scope.create ~functions:[] ~globals:[] in
+  let program = Scope.create ~functions:[] ~globals:[] () in
   let defined =
     List.filter_map
       (fun (s : Ast.statement) ->
@@ -99,7 +99,9 @@ let answer (p : Core.program) text =
   match Dolphin_syntax.Parse.expression ~file:"answer" text with
   | Error ds -> Error (first_message ds)
   | Ok e -> (
-      let program = Scope.create ~functions:p.functions ~globals:(Array.to_list p.global_names) in
+      (* Beyond the program's own sites: what an answer makes has no place in the program's text. *)
+      let first_site = Array.length p.locations in
+      let program = Scope.create ~first_site ~functions:p.functions ~globals:(Array.to_list p.global_names) () in
       let lambda = shell program e.at "answer" 0 in
       let env = { Checks.program; code = Scope.code program Main None; answer = true } in
       fill env lambda Main [] e.at [ { Ast.it = Expression e; at = e.at } ];

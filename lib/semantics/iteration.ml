@@ -23,7 +23,7 @@ let items = function
 
 let find subject name arguments =
   match subject, by_name name arguments with
-  | Integer n, found when name = "times" && n <= Value.longest -> found
+  | Integer n, found when name = "times" && n <= Value.most_items -> found
   | Integer _, _ -> None
   | subject, found -> if Value.items subject = None then None else found
 

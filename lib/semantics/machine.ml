@@ -19,8 +19,8 @@ type context = Code.context = {
   deeds : deed list;
 }
 
-(* What a loop has yet to go through: from an index on, or from a number up or down to another. *)
-type items = Items of value array * int | Counting of int * int * bool
+(* What a loop has yet to go through: elements from an index on, or numbers up to and with the last, up or down. *)
+type items = Items of value array * int | Counting of int * int
 
 type frame =
   | Arguments of { operation : operation; at : site; evaluated : value list; remaining : expression list }
@@ -57,8 +57,7 @@ let compare_expression (e : expression) (e' : expression) = Int.compare e.site e
 let compare_items a b =
   match a, b with
   | Items (xs, i), Items (ys, j) -> both (Int.compare i j) (fun () -> Value.compare (List xs) (List ys))
-  | Counting (i, n, up), Counting (j, m, up') ->
-    both (Int.compare i j) (fun () -> both (Int.compare n m) (fun () -> Bool.compare up up'))
+  | Counting (i, n), Counting (j, m) -> both (Int.compare i j) (fun () -> Int.compare n m)
   | Items _, Counting _ -> -1
   | Counting _, Items _ -> 1
 
@@ -111,7 +110,7 @@ let hash m =
   let focus = match m.focus with Evaluate e -> e.site | Give x -> Value.hash x in
   let frame h = function
     | Arguments a -> (h * 31) + a.at
-    | Next_item (_, Items (_, i), _) | Next_item (_, Counting (i, _, _), _) -> (h * 31) + i
+    | Next_item (_, Items (_, i), _) | Next_item (_, Counting (i, _), _) -> (h * 31) + i
     | Iterate i -> (h * 31) + i.index
     | (Assign_local _ | Assign_global _ | Choose _ | Rest _ | Loop_test _ | Loop_body _ | Leave _) as f ->
       (h * 31) + rank_frame f
@@ -268,7 +267,7 @@ and proceed context fuel x locals stack calls at =
 and begin_loop context fuel x slot body locals stack calls at =
   let start items = next_item context fuel slot items body locals stack calls at in
   match x with
-  | Range (first, last) -> start (Counting (first, last, first <= last))
+  | Range (first, last) -> start (Counting (first, last))
   | Null -> proceed context fuel Null locals stack calls at
   | x -> (
       match Value.items x with
@@ -285,9 +284,9 @@ and next_item context fuel slot items body locals stack calls at =
   in
   match items with
   | Items (xs, i) when i < Array.length xs -> go xs.(i) (Items (xs, i + 1))
-  | Counting (i, last, true) when i <= last -> go (Integer i) (Counting (i + 1, last, true))
-  | Counting (i, last, false) when i >= last -> go (Integer i) (Counting (i - 1, last, false))
-  | Items _ | Counting _ -> proceed context fuel Null locals stack calls at
+  | Counting (i, last) when i = last -> go (Integer i) (Items ([||], 0))
+  | Counting (i, last) -> go (Integer i) (Counting ((if i < last then i + 1 else i - 1), last))
+  | Items _ -> proceed context fuel Null locals stack calls at
 
 and iterate context fuel frame locals stack calls =
   match frame with

@@ -126,6 +126,13 @@ let getter world x name =
   | None, ("empty" | "isEmpty") -> Option.map (fun n -> Ok (Boolean (n = 0))) (Value.length x)
   | None, _ -> None
 
+let properties =
+  [ "id"; "ids"; "type"; "position"; "battery"; "payload"; "size"; "length"; "latitude"; "longitude"; "height"; "centre";
+    "radius"; "first"; "last"; "head"; "tail"; "name" ]
+
+let near name names =
+  match Suggest.suggest name names with Some near -> Printf.sprintf "; did you mean '%s'?" near | None -> ""
+
 let property world x name =
   match x, getter world x name with
   | Map entries, _ when List.mem_assoc name entries -> Ok (List.assoc name entries)
@@ -133,16 +140,11 @@ let property world x name =
   | Map _, None -> Ok Null
   | (Integer _ | Number _), None when Operators.unit_factor name <> None -> Operators.in_unit x name
   | (Integer _ | Number _), None ->
-    let suggestion =
-      match Suggest.suggest name Operators.unit_names with
-      | Some near -> Printf.sprintf "; did you mean '%s'?" near
-      | None -> ""
-    in
-    Error (Printf.sprintf "a number has no unit '%s'%s" name suggestion)
+    Error (Printf.sprintf "a number has no unit '%s'%s" name (near name Operators.unit_names))
   | Null, None -> Error (Printf.sprintf "null has no property '%s'" name)
   | ( ( Boolean _ | String _ | Wildcard | Symbol _ | List _ | Range _ | Position _ | Area _ | Vehicles _ | Task _
       | Closure _ | Host _ | Settings _ ),
-      None ) -> Error (Printf.sprintf "%s has no property '%s'" (Value.kind x) name)
+      None ) -> Error (Printf.sprintf "%s has no property '%s'%s" (Value.kind x) name (near name properties))
 
 (* "getId" is a getter of "id". *)
 let property_of_getter name =
@@ -167,8 +169,12 @@ let on_string s name arguments =
   | ("toDouble" | "toFloat" | "toBigDecimal"), [] ->
     Some (parse_number "a number" s (fun s -> Option.map (fun n -> Number n) (float_of_string_opt s)))
   | "isNumber", [] -> Some (Ok (Boolean (float_of_string_opt s <> None)))
-  | "padLeft", [ Integer n ] -> Some (Ok (String (String.make (max 0 (n - String.length s)) ' ' ^ s)))
-  | "padRight", [ Integer n ] -> Some (Ok (String (s ^ String.make (max 0 (n - String.length s)) ' ')))
+  | ("padLeft" | "padRight"), [ Integer n ] when n > Value.most_items ->
+    Some (Error (Printf.sprintf "a string of %d characters is too long" n))
+  | ("padLeft" | "padRight"), [ Integer n ] ->
+    let length = Option.value (Value.length (String s)) ~default:0 in
+    let padding = String.make (max 0 (n - length)) ' ' in
+    Some (Ok (String (if name = "padLeft" then padding ^ s else s ^ padding)))
   | ("substring" | "take" | "drop"), Integer a :: rest -> (
       match Value.items (String s) with
       | None -> None
@@ -281,6 +287,14 @@ let known =
     "toInteger"; "toDouble"; "abs"; "round"; "distance"; "bearing"; "displace"; "inject"; "eachWithIndex"; "take";
     "drop"; "count"; "times" ]
 
+(* Such a range, or number of times, is not gone through by methods; loops take any range. *)
+let too_many x name =
+  match x with
+  | Range _ -> Value.items x = None
+  | Integer n -> name = "times" && n > Value.most_items
+  | Null | Boolean _ | Number _ | String _ | Wildcard | Symbol _ | List _ | Map _ | Position _ | Area _ | Vehicles _
+  | Task _ | Closure _ | Host _ | Settings _ -> false
+
 let call world x name arguments =
   match name, arguments with
   | "equals", [ y ] -> Ok (Boolean (Value.equals x y))
@@ -296,10 +310,8 @@ let call world x name arguments =
         | [], Some result, _ | [], None, Some result -> result
         | _, _, _ ->
           let hint =
-            if List.mem name known then Printf.sprintf " for %d arguments of that kind" (List.length arguments)
-            else
-              match Suggest.suggest name known with
-              | Some near -> Printf.sprintf "; did you mean '%s'?" near
-              | None -> ""
+            if too_many x name then Printf.sprintf " for more than %d elements" Value.most_items
+            else if List.mem name known then Printf.sprintf " for %d arguments of that kind" (List.length arguments)
+            else near name known
           in
           Error (Printf.sprintf "%s has no method '%s'%s" (Value.kind x) name hint))

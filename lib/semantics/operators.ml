@@ -125,14 +125,14 @@ let arithmetic op on_integers on_numbers x y =
       | Some a, Some b -> Ok (Number (on_numbers a b))
       | _ -> mismatch op x y)
 
-let too_long what = Error (Printf.sprintf "%s of more than %d elements is too long" what Value.longest)
+let too_long what = Error (Printf.sprintf "%s of more than %d elements is too long" what Value.most_items)
 
 let concatenate x y =
   let x = Value.to_string x and y = Value.to_string y in
-  if String.length x + String.length y > Value.longest then too_long "a string" else Ok (String (x ^ y))
+  if String.length x + String.length y > Value.most_items then too_long "a string" else Ok (String (x ^ y))
 
 let append xs ys =
-  if Array.length xs + Array.length ys > Value.longest then too_long "a list" else Ok (List (Array.append xs ys))
+  if Array.length xs + Array.length ys > Value.most_items then too_long "a list" else Ok (List (Array.append xs ys))
 
 let binary (op : Ast.binary) x y =
   match op, x, y with
@@ -153,7 +153,7 @@ let binary (op : Ast.binary) x y =
   | Divide, x, y -> (
       match x, y, Value.to_number x, Value.to_number y with
       | _, _, Some _, Some 0. -> Error "division by zero"
-      | Integer a, Integer b, _, _ when a mod b = 0 -> Ok (Integer (a / b))
+      | Integer a, Integer b, _, _ when a mod b = 0 && not (a = min_int && b = -1) -> Ok (Integer (a / b))
       | _, _, Some a, Some b -> Ok (Number (a /. b))
       | _, _, _, _ -> mismatch op x y)
   | Remainder, x, y -> (
@@ -196,7 +196,12 @@ let element x i =
   | Task t, Vehicles vs -> Ok (Task (Allocated (t, vs)))
   | Task _, i -> expected "a vehicle set between [ and ] after a task" i
   | Map entries, k -> Ok (Option.value (List.assoc_opt (Value.to_string k) entries) ~default:Null)
-  | (List _ | Range _ | Vehicles _ | String _), Integer i -> (
+  | Range (first, last), Integer i -> (
+      let length = abs (last - first) + 1 in
+      match index_of length i with
+      | Some i -> Ok (Integer (if first <= last then first + i else first - i))
+      | None -> Error (Printf.sprintf "index %d is out of range: a range has %d elements" i length))
+  | (List _ | Vehicles _ | String _), Integer i -> (
       match Value.items x with
       | None -> expected "a list" x
       | Some items -> (

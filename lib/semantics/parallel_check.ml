@@ -62,6 +62,17 @@ let rec assignments acc (s : statement) =
     List.fold_left assignments acc body
   | Assign _ | Expression _ | Setting _ | Return _ | Break | Continue -> acc
 
+(* Code inside of expressions assigns too, and its parameters hide what they are named like. *)
+let assignments_inside acc (e : expression) =
+  let hide acc (x : string located) = String_map.add x.it false acc in
+  match e.it with
+  | Closure c | When (c, _) | Wait_for (c, _) | Until (c, _) | Watch (_, c) ->
+    let acc = List.fold_left assignments acc c.body in
+    List.fold_left hide acc (Option.value c.parameters ~default:[])
+  | Builder (_, body) -> List.fold_left assignments acc body
+  | Increment { target = { it = Variable name; _ }; _ } -> String_map.add name false acc
+  | _ -> acc
+
 (* {1 Tasks} *)
 
 (* At least so many vehicles at once. *)
@@ -126,5 +137,7 @@ let at_expression singles acc (e : expression) =
   | _ -> acc
 
 let program ast =
-  let singles = String_map.filter (fun _ single -> single) (List.fold_left assignments String_map.empty ast) in
+  let assigned = List.fold_left assignments String_map.empty ast in
+  let assigned = List.fold_left (of_statement assignments_inside) assigned ast in
+  let singles = String_map.filter (fun _ single -> single) assigned in
   if String_map.is_empty singles then [] else List.fold_left (of_statement (at_expression singles)) [] ast

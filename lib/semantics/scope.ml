@@ -36,14 +36,14 @@ let assigned_global program name =
   global.assigned <- true;
   global.index
 
-let create ~functions ~globals =
+let create ?(first_site = 0) ~functions ~globals () =
   let program =
     {
       functions = Hashtbl.create 16;
       table = Hashtbl.create 64;
       global_names = [];
       locations = [];
-      sites = 0;
+      sites = first_site;
       lambdas = 0;
       reports = [];
       ordered_keys = [];

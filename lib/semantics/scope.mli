@@ -8,8 +8,9 @@ module Location = Dolphin_syntax.Location
 
 type program
 
-val create : functions:(string * Core.lambda) list -> globals:string list -> program
-(** [globals] exist already, as for an answer to [ask]. *)
+val create : ?first_site:Core.site -> functions:(string * Core.lambda) list -> globals:string list -> unit -> program
+(** [functions] and [globals] exist already, as for an answer to [ask]; sites are numbered from [first_site] on, by
+    default from 0. *)
 
 val site : program -> Location.t -> Core.site
 (** A new site there. *)

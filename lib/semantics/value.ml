@@ -133,7 +133,7 @@ and hash_task depth t =
 
 let rec canonical x =
   match x with
-  | Number n when Float.is_integer n && Float.abs n < 0x1p53 -> Integer (int_of_float n)
+  | Number n when Float.is_integer n && Float.abs n < 0x1p62 -> Integer (int_of_float n)
   | List xs -> List (Array.map canonical xs)
   | Map entries -> Map (List.map (fun (k, x) -> (k, canonical x)) entries)
   | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _
@@ -199,11 +199,11 @@ let characters s =
   in
   Array.of_list (from 0 [])
 
-let longest = 1_000_000
+let most_items = 1_000_000
 
 let items = function
   | List xs -> Some xs
-  | Range (first, last) when range_length first last > longest -> None
+  | Range (first, last) when not (0 < range_length first last && range_length first last <= most_items) -> None
   | Range (first, last) ->
     Some (Array.init (range_length first last) (fun i -> Integer (range_item first last i)))
   | Vehicles vs -> Some (Array.of_list (List.map (fun v -> Vehicles [ v ]) vs))
@@ -225,6 +225,7 @@ let length = function
 (* The shortest decimal text that reads back as the same number. *)
 let text_of_number n =
   if Float.is_nan n then "NaN"
+  else if n = 0. then "0.0" (* -0.0 is the same number *)
   else if Float.is_integer n && Float.abs n < 1e15 then Printf.sprintf "%.1f" n
   else
     let short = Printf.sprintf "%.15g" n in

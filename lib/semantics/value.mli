@@ -36,12 +36,12 @@ val of_number : float -> t
 
 val items : t -> t array option
 (** [items x] is what a loop over [x] goes through: elements, numbers of a range, single vehicles, entries of a map
-    (each a map with [key] and [value]), characters; [None] if [x] is no such thing, or longer than
-    {!longest}. *)
+    (each a map with [key] and [value]), characters; [None] if [x] is no such thing, or a range of more than
+    {!most_items} numbers. *)
 
-val longest : int
-(** How long lists and strings may be, and ranges that are taken as lists: a loop that doubles a list must end in a
-    fault, not without memory. Loops over longer ranges work. *)
+val most_items : int
+(** How long lists and strings may become, and a range that is made into a list: one million. A program that doubles a
+    list in a loop must end in a fault, not without memory. *)
 
 val length : t -> int option
 (** [length x] is the number of items of [x]. *)

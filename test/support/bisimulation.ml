@@ -1,7 +1,7 @@
 open Dolphin_semantics
 
-(* Both graphs as one: by state, how it ended and its edges by label. *)
-type node = { ended : string; edges : (string * int) list }
+(* Both graphs as one: by state, what is seen of it, how it ended among others, and its edges by label. *)
+type node = { seen : string; edges : (string * int) list }
 
 let ended (c : Configuration.t) =
   match c.control with
@@ -11,9 +11,15 @@ let ended (c : Configuration.t) =
   | Ended Interrupted -> "interrupted"
   | Script _ | Waiting _ | Executing _ -> ""
 
-let nodes offset (g : Graph.t) =
+let shared (c : Configuration.t) =
+  let variable ppf (i, x) = Format.fprintf ppf "%d=%a" i Value.pp x in
+  let running ppf (v, (p : Core.platform_task)) = Format.fprintf ppf "%s->%s" v p.name in
+  Format.asprintf "%a; %a; %a; %a" (Fmt.list variable) (Store.bindings c.store) (Fmt.list running)
+    (Configuration.Vehicle_map.bindings c.allocation) (Fmt.list Fmt.string) c.bound Tuples.pp c.tuples
+
+let nodes observed offset (g : Graph.t) =
   let edge ((t : Transition.t), target) = (Format.asprintf "%a" Label.pp t.label, offset + target) in
-  Array.mapi (fun i c -> { ended = ended c; edges = List.map edge g.edges.(i) }) g.states
+  Array.mapi (fun i c -> { seen = ended c ^ "; " ^ observed c; edges = List.map edge g.edges.(i) }) g.states
 
 (* Numbers for equal things. *)
 let numbering signatures =
@@ -29,7 +35,7 @@ let numbering signatures =
   let classes = Array.map number signatures in
   (classes, Hashtbl.length numbers)
 
-(* Splits classes until no split is left: states stay together if they ended alike and have the same labels to the same
+(* Splits classes until no split is left: states stay together if they look alike and have the same labels to the same
    classes. *)
 let refine nodes =
   let rec again (classes, count) =
@@ -39,12 +45,14 @@ let refine nodes =
     let finer, count' = numbering (Array.mapi (fun i n -> Digest.string (Marshal.to_string (signature i n) [ No_sharing ])) nodes) in
     if count' = count then (classes, count) else again (finer, count')
   in
-  again (numbering (Array.map (fun n -> n.ended) nodes))
+  again (numbering (Array.map (fun n -> n.seen) nodes))
 
-let equivalent a b =
-  let first = nodes 0 a in
+let nothing _ = ""
+
+let equivalent ?(observed = nothing) a b =
+  let first = nodes observed 0 a in
   let offset = Array.length first in
-  let classes, _ = refine (Array.append first (nodes offset b)) in
+  let classes, _ = refine (Array.append first (nodes observed offset b)) in
   classes.(0) = classes.(offset)
 
-let classes a = snd (refine (nodes 0 a))
+let classes a = snd (refine (nodes nothing 0 a))

@@ -64,8 +64,8 @@ let action_code =
 let handler =
   let no_arguments name = statement (call name []) in
   oneof
-    [ return (code []);
-      return (code [ no_arguments "ignore" ]);
+    [ return (code [ no_arguments "ignore" ]);
+      return (code []);
       return (code [ no_arguments "propagate" ]);
       map (fun e -> code [ statement e; no_arguments "ignore" ]) posting;
       map (fun e -> code [ statement e ]) posting;
@@ -94,7 +94,7 @@ let platform_task vehicles =
 
 let leaf = function
   | [] -> code_task
-  | vehicles -> frequency [ (2, platform_task vehicles); (1, code_task) ]
+  | vehicles -> frequency [ (3, platform_task vehicles); (1, code_task) ]
 
 (* [vehicles] shared out to two branches. *)
 let shared_out vehicles =
@@ -110,7 +110,7 @@ let rec task ~vehicles ~depth : expression Gen.t =
     let* shape =
       frequencyl
         [ (2, `Leaf); (5, `Sequence); (5, `Parallel); (2, `All_of); (2, `One_of); (1, `Wait_for); (2, `Until);
-          (2, `During); (2, `Watch); (1, `Allocated) ]
+          (2, `During); (4, `Watch); (1, `Allocated) ]
     in
     match shape with
     | `Leaf -> leaf vehicles

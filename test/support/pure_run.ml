@@ -23,25 +23,34 @@ let fleet =
     [ vehicle "noptilus-1"; vehicle "noptilus-2" ~north:100.; vehicle "noptilus-3" ~north:200.;
       vehicle "x8-02" ~kind:"UAV" ~north:300. ]
 
-(* What may happen in [c]: its own steps, and the events it awaits. *)
-let successors ?(answers = []) program world c =
-  let internal = List.of_seq (Transition.internal program world c) in
-  let event (e : Transition.event) =
+(* What follows the events that [c] awaits, one after the other. *)
+let awaited ?(answers = []) program world c =
+  let follow (e : Transition.event) =
     let e = match e, answers with Answered _, text :: _ -> Transition.Answered text | e, _ -> e in
-    match Transition.accept program world c e with Ok t -> Some t | Error _ -> None
+    Result.to_option (Transition.accept program world c e)
   in
-  (internal, List.filter_map event (Transition.awaited c))
+  Seq.filter_map follow (List.to_seq (Transition.awaited c))
+
+let successors ?answers program world c =
+  (List.of_seq (Transition.internal program world c), List.of_seq (awaited ?answers program world c))
+
+let first (steps : Transition.t Seq.t) = match steps () with Seq.Nil -> None | Cons (t, _) -> Some t
 
 (* A run in which the program's own steps come first, then the first event that is awaited. *)
 let run ?(limit = 10_000) ?(answers = []) ?(world = fleet) program =
   let rec go n answers c trace =
-    if n = 0 then List.rev trace
-    else
-      match successors ~answers program world c with
-      | t :: _, _ | [], t :: _ ->
-        let answers = match t.Transition.label, answers with Answer _, _ :: rest -> rest | _, answers -> answers in
-        go (n - 1) answers t.next (t :: trace)
-      | [], [] -> List.rev trace
+    let next =
+      if n = 0 then None
+      else
+        match first (Transition.internal program world c) with
+        | Some t -> Some t
+        | None -> first (awaited ~answers program world c)
+    in
+    match next with
+    | None -> List.rev trace
+    | Some t ->
+      let answers = match t.label, answers with Answer _, _ :: rest -> rest | _, answers -> answers in
+      go (n - 1) answers t.next (t :: trace)
   in
   go limit answers (Configuration.initial program) []
 

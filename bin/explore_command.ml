@@ -1,0 +1,237 @@
+open Cmdliner
+module Search = Dolphin_explore.Search
+module Property = Dolphin_explore.Property
+module Columns = Dolphin_display.Columns
+
+type settings = {
+  answers : string list;
+  faults : int option option;
+  strict : bool;
+  json : bool;
+  max_states : int option;
+  max_depth : int option;
+  max_memory : int option;
+  timeout : float option;
+}
+
+(* Without [--strict] these are worth knowing, but a program may mean them. *)
+let is_remark : Property.t -> bool = function
+  | No_halt | No_leftover | All_reached -> true
+  | No_deadlock | Termination | No_error | Vehicles -> false
+
+(* {1 Progress} *)
+
+let mebibytes bytes = bytes / 1024 / 1024
+
+let show_progress (p : Search.progress) =
+  Printf.eprintf "\r%s: %d states, %.0f/s, frontier %d, depth %d, %d MiB, %.0f s\027[K%!" p.phase p.states p.rate
+    p.frontier p.depth (mebibytes p.memory) p.elapsed
+
+let clear_progress () = Printf.eprintf "\r\027[K%!"
+
+(* {1 Results} *)
+
+let print_run program (run : Search.run) =
+  let print = List.iter print_endline in
+  print (Columns.lines program run.steps);
+  if run.cycle <> [] then begin
+    print_endline "and from there, again and again:";
+    print (Columns.lines ~first:(List.length run.steps + 1) program run.cycle)
+  end
+
+let print_pieces (program : Dolphin_semantics.Core.program) pieces =
+  List.iter
+    (fun (piece : Dolphin_explore.Coverage.piece) ->
+       Format.printf "  %a: %s@." Dolphin_syntax.Location.pp program.locations.(piece.site) piece.what)
+    pieces
+
+(* Where a deadlock stands: what it waits for in vain. *)
+let print_waiting (program : Dolphin_semantics.Core.program) (run : Search.run) =
+  match List.rev run.steps with
+  | { next = { control = Executing (_, residual); _ }; _ } :: _ ->
+    let guard (c : Dolphin_semantics.Core.closure) =
+      Format.printf "waits for the condition at %a@." Dolphin_syntax.Location.pp
+        program.locations.(c.lambda.lambda_site)
+    in
+    List.iter guard (Dolphin_runtime.Driver.guards residual)
+  | _ -> ()
+
+let print_outcome program strict (o : Search.outcome) =
+  let shown = List.map (fun (property, verdict) -> (property, verdict, is_remark property && not strict)) o.verdicts in
+  List.iter
+    (fun (property, (verdict : Search.verdict), remark) ->
+       match verdict with
+       | (Holds | Inconclusive _) when remark -> ()
+       | Holds | Violated _ | Unreached _ | Inconclusive _ ->
+         Format.printf "%s%a@." (if remark then "note: " else "") (Search.pp_verdict program) (property, verdict))
+    shown;
+  Printf.printf "%d states, %d transitions, depth %d, %.2f s, %d MiB\n" o.states o.transitions o.depth o.seconds
+    (mebibytes o.bytes);
+  List.iter
+    (fun (property, (verdict : Search.verdict), remark) ->
+       match verdict with
+       | Violated run when not remark ->
+         Format.printf "@.%s: a shortest run in which %s@." (Property.name property) (Property.question property);
+         print_run program run;
+         if property = No_deadlock then print_waiting program run
+       | Unreached pieces when not remark ->
+         Format.printf "@.%s: no run reaches@." (Property.name property);
+         print_pieces program pieces
+       | Holds | Inconclusive _ | Violated _ | Unreached _ -> ())
+    shown
+
+let json_of_run (run : Search.run) =
+  let labels steps =
+    `List
+      (List.map
+         (fun (t : Dolphin_semantics.Transition.t) ->
+            `String (Format.asprintf "%a" Dolphin_semantics.Label.pp t.label))
+         steps)
+  in
+  [ ("run", labels run.steps); ("cycle", labels run.cycle) ]
+
+let json_of_outcome (program : Dolphin_semantics.Core.program) (o : Search.outcome) : Yojson.Safe.t =
+  let verdict (property, verdict) =
+    let name = `String (Property.name property) in
+    let result, more =
+      match (verdict : Search.verdict) with
+      | Holds -> ("holds", [])
+      | Violated run -> ("violated", json_of_run run)
+      | Unreached pieces ->
+        let piece (p : Dolphin_explore.Coverage.piece) =
+          let at = Format.asprintf "%a" Dolphin_syntax.Location.pp program.locations.(p.site) in
+          `Assoc [ ("at", `String at); ("what", `String p.what) ]
+        in
+        ("violated", [ ("unreached", `List (List.map piece pieces)) ])
+      | Inconclusive bound ->
+        ("inconclusive", [ ("bound", `String (Format.asprintf "%a" Search.pp_bound bound)) ])
+    in
+    `Assoc ([ ("property", name); ("verdict", `String result) ] @ more)
+  in
+  `Assoc
+    [ ("states", `Int o.states); ("transitions", `Int o.transitions); ("depth", `Int o.depth);
+      ("seconds", `Float o.seconds); ("bytes", `Int o.bytes); ("verdicts", `List (List.map verdict o.verdicts)) ]
+
+let status strict (o : Search.outcome) : Exit_status.t =
+  let matters (property, _) = strict || not (is_remark property) in
+  let verdicts = List.map snd (List.filter matters o.verdicts) in
+  let is_violated = function Search.Violated _ | Unreached _ -> true | Holds | Inconclusive _ -> false in
+  let is_open = function Search.Inconclusive _ -> true | Holds | Violated _ | Unreached _ -> false in
+  if List.exists is_violated verdicts then Violated else if List.exists is_open verdicts then Inconclusive else Done
+
+(* {1 The command} *)
+
+let explore (program : Program_file.t) (fleet : Fleet_file.t) s =
+  let interrupted = ref false in
+  Sys.set_signal Sys.sigint (Signal_handle (fun _ -> interrupted := true));
+  let live = Unix.isatty Unix.stderr && not s.json in
+  let options : Search.options =
+    { environment = World_of.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
+      max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; timeout = s.timeout;
+      clock = Unix.gettimeofday;
+      interrupted = (fun () -> !interrupted);
+      progress = (if live then show_progress else ignore) }
+  in
+  let outcome = Search.run options program.program (World_of.world fleet.scenario) in
+  if live then clear_progress ();
+  if s.json then print_endline (Yojson.Safe.to_string (json_of_outcome program.program outcome))
+  else print_outcome program.program s.strict outcome;
+  status s.strict outcome
+
+let run path fleet answers faults strict json max_states max_depth max_memory timeout =
+  match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet) with
+  | Error trouble, _ -> Program_file.tell trouble; Exit_status.Bad_input
+  | Ok _, Error trouble -> Fleet_file.tell trouble; Exit_status.Bad_input
+  | Ok program, Ok fleet ->
+    Report.diagnostics ~source:program.source program.warnings;
+    explore program fleet { answers; faults; strict; json; max_states; max_depth; max_memory; timeout }
+
+let faults =
+  let parse text =
+    match String.split_on_char '=' text with
+    | [ "fail" ] -> Ok None
+    | [ "fail"; n ] when (match int_of_string_opt n with Some n -> n >= 0 | None -> false) ->
+      Ok (int_of_string_opt n)
+    | _ -> Error (`Msg (Printf.sprintf "'%s' is neither fail nor fail=NUMBER" text))
+  in
+  let print ppf = function
+    | None -> Format.pp_print_string ppf "fail"
+    | Some n -> Format.fprintf ppf "fail=%d" n
+  in
+  let doc =
+    "Let every platform task fail too: $(b,fail), or at most $(i,N) of them in one run: $(b,fail=)$(i,N). By default \
+     only those may fail of which the fleet says so."
+  in
+  Arg.(value & opt (some (conv (parse, print))) None & info [ "faults" ] ~docv:"FAULTS" ~doc)
+
+(* A number of bytes, as in 512M or 8G. *)
+let size =
+  let parse text =
+    let n = String.length text in
+    let scaled unit = Option.map (fun x -> x * unit) (int_of_string_opt (String.sub text 0 (n - 1))) in
+    let bytes =
+      if n = 0 then None
+      else
+        match text.[n - 1] with
+        | 'K' | 'k' -> scaled 1024
+        | 'M' | 'm' -> scaled (1024 * 1024)
+        | 'G' | 'g' -> scaled (1024 * 1024 * 1024)
+        | _ -> int_of_string_opt text
+    in
+    match bytes with
+    | Some bytes when bytes > 0 -> Ok bytes
+    | Some _ | None -> Error (`Msg (Printf.sprintf "'%s' is no size such as 512M or 8G" text))
+  in
+  Arg.conv ~docv:"SIZE" (parse, Format.pp_print_int)
+
+let bound kind name docv doc = Arg.(value & opt (some kind) None & info [ name ] ~docv ~doc)
+let max_states = bound Arg.int "max-states" "N" "Stop after $(docv) states."
+let max_depth = bound Arg.int "max-depth" "N" "Follow runs for $(docv) transitions only."
+let max_memory = bound size "max-memory" "SIZE" "Stop before more than $(docv) of memory is used, as in 512M or 8G."
+let timeout = bound Arg.float "timeout" "SECONDS" "Stop after $(docv) seconds."
+
+let answers =
+  let doc =
+    "What may be answered to the program's questions. If repeated, each of them may be. The default is what the fleet \
+     answers."
+  in
+  Arg.(value & opt_all string [] & info [ "answer" ] ~docv:"TEXT" ~doc)
+
+let strict =
+  let doc = "Count as violations what otherwise is only noted: $(b,halt), tuples left over, code that no run reaches." in
+  Arg.(value & flag & info [ "strict" ] ~doc)
+
+let json = Arg.(value & flag & info [ "json" ] ~doc:"Print the result as one JSON object.")
+
+let man =
+  [ `S Manpage.s_description;
+    `P "$(tname) follows every run that $(i,PROG) can have: every order in which tasks end and timers expire, every choice \
+        of vehicles, every branch that is ready. It uses the very transition function that $(mname) $(b,exec) uses. For \
+        each of these it says whether it holds, or shows a shortest run that breaks it, a column for the program and one \
+        for each vehicle:";
+    `I ("no deadlock", "some transition is possible until the program ends.");
+    `I ("termination", "every fair run ends: tasks that run end some time, timers expire, no step is put off for ever.");
+    `I ("no error", "no fault, and no error of a task that nothing handles.");
+    `I ("vehicles", "every $(b,pick) and every $(b,execute) gets its vehicles.");
+    `P "Noted are also runs that call $(b,halt), tuples left over at the end, and code that no run reaches.";
+    `P "Positions and batteries stay as they are at the start, and all vehicles of the fleet are in reach. Calls of a \
+        supplier fail.";
+    `P "A bound that is met, or Ctrl-C, makes the answer inconclusive where no violation was found: it is never said that \
+        something holds that was not wholly explored.";
+    `S Manpage.s_arguments;
+    `S Manpage.s_options;
+    `S Manpage.s_exit_status;
+    `S Manpage.s_examples;
+    `Pre "  $(mname) $(tname) examples/rendezvous.dol\n  $(mname) $(tname) examples/rendezvous.dol --faults fail=1\n\
+         \  $(mname) $(tname) mission.dol --max-memory 8G --timeout 60" ]
+  @ Options.see_also
+
+let command =
+  let info =
+    Cmd.info "explore" ~doc:"check every run of a program" ~man
+      ~exits:(Options.exits [ Done; Violated; Bad_input; Inconclusive; Bug ])
+  in
+  Cmd.v info
+    Term.(
+      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ max_states $ max_depth
+      $ max_memory $ timeout)

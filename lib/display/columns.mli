@@ -1,0 +1,14 @@
+(** A run of the semantics as a table: a row for each transition, a column for the program and one for each vehicle, so
+    that one sees who did what in which order. For counter-examples.
+
+    {v
+     program              noptilus-1       x8-02            where
+  1  picks noptilus-1                                       mission.dol:3
+  2                       starts survey1                    mission.dol:9
+    v} *)
+
+open Dolphin_semantics
+
+val lines : ?first:int -> Core.program -> Transition.t list -> string list
+(** [lines program run] is the table of [run]. Silent transitions have no row. Rows are numbered from [first], by
+    default 1; of long texts the beginning is shown. *)

@@ -1,0 +1,32 @@
+(** Whether two graphs are strongly bisimilar, and if not, what tells them apart. *)
+
+type side = Left | Right
+
+(** How two graphs differ in their traces, that is in the sequences of labels along runs from the initial state. *)
+type traces =
+  | Only of side * string list  (** A shortest trace that only one of them has. *)
+  | Same  (** They have the same traces: they differ in when choices are made. *)
+  | Not_known  (** It would have taken more than {!effort}. *)
+
+type difference = {
+  formula : Formula.t;
+  (** It holds in the left initial state and not in the right one. No formula that does is less deep; among those, it
+      is one with few conjuncts. *)
+  traces : traces;
+}
+
+val effort : int
+(** The states that are looked at, each as often as it comes up in a set of states with the same trace, to find a
+    difference of traces: a few seconds' worth. To decide on bisimilarity there is no limit. *)
+
+val strong : Graph.t -> Graph.t -> (unit, difference) result
+(** [strong left right] is [Ok ()] exactly if the initial states are strongly bisimilar. *)
+
+val strong_within : effort:int -> Graph.t -> Graph.t -> (unit, difference) result
+(** [strong left right] is [strong_within ~effort left right]. *)
+
+val isomorphic : Graph.t -> Graph.t -> (unit, Isomorphism.difference) result
+(** {!Isomorphism.check}: whether they are the same but for the numbers of states. *)
+
+val pp_difference : Format.formatter -> difference -> unit
+(** Two sentences, a line each. *)

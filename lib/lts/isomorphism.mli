@@ -1,0 +1,36 @@
+(** Whether two graphs are the same but for the numbers of their states and labels. *)
+
+type side = Left | Right
+
+(** What was found first. Traces lead from the initial state. *)
+type reason =
+  | Enabled of { trace : string list; left : string list; right : string list }
+  (** After [trace], a shortest one, the left graph can do [left], the right one [right]. *)
+  | Merged of { side : side; trace : string list; other : string list }
+  (** [trace] and [other] lead to one state in the graph on this side, and to two in the other. *)
+  | Unmatched of { side : side; trace : string list option; left : int; right : int; steps : int }
+  (** [trace] leads in the graph on this side to a state of a kind of which there are [left] in the left graph and
+      [right] in the right one; states are of one kind if they cannot be told apart by [steps] steps, forwards or
+      back, with all transitions counted. There is no trace if no such state can be reached. *)
+  | No_matching  (** Each state has its like in the other graph, but not all of them together. *)
+  | Undecided  (** {!effort} was spent. It takes a graph that is symmetric in a rare way. *)
+
+type difference = {
+  states : int * int;  (** how many there are, left and right *)
+  transitions : int * int;
+  reason : reason;
+}
+
+val effort : int
+(** The states that are copied in search of a matching of graphs that colour refinement cannot decide. *)
+
+val check : Graph.t -> Graph.t -> (unit, difference) result
+(** [check left right] is [Ok ()] if there is a bijection of the states, unreachable ones included, that takes the
+    initial state to the initial state and the set of transitions, labels compared as texts, to the set of
+    transitions.
+
+    Graphs in which a state and a label determine the next state are walked through side by side, in linear time.
+    Others are refined by what surrounds each state, see {!Refinement}, which decides nearly always; what symmetry is
+    left is broken by trial. *)
+
+val pp_difference : Format.formatter -> difference -> unit

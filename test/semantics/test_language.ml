@@ -1,0 +1,211 @@
+open Dolphin_semantics
+open Test_support
+
+let case name f = Alcotest.test_case name `Quick f
+let strings = Alcotest.(check (list string))
+let last run = Option.get (Pure_run.last run)
+let run ?answers ?world ?limit source = Pure_run.run ?answers ?world ?limit (Pure_run.compile_exn source)
+
+(* The configuration in which [source] waits for an event. *)
+let waiting ?(world = Pure_run.fleet) source =
+  let program = Pure_run.compile_exn source in
+  let rec go c =
+    match (Transition.internal program world c) () with Seq.Nil -> c | Cons (t, _) -> go t.Transition.next
+  in
+  (program, go (Configuration.initial program))
+
+(* [after program c events] is where [c] is after the program's own steps and these events. *)
+let after ?(world = Pure_run.fleet) program c events =
+  let rec settle c =
+    match (Transition.internal program world c) () with Seq.Nil -> c | Cons (t, _) -> settle t.Transition.next
+  in
+  let take c e =
+    match Transition.accept program world c e with
+    | Ok t -> settle t.next
+    | Error Not_awaited -> Alcotest.fail "an event is not awaited"
+    | Error (Bad_answer why) -> Alcotest.failf "bad answer: %s" why
+  in
+  List.fold_left take (settle c) events
+
+let variable program c name =
+  let is_it (i, _) = program.Core.global_names.(i) = name in
+  match List.find_opt is_it (Store.bindings c.Configuration.store) with
+  | Some (_, x) -> Value.to_string x
+  | None -> "nothing"
+
+(* {1 Code without end} *)
+
+let endless_script () =
+  let run = run ~limit:5 "n = 0\nwhile (true) { n = n + 1 }" in
+  strings "labels" [ "script"; "script"; "script"; "script"; "script" ] (Pure_run.labels run);
+  List.iter (fun (t : Transition.t) -> Alcotest.(check string) "rule" "SCRIPT" (Pure_run.rules t)) run;
+  Alcotest.(check string) "goes on" "goes on" (Pure_run.ending run)
+
+let long_script () =
+  let run = run "n = 0\nfor (i in 1..100000) { n = n + i }\nmessage n" in
+  strings "the result is that of one go" [ "5000050000" ] (Pure_run.said run);
+  Alcotest.(check bool) "in several steps" true (List.mem "script" (Pure_run.labels run))
+
+let interrupted_script () =
+  let program, _ = waiting "pause 1" in
+  let c = Configuration.initial program in
+  match Transition.accept program Pure_run.fleet c Interruption with
+  | Ok t -> Alcotest.(check string) "ended" "interrupted" (Pure_run.ending [ t ])
+  | Error _ -> Alcotest.fail "refused"
+
+(* {1 Answers} *)
+
+let answered text =
+  let program, c = waiting "def twice(x) { 2 * x }\nr = 3\nv = pick { id 'noptilus-1' }\nn = ask 'n?'\npause 1" in
+  match Transition.accept program Pure_run.fleet c (Answered text) with
+  | Ok t -> Ok (variable program (after program t.next []) "n")
+  | Error (Bad_answer why) -> Error why
+  | Error Not_awaited -> Alcotest.fail "not awaited"
+
+let answer_is text expected () = Alcotest.(check (result string string)) text (Ok expected) (answered text)
+let answer_is_bad text why () = Alcotest.(check (result string string)) text (Error why) (answered text)
+
+let answers =
+  [ case "a number" (answer_is "2" "2");
+    case "with a unit" (answer_is "2.km" "2000");
+    case "a string" (answer_is "'a' + 'b'" "ab");
+    case "with variables and functions" (answer_is "twice(r) + v.size()" "7");
+    case "no code"
+      (answer_is_bad "[1, 2].collect { it + 1 }" "an answer may not contain code { ... }");
+    case "an unknown name" (answer_is_bad "twise(2)" "unknown name 'twise' (did you mean 'twice'?)");
+    case "division by zero" (answer_is_bad "1 / 0" "division by zero");
+    case "a deed" (answer_is_bad "post(a: 1)" "an answer may only compute a value");
+    case "halt" (answer_is_bad "halt('now')" "an answer may only compute a value");
+    case "waiting" (answer_is_bad "ask('again?')" "ask may not stand in an answer");
+    case "nothing" (fun () -> Alcotest.(check bool) "refused" true (Result.is_error (answered "")));
+    case "no expression" (fun () -> Alcotest.(check bool) "refused" true (Result.is_error (answered "2 +")));
+    case "an assignment" (fun () ->
+        let program, c = waiting "r = 3\nn = ask 'n?'\npause 1" in
+        match Transition.accept program Pure_run.fleet c (Answered "r++") with
+        | Ok _ -> Alcotest.fail "accepted"
+        | Error (Bad_answer why) -> Alcotest.(check string) "why" "an answer may only compute a value" why
+        | Error Not_awaited -> Alcotest.fail "not awaited");
+    case "a task that fails later has no place in the program" (fun () ->
+        let program, c = waiting "v = pick { id 'noptilus-1' }\nexecute ask('what?')" in
+        let c = after program c [ Answered "task('p')"; Vehicle_failed ("noptilus-1", "leak") ] in
+        match c.control with
+        | Ended (Failed fault) ->
+          Alcotest.(check string) "message" "p failed on noptilus-1: leak" fault.message;
+          Alcotest.(check bool) "no place" true (Fault.location program fault = None)
+        | _ -> Alcotest.fail "did not fail") ]
+
+(* {1 Picks} *)
+
+let times_out program c =
+  match Transition.accept program Pure_run.fleet c (Timer_expired Effect.script_timer) with
+  | Ok t -> Format.asprintf "%a" Label.pp t.label
+  | Error Not_awaited -> "not awaited"
+  | Error (Bad_answer why) -> why
+
+(* The configuration in which the script waits for its pick. *)
+let picking source =
+  let program = Pure_run.compile_exn source in
+  match (Transition.internal program Pure_run.fleet (Configuration.initial program)) () with
+  | Cons (t, _) -> (program, t.next)
+  | Nil -> Alcotest.fail "no step"
+
+let picks =
+  let choices source =
+    let program, c = picking source in
+    Pure_run.labels (List.of_seq (Transition.internal program Pure_run.fleet c))
+  in
+  [ case "one for each choice, in pick order" (fun () ->
+        strings "choices"
+          [ "bind(noptilus-1, noptilus-2)"; "bind(noptilus-1, noptilus-3)"; "bind(noptilus-2, noptilus-3)" ]
+          (choices "v = pick { count 2; type 'UUV' }"));
+    case "too many are none" (fun () -> strings "choices" [] (choices "v = pick { count 4; type 'UUV' }"));
+    case "what can be met does not time out" (fun () ->
+        let program, c = picking "v = pick { type 'UUV' }" in
+        Alcotest.(check string) "refused" "not awaited" (times_out program c));
+    case "count _ waits for its whole time" (fun () ->
+        strings "no choice before" [] (choices "v = pick { count _; type 'UUV' }");
+        let program, c = picking "v = pick { count _; type 'UUV' }" in
+        Alcotest.(check string) "all" "bind(noptilus-1, noptilus-2, noptilus-3)" (times_out program c));
+    case "bound vehicles are not picked again" (fun () ->
+        let run = run "v = pick { count 2; type 'UUV' }\nw = pick { type 'UUV' }\nmessage w\nx = pick { type 'UUV' }" in
+        strings "said" [ "noptilus-3" ] (Pure_run.said run);
+        Alcotest.(check bool) "failed" true (String.length (Pure_run.ending run) > 20));
+    case "released vehicles are" (fun () ->
+        strings "said" [ "noptilus-1" ]
+          (Pure_run.said (run "v = pick { type 'UUV' }\nrelease v\nmessage pick { type 'UUV' }"))) ]
+
+(* {1 Tuples} *)
+
+let tuples_of source = Tuples.bindings (last (run source)).tuples
+
+let same source source' =
+  let n source = (snd (waiting (source ^ "\npause 1"))).Configuration.tuples in
+  Tuples.equal (n source) (n source')
+
+let tuples =
+  let same_or_not name expected a b = case name (fun () -> Alcotest.(check bool) name expected (same a b)) in
+  [ same_or_not "order is forgotten" true "post a: 1\npost a: 2" "post a: 2\npost a: 1";
+    same_or_not "order is kept where _ takes the oldest" false "post a: 1\npost a: 2\nif (false) { consume a: _ }"
+      "post a: 2\npost a: 1\nif (false) { consume a: _ }";
+    same_or_not "order of other keys is forgotten" true "post a: 1\npost b: 2\npost b: 3\nif (false) { consume a: _ }"
+      "post b: 3\npost a: 1\npost b: 2\nif (false) { consume a: _ }";
+    same_or_not "whole numbers are integers" true "post a: 1.0, b: [2.0]" "post a: 1, b: [2]";
+    same_or_not "a multiset" false "post a: 1" "post a: 1, a: 1";
+    same_or_not "what is consumed is gone" true "post a: 1, a: 1\nconsume a: 1" "post a: 1";
+    case "the oldest first" (fun () ->
+        strings "said" [ "3 1 2" ]
+          (Pure_run.said
+             (run
+                "r = []\npost a: 3, a: 1, a: 2\n\
+                 for (i in 1..3) { for (x in 1..3) { } }\n\
+                 execute oneOf { when { consume a: _ } then action { r << (poll(a: 3) ? 'no' : 3) } }\n\
+                 execute oneOf { when { consume a: _ } then action { r << (poll(a: 1) ? 'no' : 1) } }\n\
+                 execute oneOf { when { consume a: _ } then action { r << (poll(a: 2) ? 'no' : 2) } }\n\
+                 message r.join(' ')")));
+    case "left over" (fun () ->
+        Alcotest.(check int) "keys" 2 (List.length (tuples_of "post a: 1, b: 2\nconsume a: 3"))) ]
+
+(* {1 When things happen} *)
+
+let moments =
+  [ case "the time of during is asked for when its turn comes" (fun () ->
+        let run = run "n = 1\nexecute(action { n = 60 } >> during { n } run idle(1))" in
+        Alcotest.(check bool) "set to 60" true (List.mem "set-time(60)" (Pure_run.labels run)));
+    case "a task is built once, and runs as often as it is executed" (fun () ->
+        strings "said" [ "a"; "a"; "a" ]
+          (Pure_run.said (run "t = action { message 'a' }\nexecute(t >> t)\nexecute t")));
+    case "one task on two vehicles" (fun () ->
+        let run = run "v = pick { count 2; type 'UUV' }\nt = task('p')\nexecute(t[v[0]] | t[v[1]])" in
+        let started = List.filter (fun l -> String.length l > 5 && String.sub l 0 5 = "start") (Pure_run.labels run) in
+        strings "both" [ "start(noptilus-1, p)"; "start(noptilus-2, p)" ] started);
+    case "captured when the closure is made" (fun () ->
+        strings "said" [ "1"; "2"; "3" ]
+          (Pure_run.said
+             (run "ts = []\nfor (i in 1..3) { ts << action { message i } }\nfor (t in ts) { execute t }")));
+    case "a failing task is blamed where it was written" (fun () ->
+        let program, c = waiting "v = pick { id 'noptilus-1' }\n\nexecute   task('p')" in
+        let c = after program c [ Vehicle_failed ("noptilus-1", "leak") ] in
+        match c.control with
+        | Ended (Failed fault) ->
+          let at = Option.get (Fault.location program fault) in
+          Alcotest.(check (pair int int)) "place" (3, 11) Dolphin_syntax.Location.(line at, column at)
+        | _ -> Alcotest.fail "did not fail");
+    case "a handler's verdict is of this error only" (fun () ->
+        let source =
+          "n = 0\ndef t() { watch action { 1 / 0 } onError { n = n + 1; if (n == 1) { ignore() } } }\nexecute(t() >> t())"
+        in
+        Alcotest.(check string) "the second propagates" "failed: division by zero" (Pure_run.ending (run source)));
+    case "a host call waits, and goes on with the reply" (fun () ->
+        let program, c = waiting "s = getSupplier()\nx = s.next(1)\npause 1" in
+        let c = after program c [ Replied (Host "supplier"); Replied (Integer 7) ] in
+        Alcotest.(check string) "x" "7" (variable program c "x")) ]
+
+let () =
+  Alcotest.run "language"
+    [ ( "without end",
+        [ case "a script takes SCRIPT steps" endless_script; case "a long script" long_script;
+          case "it can be interrupted" interrupted_script ] );
+      ("answers", answers);
+      ("picks", picks);
+      ("tuples", tuples);
+      ("moments", moments) ]

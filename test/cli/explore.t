@@ -123,7 +123,7 @@ A bound that is met leaves the answer open.
   termination: inconclusive, the bound on states was met
   no unhandled error: inconclusive, the bound on states was met
   vehicles for all tasks: inconclusive, the bound on states was met
-  101 states, 180 transitions, depth 13
+  137 states, 266 transitions, depth 14
   [3]
 
 For machines.

@@ -195,3 +195,24 @@ A journal that cannot be written stops the run, and the vehicles.
   $ dolphin exec ../../examples/sequence.dol --draw missing/x.svg > /dev/null
   dolphin: the picture cannot be written: missing/x.svg: No such file or directory
   [3]
+
+A console that is killed leaves the beginning of a run; one that is interrupted, a whole one.
+
+  $ (dolphin exec ../../examples/parallel.dol --speed 20 --journal killed.run > /dev/null & sleep 2; kill -9 $!) 2> /dev/null
+  $ dolphin trace check ../../examples/parallel.dol killed.run | sed 's/, of [^;]*//; s/ in the middle of a line//'
+  killed.run: the beginning of a run; it breaks off
+  $ timeout --preserve-status -s INT 2 dolphin exec ../../examples/parallel.dol --speed 20 --journal stopped.run > /dev/null
+  [130]
+  $ dolphin trace check ../../examples/parallel.dol stopped.run | sed 's/, of [^;]*//'
+  stopped.run: a run; interrupted
+
+A program that is stuck.
+
+  $ cat > stuck.dol <<'EOF'
+  > v = pick { type 'UUV' }
+  > execute waitFor { consume a: 1 } then task('t')[v]
+  > EOF
+  $ dolphin exec stuck.dol --journal stuck.run > /dev/null 2>&1
+  [1]
+  $ dolphin trace check stuck.dol stuck.run
+  stuck.run: a run, of 4 transitions in 0:00; stuck

@@ -44,8 +44,8 @@ let seed =
 
 let answers =
   let doc =
-    "Answer a question of the program ($(b,ask)) with $(docv), an expression. May be repeated: the first one answers the \
-     first question. Further questions are answered by the fleet, or else on standard input."
+    "Answer a question of the program ($(b,ask)) with $(docv), an expression. May be repeated: the first one answers \
+     the first question. Further questions are answered by the fleet, or else on standard input."
   in
   Arg.(value & opt_all string [] & info [ "answer" ] ~docv:"TEXT" ~doc)
 
@@ -75,12 +75,13 @@ let drawing =
 
 let man =
   [ `S Manpage.s_description;
-    `P "$(tname) checks the program $(i,PROG) as $(mname) $(b,check) does and runs it on a fleet of simulated vehicles. \
-        The vehicles move, their batteries drain, their plans take the time that the fleet file says and may fail. Unless \
-        $(b,--speed) is given the run takes no longer than it takes to compute: a mission of an hour is over at once.";
-    `P "The log on standard output has a line for whatever happens: the time since the start, who, what. On a terminal a \
-        board below it shows each vehicle of the program: its task, for how long it has been running, its position and \
-        its battery.";
+    `P "$(tname) checks the program $(i,PROG) as $(mname) $(b,check) does and runs it on a fleet of simulated \
+        vehicles. The vehicles move, their batteries drain, their plans take the time that the fleet file says and may fail. \
+        Unless $(b,--speed) is given the run takes no longer than it takes to compute: a mission of an hour is over at \
+        once.";
+    `P "The log on standard output has a line for whatever happens: the time since the start, who, what. On a terminal \
+        a board below it shows each vehicle of the program: its task, for how long it has been running, its position \
+        and its battery.";
     `P "Ctrl-C interrupts the program: running tasks are stopped, vehicles are released. A second Ctrl-C ends \
         $(mname) at once.";
     `S Manpage.s_arguments;

@@ -116,7 +116,12 @@ let drive s record host =
     | Ok () -> status s outcome
     | Error why -> in_trouble why
   in
-  let broken = function Record.Broken why -> Lwt.return (in_trouble why) | error -> Lwt.fail error in
+  let broken = function
+    | Record.Broken why -> Lwt.return (in_trouble why)
+    | Unix.Unix_error (error, call, _) ->
+      Lwt.return (in_trouble (Printf.sprintf "trouble of the platform: %s: %s" call (Unix.error_message error)))
+    | error -> Lwt.fail error
+  in
   Lwt_main.run (Lwt.catch (fun () -> Lwt.finalize run close >|= finish) broken)
 
 let run s =

@@ -39,6 +39,8 @@ type actor = {
   mutable spans_silent : span list;
   mutable silent_from : float option;
   mutable seen : sample list;
+  mutable kept : int;  (* how many samples that is *)
+  mutable apart : float;  (* seconds between samples, at least *)
 }
 
 type teller = {
@@ -61,7 +63,7 @@ let actor t v =
   | None ->
     let a =
       { its_kind = ""; ended = []; running = None; spans_held = []; held_from = None; spans_silent = [];
-        silent_from = None; seen = [] }
+        silent_from = None; seen = []; kept = 0; apart = 0. }
     in
     Hashtbl.replace t.actors v a;
     a
@@ -90,13 +92,39 @@ let let_go t v =
   Option.iter (fun from -> a.spans_held <- { from; until = t.now } :: a.spans_held) a.held_from;
   a.held_from <- None
 
+(* No picture shows more samples than that: of a long run, only some are kept, evenly. *)
+let most_samples = 4096
+
+let keep a sample =
+  match a.seen with
+  | last :: others when sample.time -. last.time < a.apart && others <> [] ->
+    (* The latest one always stays, so that the last one does. *)
+    (match others with
+     | before :: _ when last.time -. before.time < a.apart -> a.seen <- sample :: others
+     | _ -> a.seen <- sample :: a.seen; a.kept <- a.kept + 1)
+  | seen ->
+    a.seen <- sample :: seen;
+    a.kept <- a.kept + 1
+
+let thin_out a =
+  if a.kept > most_samples then begin
+    let halve (i, kept) sample = (i + 1, if i mod 2 = 0 then sample :: kept else kept) in
+    let count, reversed = List.fold_left halve (0, []) a.seen in
+    a.seen <- List.rev reversed;
+    a.kept <- (count + 1) / 2;
+    match a.seen, reversed with
+    | last :: _, first :: _ -> a.apart <- (last.time -. first.time) /. float_of_int a.kept
+    | _, _ -> ()
+  end
+
 let see t (s : World.vehicle_state) =
   let a = actor t s.id in
   a.its_kind <- s.kind;
   if s.connected then begin
     Option.iter (fun from -> a.spans_silent <- { from; until = t.now } :: a.spans_silent) a.silent_from;
     a.silent_from <- None;
-    a.seen <- { time = t.now; position = s.position; battery = s.battery } :: a.seen
+    keep a { time = t.now; position = s.position; battery = s.battery };
+    thin_out a
   end
   else if a.silent_from = None then a.silent_from <- Some t.now
 

@@ -26,13 +26,15 @@ let words = function
   | Asked text -> "asks: " ^ text
   | Erred why -> "error: " ^ why
 
+let sort = function Posted _ -> 0 | Consumed _ -> 1 | Said _ -> 2 | Asked _ -> 3 | Erred _ -> 4
+
 let label = function
   | Posted pair | Consumed pair -> pair
   | Said text | Asked text -> "“" ^ text ^ "”"
   | Erred why -> why
 
 let most_levels = 7
-let longest_label = 210.
+let longest_label = 330.
 
 (* Marks with labels that do not overlap: each on the lowest level on which there is room for it. A mark whose label has
    no room stands on the lowest level without one, on the whole too many to be read. *)
@@ -42,7 +44,8 @@ let place f deeds =
   let mark (time, deed) =
     let x = at f time in
     let text = Svg.fit ~size:10. longest_label (label deed) in
-    let width = Svg.width ~size:10. text +. 16. in
+    let size = match deed with Erred _ -> 11.2 | Posted _ | Consumed _ | Said _ | Asked _ -> 10. in
+    let width = Svg.width ~size text +. 18. in
     let from = if x +. width > f.right +. 8. then x -. width else x -. 6. in
     let until = if x +. width > f.right +. 8. then x +. 8. else x +. width in
     let rec level i = if i >= most_levels then None else if free.(i) <= from then Some i else level (i + 1) in
@@ -53,8 +56,19 @@ let place f deeds =
       levels := max !levels (i + 1);
       (x, i, from < x -. 6., deed, text, time)
   in
-  let marks = List.map mark deeds in
-  (marks, !levels)
+  (* Where there are too many for labels, one mark stands for those that it would cover. *)
+  let covered = Hashtbl.create 8 in
+  let add marks ((x, _, _, deed, text, _) as mark) =
+    let kind = sort deed in
+    let is_covered = match Hashtbl.find_opt covered kind with Some x' -> x -. x' < 4. | None -> false in
+    if text = "" && is_covered then marks
+    else begin
+      if text = "" then Hashtbl.replace covered kind x;
+      mark :: marks
+    end
+  in
+  let marks = List.fold_left (fun marks deed -> add marks (mark deed)) [] deeds in
+  (List.rev marks, !levels)
 
 let level_height = 15.
 
@@ -98,13 +112,13 @@ let draw_task f colour v ~y ~height (task : task) =
     | Stopped ->
       ([ Svg.rect ~name:"end-stopped" ~tip ~x:(right -. 3.) ~y:(y -. 2.) ~width:3. ~height:(height +. 4.) () ], 4.)
   in
-  let text = if height < 12. then "" else Svg.fit (width -. 8. -. taken) task.plan in
+  let text = if height < 12. then "" else Svg.fit (width -. 6. -. taken) task.plan in
   let legible = Svg.width text > 14. || text = task.plan in
   let name =
     if text = "" || not legible then []
-    else [ Svg.text ~name:"within" ~tip (x +. 5., y +. (height /. 2.) +. 4.) text ]
+    else [ Svg.text ~name:"within" ~tip (x +. 4., y +. (height /. 2.) +. 4.) text ]
   in
-  (bar :: finish) @ name
+  (bar, name @ finish)
 
 let draw_row f i v ~y ~row =
   let colour = Style.vehicle i in
@@ -119,8 +133,9 @@ let draw_row f i v ~y ~row =
     let tip = Printf.sprintf "%s has no link from %s to %s" v.id (Clock.text s.from) (Clock.text s.until) in
     Svg.rect ~name:"silent" ~tip ~x ~y:(top +. height +. 1.) ~width:(Float.max 2. (at f s.until -. x)) ~height:3. ()
   in
-  List.map band v.held
-  @ List.concat_map (draw_task f colour v ~y:top ~height) v.tasks
+  (* How a task ended is seen even if another one begins at once. *)
+  let bars, others = List.split (List.map (draw_task f colour v ~y:top ~height) v.tasks) in
+  List.map band v.held @ bars @ List.concat others
   @ List.map silence v.silent
   @ [ Svg.text ~name:("name " ^ colour) ~anchor:End (f.left -. 10., top +. (height /. 2.) +. 4.)
         (Svg.fit 150. v.id) ]
@@ -129,6 +144,10 @@ let draw_row f i v ~y ~row =
 
 let exists_deed p story = List.exists (fun (_, deed) -> p deed) story.deeds
 let exists_task p story = List.exists (fun v -> List.exists (fun (t : task) -> p t.ending) v.tasks) story.vehicles
+
+let exists_failure story =
+  exists_deed (function Erred _ -> true | _ -> false) story
+  || exists_task (function Failed _ -> true | _ -> false) story
 
 let legend story ~x ~y =
   let deed p sample text = if exists_deed p story then [ ((fun x -> shape sample (x, y -. 3.5) text), text) ] else [] in
@@ -141,9 +160,8 @@ let legend story ~x ~y =
     @ deed (function Consumed _ -> true | _ -> false) (Consumed "") "consumes"
     @ deed (function Asked _ -> true | _ -> false) (Asked "") "asks"
     @ deed (function Said _ -> true | _ -> false) (Said "") "says"
-    @ deed (function Erred _ -> true | _ -> false) (Erred "") "error"
-    @ (if exists_task (function Failed _ -> true | _ -> false) story then [ (cross, "task failed") ] else [])
-    @ (if exists_task (function Stopped -> true | _ -> false) story then [ (block, "task stopped") ] else [])
+    @ (if exists_failure story then [ (cross, "fails") ] else [])
+    @ (if exists_task (function Stopped -> true | _ -> false) story then [ (block, "is stopped") ] else [])
     @ if List.exists (fun v -> v.silent <> []) story.vehicles then [ (strip, "no link") ] else []
   in
   let add (x, drawn) (shape, text) =

@@ -59,21 +59,20 @@ let grid m ~x ~y ~width ~height =
   (* One step for both, so that cells look alike on neighbouring maps; near the poles meridians need a wider one. *)
   let step = Scale.step ~most:(most height 38.) down in
   let step_across = Float.max step (Scale.step ~most:(most width 62.) across) in
-  let decimals = max (Scale.decimals step) (Scale.decimals step_across) in
   let lines step origin span =
     Scale.multiples step ~from:(origin -. (span /. 2.)) ~until:(origin +. (span /. 2.))
   in
   let longitudes = lines step_across m.longitude across and latitudes = lines step m.latitude down in
   let meridian longitude =
     let at = middle_x +. ((longitude -. m.longitude) *. m.east) in
-    let label = degrees decimals longitude ~positive:"E" ~negative:"W" in
+    let label = degrees (Scale.decimals step_across) longitude ~positive:"E" ~negative:"W" in
     let fits = at > x +. 24. && at < x +. width -. 24. in
     Svg.line ~name:"grid" (at, y) (at, y +. height)
     :: (if fits then [ Svg.text ~name:"axis" ~anchor:Middle (at, y +. height +. 13.) label ] else [])
   in
   let parallel latitude =
     let at = middle_y -. ((latitude -. m.latitude) *. m.north) in
-    let label = degrees decimals latitude ~positive:"N" ~negative:"S" in
+    let label = degrees (Scale.decimals step) latitude ~positive:"N" ~negative:"S" in
     [ Svg.line ~name:"grid" (x, at) (x +. width, at); Svg.text ~name:"axis" ~anchor:End (x -. 6., at +. 3.5) label ]
   in
   List.concat_map meridian longitudes @ List.concat_map parallel latitudes
@@ -114,9 +113,15 @@ let runs v =
   in
   List.rev_map List.rev (List.fold_left add [] v.samples)
 
-let position_at v time =
-  let before = List.filter (fun s -> s.time <= time +. 1e-6) v.samples in
-  match List.rev before with s :: _ -> Some s.position | [] -> None
+(* [places v] is where [v] was at the start of each of its tasks. *)
+let places v =
+  let rec walk last samples (tasks : task list) found =
+    match samples, tasks with
+    | s :: samples, t :: _ when s.time <= t.from +. 1e-6 -> walk (Some s.position) samples tasks found
+    | samples, t :: tasks -> walk last samples tasks (match last with Some p -> (t, p) :: found | None -> found)
+    | _, [] -> List.rev found
+  in
+  walk None v.samples v.tasks []
 
 let way m i v =
   let colour = Style.vehicle i in
@@ -130,14 +135,11 @@ let way m i v =
     | [ _ ] | [] -> []
   in
   let starts =
-    let start (t : task) =
-      let dot p =
-        let tip = Printf.sprintf "%s starts %s at %s" v.id t.plan (Clock.text t.from) in
-        Svg.circle ~name:("step " ^ colour) ~tip (project m p) 2.4
-      in
-      Option.map dot (position_at v t.from)
+    let start ((t : task), p) =
+      let tip = Printf.sprintf "%s starts %s at %s" v.id t.plan (Clock.text t.from) in
+      Svg.circle ~name:("step " ^ colour) ~tip (project m p) 2.4
     in
-    List.filter_map start v.tasks
+    List.map start (places v)
   in
   let ends =
     match v.samples with

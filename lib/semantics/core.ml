@@ -131,6 +131,7 @@ and builtin =
   | Battery_of
   | Location_of
   | Area_of
+  | Assert                                      (* made by elaboration: the text of an assertion that fails *)
   | Ignore
   | Propagate
   | Get_supplier

@@ -17,7 +17,7 @@ type settings = {
 (* Without [--strict] these are worth knowing, but a program may mean them. *)
 let is_remark : Property.t -> bool = function
   | No_halt | No_leftover | All_reached -> true
-  | No_deadlock | Termination | No_error | Vehicles -> false
+  | No_deadlock | Termination | No_error | Assertions | Vehicles -> false
 
 (* {1 Progress} *)
 
@@ -212,6 +212,7 @@ let man =
     `I ("no deadlock", "some transition is possible until the program ends.");
     `I ("termination", "every fair run ends: tasks that run end some time, timers expire, no step is put off for ever.");
     `I ("no error", "no fault, and no error of a task that nothing handles.");
+    `I ("assertions", "no $(b,assert) of the program fails.");
     `I ("vehicles", "every $(b,pick) and every $(b,execute) gets its vehicles.");
     `P "Noted are also runs that call $(b,halt), tuples left over at the end, and code that no run reaches.";
     `P "Positions and batteries stay as they are at the start, and all vehicles of the fleet are in reach. Calls of a \

@@ -8,6 +8,7 @@ A program whose every run is sound.
   no deadlock: holds
   termination: holds
   no unhandled error: holds
+  assertions: holds
   vehicles for all tasks: holds
   2198 states, 7139 transitions, depth 35
 
@@ -17,6 +18,7 @@ The same, if a plan may fail once.
   no deadlock: holds
   termination: holds
   no unhandled error: violated after 10 steps: an error that nobody handles ends the program
+  assertions: holds
   vehicles for all tasks: holds
   2246 states, 10055 transitions, depth 35
   
@@ -44,6 +46,7 @@ A program that may wait for ever.
   no deadlock: violated after 6 steps: nothing can happen any more, and the program has not ended
   termination: holds
   no unhandled error: holds
+  assertions: holds
   vehicles for all tasks: holds
   17 states, 16 transitions, depth 6
   
@@ -69,6 +72,7 @@ A program that may never end.
   no deadlock: holds
   termination: violated: after 1 step, 4 steps that can repeat for ever
   no unhandled error: holds
+  assertions: holds
   vehicles for all tasks: holds
   5 states, 5 transitions, depth 4
   
@@ -93,6 +97,7 @@ Code that nothing reaches is only worth a note, unless one asks for more.
   no deadlock: holds
   termination: holds
   no unhandled error: holds
+  assertions: holds
   vehicles for all tasks: holds
   note: no leftover tuples: violated after 2 steps: tuples are left when the program completes
   note: all code reached: violated: no run reaches message at unreached.dol:2:19
@@ -101,6 +106,7 @@ Code that nothing reaches is only worth a note, unless one asks for more.
   no deadlock: holds
   termination: holds
   no unhandled error: holds
+  assertions: holds
   vehicles for all tasks: holds
   no halt: holds
   no leftover tuples: violated after 2 steps: tuples are left when the program completes
@@ -116,12 +122,40 @@ Code that nothing reaches is only worth a note, unless one asks for more.
     unreached.dol:2:19: message
   [1]
 
+An assertion that some run breaks.
+
+  $ cat > assertion.dol <<'END'
+  > v = pick { type 'UUV' }
+  > assert { 1 + 1 == 2 }, 'arithmetic'
+  > execute watch (imcPlan('a') | action { post alarm: 1 }
+  >   | assert { !poll(alarm: _) }) onError { ignore() }
+  > consume alarm: 1
+  > END
+  $ explore assertion.dol
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: violated after 5 steps: assertion.dol:4:5: assertion failed
+  vehicles for all tasks: holds
+  note: all code reached: violated: no run reaches onError at assertion.dol:3:9
+  50 states, 73 transitions, depth 9
+  
+  assertions: a shortest run in which an assertion fails
+      program                        where
+  1   pick(1 vehicle of type 'UUV')  assertion.dol:1
+  2   picks noptilus-1               assertion.dol:1
+  3   execute                        assertion.dol:3
+  4   act(post alarm:1)              assertion.dol:3
+  5   broken(assertion failed)       assertion.dol:4
+  [1]
+
 A bound that is met leaves the answer open.
 
   $ explore ../../examples/rendezvous.dol --max-states 100
   no deadlock: inconclusive, the bound on states was met
   termination: inconclusive, the bound on states was met
   no unhandled error: inconclusive, the bound on states was met
+  assertions: inconclusive, the bound on states was met
   vehicles for all tasks: inconclusive, the bound on states was met
   137 states, 266 transitions, depth 14
   [3]
@@ -133,6 +167,7 @@ For machines.
   "verdicts":[{"property":"no deadlock"
   "verdict":"holds"}
   "verdict":"violated"
+  "verdict":"holds"}
   "verdict":"holds"}
   "verdict":"holds"}
   "verdict":"holds"}

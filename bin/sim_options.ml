@@ -42,6 +42,13 @@ let ports =
   in
   Arg.conv ~docv:"FIRST-LAST" (parse, fun ppf (first, last) -> Format.fprintf ppf "%d-%d" first last)
 
+let host =
+  let parse text =
+    if Dolphin_sim_imc.Address.is_host text then Ok text
+    else Error (`Msg (Printf.sprintf "'%s' is not an address such as 192.168.1.7" text))
+  in
+  Arg.conv ~docv:"ADDRESS" (parse, Format.pp_print_string)
+
 (* [VEHICLE] or [VEHICLE=...]: names of vehicles may have any other character. *)
 let named text =
   match String.index_opt text '=' with
@@ -146,7 +153,7 @@ let address =
     "The address of this host by which other hosts find the vehicles, as 192.168.1.7. By default only programs on this \
      host do."
   in
-  Arg.(value & opt (some string) None & info [ "address" ] ~docs:network_section ~docv:"ADDRESS" ~doc)
+  Arg.(value & opt (some host) None & info [ "address" ] ~docs:network_section ~docv:"ADDRESS" ~doc)
 
 let settings =
   let make speed seed strict flood faults refuses blocks announce_period contact_period first_port first_id

@@ -5,6 +5,9 @@ type t = {
   port : int;
 }
 
+val is_host : string -> bool
+(** [is_host text] is whether [text] is an IPv4 address in decimals. *)
+
 val of_services : string -> t list
 (** [of_services s] is the addresses in the services [s] of an Announce, separated by [;], that take IMC over UDP:
     those of the form ["imc+udp://HOST:PORT/"]. With a path behind they are for other uses. What cannot be read is left

@@ -92,18 +92,26 @@ let rec open_all host port = function
           | Ok crafts -> Ok ({ vehicle; id; socket; radio = None; told = 0 } :: crafts)
           | Error _ as error -> close_socket socket; error))
 
+(* Beyond are the numbers that stand for no system of its own. *)
+let last_id = 0xFFEF
+
 let create s =
   let first, last = s.discovery_ports in
   let numbered = List.mapi (fun i v -> s.first_id + i, v) s.scenario.vehicles in
-  match first_free Unix.inet_addr_any first last with
-  | None -> Error (Printf.sprintf "none of the UDP ports %d to %d, on which IMC systems find each other, is free" first last)
-  | Some discovery -> (
-      join_group discovery;
-      let host = if s.address = None then Unix.inet_addr_loopback else Unix.inet_addr_any in
-      match open_all host s.first_port numbered with
-      | Error _ as error -> close_socket discovery; error
-      | Ok crafts ->
-        Ok { settings = s; discovery; crafts; buffer = Bytes.create 65536; origin = 0.; changed = None })
+  let host = if s.address = None then Unix.inet_addr_loopback else Unix.inet_addr_any in
+  if s.first_id + List.length numbered - 1 > last_id then
+    Error (Printf.sprintf "there are more vehicles than numbers of IMC systems from %d to %d" s.first_id last_id)
+  else
+    match first_free Unix.inet_addr_any first last with
+    | None ->
+      let what = "on which IMC systems find each other" in
+      Error (Printf.sprintf "none of the UDP ports %d to %d, %s, is free" first last what)
+    | Some discovery -> (
+        join_group discovery;
+        match open_all host s.first_port numbered with
+        | Error _ as error -> close_socket discovery; error
+        | Ok crafts ->
+          Ok { settings = s; discovery; crafts; buffer = Bytes.create 65536; origin = 0.; changed = None })
 
 let radio n (c : craft) =
   let s = n.settings in

@@ -71,8 +71,8 @@ let run ?(seed = 0) ?period name =
   | Error ds -> explain fleet ds
   | Ok scenario -> go ~seed ?period ~name ~source:(read (file ".dol")) ~scenario (host (file ".py"))
 
-let of_scenario scenario source = go ~seed:0 ~name:"test.dol" ~source ~scenario None
-let of_text = of_scenario Scenario.default
+let of_scenario ?period scenario source = go ~seed:0 ?period ~name:"test.dol" ~source ~scenario None
+let of_text ?period source = of_scenario ?period Scenario.default source
 let check_text r journal = snd (Verdict.check r.program ~hash:r.hash (Reader.of_string journal))
 let check r = check_text r r.journal
 let lines journal = List.filter (fun line -> line <> "") (String.split_on_char '\n' journal)

@@ -15,10 +15,10 @@ val examples : string list
 val run : ?seed:int -> ?period:float -> string -> t
 (** [run name] is a run of the example [name] on the fleet beside it. *)
 
-val of_text : string -> t
+val of_text : ?period:float -> string -> t
 (** [of_text source] is a run of this program on the built-in fleet. *)
 
-val of_scenario : Dolphin_scenario.Scenario.t -> string -> t
+val of_scenario : ?period:float -> Dolphin_scenario.Scenario.t -> string -> t
 
 val check : t -> Dolphin_trace.Verdict.t
 (** The verdict on its journal. *)

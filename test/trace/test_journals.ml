@@ -35,6 +35,20 @@ let sensors () =
   let r = Runs.of_text source in
   is_run "sensors" (Runs.check r)
 
+(* Allocation looks where vehicles are, though no code of this program does. *)
+let allocation_sees () =
+  let source = "v = pick { type 'UUV' }\nexecute task('a')[v]\nexecute task('b')[v]" in
+  let r = Runs.of_text ~period:1e9 source in
+  is_run "allocation" (Runs.check r);
+  let rec second_execution before = function
+    | line :: lines -> (
+        match Entry.of_string line, before with
+        | Ok (Transition { step = { label = "execute"; _ }; index; _ }), Ok (Entry.Vehicle _) when index > 2 -> ()
+        | entry, _ -> second_execution entry lines)
+    | [] -> Alcotest.fail "nothing is told of the vehicle just before it gets its second task"
+  in
+  second_execution (Error "") (Runs.lines r.journal)
+
 let ends_of name source expected =
   let r = Runs.of_text source in
   match Runs.check r with
@@ -121,6 +135,7 @@ let () =
         [ case "those of all examples check" examples_check;
           case "lines are canonical" canonical;
           case "what programs read of sensors is there" sensors;
+          case "what allocation reads is there" allocation_sees;
           case "all endings" endings;
           case "all kinds of tuples" tuples;
           case "a pick of 30 among 60" many_choices;

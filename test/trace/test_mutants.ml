@@ -75,6 +75,22 @@ let alter random lines =
   { text = Runs.text (Array.to_list replaced); harmless = without_time line = without_time altered;
     what = Printf.sprintf "line %d altered at %d: %s" (i + 1) (j + 1) altered }
 
+(* {1 Showing them} *)
+
+(* Whatever can be read of a journal, however strange, can be told and drawn. *)
+let show_all text =
+  let reader = Reader.of_string text and teller = Story.start () in
+  let rec entries found =
+    match Reader.next reader with
+    | Line { entry; _ } -> Story.tell teller entry; entries (entry :: found)
+    | Torn _ | End_of_file | Wrong _ -> List.rev found
+  in
+  let found = entries [] in
+  let ppf = Format.formatter_of_buffer (Buffer.create 4096) in
+  Table.print ppf found;
+  List.iter (Table.print_transitions ppf) found;
+  ignore (Picture.html (Story.finish teller))
+
 (* {1 The trial} *)
 
 let trial () =
@@ -87,6 +103,7 @@ let trial () =
     let lines = Array.of_list (Runs.lines run.journal) in
     let m = (pick random [| drop; double; swap; replace; alter; alter |]) random lines in
     let verdict = Runs.check_text run m.text in
+    show_all m.text;
     if not (Verdict.is_legal verdict) then incr rejected
     else if m.harmless then incr still_runs
     else Alcotest.failf "%s, %s: %s" run.name m.what (show verdict)

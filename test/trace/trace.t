@@ -196,6 +196,14 @@ A journal that cannot be written stops the run, and the vehicles.
   dolphin: the picture cannot be written: missing/x.svg: No such file or directory
   [3]
 
+Nor can it go over the program.
+
+  $ cp ../../examples/sequence.dol precious.dol
+  $ dolphin exec precious.dol --journal ./precious.dol
+  dolphin: ./precious.dol: the run was to be written over its own program or fleet
+  [3]
+  $ diff precious.dol ../../examples/sequence.dol
+
 A console that is killed leaves the beginning of a run; one that is interrupted, a whole one.
 
   $ (dolphin exec ../../examples/parallel.dol --speed 20 --journal killed.run > /dev/null & sleep 2; kill -9 $!) 2> /dev/null

@@ -70,15 +70,37 @@ let payload =
   in
   Arg.(value & opt_all devices [] & info [ "imc-payload" ] ~docs:s_network ~docv:"VEHICLE=DEVICES" ~doc)
 
-let make loopback interfaces port id payload =
-  let options = Udp_platform.default in
-  { options with loopback; interfaces; id; payload; data_port = Option.value port ~default:options.data_port }
+let ports =
+  let parse text =
+    match List.map int_of_string_opt (String.split_on_char '-' text) with
+    | [ Some first; Some last ] when first >= 1 && first <= last && last <= 65535 && last - first < 100 ->
+      Ok (List.init (last - first + 1) (fun i -> first + i))
+    | _ -> Error (`Msg (Printf.sprintf "'%s' is not like 30100-30104, a hundred ports at most" text))
+  in
+  let print ppf ports = Format.fprintf ppf "%d-%d" (List.hd ports) (List.hd (List.rev ports)) in
+  Arg.conv ~docv:"FIRST-LAST" (parse, print)
 
-let options = Term.(const make $ loopback $ interfaces $ port $ id $ payload)
+let discovery_ports =
+  let doc =
+    "The ports on which systems announce themselves. By default those that vehicles have, 30100-30104. Implies \
+     $(b,--imc)."
+  in
+  Arg.(value & opt (some ports) None & info [ "imc-discovery-ports" ] ~docs:s_network ~docv:"FIRST-LAST" ~doc)
+
+let make loopback interfaces port discovery id payload =
+  let options = Udp_platform.default in
+  { options with
+    loopback; interfaces; id; payload;
+    data_port = Option.value port ~default:options.data_port;
+    announce_ports = Option.value discovery ~default:options.announce_ports }
+
+let options = Term.(const make $ loopback $ interfaces $ port $ discovery_ports $ id $ payload)
 
 let chosen =
-  let choose imc loopback interfaces port id payload =
-    let implied = loopback || interfaces <> [] || port <> None || id <> None || payload <> [] in
-    if imc || implied then Some (make loopback interfaces port id payload) else None
+  let choose imc loopback interfaces port discovery id payload =
+    let implied =
+      loopback || interfaces <> [] || port <> None || discovery <> None || id <> None || payload <> []
+    in
+    if imc || implied then Some (make loopback interfaces port discovery id payload) else None
   in
-  Term.(const choose $ imc $ loopback $ interfaces $ port $ id $ payload)
+  Term.(const choose $ imc $ loopback $ interfaces $ port $ discovery_ports $ id $ payload)

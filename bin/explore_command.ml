@@ -17,7 +17,7 @@ type settings = {
 (* Without [--strict] these are worth knowing, but a program may mean them. *)
 let is_remark : Property.t -> bool = function
   | No_halt | No_leftover | All_reached -> true
-  | No_deadlock | Termination | No_error | Assertions | Vehicles -> false
+  | No_deadlock | Termination | No_error | Assertions | Vehicles | Invariant _ | Formula _ -> false
 
 (* {1 Progress} *)
 
@@ -121,7 +121,7 @@ let status strict (o : Search.outcome) : Exit_status.t =
 
 (* {1 The command} *)
 
-let explore (program : Program_file.t) (fleet : Fleet_file.t) s =
+let explore (program : Program_file.t) (fleet : Fleet_file.t) s invariants =
   let interrupted = ref false in
   Sys.set_signal Sys.sigint (Signal_handle (fun _ -> interrupted := true));
   let live = Unix.isatty Unix.stderr && not s.json in
@@ -129,6 +129,7 @@ let explore (program : Program_file.t) (fleet : Fleet_file.t) s =
     { environment = World_of.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
       max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; timeout = s.timeout;
       clock = Unix.gettimeofday;
+      invariants;
       interrupted = (fun () -> !interrupted);
       progress = (if live then show_progress else ignore) }
   in
@@ -138,13 +139,26 @@ let explore (program : Program_file.t) (fleet : Fleet_file.t) s =
   else print_outcome program.program s.strict outcome;
   status s.strict outcome
 
-let run path fleet answers faults strict json max_states max_depth max_memory timeout =
+(* Each of [texts] read by [of_string], or the first that is wrong. *)
+let read_all option of_string texts =
+  let read result text =
+    match result, of_string text with
+    | Error _, _ -> result
+    | Ok _, Error why -> Error (Printf.sprintf "%s '%s': %s" option text why)
+    | Ok found, Ok x -> Ok (x :: found)
+  in
+  Result.map List.rev (List.fold_left read (Ok []) texts)
+
+let run path fleet answers faults strict json invariants max_states max_depth max_memory timeout =
   match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet) with
   | Error trouble, _ -> Program_file.tell trouble; Exit_status.Bad_input
   | Ok _, Error trouble -> Fleet_file.tell trouble; Exit_status.Bad_input
   | Ok program, Ok fleet ->
     Report.diagnostics ~source:program.source program.warnings;
-    explore program fleet { answers; faults; strict; json; max_states; max_depth; max_memory; timeout }
+    let settings = { answers; faults; strict; json; max_states; max_depth; max_memory; timeout } in
+    (match read_all "--invariant" (Dolphin_explore.Condition.of_string program.program) invariants with
+     | Error why -> Report.complain why; Bad_input
+     | Ok invariants -> explore program fleet settings invariants)
 
 let faults =
   let parse text =
@@ -201,6 +215,14 @@ let strict =
   let doc = "Count as violations what otherwise is only noted: $(b,halt), tuples left over, code that no run reaches." in
   Arg.(value & flag & info [ "strict" ] ~doc)
 
+let invariants =
+  let doc =
+    "Check that $(docv) holds in every state. It is an expression of the language over the global variables of the \
+     program, in which also $(b,running\\('plan'\\)), $(b,running\\('plan', 'vehicle'\\)), $(b,bound\\('vehicle'\\)) and \
+     $(b,poll\\(key: value\\)) may stand. As long as a variable in it has no value, it holds. May be repeated."
+  in
+  Arg.(value & opt_all string [] & info [ "invariant" ] ~docv:"EXPR" ~doc)
+
 let json = Arg.(value & flag & info [ "json" ] ~doc:"Print the result as one JSON object.")
 
 let man =
@@ -224,6 +246,7 @@ let man =
     `S Manpage.s_exit_status;
     `S Manpage.s_examples;
     `Pre "  $(mname) $(tname) examples/rendezvous.dol\n  $(mname) $(tname) examples/rendezvous.dol --faults fail=1\n\
+         \  $(mname) $(tname) mission.dol --invariant \"!(running('a') && running('b'))\"\n\
          \  $(mname) $(tname) mission.dol --max-memory 8G --timeout 60" ]
   @ Options.see_also
 
@@ -234,5 +257,5 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ max_states $ max_depth
+      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ invariants $ max_states $ max_depth
       $ max_memory $ timeout)

@@ -1,6 +1,8 @@
 open Dolphin_semantics
 
 type t = No_deadlock | Termination | No_error | Assertions | Vehicles | No_halt | No_leftover | All_reached
+       | Invariant of string
+       | Formula of string
 
 let all = [ No_deadlock; Termination; No_error; Assertions; Vehicles; No_halt; No_leftover; All_reached ]
 
@@ -13,6 +15,8 @@ let name = function
   | No_halt -> "no halt"
   | No_leftover -> "no leftover tuples"
   | All_reached -> "all code reached"
+  | Invariant text -> "invariant " ^ text
+  | Formula text -> "formula " ^ text
 
 let question = function
   | No_deadlock -> "nothing can happen any more, and the program has not ended"
@@ -23,6 +27,8 @@ let question = function
   | No_halt -> "the program halts"
   | No_leftover -> "tuples are left when the program completes"
   | All_reached -> "no run reaches this"
+  | Invariant _ -> "it does not hold"
+  | Formula _ -> "it does not hold"
 
 let pp ppf p = Format.pp_print_string ppf (name p)
 

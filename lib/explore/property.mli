@@ -13,9 +13,11 @@ type t =
   | No_halt  (** [halt] is not called *)
   | No_leftover  (** no tuples are left when the program completes *)
   | All_reached  (** every task and every piece of code inside of tasks is used by some run *)
+  | Invariant of string  (** this {!Condition} holds in every state *)
+  | Formula of string  (** this formula of temporal logic holds of every run *)
 
 val all : t list
-(** In this order. *)
+(** Those that need not be given, in this order. *)
 
 val name : t -> string
 (** A short phrase: ["no deadlock"]. *)

@@ -7,6 +7,7 @@ type options = {
   max_memory : int option;
   timeout : float option;
   clock : unit -> float;
+  invariants : Condition.t list;
   interrupted : unit -> bool;
   progress : progress -> unit;
 }
@@ -29,12 +30,13 @@ let default =
     max_memory = None;
     timeout = None;
     clock = Sys.time;
+    invariants = [];
     interrupted = (fun () -> false);
     progress = ignore;
   }
 
 type run = { steps : Transition.t list; cycle : Transition.t list }
-type bound = States | Depth | Memory | Time | Interruption
+type bound = States | Depth | Memory | Time | Interruption | Broken_condition of string
 
 type verdict =
   | Holds
@@ -57,6 +59,7 @@ type outcome = {
 type t = {
   options : options;
   space : Space.t;
+  invariants : Invariant.t list;
   started : float;
   mutable reported : float;
   mutable next : int;  (* to be expanded *)
@@ -119,6 +122,7 @@ let explore t =
       next_look := t.next + stride;
       look_around t "exploring"
     end;
+    List.iter (fun invariant -> Invariant.check invariant space t.next) t.invariants;
     Space.expand space t.next;
     t.next <- t.next + 1;
     if exceeds t.options.max_states (Space.count space) then raise (Stop States)
@@ -140,6 +144,14 @@ let verdicts t program world stopped =
     | Some { stem; around } -> Violated { steps = transitions stem; cycle = transitions around }
     | exception Stop bound -> Inconclusive bound
   in
+  let invariant i =
+    match Invariant.broken i with
+    | Some state -> Violated (run_to state)
+    | None -> (
+        match Invariant.trouble i with
+        | Some why -> Inconclusive (Broken_condition why)
+        | None -> unless_stopped (fun () -> Holds))
+  in
   let verdict property =
     match (property : Property.t) with
     | No_deadlock | No_error | Assertions | Vehicles | No_halt | No_leftover -> (
@@ -150,13 +162,16 @@ let verdicts t program world stopped =
     | All_reached ->
       unless_stopped (fun () ->
           match Coverage.unreached (Space.coverage t.space) program with [] -> Holds | pieces -> Unreached pieces)
+    | Invariant _ | Formula _ -> invalid_arg "Search.verdicts"
   in
-  List.map (fun property -> (property, verdict property)) Property.all
+  let given i = (Property.Invariant (Condition.to_string (Invariant.condition i)), invariant i) in
+  List.map (fun property -> (property, verdict property)) Property.all @ List.map given t.invariants
 
 let run options program world =
   let started = options.clock () in
   let space = Space.create options.environment program world in
-  let t = { options; space; started; reported = started; next = 0; depth = -1; level_end = 0 } in
+  let invariants = List.map (Invariant.create program world) options.invariants in
+  let t = { options; space; invariants; started; reported = started; next = 0; depth = -1; level_end = 0 } in
   let stopped =
     match explore t with
     | () -> None
@@ -185,7 +200,8 @@ let pp_bound ppf bound =
      | Depth -> "the bound on depth was met"
      | Memory -> "the bound on memory was met"
      | Time -> "the time was up"
-     | Interruption -> "it was interrupted")
+     | Interruption -> "it was interrupted"
+     | Broken_condition why -> "the condition cannot be told: " ^ why)
 
 let pp_verdict (program : Core.program) ppf (property, verdict) =
   let print format = Format.fprintf ppf format in

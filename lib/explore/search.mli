@@ -12,6 +12,7 @@ type options = {
   max_memory : int option;  (** in bytes, of the whole process but for code and libraries *)
   timeout : float option;  (** in seconds of [clock] *)
   clock : unit -> float;  (** seconds, from any start *)
+  invariants : Condition.t list;
   interrupted : unit -> bool;  (** asked often: whether to stop *)
   progress : progress -> unit;  (** called about once a second *)
 }
@@ -37,7 +38,13 @@ type run = {
   cycle : Transition.t list;  (** goes on from there for ever, if there is any *)
 }
 
-type bound = States | Depth | Memory | Time | Interruption
+type bound =
+  | States
+  | Depth
+  | Memory
+  | Time
+  | Interruption
+  | Broken_condition of string  (** what was asked is faulty in some state *)
 
 type verdict =
   | Holds
@@ -53,7 +60,7 @@ type outcome = {
   bytes : int;  (** of memory, as [max_memory] counts it *)
   seconds : float;
   stopped : bound option;
-  verdicts : (Property.t * verdict) list;  (** for each of {!Property.all} *)
+  verdicts : (Property.t * verdict) list;  (** for each of {!Property.all}, then for each invariant *)
 }
 
 val run : options -> Core.program -> World.t -> outcome

@@ -228,6 +228,11 @@ let state t i =
   Packed.load t.states i key;
   read t key
 
+let shared t i =
+  let key = Array.make (Packed.words t.states) 0 in
+  Packed.load t.states i key;
+  if key.(0) land t.shape_mask = 0 then -1 else (key.(0) lsr t.widths.shape) land t.shared_mask
+
 (* {1 Expanding} *)
 
 let note_broken t property i =

@@ -21,6 +21,10 @@ val successors : t -> int -> int list
 val state : t -> int -> Configuration.t * Environment.t
 (** [state t i] is state [i]. *)
 
+val shared : t -> int -> int
+(** [shared t i] is a number for the store, N, B and what the outside remembers of state [i], if it executes a task, and
+    otherwise -1. *)
+
 val parent : t -> int -> int
 (** [parent t i] is the state from which [i] was reached first; 0 is its own. *)
 

@@ -149,6 +149,71 @@ An assertion that some run breaks.
   5   broken(assertion failed)       assertion.dol:4
   [1]
 
+Invariants.
+
+  $ cat > counting.dol <<'END'
+  > n = 0
+  > v = pick { type 'UUV' }
+  > execute (imcPlan('a') >> action { n = n + 1; post done: n }) | action { n = n + 1 }
+  > consume done: _
+  > END
+  $ explore counting.dol --invariant 'n <= 2' --invariant "!(running('a') && n > 0)" --invariant '!poll(done: 2)' --invariant "!running('a', 'x8-02')"
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  invariant n <= 2: holds
+  invariant !(running('a') && n > 0): violated after 5 steps: it does not hold
+  invariant !poll(done: 2): violated after 7 steps: it does not hold
+  invariant !running('a', 'x8-02'): holds
+  38 states, 46 transitions, depth 9
+  
+  invariant !(running('a') && n > 0): a shortest run in which it does not hold
+      program                        noptilus-1  where
+  1   pick(1 vehicle of type 'UUV')              counting.dol:2
+  2   picks noptilus-1                           counting.dol:2
+  3   execute                                    counting.dol:3
+  4                                  starts a    counting.dol:3
+  5   act                                        counting.dol:3
+  
+  invariant !poll(done: 2): a shortest run in which it does not hold
+      program                        noptilus-1  where
+  1   pick(1 vehicle of type 'UUV')              counting.dol:2
+  2   picks noptilus-1                           counting.dol:2
+  3   execute                                    counting.dol:3
+  4                                  starts a    counting.dol:3
+  5                                  ends a      counting.dol:3
+  6   act                                        counting.dol:3
+  7   act(post done:2)                           counting.dol:3
+  [1]
+  $ explore counting.dol --invariant '1 / n > 0' --invariant 'bound("noptilus-1") || n == 0'
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  invariant 1 / n > 0: inconclusive, the condition cannot be told: division by zero
+  invariant bound("noptilus-1") || n == 0: violated after 4 steps: it does not hold
+  38 states, 46 transitions, depth 9
+  
+  invariant bound("noptilus-1") || n == 0: a shortest run in which it does not hold
+      program                        where
+  1   pick(1 vehicle of type 'UUV')  counting.dol:2
+  2   picks noptilus-2               counting.dol:2
+  3   execute                        counting.dol:3
+  4   act                            counting.dol:3
+  [1]
+  $ explore counting.dol --invariant 'm > 0'
+  dolphin: --invariant 'm > 0': unknown name 'm'
+  [2]
+  $ explore counting.dol --invariant 'bound(v)'
+  dolphin: --invariant 'bound(v)': bound takes the name of a vehicle, as in bound('noptilus-1')
+  [2]
+  $ explore counting.dol --invariant 'n = 2'
+  dolphin: --invariant 'n = 2': this cannot be assigned to
+  [2]
+
 A bound that is met leaves the answer open.
 
   $ explore ../../examples/rendezvous.dol --max-states 100

@@ -256,8 +256,8 @@ let case t family step s =
   if step.cases.(s) == no_case then
     step.cases.(s) <-
       (match match step.event with None -> internal t step s | Some event -> on_event t step event s with
-        | None, _ -> { no_case with possible = false }
-        | Some local, outside ->
-          let result = target_of_outcome t family local.outcome in
-          { possible = true; shared = shared_after t local outside; result; whole = -1 });
+          | None, _ -> { no_case with possible = false }
+          | Some local, outside ->
+            let result = target_of_outcome t family local.outcome in
+            { possible = true; shared = shared_after t local outside; result; whole = -1 });
   step.cases.(s)

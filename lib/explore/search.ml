@@ -101,8 +101,16 @@ let stride = 4_096
 let explore t =
   let space = t.space in
   let next_look = ref 0 in
-  while t.next < Space.count space do
+  let more () =
+    t.next < Space.count space
+    || begin
+      Space.flush space;
+      t.next < Space.count space
+    end
+  in
+  while more () do
     if t.next >= t.level_end then begin
+      Space.flush space;
       t.depth <- t.depth + 1;
       t.level_end <- Space.count space;
       if t.options.max_depth = Some t.depth then raise (Stop Depth)
@@ -155,6 +163,7 @@ let run options program world =
     | exception Stop bound -> Some bound
     | exception Out_of_memory -> Some Memory
   in
+  Space.flush space;
   let verdicts = verdicts t program world stopped in
   {
     states = Space.count space;

@@ -35,6 +35,7 @@ type t = {
   mutable transitions : int;
   broken : int array;  (* by rank in [Property.all]: the first state, or -1 *)
   places : (int * int, unit) Hashtbl.t;  (* which place of the script follows which; executing ones as negative numbers *)
+  mutable fresh : int -> int -> unit;  (* what is done with new states, by number and first word *)
   mutable gathering : bool;
   mutable gathered : int list;
 }
@@ -233,14 +234,15 @@ let note_broken t property i =
   let rank = rank property in
   if t.broken.(rank) < 0 then t.broken.(rank) <- i
 
+let fresh t i word =
+  if word land t.shape_mask = 0 then
+    Option.iter (fun property -> note_broken t property i) t.breaks.(word lsr t.widths.shape)
+
+let flush t = Packed.flush t.states ~fresh:t.fresh
+
 let visit t key parent =
-  let i = Packed.add t.states key ~parent in
-  if i < 0 then begin
-    let word = Array.unsafe_get key 0 in
-    if word land t.shape_mask = 0 then
-      Option.iter (fun p -> note_broken t p (-1 - i)) t.breaks.(word lsr t.widths.shape)
-  end
-  else if t.gathering then t.gathered <- i :: t.gathered
+  if t.gathering then t.gathered <- Packed.find t.states key :: t.gathered
+  else Packed.push t.states key ~parent ~fresh:t.fresh
 
 let follows t place place' = if not (Hashtbl.mem t.places (place, place')) then Hashtbl.add t.places (place, place') ()
 
@@ -397,6 +399,7 @@ let rec expand t i =
   with
   | taken -> if not t.gathering then t.transitions <- t.transitions + taken
   | exception Outgrown ->
+    flush t;
     repack t;
     expand t i
 
@@ -432,13 +435,16 @@ let create options program world =
       transitions = 0;
       broken = Array.make (List.length Property.all) (-1);
       places = Hashtbl.create 64;
+      fresh = (fun _ _ -> ());
       gathering = false;
       gathered = [];
     }
   in
   set_widths t t.widths;
   ignore (write t t.key [] (Configuration.initial program) Environment.initial);
+  t.fresh <- fresh t;
   visit t t.key 0;
+  flush t;
   t
 
 (* {1 Findings} *)

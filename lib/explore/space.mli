@@ -11,7 +11,9 @@ val create : Environment.options -> Core.program -> World.t -> t
 (** With the initial state, number 0. *)
 
 val expand : t -> int -> unit
-(** [expand t i] adds the states that transitions of state [i] lead to. *)
+(** [expand t i] adds the states that transitions of state [i] lead to, at the latest when {!flush} is called. *)
+
+val flush : t -> unit
 
 val successors : t -> int -> int list
 (** [successors t i] is the states that transitions of [i] lead to, which have all been added before. *)

@@ -1,0 +1,112 @@
+(* On random programs, the packed search finds what the plain search over configurations finds: as many states and
+   transitions, the same depth, the same properties broken, each by as short a run; and each run that it shows is one of
+   the semantics. PROGRAMS in the environment is how many programs are tried, 2,000 by default. *)
+
+open Dolphin_syntax
+open Dolphin_explore
+module Generate = Test_support.Generate
+module Property = Dolphin_explore.Property
+
+let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 2_000
+
+(* What the script does after its picks, again and again: for cycles. *)
+let for_ever (program : Ast.program) =
+  let comes_first (s : Ast.statement) =
+    match s.it with Assign { value = { it = Builder _ | Integer _; _ }; _ } -> true | _ -> false
+  in
+  let first, rest = List.partition comes_first program in
+  first @ [ { it = Ast.While (Generate.expression (Boolean true), rest); at = Location.none } ]
+
+let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]) }
+
+let environments =
+  [ ("as planned", answering);
+    ("with failures", Environment.failing answering);
+    ("with a failure", Environment.failing ~failures:1 answering) ]
+
+let case =
+  let open QCheck2.Gen in
+  triple Generate.program (frequencyl [ (3, false); (1, true) ]) (oneofl environments)
+
+let print (program, looped, (name, _)) =
+  Printf.sprintf "%s, %s:\n%s" name (if looped then "for ever" else "once") (Generate.print program)
+
+(* Each transition is offered where the run is, and leads where the next one starts; a cycle comes back. *)
+let is_run program environment (run : Search.run) =
+  let step states (t : Dolphin_semantics.Transition.t) =
+    let offered (c, e) =
+      List.filter_map
+        (fun ((t' : Dolphin_semantics.Transition.t), e') ->
+           if Dolphin_semantics.Configuration.equal t'.next t.next then Some (t'.next, e') else None)
+        (Environment.choices environment program Generate.world e c)
+    in
+    List.concat_map offered states
+  in
+  let start = [ (Dolphin_semantics.Configuration.initial program, Environment.initial) ] in
+  let there = List.fold_left step start run.steps in
+  let back = List.fold_left step there run.cycle in
+  let same (c, e) (c', e') = Dolphin_semantics.Configuration.equal c c' && Environment.compare e e' = 0 in
+  there <> [] && List.exists (fun s -> List.exists (same s) back) there
+
+let limit = 5_000
+let skipped = ref 0
+let broken = Hashtbl.create 7
+
+let note property = Hashtbl.replace broken property (1 + Option.value (Hashtbl.find_opt broken property) ~default:0)
+
+let verdict_agrees program environment reference (property, verdict) =
+  match (verdict : Search.verdict), List.assoc_opt property reference with
+  | Holds, None -> true
+  | Unreached _, None -> property = Property.All_reached
+  | Violated run, Some length ->
+    note property;
+    let shown = List.length run.steps + List.length run.cycle in
+    (shown = length || (property = Property.Termination && shown >= length)) && is_run program environment run
+  | (Holds | Violated _ | Unreached _ | Inconclusive _), (Some _ | None) -> false
+
+let agrees (ast, looped, (_, environment)) =
+  let program = Generate.compile (if looped then for_ever ast else ast) in
+  match Reference.explore ~limit environment program Generate.world with
+  | None ->
+    incr skipped;
+    true
+  | Some reference ->
+    let o = Search.run { Search.default with environment } program Generate.world in
+    let same what expected found =
+      if expected <> found then QCheck2.Test.fail_reportf "%d %s, %d expected" found what expected
+    in
+    same "states" (Array.length reference.states) o.states;
+    same "transitions" (Reference.transitions reference) o.transitions;
+    same "steps deep" (Reference.depth reference) o.depth;
+    let shown = Reference.broken reference in
+    let agree v =
+      verdict_agrees program environment shown v
+      || QCheck2.Test.fail_reportf "%a" (Search.pp_verdict program) v
+    in
+    List.for_all agree o.verdicts
+
+let test_agreement () =
+  let seed = match Sys.getenv_opt "SEED" with Some n -> int_of_string n | None -> 20_240_817 in
+  Printf.printf "SEED=%d PROGRAMS=%d\n" seed programs;
+  let test = QCheck2.Test.make ~count:programs ~print ~name:"packed and plain search agree" case agrees in
+  QCheck2.Test.check_exn ~rand:(Random.State.make [| seed |]) test;
+  Printf.printf "%d skipped, of more than %d states\n" !skipped limit;
+  Hashtbl.iter (fun p n -> Printf.printf "%s: broken by %d\n" (Property.name p) n) broken
+
+(* Without programs that break it, agreement on a property says little. *)
+let test_variety () =
+  let enough property =
+    if property <> Property.All_reached && not (Hashtbl.mem broken property) then
+      Alcotest.failf "no program breaks: %s" (Property.name property)
+  in
+  List.iter enough Property.all
+
+let () =
+  Alcotest.run "agreement"
+    [
+      ( "random programs",
+        [
+          Alcotest.test_case "packed and plain search agree" `Quick test_agreement;
+          Alcotest.test_case "every property is broken by some" `Quick test_variety;
+        ] );
+    ]

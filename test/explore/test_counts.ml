@@ -1,0 +1,98 @@
+(* State spaces that can be counted by hand. Around what is executed, every program here has a state before its first
+   [pick]; two for each pick (it waits, and the script goes on, or the next pick waits: see each); one after [execute];
+   and the end. *)
+
+open Dolphin_explore
+open Test_support
+
+let world n =
+  let uuv i = Pure_run.vehicle (Printf.sprintf "n%d" (i + 1)) ~north:(float_of_int i) in
+  Pure_run.world (List.init n uuv @ [ Pure_run.vehicle "x8" ~kind:"UAV" ])
+
+let search ?(environment = Environment.default) ?(vehicles = 2) source =
+  Search.run { Search.default with environment } (Pure_run.compile_exn source) (world vehicles)
+
+let check name source ?environment ?vehicles ~states ~transitions () =
+  let o = search ?environment ?vehicles source in
+  Alcotest.(check int) (name ^ ", states") states o.states;
+  Alcotest.(check int) (name ^ ", transitions") transitions o.transitions
+
+(* message, end: start, after the message, ended. *)
+let test_script () = check "script" "message 'a'" ~states:3 ~transitions:2 ()
+
+(* The initial state picks (1), waits (2), is bound and executes (3); the task is ready (4), runs (5), is done: the
+   script goes on (6) to the end (7). With failures one more end, and one more transition. *)
+let one = "a = pick { id 'n1' }\nexecute task('p')[a]"
+let test_one () = check "one task" one ~states:7 ~transitions:6 ()
+
+let test_one_failing () =
+  check "one task that may fail" one ~environment:(Environment.failing Environment.default) ~states:8 ~transitions:7 ()
+
+(* Five states up to execute: initial, waiting, bound, waiting, bound. Each task is ready, runs or is done: 9 states, of
+   which the one with both done is the script after execute; then the end: 5 + 9 + 1. Transitions: 5 up to the first of
+   the nine; each of the 9 makes as many as there are tasks not done, 9 * 2 * 2/3 = 12; and 1. *)
+let two = "a = pick { id 'n1' }\nb = pick { id 'n2' }\nexecute task('p')[a] | task('q')[b]"
+let test_two () = check "two tasks" two ~states:15 ~transitions:18 ()
+
+(* A failure ends all. Ends: either task's failure: 2. Transitions: each of the two fails where it runs and the other is
+   in any of 3 states: 6 more. *)
+let test_two_failing () =
+  check "two tasks that may fail" two ~environment:(Environment.failing Environment.default) ~states:17 ~transitions:24 ()
+
+(* At most one failure, which ends all here: no difference but that nothing else can be told apart. *)
+let test_two_failing_once () =
+  check "one failure at most" two
+    ~environment:(Environment.failing ~failures:1 Environment.default)
+    ~states:17 ~transitions:24 ()
+
+(* Equal actions side by side are counted, not told apart: 0, 1 or 2 of two actions left; the tuples follow. Initial,
+   2 left, 1 left, none left (the script goes on), end. Of 2 left either goes: 2 transitions to the same state. *)
+let test_equal_actions () =
+  let source = "def f() { action { post x:1 } }\nexecute f() | f()" in
+  check "equal actions" source ~states:5 ~transitions:5 ()
+
+(* One of three vehicles: initial, waiting, then 3 copies of (bound, ready, running, after, end); B is empty again at the
+   end, but the variable tells which vehicle it was. *)
+let test_pick () =
+  let source = "a = pick { type 'UUV' }\nexecute task('p')[a]" in
+  check "choice of pick" source ~vehicles:3 ~states:(2 + (3 * 5)) ~transitions:(1 + 3 + (3 * 4)) ()
+
+(* N vehicles that survey, post ready:i and keep station, and one that meets each in any order, one at a time. For each i
+   the vehicle has 6 states (survey ready, running; to post; station keeping ready, running; done); before the post, 3,
+   the meeting is not possible; after it, 3, it is to come or over: 9 together; or under way in 2 states: 6 more, for at
+   most one i. So 9^N + N * 6 * 9^(N-1) = 9^(N-1) * (9 + 6 N), among them the state in which all is done, which is
+   the script's; before there are initial, waiting, bound, waiting, bound, and after it the end: 6. *)
+let fleet n =
+  let each format = List.init n (fun i -> Printf.sprintf format (i + 1)) in
+  Printf.sprintf
+    "us = pick { count %d; type 'UUV' }\nua = pick { type 'UAV' }\ndef u(i) { imcPlan('survey' + i) >> action { post \
+     ready:i } >> imcPlan('sk' + i) }\nexecute us: %s, ua: allOf { %s }"
+    n
+    (String.concat " | " (each "u(%d)"))
+    (String.concat "\n"
+       (List.init n (fun i -> Printf.sprintf "when { consume ready:%d } then imcPlan('rv%d')" (i + 1) (i + 1))))
+
+let rec power b n = if n = 0 then 1 else b * power b (n - 1)
+let fleet_states n = (power 9 (n - 1) * (9 + (6 * n))) + 6
+
+let test_fleet n () =
+  let o = search ~vehicles:n (fleet n) in
+  Alcotest.(check int) "states" (fleet_states n) o.states
+
+let () =
+  let case name f = Alcotest.test_case name `Quick f in
+  Alcotest.run "counts"
+    [
+      ( "by hand",
+        [
+          case "a script" test_script;
+          case "a task" test_one;
+          case "a task that may fail" test_one_failing;
+          case "two tasks side by side" test_two;
+          case "two tasks that may fail" test_two_failing;
+          case "failures are bounded" test_two_failing_once;
+          case "equal actions" test_equal_actions;
+          case "a pick has choices" test_pick;
+        ] );
+      ("fleets", List.init 5 (fun i -> case (Printf.sprintf "of %d" (i + 1)) (test_fleet (i + 1))));
+    ]

@@ -1,0 +1,131 @@
+(* Each property, kept and broken by a small program, with the length of the shortest run that shows it; and what bounds
+   do to verdicts. *)
+
+open Dolphin_explore
+open Test_support
+module Property = Dolphin_explore.Property
+
+let world = Pure_run.world [ Pure_run.vehicle "a"; Pure_run.vehicle "b" ~north:100. ]
+let options = Search.default
+
+let run ?(options = options) source =
+  let program = Pure_run.compile_exn source in
+  (program, Search.run options program world)
+
+let text verdict =
+  match (verdict : Search.verdict) with
+  | Holds -> "holds"
+  | Violated { steps; cycle = [] } -> Printf.sprintf "violated in %d" (List.length steps)
+  | Violated { steps; cycle } -> Printf.sprintf "for ever %d+%d" (List.length steps) (List.length cycle)
+  | Unreached pieces -> "unreached: " ^ String.concat ", " (List.map (fun (p : Coverage.piece) -> p.what) pieces)
+  | Inconclusive _ -> "inconclusive"
+
+let check ?options property source expected () =
+  let _, o = run ?options source in
+  Alcotest.(check string) (Property.name property) expected (text (List.assoc property o.verdicts))
+
+let failing = { options with environment = Environment.failing options.environment }
+let pick = "va = pick { id 'a' }\nvb = pick { id 'b' }\n"
+
+let verdicts : (string * (unit -> unit)) list =
+  [
+    ("a condition that comes true", check No_deadlock "execute condition { consume x:1 } | action { post x:1 }" "holds");
+    ("a condition that never does", check No_deadlock "execute condition { consume x:1 }" "violated in 1");
+    ("two wait for each other",
+     check No_deadlock
+       "t = (condition { consume x:1 } >> action { post y:1 }) | (condition { consume y:1 } >> action { post x:1 })\nexecute t"
+       "violated in 1");
+    ("a loop that ends", check Termination "for (i in 1..3) { execute action { } }" "holds");
+    ("a loop that does not", check Termination "while (true) { execute action { } }" "for ever 1+2");
+    ("a loop over platform tasks", check Termination (pick ^ "while (true) { execute task('p')[va] }") "for ever 5+3");
+    ("a loop that may end or not",
+     check Termination
+       "while (!poll(stop: 1)) { execute oneOf {\nwhen { true } then action { }\nwhen { true } then action { post stop:1 }\n} }"
+       "for ever 1+3");
+    ("a task that may fail", check ~options:failing No_error (pick ^ "execute task('p')[va]") "violated in 7");
+    ("a failure that is handled",
+     check ~options:failing No_error (pick ^ "execute watch task('p')[va] onError { ignore() }") "holds");
+    ("an error of the script", check No_error "x = 1 / 0" "violated in 1");
+    ("nobody answers", check No_error "x = ask 'how many?'" "violated in 2");
+    ("an answer",
+     check ~options:{ options with environment = { options.environment with answers = (fun _ -> [ [ "2" ] ]) } }
+       No_error "x = ask 'how many?'" "holds");
+    ("vehicles that are not there", check Vehicles "v = pick { type 'UAV' }" "violated in 2");
+    ("too few vehicles", check Vehicles (pick ^ "execute task('p') | task('q') | task('r')") "violated in 5");
+    ("a halt in a handler",
+     check ~options:failing No_halt (pick ^ "execute watch task('p')[va] onError { halt 'no' }") "violated in 7");
+    ("a halt that is not reached", check No_halt "if (1 > 2) { halt 'no' }" "holds");
+    ("tuples left over", check No_leftover "execute action { post x:1 }" "violated in 3");
+    ("tuples taken", check No_leftover "post x:1\nconsume x:1" "holds");
+    ("all of it reached",
+     check All_reached (pick ^ "execute task('p')[va] | action { post x:1 }\nmessage 'end'") "holds");
+    ("a branch that is not taken, and its task",
+     check All_reached (pick ^ "execute oneOf { when { false } then task('p')[va]\nwhen { true } then action { } }")
+       "unreached: task");
+    ("a handler without failures",
+     check All_reached (pick ^ "execute watch task('p')[va] onError { message 'm' }") "unreached: onError");
+    ("a handler with failures",
+     check ~options:failing All_reached (pick ^ "execute watch task('p')[va] onError { message 'm' }") "holds");
+    ("a message of the script", check All_reached "if (1 > 2) { message 'm' }" "unreached: message");
+  ]
+
+(* A program with some thousands of states, all of whose properties hold. *)
+let large =
+  let branch _ = "(action { } >> action { } >> action { } >> action { })" in
+  "t = " ^ String.concat " | " (List.init 6 branch) ^ "\nexecute t"
+
+let stops name options bound () =
+  let _, o = run ~options large in
+  Alcotest.(check bool) (name ^ " stops it") true (o.stopped = Some bound);
+  let inconclusive (_, verdict) = match (verdict : Search.verdict) with Inconclusive b -> b = bound | _ -> false in
+  Alcotest.(check bool) "nothing is said to hold" true (List.for_all inconclusive o.verdicts);
+  Alcotest.(check bool) "not all was expanded" true (o.expanded < o.states)
+
+let ticking () =
+  let now = ref 0. in
+  fun () -> now := !now +. 0.5; !now
+
+let interrupted_after n =
+  let asked = ref 0 in
+  fun () -> incr asked; !asked > n
+
+let bounds =
+  [
+    ("states", stops "a bound on states" { options with max_states = Some 50 } States);
+    ("depth", stops "a bound on depth" { options with max_depth = Some 5 } Depth);
+    ("memory", stops "a bound on memory" { options with max_memory = Some 1_000 } Memory);
+    ("time", stops "a timeout" { options with timeout = Some 0.4; clock = ticking () } Time);
+    ("interruption", stops "an interruption" { options with interrupted = interrupted_after 1 } Interruption);
+  ]
+
+(* Found before the bound was met: still a violation. *)
+let test_violation_before_bound () =
+  let environment = { options.environment with answers = (fun _ -> [ [ "1"; "2" ] ]) } in
+  let options = { options with environment; max_states = Some 50 } in
+  let source = "x = ask 'which?'\nif (x == 1) { y = 1 / 0 }\n" ^ large in
+  check ~options No_error source "violated in 3" ();
+  check ~options No_deadlock source "inconclusive" ()
+
+(* Exactly as many states as there are is no bound. *)
+let test_exact_bound () =
+  let _, o = run large in
+  let _, o' = run ~options:{ options with max_states = Some o.states } large in
+  Alcotest.(check bool) "not stopped" true (o'.stopped = None)
+
+let test_progress () =
+  let reports = ref 0 in
+  let options = { options with clock = ticking (); progress = (fun _ -> incr reports) } in
+  ignore (run ~options large);
+  Alcotest.(check bool) "some reports" true (!reports > 0)
+
+let () =
+  let case (name, f) = Alcotest.test_case name `Quick f in
+  Alcotest.run "verdicts"
+    [
+      ("properties", List.map case verdicts);
+      ("bounds", List.map case bounds);
+      ( "around bounds",
+        List.map case
+          [ ("a violation before", test_violation_before_bound); ("just met", test_exact_bound);
+            ("progress", test_progress) ] );
+    ]

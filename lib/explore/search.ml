@@ -2,6 +2,7 @@ open Dolphin_semantics
 
 type options = {
   environment : Environment.options;
+  reduction : Reduction.t;
   max_states : int option;
   max_depth : int option;
   max_memory : int option;
@@ -24,6 +25,7 @@ and progress = {
 let default =
   {
     environment = Environment.default;
+    reduction = Whole;
     max_states = None;
     max_depth = None;
     max_memory = None;
@@ -155,7 +157,7 @@ let verdicts t program world stopped =
 
 let run options program world =
   let started = options.clock () in
-  let space = Space.create options.environment program world in
+  let space = Space.create ~reduction:options.reduction options.environment program world in
   let t = { options; space; started; reported = started; next = 0; depth = -1; level_end = 0 } in
   let stopped =
     match explore t with

@@ -8,6 +8,7 @@ type settings = {
   faults : int option option;
   strict : bool;
   json : bool;
+  reduction : Dolphin_explore.Reduction.t;
   max_states : int option;
   max_depth : int option;
   max_memory : int option;
@@ -127,6 +128,7 @@ let explore (program : Program_file.t) (fleet : Fleet_file.t) s invariants =
   let live = Unix.isatty Unix.stderr && not s.json in
   let options : Search.options =
     { environment = World_of.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
+      reduction = s.reduction;
       max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; timeout = s.timeout;
       clock = Unix.gettimeofday;
       invariants;
@@ -149,13 +151,13 @@ let read_all option of_string texts =
   in
   Result.map List.rev (List.fold_left read (Ok []) texts)
 
-let run path fleet answers faults strict json invariants max_states max_depth max_memory timeout =
+let run path fleet answers faults strict json reduction invariants max_states max_depth max_memory timeout =
   match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet) with
   | Error trouble, _ -> Program_file.tell trouble; Exit_status.Bad_input
   | Ok _, Error trouble -> Fleet_file.tell trouble; Exit_status.Bad_input
   | Ok program, Ok fleet ->
     Report.diagnostics ~source:program.source program.warnings;
-    let settings = { answers; faults; strict; json; max_states; max_depth; max_memory; timeout } in
+    let settings = { answers; faults; strict; json; reduction; max_states; max_depth; max_memory; timeout } in
     (match read_all "--invariant" (Dolphin_explore.Condition.of_string program.program) invariants with
      | Error why -> Report.complain why; Bad_input
      | Ok invariants -> explore program fleet settings invariants)
@@ -223,6 +225,14 @@ let invariants =
   in
   Arg.(value & opt_all string [] & info [ "invariant" ] ~docv:"EXPR" ~doc)
 
+let reduction =
+  let kinds = [ ("none", Dolphin_explore.Reduction.Whole); ("por", Partial_order) ] in
+  let doc =
+    "How much is looked at: $(b,none) for every state; $(b,por) for one of the orders that make no difference (partial \
+     order reduction), with the same verdicts. The number of states printed is that of the states looked at."
+  in
+  Arg.(value & opt (enum kinds) Partial_order & info [ "reduction" ] ~docv:"KIND" ~doc)
+
 let json = Arg.(value & flag & info [ "json" ] ~doc:"Print the result as one JSON object.")
 
 let man =
@@ -257,5 +267,6 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ invariants $ max_states $ max_depth
+      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ reduction $ invariants
+      $ max_states $ max_depth
       $ max_memory $ timeout)

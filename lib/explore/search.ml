@@ -2,6 +2,7 @@ open Dolphin_semantics
 
 type options = {
   environment : Environment.options;
+  reduction : Reduction.t;
   max_states : int option;
   max_depth : int option;
   max_memory : int option;
@@ -25,6 +26,7 @@ and progress = {
 let default =
   {
     environment = Environment.default;
+    reduction = Whole;
     max_states = None;
     max_depth = None;
     max_memory = None;
@@ -169,7 +171,9 @@ let verdicts t program world stopped =
 
 let run options program world =
   let started = options.clock () in
-  let space = Space.create options.environment program world in
+  (* What is asked of every state cannot be judged by some of them. *)
+  let reduction = if options.invariants = [] then options.reduction else Whole in
+  let space = Space.create ~reduction options.environment program world in
   let invariants = List.map (Invariant.create program world) options.invariants in
   let t = { options; space; invariants; started; reported = started; next = 0; depth = -1; level_end = 0 } in
   let stopped =

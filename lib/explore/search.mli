@@ -7,6 +7,7 @@ open Dolphin_semantics
 (** How far to go, and who is told. *)
 type options = {
   environment : Environment.options;
+  reduction : Reduction.t;
   max_states : int option;
   max_depth : int option;  (** in transitions *)
   max_memory : int option;  (** in bytes, of the whole process but for code and libraries *)
@@ -28,7 +29,7 @@ and progress = {
 }
 
 val default : options
-(** No bounds, the default environment, [Sys.time], no reports. *)
+(** No bounds, no reduction, the default environment, [Sys.time], no reports. *)
 
 (** {1:outcomes Outcomes} *)
 

@@ -57,8 +57,8 @@ let print_waiting (program : Dolphin_semantics.Core.program) (run : Search.run) 
     List.iter guard (Dolphin_runtime.Driver.guards residual)
   | _ -> ()
 
-let print_outcome program strict (o : Search.outcome) =
-  let shown = List.map (fun (property, verdict) -> (property, verdict, is_remark property && not strict)) o.verdicts in
+let print_outcome program s (o : Search.outcome) =
+  let shown = List.map (fun (property, verdict) -> (property, verdict, is_remark property && not s.strict)) o.verdicts in
   List.iter
     (fun (property, (verdict : Search.verdict), remark) ->
        match verdict with
@@ -72,7 +72,9 @@ let print_outcome program strict (o : Search.outcome) =
     (fun (property, (verdict : Search.verdict), remark) ->
        match verdict with
        | Violated run when not remark ->
-         Format.printf "@.%s: a shortest run in which %s@." (Property.name property) (Property.question property);
+         Format.printf "@.%s: a%s run in which %s@." (Property.name property)
+           (if s.reduction = Whole then " shortest" else "")
+           (Property.question property);
          print_run program run;
          if property = No_deadlock then print_waiting program run
        | Unreached pieces when not remark ->
@@ -138,7 +140,7 @@ let explore (program : Program_file.t) (fleet : Fleet_file.t) s invariants =
   let outcome = Search.run options program.program (World_of.world fleet.scenario) in
   if live then clear_progress ();
   if s.json then print_endline (Yojson.Safe.to_string (json_of_outcome program.program outcome))
-  else print_outcome program.program s.strict outcome;
+  else print_outcome program.program s outcome;
   status s.strict outcome
 
 (* Each of [texts] read by [of_string], or the first that is wrong. *)
@@ -239,7 +241,7 @@ let man =
   [ `S Manpage.s_description;
     `P "$(tname) follows every run that $(i,PROG) can have: every order in which tasks end and timers expire, every choice \
         of vehicles, every branch that is ready. It uses the very transition function that $(mname) $(b,exec) uses. For \
-        each of these it says whether it holds, or shows a shortest run that breaks it, a column for the program and one \
+        each of these it says whether it holds, or shows a run that breaks it (a shortest one with $(b,--reduction none)), a column for the program and one \
         for each vehicle:";
     `I ("no deadlock", "some transition is possible until the program ends.");
     `I ("termination", "every fair run ends: tasks that run end some time, timers expire, no step is put off for ever.");

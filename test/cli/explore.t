@@ -2,9 +2,16 @@ The time and the memory that an exploration takes are not the same twice.
 
   $ explore() { dolphin explore "$@" > result; status=$?; sed 's/, [0-9.]* s, [0-9]* MiB//' result; return $status; }
 
-A program whose every run is sound.
+A program whose every run is sound. Without reduction every state is looked at.
 
   $ explore ../../examples/rendezvous.dol
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  36 states, 35 transitions, depth 35
+  $ explore ../../examples/rendezvous.dol --reduction none
   no deadlock: holds
   termination: holds
   no unhandled error: holds
@@ -20,9 +27,9 @@ The same, if a plan may fail once.
   no unhandled error: violated after 10 steps: an error that nobody handles ends the program
   assertions: holds
   vehicles for all tasks: holds
-  2246 states, 10055 transitions, depth 35
+  51 states, 74 transitions, depth 35
   
-  no unhandled error: a shortest run in which an error that nobody handles ends the program
+  no unhandled error: a run in which an error that nobody handles ends the program
        program                                   noptilus-1                 where
    1   ask(Radius of operation area? (km))                                  rendezvous.dol:2
    2   answer(2)                                                            rendezvous.dol:2
@@ -50,7 +57,7 @@ A program that may wait for ever.
   vehicles for all tasks: holds
   17 states, 16 transitions, depth 6
   
-  no deadlock: a shortest run in which nothing can happen any more, and the program has not ended
+  no deadlock: a run in which nothing can happen any more, and the program has not ended
       program                        noptilus-1  where
   1   pick(1 vehicle of type 'UUV')              deadlock.dol:1
   2   picks noptilus-1                           deadlock.dol:1
@@ -76,7 +83,7 @@ A program that may never end.
   vehicles for all tasks: holds
   5 states, 5 transitions, depth 4
   
-  termination: a shortest run in which the program can go on for ever
+  termination: a run in which the program can go on for ever
       program   where
   1   pause(1)  round.dol:2
   and from there, again and again:
@@ -113,7 +120,7 @@ Code that nothing reaches is only worth a note, unless one asks for more.
   all code reached: violated: no run reaches message at unreached.dol:2:19
   3 states, 2 transitions, depth 2
   
-  no leftover tuples: a shortest run in which tuples are left when the program completes
+  no leftover tuples: a run in which tuples are left when the program completes
       program   where
   1   post a:1  unreached.dol:1
   2   end
@@ -138,9 +145,9 @@ An assertion that some run breaks.
   assertions: violated after 5 steps: assertion.dol:4:5: assertion failed
   vehicles for all tasks: holds
   note: all code reached: violated: no run reaches onError at assertion.dol:3:9
-  50 states, 73 transitions, depth 9
+  44 states, 61 transitions, depth 9
   
-  assertions: a shortest run in which an assertion fails
+  assertions: a run in which an assertion fails
       program                        where
   1   pick(1 vehicle of type 'UUV')  assertion.dol:1
   2   picks noptilus-1               assertion.dol:1
@@ -169,7 +176,7 @@ Invariants.
   invariant !running('a', 'x8-02'): holds
   38 states, 46 transitions, depth 9
   
-  invariant !(running('a') && n > 0): a shortest run in which it does not hold
+  invariant !(running('a') && n > 0): a run in which it does not hold
       program                        noptilus-1  where
   1   pick(1 vehicle of type 'UUV')              counting.dol:2
   2   picks noptilus-1                           counting.dol:2
@@ -177,7 +184,7 @@ Invariants.
   4                                  starts a    counting.dol:3
   5   act                                        counting.dol:3
   
-  invariant !poll(done: 2): a shortest run in which it does not hold
+  invariant !poll(done: 2): a run in which it does not hold
       program                        noptilus-1  where
   1   pick(1 vehicle of type 'UUV')              counting.dol:2
   2   picks noptilus-1                           counting.dol:2
@@ -197,7 +204,7 @@ Invariants.
   invariant bound("noptilus-1") || n == 0: violated after 4 steps: it does not hold
   38 states, 46 transitions, depth 9
   
-  invariant bound("noptilus-1") || n == 0: a shortest run in which it does not hold
+  invariant bound("noptilus-1") || n == 0: a run in which it does not hold
       program                        where
   1   pick(1 vehicle of type 'UUV')  counting.dol:2
   2   picks noptilus-2               counting.dol:2
@@ -216,7 +223,7 @@ Invariants.
 
 A bound that is met leaves the answer open.
 
-  $ explore ../../examples/rendezvous.dol --max-states 100
+  $ explore ../../examples/rendezvous.dol --reduction none --max-states 100
   no deadlock: inconclusive, the bound on states was met
   termination: inconclusive, the bound on states was met
   no unhandled error: inconclusive, the bound on states was met

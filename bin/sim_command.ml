@@ -68,7 +68,7 @@ let log_file =
   let doc =
     "Write to the file $(docv) what each vehicle was commanded and did, a JSON object a line: $(b,time), $(b,vehicle), \
      $(b,did) ($(b,started), $(b,refused), $(b,stopped), $(b,completed), $(b,failed), ...), $(b,plan), \
-     $(b,request_id), $(b,by)."
+     $(b,request_id), $(b,by), $(b,sent)."
   in
   Arg.(value & opt (some string) None & info [ "log" ] ~docv:"FILE" ~doc)
 

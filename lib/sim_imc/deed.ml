@@ -1,4 +1,4 @@
-type request = { plan : string; number : int; by : int }
+type request = { plan : string; number : int; by : int; sent : float }
 
 type t =
   | Started of { request : request; inline : bool; instead : string option }
@@ -13,7 +13,7 @@ type t =
 
 let text s = `String s
 let maybe key = function Some s -> [ (key, text s) ] | None -> []
-let of_request r = [ ("plan", text r.plan); ("request_id", `Int r.number); ("by", `Int r.by) ]
+let of_request r = [ ("plan", text r.plan); ("request_id", `Int r.number); ("by", `Int r.by); ("sent", `Float r.sent) ]
 let command name r = ("command", text name) :: of_request r
 
 let fields = function

@@ -5,6 +5,8 @@ type request = {
   plan : string;
   number : int;  (** its [request_id] *)
   by : int;  (** the system that sent it *)
+  sent : float;
+  (** its time stamp: two requests that are one datagram, which the network has doubled, have the same *)
 }
 
 type t =
@@ -23,5 +25,6 @@ type t =
 
 val to_json : time:float -> vehicle:string -> t -> Yojson.Safe.t
 (** [to_json ~time ~vehicle d] is an object of [time], [vehicle], and [did], the name of the constructor in small
-    letters; of requests also [command], ["START"] or ["STOP"] or for ignored ones ["?"], [plan], [request_id], [by].
+    letters; of requests also [command], ["START"] or ["STOP"] or for ignored ones ["?"], [plan], [request_id], [by],
+    [sent].
     A START that made the vehicle run its plan has [did] = ["started"], once for every time that it did. *)

@@ -20,6 +20,7 @@ type run = {
   plan : string;
   request : int;
   by : party;
+  sent : float;
   inline : bool;
   instead : string option;
   flight : Flight.t;
@@ -129,7 +130,7 @@ let reply e ~by ~op ~request ~plan type_ info =
   { from = entity; to_ = by; message = Plan_control reply }
 
 let reply_to_start e (r : run) type_ info = reply e ~by:r.by ~op:Start ~request:r.request ~plan:r.plan type_ info
-let deed_request (r : run) : Deed.request = { plan = r.plan; number = r.request; by = r.by.system }
+let deed_request (r : run) : Deed.request = { plan = r.plan; number = r.request; by = r.by.system; sent = r.sent }
 
 (* {1 Plans begin and end} *)
 
@@ -201,9 +202,8 @@ let remember name s e =
   let is_room = String_map.mem name e.known || String_map.cardinal e.known < most_known in
   if is_room then { e with known = String_map.add name s e.known } else e
 
-let start ~at ~by (c : Message.t Message.Plan_control.t) e =
+let start ~at ~by ~(request : Deed.request) (c : Message.t Message.Plan_control.t) e =
   let name = c.plan_id in
-  let request : Deed.request = { plan = name; number = c.request_id; by = by.system } in
   let instead = Option.map (fun (run : run) -> run.plan) (running e) in
   match e.mode with
   | Blocked _ ->
@@ -224,12 +224,11 @@ let start ~at ~by (c : Message.t Message.Plan_control.t) e =
           Flight.make ~draw (scenario_plan e name) e.settings.vehicle (position ~at e) ~name specification
         in
         let calibrate = Message.Plan_control.Flags.(mem calibrate c.flags) in
-        accepted ~at ~calibrate { plan = name; request = c.request_id; by; inline; instead; flight } e)
+        accepted ~at ~calibrate { plan = name; request = c.request_id; by; sent = request.sent; inline; instead; flight } e)
 
 (* {1 STOP, Abort, others} *)
 
-let stop ~at ~by (c : Message.t Message.Plan_control.t) e =
-  let request : Deed.request = { plan = c.plan_id; number = c.request_id; by = by.system } in
+let stop ~at ~by ~request (c : Message.t Message.Plan_control.t) e =
   let answer type_ info = reply e ~by ~op:Stop ~request:c.request_id ~plan:c.plan_id type_ info in
   match running e with
   | None ->
@@ -239,12 +238,12 @@ let stop ~at ~by (c : Message.t Message.Plan_control.t) e =
     [ answer Success "OK"; say_vehicle e; say_control ~at e ],
     [ Deed.Stopped { request; plan = Some run.plan } ], e
 
-let request ~at ~by (c : Message.t Message.Plan_control.t) e =
-  let request : Deed.request = { plan = c.plan_id; number = c.request_id; by = by.system } in
+let request ~at ~sent ~by (c : Message.t Message.Plan_control.t) e =
+  let request : Deed.request = { plan = c.plan_id; number = c.request_id; by = by.system; sent } in
   match c.type_, c.op with
   | Request, Start when c.plan_id = "dislodge" -> [], [ Deed.Ignored { request; why = "plan dislodge" } ], e
-  | Request, Start -> start ~at ~by c e
-  | Request, Stop -> stop ~at ~by c e
+  | Request, Start -> start ~at ~by ~request c e
+  | Request, Stop -> stop ~at ~by ~request c e
   | Request, ((Load | Get | Other _) as op) ->
     let why = "operation is not supported" in
     [ reply e ~by ~op ~request:c.request_id ~plan:c.plan_id Failure why ], [ Deed.Ignored { request; why } ], e

@@ -60,8 +60,8 @@ val advance : at:float -> t -> outcome
 
 (** {1:requests Requests} *)
 
-val request : at:float -> by:party -> Message.t Message.Plan_control.t -> t -> outcome
-(** A PlanControl for this vehicle. Replies of others are ignored. *)
+val request : at:float -> sent:float -> by:party -> Message.t Message.Plan_control.t -> t -> outcome
+(** A PlanControl for this vehicle, with the time stamp [sent]. Replies of others are ignored. *)
 
 val abort : at:float -> by:party -> name:string -> t -> outcome
 (** An Abort, sent by the system that calls itself [name]. *)

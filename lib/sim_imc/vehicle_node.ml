@@ -186,7 +186,7 @@ let obey ~at (p : Packet.t) v =
   let by : Engine.party = { system = p.src; entity = p.src_ent } in
   match p.content with
   | Message (Plan_control c) when is_for p v ->
-    after_engine ~at v (Engine.request ~at:(mission v at) ~by c v.engine)
+    after_engine ~at v (Engine.request ~at:(mission v at) ~sent:p.timestamp ~by c v.engine)
   | Message Abort when is_for p v ->
     after_engine ~at v (Engine.abort ~at:(mission v at) ~by ~name:(Peers.name p.src v.peers) v.engine)
   | Message (Entity_list { op = Query; list = _ }) when is_for p v ->

@@ -1,0 +1,81 @@
+Programs on simulated vehicles, as two processes over UDP.
+
+  $ cat > pair.fleet <<'END'
+  > vehicle 'noptilus-1', { type 'UUV' }
+  > vehicle 'noptilus-2', { type 'UUV' }
+  > plan 'out', { duration 20 }
+  > plan 'back', { duration 20 }
+  > plan 'around', { duration 30 }
+  > plan 'astray', { duration 10; fails }
+  > END
+  $ cat > mission.dol <<'END'
+  > v = pick { count 2; type 'UUV'; timeout 1.min }
+  > execute v: (imcPlan('out') >> imcPlan { planName 'inline'; skeeping duration: 10 } >> imcPlan('back')) | imcPlan('around')
+  > message 'Done!'
+  > END
+
+The vehicles run in the background while a program does, and are asked to end then.
+
+  $ mission() {
+  >   program=$1; first=$2; last=$((first + 4)); shift 2
+  >   dolphin sim pair.fleet --imc --speed 20 --announce 0.5 --contact 0.2 --discovery-ports $first-$last \
+  >     --port $((first + 10)) --log log.jsonl --for 60 "$@" > vehicles.txt & vehicles=$!
+  >   until [ -s vehicles.txt ]; do sleep 0.05; done
+  >   status=0; timeout 50 dolphin exec $program --imc-loopback --imc-discovery-ports $first-$last > run.txt 2> errors.txt || status=$?
+  >   kill $vehicles; wait $vehicles || true
+  >   echo "status $status"
+  > }
+
+What the vehicles were told to start, each request once however often the network doubled it; and what ended.
+
+  $ starts() { grep '"did":"started"' log.jsonl | sed 's/.*"plan":"\([^"]*\)".*"sent":\([0-9.]*\).*/\1 \2/' | sort -u | cut -d' ' -f1; }
+  $ ends() { grep '"did":"completed"' log.jsonl | sed 's/.*"plan":"\([^"]*\)".*/\1/' | sort; }
+
+On a good link.
+
+  $ mission mission.dol 41200
+  status 0
+  $ starts
+  around
+  back
+  inline
+  out
+  $ ends
+  around
+  back
+  inline
+  out
+  $ grep -c '"instead"' log.jsonl
+  0
+  [1]
+  $ grep -o 'Done!' run.txt
+  Done!
+
+On a bad one.
+
+  $ mission mission.dol 41220 --loss 0.3 --duplication 0.1 --reordering 0.2 --seed 5
+  status 0
+  $ starts
+  around
+  back
+  inline
+  out
+  $ ends
+  around
+  back
+  inline
+  out
+  $ grep -o 'Done!' run.txt
+  Done!
+
+A plan that fails, and plans that are refused.
+
+  $ echo "v = pick { type 'UUV'; timeout 1.min }; execute imcPlan('astray')" > astray.dol
+  $ mission astray.dol 41240
+  status 1
+  $ grep -o 'failed on .*' errors.txt | sed 's/noptilus-[12]/one/' | head -1
+  failed on one: plan failed
+  $ mission mission.dol 41260 --refuse noptilus-1=unwell --refuse noptilus-2=unwell
+  status 1
+  $ grep -o 'failed on .*' errors.txt | sed 's/noptilus-[12]/one/' | head -1
+  failed on one: unwell

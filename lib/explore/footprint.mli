@@ -18,7 +18,7 @@ end
 type t = {
   posts : Pairs.t;
   queues : Pairs.t;  (** those of [posts] whose order matters *)
-  takes : Pairs.t;
+  takes : Pairs.t;  (** pairs that it may take; they are among [needs] or [tests] too *)
   needs : Pairs.t;  (** pairs that a guard needs: it holds, with the same effect, if there are more of any *)
   tests : Pairs.t;  (** pairs whose being there or not may matter in any way *)
   reads : Globals.t;
@@ -27,8 +27,6 @@ type t = {
   breaks : bool;  (** it may be faulty, or fail *)
   halts : bool;
   ignores : bool;  (** a handler: it may ignore the error *)
-  limited : bool;  (** it may be a failure of which only so many are possible *)
-  counts : bool;  (** ... after which the run may go on *)
 }
 
 val empty : t

@@ -1,9 +1,18 @@
 open Cmdliner
 
-let run path sim fleet speed seed answers supplier supplier_timeout =
+(* On a network nobody answers for people, unless that is asked for: of a fleet only the answers are used then. *)
+let fleet_of ~path ~sim ~named = function
+  | Some _ when sim <> None || named = None -> Ok { Fleet_file.path = None; source = ""; scenario = Fleet_file.nobody }
+  | Some _ -> Fleet_file.load named
+  | None -> Fleet_file.load (Fleet_file.choose ~program:path named)
+
+let run path sim fleet network speed seed answers supplier supplier_timeout journal drawing =
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
   let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
-  match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path named) with
+  match Program_file.load path, fleet_of ~path ~sim ~named network with
+  | Ok _, Ok _ when network <> None && (sim <> None || speed <> None) ->
+    Report.complain "vehicles of a network (--imc) are not simulated: --sim and --speed do not go with them";
+    Exit_status.Bad_input
   | Error trouble, _ ->
     Program_file.tell trouble;
     Exit_status.Bad_input
@@ -12,7 +21,10 @@ let run path sim fleet speed seed answers supplier supplier_timeout =
     Exit_status.Bad_input
   | Ok program, Ok fleet ->
     Report.diagnostics ~source:program.source program.warnings;
-    Run.run { program; scenario = fleet.scenario; speed; seed; answers; supplier; supplier_timeout }
+    let platform = if network = None then "sim" else "imc" in
+    let header = { (Record.header program fleet ~seed ~speed) with platform } in
+    let record = { Record.journal; drawing; header } in
+    Run.run { program; scenario = fleet.scenario; network; speed; seed; answers; supplier; supplier_timeout; record }
 
 let positive =
   let parse text =
@@ -43,8 +55,8 @@ let seed =
 
 let answers =
   let doc =
-    "Answer a question of the program ($(b,ask)) with $(docv), an expression. May be repeated: the first one answers the \
-     first question. Further questions are answered by the fleet, or else on standard input."
+    "Answer a question of the program ($(b,ask)) with $(docv), an expression. May be repeated: the first one answers \
+     the first question. Further questions are answered by the fleet, or else on standard input."
   in
   Arg.(value & opt_all string [] & info [ "answer" ] ~docv:"TEXT" ~doc)
 
@@ -58,18 +70,36 @@ let supplier_timeout =
   let doc = "Give the supplier $(docv) seconds for each reply. By default it may take as long as it likes." in
   Arg.(value & opt (some positive) None & info [ "supplier-timeout" ] ~docv:"SECONDS" ~doc)
 
+let journal =
+  let doc =
+    "Keep a journal of the run in the file $(docv): every transition, what caused it, where the vehicles were. \
+     $(mname) $(b,trace) checks, shows and draws journals."
+  in
+  Arg.(value & opt (some string) None & info [ "o"; "journal" ] ~docv:"FILE" ~doc)
+
+let drawing =
+  let doc =
+    "Draw the run in the file $(docv), $(i,*.svg) or $(i,*.html), when it is over: who did what when, the ways of the \
+     vehicles, their batteries."
+  in
+  Arg.(value & opt (some Drawing_file.argument) None & info [ "draw" ] ~docv:"FILE" ~doc)
+
 let man =
   [ `S Manpage.s_description;
-    `P "$(tname) checks the program $(i,PROG) as $(mname) $(b,check) does and runs it on a fleet of simulated vehicles. \
-        The vehicles move, their batteries drain, their plans take the time that the fleet file says and may fail. Unless \
-        $(b,--speed) is given the run takes no longer than it takes to compute: a mission of an hour is over at once.";
-    `P "The log on standard output has a line for whatever happens: the time since the start, who, what. On a terminal a \
-        board below it shows each vehicle of the program: its task, for how long it has been running, its position and \
-        its battery.";
+    `P "$(tname) checks the program $(i,PROG) as $(mname) $(b,check) does and runs it on a fleet of simulated \
+        vehicles. The vehicles move, their batteries drain, their plans take the time that the fleet file says and may fail. \
+        Unless $(b,--speed) is given the run takes no longer than it takes to compute: a mission of an hour is over at \
+        once.";
+    `P "The log on standard output has a line for whatever happens: the time since the start, who, what. On a terminal \
+        a board below it shows each vehicle of the program: its task, for how long it has been running, its position \
+        and its battery.";
     `P "Ctrl-C interrupts the program: running tasks are stopped, vehicles are released. A second Ctrl-C ends \
         $(mname) at once.";
     `S Manpage.s_arguments;
     `S Manpage.s_options;
+    `S Imc_options.s_network;
+    `P "With $(b,--imc) the program runs on real vehicles, or on whatever speaks IMC as they do. The page \
+        $(i,docs/imc.md) tells what it takes. Of a fleet that $(b,--fleet) names, only the answers are used then.";
     `S Manpage.s_exit_status;
     `S Manpage.s_files;
     `I ("$(i,PROG) with the ending $(b,.fleet)", "The fleet, unless $(b,--sim) or $(b,--fleet) names another.");
@@ -79,7 +109,9 @@ let man =
     `P "On another fleet, with other luck, and answering the program's question:";
     `Pre "  $(mname) $(tname) mission.dol --fleet harbour.fleet --seed 7 --answer 2";
     `P "With tasks from a script, which has ten seconds for each reply:";
-    `Pre "  $(mname) $(tname) examples/supplier.dol \\\\\n    --supplier examples/supplier.py --supplier-timeout 10" ]
+    `Pre "  $(mname) $(tname) examples/supplier.dol \\\\\n    --supplier examples/supplier.py --supplier-timeout 10";
+    `P "With a journal of the run, and a picture of it:";
+    `Pre "  $(mname) $(tname) mission.dol --journal mission.run --draw mission.svg" ]
   @ Options.see_also
 
 let command =
@@ -88,4 +120,4 @@ let command =
       ~exits:(Options.exits [ Done; Failed; Bad_input; Platform_trouble; Bug; Interrupted ])
   in
   Cmd.v info
-    Term.(const run $ Options.program $ sim $ fleet $ speed $ seed $ answers $ supplier $ supplier_timeout)
+    Term.(const run $ Options.program $ sim $ fleet $ Imc_options.chosen $ speed $ seed $ answers $ supplier $ supplier_timeout $ journal $ drawing)

@@ -14,7 +14,7 @@ let meaning = function
   | Violated -> "a run breaks what was asked of all runs; a shortest one is shown."
   | Inconclusive -> "a bound was met, or Ctrl-C: what was explored breaks nothing, but there is more."
   | Bad_input -> "the program, the fleet or the command line is not right; nothing was started."
-  | Platform_trouble -> "the platform, not the program, is in trouble."
+  | Platform_trouble -> "not the program is in trouble but what is around it: the platform, or where the output goes."
   | Bug -> "a fault of $(mname) itself. Please report it."
   | Interrupted ->
     "the run was interrupted: by Ctrl-C, by a request to terminate, or because nobody reads its log any more."

@@ -18,7 +18,7 @@ type settings = {
 (* Without [--strict] these are worth knowing, but a program may mean them. *)
 let is_remark : Property.t -> bool = function
   | No_halt | No_leftover | All_reached -> true
-  | No_deadlock | Termination | No_error | Vehicles -> false
+  | No_deadlock | Termination | No_error | Assertions | Vehicles -> false
 
 (* {1 Progress} *)
 
@@ -46,27 +46,40 @@ let print_pieces (program : Dolphin_semantics.Core.program) pieces =
        Format.printf "  %a: %s@." Dolphin_syntax.Location.pp program.locations.(piece.site) piece.what)
     pieces
 
+(* Where a deadlock stands: what it waits for in vain. *)
+let print_waiting (program : Dolphin_semantics.Core.program) (run : Search.run) =
+  match List.rev run.steps with
+  | { next = { control = Executing (_, residual); _ }; _ } :: _ ->
+    let guard (c : Dolphin_semantics.Core.closure) =
+      Format.printf "waits for the condition at %a@." Dolphin_syntax.Location.pp
+        program.locations.(c.lambda.lambda_site)
+    in
+    List.iter guard (Dolphin_runtime.Driver.guards residual)
+  | _ -> ()
+
 let print_outcome program strict (o : Search.outcome) =
+  let shown = List.map (fun (property, verdict) -> (property, verdict, is_remark property && not strict)) o.verdicts in
   List.iter
-    (fun (property, verdict) ->
-       let remark = if is_remark property && not strict then "note: " else "" in
-       match (verdict : Search.verdict) with
-       | Holds when remark <> "" -> ()
-       | _ -> Format.printf "%s%a@." remark (Search.pp_verdict program) (property, verdict))
-    o.verdicts;
+    (fun (property, (verdict : Search.verdict), remark) ->
+       match verdict with
+       | (Holds | Inconclusive _) when remark -> ()
+       | Holds | Violated _ | Unreached _ | Inconclusive _ ->
+         Format.printf "%s%a@." (if remark then "note: " else "") (Search.pp_verdict program) (property, verdict))
+    shown;
   Printf.printf "%d states, %d transitions, depth %d, %.2f s, %d MiB\n" o.states o.transitions o.depth o.seconds
     (mebibytes o.bytes);
   List.iter
-    (fun (property, verdict) ->
-       match (verdict : Search.verdict) with
-       | Violated run ->
+    (fun (property, (verdict : Search.verdict), remark) ->
+       match verdict with
+       | Violated run when not remark ->
          Format.printf "@.%s: a shortest run in which %s@." (Property.name property) (Property.question property);
-         print_run program run
-       | Unreached pieces ->
+         print_run program run;
+         if property = No_deadlock then print_waiting program run
+       | Unreached pieces when not remark ->
          Format.printf "@.%s: no run reaches@." (Property.name property);
          print_pieces program pieces
-       | Holds | Inconclusive _ -> ())
-    o.verdicts
+       | Holds | Inconclusive _ | Violated _ | Unreached _ -> ())
+    shown
 
 let json_of_run (run : Search.run) =
   let labels steps =
@@ -209,6 +222,7 @@ let man =
     `I ("no deadlock", "some transition is possible until the program ends.");
     `I ("termination", "every fair run ends: tasks that run end some time, timers expire, no step is put off for ever.");
     `I ("no error", "no fault, and no error of a task that nothing handles.");
+    `I ("assertions", "no $(b,assert) of the program fails.");
     `I ("vehicles", "every $(b,pick) and every $(b,execute) gets its vehicles.");
     `P "Noted are also runs that call $(b,halt), tuples left over at the end, and code that no run reaches.";
     `P "Positions and batteries stay as they are at the start, and all vehicles of the fleet are in reach. Calls of a \

@@ -2,6 +2,7 @@
 
 type t = {
   path : string option;  (** [None]: the built-in fleet *)
+  source : string;  (** its text; [""] for the built-in fleet *)
   scenario : Dolphin_scenario.Scenario.t;
 }
 
@@ -16,3 +17,6 @@ val load : string option -> (t, trouble) result
 
 val tell : trouble -> unit
 (** On standard error. *)
+
+val nobody : Dolphin_scenario.Scenario.t
+(** No vehicles, no plans, no answers. *)

@@ -5,7 +5,7 @@ let program =
   Arg.(required & pos 0 (some string) None & info [] ~docv:"PROG" ~doc)
 
 let fleet =
-  let doc = "The fleet, a file such as $(i,mission.fleet). The default is the file beside $(i,PROG) with that ending." in
+  let doc = "The fleet, a file such as $(i,mission.fleet). By default the file beside $(i,PROG) with that ending." in
   Arg.(value & opt (some string) None & info [ "fleet" ] ~docv:"FLEET" ~doc)
 
 let exits = Exit_status.info

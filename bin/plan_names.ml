@@ -21,7 +21,8 @@ let of_program (p : Core.program) =
 
 (* "survey3" is no misspelling of "survey2". *)
 let is_misspelling name near =
-  let without_digits text = String.concat "" (String.split_on_char '#' (String.map (fun c -> if c >= '0' && c <= '9' then '#' else c) text)) in
+  let is_digit c = c >= '0' && c <= '9' in
+  let without_digits text = String.to_seq text |> Seq.filter (fun c -> not (is_digit c)) |> String.of_seq in
   without_digits name <> without_digits near
 
 let misspelt p (s : Dolphin_scenario.Scenario.t) =

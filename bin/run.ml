@@ -5,15 +5,18 @@ open Lwt.Infix
 module Diagnostic = Dolphin_syntax.Diagnostic
 module Location = Dolphin_syntax.Location
 module Simulator = Dolphin_platform_sim.Simulator
+module Udp_platform = Dolphin_platform_imc.Udp_platform
 
 type settings = {
   program : Program_file.t;
   scenario : Dolphin_scenario.Scenario.t;
+  network : Udp_platform.options option;
   speed : float option;
   seed : int;
   answers : string list;
   supplier : string option;
   supplier_timeout : float option;
+  record : Record.settings;
 }
 
 (* {1 What is seen} *)
@@ -64,6 +67,10 @@ let status s : Driver.outcome -> Exit_status.t = function
   | Ended Interrupted -> Interrupted
   | Stuck residual -> tell_stuck s residual; Failed
 
+let in_trouble why : Exit_status.t =
+  Report.complain why;
+  Platform_trouble
+
 (* {1 The run} *)
 
 let start_host s =
@@ -71,31 +78,56 @@ let start_host s =
   | None -> Ok None
   | Some command -> Result.map Option.some (Host.start ?timeout:s.supplier_timeout command)
 
+(* A fleet, what is to stand on the board below its vehicles, and who is told of what is unusual. *)
+type platform = Platform : (module Platform.S with type t = 'p) * 'p * (unit -> string list) * (string -> unit) ref -> platform
+
 (* The simulated fleet passes its time at once, or as a clock does. *)
-type platform = Platform : (module Simulator.S with type t = 'p) * 'p -> platform
-
 let simulated s =
+  let nothing () = [] and nobody = ref ignore in
   match s.speed with
-  | None -> Platform ((module Simulator.Virtual), Simulator.Virtual.create ~seed:s.seed s.scenario)
-  | Some speed -> Platform ((module Simulator.Paced), Simulator.Paced.create ~speed ~seed:s.seed s.scenario)
+  | None -> Platform ((module Simulator.Virtual), Simulator.Virtual.create ~seed:s.seed s.scenario, nothing, nobody)
+  | Some speed ->
+    Platform ((module Simulator.Paced), Simulator.Paced.create ~speed ~seed:s.seed s.scenario, nothing, nobody)
 
-let drive s host =
+(* How far vehicles are with their plans, by their own estimate. *)
+let estimates network () =
+  let line (sight : Dolphin_platform_imc.Station.sight) =
+    match Udp_platform.progress network sight.state.id with
+    | Some { plan; share = Some share; remaining; _ } ->
+      let left = match remaining with Some t -> Printf.sprintf ", %s left" (Wording.clock t) | None -> "" in
+      let name = Wording.harmless sight.state.id and plan = Wording.harmless plan in
+      Some (Printf.sprintf "         %s: %.0f%% of %s%s" name (100. *. share) plan left)
+    | Some { share = None; _ } | None -> None
+  in
+  List.filter_map line (Udp_platform.sights network)
+
+let open_platform s =
+  match s.network with
+  | None -> Ok (simulated s)
+  | Some options ->
+    let told = ref ignore in
+    let note vehicle text = !told (Printf.sprintf "%s: %s" vehicle text) in
+    let opened = Udp_platform.open_ { options with note } in
+    Result.map (fun network -> Platform ((module Udp_platform), network, estimates network, told)) opened
+
+let drive s record host (Platform ((module P), platform, more_lines, told)) =
   let interruption = Interruption.make () in
   let live = is_live () in
   let screen = Screen.make ~live ~on_closed:(fun () -> Interruption.interrupt interruption) Unix.stdout in
   let log = ref Log.start and board = ref Board.start in
   (* The driver interrupts stuck programs by itself. *)
   let is_stuck () = not (Interruption.happened interruption) in
-  let (Platform ((module P), platform)) = simulated s in
   let time () = P.now platform in
-  Screen.show screen (fun () -> Board.lines !board);
+  told := (fun text -> Screen.print screen (Log.remark !log ~time:(time ()) text));
+  Screen.show screen (fun () -> match Board.lines !board with [] -> [] | lines -> lines @ more_lines ());
   let shown : Questions.shown =
     { ask = (fun prompt -> Screen.ask screen (Log.question !log ~time:(time ()) prompt));
       answered = Screen.answered screen;
       refused = (fun why -> Screen.print screen (Log.remark !log ~time:(time ()) ("cannot take this answer: " ^ why))) }
   in
   let run () =
-    Driver.run (module P) platform ~always_telemetry:live ~observer:(observe screen log board ~is_stuck)
+    Driver.run (module P) platform ~always_telemetry:(live || Record.is_wanted s.record)
+      ~observer:(Observer.both (Record.observer record) (observe screen log board ~is_stuck))
       ?host:(Option.map Host.call host)
       ~console:(Questions.console shown ~answers:s.answers ~scenario:s.scenario)
       ~interruption:(Interruption.promise interruption) s.program.program
@@ -104,12 +136,28 @@ let drive s host =
     Screen.close screen;
     match host with None -> Lwt.return_unit | Some host -> Host.close host
   in
-  Lwt_main.run (Lwt.finalize run close >|= status s)
+  let finish outcome =
+    let is_stuck = match (outcome : Driver.outcome) with Stuck _ -> true | Ended _ -> false in
+    match Record.finish record ~time:(time ()) ~stuck:is_stuck with
+    | Ok () -> status s outcome
+    | Error why -> in_trouble why
+  in
+  let broken = function
+    | Record.Broken why -> Lwt.return (in_trouble why)
+    | Unix.Unix_error (error, call, _) ->
+      Lwt.return (in_trouble (Printf.sprintf "trouble of the platform: %s: %s" call (Unix.error_message error)))
+    | error -> Lwt.fail error
+  in
+  Lwt_main.run (Lwt.catch (fun () -> Lwt.finalize run close >|= finish) broken)
 
 let run s =
   Sys.set_signal Sys.sigpipe Signal_ignore;
-  match start_host s with
-  | Ok host -> drive s host
-  | Error why ->
-    Report.complain ("the supplier cannot be started: " ^ why);
-    Platform_trouble
+  match Record.start s.record s.program.program with
+  | Error why -> in_trouble why
+  | Ok record -> (
+      match open_platform s with
+      | Error why -> in_trouble why
+      | Ok platform -> (
+          match start_host s with
+          | Ok host -> drive s record host platform
+          | Error why -> in_trouble ("the supplier cannot be started: " ^ why)))

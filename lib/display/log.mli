@@ -16,8 +16,8 @@ val start : t
 
 val transition : ?stuck:bool -> t -> time:float -> Transition.t -> t * string list
 (** [transition l ~time s] is the lines that tell of [s], in the order in which things happen, and the log after it.
-    What cannot be seen from outside has no line, nor has the question of an [ask], which {!question} tells. With [~stuck:true] an
-    interruption is told as what it is then: nobody's wish, but the end of a program that is stuck. *)
+    What cannot be seen from outside has no line, nor has the question of an [ask], which {!question} tells. With
+    [~stuck:true] an interruption is told as what it is then: nobody's wish, but the end of a program that is stuck. *)
 
 val news : t -> time:float -> World.vehicle_state -> t * string list
 (** [news l ~time state] tells of vehicles of the program that lose their link or have it back. *)

@@ -205,7 +205,7 @@ and applied code scope operation arguments =
       | Some _ | None -> anything)
   | Builtin (Poll keys), _ -> { empty with tests = pairs keys }
   | Builtin Message, [ _ ] -> empty
-  | Builtin Halt, _ -> { empty with halts = true }
+  | Builtin (Halt | Assert), _ -> { empty with halts = true }
   | Builtin Ignore, _ -> { breaking with ignores = true }
   | Call _, callee :: _ -> (
       match callee.node, value scope callee with

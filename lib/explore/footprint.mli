@@ -25,7 +25,7 @@ type t = {
   writes : Globals.t;
   anything : bool;  (** nothing is known: code that cannot be seen may be called *)
   breaks : bool;  (** it may be faulty, or fail *)
-  halts : bool;
+  halts : bool;  (** it may end the run, by [halt] or an assertion that fails *)
   ignores : bool;  (** a handler: it may ignore the error *)
 }
 

@@ -214,7 +214,8 @@ let configuration shared = Shared.under (Ended Interrupted) shared
 
 (* The handlers that ran: one for each rule of a handler in the derivation, the innermost first. *)
 let note_handlers t (change : Residual.change) (local : Transition.local) =
-  let of_handler = function Rule.Watch_ignore | Watch_propagate | Watch_halt -> true | _ -> false in
+  let of_handler = function Rule.Watch_ignore | Watch_propagate | Watch_halt | Assert_err -> true | _ -> false in
+  let settled = match local.derivation with Rule.Assert_err :: _ -> [] | rules -> List.filter of_handler rules in
   let rec note n (change : Residual.change) =
     match change.outcome with
     | Handling { handler; fault; propagated; _ } when n > 0 ->
@@ -222,7 +223,7 @@ let note_handlers t (change : Residual.change) (local : Transition.local) =
       note (n - 1) (propagated fault)
     | Handling _ | Next _ | Finished | Failed _ -> ()
   in
-  note (List.length (List.filter of_handler local.derivation)) change
+  note (List.length settled) change
 
 let internal t step s =
   let shared = Shareds.value t.shareds s in

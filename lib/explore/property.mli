@@ -8,6 +8,7 @@ type t =
   (** every fair run ends: each task that runs ends at some time, each timer expires, and no step of the program that
       stays possible is put off for ever *)
   | No_error  (** no fault, and no error of a task, is left to end the program *)
+  | Assertions  (** no assertion fails *)
   | Vehicles  (** every [pick] and every [execute] gets its vehicles *)
   | No_halt  (** [halt] is not called *)
   | No_leftover  (** no tuples are left when the program completes *)

@@ -144,7 +144,7 @@ let verdicts t program world stopped =
   in
   let verdict property =
     match (property : Property.t) with
-    | No_deadlock | No_error | Vehicles | No_halt | No_leftover -> (
+    | No_deadlock | No_error | Assertions | Vehicles | No_halt | No_leftover -> (
         match Space.broken t.space property with
         | Some i -> Violated (run_to i)
         | None -> unless_stopped (fun () -> Holds))
@@ -195,6 +195,14 @@ let pp_verdict (program : Core.program) ppf (property, verdict) =
   print "%a: " Property.pp property;
   match verdict with
   | Holds -> print "holds"
+  | Violated { steps = run; cycle = [] } when property = Assertions -> (
+      print "violated after %s: " (steps (List.length run));
+      match (List.nth run (List.length run - 1)).next.control with
+      | Ended (Failed fault) ->
+        Option.iter (print "%a: " Dolphin_syntax.Location.pp) (Fault.location program fault);
+        print "%s" fault.message
+      | Ended (Completed | Halted _ | Interrupted) | Script _ | Waiting _ | Executing _ ->
+        print "%s" (Property.question property))
   | Violated { steps = run; cycle = [] } ->
     print "violated after %s: %s" (steps (List.length run)) (Property.question property)
   | Violated { steps = run; cycle } ->

@@ -29,23 +29,34 @@ let rec leaves tree rest =
   | Leaf x -> x :: rest
   | Disjoint trees | Shared trees -> List.fold_right leaves trees rest
 
-(* What a vehicle lacks for a task, or nothing. *)
-let lack world task v =
-  match World.find v world, task.plan with
-  | None, _ -> Some "nothing is known of it"
-  | Some _, None -> None
-  | Some state, Some plan ->
-    let devices = Plan.required_payload plan in
-    if plan.vehicles <> [] && not (List.mem v plan.vehicles) then Some "the plan is for other vehicles"
-    else if World.carries devices state then None
-    else
-      let missing = List.filter (fun d -> not (World.carries [ d ] state)) devices in
-      Some ("it lacks " ^ String.concat ", " missing)
+(* What a vehicle, of which the world says [state], lacks for a task, or nothing. What the plan needs is looked up once
+   for all vehicles. *)
+let lack task =
+  let requires = Option.map (fun plan -> (plan, Plan.required_payload plan)) task.plan in
+  fun v state ->
+    match state, requires with
+    | None, _ -> Some "nothing is known of it"
+    | Some _, None -> None
+    | Some state, Some ((plan : Plan.t), devices) ->
+      if plan.vehicles <> [] && not (List.mem v plan.vehicles) then Some "the plan is for other vehicles"
+      else if World.carries devices state then None
+      else
+        let missing = List.filter (fun d -> not (World.carries [ d ] state)) devices in
+        Some ("it lacks " ^ String.concat ", " missing)
 
-let cost world task v =
-  match task.plan, World.find v world with
-  | Some plan, Some state -> Dolphin_geo.Wgs84.distance state.position (Plan.reference plan)
-  | None, _ | _, None -> 0.
+module Wgs84 = Dolphin_geo.Wgs84
+
+(* A vehicle of B, with what the world says of it. *)
+type candidate = { vehicle : vehicle; state : World.vehicle_state option; place : Wgs84.cartesian option }
+
+let candidate_of world vehicle =
+  let state = World.find vehicle world in
+  { vehicle; state; place = Option.map (fun (s : World.vehicle_state) -> Wgs84.cartesian s.position) state }
+
+let cost task =
+  match Option.map (fun plan -> Wgs84.cartesian (Plan.reference plan)) task.plan with
+  | None -> fun _ -> 0.
+  | Some reference -> ( function { place = Some place; _ } -> Wgs84.straight place reference | { place = None; _ } -> 0.)
 
 module String_set = Set.Make (String)
 
@@ -56,24 +67,23 @@ let permitted leaf =
     let set = String_set.of_list vs in
     fun v -> String_set.mem v set
 
-let candidates world bound leaf : Assignment.leaf =
-  let permitted = permitted leaf in
-  let candidate i v =
-    if permitted v && lack world leaf.task v = None then Some (i, cost world leaf.task v) else None
-  in
-  { candidates = Array.of_seq (Seq.filter_map Fun.id (Array.to_seq (Array.mapi candidate bound))) }
+let candidates all leaf : Assignment.leaf =
+  let permitted = permitted leaf and lack = lack leaf.task and cost = cost leaf.task in
+  let candidate i c = if permitted c.vehicle && lack c.vehicle c.state = None then Some (i, cost c) else None in
+  { candidates = Array.of_seq (Seq.filter_map Fun.id (Array.to_seq (Array.mapi candidate all))) }
 
 (* Tasks by name under one [T[V]] have the same candidates, computed once. *)
 let candidates_once world bound =
   let known = ref [] in
+  let all = Array.map (candidate_of world) bound in
   fun leaf ->
     match leaf.task.plan, List.assq_opt leaf.allowed !known with
     | None, Some candidates -> candidates
     | None, None ->
-      let candidates = candidates world bound leaf in
+      let candidates = candidates all leaf in
       known := (leaf.allowed, candidates) :: !known;
       candidates
-    | Some _, _ -> candidates world bound leaf
+    | Some _, _ -> candidates all leaf
 
 let names vs = String.concat ", " vs
 
@@ -87,7 +97,7 @@ let no_candidate world bound leaf =
     | Some vs, [] -> Printf.sprintf "none of the vehicles given to it is bound to the program: %s" (names vs)
     | None, [] -> "there is no vehicle for it"
     | _, _ ->
-      let why v = Option.map (Printf.sprintf "%s: %s" v) (lack world leaf.task v) in
+      let why v = Option.map (Printf.sprintf "%s: %s" v) (lack leaf.task v (World.find v world)) in
       String.concat "; " (List.filter_map why some)
   in
   Fault.make leaf.task.task_site (Printf.sprintf "no vehicle can run task '%s': %s" leaf.task.name reason)

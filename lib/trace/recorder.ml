@@ -23,6 +23,9 @@ let make ?(period = 5.) program header write =
   { program; period; write; vehicles = Hashtbl.create 16; behind = [];
     configuration = Configuration.initial program; transitions = 0; time = 0. }
 
+(* Metres. Who is fast has more samples, or its way could not be drawn. *)
+let nearby = 10.
+
 (* Journals never go back in time, whatever clocks do. *)
 let pass r time = r.time <- Float.max r.time time
 
@@ -49,7 +52,8 @@ let news r ~time (state : World.vehicle_state) =
   | Some vehicle ->
     let { World.position; battery; _ } = vehicle.written in
     let is_sample = { state with position; battery } = vehicle.written in
-    if is_sample && r.time -. vehicle.written_at < r.period then begin
+    let is_near () = Dolphin_geo.Wgs84.distance position state.position < nearby in
+    if is_sample && r.time -. vehicle.written_at < r.period && is_near () then begin
       if vehicle.untold = None then r.behind <- vehicle :: r.behind;
       vehicle.untold <- Some state
     end

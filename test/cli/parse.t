@@ -13,3 +13,18 @@ What it prints means the same.
   $ cp ../../examples/rendezvous.fleet again.fleet
   $ dolphin exec again.dol > again.log
   $ dolphin exec ../../examples/rendezvous.dol | diff again.log -
+
+Nobody need read all of it.
+
+  $ python3 -c 'print("message 1\n" * 100000)' > long.dol
+  $ dolphin parse long.dol | head -1
+  message 1
+
+Nor need there be room for it.
+
+  $ dolphin parse long.dol > /dev/full
+  dolphin: the output cannot be written: No space left on device
+  [3]
+  $ dolphin check long.dol > /dev/full
+  dolphin: the output cannot be written: No space left on device
+  [3]

@@ -10,7 +10,8 @@
          2   the program, the fleet or the command line is not right; nothing
              was started.
   
-         3   the platform, not the program, is in trouble.
+         3   not the program is in trouble but what is around it: the platform,
+             or where the output goes.
   
          125 a fault of dolphin itself. Please report it.
   
@@ -31,45 +32,9 @@
          question:
   
            dolphin exec mission.dol --fleet harbour.fleet --seed 7 --answer 2
-  
   $ dolphin exec --help=plain | grep -c '^EXAMPLES\|^FILES\|^OPTIONS\|^DESCRIPTION'
   4
-  $ dolphin --help=plain | sed -n '/^COMMANDS/,/^EXAMPLES/p'
-  COMMANDS
+  $ dolphin --help=plain | sed -n '/^COMMANDS/,/^[A-Z]* OPTIONS/p' | grep '^       \(check\|exec\|parse\) '
          check [--fleet=FLEET] [OPTION]… PROG
-             find what is wrong with a program, without running it
-  
          exec [OPTION]… PROG
-             run a program on a simulated fleet
-  
          parse [OPTION]… PROG
-             print a program as it was understood
-  
-  COMMON OPTIONS
-         --help[=FMT] (default=auto)
-             Show this help in format FMT. The value FMT must be one of auto,
-             pager, groff or plain. With auto, the format is pager or plain
-             whenever the TERM env var is dumb or undefined.
-  
-         --version
-             Show version information.
-  
-  EXIT STATUS
-         dolphin exits with the following status:
-  
-         0   all is well.
-  
-         1   the program halted or failed, or got stuck; what went wrong is
-             told on standard error.
-  
-         2   the program, the fleet or the command line is not right; nothing
-             was started.
-  
-         3   the platform, not the program, is in trouble.
-  
-         125 a fault of dolphin itself. Please report it.
-  
-         130 the run was interrupted: by Ctrl-C, by a request to terminate, or
-             because nobody reads its log any more.
-  
-  EXAMPLES

@@ -126,12 +126,15 @@ let traps =
         consume x: _
         if (poll(x: 1)) { halt '2 was first' }
         consume x: _|};
-    breaks "a consumer beside a test" [ No_halt ]
+    breaks "a consumer beside a test" [ No_leftover ]
       {|post x: 1
-        execute condition { consume x: 1 } | action { if (poll(x: 1)) { halt 'h' } }|};
+        execute condition { consume x: 1 } | action { if (poll(x: 1)) { post y: 1 } }|};
     breaks "a test beside a consumer" [ No_halt ]
       {|post x: 1
         execute action { if (!poll(x: 1)) { halt 'h' } } | condition { consume x: 1 }|};
+    breaks "an assertion on how far others are" [ Assertions ]
+      {|execute watch (task('p')[a] >> action { post x: 1 } >> task('q')[a] >> action { consume x: 1 }) |
+                      (task('r')[b] >> assert({ !poll(x: 1) }, 'x is there')) onError { ignore() }|};
     breaks "code behind a variable" [ No_halt ]
       {|f = { post x: 1 }
         execute action { f.call() } | (task('p')[a] >> action { if (poll(x: 1)) { halt 'h' } }) | task('q')[b]

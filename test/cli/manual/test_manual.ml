@@ -6,7 +6,14 @@
    - "text", right after one of these: what the program says, and the errors and warnings that it meets. *)
 
 type kind = Program | Given | Supplied | Fleet
-type block = { kind : kind; line : int; text : string; expected : string list option; given : string; fleet : string option }
+type block = {
+  kind : kind;
+  line : int;
+  text : string;
+  expected : string list option;
+  given : string;
+  fleet : string option;
+}
 
 (* {1 Reading the manual} *)
 
@@ -100,7 +107,11 @@ let halted line = Option.map (fun why -> "halted: " ^ why) (after "program     h
 let run dolphin supplier block () =
   let name = Printf.sprintf "line_%d" block.line in
   let program = name ^ ".dol" and fleet = name ^ ".fleet" in
-  let text, scenario = match block.kind with Fleet -> ("", Some block.text) | _ -> (block.given ^ block.text, block.fleet) in
+  let text, scenario =
+    match block.kind with
+    | Fleet -> ("", Some block.text)
+    | Program | Given | Supplied -> (block.given ^ block.text, block.fleet)
+  in
   write program text;
   Option.iter (write fleet) scenario;
   let options =

@@ -1,0 +1,9 @@
+(** Files that runs are drawn in. *)
+
+type t
+
+val argument : t Cmdliner.Arg.conv
+(** A name that ends in [.svg] or [.html]. *)
+
+val write : t -> Dolphin_trace.Story.t -> (unit, string) result
+(** The error says why it cannot be written. *)

@@ -1,0 +1,78 @@
+open Dolphin_trace
+
+type settings = { journal : string option; drawing : Drawing_file.t option; header : Header.t }
+
+exception Broken of string
+
+let now () =
+  let t = Unix.gmtime (Unix.time ()) in
+  Printf.sprintf "%04d-%02d-%02dT%02d:%02d:%02dZ" (t.tm_year + 1900) (t.tm_mon + 1) t.tm_mday t.tm_hour t.tm_min
+    t.tm_sec
+
+let header (program : Program_file.t) (fleet : Fleet_file.t) ~seed ~speed : Header.t =
+  { program = Header.source ~path:program.path program.source;
+    fleet = Option.map (fun path -> Header.source ~path fleet.source) fleet.path;
+    platform = "sim";
+    seed;
+    speed;
+    started = now () }
+
+let is_wanted s = s.journal <> None || s.drawing <> None
+
+type t = {
+  settings : settings;
+  channel : out_channel option;
+  teller : Story.teller;
+  recorder : Recorder.t option;  (* if anything is to be kept *)
+}
+
+let trouble path why = Printf.sprintf "the journal cannot be written: %s: %s" path why
+
+(* "x: No space left on device" for some failures, "No space left on device" for others. *)
+let reason path why =
+  let prefix = path ^ ": " in
+  let n = String.length prefix in
+  if String.length why > n && String.sub why 0 n = prefix then String.sub why n (String.length why - n) else why
+
+let protected path f = try f () with Sys_error why -> raise (Broken (trouble path (reason path why)))
+
+(* Each line is out before what it tells of happens. *)
+let write_line path channel entry =
+  protected path (fun () ->
+      output_string channel (Entry.to_string entry);
+      output_char channel '\n';
+      flush channel)
+
+let start settings program =
+  let make () =
+    let channel = Option.map (fun path -> protected path (fun () -> open_out_bin path)) settings.journal in
+    let teller = Story.start () in
+    let write entry =
+      (match settings.journal, channel with
+       | Some path, Some channel -> write_line path channel entry
+       | _, _ -> ());
+      if settings.drawing <> None then Story.tell teller entry
+    in
+    let recorder = if is_wanted settings then Some (Recorder.make program settings.header write) else None in
+    { settings; channel; teller; recorder }
+  in
+  match make () with r -> Ok r | exception Broken why -> Error why
+
+let observer r : Dolphin_runtime.Observer.t =
+  match r.recorder with
+  | None -> Dolphin_runtime.Observer.nobody
+  | Some recorder -> { transition = Recorder.transition recorder; news = Recorder.news recorder }
+
+let finish r ~time ~stuck =
+  let close () =
+    Option.iter (fun recorder -> Recorder.finish recorder ~time ~stuck) r.recorder;
+    match r.settings.journal, r.channel with
+    | Some path, Some channel -> protected path (fun () -> close_out channel)
+    | _, _ -> ()
+  in
+  match close () with
+  | exception Broken why -> Error why
+  | () -> (
+      match r.settings.drawing with
+      | None -> Ok ()
+      | Some drawing -> Drawing_file.write drawing (Story.finish r.teller))

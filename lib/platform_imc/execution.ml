@@ -1,0 +1,430 @@
+open Dolphin_imc
+module Control = Message.Plan_control
+module Control_state = Message.Plan_control_state
+
+type order = { plan : string; specification : Message.t Message.Plan_specification.t option }
+
+type input =
+  | Start of order
+  | Stop
+  | Reply of { sent : float; reply : Message.t Message.Plan_control.t }
+  | State of { sent : float; state : Message.Plan_control_state.t }
+  | Vehicle of { sent : float; state : Message.Vehicle_state.t }
+  | Abort of string
+  | Lost of string
+  | Tick
+
+type output = Send of Message.t | Done | Failed of string | Note of string
+
+let most_copies = 10
+let most_copies_while_blocked = 3
+let patience = 1.
+let grace = 1.
+let stop_interval = 0.5
+let stop_patience = 60.
+
+(* For so long after it was sent last, a datagram of ours may still arrive. *)
+let echo = 10.
+
+(* For so long a plan that we gave up is stopped when the vehicle is heard again. *)
+let remembrance = 600.
+
+(* What the vehicle said about its plan. *)
+type sighting = { sent : float; state : Control_state.t }
+
+(* An order as the vehicle was asked. [before] and [after]: what it had said last, and when, by its clock, it had said
+   anything last, when the request was first sent. [asked]: what its clock showed at the last copy, at most. *)
+type attempt = {
+  order : order;
+  request : int;
+  copies : int;
+  last_sent : float;
+  asked : float;
+  before : sighting option;
+  after : float;
+  accepted : float option;  (* when the vehicle first answered that it takes the plan *)
+  initialised : bool;  (* INITIALIZING was seen *)
+}
+
+type phase =
+  | Idle
+  | Starting of attempt
+  | Running of { attempt : attempt; since : float }
+  | Ending of { attempt : attempt; since : float; why : string; deadline : float }
+  (* It failed; the vehicle's words are awaited. *)
+  | Stopping of {
+      attempt : attempt;
+      took_effect : bool;  (* the plan was seen to be taken *)
+      stop : int;
+      after : float;
+      first_sent : float;
+      last_sent : float;
+      next : order option;
+    }
+
+(* The order before, over since [ended] by the vehicle's clock. If it is seen to run again before [watched_until], then
+   because of a late copy of our request. *)
+type former = { attempt : attempt; ended : float; watched_until : float }
+
+type t = {
+  next_request : int;
+  seen : sighting option;
+  error : (float * string) option;  (* the last error that the vehicle reported, and when *)
+  abort : string option;
+  last_stop : int option;
+  stop_echo : float;  (* when the vehicle last answered a stop of ours *)
+  former : former option;
+  phase : phase;
+}
+
+let create ~request =
+  { next_request = request land 0xFFFF; seen = None; error = None; abort = None; last_stop = None;
+    stop_echo = neg_infinity; former = None; phase = Idle }
+
+let idle x = match x.phase with Idle -> true | Starting _ | Running _ | Ending _ | Stopping _ -> false
+
+let owes x =
+  match x.phase with
+  | Starting _ | Running _ | Ending _ | Stopping { next = Some _; _ } -> true
+  | Idle | Stopping { next = None; _ } -> false
+
+let due x =
+  match x.phase with
+  | Idle | Starting _ | Running _ -> infinity
+  | Ending e -> e.deadline
+  | Stopping s -> Float.min (s.last_sent +. stop_interval) (s.first_sent +. stop_patience)
+
+(* {1 Requests} *)
+
+let number x = (x.next_request, { x with next_request = (x.next_request + 1) land 0xFFFF })
+
+let request op number (order : order) arg =
+  Send
+    (Message.Plan_control
+       { Control.default with type_ = Request; op; request_id = number; plan_id = order.plan; arg })
+
+let start_message (a : attempt) =
+  request Start a.request a.order (Option.map (fun s -> Message.Plan_specification s) a.order.specification)
+
+let begin_attempt ~now ~clock order x =
+  let request, x = number x in
+  let attempt =
+    { order; request; copies = 1; last_sent = now;
+      asked = Vehicle_clock.estimate ~now clock;
+      before = x.seen;
+      after = Vehicle_clock.latest clock;
+      accepted = None; initialised = false }
+  in
+  ({ x with phase = Starting attempt; abort = None }, [ start_message attempt ])
+
+let begin_stop ~now ~clock ~took_effect ?next attempt x =
+  let stop, x = number x in
+  let phase =
+    Stopping
+      { attempt; took_effect; stop; after = Vehicle_clock.latest clock; first_sent = now; last_sent = now; next }
+  in
+  ({ x with phase; last_stop = Some stop }, [ request Stop stop attempt.order None ])
+
+let resend ~now ~clock (a : attempt) x =
+  let a =
+    { a with copies = a.copies + 1; last_sent = now; asked = Vehicle_clock.estimate ~now clock }
+  in
+  ({ x with phase = Starting a }, [ start_message a ])
+
+(* {1 Verdicts} *)
+
+(* The order is over. *)
+let close ?(watch = echo) ~now ~ended (attempt : attempt) x =
+  let from = if watch > echo then now else attempt.last_sent in
+  { x with phase = Idle; former = Some { attempt; ended; watched_until = from +. watch } }
+
+let fail ?watch ~now ~ended attempt why x = (close ?watch ~now ~ended attempt x, [ Failed why ])
+let succeed ~now ~ended attempt x = (close ~now ~ended attempt x, [ Done ])
+
+(* When, by the vehicle's clock, the order took effect, as far as is known. *)
+let effect_of (a : attempt) = Option.value a.accepted ~default:a.after
+
+(* A stop of an earlier plan that arrived late ended this one. *)
+let hit_by_late_stop x ~since = x.stop_echo > since
+
+let start_again ~now ~clock (a : attempt) why x =
+  let x, outputs = begin_attempt ~now ~clock a.order x in
+  (x, Note (Printf.sprintf "%s; plan %s is started again" why a.order.plan) :: outputs)
+
+let late_stop = "a stop of the plan before arrived late"
+
+let expect_words ~now ~clock (attempt : attempt) ~since why x =
+  if hit_by_late_stop x ~since then start_again ~now ~clock attempt late_stop x
+  else ({ x with phase = Ending { attempt; since; why; deadline = now +. grace } }, [])
+
+(* The vehicle executes, or has executed, plan [other]. *)
+let replaced ~now ~clock ~ended (attempt : attempt) other x =
+  match x.former with
+  | Some f when f.attempt.order.plan = other && now < f.watched_until ->
+    start_again ~now ~clock attempt (Printf.sprintf "the request for plan %s arrived late" other) x
+  | Some _ | None -> fail ~now ~ended attempt (Printf.sprintf "replaced by plan %s" other) x
+
+let words x ~since ~why =
+  match x.error, x.abort with
+  | Some (at, error), _ when at > since -> error
+  | (Some _ | None), Some by -> Printf.sprintf "aborted by %s" by
+  | (Some _ | None), None -> why
+
+(* {1 What the vehicle's state means} *)
+
+let is (plan : string) (s : sighting) = s.state.plan_id = plan
+
+(* The states in which a plan that runs, or has just been taken, is seen. *)
+let busy (s : sighting) =
+  match s.state.state with
+  | Executing | Initializing -> true
+  | Blocked | Ready | Other _ -> false
+
+let succeeded (s : sighting) =
+  match s.state.last_outcome with
+  | Success -> true
+  | None | Failure | Other _ -> false
+
+let failed (s : sighting) =
+  match s.state.last_outcome with
+  | Failure -> true
+  | None | Success | Other _ -> false
+
+let ended_badly = "the plan ended without success, and the vehicle gave no reason"
+let refused = "the plan was refused, and the vehicle gave no reason"
+let blocked = "the vehicle is blocked: it cannot run plans now"
+let forgotten = "the vehicle knows of no plan any more: it was restarted"
+
+(* The request seems to be without effect: if that is sure, it is sent again. *)
+let look ~now ~clock (a : attempt) (s : sighting) x =
+  if a.accepted <> None || now < a.last_sent +. patience || s.sent < a.asked +. patience then (x, [])
+  else
+    let is_blocked = s.state.state = Blocked in
+    if a.copies >= most_copies || (is_blocked && a.copies >= most_copies_while_blocked) then
+      let why =
+        if is_blocked then words x ~since:a.after ~why:blocked
+        else Printf.sprintf "no answer to %d requests to start the plan" a.copies
+      in
+      fail ~now ~ended:s.sent a why x
+    else
+      let x, outputs = resend ~now ~clock a x in
+      (* It may be that the plan ran and was over between two states, all signs of it being lost. *)
+      let doubtful = is a.order.plan s in
+      let note = Printf.sprintf "plan %s is requested again; it cannot be excluded that it has run" a.order.plan in
+      (x, if doubtful then Note note :: outputs else outputs)
+
+let accepted_before (a : attempt) (s : sighting) =
+  match a.accepted with
+  | Some at -> s.sent > at
+  | None -> false
+
+(* [s] is the last that the vehicle said. *)
+let judge_start ~now ~clock (a : attempt) (s : sighting) x =
+  let own = is a.order.plan s and accepted = accepted_before a s in
+  let was_busy_with plan = match a.before with Some b -> busy b && is plan b | None -> false in
+  if s.sent <= a.after then (x, [])
+  else
+    match s.state.state with
+    | Initializing -> ({ x with phase = Starting { a with initialised = true } }, [])
+    | Executing when own ->
+      if was_busy_with a.order.plan && not (accepted || a.initialised) then look ~now ~clock a s x
+      else ({ x with phase = Running { attempt = a; since = s.sent } }, [])
+    | Executing ->
+      let other = s.state.plan_id in
+      if (not accepted) && (a.before = None || was_busy_with other) then look ~now ~clock a s x
+      else replaced ~now ~clock ~ended:s.sent a other x
+    | Ready when own ->
+      (* Unless the plan that had its name there was ours, and over after that was said. *)
+      let over = match x.former with Some f when f.attempt.order.plan = a.order.plan -> f.ended | _ -> neg_infinity in
+      let had_another = match a.before with Some b -> b.sent > over && not (is a.order.plan b) | None -> false in
+      if not (accepted || a.initialised || had_another) then look ~now ~clock a s x
+      else if succeeded s then succeed ~now ~ended:s.sent a x
+      else expect_words ~now ~clock a ~since:(effect_of a) (if accepted then ended_badly else refused) x
+    | Ready when accepted || (a.initialised && failed s) -> expect_words ~now ~clock a ~since:(effect_of a) refused x
+    | Blocked when accepted -> expect_words ~now ~clock a ~since:(effect_of a) blocked x
+    | Ready | Blocked -> look ~now ~clock a s x
+    | Other _ -> (x, [])
+
+let judge_run ~now ~clock (a : attempt) ~since (s : sighting) x =
+  let own = is a.order.plan s in
+  if s.sent <= since then (x, [])
+  else
+    match s.state.state with
+    | Executing when own -> (x, [])
+    | Ready when own ->
+      if succeeded s then succeed ~now ~ended:s.sent a x else expect_words ~now ~clock a ~since ended_badly x
+    | Ready when s.state.plan_id = "" -> expect_words ~now ~clock a ~since forgotten x
+    | Executing | Ready -> replaced ~now ~clock ~ended:s.sent a s.state.plan_id x
+    | Blocked -> expect_words ~now ~clock a ~since blocked x
+    | Initializing | Other _ -> (x, [])
+
+let stopped ~now ~clock ~ended attempt next x =
+  let x = close ~now ~ended attempt x in
+  match next with
+  | Some order -> begin_attempt ~now ~clock order x
+  | None -> (x, [])
+
+(* Whether [s] shows that the plan of [a] does not run and, if the request may still be on its way, will not. *)
+let confirms_stop ~now (a : attempt) ~took_effect ~after (s : sighting) =
+  let over =
+    match s.state.state with
+    | Ready | Blocked -> true
+    | Executing -> not (is a.order.plan s)
+    | Initializing | Other _ -> false
+  in
+  over && s.sent > after
+  && (took_effect || (now >= a.last_sent +. patience && s.sent >= a.asked +. patience))
+
+let judge ~now ~clock (s : sighting) x =
+  match x.phase with
+  | Idle -> (
+      match x.former with
+      | Some f
+        when s.state.state = Executing && is f.attempt.order.plan s && s.sent > f.ended && now < f.watched_until ->
+        let x, outputs = begin_stop ~now ~clock ~took_effect:true f.attempt x in
+        (x, Note (Printf.sprintf "plan %s runs though it was over; it is stopped" f.attempt.order.plan) :: outputs)
+      | Some _ | None -> (x, []))
+  | Starting a -> judge_start ~now ~clock a s x
+  | Running { attempt; since } -> judge_run ~now ~clock attempt ~since s x
+  | Ending _ -> (x, [])
+  | Stopping p ->
+    let took_effect = p.took_effect || (is p.attempt.order.plan s && s.state.state = Executing && s.sent > p.after) in
+    if confirms_stop ~now p.attempt ~took_effect ~after:p.after s then stopped ~now ~clock ~ended:s.sent p.attempt p.next x
+    else ({ x with phase = Stopping { p with took_effect } }, [])
+
+(* {1 Inputs} *)
+
+let in_words info = if String.trim info = "" then refused else info
+
+let start_reply ~now ~clock ~sent (reply : Message.t Control.t) x =
+  match x.phase, reply.type_ with
+  | Starting a, (Success | In_progress) when reply.request_id = a.request ->
+    let accepted = Option.fold a.accepted ~none:sent ~some:(Float.min sent) in
+    let a = { a with accepted = Some accepted } in
+    let x = { x with phase = Starting a } in
+    (match x.seen with Some s -> judge_start ~now ~clock a s x | None -> (x, []))
+  | Starting a, Failure when reply.request_id = a.request ->
+    (* Unless a copy of the request was refused before another was accepted. *)
+    if Option.fold a.accepted ~none:true ~some:(fun at -> sent >= at) then
+      fail ~now ~ended:sent a (in_words reply.info) x
+    else (x, [])
+  | Running { attempt = a; since }, Failure when reply.request_id = a.request && sent > since ->
+    fail ~now ~ended:sent a (in_words reply.info) x
+  | Ending { attempt = a; since; _ }, Failure when reply.request_id = a.request && sent >= since ->
+    fail ~now ~ended:sent a (in_words reply.info) x
+  | Stopping s, (Success | In_progress) when reply.request_id = s.attempt.request ->
+    ({ x with phase = Stopping { s with took_effect = true } }, [])
+  | (Idle | Starting _ | Running _ | Ending _ | Stopping _), (Request | Success | Failure | In_progress | Other _) ->
+    (x, [])
+
+(* The request that is to be undone by a stop may come after it. *)
+let may_arrive ~now (a : attempt) ~took_effect = (not took_effect) && now < a.last_sent +. patience
+
+let stop_reply ~now ~clock ~sent (reply : Message.t Control.t) x =
+  match x.phase with
+  | Stopping s when reply.request_id = s.stop && not (may_arrive ~now s.attempt ~took_effect:s.took_effect) ->
+    stopped ~now ~clock ~ended:sent s.attempt s.next x
+  | Idle | Starting _ | Running _ | Ending _ | Stopping _ -> (
+      if x.last_stop <> Some reply.request_id then (x, [])
+      else
+        let x = { x with stop_echo = Float.max sent x.stop_echo } in
+        match x.phase with
+        | Ending e when hit_by_late_stop x ~since:e.since -> start_again ~now ~clock e.attempt late_stop x
+        | Idle | Starting _ | Running _ | Ending _ | Stopping _ -> (x, []))
+
+let reply ~now ~clock ~sent (r : Message.t Control.t) x =
+  match r.op, r.type_ with
+  | Start, _ -> start_reply ~now ~clock ~sent r x
+  | Stop, (Success | Failure) -> stop_reply ~now ~clock ~sent r x
+  | Stop, (Request | In_progress | Other _) | (Load | Get | Other _), _ -> (x, [])
+
+let state ~now ~clock sent state x =
+  match x.seen with
+  | Some s when sent <= s.sent -> (x, [])
+  | Some _ | None ->
+    let s = { sent; state } in
+    judge ~now ~clock s { x with seen = Some s }
+
+let vehicle ~sent (state : Message.Vehicle_state.t) x =
+  let newer = match x.error with Some (at, _) -> sent > at | None -> true in
+  if state.op_mode = Error && state.last_error <> "" && newer then
+    ({ x with error = Some (sent, state.last_error) }, [])
+  else (x, [])
+
+let stop ~now ~clock x =
+  match x.phase with
+  | Idle -> (x, [])
+  | Starting a -> begin_stop ~now ~clock ~took_effect:(a.accepted <> None) a x
+  | Running { attempt; _ } -> begin_stop ~now ~clock ~took_effect:true attempt x
+  | Ending { attempt; _ } -> (close ~now ~ended:(Vehicle_clock.latest clock) attempt x, [])
+  | Stopping s -> ({ x with phase = Stopping { s with next = None } }, [])
+
+let start ~now ~clock order x =
+  match x.phase with
+  | Idle | Starting _ | Running _ | Ending _ -> begin_attempt ~now ~clock order x
+  | Stopping s -> ({ x with phase = Stopping { s with next = Some order } }, [])
+
+let lost ~now ~clock why x =
+  match x.phase with
+  | Idle | Stopping { next = None; _ } -> (x, [])
+  | Starting attempt | Running { attempt; _ } | Ending { attempt; _ } ->
+    fail ~watch:remembrance ~now ~ended:(Vehicle_clock.latest clock) attempt why x
+  | Stopping s -> ({ x with phase = Stopping { s with next = None } }, [ Failed why ])
+
+let tick ~now ~clock x =
+  match x.phase with
+  | Ending e when now >= e.deadline ->
+    fail ~now ~ended:(Vehicle_clock.latest clock) e.attempt (words x ~since:e.since ~why:e.why) x
+  | Stopping s when now >= s.first_sent +. stop_patience ->
+    let x = close ~watch:remembrance ~now ~ended:(Vehicle_clock.latest clock) s.attempt x in
+    let note = Note (Printf.sprintf "the stop of plan %s was not confirmed" s.attempt.order.plan) in
+    (match s.next with
+     | Some order ->
+       let x, outputs = begin_attempt ~now ~clock order x in
+       (x, note :: outputs)
+     | None -> (x, [ note ]))
+  | Stopping s when now >= s.last_sent +. stop_interval ->
+    ({ x with phase = Stopping { s with last_sent = now } }, [ request Stop s.stop s.attempt.order None ])
+  | Idle | Starting _ | Running _ | Ending _ | Stopping _ -> (x, [])
+
+let step ~now ~clock input x =
+  match input with
+  | Start order -> start ~now ~clock order x
+  | Stop -> stop ~now ~clock x
+  | Reply { sent; reply = r } -> reply ~now ~clock ~sent r x
+  | State { sent; state = s } -> state ~now ~clock sent s x
+  | Vehicle { sent; state } -> vehicle ~sent state x
+  | Abort by -> ({ x with abort = Some by }, [])
+  | Lost why -> lost ~now ~clock why x
+  | Tick -> tick ~now ~clock x
+
+(* {1 Displays} *)
+
+type stage = Starting | Running | Stopping
+type progress = { plan : string; stage : stage; share : float option; remaining : float option }
+
+let progress x =
+  let plain (a : attempt) stage = Some { plan = a.order.plan; stage; share = None; remaining = None } in
+  match x.phase, x.seen with
+  | Idle, _ -> None
+  | Starting a, _ -> plain a Starting
+  | (Running { attempt; _ } | Ending { attempt; _ }), Some s when s.state.state = Executing && is attempt.order.plan s ->
+    let share = s.state.plan_progress in
+    let known = share >= 0. && share <= 100. in
+    Some
+      { plan = attempt.order.plan; stage = Running;
+        share = (if known then Some (share /. 100.) else None);
+        remaining = (if known && s.state.plan_eta >= 0 then Some (float_of_int s.state.plan_eta) else None) }
+  | (Running { attempt; _ } | Ending { attempt; _ }), _ -> plain attempt Running
+  | Stopping { attempt; _ }, _ -> plain attempt Stopping
+
+let executing x =
+  match x.seen with
+  | Some { state = { state = Executing; plan_id; _ }; _ } -> Some plan_id
+  | Some _ | None -> None
+
+let readiness x =
+  match x.seen with
+  | None | Some { state = { state = Initializing | Other _; _ }; _ } -> None
+  | Some { sent; state = { state = Ready; _ } } -> Some (sent, true)
+  | Some { sent; state = { state = Executing | Blocked; _ } } -> Some (sent, false)

@@ -1,0 +1,108 @@
+(** One plan on one vehicle, from the request to the verdict: a pure state machine.
+
+    Source: IMC, PlanControl and PlanControlState, and what was measured with DUNE 2026.01: see [docs/imc.md]. In short,
+    PlanControlState is repeated about three times a second and on change, goes INITIALIZING (still with the plan
+    before), EXECUTING, READY, and keeps the last outcome until the next; a request is answered by up to three replies,
+    any of which may be lost, doubled or late.
+
+    {1:rules How it decides}
+
+    Everything is ordered by the vehicle's own time stamps ({!Vehicle_clock}); what is older than what is known is
+    ignored.
+
+    - The plan {e runs} once EXECUTING is seen with its name, sent after our request. If the vehicle ran a plan of the
+      same name before, a sign of our request is needed too: a reply to it, or INITIALIZING.
+    - It is {e done} when READY with its name and outcome SUCCESS was sent after EXECUTING was, or after a positive reply
+      to our request, or, both being lost, where the vehicle had another plan's name before.
+    - It {e failed} when a FAILURE replies to our request, in the words of that reply; when READY has another outcome
+      than SUCCESS; when the vehicle went from INITIALIZING to READY without taking the plan; when it is BLOCKED; when it
+      executes another plan, or has executed one. Where the words are missing they are waited for, {!grace} long; an
+      error that the vehicle reports stands in for them.
+    - A request is {e sent again} only after a look: no reply came within {!patience}, and a state that the vehicle sent
+      so long after the request shows that it was without effect. After {!most_copies} the plan has failed.
+    - A stop is sent again every {!stop_interval} until a reply or a later state confirms it; if it is not known whether
+      the vehicle took the plan, one {!patience} after the request, which may have been overtaken. Only then is the next
+      start sent. After {!stop_patience} the stop is given up.
+    - Late copies of our own datagrams are recognised by their replies: a stop that hits the next plan makes it start
+      again; a start that comes after its plan was over is stopped. Both are told as a [Note]. *)
+
+open Dolphin_imc
+
+type t
+
+type order = {
+  plan : string;
+  specification : Message.t Message.Plan_specification.t option;  (** [None]: the vehicle knows the plan by name *)
+}
+
+(** Times [sent] are by the vehicle's clock as {!Vehicle_clock.observe} returns them. Only messages of this vehicle, and
+    only replies to this console, are given. *)
+type input =
+  | Start of order
+  | Stop
+  | Reply of { sent : float; reply : Message.t Message.Plan_control.t }
+  | State of { sent : float; state : Message.Plan_control_state.t }
+  | Vehicle of { sent : float; state : Message.Vehicle_state.t }
+  | Abort of string  (** The console of this name told the vehicle to abort. *)
+  | Lost of string  (** The link is given up; why. *)
+  | Tick  (** Time has passed. *)
+
+type output =
+  | Send of Message.t  (** To the vehicle. *)
+  | Done
+  | Failed of string  (** Without a full stop. *)
+  | Note of string  (** For people: a request sent again that may have an effect twice, a stop given up. *)
+
+val create : request:int -> t
+(** Nothing to do; requests are numbered from [request], modulo 65536. *)
+
+val step : now:float -> clock:Vehicle_clock.t -> input -> t -> t * output list
+(** [step ~now ~clock i x] is what becomes of [x] when [i] happens at [now] (s, our clock). After each [Start] there is
+    exactly one [Done] or [Failed], unless [Stop] or another [Start] comes before. *)
+
+val due : t -> float
+(** When [Tick] has something to do, by our clock; [infinity] if never. *)
+
+val idle : t -> bool
+(** [idle x]: no plan is ordered, and no stop waits for its confirmation. *)
+
+val owes : t -> bool
+(** [owes x]: [Done] or [Failed] is still to come. *)
+
+(** {1:displays For displays} *)
+
+type stage = Starting | Running | Stopping
+
+type progress = {
+  plan : string;
+  stage : stage;
+  share : float option;  (** of the plan, from 0 to 1, as the vehicle estimates it *)
+  remaining : float option;  (** seconds, as the vehicle estimates them *)
+}
+
+val progress : t -> progress option
+(** Of what was ordered. *)
+
+val executing : t -> string option
+(** The plan that the vehicle says it executes, ours or not. *)
+
+val readiness : t -> (float * bool) option
+(** When, by the vehicle's clock, it last said something of its plan from which one knows whether it could be given a
+    plan, and whether it could: READY. *)
+
+(** {1:constants Constants} Seconds, but for the first. *)
+
+val most_copies : int
+(** 10; 3 while the vehicle is BLOCKED. *)
+
+val patience : float
+(** 1 s: longer than a reply takes, and than a datagram stays on its way. *)
+
+val grace : float
+(** 1 s. *)
+
+val stop_interval : float
+(** 0.5 s. *)
+
+val stop_patience : float
+(** 60 s. *)

@@ -1,0 +1,164 @@
+open Dolphin_semantics
+open Dolphin_imc
+module Position = Dolphin_geo.Position
+
+type t = {
+  id : int;
+  name : string;
+  kind : Message.System_type.t;
+  hosts : Unix.inet_addr list;
+  address : Service.address option;
+  clock : Vehicle_clock.t;
+  execution : Execution.t;
+  first_announced : float;
+  last_announced : float;
+  last_heard : float;
+  position : (float * Position.t) option;
+  announced_position : Position.t option;
+  mode : (float * Message.Vehicle_state.Op_mode.t) option;
+  error : string;
+  battery : (float * float) option;
+  entities : string list option;
+  queries : int;
+}
+
+let absence = 30.
+let belongs host n = List.mem host n.hosts
+let is_vehicle n = Service.is_vehicle n.kind
+let last_sign n = Float.max n.last_announced n.last_heard
+
+(* {1 Discovery} *)
+
+let placed ~lat ~lon ~height =
+  Result.to_option
+    (Position.make ~latitude:(Plan_message.degrees lat) ~longitude:(Plan_message.degrees lon) ~height)
+
+(* Where the system can be reached: 0.0.0.0 stands for where the announcement came from. *)
+let addresses ~from services =
+  let real (a : Service.address) = if a.host = Unix.inet_addr_any then { a with host = from } else a in
+  List.map real (Service.addresses services)
+
+let choose ~from ~current (addresses : Service.address list) =
+  let kept = List.find_opt (fun a -> Some a = current) addresses in
+  let direct = List.find_opt (fun (a : Service.address) -> a.host = from) addresses in
+  match kept, direct, addresses with
+  | Some a, _, _ when a.host = from -> Some a
+  | _, Some a, _ | Some a, None, _ -> Some a
+  | None, None, first :: _ -> Some first
+  | None, None, [] -> None
+
+(* Everything that an announcement says of [n]. *)
+let described ~now ~from (p : Packet.t) (a : Message.Announce.t) n =
+  let addresses = addresses ~from a.services in
+  let clock, _ = Vehicle_clock.observe ~now ~sent:p.timestamp n.clock in
+  { n with
+    kind = a.sys_type;
+    hosts = List.sort_uniq compare (from :: List.map (fun (a : Service.address) -> a.host) addresses);
+    address = choose ~from ~current:n.address addresses;
+    clock; last_announced = now;
+    announced_position = placed ~lat:a.lat ~lon:a.lon ~height:a.height }
+
+let most_hosts = 32
+let named id name = if String.trim name = "" then Printf.sprintf "imc-%04x" id else name
+
+let make ~now ~from ~request (p : Packet.t) (a : Message.Announce.t) =
+  described ~now ~from p a
+    { id = p.src; name = named p.src a.sys_name; kind = a.sys_type; hosts = []; address = None;
+      clock = Vehicle_clock.unknown; execution = Execution.create ~request; first_announced = now;
+      last_announced = now; last_heard = neg_infinity; position = None; announced_position = None; mode = None;
+      error = ""; battery = None; entities = None; queries = 0 }
+
+let announce ~now ~from (p : Packet.t) (a : Message.Announce.t) n =
+  let same = belongs from n && named p.src a.sys_name = n.name in
+  if same || now -. last_sign n > absence then
+    let hosts = n.hosts in
+    let n = described ~now ~from p a { n with name = named p.src a.sys_name } in
+    (* Systems with several links announce on each of them, perhaps with that link's address only. *)
+    let all = List.sort_uniq compare (hosts @ n.hosts) in
+    Some (if same && List.length all <= most_hosts then { n with hosts = all } else n)
+  else None
+
+(* {1 What it says} *)
+
+(* No vehicle is farther from its reference point; the ground is not flat. *)
+let farthest = 1e7
+
+let position_of (s : Message.Estimated_state.t) =
+  let near x = Float.is_finite x && Float.abs x <= farthest in
+  if not (near s.x && near s.y && near s.z) then None
+  else
+    Option.map
+      (fun reference -> Dolphin_geo.Wgs84.displace reference ~north:s.x ~east:s.y)
+      (placed ~lat:s.lat ~lon:s.lon ~height:(s.height -. s.z))
+
+let newer sent = function
+  | Some (before, _) -> sent > before
+  | None -> true
+
+let estimated ~sent state n =
+  match position_of state with
+  | Some position when newer sent n.position -> { n with position = Some (sent, position) }
+  | Some _ | None -> n
+
+let fuel ~sent (level : Message.Fuel_level.t) n =
+  if Float.is_finite level.value && newer sent n.battery then
+    { n with battery = Some (sent, Float.max 0. (Float.min 1. (level.value /. 100.))) }
+  else n
+
+let vehicle ~sent (state : Message.Vehicle_state.t) n =
+  if newer sent n.mode then { n with mode = Some (sent, state.op_mode); error = state.last_error } else n
+
+let entities (list : Message.Entity_list.t) n =
+  match list.op with
+  | Report -> { n with entities = Some (List.map fst (Tuples.of_string list.list)) }
+  | Query | Reload | Other _ -> n
+
+let command ~now input n =
+  let execution, outputs = Execution.step ~now ~clock:n.clock input n.execution in
+  ({ n with execution }, outputs)
+
+let hear ~now ~own (p : Packet.t) n =
+  let clock, sent = Vehicle_clock.observe ~now ~sent:p.timestamp n.clock in
+  let n = { n with clock; last_heard = now } in
+  match p.content with
+  | Message (Estimated_state state) -> (estimated ~sent state n, [])
+  | Message (Fuel_level level) -> (fuel ~sent level n, [])
+  | Message (Entity_list list) -> (entities list n, [])
+  | Message (Vehicle_state state) -> command ~now (Vehicle { sent; state }) (vehicle ~sent state n)
+  | Message (Plan_control_state state) -> command ~now (State { sent; state }) n
+  | Message (Plan_control reply) when p.dst = own -> command ~now (Reply { sent; reply }) n
+  | Message _ | Unknown _ -> (n, [])
+
+let queried n = { n with queries = n.queries + 1 }
+
+(* {1 As programs see it} *)
+
+let in_service n =
+  let by_mode = Option.map (fun (sent, mode) -> (sent, mode = Message.Vehicle_state.Op_mode.Service)) n.mode in
+  match by_mode, Execution.readiness n.execution with
+  | Some (sent, _), Some (later, ready) when later > sent -> ready
+  | Some (_, service), _ -> service
+  | None, Some (_, ready) -> ready
+  | None, None -> false
+
+let silent ~now ~timeout n = now -. n.last_heard >= timeout
+let unknown_position = { Position.latitude = 0.; longitude = 0.; height = 0. }
+
+let state ~now ~timeout ~payload n : World.vehicle_state =
+  let position =
+    match n.position, n.announced_position with
+    | Some (_, p), _ | None, Some p -> p
+    | None, None -> unknown_position
+  in
+  let useful = in_service n || not (Execution.idle n.execution) in
+  { id = n.name;
+    kind = Service.kind n.kind;
+    payload = (match payload with Some devices -> devices | None -> Option.value n.entities ~default:[]);
+    position;
+    battery = (match n.battery with Some (_, share) -> share | None -> 1.);
+    connected = is_vehicle n && useful && not (silent ~now ~timeout n) }
+
+let mode n =
+  match n.mode with
+  | Some (_, mode) -> Message.Vehicle_state.Op_mode.name mode
+  | None -> "-"

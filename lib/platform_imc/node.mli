@@ -1,0 +1,77 @@
+(** A system on the network as this console knows it: who it is, where it can be reached, what it last said of itself. *)
+
+open Dolphin_semantics
+open Dolphin_imc
+
+type t = private {
+  id : int;  (** The IMC address, in headers. *)
+  name : string;
+  kind : Message.System_type.t;
+  hosts : Unix.inet_addr list;  (** It announced itself from there, or says that it can be reached there. *)
+  address : Service.address option;  (** Where to send to. *)
+  clock : Vehicle_clock.t;
+  execution : Execution.t;
+  first_announced : float;
+  last_announced : float;
+  last_heard : float;  (** Anything but an announcement; [neg_infinity] if never. Our clock, s, as those before. *)
+  position : (float * Dolphin_geo.Position.t) option;  (** With the vehicle's time, as those that follow. *)
+  announced_position : Dolphin_geo.Position.t option;
+  mode : (float * Message.Vehicle_state.Op_mode.t) option;
+  error : string;  (** The last error of its VehicleState, [""] if none. *)
+  battery : (float * float) option;  (** From 0 to 1. *)
+  entities : string list option;  (** Labels of its entity list. *)
+  queries : int;  (** How often the entity list was asked for. *)
+}
+
+(** {1:discovery Discovery} *)
+
+val make : now:float -> from:Unix.inet_addr -> request:int -> Packet.t -> Message.Announce.t -> t
+(** [make ~now ~from ~request p a] is the system that announced itself for the first time, by the packet [p] with [a].
+    Its requests will be numbered from [request]. *)
+
+val announce : now:float -> from:Unix.inet_addr -> Packet.t -> Message.Announce.t -> t -> t option
+(** [announce ~now ~from p a n] is [n] that announced itself again; [None] if that cannot be [n]: [from] is none of
+    [n.hosts], or the name is another, and [n] was heard of in the last {!absence} seconds. *)
+
+val belongs : Unix.inet_addr -> t -> bool
+(** [belongs host n] is whether datagrams of [n] may come from [host]. *)
+
+val absence : float
+(** 30 s: three announcements are missing. After that a system may come back elsewhere. *)
+
+(** {1:telemetry What it says} *)
+
+val hear : now:float -> own:int -> Packet.t -> t -> t * Execution.output list
+(** [hear ~now ~own p n] is [n] after its packet [p] came, and what follows for its plan. Replies of PlanControl count if
+    they are for the console [own]; values that are no numbers, or out of range, are left out.
+
+    The position is EstimatedState's reference point, moved [x] metres north and [y] metres east over the ground, [z]
+    metres down. The battery is FuelLevel's percentage, as a share. *)
+
+val command : now:float -> Execution.input -> t -> t * Execution.output list
+(** [command ~now i n] gives [i] to [n]'s execution. *)
+
+val queried : t -> t
+(** [queried n] is [n] that was asked for its entity list once more. *)
+
+(** {1:state As programs see it} *)
+
+val is_vehicle : t -> bool
+
+val in_service : t -> bool
+(** The last word of the vehicle is that it could be given a plan: VehicleState in mode SERVICE, or PlanControlState
+    READY, whichever was sent later. *)
+
+val silent : now:float -> timeout:float -> t -> bool
+(** [silent ~now ~timeout n] is whether nothing but announcements was heard of [n] for [timeout] seconds. *)
+
+val state : now:float -> timeout:float -> payload:string list option -> t -> World.vehicle_state
+(** [state ~now ~timeout ~payload n] is [n] for programs. It is connected if it is a vehicle, is not silent, and is in
+    service or has a plan of ours. It carries [payload], or else the entities of its list. Until it says otherwise its
+    battery is full, and it is where it announced to be. *)
+
+val mode : t -> string
+(** ["SERVICE"], ["MANEUVER"] ..., ["-"] if not known. *)
+
+val last_sign : t -> float
+(** When, by our clock, anything was heard of it last, announcements included. *)

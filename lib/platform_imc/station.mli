@@ -1,0 +1,110 @@
+(** A console on the network: all that it knows of the systems around it and all that it wants of them, as a pure state.
+    {!Udp_platform} is the shell that gives it datagrams and time, and sends what it wants sent.
+
+    Source: IMC, Announce, Heartbeat, EntityList, PlanControl; measured with DUNE 2026.01: see [docs/imc.md]. *)
+
+open Dolphin_semantics
+open Dolphin_runtime
+
+type t
+
+type settings = {
+  id : int;  (** The console's IMC address, from 0x4000 to 0x5FFF, other than those of other consoles. *)
+  name : string;  (** As other systems see it. *)
+  addresses : Service.address list;  (** Where vehicles can send to, announced to them. *)
+  epoch : float;  (** Seconds from 1970-01-01 00:00 UTC to time 0 of [now]. *)
+  first_request : int;  (** Where requests are numbered from. *)
+  payload : (Core.vehicle * string list) list;  (** Devices of vehicles, in place of their entity lists. *)
+}
+
+val create : settings -> t
+(** Nobody is known; an announcement is due. *)
+
+(** {1:time Input}
+
+    [now] is in seconds on a clock of ours that is never set back; it starts at 0. *)
+
+type output =
+  | Send of { address : Service.address; bytes : string }  (** From the data port. *)
+  | Announce of string
+  (** To the announcement ports at 224.0.75.69, the broadcast address and 127.0.0.1. *)
+  | Announce_to of Unix.inet_addr * string  (** To the announcement ports there. *)
+  | Note of Core.vehicle * string  (** For people: something unusual that is not the end of a task. *)
+
+val datagram : now:float -> from:Unix.inet_addr -> ?len:int -> string -> t -> t * output list
+(** [datagram ~now ~from ~len bytes s] is [s] after the first [len] bytes (all) of [bytes] came as one datagram. Nothing
+    is kept of [bytes]. Whatever they are, no exception is raised.
+
+    Datagrams that nobody reads are skipped by their header; of the others, those are counted and dropped ({!dropped})
+    that are broken, of ourselves, of nobody who has announced, or from a host that is not the sender's. They change
+    nothing else. *)
+
+val tick : now:float -> t -> t * output list
+(** Time has passed: announcements, heartbeats, requests sent again, timers, silences. *)
+
+val due : t -> float
+(** When [tick] has something to do next. *)
+
+(** {1:commands Commands} See {!Dolphin_runtime.Platform.S}. *)
+
+val start : now:float -> Core.vehicle -> Core.platform_task -> t -> t * output list
+val stop : now:float -> Core.vehicle -> t -> t * output list
+val bind : Core.vehicle list -> t -> t
+val release : Core.vehicle list -> t -> t
+val set_timer : now:float -> Residual.timer -> float -> t -> t
+val cancel_timer : Residual.timer -> t -> t
+val set_connection_timeout : Core.vehicle list option -> float -> t -> t
+val telemetry : now:float -> bool -> t -> t
+
+val stop_all : now:float -> t -> t * output list
+(** Stops what still runs for the program. *)
+
+(** {1:events Output} *)
+
+val take : t -> (Platform.event * t) option
+(** The next event that waits to be handed out. *)
+
+val waiting : t -> bool
+(** Whether there is one. *)
+
+val quiet : t -> bool
+(** No plan is ordered, and no stop waits for its confirmation. *)
+
+(** {1:displays For displays} *)
+
+(** A system as [dolphin fleet] shows it. *)
+type sight = {
+  node : Node.t;
+  state : World.vehicle_state;
+  age : float;  (** seconds since it was heard of *)
+  linked : bool;  (** telemetry comes *)
+}
+
+val sights : now:float -> t -> sight list
+(** All systems that have announced, by name. *)
+
+val plan : Core.vehicle -> t -> Execution.progress option
+(** What the vehicle runs for the program. *)
+
+val dropped : t -> (string * int) list
+(** Datagrams that were dropped, by reason ({!Dolphin_imc.Error.label} for broken ones), in alphabetical order. *)
+
+val skipped : t -> int
+(** Datagrams of no interest. *)
+
+val accepted : t -> int
+
+(** {1:constants Constants} Seconds, but for the last. *)
+
+val announce_interval : float
+(** 10 s, and at once when a system is new. *)
+
+val heartbeat_interval : float
+(** 1 s: DUNE falls silent 30 s after the last. *)
+
+val eager_heartbeat_interval : float
+(** 0.2 s to a system that has announced and not yet spoken to us: it takes notice of us by our first packet after our
+    announcement. *)
+
+val most_nodes : int
+(** 2000: as many systems are remembered. *)

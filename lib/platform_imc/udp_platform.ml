@@ -1,0 +1,329 @@
+open Dolphin_semantics
+open Lwt.Infix
+
+type options = {
+  id : int option;
+  name : string option;
+  loopback : bool;
+  interfaces : Unix.inet_addr list;
+  data_port : int;
+  announce_ports : int list;
+  group : Unix.inet_addr;
+  payload : (Core.vehicle * string list) list;
+  close_patience : float;
+  note : Core.vehicle -> string -> unit;
+}
+
+let default =
+  { id = None; name = None; loopback = false; interfaces = []; data_port = 0;
+    announce_ports = [ 30100; 30101; 30102; 30103; 30104 ];
+    group = Unix.inet_addr_of_string "224.0.75.69";
+    payload = []; close_patience = 5.; note = (fun _ _ -> ()) }
+
+type t = {
+  options : options;
+  settings : Station.settings;
+  clock : Steady_clock.t;
+  data : Lwt_unix.file_descr;
+  announcements : Lwt_unix.file_descr;
+  speakers : Unix.file_descr list;  (* one for each interface that announcements leave by *)
+  port : int;
+  buffer : Bytes.t;
+  mutable station : Station.t;
+  mutable armed : float;  (* when the timer rings *)
+  mutable rearm : unit Lwt.u option;
+  mutable waiting : unit Lwt.u option;  (* [next] *)
+  mutable closing : unit Lwt.u option;  (* [close], until all is quiet *)
+  mutable failure : exn option;
+  mutable closed : bool;
+  mutable unsent : int;
+}
+
+let name = "imc"
+let virtual_time = false
+
+(* Vehicles announce every 10 s, and speak to a console up to 5 s after it has introduced itself. *)
+let announce_period _ = 16.
+let gathering = 0.002
+let now p = Steady_clock.now p.clock
+
+(* {1 Sending} *)
+
+let send p socket bytes host port =
+  match Unix.sendto_substring socket bytes 0 (String.length bytes) [] (ADDR_INET (host, port)) with
+  | _ -> ()
+  | exception Unix.Unix_error _ -> p.unsent <- p.unsent + 1
+
+let data_socket p = Lwt_unix.unix_file_descr p.data
+let broadcast = Unix.inet_addr_of_string "255.255.255.255"
+
+let announce p bytes =
+  let to_ports socket host = List.iter (send p socket bytes host) p.options.announce_ports in
+  to_ports (data_socket p) Unix.inet_addr_loopback;
+  List.iter
+    (fun socket ->
+       to_ports socket p.options.group;
+       to_ports socket broadcast)
+    p.speakers
+
+let carry_out p : Station.output -> unit = function
+  | Send { address; bytes } -> send p (data_socket p) bytes address.host address.port
+  | Announce bytes -> announce p bytes
+  | Announce_to (host, bytes) -> List.iter (send p (data_socket p) bytes host) p.options.announce_ports
+  | Note (vehicle, text) -> p.options.note vehicle text
+
+(* {1 The state and its changes} *)
+
+let wake waiting = Option.iter (fun u -> Lwt.wakeup_later u ()) waiting
+
+let change p (station, outputs) =
+  p.station <- station;
+  List.iter (carry_out p) outputs
+
+(* After some changes: whoever waits for what they brought goes on. *)
+let settle p =
+  if Station.waiting p.station then begin
+    let waiting = p.waiting in
+    p.waiting <- None;
+    wake waiting
+  end;
+  if p.closing <> None && Station.quiet p.station then begin
+    let closing = p.closing in
+    p.closing <- None;
+    wake closing
+  end;
+  if Station.due p.station < p.armed then begin
+    let rearm = p.rearm in
+    p.rearm <- None;
+    wake rearm
+  end
+
+let command p f =
+  change p (f p.station);
+  settle p
+
+let quietly p f = command p (fun s -> (f s, []))
+
+(* {1 Receiving} *)
+
+(* So many datagrams are taken before others have their turn. *)
+let most_at_once = 512
+
+(* How many were there. *)
+let drain p fd =
+  let socket = Lwt_unix.unix_file_descr fd in
+  let rec take n =
+    if n = most_at_once then n
+    else
+      match Unix.recvfrom socket p.buffer 0 (Bytes.length p.buffer) [] with
+      | len, ADDR_INET (from, _) ->
+        (* Nothing is kept of the buffer. *)
+        change p (Station.datagram ~now:(now p) ~from ~len (Bytes.unsafe_to_string p.buffer) p.station);
+        take (n + 1)
+      | _, ADDR_UNIX _ -> take (n + 1)
+      | exception Unix.Unix_error ((EAGAIN | EWOULDBLOCK), _, _) -> n
+      | exception Unix.Unix_error ((EINTR | ECONNREFUSED | EHOSTUNREACH | ENETUNREACH), _, _) -> take (n + 1)
+  in
+  let n = take 0 in
+  if n > 0 then settle p;
+  n
+
+(* More datagrams than this in a second, counted over a tenth of it, are a flood. *)
+let flood = 1000.
+
+let rec receive p fd ~since ~count =
+  Lwt_unix.wait_read fd >>= fun () ->
+  if p.closed then Lwt.return_unit
+  else
+    let count = count + drain p fd and time = now p in
+    let elapsed = time -. since in
+    let flooded = float_of_int count > flood *. Float.max 0.1 elapsed in
+    let since, count = if elapsed > 0.1 then (time, 0) else (since, count) in
+    let pause = if flooded then Lwt_unix.sleep gathering else Lwt.pause () in
+    pause >>= fun () -> receive p fd ~since ~count
+
+(* {1 Time} *)
+
+let longest_sleep = 3600.
+
+let rec watch p =
+  if p.closed then Lwt.return_unit
+  else
+    let time = now p in
+    if Station.due p.station <= time then begin
+      p.armed <- infinity;
+      change p (Station.tick ~now:time p.station);
+      settle p
+    end;
+    let due = Station.due p.station in
+    let rang, rearm = Lwt.task () in
+    p.armed <- due;
+    p.rearm <- Some rearm;
+    let seconds = Float.max 0.0005 (Float.min longest_sleep (due -. now p)) in
+    Lwt.pick [ rang; Lwt_unix.sleep seconds ] >>= fun () -> watch p
+
+(* {1 Opening} *)
+
+exception Cannot of string
+
+let ignoring f = try f () with Unix.Unix_error _ | Invalid_argument _ -> ()
+
+let bound host port =
+  let fd = Unix.socket ~cloexec:true PF_INET SOCK_DGRAM 0 in
+  match Unix.bind fd (ADDR_INET (host, port)) with
+  | () ->
+    Unix.set_nonblock fd;
+    ignoring (fun () -> Unix.setsockopt fd SO_BROADCAST true);
+    Ok fd
+  | exception Unix.Unix_error (error, _, _) -> Unix.close fd; Error (Unix.error_message error)
+
+(* What the system grants of this holds a tenth of a second of a loud fleet. *)
+let receive_buffer = 4 * 1024 * 1024
+
+let first_free host ports =
+  let rec find = function
+    | [] ->
+      let named = String.concat ", " (List.map string_of_int ports) in
+      raise (Cannot (Printf.sprintf "all ports for announcements are taken: %s" named))
+    | port :: rest -> (match bound host port with Ok fd -> fd | Error _ -> find rest)
+  in
+  find ports
+
+let port_of fd = match Unix.getsockname fd with ADDR_INET (_, port) -> port | ADDR_UNIX _ -> 0
+
+let listen options =
+  let host = if options.loopback then Unix.inet_addr_loopback else Unix.inet_addr_any in
+  let announcements = first_free host options.announce_ports in
+  match bound host options.data_port with
+  | Error why ->
+    Unix.close announcements;
+    raise (Cannot (Printf.sprintf "port %d cannot be had: %s" options.data_port why))
+  | Ok data ->
+    ignoring (fun () -> Unix.setsockopt_int data SO_RCVBUF receive_buffer);
+    (announcements, data)
+
+let speaker host =
+  match bound host 0 with
+  | Ok fd ->
+    ignoring (fun () -> Lwt_unix.mcast_set_ttl (Lwt_unix.of_unix_file_descr ~blocking:false fd) 15);
+    Some fd
+  | Error _ -> None
+
+let join options fd interfaces =
+  let join_by ifname = ignoring (fun () -> Lwt_unix.mcast_add_membership fd ~ifname options.group) in
+  List.iter join_by interfaces
+
+let settings options ~port ~hosts : Station.settings =
+  let random = Random.State.make_self_init () in
+  let id = match options.id with Some id -> id | None -> 0x4000 + Random.State.int random 0x2000 in
+  { id;
+    name = Option.value options.name ~default:(Printf.sprintf "ccu-dolphin-%04x" id);
+    addresses = List.map (fun host -> { Service.host; port }) hosts;
+    epoch = Unix.gettimeofday ();
+    first_request = Random.State.int random 0x10000;
+    payload = options.payload }
+
+let guard p thread =
+  let fail error =
+    if not p.closed then begin
+      p.failure <- Some error;
+      wake p.waiting;
+      p.waiting <- None
+    end;
+    Lwt.return_unit
+  in
+  Lwt.async (fun () -> Lwt.catch thread fail)
+
+let make options =
+  let announcements, data = listen options in
+  let loopback = Unix.inet_addr_loopback in
+  let hosts =
+    if options.loopback then [ loopback ]
+    else if options.interfaces <> [] then options.interfaces
+    else Interfaces.local ()
+  in
+  let interfaces = if options.loopback then [] else List.filter (fun h -> h <> loopback) hosts in
+  let port = port_of data in
+  let settings = settings options ~port ~hosts in
+  let announcements = Lwt_unix.of_unix_file_descr ~blocking:false announcements in
+  join options announcements interfaces;
+  let p =
+    { options; settings; clock = Steady_clock.make (); data = Lwt_unix.of_unix_file_descr ~blocking:false data;
+      announcements; speakers = List.filter_map speaker interfaces; port;
+      buffer = Bytes.create 65536; station = Station.create settings; armed = infinity; rearm = None; waiting = None;
+      closing = None; failure = None; closed = false; unsent = 0 }
+  in
+  guard p (fun () -> receive p p.data ~since:0. ~count:0);
+  guard p (fun () -> receive p p.announcements ~since:0. ~count:0);
+  guard p (fun () -> watch p);
+  p
+
+let open_ options =
+  match make options with
+  | p -> Ok p
+  | exception Cannot why -> Error why
+  | exception Unix.Unix_error (error, call, _) ->
+    Error (Printf.sprintf "the network cannot be used: %s: %s" call (Unix.error_message error))
+
+(* {1 Commands} *)
+
+let set_timer p timer seconds = quietly p (Station.set_timer ~now:(now p) timer seconds)
+let cancel_timer p timer = quietly p (Station.cancel_timer timer)
+let bind p vehicles = quietly p (Station.bind vehicles)
+let release p vehicles = quietly p (Station.release vehicles)
+let start p vehicle task = command p (Station.start ~now:(now p) vehicle task)
+let stop p vehicle = command p (Station.stop ~now:(now p) vehicle)
+let set_connection_timeout p vehicles seconds = quietly p (Station.set_connection_timeout vehicles seconds)
+let telemetry p on = quietly p (Station.telemetry ~now:(now p) on)
+
+(* {1 Events} *)
+
+let rec next p =
+  match p.failure, Station.take p.station with
+  | _, Some (event, station) ->
+    p.station <- station;
+    Lwt.return event
+  | Some error, None -> Lwt.fail error
+  | None, None ->
+    let promise, waiting = Lwt.task () in
+    p.waiting <- Some waiting;
+    promise >>= fun () -> next p
+
+(* {1 Closing} *)
+
+let release_sockets p =
+  p.closed <- true;
+  wake p.rearm;
+  p.rearm <- None;
+  List.iter (fun fd -> ignoring (fun () -> Unix.close fd)) p.speakers;
+  Lwt.catch (fun () -> Lwt_unix.close p.data) (fun _ -> Lwt.return_unit) >>= fun () ->
+  Lwt.catch (fun () -> Lwt_unix.close p.announcements) (fun _ -> Lwt.return_unit)
+
+let close p =
+  if p.closed then Lwt.return_unit
+  else begin
+    command p (Station.stop_all ~now:(now p));
+    let all_quiet =
+      if Station.quiet p.station then Lwt.return_unit
+      else begin
+        let promise, closing = Lwt.task () in
+        p.closing <- Some closing;
+        Lwt.pick [ promise; Lwt_unix.sleep p.options.close_patience ]
+      end
+    in
+    all_quiet >>= fun () -> release_sockets p
+  end
+
+(* {1 Displays} *)
+
+let id p = p.settings.id
+let name_on_network p = p.settings.name
+let data_port p = p.port
+let sights p = Station.sights ~now:(now p) p.station
+let progress p vehicle = Station.plan vehicle p.station
+
+type traffic = { accepted : int; skipped : int; dropped : (string * int) list; unsent : int }
+
+let traffic p =
+  { accepted = Station.accepted p.station; skipped = Station.skipped p.station; dropped = Station.dropped p.station;
+    unsent = p.unsent }

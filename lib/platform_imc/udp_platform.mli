@@ -1,0 +1,58 @@
+(** Vehicles that speak IMC over UDP, as a platform: the shell around {!Station}. It holds the sockets and the clock,
+    and decides nothing.
+
+    Nothing is polled: a datagram, a command or a time that has come makes it act. Of datagrams that are there already
+    many are taken at once; while they come by the thousand in a second, it lets them gather for {!gathering} first. *)
+
+open Dolphin_semantics
+open Dolphin_runtime
+
+type options = {
+  id : int option;  (** The IMC address; [None]: one by chance, from 0x4000 to 0x5FFF. *)
+  name : string option;  (** [None]: ["ccu-dolphin-"] and the IMC address. *)
+  loopback : bool;  (** Only this machine: neither multicast nor broadcast, and only 127.0.0.1 is bound. *)
+  interfaces : Unix.inet_addr list;  (** Addresses of this machine to use; [[]]: all of them. *)
+  data_port : int;  (** Where vehicles send to; 0: any free one. *)
+  announce_ports : int list;  (** Where systems announce themselves: the first free one is taken. *)
+  group : Unix.inet_addr;  (** Of the announcements. *)
+  payload : (Core.vehicle * string list) list;  (** Devices of vehicles, in place of their entity lists. *)
+  close_patience : float;  (** So many seconds [close] waits for stops to be confirmed. *)
+  note : Core.vehicle -> string -> unit;  (** Is told what is unusual, for people. *)
+}
+
+val default : options
+(** As vehicles with the usual settings expect it: ports 30100 to 30104, the group 224.0.75.69, all interfaces, 5 s;
+    notes are thrown away. *)
+
+include Platform.S
+
+val open_ : options -> (t, string) result
+(** [open_ options] listens and announces itself from now on. The error says which port cannot be had. *)
+
+val now : t -> float
+(** Seconds since [open_], by a clock that is never set back. *)
+
+val gathering : float
+(** 2 ms. *)
+
+(** {1:displays For displays} *)
+
+val id : t -> int
+val name_on_network : t -> string
+val data_port : t -> int
+
+val sights : t -> Station.sight list
+(** All systems that have announced, by name. *)
+
+val progress : t -> Core.vehicle -> Execution.progress option
+(** What the vehicle runs for the program. *)
+
+(** Datagrams since [open_]. *)
+type traffic = {
+  accepted : int;
+  skipped : int;  (** of no interest *)
+  dropped : (string * int) list;  (** by reason *)
+  unsent : int;  (** the system refused to send them *)
+}
+
+val traffic : t -> traffic

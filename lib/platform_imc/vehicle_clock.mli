@@ -1,0 +1,28 @@
+(** The clock of a vehicle, as far as its datagrams tell: which of two of them was sent first, and what it shows now.
+
+    Vehicles stamp each packet with their own time (header, [timestamp], s). That clock may differ from ours, run at
+    another rate (simulated vehicles), and be set. Datagrams come late and out of order. *)
+
+type t
+
+val unknown : t
+
+val observe : now:float -> sent:float -> t -> t * float
+(** [observe ~now ~sent c] is what is known after a datagram that is stamped [sent] came at our time [now] (s), and the
+    stamp as the clock would have made it had it never been set back: of two datagrams the one with the greater stamp
+    was sent later. A stamp more than {!tolerance} older than the latest is taken for that of a clock which was set
+    back; an older one within the tolerance for that of a datagram which was overtaken. A stamp that is no finite number
+    tells nothing: its datagram counts as sent with the latest. *)
+
+val latest : t -> float
+(** The greatest stamp so far; [neg_infinity] before the first. *)
+
+val estimate : now:float -> t -> float
+(** [estimate ~now c] is what the vehicle's clock shows at [now], by the least delayed datagram of the last
+    {!window} to twice that: too early by that datagram's delay. [neg_infinity] if nothing came so far. *)
+
+val tolerance : float
+(** 30 s. *)
+
+val window : float
+(** 10 s. *)

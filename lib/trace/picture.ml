@@ -1,0 +1,122 @@
+open Story
+
+let width = 1100.
+let margin = 28.
+
+(* {1 The head} *)
+
+let outcome story =
+  match story.ending with
+  | None -> ("the journal breaks off", true)
+  | Some { how; message = None | Some "" } -> (how, how <> "completed")
+  | Some { how; message = Some message } -> (how ^ ": " ^ message, how <> "completed")
+
+let count n what = Printf.sprintf "%d %s%s" n what (if n = 1 then "" else "s")
+
+let title story =
+  match story.header with Some h -> Filename.basename h.program.path | None -> "A run"
+
+let circumstances story =
+  let of_header (h : Header.t) =
+    let fleet =
+      match h.fleet with
+      | Some fleet -> Printf.sprintf "%s fleet %s" h.platform (Filename.basename fleet.path)
+      | None -> Printf.sprintf "%s built-in fleet" h.platform
+    in
+    let speed = match h.speed with None -> [] | Some x -> [ Printf.sprintf "%g times real time" x ] in
+    [ fleet; Printf.sprintf "seed %d" h.seed ] @ speed @ [ h.started ]
+  in
+  String.concat "  ·  "
+    ([ count (List.length story.vehicles) "vehicle"; Clock.text story.duration ]
+     @ Option.fold ~none:[] ~some:of_header story.header)
+
+let head story =
+  let text, is_bad = outcome story in
+  [ Svg.text ~name:"title" (margin, margin +. 16.) (title story);
+    Svg.text ~name:"small" (margin, margin +. 36.) (circumstances story);
+    Svg.text ~name:(if is_bad then "bad" else "small") ~anchor:End ~tip:text
+      (width -. margin, margin +. 16.) (Svg.fit 520. text) ]
+
+(* {1 The whole} *)
+
+let has_samples story = List.exists (fun v -> v.samples <> []) story.vehicles
+
+let panels story ~y =
+  if not (has_samples story) then ([], y)
+  else
+    let height = 330. in
+    let left = margin +. 62. in
+    let map_width = 500. in
+    let right = left +. map_width +. 82. in
+    let heading x text = Svg.text ~name:"heading" (x, y -. 10.) text in
+    let key = left +. map_width -. 172. in
+    let meaning x text = Svg.text ~name:"axis" (x +. 8., y -. 10.) text in
+    ( [ heading left "Where they went";
+        Svg.circle ~name:"key" (key, y -. 13.5) 4.;
+        meaning key "first";
+        Svg.circle ~name:"end-stopped" (key +. 44., y -. 13.5) 4.;
+        meaning (key +. 44.) "last";
+        Svg.circle ~name:"key" (key +. 86., y -. 13.5) 2.;
+        meaning (key +. 86.) "a task starts";
+        Tracks.draw story ~x:left ~y ~width:map_width ~height;
+        heading right "Batteries";
+        Batteries.draw story ~x:right ~y ~width:(width -. margin -. right) ~height ],
+      y +. height +. 22. )
+
+let document ~alone story =
+  let top = margin +. 60. in
+  let timeline, height = Timeline.draw story ~x:margin ~y:top ~width:(width -. (2. *. margin)) in
+  let below, bottom = panels story ~y:(top +. height +. 34.) in
+  let total = bottom +. margin in
+  let size = [ ("viewBox", Printf.sprintf "0 0 %s %s" (Svg.number width) (Svg.number total)) ] in
+  let fixed = [ ("width", Svg.number width); ("height", Svg.number total) ] in
+  let attributes = ("xmlns", "http://www.w3.org/2000/svg") :: ("role", "img") :: (size @ if alone then fixed else []) in
+  Svg.element "svg" attributes
+    ([ Svg.element "title" [] [ Svg.raw "A run of a Dolphin program" ];
+       Svg.element "style" [] [ Svg.raw ("\n" ^ Style.sheet) ];
+       Svg.rect ~name:"paper" ~x:0. ~y:0. ~width ~height:total () ]
+     @ head story @ [ timeline ] @ below)
+
+let svg story = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" ^ Svg.to_string (document ~alone:true story)
+
+(* {1 A page} *)
+
+let page_style =
+  {|
+body { margin: 0 auto; max-width: 1100px; background: #ffffff; color: #1c2127; }
+body { font: 14px system-ui, "Helvetica Neue", Helvetica, Arial, sans-serif; }
+svg { width: 100%; height: auto; display: block; }
+table { border-collapse: collapse; margin: 0 28px 40px; font-variant-numeric: tabular-nums; }
+th, td { text-align: left; padding: 3px 18px 3px 0; border-bottom: 1px solid #e4e8ec; }
+@media screen and (prefers-color-scheme: dark) {
+body { background: #14181d; color: #e6e9ed; }
+th, td { border-color: #272d35; }
+}
+|}
+
+let table story =
+  let cell name text = Svg.element name [] [ Svg.text_only text ] in
+  let row name texts = Svg.element "tr" [] (List.map (cell name) texts) in
+  let of_task v (t : task) =
+    let how =
+      match t.ending with
+      | Done -> "done"
+      | Failed why -> "failed: " ^ why
+      | Stopped -> "stopped"
+      | Unfinished -> "not ended"
+    in
+    (t.from, row "td" [ Clock.text t.from; Clock.text t.until; v.id; t.plan; how ])
+  in
+  let tasks = List.concat_map (fun v -> List.map (of_task v) v.tasks) story.vehicles in
+  let in_time = List.stable_sort (fun (a, _) (b, _) -> Float.compare a b) tasks in
+  Svg.element "table" [] (row "th" [ "from"; "to"; "vehicle"; "task"; "" ] :: List.map snd in_time)
+
+let html story =
+  let head =
+    Svg.element "head" []
+      [ Svg.raw "<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n";
+        Svg.element "title" [] [ Svg.text_only (title story) ];
+        Svg.element "style" [] [ Svg.raw page_style ] ]
+  in
+  let body = Svg.element "body" [] [ document ~alone:false story; table story ] in
+  "<!DOCTYPE html>\n" ^ Svg.to_string (Svg.element "html" [ ("lang", "en") ] [ head; body ])

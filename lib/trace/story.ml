@@ -1,0 +1,188 @@
+open Dolphin_semantics
+
+type ending = Done | Failed of string | Stopped | Unfinished
+type task = { plan : string; from : float; until : float; ending : ending }
+type sample = { time : float; position : Dolphin_geo.Position.t; battery : float }
+type span = { from : float; until : float }
+
+type vehicle = {
+  id : string;
+  kind : string;
+  tasks : task list;
+  held : span list;
+  silent : span list;
+  samples : sample list;
+}
+
+type deed =
+  | Posted of string
+  | Consumed of string
+  | Said of string
+  | Asked of string
+  | Erred of string
+
+type t = {
+  header : Header.t option;
+  duration : float;
+  vehicles : vehicle list;
+  deeds : (float * deed) list;
+  ending : Request.ending option;
+}
+
+(* A vehicle while the story is told; lists are latest first. *)
+type actor = {
+  mutable its_kind : string;
+  mutable ended : task list;
+  mutable running : (string * float) option;  (* with the time of its start *)
+  mutable spans_held : span list;
+  mutable held_from : float option;
+  mutable spans_silent : span list;
+  mutable silent_from : float option;
+  mutable seen : sample list;
+  mutable kept : int;  (* how many samples that is *)
+  mutable apart : float;  (* seconds between samples, at least *)
+}
+
+type teller = {
+  actors : (string, actor) Hashtbl.t;
+  mutable picked : string list;  (* latest first *)
+  mutable its_header : Header.t option;
+  mutable now : float;
+  mutable cause : Happening.t option;  (* of the next transition *)
+  mutable done_so_far : (float * deed) list;
+  mutable its_ending : Request.ending option;
+}
+
+let start () =
+  { actors = Hashtbl.create 16; picked = []; its_header = None; now = 0.; cause = None; done_so_far = [];
+    its_ending = None }
+
+let actor t v =
+  match Hashtbl.find_opt t.actors v with
+  | Some a -> a
+  | None ->
+    let a =
+      { its_kind = ""; ended = []; running = None; spans_held = []; held_from = None; spans_silent = [];
+        silent_from = None; seen = []; kept = 0; apart = 0. }
+    in
+    Hashtbl.replace t.actors v a;
+    a
+
+(* {1 What happens to vehicles} *)
+
+let end_task t v ending =
+  let a = actor t v in
+  match a.running with
+  | None -> ()
+  | Some (plan, from) ->
+    a.running <- None;
+    a.ended <- { plan; from; until = t.now; ending } :: a.ended
+
+let start_task t v plan =
+  end_task t v Stopped;
+  (actor t v).running <- Some (plan, t.now)
+
+let hold t v =
+  let a = actor t v in
+  if not (List.mem v t.picked) then t.picked <- v :: t.picked;
+  if a.held_from = None then a.held_from <- Some t.now
+
+let let_go t v =
+  let a = actor t v in
+  Option.iter (fun from -> a.spans_held <- { from; until = t.now } :: a.spans_held) a.held_from;
+  a.held_from <- None
+
+(* No picture shows more samples than that: of a long run, only some are kept, evenly. *)
+let most_samples = 4096
+
+(* The latest sample always stays, so that the last one does; the one before it goes if it is too near to those around
+   it. *)
+let keep a sample =
+  match a.seen with
+  | last :: (before :: _ as others) when sample.time -. last.time < a.apart && last.time -. before.time < a.apart ->
+    a.seen <- sample :: others
+  | seen ->
+    a.seen <- sample :: seen;
+    a.kept <- a.kept + 1
+
+let thin_out a =
+  if a.kept > most_samples then begin
+    let halve (i, kept) sample = (i + 1, if i mod 2 = 0 then sample :: kept else kept) in
+    let count, reversed = List.fold_left halve (0, []) a.seen in
+    a.seen <- List.rev reversed;
+    a.kept <- (count + 1) / 2;
+    match a.seen, reversed with
+    | last :: _, first :: _ -> a.apart <- (last.time -. first.time) /. float_of_int a.kept
+    | _, _ -> ()
+  end
+
+let see t (s : World.vehicle_state) =
+  let a = actor t s.id in
+  a.its_kind <- s.kind;
+  if s.connected then begin
+    Option.iter (fun from -> a.spans_silent <- { from; until = t.now } :: a.spans_silent) a.silent_from;
+    a.silent_from <- None;
+    keep a { time = t.now; position = s.position; battery = s.battery };
+    thin_out a
+  end
+  else if a.silent_from = None then a.silent_from <- Some t.now
+
+(* {1 What the program does} *)
+
+let errors (s : Step.t) (cause : Happening.t option) =
+  match cause with
+  | Some (Failed { vehicle; why }) -> [ Printf.sprintf "%s: %s" vehicle why ]
+  | Some (Done _ | Timer _ | Answer _ | No_answer _ | Reply _ | No_reply _ | Interruption) | None ->
+    let is_broken = String.length s.label > 7 && String.sub s.label 0 7 = "broken(" in
+    if is_broken then [ String.sub s.label 7 (String.length s.label - 8) ] else []
+
+let take t (s : Step.t) =
+  let note deed = t.done_so_far <- (t.now, deed) :: t.done_so_far in
+  (match t.cause with
+   | Some (Done v) -> end_task t v Done
+   | Some (Failed { vehicle; why }) -> end_task t vehicle (Failed why)
+   | Some (Timer _ | Answer _ | No_answer _ | Reply _ | No_reply _ | Interruption) | None -> ());
+  List.iter (fun text -> note (Erred text)) (errors s t.cause);
+  t.cause <- None;
+  List.iter (fun pair -> note (Consumed pair)) s.consumed;
+  List.iter (fun pair -> note (Posted pair)) s.posted;
+  let request : Request.t -> unit = function
+    | Start { vehicle; plan } -> start_task t vehicle plan
+    | Stop v -> end_task t v Stopped
+    | Bind vs -> List.iter (hold t) vs
+    | Release vs -> List.iter (let_go t) vs
+    | Say text -> note (Said text)
+    | Ask prompt -> note (Asked prompt)
+    | Set_timer _ | Cancel_timer _ | Look_for _ | Set_connection_timeout _ | Call _ | End _ -> ()
+  in
+  List.iter request s.requests
+
+let tell t (entry : Entry.t) =
+  t.now <- Float.max t.now (Entry.time entry);
+  match entry with
+  | Header header -> t.its_header <- Some header
+  | Vehicle { state; _ } -> see t state
+  | Event { happening; _ } -> t.cause <- Some happening
+  | Transition { step; _ } -> take t step
+  | End { ending; _ } -> t.its_ending <- Some ending
+
+(* {1 The end} *)
+
+let finish t =
+  let until = t.now in
+  let spans ended from = List.rev (Option.fold ~none:ended ~some:(fun from -> { from; until } :: ended) from) in
+  let vehicle v =
+    let a = actor t v in
+    let last = Option.map (fun (plan, from) -> { plan; from; until; ending = Unfinished }) a.running in
+    { id = v;
+      kind = a.its_kind;
+      tasks = List.rev (Option.to_list last @ a.ended);
+      held = spans a.spans_held a.held_from;
+      silent = spans a.spans_silent a.silent_from;
+      samples = List.rev a.seen }
+  in
+  { header = t.its_header;
+    duration = until;
+    vehicles = List.rev_map vehicle t.picked;
+    deeds = List.rev t.done_so_far;
+    ending = t.its_ending }

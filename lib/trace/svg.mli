@@ -1,0 +1,39 @@
+(** Pictures as trees of elements. *)
+
+type t
+
+val element : string -> (string * string) list -> t list -> t
+(** [element name attributes children]. *)
+
+val raw : string -> t
+(** Markup as it is, of our own making: a style sheet. *)
+
+val group : ?name:string -> t list -> t
+(** [group ~name ts] is [ts] together, of class [name]. *)
+
+val number : float -> string
+(** In picture units, to a tenth: ["12.5"], ["12"]. *)
+
+val rect : ?name:string -> ?round:float -> ?tip:string -> x:float -> y:float -> width:float -> height:float -> unit -> t
+(** [rect ~name ~tip ...] is a rectangle of class [name]; [tip] is shown where the pointer rests on it. *)
+
+val line : ?name:string -> float * float -> float * float -> t
+val polyline : ?name:string -> (float * float) list -> t
+val circle : ?name:string -> ?tip:string -> float * float -> float -> t
+val path : ?name:string -> ?tip:string -> string -> t
+
+val text_only : string -> t
+(** Text for an element of another kind. *)
+
+type anchor = Start | Middle | End
+
+val text : ?name:string -> ?anchor:anchor -> ?tip:string -> float * float -> string -> t
+(** One line of text, on its base line. Control characters become blanks. *)
+
+val width : ?size:float -> string -> float
+(** [width ~size text] is about how wide [text] is in a sans-serif of [size], by default 11. *)
+
+val fit : ?size:float -> float -> string -> string
+(** [fit ~size width text] is [text], cut to [width] with an ellipsis if it is wider; [""] if nothing of it fits. *)
+
+val to_string : t -> string

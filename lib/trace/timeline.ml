@@ -1,0 +1,219 @@
+open Story
+
+(* Everything is placed on this. *)
+type frame = { left : float; right : float; seconds : float }
+
+let at f time = f.left +. ((f.right -. f.left) *. time /. f.seconds)
+let char_height = 13.
+
+(* {1 The program's row} *)
+
+let shape deed (x, y) tip =
+  let n = Svg.number in
+  match deed with
+  | Posted _ ->
+    Svg.path ~name:"post" ~tip (Printf.sprintf "M%s,%s l4.5,8 h-9 z" (n x) (n (y -. 4.)))
+  | Consumed _ -> Svg.path ~name:"consume" ~tip (Printf.sprintf "M%s,%s l4.5,-8 h-9 z" (n x) (n (y +. 4.)))
+  | Said _ -> Svg.circle ~name:"say" ~tip (x, y) 4.
+  | Asked _ -> Svg.circle ~name:"ask" ~tip (x, y) 4.
+  | Erred _ ->
+    Svg.path ~name:"error" ~tip (Printf.sprintf "M%s,%s l8,8 m0,-8 l-8,8" (n (x -. 4.)) (n (y -. 4.)))
+
+let words = function
+  | Posted pair -> "posts " ^ pair
+  | Consumed pair -> "consumes " ^ pair
+  | Said text -> "says: " ^ text
+  | Asked text -> "asks: " ^ text
+  | Erred why -> "error: " ^ why
+
+let sort = function Posted _ -> 0 | Consumed _ -> 1 | Said _ -> 2 | Asked _ -> 3 | Erred _ -> 4
+
+let label = function
+  | Posted pair | Consumed pair -> pair
+  | Said text | Asked text -> "“" ^ text ^ "”"
+  | Erred why -> why
+
+let most_levels = 7
+let longest_label = 330.
+
+(* Marks with labels that do not overlap: each on the lowest level on which there is room for it. Marks whose labels
+   have no room stand below these, without. *)
+let place f deeds =
+  let free = Array.make most_levels neg_infinity in
+  let levels = ref 1 in
+  let mark (time, deed) =
+    let x = at f time in
+    let text = Svg.fit ~size:10. longest_label (label deed) in
+    let size = match deed with Erred _ -> 11.2 | Posted _ | Consumed _ | Said _ | Asked _ -> 10. in
+    let width = Svg.width ~size text +. 18. in
+    let from = if x +. width > f.right +. 8. then x -. width else x -. 6. in
+    let until = if x +. width > f.right +. 8. then x +. 8. else x +. width in
+    let rec level i = if i >= most_levels then None else if free.(i) <= from then Some i else level (i + 1) in
+    match level 0 with
+    | None -> (x, 0, from < x -. 6., deed, "", time)
+    | Some i ->
+      free.(i) <- until;
+      levels := max !levels (i + 1);
+      (x, i, from < x -. 6., deed, text, time)
+  in
+  (* Where there are too many for labels, one mark stands for those that it would cover. *)
+  let covered = Hashtbl.create 8 in
+  let add marks ((x, _, _, deed, text, _) as mark) =
+    let kind = sort deed in
+    let is_covered = match Hashtbl.find_opt covered kind with Some x' -> x -. x' < 4. | None -> false in
+    if text = "" && is_covered then marks
+    else begin
+      if text = "" then Hashtbl.replace covered kind x;
+      mark :: marks
+    end
+  in
+  let marks = List.rev (List.fold_left (fun marks deed -> add marks (mark deed)) [] deeds) in
+  if Hashtbl.length covered = 0 then (marks, !levels)
+  else
+    let raise_labelled (x, i, leftwards, deed, text, time) =
+      (x, (if text = "" then i else i + 1), leftwards, deed, text, time)
+    in
+    (List.map raise_labelled marks, !levels + 1)
+
+let level_height = 15.
+
+let draw_mark base (x, level, leftwards, deed, text, time) =
+  let y = base -. (float_of_int level *. level_height) in
+  let tip = Printf.sprintf "%s  %s" (Clock.text time) (words deed) in
+  let anchor, dx = if leftwards then (Svg.End, -8.) else (Svg.Start, 8.) in
+  let name = match deed with Erred _ -> "axis bad" | Posted _ | Consumed _ | Said _ | Asked _ -> "axis" in
+  shape deed (x, y) tip :: (if text = "" then [] else [ Svg.text ~name ~anchor ~tip (x +. dx, y +. 3.5) text ])
+
+(* {1 Rows of vehicles} *)
+
+let describe v (task : task) =
+  let how =
+    match task.ending with
+    | Done -> "done"
+    | Failed why -> "failed: " ^ why
+    | Stopped -> "stopped"
+    | Unfinished -> "not ended"
+  in
+  Printf.sprintf "%s runs %s from %s to %s: %s" v.id task.plan (Clock.text task.from) (Clock.text task.until) how
+
+let least_width = 2.
+
+let draw_task f colour v ~y ~height (task : task) =
+  let x = at f task.from in
+  let width = Float.max least_width (at f task.until -. x -. 1.) in
+  let tip = describe v task in
+  let kind =
+    match task.ending with Done -> "" | Failed _ -> " failed" | Stopped -> " stopped" | Unfinished -> " unfinished"
+  in
+  let bar = Svg.rect ~name:("bar " ^ colour ^ kind) ~round:3. ~tip ~x ~y ~width ~height () in
+  let right = x +. width in
+  let n = Svg.number in
+  let finish, taken =
+    match task.ending with
+    | Done | Unfinished -> ([], 0.)
+    | Failed _ ->
+      let cross = Printf.sprintf "M%s,%s l9,9 m0,-9 l-9,9" (n (right -. 4.5)) (n (y +. (height /. 2.) -. 4.5)) in
+      ([ Svg.path ~name:"end-failed" ~tip cross ], 6.)
+    | Stopped ->
+      ([ Svg.rect ~name:"end-stopped" ~tip ~x:(right -. 3.) ~y:(y -. 2.) ~width:3. ~height:(height +. 4.) () ], 4.)
+  in
+  let text = if height < 12. then "" else Svg.fit (width -. 6. -. taken) task.plan in
+  let legible = Svg.width text > 14. || text = task.plan in
+  let name =
+    if text = "" || not legible then []
+    else [ Svg.text ~name:"within" ~tip (x +. 4., y +. (height /. 2.) +. 4.) text ]
+  in
+  (bar, name @ finish)
+
+let draw_row f i v ~y ~row =
+  let colour = Style.vehicle i in
+  let height = Float.min 22. (row -. 8.) in
+  let top = y +. ((row -. height) /. 2.) in
+  let band (s : span) =
+    let x = at f s.from in
+    Svg.rect ~name:"held" ~round:3. ~x ~y:(top -. 3.) ~width:(at f s.until -. x) ~height:(height +. 6.) ()
+  in
+  let silence (s : span) =
+    let x = at f s.from in
+    let tip = Printf.sprintf "%s has no link from %s to %s" v.id (Clock.text s.from) (Clock.text s.until) in
+    Svg.rect ~name:"silent" ~tip ~x ~y:(top +. height +. 1.) ~width:(Float.max 2. (at f s.until -. x)) ~height:3. ()
+  in
+  (* How a task ended is seen even if another one begins at once. *)
+  let bars, others = List.split (List.map (draw_task f colour v ~y:top ~height) v.tasks) in
+  List.map band v.held @ bars @ List.concat others
+  @ List.map silence v.silent
+  @ [ Svg.text ~name:("name " ^ colour) ~anchor:End (f.left -. 10., top +. (height /. 2.) +. 4.)
+        (Svg.fit 150. v.id) ]
+
+(* {1 The legend} *)
+
+let exists_deed p story = List.exists (fun (_, deed) -> p deed) story.deeds
+let exists_task p story = List.exists (fun v -> List.exists (fun (t : task) -> p t.ending) v.tasks) story.vehicles
+
+let exists_failure story =
+  exists_deed (function Erred _ -> true | _ -> false) story
+  || exists_task (function Failed _ -> true | _ -> false) story
+
+let legend story ~x ~y =
+  let deed p sample text = if exists_deed p story then [ ((fun x -> shape sample (x, y -. 3.5) text), text) ] else [] in
+  let n = Svg.number in
+  let cross x = Svg.path ~name:"end-failed" (Printf.sprintf "M%s,%s l8,8 m0,-8 l-8,8" (n (x -. 4.)) (n (y -. 8.))) in
+  let block x = Svg.rect ~name:"end-stopped" ~x:(x -. 1.5) ~y:(y -. 11.) ~width:3. ~height:14. () in
+  let strip x = Svg.rect ~name:"silent" ~x:(x -. 6.) ~y:(y -. 5.) ~width:12. ~height:3. () in
+  let items =
+    deed (function Posted _ -> true | _ -> false) (Posted "") "posts"
+    @ deed (function Consumed _ -> true | _ -> false) (Consumed "") "consumes"
+    @ deed (function Asked _ -> true | _ -> false) (Asked "") "asks"
+    @ deed (function Said _ -> true | _ -> false) (Said "") "says"
+    @ (if exists_failure story then [ (cross, "fails") ] else [])
+    @ (if exists_task (function Stopped -> true | _ -> false) story then [ (block, "is stopped") ] else [])
+    @ if List.exists (fun v -> v.silent <> []) story.vehicles then [ (strip, "no link") ] else []
+  in
+  let add (x, drawn) (shape, text) =
+    (x +. 28. +. Svg.width ~size:10. text, drawn @ [ shape x; Svg.text ~name:"axis" (x +. 9., y) text ])
+  in
+  snd (List.fold_left add (x +. 4., []) items)
+
+(* {1 All of it} *)
+
+(* More lines than that would be a curtain. *)
+let most_guides = 40
+
+let gutter story =
+  let widest = List.fold_left (fun w v -> Float.max w (Svg.width ~size:12. v.id)) 46. story.vehicles in
+  Float.min 165. widest +. 16.
+
+let draw story ~x ~y ~width =
+  let seconds = if story.duration > 0. then story.duration else 1. in
+  let f = { left = x +. gutter story; right = x +. width -. 14.; seconds } in
+  let marks, levels = place f story.deeds in
+  let base = y +. (float_of_int levels *. level_height) +. 2. in
+  let count = List.length story.vehicles in
+  let row = if count <= 24 then 34. else if count <= 80 then 22. else 14. in
+  let rows_top = base +. 14. in
+  let bottom = rows_top +. (float_of_int count *. row) +. 4. in
+  let step = Scale.time_step ~most:12 seconds in
+  let tick time =
+    let x = at f time in
+    [ Svg.line ~name:"grid" (x, y) (x, bottom);
+      Svg.text ~name:"axis" ~anchor:Middle (x, bottom +. char_height) (Clock.text time) ]
+  in
+  let guide (x, level, _, deed, _, _) =
+    let top = base -. (float_of_int level *. level_height) +. 5. in
+    match deed with
+    | Posted _ | Consumed _ | Erred _ -> [ Svg.line ~name:"guide" (x, top) (x, bottom) ]
+    | Said _ | Asked _ -> []
+  in
+  let guides = if List.length marks > most_guides then [] else List.concat_map guide marks in
+  let program =
+    Svg.text ~name:"small" ~anchor:End (f.left -. 10., base +. 4.) "program"
+    :: List.concat_map (draw_mark base) marks
+  in
+  let rows = List.mapi (fun i v -> draw_row f i v ~y:(rows_top +. (float_of_int i *. row)) ~row) story.vehicles in
+  let parts =
+    List.concat_map tick (Scale.multiples step ~from:0. ~until:seconds)
+    @ [ Svg.line ~name:"frame" (f.left, bottom) (f.right, bottom) ]
+    @ List.concat rows @ guides @ program
+    @ legend story ~x:f.left ~y:(bottom +. 34.)
+  in
+  (Svg.group ~name:"timeline" parts, bottom +. 40. -. y)

@@ -1,0 +1,187 @@
+open Story
+open Dolphin_geo
+
+(* {1 The map} *)
+
+(* Degrees from the middle of the map to picture units. The longitudes of a map have no seam: they may be beyond 180. *)
+type map = {
+  latitude : float;
+  longitude : float;
+  east : float;  (* units in a degree of longitude *)
+  north : float;
+  centre : float * float;
+  metres : float;  (* in a unit *)
+}
+
+let metres_in_degree latitude =
+  let at latitude longitude : Position.t = { latitude; longitude; height = 0. } in
+  let low = Float.max (-89.) (Float.min 89. latitude) in
+  let north = Wgs84.distance (at (low -. 0.01) 0.) (at (low +. 0.01) 0.) /. 0.02 in
+  let east = Wgs84.distance (at low (-0.01)) (at low 0.01) /. 0.02 in
+  (east, north)
+
+(* [near longitude x] is [x] or the same meridian's other number, whichever is nearer to [longitude]. *)
+let near longitude x = if x -. longitude > 180. then x -. 360. else if longitude -. x > 180. then x +. 360. else x
+
+let project m (p : Position.t) =
+  let x, y = m.centre in
+  (x +. ((near m.longitude p.longitude -. m.longitude) *. m.east), y -. ((p.latitude -. m.latitude) *. m.north))
+
+let least_span = 60.
+
+let fit positions ~x ~y ~width ~height =
+  match positions with
+  | [] -> None
+  | (first : Position.t) :: _ ->
+    let latitudes = List.map (fun (p : Position.t) -> p.latitude) positions in
+    let longitudes = List.map (fun (p : Position.t) -> near first.longitude p.longitude) positions in
+    let least = List.fold_left Float.min infinity and most = List.fold_left Float.max neg_infinity in
+    let latitude = (least latitudes +. most latitudes) /. 2. in
+    let longitude = (least longitudes +. most longitudes) /. 2. in
+    let east, north = metres_in_degree latitude in
+    let span_east = Float.max least_span ((most longitudes -. least longitudes) *. east) in
+    let span_north = Float.max least_span ((most latitudes -. least latitudes) *. north) in
+    let metres = Float.max (span_east /. (width *. 0.72)) (span_north /. (height *. 0.78)) in
+    let centre = (x +. (width /. 2.), y +. (height /. 2.)) in
+    Some { latitude; longitude; east = east /. metres; north = north /. metres; centre; metres }
+
+(* {1 Grid and scale} *)
+
+let degrees decimals x ~positive ~negative =
+  let x = if x > 180. then x -. 360. else if x < -180. then x +. 360. else x in
+  let half = if Float.abs x < 1e-9 then "" else if x > 0. then positive else negative in
+  Printf.sprintf "%.*f°%s" decimals (Float.abs x) half
+
+let grid m ~x ~y ~width ~height =
+  let middle_x, middle_y = m.centre in
+  let across = width /. m.east and down = height /. m.north in
+  let most length each = max 2 (int_of_float (length /. each)) in
+  (* One step for both, so that cells look alike on neighbouring maps; near the poles meridians need a wider one. *)
+  let step = Scale.step ~most:(most height 38.) down in
+  let step_across = Float.max step (Scale.step ~most:(most width 62.) across) in
+  let lines step origin span =
+    Scale.multiples step ~from:(origin -. (span /. 2.)) ~until:(origin +. (span /. 2.))
+  in
+  let longitudes = lines step_across m.longitude across and latitudes = lines step m.latitude down in
+  let meridian longitude =
+    let at = middle_x +. ((longitude -. m.longitude) *. m.east) in
+    let label = degrees (Scale.decimals step_across) longitude ~positive:"E" ~negative:"W" in
+    let fits = at > x +. 24. && at < x +. width -. 24. in
+    Svg.line ~name:"grid" (at, y) (at, y +. height)
+    :: (if fits then [ Svg.text ~name:"axis" ~anchor:Middle (at, y +. height +. 13.) label ] else [])
+  in
+  let parallel latitude =
+    let at = middle_y -. ((latitude -. m.latitude) *. m.north) in
+    let label = degrees (Scale.decimals step) latitude ~positive:"N" ~negative:"S" in
+    [ Svg.line ~name:"grid" (x, at) (x +. width, at); Svg.text ~name:"axis" ~anchor:End (x -. 6., at +. 3.5) label ]
+  in
+  List.concat_map meridian longitudes @ List.concat_map parallel latitudes
+
+let scale m ~x ~y ~width ~height =
+  let metres = Scale.step ~most:1 (width *. m.metres *. 0.09) in
+  let length = metres /. m.metres in
+  let label = if metres >= 1000. then Printf.sprintf "%g km" (metres /. 1000.) else Printf.sprintf "%g m" metres in
+  let right = x +. width -. 12. and base = y +. height -. 12. in
+  let n = Svg.number in
+  [ Svg.rect ~name:"halo" ~x:(right -. length -. 8.) ~y:(base -. 22.) ~width:(length +. 16.) ~height:30. ();
+    Svg.path ~name:"ruler"
+      (Printf.sprintf "M%s,%s v5 h%s v-5" (n (right -. length)) (n (base -. 4.)) (n length));
+    Svg.text ~name:"axis" ~anchor:Middle (right -. (length /. 2.), base -. 8.) label ]
+
+(* {1 Ways} *)
+
+(* Points nearer than this to the last one that is drawn are left out. *)
+let near_enough = 0.8
+
+let thin points =
+  let far (x, y) (x', y') = Float.abs (x -. x') +. Float.abs (y -. y') >= near_enough in
+  let add kept point = match kept with last :: _ when not (far last point) -> kept | kept -> point :: kept in
+  match points with
+  | [] -> []
+  | first :: rest ->
+    let kept = List.fold_left add [ first ] rest in
+    let last = List.fold_left (fun _ p -> p) first rest in
+    List.rev (match kept with k :: _ when k = last -> kept | kept -> last :: kept)
+
+(* Runs of samples in sight, and the jumps between them. *)
+let runs v =
+  let was_silent a b =
+    List.exists (fun (s : span) -> s.from >= a.time && s.until <= b.time && s.until > s.from) v.silent
+  in
+  let add runs sample =
+    match runs with
+    | (last :: _ as run) :: others when not (was_silent last sample) -> (sample :: run) :: others
+    | runs -> [ sample ] :: runs
+  in
+  List.rev_map List.rev (List.fold_left add [] v.samples)
+
+(* [places v] is where [v] was at the start of each of its tasks. *)
+let places v =
+  let rec walk last samples (tasks : task list) found =
+    match samples, tasks with
+    | s :: samples, t :: _ when s.time <= t.from +. 1e-6 -> walk (Some s.position) samples tasks found
+    | samples, t :: tasks -> walk last samples tasks (match last with Some p -> (t, p) :: found | None -> found)
+    | _, [] -> List.rev found
+  in
+  walk None v.samples v.tasks []
+
+let way m i v =
+  let colour = Style.vehicle i in
+  let point s = project m s.position in
+  let runs = runs v in
+  let seen run = Svg.polyline ~name:("track " ^ colour) (thin (List.map point run)) in
+  let rec jumps = function
+    | run :: (next :: _ as others) ->
+      let from = point (List.nth run (List.length run - 1)) and until = point (List.hd next) in
+      Svg.line ~name:("track unseen " ^ colour) from until :: jumps others
+    | [ _ ] | [] -> []
+  in
+  let starts =
+    let start ((t : task), p) =
+      let tip = Printf.sprintf "%s starts %s at %s" v.id t.plan (Clock.text t.from) in
+      Svg.circle ~name:("step " ^ colour) ~tip (project m p) 2.4
+    in
+    List.map start (places v)
+  in
+  let ends =
+    match v.samples with
+    | [] -> []
+    | first :: _ ->
+      let last = List.nth v.samples (List.length v.samples - 1) in
+      [ Svg.circle ~name:("first " ^ colour) ~tip:(v.id ^ " at first") (point first) 4.;
+        Svg.circle ~name:("last " ^ colour) ~tip:(v.id ^ " at last") (point last) 4.5 ]
+  in
+  List.map seen runs @ jumps runs @ starts @ ends
+
+(* Names stand beside where the vehicles are at last, one below the other where these are close. *)
+let names m vehicles ~x ~width ~y ~height =
+  let wanted i v =
+    match List.rev v.samples with
+    | [] -> None
+    | last :: _ ->
+      let px, py = project m last.position in
+      Some (py +. 4., (i, v, px))
+  in
+  let wanted = List.filter_map Fun.id (List.mapi wanted vehicles) in
+  let label (at, (i, v, px)) =
+    let text = Svg.fit 120. v.id in
+    let leftwards = px +. 10. +. Svg.width ~size:12. text > x +. width in
+    let anchor, dx = if leftwards then (Svg.End, -9.) else (Svg.Start, 9.) in
+    Svg.text ~name:("name on-map " ^ Style.vehicle i) ~anchor (px +. dx, at) text
+  in
+  if List.length wanted > 24 then []
+  else List.map label (Scale.spread ~least:13. ~from:(y +. 12.) ~until:(y +. height -. 4.) wanted)
+
+let draw story ~x ~y ~width ~height =
+  let positions = List.concat_map (fun v -> List.map (fun s -> s.position) v.samples) story.vehicles in
+  let frame = Svg.rect ~name:"frame" ~x ~y ~width ~height () in
+  let parts =
+    match fit positions ~x ~y ~width ~height with
+    | None -> [ Svg.text ~name:"small" ~anchor:Middle (x +. (width /. 2.), y +. (height /. 2.)) "no positions" ]
+    | Some m ->
+      grid m ~x ~y ~width ~height
+      @ List.concat (List.mapi (way m) story.vehicles)
+      @ names m story.vehicles ~x ~width ~y ~height
+      @ scale m ~x ~y ~width ~height
+  in
+  Svg.group ~name:"tracks" (parts @ [ frame ])

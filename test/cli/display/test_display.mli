@@ -1,0 +1,1 @@
+(** What the log and the board show, and where they show it. *)

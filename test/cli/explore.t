@@ -1,0 +1,186 @@
+The time and the memory that an exploration takes are not the same twice.
+
+  $ explore() { dolphin explore "$@" > result; status=$?; sed 's/, [0-9.]* s, [0-9]* MiB//' result; return $status; }
+
+A program whose every run is sound.
+
+  $ explore ../../examples/rendezvous.dol
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  2198 states, 7139 transitions, depth 35
+
+The same, if a plan may fail once.
+
+  $ explore ../../examples/rendezvous.dol --faults fail=1
+  no deadlock: holds
+  termination: holds
+  no unhandled error: violated after 10 steps: an error that nobody handles ends the program
+  assertions: holds
+  vehicles for all tasks: holds
+  2246 states, 10055 transitions, depth 35
+  
+  no unhandled error: a shortest run in which an error that nobody handles ends the program
+       program                                   noptilus-1                 where
+   1   ask(Radius of operation area? (km))                                  rendezvous.dol:2
+   2   answer(2)                                                            rendezvous.dol:2
+   3   pick(3 vehicles of type 'UUV' with pa...                             rendezvous.dol:5
+   4   picks noptilus-1, noptilus-2, noptilus-3                             rendezvous.dol:5
+   5   pick(1 vehicle of type 'UAV' in regio...                             rendezvous.dol:11
+   6   picks x8-02                                                          rendezvous.dol:11
+   7   setConnectionTimeout noptilus-1, nopt...                             rendezvous.dol:15
+   8   execute                                                              rendezvous.dol:26
+   9                                             starts survey1             rendezvous.dol:18
+  10                                             fails in survey1: failure  rendezvous.dol:18
+  [1]
+
+A program that may wait for ever.
+
+  $ cat > deadlock.dol <<'END'
+  > v = pick { type 'UUV' }
+  > execute (imcPlan('a') >> action { post left: 1 } >> condition { consume right: 1 }) | condition { consume right: 1 }
+  > END
+  $ explore deadlock.dol
+  no deadlock: violated after 6 steps: nothing can happen any more, and the program has not ended
+  termination: holds
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  17 states, 16 transitions, depth 6
+  
+  no deadlock: a shortest run in which nothing can happen any more, and the program has not ended
+      program                        noptilus-1  where
+  1   pick(1 vehicle of type 'UUV')              deadlock.dol:1
+  2   picks noptilus-1                           deadlock.dol:1
+  3   execute                                    deadlock.dol:2
+  4                                  starts a    deadlock.dol:2
+  5                                  ends a      deadlock.dol:2
+  6   act(post left:1)                           deadlock.dol:2
+  waits for the condition at deadlock.dol:2:63
+  waits for the condition at deadlock.dol:2:97
+  [1]
+
+A program that may never end.
+
+  $ cat > round.dol <<'END'
+  > x = 0
+  > while (true) { x = 1 - x; pause 1.seconds }
+  > END
+  $ explore round.dol
+  no deadlock: holds
+  termination: violated: after 1 step, 4 steps that can repeat for ever
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  5 states, 5 transitions, depth 4
+  
+  termination: a shortest run in which the program can go on for ever
+      program   where
+  1   pause(1)  round.dol:2
+  and from there, again and again:
+      program   where
+  2   resume    round.dol:2
+  3   pause(1)  round.dol:2
+  4   resume    round.dol:2
+  5   pause(1)  round.dol:2
+  [1]
+
+Code that nothing reaches is only worth a note, unless one asks for more.
+
+  $ cat > unreached.dol <<'END'
+  > post a: 1
+  > if (poll(b: 1)) { message 'never' }
+  > END
+  $ explore unreached.dol
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  note: no leftover tuples: violated after 2 steps: tuples are left when the program completes
+  note: all code reached: violated: no run reaches message at unreached.dol:2:19
+  3 states, 2 transitions, depth 2
+  $ explore --strict unreached.dol
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  no halt: holds
+  no leftover tuples: violated after 2 steps: tuples are left when the program completes
+  all code reached: violated: no run reaches message at unreached.dol:2:19
+  3 states, 2 transitions, depth 2
+  
+  no leftover tuples: a shortest run in which tuples are left when the program completes
+      program   where
+  1   post a:1  unreached.dol:1
+  2   end
+  
+  all code reached: no run reaches
+    unreached.dol:2:19: message
+  [1]
+
+An assertion that some run breaks.
+
+  $ cat > assertion.dol <<'END'
+  > v = pick { type 'UUV' }
+  > assert { 1 + 1 == 2 }, 'arithmetic'
+  > execute watch (imcPlan('a') | action { post alarm: 1 }
+  >   | assert { !poll(alarm: _) }) onError { ignore() }
+  > consume alarm: 1
+  > END
+  $ explore assertion.dol
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: violated after 5 steps: assertion.dol:4:5: assertion failed
+  vehicles for all tasks: holds
+  note: all code reached: violated: no run reaches onError at assertion.dol:3:9
+  50 states, 73 transitions, depth 9
+  
+  assertions: a shortest run in which an assertion fails
+      program                        where
+  1   pick(1 vehicle of type 'UUV')  assertion.dol:1
+  2   picks noptilus-1               assertion.dol:1
+  3   execute                        assertion.dol:3
+  4   act(post alarm:1)              assertion.dol:3
+  5   broken(assertion failed)       assertion.dol:4
+  [1]
+
+A bound that is met leaves the answer open.
+
+  $ explore ../../examples/rendezvous.dol --max-states 100
+  no deadlock: inconclusive, the bound on states was met
+  termination: inconclusive, the bound on states was met
+  no unhandled error: inconclusive, the bound on states was met
+  assertions: inconclusive, the bound on states was met
+  vehicles for all tasks: inconclusive, the bound on states was met
+  137 states, 266 transitions, depth 14
+  [3]
+
+For machines.
+
+  $ dolphin explore --json round.dol | tr ',' '\n' | grep -E 'states|verdict'
+  {"states":5
+  "verdicts":[{"property":"no deadlock"
+  "verdict":"holds"}
+  "verdict":"violated"
+  "verdict":"holds"}
+  "verdict":"holds"}
+  "verdict":"holds"}
+  "verdict":"holds"}
+  "verdict":"holds"}
+  "verdict":"holds"}]}
+
+What cannot be explored.
+
+  $ dolphin explore missing.dol
+  dolphin: missing.dol: No such file or directory
+  [2]
+  $ dolphin explore round.dol --faults loss
+  dolphin: option '--faults': 'loss' is neither fail nor fail=NUMBER
+  Usage: dolphin explore [OPTION]… PROG
+  Try 'dolphin explore --help' or 'dolphin --help' for more information.
+  [2]

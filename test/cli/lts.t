@@ -1,0 +1,98 @@
+The state graph of a program, in the Aldebaran format.
+
+  $ cat > two.dol <<'END'
+  > v = pick { count 2; type 'UUV' }
+  > execute imcPlan('a') | imcPlan('b')
+  > END
+  $ cat > swapped.dol <<'END'
+  > v = pick { count 2; type 'UUV' }
+  > execute imcPlan('b') | imcPlan('a')
+  > END
+  $ cat > once.dol <<'END'
+  > v = pick { count 2; type 'UUV' }
+  > execute imcPlan('a') >> imcPlan('b')
+  > END
+  $ dolphin lts two.dol
+  des (0, 46, 35)
+  (0,"pick(2 vehicles of type 'UUV')",1)
+  (1,"bind(noptilus-1, noptilus-2)",2)
+  (1,"bind(noptilus-1, noptilus-3)",3)
+  (1,"bind(noptilus-2, noptilus-3)",4)
+  (2,"execute",5)
+  (3,"execute",6)
+  (4,"execute",7)
+  (5,"start(noptilus-1, a)",8)
+  (5,"start(noptilus-2, b)",9)
+  (6,"start(noptilus-1, a)",10)
+  (6,"start(noptilus-3, b)",11)
+  (7,"start(noptilus-3, b)",13)
+  (7,"start(noptilus-2, a)",12)
+  (8,"start(noptilus-2, b)",14)
+  (8,"done(noptilus-1, a)",15)
+  (9,"start(noptilus-1, a)",14)
+  (9,"done(noptilus-2, b)",16)
+  (10,"start(noptilus-3, b)",17)
+  (10,"done(noptilus-1, a)",18)
+  (11,"start(noptilus-1, a)",17)
+  (11,"done(noptilus-3, b)",19)
+  (12,"start(noptilus-3, b)",20)
+  (12,"done(noptilus-2, a)",21)
+  (13,"start(noptilus-2, a)",20)
+  (13,"done(noptilus-3, b)",22)
+  (14,"done(noptilus-1, a)",23)
+  (14,"done(noptilus-2, b)",24)
+  (15,"start(noptilus-2, b)",23)
+  (16,"start(noptilus-1, a)",24)
+  (17,"done(noptilus-1, a)",25)
+  (17,"done(noptilus-3, b)",26)
+  (18,"start(noptilus-3, b)",25)
+  (19,"start(noptilus-1, a)",26)
+  (20,"done(noptilus-3, b)",28)
+  (20,"done(noptilus-2, a)",27)
+  (21,"start(noptilus-3, b)",27)
+  (22,"start(noptilus-2, a)",28)
+  (23,"done(noptilus-2, b)",29)
+  (24,"done(noptilus-1, a)",29)
+  (25,"done(noptilus-3, b)",30)
+  (26,"done(noptilus-1, a)",30)
+  (27,"done(noptilus-3, b)",31)
+  (28,"done(noptilus-2, a)",31)
+  (29,"end",32)
+  (30,"end",33)
+  (31,"end",34)
+
+The smallest one that behaves alike, for Graphviz.
+
+  $ dolphin lts two.dol --quotient strong --format dot | head -3
+  digraph "lts" {
+    node [shape=box, style=rounded];
+    initial [shape=point, label=""];
+
+A graph is bisimilar to itself, from a file too, and so is that of its quotient.
+
+  $ dolphin lts two.dol --quotient strong -o two.aut
+  $ dolphin lts two.dol --compare two.aut
+  strongly bisimilar
+  $ dolphin lts two.dol --format json -o two.json
+  $ dolphin lts two.json --compare two.aut
+  strongly bisimilar
+
+Programs that behave differently.
+
+  $ dolphin lts two.dol --compare once.dol
+  not bisimilar
+  Only the left one satisfies <pick(2 vehicles of type 'UUV')> <bind(noptilus-1, noptilus-2)> <execute> <start(noptilus-2, b)>
+  Only the left one has the trace
+    pick(2 vehicles of type 'UUV') bind(noptilus-1, noptilus-2) execute
+    start(noptilus-2, b)
+  [1]
+
+Files that are none.
+
+  $ echo 'des (0, 1' > broken.aut
+  $ dolphin lts broken.aut
+  dolphin: broken.aut: line 1: expected "des (initial state, transitions, states)", not "des (0, 1"
+  [2]
+  $ dolphin lts missing.aut
+  dolphin: missing.aut: No such file or directory
+  [2]

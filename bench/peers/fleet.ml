@@ -1,6 +1,6 @@
-(* fleet N F [MAX_STATES]: explores the program of the peers' models, N vehicles, F = 1 with failures, and prints one line:
-   states, transitions, depth, seconds of CPU, bytes a state as the explorer counts them. With REDUCTION=por in the
-   environment the search is reduced. *)
+(* fleet N F [MAX_STATES]: explores the program of the peers' models, N vehicles, F = 1 with failures, and prints one
+   line: states, transitions, depth, seconds of CPU, bytes a state as the explorer counts them. With REDUCTION=por in
+   the environment the search is reduced. *)
 
 open Dolphin_semantics
 open Dolphin_explore

@@ -24,15 +24,10 @@ let breaking = { Footprint.empty with breaks = true }
 let ending c (p : platform_task) v =
   match c.options.endings v p.name, c.options.failures with
   | Succeeds, _ | May_fail, Some 0 -> Footprint.empty
-  | Fails, _ | May_fail, None -> breaking
-  | May_fail, Some _ -> { breaking with limited = true }
+  | Fails, _ | May_fail, (None | Some _) -> breaking
 
 (* Of a task whose errors this handler gets. *)
-let handled c (f : Footprint.t) handler =
-  if not f.breaks then f
-  else
-    let h = Footprint.of_code c.code handler in
-    { (union f h) with counts = f.counts || (f.limited && h.ignores) }
+let handled c (f : Footprint.t) handler = if f.breaks then union f (Footprint.of_code c.code handler) else f
 
 let rec future c (r : Residual.t) =
   match r with

@@ -37,8 +37,6 @@ type t = {
   breaks : bool;
   halts : bool;
   ignores : bool;
-  limited : bool;
-  counts : bool;
 }
 
 let empty =
@@ -54,8 +52,6 @@ let empty =
     breaks = false;
     halts = false;
     ignores = false;
-    limited = false;
-    counts = false;
   }
 
 let union f f' =
@@ -74,8 +70,6 @@ let union f f' =
       breaks = f.breaks || f'.breaks;
       halts = f.halts || f'.halts;
       ignores = f.ignores || f'.ignores;
-      limited = f.limited || f'.limited;
-      counts = f.counts || f'.counts;
     }
 
 let is_blind f =
@@ -83,7 +77,7 @@ let is_blind f =
   && not f.anything
 
 let is_free f =
-  is_blind f && Pairs.is_empty f.posts && Globals.is_empty f.writes && (not f.limited) && not f.counts
+  is_blind f && Pairs.is_empty f.posts && Globals.is_empty f.writes
 
 let share a b = not (Globals.disjoint a b)
 
@@ -93,15 +87,12 @@ let conflict ~possible f f' =
       || Pairs.meet f.queues f'.queues
       || Pairs.meet f.posts f'.tests
       || Pairs.meet f.tests f'.posts
-      || Pairs.meet f.takes f'.takes
       || Pairs.meet f.takes f'.needs
       || Pairs.meet f.takes f'.tests
       || Pairs.meet f.needs f'.takes
       || Pairs.meet f.tests f'.takes
       || ((not possible) && Pairs.meet f.needs f'.posts)
-      || share f.reads f'.writes || share f.writes f'.reads || share f.writes f'.writes
-      || (f.limited && f'.counts)
-      || (f.counts && f'.limited))
+      || share f.reads f'.writes || share f.writes f'.reads || share f.writes f'.writes)
 
 (* {1 Code} *)
 
@@ -214,8 +205,7 @@ and applied code scope operation arguments =
       | Some _ | None -> anything)
   | Builtin (Poll keys), _ -> { empty with tests = pairs keys }
   | Builtin Message, [ _ ] -> empty
-  | Builtin Halt, _ -> { empty with halts = true }
-  | Builtin Assert, _ -> { breaking with halts = true }
+  | Builtin (Halt | Assert), _ -> { empty with halts = true }
   | Builtin Ignore, _ -> { breaking with ignores = true }
   | Call _, callee :: _ -> (
       match callee.node, value scope callee with

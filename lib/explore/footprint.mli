@@ -18,17 +18,15 @@ end
 type t = {
   posts : Pairs.t;
   queues : Pairs.t;  (** those of [posts] whose order matters *)
-  takes : Pairs.t;
+  takes : Pairs.t;  (** pairs that it may take; they are among [needs] or [tests] too *)
   needs : Pairs.t;  (** pairs that a guard needs: it holds, with the same effect, if there are more of any *)
   tests : Pairs.t;  (** pairs whose being there or not may matter in any way *)
   reads : Globals.t;
   writes : Globals.t;
   anything : bool;  (** nothing is known: code that cannot be seen may be called *)
   breaks : bool;  (** it may be faulty, or fail *)
-  halts : bool;
+  halts : bool;  (** it may end the run, by [halt] or an assertion that fails *)
   ignores : bool;  (** a handler: it may ignore the error *)
-  limited : bool;  (** it may be a failure of which only so many are possible *)
-  counts : bool;  (** ... after which the run may go on *)
 }
 
 val empty : t

@@ -5,14 +5,11 @@ type status = Impossible | Moves | Ends
 (* A component of the configuration: of the part at this position. *)
 type place = { position : int; component : component }
 
-(* Steps that may end the run do so here. Those that do whatever is shared are outcomes: nothing can prevent them, and
-   nothing follows them. Any other needs all that may happen before it. *)
+(* Whether a step that would end the run here would perhaps not do so later. Those that do whatever is shared are
+   outcomes: they are noted here, and nothing follows them. *)
 let some_end_depends parts status =
-  let counts = lazy (Array.exists (fun part -> part.future.Footprint.counts) parts) in
   let depends position part k (f : Footprint.t) =
-    part.ends.(k)
-    && status position k = Ends
-    && not (Footprint.is_blind f && ((not f.limited) || not (Lazy.force counts)))
+    part.ends.(k) && (not (Footprint.is_blind f)) && status position k = Ends
   in
   let found = ref false in
   let look position part =
@@ -23,12 +20,12 @@ let some_end_depends parts status =
 
 let moves status place k = status place.position k = Moves
 
-(* Nothing can come between the steps of such a component and the end of what they are part of. *)
+(* Nothing that others do has to do with such a component. *)
 let is_free parts place =
   let part = parts.(place.position) in
   Array.for_all (fun k -> Footprint.is_free part.footprints.(k)) place.component.steps
 
-(* Of the components whose steps end the run if they are faulty, only those that move matter. *)
+(* What may be done to the step, or by it. One that ends the run now ends it whatever others do: see above. *)
 let touches parts status place k =
   let part = parts.(place.position) in
   match if part.ends.(k) then status place.position k else Moves with

@@ -108,6 +108,33 @@ let traps =
       {|post x: 1, y: 1
         execute allOf { when { consume x: 1 } then task('p')[a]
                         when { consume y: 1 } then (task('q')[a] >> action { halt 'h' }) }|};
+    breaks "an allOf beside another consumer, in one part" [ No_deadlock; No_halt ]
+      {|post x: 1, y: 1
+        execute (allOf { when { consume x: 1 } then task('p')[a]
+                         when { consume y: 1 } then task('q')[a] } |
+                 (condition { consume x: 1 } >> action { halt 'h' })) >> task('r')[b]|};
+    breaks "a branch that is faulty, and would not be later" [ No_error; No_leftover ]
+      {|g = 0
+        execute oneOf { when { 1 / g > 0 } then action { post x: 1 }
+                        when { true } then action { } } | action { g = 1 }|};
+    breaks "a branch of allOf whose guard posts what another waits for" [ No_deadlock ]
+      {|post x: 1, y: 1
+        execute allOf { when { post z: 1 ; consume x: 1 } then task('p')[a]
+                        when { consume y: 1 } then condition { consume z: 1 } }|};
+    breaks "who posts first" [ No_halt ]
+      {|execute action { post x: 1 } | action { post x: 2 }
+        consume x: _
+        if (poll(x: 1)) { halt '2 was first' }
+        consume x: _|};
+    breaks "a consumer beside a test" [ No_leftover ]
+      {|post x: 1
+        execute condition { consume x: 1 } | action { if (poll(x: 1)) { post y: 1 } }|};
+    breaks "a test beside a consumer" [ No_halt ]
+      {|post x: 1
+        execute action { if (!poll(x: 1)) { halt 'h' } } | condition { consume x: 1 }|};
+    breaks "an assertion on how far others are" [ Assertions ]
+      {|execute watch (task('p')[a] >> action { post x: 1 } >> task('q')[a] >> action { consume x: 1 }) |
+                      (task('r')[b] >> assert({ !poll(x: 1) }, 'x is there')) onError { ignore() }|};
     breaks "code behind a variable" [ No_halt ]
       {|f = { post x: 1 }
         execute action { f.call() } | (task('p')[a] >> action { if (poll(x: 1)) { halt 'h' } }) | task('q')[b]

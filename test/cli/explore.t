@@ -27,7 +27,7 @@ The same, if a plan may fail once.
   no unhandled error: violated after 10 steps: an error that nobody handles ends the program
   assertions: holds
   vehicles for all tasks: holds
-  51 states, 74 transitions, depth 35
+  45 states, 44 transitions, depth 35
   
   no unhandled error: a run in which an error that nobody handles ends the program
        program                                   noptilus-1                 where

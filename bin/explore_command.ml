@@ -8,6 +8,7 @@ type settings = {
   faults : int option option;
   strict : bool;
   json : bool;
+  reduction : Dolphin_explore.Reduction.t;
   max_states : int option;
   max_depth : int option;
   max_memory : int option;
@@ -17,7 +18,7 @@ type settings = {
 (* Without [--strict] these are worth knowing, but a program may mean them. *)
 let is_remark : Property.t -> bool = function
   | No_halt | No_leftover | All_reached -> true
-  | No_deadlock | Termination | No_error | Vehicles -> false
+  | No_deadlock | Termination | No_error | Assertions | Vehicles | Invariant _ | Formula _ -> false
 
 (* {1 Progress} *)
 
@@ -56,8 +57,8 @@ let print_waiting (program : Dolphin_semantics.Core.program) (run : Search.run) 
     List.iter guard (Dolphin_runtime.Driver.guards residual)
   | _ -> ()
 
-let print_outcome program strict (o : Search.outcome) =
-  let shown = List.map (fun (property, verdict) -> (property, verdict, is_remark property && not strict)) o.verdicts in
+let print_outcome program s (o : Search.outcome) =
+  let shown = List.map (fun (property, verdict) -> (property, verdict, is_remark property && not s.strict)) o.verdicts in
   List.iter
     (fun (property, (verdict : Search.verdict), remark) ->
        match verdict with
@@ -71,7 +72,9 @@ let print_outcome program strict (o : Search.outcome) =
     (fun (property, (verdict : Search.verdict), remark) ->
        match verdict with
        | Violated run when not remark ->
-         Format.printf "@.%s: a shortest run in which %s@." (Property.name property) (Property.question property);
+         Format.printf "@.%s: a%s run in which %s@." (Property.name property)
+           (if s.reduction = Whole then " shortest" else "")
+           (Property.question property);
          print_run program run;
          if property = No_deadlock then print_waiting program run
        | Unreached pieces when not remark ->
@@ -121,30 +124,45 @@ let status strict (o : Search.outcome) : Exit_status.t =
 
 (* {1 The command} *)
 
-let explore (program : Program_file.t) (fleet : Fleet_file.t) s =
+let explore (program : Program_file.t) (fleet : Fleet_file.t) s invariants =
   let interrupted = ref false in
   Sys.set_signal Sys.sigint (Signal_handle (fun _ -> interrupted := true));
   let live = Unix.isatty Unix.stderr && not s.json in
   let options : Search.options =
     { environment = World_of.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
+      reduction = s.reduction;
       max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; timeout = s.timeout;
       clock = Unix.gettimeofday;
+      invariants;
       interrupted = (fun () -> !interrupted);
       progress = (if live then show_progress else ignore) }
   in
   let outcome = Search.run options program.program (World_of.world fleet.scenario) in
   if live then clear_progress ();
   if s.json then print_endline (Yojson.Safe.to_string (json_of_outcome program.program outcome))
-  else print_outcome program.program s.strict outcome;
+  else print_outcome program.program s outcome;
   status s.strict outcome
 
-let run path fleet answers faults strict json max_states max_depth max_memory timeout =
+(* Each of [texts] read by [of_string], or the first that is wrong. *)
+let read_all option of_string texts =
+  let read result text =
+    match result, of_string text with
+    | Error _, _ -> result
+    | Ok _, Error why -> Error (Printf.sprintf "%s '%s': %s" option text why)
+    | Ok found, Ok x -> Ok (x :: found)
+  in
+  Result.map List.rev (List.fold_left read (Ok []) texts)
+
+let run path fleet answers faults strict json reduction invariants max_states max_depth max_memory timeout =
   match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet) with
   | Error trouble, _ -> Program_file.tell trouble; Exit_status.Bad_input
   | Ok _, Error trouble -> Fleet_file.tell trouble; Exit_status.Bad_input
   | Ok program, Ok fleet ->
     Report.diagnostics ~source:program.source program.warnings;
-    explore program fleet { answers; faults; strict; json; max_states; max_depth; max_memory; timeout }
+    let settings = { answers; faults; strict; json; reduction; max_states; max_depth; max_memory; timeout } in
+    (match read_all "--invariant" (Dolphin_explore.Condition.of_string program.program) invariants with
+     | Error why -> Report.complain why; Bad_input
+     | Ok invariants -> explore program fleet settings invariants)
 
 let faults =
   let parse text =
@@ -201,17 +219,34 @@ let strict =
   let doc = "Count as violations what otherwise is only noted: $(b,halt), tuples left over, code that no run reaches." in
   Arg.(value & flag & info [ "strict" ] ~doc)
 
+let invariants =
+  let doc =
+    "Check that $(docv) holds in every state. It is an expression of the language over the global variables of the \
+     program, in which also $(b,running\\('plan'\\)), $(b,running\\('plan', 'vehicle'\\)), $(b,bound\\('vehicle'\\)) and \
+     $(b,poll\\(key: value\\)) may stand. As long as a variable in it has no value, it holds. May be repeated."
+  in
+  Arg.(value & opt_all string [] & info [ "invariant" ] ~docv:"EXPR" ~doc)
+
+let reduction =
+  let kinds = [ ("none", Dolphin_explore.Reduction.Whole); ("por", Partial_order) ] in
+  let doc =
+    "How much is looked at: $(b,none) for every state; $(b,por) for one of the orders that make no difference (partial \
+     order reduction), with the same verdicts. The number of states printed is that of the states looked at."
+  in
+  Arg.(value & opt (enum kinds) Partial_order & info [ "reduction" ] ~docv:"KIND" ~doc)
+
 let json = Arg.(value & flag & info [ "json" ] ~doc:"Print the result as one JSON object.")
 
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) follows every run that $(i,PROG) can have: every order in which tasks end and timers expire, every choice \
         of vehicles, every branch that is ready. It uses the very transition function that $(mname) $(b,exec) uses. For \
-        each of these it says whether it holds, or shows a shortest run that breaks it, a column for the program and one \
+        each of these it says whether it holds, or shows a run that breaks it (a shortest one with $(b,--reduction none)), a column for the program and one \
         for each vehicle:";
     `I ("no deadlock", "some transition is possible until the program ends.");
     `I ("termination", "every fair run ends: tasks that run end some time, timers expire, no step is put off for ever.");
     `I ("no error", "no fault, and no error of a task that nothing handles.");
+    `I ("assertions", "no $(b,assert) of the program fails.");
     `I ("vehicles", "every $(b,pick) and every $(b,execute) gets its vehicles.");
     `P "Noted are also runs that call $(b,halt), tuples left over at the end, and code that no run reaches.";
     `P "Positions and batteries stay as they are at the start, and all vehicles of the fleet are in reach. Calls of a \
@@ -223,6 +258,7 @@ let man =
     `S Manpage.s_exit_status;
     `S Manpage.s_examples;
     `Pre "  $(mname) $(tname) examples/rendezvous.dol\n  $(mname) $(tname) examples/rendezvous.dol --faults fail=1\n\
+         \  $(mname) $(tname) mission.dol --invariant \"!(running('a') && running('b'))\"\n\
          \  $(mname) $(tname) mission.dol --max-memory 8G --timeout 60" ]
   @ Options.see_also
 
@@ -233,5 +269,6 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ max_states $ max_depth
+      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ reduction $ invariants
+      $ max_states $ max_depth
       $ max_memory $ timeout)

@@ -26,7 +26,7 @@ let of_builtin = function
   | Set_connection_timeout -> Some "setConnectionTimeout"
   | Platform_task | Make_action | Make_condition | Make_wait_for | Make_until | Make_idle | Make_during | Make_watch
   | Halt | Consume _ | Poll _ | Position_of | Battery_of | Location_of | Area_of | Ignore | Propagate | Get_supplier
-  | Is_host | Math _ -> None
+  | Assert | Is_host | Math _ -> None
 
 (* What the code in an argument of this operation is for. *)
 let code_of = function
@@ -57,7 +57,9 @@ let unreached t program =
     | Apply (operation, arguments) ->
       let code_for what argument =
         match argument.node with
-        | Make_closure (lambda, _) -> note lambda.lambda_site what (Sites.mem lambda.id t.lambdas)
+        | Make_closure (lambda, _) ->
+          let what = if lambda.label = "assert" then "assert" else what in
+          note lambda.lambda_site what (Sites.mem lambda.id t.lambdas)
         | Constant (Closure c) -> note c.lambda.lambda_site what (Sites.mem c.lambda.id t.lambdas)
         | _ -> ()
       in

@@ -11,6 +11,15 @@ type t = {
   mutable table : words_of_chunk;  (* 0: free; else a tag above 32 bits of a state's number plus 1 *)
   mutable mask : int;
   mutable most : int;  (* states before the table has to grow *)
+  waiting : waiting;
+}
+
+(* States to be added, by their order. *)
+and waiting = {
+  keys : int array;
+  hashes : int array;
+  from : int array;  (* parents *)
+  mutable length : int;
 }
 
 let chunk_bits = 16
@@ -24,9 +33,17 @@ let fresh_table slots =
   Array1.fill table 0;
   table
 
+(* As many as there are lines in the first caches, about. *)
+let most_waiting = 192
+
+let nothing_waits words =
+  let array n = Array.make n 0 in
+  { keys = array (most_waiting * words); hashes = array most_waiting; from = array most_waiting; length = 0 }
+
 let create ~words =
   let slots = 4096 in
-  { words; chunks = [||]; parents = [||]; count = 0; table = fresh_table slots; mask = slots - 1; most = most_of slots }
+  let table = fresh_table slots and waiting = nothing_waits words in
+  { words; chunks = [||]; parents = [||]; count = 0; table; mask = slots - 1; most = most_of slots; waiting }
 
 let words t = t.words
 let count t = t.count
@@ -61,19 +78,19 @@ let hash t (key : int array) =
 
 let tag_of h = (h lsr 1) land lnot number_mask
 
-let rec same (chunk : words_of_chunk) base (key : int array) w =
-  w < 0 || (word chunk (base + w) = Array.unsafe_get key w && same chunk base key (w - 1))
+let rec same (chunk : words_of_chunk) base (keys : int array) at w =
+  w < 0 || (word chunk (base + w) = Array.unsafe_get keys (at + w) && same chunk base keys at (w - 1))
 
-(* The slot of [key], or the free one where it belongs. *)
-let rec probe t (table : words_of_chunk) key tag slot =
+(* The slot of the key that [keys] has from [at] on, or the free one where it belongs. *)
+let rec probe t (table : words_of_chunk) keys at tag slot =
   let entry = Array1.unsafe_get table slot in
   if entry = 0 then slot
   else if entry land lnot number_mask = tag then begin
     let i = (entry land number_mask) - 1 in
-    if same (chunk t i) ((i land chunk_mask) * t.words) key (t.words - 1) then slot
-    else probe t table key tag ((slot + 1) land t.mask)
+    if same (chunk t i) ((i land chunk_mask) * t.words) keys at (t.words - 1) then slot
+    else probe t table keys at tag ((slot + 1) land t.mask)
   end
-  else probe t table key tag ((slot + 1) land t.mask)
+  else probe t table keys at tag ((slot + 1) land t.mask)
 
 let rec free (table : words_of_chunk) mask slot =
   if Array1.unsafe_get table slot = 0 then slot else free table mask ((slot + 1) land mask)
@@ -97,7 +114,7 @@ let resize t slots =
   t.most <- most_of slots;
   fill t
 
-let append t key ~parent =
+let append t keys at ~parent =
   let i = t.count in
   let within = i land chunk_mask in
   if within = 0 then begin
@@ -107,28 +124,76 @@ let append t key ~parent =
   let chunk = chunk t i and parents : parents_of_chunk = Array.unsafe_get t.parents (i lsr chunk_bits) in
   let base = within * t.words in
   for w = 0 to t.words - 1 do
-    Array1.unsafe_set chunk (base + w) (Array.unsafe_get key w)
+    Array1.unsafe_set chunk (base + w) (Array.unsafe_get keys (at + w))
   done;
   Array1.unsafe_set parents within (Int32.of_int parent);
   t.count <- i + 1
 
-let add t key ~parent =
-  let h = hash t key in
+let add_at t keys at h ~parent =
   let tag = tag_of h in
-  let slot = probe t t.table key tag (h land t.mask) in
+  let slot = probe t t.table keys at tag (h land t.mask) in
   let entry = Array1.unsafe_get t.table slot in
   if entry <> 0 then (entry land number_mask) - 1
   else begin
     let i = t.count in
-    append t key ~parent;
+    append t keys at ~parent;
     Array1.unsafe_set t.table slot (tag lor (i + 1));
     if t.count > t.most then resize t (2 * (t.mask + 1));
     -1 - i
   end
 
+let add t key ~parent = add_at t key 0 (hash t key) ~parent
+
+(* {1 Many at a time}
+
+   Looking for a state costs two reads of memory, of the table and of the state found there, and little else. A processor
+   waits for many reads at once if they do not depend on each other: so the table is read for all that wait, then the
+   states, and only then are they added, from the caches. *)
+
+let read_tables t =
+  let waiting = t.waiting and table : words_of_chunk = t.table and mask = t.mask in
+  let seen = ref 0 in
+  for k = 0 to waiting.length - 1 do
+    seen := !seen lxor Array1.unsafe_get table (Array.unsafe_get waiting.hashes k land mask)
+  done;
+  ignore (Sys.opaque_identity !seen)
+
+let read_states t =
+  let waiting = t.waiting and table : words_of_chunk = t.table and mask = t.mask in
+  let seen = ref 0 in
+  for k = 0 to waiting.length - 1 do
+    let i = (Array1.unsafe_get table (Array.unsafe_get waiting.hashes k land mask) land number_mask) - 1 in
+    if i >= 0 then seen := !seen lxor word (chunk t i) ((i land chunk_mask) * t.words)
+  done;
+  ignore (Sys.opaque_identity !seen)
+
+let flush t ~fresh =
+  let waiting = t.waiting in
+  read_tables t;
+  read_states t;
+  for k = 0 to waiting.length - 1 do
+    let at = k * t.words in
+    let parent = Array.unsafe_get waiting.from k in
+    let i = add_at t waiting.keys at (Array.unsafe_get waiting.hashes k) ~parent in
+    if i < 0 then fresh (-1 - i) (Array.unsafe_get waiting.keys at)
+  done;
+  waiting.length <- 0
+
+let push t (key : int array) ~parent ~fresh =
+  let waiting = t.waiting in
+  let k = waiting.length in
+  let at = k * t.words in
+  for w = 0 to t.words - 1 do
+    Array.unsafe_set waiting.keys (at + w) (Array.unsafe_get key w)
+  done;
+  Array.unsafe_set waiting.hashes k (hash t key);
+  Array.unsafe_set waiting.from k parent;
+  waiting.length <- k + 1;
+  if k + 1 = most_waiting then flush t ~fresh
+
 let find t key =
   let h = hash t key in
-  let slot = probe t t.table key (tag_of h) (h land t.mask) in
+  let slot = probe t t.table key 0 (tag_of h) (h land t.mask) in
   (t.table.{slot} land number_mask) - 1
 
 let bytes_of_chunk t = chunk_states * ((8 * t.words) + 4)
@@ -156,7 +221,7 @@ let rewrite t ~words f =
     t.chunks.(c) <- renewed
   in
   Array.iteri renewed t.chunks;
-  let t = { t with words } in
+  let t = { t with words; waiting = nothing_waits words } in
   Array1.fill t.table 0;
   fill t;
   t

@@ -15,6 +15,14 @@ val count : t -> int
 val add : t -> int array -> parent:int -> int
 (** [add t key ~parent] is [i] if the first words of [key] are state [i], and [-1 - i] if that state is new. *)
 
+val push : t -> int array -> parent:int -> fresh:(int -> int -> unit) -> unit
+(** [push t key ~parent ~fresh] is [add t key ~parent], now or later, but before a {!flush}, and in the order of pushes.
+    When it comes, [fresh] gets the number and the first word of each state that is new. This is faster by far once the
+    set has outgrown the processor's caches. *)
+
+val flush : t -> fresh:(int -> int -> unit) -> unit
+(** [flush t ~fresh] adds what has been pushed. *)
+
 val find : t -> int array -> int
 (** [find t key] is the number of state [key], or [-1]. *)
 
@@ -32,4 +40,5 @@ val bytes_to_grow : t -> int
 
 val rewrite : t -> words:int -> (int array -> int array -> unit) -> t
 (** [rewrite t ~words f] is the states of [t] in new words, under the same numbers: [f old fresh] puts the new words of
-    [old] into [fresh], which is all 0. Different states must stay different. [t] is used up. *)
+    [old] into [fresh], which is all 0. Different states must stay different, and nothing may
+    wait to be added. [t] is used up. *)

@@ -1,31 +1,40 @@
 open Dolphin_semantics
 
-type t = No_deadlock | Termination | No_error | Vehicles | No_halt | No_leftover | All_reached
+type t = No_deadlock | Termination | No_error | Assertions | Vehicles | No_halt | No_leftover | All_reached
+       | Invariant of string
+       | Formula of string
 
-let all = [ No_deadlock; Termination; No_error; Vehicles; No_halt; No_leftover; All_reached ]
+let all = [ No_deadlock; Termination; No_error; Assertions; Vehicles; No_halt; No_leftover; All_reached ]
 
 let name = function
   | No_deadlock -> "no deadlock"
   | Termination -> "termination"
   | No_error -> "no unhandled error"
+  | Assertions -> "assertions"
   | Vehicles -> "vehicles for all tasks"
   | No_halt -> "no halt"
   | No_leftover -> "no leftover tuples"
   | All_reached -> "all code reached"
+  | Invariant text -> "invariant " ^ text
+  | Formula text -> "formula " ^ text
 
 let question = function
   | No_deadlock -> "nothing can happen any more, and the program has not ended"
   | Termination -> "the program can go on for ever"
   | No_error -> "an error that nobody handles ends the program"
+  | Assertions -> "an assertion fails"
   | Vehicles -> "vehicles are missing"
   | No_halt -> "the program halts"
   | No_leftover -> "tuples are left when the program completes"
   | All_reached -> "no run reaches this"
+  | Invariant _ -> "it does not hold"
+  | Formula _ -> "it does not hold"
 
 let pp ppf p = Format.pp_print_string ppf (name p)
 
 let broken_by_end rules (c : Configuration.t) =
   match c.control with
+  | Ended (Failed fault) when Fault.is_assertion fault -> Some Assertions
   | Ended (Failed _) ->
     let of_vehicles = function Rule.Alloc_err | Pick_err -> true | _ -> false in
     Some (if List.exists of_vehicles rules then Vehicles else No_error)

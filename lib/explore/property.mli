@@ -8,13 +8,16 @@ type t =
   (** every fair run ends: each task that runs ends at some time, each timer expires, and no step of the program that
       stays possible is put off for ever *)
   | No_error  (** no fault, and no error of a task, is left to end the program *)
+  | Assertions  (** no assertion fails *)
   | Vehicles  (** every [pick] and every [execute] gets its vehicles *)
   | No_halt  (** [halt] is not called *)
   | No_leftover  (** no tuples are left when the program completes *)
   | All_reached  (** every task and every piece of code inside of tasks is used by some run *)
+  | Invariant of string  (** this {!Condition} holds in every state *)
+  | Formula of string  (** this formula of temporal logic holds of every run *)
 
 val all : t list
-(** In this order. *)
+(** Those that need not be given, in this order. *)
 
 val name : t -> string
 (** A short phrase: ["no deadlock"]. *)

@@ -2,11 +2,13 @@ open Dolphin_semantics
 
 type options = {
   environment : Environment.options;
+  reduction : Reduction.t;
   max_states : int option;
   max_depth : int option;
   max_memory : int option;
   timeout : float option;
   clock : unit -> float;
+  invariants : Condition.t list;
   interrupted : unit -> bool;
   progress : progress -> unit;
 }
@@ -24,17 +26,19 @@ and progress = {
 let default =
   {
     environment = Environment.default;
+    reduction = Whole;
     max_states = None;
     max_depth = None;
     max_memory = None;
     timeout = None;
     clock = Sys.time;
+    invariants = [];
     interrupted = (fun () -> false);
     progress = ignore;
   }
 
 type run = { steps : Transition.t list; cycle : Transition.t list }
-type bound = States | Depth | Memory | Time | Interruption
+type bound = States | Depth | Memory | Time | Interruption | Broken_condition of string
 
 type verdict =
   | Holds
@@ -57,6 +61,7 @@ type outcome = {
 type t = {
   options : options;
   space : Space.t;
+  invariants : Invariant.t list;
   started : float;
   mutable reported : float;
   mutable next : int;  (* to be expanded *)
@@ -101,8 +106,16 @@ let stride = 4_096
 let explore t =
   let space = t.space in
   let next_look = ref 0 in
-  while t.next < Space.count space do
+  let more () =
+    t.next < Space.count space
+    || begin
+      Space.flush space;
+      t.next < Space.count space
+    end
+  in
+  while more () do
     if t.next >= t.level_end then begin
+      Space.flush space;
       t.depth <- t.depth + 1;
       t.level_end <- Space.count space;
       if t.options.max_depth = Some t.depth then raise (Stop Depth)
@@ -111,6 +124,7 @@ let explore t =
       next_look := t.next + stride;
       look_around t "exploring"
     end;
+    List.iter (fun invariant -> Invariant.check invariant space t.next) t.invariants;
     Space.expand space t.next;
     t.next <- t.next + 1;
     if exceeds t.options.max_states (Space.count space) then raise (Stop States)
@@ -132,9 +146,17 @@ let verdicts t program world stopped =
     | Some { stem; around } -> Violated { steps = transitions stem; cycle = transitions around }
     | exception Stop bound -> Inconclusive bound
   in
+  let invariant i =
+    match Invariant.broken i with
+    | Some state -> Violated (run_to state)
+    | None -> (
+        match Invariant.trouble i with
+        | Some why -> Inconclusive (Broken_condition why)
+        | None -> unless_stopped (fun () -> Holds))
+  in
   let verdict property =
     match (property : Property.t) with
-    | No_deadlock | No_error | Vehicles | No_halt | No_leftover -> (
+    | No_deadlock | No_error | Assertions | Vehicles | No_halt | No_leftover -> (
         match Space.broken t.space property with
         | Some i -> Violated (run_to i)
         | None -> unless_stopped (fun () -> Holds))
@@ -142,19 +164,25 @@ let verdicts t program world stopped =
     | All_reached ->
       unless_stopped (fun () ->
           match Coverage.unreached (Space.coverage t.space) program with [] -> Holds | pieces -> Unreached pieces)
+    | Invariant _ | Formula _ -> invalid_arg "Search.verdicts"
   in
-  List.map (fun property -> (property, verdict property)) Property.all
+  let given i = (Property.Invariant (Condition.to_string (Invariant.condition i)), invariant i) in
+  List.map (fun property -> (property, verdict property)) Property.all @ List.map given t.invariants
 
 let run options program world =
   let started = options.clock () in
-  let space = Space.create options.environment program world in
-  let t = { options; space; started; reported = started; next = 0; depth = -1; level_end = 0 } in
+  (* What is asked of every state cannot be judged by some of them. *)
+  let reduction = if options.invariants = [] then options.reduction else Whole in
+  let space = Space.create ~reduction options.environment program world in
+  let invariants = List.map (Invariant.create program world) options.invariants in
+  let t = { options; space; invariants; started; reported = started; next = 0; depth = -1; level_end = 0 } in
   let stopped =
     match explore t with
     | () -> None
     | exception Stop bound -> Some bound
     | exception Out_of_memory -> Some Memory
   in
+  Space.flush space;
   let verdicts = verdicts t program world stopped in
   {
     states = Space.count space;
@@ -176,7 +204,8 @@ let pp_bound ppf bound =
      | Depth -> "the bound on depth was met"
      | Memory -> "the bound on memory was met"
      | Time -> "the time was up"
-     | Interruption -> "it was interrupted")
+     | Interruption -> "it was interrupted"
+     | Broken_condition why -> "the condition cannot be told: " ^ why)
 
 let pp_verdict (program : Core.program) ppf (property, verdict) =
   let print format = Format.fprintf ppf format in
@@ -184,6 +213,14 @@ let pp_verdict (program : Core.program) ppf (property, verdict) =
   print "%a: " Property.pp property;
   match verdict with
   | Holds -> print "holds"
+  | Violated { steps = run; cycle = [] } when property = Assertions -> (
+      print "violated after %s: " (steps (List.length run));
+      match (List.nth run (List.length run - 1)).next.control with
+      | Ended (Failed fault) ->
+        Option.iter (print "%a: " Dolphin_syntax.Location.pp) (Fault.location program fault);
+        print "%s" fault.message
+      | Ended (Completed | Halted _ | Interrupted) | Script _ | Waiting _ | Executing _ ->
+        print "%s" (Property.question property))
   | Violated { steps = run; cycle = [] } ->
     print "violated after %s: %s" (steps (List.length run)) (Property.question property)
   | Violated { steps = run; cycle } ->

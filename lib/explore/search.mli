@@ -7,11 +7,13 @@ open Dolphin_semantics
 (** How far to go, and who is told. *)
 type options = {
   environment : Environment.options;
+  reduction : Reduction.t;
   max_states : int option;
   max_depth : int option;  (** in transitions *)
   max_memory : int option;  (** in bytes, of the whole process but for code and libraries *)
   timeout : float option;  (** in seconds of [clock] *)
   clock : unit -> float;  (** seconds, from any start *)
+  invariants : Condition.t list;
   interrupted : unit -> bool;  (** asked often: whether to stop *)
   progress : progress -> unit;  (** called about once a second *)
 }
@@ -27,7 +29,7 @@ and progress = {
 }
 
 val default : options
-(** No bounds, the default environment, [Sys.time], no reports. *)
+(** No bounds, no reduction, the default environment, [Sys.time], no reports. *)
 
 (** {1:outcomes Outcomes} *)
 
@@ -37,7 +39,13 @@ type run = {
   cycle : Transition.t list;  (** goes on from there for ever, if there is any *)
 }
 
-type bound = States | Depth | Memory | Time | Interruption
+type bound =
+  | States
+  | Depth
+  | Memory
+  | Time
+  | Interruption
+  | Broken_condition of string  (** what was asked is faulty in some state *)
 
 type verdict =
   | Holds
@@ -53,7 +61,7 @@ type outcome = {
   bytes : int;  (** of memory, as [max_memory] counts it *)
   seconds : float;
   stopped : bound option;
-  verdicts : (Property.t * verdict) list;  (** for each of {!Property.all} *)
+  verdicts : (Property.t * verdict) list;  (** for each of {!Property.all}, then for each invariant *)
 }
 
 val run : options -> Core.program -> World.t -> outcome

@@ -15,6 +15,7 @@ module Wholes = Interner.Make (struct
 
 type t = {
   options : Environment.options;
+  reduction : Reduction.t;
   program : Core.program;
   world : World.t;
   parts : Parts.t;
@@ -35,6 +36,7 @@ type t = {
   mutable transitions : int;
   broken : int array;  (* by rank in [Property.all]: the first state, or -1 *)
   places : (int * int, unit) Hashtbl.t;  (* which place of the script follows which; executing ones as negative numbers *)
+  mutable fresh : int -> int -> unit;  (* what is done with new states, by number and first word *)
   mutable gathering : bool;
   mutable gathered : int list;
 }
@@ -227,20 +229,26 @@ let state t i =
   Packed.load t.states i key;
   read t key
 
+let shared t i =
+  let key = Array.make (Packed.words t.states) 0 in
+  Packed.load t.states i key;
+  if key.(0) land t.shape_mask = 0 then -1 else (key.(0) lsr t.widths.shape) land t.shared_mask
+
 (* {1 Expanding} *)
 
 let note_broken t property i =
   let rank = rank property in
   if t.broken.(rank) < 0 then t.broken.(rank) <- i
 
+let fresh t i word =
+  if word land t.shape_mask = 0 then
+    Option.iter (fun property -> note_broken t property i) t.breaks.(word lsr t.widths.shape)
+
+let flush t = Packed.flush t.states ~fresh:t.fresh
+
 let visit t key parent =
-  let i = Packed.add t.states key ~parent in
-  if i < 0 then begin
-    let word = Array.unsafe_get key 0 in
-    if word land t.shape_mask = 0 then
-      Option.iter (fun p -> note_broken t p (-1 - i)) t.breaks.(word lsr t.widths.shape)
-  end
-  else if t.gathering then t.gathered <- i :: t.gathered
+  if t.gathering then t.gathered <- Packed.find t.states key :: t.gathered
+  else Packed.push t.states key ~parent ~fresh:t.fresh
 
 let follows t place place' = if not (Hashtbl.mem t.places (place, place')) then Hashtbl.add t.places (place, place') ()
 
@@ -346,6 +354,54 @@ let go_by_case t (s : Shape.t) position (family : Parts.family) (step : Parts.st
 let unknown = Parts.unknown
 let special = Parts.special
 
+let local_status t (step : Parts.step) family shared : Stubborn.status =
+  let by_case () : Stubborn.status =
+    match Parts.case t.parts family step shared with
+    | { possible = false; _ } -> Impossible
+    | { result = Ends _; _ } -> Ends
+    | { result = Stays _ | Gone | Becomes _; _ } -> Moves
+  in
+  match step.dependence with
+  | Free -> Moves
+  | By_case -> by_case ()
+  | Guarded guard ->
+    let result = Parts.guarded t.parts step guard shared in
+    if result >= 0 then Moves else if result = special then by_case () else Impossible
+
+let take_step t s position family (step : Parts.step) shared i =
+  match step.dependence with
+  | Free -> go_to t s position step.target shared shared i
+  | Guarded guard when Parts.guarded t.parts step guard shared >= 0 ->
+    go_to t s position step.target shared (Parts.guarded t.parts step guard shared) i
+  | Guarded _ | By_case -> ignore (go_by_case t s position family step shared i)
+
+(* As [expand_executing], with steps that are enough. Which they are depends on nothing but the configuration. *)
+let expand_some t (s : Shape.t) (parts : Parts.part array) shared i =
+  let status position k =
+    let part = parts.(position) in
+    local_status t part.steps.(k) part.family shared
+  in
+  let components = Array.map (Parts.components t.parts) parts in
+  let choice = Stubborn.choose components status in
+  let taken = ref 0 in
+  let go position (part : Parts.part) =
+    let take k step =
+      let is_chosen = match choice with None -> true | Some chosen -> chosen position k in
+      if is_chosen || components.(position).ends.(k) then
+        match status position k with
+        | Impossible -> ()
+        | Moves when not is_chosen -> ()
+        | Moves | Ends ->
+          check_fit t;
+          incr taken;
+          take_step t s position part.family step shared i
+    in
+    Array.iteri take part.steps
+  in
+  Array.iteri go parts;
+  check_fit t;
+  !taken
+
 let expand_part t (s : Shape.t) position (family : Parts.family) (part : Parts.part) shared i =
   let steps = part.steps in
   let taken = ref 0 in
@@ -372,22 +428,31 @@ let expand_part t (s : Shape.t) position (family : Parts.family) (part : Parts.p
   done;
   !taken
 
+let part_at t (s : Shape.t) position =
+  let family = Array.unsafe_get s.families position in
+  let part = family.members.(local_of s t.key position) in
+  if Array.length part.steps = 0 then begin
+    Parts.reach t.parts part;
+    check_fit t
+  end;
+  part
+
 let expand_executing t i number =
   let s = Array.unsafe_get t.shapes number in
-  let key = t.key in
-  let shared = (key.(0) lsr t.widths.shape) land t.shared_mask in
-  let taken = ref 0 in
-  for position = 0 to Array.length s.families - 1 do
-    let family = Array.unsafe_get s.families position in
-    let part = family.members.(local_of s key position) in
-    if Array.length part.steps = 0 then begin
-      Parts.reach t.parts part;
-      check_fit t
-    end;
-    taken := !taken + expand_part t s position family part shared i
-  done;
-  if !taken = 0 then note_broken t No_deadlock i;
-  !taken
+  let shared = (t.key.(0) lsr t.widths.shape) land t.shared_mask in
+  let taken =
+    match t.reduction with
+    | Partial_order -> expand_some t s (Array.init (Array.length s.families) (part_at t s)) shared i
+    | Whole ->
+      let taken = ref 0 in
+      for position = 0 to Array.length s.families - 1 do
+        let part = part_at t s position in
+        taken := !taken + expand_part t s position part.family part shared i
+      done;
+      !taken
+  in
+  if taken = 0 then note_broken t No_deadlock i;
+  taken
 
 let rec expand t i =
   match
@@ -397,6 +462,7 @@ let rec expand t i =
   with
   | taken -> if not t.gathering then t.transitions <- t.transitions + taken
   | exception Outgrown ->
+    flush t;
     repack t;
     expand t i
 
@@ -407,11 +473,13 @@ let successors t i =
   t.gathering <- false;
   List.rev t.gathered
 
-let create options program world =
-  let parts = Parts.create options program world in
+let create ?(reduction = Reduction.Whole) options program world =
+  let foreseen = match reduction with Whole -> None | Partial_order -> Some 0 in
+  let parts = Parts.create ?foreseen options program world in
   let t =
     {
       options;
+      reduction;
       program;
       world;
       parts;
@@ -432,13 +500,16 @@ let create options program world =
       transitions = 0;
       broken = Array.make (List.length Property.all) (-1);
       places = Hashtbl.create 64;
+      fresh = (fun _ _ -> ());
       gathering = false;
       gathered = [];
     }
   in
   set_widths t t.widths;
   ignore (write t t.key [] (Configuration.initial program) Environment.initial);
+  t.fresh <- fresh t;
   visit t t.key 0;
+  flush t;
   t
 
 (* {1 Findings} *)

@@ -7,17 +7,23 @@ open Dolphin_semantics
 
 type t
 
-val create : Environment.options -> Core.program -> World.t -> t
+val create : ?reduction:Reduction.t -> Environment.options -> Core.program -> World.t -> t
 (** With the initial state, number 0. *)
 
 val expand : t -> int -> unit
-(** [expand t i] adds the states that transitions of state [i] lead to. *)
+(** [expand t i] adds the states that transitions of state [i] lead to, at the latest when {!flush} is called. *)
+
+val flush : t -> unit
 
 val successors : t -> int -> int list
 (** [successors t i] is the states that transitions of [i] lead to, which have all been added before. *)
 
 val state : t -> int -> Configuration.t * Environment.t
 (** [state t i] is state [i]. *)
+
+val shared : t -> int -> int
+(** [shared t i] is a number for the store, N, B and what the outside remembers of state [i], if it executes a task, and
+    otherwise -1. *)
 
 val parent : t -> int -> int
 (** [parent t i] is the state from which [i] was reached first; 0 is its own. *)

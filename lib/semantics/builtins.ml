@@ -15,6 +15,7 @@ type arguments =
   | Pairs_or_key of (string list -> Core.builtin)
   | Execute
   | Set_connection_timeout
+  | Assert
 
 type place = Anywhere | Script_only | Handler_only
 type t = { arguments : arguments; place : place; result : kind; reads_sensors : bool }
@@ -30,6 +31,7 @@ let table : (string * t) list =
     ("action", these Make_action [ Closure ] ~result:Task);
     ("condition", these Make_condition [ Closure ] ~result:Task);
     ("idle", these Make_idle [ Number ] ~result:Task);
+    ("assert", { (other Assert) with result = Task });
     ("execute", other Execute ~place:Script_only);
     ("release", these Release [ Vehicles ] ~place:Script_only ~result:Other);
     ("setConnectionTimeout", other Set_connection_timeout);

@@ -21,6 +21,7 @@ type arguments =
   | Pairs_or_key of (string list -> Core.builtin)  (** [poll]: pairs, or one key *)
   | Execute
   | Set_connection_timeout
+  | Assert  (** code, and perhaps a text *)
 
 type place =
   | Anywhere

@@ -51,3 +51,4 @@ type outcome =
   | Stop of string
   | Wrong of string  (* a fault of this very operation *)
   | Wrong_at of Fault.t
+  | Refuted of string  (* an assertion does not hold *)

@@ -95,17 +95,20 @@ let first_message = function
       match d.hint with Some hint -> Printf.sprintf "%s (%s)" d.message hint | None -> d.message)
   | [] -> "it is no expression"
 
-let answer (p : Core.program) text =
+let expression (p : Core.program) ~globals (e : Ast.expression) =
+  (* Beyond the program's own sites: what is made here has no place in the program's text. *)
+  let first_site = Array.length p.locations in
+  let globals = Array.to_list p.global_names @ globals in
+  let program = Scope.create ~first_site ~functions:p.functions ~globals () in
+  let lambda = shell program e.at "answer" 0 in
+  let env = { Checks.program; code = Scope.code program Main None; answer = true } in
+  fill env lambda Main [] e.at [ { Ast.it = Expression e; at = e.at } ];
+  report_unknown program;
+  match List.filter is_error (Scope.reports program) with
+  | [] -> Ok { lambda; captured = [||] }
+  | errors -> Error (first_message errors)
+
+let answer p text =
   match Dolphin_syntax.Parse.expression ~file:"answer" text with
   | Error ds -> Error (first_message ds)
-  | Ok e -> (
-      (* Beyond the program's own sites: what an answer makes has no place in the program's text. *)
-      let first_site = Array.length p.locations in
-      let program = Scope.create ~first_site ~functions:p.functions ~globals:(Array.to_list p.global_names) () in
-      let lambda = shell program e.at "answer" 0 in
-      let env = { Checks.program; code = Scope.code program Main None; answer = true } in
-      fill env lambda Main [] e.at [ { Ast.it = Expression e; at = e.at } ];
-      report_unknown program;
-      match List.filter is_error (Scope.reports program) with
-      | [] -> Ok { lambda; captured = [||] }
-      | errors -> Error (first_message errors))
+  | Ok e -> expression p ~globals:[] e

@@ -1,13 +1,20 @@
 (** What went wrong while a program ran: in its own code, or on a vehicle. *)
 
+type cause =
+  | Code  (** of the program, or of a vehicle: an error, which [watch] may handle *)
+  | Assertion  (** an assertion that fails ends the program, whatever is around it *)
+
 type t = {
   message : string;  (** one sentence without a full stop: what is wrong, and where it helps, what would be right *)
   site : Core.site;  (** the place in the program that failed; {!unknown_site} if there is none *)
+  cause : cause;
 }
 
 val unknown_site : Core.site
 
 val make : Core.site -> string -> t
+val assertion : Core.site -> string -> t
+val is_assertion : t -> bool
 
 val location : Core.program -> t -> Dolphin_syntax.Location.t option
 (** [location p f] is where in [p]'s text [f] happened. *)

@@ -336,6 +336,7 @@ and settle_outcome context fuel (outcome : Code.outcome) at locals stack calls =
   | Stop message -> (Halted message, stopped (Give Null), context)
   | Wrong message -> fault context (stopped (Give Null)) at message
   | Wrong_at f -> (Faulted f, stopped (Give Null), context)
+  | Refuted message -> (Faulted (Fault.assertion at message), stopped (Give Null), context)
 
 let run ~fuel context m =
   match m.focus with

@@ -198,6 +198,8 @@ let apply context at operation arguments =
           | Error e -> Wrong (Format.asprintf "%a" Dolphin_geo.Position.pp_error e))
       | Some [] | Some [ _ ] | None -> Wrong "location takes latitude and longitude in degrees, and a height in metres")
   | Area_of, [ centre; radius ] -> of_result (Operators.binary Around centre radius)
+  | Assert, [] -> Refuted "assertion failed"
+  | Assert, [ x ] -> Refuted ("assertion failed: " ^ Value.to_string x)
   | Ignore, [] -> settle context Ignored
   | Propagate, [] -> settle context Propagated
   | Get_supplier, [] ->
@@ -205,5 +207,5 @@ let apply context at operation arguments =
   | Is_host, [ x ] -> Value (Boolean (match x with Host _ -> true | _ -> false))
   | Math name, arguments -> mathematics name arguments
   | ( ( Execute | Release | Set_connection_timeout | Ask | Message | Pause | Halt | Position_of | Battery_of
-      | Location_of | Area_of | Ignore | Propagate | Get_supplier | Is_host ),
+      | Location_of | Area_of | Assert | Ignore | Propagate | Get_supplier | Is_host ),
       _ ) -> Wrong (Printf.sprintf "wrong number of arguments, %d" (List.length arguments))

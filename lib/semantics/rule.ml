@@ -1,6 +1,6 @@
 type t =
   | Start | Done | Fail
-  | Action | Action_err | Condition | Condition_err
+  | Action | Action_err | Condition | Condition_err | Assert_err
   | Seq_1 | Seq_2 | Seq_err
   | Par_1 | Par_2 | Par_err
   | Allof_when | Allof_1 | Allof_2 | Allof_err
@@ -18,7 +18,7 @@ type t =
   | End | Halt | Fault | Interrupt
 
 let all =
-  [ Start; Done; Fail; Action; Action_err; Condition; Condition_err; Seq_1; Seq_2; Seq_err; Par_1; Par_2; Par_err;
+  [ Start; Done; Fail; Action; Action_err; Condition; Condition_err; Assert_err; Seq_1; Seq_2; Seq_err; Par_1; Par_2; Par_err;
     Allof_when; Allof_1; Allof_2; Allof_err; Oneof_when; Oneof_err; Until_cut; Until_1; Until_2; Until_err; Idle_end;
     During_set; During_cut; During_1; During_2; During_err; Watch_1; Watch_2; Watch_ignore; Watch_propagate;
     Watch_halt; Script; Post; Consume; Message; Release; Set_timeout; Pick; Pick_bind; Pick_err; Ask; Answer;
@@ -28,6 +28,7 @@ let all =
 let name = function
   | Start -> "START" | Done -> "DONE" | Fail -> "FAIL"
   | Action -> "ACTION" | Action_err -> "ACTION-ERR" | Condition -> "CONDITION" | Condition_err -> "CONDITION-ERR"
+  | Assert_err -> "ASSERT-ERR"
   | Seq_1 -> "SEQ-1" | Seq_2 -> "SEQ-2" | Seq_err -> "SEQ-ERR"
   | Par_1 -> "PAR-1" | Par_2 -> "PAR-2" | Par_err -> "PAR-ERR"
   | Allof_when -> "ALLOF-WHEN" | Allof_1 -> "ALLOF-1" | Allof_2 -> "ALLOF-2" | Allof_err -> "ALLOF-ERR"

@@ -4,7 +4,7 @@ type t =
   (* Platform tasks *)
   | Start | Done | Fail
   (* Code *)
-  | Action | Action_err | Condition | Condition_err
+  | Action | Action_err | Condition | Condition_err | Assert_err
   (* Composition *)
   | Seq_1 | Seq_2 | Seq_err
   | Par_1 | Par_2 | Par_err

@@ -246,6 +246,8 @@ let rec settle program world (c : Configuration.t) named derivation asked (chang
       | Halted_with message, _ ->
         let derivation = derivation @ [ Rule.Watch_halt ] in
         { after = settled; outcome = Ends (Halted message); derivation; named; asked }
+      | Broke fault, _ when Fault.is_assertion fault ->
+        { after = settled; outcome = Ends (Failed fault); derivation = derivation @ [ Rule.Assert_err ]; named; asked }
       | Broke fault, _ -> settle program world settled named derivation asked (propagated fault)
       | Value_of _, Handler Ignored -> settle program world settled named derivation asked (ignored ())
       | Value_of _, (Handler Propagated | Script | Task_code) ->
@@ -258,10 +260,10 @@ let conclude (c : Configuration.t) m { after; outcome; derivation; named; asked 
   | Over ->
     let next = { after with control = Script (Machine.give Null m) } in
     { rules = derivation @ [ Rule.Execute_done ]; label = named; next; effects = asked }
-  | Ends (Failed _ as ending) ->
+  | Ends (Failed fault as ending) when not (Fault.is_assertion fault) ->
     (* The failure has cut off all that ran. *)
     ending_transition { after with control = Script m } (derivation @ [ Rule.Execute_err ]) named ending asked
-  | Ends ((Completed | Halted _ | Interrupted) as ending) ->
+  | Ends ((Completed | Halted _ | Failed _ | Interrupted) as ending) ->
     ending_transition { after with control = c.control } derivation named ending asked
 
 let check_label (change : Residual.change) deeds =
@@ -273,6 +275,9 @@ let local_internal program world (c : Configuration.t) (step : Residual.step) =
     let result, context = run_code program world c Task_code closure [] in
     let d = deeds context in
     match result with
+    | Broke fault when Fault.is_assertion fault ->
+      let outcome = Ends (Failed fault) and named = Label.Broken fault.message in
+      Some { after = c; outcome; derivation = [ Rule.Assert_err ]; named; asked = [] }
     | Broke fault ->
       Some (settle program world c (Label.Broken fault.message) [] [] (step.continue (Broke fault)))
     | Halted_with message ->

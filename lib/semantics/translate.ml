@@ -192,7 +192,7 @@ and make_lambda env at purpose label ~parameters ~implicit body =
       lambda_site = Scope.site env.program at;
     }
   in
-  lambda.code <- statements inside at body;
+  lambda.code <- body inside at;
   lambda.captures <- Array.of_list (List.map snd (Scope.captures code));
   lambda.slots <- Scope.slots code;
   (lambda, List.map fst (Scope.captures code))
@@ -202,7 +202,7 @@ and closure env at purpose label (c : Ast.closure) =
   let parameters =
     match c.parameters with Some parameters -> parameters | None -> [ { Ast.it = "it"; at } ]
   in
-  let lambda, captured = make_lambda env at purpose label ~parameters ~implicit c.body in
+  let lambda, captured = make_lambda env at purpose label ~parameters ~implicit (fun env at -> statements env at c.body) in
   expression env at (Make_closure (lambda, captured))
 
 and task_code env at construct (c : Ast.closure) =
@@ -219,8 +219,6 @@ and guarded env at operation construct guard t =
 (* {2 Blocks of settings} *)
 
 and build env at builder body =
-  (* Inline plans are given to the vehicles that are near. *)
-  if builder = Imc_plan then Scope.note_sensor env.program;
   if builder = Pick then check_place env { (Option.get (Builtins.find "ask")) with result = Vehicles } "pick" at;
   let slot = Scope.new_slot env.code in
   let start = set_local env at slot (constant env at (Settings [])) in
@@ -342,6 +340,34 @@ and call_builtin env at name (builtin : Builtins.t) arguments =
       | arguments -> pairs env at name operation arguments)
   | Execute -> execute env at arguments
   | Set_connection_timeout -> set_connection_timeout env at arguments
+  | Assert -> assertion_task env at arguments
+
+(* [if (!C()) ...]: the text is computed only if the condition does not hold. *)
+and assertion env at arguments =
+  let not_code at = error env at "assert takes code { ... } that says what holds" ~hint:"write assert { CONDITION }, 'TEXT'" in
+  let failing text = apply env at (Builtin Assert) text in
+  let holds (c : Ast.closure) closure_at =
+    let closure = task_code env closure_at "assert" c in
+    apply env closure_at (Call []) [ closure ]
+  in
+  match arguments with
+  | [ Ast.Positional { it = Closure c; at = closure_at } ] ->
+    expression env at (If (holds c closure_at, null env at, failing []))
+  | [ Ast.Positional { it = Closure c; at = closure_at }; Ast.Positional text ] ->
+    let test = holds c closure_at in
+    expression env at (If (test, null env at, failing [ elaborate env text ]))
+  | Ast.Positional first :: _ :: _ :: _ ->
+    error env first.at "assert takes code and a text, not %d arguments" (List.length arguments);
+    null env at
+  | [ _; Ast.Named (k, _) ] -> error env k.at "assert takes no argument by name"; null env at
+  | (Ast.Positional { at = first; _ } | Ast.Named (_, { at = first; _ })) :: _ -> not_code first; null env at
+  | [] -> not_code at; null env at
+
+(* As an operand, an assertion is a task: [action { assert { C }, TEXT }]. *)
+and assertion_task env at arguments =
+  let body env at = assertion env at arguments in
+  let lambda, captured = make_lambda env at (Scope.Task_code "assert") "assert" ~parameters:[] ~implicit:false body in
+  apply env at (Builtin Make_action) [ expression env at (Make_closure (lambda, captured)) ]
 
 and number_of_arguments least most =
   match least, most with
@@ -503,6 +529,8 @@ and body_of env at body = Scope.in_block env.code (fun () -> statements env at b
 and statement env (s : Ast.statement) : expression =
   let at = s.at in
   match s.it with
+  | Expression { it = Call { callee = { it = Variable "assert"; _ }; arguments }; _ } when not (is_hidden env "assert") ->
+    assertion env at arguments
   | Expression e ->
     let e = Option.value (regroup env e) ~default:e in
     if Scope.at_top env.code && known_kind env e = Task && Scope.settings env.code = None then

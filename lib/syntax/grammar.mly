@@ -144,6 +144,13 @@ plain:
 command:
   | callee = commanded; reversed = command_arguments { command $loc callee reversed }
 
+  | callee = applicable; first = leading_closure; COMMA; reversed = command_arguments
+    { command $loc callee (reversed @ [ first ]) }
+
+(* [assert { C }, 'text']: the closure is the first of several arguments. *)
+leading_closure:
+  | c = trailing { Positional_item (item c) }
+
 commanded:
   | x = COMMAND
     { expression $loc (Variable x) }

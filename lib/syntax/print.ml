@@ -336,8 +336,10 @@ and command out name arguments =
       not (begins "until " || begins "during ")
     | _ -> false
   in
+  (* A closure first, and more behind it: [assert { C }, 'text']. *)
+  let begins_with_closure = is_closure (List.hd arguments) && List.compare_length_with arguments 1 > 0 in
   put out name;
-  if begins_argument (List.hd texts) then begin
+  if begins_argument (List.hd texts) || begins_with_closure then begin
     let long =
       List.fold_left (fun n text -> n + 2 + String.length text) (out.indent + String.length name) texts > width in
     if long && List.compare_length_with texts 1 > 0 && not (List.exists (fun text -> String.contains text '\n') texts)

@@ -2,12 +2,20 @@ The time and the memory that an exploration takes are not the same twice.
 
   $ explore() { dolphin explore "$@" > result; status=$?; sed 's/, [0-9.]* s, [0-9]* MiB//' result; return $status; }
 
-A program whose every run is sound.
+A program whose every run is sound. Without reduction every state is looked at.
 
   $ explore ../../examples/rendezvous.dol
   no deadlock: holds
   termination: holds
   no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  36 states, 35 transitions, depth 35
+  $ explore ../../examples/rendezvous.dol --reduction none
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: holds
   vehicles for all tasks: holds
   2198 states, 7139 transitions, depth 35
 
@@ -17,10 +25,11 @@ The same, if a plan may fail once.
   no deadlock: holds
   termination: holds
   no unhandled error: violated after 10 steps: an error that nobody handles ends the program
+  assertions: holds
   vehicles for all tasks: holds
-  2246 states, 10055 transitions, depth 35
+  45 states, 44 transitions, depth 35
   
-  no unhandled error: a shortest run in which an error that nobody handles ends the program
+  no unhandled error: a run in which an error that nobody handles ends the program
        program                                   noptilus-1                 where
    1   ask(Radius of operation area? (km))                                  rendezvous.dol:2
    2   answer(2)                                                            rendezvous.dol:2
@@ -44,10 +53,11 @@ A program that may wait for ever.
   no deadlock: violated after 6 steps: nothing can happen any more, and the program has not ended
   termination: holds
   no unhandled error: holds
+  assertions: holds
   vehicles for all tasks: holds
   17 states, 16 transitions, depth 6
   
-  no deadlock: a shortest run in which nothing can happen any more, and the program has not ended
+  no deadlock: a run in which nothing can happen any more, and the program has not ended
       program                        noptilus-1  where
   1   pick(1 vehicle of type 'UUV')              deadlock.dol:1
   2   picks noptilus-1                           deadlock.dol:1
@@ -69,10 +79,11 @@ A program that may never end.
   no deadlock: holds
   termination: violated: after 1 step, 4 steps that can repeat for ever
   no unhandled error: holds
+  assertions: holds
   vehicles for all tasks: holds
   5 states, 5 transitions, depth 4
   
-  termination: a shortest run in which the program can go on for ever
+  termination: a run in which the program can go on for ever
       program   where
   1   pause(1)  round.dol:2
   and from there, again and again:
@@ -93,6 +104,7 @@ Code that nothing reaches is only worth a note, unless one asks for more.
   no deadlock: holds
   termination: holds
   no unhandled error: holds
+  assertions: holds
   vehicles for all tasks: holds
   note: no leftover tuples: violated after 2 steps: tuples are left when the program completes
   note: all code reached: violated: no run reaches message at unreached.dol:2:19
@@ -101,13 +113,14 @@ Code that nothing reaches is only worth a note, unless one asks for more.
   no deadlock: holds
   termination: holds
   no unhandled error: holds
+  assertions: holds
   vehicles for all tasks: holds
   no halt: holds
   no leftover tuples: violated after 2 steps: tuples are left when the program completes
   all code reached: violated: no run reaches message at unreached.dol:2:19
   3 states, 2 transitions, depth 2
   
-  no leftover tuples: a shortest run in which tuples are left when the program completes
+  no leftover tuples: a run in which tuples are left when the program completes
       program   where
   1   post a:1  unreached.dol:1
   2   end
@@ -116,14 +129,107 @@ Code that nothing reaches is only worth a note, unless one asks for more.
     unreached.dol:2:19: message
   [1]
 
+An assertion that some run breaks.
+
+  $ cat > assertion.dol <<'END'
+  > v = pick { type 'UUV' }
+  > assert { 1 + 1 == 2 }, 'arithmetic'
+  > execute watch (imcPlan('a') | action { post alarm: 1 }
+  >   | assert { !poll(alarm: _) }) onError { ignore() }
+  > consume alarm: 1
+  > END
+  $ explore assertion.dol
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: violated after 5 steps: assertion.dol:4:5: assertion failed
+  vehicles for all tasks: holds
+  note: all code reached: violated: no run reaches onError at assertion.dol:3:9
+  44 states, 61 transitions, depth 9
+  
+  assertions: a run in which an assertion fails
+      program                        where
+  1   pick(1 vehicle of type 'UUV')  assertion.dol:1
+  2   picks noptilus-1               assertion.dol:1
+  3   execute                        assertion.dol:3
+  4   act(post alarm:1)              assertion.dol:3
+  5   broken(assertion failed)       assertion.dol:4
+  [1]
+
+Invariants.
+
+  $ cat > counting.dol <<'END'
+  > n = 0
+  > v = pick { type 'UUV' }
+  > execute (imcPlan('a') >> action { n = n + 1; post done: n }) | action { n = n + 1 }
+  > consume done: _
+  > END
+  $ explore counting.dol --invariant 'n <= 2' --invariant "!(running('a') && n > 0)" --invariant '!poll(done: 2)' --invariant "!running('a', 'x8-02')"
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  invariant n <= 2: holds
+  invariant !(running('a') && n > 0): violated after 5 steps: it does not hold
+  invariant !poll(done: 2): violated after 7 steps: it does not hold
+  invariant !running('a', 'x8-02'): holds
+  38 states, 46 transitions, depth 9
+  
+  invariant !(running('a') && n > 0): a run in which it does not hold
+      program                        noptilus-1  where
+  1   pick(1 vehicle of type 'UUV')              counting.dol:2
+  2   picks noptilus-1                           counting.dol:2
+  3   execute                                    counting.dol:3
+  4                                  starts a    counting.dol:3
+  5   act                                        counting.dol:3
+  
+  invariant !poll(done: 2): a run in which it does not hold
+      program                        noptilus-1  where
+  1   pick(1 vehicle of type 'UUV')              counting.dol:2
+  2   picks noptilus-1                           counting.dol:2
+  3   execute                                    counting.dol:3
+  4                                  starts a    counting.dol:3
+  5                                  ends a      counting.dol:3
+  6   act                                        counting.dol:3
+  7   act(post done:2)                           counting.dol:3
+  [1]
+  $ explore counting.dol --invariant '1 / n > 0' --invariant 'bound("noptilus-1") || n == 0'
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  invariant 1 / n > 0: inconclusive, the condition cannot be told: division by zero
+  invariant bound("noptilus-1") || n == 0: violated after 4 steps: it does not hold
+  38 states, 46 transitions, depth 9
+  
+  invariant bound("noptilus-1") || n == 0: a run in which it does not hold
+      program                        where
+  1   pick(1 vehicle of type 'UUV')  counting.dol:2
+  2   picks noptilus-2               counting.dol:2
+  3   execute                        counting.dol:3
+  4   act                            counting.dol:3
+  [1]
+  $ explore counting.dol --invariant 'm > 0'
+  dolphin: --invariant 'm > 0': unknown name 'm'
+  [2]
+  $ explore counting.dol --invariant 'bound(v)'
+  dolphin: --invariant 'bound(v)': bound takes the name of a vehicle, as in bound('noptilus-1')
+  [2]
+  $ explore counting.dol --invariant 'n = 2'
+  dolphin: --invariant 'n = 2': this cannot be assigned to
+  [2]
+
 A bound that is met leaves the answer open.
 
-  $ explore ../../examples/rendezvous.dol --max-states 100
+  $ explore ../../examples/rendezvous.dol --reduction none --max-states 100
   no deadlock: inconclusive, the bound on states was met
   termination: inconclusive, the bound on states was met
   no unhandled error: inconclusive, the bound on states was met
+  assertions: inconclusive, the bound on states was met
   vehicles for all tasks: inconclusive, the bound on states was met
-  101 states, 180 transitions, depth 13
+  137 states, 266 transitions, depth 14
   [3]
 
 For machines.
@@ -133,6 +239,7 @@ For machines.
   "verdicts":[{"property":"no deadlock"
   "verdict":"holds"}
   "verdict":"violated"
+  "verdict":"holds"}
   "verdict":"holds"}
   "verdict":"holds"}
   "verdict":"holds"}

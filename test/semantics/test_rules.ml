@@ -40,6 +40,12 @@ let tasks : example list =
       "CONDITION, EXECUTE-DONE" "script" [];
     example Condition_err "its code breaks" (task "condition { 1 / 0 }") "broken(division by zero)"
       "CONDITION-ERR, EXECUTE-ERR" "failed: division by zero" [ released; "end: division by zero" ];
+    example Assert_err "nothing handles it" (task "watch (%p | assert { false }) onError { ignore() }")
+      "broken(assertion failed)" "ASSERT-ERR" "failed: assertion failed" [ released; "end: assertion failed" ];
+    example Assert_err "in any code of a task, its text computed then"
+      (task "watch (condition { x = 3; assert { x < 2 }, \"x is $x\" } | during 5 run %q) onError { ignore() }")
+      "broken(assertion failed: x is 3)" "ASSERT-ERR" "failed: assertion failed: x is 3"
+      [ "cancel timer 1"; released; "end: assertion failed: x is 3" ];
     example Seq_1 "the first part goes on" (task "%p >> idle(1)") "start(noptilus-1, p)" "START, SEQ-1"
       "(p[noptilus-1]... >> idle(1))" [ "start p on noptilus-1" ];
     example Seq_2 "the first part ends, the next is active" (task "%p >> idle(1)") "done(noptilus-1, p)" "DONE, SEQ-2"

@@ -1,0 +1,53 @@
+(* fleet N F [MAX_STATES]: explores the program of the peers' models, N vehicles, F = 1 with failures, and prints one
+   line: states, transitions, depth, seconds of CPU, bytes a state as the explorer counts them. With REDUCTION=por in
+   the environment the search is reduced. *)
+
+open Dolphin_semantics
+open Dolphin_explore
+
+let program n =
+  let each format = List.init n (fun i -> Printf.sprintf format (i + 1)) in
+  let branch i = Printf.sprintf "when { consume ready:%d } then imcPlan('rv%d')" (i + 1) (i + 1) in
+  Printf.sprintf
+    {|UUVs = pick { count %d; type 'UUV' }
+UAV = pick { type 'UAV' }
+def UUVTask(i) { imcPlan('survey' + i) >> action { post ready:i } >> imcPlan('sk' + i) }
+execute UUVs: %s, UAV: allOf {
+%s
+}
+|}
+    n
+    (String.concat " | " (each "UUVTask(%d)"))
+    (String.concat "\n" (List.init n branch))
+
+let compile source =
+  let explain ds = failwith (Format.asprintf "%a" (Fmt.list (Dolphin_syntax.Diagnostic.pp ~source)) ds) in
+  match Dolphin_syntax.Parse.program ~file:"fleet.dol" source with
+  | Error ds -> explain ds
+  | Ok ast -> (
+      match Elaborate.program ~source_name:"fleet.dol" ast with Error ds -> explain ds | Ok (program, _) -> program)
+
+let world n =
+  let position = Dolphin_geo.Place.apdl in
+  let vehicle kind id = { World.id; kind; payload = []; position; battery = 1.; connected = true } in
+  let uuvs = List.init n (fun i -> vehicle "UUV" (Printf.sprintf "uuv-%d" (i + 1))) in
+  List.fold_left (fun w v -> World.add v w) World.empty (uuvs @ [ vehicle "UAV" "uav" ])
+
+let () =
+  let argument i = if i < Array.length Sys.argv then Some (int_of_string Sys.argv.(i)) else None in
+  let n = Option.value (argument 1) ~default:3 in
+  let environment =
+    if argument 2 = Some 1 then Environment.failing Environment.default else Environment.default
+  in
+  let report (p : Search.progress) =
+    Printf.eprintf "%s: %d states, %.0f a second, frontier %d, depth %d, %d MB\n%!" p.phase p.states p.rate p.frontier
+      p.depth (p.memory / 1_000_000)
+  in
+  let progress = if Sys.getenv_opt "PROGRESS" = None then ignore else report in
+  let reduction = if Sys.getenv_opt "REDUCTION" = Some "por" then Reduction.Partial_order else Whole in
+  let options = { Search.default with environment; reduction; max_states = argument 3; progress } in
+  let o = Search.run options (compile (program n)) (world n) in
+  Printf.printf "%d states, %d transitions, depth %d, %.2f s, %.1f bytes a state%s\n" o.states o.transitions o.depth
+    (Sys.time ())
+    (float_of_int o.bytes /. float_of_int o.states)
+    (match o.stopped with None -> "" | Some bound -> Format.asprintf ", %a" Search.pp_bound bound)

@@ -1,0 +1,129 @@
+open Dolphin_semantics
+module Ast = Dolphin_syntax.Ast
+
+type question = Running of string * string option | Bound of string
+
+type t = {
+  text : string;
+  closure : Core.closure;
+  questions : (int * question) list;  (* by index of the global that stands for it *)
+  names : int list;  (* the program's globals that it names *)
+}
+
+type answer = Holds | Fails | Not_yet | Broken of string
+
+let to_string c = c.text
+
+(* {1 Reading} *)
+
+exception Wrong of string
+
+let wrong format = Printf.ksprintf (fun why -> raise (Wrong why)) format
+
+let question name arguments =
+  match name, arguments with
+  | "running", [ Ast.Positional { Ast.it = String plan; _ } ] -> Running (plan, None)
+  | "running", [ Ast.Positional { it = String plan; _ }; Ast.Positional { it = String vehicle; _ } ] ->
+    Running (plan, Some vehicle)
+  | "bound", [ Ast.Positional { it = String vehicle; _ } ] -> Bound vehicle
+  | "bound", _ -> wrong "bound takes the name of a vehicle, as in bound('noptilus-1')"
+  | _, _ -> wrong "running takes the name of a plan, and of a vehicle: running('survey', 'noptilus-1')"
+
+(* [e] with a variable for each question; [ask q] is the variable's name. *)
+let rec replace ask (e : Ast.expression) : Ast.expression =
+  let go = replace ask in
+  let argument : Ast.argument -> Ast.argument = function
+    | Positional e -> Positional (go e)
+    | Named (k, e) -> Named (k, go e)
+  in
+  let it : Ast.expression_node =
+    match e.it with
+    | Call { callee = { it = Variable (("running" | "bound") as name); _ } as callee; arguments } -> (
+        match ask name (fun () -> question name arguments) with
+        | Some variable -> Variable variable
+        | None -> Call { callee; arguments = List.map argument arguments })
+    | Call { callee; arguments } -> Call { callee = go callee; arguments = List.map argument arguments }
+    | List es -> List (List.map go es)
+    | Unary (o, e) -> Unary (o, go e)
+    | Binary (o, a, b) -> Binary (o, go a, go b)
+    | Conditional (a, b, c) -> Conditional (go a, go b, go c)
+    | Elvis (a, b) -> Elvis (go a, go b)
+    | Index (a, b) -> Index (go a, go b)
+    | Member m -> Member { m with subject = go m.subject }
+    | Range r -> Range { r with first = go r.first; last = go r.last }
+    | ( Null | Boolean _ | Integer _ | Number _ | String _ | Template _ | Variable _ | Wildcard | Map _ | Closure _
+      | Increment _ | Builder _ | When _ | Wait_for _ | Until _ | During _ | Watch _ ) as it -> it
+  in
+  { e with it }
+
+let rec globals (e : Core.expression) =
+  match e.node with
+  | Global i -> [ i ]
+  | Set_global (i, e) -> i :: globals e
+  | Constant _ | Local _ | Make_closure _ | Break | Continue -> []
+  | Set_local (_, e) | Return e -> globals e
+  | Apply (_, es) | Block es -> List.concat_map globals es
+  | If (a, b, c) -> List.concat_map globals [ a; b; c ]
+  | While (a, b) | For (_, a, b) -> globals a @ globals b
+
+let first_message : Dolphin_syntax.Diagnostic.t list -> string = function
+  | d :: _ -> d.message
+  | [] -> "it is no expression"
+
+let of_string (program : Core.program) text =
+  let own = Array.length program.global_names in
+  let questions = ref [] in
+  let is_hidden name = List.mem_assoc name program.functions || Array.exists (String.equal name) program.global_names in
+  let ask name question =
+    if is_hidden name then None
+    else begin
+      questions := question () :: !questions;
+      Some (Printf.sprintf "question %d" (List.length !questions))
+    end
+  in
+  match Dolphin_syntax.Parse.expression ~file:"condition" text with
+  | Error ds -> Error (first_message ds)
+  | Ok e -> (
+      match replace ask e with
+      | exception Wrong why -> Error why
+      | e ->
+        let asked = List.mapi (fun i q -> (own + i, q)) (List.rev !questions) in
+        let names = List.mapi (fun i _ -> Printf.sprintf "question %d" (i + 1)) asked in
+        let condition (closure : Core.closure) =
+          let names = List.sort_uniq Int.compare (globals closure.lambda.code) in
+          { text; closure; questions = asked; names = List.filter (fun i -> i < own) names }
+        in
+        Result.map condition (Elaborate.expression program ~globals:names e))
+
+(* {1 Asking} *)
+
+let answer_to (c : Configuration.t) = function
+  | Bound v -> List.mem v c.bound
+  | Running (plan, Some v) -> (
+      match Configuration.Vehicle_map.find_opt v c.allocation with
+      | Some p -> String.equal p.name plan
+      | None -> false)
+  | Running (plan, None) ->
+    Configuration.Vehicle_map.exists (fun _ (p : Core.platform_task) -> String.equal p.name plan) c.allocation
+
+let fuel = 100_000
+
+let eval program world t (c : Configuration.t) =
+  if List.exists (fun i -> Store.find i c.store = None) t.names then Not_yet
+  else
+    let set store (i, question) = Store.set i (Core.Boolean (answer_to c question)) store in
+    let store = List.fold_left set c.store t.questions in
+    let context : Machine.context =
+      { program; world; bound = c.bound; store; tuples = c.tuples; mode = Task_code; deeds = [] }
+    in
+    let stop, _, after = Machine.run ~fuel context (Machine.call t.closure []) in
+    match stop with
+    | Finished x when after.deeds = [] && Store.compare after.store store = 0 ->
+      if Value.truth x then Holds else Fails
+    | Finished _ -> Broken "a condition may only look, and not do anything"
+    | Faulted fault -> Broken fault.message
+    | Halted _ -> Broken "a condition may not halt the program"
+    | Exhausted -> Broken "it does not come to an end"
+    | Did | Waits _ -> Broken "a condition cannot wait"
+
+let only_shared t = List.for_all (function _, Bound _ -> true | _, Running _ -> false) t.questions

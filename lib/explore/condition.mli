@@ -1,0 +1,23 @@
+(** Conditions on states, asked from outside of the program: expressions of the language over its global variables and
+    functions, in which also [running('plan')], [running('plan', 'vehicle')] and [bound('vehicle')] stand for what is in
+    A and B; and [poll(key: value)] for what is in N, as everywhere. A name of the program hides these two. *)
+
+open Dolphin_semantics
+
+type t
+
+val of_string : Core.program -> string -> (t, string) result
+(** [of_string p text] is the condition that [text] spells, or what is wrong with it in one sentence. *)
+
+val to_string : t -> string
+
+type answer =
+  | Holds
+  | Fails
+  | Not_yet  (** a variable that it names has no value yet *)
+  | Broken of string  (** its code is faulty, or does something *)
+
+val eval : Core.program -> World.t -> t -> Configuration.t -> answer
+
+val only_shared : t -> bool
+(** Whether the answer is a function of the store, B and N: [running] is not asked. *)

@@ -116,7 +116,7 @@ let man =
 
 let command =
   let info =
-    Cmd.info "exec" ~doc:"run a program on a simulated fleet" ~man
+    Cmd.info "exec" ~doc:"run a program, on a simulated fleet or on vehicles of a network" ~man
       ~exits:(Options.exits [ Done; Failed; Bad_input; Platform_trouble; Bug; Interrupted ])
   in
   Cmd.v info

@@ -110,7 +110,8 @@ let run options as_json once seconds =
     let patience = Option.value seconds ~default:(Udp_platform.announce_period network) in
     let until = match seconds with Some s -> s | None -> infinity in
     let show () =
-      if once || not (as_json || is_live ()) then wait interruption patience >|= fun () -> print (lines network ~json:as_json)
+      if once || not (as_json || is_live ()) then
+        wait interruption patience >|= fun () -> print (lines network ~json:as_json)
       else if as_json then report network interruption ~until
       else watch network interruption ~until >|= fun () -> print (lines network ~json:false)
     in

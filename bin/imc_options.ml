@@ -42,7 +42,8 @@ let port =
     "Have vehicles send to port $(docv) of this machine, for a firewall's sake. By default any free one. Implies \
      $(b,--imc)."
   in
-  Arg.(value & opt (some (number ~least:1 ~most:65535 "a port")) None & info [ "imc-port" ] ~docs:s_network ~docv:"PORT" ~doc)
+  let ports = number ~least:1 ~most:65535 "a port" in
+  Arg.(value & opt (some ports) None & info [ "imc-port" ] ~docs:s_network ~docv:"PORT" ~doc)
 
 let id =
   let doc =

@@ -145,7 +145,10 @@ let request_of ~id s = (s.settings.first_request + (id * 257)) land 0xFFFF
 (* A new system: it is told of us at once. *)
 let greet ~now (n : Node.t) s =
   let s = { s with next_eager = Float.min s.next_eager now } in
-  let directly = if n.hosts = [ Unix.inet_addr_loopback ] then [] else List.map (fun h -> Announce_to (h, announcement ~now s)) n.hosts in
+  let directly =
+    if n.hosts = [ Unix.inet_addr_loopback ] then []
+    else List.map (fun host -> Announce_to (host, announcement ~now s)) n.hosts
+  in
   if now -. s.last_announce < least_announce_interval then
     ({ s with next_announce = Float.min s.next_announce (s.last_announce +. least_announce_interval) }, directly)
   else
@@ -231,14 +234,14 @@ let heartbeats ~now which s =
   Nodes.fold (fun _ n sent -> if which n then to_node ~now n Heartbeat s @ sent else sent) s.nodes []
 
 let beat ~now s =
+  let courted = is_courted ~now in
+  let next_eager () =
+    if Nodes.exists (fun _ n -> courted n) s.nodes then now +. eager_heartbeat_interval else infinity
+  in
   if now >= s.next_heartbeat then
-    let next_heartbeat = now +. heartbeat_interval in
-    let next_eager = if Nodes.exists (fun _ n -> is_courted ~now n) s.nodes then now +. eager_heartbeat_interval else infinity in
-    ({ s with next_heartbeat; next_eager }, heartbeats ~now (is_kept ~now) s)
-  else if now >= s.next_eager then
-    let courted = is_courted ~now in
-    let next_eager = if Nodes.exists (fun _ n -> courted n) s.nodes then now +. eager_heartbeat_interval else infinity in
-    ({ s with next_eager }, heartbeats ~now courted s)
+    ( { s with next_heartbeat = now +. heartbeat_interval; next_eager = next_eager () },
+      heartbeats ~now (is_kept ~now) s )
+  else if now >= s.next_eager then ({ s with next_eager = next_eager () }, heartbeats ~now courted s)
   else (s, [])
 
 (* Entity lists that did not come are asked for again, with every heartbeat. *)
@@ -256,10 +259,13 @@ let query ~now s =
   in
   Nodes.fold ask s.nodes (s, [])
 
+(* A system that does not speak to us may have missed our announcement. *)
 let announce ~now s =
   if now < s.next_announce then (s, [])
   else
-    ( { s with next_announce = now +. announce_interval; last_announce = now }, [ Announce (announcement ~now s) ])
+    let courting = Nodes.exists (fun _ n -> is_courted ~now n) s.nodes in
+    let interval = if courting then eager_announce_interval else announce_interval in
+    ({ s with next_announce = now +. interval; last_announce = now }, [ Announce (announcement ~now s) ])
 
 let rec expire ~now s =
   match s.timers with

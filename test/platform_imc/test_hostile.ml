@@ -15,7 +15,10 @@ let hear ?(from = loopback) ?(now = 0.) bytes s = fst (Station.datagram ~now ~fr
 let knowledge s = List.map (fun (x : Station.sight) -> x.node) (Station.sights ~now:0. s)
 
 let inward = lazy (List.filter (fun (l : Recording.line) -> l.inward) (Lazy.force Recording.lines))
-let informed = lazy (List.fold_left (fun s (l : Recording.line) -> hear ~now:l.time l.bytes s) (station ()) (Lazy.force inward))
+
+let informed =
+  lazy
+    (List.fold_left (fun s (l : Recording.line) -> hear ~now:l.time l.bytes s) (station ()) (Lazy.force inward))
 
 let mutated random bytes =
   let b = Bytes.of_string bytes in
@@ -31,7 +34,8 @@ let mutated random bytes =
     done;
     Bytes.to_string b
 
-let count = 100_000
+(* DOLPHIN_LONG multiplies it. *)
+let count = 100_000 * (match Sys.getenv_opt "DOLPHIN_LONG" with Some n -> int_of_string n | None -> 1)
 
 let mutations =
   Alcotest.test_case (Printf.sprintf "%d mutated datagrams" count) `Quick (fun () ->
@@ -46,7 +50,7 @@ let mutations =
           match Packet.decode bytes with
           | Ok _ -> go (i + 1) s
           | Error _ ->
-            if knowledge after != known && knowledge after <> known then Alcotest.failf "mutation %d changed something" i;
+            if knowledge after <> known then Alcotest.failf "mutation %d changed something" i;
             if Station.waiting after <> Station.waiting s then Alcotest.failf "mutation %d made an event" i;
             go (i + 1) after
         end

@@ -137,11 +137,29 @@ let busy =
       | Some s -> Alcotest.(check bool) "connected" false s.connected
       | None -> Alcotest.fail "not told of")
 
+(* When the console announces itself while a vehicle announces itself and says nothing. *)
+let courtship =
+  Alcotest.test_case "a vehicle that does not answer is courted" `Quick (fun () ->
+      let bytes = (List.find (fun (l : Recording.line) -> l.inward) (Lazy.force Recording.lines)).bytes in
+      let rec live now (s, announced) =
+        if now > 30. then List.rev announced
+        else
+          let s, outputs = Station.tick ~now s in
+          let speaks = List.exists (function Station.Announce _ -> true | _ -> false) outputs in
+          let announced = if speaks then Float.round now :: announced else announced in
+          let s = if Float.rem now 10. = 2. then fst (Station.datagram ~now ~from:loopback bytes s) else s in
+          live (now +. 0.25) (s, announced)
+      in
+      Alcotest.(check (list (float 0.)))
+        "times"
+        [ 0.; 3.; 4.; 5.; 6.; 7.; 8.; 9.; 10.; 11.; 12.; 13.; 14.; 15.; 16.; 17.; 27. ]
+        (live 0. (station ~request:1, [])))
+
 let failed time why = [ Printf.sprintf "%.3f lauv-noptilus-1 failed: %s" time why ]
 
 let tests =
   ( "lifecycle",
-    [ seen; busy;
+    [ seen; busy; courtship;
       case "start, then stop" ~request:101 [ (101, `Start); (102, `Stop) ] ~verdict:[]
         ~asked:[ "START 101 planA"; "STOP 102 planA" ];
       case "start, then stop, the reply being lost" ~request:101 [ (101, `Start); (102, `Stop) ]

@@ -24,7 +24,9 @@ let limited seconds promise =
   Lwt.pick [ promise; (Lwt_unix.sleep seconds >>= fun () -> Alcotest.failf "took longer than %g s" seconds) ]
 
 let said = ref []
-let console = { Console.say = (fun text -> said := text :: !said); ask = (fun _ -> Lwt.return (Error "nobody")); refused = ignore }
+
+let console =
+  { Console.say = (fun text -> said := text :: !said); ask = (fun _ -> Lwt.return (Error "nobody")); refused = ignore }
 
 let run_program ~seconds platform source =
   said := [];
@@ -32,7 +34,9 @@ let run_program ~seconds platform source =
   let never, _ = Lwt.wait () in
   limited seconds (Driver.run (module Udp_platform) platform ~console ~interruption:never program)
 
-let outcome = Alcotest.testable Driver.pp_outcome (fun a b -> Format.asprintf "%a" Driver.pp_outcome a = Format.asprintf "%a" Driver.pp_outcome b)
+let outcome =
+  let text = Format.asprintf "%a" Driver.pp_outcome in
+  Alcotest.testable Driver.pp_outcome (fun a b -> text a = text b)
 
 let in_a_world name f = Alcotest.test_case name `Quick (fun () -> Lwt_main.run (f ()))
 let fates table plan = Option.value (List.assoc_opt plan table) ~default:(Vehicle_model.Is_refused "undefined plan")

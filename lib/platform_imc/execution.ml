@@ -44,6 +44,7 @@ type attempt = {
   after : float;
   accepted : float option;  (* when the vehicle first answered that it takes the plan *)
   initialised : bool;  (* INITIALIZING was seen *)
+  anew : bool;  (* it was seen to begin anew *)
 }
 
 type phase =
@@ -113,7 +114,7 @@ let begin_attempt ~now ~clock order x =
       asked = Vehicle_clock.estimate ~now clock;
       before = x.seen;
       after = Vehicle_clock.latest clock;
-      accepted = None; initialised = false }
+      accepted = None; initialised = false; anew = false }
   in
   ({ x with phase = Starting attempt; abort = None }, [ start_message attempt ])
 
@@ -256,6 +257,11 @@ let judge_run ~now ~clock (a : attempt) ~since (s : sighting) x =
     | Ready when s.state.plan_id = "" -> expect_words ~now ~clock a ~since forgotten x
     | Executing | Ready -> replaced ~now ~clock ~ended:s.sent a s.state.plan_id x
     | Blocked -> expect_words ~now ~clock a ~since blocked x
+    | Initializing when own && not a.anew ->
+      let note =
+        Printf.sprintf "plan %s begins anew: the request for it came twice, or another console made one" a.order.plan
+      in
+      ({ x with phase = Running { attempt = { a with anew = true }; since } }, [ Note note ])
     | Initializing | Other _ -> (x, [])
 
 let stopped ~now ~clock ~ended attempt next x =

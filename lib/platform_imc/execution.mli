@@ -24,7 +24,8 @@
       the vehicle took the plan, one {!patience} after the request, which may have been overtaken. Only then is the next
       start sent. After {!stop_patience} the stop is given up.
     - Late copies of our own datagrams are recognised by their replies: a stop that hits the next plan makes it start
-      again; a start that comes after its plan was over is stopped. Both are told as a [Note]. *)
+      again; a start that comes after its plan was over is stopped; one that comes while the plan runs makes the vehicle
+      begin it anew, which nobody can prevent. All this is told as a [Note]. *)
 
 open Dolphin_imc
 

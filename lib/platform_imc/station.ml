@@ -42,6 +42,7 @@ type output =
   | Note of Core.vehicle * string
 
 let announce_interval = 10.
+let eager_announce_interval = 1.
 let heartbeat_interval = 1.
 let eager_heartbeat_interval = 0.2
 let most_nodes = 2000
@@ -148,7 +149,7 @@ let greet ~now (n : Node.t) s =
   if now -. s.last_announce < least_announce_interval then
     ({ s with next_announce = Float.min s.next_announce (s.last_announce +. least_announce_interval) }, directly)
   else
-    ( { s with last_announce = now; next_announce = now +. announce_interval },
+    ( { s with last_announce = now; next_announce = now +. eager_announce_interval },
       Announce (announcement ~now s) :: directly )
 
 let rename (before : Node.t option) (n : Node.t) s =

@@ -99,6 +99,9 @@ val accepted : t -> int
 val announce_interval : float
 (** 10 s, and at once when a system is new. *)
 
+val eager_announce_interval : float
+(** 1 s while a vehicle has announced itself and not yet spoken to us: it may have missed our announcement. *)
+
 val heartbeat_interval : float
 (** 1 s: DUNE falls silent 30 s after the last. *)
 

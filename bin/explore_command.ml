@@ -73,7 +73,7 @@ let print_outcome program s (o : Search.outcome) =
        match verdict with
        | Violated run when not remark ->
          Format.printf "@.%s: a%s run in which %s@." (Property.name property)
-           (if s.reduction = Whole then " shortest" else "")
+           (if run.shortest then " shortest" else "")
            (Property.question property);
          print_run program run;
          if property = No_deadlock then print_waiting program run
@@ -131,6 +131,7 @@ let explore (program : Program_file.t) (fleet : Fleet_file.t) s invariants =
   let options : Search.options =
     { environment = World_of.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
       reduction = s.reduction;
+      search_again = Search.default.search_again;
       max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; timeout = s.timeout;
       clock = Unix.gettimeofday;
       invariants;
@@ -241,7 +242,8 @@ let man =
   [ `S Manpage.s_description;
     `P "$(tname) follows every run that $(i,PROG) can have: every order in which tasks end and timers expire, every choice \
         of vehicles, every branch that is ready. It uses the very transition function that $(mname) $(b,exec) uses. For \
-        each of these it says whether it holds, or shows a run that breaks it (a shortest one with $(b,--reduction none)), a column for the program and one \
+        each of these it says whether it holds, or shows a run that breaks it, a shortest one if it says so, a column for \
+        the program and one \
         for each vehicle:";
     `I ("no deadlock", "some transition is possible until the program ends.");
     `I ("termination", "every fair run ends: tasks that run end some time, timers expire, no step is put off for ever.");

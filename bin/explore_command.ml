@@ -71,7 +71,8 @@ let print_outcome program strict (o : Search.outcome) =
     (fun (property, (verdict : Search.verdict), remark) ->
        match verdict with
        | Violated run when not remark ->
-         Format.printf "@.%s: a shortest run in which %s@." (Property.name property) (Property.question property);
+         let run_is = match property with Property.Formula _ -> "a run" | _ -> "a shortest run" in
+         Format.printf "@.%s: %s in which %s@." (Property.name property) run_is (Property.question property);
          print_run program run;
          if property = No_deadlock then print_waiting program run
        | Unreached pieces when not remark ->
@@ -121,7 +122,7 @@ let status strict (o : Search.outcome) : Exit_status.t =
 
 (* {1 The command} *)
 
-let explore (program : Program_file.t) (fleet : Fleet_file.t) s invariants =
+let explore (program : Program_file.t) (fleet : Fleet_file.t) s invariants formulas =
   let interrupted = ref false in
   Sys.set_signal Sys.sigint (Signal_handle (fun _ -> interrupted := true));
   let live = Unix.isatty Unix.stderr && not s.json in
@@ -129,7 +130,7 @@ let explore (program : Program_file.t) (fleet : Fleet_file.t) s invariants =
     { environment = World_of.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
       max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; timeout = s.timeout;
       clock = Unix.gettimeofday;
-      invariants;
+      invariants; formulas;
       interrupted = (fun () -> !interrupted);
       progress = (if live then show_progress else ignore) }
   in
@@ -149,16 +150,18 @@ let read_all option of_string texts =
   in
   Result.map List.rev (List.fold_left read (Ok []) texts)
 
-let run path fleet answers faults strict json invariants max_states max_depth max_memory timeout =
+let run path fleet answers faults strict json invariants formulas max_states max_depth max_memory timeout =
   match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet) with
   | Error trouble, _ -> Program_file.tell trouble; Exit_status.Bad_input
   | Ok _, Error trouble -> Fleet_file.tell trouble; Exit_status.Bad_input
   | Ok program, Ok fleet ->
     Report.diagnostics ~source:program.source program.warnings;
     let settings = { answers; faults; strict; json; max_states; max_depth; max_memory; timeout } in
-    (match read_all "--invariant" (Dolphin_explore.Condition.of_string program.program) invariants with
-     | Error why -> Report.complain why; Bad_input
-     | Ok invariants -> explore program fleet settings invariants)
+    let program' = program.program in
+    (match read_all "--invariant" (Dolphin_explore.Condition.of_string program') invariants,
+           read_all "--ltl" (Dolphin_explore.Temporal.of_string program') formulas with
+    | Error why, _ | _, Error why -> Report.complain why; Bad_input
+    | Ok invariants, Ok formulas -> explore program fleet settings invariants formulas)
 
 let faults =
   let parse text =
@@ -223,6 +226,14 @@ let invariants =
   in
   Arg.(value & opt_all string [] & info [ "invariant" ] ~docv:"EXPR" ~doc)
 
+let formulas =
+  let doc =
+    "Check that every run satisfies the formula of linear temporal logic $(docv), as in $(b,G \\(start\\(survey1\\) -> F \
+     done\\(survey1\\)\\)): with $(b,!), $(b,&), $(b,|), $(b,->), $(b,<->), $(b,X), $(b,F), $(b,G), $(b,U), $(b,R), $(b,W). \
+     $(i,docs/questions.md) lists its propositions. May be repeated."
+  in
+  Arg.(value & opt_all string [] & info [ "ltl" ] ~docv:"FORMULA" ~doc)
+
 let json = Arg.(value & flag & info [ "json" ] ~doc:"Print the result as one JSON object.")
 
 let man =
@@ -247,6 +258,7 @@ let man =
     `S Manpage.s_examples;
     `Pre "  $(mname) $(tname) examples/rendezvous.dol\n  $(mname) $(tname) examples/rendezvous.dol --faults fail=1\n\
          \  $(mname) $(tname) mission.dol --invariant \"!(running('a') && running('b'))\"\n\
+         \  $(mname) $(tname) mission.dol --ltl 'G (start(survey1) -> F done(survey1))'\n\
          \  $(mname) $(tname) mission.dol --max-memory 8G --timeout 60" ]
   @ Options.see_also
 
@@ -257,5 +269,5 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ invariants $ max_states $ max_depth
+      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ invariants $ formulas $ max_states $ max_depth
       $ max_memory $ timeout)

@@ -13,6 +13,7 @@ type options = {
   timeout : float option;  (** in seconds of [clock] *)
   clock : unit -> float;  (** seconds, from any start *)
   invariants : Condition.t list;
+  formulas : Temporal.t list;  (** checked on a state graph of their own, that is kept in OCaml's heap *)
   interrupted : unit -> bool;  (** asked often: whether to stop *)
   progress : progress -> unit;  (** called about once a second *)
 }
@@ -60,7 +61,7 @@ type outcome = {
   bytes : int;  (** of memory, as [max_memory] counts it *)
   seconds : float;
   stopped : bound option;
-  verdicts : (Property.t * verdict) list;  (** for each of {!Property.all}, then for each invariant *)
+  verdicts : (Property.t * verdict) list;  (** for each of {!Property.all}, then for each invariant and formula *)
 }
 
 val run : options -> Core.program -> World.t -> outcome

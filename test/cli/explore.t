@@ -214,6 +214,76 @@ Invariants.
   dolphin: --invariant 'n = 2': this cannot be assigned to
   [2]
 
+Formulas of temporal logic.
+
+  $ explore ../../examples/rendezvous.dol --ltl 'G (start(survey1) -> F done(survey1))' --ltl 'F ended' --ltl '!start(survey1) W bind(x8-02)'
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  formula G (start(survey1) -> F done(survey1)): holds
+  formula F ended: holds
+  formula !start(survey1) W bind(x8-02): holds
+  2198 states, 7139 transitions, depth 35
+  $ cat > again.dol <<'END'
+  > v = pick { id 'noptilus-1' }
+  > n = 0
+  > while (n == 0) {
+  >   execute watch imcPlan('a') onError { post failed: 1; ignore() }
+  >   if (poll(failed: 1)) { consume failed: 1 } else { n = 1; message 'done' }
+  > }
+  > END
+  $ explore again.dol --faults fail --ltl 'G (start(a) -> F (done(a) | fail(a, noptilus-1)))' --ltl 'G F {n == 1}' --ltl 'message("done") R !end' --ltl 'G (fail -> X consume(failed: 1))'
+  no deadlock: holds
+  termination: violated: after 3 steps, 4 steps that can repeat for ever
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  formula G (start(a) -> F (done(a) | fail(a, noptilus-1))): holds
+  formula G F {n == 1}: violated: after 3 steps, 4 steps that can repeat for ever
+  formula message("done") R !end: holds
+  formula G (fail -> X consume(failed: 1)): holds
+  10 states, 10 transitions, depth 7
+  
+  termination: a shortest run in which the program can go on for ever
+      program                               where
+  1   pick(1 vehicle with id 'noptilus-1')  again.dol:1
+  2   picks noptilus-1                      again.dol:1
+  3   execute                               again.dol:4
+  and from there, again and again:
+      program           noptilus-1           where
+  4                     starts a             again.dol:4
+  5                     fails in a: failure  again.dol:4
+  6   consume failed:1                       again.dol:5
+  7   execute                                again.dol:4
+  
+  formula G F {n == 1}: a run in which it does not hold
+      program                               where
+  1   pick(1 vehicle with id 'noptilus-1')  again.dol:1
+  2   picks noptilus-1                      again.dol:1
+  3   execute                               again.dol:4
+  and from there, again and again:
+      program           noptilus-1           where
+  4                     starts a             again.dol:4
+  5                     fails in a: failure  again.dol:4
+  6   consume failed:1                       again.dol:5
+  7   execute                                again.dol:4
+  [1]
+  $ explore again.dol --faults fail=1 --ltl 'F ended' --ltl 'F (done(a) & running(a))' | grep formula
+  formula F ended: holds
+  formula F (done(a) & running(a)): violated after 7 steps: it does not hold
+  formula F (done(a) & running(a)): a run in which it does not hold
+  $ explore again.dol --ltl 'G (strat(a))'
+  dolphin: --ltl 'G (strat(a))': there is no proposition 'strat' (did you mean start?)
+  [2]
+  $ explore again.dol --ltl 'G (start(a)'
+  dolphin: --ltl 'G (start(a)': a ')' is missing
+  [2]
+  $ explore again.dol --ltl 'F {m > 0}'
+  dolphin: --ltl 'F {m > 0}': unknown name 'm'
+  [2]
+
 A bound that is met leaves the answer open.
 
   $ explore ../../examples/rendezvous.dol --max-states 100

@@ -1,6 +1,6 @@
 open Cmdliner
 
-let run path sim fleet speed seed answers supplier supplier_timeout journal drawing =
+let run path sim fleet speed seed answers supplier supplier_timeout journal drawing follow =
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
   let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
   match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path named) with
@@ -12,8 +12,11 @@ let run path sim fleet speed seed answers supplier supplier_timeout journal draw
     Exit_status.Bad_input
   | Ok program, Ok fleet ->
     Report.diagnostics ~source:program.source program.warnings;
-    let record = { Record.journal; drawing; header = Record.header program fleet ~seed ~speed } in
-    Run.run { program; scenario = fleet.scenario; speed; seed; answers; supplier; supplier_timeout; record }
+    match follow with
+    | Some recorded -> Follow.run program fleet.scenario recorded
+    | None ->
+      let record = { Record.journal; drawing; header = Record.header program fleet ~seed ~speed } in
+      Run.run { program; scenario = fleet.scenario; speed; seed; answers; supplier; supplier_timeout; record }
 
 let positive =
   let parse text =
@@ -73,6 +76,13 @@ let drawing =
   in
   Arg.(value & opt (some Drawing_file.argument) None & info [ "draw" ] ~docv:"FILE" ~doc)
 
+let follow =
+  let doc =
+    "Take the steps of the run in the file $(docv), which $(mname) $(b,explore --trace) has written, and no others. The log has \
+     the numbers of steps where times would be."
+  in
+  Arg.(value & opt (some string) None & info [ "follow" ] ~docv:"FILE" ~doc)
+
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) checks the program $(i,PROG) as $(mname) $(b,check) does and runs it on a fleet of simulated \
@@ -106,4 +116,4 @@ let command =
       ~exits:(Options.exits [ Done; Failed; Bad_input; Platform_trouble; Bug; Interrupted ])
   in
   Cmd.v info
-    Term.(const run $ Options.program $ sim $ fleet $ speed $ seed $ answers $ supplier $ supplier_timeout $ journal $ drawing)
+    Term.(const run $ Options.program $ sim $ fleet $ speed $ seed $ answers $ supplier $ supplier_timeout $ journal $ drawing $ follow)

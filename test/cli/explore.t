@@ -284,6 +284,61 @@ Formulas of temporal logic.
   dolphin: --ltl 'F {m > 0}': unknown name 'm'
   [2]
 
+A run to follow.
+
+  $ explore again.dol --faults fail --trace again.run > shown
+  [1]
+  $ tail -n 4 again.run
+  {"label":"start(noptilus-1, a)","choice":0}
+  {"label":"fail(noptilus-1, a, failure)","event":"failed","vehicle":"noptilus-1","why":"failure"}
+  {"label":"consume failed:1","choice":0}
+  {"label":"execute","choice":0}
+  $ dolphin exec again.dol --follow again.run
+  breaks: termination
+     2  program     picks noptilus-1
+  and from there, again and again:
+     4  noptilus-1  starts a
+     5  noptilus-1  fails in a: failure
+     6  program     consumes failed:1
+  $ explore assertion.dol --trace assertion.run > shown
+  [1]
+  $ dolphin exec assertion.dol --follow assertion.run
+  breaks: assertions
+     2  program     picks noptilus-1
+     4  program     posts alarm:1
+     5  program     has an error in a task: assertion failed
+     5  program     releases noptilus-1
+     5  program     fails: assertion failed
+  assertion.dol:4:5: error: assertion failed
+    4 |   | assert { !poll(alarm: _) }) onError { ignore() }
+      |     ^^^^^^^^^^^^^^^^^^^^^^^^^^
+  [1]
+  $ explore deadlock.dol --trace deadlock.run > shown
+  [1]
+  $ dolphin exec deadlock.dol --follow deadlock.run
+  breaks: no deadlock
+     2  program     picks noptilus-1
+     4  noptilus-1  starts a
+     5  noptilus-1  ends a
+     6  program     posts left:1
+        here the recorded run stops
+
+It does not fit another program, and no other file is one.
+
+  $ dolphin exec deadlock.dol --follow assertion.run
+     2  program     picks noptilus-1
+  dolphin: assertion.run: deadlock.dol does not fit, at step 4: the program has no such choice there (act(post alarm:1))
+  [2]
+  $ dolphin exec deadlock.dol --follow deadlock.dol
+  dolphin: deadlock.dol: line 1 is no JSON
+  [2]
+  $ dolphin exec deadlock.dol --follow missing.run
+  dolphin: missing.run: No such file or directory
+  [2]
+  $ explore deadlock.dol --trace missing/deadlock.run > shown
+  dolphin: missing/deadlock.run: No such file or directory
+  [3]
+
 A bound that is met leaves the answer open.
 
   $ explore ../../examples/rendezvous.dol --max-states 100

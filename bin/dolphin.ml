@@ -5,11 +5,11 @@ let man =
     `P "Dolphin is a task orchestration language for networks of autonomous vehicles. One program picks vehicles, \
         hands them tasks, and composes those tasks: one after another, at once, when a condition holds, for so long, \
         until an error.";
-    `P "$(mname) $(b,exec) runs a program on a simulated fleet, $(mname) $(b,check) finds its faults, $(mname) \
-        $(b,parse) shows how it was read, $(mname) $(b,trace) judges, shows and draws journals of runs. Each has a \
-        manual: $(mname) $(i,COMMAND) $(b,--help).";
+    `P "$(mname) $(b,exec) runs a program, $(mname) $(b,explore) checks every run that it can have, $(mname) \
+        $(b,check) finds its faults without running it. Each command has a manual: $(mname) $(i,COMMAND) $(b,--help).";
     `S Manpage.s_examples;
-    `Pre "  $(mname) exec examples/rendezvous.dol\n  $(mname) check mission.dol";
+    `Pre "  $(mname) exec examples/rendezvous.dol\n  $(mname) explore examples/rendezvous.dol\n\
+         \  $(mname) check mission.dol";
     `S Manpage.s_files;
     `I ("$(i,*.dol)", "Programs. $(i,*.dolphin) is as good.");
     `I ("$(i,*.fleet)", "Fleets: vehicles, what they make of plans, and what people answer.") ]
@@ -21,8 +21,8 @@ let command =
       ~exits:(Options.exits [ Done; Failed; Bad_input; Platform_trouble; Bug; Interrupted ])
   in
   Cmd.group info
-    [ Exec_command.command; Check_command.command; Explore_command.command; Lts_command.command;
-      Parse_command.command; Trace_command.command ]
+    [ Exec_command.command; Check_command.command; Explore_command.command; Fleet_command.command;
+      Lts_command.command; Parse_command.command; Plan_command.command; Sim_command.command; Trace_command.command ]
 
 (* [--sim] alone would take the next argument for its fleet. *)
 let arguments =

@@ -13,6 +13,8 @@ let argument =
   in
   Arg.conv ~docv:"FILE" (parse, fun ppf d -> Format.pp_print_string ppf d.path)
 
+let path d = d.path
+
 let write d story =
   let text = match d.kind with Svg -> Picture.svg story | Html -> Picture.html story in
   let save () =

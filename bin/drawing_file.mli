@@ -5,5 +5,7 @@ type t
 val argument : t Cmdliner.Arg.conv
 (** A name that ends in [.svg] or [.html]. *)
 
+val path : t -> string
+
 val write : t -> Dolphin_trace.Story.t -> (unit, string) result
 (** The error says why it cannot be written. *)

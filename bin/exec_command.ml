@@ -1,9 +1,23 @@
 open Cmdliner
 
-let run path sim fleet speed seed answers supplier supplier_timeout journal drawing follow =
+(* On a network nobody answers for people, unless that is asked for: of a fleet only the answers are used then. *)
+let fleet_of ~path ~sim ~named = function
+  | Some _ when sim <> None || named = None -> Ok { Fleet_file.path = None; source = ""; scenario = Fleet_file.nobody }
+  | Some _ -> Fleet_file.load named
+  | None -> Fleet_file.load (Fleet_file.choose ~program:path named)
+
+let run path sim fleet network speed seed answers supplier supplier_timeout journal drawing follow =
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
   let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
-  match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path named) with
+  match Program_file.load path, fleet_of ~path ~sim ~named network with
+  | Ok _, Ok _ when network <> None && (sim <> None || speed <> None) ->
+    Report.complain "vehicles of a network (--imc) are not simulated: --sim and --speed do not go with them";
+    Exit_status.Bad_input
+  | Ok _, Ok _
+    when follow <> None
+      && (network <> None || speed <> None || answers <> [] || supplier <> None || journal <> None || drawing <> None) ->
+    Report.complain "a recorded run (--follow) goes with its program and a fleet, and with no other options";
+    Exit_status.Bad_input
   | Error trouble, _ ->
     Program_file.tell trouble;
     Exit_status.Bad_input
@@ -12,11 +26,13 @@ let run path sim fleet speed seed answers supplier supplier_timeout journal draw
     Exit_status.Bad_input
   | Ok program, Ok fleet ->
     Report.diagnostics ~source:program.source program.warnings;
-    match follow with
-    | Some recorded -> Follow.run program fleet.scenario recorded
-    | None ->
-      let record = { Record.journal; drawing; header = Record.header program fleet ~seed ~speed } in
-      Run.run { program; scenario = fleet.scenario; speed; seed; answers; supplier; supplier_timeout; record }
+    let platform = if network = None then "sim" else "imc" in
+    let header = { (Record.header program fleet ~seed ~speed) with platform } in
+    let record = { Record.journal; drawing; header } in
+    (match follow with
+     | Some recorded -> Follow.run program fleet.scenario recorded
+     | None ->
+       Run.run { program; scenario = fleet.scenario; network; speed; seed; answers; supplier; supplier_timeout; record })
 
 let positive =
   let parse text =
@@ -96,6 +112,9 @@ let man =
         $(mname) at once.";
     `S Manpage.s_arguments;
     `S Manpage.s_options;
+    `S Imc_options.s_network;
+    `P "With $(b,--imc) the program runs on real vehicles, or on whatever speaks IMC as they do. The page \
+        $(i,docs/imc.md) tells what it takes. Of a fleet that $(b,--fleet) names, only the answers are used then.";
     `S Manpage.s_exit_status;
     `S Manpage.s_files;
     `I ("$(i,PROG) with the ending $(b,.fleet)", "The fleet, unless $(b,--sim) or $(b,--fleet) names another.");
@@ -116,4 +135,6 @@ let command =
       ~exits:(Options.exits [ Done; Failed; Bad_input; Platform_trouble; Bug; Interrupted ])
   in
   Cmd.v info
-    Term.(const run $ Options.program $ sim $ fleet $ speed $ seed $ answers $ supplier $ supplier_timeout $ journal $ drawing $ follow)
+    Term.(
+      const run $ Options.program $ sim $ fleet $ Imc_options.chosen $ speed $ seed $ answers $ supplier
+      $ supplier_timeout $ journal $ drawing $ follow)

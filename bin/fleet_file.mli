@@ -17,3 +17,6 @@ val load : string option -> (t, trouble) result
 
 val tell : trouble -> unit
 (** On standard error. *)
+
+val nobody : Dolphin_scenario.Scenario.t
+(** No vehicles, no plans, no answers. *)

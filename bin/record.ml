@@ -43,6 +43,18 @@ let write_line path channel entry =
       output_char channel '\n';
       flush channel)
 
+(* A slip of the pen must not cost anybody a program. *)
+let would_overwrite settings =
+  let fleet = Option.map (fun (s : Header.source) -> s.path) settings.header.fleet in
+  let sources = settings.header.program.path :: Option.to_list fleet in
+  let outputs = Option.to_list settings.journal @ Option.to_list (Option.map Drawing_file.path settings.drawing) in
+  let same a b =
+    match Unix.stat a, Unix.stat b with
+    | a, b -> a.st_dev = b.st_dev && a.st_ino = b.st_ino
+    | exception Unix.Unix_error _ -> false
+  in
+  List.find_opt (fun output -> List.exists (same output) sources) outputs
+
 let start settings program =
   let make () =
     let channel = Option.map (fun path -> protected path (fun () -> open_out_bin path)) settings.journal in
@@ -56,7 +68,9 @@ let start settings program =
     let recorder = if is_wanted settings then Some (Recorder.make program settings.header write) else None in
     { settings; channel; teller; recorder }
   in
-  match make () with r -> Ok r | exception Broken why -> Error why
+  match would_overwrite settings with
+  | Some path -> Error (path ^ ": the run was to be written over its own program or fleet")
+  | None -> ( match make () with r -> Ok r | exception Broken why -> Error why)
 
 let observer r : Dolphin_runtime.Observer.t =
   match r.recorder with

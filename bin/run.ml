@@ -5,10 +5,12 @@ open Lwt.Infix
 module Diagnostic = Dolphin_syntax.Diagnostic
 module Location = Dolphin_syntax.Location
 module Simulator = Dolphin_platform_sim.Simulator
+module Udp_platform = Dolphin_platform_imc.Udp_platform
 
 type settings = {
   program : Program_file.t;
   scenario : Dolphin_scenario.Scenario.t;
+  network : Udp_platform.options option;
   speed : float option;
   seed : int;
   answers : string list;
@@ -76,24 +78,48 @@ let start_host s =
   | None -> Ok None
   | Some command -> Result.map Option.some (Host.start ?timeout:s.supplier_timeout command)
 
+(* A fleet, what is to stand on the board below its vehicles, and who is told of what is unusual. *)
+type platform = Platform : (module Platform.S with type t = 'p) * 'p * (unit -> string list) * (string -> unit) ref -> platform
+
 (* The simulated fleet passes its time at once, or as a clock does. *)
-type platform = Platform : (module Simulator.S with type t = 'p) * 'p -> platform
-
 let simulated s =
+  let nothing () = [] and nobody = ref ignore in
   match s.speed with
-  | None -> Platform ((module Simulator.Virtual), Simulator.Virtual.create ~seed:s.seed s.scenario)
-  | Some speed -> Platform ((module Simulator.Paced), Simulator.Paced.create ~speed ~seed:s.seed s.scenario)
+  | None -> Platform ((module Simulator.Virtual), Simulator.Virtual.create ~seed:s.seed s.scenario, nothing, nobody)
+  | Some speed ->
+    Platform ((module Simulator.Paced), Simulator.Paced.create ~speed ~seed:s.seed s.scenario, nothing, nobody)
 
-let drive s record host =
+(* How far vehicles are with their plans, by their own estimate. *)
+let estimates network () =
+  let line (sight : Dolphin_platform_imc.Station.sight) =
+    match Udp_platform.progress network sight.state.id with
+    | Some { plan; share = Some share; remaining; _ } ->
+      let left = match remaining with Some t -> Printf.sprintf ", %s left" (Wording.clock t) | None -> "" in
+      let name = Wording.harmless sight.state.id and plan = Wording.harmless plan in
+      Some (Printf.sprintf "         %s: %.0f%% of %s%s" name (100. *. share) plan left)
+    | Some { share = None; _ } | None -> None
+  in
+  List.filter_map line (Udp_platform.sights network)
+
+let open_platform s =
+  match s.network with
+  | None -> Ok (simulated s)
+  | Some options ->
+    let told = ref ignore in
+    let note vehicle text = !told (Printf.sprintf "%s: %s" vehicle text) in
+    let opened = Udp_platform.open_ { options with note } in
+    Result.map (fun network -> Platform ((module Udp_platform), network, estimates network, told)) opened
+
+let drive s record host (Platform ((module P), platform, more_lines, told)) =
   let interruption = Interruption.make () in
   let live = is_live () in
   let screen = Screen.make ~live ~on_closed:(fun () -> Interruption.interrupt interruption) Unix.stdout in
   let log = ref Log.start and board = ref Board.start in
   (* The driver interrupts stuck programs by itself. *)
   let is_stuck () = not (Interruption.happened interruption) in
-  let (Platform ((module P), platform)) = simulated s in
   let time () = P.now platform in
-  Screen.show screen (fun () -> Board.lines !board);
+  told := (fun text -> Screen.print screen (Log.remark !log ~time:(time ()) text));
+  Screen.show screen (fun () -> match Board.lines !board with [] -> [] | lines -> lines @ more_lines ());
   let shown : Questions.shown =
     { ask = (fun prompt -> Screen.ask screen (Log.question !log ~time:(time ()) prompt));
       answered = Screen.answered screen;
@@ -129,6 +155,9 @@ let run s =
   match Record.start s.record s.program.program with
   | Error why -> in_trouble why
   | Ok record -> (
-      match start_host s with
-      | Ok host -> drive s record host
-      | Error why -> in_trouble ("the supplier cannot be started: " ^ why))
+      match open_platform s with
+      | Error why -> in_trouble why
+      | Ok platform -> (
+          match start_host s with
+          | Ok host -> drive s record host platform
+          | Error why -> in_trouble ("the supplier cannot be started: " ^ why)))

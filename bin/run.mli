@@ -1,8 +1,9 @@
-(** One run of a program on the simulated fleet, as people see it. *)
+(** One run of a program, on the simulated fleet or on the vehicles of a network, as people see it. *)
 
 type settings = {
   program : Program_file.t;
-  scenario : Dolphin_scenario.Scenario.t;
+  scenario : Dolphin_scenario.Scenario.t;  (** on a network, only its answers matter *)
+  network : Dolphin_platform_imc.Udp_platform.options option;  (** [None]: the simulated fleet *)
   speed : float option;  (** times real time; [None]: as fast as it goes *)
   seed : int;
   answers : string list;

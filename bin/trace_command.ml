@@ -54,8 +54,8 @@ let check program_path path =
             (Printf.sprintf "%s is not the text that this run was of, or has changed since: places are not compared"
                program_path);
         match verdict with
-        | Run _ | Prefix _ -> Format.printf "%s: %a@." path Verdict.pp verdict; Exit_status.Done
-        | No_run _ -> Format.printf "%s: %a@." path Verdict.pp verdict; Exit_status.Failed
+        | Run _ | Prefix _ -> Format.printf "@[<v 2>%s: %a@]@." path Verdict.pp verdict; Exit_status.Done
+        | No_run _ -> Format.printf "@[<v 2>%s: %a@]@." path Verdict.pp verdict; Exit_status.Failed
         | Unreadable { number; why } -> bad (Printf.sprintf "%s:%d: %s" path number why))
 
 let check_exits =
@@ -95,7 +95,7 @@ let show transitions path =
       | Header _ | Event _ | Transition _ | End _ -> entries := entry :: !entries
     in
     let status = each_line path keep in
-    Table.print Format.std_formatter (List.rev !entries);
+    if !entries <> [] then Table.print Format.std_formatter (List.rev !entries);
     Format.printf "%!";
     status
 
@@ -106,11 +106,12 @@ let show_command =
   in
   let man =
     [ `S Manpage.s_description;
-      `P "$(tname) prints the journal $(i,RUN) as a page of text: a column for the program and one for each vehicle that \
-          it picked, time going down." ]
+      `P "$(tname) prints the journal $(i,RUN) as a page of text: a column for the program and one for each vehicle \
+          that it picked, time going down." ]
     @ Options.see_also
   in
-  let info = Cmd.info "show" ~doc:"show a journal as a page of text" ~man ~exits:(Options.exits [ Done; Bad_input; Bug ]) in
+  let exits = Options.exits [ Done; Bad_input; Bug ] in
+  let info = Cmd.info "show" ~doc:"show a journal as a page of text" ~man ~exits in
   Cmd.v info Term.(const show $ transitions $ journal 0)
 
 (* {1 Draw} *)
@@ -131,23 +132,24 @@ let draw_command =
   in
   let man =
     [ `S Manpage.s_description;
-      `P "$(tname) draws the journal $(i,RUN): the tasks of each vehicle over time, with what the program did; the ways \
-          of the vehicles; their batteries. The file needs nothing but itself, prints well, and follows the reader's \
-          choice of light or dark." ]
+      `P "$(tname) draws the journal $(i,RUN): the tasks of each vehicle over time, with what the program did; the \
+          ways of the vehicles; their batteries. The file needs nothing but itself, prints well, and follows the \
+          reader's choice of light or dark." ]
     @ Options.see_also
   in
-  let info = Cmd.info "draw" ~doc:"draw a journal" ~man ~exits:(Options.exits [ Done; Bad_input; Bug ]) in
-  Cmd.v info Term.(const draw $ journal 0 $ drawing)
+  let exits = Options.exits [ Done; Bad_input; Bug ] in
+  Cmd.v (Cmd.info "draw" ~doc:"draw a journal" ~man ~exits) Term.(const draw $ journal 0 $ drawing)
 
 let command =
   let man =
     [ `S Manpage.s_description;
-      `P "A journal tells of one run of a program, transition by transition. $(mname) $(b,exec --journal) $(i,RUN) writes \
-          it, $(i,docs/trace.md) describes it.";
+      `P "A journal tells of one run of a program, transition by transition. $(mname) $(b,exec --journal) $(i,RUN) \
+          writes it, $(i,docs/trace.md) describes it.";
       `S Manpage.s_examples;
       `Pre "  $(mname) exec mission.dol --journal mission.run\n  $(mname) $(tname) check mission.dol mission.run\n\
            \  $(mname) $(tname) show mission.run\n  $(mname) $(tname) draw mission.run -o mission.svg" ]
     @ Options.see_also
   in
-  let info = Cmd.info "trace" ~doc:"check, show and draw journals of runs" ~man ~exits:(Options.exits [ Done; Failed; Bad_input; Bug ]) in
+  let exits = Options.exits [ Done; Failed; Bad_input; Bug ] in
+  let info = Cmd.info "trace" ~doc:"check, show and draw journals of runs" ~man ~exits in
   Cmd.group info [ check_command; show_command; draw_command ]

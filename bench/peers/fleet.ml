@@ -1,5 +1,5 @@
-(* fleet N F [MAX_STATES]: explores the program of the peers' models, N vehicles, F = 1 with failures, and prints one line:
-   states, transitions, depth, seconds of CPU, bytes a state as the explorer counts them. *)
+(* fleet N F [MAX_STATES]: explores the program of the peers' models, N vehicles, F = 1 with failures, and prints one
+   line: states, transitions, depth, seconds of CPU, bytes a state as the explorer counts them. *)
 
 open Dolphin_semantics
 open Dolphin_explore
@@ -27,7 +27,8 @@ let compile source =
       match Elaborate.program ~source_name:"fleet.dol" ast with Error ds -> explain ds | Ok (program, _) -> program)
 
 let world n =
-  let vehicle kind id = { World.id; kind; payload = []; position = Dolphin_geo.Place.apdl; battery = 1.; connected = true } in
+  let position = Dolphin_geo.Place.apdl in
+  let vehicle kind id = { World.id; kind; payload = []; position; battery = 1.; connected = true } in
   let uuvs = List.init n (fun i -> vehicle "UUV" (Printf.sprintf "uuv-%d" (i + 1))) in
   List.fold_left (fun w v -> World.add v w) World.empty (uuvs @ [ vehicle "UAV" "uav" ])
 

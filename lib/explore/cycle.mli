@@ -2,7 +2,10 @@
     step of the program, or of the outside, is possible that a fair run has to take; around such a cycle no step stays
     possible without being taken. So each cycle of the state graph is a fair run that does not end. *)
 
-type lasso = { stem : int list;  (** states from the initial one *) around : int list  (** from its last one back to it *) }
+type lasso = {
+  stem : int list;  (** states from the initial one *)
+  around : int list;  (** from its last one back to it *)
+}
 
 val find : interrupted:(unit -> bool) -> Space.t -> lasso option
 (** [find ~interrupted s] is a cycle of [s], all of whose states have been expanded, with a shortest way to it and the

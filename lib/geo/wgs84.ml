@@ -174,3 +174,20 @@ let towards (a : Position.t) (b : Position.t) metres =
 let interpolate a b share =
   finite "interpolate" share;
   if share <= 0. then a else if share >= 1. then b else towards a b (share *. distance a b)
+
+type cartesian = { x : float; y : float; z : float }
+
+let cartesian (p : Position.t) =
+  let eccentricity_squared = flattening *. (2. -. flattening) in
+  let latitude = radians p.latitude and longitude = radians p.longitude in
+  let sine = sin latitude in
+  let normal = semi_major_axis /. sqrt (1. -. (eccentricity_squared *. square sine)) in
+  let from_axis = (normal +. p.height) *. cos latitude in
+  {
+    x = from_axis *. cos longitude;
+    y = from_axis *. sin longitude;
+    z = ((normal *. (1. -. eccentricity_squared)) +. p.height) *. sine;
+  }
+
+let straight a b =
+  sqrt (square (a.x -. b.x) +. square (a.y -. b.y) +. square (a.z -. b.z))

@@ -36,3 +36,16 @@ val towards : Position.t -> Position.t -> float -> Position.t
 
 val interpolate : Position.t -> Position.t -> float -> Position.t
 (** [interpolate a b share] is [towards a b (share * distance a b)]: [a] for 0 and less, [b] for 1 and more. *)
+
+(** {1:straight Straight lines}
+
+    Through the Earth, and cheap where many distances between the same points are compared. *)
+
+type cartesian
+(** A position in the Earth-centred frame. *)
+
+val cartesian : Position.t -> cartesian
+
+val straight : cartesian -> cartesian -> float
+(** [straight a b] is the length in metres of the straight line from [a] to [b], heights included. On the ground it is
+    shorter than {!distance} by less than a metre in 80 km. *)

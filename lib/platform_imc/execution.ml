@@ -234,7 +234,9 @@ let judge_start ~now ~clock (a : attempt) (s : sighting) x =
       if (not accepted) && (a.before = None || was_busy_with other) then look ~now ~clock a s x
       else replaced ~now ~clock ~ended:s.sent a other x
     | Ready when own ->
-      let had_another = match a.before with Some b -> not (is a.order.plan b) | None -> false in
+      (* Unless the plan that had its name there was ours, and over after that was said. *)
+      let over = match x.former with Some f when f.attempt.order.plan = a.order.plan -> f.ended | _ -> neg_infinity in
+      let had_another = match a.before with Some b -> b.sent > over && not (is a.order.plan b) | None -> false in
       if not (accepted || a.initialised || had_another) then look ~now ~clock a s x
       else if succeeded s then succeed ~now ~ended:s.sent a x
       else expect_words ~now ~clock a ~since:(effect_of a) (if accepted then ended_badly else refused) x
@@ -263,14 +265,15 @@ let stopped ~now ~clock ~ended attempt next x =
   | None -> (x, [])
 
 (* Whether [s] shows that the plan of [a] does not run and, if the request may still be on its way, will not. *)
-let confirms_stop (a : attempt) ~took_effect ~after (s : sighting) =
+let confirms_stop ~now (a : attempt) ~took_effect ~after (s : sighting) =
   let over =
     match s.state.state with
     | Ready | Blocked -> true
     | Executing -> not (is a.order.plan s)
     | Initializing | Other _ -> false
   in
-  over && s.sent > after && (took_effect || s.sent >= a.asked +. patience)
+  over && s.sent > after
+  && (took_effect || (now >= a.last_sent +. patience && s.sent >= a.asked +. patience))
 
 let judge ~now ~clock (s : sighting) x =
   match x.phase with
@@ -284,9 +287,10 @@ let judge ~now ~clock (s : sighting) x =
   | Starting a -> judge_start ~now ~clock a s x
   | Running { attempt; since } -> judge_run ~now ~clock attempt ~since s x
   | Ending _ -> (x, [])
-  | Stopping { attempt; took_effect; after; next; _ } ->
-    if confirms_stop attempt ~took_effect ~after s then stopped ~now ~clock ~ended:s.sent attempt next x
-    else (x, [])
+  | Stopping p ->
+    let took_effect = p.took_effect || (is p.attempt.order.plan s && s.state.state = Executing && s.sent > p.after) in
+    if confirms_stop ~now p.attempt ~took_effect ~after:p.after s then stopped ~now ~clock ~ended:s.sent p.attempt p.next x
+    else ({ x with phase = Stopping { p with took_effect } }, [])
 
 (* {1 Inputs} *)
 
@@ -313,9 +317,13 @@ let start_reply ~now ~clock ~sent (reply : Message.t Control.t) x =
   | (Idle | Starting _ | Running _ | Ending _ | Stopping _), (Request | Success | Failure | In_progress | Other _) ->
     (x, [])
 
+(* The request that is to be undone by a stop may come after it. *)
+let may_arrive ~now (a : attempt) ~took_effect = (not took_effect) && now < a.last_sent +. patience
+
 let stop_reply ~now ~clock ~sent (reply : Message.t Control.t) x =
   match x.phase with
-  | Stopping s when reply.request_id = s.stop -> stopped ~now ~clock ~ended:sent s.attempt s.next x
+  | Stopping s when reply.request_id = s.stop && not (may_arrive ~now s.attempt ~took_effect:s.took_effect) ->
+    stopped ~now ~clock ~ended:sent s.attempt s.next x
   | Idle | Starting _ | Running _ | Ending _ | Stopping _ -> (
       if x.last_stop <> Some reply.request_id then (x, [])
       else

@@ -20,8 +20,9 @@
       error that the vehicle reports stands in for them.
     - A request is {e sent again} only after a look: no reply came within {!patience}, and a state that the vehicle sent
       so long after the request shows that it was without effect. After {!most_copies} the plan has failed.
-    - A stop is sent again every {!stop_interval} until a reply or a later state confirms it. Only then is the next start
-      sent. After {!stop_patience} it is given up.
+    - A stop is sent again every {!stop_interval} until a reply or a later state confirms it; if it is not known whether
+      the vehicle took the plan, one {!patience} after the request, which may have been overtaken. Only then is the next
+      start sent. After {!stop_patience} the stop is given up.
     - Late copies of our own datagrams are recognised by their replies: a stop that hits the next plan makes it start
       again; a start that comes after its plan was over is stopped. Both are told as a [Note]. *)
 

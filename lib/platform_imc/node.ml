@@ -56,7 +56,8 @@ let described ~now ~from (p : Packet.t) (a : Message.Announce.t) n =
     hosts = List.sort_uniq compare (from :: List.map (fun (a : Service.address) -> a.host) addresses);
     address = choose ~from ~current:n.address addresses;
     clock; last_announced = now;
-    announced_position = placed ~lat:a.lat ~lon:a.lon ~height:a.height }
+    (* Systems that do not know where they are announce zeros. *)
+    announced_position = (if a.lat = 0. && a.lon = 0. then None else placed ~lat:a.lat ~lon:a.lon ~height:a.height) }
 
 let most_hosts = 32
 let named id name = if String.trim name = "" then Printf.sprintf "imc-%04x" id else name

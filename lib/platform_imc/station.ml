@@ -221,10 +221,10 @@ let datagram ~now ~from ?len bytes s =
 (* {1 Time} *)
 
 let is_courted ~now (n : Node.t) =
-  n.last_heard = neg_infinity && n.address <> None && now -. n.first_announced < courtship
+  Node.is_vehicle n && n.last_heard = neg_infinity && n.address <> None && now -. n.first_announced < courtship
 
 let is_kept ~now (n : Node.t) =
-  n.address <> None && (now -. Node.last_sign n < patience || not (Execution.idle n.execution))
+  Node.is_vehicle n && n.address <> None && (now -. Node.last_sign n < patience || not (Execution.idle n.execution))
 
 let heartbeats ~now which s =
   Nodes.fold (fun _ n sent -> if which n then to_node ~now n Heartbeat s @ sent else sent) s.nodes []

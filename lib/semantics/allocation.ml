@@ -44,13 +44,19 @@ let lack task =
         let missing = List.filter (fun d -> not (World.carries [ d ] state)) devices in
         Some ("it lacks " ^ String.concat ", " missing)
 
+module Wgs84 = Dolphin_geo.Wgs84
+
+(* A vehicle of B, with what the world says of it. *)
+type candidate = { vehicle : vehicle; state : World.vehicle_state option; place : Wgs84.cartesian option }
+
+let candidate_of world vehicle =
+  let state = World.find vehicle world in
+  { vehicle; state; place = Option.map (fun (s : World.vehicle_state) -> Wgs84.cartesian s.position) state }
+
 let cost task =
-  match Option.map Plan.reference task.plan with
+  match Option.map (fun plan -> Wgs84.cartesian (Plan.reference plan)) task.plan with
   | None -> fun _ -> 0.
-  | Some reference -> (
-      function
-      | None -> 0.
-      | Some (state : World.vehicle_state) -> Dolphin_geo.Wgs84.distance state.position reference)
+  | Some reference -> ( function { place = Some place; _ } -> Wgs84.straight place reference | { place = None; _ } -> 0.)
 
 module String_set = Set.Make (String)
 
@@ -61,25 +67,23 @@ let permitted leaf =
     let set = String_set.of_list vs in
     fun v -> String_set.mem v set
 
-let candidates states bound leaf : Assignment.leaf =
+let candidates all leaf : Assignment.leaf =
   let permitted = permitted leaf and lack = lack leaf.task and cost = cost leaf.task in
-  let candidate i v =
-    if permitted v && lack v states.(i) = None then Some (i, cost states.(i)) else None
-  in
-  { candidates = Array.of_seq (Seq.filter_map Fun.id (Array.to_seq (Array.mapi candidate bound))) }
+  let candidate i c = if permitted c.vehicle && lack c.vehicle c.state = None then Some (i, cost c) else None in
+  { candidates = Array.of_seq (Seq.filter_map Fun.id (Array.to_seq (Array.mapi candidate all))) }
 
 (* Tasks by name under one [T[V]] have the same candidates, computed once. *)
 let candidates_once world bound =
   let known = ref [] in
-  let states = Array.map (fun v -> World.find v world) bound in
+  let all = Array.map (candidate_of world) bound in
   fun leaf ->
     match leaf.task.plan, List.assq_opt leaf.allowed !known with
     | None, Some candidates -> candidates
     | None, None ->
-      let candidates = candidates states bound leaf in
+      let candidates = candidates all leaf in
       known := (leaf.allowed, candidates) :: !known;
       candidates
-    | Some _, _ -> candidates states bound leaf
+    | Some _, _ -> candidates all leaf
 
 let names vs = String.concat ", " vs
 

@@ -159,5 +159,5 @@ type program = {
   functions : (string * lambda) list;
   main : lambda;
   ordered_keys : string list;                   (* keys that some [consume k: _] takes the oldest of *)
-  reads_sensors : bool;                         (* some code, or an allocation, may read positions or batteries *)
+  reads_sensors : bool;                         (* some code may read positions or batteries *)
 }

@@ -219,8 +219,6 @@ and guarded env at operation construct guard t =
 (* {2 Blocks of settings} *)
 
 and build env at builder body =
-  (* Inline plans are given to the vehicles that are near. *)
-  if builder = Imc_plan then Scope.note_sensor env.program;
   if builder = Pick then check_place env { (Option.get (Builtins.find "ask")) with result = Vehicles } "pick" at;
   let slot = Scope.new_slot env.code in
   let start = set_local env at slot (constant env at (Settings [])) in

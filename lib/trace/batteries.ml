@@ -22,8 +22,8 @@ let draw story ~x ~y ~width ~height =
   let down charge = y +. (height *. (top -. charge) /. (top -. bottom)) in
   let level charge =
     let at = down charge in
-    [ Svg.line ~name:"grid" (x, at) (right, at);
-      Svg.text ~name:"axis" ~anchor:End (x -. 6., at +. 3.5) (Printf.sprintf "%g%%" (Float.round (charge *. 1000.) /. 10.)) ]
+    let percent = Printf.sprintf "%g%%" (Float.round (charge *. 1000.) /. 10.) in
+    [ Svg.line ~name:"grid" (x, at) (right, at); Svg.text ~name:"axis" ~anchor:End (x -. 6., at +. 3.5) percent ]
   in
   let tick time =
     let at = across time in

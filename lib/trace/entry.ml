@@ -70,6 +70,10 @@ let of_members found =
     Ok (End { time; transitions; ending })
   | other -> Error (Printf.sprintf "there are no lines of kind %S" other)
 
+let first_of_string line =
+  let json = Result.value (Host_value.parse line) ~default:`Null in
+  Result.map (fun h -> Header h) (Header.of_json json)
+
 let of_string line =
   match Host_value.parse line with
   | Error why -> Error ("this is no JSON: " ^ why)

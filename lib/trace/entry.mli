@@ -17,3 +17,6 @@ val to_string : t -> string
 
 val of_string : string -> (t, string) result
 (** Or what is wrong, in a sentence without a full stop. Members that are not known are passed over. *)
+
+val first_of_string : string -> (t, string) result
+(** The same for a first line, which is a header or that of no journal. *)

@@ -83,7 +83,8 @@ let svg story = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" ^ Svg.to_string (
 
 let page_style =
   {|
-body { margin: 0 auto; max-width: 1100px; background: #ffffff; color: #1c2127; font: 14px system-ui, "Helvetica Neue", Helvetica, Arial, sans-serif; }
+body { margin: 0 auto; max-width: 1100px; background: #ffffff; color: #1c2127; }
+body { font: 14px system-ui, "Helvetica Neue", Helvetica, Arial, sans-serif; }
 svg { width: 100%; height: auto; display: block; }
 table { border-collapse: collapse; margin: 0 28px 40px; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: 3px 18px 3px 0; border-bottom: 1px solid #e4e8ec; }

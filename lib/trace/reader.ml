@@ -62,9 +62,8 @@ let next r =
   let number = r.number in
   let wrong why = Wrong { number; why } in
   let entry text ~otherwise =
-    match Entry.of_string text with
-    | Ok (Header _ as entry) -> if number = 1 then Line { number; entry } else wrong "a second header"
-    | Ok _ when number = 1 -> wrong "this is no journal: its first line is not the header of one"
+    match if number = 1 then Entry.first_of_string text else Entry.of_string text with
+    | Ok (Header _) when number > 1 -> wrong "a second header"
     | Ok entry -> Line { number; entry }
     | Error why -> otherwise why
   in
@@ -74,5 +73,5 @@ let next r =
   | Unfinished "" -> if number = 1 then wrong "the journal is empty" else End_of_file
   | Unfinished text ->
     (* What is left of a line never is a whole line of JSON. *)
-    entry text ~otherwise:(fun _ ->
-        if number = 1 then wrong "this is no journal, or not even its first line was written to its end" else Torn number)
+    let first = "this is no journal, or not even its first line was written to its end" in
+    entry text ~otherwise:(fun _ -> if number = 1 then wrong first else Torn number)

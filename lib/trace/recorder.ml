@@ -64,12 +64,15 @@ let news r ~time (state : World.vehicle_state) =
 
 (* {1 Transitions} *)
 
-let may_depend_on_vehicles r =
-  r.program.reads_sensors || Transition.depends_on_sensors r.program r.configuration
+(* Allocation looks where vehicles are, whatever the program's own code reads; and so may an answer, which is code. *)
+let may_depend_on_vehicles r (t : Transition.t) =
+  match t.label with
+  | Execute | Cannot_execute _ | Answer _ -> true
+  | _ -> r.program.reads_sensors || Transition.depends_on_sensors r.program r.configuration
 
 let transition r ~time ~cause (t : Transition.t) =
   pass r time;
-  if r.behind <> [] && may_depend_on_vehicles r then catch_up r;
+  if r.behind <> [] && may_depend_on_vehicles r t then catch_up r;
   let event event = r.write (Event { time = r.time; happening = Happening.of_event event }) in
   Option.iter event cause;
   let step = Step.of_transition r.program r.configuration t in

@@ -1,8 +1,9 @@
 (** Makes the journal of a run, told of it as {!Dolphin_runtime.Observer} are.
 
     What is told of vehicles becomes a line at once if it is new or the link came or went. The rest, positions and
-    batteries, becomes one every few seconds or every ten metres of a vehicle; but before a transition that may depend on it, all of it
-    does. So whoever reads the journal knows of vehicles, at each transition, all that the program could know. *)
+    batteries, becomes one every few seconds or every ten metres of a vehicle; but before a transition that may depend
+    on it, all of it does. So whoever reads the journal knows of vehicles, at each transition, all that the program could
+    know. *)
 
 open Dolphin_semantics
 

@@ -79,15 +79,14 @@ let pp_mismatch ppf m =
     | [] -> Format.fprintf ppf "@,%s: nothing" name
     | xs -> Format.fprintf ppf "@,%s: %s" name (String.concat ", " xs)
   in
-  Format.fprintf ppf "@[<v>%s" m.reason;
+  Format.fprintf ppf "%s" m.reason;
   (match m.false_guards with
    | [] -> ()
    | guards ->
      let show (at, label) = Printf.sprintf "%s at %d:%d" label (Location.line at) (Location.column at) in
      items "false then" (List.map show guards));
   items "enabled then" m.enabled;
-  items "awaited then" m.awaited;
-  Format.fprintf ppf "@]"
+  items "awaited then" m.awaited
 
 (* {1 Transitions} *)
 

@@ -1,6 +1,6 @@
 (** Journals, judged by the semantics: a journal is one of a run if each of its transitions is what
-    {!Dolphin_semantics.Transition} makes of the configuration before it, of what was known of vehicles, and of the event
-    before it. Nothing is kept of lines but the configuration that they lead to. *)
+    {!Dolphin_semantics.Transition} makes of the configuration before it, of what was known of vehicles, and of the
+    event before it. Nothing is kept of lines but the configuration that they lead to. *)
 
 open Dolphin_semantics
 
@@ -36,4 +36,4 @@ val ending : t -> Request.ending option
 (** How the run ended, if its last line was there. *)
 
 val pp_mismatch : Format.formatter -> mismatch -> unit
-(** The reason, and further lines. *)
+(** The reason, and further lines, for a vertical box. *)

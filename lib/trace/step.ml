@@ -186,4 +186,4 @@ let difference ~places expected found =
       let show = Option.value ~default:"nothing" in
       Some (Printf.sprintf "\"%s\" should be %s, not %s" name (show e) (show f))
   in
-  List.find_map differs ([ "rule"; "label" ] @ (if places then [ "at" ] else []) @ [ "A"; "B"; "N"; "effects" ])
+  List.find_map differs ([ "label"; "rule" ] @ (if places then [ "at" ] else []) @ [ "A"; "B"; "N"; "effects" ])

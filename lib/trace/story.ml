@@ -95,13 +95,12 @@ let let_go t v =
 (* No picture shows more samples than that: of a long run, only some are kept, evenly. *)
 let most_samples = 4096
 
+(* The latest sample always stays, so that the last one does; the one before it goes if it is too near to those around
+   it. *)
 let keep a sample =
   match a.seen with
-  | last :: others when sample.time -. last.time < a.apart && others <> [] ->
-    (* The latest one always stays, so that the last one does. *)
-    (match others with
-     | before :: _ when last.time -. before.time < a.apart -> a.seen <- sample :: others
-     | _ -> a.seen <- sample :: a.seen; a.kept <- a.kept + 1)
+  | last :: (before :: _ as others) when sample.time -. last.time < a.apart && last.time -. before.time < a.apart ->
+    a.seen <- sample :: others
   | seen ->
     a.seen <- sample :: seen;
     a.kept <- a.kept + 1

@@ -17,7 +17,8 @@ let group ?name children = Element ("g", named name [], children)
 let rect ?name ?(round = 0.) ?tip ~x ~y ~width ~height () =
   let rounded = if round > 0. then [ ("rx", number round) ] else [] in
   let place =
-    [ ("x", number x); ("y", number y); ("width", number (Float.max 0. width)); ("height", number (Float.max 0. height)) ]
+    [ ("x", number x); ("y", number y); ("width", number (Float.max 0. width));
+      ("height", number (Float.max 0. height)) ]
   in
   Element ("rect", named name (place @ rounded), tips tip)
 

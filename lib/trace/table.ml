@@ -84,7 +84,10 @@ let of_cause : Happening.t option -> _ = function
 
 (* Conditions and timers are seen by what comes of them; where nothing does, they are named. *)
 let of_label (s : Step.t) =
-  let starts prefix = String.length s.label >= String.length prefix && String.sub s.label 0 (String.length prefix) = prefix in
+  let starts prefix =
+    let n = String.length prefix in
+    String.length s.label >= n && String.sub s.label 0 n = prefix
+  in
   if s.label = "timeout" then [ (Program, "time is up") ]
   else if s.label = "check" then [ (Program, "a condition holds") ]
   else if starts "cut" then [ (Program, "until: the condition holds") ]
@@ -178,7 +181,8 @@ let print_columns ppf picked rows =
     let height = List.fold_left (fun n (lines, _) -> max n (List.length lines)) 1 cells in
     for i = 0 to height - 1 do
       let nth (lines, further) = Option.value (List.nth_opt lines i) ~default:further in
-      let time = if i = 0 && clock <> previous then Printf.sprintf "%*s" clock_width clock else String.make clock_width ' ' in
+      let shown = if i = 0 && clock <> previous then clock else "" in
+      let time = Printf.sprintf "%*s" clock_width shown in
       line time (List.map nth cells)
     done;
     clock

@@ -36,8 +36,8 @@ let label = function
 let most_levels = 7
 let longest_label = 330.
 
-(* Marks with labels that do not overlap: each on the lowest level on which there is room for it. A mark whose label has
-   no room stands on the lowest level without one, on the whole too many to be read. *)
+(* Marks with labels that do not overlap: each on the lowest level on which there is room for it. Marks whose labels
+   have no room stand below these, without. *)
 let place f deeds =
   let free = Array.make most_levels neg_infinity in
   let levels = ref 1 in
@@ -67,8 +67,13 @@ let place f deeds =
       mark :: marks
     end
   in
-  let marks = List.fold_left (fun marks deed -> add marks (mark deed)) [] deeds in
-  (List.rev marks, !levels)
+  let marks = List.rev (List.fold_left (fun marks deed -> add marks (mark deed)) [] deeds) in
+  if Hashtbl.length covered = 0 then (marks, !levels)
+  else
+    let raise_labelled (x, i, leftwards, deed, text, time) =
+      (x, (if text = "" then i else i + 1), leftwards, deed, text, time)
+    in
+    (List.map raise_labelled marks, !levels + 1)
 
 let level_height = 15.
 
@@ -171,6 +176,9 @@ let legend story ~x ~y =
 
 (* {1 All of it} *)
 
+(* More lines than that would be a curtain. *)
+let most_guides = 40
+
 let gutter story =
   let widest = List.fold_left (fun w v -> Float.max w (Svg.width ~size:12. v.id)) 46. story.vehicles in
   Float.min 165. widest +. 16.
@@ -196,6 +204,7 @@ let draw story ~x ~y ~width =
     | Posted _ | Consumed _ | Erred _ -> [ Svg.line ~name:"guide" (x, top) (x, bottom) ]
     | Said _ | Asked _ -> []
   in
+  let guides = if List.length marks > most_guides then [] else List.concat_map guide marks in
   let program =
     Svg.text ~name:"small" ~anchor:End (f.left -. 10., base +. 4.) "program"
     :: List.concat_map (draw_mark base) marks
@@ -204,7 +213,7 @@ let draw story ~x ~y ~width =
   let parts =
     List.concat_map tick (Scale.multiples step ~from:0. ~until:seconds)
     @ [ Svg.line ~name:"frame" (f.left, bottom) (f.right, bottom) ]
-    @ List.concat rows @ List.concat_map guide marks @ program
+    @ List.concat rows @ guides @ program
     @ legend story ~x:f.left ~y:(bottom +. 34.)
   in
   (Svg.group ~name:"timeline" parts, bottom +. 40. -. y)

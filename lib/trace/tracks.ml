@@ -105,7 +105,9 @@ let thin points =
 
 (* Runs of samples in sight, and the jumps between them. *)
 let runs v =
-  let was_silent a b = List.exists (fun (s : span) -> s.from >= a.time && s.until <= b.time && s.until > s.from) v.silent in
+  let was_silent a b =
+    List.exists (fun (s : span) -> s.from >= a.time && s.until <= b.time && s.until > s.from) v.silent
+  in
   let add runs sample =
     match runs with
     | (last :: _ as run) :: others when not (was_silent last sample) -> (sample :: run) :: others

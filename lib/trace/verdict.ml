@@ -55,6 +55,6 @@ let pp ppf = function
     Format.fprintf ppf "the beginning of a run, of %s in %s; it breaks off%s" (count transitions) (Clock.text time)
       (if torn then " in the middle of a line" else "")
   | No_run { number; entry; transitions; mismatch } ->
-    Format.fprintf ppf "@[<v>line %d is none of a run: %s@,%a@,before it: %s of a run@]" number (describe entry)
+    Format.fprintf ppf "line %d is none of a run: %s@,%a@,before it: %s of a run" number (describe entry)
       Replay.pp_mismatch mismatch (count transitions)
   | Unreadable { number; why } -> Format.fprintf ppf "line %d: %s" number why

@@ -18,4 +18,4 @@ val check : Core.program -> hash:string -> Reader.t -> Header.t option * t
 
 val is_legal : t -> bool
 val pp : Format.formatter -> t -> unit
-(** A sentence without a full stop, and for what is no run, further lines. *)
+(** A sentence without a full stop, and for what is no run, further lines, for a vertical box. *)

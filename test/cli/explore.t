@@ -332,6 +332,9 @@ It does not fit another program, and no other file is one.
   $ dolphin exec deadlock.dol --follow deadlock.dol
   dolphin: deadlock.dol: line 1 is no JSON
   [2]
+  $ dolphin exec assertion.dol --follow assertion.run --journal assertion.journal
+  dolphin: a recorded run (--follow) goes with its program and a fleet, and with no other options
+  [2]
   $ dolphin exec deadlock.dol --follow missing.run
   dolphin: missing.run: No such file or directory
   [2]

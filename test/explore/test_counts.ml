@@ -37,7 +37,8 @@ let test_two () = check "two tasks" two ~states:15 ~transitions:18 ()
 (* A failure ends all. Ends: either task's failure: 2. Transitions: each of the two fails where it runs and the other is
    in any of 3 states: 6 more. *)
 let test_two_failing () =
-  check "two tasks that may fail" two ~environment:(Environment.failing Environment.default) ~states:17 ~transitions:24 ()
+  let environment = Environment.failing Environment.default in
+  check "two tasks that may fail" two ~environment ~states:17 ~transitions:24 ()
 
 (* At most one failure, which ends all here: no difference but that nothing else can be told apart. *)
 let test_two_failing_once () =
@@ -51,14 +52,14 @@ let test_equal_actions () =
   let source = "def f() { action { post x:1 } }\nexecute f() | f()" in
   check "equal actions" source ~states:5 ~transitions:5 ()
 
-(* One of three vehicles: initial, waiting, then 3 copies of (bound, ready, running, after, end); B is empty again at the
-   end, but the variable tells which vehicle it was. *)
+(* One of three vehicles: initial, waiting, then 3 copies of (bound, ready, running, after, end); B is empty again at
+   the end, but the variable tells which vehicle it was. *)
 let test_pick () =
   let source = "a = pick { type 'UUV' }\nexecute task('p')[a]" in
   check "choice of pick" source ~vehicles:3 ~states:(2 + (3 * 5)) ~transitions:(1 + 3 + (3 * 4)) ()
 
-(* N vehicles that survey, post ready:i and keep station, and one that meets each in any order, one at a time. For each i
-   the vehicle has 6 states (survey ready, running; to post; station keeping ready, running; done); before the post, 3,
+(* N vehicles that survey, post ready:i and keep station, and one that meets each in any order, one at a time. For each
+   i the vehicle has 6 states (survey ready, running; to post; station keeping ready, running; done); before the post, 3,
    the meeting is not possible; after it, 3, it is to come or over: 9 together; or under way in 2 states: 6 more, for at
    most one i. So 9^N + N * 6 * 9^(N-1) = 9^(N-1) * (9 + 6 N), among them the state in which all is done, which is
    the script's; before there are initial, waiting, bound, waiting, bound, and after it the end: 6. *)

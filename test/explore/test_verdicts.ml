@@ -29,18 +29,21 @@ let pick = "va = pick { id 'a' }\nvb = pick { id 'b' }\n"
 
 let verdicts : (string * (unit -> unit)) list =
   [
-    ("a condition that comes true", check No_deadlock "execute condition { consume x:1 } | action { post x:1 }" "holds");
+    ("a condition that comes true",
+     check No_deadlock "execute condition { consume x:1 } | action { post x:1 }" "holds");
     ("a condition that never does", check No_deadlock "execute condition { consume x:1 }" "violated in 1");
     ("two wait for each other",
      check No_deadlock
-       "t = (condition { consume x:1 } >> action { post y:1 }) | (condition { consume y:1 } >> action { post x:1 })\nexecute t"
+       "t = (condition { consume x:1 } >> action { post y:1 }) | (condition { consume y:1 } >> action { post x:1 })\n\
+        execute t"
        "violated in 1");
     ("a loop that ends", check Termination "for (i in 1..3) { execute action { } }" "holds");
     ("a loop that does not", check Termination "while (true) { execute action { } }" "for ever 1+2");
     ("a loop over platform tasks", check Termination (pick ^ "while (true) { execute task('p')[va] }") "for ever 5+3");
     ("a loop that may end or not",
      check Termination
-       "while (!poll(stop: 1)) { execute oneOf {\nwhen { true } then action { }\nwhen { true } then action { post stop:1 }\n} }"
+       "while (!poll(stop: 1)) { execute oneOf {\nwhen { true } then action { }\n\
+        when { true } then action { post stop:1 }\n} }"
        "for ever 1+3");
     ("a task that may fail", check ~options:failing No_error (pick ^ "execute task('p')[va]") "violated in 7");
     ("a failure that is handled",

@@ -155,6 +155,14 @@ let towards_reaches (a, north, east) =
   in
   walk a 30
 
+(* The chord of an arc of length d is shorter by d³ / 24 R². *)
+let straight_is_shorter (a, north, east) =
+  let a = { a with Position.height = 0. } in
+  let b = Wgs84.displace a ~north ~east in
+  let ground = Wgs84.distance a b in
+  let straight = Wgs84.straight (Wgs84.cartesian a) (Wgs84.cartesian b) in
+  straight <= ground +. 1e-3 && ground -. straight <= 1e-3 +. (1.1 *. (ground ** 3.) /. (24. *. (6.33e6 ** 2.)))
+
 let rim_belongs (a, north, east) =
   let radius = hypot north east in
   let rim = Wgs84.displace a ~north ~east in
@@ -184,5 +192,6 @@ let () =
           law "distance is symmetric" symmetric;
           law "steps towards a position reach it" towards_reaches;
           law "the rim belongs to the area" rim_belongs;
+          law "straight lines are shorter" straight_is_shorter;
         ] );
     ]

@@ -35,7 +35,7 @@ let keeps_the_invariant _ (s : Walk.step) =
   | Error why -> fail "after %s: %s" (shown s) why
 
 let bound_by = [ Rule.Pick_bind; Release; End; Halt; Fault; Interrupt; Pick_err; Answer_err; Call_err; Execute_err;
-                 Alloc_err; Watch_halt ]
+                 Alloc_err; Watch_halt; Assert_err ]
 
 let b_changes_only_so _ (s : Walk.step) =
   s.before.bound = s.transition.next.bound

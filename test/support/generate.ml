@@ -86,7 +86,8 @@ let code_task =
   frequency
     [ (3, map (fun c -> call "action" [ Positional (expression (Closure c)) ]) action_code);
       (2, map (fun c -> call "condition" [ Positional (expression (Closure c)) ]) guard);
-      (1, map (fun i -> call "idle" [ Positional (integer i) ]) (int_range 0 2)) ]
+      (1, map (fun i -> call "idle" [ Positional (integer i) ]) (int_range 0 2));
+      (1, map (fun c -> call "assert" [ Positional (expression (Closure c)); Positional (string "a") ]) guard) ]
 
 let platform_task vehicles =
   let* plan = oneofl [ "p"; "q" ] in

@@ -1,0 +1,1 @@
+(** Explores the program of the peers' models. No value of its own. *)

@@ -1,0 +1,163 @@
+open Cmdliner
+open Dolphin_display
+open Dolphin_platform_imc
+open Lwt.Infix
+
+(* {1 One system} *)
+
+let address (n : Node.t) =
+  match n.address with Some a -> Format.asprintf "%a" Service.pp_address a | None -> "-"
+
+let plan_of network (s : Station.sight) =
+  match Udp_platform.progress network s.state.id with
+  | Some { plan; _ } -> Some plan
+  | None -> Execution.executing s.node.execution
+
+let is_placed (s : Station.sight) = s.node.position <> None || s.node.announced_position <> None
+
+let json network (s : Station.sight) : Yojson.Safe.t =
+  let n = s.node and state = s.state in
+  let optional make = function Some x -> make x | None -> `Null in
+  let number x = `Float x in
+  `Assoc
+    [ ("id", `String state.id); ("imc_id", `Int n.id); ("type", `String state.kind);
+      ("address", optional (fun a -> `String (Format.asprintf "%a" Service.pp_address a)) n.address);
+      ("latitude", if is_placed s then number state.position.latitude else `Null);
+      ("longitude", if is_placed s then number state.position.longitude else `Null);
+      ("height", if is_placed s then number state.position.height else `Null);
+      ("mode", optional (fun (_, m) -> `String (Dolphin_imc.Message.Vehicle_state.Op_mode.name m)) n.mode);
+      ("error", if n.error = "" then `Null else `String n.error);
+      ("battery", optional (fun (_, share) -> number share) n.battery);
+      ("payload", `List (List.map (fun d -> `String d) state.payload));
+      ("plan", optional (fun p -> `String p) (plan_of network s));
+      ("linked", `Bool s.linked); ("available", `Bool state.connected); ("age", number s.age) ]
+
+(* Entity lists name every task on board: only short ones fit a table. *)
+let payload devices =
+  match List.length devices with
+  | 0 -> "-"
+  | n when n <= 4 -> String.concat ", " devices
+  | n -> Printf.sprintf "%d entities" n
+
+let row network (s : Station.sight) =
+  let n = s.node and state = s.state in
+  [ state.id; state.kind; Printf.sprintf "%04x" n.id; address n;
+    (if is_placed s then Printf.sprintf "%.5f, %.5f" state.position.latitude state.position.longitude else "-");
+    Node.mode n;
+    (match n.battery with Some (_, share) -> Printf.sprintf "%.0f%%" (100. *. share) | None -> "-");
+    payload state.payload;
+    Option.value (plan_of network s) ~default:"-";
+    (if s.linked then Printf.sprintf "%.1f s" s.age else Printf.sprintf "no link, %.0f s" s.age) ]
+
+let heads = [ "VEHICLE"; "TYPE"; "IMC"; "ADDRESS"; "POSITION"; "MODE"; "BATTERY"; "PAYLOAD"; "PLAN"; "HEARD" ]
+
+let table network sights =
+  let rows = heads :: List.map (fun s -> List.map Wording.harmless (row network s)) sights in
+  let wider = List.map2 (fun width cell -> max width (Wording.width cell)) in
+  let widths = List.fold_left wider (List.map (fun _ -> 0) heads) rows in
+  let rec trimmed text =
+    let n = String.length text in
+    if n > 0 && text.[n - 1] = ' ' then trimmed (String.sub text 0 (n - 1)) else text
+  in
+  List.map (fun cells -> trimmed (String.concat "  " (List.map2 Wording.pad widths cells))) rows
+
+(* {1 The command} *)
+
+let lines network ~json:as_json =
+  match Udp_platform.sights network with
+  | sights when as_json -> [ Yojson.Safe.to_string (`List (List.map (json network) sights)) ]
+  | [] -> [ "no system was heard of" ]
+  | sights -> table network sights
+
+let print lines =
+  List.iter print_endline lines;
+  flush stdout
+
+let is_live () =
+  let dumb = match Sys.getenv_opt "TERM" with None | Some ("" | "dumb") -> true | Some _ -> false in
+  Unix.isatty Unix.stdout && not dumb
+
+let wait interruption seconds = Lwt.pick [ Interruption.promise interruption; Lwt_unix.sleep seconds ]
+
+(* A table that changes, on a terminal. *)
+let watch network interruption ~until =
+  let screen = Screen.make ~live:true ~on_closed:(fun () -> Interruption.interrupt interruption) Unix.stdout in
+  let head () = Printf.sprintf "%s hears, Ctrl-C ends" (Udp_platform.name_on_network network) in
+  Screen.show screen (fun () -> head () :: lines network ~json:false);
+  let rec go () =
+    if Interruption.happened interruption || Udp_platform.now network >= until then Lwt.return_unit
+    else begin
+      Screen.changed screen;
+      wait interruption 1. >>= go
+    end
+  in
+  go () >|= fun () -> Screen.close screen
+
+(* A line of JSON each second. *)
+let rec report network interruption ~until =
+  if Interruption.happened interruption || Udp_platform.now network >= until then Lwt.return_unit
+  else wait interruption 1. >>= fun () ->
+    print (lines network ~json:true);
+    report network interruption ~until
+
+let run options as_json once seconds =
+  match Udp_platform.open_ options with
+  | Error why ->
+    Report.complain why;
+    Exit_status.Platform_trouble
+  | Ok network ->
+    let interruption = Interruption.make () in
+    let patience = Option.value seconds ~default:(Udp_platform.announce_period network) in
+    let until = match seconds with Some s -> s | None -> infinity in
+    let show () =
+      if once || not (as_json || is_live ()) then wait interruption patience >|= fun () -> print (lines network ~json:as_json)
+      else if as_json then report network interruption ~until
+      else watch network interruption ~until >|= fun () -> print (lines network ~json:false)
+    in
+    Lwt_main.run (show () >>= fun () -> Udp_platform.close network);
+    Exit_status.Done
+
+let as_json =
+  let doc = "Print JSON: an array with an object for each system, on one line; without $(b,--once), each second." in
+  Arg.(value & flag & info [ "json" ] ~doc)
+
+let once =
+  let doc = "Print who is there once, after $(b,--seconds), as without a terminal." in
+  Arg.(value & flag & info [ "once" ] ~doc)
+
+let seconds =
+  let positive =
+    let parse text =
+      match float_of_string_opt text with
+      | Some x when x > 0. && x < infinity -> Ok x
+      | Some _ | None -> Error (`Msg (Printf.sprintf "'%s' is not a number of seconds" text))
+    in
+    Arg.conv ~docv:"SECONDS" (parse, Format.pp_print_float)
+  in
+  let doc =
+    "Look for $(docv) seconds. By default until Ctrl-C, and with $(b,--once) for 16: after so long every vehicle with the \
+     usual settings has announced itself and spoken to us."
+  in
+  Arg.(value & opt (some positive) None & info [ "seconds" ] ~docv:"SECONDS" ~doc)
+
+let man =
+  [ `S Manpage.s_description;
+    `P "$(tname) listens for systems that speak IMC over UDP and shows them: their names as programs pick them, types, \
+        addresses, positions, modes, batteries, payload, the plan that runs, and for how long nothing was heard of \
+        them. Programs can pick those in mode SERVICE.";
+    `P "It introduces itself to vehicles as a console does, for otherwise they would not speak to it. It asks nothing of \
+        them but their lists of entities.";
+    `S Manpage.s_options;
+    `S Imc_options.s_network;
+    `S Manpage.s_exit_status;
+    `S Manpage.s_examples;
+    `Pre "  $(mname) $(tname)\n  $(mname) $(tname) --once --json | jq '.[].id'";
+    `S Manpage.s_see_also;
+    `P "$(i,docs/imc.md) tells what to do if nobody is there." ]
+
+let command =
+  let info =
+    Cmd.info "fleet" ~doc:"show the vehicles of the network" ~man
+      ~exits:(Options.exits [ Done; Bad_input; Platform_trouble; Bug ])
+  in
+  Cmd.v info Term.(const run $ Imc_options.options $ as_json $ once $ seconds)

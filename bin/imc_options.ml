@@ -1,0 +1,106 @@
+open Cmdliner
+open Dolphin_platform_imc
+
+let s_network = "IMC NETWORK"
+
+let imc =
+  let doc =
+    "Run on the vehicles of the network, which speak IMC over UDP, instead of a simulated fleet. Nothing is simulated: \
+     vehicles move."
+  in
+  Arg.(value & flag & info [ "imc" ] ~docs:s_network ~doc)
+
+let loopback =
+  let doc = "Speak only to vehicles on this machine, over 127.0.0.1. Implies $(b,--imc)." in
+  Arg.(value & flag & info [ "imc-loopback" ] ~docs:s_network ~doc)
+
+let address =
+  let parse text =
+    match Unix.inet_addr_of_string text with
+    | address when not (String.contains text ':') -> Ok address
+    | _ | (exception Failure _) -> Error (`Msg (Printf.sprintf "'%s' is not an IPv4 address" text))
+  in
+  Arg.conv ~docv:"ADDRESS" (parse, fun ppf a -> Format.pp_print_string ppf (Unix.string_of_inet_addr a))
+
+let interfaces =
+  let doc =
+    "Use the network interface that has this address of this machine. May be repeated. By default all are used. Implies \
+     $(b,--imc)."
+  in
+  Arg.(value & opt_all address [] & info [ "imc-interface" ] ~docs:s_network ~docv:"ADDRESS" ~doc)
+
+let number ~least ~most what =
+  let parse text =
+    match int_of_string_opt text with
+    | Some n when n >= least && n <= most -> Ok n
+    | Some _ | None -> Error (`Msg (Printf.sprintf "'%s' is not %s, from %d to %d" text what least most))
+  in
+  Arg.conv (parse, Format.pp_print_int)
+
+let port =
+  let doc =
+    "Have vehicles send to port $(docv) of this machine, for a firewall's sake. By default any free one. Implies \
+     $(b,--imc)."
+  in
+  Arg.(value & opt (some (number ~least:1 ~most:65535 "a port")) None & info [ "imc-port" ] ~docs:s_network ~docv:"PORT" ~doc)
+
+let id =
+  let doc =
+    "Be the system $(docv) of the network, for example 0x4001. By default one is drawn for each run, as vehicles forget \
+     a console that comes back on another port only when they restart. Implies $(b,--imc)."
+  in
+  let ids = number ~least:0x4000 ~most:0x5FFF "the IMC address of a console" in
+  Arg.(value & opt (some ids) None & info [ "imc-id" ] ~docs:s_network ~docv:"ID" ~doc)
+
+let devices =
+  let parse text =
+    match String.index_opt text '=' with
+    | Some i when i > 0 ->
+      let names = String.split_on_char ',' (String.sub text (i + 1) (String.length text - i - 1)) in
+      Ok (String.sub text 0 i, List.filter (fun name -> name <> "") (List.map String.trim names))
+    | Some _ | None -> Error (`Msg (Printf.sprintf "'%s' is not like x8-02=Camera,Sidescan" text))
+  in
+  let print ppf (vehicle, names) = Format.fprintf ppf "%s=%s" vehicle (String.concat "," names) in
+  Arg.conv ~docv:"VEHICLE=DEVICES" (parse, print)
+
+let payload =
+  let doc =
+    "What a vehicle carries, as in $(b,--imc-payload noptilus-1=DVL,Sidescan), instead of what it says itself (the \
+     labels of its entities). May be repeated, for one vehicle each. Implies $(b,--imc)."
+  in
+  Arg.(value & opt_all devices [] & info [ "imc-payload" ] ~docs:s_network ~docv:"VEHICLE=DEVICES" ~doc)
+
+let ports =
+  let parse text =
+    match List.map int_of_string_opt (String.split_on_char '-' text) with
+    | [ Some first; Some last ] when first >= 1 && first <= last && last <= 65535 && last - first < 100 ->
+      Ok (List.init (last - first + 1) (fun i -> first + i))
+    | _ -> Error (`Msg (Printf.sprintf "'%s' is not like 30100-30104, a hundred ports at most" text))
+  in
+  let print ppf ports = Format.fprintf ppf "%d-%d" (List.hd ports) (List.hd (List.rev ports)) in
+  Arg.conv ~docv:"FIRST-LAST" (parse, print)
+
+let discovery_ports =
+  let doc =
+    "The ports on which systems announce themselves. By default those that vehicles have, 30100-30104. Implies \
+     $(b,--imc)."
+  in
+  Arg.(value & opt (some ports) None & info [ "imc-discovery-ports" ] ~docs:s_network ~docv:"FIRST-LAST" ~doc)
+
+let make loopback interfaces port discovery id payload =
+  let options = Udp_platform.default in
+  { options with
+    loopback; interfaces; id; payload;
+    data_port = Option.value port ~default:options.data_port;
+    announce_ports = Option.value discovery ~default:options.announce_ports }
+
+let options = Term.(const make $ loopback $ interfaces $ port $ discovery_ports $ id $ payload)
+
+let chosen =
+  let choose imc loopback interfaces port discovery id payload =
+    let implied =
+      loopback || interfaces <> [] || port <> None || discovery <> None || id <> None || payload <> []
+    in
+    if imc || implied then Some (make loopback interfaces port discovery id payload) else None
+  in
+  Term.(const choose $ imc $ loopback $ interfaces $ port $ discovery_ports $ id $ payload)

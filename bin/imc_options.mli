@@ -1,0 +1,13 @@
+(** Where IMC vehicles are looked for, on command lines. *)
+
+open Cmdliner
+open Dolphin_platform_imc
+
+val s_network : string
+(** The section of manual pages that has these options. *)
+
+val options : Udp_platform.options Term.t
+(** [--imc-loopback], [--imc-interface], [--imc-port], [--imc-discovery-ports], [--imc-id], [--imc-payload]. *)
+
+val chosen : Udp_platform.options option Term.t
+(** [--imc], with these options; [None] without it. Any of the options implies it. *)

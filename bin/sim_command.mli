@@ -1,0 +1,3 @@
+(** [dolphin sim]: simulated vehicles on the network. *)
+
+val command : Exit_status.t Cmdliner.Cmd.t

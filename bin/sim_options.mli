@@ -1,0 +1,14 @@
+(** The options of [dolphin sim] that say what the vehicles are like. *)
+
+open Cmdliner
+
+val settings : (Dolphin_scenario.Scenario.t -> Dolphin_sim_imc.Network.settings) Term.t
+(** What the command line makes of a fleet. *)
+
+val natural : float Arg.conv
+(** A number, 0 or greater. *)
+
+(** {1:sections Sections of the manual page} *)
+
+val faults_section : string
+val network_section : string

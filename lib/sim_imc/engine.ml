@@ -1,0 +1,329 @@
+open Dolphin_imc
+open Dolphin_platform_sim
+open Dolphin_scenario
+module String_map = Map.Make (String)
+
+type settings = {
+  vehicle : Scenario.vehicle;
+  plans : Scenario.plan list;
+  seed : int;
+  epoch : float;
+  strict : bool;
+  refuses : string option;
+  blocks : (float * float) list;
+}
+
+type party = { system : int; entity : int }
+type said = { from : int; to_ : party; message : Message.t }
+
+type run = {
+  plan : string;
+  request : int;
+  by : party;
+  inline : bool;
+  instead : string option;
+  flight : Flight.t;
+}
+
+type mode =
+  | Ready
+  | Blocked of { until : float; operation : Message.Vehicle_state.Op_mode.t }
+  | Calibrating of { run : run; until : float }
+  | Executing of { run : run; since : float; part : Flight.part; ends : float; outcome : (unit, string) result }
+
+type t = {
+  settings : settings;
+  body : Vehicle.t;
+  mode : mode;
+  loaded : string;                              (* the last plan that was *)
+  statistics : Message.t option;                (* of it *)
+  last_outcome : Message.Plan_control_state.Last_outcome.t;
+  last_error : (string * float) option;
+  blocks : (float * float) list;                (* still to come *)
+  known : Specification.t String_map.t;         (* that came with a START *)
+  starts : int;
+}
+
+type outcome = said list * Deed.t list * t
+
+let entity = 55
+let supervisor = 75
+let calibration = 3.
+let recovery = 0.9
+
+(* Of plans that come with requests; a vehicle's database is larger, but has an end too. *)
+let most_known = 256
+
+let create (settings : settings) =
+  { settings; body = Vehicle.make settings.vehicle; mode = Ready; loaded = ""; statistics = None;
+    last_outcome = None; last_error = None; blocks = List.sort compare settings.blocks; known = String_map.empty;
+    starts = 0 }
+
+(* {1 State} *)
+
+let position ~at e = Vehicle.position e.body ~at
+let battery ~at e = Vehicle.battery e.body ~at
+let is_under_way e = match e.mode with Executing _ -> true | Ready | Blocked _ | Calibrating _ -> false
+let no_maneuver = 65535
+
+let whole seconds =
+  if seconds >= 2147483647. then 2147483647 else if seconds > 0. then int_of_float (Float.round seconds) else 0
+
+let plan_control_state ~at e : Message.Plan_control_state.t =
+  let idle state =
+    { Message.Plan_control_state.default with
+      state; plan_id = e.loaded; plan_progress = -1.; man_type = no_maneuver; last_outcome = e.last_outcome }
+  in
+  match e.mode with
+  | Ready -> idle Ready
+  | Blocked _ -> idle Blocked
+  | Calibrating _ -> idle Initializing
+  | Executing { run; since; part; ends = _; outcome = _ } ->
+    let elapsed = at -. since and total = run.flight.errand.lasts in
+    let known = elapsed > 0. && total > 0. && total < infinity in
+    { (idle Executing) with
+      plan_id = run.plan; man_id = part.id; man_type = part.kind;
+      plan_eta = (if known then whole (total -. elapsed) else 0);
+      plan_progress = (if known then Float.min 100. (100. *. elapsed /. total) else -1.);
+      man_eta = (if known then whole (part.ends -. elapsed) else 0) }
+
+(* The largest number stands for a time of arrival that is not known. *)
+let unknown_time = 65535
+
+let vehicle_state e : Message.Vehicle_state.t =
+  let last_error, last_error_time =
+    match e.last_error with Some (why, time) -> why, e.settings.epoch +. time | None -> "", -1.
+  in
+  let at_rest op_mode =
+    { Message.Vehicle_state.default with
+      op_mode; maneuver_type = no_maneuver; maneuver_stime = -1.; maneuver_eta = unknown_time; last_error;
+      last_error_time }
+  in
+  match e.mode with
+  | Ready -> at_rest Service
+  | Blocked { operation; until = _ } -> at_rest operation
+  | Calibrating _ -> at_rest Calibration
+  | Executing { part; since; run = _; ends = _; outcome = _ } ->
+    { (at_rest Maneuver) with maneuver_type = part.kind; maneuver_stime = e.settings.epoch +. since }
+
+(* {1 Messages} *)
+
+let all = { system = Header.nobody; entity = Header.any_entity }
+let say_control ~at e = { from = entity; to_ = all; message = Plan_control_state (plan_control_state ~at e) }
+let say_vehicle e = { from = supervisor; to_ = all; message = Vehicle_state (vehicle_state e) }
+
+let say_done e =
+  let state = { (vehicle_state e) with flags = Message.Vehicle_state.Flags.maneuver_done } in
+  { from = supervisor; to_ = all; message = Vehicle_state state }
+
+(* As it looks between a START and what comes of it. *)
+let say_initializing ~at e =
+  let state = plan_control_state ~at e in
+  let state = { state with state = Initializing; man_id = ""; man_type = no_maneuver } in
+  { from = entity; to_ = all; message = Plan_control_state state }
+
+let reply e ~by ~op ~request ~plan type_ info =
+  let reply =
+    { Message.Plan_control.default with type_; op; request_id = request; plan_id = plan; arg = e.statistics; info }
+  in
+  { from = entity; to_ = by; message = Plan_control reply }
+
+let reply_to_start e (r : run) type_ info = reply e ~by:r.by ~op:Start ~request:r.request ~plan:r.plan type_ info
+let deed_request (r : run) : Deed.request = { plan = r.plan; number = r.request; by = r.by.system }
+
+(* {1 Plans begin and end} *)
+
+let running e =
+  match e.mode with
+  | Executing { run; _ } | Calibrating { run; until = _ } -> Some run
+  | Ready | Blocked _ -> None
+
+let rest ~at mode e = { e with mode; body = Vehicle.rest e.body ~at }
+
+let take_off ~at (run : run) e =
+  let body = Vehicle.set_out e.body ~at run.flight.errand.way in
+  let ends = at +. run.flight.errand.lasts and empty = Float.max at (Vehicle.empty_from body) in
+  let ends, outcome = if empty < ends then empty, Error "battery empty" else ends, run.flight.errand.outcome in
+  let part = Flight.part run.flight 0. in
+  let e = { e with body; loaded = run.plan; mode = Executing { run; since = at; part; ends; outcome } } in
+  let executing = Printf.sprintf "%s: executing maneuver" part.id in
+  ( [ say_vehicle e; say_control ~at e; reply_to_start e run Success executing ],
+    [ Deed.Started { request = deed_request run; inline = run.inline; instead = run.instead } ],
+    e )
+
+let refused ~at ~(request : Deed.request) ~by ~instead e why =
+  let was_running = running e <> None in
+  let initializing = say_initializing ~at e in
+  let e = { (rest ~at Ready e) with last_outcome = Failure } in
+  let failure = reply e ~by ~op:Start ~request:request.number ~plan:request.plan Failure why in
+  let states = say_control ~at e :: (if was_running then [ say_vehicle e ] else []) in
+  initializing :: failure :: states, [ Deed.Refused { request; why; instead } ], e
+
+(* [e] is still as before the START. *)
+let accepted ~at ~calibrate (run : run) e =
+  let initializing = say_initializing ~at e in
+  let statistics = Flight.statistics ~name:run.plan run.flight in
+  let e = { e with statistics = Some (Message.Plan_statistics statistics); starts = e.starts + 1 } in
+  let loaded = reply_to_start e run Success "plan loaded" in
+  if calibrate then
+    let e = rest ~at (Calibrating { run; until = at +. calibration }) e in
+    [ initializing; loaded; say_vehicle e ], [], e
+  else
+    let said, deeds, e = take_off ~at run e in
+    initializing :: loaded :: said, deeds, e
+
+(* {1 START} *)
+
+type source = Inline of Specification.t | By_name of Specification.t option
+
+let scenario_plan e name = List.find_opt (fun (p : Scenario.plan) -> p.name = name) e.settings.plans
+
+let find e (c : Message.t Message.Plan_control.t) =
+  let name = c.plan_id in
+  let entry = scenario_plan e name in
+  let known = match entry with Some p -> Scenario.knows p e.settings.vehicle | None -> true in
+  let read s = Result.map (fun s -> Inline s) (Specification.read s) in
+  match e.settings.refuses, c.arg with
+  | Some why, _ -> Error why
+  | None, Some (Plan_specification _ | Maneuver _) when not known -> Error "plan is not for this vehicle"
+  | None, Some (Plan_specification s) -> read s
+  | None, Some (Maneuver m) -> read (Specification.of_maneuver ~plan:name m)
+  | None, Some _ -> Error "argument is neither a plan nor a maneuver"
+  | None, None when name = "" -> Error "undefined plan id"
+  | None, None -> (
+      match String_map.find_opt name e.known with
+      | Some s when known -> Ok (By_name (Some s))
+      | Some _ -> Error "undefined plan"
+      | None when known && (entry <> None || not e.settings.strict) -> Ok (By_name None)
+      | None -> Error "undefined plan")
+
+let remember name s e =
+  let is_room = String_map.mem name e.known || String_map.cardinal e.known < most_known in
+  if is_room then { e with known = String_map.add name s e.known } else e
+
+let start ~at ~by (c : Message.t Message.Plan_control.t) e =
+  let name = c.plan_id in
+  let request : Deed.request = { plan = name; number = c.request_id; by = by.system } in
+  let instead = Option.map (fun (run : run) -> run.plan) (running e) in
+  match e.mode with
+  | Blocked _ ->
+    let why = "vehicle is blocked" in
+    [ reply e ~by ~op:Start ~request:c.request_id ~plan:name Failure why ],
+    [ Deed.Refused { request; why; instead = None } ], e
+  | Ready | Calibrating _ | Executing _ -> (
+      match find e c with
+      | Error why -> refused ~at ~request ~by ~instead e why
+      | Ok source ->
+        let inline, specification, e =
+          match source with
+          | Inline s -> true, Some s, remember name s e
+          | By_name s -> false, s, e
+        in
+        let draw = Draw.share ~seed:e.settings.seed ~vehicle:e.settings.vehicle.id ~start:e.starts in
+        let flight =
+          Flight.make ~draw (scenario_plan e name) e.settings.vehicle (position ~at e) ~name specification
+        in
+        let calibrate = Message.Plan_control.Flags.(mem calibrate c.flags) in
+        accepted ~at ~calibrate { plan = name; request = c.request_id; by; inline; instead; flight } e)
+
+(* {1 STOP, Abort, others} *)
+
+let stop ~at ~by (c : Message.t Message.Plan_control.t) e =
+  let request : Deed.request = { plan = c.plan_id; number = c.request_id; by = by.system } in
+  let answer type_ info = reply e ~by ~op:Stop ~request:c.request_id ~plan:c.plan_id type_ info in
+  match running e with
+  | None ->
+    [ answer Failure "no plan is running, request ignored" ], [ Deed.Stopped { request; plan = None } ], e
+  | Some run ->
+    let e = { (rest ~at Ready e) with last_outcome = Failure } in
+    [ answer Success "OK"; say_vehicle e; say_control ~at e ],
+    [ Deed.Stopped { request; plan = Some run.plan } ], e
+
+let request ~at ~by (c : Message.t Message.Plan_control.t) e =
+  let request : Deed.request = { plan = c.plan_id; number = c.request_id; by = by.system } in
+  match c.type_, c.op with
+  | Request, Start when c.plan_id = "dislodge" -> [], [ Deed.Ignored { request; why = "plan dislodge" } ], e
+  | Request, Start -> start ~at ~by c e
+  | Request, Stop -> stop ~at ~by c e
+  | Request, ((Load | Get | Other _) as op) ->
+    let why = "operation is not supported" in
+    [ reply e ~by ~op ~request:c.request_id ~plan:c.plan_id Failure why ], [ Deed.Ignored { request; why } ], e
+  | (Success | Failure | In_progress | Other _), _ -> [], [], e
+
+(* The plan that is running has failed for [why]; [mode] comes after it. *)
+let give_up ~at ~why mode e =
+  let run = running e in
+  let last_outcome : Message.Plan_control_state.Last_outcome.t =
+    match run with Some _ -> Failure | None -> e.last_outcome
+  in
+  let e = { (rest ~at mode e) with last_outcome; last_error = Some (why, at) } in
+  let failure = match run with Some run -> [ reply_to_start e run Failure why ] | None -> [] in
+  failure @ [ say_control ~at e; say_vehicle e ], run, e
+
+let abort ~at ~by ~name e =
+  let why = Printf.sprintf "got abort request from system %s - 0x%04X @ 0x%02X" name by.system by.entity in
+  let mode =
+    match e.mode with
+    | Blocked b when b.until > at +. recovery -> Blocked b
+    | Ready | Blocked _ | Calibrating _ | Executing _ -> Blocked { until = at +. recovery; operation = Error }
+  in
+  let said, run, e = give_up ~at ~why mode e in
+  said, [ Deed.Aborted { by = by.system; plan = Option.map (fun (r : run) -> r.plan) run } ], e
+
+(* {1 What happens by itself} *)
+
+let block_due e = match e.blocks with (from, _) :: _ -> from | [] -> infinity
+
+let mode_due e =
+  match e.mode with
+  | Ready -> infinity
+  | Blocked { until; _ } | Calibrating { until; _ } -> until
+  | Executing { run; since; part; ends; _ } when not (Flight.is_last run.flight part) ->
+    Float.min (since +. part.ends) ends
+  | Executing { ends; _ } -> ends
+
+let due e =
+  let time = Float.min (block_due e) (mode_due e) in
+  if time = infinity then None else Some time
+
+let block ~at e =
+  match e.blocks with
+  | [] -> [], [], e
+  | (from, lasts) :: blocks ->
+    let why = "vehicle is under external control" in
+    let said, run, e = give_up ~at ~why (Blocked { until = from +. lasts; operation = External }) { e with blocks } in
+    said, [ Deed.Blocked { plan = Option.map (fun (r : run) -> r.plan) run } ], e
+
+let ended ~at (run : run) outcome e =
+  match outcome with
+  | Ok () ->
+    let is_done = say_done e in
+    let e = { (rest ~at Ready e) with last_outcome = Success } in
+    ( [ is_done; reply_to_start e run Success "plan completed"; say_control ~at e; say_vehicle e ],
+      [ Deed.Completed (deed_request run) ], e )
+  | Error why ->
+    let said, _, e = give_up ~at ~why Ready e in
+    said, [ Deed.Failed { request = deed_request run; why } ], e
+
+let mode_changes ~at e =
+  match e.mode with
+  | Ready -> [], [], e
+  | Blocked _ ->
+    let e = { e with mode = Ready } in
+    [ say_vehicle e; say_control ~at e ], [ Deed.Unblocked ], e
+  | Calibrating { run; until = _ } -> take_off ~at run e
+  | Executing x when x.ends <= at -> ended ~at x.run x.outcome e
+  | Executing x ->
+    let is_done = say_done e in
+    let part = Flight.part x.run.flight (Float.max x.part.ends (at -. x.since)) in
+    let e = { e with mode = Executing { x with part } } in
+    [ is_done; say_vehicle e; say_control ~at e ], [], e
+
+let rec advance ~at e =
+  match due e with
+  | None -> [], [], e
+  | Some time when time > at -> [], [], e
+  | Some time ->
+    let said, deeds, e = if block_due e <= mode_due e then block ~at:time e else mode_changes ~at:time e in
+    let more_said, more_deeds, e = advance ~at e in
+    said @ more_said, deeds @ more_deeds, e

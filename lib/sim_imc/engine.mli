@@ -1,0 +1,85 @@
+(** What runs plans in a vehicle: requests in, plans flown, replies and states out. A pure state machine.
+
+    It behaves as DUNE 2026.01 was measured to:
+    - A START that is accepted shows as: PlanControlState INITIALIZING, which still names the plan before; the reply
+      ["plan loaded"]; VehicleState MANEUVER; PlanControlState EXECUTING; the reply ["1: executing maneuver"], of the
+      first maneuver only. At the end come VehicleState with the flag of a maneuver that is done, the reply
+      ["plan completed"], PlanControlState READY with outcome SUCCESS, VehicleState SERVICE.
+    - A START that is refused: INITIALIZING, a FAILURE reply, READY, both with the plan id before, outcome FAILURE.
+    - Any START ends the plan that is running, accepted or not; of that one there is no further reply.
+    - A plan that comes with a START is kept, and known by its name from then on.
+    - With the flag CALIBRATE the plan begins 3 s later; until then the state is INITIALIZING.
+    - STOP: a SUCCESS reply, READY, outcome FAILURE; without a plan a FAILURE reply.
+    - Abort: a FAILURE reply to the START of the plan that was running, VehicleState ERROR, BLOCKED; after 0.9 s SERVICE and
+      READY.
+    - The last outcome stays until the next. The statistics in a reply are those of the last plan that was loaded.
+    - A START of the plan [dislodge] is ignored.
+
+    Assumed, not measured: while BLOCKED a START is answered by FAILURE ["vehicle is blocked"] and changes nothing; other
+    requests than START and STOP are answered by FAILURE.
+
+    All times are seconds of the mission since its start, whatever clock the outside has. *)
+
+open Dolphin_imc
+open Dolphin_scenario
+
+(** What does not change. *)
+type settings = {
+  vehicle : Scenario.vehicle;
+  plans : Scenario.plan list;
+  seed : int;  (** decides what the scenario leaves to chance, see {!Dolphin_platform_sim.Draw} *)
+  epoch : float;  (** when the mission starts, in seconds since 1970 *)
+  strict : bool;  (** whether plans that the scenario does not have are unknown *)
+  refuses : string option;  (** why it refuses every START, if it does *)
+  blocks : (float * float) list;  (** since when and for how long it is under external control and BLOCKED *)
+}
+
+type t
+
+val create : settings -> t
+
+(** {1:outputs What comes of it} *)
+
+(** Someone who asks for something: a system and the entity in it. *)
+type party = { system : int; entity : int }
+
+(** A message from an entity of the vehicle. *)
+type said = { from : int; to_ : party; message : Message.t }
+
+type outcome = said list * Deed.t list * t
+(** What is sent, in order; what is to be logged; the engine afterwards. *)
+
+(** {1:time Time} *)
+
+val due : t -> float option
+(** When something happens by itself. *)
+
+val advance : at:float -> t -> outcome
+(** [advance ~at e] is all that happens by itself until [at]. The functions below take an engine that has been advanced
+    to [at]. *)
+
+(** {1:requests Requests} *)
+
+val request : at:float -> by:party -> Message.t Message.Plan_control.t -> t -> outcome
+(** A PlanControl for this vehicle. Replies of others are ignored. *)
+
+val abort : at:float -> by:party -> name:string -> t -> outcome
+(** An Abort, sent by the system that calls itself [name]. *)
+
+(** {1:state Its state} *)
+
+val plan_control_state : at:float -> t -> Message.Plan_control_state.t
+val vehicle_state : t -> Message.Vehicle_state.t
+val position : at:float -> t -> Dolphin_geo.Position.t
+val battery : at:float -> t -> float
+
+val is_under_way : t -> bool
+(** Whether a plan moves the vehicle. *)
+
+(** {1:entities Entities of the vehicle} *)
+
+val entity : int
+(** Of the plan engine: 55. *)
+
+val supervisor : int
+(** Of VehicleState: 75. *)

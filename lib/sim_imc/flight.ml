@@ -1,0 +1,54 @@
+open Dolphin_platform_sim
+open Dolphin_semantics
+
+type part = { id : string; kind : int; ends : float }
+type t = { errand : Errand.t; parts : part list }
+
+let task name plan : Core.platform_task = { name; plan; task_site = 0 }
+
+(* Each maneuver as an errand of its own, from where the one before ends. *)
+let parts ~draw vehicle position (s : Specification.t) =
+  let add (position, time, parts) (m : Plan.maneuver) kind =
+    let one = task s.plan.name (Some { s.plan with maneuvers = [ m ] }) in
+    let errand = Errand.make ~draw None vehicle position one in
+    let ends = time +. errand.lasts in
+    Track.position errand.way errand.lasts, ends, { id = m.id; kind; ends } :: parts
+  in
+  let _, _, parts = List.fold_left2 add (position, 0., []) s.plan.maneuvers s.kinds in
+  List.rev parts
+
+let make ~draw plan vehicle position ~name (specification : Specification.t option) =
+  match specification with
+  | Some s -> { errand = Errand.make ~draw plan vehicle position (task name (Some s.plan));
+                parts = parts ~draw vehicle position s }
+  | None ->
+    let errand = Errand.make ~draw plan vehicle position (task name None) in
+    { errand; parts = [ { id = "1"; kind = Dolphin_imc.Message.Goto.id; ends = errand.lasts } ] }
+
+let rec at time = function
+  | [ last ] -> last
+  | part :: (_ :: _ as rest) -> if time < part.ends then part else at time rest
+  | [] -> { id = ""; kind = 65535; ends = infinity }
+
+let part f time = at time f.parts
+
+let rec ends_with part = function
+  | [ last ] -> last == part
+  | _ :: (_ :: _ as rest) -> ends_with part rest
+  | [] -> true
+
+let is_last f part = ends_with part f.parts
+
+let statistics ~name f : Dolphin_imc.Message.Plan_statistics.t =
+  let _, durations =
+    List.fold_left
+      (fun (start, texts) { id; ends; kind = _ } ->
+         ends, Printf.sprintf "Maneuver %s=%.1f" id (ends -. start) :: texts)
+      (0., []) f.parts
+  in
+  let total = List.fold_left (fun _ part -> part.ends) 0. f.parts in
+  let whole = Printf.sprintf "Total=%.1f,Execution=%.1f,Calibration=0.0" total total in
+  { Dolphin_imc.Message.Plan_statistics.default with
+    plan_id = name;
+    properties = Dolphin_imc.Message.Plan_statistics.Properties.(if total = Stdlib.infinity then infinite else basic);
+    durations = (if total = infinity then "" else String.concat "," (whole :: List.rev durations)) }

@@ -1,0 +1,32 @@
+(** A plan as it is going to be flown: when it ends and how, and which maneuver it is at when. Times are seconds since its
+    start. *)
+
+open Dolphin_scenario
+
+(** A maneuver, until [ends]. *)
+type part = { id : string; kind : int;  (** the number of its message *) ends : float }
+
+type t = {
+  errand : Dolphin_platform_sim.Errand.t;
+  parts : part list;  (** in order; of an errand that fails some are not reached *)
+}
+
+val make :
+  draw:(Dolphin_platform_sim.Draw.question -> float) ->
+  Scenario.plan option ->
+  Scenario.vehicle ->
+  Dolphin_geo.Position.t ->
+  name:string ->
+  Specification.t option ->
+  t
+(** [make ~draw plan vehicle position ~name specification] is the flight of plan [name], from [position]. It lasts and
+    ends as {!Dolphin_platform_sim.Errand.make} says. A plan without a specification is one maneuver, ["1"], a Goto. *)
+
+val part : t -> float -> part
+(** [part f time] is the maneuver at [time]: the last of those that end at once when they begin. *)
+
+val is_last : t -> part -> bool
+(** [is_last f p], of a part [p] of [f]. *)
+
+val statistics : name:string -> t -> Dolphin_imc.Message.Plan_statistics.t
+(** How long it will take in whole and in parts. *)

@@ -1,0 +1,44 @@
+(** Simulated vehicles on the network: sockets and a clock around {!Radio}.
+
+    Every vehicle has a data port of its own, and all share one discovery port, on which they hear consoles. Real vehicles
+    have one discovery port each, of which a host has five. *)
+
+open Dolphin_scenario
+
+type settings = {
+  scenario : Scenario.t;
+  seed : int;
+  speed : float;
+  faults : Faults.t;
+  strict : bool;
+  refuses : (string * string) list;  (** vehicles and why they refuse every START *)
+  blocks : (string * (float * float)) list;
+  (** vehicles, since when and for how long they are BLOCKED, by the clock of the mission *)
+  announce_period : float;
+  contact_period : float;  (** see {!Vehicle_node.settings} *)
+  first_id : int;  (** the number of the first vehicle as an IMC system; those of others follow *)
+  first_port : int;  (** where the search for free data ports begins *)
+  discovery_ports : int * int;  (** first and last: the first free one is ours, announcements go to all others *)
+  address : string option;
+  (** The address of this host in a network whose hosts are to find the vehicles: they then announce it, besides
+      127.0.0.1, by multicast and broadcast too. Otherwise only programs on this host find them. *)
+  flood : float;  (** further datagrams a second from each vehicle that has a listener *)
+}
+
+val default : Scenario.t -> settings
+(** As vehicles are: no faults, speed 1, ports 30100 to 30104 and from 6002, numbers from 0x3001, on this host. *)
+
+type t
+
+val create : settings -> (t, string) result
+(** [create s] has all sockets that it needs; the error is one sentence. Time starts in {!run}. *)
+
+type vehicle = { name : string; kind : string; id : int; port : int }
+
+val vehicles : t -> vehicle list
+(** In the scenario's order. *)
+
+val run : log:(Yojson.Safe.t -> unit) -> until:unit Lwt.t -> t -> unit Lwt.t
+(** [run ~log ~until n] lets the vehicles live until [until] is resolved; [log] takes {!Deed}s. To be called once. *)
+
+val close : t -> unit

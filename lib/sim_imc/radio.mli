@@ -1,0 +1,30 @@
+(** A vehicle behind its link: bytes in, bytes out, through {!Faults} both ways. A pure state machine. *)
+
+open Dolphin_imc
+
+type t
+
+val create : ?faults:Faults.t -> seed:int -> Vehicle_node.settings -> t
+
+val node : t -> Vehicle_node.t
+
+type destination =
+  | Discovery  (** whoever listens for announcements *)
+  | System of Address.t
+
+type datagram = { destination : destination; bytes : string }
+
+type outcome = datagram list * Deed.t list * t
+(** As in {!Vehicle_node.outcome}. *)
+
+val due : t -> float option
+val advance : at:float -> t -> outcome
+
+val receive : at:float -> Vehicle_node.channel -> host:string -> string -> t -> outcome
+(** [receive ~at channel ~host bytes r]. What is not an IMC packet is dropped, and counted. *)
+
+val tell : at:float -> src_ent:int -> content:Packet.content -> t -> outcome
+(** See {!Vehicle_node.tell}. *)
+
+val broken : t -> int
+(** How many datagrams that came in were not IMC packets. *)

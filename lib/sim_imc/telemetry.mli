@@ -1,0 +1,33 @@
+(** What a vehicle tells of itself without being asked. *)
+
+open Dolphin_imc
+
+val system_type : string -> Message.System_type.t
+(** [system_type kind] is the type of system that a fleet file calls [kind], without regard to case: ["UUV"] or ["AUV"],
+    ["USV"] or ["ASV"], ["UAV"], ["UGV"], and the names of IMC for the others. A kind without a number is a mobile
+    sensor. *)
+
+val announce :
+  name:string ->
+  kind:string ->
+  id:int ->
+  Dolphin_geo.Position.t ->
+  Address.t list ->
+  Message.Announce.t
+(** [announce ~name ~kind ~id position addresses], with services for each of [addresses], in the style of DUNE. *)
+
+val estimated_state :
+  reference:Dolphin_geo.Position.t ->
+  Dolphin_geo.Position.t ->
+  course:float ->
+  speed:float ->
+  Message.Estimated_state.t
+(** [estimated_state ~reference position ~course ~speed]: latitude and longitude are those of [reference], the offsets
+    lead from there to [position]. [course] is in degrees. *)
+
+val fuel_level : float -> Message.Fuel_level.t
+(** [fuel_level share] of a battery that is charged to [share], from 0 to 1. *)
+
+val entities : string list -> string
+(** [entities payload] is the entities of a vehicle, as in EntityList: those that every vehicle has, and the devices
+    [payload]. *)

@@ -1,0 +1,69 @@
+(** One simulated vehicle that speaks IMC: a pure state machine from times and packets to packets.
+
+    It stands for a vehicle with DUNE, as it was measured (DUNE 2026.01):
+    - It announces itself every 10 s.
+    - It sends to the systems that {!Peers} finds in contact, and to all of them whatever it has to say: telemetry, and
+      replies, also those to others. With nobody in contact it says nothing.
+    - PlanControlState comes every 0.35 s and on change, VehicleState and EstimatedState every 0.5 s, Heartbeat and
+      FuelLevel every second. (Of FuelLevel the rate is assumed.)
+    - Heartbeats and PlanControl that come in are sent on to all systems in contact, their senders included.
+    - Requests must be for the vehicle's own number or {!Dolphin_imc.Header.broadcast}; they need not come from a system in
+      contact, but then nobody hears the reply. What is for others, or not for a vehicle, is ignored.
+    - Plans are run by {!Engine}.
+
+    While its link is silent, as the scenario has it, nothing comes in or goes out; the plan goes on.
+
+    Times are seconds since the start, by the clock on the wall. Time in the scenario and of missions may run faster. *)
+
+open Dolphin_imc
+
+type settings = {
+  engine : Engine.settings;
+  id : int;  (** its number as an IMC system *)
+  addresses : Address.t list;  (** where it takes packets, as it announces *)
+  speed : float;  (** seconds of the mission that pass in a second, more than 0 *)
+  announce_period : float;  (** 10 s of real vehicles *)
+  contact_period : float;  (** how often it looks for contacts: see {!Peers.empty}. 5 s of real vehicles *)
+}
+
+type t
+
+val create : settings -> t
+(** At time 0, when the engine's [epoch] is. *)
+
+val id : t -> int
+val name : t -> string
+
+(** {1:packets Packets} *)
+
+type destination =
+  | Discovery  (** whoever listens for announcements *)
+  | Systems of Address.t list  (** those in contact; at least one *)
+
+type output = { destination : destination; packet : Packet.t }
+
+type outcome = output list * Deed.t list * t
+(** What is sent, in order, each packet with a later time stamp than the one before; what is to be logged; the vehicle
+    afterwards. *)
+
+val due : t -> float option
+(** When something happens by itself. *)
+
+val advance : at:float -> t -> outcome
+(** [advance ~at v] is all that happens by itself until [at]; packets are stamped with [at]. *)
+
+(** Where a packet came in. *)
+type channel = Announcements | Data
+
+val receive : at:float -> channel -> host:string -> Packet.t -> t -> outcome
+(** [receive ~at channel ~host packet v], [packet] from the address [host]; what happens by itself until then comes
+    first. *)
+
+val tell : at:float -> src_ent:int -> content:Packet.content -> t -> output list * t
+(** [tell ~at ~src_ent ~content v] says something else to the systems in contact, if there are any. *)
+
+(** {1:state Its state} *)
+
+val is_silent : at:float -> t -> bool
+val listeners : at:float -> t -> Address.t list
+val position : at:float -> t -> Dolphin_geo.Position.t

@@ -1,0 +1,1 @@
+(** Tests of the set of packed states. No value of its own. *)

@@ -1,0 +1,1 @@
+(** Tests of verdicts and bounds, on small programs. No value of its own. *)

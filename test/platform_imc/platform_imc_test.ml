@@ -1,0 +1,1 @@
+let () = Alcotest.run "platform_imc" [ Test_lifecycle.tests; Test_execution.tests; Test_hostile.tests; Test_network.tests ]

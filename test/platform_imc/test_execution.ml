@@ -1,0 +1,250 @@
+open Dolphin_imc
+open Dolphin_platform_imc
+
+(* {1 A console, a network, a vehicle} *)
+
+type order = { plan : string; stop_after : float option  (** s; if the plan is not over by then *) }
+
+type script = {
+  seed : int;
+  outward : Network.quality;
+  inward : Network.quality;
+  before : Message.Plan_control_state.t;
+  fates : (string * Vehicle_model.fate) list;
+  orders : order list;
+  clock : float * float;  (** what the vehicle's clock shows at 0, and its rate *)
+}
+
+type verdict = Done | Failed of string | Stopped | Nothing
+
+type log = {
+  script_order : order;
+  verdict : verdict;
+  executions : Vehicle_model.execution list;  (** of this order, latest first *)
+  meanwhile : Vehicle_model.execution list;  (** of any order, late copies being among them *)
+  notes : string list;
+}
+
+type world = {
+  mutable now : float;
+  mutable execution : Execution.t;
+  mutable clock : Vehicle_clock.t;
+  mutable verdicts : verdict list;
+  mutable notes : string list;
+  mutable copies : (int * int) list;  (* of each request for this order, how many were sent *)
+  vehicle : Vehicle_model.t;
+  out : (int * Message.t Message.Plan_control.t) Network.t;
+  back : (float * Message.t) Network.t;
+}
+
+let instant = 0.01
+
+let carry_out w : Execution.output -> unit = function
+  | Done -> w.verdicts <- Done :: w.verdicts
+  | Failed why -> w.verdicts <- Failed why :: w.verdicts
+  | Note text -> w.notes <- text :: w.notes
+  | Send (Plan_control c) ->
+    let sent = 1 + Option.value (List.assoc_opt c.request_id w.copies) ~default:0 in
+    w.copies <- (c.request_id, sent) :: List.remove_assoc c.request_id w.copies;
+    Network.send ~now:w.now (sent, c) w.out
+  | Send _ -> failwith "sent something else"
+
+let input w i =
+  let execution, outputs = Execution.step ~now:w.now ~clock:w.clock i w.execution in
+  w.execution <- execution;
+  List.iter (carry_out w) outputs
+
+let hear w (stamp, (message : Message.t)) =
+  let clock, sent = Vehicle_clock.observe ~now:w.now ~sent:stamp w.clock in
+  w.clock <- clock;
+  match message with
+  | Plan_control reply -> input w (Reply { sent; reply })
+  | Plan_control_state state -> input w (State { sent; state })
+  | Vehicle_state state -> input w (Vehicle { sent; state })
+  | _ -> ()
+
+(* Messages of one instant get stamps of their own, as they do on a real vehicle. *)
+let say (s : script) w messages =
+  let origin, rate = s.clock in
+  let stamp i = origin +. (rate *. (w.now +. (1e-5 *. float_of_int i))) in
+  List.iteri (fun i m -> Network.send ~now:w.now (stamp i, m) w.back) messages
+
+let advance (s : script) w =
+  w.now <- w.now +. instant;
+  let answered =
+    List.concat_map (fun (copy, c) -> Vehicle_model.request ~now:w.now ~copy c w.vehicle) (Network.arrived ~now:w.now w.out)
+  in
+  say s w (answered @ Vehicle_model.tick ~now:w.now w.vehicle);
+  List.iter (hear w) (Network.arrived ~now:w.now w.back);
+  if Execution.due w.execution <= w.now then input w Tick
+
+let patience = 120.
+
+let run_order (s : script) w (o : order) =
+  let began = w.now in
+  let known = List.length (Vehicle_model.executions w.vehicle) in
+  w.verdicts <- [];
+  w.notes <- [];
+  w.copies <- [];
+  input w (Start { plan = o.plan; specification = None });
+  let rec wait () =
+    if w.verdicts <> [] then List.hd w.verdicts
+    else
+      match o.stop_after with
+      | Some seconds when w.now >= began +. seconds -> input w Stop; Stopped
+      | Some _ | None -> if w.now > began +. patience then Nothing else (advance s w; wait ())
+  in
+  let verdict = wait () in
+  let of_order (e : Vehicle_model.execution) = List.mem_assoc e.request w.copies in
+  let all = Vehicle_model.executions w.vehicle in
+  { script_order = o; verdict;
+    executions = List.filter of_order all;
+    meanwhile = List.filteri (fun i _ -> i < List.length all - known) all;
+    notes = w.notes }
+
+(* The orders one after another, and then some quiet time. *)
+let play (s : script) =
+  let random = Random.State.make [| s.seed |] in
+  let fate plan = List.assoc plan s.fates in
+  let w =
+    { now = 0.; execution = Execution.create ~request:65530; clock = Vehicle_clock.unknown; verdicts = []; notes = [];
+      copies = []; vehicle = Vehicle_model.create ~fate ~before:s.before; out = Network.create random s.outward;
+      back = Network.create random s.inward }
+  in
+  let quiet seconds =
+    let until = w.now +. seconds in
+    while w.now < until do advance s w done
+  in
+  quiet 2.;
+  let logs = List.map (run_order s w) s.orders in
+  quiet 15.;
+  (logs, w)
+
+(* {1 Scripts} *)
+
+let generate ~outward ~inward ~fates =
+  let open QCheck2.Gen in
+  let plan = oneofl [ "a"; "b"; "c" ] in
+  let fate =
+    oneof
+      ([ map (fun t -> Vehicle_model.Succeeds t) (float_range 0.05 6.) ]
+       @ if fates then
+         [ map (fun t -> Vehicle_model.Fails t) (float_range 0.05 4.); return (Vehicle_model.Is_refused "undefined plan") ]
+       else [])
+  in
+  let before =
+    let state s plan_id last_outcome =
+      { Message.Plan_control_state.default with state = s; plan_id; last_outcome; plan_progress = -1. }
+    in
+    oneofl
+      [ state Ready "" None; state Ready "a" Success; state Ready "a" Failure; state Executing "a" None;
+        state Executing "x" Success ]
+  in
+  let order =
+    let* plan = plan and* stop = frequency [ (3, return None); (1, map Option.some (float_range 0. 3.)) ] in
+    return { plan; stop_after = stop }
+  in
+  let* seed = int_bound 1_000_000
+  and* outward = outward
+  and* inward = inward
+  and* before = before
+  and* a = fate and* b = fate and* c = fate
+  and* orders = list_size (int_range 1 4) order
+  and* origin = oneofl [ 0.; 1.79e9; -1e6 ]
+  and* rate = oneofl [ 1.; 1.; 1.001; 5. ] in
+  return
+    { seed; outward; inward; before; fates = [ ("a", a); ("b", b); ("c", c) ]; orders; clock = (origin, rate) }
+
+let print (s : script) =
+  let quality (q : Network.quality) = Printf.sprintf "loss %.2f, twice %.2f, delay %.2f" q.loss q.duplication q.delay in
+  let fate : Vehicle_model.fate -> string = function
+    | Succeeds t -> Printf.sprintf "succeeds after %.2f" t
+    | Fails t -> Printf.sprintf "fails after %.2f" t
+    | Is_refused why -> "refused: " ^ why
+  in
+  let order o =
+    match o.stop_after with None -> o.plan | Some t -> Printf.sprintf "%s, stopped after %.2f" o.plan t
+  in
+  String.concat "\n"
+    ([ Printf.sprintf "seed %d, out: %s; in: %s" s.seed (quality s.outward) (quality s.inward);
+       Printf.sprintf "before: %s %s %s" (Message.Plan_control_state.State.name s.before.state) s.before.plan_id
+         (Message.Plan_control_state.Last_outcome.name s.before.last_outcome);
+       Printf.sprintf "clock from %g at rate %g" (fst s.clock) (snd s.clock) ]
+     @ List.map (fun (p, f) -> p ^ " " ^ fate f) s.fates
+     @ List.map order s.orders)
+
+let quality ~loss ~duplication ~delay:longest =
+  let open QCheck2.Gen in
+  let* loss = float_range 0. loss
+  and* duplication = float_range 0. duplication
+  and* delay = float_range 0. longest in
+  return { Network.loss; duplication; delay }
+
+let perfect = QCheck2.Gen.return { Network.loss = 0.; duplication = 0.; delay = 0. }
+let reordering = quality ~loss:0. ~duplication:0. ~delay:0.3
+let losing = quality ~loss:0.3 ~duplication:0. ~delay:0.3
+let bad = quality ~loss:0.3 ~duplication:0.1 ~delay:0.3
+
+(* {1 Properties} *)
+
+let complain fmt = Printf.ksprintf (fun text -> QCheck2.Test.fail_report text) fmt
+
+(* A plan is done only if it ran to its end for this order. *)
+let is_sound ?executions (l : log) =
+  let executions = Option.value executions ~default:l.executions in
+  match l.verdict with
+  | Done ->
+    List.exists (fun (e : Vehicle_model.execution) -> e.succeeded && e.plan = l.script_order.plan) executions
+    || complain "%s is not done" l.script_order.plan
+  | Failed _ | Stopped | Nothing -> true
+
+let is_complete (l : log) = l.verdict <> Nothing || complain "no verdict on %s" l.script_order.plan
+
+let verdict_is_fate (s : script) (l : log) =
+  match l.verdict, List.assoc l.script_order.plan s.fates with
+  | Done, Succeeds _ | Stopped, _ -> true
+  | Failed why, Fails _ -> why = "depth beyond limits" || complain "failed: %s" why
+  | Failed why, Is_refused words -> why = words || complain "refused: %s" why
+  | Failed why, Succeeds _ -> complain "%s failed: %s" l.script_order.plan why
+  | (Done | Nothing), _ -> complain "another verdict"
+
+let different_copies (l : log) =
+  List.sort_uniq compare (List.map (fun (e : Vehicle_model.execution) -> (e.request, e.copy)) l.executions)
+
+let ran_once_or_says_so (l : log) =
+  List.length (different_copies l) <= 1 || l.notes <> [] || complain "%s ran several times" l.script_order.plan
+
+(* No request whose copy had arrived was sent again. *)
+let never_resent_in_vain (l : log) =
+  let requests = List.map fst (different_copies l) in
+  List.length (List.sort_uniq compare requests) = List.length requests
+  || complain "a copy of %s was sent in vain" l.script_order.plan
+
+let is_over (w : world) =
+  let ordered = Execution.idle w.execution in
+  let ours = Vehicle_model.executions w.vehicle <> [] in
+  (ordered || complain "something is still ordered")
+  && ((not ours) || (Vehicle_model.state w.vehicle).state <> Executing || complain "something runs on")
+
+(* DOLPHIN_LONG multiplies the counts. *)
+let longer = match Sys.getenv_opt "DOLPHIN_LONG" with Some n -> int_of_string n | None -> 1
+
+let property name ?(count = 300) ~outward ~inward ?(fates = true) check =
+  Test_support.Property.case ~count:(count * longer) name ~print (generate ~outward ~inward ~fates) (fun s ->
+      let logs, w = play s in
+      check s logs w)
+
+let tests =
+  ( "execution",
+    [ property "a perfect network: the vehicle's own verdict, each plan once" ~outward:perfect ~inward:perfect
+        (fun s logs w ->
+           List.for_all (fun l -> verdict_is_fate s l && is_sound l && ran_once_or_says_so l && l.notes = []) logs && is_over w);
+      property "reordering: the same" ~outward:reordering ~inward:reordering (fun s logs w ->
+          List.for_all (fun l -> verdict_is_fate s l && is_sound l && never_resent_in_vain l && ran_once_or_says_so l) logs && is_over w);
+      property "requests get lost: each plan once" ~outward:losing ~inward:reordering (fun s logs w ->
+          List.for_all (fun l -> verdict_is_fate s l && is_sound l && never_resent_in_vain l && ran_once_or_says_so l) logs && is_over w);
+      property "what the vehicle says gets lost: no plan twice without a word" ~count:1000 ~outward:losing ~inward:losing
+        (fun _ logs w ->
+           List.for_all (fun l -> is_sound l && is_complete l && ran_once_or_says_so l) logs && is_over w);
+      property "loss, duplication and reordering both ways" ~count:1000 ~outward:bad ~inward:bad (fun _ logs w ->
+          List.for_all (fun l -> is_sound ~executions:l.meanwhile l && is_complete l) logs && is_over w) ] )

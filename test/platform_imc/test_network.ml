@@ -1,0 +1,150 @@
+open Dolphin_runtime
+open Dolphin_platform_imc
+open Lwt.Infix
+
+let contains text part =
+  let n = String.length part in
+  let rec from i = i + n <= String.length text && (String.sub text i n = part || from (i + 1)) in
+  from 0
+
+(* Each test has ports of its own: others may run at the same time. *)
+let next_port = ref (31000 + (Unix.getpid () mod 200 * 100))
+
+let ports () =
+  next_port := !next_port + 2;
+  [ !next_port; !next_port + 1 ]
+
+let open_exn options =
+  match Udp_platform.open_ options with Ok p -> p | Error why -> Alcotest.fail why
+
+let options ?(note = fun _ _ -> ()) announce_ports =
+  { Udp_platform.default with loopback = true; announce_ports; note; close_patience = 3. }
+
+let limited seconds promise =
+  Lwt.pick [ promise; (Lwt_unix.sleep seconds >>= fun () -> Alcotest.failf "took longer than %g s" seconds) ]
+
+let said = ref []
+let console = { Console.say = (fun text -> said := text :: !said); ask = (fun _ -> Lwt.return (Error "nobody")); refused = ignore }
+
+let run_program ~seconds platform source =
+  said := [];
+  let program = Test_support.Pure_run.compile_exn source in
+  let never, _ = Lwt.wait () in
+  limited seconds (Driver.run (module Udp_platform) platform ~console ~interruption:never program)
+
+let outcome = Alcotest.testable Driver.pp_outcome (fun a b -> Format.asprintf "%a" Driver.pp_outcome a = Format.asprintf "%a" Driver.pp_outcome b)
+
+let in_a_world name f = Alcotest.test_case name `Quick (fun () -> Lwt_main.run (f ()))
+let fates table plan = Option.value (List.assoc_opt plan table) ~default:(Vehicle_model.Is_refused "undefined plan")
+let quick = Vehicle_model.Succeeds 0.1
+
+let program =
+  in_a_world "a program: plans after one another and at once, a refused one, a stop" (fun () ->
+      let announce_ports = ports () in
+      let fate = fates [ ("survey", quick); ("patrol", Succeeds 0.3); ("long", Succeeds 60.) ] in
+      let vehicle id name = Udp_vehicle.start ~announce_ports ~id ~name ~fate () in
+      let platform = open_exn (options announce_ports) in
+      let a = vehicle 0x1A "noptilus-1" and b = vehicle 0x1B "noptilus-2" in
+      run_program ~seconds:20. platform
+        {|
+v = pick { count 2; type 'UUV'; payload 'DVL'; timeout 10.seconds }
+execute imcPlan('survey')[v] >> imcPlan('survey')[v]
+execute imcPlan('survey') | imcPlan('patrol')
+execute watch imcPlan('nowhere') onError { e -> message "failed: ${e}"; ignore() }
+execute during 1.second run imcPlan('long')
+execute imcPlan('patrol')
+message 'over'
+|}
+      >>= fun result ->
+      Alcotest.check outcome "ends" (Driver.Ended Completed) result;
+      let executions v = Vehicle_model.executions (Udp_vehicle.model v) in
+      let names =
+        List.sort compare (List.map (fun (e : Vehicle_model.execution) -> e.plan) (executions a @ executions b))
+      in
+      Alcotest.(check (list string)) "each once" [ "long"; "patrol"; "patrol"; "survey"; "survey"; "survey" ] names;
+      Alcotest.(check (list string)) "said" [ "over" ] (List.filter (fun s -> s = "over") !said);
+      Alcotest.(check bool) "told why" true
+        (List.exists (fun s -> contains s "undefined plan") !said);
+      Lwt.join [ Udp_vehicle.stop a; Udp_vehicle.stop b ])
+
+let bad_network =
+  in_a_world "30% loss, 10% duplication, reordering both ways: the mission completes" (fun () ->
+      let announce_ports = ports () in
+      let quality = { Network.loss = 0.3; duplication = 0.1; delay = 0.05 } in
+      let fate = fates [ ("survey", Vehicle_model.Succeeds 0.5); ("patrol", Succeeds 0.7) ] in
+      let vehicle id name = Udp_vehicle.start ~quality ~seed:7 ~announce_ports ~id ~name ~fate () in
+      let platform = open_exn (options announce_ports) in
+      let a = vehicle 0x1A "noptilus-1" and b = vehicle 0x1B "noptilus-2" in
+      run_program ~seconds:60. platform
+        {|
+v = pick { count 2; type 'UUV'; timeout 30.seconds }
+execute imcPlan('survey') | imcPlan('patrol')
+execute imcPlan('patrol') | imcPlan('survey')
+|}
+      >>= fun result ->
+      Alcotest.check outcome "ends" (Driver.Ended Completed) result;
+      Lwt.join [ Udp_vehicle.stop a; Udp_vehicle.stop b ])
+
+let vanished =
+  in_a_world "a vehicle that vanishes fails its plan" (fun () ->
+      let announce_ports = ports () in
+      let platform = open_exn (options announce_ports) in
+      let fate = fates [ ("long", Vehicle_model.Succeeds 60.) ] in
+      let a = Udp_vehicle.start ~announce_ports ~id:0x1A ~name:"noptilus-1" ~fate () in
+      Lwt.async (fun () -> Lwt_unix.sleep 2. >>= fun () -> Udp_vehicle.stop a);
+      run_program ~seconds:30. platform
+        {|
+v = pick { type 'UUV'; timeout 10.seconds }
+setConnectionTimeout 5
+execute imcPlan('long')
+|}
+      >>= function
+      | Driver.Ended (Failed fault) ->
+        Alcotest.(check bool) "why" true (contains fault.message "no word from the vehicle for 5 seconds");
+        Lwt.return_unit
+      | other -> Alcotest.failf "%a" Driver.pp_outcome other)
+
+let nobody =
+  in_a_world "nobody is there" (fun () ->
+      let platform = open_exn (options (ports ())) in
+      run_program ~seconds:5. platform "v = pick { timeout 1.second }" >>= function
+      | Driver.Ended (Halted _ | Failed _) -> Lwt.return_unit
+      | other -> Alcotest.failf "%a" Driver.pp_outcome other)
+
+let taken =
+  in_a_world "all ports are taken" (fun () ->
+      let announce_ports = ports () in
+      let first = open_exn (options announce_ports) and second = open_exn (options announce_ports) in
+      (match Udp_platform.open_ (options announce_ports) with
+       | Ok _ -> Alcotest.fail "a third console"
+       | Error why -> Alcotest.(check bool) "why" true (contains why "ports for announcements"));
+      Lwt.join [ Udp_platform.close first; Udp_platform.close second ])
+
+let many =
+  in_a_world "20 vehicles, and the time from the end of a plan to the next start" (fun () ->
+      let announce_ports = ports () in
+      let fate = fates [ ("a", Vehicle_model.Succeeds 0.5); ("b", quick) ] in
+      let vehicle i = Udp_vehicle.start ~announce_ports ~id:(100 + i) ~name:(Printf.sprintf "v%02d" i) ~fate () in
+      let platform = open_exn (options announce_ports) in
+      let vehicles = List.init 20 vehicle in
+      run_program ~seconds:30. platform
+        {|
+v = pick { count 20; type 'UUV'; timeout 10.seconds }
+task1 = task('a') >> task('b') >> task('a') >> task('b')
+all = task1
+for (i in 2..20) { all = all | task1 }
+execute all
+|}
+      >>= fun result ->
+      Alcotest.check outcome "ends" (Driver.Ended Completed) result;
+      let gaps v =
+        let ends = List.rev (Udp_vehicle.ends v) and starts = List.rev (Udp_vehicle.starts v) in
+        Alcotest.(check int) "each once" 4 (List.length starts);
+        List.map2 (fun (e, _) (s, _) -> s -. e) (List.filteri (fun i _ -> i < 3) ends) (List.tl starts)
+      in
+      let all = List.sort compare (List.concat_map gaps vehicles) in
+      let at share = List.nth all (int_of_float (share *. float_of_int (List.length all - 1))) in
+      Printf.printf "end to next start: median %.1f ms, 99%% %.1f ms\n" (1000. *. at 0.5) (1000. *. at 0.99);
+      Lwt.join (List.map Udp_vehicle.stop vehicles))
+
+let tests = ("network", [ program; bad_network; vanished; nobody; taken; many ])

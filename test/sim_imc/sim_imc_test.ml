@@ -1,0 +1,2 @@
+let () = Alcotest.run "sim_imc" [ "as a real vehicle", Test_recording.tests; "contact", Test_contact.tests; "plans", Test_plans.tests; "faults", Test_faults.tests;
+                                  "network", Test_network.tests ]

@@ -1,0 +1,3 @@
+(** Bad links, hostile packets, and requests in any order. *)
+
+val tests : unit Alcotest.test_case list

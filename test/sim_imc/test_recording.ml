@@ -1,0 +1,81 @@
+open Dolphin_imc
+
+(* The recorded packets, in order. *)
+let packets =
+  lazy
+    (let path = "../imc/data/lifecycle.imc" in
+     let channel = open_in_bin path in
+     let bytes = really_input_string channel (in_channel_length channel) in
+     close_in channel;
+     let rec split pos =
+       if pos >= String.length bytes then []
+       else
+         match Header.read ~pos bytes with
+         | Error e -> Alcotest.failf "%s: %a" path Error.pp_decode e
+         | Ok header -> (
+             match Packet.decode_after ~pos header bytes with
+             | Error e -> Alcotest.failf "%s: %a" path Error.pp_decode e
+             | Ok packet -> packet :: split (pos + Header.overhead + header.size))
+     in
+     split 0)
+
+let console = 0x4ABC
+
+(* What the console asked for, without the copies that the vehicle sent on; and what the vehicle said. *)
+let requests, answers =
+  let is_from id (p : Packet.t) = p.src = id in
+  let of_console = lazy (List.sort_uniq compare (List.filter (is_from console) (Lazy.force packets))) in
+  let is_request (p : Packet.t) =
+    match p.content with
+    | Message (Plan_control { type_ = Request; _ } | Abort) -> true
+    | Message _ | Unknown _ -> false
+  in
+  ( lazy
+    (List.sort
+       (fun (p : Packet.t) (q : Packet.t) -> Float.compare p.timestamp q.timestamp)
+       (List.filter is_request (Lazy.force of_console))),
+    lazy (List.filter (is_from Scene.vehicle) (Lazy.force packets)) )
+
+let source =
+  "vehicle 'lauv-noptilus-1', { type 'UUV'; at 41.1850, -8.7062; speed 1.5 }"
+
+let replay () =
+  let s = Scene.make (Scene.settings ~strict:true source) in
+  let first = (List.hd (Lazy.force requests)).timestamp in
+  (* The clock of the vehicle is that of the console. *)
+  let time_of (p : Packet.t) = 10. +. p.timestamp -. first in
+  Scene.announce s;
+  let rec beat until =
+    if Scene.now s +. 1. < until then begin
+      Scene.until s (Scene.now s +. 1.);
+      Scene.send s Heartbeat;
+      beat until
+    end
+  in
+  let ask (p : Packet.t) =
+    beat (time_of p);
+    Scene.until s (time_of p);
+    match p.content with Message m -> Scene.send s m | Unknown _ -> ()
+  in
+  Scene.send s Heartbeat;
+  List.iter ask (Lazy.force requests);
+  beat (Scene.now s +. 200.);
+  s
+
+(* By message: what of different messages is sent within a millisecond comes in one order or the other. *)
+let of_kind kind lines = List.filter (fun line -> String.length line > 5 && String.sub line 0 5 = kind) lines
+
+(* The names that the two consoles go by. *)
+let renamed line =
+  let parts = String.split_on_char ' ' line in
+  String.concat " " (List.map (function "ccu-dolphin-0001" -> "ccu-test" | part -> part) parts)
+
+let same kind () =
+  let real = List.map renamed (of_kind kind (Scene.narrate (Lazy.force answers))) in
+  let ours = of_kind kind (Scene.story (replay ())) in
+  Alcotest.(check (list string)) "as the vehicle" real ours
+
+let tests =
+  [ Alcotest.test_case "replies" `Quick (same "reply");
+    Alcotest.test_case "plan control states" `Quick (same "state");
+    Alcotest.test_case "vehicle states" `Quick (same "vehic") ]

@@ -1,0 +1,33 @@
+(** Runs of the examples on their fleets, with their journals. *)
+
+open Dolphin_semantics
+
+type t = {
+  name : string;
+  program : Core.program;
+  hash : string;  (** of the program's text *)
+  journal : string;
+}
+
+val examples : string list
+(** The names of all examples, ["all_of"], ["water_survey"]. *)
+
+val run : ?seed:int -> ?period:float -> string -> t
+(** [run name] is a run of the example [name] on the fleet beside it. *)
+
+val of_text : ?period:float -> string -> t
+(** [of_text source] is a run of this program on the built-in fleet. *)
+
+val of_scenario : ?period:float -> Dolphin_scenario.Scenario.t -> string -> t
+
+val check : t -> Dolphin_trace.Verdict.t
+(** The verdict on its journal. *)
+
+val check_text : t -> string -> Dolphin_trace.Verdict.t
+(** [check_text r journal] is the verdict on [journal] as one of [r]'s program. *)
+
+val lines : string -> string list
+(** The lines of a journal. *)
+
+val text : string list -> string
+(** And back. *)

@@ -1,0 +1,1 @@
+(** Journals are written, read, judged and cut. *)

@@ -1,0 +1,1 @@
+(** Journals that were tampered with are found out. *)

@@ -1,0 +1,108 @@
+open Dolphin_trace
+
+let case name test = Alcotest.test_case name `Quick test
+
+let story journal =
+  let teller = Story.start () in
+  let tell line = match Entry.of_string line with Ok entry -> Story.tell teller entry | Error why -> failwith why in
+  List.iter tell (Runs.lines journal);
+  Story.finish teller
+
+let contains part whole =
+  match Str.search_forward (Str.regexp_string part) whole 0 with _ -> true | exception Not_found -> false
+
+(* {1 Stories} *)
+
+let tasks_of_vehicles () =
+  let s = story (Runs.run "watch").journal in
+  let show (t : Story.task) =
+    let ending =
+      match t.ending with Done -> "done" | Failed why -> why | Stopped -> "stopped" | Unfinished -> "not ended"
+    in
+    Printf.sprintf "%s %s-%s %s" t.plan (Clock.text t.from) (Clock.text t.until) ending
+  in
+  let of_vehicle (v : Story.vehicle) = (v.id, List.map show v.tasks) in
+  Alcotest.(check (list (pair string (list string))))
+    "tasks"
+    [ ("noptilus-1", [ "deep_dive 0:00-2:30 plan failed"; "deep_dive 10:00-13:40 plan failed" ]);
+      ("noptilus-2", [ "shallow_dive 0:00-10:00 done"; "shallow_dive 10:00-13:40 stopped" ]) ]
+    (List.map of_vehicle s.vehicles)
+
+let broken_off () =
+  let lines = Runs.lines (Runs.run "rendezvous").journal in
+  let s = story (Runs.text (List.filteri (fun i _ -> i < 40) lines)) in
+  let unfinished (v : Story.vehicle) = List.exists (fun (t : Story.task) -> t.ending = Unfinished) v.tasks in
+  Alcotest.(check bool) "tasks that did not end" true (List.exists unfinished s.vehicles);
+  Alcotest.(check bool) "it says so" true (contains "the journal breaks off" (Picture.svg s))
+
+(* A run of a day has no more samples than can be seen. *)
+let few_samples () =
+  let teller = Story.start () in
+  let position : Dolphin_geo.Position.t = { latitude = 41.; longitude = -8.; height = 0. } in
+  for i = 0 to 99_999 do
+    let state : Dolphin_semantics.World.vehicle_state =
+      { id = "v"; kind = "UUV"; payload = []; position; battery = 1. -. (float_of_int i /. 1e5); connected = true }
+    in
+    Story.tell teller (Vehicle { time = float_of_int i; state })
+  done;
+  let step : Step.t =
+    { rules = []; label = "bind(v)"; at = None; choice = 0; allocated = []; bound = [ "v" ]; released = []; posted = [];
+      consumed = []; requests = [ Bind [ "v" ] ] }
+  in
+  Story.tell teller (Transition { time = 1e5; index = 0; step });
+  match (Story.finish teller).vehicles with
+  | [ v ] ->
+    let n = List.length v.samples in
+    if n < 1000 || n > 4097 then Alcotest.failf "%d samples" n;
+    Alcotest.(check (float 0.)) "the first" 0. (List.hd v.samples).time;
+    Alcotest.(check (float 0.)) "the last" 99_999. (List.nth v.samples (n - 1)).time
+  | _ -> Alcotest.fail "one vehicle is expected"
+
+(* {1 Pictures} *)
+
+let is_self_contained name text =
+  let without_namespace = Str.global_replace (Str.regexp_string "http://www.w3.org/2000/svg") "" text in
+  let foreign = List.filter (fun part -> contains part without_namespace) [ "http"; "url("; "@import"; "<script" ] in
+  if foreign <> [] then Alcotest.failf "%s has %s" name (String.concat ", " foreign)
+
+let of_all_examples () =
+  let draw name =
+    let s = story (Runs.run name).journal in
+    is_self_contained name (Picture.svg s);
+    is_self_contained name (Picture.html s)
+  in
+  List.iter draw Runs.examples
+
+(* Names and messages are no markup. *)
+let escaped () =
+  let s = story (Runs.of_text "message '<script>alert(1)</script> & \"so\"'").journal in
+  Alcotest.(check bool) "escaped" false (contains "<script" (Picture.html s));
+  Alcotest.(check bool) "there" true (contains "&lt;script&gt;" (Picture.svg s))
+
+let nothing_at_all () = ignore (Picture.svg (Story.finish (Story.start ())))
+
+(* {1 Scales} *)
+
+let scales () =
+  let close = Alcotest.float 1e-9 in
+  Alcotest.check close "a step" 0.2 (Scale.step ~most:5 1.);
+  Alcotest.check close "a step above one" 50. (Scale.step ~most:5 210.);
+  Alcotest.check close "a clock's step" 120. (Scale.time_step ~most:12 1124.);
+  Alcotest.(check (list close)) "multiples" [ -0.2; 0.; 0.2 ] (Scale.multiples 0.2 ~from:(-0.3) ~until:0.3);
+  Alcotest.(check int) "decimals" 3 (Scale.decimals 0.005);
+  Alcotest.(check int) "no decimals" 0 (Scale.decimals 20.);
+  Alcotest.(check (list (pair close string))) "labels move apart" [ (0., "a"); (10., "b"); (20., "c") ]
+    (Scale.spread ~least:10. ~from:0. ~until:100. [ (1., "b"); (2., "c"); (-3., "a") ]);
+  Alcotest.(check (list (pair close string))) "and stay within" [ (80., "a"); (90., "b"); (100., "c") ]
+    (Scale.spread ~least:10. ~from:0. ~until:100. [ (99., "a"); (99., "b"); (99., "c") ])
+
+let () =
+  Alcotest.run "pictures"
+    [ ( "pictures",
+        [ case "who ran what" tasks_of_vehicles;
+          case "a run that breaks off" broken_off;
+          case "long runs have few samples" few_samples;
+          case "all examples, without anything from outside" of_all_examples;
+          case "texts are escaped" escaped;
+          case "an empty story" nothing_at_all;
+          case "scales" scales ] ) ]

@@ -1,0 +1,1 @@
+(** Pictures are made of whatever journals tell. *)

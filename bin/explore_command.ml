@@ -10,6 +10,7 @@ type settings = {
   strict : bool;
   json : bool;
   trace : string option;
+  reduction : Dolphin_explore.Reduction.t;
   max_states : int option;
   max_depth : int option;
   max_memory : int option;
@@ -73,8 +74,9 @@ let print_outcome program strict (o : Search.outcome) =
     (fun (property, (verdict : Search.verdict), remark) ->
        match verdict with
        | Violated run when not remark ->
-         let run_is = match property with Property.Formula _ -> "a run" | _ -> "a shortest run" in
-         Format.printf "@.%s: %s in which %s@." (Property.name property) run_is (Property.question property);
+         Format.printf "@.%s: a%s run in which %s@." (Property.name property)
+           (if run.shortest then " shortest" else "")
+           (Property.question property);
          print_run program run;
          if property = No_deadlock then print_waiting program run
        | Unreached pieces when not remark ->
@@ -158,6 +160,8 @@ let explore (program : Program_file.t) (fleet : Fleet_file.t) s invariants formu
   let live = Unix.isatty Unix.stderr && not s.json in
   let options : Search.options =
     { environment = World_of.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
+      reduction = s.reduction;
+      search_again = Search.default.search_again;
       max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; timeout = s.timeout;
       clock = Unix.gettimeofday;
       invariants; formulas;
@@ -186,13 +190,13 @@ let read_all option of_string texts =
   in
   Result.map List.rev (List.fold_left read (Ok []) texts)
 
-let run path fleet answers faults strict json trace invariants formulas max_states max_depth max_memory timeout =
+let run path fleet answers faults strict json trace reduction invariants formulas max_states max_depth max_memory timeout =
   match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet) with
   | Error trouble, _ -> Program_file.tell trouble; Exit_status.Bad_input
   | Ok _, Error trouble -> Fleet_file.tell trouble; Exit_status.Bad_input
   | Ok program, Ok fleet ->
     Report.diagnostics ~source:program.source program.warnings;
-    let settings = { answers; faults; strict; json; trace; max_states; max_depth; max_memory; timeout } in
+    let settings = { answers; faults; strict; json; trace; reduction; max_states; max_depth; max_memory; timeout } in
     let program' = program.program in
     (match read_all "--invariant" (Dolphin_explore.Condition.of_string program') invariants,
            read_all "--ltl" (Dolphin_explore.Temporal.of_string program') formulas with
@@ -277,13 +281,21 @@ let trace =
   in
   Arg.(value & opt (some string) None & info [ "trace" ] ~docv:"FILE" ~doc)
 
+let reduction =
+  let kinds = [ ("none", Dolphin_explore.Reduction.Whole); ("por", Partial_order) ] in
+  let doc =
+    "How much is looked at: $(b,none) for every state; $(b,por) for one of the orders that make no difference (partial \
+     order reduction), with the same verdicts; not used beside an $(b,--invariant). The number of states printed is that of the states looked at."
+  in
+  Arg.(value & opt (enum kinds) Partial_order & info [ "reduction" ] ~docv:"KIND" ~doc)
+
 let json = Arg.(value & flag & info [ "json" ] ~doc:"Print the result as one JSON object.")
 
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) follows every run that $(i,PROG) can have: every order in which tasks end and timers expire, every choice \
         of vehicles, every branch that is ready. It uses the very transition function that $(mname) $(b,exec) uses. For \
-        each of these it says whether it holds, or shows a shortest run that breaks it, a column for the program and one \
+        each of these it says whether it holds, or shows a run that breaks it, a shortest one if it says so, a column for the program and one \
         for each vehicle:";
     `I ("no deadlock", "some transition is possible until the program ends.");
     `I ("termination", "every fair run ends: tasks that run end some time, timers expire, no step is put off for ever.");
@@ -312,5 +324,6 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ trace $ invariants $ formulas $ max_states $ max_depth
+      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ trace $ reduction $ invariants $ formulas
+      $ max_states $ max_depth
       $ max_memory $ timeout)

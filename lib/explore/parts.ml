@@ -13,6 +13,7 @@ and part = {
   local : int;
   mutable steps : step array;
   mutable worked_out : step array option;
+  mutable components : Components.t option;
 }
 
 and family = { number : int; mutable members : part array; mutable size : int; mutable width : int }
@@ -21,6 +22,7 @@ and guard = { mutable results : int array }
 and case = { possible : bool; shared : int; result : target; mutable whole : int }
 
 and step = {
+  index : int;
   source : Residual.step;
   event : Transition.event option;
   dependence : dependence;
@@ -51,12 +53,14 @@ type t = {
   parts : part Residuals.t;
   guards : guard Guards.t;
   coverage : Coverage.t;
+  context : Components.context;
+  foreseen : int;
   mutable families : int;
   mutable serial : int;
   mutable outgrown : bool;
 }
 
-let create options program world =
+let create ?(foreseen = 2_048) options program world =
   {
     options;
     program;
@@ -65,6 +69,8 @@ let create options program world =
     parts = Residuals.create 1_000;
     guards = Guards.create 64;
     coverage = Coverage.create ();
+    context = Components.context options program;
+    foreseen;
     families = 0;
     serial = 0;
     outgrown = false;
@@ -89,7 +95,7 @@ let grown xs length x =
   longer
 
 let member t family residual =
-  let p = { residual; family; local = family.size; steps = [||]; worked_out = None } in
+  let p = { residual; family; local = family.size; steps = [||]; worked_out = None; components = None } in
   if family.size = Array.length family.members then family.members <- grown family.members 8 p;
   family.members.(family.size) <- p;
   family.size <- family.size + 1;
@@ -111,9 +117,6 @@ let guard t check closure =
 
 (* {1 Steps} *)
 
-(* So many members of a new family are found in advance: layouts are then seldom outgrown. *)
-let foreseen = 2_048
-
 let rec part t residual =
   match Residuals.find_opt t.parts residual with
   | Some p -> p
@@ -121,7 +124,7 @@ let rec part t residual =
     let family = new_family t in
     let p = member t family residual in
     let rec foresee i =
-      if i < family.size && i < foreseen then begin
+      if i < family.size && i < t.foreseen then begin
         ignore (work_out t family.members.(i));
         foresee (i + 1)
       end
@@ -152,47 +155,58 @@ and work_out t p =
   match p.worked_out with
   | Some steps -> steps
   | None ->
-    let by_case source event =
-      { source; event; dependence = By_case; target = Gone; stays = -1; cases = [||] }
+    let by_case index source event =
+      { index; source; event; dependence = By_case; target = Gone; stays = -1; cases = [||] }
     in
-    let certain source event dependence =
+    let certain index source event dependence =
       let settled target =
         let stays = match target with Stays n -> n | Gone | Becomes _ | Ends _ -> -1 in
-        { source; event; dependence; target; stays; cases = [||] }
+        { index; source; event; dependence; target; stays; cases = [||] }
       in
       match (source.Residual.continue Went).outcome with
       | Next r -> settled (target_of t p.family r)
       | Finished -> settled Gone
-      | Failed _ | Handling _ -> by_case source event
+      | Failed _ | Handling _ -> by_case index source event
     in
-    let compile (source : Residual.step) =
+    let compile index (source : Residual.step) =
       match source.offer with
-      | Start _ -> [ certain source None Free ]
-      | Perform closure -> [ certain source None (Guarded (guard t false closure)) ]
-      | Check closure -> [ certain source None (Guarded (guard t true closure)) ]
-      | Measure _ -> [ by_case source None ]
-      | Expiry_of timer -> [ certain source (Some (Timer_expired timer)) Free ]
+      | Start _ -> [ certain index source None Free ]
+      | Perform closure -> [ certain index source None (Guarded (guard t false closure)) ]
+      | Check closure -> [ certain index source None (Guarded (guard t true closure)) ]
+      | Measure _ -> [ by_case index source None ]
+      | Expiry_of timer -> [ certain index source (Some (Timer_expired timer)) Free ]
       | End_of (task, v) ->
         let on_event (event, _) =
           match event with
-          | Transition.Vehicle_done _ -> certain source (Some event) Free
-          | event -> by_case source (Some event)
+          | Transition.Vehicle_done _ -> certain index source (Some event) Free
+          | event -> by_case index source (Some event)
         in
         List.map on_event (Environment.task_ends t.options Environment.initial v task)
     in
-    let steps = Array.of_list (List.concat_map compile (List.of_seq (Residual.steps p.residual))) in
+    let steps = Array.of_list (List.concat (List.mapi compile (List.of_seq (Residual.steps p.residual)))) in
     p.worked_out <- Some steps;
     steps
 
+(* Code of a part that is reached is run, whatever comes of it. *)
 let reach t p =
   let steps = work_out t p in
-  let start step =
+  let cover step =
     match step.source.Residual.offer with
     | Start (task, _) -> Coverage.start t.coverage task
-    | Perform _ | Check _ | Measure _ | End_of _ | Expiry_of _ -> ()
+    | Perform c | Check c | Measure c -> Coverage.run t.coverage c
+    | End_of _ | Expiry_of _ -> ()
   in
-  Array.iter start steps;
+  Array.iter cover steps;
   p.steps <- steps
+
+let components t p =
+  match p.components with
+  | Some components -> components
+  | None ->
+    let step { index; source; event; _ } : Components.step = { index; source; event } in
+    let components = Components.analyse t.context p.residual (Array.map step (work_out t p)) in
+    p.components <- Some components;
+    components
 
 (* {1 What depends on what is shared} *)
 
@@ -215,8 +229,7 @@ let internal t step s =
   let shared = Shareds.value t.shareds s in
   let local = Transition.local_internal t.program t.world (configuration shared) step.source in
   (match step.source.offer with
-   | Perform c | Check c | Measure c ->
-     Coverage.run t.coverage c;
+   | Perform _ | Check _ | Measure _ ->
      let broken = Residual.Broke (Fault.make Fault.unknown_site "") in
      Option.iter (note_handlers t (step.source.continue broken)) local
    | Start _ | End_of _ | Expiry_of _ -> ());

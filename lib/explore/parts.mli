@@ -22,6 +22,7 @@ and part = private {
   local : int;  (** its number in its family, from 0 *)
   mutable steps : step array;  (** once it is {!reach}ed *)
   mutable worked_out : step array option;
+  mutable components : Components.t option;
 }
 
 and family = private {
@@ -50,6 +51,7 @@ and case = {
 }
 
 and step = private {
+  index : int;  (** in [Residual.steps] *)
   source : Residual.step;
   event : Transition.event option;  (** the one that it takes *)
   dependence : dependence;
@@ -69,7 +71,9 @@ val special : int
 
 type t
 
-val create : Environment.options -> Core.program -> World.t -> t
+val create : ?foreseen:int -> Environment.options -> Core.program -> World.t -> t
+(** So many members of a new family are worked out in advance: layouts are then seldom outgrown. *)
+
 val shareds : t -> Shareds.t
 val coverage : t -> Coverage.t
 
@@ -78,6 +82,9 @@ val part : t -> Residual.t -> part
 
 val reach : t -> part -> unit
 (** [reach t p] works out the steps of [p], which some run reaches. *)
+
+val components : t -> part -> Components.t
+(** [components t p] is of the steps of [p], in their order. *)
 
 val guarded : t -> step -> guard -> int -> int
 (** [guarded t step guard s] is the result of [guard] for shared number [s]. *)

@@ -7,6 +7,9 @@ open Dolphin_semantics
 (** How far to go, and who is told. *)
 type options = {
   environment : Environment.options;
+  reduction : Reduction.t;  (** none is used where there are invariants *)
+  search_again : int;
+  (** so many of all states are visited for a shortest run, if a reduced search found a violation *)
   max_states : int option;
   max_depth : int option;  (** in transitions *)
   max_memory : int option;  (** in bytes, of the whole process but for code and libraries *)
@@ -29,7 +32,7 @@ and progress = {
 }
 
 val default : options
-(** No bounds, the default environment, [Sys.time], no reports. *)
+(** No bounds, no reduction, the default environment, [Sys.time], no reports. *)
 
 (** {1:outcomes Outcomes} *)
 
@@ -37,6 +40,7 @@ val default : options
 type run = {
   steps : Transition.t list;
   cycle : Transition.t list;  (** goes on from there for ever, if there is any *)
+  shortest : bool;  (** no run shows it in fewer steps; with a cycle, none comes to it in fewer *)
 }
 
 type bound =
@@ -49,7 +53,8 @@ type bound =
 
 type verdict =
   | Holds
-  | Violated of run  (** by a shortest run; for cycles, one with a shortest way to where it comes around *)
+  | Violated of run  (** without reduction, or if [search_again] states show it, by a shortest run; for cycles, without
+                          reduction, one with a shortest way to where it comes around *)
   | Unreached of Coverage.piece list
   | Inconclusive of bound
 

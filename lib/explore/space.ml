@@ -15,6 +15,7 @@ module Wholes = Interner.Make (struct
 
 type t = {
   options : Environment.options;
+  reduction : Reduction.t;
   program : Core.program;
   world : World.t;
   parts : Parts.t;
@@ -353,6 +354,54 @@ let go_by_case t (s : Shape.t) position (family : Parts.family) (step : Parts.st
 let unknown = Parts.unknown
 let special = Parts.special
 
+let local_status t (step : Parts.step) family shared : Stubborn.status =
+  let by_case () : Stubborn.status =
+    match Parts.case t.parts family step shared with
+    | { possible = false; _ } -> Impossible
+    | { result = Ends _; _ } -> Ends
+    | { result = Stays _ | Gone | Becomes _; _ } -> Moves
+  in
+  match step.dependence with
+  | Free -> Moves
+  | By_case -> by_case ()
+  | Guarded guard ->
+    let result = Parts.guarded t.parts step guard shared in
+    if result >= 0 then Moves else if result = special then by_case () else Impossible
+
+let take_step t s position family (step : Parts.step) shared i =
+  match step.dependence with
+  | Free -> go_to t s position step.target shared shared i
+  | Guarded guard when Parts.guarded t.parts step guard shared >= 0 ->
+    go_to t s position step.target shared (Parts.guarded t.parts step guard shared) i
+  | Guarded _ | By_case -> ignore (go_by_case t s position family step shared i)
+
+(* As [expand_executing], with steps that are enough. Which they are depends on nothing but the configuration. *)
+let expand_some t (s : Shape.t) (parts : Parts.part array) shared i =
+  let status position k =
+    let part = parts.(position) in
+    local_status t part.steps.(k) part.family shared
+  in
+  let components = Array.map (Parts.components t.parts) parts in
+  let choice = Stubborn.choose components status in
+  let taken = ref 0 in
+  let go position (part : Parts.part) =
+    let take k step =
+      let is_chosen = match choice with None -> true | Some chosen -> chosen position k in
+      if is_chosen || components.(position).ends.(k) then
+        match status position k with
+        | Impossible -> ()
+        | Moves when not is_chosen -> ()
+        | Moves | Ends ->
+          check_fit t;
+          incr taken;
+          take_step t s position part.family step shared i
+    in
+    Array.iteri take part.steps
+  in
+  Array.iteri go parts;
+  check_fit t;
+  !taken
+
 let expand_part t (s : Shape.t) position (family : Parts.family) (part : Parts.part) shared i =
   let steps = part.steps in
   let taken = ref 0 in
@@ -379,22 +428,31 @@ let expand_part t (s : Shape.t) position (family : Parts.family) (part : Parts.p
   done;
   !taken
 
+let part_at t (s : Shape.t) position =
+  let family = Array.unsafe_get s.families position in
+  let part = family.members.(local_of s t.key position) in
+  if Array.length part.steps = 0 then begin
+    Parts.reach t.parts part;
+    check_fit t
+  end;
+  part
+
 let expand_executing t i number =
   let s = Array.unsafe_get t.shapes number in
-  let key = t.key in
-  let shared = (key.(0) lsr t.widths.shape) land t.shared_mask in
-  let taken = ref 0 in
-  for position = 0 to Array.length s.families - 1 do
-    let family = Array.unsafe_get s.families position in
-    let part = family.members.(local_of s key position) in
-    if Array.length part.steps = 0 then begin
-      Parts.reach t.parts part;
-      check_fit t
-    end;
-    taken := !taken + expand_part t s position family part shared i
-  done;
-  if !taken = 0 then note_broken t No_deadlock i;
-  !taken
+  let shared = (t.key.(0) lsr t.widths.shape) land t.shared_mask in
+  let taken =
+    match t.reduction with
+    | Partial_order -> expand_some t s (Array.init (Array.length s.families) (part_at t s)) shared i
+    | Whole ->
+      let taken = ref 0 in
+      for position = 0 to Array.length s.families - 1 do
+        let part = part_at t s position in
+        taken := !taken + expand_part t s position part.family part shared i
+      done;
+      !taken
+  in
+  if taken = 0 then note_broken t No_deadlock i;
+  taken
 
 let rec expand t i =
   match
@@ -415,11 +473,13 @@ let successors t i =
   t.gathering <- false;
   List.rev t.gathered
 
-let create options program world =
-  let parts = Parts.create options program world in
+let create ?(reduction = Reduction.Whole) options program world =
+  let foreseen = match reduction with Whole -> None | Partial_order -> Some 0 in
+  let parts = Parts.create ?foreseen options program world in
   let t =
     {
       options;
+      reduction;
       program;
       world;
       parts;

@@ -7,7 +7,7 @@ open Dolphin_semantics
 
 type t
 
-val create : Environment.options -> Core.program -> World.t -> t
+val create : ?reduction:Reduction.t -> Environment.options -> Core.program -> World.t -> t
 (** With the initial state, number 0. *)
 
 val expand : t -> int -> unit

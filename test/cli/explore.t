@@ -10,7 +10,7 @@ A program whose every run is sound.
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: holds
-  2198 states, 7139 transitions, depth 35
+  36 states, 35 transitions, depth 35
 
 The same, if a plan may fail once.
 
@@ -20,7 +20,7 @@ The same, if a plan may fail once.
   no unhandled error: violated after 10 steps: an error that nobody handles ends the program
   assertions: holds
   vehicles for all tasks: holds
-  2246 states, 10055 transitions, depth 35
+  45 states, 44 transitions, depth 35
   
   no unhandled error: a shortest run in which an error that nobody handles ends the program
        program                                   noptilus-1                 where
@@ -76,7 +76,7 @@ A program that may never end.
   vehicles for all tasks: holds
   5 states, 5 transitions, depth 4
   
-  termination: a shortest run in which the program can go on for ever
+  termination: a run in which the program can go on for ever
       program   where
   1   pause(1)  round.dol:2
   and from there, again and again:
@@ -138,7 +138,7 @@ An assertion that some run breaks.
   assertions: violated after 5 steps: assertion.dol:4:5: assertion failed
   vehicles for all tasks: holds
   note: all code reached: violated: no run reaches onError at assertion.dol:3:9
-  50 states, 73 transitions, depth 9
+  44 states, 61 transitions, depth 9
   
   assertions: a shortest run in which an assertion fails
       program                        where
@@ -225,7 +225,7 @@ Formulas of temporal logic.
   formula G (start(survey1) -> F done(survey1)): holds
   formula F ended: holds
   formula !start(survey1) W bind(x8-02): holds
-  2198 states, 7139 transitions, depth 35
+  36 states, 35 transitions, depth 35
   $ cat > again.dol <<'END'
   > v = pick { id 'noptilus-1' }
   > n = 0
@@ -246,7 +246,7 @@ Formulas of temporal logic.
   formula G (fail -> X consume(failed: 1)): holds
   10 states, 10 transitions, depth 7
   
-  termination: a shortest run in which the program can go on for ever
+  termination: a run in which the program can go on for ever
       program                               where
   1   pick(1 vehicle with id 'noptilus-1')  again.dol:1
   2   picks noptilus-1                      again.dol:1
@@ -344,7 +344,7 @@ It does not fit another program, and no other file is one.
 
 A bound that is met leaves the answer open.
 
-  $ explore ../../examples/rendezvous.dol --max-states 100
+  $ explore ../../examples/rendezvous.dol --reduction none --max-states 100
   no deadlock: inconclusive, the bound on states was met
   termination: inconclusive, the bound on states was met
   no unhandled error: inconclusive, the bound on states was met

@@ -1,0 +1,260 @@
+open Dolphin_semantics
+open Core
+module Globals = Set.Make (Int)
+
+module Pairs = struct
+  include Set.Make (struct
+      type t = string * value option
+
+      (* Of one key, the pair without value comes first. *)
+      let compare (k, x) (k', x') =
+        match String.compare k k' with 0 -> Option.compare Value.compare x x' | order -> order
+    end)
+
+  let has pairs (k, x) =
+    mem (k, None) pairs
+    ||
+    match x with
+    | Some _ -> mem (k, x) pairs
+    | None -> (
+        match find_first_opt (fun (k', _) -> String.compare k' k >= 0) pairs with
+        | Some (k', _) -> String.equal k k'
+        | None -> false)
+
+  let meet a b = if cardinal a <= cardinal b then exists (has b) a else exists (has a) b
+  let meet a b = (not (is_empty a)) && (not (is_empty b)) && meet a b
+end
+
+type t = {
+  posts : Pairs.t;
+  queues : Pairs.t;
+  takes : Pairs.t;
+  needs : Pairs.t;
+  tests : Pairs.t;
+  reads : Globals.t;
+  writes : Globals.t;
+  anything : bool;
+  breaks : bool;
+  halts : bool;
+  ignores : bool;
+}
+
+let empty =
+  {
+    posts = Pairs.empty;
+    queues = Pairs.empty;
+    takes = Pairs.empty;
+    needs = Pairs.empty;
+    tests = Pairs.empty;
+    reads = Globals.empty;
+    writes = Globals.empty;
+    anything = false;
+    breaks = false;
+    halts = false;
+    ignores = false;
+  }
+
+let union f f' =
+  if f == empty then f'
+  else if f' == empty then f
+  else
+    {
+      posts = Pairs.union f.posts f'.posts;
+      queues = Pairs.union f.queues f'.queues;
+      takes = Pairs.union f.takes f'.takes;
+      needs = Pairs.union f.needs f'.needs;
+      tests = Pairs.union f.tests f'.tests;
+      reads = Globals.union f.reads f'.reads;
+      writes = Globals.union f.writes f'.writes;
+      anything = f.anything || f'.anything;
+      breaks = f.breaks || f'.breaks;
+      halts = f.halts || f'.halts;
+      ignores = f.ignores || f'.ignores;
+    }
+
+let is_blind f =
+  Pairs.is_empty f.takes && Pairs.is_empty f.needs && Pairs.is_empty f.tests && Globals.is_empty f.reads
+  && not f.anything
+
+let is_free f =
+  is_blind f && Pairs.is_empty f.posts && Globals.is_empty f.writes
+
+let share a b = not (Globals.disjoint a b)
+
+let conflict ~possible f f' =
+  (not (is_free f || is_free f'))
+  && (f.anything || f'.anything
+      || Pairs.meet f.queues f'.queues
+      || Pairs.meet f.posts f'.tests
+      || Pairs.meet f.tests f'.posts
+      || Pairs.meet f.takes f'.needs
+      || Pairs.meet f.takes f'.tests
+      || Pairs.meet f.needs f'.takes
+      || Pairs.meet f.tests f'.takes
+      || ((not possible) && Pairs.meet f.needs f'.posts)
+      || share f.reads f'.writes || share f.writes f'.reads || share f.writes f'.writes)
+
+(* {1 Code} *)
+
+type kind = Code | Guard
+
+module Closures = Hashtbl.Make (struct
+    type t = kind * closure
+
+    let equal (kind, c) (kind', c') = kind = kind' && Value.compare_closure c c' = 0
+    let hash (kind, c) = (2 * Value.hash_closure c) + Hashtbl.hash kind
+  end)
+
+type code = { program : program; known : t Closures.t }
+
+let code program = { program; known = Closures.create 64 }
+
+(* What is known of locals: the values that were captured. Nothing can assign those. *)
+type scope = (int * value) list
+
+let rec holds_code = function
+  | Closure _ | Settings _ -> true
+  | List xs -> Array.exists holds_code xs
+  | Map entries -> List.exists (fun (_, x) -> holds_code x) entries
+  | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _
+  | Vehicles _ | Task _ | Host _ -> false
+
+let value (scope : scope) e =
+  match e.node with
+  | Constant x -> Some x
+  | Local slot -> List.assoc_opt slot scope
+  | _ -> None
+
+(* Whether the value of an expression surely has no code in it. *)
+let rec is_inert (scope : scope) e =
+  match e.node with
+  | Constant x -> not (holds_code x)
+  | Local slot -> (
+      match List.assoc_opt slot scope with
+      | Some x -> not (holds_code x)
+      | None -> false)
+  | Apply
+      ( Builtin (Post _ | Consume _ | Poll _ | Message | Math _ | Position_of | Battery_of | Location_of | Area_of),
+        _ )
+  | Apply ((Unary _ | Make_range _ | Concatenate), _) -> true
+  | Apply ((Binary _ | Make_list | Make_map _ | Element | Property _ | Method _), arguments) ->
+    List.for_all (is_inert scope) arguments
+  | _ -> false
+
+(* Whether the value is code that is seen where it is written, or has no code in it. *)
+let is_seen scope e =
+  match e.node, value scope e with
+  | Make_closure _, _ | _, Some (Closure _) -> true
+  | _, _ -> is_inert scope e
+
+let breaking = { empty with breaks = true }
+let anything = { empty with anything = true; breaks = true; halts = true; ignores = true }
+let all fs = List.fold_left union empty fs
+
+let pairs code scope keys arguments =
+  let pair k e =
+    match value scope e with
+    | Some Wildcard | None -> (k, None)
+    | Some x -> if List.mem k code.program.ordered_keys then (k, None) else (k, Some (Value.canonical x))
+  in
+  Pairs.of_list (List.map2 pair keys arguments)
+
+(* [seen] is the functions and closures that are in the union already, or will be. *)
+let rec expression code scope seen e =
+  let of_expression = expression code scope seen in
+  match e.node with
+  | Constant x -> of_value code seen x
+  | Local slot -> Option.fold ~none:empty ~some:(of_value code seen) (List.assoc_opt slot scope)
+  | Global i -> { breaking with reads = Globals.singleton i }
+  | Set_local (_, e) | Return e -> of_expression e
+  | Set_global (i, e) -> union (of_expression e) { empty with writes = Globals.singleton i }
+  | Break | Continue -> empty
+  | If (a, b, c) -> all [ of_expression a; of_expression b; of_expression c ]
+  | Block es -> all (List.map of_expression es)
+  | While (a, b) | For (_, a, b) -> all [ breaking; of_expression a; of_expression b ]
+  | Make_closure (lambda, _) -> of_lambda code seen lambda
+  | Apply (operation, arguments) ->
+    union (all (List.map of_expression arguments)) (applied code scope operation arguments)
+
+and of_value code seen = function
+  | Closure { lambda; captured = [||] } -> of_lambda code seen lambda
+  | Closure c -> union breaking (body code seen c)
+  | _ -> empty
+
+(* Code that may be called, with anything. *)
+and of_lambda code seen lambda =
+  if List.memq lambda !seen then breaking
+  else begin
+    seen := lambda :: !seen;
+    union breaking (expression code [] seen lambda.code)
+  end
+
+and body code seen c = expression code (captured c) seen c.lambda.code
+and captured c = List.mapi (fun i slot -> (slot, c.captured.(i))) (Array.to_list c.lambda.captures)
+
+and applied code scope operation arguments =
+  let pairs keys = pairs code scope keys arguments in
+  match operation, arguments with
+  | Builtin (Post keys), arguments ->
+    let is_pair e = match value scope e with Some Wildcard | None -> false | Some _ -> true in
+    let posts = pairs keys in
+    let queues = Pairs.filter (fun (k, _) -> List.mem k code.program.ordered_keys) posts in
+    { empty with posts; queues; breaks = not (List.for_all is_pair arguments) }
+  | Builtin (Consume keys), _ -> { empty with takes = pairs keys; tests = pairs keys }
+  | Builtin (Poll []), [ e ] -> (
+      match value scope e with
+      | Some (String k) -> { empty with tests = Pairs.singleton (k, None) }
+      | Some _ | None -> anything)
+  | Builtin (Poll keys), _ -> { empty with tests = pairs keys }
+  | Builtin Message, [ _ ] -> empty
+  | Builtin (Halt | Assert), _ -> { empty with halts = true }
+  | Builtin Ignore, _ -> { breaking with ignores = true }
+  | Call _, callee :: _ -> (
+      match callee.node, value scope callee with
+      | Make_closure _, _ | _, Some (Closure _) -> breaking
+      | _, _ -> anything)
+  | (Method _ | Binary Parallel), arguments -> if List.for_all (is_seen scope) arguments then breaking else anything
+  | (Concatenate | Make_list), _ -> empty
+  | Unary Not, [ _ ] -> empty
+  | _, _ -> breaking
+
+(* Guards whose last expression takes or looks for pairs: more pairs do no harm. *)
+let rec last code scope e =
+  let is_plain f = Pairs.is_empty f.tests && Pairs.is_empty f.takes && not f.anything in
+  match e.node with
+  | Apply (Builtin (Consume (_ :: _ as keys)), arguments) -> needed code scope keys arguments ~taken:true
+  | Apply (Builtin (Poll (_ :: _ as keys)), arguments) -> needed code scope keys arguments ~taken:false
+  | Apply (Unary Not, [ { node = Apply (Unary Not, [ e ]); _ } ]) | Return e | Block [ e ] -> last code scope e
+  | Block (first :: rest) ->
+    let before = expression code scope (ref []) first in
+    if is_plain before then Option.map (union before) (last code scope { e with node = Block rest }) else None
+  | If (a, b, { node = Constant (Boolean false); _ }) -> (
+      match last code scope a, last code scope b with
+      | Some f, Some f' -> Some (union f f')
+      | _, _ -> None)
+  | _ ->
+    let f = expression code scope (ref []) e in
+    if is_plain f then Some f else None
+
+and needed code scope keys arguments ~taken =
+  let pairs = pairs code scope keys arguments in
+  let before = all (List.map (expression code scope (ref [])) arguments) in
+  if Pairs.is_empty before.tests && Pairs.is_empty before.takes && not before.anything then
+    Some (union before { empty with needs = pairs; takes = (if taken then pairs else Pairs.empty) })
+  else None
+
+let known code kind c find =
+  match Closures.find_opt code.known (kind, c) with
+  | Some f -> f
+  | None ->
+    let f = find () in
+    Closures.add code.known (kind, c) f;
+    f
+
+let of_code code c = known code Code c (fun () -> body code (ref []) c)
+
+let of_guard code c =
+  known code Guard c (fun () ->
+      match last code (captured c) c.lambda.code with
+      | Some f -> f
+      | None -> of_code code c)

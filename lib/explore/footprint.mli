@@ -1,0 +1,55 @@
+(** What pieces of code, and steps, may touch of that which the parts of a task share: an upper bound, found without
+    running them. Two steps whose footprints do not conflict can change places in a run. *)
+
+open Dolphin_semantics
+
+(** {1:footprints Footprints} *)
+
+module Globals : Set.S with type elt = int
+
+(** Pairs of N by key and value; without value: all with that key. *)
+module Pairs : sig
+  include Set.S with type elt = string * Core.value option
+
+  val meet : t -> t -> bool
+  (** [meet a b] is whether some pair may be in both. *)
+end
+
+type t = {
+  posts : Pairs.t;
+  queues : Pairs.t;  (** those of [posts] whose order matters *)
+  takes : Pairs.t;  (** pairs that it may take; they are among [needs] or [tests] too *)
+  needs : Pairs.t;  (** pairs that a guard needs: it holds, with the same effect, if there are more of any *)
+  tests : Pairs.t;  (** pairs whose being there or not may matter in any way *)
+  reads : Globals.t;
+  writes : Globals.t;
+  anything : bool;  (** nothing is known: code that cannot be seen may be called *)
+  breaks : bool;  (** it may be faulty, or fail *)
+  halts : bool;  (** it may end the run, by [halt] or an assertion that fails *)
+  ignores : bool;  (** a handler: it may ignore the error *)
+}
+
+val empty : t
+val union : t -> t -> t
+
+val is_free : t -> bool
+(** [is_free f] is whether [f] touches nothing, so that it conflicts with nothing. *)
+
+val is_blind : t -> bool
+(** [is_blind f] is whether what happens does not depend on what is shared. *)
+
+val conflict : possible:bool -> t -> t -> bool
+(** [conflict ~possible f f'] is [false] only if a step with footprint [f], [possible] now or not, is as possible after
+    steps with footprint [f'], with the same effect, and these steps are possible, with the same effect, after it. *)
+
+(** {1:code Code} *)
+
+type code
+
+val code : Core.program -> code
+
+val of_code : code -> Core.closure -> t
+(** Of any code. *)
+
+val of_guard : code -> Core.closure -> t
+(** Of code that does something only where its value is true. *)

@@ -1,0 +1,1 @@
+type t = Whole | Partial_order

@@ -1,0 +1,115 @@
+(* On random programs, every verdict of a reduced search is that of the plain one, with failures and without, and every
+   run that it shows is one of the semantics. PROGRAMS in the environment is how many programs are tried, 2,000 by
+   default; SEED is where they start. *)
+
+open Dolphin_syntax
+open Dolphin_explore
+module Generate = Test_support.Generate
+
+let number name default = match Sys.getenv_opt name with Some n -> int_of_string n | None -> default
+let programs = number "PROGRAMS" 2_000
+let seed = number "SEED" 20_260_911
+let limit = number "LIMIT" 3_000
+
+(* What the script does after its picks, again and again: for cycles. *)
+let for_ever (program : Ast.program) =
+  let comes_first (s : Ast.statement) =
+    match s.it with Assign { value = { it = Builder _ | Integer _; _ }; _ } -> true | _ -> false
+  in
+  let first, rest = List.partition comes_first program in
+  first @ [ { it = Ast.While (Generate.expression (Boolean true), rest); at = Location.none } ]
+
+(* Tasks side by side, which the programs of [Generate] have too few of for our purpose. *)
+let side_by_side =
+  let open QCheck2.Gen in
+  let part vehicles depth = Generate.task ~vehicles ~depth in
+  let* first = int_range 1 3 and* second = int_range 0 2 and* third = int_range 0 2 in
+  let* a = part [ "va" ] first in
+  let* b = part [ "vb" ] second in
+  let* c = part [ "vc" ] third in
+  let* shape = int_bound 3 in
+  let ( || ) = Generate.binary Parallel in
+  let watched task =
+    map
+      (fun h -> Generate.expression (Watch (task, Generate.code h)))
+      (oneofl
+         [ [];
+           [ Generate.statement (Generate.call "halt" [ Positional (Generate.expression (String "h")) ]) ];
+           [ Generate.statement (Generate.post "x" 1) ];
+           [ Generate.statement (Generate.call "ignore" []) ] ])
+  in
+  let* task =
+    match shape with
+    | 0 -> return (a || b)
+    | 1 -> return (a || b || c)
+    | 2 -> watched (a || b || c)
+    | _ -> map (fun ab -> ab || c) (watched (a || b))
+  in
+  let* posts = oneofl [ []; [ ("x", 1) ]; [ ("y", 2); ("x", 2) ] ] in
+  let before = List.map (fun (k, x) -> Generate.statement (Generate.post k x)) posts in
+  return (Generate.executing ~before task)
+
+let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]) }
+
+let failing_vehicle v : Environment.options =
+  { answering with endings = (fun v' _ -> if v = v' then Environment.Fails else Succeeds) }
+
+let environments =
+  [ ("as planned", answering);
+    ("with failures", Environment.failing answering);
+    ("with a failure", Environment.failing ~failures:1 answering);
+    ("with two failures", Environment.failing ~failures:2 answering);
+    ("vehicle a fails", failing_vehicle "a") ]
+
+let case =
+  let open QCheck2.Gen in
+  pair
+    (frequency
+       [ (1, Generate.program); (1, map for_ever Generate.program); (3, side_by_side) ])
+    (oneofl environments)
+
+let print (program, (name, _)) = Printf.sprintf "%s:\n%s" name (Generate.print program)
+let skipped = ref 0
+let whole = ref 0
+let reduced = ref 0
+let broken = Hashtbl.create 7
+
+let agrees (ast, (_, environment)) =
+  let program = Generate.compile ast in
+  match Agreement.check ~limit environment program Generate.world with
+  | Error what -> QCheck2.Test.fail_report what
+  | Ok None ->
+    incr skipped;
+    true
+  | Ok (Some found) ->
+    whole := !whole + found.whole;
+    reduced := !reduced + found.reduced;
+    let note p = Hashtbl.replace broken p (1 + Option.value (Hashtbl.find_opt broken p) ~default:0) in
+    List.iter note found.broken;
+    true
+
+let test_agreement () =
+  Printf.printf "SEED=%d PROGRAMS=%d\n%!" seed programs;
+  let test = QCheck2.Test.make ~count:programs ~print ~name:"reduced and plain search agree" case agrees in
+  QCheck2.Test.check_exn ~rand:(Random.State.make [| seed |]) test;
+  Printf.printf "%d skipped, of more than %d states; %d states, %d after reduction\n" !skipped limit !whole !reduced;
+  Hashtbl.iter (fun p n -> Printf.printf "%s: broken by %d\n" (Property.name p) n) broken
+
+(* Where nothing is broken, or nothing reduced, agreement says little. *)
+let test_variety () =
+  let enough property =
+    if property <> Property.All_reached && not (Hashtbl.mem broken property) then
+      Alcotest.failf "no program breaks: %s" (Property.name property)
+  in
+  List.iter enough Property.all;
+  if not (3 * !reduced < 2 * !whole) then Alcotest.fail "little is reduced"
+
+let () =
+  Alcotest.run "reduction"
+    [
+      ( "random programs",
+        [
+          Alcotest.test_case "reduced and plain search agree" `Quick test_agreement;
+          Alcotest.test_case "every property is broken by some, and states are saved" `Quick test_variety;
+        ] );
+    ]

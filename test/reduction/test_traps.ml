@@ -1,0 +1,166 @@
+(* Programs that a reduction too bold would get wrong, each with what it must find; and programs that it must reduce. *)
+
+open Dolphin_explore
+module Pure_run = Test_support.Pure_run
+
+let world = Test_support.Generate.world
+
+let picks = {|a = pick { id 'a' }
+b = pick { id 'b' }
+c = pick { id 'c' }
+|}
+
+let plain = Environment.default
+let failing = Environment.failing plain
+
+let check ?(environment = plain) text =
+  match Agreement.check environment (Pure_run.compile_exn (picks ^ text)) world with
+  | Ok (Some found) -> found
+  | Ok None -> Alcotest.fail "too large"
+  | Error what -> Alcotest.fail what
+
+let property = Alcotest.testable Dolphin_explore.Property.pp ( = )
+
+let breaks name ?environment expected text =
+  let test () = Alcotest.(check (list property)) name expected (check ?environment text).broken in
+  Alcotest.test_case name `Quick test
+
+let saves name ?environment most text =
+  let test () =
+    let found = check ?environment text in
+    if found.reduced > most then
+      Alcotest.failf "%d of %d states are left, at most %d expected" found.reduced found.whole most
+  in
+  Alcotest.test_case name `Quick test
+
+let traps =
+  [
+    breaks "until cuts a body before it posts" [ No_leftover ]
+      {|execute (until { poll stop: 1 } run (task('p')[a] >> action { post x: 1 })) | action { post stop: 1 } |
+        (task('q')[b] >> condition { consume stop: 1 } )|};
+    breaks "until takes what another part waits for" [ No_deadlock ]
+      {|execute (until { consume go: 1 } run task('p')[a]) | (task('q')[b] >> action { post go: 1 } >> condition { consume go: 1 })|};
+    breaks "during lets its body go on or not" [ No_deadlock; No_leftover ]
+      {|execute (during 1.minutes run (task('p')[a] >> action { post x: 1; post y: 1 })) | condition { consume x: 1 }|};
+    breaks "a poll for absence" [ No_halt ]
+      {|execute (task('p')[a] >> action { if (!poll(x: 1)) { halt 'too early' } }) | (task('q')[b] >> action { post x: 1 })
+        consume x: 1|};
+    breaks "a negated guard" [ No_deadlock ]
+      {|execute (task('p')[a] >> condition { !poll(x: 1) }) | action { post x: 1 }
+        consume x: 1|};
+    breaks "an action that takes if it can" [ No_leftover ]
+      {|execute action { consume x: 1 } | action { post x: 1 }|};
+    breaks "two consumers of one key" [ No_deadlock ]
+      {|post x: 1
+        execute (condition { consume x: 1 } >> action { post y: 1 } >> condition { consume y: 1 }) |
+          (waitFor { consume x: 1 } then (action { post x: 1 } >> condition { consume x: 1 }))|};
+    breaks "the oldest pair" [ No_halt ]
+      {|execute action { post x: 1 } | action { post x: 2 } |
+          (condition { poll(x: 1) && poll(x: 2) } >> action { consume x: _ ; if (poll(x: 1)) { halt '2 was first' } })
+        consume x: _
+        |};
+    breaks "two writers of a global" [ No_leftover ]
+      {|g = 0
+        execute action { g = 1 } | action { g = 2 }
+        if (g == 1) { post x: 1 }|};
+    breaks "a reader of a global" [ No_error ]
+      {|g = 1
+        execute (task('p')[a] >> action { g = 0 }) | (task('q')[b] >> action { 1 / g })|};
+    breaks "a fault that others prevent" [ No_error ]
+      {|g = 0
+        execute (task('p')[a] >> action { g = 1 }) | action { 1 / g } | task('q')[b]|};
+    breaks "a fault that others cause, beside a way to go on" [ No_error; No_leftover ]
+      {|g = 1
+        execute (task('p')[a] >> action { g = 0 } >> action { post x: 1 }) |
+          (task('q')[b] >> oneOf { when { 1 / g > 0 } then task('r')[b]
+                                   when { false } then task('s')[b] })|};
+    breaks "a handler that posts" ~environment:failing [ No_error; No_leftover ]
+      {|execute (watch task('p')[a] onError { post x: 1 ; ignore() }) | task('q')[b]|};
+    breaks "a handler that looks before it ignores" ~environment:failing [ No_error; No_halt ]
+      {|execute (watch task('p')[a] onError { if (poll(x: 1)) { ignore() } else { halt 'h' } }) |
+          (task('q')[b] >> action { post x: 1 })
+        consume x: 1|};
+    breaks "an error that stops what runs beside it" ~environment:failing [ No_leftover ]
+      {|execute watch (task('p')[a] | (task('q')[b] >> action { post x: 1 })) onError { ignore() }|};
+    breaks "an error kept from climbing by an outer watch" ~environment:failing [ No_leftover ]
+      {|execute watch (watch (task('p')[a] | action { post x: 1 }) onError { propagate() }) onError { ignore() }
+        |};
+    breaks "one failure only" ~environment:(Environment.failing ~failures:1 plain) [ No_error ]
+      {|execute (watch task('p')[a] onError { ignore() }) | task('q')[b]|};
+    breaks "only one of two failures" ~environment:(Environment.failing ~failures:1 plain) [ No_deadlock ]
+      {|execute (watch (task('p')[a] >> condition { false }) onError { ignore() }) |
+          (watch (task('q')[b] >> condition { false }) onError { ignore() })|};
+    breaks "branches of allOf that wait for each other" [ No_deadlock ]
+      {|post x: 1, y: 1
+        execute allOf { when { consume x: 1 } then action { post z: 1 }
+                        when { consume y: 1 } then condition { consume z: 1 } }|};
+    breaks "branches of allOf that take the same" [ No_deadlock ]
+      {|post x: 1
+        execute allOf { when { consume x: 1 } then task('p')[a]
+                        when { consume x: 1 } then task('q')[a] }|};
+    breaks "an allOf that is cut short" [ No_leftover ]
+      {|post x: 1, y: 1
+        execute (until { consume x: 1 } run allOf { when { consume y: 1 } then task('p')[a]
+                                                    when { poll x: 1 } then task('q')[a] })|};
+    breaks "a branch whose task never succeeds"
+      ~environment:{ plain with endings = (fun _ name -> if name = "p" then Fails else Succeeds) }
+      [ No_error; No_halt ]
+      {|post x: 1, y: 1
+        execute allOf { when { consume x: 1 } then task('p')[a]
+                        when { consume y: 1 } then (task('q')[a] >> action { halt 'h' }) }|};
+    breaks "an allOf beside another consumer, in one part" [ No_deadlock; No_halt ]
+      {|post x: 1, y: 1
+        execute (allOf { when { consume x: 1 } then task('p')[a]
+                         when { consume y: 1 } then task('q')[a] } |
+                 (condition { consume x: 1 } >> action { halt 'h' })) >> task('r')[b]|};
+    breaks "a branch that is faulty, and would not be later" [ No_error; No_leftover ]
+      {|g = 0
+        execute oneOf { when { 1 / g > 0 } then action { post x: 1 }
+                        when { true } then action { } } | action { g = 1 }|};
+    breaks "a branch of allOf whose guard posts what another waits for" [ No_deadlock ]
+      {|post x: 1, y: 1
+        execute allOf { when { post z: 1 ; consume x: 1 } then task('p')[a]
+                        when { consume y: 1 } then condition { consume z: 1 } }|};
+    breaks "who posts first" [ No_halt ]
+      {|execute action { post x: 1 } | action { post x: 2 }
+        consume x: _
+        if (poll(x: 1)) { halt '2 was first' }
+        consume x: _|};
+    breaks "a consumer beside a test" [ No_leftover ]
+      {|post x: 1
+        execute condition { consume x: 1 } | action { if (poll(x: 1)) { post y: 1 } }|};
+    breaks "a test beside a consumer" [ No_halt ]
+      {|post x: 1
+        execute action { if (!poll(x: 1)) { halt 'h' } } | condition { consume x: 1 }|};
+    breaks "an assertion on how far others are" [ Assertions ]
+      {|execute watch (task('p')[a] >> action { post x: 1 } >> task('q')[a] >> action { consume x: 1 }) |
+                      (task('r')[b] >> assert({ !poll(x: 1) }, 'x is there')) onError { ignore() }|};
+    breaks "code behind a variable" [ No_halt ]
+      {|f = { post x: 1 }
+        execute action { f.call() } | (task('p')[a] >> action { if (poll(x: 1)) { halt 'h' } }) | task('q')[b]
+        consume x: 1|};
+    breaks "a function that looks" [ No_halt ]
+      {|def look() { if (poll(x: 1)) { halt 'h' } }
+        execute (task('p')[a] >> action { look() }) | (task('q')[b] >> action { post x: 1 })
+        consume x: 1|};
+  ]
+
+let fleet n =
+  let each separator f = String.concat separator (List.init n (fun i -> f (i + 1))) in
+  let vehicle i = List.nth [ "a"; "b" ] (i - 1) in
+  Printf.sprintf "execute %s | allOf { %s }"
+    (each " | " (fun i -> Printf.sprintf "(task('s%d')[%s] >> action { post ready: %d } >> task('k%d')[%s])" i (vehicle i) i i (vehicle i)))
+    (each "\n" (fun i -> Printf.sprintf "when { consume ready: %d } then task('r%d')[c]" i i))
+
+let savings =
+  [
+    saves "tasks that share nothing" 15 "execute task('p')[a] | task('q')[b] | task('r')[c]";
+    saves "a rendezvous" 25 (fleet 2);
+    saves "a rendezvous with failures" ~environment:failing 32 (fleet 2);
+    saves "a rendezvous under watch" ~environment:failing 32
+      (Printf.sprintf "t = %s\nexecute watch t onError { message 'failed' ; halt 'h' }"
+         (String.sub (fleet 2) 8 (String.length (fleet 2) - 8)));
+    saves "parts of a sequence" 15 "execute (task('p')[a] | task('q')[b]) >> task('r')[c]";
+  ]
+
+let () = Alcotest.run "reduction by hand" [ ("traps", traps); ("savings", savings) ]

@@ -10,6 +10,7 @@ type options = {
   timeout : float option;
   clock : unit -> float;
   invariants : Condition.t list;
+  formulas : Temporal.t list;
   interrupted : unit -> bool;
   progress : progress -> unit;
 }
@@ -35,6 +36,7 @@ let default =
     timeout = None;
     clock = Sys.time;
     invariants = [];
+    formulas = [];
     interrupted = (fun () -> false);
     progress = ignore;
   }
@@ -132,6 +134,32 @@ let explore ?(enough = fun () -> false) t =
     if exceeds t.options.max_states (Space.count space) then raise (Stop States)
   done
 
+(* {1 Formulas} *)
+
+(* The verdict of each formula, on a state graph of their own. *)
+let formulas t world program =
+  let ticks = ref 0 in
+  let look phase =
+    incr ticks;
+    if !ticks land 0xFF = 0 then look_around t phase
+  in
+  let tick n =
+    if exceeds t.options.max_states n then raise (Stop States);
+    look "exploring for formulas"
+  in
+  let inconclusive bound = List.map (fun _ -> Inconclusive bound) t.options.formulas in
+  let check graph formula =
+    match Temporal.violation ~tick:(fun () -> look "checking formulas") graph formula with
+    | None -> Holds
+    | Some { steps; cycle } -> Violated { steps; cycle; shortest = false }
+    | exception Stop bound -> Inconclusive bound
+  in
+  match Temporal.explore ~tick t.options.environment program world t.options.formulas with
+  | graph -> List.map (check graph) t.options.formulas
+  | exception Stop bound -> inconclusive bound
+  | exception Temporal.Broken why -> inconclusive (Broken_condition why)
+  | exception Out_of_memory -> inconclusive Memory
+
 (* {1 Verdicts} *)
 
 let verdicts t program world stopped =
@@ -169,8 +197,14 @@ let verdicts t program world stopped =
           match Coverage.unreached (Space.coverage t.space) program with [] -> Holds | pieces -> Unreached pieces)
     | Invariant _ | Formula _ -> invalid_arg "Search.verdicts"
   in
+  let named f = Property.Formula (Temporal.to_string f) in
   let given i = (Property.Invariant (Condition.to_string (Invariant.condition i)), invariant i) in
   List.map (fun property -> (property, verdict property)) Property.all @ List.map given t.invariants
+  @
+  match t.options.formulas, stopped with
+  | [], _ -> []
+  | fs, Some bound -> List.map (fun f -> (named f, Inconclusive bound)) fs
+  | fs, None -> List.combine (List.map named fs) (formulas t world program)
 
 let start options program world started =
   let space = Space.create ~reduction:options.reduction options.environment program world in
@@ -180,7 +214,7 @@ let start options program world started =
 (* What a reduced search finds broken, the first of all states may show by a shortest run. *)
 let with_shortest_runs options program world started verdicts =
   let is_sought = function
-    | Property.Termination, _ | _, (Holds | Unreached _ | Inconclusive _) -> false
+    | (Property.Termination | Invariant _ | Formula _), _ | _, (Holds | Unreached _ | Inconclusive _) -> false
     | _, Violated { shortest; _ } -> not shortest
   in
   match List.map fst (List.filter is_sought verdicts) with

@@ -7,7 +7,7 @@ open Dolphin_semantics
 (** How far to go, and who is told. *)
 type options = {
   environment : Environment.options;
-  reduction : Reduction.t;
+  reduction : Reduction.t;  (** none is used where there are invariants *)
   search_again : int;
   (** so many of all states are visited for a shortest run, if a reduced search found a violation *)
   max_states : int option;
@@ -16,6 +16,7 @@ type options = {
   timeout : float option;  (** in seconds of [clock] *)
   clock : unit -> float;  (** seconds, from any start *)
   invariants : Condition.t list;
+  formulas : Temporal.t list;  (** checked on a state graph of their own, that is kept in OCaml's heap *)
   interrupted : unit -> bool;  (** asked often: whether to stop *)
   progress : progress -> unit;  (** called about once a second *)
 }
@@ -65,7 +66,7 @@ type outcome = {
   bytes : int;  (** of memory, as [max_memory] counts it *)
   seconds : float;
   stopped : bound option;
-  verdicts : (Property.t * verdict) list;  (** for each of {!Property.all}, then for each invariant *)
+  verdicts : (Property.t * verdict) list;  (** for each of {!Property.all}, then for each invariant and formula *)
 }
 
 val run : options -> Core.program -> World.t -> outcome

@@ -6,12 +6,17 @@ let fleet_of ~path ~sim ~named = function
   | Some _ -> Fleet_file.load named
   | None -> Fleet_file.load (Fleet_file.choose ~program:path named)
 
-let run path sim fleet network speed seed answers supplier supplier_timeout journal drawing =
+let run path sim fleet network speed seed answers supplier supplier_timeout journal drawing follow =
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
   let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
   match Program_file.load path, fleet_of ~path ~sim ~named network with
   | Ok _, Ok _ when network <> None && (sim <> None || speed <> None) ->
     Report.complain "vehicles of a network (--imc) are not simulated: --sim and --speed do not go with them";
+    Exit_status.Bad_input
+  | Ok _, Ok _
+    when follow <> None
+      && (network <> None || speed <> None || answers <> [] || supplier <> None || journal <> None || drawing <> None) ->
+    Report.complain "a recorded run (--follow) goes with its program and a fleet, and with no other options";
     Exit_status.Bad_input
   | Error trouble, _ ->
     Program_file.tell trouble;
@@ -24,7 +29,10 @@ let run path sim fleet network speed seed answers supplier supplier_timeout jour
     let platform = if network = None then "sim" else "imc" in
     let header = { (Record.header program fleet ~seed ~speed) with platform } in
     let record = { Record.journal; drawing; header } in
-    Run.run { program; scenario = fleet.scenario; network; speed; seed; answers; supplier; supplier_timeout; record }
+    (match follow with
+     | Some recorded -> Follow.run program fleet.scenario recorded
+     | None ->
+       Run.run { program; scenario = fleet.scenario; network; speed; seed; answers; supplier; supplier_timeout; record })
 
 let positive =
   let parse text =
@@ -84,6 +92,13 @@ let drawing =
   in
   Arg.(value & opt (some Drawing_file.argument) None & info [ "draw" ] ~docv:"FILE" ~doc)
 
+let follow =
+  let doc =
+    "Take the steps of the run in the file $(docv), which $(mname) $(b,explore --trace) has written, and no others. The log has \
+     the numbers of steps where times would be."
+  in
+  Arg.(value & opt (some string) None & info [ "follow" ] ~docv:"FILE" ~doc)
+
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) checks the program $(i,PROG) as $(mname) $(b,check) does and runs it on a fleet of simulated \
@@ -120,4 +135,6 @@ let command =
       ~exits:(Options.exits [ Done; Failed; Bad_input; Platform_trouble; Bug; Interrupted ])
   in
   Cmd.v info
-    Term.(const run $ Options.program $ sim $ fleet $ Imc_options.chosen $ speed $ seed $ answers $ supplier $ supplier_timeout $ journal $ drawing)
+    Term.(
+      const run $ Options.program $ sim $ fleet $ Imc_options.chosen $ speed $ seed $ answers $ supplier
+      $ supplier_timeout $ journal $ drawing $ follow)

@@ -1,6 +1,7 @@
 open Cmdliner
 module Search = Dolphin_explore.Search
 module Property = Dolphin_explore.Property
+module Course = Dolphin_trace.Course
 module Columns = Dolphin_display.Columns
 
 type settings = {
@@ -8,6 +9,7 @@ type settings = {
   faults : int option option;
   strict : bool;
   json : bool;
+  trace : string option;
   reduction : Dolphin_explore.Reduction.t;
   max_states : int option;
   max_depth : int option;
@@ -73,7 +75,7 @@ let print_outcome program s (o : Search.outcome) =
        match verdict with
        | Violated run when not remark ->
          Format.printf "@.%s: a%s run in which %s@." (Property.name property)
-           (if s.reduction = Whole then " shortest" else "")
+           (if run.shortest then " shortest" else "")
            (Property.question property);
          print_run program run;
          if property = No_deadlock then print_waiting program run
@@ -115,6 +117,34 @@ let json_of_outcome (program : Dolphin_semantics.Core.program) (o : Search.outco
     [ ("states", `Int o.states); ("transitions", `Int o.transitions); ("depth", `Int o.depth);
       ("seconds", `Float o.seconds); ("bytes", `Int o.bytes); ("verdicts", `List (List.map verdict o.verdicts)) ]
 
+(* The first of the runs that are shown. *)
+let counter_example strict (o : Search.outcome) =
+  List.find_map
+    (fun (property, verdict) ->
+       match (verdict : Search.verdict) with
+       | Violated run when strict || not (is_remark property) -> Some (property, run)
+       | Violated _ | Holds | Unreached _ | Inconclusive _ -> None)
+    o.verdicts
+
+let write_trace (program : Program_file.t) (fleet : Fleet_file.t) world path (property, (run : Search.run)) =
+  let source path text = Dolphin_trace.Header.source ~path text in
+  let steps = Course.steps program.program world in
+  let initial = Dolphin_semantics.Configuration.initial program.program in
+  let last (_ : Dolphin_semantics.Configuration.t) (t : Dolphin_semantics.Transition.t) = t.next in
+  let course : Course.t =
+    { program = source program.path program.source;
+      fleet = Option.map (fun path -> source path fleet.source) fleet.path;
+      property = Property.name property;
+      steps = steps initial run.steps;
+      cycle = steps (List.fold_left last initial run.steps) run.cycle }
+  in
+  match open_out_bin path with
+  | exception Sys_error why -> Report.complain why; Some Exit_status.Platform_trouble
+  | channel ->
+    let write () = List.iter (fun line -> output_string channel (line ^ "\n")) (Course.to_lines course) in
+    Fun.protect ~finally:(fun () -> close_out channel) write;
+    None
+
 let status strict (o : Search.outcome) : Exit_status.t =
   let matters (property, _) = strict || not (is_remark property) in
   let verdicts = List.map snd (List.filter matters o.verdicts) in
@@ -124,24 +154,31 @@ let status strict (o : Search.outcome) : Exit_status.t =
 
 (* {1 The command} *)
 
-let explore (program : Program_file.t) (fleet : Fleet_file.t) s invariants =
+let explore (program : Program_file.t) (fleet : Fleet_file.t) s invariants formulas =
   let interrupted = ref false in
   Sys.set_signal Sys.sigint (Signal_handle (fun _ -> interrupted := true));
   let live = Unix.isatty Unix.stderr && not s.json in
   let options : Search.options =
     { environment = World_of.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
       reduction = s.reduction;
+      search_again = Search.default.search_again;
       max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; timeout = s.timeout;
       clock = Unix.gettimeofday;
-      invariants;
+      invariants; formulas;
       interrupted = (fun () -> !interrupted);
       progress = (if live then show_progress else ignore) }
   in
   let outcome = Search.run options program.program (World_of.world fleet.scenario) in
   if live then clear_progress ();
+  let world = World_of.world fleet.scenario in
+  let trouble =
+    match s.trace, counter_example s.strict outcome with
+    | Some path, Some found -> write_trace program fleet world path found
+    | Some _, None | None, _ -> None
+  in
   if s.json then print_endline (Yojson.Safe.to_string (json_of_outcome program.program outcome))
   else print_outcome program.program s outcome;
-  status s.strict outcome
+  Option.value trouble ~default:(status s.strict outcome)
 
 (* Each of [texts] read by [of_string], or the first that is wrong. *)
 let read_all option of_string texts =
@@ -153,16 +190,18 @@ let read_all option of_string texts =
   in
   Result.map List.rev (List.fold_left read (Ok []) texts)
 
-let run path fleet answers faults strict json reduction invariants max_states max_depth max_memory timeout =
+let run path fleet answers faults strict json trace reduction invariants formulas max_states max_depth max_memory timeout =
   match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet) with
   | Error trouble, _ -> Program_file.tell trouble; Exit_status.Bad_input
   | Ok _, Error trouble -> Fleet_file.tell trouble; Exit_status.Bad_input
   | Ok program, Ok fleet ->
     Report.diagnostics ~source:program.source program.warnings;
-    let settings = { answers; faults; strict; json; reduction; max_states; max_depth; max_memory; timeout } in
-    (match read_all "--invariant" (Dolphin_explore.Condition.of_string program.program) invariants with
-     | Error why -> Report.complain why; Bad_input
-     | Ok invariants -> explore program fleet settings invariants)
+    let settings = { answers; faults; strict; json; trace; reduction; max_states; max_depth; max_memory; timeout } in
+    let program' = program.program in
+    (match read_all "--invariant" (Dolphin_explore.Condition.of_string program') invariants,
+           read_all "--ltl" (Dolphin_explore.Temporal.of_string program') formulas with
+    | Error why, _ | _, Error why -> Report.complain why; Bad_input
+    | Ok invariants, Ok formulas -> explore program fleet settings invariants formulas)
 
 let faults =
   let parse text =
@@ -227,11 +266,26 @@ let invariants =
   in
   Arg.(value & opt_all string [] & info [ "invariant" ] ~docv:"EXPR" ~doc)
 
+let formulas =
+  let doc =
+    "Check that every run satisfies the formula of linear temporal logic $(docv), as in $(b,G \\(start\\(survey1\\) -> F \
+     done\\(survey1\\)\\)): with $(b,!), $(b,&), $(b,|), $(b,->), $(b,<->), $(b,X), $(b,F), $(b,G), $(b,U), $(b,R), $(b,W). \
+     $(i,docs/questions.md) lists its propositions. May be repeated."
+  in
+  Arg.(value & opt_all string [] & info [ "ltl" ] ~docv:"FORMULA" ~doc)
+
+let trace =
+  let doc =
+    "Write the first of the runs that are shown into the file $(docv). $(mname) $(b,exec --follow) $(docv) replays it. Nothing is \
+     written if there is none."
+  in
+  Arg.(value & opt (some string) None & info [ "trace" ] ~docv:"FILE" ~doc)
+
 let reduction =
   let kinds = [ ("none", Dolphin_explore.Reduction.Whole); ("por", Partial_order) ] in
   let doc =
     "How much is looked at: $(b,none) for every state; $(b,por) for one of the orders that make no difference (partial \
-     order reduction), with the same verdicts. The number of states printed is that of the states looked at."
+     order reduction), with the same verdicts; not used beside an $(b,--invariant). The number of states printed is that of the states looked at."
   in
   Arg.(value & opt (enum kinds) Partial_order & info [ "reduction" ] ~docv:"KIND" ~doc)
 
@@ -241,7 +295,8 @@ let man =
   [ `S Manpage.s_description;
     `P "$(tname) follows every run that $(i,PROG) can have: every order in which tasks end and timers expire, every choice \
         of vehicles, every branch that is ready. It uses the very transition function that $(mname) $(b,exec) uses. For \
-        each of these it says whether it holds, or shows a run that breaks it (a shortest one with $(b,--reduction none)), a column for the program and one \
+        each of these it says whether it holds, or shows a run that breaks it, a shortest one if it says so, a column for \
+        the program and one \
         for each vehicle:";
     `I ("no deadlock", "some transition is possible until the program ends.");
     `I ("termination", "every fair run ends: tasks that run end some time, timers expire, no step is put off for ever.");
@@ -259,16 +314,17 @@ let man =
     `S Manpage.s_examples;
     `Pre "  $(mname) $(tname) examples/rendezvous.dol\n  $(mname) $(tname) examples/rendezvous.dol --faults fail=1\n\
          \  $(mname) $(tname) mission.dol --invariant \"!(running('a') && running('b'))\"\n\
+         \  $(mname) $(tname) mission.dol --ltl 'G (start(survey1) -> F done(survey1))'\n\
          \  $(mname) $(tname) mission.dol --max-memory 8G --timeout 60" ]
   @ Options.see_also
 
 let command =
   let info =
     Cmd.info "explore" ~doc:"check every run of a program" ~man
-      ~exits:(Options.exits [ Done; Violated; Bad_input; Inconclusive; Bug ])
+      ~exits:(Options.exits [ Done; Violated; Bad_input; Inconclusive; Platform_trouble; Bug ])
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ reduction $ invariants
+      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ trace $ reduction $ invariants $ formulas
       $ max_states $ max_depth
       $ max_memory $ timeout)

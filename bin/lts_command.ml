@@ -36,7 +36,11 @@ let wrong path why =
 
 let graph_of_file path ~of_program =
   let parsed pp = function Ok graph -> Ok graph | Error e -> wrong path (Format.asprintf "%a" pp e) in
-  let text read = match Text_file.read path with Ok text -> read text | Error why -> Report.complain why; Error Exit_status.Bad_input in
+  let text read =
+    match Text_file.read path with
+    | Ok text -> read text
+    | Error why -> Report.complain why; Error Exit_status.Bad_input
+  in
   match Filename.extension path with
   | ".aut" -> text (fun text -> parsed Aldebaran.pp_error (Aldebaran.of_string text))
   | ".json" -> text (fun text -> parsed Json.pp_error (Json.of_string text))

@@ -133,7 +133,9 @@ let rec is_inert (scope : scope) e =
       match List.assoc_opt slot scope with
       | Some x -> not (holds_code x)
       | None -> false)
-  | Apply (Builtin (Post _ | Consume _ | Poll _ | Message | Math _ | Position_of | Battery_of | Location_of | Area_of), _)
+  | Apply
+      ( Builtin (Post _ | Consume _ | Poll _ | Message | Math _ | Position_of | Battery_of | Location_of | Area_of),
+        _ )
   | Apply ((Unary _ | Make_range _ | Concatenate), _) -> true
   | Apply ((Binary _ | Make_list | Make_map _ | Element | Property _ | Method _), arguments) ->
     List.for_all (is_inert scope) arguments
@@ -220,8 +222,8 @@ and applied code scope operation arguments =
 let rec last code scope e =
   let is_plain f = Pairs.is_empty f.tests && Pairs.is_empty f.takes && not f.anything in
   match e.node with
-  | Apply (Builtin (Consume (_ :: _ as keys)), arguments) -> needed code scope arguments (pairs code scope keys arguments) true
-  | Apply (Builtin (Poll (_ :: _ as keys)), arguments) -> needed code scope arguments (pairs code scope keys arguments) false
+  | Apply (Builtin (Consume (_ :: _ as keys)), arguments) -> needed code scope keys arguments ~taken:true
+  | Apply (Builtin (Poll (_ :: _ as keys)), arguments) -> needed code scope keys arguments ~taken:false
   | Apply (Unary Not, [ { node = Apply (Unary Not, [ e ]); _ } ]) | Return e | Block [ e ] -> last code scope e
   | Block (first :: rest) ->
     let before = expression code scope (ref []) first in
@@ -234,7 +236,8 @@ let rec last code scope e =
     let f = expression code scope (ref []) e in
     if is_plain f then Some f else None
 
-and needed code scope arguments pairs taken =
+and needed code scope keys arguments ~taken =
+  let pairs = pairs code scope keys arguments in
   let before = all (List.map (expression code scope (ref [])) arguments) in
   if Pairs.is_empty before.tests && Pairs.is_empty before.takes && not before.anything then
     Some (union before { empty with needs = pairs; takes = (if taken then pairs else Pairs.empty) })

@@ -3,12 +3,14 @@ open Dolphin_semantics
 type options = {
   environment : Environment.options;
   reduction : Reduction.t;
+  search_again : int;
   max_states : int option;
   max_depth : int option;
   max_memory : int option;
   timeout : float option;
   clock : unit -> float;
   invariants : Condition.t list;
+  formulas : Temporal.t list;
   interrupted : unit -> bool;
   progress : progress -> unit;
 }
@@ -27,17 +29,19 @@ let default =
   {
     environment = Environment.default;
     reduction = Whole;
+    search_again = 100_000;
     max_states = None;
     max_depth = None;
     max_memory = None;
     timeout = None;
     clock = Sys.time;
     invariants = [];
+    formulas = [];
     interrupted = (fun () -> false);
     progress = ignore;
   }
 
-type run = { steps : Transition.t list; cycle : Transition.t list }
+type run = { steps : Transition.t list; cycle : Transition.t list; shortest : bool }
 type bound = States | Depth | Memory | Time | Interruption | Broken_condition of string
 
 type verdict =
@@ -103,7 +107,7 @@ let look_around t phase =
 (* States between two looks around; memory can grow by one chunk meanwhile, or by a doubled table. *)
 let stride = 4_096
 
-let explore t =
+let explore ?(enough = fun () -> false) t =
   let space = t.space in
   let next_look = ref 0 in
   let more () =
@@ -113,7 +117,7 @@ let explore t =
       t.next < Space.count space
     end
   in
-  while more () do
+  while (not (enough ())) && more () do
     if t.next >= t.level_end then begin
       Space.flush space;
       t.depth <- t.depth + 1;
@@ -130,11 +134,38 @@ let explore t =
     if exceeds t.options.max_states (Space.count space) then raise (Stop States)
   done
 
+(* {1 Formulas} *)
+
+(* The verdict of each formula, on a state graph of their own. *)
+let formulas t world program =
+  let ticks = ref 0 in
+  let look phase =
+    incr ticks;
+    if !ticks land 0xFF = 0 then look_around t phase
+  in
+  let tick n =
+    if exceeds t.options.max_states n then raise (Stop States);
+    look "exploring for formulas"
+  in
+  let inconclusive bound = List.map (fun _ -> Inconclusive bound) t.options.formulas in
+  let check graph formula =
+    match Temporal.violation ~tick:(fun () -> look "checking formulas") graph formula with
+    | None -> Holds
+    | Some { steps; cycle } -> Violated { steps; cycle; shortest = false }
+    | exception Stop bound -> Inconclusive bound
+  in
+  match Temporal.explore ~tick t.options.environment program world t.options.formulas with
+  | graph -> List.map (check graph) t.options.formulas
+  | exception Stop bound -> inconclusive bound
+  | exception Temporal.Broken why -> inconclusive (Broken_condition why)
+  | exception Out_of_memory -> inconclusive Memory
+
 (* {1 Verdicts} *)
 
 let verdicts t program world stopped =
   let transitions = Replay.between t.options.environment program world t.space in
-  let run_to i = { steps = transitions (Replay.shortest t.space i); cycle = [] } in
+  let shortest = t.options.reduction = Whole in
+  let run_to i = { steps = transitions (Replay.shortest t.space i); cycle = []; shortest } in
   let unless_stopped otherwise = match stopped with Some bound -> Inconclusive bound | None -> otherwise () in
   let interrupted () =
     look_around t "looking for cycles";
@@ -143,7 +174,7 @@ let verdicts t program world stopped =
   let termination () =
     match Cycle.find ~interrupted t.space with
     | None -> Holds
-    | Some { stem; around } -> Violated { steps = transitions stem; cycle = transitions around }
+    | Some { stem; around } -> Violated { steps = transitions stem; cycle = transitions around; shortest }
     | exception Stop bound -> Inconclusive bound
   in
   let invariant i =
@@ -166,16 +197,49 @@ let verdicts t program world stopped =
           match Coverage.unreached (Space.coverage t.space) program with [] -> Holds | pieces -> Unreached pieces)
     | Invariant _ | Formula _ -> invalid_arg "Search.verdicts"
   in
+  let named f = Property.Formula (Temporal.to_string f) in
   let given i = (Property.Invariant (Condition.to_string (Invariant.condition i)), invariant i) in
   List.map (fun property -> (property, verdict property)) Property.all @ List.map given t.invariants
+  @
+  match t.options.formulas, stopped with
+  | [], _ -> []
+  | fs, Some bound -> List.map (fun f -> (named f, Inconclusive bound)) fs
+  | fs, None -> List.combine (List.map named fs) (formulas t world program)
 
-let run options program world =
-  let started = options.clock () in
-  (* What is asked of every state cannot be judged by some of them. *)
-  let reduction = if options.invariants = [] then options.reduction else Whole in
-  let space = Space.create ~reduction options.environment program world in
+let start options program world started =
+  let space = Space.create ~reduction:options.reduction options.environment program world in
   let invariants = List.map (Invariant.create program world) options.invariants in
-  let t = { options; space; invariants; started; reported = started; next = 0; depth = -1; level_end = 0 } in
+  { options; space; invariants; started; reported = started; next = 0; depth = -1; level_end = 0 }
+
+(* What a reduced search finds broken, the first of all states may show by a shortest run. *)
+let with_shortest_runs options program world started verdicts =
+  let is_sought = function
+    | (Property.Termination | Invariant _ | Formula _), _ | _, (Holds | Unreached _ | Inconclusive _) -> false
+    | _, Violated { shortest; _ } -> not shortest
+  in
+  match List.map fst (List.filter is_sought verdicts) with
+  | [] -> verdicts
+  | sought ->
+    let most = Option.fold ~none:options.search_again ~some:(min options.search_again) options.max_states in
+    let t = start { options with reduction = Whole; invariants = []; max_states = Some most } program world started in
+    let is_found property = Space.broken t.space property <> None in
+    (try explore ~enough:(fun () -> List.for_all is_found sought) t with Stop _ | Out_of_memory -> ());
+    Space.flush t.space;
+    let shorter (property, verdict) =
+      match List.mem property sought, Space.broken t.space property with
+      | true, Some i ->
+        let steps = Replay.between options.environment program world t.space (Replay.shortest t.space i) in
+        (property, Violated { steps; cycle = []; shortest = true })
+      | _, _ -> (property, verdict)
+    in
+    List.map shorter verdicts
+
+let run (options : options) program world =
+  (* What is asked of every state cannot be judged by some of them. *)
+  let options = if options.invariants = [] then options else { options with reduction = Whole } in
+  let started = options.clock () in
+  let t = start options program world started in
+  let space = t.space in
   let stopped =
     match explore t with
     | () -> None
@@ -183,7 +247,7 @@ let run options program world =
     | exception Out_of_memory -> Some Memory
   in
   Space.flush space;
-  let verdicts = verdicts t program world stopped in
+  let verdicts = with_shortest_runs options program world started (verdicts t program world stopped) in
   {
     states = Space.count space;
     transitions = Space.transitions space;

@@ -7,13 +7,16 @@ open Dolphin_semantics
 (** How far to go, and who is told. *)
 type options = {
   environment : Environment.options;
-  reduction : Reduction.t;
+  reduction : Reduction.t;  (** none is used where there are invariants *)
+  search_again : int;
+  (** so many of all states are visited for a shortest run, if a reduced search found a violation *)
   max_states : int option;
   max_depth : int option;  (** in transitions *)
   max_memory : int option;  (** in bytes, of the whole process but for code and libraries *)
   timeout : float option;  (** in seconds of [clock] *)
   clock : unit -> float;  (** seconds, from any start *)
   invariants : Condition.t list;
+  formulas : Temporal.t list;  (** checked on a state graph of their own, that is kept in OCaml's heap *)
   interrupted : unit -> bool;  (** asked often: whether to stop *)
   progress : progress -> unit;  (** called about once a second *)
 }
@@ -37,6 +40,7 @@ val default : options
 type run = {
   steps : Transition.t list;
   cycle : Transition.t list;  (** goes on from there for ever, if there is any *)
+  shortest : bool;  (** no run shows it in fewer steps; with a cycle, none comes to it in fewer *)
 }
 
 type bound =
@@ -49,7 +53,8 @@ type bound =
 
 type verdict =
   | Holds
-  | Violated of run  (** by a shortest run; for cycles, one with a shortest way to where it comes around *)
+  | Violated of run  (** without reduction, or if [search_again] states show it, by a shortest run; for cycles, without
+                          reduction, one with a shortest way to where it comes around *)
   | Unreached of Coverage.piece list
   | Inconclusive of bound
 
@@ -61,7 +66,7 @@ type outcome = {
   bytes : int;  (** of memory, as [max_memory] counts it *)
   seconds : float;
   stopped : bound option;
-  verdicts : (Property.t * verdict) list;  (** for each of {!Property.all}, then for each invariant *)
+  verdicts : (Property.t * verdict) list;  (** for each of {!Property.all}, then for each invariant and formula *)
 }
 
 val run : options -> Core.program -> World.t -> outcome

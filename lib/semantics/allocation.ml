@@ -56,7 +56,10 @@ let candidate_of world vehicle =
 let cost task =
   match Option.map (fun plan -> Wgs84.cartesian (Plan.reference plan)) task.plan with
   | None -> fun _ -> 0.
-  | Some reference -> ( function { place = Some place; _ } -> Wgs84.straight place reference | { place = None; _ } -> 0.)
+  | Some reference -> (
+      function
+      | { place = Some place; _ } -> Wgs84.straight place reference
+      | { place = None; _ } -> 0.)
 
 module String_set = Set.Make (String)
 

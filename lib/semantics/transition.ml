@@ -366,7 +366,8 @@ let answered program world (c : Configuration.t) m text =
   | Error why -> Error (Bad_answer why)
   | Ok closure -> (
       match run_code program world c Task_code closure [] with
-      | Value_of x, { deeds = []; store; _ } when Store.compare store c.store = 0 -> Ok (resume c m x Rule.Answer (Label.Answer text))
+      | Value_of x, { deeds = []; store; _ } when Store.compare store c.store = 0 ->
+        Ok (resume c m x Rule.Answer (Label.Answer text))
       | Value_of _, _ -> Error (Bad_answer "an answer may only compute a value")
       | Broke fault, _ -> Error (Bad_answer fault.message)
       | Halted_with _, _ -> Error (Bad_answer "an answer may only compute a value"))

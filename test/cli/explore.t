@@ -29,7 +29,7 @@ The same, if a plan may fail once.
   vehicles for all tasks: holds
   45 states, 44 transitions, depth 35
   
-  no unhandled error: a run in which an error that nobody handles ends the program
+  no unhandled error: a shortest run in which an error that nobody handles ends the program
        program                                   noptilus-1                 where
    1   ask(Radius of operation area? (km))                                  rendezvous.dol:2
    2   answer(2)                                                            rendezvous.dol:2
@@ -57,7 +57,7 @@ A program that may wait for ever.
   vehicles for all tasks: holds
   17 states, 16 transitions, depth 6
   
-  no deadlock: a run in which nothing can happen any more, and the program has not ended
+  no deadlock: a shortest run in which nothing can happen any more, and the program has not ended
       program                        noptilus-1  where
   1   pick(1 vehicle of type 'UUV')              deadlock.dol:1
   2   picks noptilus-1                           deadlock.dol:1
@@ -120,7 +120,7 @@ Code that nothing reaches is only worth a note, unless one asks for more.
   all code reached: violated: no run reaches message at unreached.dol:2:19
   3 states, 2 transitions, depth 2
   
-  no leftover tuples: a run in which tuples are left when the program completes
+  no leftover tuples: a shortest run in which tuples are left when the program completes
       program   where
   1   post a:1  unreached.dol:1
   2   end
@@ -147,7 +147,7 @@ An assertion that some run breaks.
   note: all code reached: violated: no run reaches onError at assertion.dol:3:9
   44 states, 61 transitions, depth 9
   
-  assertions: a run in which an assertion fails
+  assertions: a shortest run in which an assertion fails
       program                        where
   1   pick(1 vehicle of type 'UUV')  assertion.dol:1
   2   picks noptilus-1               assertion.dol:1
@@ -176,7 +176,7 @@ Invariants.
   invariant !running('a', 'x8-02'): holds
   38 states, 46 transitions, depth 9
   
-  invariant !(running('a') && n > 0): a run in which it does not hold
+  invariant !(running('a') && n > 0): a shortest run in which it does not hold
       program                        noptilus-1  where
   1   pick(1 vehicle of type 'UUV')              counting.dol:2
   2   picks noptilus-1                           counting.dol:2
@@ -184,7 +184,7 @@ Invariants.
   4                                  starts a    counting.dol:3
   5   act                                        counting.dol:3
   
-  invariant !poll(done: 2): a run in which it does not hold
+  invariant !poll(done: 2): a shortest run in which it does not hold
       program                        noptilus-1  where
   1   pick(1 vehicle of type 'UUV')              counting.dol:2
   2   picks noptilus-1                           counting.dol:2
@@ -204,7 +204,7 @@ Invariants.
   invariant bound("noptilus-1") || n == 0: violated after 4 steps: it does not hold
   38 states, 46 transitions, depth 9
   
-  invariant bound("noptilus-1") || n == 0: a run in which it does not hold
+  invariant bound("noptilus-1") || n == 0: a shortest run in which it does not hold
       program                        where
   1   pick(1 vehicle of type 'UUV')  counting.dol:2
   2   picks noptilus-2               counting.dol:2
@@ -220,6 +220,134 @@ Invariants.
   $ explore counting.dol --invariant 'n = 2'
   dolphin: --invariant 'n = 2': this cannot be assigned to
   [2]
+
+Formulas of temporal logic.
+
+  $ explore ../../examples/rendezvous.dol --ltl 'G (start(survey1) -> F done(survey1))' --ltl 'F ended' --ltl '!start(survey1) W bind(x8-02)'
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  formula G (start(survey1) -> F done(survey1)): holds
+  formula F ended: holds
+  formula !start(survey1) W bind(x8-02): holds
+  36 states, 35 transitions, depth 35
+  $ cat > again.dol <<'END'
+  > v = pick { id 'noptilus-1' }
+  > n = 0
+  > while (n == 0) {
+  >   execute watch imcPlan('a') onError { post failed: 1; ignore() }
+  >   if (poll(failed: 1)) { consume failed: 1 } else { n = 1; message 'done' }
+  > }
+  > END
+  $ explore again.dol --faults fail --ltl 'G (start(a) -> F (done(a) | fail(a, noptilus-1)))' --ltl 'G F {n == 1}' --ltl 'message("done") R !end' --ltl 'G (fail -> X consume(failed: 1))'
+  no deadlock: holds
+  termination: violated: after 3 steps, 4 steps that can repeat for ever
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  formula G (start(a) -> F (done(a) | fail(a, noptilus-1))): holds
+  formula G F {n == 1}: violated: after 3 steps, 4 steps that can repeat for ever
+  formula message("done") R !end: holds
+  formula G (fail -> X consume(failed: 1)): holds
+  10 states, 10 transitions, depth 7
+  
+  termination: a run in which the program can go on for ever
+      program                               where
+  1   pick(1 vehicle with id 'noptilus-1')  again.dol:1
+  2   picks noptilus-1                      again.dol:1
+  3   execute                               again.dol:4
+  and from there, again and again:
+      program           noptilus-1           where
+  4                     starts a             again.dol:4
+  5                     fails in a: failure  again.dol:4
+  6   consume failed:1                       again.dol:5
+  7   execute                                again.dol:4
+  
+  formula G F {n == 1}: a run in which it does not hold
+      program                               where
+  1   pick(1 vehicle with id 'noptilus-1')  again.dol:1
+  2   picks noptilus-1                      again.dol:1
+  3   execute                               again.dol:4
+  and from there, again and again:
+      program           noptilus-1           where
+  4                     starts a             again.dol:4
+  5                     fails in a: failure  again.dol:4
+  6   consume failed:1                       again.dol:5
+  7   execute                                again.dol:4
+  [1]
+  $ explore again.dol --faults fail=1 --ltl 'F ended' --ltl 'F (done(a) & running(a))' | grep formula
+  formula F ended: holds
+  formula F (done(a) & running(a)): violated after 7 steps: it does not hold
+  formula F (done(a) & running(a)): a run in which it does not hold
+  $ explore again.dol --ltl 'G (strat(a))'
+  dolphin: --ltl 'G (strat(a))': there is no proposition 'strat' (did you mean start?)
+  [2]
+  $ explore again.dol --ltl 'G (start(a)'
+  dolphin: --ltl 'G (start(a)': a ')' is missing
+  [2]
+  $ explore again.dol --ltl 'F {m > 0}'
+  dolphin: --ltl 'F {m > 0}': unknown name 'm'
+  [2]
+
+A run to follow.
+
+  $ explore again.dol --faults fail --trace again.run > shown
+  [1]
+  $ tail -n 4 again.run
+  {"label":"start(noptilus-1, a)","choice":0}
+  {"label":"fail(noptilus-1, a, failure)","event":"failed","vehicle":"noptilus-1","why":"failure"}
+  {"label":"consume failed:1","choice":0}
+  {"label":"execute","choice":0}
+  $ dolphin exec again.dol --follow again.run
+  breaks: termination
+     2  program     picks noptilus-1
+  and from there, again and again:
+     4  noptilus-1  starts a
+     5  noptilus-1  fails in a: failure
+     6  program     consumes failed:1
+  $ explore assertion.dol --trace assertion.run > shown
+  [1]
+  $ dolphin exec assertion.dol --follow assertion.run
+  breaks: assertions
+     2  program     picks noptilus-1
+     4  program     posts alarm:1
+     5  program     has an error in a task: assertion failed
+     5  program     releases noptilus-1
+     5  program     fails: assertion failed
+  assertion.dol:4:5: error: assertion failed
+    4 |   | assert { !poll(alarm: _) }) onError { ignore() }
+      |     ^^^^^^^^^^^^^^^^^^^^^^^^^^
+  [1]
+  $ explore deadlock.dol --trace deadlock.run > shown
+  [1]
+  $ dolphin exec deadlock.dol --follow deadlock.run
+  breaks: no deadlock
+     2  program     picks noptilus-1
+     4  noptilus-1  starts a
+     5  noptilus-1  ends a
+     6  program     posts left:1
+        here the recorded run stops
+
+It does not fit another program, and no other file is one.
+
+  $ dolphin exec deadlock.dol --follow assertion.run
+     2  program     picks noptilus-1
+  dolphin: assertion.run: deadlock.dol does not fit, at step 4: the program has no such choice there (act(post alarm:1))
+  [2]
+  $ dolphin exec deadlock.dol --follow deadlock.dol
+  dolphin: deadlock.dol: line 1 is no JSON
+  [2]
+  $ dolphin exec assertion.dol --follow assertion.run --journal assertion.journal
+  dolphin: a recorded run (--follow) goes with its program and a fleet, and with no other options
+  [2]
+  $ dolphin exec deadlock.dol --follow missing.run
+  dolphin: missing.run: No such file or directory
+  [2]
+  $ explore deadlock.dol --trace missing/deadlock.run > shown
+  dolphin: missing/deadlock.run: No such file or directory
+  [3]
 
 A bound that is met leaves the answer open.
 

@@ -57,7 +57,7 @@ let check ?limit environment program world =
   | None -> Ok None
   | Some graph ->
     let reference = Reference.broken graph in
-    let search reduction = Search.run { Search.default with environment; reduction } program world in
+    let search reduction = Search.run { Search.default with environment; reduction; search_again = 0 } program world in
     let whole = search Whole and reduced = search Partial_order in
     let unreached =
       match List.assoc Property.All_reached whole.verdicts with

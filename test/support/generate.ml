@@ -59,6 +59,7 @@ let action_code =
       (2, return (code [ counted ]));
       (2, return (code [ statement (call "message" [ Positional (string "m") ]) ]));
       (2, this (map2 (fun a b -> [ a; b ]) posting posting));
+      (1, map (fun g -> code [ statement (call "assert" [ Positional (expression (Closure g)) ]) ]) guard);
       (1, return (code [ statement division_by_zero ])) ]
 
 let handler =

@@ -1,0 +1,179 @@
+open Dolphin_semantics
+open Field
+
+type cause = Choice of int | Event of Happening.t
+type step = { cause : cause; label : string }
+
+type t = {
+  program : Header.source;
+  fleet : Header.source option;
+  property : string;
+  steps : step list;
+  cycle : step list;
+}
+
+let format = "dolphin-course"
+let version = 1
+let text_of_label label = Format.asprintf "%a" Label.pp label
+
+(* {1 From transitions} *)
+
+(* Events that the transition may be an answer to: those awaited, and those that its label tells of. *)
+let candidates (c : Configuration.t) (t : Transition.t) : Transition.event list =
+  match t.label with
+  | Fail (v, _, why) -> [ Vehicle_failed (v, why) ]
+  | Answer text -> [ Answered text ]
+  | No_answer -> [ Nobody_answers "none is given" ]
+  | No_reply why -> [ Host_failed why ]
+  | Interrupt -> [ Interruption ]
+  | _ -> Transition.awaited c
+
+let step program world c (t : Transition.t) =
+  let is_it (t' : Transition.t) = Label.equal t.label t'.label && Configuration.equal t.next t'.next in
+  let rec choice i (ts : Transition.t Seq.t) =
+    match ts () with
+    | Seq.Nil -> None
+    | Seq.Cons (t', _) when is_it t' -> Some (Choice i)
+    | Seq.Cons (_, rest) -> choice (i + 1) rest
+  in
+  let event e = match Transition.accept program world c e with Ok t' -> is_it t' | Error _ -> false in
+  let cause =
+    match choice 0 (Transition.internal program world c) with
+    | Some cause -> cause
+    | None -> (
+        match t.label, List.find_opt event (candidates c t) with
+        | _, Some e -> Event (Happening.of_event e)
+        | No_answer, None ->
+          (* Nobody answered for another reason: an answer that was refused. *)
+          let why = match t.next.control with Ended (Failed fault) -> fault.message | _ -> "" in
+          let prompt = match c.control with Waiting (_, Ask prompt) -> Printf.sprintf "no answer to '%s': " prompt | _ -> "" in
+          let n = String.length prompt in
+          let why = if String.length why > n then String.sub why n (String.length why - n) else why in
+          Event (No_answer why)
+        | _, None -> invalid_arg ("Course.step: no transition " ^ text_of_label t.label))
+  in
+  { cause; label = text_of_label t.label }
+
+let rec steps program world c = function
+  | [] -> []
+  | (t : Transition.t) :: rest ->
+    let s = step program world c t in
+    s :: steps program world t.next rest
+
+(* {1 To transitions} *)
+
+type misfit = { number : int; why : string }
+
+let take program world (c : Configuration.t) s =
+  let found =
+    match s.cause with
+    | Choice i -> (
+        let rec nth i (ts : Transition.t Seq.t) =
+          match ts () with
+          | Seq.Nil -> None
+          | Seq.Cons (t, rest) -> if i = 0 then Some t else nth (i - 1) rest
+        in
+        match nth i (Transition.internal program world c) with
+        | Some t -> Ok t
+        | None -> Error "the program has no such choice there")
+    | Event h -> (
+        match Happening.to_event ~site:Fault.unknown_site h with
+        | Error why -> Error why
+        | Ok event -> (
+            match Transition.accept program world c event with
+            | Ok t -> Ok t
+            | Error Not_awaited -> Error (Format.asprintf "the program does not wait for %a there" Happening.pp h)
+            | Error (Bad_answer why) -> Error why))
+  in
+  match found with
+  | Ok t when text_of_label t.label = s.label -> Ok t
+  | Ok t -> Error (Printf.sprintf "the program does %s there, and not %s" (text_of_label t.label) s.label)
+  | Error why -> Error (Printf.sprintf "%s (%s)" why s.label)
+
+let follow program world course =
+  let rec go number (c : Configuration.t) taken = function
+    | [] -> Ok (List.rev taken)
+    | s :: rest -> (
+        match take program world c s with
+        | Ok t -> go (number + 1) t.next (t :: taken) rest
+        | Error why -> Error (List.rev taken, { number; why }))
+  in
+  let start = Configuration.initial program and first = List.length course.steps in
+  let split ts = (List.filteri (fun i _ -> i < first) ts, List.filteri (fun i _ -> i >= first) ts) in
+  Result.map split (go 1 start [] (course.steps @ course.cycle))
+
+(* {1 Lines} *)
+
+let of_source (s : Header.source) : Yojson.Safe.t = `Assoc [ ("path", `String s.path); ("md5", `String s.hash) ]
+
+let to_source json : (Header.source, string) result =
+  let* found = members json in
+  let* path = get text "path" found in
+  let* hash = get text "md5" found in
+  Ok { Header.path; hash }
+
+let json_of_step s : Yojson.Safe.t =
+  let cause = match s.cause with Choice i -> [ ("choice", `Int i) ] | Event h -> Happening.members h in
+  `Assoc (("label", `String s.label) :: cause)
+
+let step_of_json json =
+  let* found = members json in
+  let* label = get text "label" found in
+  if List.mem_assoc "choice" found then
+    let* i = get whole "choice" found in
+    if i < 0 then Error "a choice is a number from 0" else Ok { cause = Choice i; label }
+  else
+    let* h = Happening.of_members found in
+    Ok { cause = Event h; label }
+
+let to_lines course =
+  let header : Yojson.Safe.t =
+    `Assoc
+      [ ("format", `String format);
+        ("version", `Int version);
+        ("program", of_source course.program);
+        ("fleet", of_option of_source course.fleet);
+        ("property", `String course.property);
+        ("steps", `Int (List.length course.steps));
+        ("cycle", `Int (List.length course.cycle)) ]
+  in
+  List.map (fun json -> Yojson.Safe.to_string json) (header :: List.map json_of_step (course.steps @ course.cycle))
+
+let of_header json =
+  match json with
+  | `Assoc found when List.assoc_opt "format" found = Some (`String format) ->
+    let* its_version = get whole "version" found in
+    if its_version <> version then
+      Error (Printf.sprintf "this run is of version %d; version %d is known here" its_version version)
+    else
+      let* program = get to_source "program" found in
+      let* fleet = get (nullable to_source) "fleet" found in
+      let* property = get text "property" found in
+      let* n = get whole "steps" found in
+      let* m = get whole "cycle" found in
+      Ok ({ program; fleet; property; steps = []; cycle = [] }, n, m)
+  | _ -> Error "this is no run to follow: its first line is not the header of one"
+
+let parsed number line =
+  match Yojson.Safe.from_string line with
+  | json -> Ok json
+  | exception Yojson.Json_error _ -> Error (Printf.sprintf "line %d is no JSON" number)
+
+let of_lines lines =
+  match lines with
+  | [] -> Error "this is no run to follow: it is empty"
+  | first :: rest ->
+    let* json = parsed 1 first in
+    let* course, n, m = of_header json in
+    let add found (number, line) =
+      let* found = found in
+      let* json = parsed number line in
+      let* s = Result.map_error (Printf.sprintf "line %d: %s" number) (step_of_json json) in
+      Ok (s :: found)
+    in
+    let numbered = List.mapi (fun i line -> (i + 2, line)) rest in
+    let* found = List.fold_left add (Ok []) numbered in
+    let all = List.rev found in
+    if n < 0 || m < 0 || List.length all <> n + m then
+      Error (Printf.sprintf "%d steps are announced, and %d are there" (n + m) (List.length all))
+    else Ok { course with steps = List.filteri (fun i _ -> i < n) all; cycle = List.filteri (fun i _ -> i >= n) all }

@@ -149,7 +149,7 @@ let bindings world (c : Configuration.t) m (pick : Settings.pick) =
   | Exactly n ->
     Seq.map (bind c m [ Effect.Cancel_timer Effect.script_timer ]) (choices n (candidates world c pick))
 
-let why_not world (c : Configuration.t) (pick : Settings.pick) (s : World.vehicle_state) =
+let why_not (c : Configuration.t) (pick : Settings.pick) (s : World.vehicle_state) =
   let f = pick.filter in
   let region_missed = match f.region with Some a -> not (Dolphin_geo.Area.contains a s.position) | None -> false in
   let reason =
@@ -162,7 +162,6 @@ let why_not world (c : Configuration.t) (pick : Settings.pick) (s : World.vehicl
     else if region_missed then Format.asprintf "is at %a, outside of the region" Dolphin_geo.Position.pp s.position
     else "fits"
   in
-  ignore world;
   Printf.sprintf "%s %s" s.id reason
 
 let no_vehicles world (c : Configuration.t) m pick =
@@ -172,7 +171,7 @@ let no_vehicles world (c : Configuration.t) m pick =
     | states ->
       let shown = List.filteri (fun i _ -> i < 8) states in
       let more = List.length states - List.length shown in
-      String.concat "; " (List.map (why_not world c pick) shown)
+      String.concat "; " (List.map (why_not c pick) shown)
       ^ if more > 0 then Printf.sprintf "; and %d more" more else ""
   in
   let message = Format.asprintf "could not pick %a: %s" Settings.pp_pick pick there in

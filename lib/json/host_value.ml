@@ -180,8 +180,8 @@ let nesting text =
   String.iter (fun c -> if !quoted then within_string c else bracket c) text;
   !deepest_so_far
 
-let parse text =
-  if nesting text > 2 * deepest then Error too_deep
+let parse ?(deepest = 2 * deepest) text =
+  if nesting text > deepest then Error (Printf.sprintf "it is nested more than %d deep" deepest)
   else
     match Yojson.Safe.from_string text with
     | json -> Ok json

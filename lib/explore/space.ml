@@ -30,7 +30,7 @@ type t = {
   mutable widths : Shape.widths;
   mutable shape_mask : int;
   mutable shared_mask : int;
-  mutable states : Packed.t;
+  mutable states : States.t;
   mutable key : int array;  (* the state being expanded, changed in place for its successors and changed back *)
   mutable other : int array;  (* successors of another shape *)
   mutable transitions : int;
@@ -84,7 +84,7 @@ let repack t =
   and shared = max t.widths.shared (bits_for (Parts.Shareds.count t.shareds)) in
   set_widths t { shape; shared };
   let needed = Array.fold_left (fun n s -> max n (Shape.lay_out t.widths s)) 1 shapes in
-  let words = max needed (Packed.words t.states) in
+  let words = max needed (States.words t.states) in
   let rewritten from fresh =
     let number = from.(0) land old_shape_mask in
     if number = 0 then fresh.(0) <- (from.(0) lsr old_widths.shape) lsl t.widths.shape
@@ -97,7 +97,7 @@ let repack t =
       done
     end
   in
-  t.states <- Packed.rewrite t.states ~words rewritten;
+  t.states <- States.rewrite t.states ~words rewritten;
   t.key <- Array.make words 0;
   t.other <- Array.make words 0
 
@@ -136,7 +136,7 @@ let new_shape t key frame families =
   Hashtbl.add t.by_families key s;
   Array.iter (fun (f : Parts.family) -> if f.width = 0 then Parts.lay_out f) families;
   let needed = Shape.lay_out t.widths s in
-  if needed > Packed.words t.states then raise Outgrown;
+  if needed > States.words t.states then raise Outgrown;
   s
 
 let shape t (frame : Shape.frame) families =
@@ -225,13 +225,13 @@ let read t key =
   end
 
 let state t i =
-  let key = Array.make (Packed.words t.states) 0 in
-  Packed.load t.states i key;
+  let key = Array.make (States.words t.states) 0 in
+  States.load t.states i key;
   read t key
 
 let shared t i =
-  let key = Array.make (Packed.words t.states) 0 in
-  Packed.load t.states i key;
+  let key = Array.make (States.words t.states) 0 in
+  States.load t.states i key;
   if key.(0) land t.shape_mask = 0 then -1 else (key.(0) lsr t.widths.shape) land t.shared_mask
 
 (* {1 Expanding} *)
@@ -244,11 +244,11 @@ let fresh t i word =
   if word land t.shape_mask = 0 then
     Option.iter (fun property -> note_broken t property i) t.breaks.(word lsr t.widths.shape)
 
-let flush t = Packed.flush t.states ~fresh:t.fresh
+let flush t = States.flush t.states ~fresh:t.fresh
 
 let visit t key parent =
-  if t.gathering then t.gathered <- Packed.find t.states key :: t.gathered
-  else Packed.push t.states key ~parent ~fresh:t.fresh
+  if t.gathering then t.gathered <- States.find t.states key :: t.gathered
+  else States.push t.states key ~parent ~fresh:t.fresh
 
 let follows t place place' = if not (Hashtbl.mem t.places (place, place')) then Hashtbl.add t.places (place, place') ()
 
@@ -456,7 +456,7 @@ let expand_executing t i number =
 
 let rec expand t i =
   match
-    Packed.load t.states i t.key;
+    States.load t.states i t.key;
     let number = t.key.(0) land t.shape_mask in
     if number = 0 then expand_whole t i (t.key.(0) lsr t.widths.shape) else expand_executing t i number
   with
@@ -473,7 +473,7 @@ let successors t i =
   t.gathering <- false;
   List.rev t.gathered
 
-let create ?(reduction = Reduction.Whole) options program world =
+let create ?(reduction = Reduction.Whole) ?(compress = false) options program world =
   let foreseen = match reduction with Whole -> None | Partial_order -> Some 0 in
   let parts = Parts.create ?foreseen options program world in
   let t =
@@ -494,7 +494,7 @@ let create ?(reduction = Reduction.Whole) options program world =
       widths = { shape = 4; shared = 4 };
       shape_mask = 0;
       shared_mask = 0;
-      states = Packed.create ~words:1;
+      states = States.create ~compress ~words:1;
       key = [| 0 |];
       other = [| 0 |];
       transitions = 0;
@@ -514,13 +514,13 @@ let create ?(reduction = Reduction.Whole) options program world =
 
 (* {1 Findings} *)
 
-let count t = Packed.count t.states
+let count t = States.count t.states
 let transitions t = t.transitions
-let parent t i = Packed.parent t.states i
+let parent t i = States.parent t.states i
 let coverage t = Parts.coverage t.parts
-let bytes t = Packed.bytes t.states
-let bytes_to_grow t = Packed.bytes_to_grow t.states
-let words t = Packed.words t.states
+let bytes t = States.bytes t.states
+let bytes_to_grow t = States.bytes_to_grow t.states
+let words t = States.words t.states
 
 let broken t property =
   match t.broken.(rank property) with

@@ -3,6 +3,7 @@ open Dolphin_semantics
 type options = {
   environment : Environment.options;
   reduction : Reduction.t;
+  compress : bool;
   search_again : int;
   max_states : int option;
   max_depth : int option;
@@ -30,6 +31,7 @@ let default =
   {
     environment = Environment.default;
     reduction = Whole;
+    compress = false;
     search_again = 100_000;
     max_states = None;
     max_depth = None;
@@ -223,7 +225,7 @@ let verdicts t program world stopped =
   | fs, None -> List.combine (List.map named fs) (formulas t world program)
 
 let start options program world started =
-  let space = Space.create ~reduction:options.reduction options.environment program world in
+  let space = Space.create ~reduction:options.reduction ~compress:options.compress options.environment program world in
   let invariants = List.map (Invariant.create program world) options.invariants in
   { options; space; invariants; started; reported = started; weighed = Float.neg_infinity; next = 0; depth = -1; level_end = 0 }
 

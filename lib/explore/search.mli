@@ -8,6 +8,7 @@ open Dolphin_semantics
 type options = {
   environment : Environment.options;
   reduction : Reduction.t;  (** none is used where there are invariants *)
+  compress : bool;  (** keep states in less memory, in more time *)
   search_again : int;
   (** so many of all states are visited for a shortest run, if a reduced search found a violation *)
   max_states : int option;

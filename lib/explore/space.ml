@@ -10,7 +10,7 @@ type t = {
   cases : Cases.t;
   words : Words.t;
   shapes : Shapes.t;
-  mutable states : Packed.t;
+  mutable states : States.t;
   mutable key : int array;  (* the state being expanded, changed in place for its successors and changed back *)
   mutable other : int array;  (* successors of another shape *)
   mutable transitions : int;
@@ -31,8 +31,8 @@ let rank property =
 (* {1 States} *)
 
 let load t i =
-  let key = Array.make (Packed.words t.states) 0 in
-  Packed.load t.states i key;
+  let key = Array.make (States.words t.states) 0 in
+  States.load t.states i key;
   key
 
 let state t i = Words.read t.words (load t i)
@@ -45,7 +45,7 @@ let shared t i =
 let repack t =
   let rewritten = Words.widened t.words in
   let words = Shapes.words t.shapes in
-  t.states <- Packed.rewrite t.states ~words rewritten;
+  t.states <- States.rewrite t.states ~words rewritten;
   t.key <- Array.make words 0;
   t.other <- Array.make words 0
 
@@ -57,11 +57,11 @@ let fresh t i word =
   if Shapes.number t.shapes word = 0 then
     Option.iter (fun property -> note_broken t property i) (Words.broken t.words (Shapes.shared t.shapes word))
 
-let flush t = Packed.flush t.states ~fresh:t.fresh
+let flush t = States.flush t.states ~fresh:t.fresh
 
 let visit t key parent =
-  if t.gathering then t.gathered <- Packed.find t.states key :: t.gathered
-  else Packed.push t.states key ~parent ~fresh:t.fresh
+  if t.gathering then t.gathered <- States.find t.states key :: t.gathered
+  else States.push t.states key ~parent ~fresh:t.fresh
 
 (* {1 Where nothing executes} *)
 
@@ -301,7 +301,7 @@ let expand_executing t i number =
 
 let rec expand t i =
   match
-    Packed.load t.states i t.key;
+    States.load t.states i t.key;
     let number = Shapes.number t.shapes t.key.(0) in
     if number = 0 then expand_whole t i (Shapes.shared t.shapes t.key.(0)) else expand_executing t i number
   with
@@ -318,7 +318,7 @@ let successors t i =
   t.gathering <- false;
   List.rev t.gathered
 
-let create ?(reduction = Reduction.Whole) options program world =
+let create ?(reduction = Reduction.Whole) ?(compress = false) options program world =
   let foreseen, flat = match reduction with Whole -> (None, false) | Partial_order -> (Some 0, true) in
   let parts = Parts.create ?foreseen ~flat options program world in
   let cases = Cases.create parts in
@@ -333,7 +333,7 @@ let create ?(reduction = Reduction.Whole) options program world =
       cases;
       words;
       shapes = Words.shapes words;
-      states = Packed.create ~words:1;
+      states = States.create ~compress ~words:1;
       key = [| 0 |];
       other = [| 0 |];
       transitions = 0;
@@ -352,13 +352,13 @@ let create ?(reduction = Reduction.Whole) options program world =
 
 (* {1 Findings} *)
 
-let count t = Packed.count t.states
+let count t = States.count t.states
 let transitions t = t.transitions
-let parent t i = Packed.parent t.states i
+let parent t i = States.parent t.states i
 let coverage t = Parts.coverage t.parts
-let bytes t = Packed.bytes t.states
-let bytes_to_grow t = Packed.bytes_to_grow t.states
-let words t = Packed.words t.states
+let bytes t = States.bytes t.states
+let bytes_to_grow t = States.bytes_to_grow t.states
+let words t = States.words t.states
 let may_cycle t = Script_graph.may_cycle t.script
 
 let broken t property =

@@ -93,7 +93,7 @@ let json_of_run (run : Search.run) =
             `String (Format.asprintf "%a" Dolphin_semantics.Label.pp t.label))
          steps)
   in
-  [ ("run", labels run.steps); ("cycle", labels run.cycle) ]
+  [ ("shortest", `Bool run.shortest); ("run", labels run.steps); ("cycle", labels run.cycle) ]
 
 let json_of_outcome (program : Dolphin_semantics.Core.program) (o : Search.outcome) : Yojson.Safe.t =
   let verdict (property, verdict) =
@@ -126,22 +126,35 @@ let counter_example strict (o : Search.outcome) =
        | Violated _ | Holds | Unreached _ | Inconclusive _ -> None)
     o.verdicts
 
-let write_trace (program : Program_file.t) (fleet : Fleet_file.t) world path (property, (run : Search.run)) =
+let as_course (program : Program_file.t) (fleet : Fleet_file.t) world property (run : Search.run) =
   let source path text = Dolphin_trace.Header.source ~path text in
   let steps = Course.steps program.program world in
   let initial = Dolphin_semantics.Configuration.initial program.program in
   let last (_ : Dolphin_semantics.Configuration.t) (t : Dolphin_semantics.Transition.t) = t.next in
-  let course : Course.t =
+  Course.to_lines
     { program = source program.path program.source;
       fleet = Option.map (fun path -> source path fleet.source) fleet.path;
       property = Property.name property;
       steps = steps initial run.steps;
       cycle = steps (List.fold_left last initial run.steps) run.cycle }
-  in
+
+let as_itf (program : Program_file.t) property (run : Search.run) =
+  let description = Printf.sprintf "%s: %s" (Property.name property) (Property.question property) in
+  let initial = Dolphin_semantics.Configuration.initial program.program in
+  let trace = Dolphin_trace.Itf.trace program.program ~description initial run.steps ~cycle:run.cycle in
+  [ Yojson.Safe.to_string trace ]
+
+let write_trace program fleet world path (property, run) =
   match open_out_bin path with
   | exception Sys_error why -> Report.complain why; Some Exit_status.Platform_trouble
   | channel ->
-    let write () = List.iter (fun line -> output_string channel (line ^ "\n")) (Course.to_lines course) in
+    let write () =
+      let lines =
+        if Filename.check_suffix path ".itf.json" then as_itf program property run
+        else as_course program fleet world property run
+      in
+      List.iter (fun line -> output_string channel (line ^ "\n")) lines
+    in
     Fun.protect ~finally:(fun () -> close_out channel) write;
     None
 
@@ -162,7 +175,7 @@ let explore (program : Program_file.t) (fleet : Fleet_file.t) s invariants formu
     { environment = World_of.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
       reduction = s.reduction;
       search_again = Search.default.search_again;
-      max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; timeout = s.timeout;
+      max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; memory_left = Memory.left; timeout = s.timeout;
       clock = Unix.gettimeofday;
       invariants; formulas;
       interrupted = (fun () -> !interrupted);
@@ -244,7 +257,9 @@ let size =
 let bound kind name docv doc = Arg.(value & opt (some kind) None & info [ name ] ~docv ~doc)
 let max_states = bound Arg.int "max-states" "N" "Stop after $(docv) states."
 let max_depth = bound Arg.int "max-depth" "N" "Follow runs for $(docv) transitions only."
-let max_memory = bound size "max-memory" "SIZE" "Stop before more than $(docv) of memory is used, as in 512M or 8G."
+let max_memory = bound size "max-memory" "SIZE" 
+    "Stop before more than $(docv) of memory is used, as in 512M or 8G. Without it, the search stops before it has nine \
+     tenths of what the machine, and the limits on the process, leave to it."
 let timeout = bound Arg.float "timeout" "SECONDS" "Stop after $(docv) seconds."
 
 let answers =
@@ -276,8 +291,9 @@ let formulas =
 
 let trace =
   let doc =
-    "Write the first of the runs that are shown into the file $(docv). $(mname) $(b,exec --follow) $(docv) replays it. Nothing is \
-     written if there is none."
+    "Write the first of the runs that are shown into the file $(docv). $(mname) $(b,exec --follow) $(docv) replays it. If \
+     its name ends in $(b,.itf.json), it is written in the Informal Trace Format instead, for the tools of TLA+ and Quint. Nothing \
+     is written if there is none."
   in
   Arg.(value & opt (some string) None & info [ "trace" ] ~docv:"FILE" ~doc)
 

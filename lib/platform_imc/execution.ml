@@ -10,6 +10,7 @@ type input =
   | Reply of { sent : float; reply : Message.t Message.Plan_control.t }
   | State of { sent : float; state : Message.Plan_control_state.t }
   | Vehicle of { sent : float; state : Message.Vehicle_state.t }
+  | Log of { sent : float; entry : Message.Log_book_entry.t }
   | Abort of string
   | Lost of string
   | Tick
@@ -44,7 +45,6 @@ type attempt = {
   after : float;
   accepted : float option;  (* when the vehicle first answered that it takes the plan *)
   initialised : bool;  (* INITIALIZING was seen *)
-  anew : bool;  (* it was seen to begin anew *)
 }
 
 type phase =
@@ -75,12 +75,13 @@ type t = {
   last_stop : int option;
   stop_echo : float;  (* when the vehicle last answered a stop of ours *)
   former : former option;
+  takes : Takes.t;  (* of the last request *)
   phase : phase;
 }
 
 let create ~request =
   { next_request = request land 0xFFFF; seen = None; error = None; abort = None; last_stop = None;
-    stop_echo = neg_infinity; former = None; phase = Idle }
+    stop_echo = neg_infinity; former = None; takes = Takes.nothing; phase = Idle }
 
 let idle x = match x.phase with Idle -> true | Starting _ | Running _ | Ending _ | Stopping _ -> false
 
@@ -94,6 +95,26 @@ let due x =
   | Idle | Starting _ | Running _ -> infinity
   | Ending e -> e.deadline
   | Stopping s -> Float.min (s.last_sent +. stop_interval) (s.first_sent +. stop_patience)
+
+(* {1 Sightings} *)
+
+let is (plan : string) (s : sighting) = s.state.plan_id = plan
+
+(* The states in which a plan that runs, or has just been taken, is seen. *)
+let busy (s : sighting) =
+  match s.state.state with
+  | Executing | Initializing -> true
+  | Blocked | Ready | Other _ -> false
+
+let succeeded (s : sighting) =
+  match s.state.last_outcome with
+  | Success -> true
+  | None | Failure | Other _ -> false
+
+let failed (s : sighting) =
+  match s.state.last_outcome with
+  | Failure -> true
+  | None | Success | Other _ -> false
 
 (* {1 Requests} *)
 
@@ -114,9 +135,11 @@ let begin_attempt ~now ~clock order x =
       asked = Vehicle_clock.estimate ~now clock;
       before = x.seen;
       after = Vehicle_clock.latest clock;
-      accepted = None; initialised = false; anew = false }
+      accepted = None; initialised = false }
   in
-  ({ x with phase = Starting attempt; abort = None }, [ start_message attempt ])
+  let busy = match x.seen with Some s -> busy s && is order.plan s | None -> false in
+  let takes = Takes.request ~plan:order.plan ~number:request ~after:attempt.after ~busy in
+  ({ x with phase = Starting attempt; abort = None; takes }, [ start_message attempt ])
 
 let begin_stop ~now ~clock ~took_effect ?next attempt x =
   let stop, x = number x in
@@ -172,24 +195,6 @@ let words x ~since ~why =
   | (Some _ | None), None -> why
 
 (* {1 What the vehicle's state means} *)
-
-let is (plan : string) (s : sighting) = s.state.plan_id = plan
-
-(* The states in which a plan that runs, or has just been taken, is seen. *)
-let busy (s : sighting) =
-  match s.state.state with
-  | Executing | Initializing -> true
-  | Blocked | Ready | Other _ -> false
-
-let succeeded (s : sighting) =
-  match s.state.last_outcome with
-  | Success -> true
-  | None | Failure | Other _ -> false
-
-let failed (s : sighting) =
-  match s.state.last_outcome with
-  | Failure -> true
-  | None | Success | Other _ -> false
 
 let ended_badly = "the plan ended without success, and the vehicle gave no reason"
 let refused = "the plan was refused, and the vehicle gave no reason"
@@ -257,11 +262,6 @@ let judge_run ~now ~clock (a : attempt) ~since (s : sighting) x =
     | Ready when s.state.plan_id = "" -> expect_words ~now ~clock a ~since forgotten x
     | Executing | Ready -> replaced ~now ~clock ~ended:s.sent a s.state.plan_id x
     | Blocked -> expect_words ~now ~clock a ~since blocked x
-    | Initializing when own && not a.anew ->
-      let note =
-        Printf.sprintf "plan %s begins anew: the request for it came twice, or another console made one" a.order.plan
-      in
-      ({ x with phase = Running { attempt = { a with anew = true }; since } }, [ Note note ])
     | Initializing | Other _ -> (x, [])
 
 let stopped ~now ~clock ~ended attempt next x =
@@ -393,16 +393,37 @@ let tick ~now ~clock x =
     ({ x with phase = Stopping { s with last_sent = now } }, [ request Stop s.stop s.attempt.order None ])
   | Idle | Starting _ | Running _ | Ending _ | Stopping _ -> (x, [])
 
-let step ~now ~clock input x =
+(* What the vehicle says is a sign of how often it took the request, whatever else it means. *)
+let count input x =
+  let takes =
+    match input with
+    | Reply { sent; reply } -> Takes.reply ~sent reply x.takes
+    | State { sent; state } -> Takes.state ~sent state x.takes
+    | Log { sent; entry } -> Takes.log ~sent entry x.takes
+    | Start _ | Stop | Vehicle _ | Abort _ | Lost _ | Tick -> x.takes
+  in
+  match Takes.twice takes with
+  | None -> ({ x with takes }, [])
+  | Some (takes, plan) ->
+    let why = "the request for it came twice, or another console made one" in
+    ({ x with takes }, [ Note (Printf.sprintf "plan %s begins anew: %s" plan why) ])
+
+let obey ~now ~clock input x =
   match input with
   | Start order -> start ~now ~clock order x
   | Stop -> stop ~now ~clock x
   | Reply { sent; reply = r } -> reply ~now ~clock ~sent r x
   | State { sent; state = s } -> state ~now ~clock sent s x
   | Vehicle { sent; state } -> vehicle ~sent state x
+  | Log _ -> (x, [])
   | Abort by -> ({ x with abort = Some by }, [])
   | Lost why -> lost ~now ~clock why x
   | Tick -> tick ~now ~clock x
+
+let step ~now ~clock input x =
+  let x, notes = count input x in
+  let x, outputs = obey ~now ~clock input x in
+  (x, notes @ outputs)
 
 (* {1 Displays} *)
 

@@ -61,7 +61,8 @@ let () =
     with
     | status -> status
     | exception Sys_error why ->
-      Report.complain ("the output cannot be written: " ^ why);
+      (* Where SIGPIPE is ignored, this says that nobody reads on, which is no trouble. *)
+      if why <> Unix.error_message EPIPE then Report.complain ("the output cannot be written: " ^ why);
       (* What is at the exit would try once more. *)
       Unix._exit (Exit_status.code Platform_trouble)
     | exception Stack_overflow -> bug Stack_overflow

@@ -102,9 +102,11 @@ let fill t =
 
 let large = 1 lsl 20
 
-(* The old table is given back before there is a new one: the states can fill it again. *)
+(* The old table is given back before there is a new one: the states can fill it again. If there is no memory for that,
+   the set has none of its states, so that nothing is looked for where nothing is. *)
 let resize t slots =
   t.table <- fresh_table 1;
+  t.mask <- 0;
   if slots > large then Gc.full_major ();
   t.table <- fresh_table slots;
   t.mask <- slots - 1;

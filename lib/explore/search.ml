@@ -124,7 +124,7 @@ let look_around t phase =
 (* States between two looks around; memory can grow by one chunk meanwhile, or by a doubled table. *)
 let stride = 4_096
 
-let explore ?(enough = fun () -> false) t =
+let expand_all enough t =
   let space = t.space in
   let next_look = ref 0 in
   let more () =
@@ -150,6 +150,14 @@ let explore ?(enough = fun () -> false) t =
     t.next <- t.next + 1;
     if exceeds t.options.max_states (Space.count space) then raise (Stop States)
   done
+
+(* What stopped it, if anything. Once there is no memory nothing can be added, not even what waits. *)
+let explore ?(enough = fun () -> false) t =
+  let settled stopped = match Space.flush t.space with () -> stopped | exception Out_of_memory -> Some No_memory in
+  match expand_all enough t with
+  | () -> settled None
+  | exception Stop bound -> settled (Some bound)
+  | exception Out_of_memory -> Some No_memory
 
 (* {1 Formulas} *)
 
@@ -241,8 +249,7 @@ let with_shortest_runs options program world started verdicts =
     let most = Option.fold ~none:options.search_again ~some:(min options.search_again) options.max_states in
     let t = start { options with reduction = Whole; invariants = []; max_states = Some most } program world started in
     let is_found property = Space.broken t.space property <> None in
-    (try explore ~enough:(fun () -> List.for_all is_found sought) t with Stop _ | Out_of_memory -> ());
-    Space.flush t.space;
+    ignore (explore ~enough:(fun () -> List.for_all is_found sought) t);
     let shorter (property, verdict) =
       match List.mem property sought, Space.broken t.space property with
       | true, Some i ->
@@ -258,13 +265,7 @@ let run (options : options) program world =
   let started = options.clock () in
   let t = start options program world started in
   let space = t.space in
-  let stopped =
-    match explore t with
-    | () -> None
-    | exception Stop bound -> Some bound
-    | exception Out_of_memory -> Some No_memory
-  in
-  Space.flush space;
+  let stopped = explore t in
   let verdicts = with_shortest_runs options program world started (verdicts t program world stopped) in
   {
     states = Space.count space;

@@ -30,7 +30,16 @@ let create () =
     transitions = 0 }
 
 let ending_label ending = "(ended: " ^ ending ^ ")"
-let label ~rules text = if rules = "" then text else Printf.sprintf "%s by %s" text rules
+let by = " by "
+let label ~rules text = if rules = "" then text else text ^ by ^ rules
+
+(* Rules have no blanks in their names, but after a comma. *)
+let rules label =
+  let n = String.length label and width = String.length by in
+  let rec last i = if i < 0 then None else if String.sub label i width = by then Some (i + width) else last (i - 1) in
+  match last (n - width) with
+  | None -> []
+  | Some i -> List.map String.trim (String.split_on_char ',' (String.sub label i (n - i)))
 
 (* {1 Reading} *)
 

@@ -36,6 +36,9 @@ val label : rules:string -> string -> string
 (** [label ~rules l] is the label of a transition with the label [l] and that derivation: both, so that what is compared
     is both. *)
 
+val rules : string -> string list
+(** [rules (label ~rules l)] is [rules], one by one. *)
+
 val states : t -> int
 val transitions : t -> int
 (** Lines of each so far. *)

@@ -85,11 +85,11 @@ let transition g text ~rules target =
 let fields g line text =
   match String.split_on_char '\t' text with
   | [ "S"; text ] -> state g text ~ending:"" ~program:1
-  | [ "S"; text; ending ] -> state g text ~ending ~program:1
-  | [ "S"; text; ending; program ] -> (
-      match int_of_string_opt program with
-      | Some program -> state g text ~ending ~program
-      | None -> Error (Not_a_line line))
+  | "S" :: text :: rest -> (
+      match List.rev rest with
+      | program :: (_ :: _ as ending) when int_of_string_opt program <> None ->
+        state g text ~ending:(String.concat "\t" (List.rev ending)) ~program:(int_of_string program)
+      | _ -> Error (Not_a_line line))
   | "E" :: rest -> (
       match List.rev rest with
       | rules :: target :: (_ :: _ as label) -> transition g (String.concat "\t" (List.rev label)) ~rules target

@@ -6,7 +6,7 @@ let ending (c : Configuration.t) =
   match c.control with
   | Ended Completed -> if Tuples.is_empty c.tuples then "completed" else "completed, with tuples left"
   | Ended (Halted message) -> "halted: " ^ message
-  | Ended (Failed fault) -> (if Fault.is_assertion fault then "failed assertion: " else "failed: ") ^ fault.message
+  | Ended (Failed fault) -> "failed: " ^ fault.message
   | Ended Interrupted -> "interrupted"
   | Script _ | Waiting _ | Executing _ -> ""
 

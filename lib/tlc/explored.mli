@@ -4,8 +4,8 @@
 open Dolphin_semantics
 
 val ending : Configuration.t -> string
-(** How a configuration has ended: ["completed"], ["completed, with tuples left"], ["halted: ..."], ["failed: ..."]
-    and ["failed assertion: ..."], each with its message; [""] if it has not. *)
+(** How a configuration has ended: ["completed"], ["completed, with tuples left"], ["halted: ..."] and
+    ["failed: ..."] with the message; [""] if it has not. *)
 
 val graph : Dolphin_explore.Reference.t -> Dolphin_lts.Graph.t
 (** Its states have the numbers that they have there. *)

@@ -30,7 +30,16 @@ let create () =
     transitions = 0 }
 
 let ending_label ending = "(ended: " ^ ending ^ ")"
-let label ~rules text = if rules = "" then text else Printf.sprintf "%s by %s" text rules
+let by = " by "
+let label ~rules text = if rules = "" then text else text ^ by ^ rules
+
+(* Rules have no blanks in their names, but after a comma. *)
+let rules label =
+  let n = String.length label and width = String.length by in
+  let rec last i = if i < 0 then None else if String.sub label i width = by then Some (i + width) else last (i - 1) in
+  match last (n - width) with
+  | None -> []
+  | Some i -> List.map String.trim (String.split_on_char ',' (String.sub label i (n - i)))
 
 (* {1 Reading} *)
 
@@ -76,11 +85,11 @@ let transition g text ~rules target =
 let fields g line text =
   match String.split_on_char '\t' text with
   | [ "S"; text ] -> state g text ~ending:"" ~program:1
-  | [ "S"; text; ending ] -> state g text ~ending ~program:1
-  | [ "S"; text; ending; program ] -> (
-      match int_of_string_opt program with
-      | Some program -> state g text ~ending ~program
-      | None -> Error (Not_a_line line))
+  | "S" :: text :: rest -> (
+      match List.rev rest with
+      | program :: (_ :: _ as ending) when int_of_string_opt program <> None ->
+        state g text ~ending:(String.concat "\t" (List.rev ending)) ~program:(int_of_string program)
+      | _ -> Error (Not_a_line line))
   | "E" :: rest -> (
       match List.rev rest with
       | rules :: target :: (_ :: _ as label) -> transition g (String.concat "\t" (List.rev label)) ~rules target

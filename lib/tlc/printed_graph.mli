@@ -8,9 +8,9 @@ S <tab> state <tab> ending <tab> program          a state
 E <tab> label <tab> state <tab> rules             a transition of the last state, and where it leads
     v}
 
-    Equal states have equal texts. A label may contain tabulators, other fields do not. [ending] says how a state has
+    Equal states have equal texts. Labels and endings may contain tabulators, other fields do not. [ending] says how a state has
     ended, if it has; it becomes a transition from the state to itself. [program] is a number, of the program that the state is of, where a model has several;
-    the first state of each is its initial one. [ending] and [program] may be missing, which is as if they were empty, and 1. *)
+    the first state of each is its initial one. [ending] and [program] may both be missing, which is as if they were empty, and 1. *)
 
 open Dolphin_lts
 
@@ -35,6 +35,9 @@ val ending_label : string -> string
 val label : rules:string -> string -> string
 (** [label ~rules l] is the label of a transition with the label [l] and that derivation: both, so that what is compared
     is both. *)
+
+val rules : string -> string list
+(** [rules (label ~rules l)] is [rules], one by one. *)
 
 val states : t -> int
 val transitions : t -> int

@@ -391,7 +391,7 @@ let lost ~now ~clock why x =
 (* A sighting of which no more is kept than what was judged by it. *)
 let remembered (plan_id, busy) =
   let state : Control_state.State.t = if busy then Executing else Ready in
-  { sent = neg_infinity; state = { Control_state.default with state; plan_id } }
+  { sent = 0.; state = { Control_state.default with state; plan_id } }
 
 (* Whatever the vehicle says now, it says after all that the other console did. *)
 let adopted_attempt ~now ~clock order (k : Memo.knowledge) =

@@ -15,8 +15,11 @@ type settings = {
 (* What is to be done with a vehicle when it is heard of. *)
 type wish =
   | Nothing
-  | Run of { order : Execution.order; memos : Memo.t list; deadline : float }
-  | Halt of { order : Execution.order; memos : Memo.t list }
+  | Run of { begun : begun; before : begun option;  (* is to be halted first *) deadline : float }
+  | Halt of begun
+
+(* What a console that died was told to have a vehicle do, and what it kept of that; nothing, if it did not ask yet. *)
+and begun = { order : Execution.order; memos : Memo.t list }
 
 (* What the program was told of a vehicle, and when. *)
 type told = { state : World.vehicle_state; at : float }
@@ -145,20 +148,34 @@ let order_of (task : Core.platform_task) : Execution.order =
 
 let deadline ~now name s = now +. timeout_of name s
 
+(* What is known to be over, or was never asked for, need not be halted. *)
+let halt name begun s =
+  match Memo.knowledge ~plan:begun.order.plan begun.memos with
+  | None | Some { over = true; _ } -> expect name Nothing s
+  | Some _ -> expect name (Halt begun) s
+
 let resume ~now (standing : Dolphin_runtime.Past.standing) s =
   let timeouts = List.fold_left (fun map (v, seconds) -> Names.add v seconds map) s.timeouts standing.timeouts in
   let s = { s with timeouts; timeout = Option.value standing.timeout ~default:s.timeout } in
   let s = List.fold_left (fun s v -> expect v Nothing { s with bound = Names.add v () s.bound }) s standing.bound in
-  let wish (v, { Dolphin_runtime.Past.task; is_stopped; notes }) s =
-    let order = order_of task and memos = List.filter_map Memo.of_json notes in
-    let settled = match Memo.knowledge ~plan:order.plan memos with None -> true | Some k -> k.over in
-    if not is_stopped then expect v (Run { order; memos; deadline = deadline ~now v s }) s
-    else if settled then s
-    else expect v (Halt { order; memos }) s
+  let begun (errand : Dolphin_runtime.Past.errand) =
+    { order = order_of errand.task; memos = List.filter_map Memo.of_json errand.notes }
+  in
+  (* The end of the errand before may have been noted during this one. *)
+  let before (errand : Dolphin_runtime.Past.errand) =
+    let is_over = function Memo.Over _ -> true | Asked _ | Taken _ | Runs _ -> false in
+    let with_ends b = { b with memos = List.filter is_over (begun errand).memos @ b.memos } in
+    Option.map with_ends (Option.map begun errand.before)
+  in
+  let wish (v, (errand : Dolphin_runtime.Past.errand)) s =
+    if errand.is_stopped then halt v (begun errand) s
+    else expect v (Run { begun = begun errand; before = before errand; deadline = deadline ~now v s }) s
   in
   let s = List.fold_left (fun s errand -> wish errand s) s standing.errands in
   let by_time (_, due) (_, due') = Float.compare due due' in
   { s with timers = List.map (fun (timer, due) -> (due, timer)) (List.stable_sort by_time standing.timers) }
+
+let adopt ~now ~stopped { order; memos } = command ~now (Adopt { order; stopped; memos })
 
 (* What was wished of [n] is done once it has said what it runs. *)
 let receive_expected ~now (n : Node.t) s =
@@ -167,19 +184,22 @@ let receive_expected ~now (n : Node.t) s =
       let s = { s with expected = Names.remove n.name s.expected } in
       match wish with
       | Nothing -> (s, [])
-      | Run { order; memos; deadline = _ } -> command ~now (Adopt { order; stopped = false; memos }) n s
-      | Halt { order; memos } -> command ~now (Adopt { order; stopped = true; memos }) n s)
+      | Halt begun -> adopt ~now ~stopped:true begun n s
+      | Run { begun; before = Some before; _ } when begun.memos = [] ->
+        let s, sent = adopt ~now ~stopped:true before n s in
+        let s, more = command ~now (Start begun.order) (Nodes.find n.id s.nodes) s in
+        (s, sent @ more)
+      | Run { begun; _ } -> adopt ~now ~stopped:false begun n s)
   | Some _ | None -> (s, [])
 
-let halt name order memos s = expect name (if memos = [] then Nothing else Halt { order; memos }) s
 let plural seconds = if seconds = 1. then "1 second" else Printf.sprintf "%.0f seconds" seconds
 
 let give_up_expected ~now s =
   let give_up name wish s =
     match wish with
-    | Run { order; memos; deadline } when deadline <= now ->
+    | Run { begun; deadline; _ } when deadline <= now ->
       let why = Printf.sprintf "no word from the vehicle for %s" (plural (timeout_of name s)) in
-      halt name order memos (push (Task_failed (name, why)) s)
+      halt name begun (push (Task_failed (name, why)) s)
     | Run _ | Nothing | Halt _ -> s
   in
   Names.fold give_up s.expected s
@@ -392,7 +412,14 @@ let start ~now vehicle task s =
   let s = { s with outbox = Outbox.without_task vehicle s.outbox } in
   match find vehicle s with
   | None | Some _ when Names.mem vehicle s.expected ->
-    (expect vehicle (Run { order = order_of task; memos = []; deadline = deadline ~now vehicle s }) s, [])
+    let before =
+      match Names.find vehicle s.expected with
+      | Nothing -> None
+      | Halt begun -> Some begun
+      | Run { begun; before; _ } -> if begun.memos = [] then before else Some begun
+    in
+    let begun = { order = order_of task; memos = [] } in
+    (expect vehicle (Run { begun; before; deadline = deadline ~now vehicle s }) s, [])
   | None -> (push (Task_failed (vehicle, "no such vehicle was heard of")) s, [])
   | Some n -> (
       let order = order_of task in
@@ -403,7 +430,9 @@ let start ~now vehicle task s =
 let stop ~now vehicle s =
   let s = { s with outbox = Outbox.without_task vehicle s.outbox } in
   match Names.find_opt vehicle s.expected, find vehicle s with
-  | Some (Run { order; memos; deadline = _ }), _ -> (halt vehicle order memos s, [])
+  | Some (Run { begun; before; _ }), _ ->
+    let which = match before with Some before when begun.memos = [] -> before | Some _ | None -> begun in
+    (halt vehicle which s, [])
   | Some (Nothing | Halt _), _ | None, None -> (s, [])
   | None, Some n -> command ~now Stop n s
 

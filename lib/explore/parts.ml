@@ -19,7 +19,14 @@ and part = {
 and family = { number : int; mutable members : part array; mutable size : int; mutable width : int }
 and dependence = Free | Guarded of guard | By_case
 and guard = { mutable results : int array }
-and case = { possible : bool; shared : int; result : target; mutable whole : int }
+and case = {
+  possible : bool;
+  certain : bool;
+  shared : int;
+  result : target;
+  mutable whole : int;
+  others : case list;
+}
 
 and step = {
   index : int;
@@ -227,27 +234,27 @@ let note_handlers t (change : Residual.change) (local : Transition.local) =
 
 let internal t step s =
   let shared = Shareds.value t.shareds s in
-  let local = Transition.local_internal t.program t.world (configuration shared) step.source in
+  let locals = Transition.local_internal t.program t.world (configuration shared) step.source in
   (match step.source.offer with
    | Perform _ | Check _ | Measure _ ->
      let broken = Residual.Broke (Fault.make Fault.unknown_site "") in
-     Option.iter (note_handlers t (step.source.continue broken)) local
+     List.iter (note_handlers t (step.source.continue broken)) locals
    | Start _ | End_of _ | Expiry_of _ -> ());
-  (local, shared.outside)
+  (locals, shared.outside)
 
 let on_event t step event s =
   let shared = Shareds.value t.shareds s in
   let take outside =
-    let local = Transition.local_event t.program t.world (configuration shared) step.source event in
+    let locals = Transition.local_event t.program t.world (configuration shared) step.source event in
     let broken = Residual.Broke (Fault.make Fault.unknown_site "") in
-    Option.iter (note_handlers t (step.source.continue broken)) local;
-    (local, outside)
+    List.iter (note_handlers t (step.source.continue broken)) locals;
+    (locals, outside)
   in
   match step.source.offer with
   | End_of (task, v) -> (
       match List.assoc_opt event (Environment.task_ends t.options shared.outside v task) with
       | Some outside -> take outside
-      | None -> (None, shared.outside))
+      | None -> ([], shared.outside))
   | Start _ | Perform _ | Check _ | Measure _ | Expiry_of _ -> take shared.outside
 
 let shared_after t (local : Transition.local) outside =
@@ -258,20 +265,30 @@ let guarded t step guard s =
   if guard.results.(s) = unknown then
     guard.results.(s) <-
       (match internal t step s with
-       | None, _ -> impossible
-       | Some ({ named = Check _ | Act _ | Cut _; _ } as local), outside -> shared_after t local outside
-       | Some _, _ -> special);
+       | [], _ -> impossible
+       | [ ({ named = Check _ | Act _ | Cut _; assumed = []; _ } as local) ], outside -> shared_after t local outside
+       | _ :: _, _ -> special);
   guard.results.(s)
 
-let no_case = { possible = false; shared = -1; result = Gone; whole = -1 }
+let no_case = { possible = false; certain = true; shared = -1; result = Gone; whole = -1; others = [] }
+
+(* What sensors show that may show anything makes several of one step. *)
+let case_of t family outside locals =
+  let one others (local : Transition.local) =
+    let result = target_of_outcome t family local.outcome in
+    let certain = local.assumed = [] in
+    { possible = true; certain; shared = shared_after t local outside; result; whole = -1; others }
+  in
+  match locals with
+  | [] -> { no_case with possible = false }
+  | first :: rest -> one (List.map (one []) rest) first
 
 let case t family step s =
   if s >= Array.length step.cases then step.cases <- grown step.cases (s + 1) no_case;
   if step.cases.(s) == no_case then
     step.cases.(s) <-
-      (match match step.event with None -> internal t step s | Some event -> on_event t step event s with
-          | None, _ -> { no_case with possible = false }
-          | Some local, outside ->
-            let result = target_of_outcome t family local.outcome in
-            { possible = true; shared = shared_after t local outside; result; whole = -1 });
+      (let locals, outside =
+         match step.event with None -> internal t step s | Some event -> on_event t step event s
+       in
+       case_of t family outside locals);
   step.cases.(s)

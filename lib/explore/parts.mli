@@ -45,9 +45,11 @@ and guard = private {
 (** A step as it is when so and so is shared. *)
 and case = {
   possible : bool;
+  certain : bool;  (** whatever sensors show *)
   shared : int;  (** after the step *)
   result : target;
   mutable whole : int;  (** for the use of {!Space}: the number of the configuration that it ends in, or -1 *)
+  others : case list;  (** what else it does, if sensors show something else *)
 }
 
 and step = private {

@@ -270,7 +270,7 @@ let expand_whole t i number =
 let concluded t (s : Shape.t) shared (outcome : Transition.outcome) =
   let shared = Parts.Shareds.value t.shareds shared in
   let c = Shared.under (Executing (s.frame.machine, Parallel [])) shared in
-  let local : Transition.local = { after = c; outcome; derivation = []; named = Silent; asked = [] } in
+  let local : Transition.local = { after = c; outcome; derivation = []; named = Silent; asked = []; assumed = [] } in
   let next = Transition.conclude c s.frame.machine local in
   whole t next.rules next.next shared.outside
 
@@ -335,20 +335,33 @@ let go_to t (s : Shape.t) position (target : Parts.target) shared shared' i =
     replace t s s' position parts shared' i
   | Ends _ -> invalid_arg "Space.go_to: an end"
 
+let ends_run (case : Parts.case) = match case.result with Ends _ -> true | Stays _ | Gone | Becomes _ -> false
+
+let take_case t (s : Shape.t) position (case : Parts.case) shared i =
+  match case.result with
+  | Ends ending ->
+    if case.whole < 0 then case.whole <- concluded t s case.shared (Ends ending);
+    write_whole t t.other case.whole;
+    visit t t.other i
+  | (Stays _ | Gone | Becomes _) as target ->
+    check_fit t;
+    go_to t s position target shared case.shared i
+
+(* The results of these are how many transitions there are. *)
 let go_by_case t (s : Shape.t) position (family : Parts.family) (step : Parts.step) shared i =
   let case = Parts.case t.parts family step shared in
   if not case.possible then 0
   else begin
-    (match case.result with
-     | Ends ending ->
-       if case.whole < 0 then case.whole <- concluded t s case.shared (Ends ending);
-       write_whole t t.other case.whole;
-       visit t t.other i
-     | (Stays _ | Gone | Becomes _) as target ->
-       check_fit t;
-       go_to t s position target shared case.shared i);
-    1
+    take_case t s position case shared i;
+    List.iter (fun other -> take_case t s position other shared i) case.others;
+    1 + List.length case.others
   end
+
+let go_to_ends t (s : Shape.t) position (family : Parts.family) (step : Parts.step) shared i =
+  let case = Parts.case t.parts family step shared in
+  let ends = List.filter ends_run (case :: case.others) in
+  List.iter (fun case -> take_case t s position case shared i) ends;
+  List.length ends
 
 (* As constants of this module they cost nothing. *)
 let unknown = Parts.unknown
@@ -358,8 +371,10 @@ let local_status t (step : Parts.step) family shared : Stubborn.status =
   let by_case () : Stubborn.status =
     match Parts.case t.parts family step shared with
     | { possible = false; _ } -> Impossible
-    | { result = Ends _; _ } -> Ends
-    | { result = Stays _ | Gone | Becomes _; _ } -> Moves
+    | { certain = true; _ } as case -> if ends_run case then Ends else Moves
+    | { certain = false; _ } as case ->
+      let ends, moves = List.partition ends_run (case :: case.others) in
+      Depends { moves = moves <> []; ends = ends <> [] }
   in
   match step.dependence with
   | Free -> Moves
@@ -370,10 +385,11 @@ let local_status t (step : Parts.step) family shared : Stubborn.status =
 
 let take_step t s position family (step : Parts.step) shared i =
   match step.dependence with
-  | Free -> go_to t s position step.target shared shared i
+  | Free -> go_to t s position step.target shared shared i; 1
   | Guarded guard when Parts.guarded t.parts step guard shared >= 0 ->
-    go_to t s position step.target shared (Parts.guarded t.parts step guard shared) i
-  | Guarded _ | By_case -> ignore (go_by_case t s position family step shared i)
+    go_to t s position step.target shared (Parts.guarded t.parts step guard shared) i;
+    1
+  | Guarded _ | By_case -> go_by_case t s position family step shared i
 
 (* As [expand_executing], with steps that are enough. Which they are depends on nothing but the configuration. *)
 let expand_some t (s : Shape.t) (parts : Parts.part array) shared i =
@@ -388,13 +404,14 @@ let expand_some t (s : Shape.t) (parts : Parts.part array) shared i =
     let take k step =
       let is_chosen = match choice with None -> true | Some chosen -> chosen position k in
       if is_chosen || components.(position).ends.(k) then
-        match status position k with
+        let status = status position k in
+        check_fit t;
+        match status with
         | Impossible -> ()
         | Moves when not is_chosen -> ()
-        | Moves | Ends ->
-          check_fit t;
-          incr taken;
-          take_step t s position part.family step shared i
+        | Depends _ when not is_chosen ->
+          taken := !taken + go_to_ends t s position part.family step shared i
+        | Moves | Ends | Depends _ -> taken := !taken + take_step t s position part.family step shared i
     in
     Array.iteri take part.steps
   in

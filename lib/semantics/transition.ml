@@ -11,7 +11,14 @@ type event =
   | Host_failed of string
   | Interruption
 
-type t = { rules : Rule.t list; label : Label.t; next : Configuration.t; effects : Effect.t list }
+type t = {
+  rules : Rule.t list;
+  label : Label.t;
+  next : Configuration.t;
+  effects : Effect.t list;
+  assumed : World.assumption list;
+}
+
 type refusal = Not_awaited | Bad_answer of string
 
 (* The script runs so many expressions in one silent transition, then lets others see it; atomic code may take so
@@ -40,7 +47,7 @@ let ended (c : Configuration.t) ending before =
 
 let ending_transition c rules label ending before =
   let next, effects = ended c ending before in
-  { rules; label; next; effects = before @ effects }
+  { rules; label; next; effects = before @ effects; assumed = [] }
 
 (* {1 Deeds of code} *)
 
@@ -56,7 +63,8 @@ let effect_of_deed : Machine.deed -> Effect.t option = function
   | Set_connection_timeout (vs, seconds) -> Some (Set_connection_timeout (vs, seconds))
 
 let after (context : Machine.context) (c : Configuration.t) =
-  { c with store = context.store; tuples = context.tuples }
+  let store = if World.is_open context.world then Reading.keep context.program context.store else context.store in
+  { c with store; tuples = context.tuples }
 
 let deeds (context : Machine.context) = List.rev context.deeds
 let effects_of deeds = List.filter_map effect_of_deed deeds
@@ -74,7 +82,7 @@ let describe_call subject member =
   match subject with None -> member | Some subject -> Printf.sprintf "%s.%s" subject member
 
 let waiting c m (request : Machine.request) rule label effects =
-  { rules = [ rule ]; label; next = { c with Configuration.control = Waiting (m, request) }; effects }
+  { rules = [ rule ]; label; next = { c with Configuration.control = Waiting (m, request) }; effects; assumed = [] }
 
 let timers_started = List.map (fun (timer, seconds) -> Effect.Set_timer (timer, seconds))
 
@@ -86,7 +94,7 @@ let start_execution world (c : Configuration.t) m t =
   | Ok r ->
     let r, timers = Residual.activate r in
     let next = { c with control = Executing (m, r) } in
-    { rules = [ Rule.Execute ]; label = Label.Execute; next; effects = timers_started timers }
+    { rules = [ Rule.Execute ]; label = Label.Execute; next; effects = timers_started timers; assumed = [] }
 
 let wait world c m (request : Machine.request) =
   match request with
@@ -102,8 +110,9 @@ let wait world c m (request : Machine.request) =
 
 let run_script program world (c : Configuration.t) m =
   let stop, m, context = Machine.run ~fuel:script_fuel (context program world c Script) m in
+  let m = if World.is_open world then Machine.keep_readings m else m in
   let c = after context c in
-  let going rules label effects = { rules; label; next = { c with control = Script m }; effects } in
+  let going rules label effects = { rules; label; next = { c with control = Script m }; effects; assumed = [] } in
   match stop with
   | Exhausted -> going [ Rule.Script ] Label.Silent []
   | Did -> (
@@ -123,7 +132,12 @@ let run_script program world (c : Configuration.t) m =
 (* {1 Picking vehicles} *)
 
 let candidates world (c : Configuration.t) (pick : Settings.pick) =
-  let fits (s : World.vehicle_state) = Settings.accepts pick.filter s && not (List.mem s.id c.bound) in
+  let is_near (s : World.vehicle_state) area = Dolphin_geo.Area.contains area (World.place world s) in
+  let fits (s : World.vehicle_state) =
+    Settings.accepts { pick.filter with region = None } s
+    && (not (List.mem s.id c.bound))
+    && Option.fold ~none:true ~some:(is_near s) pick.filter.region
+  in
   List.map (fun (s : World.vehicle_state) -> s.id) (List.filter fits (World.vehicles world))
 
 (* All lists of [n] elements of [xs] in their order, the first ones first. *)
@@ -140,7 +154,7 @@ let choices n xs : 'a list Seq.t =
 
 let bind (c : Configuration.t) m effects vs =
   let next = { c with control = Script (Machine.give (Vehicles vs) m); bound = c.bound @ vs } in
-  { rules = [ Rule.Pick_bind ]; label = Label.Bind vs; next; effects = effects @ [ Effect.Bind vs ] }
+  { rules = [ Rule.Pick_bind ]; label = Label.Bind vs; next; effects = effects @ [ Effect.Bind vs ]; assumed = [] }
 
 (* The ways to meet a [pick] now. One that takes all there are waits for its whole time-out. *)
 let bindings world (c : Configuration.t) m (pick : Settings.pick) =
@@ -149,9 +163,11 @@ let bindings world (c : Configuration.t) m (pick : Settings.pick) =
   | Exactly n ->
     Seq.map (bind c m [ Effect.Cancel_timer Effect.script_timer ]) (choices n (candidates world c pick))
 
-let why_not (c : Configuration.t) (pick : Settings.pick) (s : World.vehicle_state) =
+let why_not world (c : Configuration.t) (pick : Settings.pick) (s : World.vehicle_state) =
   let f = pick.filter in
-  let region_missed = match f.region with Some a -> not (Dolphin_geo.Area.contains a s.position) | None -> false in
+  let place = lazy (World.place world s) in
+  let is_missed area = not (Dolphin_geo.Area.contains area (Lazy.force place)) in
+  let region_missed = lazy (Option.fold ~none:false ~some:is_missed f.region) in
   let reason =
     if List.mem s.id c.bound then "is already bound"
     else if not s.connected then "is not connected"
@@ -159,7 +175,8 @@ let why_not (c : Configuration.t) (pick : Settings.pick) (s : World.vehicle_stat
     else if Option.fold ~none:false ~some:(fun kind -> kind <> s.kind) f.kind then "is a " ^ s.kind
     else if not (World.carries f.payload s) then
       "lacks " ^ String.concat ", " (List.filter (fun d -> not (World.carries [ d ] s)) f.payload)
-    else if region_missed then Format.asprintf "is at %a, outside of the region" Dolphin_geo.Position.pp s.position
+    else if Lazy.force region_missed then
+      Format.asprintf "is at %a, outside of the region" Dolphin_geo.Position.pp (Lazy.force place)
     else "fits"
   in
   Printf.sprintf "%s %s" s.id reason
@@ -171,7 +188,7 @@ let no_vehicles world (c : Configuration.t) m pick =
     | states ->
       let shown = List.filteri (fun i _ -> i < 8) states in
       let more = List.length states - List.length shown in
-      String.concat "; " (List.map (why_not c pick) shown)
+      String.concat "; " (List.map (why_not world c pick) shown)
       ^ if more > 0 then Printf.sprintf "; and %d more" more else ""
   in
   let message = Format.asprintf "could not pick %a: %s" Settings.pp_pick pick there in
@@ -217,6 +234,7 @@ type local = {
   derivation : Rule.t list;
   named : Label.t;
   asked : Effect.t list;
+  assumed : World.assumption list;
 }
 
 (* [settle c change] carries a change of the residual over to the rest of the configuration, handlers of errors
@@ -233,9 +251,9 @@ let rec settle program world (c : Configuration.t) named derivation asked (chang
     @ timers_started change.timers
   in
   match change.outcome with
-  | Next r -> { after = settled; outcome = Goes_on r; derivation; named; asked }
-  | Finished -> { after = settled; outcome = Over; derivation; named; asked }
-  | Failed fault -> { after = settled; outcome = Ends (Failed fault); derivation; named; asked }
+  | Next r -> { after = settled; outcome = Goes_on r; derivation; named; asked; assumed = [] }
+  | Finished -> { after = settled; outcome = Over; derivation; named; asked; assumed = [] }
+  | Failed fault -> { after = settled; outcome = Ends (Failed fault); derivation; named; asked; assumed = [] }
   | Handling { handler; fault; ignored; propagated } -> (
       let mode = Machine.Handler Propagated in
       let result, context = run_code program world settled mode handler [ String fault.message ] in
@@ -244,45 +262,91 @@ let rec settle program world (c : Configuration.t) named derivation asked (chang
       match result, context.mode with
       | Halted_with message, _ ->
         let derivation = derivation @ [ Rule.Watch_halt ] in
-        { after = settled; outcome = Ends (Halted message); derivation; named; asked }
+        { after = settled; outcome = Ends (Halted message); derivation; named; asked; assumed = [] }
       | Broke fault, _ when Fault.is_assertion fault ->
-        { after = settled; outcome = Ends (Failed fault); derivation = derivation @ [ Rule.Assert_err ]; named; asked }
+        let derivation = derivation @ [ Rule.Assert_err ] in
+        { after = settled; outcome = Ends (Failed fault); derivation; named; asked; assumed = [] }
       | Broke fault, _ -> settle program world settled named derivation asked (propagated fault)
       | Value_of _, Handler Ignored -> settle program world settled named derivation asked (ignored ())
       | Value_of _, (Handler Propagated | Script | Task_code) ->
         settle program world settled named derivation asked (propagated fault))
 
-let conclude (c : Configuration.t) m { after; outcome; derivation; named; asked } =
+let conclude (c : Configuration.t) m { after; outcome; derivation; named; asked; assumed } =
   match outcome with
   | Goes_on r ->
-    { rules = derivation; label = named; next = { after with control = Executing (m, r) }; effects = asked }
+    { rules = derivation; label = named; next = { after with control = Executing (m, r) }; effects = asked; assumed }
   | Over ->
     let next = { after with control = Script (Machine.give Null m) } in
-    { rules = derivation @ [ Rule.Execute_done ]; label = named; next; effects = asked }
+    { rules = derivation @ [ Rule.Execute_done ]; label = named; next; effects = asked; assumed }
   | Ends (Failed fault as ending) when not (Fault.is_assertion fault) ->
     (* The failure has cut off all that ran. *)
-    ending_transition { after with control = Script m } (derivation @ [ Rule.Execute_err ]) named ending asked
+    let c = { after with control = Script m } in
+    { (ending_transition c (derivation @ [ Rule.Execute_err ]) named ending asked) with assumed }
   | Ends ((Completed | Halted _ | Failed _ | Interrupted) as ending) ->
-    ending_transition { after with control = c.control } derivation named ending asked
+    { (ending_transition { after with control = c.control } derivation named ending asked) with assumed }
 
 let check_label (change : Residual.change) deeds =
   match change.rules with Rule.Until_cut :: _ -> Label.Cut deeds | _ -> Label.Check deeds
 
+(* {1 Readings} *)
+
+(* The different ones of [xs], found in different cases of one world, each as it came first. If they are all one, nothing
+   had to be assumed for it. *)
+let different equal forget (xs : 'a option list) =
+  let add kept x = if List.exists (equal x) kept then kept else x :: kept in
+  match List.rev (List.fold_left add [] (List.filter_map Fun.id xs)) with
+  | [ x ] when not (List.mem None xs) -> [ forget x ]
+  | xs -> xs
+
+let equal_outcome a b =
+  match a, b with
+  | Goes_on r, Goes_on r' -> Residual.equal r r'
+  | Over, Over -> true
+  | Ends e, Ends e' -> Configuration.compare_ending e e' = 0
+  | (Goes_on _ | Over | Ends _), _ -> false
+
+let equal_local a b =
+  Label.equal a.named b.named && equal_outcome a.outcome b.outcome && Configuration.equal a.after b.after
+
+let locals world f =
+  match World.cases world f with
+  | [ ([], local) ] -> Option.to_list local
+  | cases ->
+    let with_assumed (assumed, local) = Option.map (fun local -> { local with assumed }) local in
+    different equal_local (fun local -> { local with assumed = [] }) (List.map with_assumed cases)
+
+let equal_transition (t : t) (t' : t) = Label.equal t.label t'.label && Configuration.equal t.next t'.next
+
+let transitions world f : t Seq.t =
+  if not (World.is_open world) then f world
+  else fun () ->
+    let each (assumed, ts) = List.map (fun (t : t) -> { t with assumed }) ts in
+    let found = List.map each (World.cases world (fun world -> List.of_seq (f world))) in
+    match found with
+    | [ ts ] -> List.to_seq ts ()
+    | found ->
+      let forget (t : t) = { t with assumed = [] } in
+      let some = List.map Option.some (List.concat found) in
+      let everywhere = if List.exists (fun ts -> List.length ts <> 1) found then [ None ] else [] in
+      List.to_seq (different equal_transition forget (some @ everywhere)) ()
+
+(* {1 Local steps} *)
+
 (* What one local step does that needs no event, if it is enabled. *)
-let local_internal program world (c : Configuration.t) (step : Residual.step) =
+let internal_step program world (c : Configuration.t) (step : Residual.step) =
   let coded closure continue =
     let result, context = run_code program world c Task_code closure [] in
     let d = deeds context in
     match result with
     | Broke fault when Fault.is_assertion fault ->
       let outcome = Ends (Failed fault) and named = Label.Broken fault.message in
-      Some { after = c; outcome; derivation = [ Rule.Assert_err ]; named; asked = [] }
+      Some { after = c; outcome; derivation = [ Rule.Assert_err ]; named; asked = []; assumed = [] }
     | Broke fault ->
       Some (settle program world c (Label.Broken fault.message) [] [] (step.continue (Broke fault)))
     | Halted_with message ->
       let outcome = Ends (Halted message) in
       let derivation = [ Rule.Halt ] and named = Label.Halt message in
-      Some { after = after context c; outcome; derivation; named; asked = effects_of d }
+      Some { after = after context c; outcome; derivation; named; asked = effects_of d; assumed = [] }
     | Value_of x -> continue x (after context c) d
   in
   match step.offer with
@@ -294,13 +358,13 @@ let local_internal program world (c : Configuration.t) (step : Residual.step) =
     coded closure (fun _ c d -> Some (settle program world c (Label.Act d) [] (effects_of d) (step.continue Went)))
   | Check closure ->
     coded closure (fun x c d ->
-        if Value.truth x then
+        if Value.truth (Reading.settled closure.lambda.lambda_site x) then
           let change = step.continue Went in
           Some (settle program world c (check_label change d) [] (effects_of d) change)
         else None)
   | Measure closure ->
     coded closure (fun x after d ->
-        match Value.to_number x with
+        match Value.to_number (Reading.settled closure.lambda.lambda_site x) with
         | Some seconds when seconds >= 0. && seconds < infinity ->
           let label = Label.Set_time seconds in
           Some (settle program world after label [] (effects_of d) (step.continue (Gave seconds)))
@@ -310,7 +374,7 @@ let local_internal program world (c : Configuration.t) (step : Residual.step) =
           Some (settle program world c (Label.Broken message) [] [] (step.continue (Broke fault))))
 
 (* What one local step does on the event that it awaits. *)
-let local_event program world (c : Configuration.t) (step : Residual.step) event =
+let event_step program world (c : Configuration.t) (step : Residual.step) event =
   let ended v named reply =
     let c = { c with allocation = Vehicle_map.remove v c.allocation } in
     Some (settle program world c named [] [] (step.continue reply))
@@ -326,15 +390,18 @@ let local_event program world (c : Configuration.t) (step : Residual.step) event
       | Host_failed _ | Interruption ),
       (Start _ | Perform _ | Check _ | Measure _ | End_of _ | Expiry_of _) ) -> None
 
+let local_internal program world c step = locals world (fun world -> internal_step program world c step)
+let local_event program world c step event = locals world (fun world -> event_step program world c step event)
+
 let internal program world (c : Configuration.t) : t Seq.t =
   match c.control with
   | Ended _ -> Seq.empty
-  | Script m -> fun () -> Seq.Cons (run_script program world c m, Seq.empty)
-  | Waiting (m, Pick pick) -> fun () -> bindings world c m pick ()
+  | Script m -> transitions world (fun world () -> Seq.Cons (run_script program world c m, Seq.empty))
+  | Waiting (m, Pick pick) -> transitions world (fun world () -> bindings world c m pick ())
   | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) -> Seq.empty
   | Executing (m, r) ->
-    let step s = Option.map (conclude c m) (local_internal program world c s) in
-    Seq.filter_map step (Residual.internal_steps r)
+    let step s = Seq.map (conclude c m) (List.to_seq (local_internal program world c s)) in
+    Seq.flat_map step (Residual.internal_steps r)
 
 (* {1 Events} *)
 
@@ -342,11 +409,11 @@ let internal program world (c : Configuration.t) : t Seq.t =
 let executing_event program world c m r event =
   let rec first (steps : Residual.step Seq.t) =
     match steps () with
-    | Seq.Nil -> Error Not_awaited
+    | Seq.Nil -> [ Error Not_awaited ]
     | Seq.Cons (step, rest) -> (
         match local_event program world c step event with
-        | Some local -> Ok (conclude c m local)
-        | None -> first rest)
+        | [] -> first rest
+        | locals -> List.map (fun local -> Ok (conclude c m local)) locals)
   in
   match event with
   | Vehicle_done v | Vehicle_failed (v, _) -> first (Residual.steps_of_vehicle v r)
@@ -354,7 +421,8 @@ let executing_event program world c m r event =
     first (Residual.steps r)
 
 let resume (c : Configuration.t) m x rule label =
-  { rules = [ rule ]; label; next = { c with control = Script (Machine.give x m) }; effects = [] }
+  let next = { c with control = Script (Machine.give x m) } in
+  { rules = [ rule ]; label; next; effects = []; assumed = [] }
 
 let failed (c : Configuration.t) m rule label message =
   let fault = Fault.make (Machine.site m) message in
@@ -371,13 +439,12 @@ let answered program world (c : Configuration.t) m text =
       | Broke fault, _ -> Error (Bad_answer fault.message)
       | Halted_with _, _ -> Error (Bad_answer "an answer may only compute a value"))
 
-let accept program world (c : Configuration.t) event =
+(* Of a configuration that executes nothing, in a world of which enough is known. *)
+let whole_event program world (c : Configuration.t) event =
   match event, c.control with
   | _, Ended _ -> Error Not_awaited
   | Interruption, (Script _ | Waiting _ | Executing _) ->
     Ok (ending_transition c [ Rule.Interrupt ] Label.Interrupt Interrupted [])
-  | (Vehicle_done _ | Vehicle_failed _ | Timer_expired _), Executing (m, r) ->
-    executing_event program world c m r event
   | Timer_expired timer, Waiting (m, Pick pick) when timer = Effect.script_timer ->
     pick_timed_out world c m pick
   | Timer_expired timer, Waiting (m, Pause _) when timer = Effect.script_timer ->
@@ -392,6 +459,24 @@ let accept program world (c : Configuration.t) event =
   | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _
       | Host_failed _ ),
       (Script _ | Waiting _ | Executing _) ) -> Error Not_awaited
+
+let accept_all program world (c : Configuration.t) event =
+  match event, c.control with
+  | (Vehicle_done _ | Vehicle_failed _ | Timer_expired _), Executing (m, r) ->
+    executing_event program world c m r event
+  | _, _ -> (
+      match World.cases world (fun world -> whole_event program world c event) with
+      | [ ([], result) ] -> [ result ]
+      | cases ->
+        let accepted (assumed, result) =
+          match result with Ok (t : t) -> Some { t with assumed } | Error (Not_awaited | Bad_answer _) -> None
+        in
+        let forget (t : t) = { t with assumed = [] } in
+        (match different equal_transition forget (List.map accepted cases) with
+         | [] -> [ snd (List.hd cases) ]
+         | ts -> List.map Result.ok ts))
+
+let accept program world c event = List.hd (accept_all program world c event)
 
 let awaited (c : Configuration.t) =
   match c.control with

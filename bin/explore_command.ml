@@ -6,7 +6,7 @@ module Columns = Dolphin_display.Columns
 
 type settings = {
   answers : string list;
-  faults : int option option;
+  faults : Faults.t;
   strict : bool;
   json : bool;
   trace : string option;
@@ -93,7 +93,14 @@ let json_of_run (run : Search.run) =
             `String (Format.asprintf "%a" Dolphin_semantics.Label.pp t.label))
          steps)
   in
+  let assumed i (t : Dolphin_semantics.Transition.t) =
+    let what a = `String (Format.asprintf "%a" Dolphin_semantics.World.pp_assumption a) in
+    if t.assumed = [] then None
+    else Some (`Assoc [ ("step", `Int (i + 1)); ("assumed", `List (List.map what t.assumed)) ])
+  in
+  let assumptions = List.filter_map Fun.id (List.mapi assumed (run.steps @ run.cycle)) in
   [ ("run", labels run.steps); ("cycle", labels run.cycle) ]
+  @ if assumptions = [] then [] else [ ("assumptions", `List assumptions) ]
 
 let json_of_outcome (program : Dolphin_semantics.Core.program) (o : Search.outcome) : Yojson.Safe.t =
   let verdict (property, verdict) =
@@ -203,24 +210,6 @@ let run path fleet answers faults strict json trace reduction invariants formula
     | Error why, _ | _, Error why -> Report.complain why; Bad_input
     | Ok invariants, Ok formulas -> explore program fleet settings invariants formulas)
 
-let faults =
-  let parse text =
-    match String.split_on_char '=' text with
-    | [ "fail" ] -> Ok None
-    | [ "fail"; n ] when (match int_of_string_opt n with Some n -> n >= 0 | None -> false) ->
-      Ok (int_of_string_opt n)
-    | _ -> Error (`Msg (Printf.sprintf "'%s' is neither fail nor fail=NUMBER" text))
-  in
-  let print ppf = function
-    | None -> Format.pp_print_string ppf "fail"
-    | Some n -> Format.fprintf ppf "fail=%d" n
-  in
-  let doc =
-    "Let every platform task fail too: $(b,fail), or at most $(i,N) of them in one run: $(b,fail=)$(i,N). By default \
-     only those may fail of which the fleet says so."
-  in
-  Arg.(value & opt (some (conv (parse, print))) None & info [ "faults" ] ~docv:"FAULTS" ~doc)
-
 (* A number of bytes, as in 512M or 8G. *)
 let size =
   let parse text =
@@ -241,6 +230,7 @@ let size =
   in
   Arg.conv ~docv:"SIZE" (parse, Format.pp_print_int)
 
+let faults = Faults.option
 let bound kind name docv doc = Arg.(value & opt (some kind) None & info [ name ] ~docv ~doc)
 let max_states = bound Arg.int "max-states" "N" "Stop after $(docv) states."
 let max_depth = bound Arg.int "max-depth" "N" "Follow runs for $(docv) transitions only."
@@ -325,6 +315,5 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ trace $ reduction $ invariants $ formulas
-      $ max_states $ max_depth
-      $ max_memory $ timeout)
+      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ trace $ reduction
+      $ invariants $ formulas $ max_states $ max_depth $ max_memory $ timeout)

@@ -13,9 +13,10 @@ let without_time number text =
   String.concat "\n" (List.mapi cut (String.split_on_char '\n' text))
 
 let print_log first log transitions =
-  let print (number, log) t =
+  let print (number, log) (t : Transition.t) =
     let log, lines = Log.transition log ~time:0. t in
     List.iter (fun line -> print_endline (without_time number line)) lines;
+    List.iter (fun a -> print_endline (Format.asprintf "      if %a" World.pp_assumption a)) t.assumed;
     (number + 1, log)
   in
   List.fold_left print (first, log) transitions

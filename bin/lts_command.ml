@@ -18,6 +18,11 @@ let graph_of_program path fleet ~answers ~faults ~limit =
       | None ->
         Report.complain (Printf.sprintf "%s has more than %d states: see --max-states" path limit);
         Error Exit_status.Inconclusive
+      | exception Dolphin_semantics.Reading.Unsettled fault ->
+        let at = Dolphin_semantics.Fault.location program.program fault in
+        let at = Option.value at ~default:Dolphin_syntax.Location.none in
+        Report.diagnostics ~source:program.source [ Dolphin_syntax.Diagnostic.error at fault.message ];
+        Error Exit_status.Inconclusive
       | Some space ->
         let builder = Graph.Builder.create () in
         let add from (t, target) =

@@ -2,9 +2,12 @@ open Dolphin_semantics
 module Scenario = Dolphin_scenario.Scenario
 module Environment = Dolphin_explore.Environment
 
-let world scenario =
+let world (scenario : Scenario.t) =
   let add world (state : World.vehicle_state) = World.add { state with connected = true } world in
-  List.fold_left add World.empty (Scenario.states scenario)
+  let open_sensors world (v : Scenario.vehicle) =
+    World.open_position v.id v.places (World.open_battery v.id v.batteries world)
+  in
+  List.fold_left open_sensors (List.fold_left add World.empty (Scenario.states scenario)) scenario.vehicles
 
 let ending (scenario : Scenario.t) v name : Environment.endings =
   let vehicle = List.find_opt (fun (vehicle : Scenario.vehicle) -> vehicle.id = v) scenario.vehicles in
@@ -20,8 +23,20 @@ let answers given (scenario : Scenario.t) prompt =
   | [], Some answer -> List.map (fun text -> [ text ]) answer.texts
   | [], None -> []
 
-let environment ~answers:given ~faults scenario =
+let is_unsteady (v : Scenario.vehicle) = v.joins > 0. || v.leaves <> None || v.drops <> []
+
+let environment ~answers:given ~(faults : Faults.t) (scenario : Scenario.t) =
+  let unsteady = List.filter is_unsteady scenario.vehicles in
+  let late = List.map (fun (v : Scenario.vehicle) -> v.id) (if unsteady = [] then scenario.vehicles else unsteady) in
   let options =
-    { Environment.default with endings = ending scenario; answers = answers given scenario }
+    { Environment.default with
+      endings = ending scenario;
+      answers = answers given scenario;
+      losses = faults.loss;
+      latecomers = faults.join;
+      may_be_late = (fun v -> List.mem v late) }
   in
-  match faults with None -> options | Some failures -> Environment.failing ?failures options
+  match faults.fail with
+  | Never -> options
+  | Any_number -> Environment.failing options
+  | At_most n -> Environment.failing ~failures:n options

@@ -3,9 +3,10 @@
 module Scenario := Dolphin_scenario.Scenario
 
 val world : Scenario.t -> Dolphin_semantics.World.t
-(** [world s] is the vehicles of [s] where they are at the start, all in reach. *)
+(** [world s] is the vehicles of [s], all in reach, at their places at the start. What their sensors show is open: one of
+    the values that [s] gives, or if it gives none but the first, any. *)
 
-val environment : answers:string list -> faults:int option option -> Scenario.t -> Dolphin_explore.Environment.options
-(** [environment ~answers ~faults s] is how plans may end and what is answered. Plans end as [s] says; with [Some n]
-    every plan may fail, in one run [n] times at most if [n] is a number. Each question is answered by any of [answers],
-    or if there are none by what [s] answers. *)
+val environment : answers:string list -> faults:Faults.t -> Scenario.t -> Dolphin_explore.Environment.options
+(** [environment ~answers ~faults s] is what else may happen. Plans end as [s] says, and as [faults] do. Late may be the
+    vehicles that join, leave or drop in [s]; if none does, all. Each question is answered by any of [answers], or if
+    there are none by what [s] answers. *)

@@ -185,7 +185,8 @@ and work_out t p =
       | End_of (task, v) ->
         let on_event (event, _) =
           match event with
-          | Transition.Vehicle_done _ -> certain index source (Some event) Free
+          | Transition.Vehicle_done _ when not (Environment.endings_remember t.options) ->
+            certain index source (Some event) Free
           | event -> by_case index source (Some event)
         in
         List.map on_event (Environment.task_ends t.options Environment.initial v task)

@@ -42,7 +42,7 @@ let default =
   }
 
 type run = { steps : Transition.t list; cycle : Transition.t list; shortest : bool }
-type bound = States | Depth | Memory | Time | Interruption | Broken_condition of string
+type bound = States | Depth | Memory | Time | Interruption | Broken_condition of string | Unsettled of string
 
 type verdict =
   | Holds
@@ -74,6 +74,11 @@ type t = {
 }
 
 exception Stop of bound
+
+let unsettled program (fault : Fault.t) =
+  match Fault.location program fault with
+  | Some at -> Unsettled (Format.asprintf "%a: %s" Dolphin_syntax.Location.pp at fault.message)
+  | None -> Unsettled fault.message
 
 (* {1 Bounds and progress} *)
 
@@ -158,6 +163,7 @@ let formulas t world program =
   | graph -> List.map (check graph) t.options.formulas
   | exception Stop bound -> inconclusive bound
   | exception Temporal.Broken why -> inconclusive (Broken_condition why)
+  | exception Reading.Unsettled fault -> inconclusive (unsettled program fault)
   | exception Out_of_memory -> inconclusive Memory
 
 (* {1 Verdicts} *)
@@ -223,7 +229,8 @@ let with_shortest_runs options program world started verdicts =
     let most = Option.fold ~none:options.search_again ~some:(min options.search_again) options.max_states in
     let t = start { options with reduction = Whole; invariants = []; max_states = Some most } program world started in
     let is_found property = Space.broken t.space property <> None in
-    (try explore ~enough:(fun () -> List.for_all is_found sought) t with Stop _ | Out_of_memory -> ());
+    (try explore ~enough:(fun () -> List.for_all is_found sought) t
+     with Stop _ | Out_of_memory | Reading.Unsettled _ -> ());
     Space.flush t.space;
     let shorter (property, verdict) =
       match List.mem property sought, Space.broken t.space property with
@@ -244,6 +251,7 @@ let run (options : options) program world =
     match explore t with
     | () -> None
     | exception Stop bound -> Some bound
+    | exception Reading.Unsettled fault -> Some (unsettled program fault)
     | exception Out_of_memory -> Some Memory
   in
   Space.flush space;
@@ -269,7 +277,8 @@ let pp_bound ppf bound =
      | Memory -> "the bound on memory was met"
      | Time -> "the time was up"
      | Interruption -> "it was interrupted"
-     | Broken_condition why -> "the condition cannot be told: " ^ why)
+     | Broken_condition why -> "the condition cannot be told: " ^ why
+     | Unsettled why -> why)
 
 let pp_verdict (program : Core.program) ppf (property, verdict) =
   let print format = Format.fprintf ppf format in

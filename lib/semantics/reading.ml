@@ -57,6 +57,10 @@ let is_words = function Reading { quantity = Words; _ } | String _ -> true | _ -
 let coordinates =
   [ "latitude"; "lat"; "longitude"; "lon"; "height"; "getLatitude"; "getLat"; "getLongitude"; "getLon"; "getHeight" ]
 
+(* They make numbers of numbers, without fail; [round] and the like too, of all that a battery or a place gives. *)
+let numeric = [ "abs"; "round"; "intValue"; "toInteger"; "doubleValue"; "toDouble" ]
+let mathematical = [ "abs"; "round"; "floor"; "ceil"; "min"; "max" ]
+
 let distances = [ "distance"; "distanceTo"; "bearing"; "bearingTo" ]
 
 let binary world at (op : Ast.binary) x y =
@@ -85,6 +89,10 @@ let method_call world at name arguments =
   match arguments with
   | [ x ] when is_place x && List.mem name coordinates ->
     Some (Ok (reading Amount (Printf.sprintf "%s.%s" (spell x) name)))
+  | [ x ] when is_amount x && List.mem name numeric ->
+    Some (Ok (reading Amount (Printf.sprintf "%s.%s()" (enclosed (spell x)) name)))
+  | [ x; Integer digits ] when is_amount x && name = "round" ->
+    Some (Ok (reading Amount (Printf.sprintf "%s.round(%d)" (enclosed (spell x)) digits)))
   | [ x; y ] when is_place x && is_place y && List.mem name distances ->
     Some (Ok (reading Amount (Printf.sprintf "%s.%s(%s)" (spell x) name (spell y))))
   | [ x; y ] when name = "contains" -> binary world at Member_of y x
@@ -97,7 +105,9 @@ let apply world at operation arguments =
     | Binary op, [ x; y ] -> binary world at op x y
     | Unary Negate, [ Reading { quantity = Amount; text } ] -> Some (Ok (reading Amount ("-" ^ enclosed text)))
     | Concatenate, parts -> Some (Ok (reading Words (String.concat "" (List.map Value.to_string parts))))
-    | Property name, [ x ] -> method_call world at name [ x ]
+    | Builtin (Math name), xs when List.mem name mathematical && List.for_all is_amount xs ->
+      Some (Ok (reading Amount (Printf.sprintf "Math.%s(%s)" name (String.concat ", " (List.map spell xs)))))
+    | Property name, [ x ] when is_place x -> method_call world at name [ x ]
     | Method (name, names), arguments when List.for_all Option.is_none names -> method_call world at name arguments
     | _, _ -> None
   in

@@ -1,6 +1,8 @@
 open Cmdliner
 module Search = Dolphin_explore.Search
 module Property = Dolphin_explore.Property
+module Faults = Dolphin_explore.Faults
+module World_of = Dolphin_explore.World_of
 module Course = Dolphin_trace.Course
 module Columns = Dolphin_display.Columns
 
@@ -230,7 +232,17 @@ let size =
   in
   Arg.conv ~docv:"SIZE" (parse, Format.pp_print_int)
 
-let faults = Faults.option
+let faults =
+  let parse text = Result.map_error (fun why -> `Msg why) (Faults.of_string text) in
+  let doc =
+    "What else may go wrong, separated by commas: $(b,fail), every platform task may fail; $(b,loss), the connection of a \
+     vehicle that runs a task may be lost for longer than its timeout; $(b,join), vehicles may be late or missing when \
+     the program picks them: those that the fleet lets join, leave or drop, or if there are none, all; $(b,all) of these. \
+     With $(b,=)$(i,N) at most $(i,N) times in one run: $(b,fail=1,loss=2). By default only those plans may fail of which \
+     the fleet says so."
+  in
+  Arg.(value & opt (conv ~docv:"FAULTS" (parse, Faults.pp)) Faults.none & info [ "faults" ] ~docv:"FAULTS" ~doc)
+
 let bound kind name docv doc = Arg.(value & opt (some kind) None & info [ name ] ~docv ~doc)
 let max_states = bound Arg.int "max-states" "N" "Stop after $(docv) states."
 let max_depth = bound Arg.int "max-depth" "N" "Follow runs for $(docv) transitions only."

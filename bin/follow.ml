@@ -1,6 +1,7 @@
 open Dolphin_semantics
 module Course = Dolphin_trace.Course
 module Log = Dolphin_display.Log
+module World_of = Dolphin_explore.World_of
 
 (* The columns of the time, which there is none of. *)
 let time_columns = 9

@@ -1,6 +1,7 @@
 open Cmdliner
 open Dolphin_lts
 module Reference = Dolphin_explore.Reference
+module World_of = Dolphin_explore.World_of
 
 type format = Aut | Dot | Json
 

@@ -1,7 +1,5 @@
 (** What may go wrong in a world that is explored, as [--faults] says. *)
 
-module Environment := Dolphin_explore.Environment
-
 type t = {
   fail : Environment.limit;  (** tasks that fail though the fleet does not say so *)
   loss : Environment.limit;  (** lost connections *)
@@ -13,5 +11,5 @@ val none : t
 val of_string : string -> (t, string) result
 (** [of_string text] is what [text] spells: ["fail"], ["fail=1,loss=2"], ["all"]; or what is wrong with it. *)
 
-val option : t Cmdliner.Term.t
-(** [--faults]. *)
+val pp : Format.formatter -> t -> unit
+(** As {!of_string} reads it. *)

@@ -1,6 +1,5 @@
 open Dolphin_semantics
 module Scenario = Dolphin_scenario.Scenario
-module Environment = Dolphin_explore.Environment
 
 let world (scenario : Scenario.t) =
   let add world (state : World.vehicle_state) = World.add { state with connected = true } world in

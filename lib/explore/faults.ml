@@ -1,5 +1,3 @@
-open Dolphin_explore
-
 type t = { fail : Environment.limit; loss : Environment.limit; join : Environment.limit }
 
 let none : t = { fail = Never; loss = Never; join = Never }
@@ -40,15 +38,3 @@ let pp ppf faults =
   in
   let items = [ ("fail", faults.fail); ("loss", faults.loss); ("join", faults.join) ] in
   Format.pp_print_string ppf (String.concat "," (List.filter_map item items))
-
-let option =
-  let open Cmdliner in
-  let parse text = Result.map_error (fun why -> `Msg why) (of_string text) in
-  let doc =
-    "What else may go wrong, separated by commas: $(b,fail), every platform task may fail; $(b,loss), the connection of a \
-     vehicle that runs a task may be lost for longer than its timeout; $(b,join), vehicles may be late or missing when \
-     the program picks them: those that the fleet lets join, leave or drop, or if there are none, all; $(b,all) of these. \
-     With $(b,=)$(i,N) at most $(i,N) times in one run: $(b,fail=1,loss=2). By default only those plans may fail of which \
-     the fleet says so."
-  in
-  Arg.(value & opt (conv ~docv:"FAULTS" (parse, pp)) none & info [ "faults" ] ~docv:"FAULTS" ~doc)

@@ -113,6 +113,14 @@ let answered options e prompt : (Transition.event * t) list =
   | [] -> [ (Transition.Nobody_answers "none is given", e) ]
   | texts -> List.map (fun text -> (Transition.Answered text, asked_again options e prompt)) texts
 
+(* After an answer that was refused the question is asked again, [e] being remembered, and [before] when it was asked
+   first. Who has nothing else to say has said nothing. *)
+let after_refusal options ~before e (c : Configuration.t) why : (Transition.event * t) list =
+  match c.control with
+  | Waiting (_, Ask prompt) when times before prompt < List.length (options.answers prompt) - 1 ->
+    answered options e prompt
+  | Waiting _ | Script _ | Executing _ | Ended _ -> [ (Nobody_answers why, e) ]
+
 (* {1 Transitions} *)
 
 let events options e (c : Configuration.t) (event : Transition.event) : (Transition.event * t) list =
@@ -128,15 +136,15 @@ let events options e (c : Configuration.t) (event : Transition.event) : (Transit
 
 let in_world options program world e c =
   let internal = List.of_seq (Seq.map (fun t -> (t, e)) (Transition.internal program world c)) in
-  let rec accept (event, e) =
+  let rec accept before (event, e) =
     let of_result = function
       | Ok t -> [ (t, e) ]
       | Error Transition.Not_awaited -> []
-      | Error (Bad_answer why) -> accept (Transition.Nobody_answers why, e)
+      | Error (Bad_answer why) -> List.concat_map (accept e) (after_refusal options ~before e c why)
     in
     List.concat_map of_result (Transition.accept_all program world c event)
   in
-  let on_event event = List.concat_map accept (events options e c event) in
+  let on_event event = List.concat_map (accept e) (events options e c event) in
   internal @ List.concat_map on_event (Transition.awaited c)
 
 (* {1 Who is there} *)
@@ -166,30 +174,52 @@ let uncertain (options : options) world e (c : Configuration.t) (pick : Settings
   in
   List.map (fun (s : World.vehicle_state) -> s.id) (List.filter is_wanted (World.vehicles world))
 
-(* Those of [vehicles] that come late or never, in each possible way: none of them first, more of them later. Where there
-   is no bound, all of them make up for any of them. *)
-let latecomers (options : options) e vehicles =
-  let known, others = List.partition (fun v -> List.mem v e.late) vehicles in
-  match options.latecomers with
-  | Never -> [ [] ]
-  | Any_number -> if vehicles = [] then [ [] ] else [ []; vehicles ]
-  | At_most most ->
-    let known = subsets (List.length known) known in
-    let with_known others = List.map (fun known -> known @ others) known in
-    List.concat_map with_known (subsets (max 0 (most - List.length e.late)) others)
+(* Who comes after all others, in this order, and who does not come. *)
+type attendance = { coming : Core.vehicle list; missing : Core.vehicle list }
+
+(* How many vehicles that are neither [lost] nor were late before this takes. *)
+let cost e ~lost a =
+  let is_new v = not (List.mem v lost || List.mem v e.late) in
+  List.length (List.filter is_new (a.coming @ a.missing))
+
+(* Whatever can come of a pick comes of one of these, cheaper ones first. If a number is wanted, nobody need be missing
+   for it to be met, and if it is not met all may be that can be. *)
+let attendances (options : options) e (pick : Settings.pick) ~lost ~late =
+  let most_new =
+    match options.latecomers with Never -> 0 | At_most n -> max 0 (n - List.length e.late) | Any_number -> max_int
+  in
+  let known = List.length (List.filter (fun v -> List.mem v e.late) late) in
+  let most = if most_new > List.length late then List.length late else most_new + known in
+  let ways =
+    match pick.count, options.latecomers with
+    | _, _ when lost = [] && late = [] -> [ { coming = []; missing = [] } ]
+    | Exactly n, limit ->
+      let on_the_way = List.map (fun coming -> { coming; missing = [] }) (arrangements (min n most) late) in
+      let missing = match limit with Any_number -> [ late ] | Never | At_most _ -> subsets most late in
+      on_the_way @ List.map (fun missing -> { coming = []; missing = lost @ missing }) missing
+    | All, _ ->
+      let with_missing missing =
+        let others = List.filter (fun v -> not (List.mem v missing)) late in
+        List.map (fun coming -> { coming; missing }) (arrangements most others)
+      in
+      List.concat_map
+        (fun silent -> List.concat_map (fun missing -> with_missing (silent @ missing)) (subsets most late))
+        (subsets (List.length lost) lost)
+  in
+  let by_cost a b = Int.compare (cost e ~lost a) (cost e ~lost b) in
+  List.stable_sort by_cost (List.filter (fun a -> cost e ~lost a <= most_new) ways)
 
 let picking (options : options) program world e (c : Configuration.t) (pick : Settings.pick) =
-  let enough = match pick.count with Exactly n -> n | All -> max_int in
-  let remember late ((t : Transition.t), e) =
+  let lost, late = List.partition (fun v -> List.mem v e.lost) (uncertain options world e c pick) in
+  let remember a ((t : Transition.t), e) =
     let lost = List.filter (fun v -> not (List.mem v t.next.bound)) e.lost in
-    let noted = match options.latecomers with At_most _ -> late | Never | Any_number -> [] in
+    let noted = List.filter (fun v -> List.mem v late) (a.coming @ a.missing) in
+    let noted = match options.latecomers with At_most _ -> noted | Never | Any_number -> [] in
     (t, { e with lost; late = List.fold_left (fun vs v -> add v vs) e.late noted })
   in
-  (* [silent] were lost and are not heard of; of [late], those [coming] come in this order, the others do not. *)
-  let given silent late coming =
-    let missing = silent @ List.filter (fun v -> not (List.mem v coming)) late in
-    let assumed = List.map (fun v -> World.Late v) coming @ List.map (fun v -> World.Missing v) missing in
-    let with_assumed ((t : Transition.t), e) = remember late ({ t with assumed = assumed @ t.assumed }, e) in
+  let given a =
+    let assumed = List.map (fun v -> World.Late v) a.coming @ List.map (fun v -> World.Missing v) a.missing in
+    let with_assumed ((t : Transition.t), e) = remember a ({ t with assumed = assumed @ t.assumed }, e) in
     List.map with_assumed (in_world options program (World.suppose assumed world) e c)
   in
   let found = Hashtbl.create 16 in
@@ -200,12 +230,7 @@ let picking (options : options) program world e (c : Configuration.t) (pick : Se
     if is_new then Hashtbl.add found hash t;
     is_new
   in
-  let lost, others = List.partition (fun v -> List.mem v e.lost) (uncertain options world e c pick) in
-  let of_late late =
-    let of_silent silent = List.concat_map (given silent late) (arrangements enough late) in
-    List.concat_map of_silent (subsets (List.length lost) lost)
-  in
-  List.filter is_new (List.concat_map of_late (latecomers options e others))
+  List.filter is_new (List.concat_map given (attendances options e pick ~lost ~late))
 
 let choices options program world e (c : Configuration.t) =
   match c.control with

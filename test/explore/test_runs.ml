@@ -1,6 +1,8 @@
 (* Every run on the simulated fleet lies within the explored graph of the same program in the same world: of all
-   examples, and of random programs with random fleets. The graph is followed along the run, from what the explorer says may
-   happen: a transition of the run must be among those, with the same label and the same result. *)
+   examples, and of random programs with random fleets; and so does every run whose sensors show anything at each step.
+   The graph is followed along the run, from what the explorer says may happen: a transition of the run must be among
+   those, with the same label and the same result. PROGRAMS in the environment is how many programs are tried of each
+   kind, 300 by default. *)
 
 open Dolphin_semantics
 open Dolphin_runtime
@@ -197,8 +199,47 @@ let random_runs (ast, scenario, seed) =
   is_explored ~seed scenario (Generate.compile ast);
   true
 
+(* {1 Sensors that show anything} *)
+
+(* What sensors may show in [Generate.open_world] at one time, by three numbers. *)
+let world_at (x, y, z) =
+  let place north = (Test_support.Pure_run.vehicle ~north "a").position in
+  let show (s : World.vehicle_state) =
+    match s.id with
+    | "a" -> { s with battery = x; position = place (1_000. *. y) }
+    | "b" -> { s with battery = (if z < 0.5 then 1. else 0.2); position = place (1_000. *. x) }
+    | _ -> { s with battery = y; position = place (if x < 0.5 then 200. else 5_000.) }
+  in
+  List.fold_left (fun world s -> World.add (show s) world) World.empty (World.vehicles Generate.world)
+
+let options =
+  { (Environment.failing { Environment.default with answers = (fun _ -> [ [ "1"; "2" ] ]) }) with losses = Any_number }
+
+(* At each step sensors show something new, and of what may happen then one thing does. *)
+let walk program choices =
+  let step ((c, e), taken) (shown, choice) =
+    match Environment.choices options program (world_at shown) e c with
+    | [] -> ((c, e), taken)
+    | all ->
+      let (t : Transition.t), e = List.nth all (choice mod List.length all) in
+      ((t.next, e), t :: taken)
+  in
+  let start = (Configuration.initial program, Environment.initial) in
+  List.rev (snd (List.fold_left step (start, []) choices))
+
+let walks =
+  let open QCheck2.Gen in
+  let share = float_bound_inclusive 1. in
+  pair Generate.sensing_program (list_size (int_range 10 40) (pair (triple share share share) (int_bound 1_000)))
+
+let walks_are_explored (ast, choices) =
+  let program = Generate.compile ast in
+  let taken = walk program choices in
+  steps := !steps + follow options program Generate.open_world taken;
+  true
+
 let number name default = match Sys.getenv_opt name with Some n -> int_of_string n | None -> default
-let count = number "PROGRAMS" 400
+let count = number "PROGRAMS" 300
 
 let enough () =
   Printf.printf "%d steps\n" !steps;
@@ -209,4 +250,6 @@ let () =
     [ ("examples", List.map example examples);
       ( "random programs",
         [ Test_support.Property.case "simulated runs are explored" ~count random_case ~print random_runs;
+          Test_support.Property.case "whatever sensors show is explored" ~count walks
+            ~print:(fun (ast, _) -> Generate.print ast) walks_are_explored;
           Alcotest.test_case "runs have many steps" `Quick enough ] ) ]

@@ -71,6 +71,8 @@ let comparison =
     [ binary Less battery (share 0.3); binary Greater_equal battery (share 0.3);
       binary Greater (binary Multiply battery (integer 100)) (integer 50); binary Less (variable "h") (share 0.3);
       binary Less (call "battery" [ Positional (variable "va") ]) (call "battery" [ Positional (variable "vb") ]);
+      (* It has been charged since. *)
+      binary And (binary Less (variable "h") (share 0.3)) (binary Greater_equal (call "battery" [ Positional (variable "va") ]) (share 0.3));
       binary Member_of position near ]
 
 let sensing_guard =

@@ -150,6 +150,12 @@ let assumption_of_json json : (World.assumption, string) result =
     Ok (World.Claim (claimed, holds))
   | _ -> Error "what is assumed is late, missing, battery, position or claim"
 
+let rec all_assumptions = function
+  | [] -> Ok []
+  | json :: rest ->
+    let* a = assumption_of_json json in
+    Result.map (fun all -> a :: all) (all_assumptions rest)
+
 let json_of_step s : Yojson.Safe.t =
   let cause = match s.cause with Choice i -> [ ("choice", `Int i) ] | Event h -> Happening.members h in
   let assumed = unless_empty "assumed" (fun all -> `List (List.map json_of_assumption all)) s.assumed in
@@ -158,7 +164,8 @@ let json_of_step s : Yojson.Safe.t =
 let step_of_json json =
   let* found = members json in
   let* label = get text "label" found in
-  let* assumed = optional (list assumption_of_json) ~default:[] "assumed" found in
+  let* items = optional (list any) ~default:[] "assumed" found in
+  let* assumed = all_assumptions items in
   if List.mem_assoc "choice" found then
     let* i = get whole "choice" found in
     if i < 0 then Error "a choice is a number from 0" else Ok { cause = Choice i; assumed; label }

@@ -31,7 +31,7 @@ let unsettled at text =
     (Unsettled
        (Fault.make at
           (Printf.sprintf
-             "more than a comparison depends on what is open here, %s: the fleet can give the values that it may have"
+             "what %s is, is open, and more than a comparison depends on it: the fleet can give the values it may have"
              text)))
 
 let settled at = function Reading r -> unsettled at r.text | x -> x

@@ -306,8 +306,9 @@ let man =
     `I ("assertions", "no $(b,assert) of the program fails.");
     `I ("vehicles", "every $(b,pick) and every $(b,execute) gets its vehicles.");
     `P "Noted are also runs that call $(b,halt), tuples left over at the end, and code that no run reaches.";
-    `P "Positions and batteries stay as they are at the start, and all vehicles of the fleet are in reach. Calls of a \
-        supplier fail.";
+    `P "What sensors show is open: of a condition such as $(b,battery\\(v\\) < 0.3) both outcomes are possible at each look, \
+        or those for the values that the fleet gives; a run says what it assumes. All vehicles of the fleet are in reach, \
+        unless $(b,--faults) says otherwise. Calls of a supplier fail.";
     `P "A bound that is met, or Ctrl-C, makes the answer inconclusive where no violation was found: it is never said that \
         something holds that was not wholly explored.";
     `S Manpage.s_arguments;

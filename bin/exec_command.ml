@@ -6,25 +6,27 @@ let fleet_of ~path ~sim ~named = function
   | Some _ -> Fleet_file.load named
   | None -> Fleet_file.load (Fleet_file.choose ~program:path named)
 
-let run path sim fleet network speed seed answers supplier supplier_timeout journal drawing follow =
+let run path sim fleet network definition speed seed answers supplier supplier_timeout journal drawing follow =
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
   let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
-  match Program_file.load path, fleet_of ~path ~sim ~named network with
-  | Ok _, Ok _ when network <> None && (sim <> None || speed <> None) ->
+  match Program_file.load path, fleet_of ~path ~sim ~named network, Imc_definition.load definition with
+  | Ok _, Ok _, Ok _ when network <> None && (sim <> None || speed <> None) ->
     Report.complain "vehicles of a network (--imc) are not simulated: --sim and --speed do not go with them";
     Exit_status.Bad_input
-  | Ok _, Ok _
+  | Ok _, Ok _, Ok _
     when follow <> None
       && (network <> None || speed <> None || answers <> [] || supplier <> None || journal <> None || drawing <> None) ->
     Report.complain "a recorded run (--follow) goes with its program and a fleet, and with no other options";
     Exit_status.Bad_input
-  | Error trouble, _ ->
+  | Error trouble, _, _ ->
     Program_file.tell trouble;
     Exit_status.Bad_input
-  | Ok _, Error trouble ->
+  | Ok _, Error trouble, _ ->
     Fleet_file.tell trouble;
     Exit_status.Bad_input
-  | Ok program, Ok fleet ->
+  | Ok _, Ok _, Error status -> status
+  | Ok program, Ok fleet, Ok definition ->
+    let network = Option.map (Imc_options.with_names definition) network in
     Report.diagnostics ~source:program.source program.warnings;
     let platform = if network = None then "sim" else "imc" in
     let header = { (Record.header program fleet ~seed ~speed) with platform } in
@@ -136,5 +138,5 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ sim $ fleet $ Imc_options.chosen $ speed $ seed $ answers $ supplier
+      const run $ Options.program $ sim $ fleet $ Imc_options.chosen $ Imc_definition.file $ speed $ seed $ answers $ supplier
       $ supplier_timeout $ journal $ drawing $ follow)

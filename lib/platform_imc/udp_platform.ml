@@ -10,6 +10,9 @@ type options = {
   announce_ports : int list;
   group : Unix.inet_addr;
   payload : (Core.vehicle * string list) list;
+  types : (Core.vehicle * string) list;
+  type_names : (int * string) list;
+  listens : bool;
   close_patience : float;
   note : Core.vehicle -> string -> unit;
 }
@@ -18,7 +21,7 @@ let default =
   { id = None; name = None; loopback = false; interfaces = []; data_port = 0;
     announce_ports = [ 30100; 30101; 30102; 30103; 30104 ];
     group = Unix.inet_addr_of_string "224.0.75.69";
-    payload = []; close_patience = 5.; note = (fun _ _ -> ()) }
+    payload = []; types = []; type_names = []; listens = false; close_patience = 5.; note = (fun _ _ -> ()) }
 
 type t = {
   options : options;
@@ -221,7 +224,7 @@ let settings options ~port ~hosts : Station.settings =
     addresses = List.map (fun host -> { Service.host; port }) hosts;
     epoch = Unix.gettimeofday ();
     first_request = Random.State.int random 0x10000;
-    payload = options.payload }
+    payload = options.payload; types = options.types; type_names = options.type_names; listens = options.listens }
 
 let guard p thread =
   let fail error =
@@ -320,6 +323,7 @@ let id p = p.settings.id
 let name_on_network p = p.settings.name
 let data_port p = p.port
 let sights p = Station.sights ~now:(now p) p.station
+let heard p id = Station.heard id p.station
 let progress p vehicle = Station.plan vehicle p.station
 
 type traffic = { accepted : int; skipped : int; dropped : (string * int) list; unsent : int }

@@ -78,6 +78,38 @@ A definition that is none, one that contradicts itself, and one of another proto
   $ dolphin exec hello.dol --imc-type ROV 2>&1 | head -1
   dolphin: option '--imc-type': 'ROV' is not like seacon-1=ROV
 
+A vehicle that confirms nothing: its process is halted. The first interruption tells it to stop and waits for that to be
+confirmed, for five seconds at most; the second one ends the program at once.
+
+  $ vehicles 42280
+  $ echo "v = pick { type 'UUV'; timeout 20.seconds }; execute imcPlan('long')" > long.dol
+  $ (sh -c 'echo $$ > pid.txt; exec dolphin exec long.dol --imc-loopback --imc-discovery-ports 42280-42284 > log.txt'
+  >  echo $? > status.txt) &
+  $ for i in $(seq 200); do grep -q 'starts long' log.txt 2> grep.txt && break; sleep 0.1; done
+  $ kill -STOP $vehicles
+  $ kill -INT $(cat pid.txt); sleep 1; kill -INT $(cat pid.txt)
+  $ for i in $(seq 20); do [ -s status.txt ] && break; sleep 0.1; done; cat status.txt
+  130
+  $ cut -c 10- log.txt | tail -3
+  noptilus-1  stops long
+  program     releases noptilus-1
+  program     is interrupted
+  $ kill -CONT $vehicles; kill $vehicles; wait $vehicles 2> wait.txt || true
+
+With the first one only, it does wait, and ends.
+
+  $ vehicles 42300
+  $ rm status.txt log.txt
+  $ (sh -c 'echo $$ > pid.txt; exec dolphin exec long.dol --imc-loopback --imc-discovery-ports 42300-42304 > log.txt'
+  >  echo $? > status.txt) &
+  $ for i in $(seq 200); do grep -q 'starts long' log.txt 2> grep.txt && break; sleep 0.1; done
+  $ kill -STOP $vehicles
+  $ kill -INT $(cat pid.txt); sleep 2; [ -s status.txt ] || echo waits
+  waits
+  $ for i in $(seq 80); do [ -s status.txt ] && break; sleep 0.1; done; cat status.txt
+  130
+  $ kill -CONT $vehicles; kill $vehicles; wait $vehicles 2> wait.txt || true
+
 Nobody.
 
   $ dolphin fleet --imc-loopback --imc-discovery-ports 42220-42224 --once --seconds 0.2

@@ -45,7 +45,7 @@ type t = {
 let name = "imc"
 let virtual_time = false
 
-(* Vehicles announce every 10 s, and speak to a console up to 5 s after it has introduced itself. *)
+(* Vehicles announce every 10 s, and speak to a console up to 5 s after it has introduced itself: see docs/rationale.md. *)
 let announce_period _ = 16.
 let gathering = 0.002
 let now p = Steady_clock.now p.clock

@@ -79,7 +79,7 @@ let judge_all verbose ask cases =
     let matrix =
       if case.fails <> [] then matrix
       else
-        let name = Filename.remove_extension (Filename.basename case.path) in
+        let name = Filename.(concat (basename (dirname case.path)) (remove_extension (basename case.path))) in
         Matrix.add ~name ~covers:case.covers ~taken:verdict.rules matrix
     in
     if fine then (passed + 1, failed, matrix) else (passed, failed + 1, matrix)

@@ -121,14 +121,32 @@ let estimates network () =
   in
   List.filter_map line (Udp_platform.sights network)
 
-let open_platform s =
+(* What the time of a run is now whose console died: it went on. Clocks may have been set meanwhile, but runs never go
+   back. *)
+let time_of_run ({ past; _ } : Resumed.t) =
+  let time, at = past.clock in
+  let passed = Option.map (fun began -> Unix.gettimeofday () -. began) (Dolphin_trace.Header.of_utc at) in
+  Float.max (Replay.time past.replay) (time +. Option.value passed ~default:0.)
+
+(* Nothing is heard of vehicles until they are heard again. *)
+let unheard resumed =
+  let lose (state : World.vehicle_state) = { state with connected = false } in
+  let world (r : Resumed.t) = List.map lose (World.vehicles (Replay.world r.past.replay)) in
+  Option.fold resumed ~none:[] ~some:world
+
+let open_platform s ~keep =
   match s.network with
   | None -> simulated s
   | Some options ->
     let told = ref ignore in
     let note vehicle text = !told (Printf.sprintf "%s: %s" vehicle text) in
-    let opened = Udp_platform.open_ { options with note } in
-    let fleet network = { platform = network; more_lines = estimates network; told; news = [] } in
+    let options = { options with note; keep } in
+    let opened =
+      match s.resumed with
+      | None -> Udp_platform.open_ options
+      | Some r -> Udp_platform.open_again options ~time:(time_of_run r) r.past.moments
+    in
+    let fleet network = { platform = network; more_lines = estimates network; told; news = unheard s.resumed } in
     Result.map (fun network -> Platform ((module Udp_platform), fleet network)) opened
 
 let beginning resumed news : Driver.beginning option =
@@ -195,7 +213,7 @@ let run s =
   match record with
   | Error why -> in_trouble why
   | Ok record -> (
-      match open_platform s with
+      match open_platform s ~keep:(fun ~time vehicle memo -> Record.note record ~time ~vehicle memo) with
       | Error why -> in_trouble why
       | Ok platform -> (
           match start_host s with

@@ -152,7 +152,9 @@ let state ~now ~timeout ~kind ~payload n : World.vehicle_state =
     | Some (_, p), _ | None, Some p -> p
     | None, None -> unknown_position
   in
-  let useful = in_service n || not (Execution.idle n.execution) in
+  (* Nobody could tell later what became of a plan if it was not known what the vehicle ran before. *)
+  let is_ready = in_service n && Execution.is_heard n.execution in
+  let useful = is_ready || not (Execution.idle n.execution) in
   { id = n.name;
     kind;
     payload = (match payload with Some devices -> devices | None -> Option.value n.entities ~default:[]);

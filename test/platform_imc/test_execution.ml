@@ -50,6 +50,7 @@ let carry_out w : Execution.output -> unit = function
     let sent = 1 + Option.value (List.assoc_opt c.request_id w.copies) ~default:0 in
     w.copies <- (c.request_id, sent) :: List.remove_assoc c.request_id w.copies;
     Network.send ~now:w.now (sent, c) w.out
+  | Keep _ -> ()
   | Send _ -> failwith "sent something else"
 
 let input w i =

@@ -62,6 +62,10 @@ let tasks : example list =
       [ "cancel timer 1"; "stop noptilus-2" ];
     example Par_err "the sibling that has not started is forgotten" (task "watch (%p | %q) onError { ignore() }")
       "fail(noptilus-1, p, broken)" "FAIL, PAR-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [];
+    example Par_err "what stops inside comes before what is cancelled around it"
+      (task "watch (during 60 run (%p | %q)) onError { ignore() }")
+      "fail(noptilus-1, p, broken)" "FAIL, PAR-ERR, DURING-ERR, WATCH-IGNORE, EXECUTE-DONE" "script"
+      [ "stop noptilus-2"; "cancel timer 1" ];
     example Allof_when "any ready branch" (task "allOf { when { poll(a: _) } then idle(1)\nwhen { true } then idle(2) }")
       "check" "ALLOF-WHEN" "allOf { idle(2); when { when } then idle(1) }" [ "set timer 2 to 2 s" ];
     example Allof_1 "the branch goes on" (task "allOf { when { false } then idle(1)\nwhen { true } then %p }")

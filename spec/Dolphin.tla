@@ -164,13 +164,6 @@ ASSERT_ERR(S, fault) == Step("ASSERT-ERR", "broken(" \o fault.message \o ")", Pr
 HaltLabel(m) == IF m = "" THEN "halt" ELSE "halt(" \o m \o ")"
 HALT_CODE(run) == Step("HALT", HaltLabel(run.value), Program, run.S, Ends(Halted(run.value)), run.deeds)
 
-(* The steps of code g, which gives a value, breaks, or ends the whole program. *)
-CodeSteps(S, g, IfValue(_), IfFault(_)) ==
-  LET run == Only({ RunCode(S, "task", g, << >>) })
-  IN CASE run.is = "value" -> IfValue(run)
-       [] run.is = "fault" -> IF run.value.assertion THEN << ASSERT_ERR(S, run.value) >> ELSE << IfFault(run.value) >>
-       [] run.is = "halt" -> << HALT_CODE(run) >>
-
 Broken(rule, S, fault) == Step(rule, "broken(" \o fault.message \o ")", Program, S, Err(fault), << >>)
 
 (* {2 Platform tasks} *)
@@ -311,39 +304,57 @@ Endings(S, r) ==
        [] mayFail -> done \o fail
        [] OTHER -> done
 
-IfTrue(run, steps) == IF Truth(run.value) THEN steps ELSE << >>
+(* The code that r looks at: of an action, a condition, guards, a duration that is not known yet. *)
+CodeOf(r) ==
+  CASE r.op \in { "action", "condition" } -> << r.code >>
+    [] r.op = "oneOf" \/ (r.op = "allOf" /\ r.runs = << >>) -> Each(r.choices, LAMBDA b : b.guard)
+    [] r.op = "until" -> << r.guard >>
+    [] r.op = "during" /\ ~r.started -> << r.time >>
+    [] OTHER -> << >>
+
+(* What r does when its j-th code gave a value; guards that are not true do nothing. *)
+WithValue(S, r, j, run) ==
+  CASE r.op = "action" -> << ACTION_(run) >>
+    [] r.op = "during" ->
+         << IF IsTime(run.value) THEN DURING_SET(run, r, Time(run.value)) ELSE DURING_ERR_SET(S, NoTime(run.value, r.time)) >>
+    [] ~Truth(run.value) -> << >>
+    [] r.op = "condition" -> << CONDITION(run) >>
+    [] r.op = "allOf" -> << ALLOF_WHEN(run, r.choices, j) >>
+    [] r.op = "oneOf" -> << ONEOF_WHEN(run, r.choices[j]) >>
+    [] r.op = "until" -> << UNTIL_CUT(run, r.body) >>
+
+(* ... when it broke. *)
+WithFault(S, r, fault) ==
+  CASE r.op = "action" -> ACTION_ERR(S, fault)
+    [] r.op = "during" -> DURING_ERR_SET(S, fault)
+    [] r.op = "condition" -> CONDITION_ERR(S, fault)
+    [] r.op = "allOf" -> ALLOF_ERR_WHEN(S, fault)
+    [] r.op = "oneOf" -> ONEOF_ERR(S, fault)
+    [] r.op = "until" -> UNTIL_ERR_WHEN(S, r.body, fault)
+
+WithCode(S, r, j, run) ==
+  CASE run.is = "value" -> WithValue(S, r, j, run)
+    [] run.is = "halt" -> << HALT_CODE(run) >>
+    [] run.is = "fault" -> << IF run.value.assertion THEN ASSERT_ERR(S, run.value) ELSE WithFault(S, r, run.value) >>
+
+CodeSteps(S, r) ==
+  LET codes == CodeOf(r)
+  IN Flatten([ j \in DOMAIN codes |-> WithCode(S, r, j, Only({ RunCode(S, "task", codes[j], << >>) })) ])
 
 RECURSIVE Steps(_, _)
 Steps(S, r) ==
+  CodeSteps(S, r) \o
   CASE r.op = "ready" -> << START(S, r) >>
     [] r.op = "running" -> Endings(S, r)
-    [] r.op = "action" -> CodeSteps(S, r.code, LAMBDA run : << ACTION_(run) >>, LAMBDA fault : ACTION_ERR(S, fault))
-    [] r.op = "condition" ->
-         CodeSteps(S, r.code, LAMBDA run : IfTrue(run, << CONDITION(run) >>), LAMBDA fault : CONDITION_ERR(S, fault))
     [] r.op = "seq" -> Each(Steps(S, r.first), LAMBDA s : InSeq(s, r.rest))
     [] r.op = "par" ->
          Flatten([ j \in DOMAIN r.branches |-> Each(Steps(S, r.branches[j]), LAMBDA s : InPar(s, r.branches, j)) ])
-    [] r.op = "allOf" ->
-         IF r.runs # << >> THEN Each(Steps(S, r.runs[1]), LAMBDA s : InAllOf(s, r.choices))
-         ELSE Flatten([ j \in DOMAIN r.choices |->
-                CodeSteps(S, r.choices[j].guard, LAMBDA run : IfTrue(run, << ALLOF_WHEN(run, r.choices, j) >>),
-                          LAMBDA fault : ALLOF_ERR_WHEN(S, fault)) ])
-    [] r.op = "oneOf" ->
-         Flatten([ j \in DOMAIN r.choices |->
-           CodeSteps(S, r.choices[j].guard, LAMBDA run : IfTrue(run, << ONEOF_WHEN(run, r.choices[j]) >>),
-                     LAMBDA fault : ONEOF_ERR(S, fault)) ])
-    [] r.op = "until" ->
-         CodeSteps(S, r.guard, LAMBDA run : IfTrue(run, << UNTIL_CUT(run, r.body) >>),
-                   LAMBDA fault : UNTIL_ERR_WHEN(S, r.body, fault))
-         \o Each(Steps(S, r.body), LAMBDA s : InUntil(s, r.guard))
+    [] r.op = "allOf" /\ r.runs # << >> -> Each(Steps(S, r.runs[1]), LAMBDA s : InAllOf(s, r.choices))
+    [] r.op = "until" -> Each(Steps(S, r.body), LAMBDA s : InUntil(s, r.guard))
     [] r.op = "idle" -> << IDLE_END(S, r) >>
-    [] r.op = "during" ->
-         IF r.started THEN << DURING_CUT(S, r) >> \o Each(Steps(S, r.body), LAMBDA s : InDuring(s, r))
-         ELSE CodeSteps(S, r.time,
-                LAMBDA run : IF IsTime(run.value) THEN << DURING_SET(run, r, Time(run.value)) >>
-                             ELSE << DURING_ERR_SET(S, NoTime(run.value, r.time)) >>,
-                LAMBDA fault : DURING_ERR_SET(S, fault))
+    [] r.op = "during" /\ r.started -> << DURING_CUT(S, r) >> \o Each(Steps(S, r.body), LAMBDA s : InDuring(s, r))
     [] r.op = "watch" -> Each(Steps(S, r.body), LAMBDA s : InWatch(s, r.handler))
+    [] OTHER -> << >>
 
 -----------------------------------------------------------------------------
 (* {1 Allocation} *)
@@ -678,13 +689,6 @@ Becomes(t) ==
   /\ N' = t.S.N
   /\ outside' = OutsideAfter(t.cause)
 
-(* Some transition for which Which holds of the cause. *)
-Some(Which(_)) == \E ts \in { Transitions } : \E j \in DOMAIN ts : Which(ts[j].cause) /\ Becomes(ts[j])
-
-ProgramSteps == Some(LAMBDA cause : cause = Program)
-TaskEnds(v) == Some(LAMBDA cause : cause[1] = "task" /\ cause[2] = v)
-TimerExpires == Some(LAMBDA cause : cause[1] = "timer")
-
 Init ==
   /\ control = Script(Call(Main, << >>))
   /\ store = [ i \in DOMAIN GlobalNames |-> << >> ]
@@ -693,7 +697,7 @@ Init ==
   /\ N = NoTuples
   /\ outside = [ failed |-> 0, asked |-> [ prompt \in Prompts |-> 0 ] ]
 
-Next == Some(LAMBDA cause : TRUE)
+Next == \E ts \in { Transitions } : \E j \in DOMAIN ts : Becomes(ts[j])
 
 Identifiers == { Fleet[j].id : j \in DOMAIN Fleet }
 
@@ -742,8 +746,8 @@ AllPairs(n) ==
   IN [ pair \in pairs |-> count(pair) ] (+) n.bag
 
 TuplesConserved ==
-  \A j \in DOMAIN Transitions :
-    LET t == Transitions[j]
+  \A ts \in { Transitions } : \A j \in DOMAIN ts :
+    LET t == ts[j]
     IN AllPairs(t.S.N) (+) Tally(PairsOf(t.deeds, "consume")) = AllPairs(N) (+) Tally(PairsOf(t.deeds, "post"))
 
 -----------------------------------------------------------------------------

@@ -66,6 +66,7 @@ Carries(vehicle, devices) == { Lower(d) : d \in Range(devices) } \subseteq vehic
 (* M is a record: its focus, an expression to evaluate or a value to give to the stack; its locals; its stack of frames,  *)
 (* the latest first; and where it stands. While it runs, m has beside these what code sees and changes, and why it stops. *)
 
+(* While it runs, the focus may also be an operation whose arguments are values, or the result of one. *)
 Evaluate(e) == << "evaluate", e >>
 Give(x) == << "give", x >>
 
@@ -99,7 +100,8 @@ Fault(message, at) == [ message |-> message, at |-> at, assertion |-> FALSE ]
 Faulty(m, message) == Stop(m, << "faulted", Fault(message, m.at) >>)
 
 Result(m, x) == [ m EXCEPT !.focus = Give(x) ]
-Settle(m, result) == IF IsOk(result) THEN Result(m, result[2]) ELSE Faulty(m, result[2])
+Settle(m, result) == [ m EXCEPT !.focus = << "result", result >> ]
+Operate(m, n, xs) == [ m EXCEPT !.focus = << "operate", n, xs >> ]
 
 Enter(m, e) == [ m EXCEPT !.focus = Evaluate(e) ]
 Push(m, frame) == [ m EXCEPT !.stack = << frame >> \o @ ]
@@ -117,11 +119,10 @@ Request(m, name, request) ==
 (* {1 Settings} *)
 
 SettingExpected(s, what) ==
-  LET message == IF Len(s.positional) = 1 THEN Expected(what \o " after '" \o s.name \o "'", s.positional[1])[2]
-                 ELSE "'" \o s.name \o "' takes " \o what
-  IN << "wrong", message, s.at >>
+  << "at", s.at, IF Len(s.positional) = 1 THEN Expected(what \o " after '" \o s.name \o "'", s.positional[1])
+                 ELSE Bad("'" \o s.name \o "' takes " \o what) >>
 
-SettingWrong(s, message) == << "wrong", message, s.at >>
+SettingWrong(s, message) == << "at", s.at, Bad(message) >>
 
 RECURSIVE Unescaped(_)
 Unescaped(characters) ==
@@ -153,8 +154,8 @@ PickSetting(q, s) ==
        [] s.name = "region" ->
             CASE one /\ Is(x, "area") -> Ok([ q EXCEPT !.region = << x >> ])
               [] Len(s.positional) = 2 /\ Is(x, "position") ->
-                   LET area == Binary("^", x, s.positional[2])
-                   IN IF IsOk(area) THEN Ok([ q EXCEPT !.region = << area[2] >> ]) ELSE SettingWrong(s, area[2])
+                   LET area == Around(x, s.positional[2])
+                   IN IF IsOk(area) THEN Ok([ q EXCEPT !.region = << area[2] >> ]) ELSE << "at", s.at, area >>
               [] OTHER -> SettingExpected(s, "an area, or a centre and a radius")
        [] s.name = "count" ->
             CASE one /\ Is(x, "wildcard") -> Ok([ q EXCEPT !.all = TRUE ])
@@ -180,7 +181,7 @@ ReadBranches(branches, ss) ==
            is == s.name = "when" /\ Len(s.positional) = 2 /\ Is(s.positional[1], "closure")
        IN CASE is /\ Is(s.positional[2], "task") ->
                  ReadBranches(Append(branches, [ guard |-> s.positional[1], body |-> s.positional[2][2] ]), Tail(ss))
-            [] is -> SettingWrong(s, Expected("a task after then", s.positional[2])[2])
+            [] is -> << "at", s.at, Expected("a task after then", s.positional[2]) >>
             [] OTHER -> SettingWrong(s, "only when { ... } then TASK may stand here")
 
 (* The name of an inline plan: that of its last planName, if it has one. *)
@@ -196,10 +197,10 @@ ReadName(name, ss) ==
 Build(m, op, ss) ==
   CASE op.builder = "pick" ->
          LET q == ReadPick(AnyVehicle, ss)
-         IN IF IsOk(q) THEN Request(m, "pick", << "pick", q[2] >>) ELSE Stop(m, << "faulted", Fault(q[2], q[3]) >>)
+         IN IF IsOk(q) THEN Request(m, "pick", << "pick", q[2] >>) ELSE Settle(m, q)
     [] op.builder \in { "allOf", "oneOf" } ->
          LET branches == ReadBranches(<< >>, ss)
-         IN CASE ~IsOk(branches) -> Stop(m, << "faulted", Fault(branches[2], branches[3]) >>)
+         IN CASE ~IsOk(branches) -> Settle(m, branches)
               [] branches[2] = << >> -> Faulty(m, "no when { ... } then TASK: there is nothing to choose from")
               [] OTHER -> Result(m, TaskValue([ op |-> op.builder, branches |-> branches[2] ]))
     [] op.builder = "imcPlan" ->
@@ -267,13 +268,13 @@ Property(x, name) ==
 RECURSIVE Sum(_, _)
 Sum(total, items) ==
   IF items = << >> THEN Ok(total)
-  ELSE LET next == Binary("+", total, Head(items)) IN IF IsOk(next) THEN Sum(next[2], Tail(items)) ELSE next
+  ELSE LET next == Add(total, Head(items)) IN IF IsOk(next) THEN Sum(next[2], Tail(items)) ELSE next
 
 (* The best item so far, bettered by those that compare with it so. *)
 RECURSIVE Extreme(_, _, _)
 Extreme(better, best, items) ==
   IF items = << >> THEN Ok(best)
-  ELSE LET replace == Binary(better, Head(items), best)
+  ELSE LET replace == Compared(better, Head(items), best)
        IN IF ~IsOk(replace) THEN replace
           ELSE Extreme(better, IF Truth(replace[2]) THEN Head(items) ELSE best, Tail(items))
 
@@ -306,8 +307,8 @@ ItemMethod(x, items, name, xs) ==
       whole == one /\ Is(xs[1], "integer")
       n == xs[1][2]
   IN CASE name = "get" /\ one -> Element(x, xs[1])
-       [] name \in { "add", "push", "leftShift" } /\ one -> Binary("<<", x, xs[1])
-       [] name = "addAll" /\ one -> Binary("+", x, xs[1])
+       [] name \in { "add", "push", "leftShift" } /\ one -> AppendTo(x, xs[1])
+       [] name = "addAll" /\ one -> Add(x, xs[1])
        [] name \in { "remove", "removeAt" } /\ whole ->
             IF 0 <= n /\ n < Len(items) THEN Ok(List(Without(items, n + 1))) ELSE OutOfRange(n, "the list", Len(items))
        [] name = "removeElement" /\ one ->
@@ -377,7 +378,7 @@ Method(x, name, xs) ==
       getter == IF name \in DOMAIN Getters THEN Getter(x, Getters[name]) ELSE Getter(x, name)
   IN CASE name = "equals" /\ Len(xs) = 1 -> Ok(Boolean(Equals(x, xs[1])))
        [] name = "toString" /\ xs = << >> -> Ok(String(Text(x)))
-       [] name = "contains" /\ Len(xs) = 1 /\ (HasItems(x) \/ Is(x, "area")) -> Binary("in", xs[1], x)
+       [] name = "contains" /\ Len(xs) = 1 /\ (HasItems(x) \/ Is(x, "area")) -> Member(xs[1], x)
        [] specific # NoGetter -> specific
        [] xs = << >> /\ getter # NoGetter -> getter
        [] OTHER -> Bad(Assert(FALSE, << "the method has no meaning in this model", name, Kind(x) >>))
@@ -619,7 +620,7 @@ Procedure(m, op, xs) ==
        [] name = "propagate" -> Verdict(m, "propagate")
        [] name = "position" -> Settle(m, OneVehicleValue(x, PositionOf))
        [] name = "battery" -> Settle(m, OneVehicleValue(x, BatteryOf))
-       [] name = "area" -> Settle(m, Binary("^", x, xs[2]))
+       [] name = "area" -> Settle(m, Around(x, xs[2]))
        [] name = "math" -> Settle(m, Mathematics(op.name, xs))
        [] name = "isHost" -> Result(m, False)
        [] name = "getSupplier" -> Request(m, "getSupplier", << "call", "getSupplier" >>)
@@ -688,7 +689,7 @@ Evaluation(m, n) ==
        [] e.is = "setLocal" -> Enter(Push(going, [ frame |-> "setLocal", slot |-> e.slot ]), e.value)
        [] e.is = "setGlobal" -> Enter(Push(going, [ frame |-> "setGlobal", global |-> e.global ]), e.value)
        [] e.is = "apply" ->
-            IF e.arguments = << >> THEN Perform(going, n, << >>)
+            IF e.arguments = << >> THEN Operate(going, n, << >>)
             ELSE Enter(Push(going, [ frame |-> "arguments", node |-> n, values |-> << >> ]), e.arguments[1])
        [] e.is = "closure" ->
             Result(going, << "closure", e.lambda, Each(e.slots, LAMBDA slot : m.locals[slot]) >>)
@@ -718,7 +719,7 @@ BeginLoop(m, n, x) ==
   CASE Is(x, "range") -> NextItem(m, n, << "numbers", x[2], x[3] >>)
     [] Is(x, "null") -> Result(m, Null)
     [] HasItems(x) -> NextItem(m, n, << "these", Items(x), 1 >>)
-    [] OTHER -> Faulty(m, Expected("a list, range, map, string or vehicle set to loop over", x)[2])
+    [] OTHER -> Settle(m, Expected("a list, range, map, string or vehicle set to loop over", x))
 
 (* The value x, given to the frame f on top of the stack. *)
 Continuation(m, f, x) ==
@@ -726,7 +727,7 @@ Continuation(m, f, x) ==
   IN CASE f.frame = "arguments" ->
             LET xs == Append(f.values, x)
                 arguments == Code[f.node].arguments
-            IN IF Len(xs) = Len(arguments) THEN Perform(below, f.node, xs)
+            IN IF Len(xs) = Len(arguments) THEN Operate(below, f.node, xs)
                ELSE Enter(Push(below, [ f EXCEPT !.values = xs ]), arguments[Len(xs) + 1])
        [] f.frame = "setLocal" -> [ below EXCEPT !.locals[f.slot] = x ]
        [] f.frame = "setGlobal" -> [ below EXCEPT !.store[f.global] = << x >> ]
@@ -746,8 +747,16 @@ Continuation(m, f, x) ==
             IN IF early # << >> THEN Result([ below EXCEPT !.at = f.node ], early[1])
                ELSE Iterate(below, [ f EXCEPT !.gathered = Append(@, x), !.index = @ + 1 ])
 
+(* The value of an operation, or its fault; of a setting, where the setting is. *)
+Conclusion(m, result) ==
+  CASE IsOk(result) -> Result(m, result[2])
+    [] result[1] = "at" -> Stop(m, << "faulted", Fault(Sentence(result[3]), result[2]) >>)
+    [] OTHER -> Faulty(m, Sentence(result))
+
 MachineStep(m) ==
   CASE m.focus[1] = "evaluate" -> IF m.fuel = 0 THEN [ m EXCEPT !.at = m.focus[2], !.stop = << "exhausted" >> ] ELSE Evaluation(m, m.focus[2])
+    [] m.focus[1] = "operate" -> Perform(m, m.focus[2], m.focus[3])
+    [] m.focus[1] = "result" -> Conclusion(m, m.focus[2])
     [] m.stack = << >> -> Stop(m, << "finished", m.focus[2] >>)
     [] OTHER -> Continuation(m, Head(m.stack), m.focus[2])
 

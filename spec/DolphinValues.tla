@@ -288,12 +288,34 @@ Kind(x) ==
 
 Ok(x) == << "ok", x >>
 Bad(message) == << "wrong", message >>
+Expected(what, x) == << "expected", what, x >>
+Mismatch(op, x, y) == << "mismatch", op, x, y >>
 IsOk(result) == result[1] = "ok"
 
-Expected(what, x) ==
-  LET found == IF x[1] \in { "null", "closure", "settings" } \/ Len(Text(x)) > 60 THEN Kind(x)
-               ELSE Kind(x) \o ", " \o Literal(x)
-  IN Bad("expected " \o what \o ", found " \o found)
+Takes(op) ==
+  CASE op = "/" -> "two numbers, or a task and a condition { ... }"
+    [] op \in { "*", "%", "**" } -> "two numbers"
+    [] op = "+" -> "numbers, strings, lists, maps or vehicle sets"
+    [] op = "-" -> "numbers, lists or vehicle sets"
+    [] op = ">>" -> "two tasks"
+    [] op = "<<" -> "a list and an element"
+    [] op \in { "<", "<=", ">", ">=" } -> "two numbers or two strings"
+    [] op = "in" -> "a value, and a list, range, map, string, area or vehicle set"
+    [] op = "&" -> "two vehicle sets"
+    [] op = "^" -> "a position and a radius in metres"
+    [] op = "|" -> "two tasks, or a vehicle set and a predicate { v -> ... }"
+    [] OTHER -> "two values"
+
+Found(x) ==
+  IF x[1] \in { "null", "closure", "settings" } \/ Len(Text(x)) > 60 THEN Kind(x) ELSE Kind(x) \o ", " \o Literal(x)
+
+(* The sentence of a result that is none. TLC looks through all operators that a definition can reach, once for each way
+   there; so sentences are made here, and not where the trouble is. *)
+Sentence(result) ==
+  CASE result[1] = "wrong" -> result[2]
+    [] result[1] = "expected" -> "expected " \o result[2] \o ", found " \o Found(result[3])
+    [] result[1] = "mismatch" ->
+         result[2] \o " takes " \o Takes(result[2]) \o ", not " \o Kind(result[3]) \o " and " \o Kind(result[4])
 
 (* {1 Items} *)
 
@@ -317,22 +339,6 @@ Length(x) == IF Is(x, "range") THEN RangeLength(x) ELSE IF Is(x, "string") THEN 
 Union(vs, ws) == vs \o SelectSeq(ws, LAMBDA w : w \notin Range(vs))
 Difference(vs, ws) == SelectSeq(vs, LAMBDA v : v \notin Range(ws))
 Intersection(vs, ws) == SelectSeq(vs, LAMBDA v : v \in Range(ws))
-
-Takes(op) ==
-  CASE op = "/" -> "two numbers, or a task and a condition { ... }"
-    [] op \in { "*", "%", "**" } -> "two numbers"
-    [] op = "+" -> "numbers, strings, lists, maps or vehicle sets"
-    [] op = "-" -> "numbers, lists or vehicle sets"
-    [] op = ">>" -> "two tasks"
-    [] op = "<<" -> "a list and an element"
-    [] op \in { "<", "<=", ">", ">=" } -> "two numbers or two strings"
-    [] op = "in" -> "a value, and a list, range, map, string, area or vehicle set"
-    [] op = "&" -> "two vehicle sets"
-    [] op = "^" -> "a position and a radius in metres"
-    [] op = "|" -> "two tasks, or a vehicle set and a predicate { v -> ... }"
-    [] OTHER -> "two values"
-
-Mismatch(op, x, y) == Bad(op \o " takes " \o Takes(op) \o ", not " \o Kind(x) \o " and " \o Kind(y))
 
 (* Two integers give an integer, other numbers a number that is none. *)
 Arithmetic(op, x, y, OnIntegers(_, _), OnNumbers(_, _)) ==
@@ -418,6 +424,14 @@ Compared(op, x, y) ==
   THEN Assert(FALSE, "this model cannot order strings")
   ELSE Mismatch(op, x, y)
 
+AppendTo(x, y) == IF Is(x, "list") THEN Ok(List(Append(x[2], y))) ELSE Mismatch("<<", x, y)
+
+Around(x, y) ==
+  IF Is(x, "position") /\ IsNumber(y)
+  THEN IF Numerator(y) < 0 THEN Bad("a radius is 0 m or more, not " \o ShortText(y))
+       ELSE Ok(<< "area", x[2], Numerator(y), Denominator(y) >>)
+  ELSE Mismatch("^", x, y)
+
 Binary(op, x, y) ==
   CASE op = "+" -> Add(x, y)
     [] op = "-" -> Subtract(x, y)
@@ -436,17 +450,13 @@ Binary(op, x, y) ==
     [] op = "%" -> Remainder(x, y)
     [] op = "**" ->
          Arithmetic(op, x, y, LAMBDA a, b : Ok(Integer(Power(Integer(a), Integer(b))[2])), LAMBDA a, b : Ok(Power(a, b)))
-    [] op = "<<" -> IF Is(x, "list") THEN Ok(List(Append(x[2], y))) ELSE Mismatch(op, x, y)
+    [] op = "<<" -> AppendTo(x, y)
     [] op = "in" -> Member(x, y)
     [] op = "&" ->
          CASE Is(x, "vehicles") /\ Is(y, "vehicles") -> Ok(Vehicles(Intersection(x[2], y[2])))
            [] Is(x, "boolean") /\ Is(y, "boolean") -> Ok(Boolean(x[2] /\ y[2]))
            [] OTHER -> Mismatch(op, x, y)
-    [] op = "^" ->
-         IF Is(x, "position") /\ IsNumber(y)
-         THEN IF Numerator(y) < 0 THEN Bad("a radius is 0 m or more, not " \o ShortText(y))
-              ELSE Ok(<< "area", x[2], Numerator(y), Denominator(y) >>)
-         ELSE Mismatch(op, x, y)
+    [] op = "^" -> Around(x, y)
     [] op = "&&" -> Ok(Boolean(Truth(x) /\ Truth(y)))
     [] op = "||" -> Ok(Boolean(Truth(x) \/ Truth(y)))
 

@@ -28,7 +28,7 @@ let plans_of (program : Program_file.t) (fleet : Fleet_file.t) ~seed ~answers =
       (module Simulator.Virtual)
       (Simulator.Virtual.create ~seed fleet.scenario)
       ~observer:{ Observer.nobody with transition }
-      ~console:(Questions.console shown ~answers ~scenario:fleet.scenario)
+      ~console:(Questions.console shown ~answered:[] ~answers ~scenario:fleet.scenario)
       ~interruption:enough program.program
   in
   let outcome = Lwt_main.run run in

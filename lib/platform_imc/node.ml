@@ -127,6 +127,7 @@ let hear ~now ~own (p : Packet.t) n =
   | Message (Entity_list list) -> (entities list n, [])
   | Message (Vehicle_state state) -> command ~now (Vehicle { sent; state }) (vehicle ~sent state n)
   | Message (Plan_control_state state) -> command ~now (State { sent; state }) n
+  | Message (Log_book_entry entry) -> command ~now (Log { sent; entry }) n
   | Message (Plan_control reply) when p.dst = own -> command ~now (Reply { sent; reply }) n
   | Message _ | Unknown _ -> (n, [])
 
@@ -151,7 +152,9 @@ let state ~now ~timeout ~payload n : World.vehicle_state =
     | Some (_, p), _ | None, Some p -> p
     | None, None -> unknown_position
   in
-  let useful = in_service n || not (Execution.idle n.execution) in
+  (* Nobody could tell later what became of a plan if it was not known what the vehicle ran before. *)
+  let is_ready = in_service n && Execution.is_heard n.execution in
+  let useful = is_ready || not (Execution.idle n.execution) in
   { id = n.name;
     kind = Service.kind n.kind;
     payload = (match payload with Some devices -> devices | None -> Option.value n.entities ~default:[]);

@@ -12,6 +12,15 @@ type settings = {
   payload : (Core.vehicle * string list) list;
 }
 
+(* What is to be done with a vehicle when it is heard of. *)
+type wish =
+  | Nothing
+  | Run of { begun : begun; before : begun option;  (* is to be halted first *) deadline : float }
+  | Halt of begun
+
+(* What a console that died was told to have a vehicle do, and what it kept of that; nothing, if it did not ask yet. *)
+and begun = { order : Execution.order; memos : Memo.t list }
+
 (* What the program was told of a vehicle, and when. *)
 type told = { state : World.vehicle_state; at : float }
 
@@ -25,6 +34,7 @@ type t = {
   timeout : float;  (* of vehicles that are not in [timeouts] *)
   timers : (float * Residual.timer) list;  (* earliest first *)
   told : told Names.t;
+  expected : wish Names.t;  (* vehicles of a console that died *)
   outbox : Outbox.t;
   next_announce : float;
   last_announce : float;
@@ -39,6 +49,7 @@ type output =
   | Send of { address : Service.address; bytes : string }
   | Announce of string
   | Announce_to of Unix.inet_addr * string
+  | Keep of Core.vehicle * Memo.t
   | Note of Core.vehicle * string
 
 let announce_interval = 10.
@@ -60,7 +71,7 @@ let telemetry_interval = 0.95
 
 let create settings =
   { settings; nodes = Nodes.empty; ids = Names.empty; bound = Names.empty; telemetry = false; timeouts = Names.empty;
-    timeout = 60.; timers = []; told = Names.empty; outbox = Outbox.empty; next_announce = 0.;
+    timeout = 60.; timers = []; told = Names.empty; expected = Names.empty; outbox = Outbox.empty; next_announce = 0.;
     last_announce = neg_infinity; next_heartbeat = 0.; next_eager = infinity; dropped = Names.empty; skipped = 0;
     accepted = 0 }
 
@@ -117,6 +128,7 @@ let carry_out ~now (n : Node.t) outputs s =
     | Send message -> (s, List.rev_append (to_node ~now n message s) sent)
     | Done -> (push (Task_done n.name) (tell ~urgent:true ~now n s), sent)
     | Failed why -> (push (Task_failed (n.name, why)) (tell ~urgent:true ~now n s), sent)
+    | Keep memo -> (s, Keep (n.name, memo) :: sent)
     | Note text -> (s, Note (n.name, text) :: sent)
   in
   let s, sent = List.fold_left carry (s, []) outputs in
@@ -125,6 +137,78 @@ let carry_out ~now (n : Node.t) outputs s =
 let command ~now input (n : Node.t) s =
   let n, outputs = Node.command ~now input n in
   carry_out ~now n outputs (put n s)
+
+(* {1 Expected vehicles} *)
+
+let expect name wish s = { s with expected = Names.add name wish s.expected }
+
+(* An order of the console that died, or one that came before the vehicle was heard. *)
+let order_of (task : Core.platform_task) : Execution.order =
+  { plan = task.name; specification = Option.map Plan_message.of_plan task.plan }
+
+let deadline ~now name s = now +. timeout_of name s
+
+(* What is known to be over, or was never asked for, need not be halted. *)
+let halt name begun s =
+  match Memo.knowledge ~plan:begun.order.plan begun.memos with
+  | None | Some { over = true; _ } -> expect name Nothing s
+  | Some _ -> expect name (Halt begun) s
+
+let resume ~now (standing : Dolphin_runtime.Past.standing) s =
+  let timeouts = List.fold_left (fun map (v, seconds) -> Names.add v seconds map) s.timeouts standing.timeouts in
+  let s = { s with timeouts; timeout = Option.value standing.timeout ~default:s.timeout } in
+  let s = List.fold_left (fun s v -> expect v Nothing { s with bound = Names.add v () s.bound }) s standing.bound in
+  let begun (errand : Dolphin_runtime.Past.errand) =
+    { order = order_of errand.task; memos = List.filter_map Memo.of_json errand.notes }
+  in
+  (* The end of the errand before may have been noted during this one. *)
+  let before (errand : Dolphin_runtime.Past.errand) =
+    let is_over = function Memo.Over _ -> true | Asked _ | Taken _ | Runs _ -> false in
+    let with_ends b = { b with memos = List.filter is_over (begun errand).memos @ b.memos } in
+    Option.map with_ends (Option.map begun errand.before)
+  in
+  let wish (v, (errand : Dolphin_runtime.Past.errand)) s =
+    if errand.is_stopped then halt v (begun errand) s
+    else expect v (Run { begun = begun errand; before = before errand; deadline = deadline ~now v s }) s
+  in
+  let s = List.fold_left (fun s errand -> wish errand s) s standing.errands in
+  let by_time (_, due) (_, due') = Float.compare due due' in
+  { s with timers = List.map (fun (timer, due) -> (due, timer)) (List.stable_sort by_time standing.timers) }
+
+let adopt ~now ~stopped { order; memos } = command ~now (Adopt { order; stopped; memos })
+
+(* What was wished of [n] is done once it has said what it runs. *)
+let receive_expected ~now (n : Node.t) s =
+  match Names.find_opt n.name s.expected with
+  | Some wish when Execution.is_heard n.execution -> (
+      let s = { s with expected = Names.remove n.name s.expected } in
+      match wish with
+      | Nothing -> (s, [])
+      | Halt begun -> adopt ~now ~stopped:true begun n s
+      | Run { begun; before = Some before; _ } when begun.memos = [] ->
+        let s, sent = adopt ~now ~stopped:true before n s in
+        let s, more = command ~now (Start begun.order) (Nodes.find n.id s.nodes) s in
+        (s, sent @ more)
+      | Run { begun; _ } -> adopt ~now ~stopped:false begun n s)
+  | Some _ | None -> (s, [])
+
+let plural seconds = if seconds = 1. then "1 second" else Printf.sprintf "%.0f seconds" seconds
+
+let give_up_expected ~now s =
+  let give_up name wish s =
+    match wish with
+    | Run { begun; deadline; _ } when deadline <= now ->
+      let why = Printf.sprintf "no word from the vehicle for %s" (plural (timeout_of name s)) in
+      halt name begun (push (Task_failed (name, why)) s)
+    | Run _ | Nothing | Halt _ -> s
+  in
+  Names.fold give_up s.expected s
+
+let expected_due s =
+  let earlier _ wish time = match wish with Run { deadline; _ } -> Float.min deadline time | Nothing | Halt _ -> time in
+  Names.fold earlier s.expected infinity
+
+let owes_stop s = Names.exists (fun _ wish -> match wish with Halt _ -> true | Nothing | Run _ -> false) s.expected
 
 (* {1 Datagrams} *)
 
@@ -138,7 +222,7 @@ let skip s = ({ s with skipped = s.skipped + 1 }, [])
 let is_wanted id =
   id = Message.Announce.id || id = Message.Heartbeat.id || id = Message.Estimated_state.id
   || id = Message.Vehicle_state.id || id = Message.Plan_control_state.id || id = Message.Plan_control.id
-  || id = Message.Fuel_level.id || id = Message.Entity_list.id || id = Message.Abort.id
+  || id = Message.Fuel_level.id || id = Message.Log_book_entry.id || id = Message.Entity_list.id || id = Message.Abort.id
 
 let request_of ~id s = (s.settings.first_request + (id * 257)) land 0xFFFF
 
@@ -193,6 +277,8 @@ let heard ~now (p : Packet.t) (n : Node.t) s =
   let first = n.last_heard = neg_infinity in
   let n, outputs = Node.hear ~now ~own:s.settings.id p n in
   let s, sent = carry_out ~now n outputs (put n { s with accepted = s.accepted + 1 }) in
+  let s, more = receive_expected ~now n s in
+  let sent = sent @ more and n = Nodes.find n.id s.nodes in
   if first && Node.is_vehicle n && not (List.mem_assoc n.name s.settings.payload) then
     let n = Node.queried n in
     let query = Message.Entity_list { Message.Entity_list.default with op = Query } in
@@ -279,8 +365,6 @@ let was_connected (n : Node.t) s =
 let end_of_link (n : Node.t) s =
   if was_connected n s || Execution.owes n.execution then n.last_heard +. timeout_of n.name s else infinity
 
-let plural seconds = if seconds = 1. then "1 second" else Printf.sprintf "%.0f seconds" seconds
-
 let check ~now _ (n : Node.t) (s, sent) =
   let timeout = timeout_of n.name s in
   let s, more = if Execution.due n.execution <= now then command ~now Tick n s else (s, []) in
@@ -299,23 +383,20 @@ let tick ~now s =
   let s, beaten = beat ~now s in
   let s, queried = if beats then query ~now s else (s, []) in
   let s, checked = Nodes.fold (check ~now) s.nodes (s, []) in
-  (expire ~now s, announced @ beaten @ queried @ checked)
+  (expire ~now (give_up_expected ~now s), announced @ beaten @ queried @ checked)
 
 let due s =
   let of_node _ (n : Node.t) time =
     Float.min time (Float.min (Execution.due n.execution) (end_of_link n s))
   in
   let timer = match s.timers with (time, _) :: _ -> time | [] -> infinity in
-  Float.min s.next_announce (Float.min s.next_heartbeat (Float.min s.next_eager timer))
+  Float.min s.next_announce (Float.min s.next_heartbeat (Float.min s.next_eager (Float.min timer (expected_due s))))
   |> Nodes.fold of_node s.nodes
 
 (* {1 Commands} *)
 
 (* Larger ones do not fit a datagram. *)
 let largest = 65507
-
-let order_of (task : Core.platform_task) : Execution.order =
-  { plan = task.name; specification = Option.map Plan_message.of_plan task.plan }
 
 let check_order ~now (n : Node.t) (order : Execution.order) s =
   let arg = Option.map (fun p -> Message.Plan_specification p) order.specification in
@@ -330,6 +411,15 @@ let check_order ~now (n : Node.t) (order : Execution.order) s =
 let start ~now vehicle task s =
   let s = { s with outbox = Outbox.without_task vehicle s.outbox } in
   match find vehicle s with
+  | None | Some _ when Names.mem vehicle s.expected ->
+    let before =
+      match Names.find vehicle s.expected with
+      | Nothing -> None
+      | Halt begun -> Some begun
+      | Run { begun; before; _ } -> if begun.memos = [] then before else Some begun
+    in
+    let begun = { order = order_of task; memos = [] } in
+    (expect vehicle (Run { begun; before; deadline = deadline ~now vehicle s }) s, [])
   | None -> (push (Task_failed (vehicle, "no such vehicle was heard of")) s, [])
   | Some n -> (
       let order = order_of task in
@@ -339,11 +429,15 @@ let start ~now vehicle task s =
 
 let stop ~now vehicle s =
   let s = { s with outbox = Outbox.without_task vehicle s.outbox } in
-  match find vehicle s with
-  | None -> (s, [])
-  | Some n -> command ~now Stop n s
+  match Names.find_opt vehicle s.expected, find vehicle s with
+  | Some (Run { begun; before; _ }), _ ->
+    let which = match before with Some before when begun.memos = [] -> before | Some _ | None -> begun in
+    (halt vehicle which s, [])
+  | Some (Nothing | Halt _), _ | None, None -> (s, [])
+  | None, Some n -> command ~now Stop n s
 
 let stop_all ~now s =
+  let s = Names.fold (fun vehicle _ s -> fst (stop ~now vehicle s)) s.expected s in
   Nodes.fold
     (fun _ (n : Node.t) (s, sent) ->
        let s, more = stop ~now n.name s in
@@ -380,7 +474,7 @@ let telemetry ~now on s =
 
 let take s = Option.map (fun (event, outbox) -> (event, { s with outbox })) (Outbox.take s.outbox)
 let waiting s = not (Outbox.is_empty s.outbox)
-let quiet s = Nodes.for_all (fun _ (n : Node.t) -> Execution.idle n.execution) s.nodes
+let quiet s = (not (owes_stop s)) && Nodes.for_all (fun _ (n : Node.t) -> Execution.idle n.execution) s.nodes
 
 type sight = { node : Node.t; state : World.vehicle_state; age : float; linked : bool }
 

@@ -20,6 +20,12 @@ type settings = {
 val create : settings -> t
 (** Nobody is known; an announcement is due. *)
 
+val resume : now:float -> Dolphin_runtime.Past.standing -> t -> t
+(** [resume ~now standing s] is [s], as {!create} made it, taking over at [now] from a console that died. Vehicles that
+    it held, and those that it had asked for something, are expected: what they were asked is settled when they have said
+    what they run ({!Execution}), and they may be commanded before they are heard. One that is not heard within its
+    connection timeout, though a task of it has not ended, has failed it. Timers go on. *)
+
 (** {1:time Input}
 
     [now] is in seconds on a clock of ours that is never set back; it starts at 0. *)
@@ -29,6 +35,7 @@ type output =
   | Announce of string
   (** To the announcement ports at 224.0.75.69, the broadcast address and 127.0.0.1. *)
   | Announce_to of Unix.inet_addr * string  (** To the announcement ports there. *)
+  | Keep of Core.vehicle * Memo.t  (** In case that we die: before what follows is sent. *)
   | Note of Core.vehicle * string  (** For people: something unusual that is not the end of a task. *)
 
 val datagram : now:float -> from:Unix.inet_addr -> ?len:int -> string -> t -> t * output list
@@ -66,6 +73,9 @@ val take : t -> (Platform.event * t) option
 
 val waiting : t -> bool
 (** Whether there is one. *)
+
+val owes_stop : t -> bool
+(** A vehicle that is to be stopped was not heard yet, since {!resume}. *)
 
 val quiet : t -> bool
 (** No plan is ordered, and no stop waits for its confirmation. *)

@@ -26,7 +26,7 @@ let sent_by outputs =
         match Packet.decode bytes with
         | Ok { content = Message m; _ } -> Some m
         | Ok { content = Unknown _; _ } | Error _ -> Alcotest.fail "sent something broken")
-    | Announce _ | Announce_to _ | Note _ -> None
+    | Announce _ | Announce_to _ | Keep _ | Note _ -> None
   in
   List.filter_map message outputs
 

@@ -24,9 +24,17 @@ let environments =
     ("with failures", Environment.failing answering);
     ("with a failure", Environment.failing ~failures:1 answering) ]
 
+let nested =
+  let open QCheck2.Gen in
+  let* depth = int_range 0 2 in
+  let* posts = oneofl [ []; [ ("x", 1) ]; [ ("y", 2); ("x", 2) ] ] in
+  let before = List.map (fun (k, x) -> Generate.statement (Generate.post k x)) posts in
+  map (Generate.executing ~before) (Generate.nested ~vehicles:Generate.vehicles ~depth)
+
 let case =
   let open QCheck2.Gen in
-  triple Generate.program (frequencyl [ (3, false); (1, true) ]) (oneofl environments)
+  let program = frequency [ (3, Generate.program); (2, nested) ] in
+  triple program (frequencyl [ (3, false); (1, true) ]) (oneofl environments)
 
 let print (program, looped, (name, _)) =
   Printf.sprintf "%s, %s:\n%s" name (if looped then "for ever" else "once") (Generate.print program)

@@ -443,7 +443,7 @@ let memos x y =
     | before, Some (a, _) when is_other a before && not a.adopted -> [ asked a ]
     | Some (b, `Starting), Some (a, `Starting) when b.accepted = None && a.accepted <> None ->
       [ Taken { request = a.request } ]
-    | Some (_, `Starting), Some (a, `Running) -> [ Runs { request = a.request } ]
+    | (None | Some (_, `Starting)), Some (a, `Running) -> [ Runs { request = a.request } ]
     | (Some _ | None), (Some _ | None) -> []
   in
   List.map (fun m -> Keep m) (over @ rest)

@@ -1,1 +1,3 @@
-let () = Alcotest.run "platform_imc" [ Test_lifecycle.tests; Test_execution.tests; Test_hostile.tests; Test_network.tests ]
+let () =
+  Alcotest.run "platform_imc"
+    [ Test_lifecycle.tests; Test_execution.tests; Test_adoption.tests; Test_hostile.tests; Test_network.tests ]

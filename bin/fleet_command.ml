@@ -18,7 +18,7 @@ let is_placed (s : Station.sight) = s.node.position <> None || s.node.announced_
 let json network (s : Station.sight) : Yojson.Safe.t =
   let n = s.node and state = s.state in
   let optional make = function Some x -> make x | None -> `Null in
-  let number x = `Float x in
+  let number x = if Float.is_finite x then `Float x else `Null in
   `Assoc
     [ ("id", `String state.id); ("imc_id", `Int n.id); ("type", `String state.kind);
       ("address", optional (fun a -> `String (Format.asprintf "%a" Service.pp_address a)) n.address);

@@ -7,8 +7,8 @@ open Dolphin_semantics
 
 type t
 
-val create : ?reduction:Reduction.t -> Environment.options -> Core.program -> World.t -> t
-(** With the initial state, number 0. *)
+val create : ?reduction:Reduction.t -> ?compress:bool -> Environment.options -> Core.program -> World.t -> t
+(** With the initial state, number 0. [compress] is as for {!States.create}, [false] by default. *)
 
 val expand : t -> int -> unit
 (** [expand t i] adds the states that transitions of state [i] lead to, at the latest when {!flush} is called. *)

@@ -10,6 +10,7 @@ type input =
   | Reply of { sent : float; reply : Message.t Message.Plan_control.t }
   | State of { sent : float; state : Message.Plan_control_state.t }
   | Vehicle of { sent : float; state : Message.Vehicle_state.t }
+  | Log of { sent : float; entry : Message.Log_book_entry.t }
   | Abort of string
   | Lost of string
   | Adopt of { order : order; stopped : bool; memos : Memo.t list }
@@ -46,7 +47,6 @@ type attempt = {
   accepted : float option;  (* when the vehicle first answered that it takes the plan *)
   adopted : bool;  (* the request was a console's that has died *)
   initialised : bool;  (* INITIALIZING was seen *)
-  anew : bool;  (* it was seen to begin anew *)
 }
 
 type phase =
@@ -77,12 +77,13 @@ type t = {
   last_stop : int option;
   stop_echo : float;  (* when the vehicle last answered a stop of ours *)
   former : former option;
+  takes : Takes.t;  (* of the last request *)
   phase : phase;
 }
 
 let create ~request =
   { next_request = request land 0xFFFF; seen = None; error = None; abort = None; last_stop = None;
-    stop_echo = neg_infinity; former = None; phase = Idle }
+    stop_echo = neg_infinity; former = None; takes = Takes.nothing; phase = Idle }
 
 let idle x = match x.phase with Idle -> true | Starting _ | Running _ | Ending _ | Stopping _ -> false
 
@@ -96,6 +97,26 @@ let due x =
   | Idle | Starting _ | Running _ -> infinity
   | Ending e -> e.deadline
   | Stopping s -> Float.min (s.last_sent +. stop_interval) (s.first_sent +. stop_patience)
+
+(* {1 Sightings} *)
+
+let is (plan : string) (s : sighting) = s.state.plan_id = plan
+
+(* The states in which a plan that runs, or has just been taken, is seen. *)
+let busy (s : sighting) =
+  match s.state.state with
+  | Executing | Initializing -> true
+  | Blocked | Ready | Other _ -> false
+
+let succeeded (s : sighting) =
+  match s.state.last_outcome with
+  | Success -> true
+  | None | Failure | Other _ -> false
+
+let failed (s : sighting) =
+  match s.state.last_outcome with
+  | Failure -> true
+  | None | Success | Other _ -> false
 
 (* {1 Requests} *)
 
@@ -116,9 +137,11 @@ let begin_attempt ~now ~clock order x =
       asked = Vehicle_clock.estimate ~now clock;
       before = x.seen;
       after = Vehicle_clock.latest clock;
-      accepted = None; adopted = false; initialised = false; anew = false }
+      accepted = None; adopted = false; initialised = false }
   in
-  ({ x with phase = Starting attempt; abort = None }, [ start_message attempt ])
+  let busy = match x.seen with Some s -> busy s && is order.plan s | None -> false in
+  let takes = Takes.request ~plan:order.plan ~number:request ~after:attempt.after ~busy in
+  ({ x with phase = Starting attempt; abort = None; takes }, [ start_message attempt ])
 
 let begin_stop ~now ~clock ~took_effect ?next attempt x =
   let stop, x = number x in
@@ -174,24 +197,6 @@ let words x ~since ~why =
   | (Some _ | None), None -> why
 
 (* {1 What the vehicle's state means} *)
-
-let is (plan : string) (s : sighting) = s.state.plan_id = plan
-
-(* The states in which a plan that runs, or has just been taken, is seen. *)
-let busy (s : sighting) =
-  match s.state.state with
-  | Executing | Initializing -> true
-  | Blocked | Ready | Other _ -> false
-
-let succeeded (s : sighting) =
-  match s.state.last_outcome with
-  | Success -> true
-  | None | Failure | Other _ -> false
-
-let failed (s : sighting) =
-  match s.state.last_outcome with
-  | Failure -> true
-  | None | Success | Other _ -> false
 
 let ended_badly = "the plan ended without success, and the vehicle gave no reason"
 let refused = "the plan was refused, and the vehicle gave no reason"
@@ -266,11 +271,6 @@ let judge_run ~now ~clock (a : attempt) ~since (s : sighting) x =
     | Ready when s.state.plan_id = "" -> expect_words ~now ~clock a ~since forgotten x
     | Executing | Ready -> replaced ~now ~clock ~ended:s.sent a s.state.plan_id x
     | Blocked -> expect_words ~now ~clock a ~since blocked x
-    | Initializing when own && not a.anew ->
-      let note =
-        Printf.sprintf "plan %s begins anew: the request for it came twice, or another console made one" a.order.plan
-      in
-      ({ x with phase = Running { attempt = { a with anew = true }; since } }, [ Note note ])
     | Initializing | Other _ -> (x, [])
 
 let stopped ~now ~clock ~ended attempt next x =
@@ -400,7 +400,7 @@ let adopted_attempt ~now ~clock order (k : Memo.knowledge) =
     before = Option.map remembered k.before;
     after = neg_infinity;
     accepted = (if k.taken || k.runs then Some neg_infinity else None);
-    adopted = true; initialised = false; anew = false }
+    adopted = true; initialised = false }
 
 let is_at_work plan (s : sighting) = busy s && is plan s
 
@@ -464,6 +464,21 @@ let tick ~now ~clock x =
     ({ x with phase = Stopping { s with last_sent = now } }, [ request Stop s.stop s.attempt.order None ])
   | Idle | Starting _ | Running _ | Ending _ | Stopping _ -> (x, [])
 
+(* What the vehicle says is a sign of how often it took the request, whatever else it means. *)
+let count input x =
+  let takes =
+    match input with
+    | Reply { sent; reply } -> Takes.reply ~sent reply x.takes
+    | State { sent; state } -> Takes.state ~sent state x.takes
+    | Log { sent; entry } -> Takes.log ~sent entry x.takes
+    | Start _ | Stop | Vehicle _ | Abort _ | Lost _ | Adopt _ | Tick -> x.takes
+  in
+  match Takes.twice takes with
+  | None -> ({ x with takes }, [])
+  | Some (takes, plan) ->
+    let why = "the request for it came twice, or another console made one" in
+    ({ x with takes }, [ Note (Printf.sprintf "plan %s begins anew: %s" plan why) ])
+
 let obey ~now ~clock input x =
   match input with
   | Start order -> start ~now ~clock order x
@@ -471,14 +486,16 @@ let obey ~now ~clock input x =
   | Reply { sent; reply = r } -> reply ~now ~clock ~sent r x
   | State { sent; state = s } -> state ~now ~clock sent s x
   | Vehicle { sent; state } -> vehicle ~sent state x
+  | Log _ -> (x, [])
   | Abort by -> ({ x with abort = Some by }, [])
   | Lost why -> lost ~now ~clock why x
   | Adopt { order; stopped; memos } -> adopt ~now ~clock order ~stopped memos x
   | Tick -> tick ~now ~clock x
 
 let step ~now ~clock input x =
+  let x, notes = count input x in
   let y, outputs = obey ~now ~clock input x in
-  (y, memos x y @ outputs)
+  (y, notes @ memos x y @ outputs)
 
 (* {1 Displays} *)
 

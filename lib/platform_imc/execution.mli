@@ -25,7 +25,7 @@
       start sent. After {!stop_patience} the stop is given up.
     - Late copies of our own datagrams are recognised by their replies: a stop that hits the next plan makes it start
       again; a start that comes after its plan was over is stopped; one that comes while the plan runs makes the vehicle
-      begin it anew, which nobody can prevent. All this is told as a [Note].
+      begin it anew, which nobody can prevent ({!Takes} finds out). All this is told as a [Note].
 
     {1:adoption What another console began}
 
@@ -51,6 +51,7 @@ type input =
   | Reply of { sent : float; reply : Message.t Message.Plan_control.t }
   | State of { sent : float; state : Message.Plan_control_state.t }
   | Vehicle of { sent : float; state : Message.Vehicle_state.t }
+  | Log of { sent : float; entry : Message.Log_book_entry.t }
   | Abort of string  (** The console of this name told the vehicle to abort. *)
   | Lost of string  (** The link is given up; why. *)
   | Adopt of { order : order; stopped : bool; memos : Memo.t list  (** latest first *) }

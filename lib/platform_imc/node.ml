@@ -127,6 +127,7 @@ let hear ~now ~own (p : Packet.t) n =
   | Message (Entity_list list) -> (entities list n, [])
   | Message (Vehicle_state state) -> command ~now (Vehicle { sent; state }) (vehicle ~sent state n)
   | Message (Plan_control_state state) -> command ~now (State { sent; state }) n
+  | Message (Log_book_entry entry) -> command ~now (Log { sent; entry }) n
   | Message (Plan_control reply) when p.dst = own -> command ~now (Reply { sent; reply }) n
   | Message _ | Unknown _ -> (n, [])
 

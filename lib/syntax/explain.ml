@@ -207,7 +207,7 @@ let misplaced_word place =
   | ON_ERROR -> Some ("'onError' cannot stand here", "write watch task onError { error -> ... }")
   | ARROW when kind place (opener place) = BLOCK ->
     Some ("'->' cannot stand here",
-          "a '{' at the start of a statement opens a block; put a closure in parentheses: ({ a -> ... })")
+          "this '{' opens a block; put a closure in parentheses: ({ a -> ... })")
   | ARROW -> Some ("'->' cannot stand here", "'->' ends the parameters of a closure: { a, b -> ... }")
   | (IF | WHILE | FOR | RETURN | BREAK | CONTINUE | DEF) as word when place.acceptable (INTEGER 0) ->
     let spelling = text_of place place.index in

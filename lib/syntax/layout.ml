@@ -113,9 +113,20 @@ let mark_header state i kind =
   | DEF -> mark (i + 2)
   | _ -> ()
 
+(* Whether parameters and an arrow follow the brace at [i]. *)
+let begins_parameters state i =
+  let rec from i =
+    match raw_token state i, raw_token state (i + 1) with
+    | NAME _, COMMA -> from (i + 2)
+    | NAME _, ARROW -> true
+    | _, _ -> false
+  in
+  raw_token state (i + 1) = ARROW || from (i + 1)
+
 let brace state i =
   let same_line = same_line state i in
   match state.last with
+  | SEPARATOR | LBRACE | TRAILING | BLOCK | ARROW when begins_parameters state i -> LBRACE, Value
   | SEPARATOR | LBRACE | TRAILING | BLOCK | ARROW | ELSE -> BLOCK, Body
   | BUILDER _ -> BLOCK, Value
   | RPAREN when state.last_is_header -> BLOCK, Body
@@ -127,7 +138,8 @@ let classify state i (token : Token.t) =
   match token.token with
   | TRUE | FALSE | NULL when after_point state -> NAME (Token.text ~source:state.source token)
   | word when is_word word && (after_point state || is_key state i) -> NAME (Token.text ~source:state.source token)
-  | (UNTIL | DURING) as word when ends_operand state.last && not state.last_is_header -> if word = UNTIL then AFTER_UNTIL else AFTER_DURING
+  | (UNTIL | DURING) as word when ends_operand state.last && not state.last_is_header ->
+    if word = UNTIL then AFTER_UNTIL else AFTER_DURING
   | NAME x as name ->
     if after_point state || raw_token state (i + 1) <> LBRACE then
       if same_line state (i + 1) && begins_argument state (i + 1) && state.last <> DEF then COMMAND x else name

@@ -25,3 +25,10 @@ val of_string : string -> (t, string) result
 
 val first_of_string : string -> (t, string) result
 (** The same for a first line, which is a header or that of no journal. *)
+
+(** {1:states What is known of vehicles} *)
+
+val of_state : World.vehicle_state -> Field.members
+(** The members of a [vehicle] line that say what is known. *)
+
+val to_state : Field.members -> (World.vehicle_state, string) result

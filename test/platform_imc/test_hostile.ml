@@ -115,7 +115,8 @@ let spoofed =
       Alcotest.(check (option int)) "counted"
         (Some (List.length (List.filter (fun (l : Recording.line) ->
              match Recording.message l with
-             | Announce _ | Heartbeat | Estimated_state _ | Vehicle_state _ | Plan_control_state _ | Fuel_level _ | Entity_list _ -> true
+             | Announce _ | Heartbeat | Estimated_state _ | Vehicle_state _ | Plan_control_state _ | Fuel_level _ | Entity_list _
+             | Log_book_entry _ -> true
              | Plan_control c -> c.type_ <> Request
              | _ -> false) (Lazy.force inward))))
         (List.assoc_opt "foreign address" (Station.dropped s')))

@@ -29,6 +29,10 @@ val task : vehicles:string list -> depth:int -> Ast.expression QCheck2.Gen.t
 (** [task ~vehicles ~depth] is a task of at most that depth, each of whose platform tasks names its vehicle, by one of
     these variables; branches of [|] name different ones. Without vehicles it has no platform tasks. *)
 
+val nested : vehicles:string list -> depth:int -> Ast.expression QCheck2.Gen.t
+(** [nested ~vehicles ~depth] is as {!task}, of parts side by side, most of them inside of [until], [during], [watch],
+    [allOf] ..., and so again [depth] times. *)
+
 val guard : Ast.closure QCheck2.Gen.t
 (** Code of a [when], [waitFor], [condition] or [until]. *)
 

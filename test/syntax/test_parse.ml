@@ -48,6 +48,14 @@ let newlines =
       "if (a) b; else c", "if (a) { b } else { c }"; "x = t\nuntil { a } run b", "x = t; until { a } run b"; "x = (t\nuntil { a })", "x = until { a } run t";
       "a\r\nb\r\n", "a; b" ]
 
+(* A brace at the start of a statement opens a closure if it has parameters, and a block otherwise. *)
+let closures =
+  all "closures at the start of a statement"
+    [ "f = { b -> { c -> } }", "f = { b -> ({ c -> }) }"; "f = { { c, d -> c } }", "f = { ({ c, d -> c }) }";
+      "{ a -> b }", "({ a -> b })"; "def f() { a; { -> b } }", "def f() { a; ({ -> b }) }";
+      "{ a -> b }.call(1); c", "({ a -> b }).call(1); c"; "a\n{ b -> c }\nd", "a; ({ b -> c }); d";
+      "f = { a -> { b } }", "f = { a -> { b; } }" ]
+
 let commands =
   all "commands"
     [ "message 'x'", "message('x')"; "pause 12.seconds", "pause(12.seconds)"; "post again: i", "post(again: i)"; "move 200,0", "move(200, 0)";
@@ -101,5 +109,5 @@ let answers =
 
 let suite =
   List.concat
-    [ precedence; newlines; commands; tasks; words; answers;
+    [ precedence; newlines; closures; commands; tasks; words; answers;
       List.map good [ "good/paper_one.dol"; "good/paper_two.dol"; "good/snippets.dol" ] ]

@@ -50,7 +50,7 @@ let difference (e : Case.seen) (t : Dialogue.transition) =
   let differs what same show expected seen =
     match expected with
     | Some expected when not (same expected seen) ->
-      Some (Printf.sprintf "%s should be %s, and is %s" what (show expected) (show seen))
+      Some (Printf.sprintf "%s: expected %s, seen %s" what (show expected) (show seen))
     | Some _ | None -> None
   in
   let among wanted there = List.for_all (fun x -> List.mem x there) wanted in

@@ -37,7 +37,8 @@ let outcomes expected seen =
 let deadlock expected (all : Walks.all) =
   let stuck = List.exists (fun (o : Case.outcome) -> o.how = "stuck") all.outcomes in
   if stuck = expected then Ok ()
-  else Error (if stuck then "expected none, and some run gets stuck" else "expected a run that gets stuck, and none does")
+  else if stuck then Error "expected none, and some run gets stuck"
+  else Error "expected a run that gets stuck, and none does"
 
 (* {1 Cases} *)
 

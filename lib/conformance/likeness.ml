@@ -44,7 +44,11 @@ let same_ending (how, message) seen =
 
 let bracketed show xs = "[" ^ String.concat ", " (List.map show xs) ^ "]"
 let assignment (name, x) = name ^ ": " ^ x
-let show_ending = function None -> "none" | Some (how, message) -> Option.fold ~none:how ~some:(fun m -> how ^ ": " ^ m) message
+
+let show_ending = function
+  | None -> "none"
+  | Some (how, None) -> how
+  | Some (how, Some message) -> how ^ ": " ^ message
 
 let difference (e : Case.seen) (t : Dialogue.transition) =
   let differs what same show expected seen =

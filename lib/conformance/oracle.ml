@@ -28,7 +28,8 @@ type error =
 let explain = function
   | No_json why -> ("no-json", why)
   | Bad_request why -> ("bad-request", why)
-  | Unknown_request name -> ("unknown-request", Printf.sprintf "there is no request %S: there are hello, initial and step" name)
+  | Unknown_request name ->
+    ("unknown-request", Printf.sprintf "there is no request %S: there are hello, initial and step" name)
   | No_program -> ("no-program", "no program was given: initial comes first")
   | Bad_configuration why -> ("bad-configuration", why)
   | Bad_world why -> ("bad-world", why)

@@ -65,7 +65,8 @@ def sum(n) { if (n == 0) return 0
   n + rest }
 v = pick { id 'noptilus-1' }
 place = location(41.18, -8.7)
-values = [null, true, 1, 1.5, 'text', [a: [1, 2]], 1..3, place, place ^ 200.m, v, twice({ it + 1 }), Speed.Units.RPM, 2.0 ** 0.5]
+values = [null, true, 1, 1.5, 'text', [a: [1, 2]], 1..3, place, place ^ 200.m, v, twice({ it + 1 }),
+  Speed.Units.RPM, 2.0 ** 0.5]
 plans = [imcPlan('named'),
   imcPlan {
     planName 'all'; locate Location.APDL
@@ -136,7 +137,8 @@ let rec mutants (json : Yojson.Safe.t) : Yojson.Safe.t list =
     match json with
     | `List items ->
       let at i f = `List (List.concat (List.mapi (fun j x -> if i = j then f x else [ x ]) items)) in
-      let each i x = at i (fun _ -> []) :: at i (fun x -> [ x; x ]) :: List.map (fun x -> at i (fun _ -> [ x ])) (mutants x) in
+      let each i x =
+        at i (fun _ -> []) :: at i (fun x -> [ x; x ]) :: List.map (fun x -> at i (fun _ -> [ x ])) (mutants x) in
       List.concat (List.mapi each items)
     | `Assoc members ->
       let at i f = `Assoc (List.concat (List.mapi (fun j m -> if i = j then f m else [ m ]) members)) in
@@ -159,8 +161,8 @@ let first_transition reply =
 let hostile () =
   let source =
     "v = pick { id 'noptilus-1' }\nfor (x in [1, 2]) { message([x].collect { it + 1 }) }\n\
-     execute (watch (during 5 run task('p')[v]) onError { ignore() }) | allOf { when { poll(a: _) } then idle(1); when { \
-     true } then action { post a: 1 } }" in
+     execute (watch (during 5 run task('p')[v]) onError { ignore() }) | \
+     allOf { when { poll(a: _) } then idle(1); when { true } then action { post a: 1 } }" in
   let o, start = oracle source in
   let replies = ref 0 and refused = ref 0 in
   let ask configuration =
@@ -218,5 +220,6 @@ let () =
         [ along "come back from text" comes_back; along "have one text" is_one_text;
           along "do the same when they are back" does_the_same; tells_apart; case "of every kind" every_kind;
           case "are not written if they are huge" (too_large "t = idle(1)\nfor (i in 1..30) { t = t >> t }");
-          case "are not written if they are deep" (too_large "t = idle(1)\nfor (i in 1..6000) { t = t >> idle(1) }") ] );
+          case "are not written if they are deep"
+            (too_large "t = idle(1)\nfor (i in 1..6000) { t = t >> idle(1) }") ] );
       ("requests", [ case "have errors with codes" codes; case "of configurations that were tampered with" hostile ]) ]

@@ -10,6 +10,9 @@ type settings = {
   epoch : float;
   first_request : int;
   payload : (Core.vehicle * string list) list;
+  types : (Core.vehicle * string) list;
+  type_names : (int * string) list;
+  listens : bool;
 }
 
 (* What is to be done with a vehicle when it is heard of. *)
@@ -43,6 +46,7 @@ type t = {
   dropped : int Names.t;
   skipped : int;
   accepted : int;
+  heard : Heard.t;
 }
 
 type output =
@@ -65,7 +69,7 @@ let least_announce_interval = 0.25
    heartbeats for so long. *)
 let courtship = 15.
 let patience = 300.
-let most_queries = 10
+let most_queries = 50
 let longest_name = 200
 let telemetry_interval = 0.95
 
@@ -73,14 +77,20 @@ let create settings =
   { settings; nodes = Nodes.empty; ids = Names.empty; bound = Names.empty; telemetry = false; timeouts = Names.empty;
     timeout = 60.; timers = []; told = Names.empty; expected = Names.empty; outbox = Outbox.empty; next_announce = 0.;
     last_announce = neg_infinity; next_heartbeat = 0.; next_eager = infinity; dropped = Names.empty; skipped = 0;
-    accepted = 0 }
+    accepted = 0; heard = Heard.nothing }
 
 let timeout_of name s = Option.value (Names.find_opt name s.timeouts) ~default:s.timeout
 let find name s = Option.bind (Names.find_opt name s.ids) (fun id -> Nodes.find_opt id s.nodes)
 let put (n : Node.t) s = { s with nodes = Nodes.add n.id n s.nodes }
 
+let kind_of (n : Node.t) s =
+  match List.assoc_opt n.name s.settings.types with
+  | Some kind -> kind
+  | None -> Service.kind ~names:s.settings.type_names n.kind
+
 let state_of ~now (n : Node.t) s =
-  Node.state ~now ~timeout:(timeout_of n.name s) ~payload:(List.assoc_opt n.name s.settings.payload) n
+  let payload = List.assoc_opt n.name s.settings.payload in
+  Node.state ~now ~timeout:(timeout_of n.name s) ~kind:(kind_of n s) ~payload n
 
 (* {1 Sending} *)
 
@@ -282,6 +292,7 @@ let heard ~now (p : Packet.t) (n : Node.t) s =
   if first && Node.is_vehicle n && not (List.mem_assoc n.name s.settings.payload) then
     let n = Node.queried n in
     let query = Message.Entity_list { Message.Entity_list.default with op = Query } in
+    let s = { s with next_eager = Float.min s.next_eager (now +. eager_heartbeat_interval) } in
     (put n s, sent @ to_node ~now n query s)
   else (s, sent)
 
@@ -297,8 +308,17 @@ let packet ~now ~from (p : Packet.t) s =
           | Message Abort -> aborted ~now p s
           | Message _ | Unknown _ -> heard ~now p n s))
 
+(* Of systems that have announced, from where they are. *)
+let listen ~from (h : Header.t) bytes s =
+  match Nodes.find_opt h.src s.nodes with
+  | Some n when s.settings.listens && Node.belongs from n && Header.check h bytes = Ok () ->
+    { s with heard = Heard.add h bytes s.heard }
+  | Some _ | None -> s
+
 let datagram ~now ~from ?len bytes s =
-  match Header.read ?len bytes with
+  let header = Header.read ?len bytes in
+  let s = match header with Ok h -> listen ~from h bytes s | Error _ -> s in
+  match header with
   | Error why -> drop (Error.label why) s
   | Ok h when not (is_wanted h.id) -> skip s
   | Ok h when h.src = s.settings.id -> drop "our own" s
@@ -319,25 +339,25 @@ let is_kept ~now (n : Node.t) =
 let heartbeats ~now which s =
   Nodes.fold (fun _ n sent -> if which n then to_node ~now n Heartbeat s @ sent else sent) s.nodes []
 
+(* Entity lists that did not come are asked for again: programs pick vehicles by what they carry. *)
+let lacks_entities ~now (n : Node.t) =
+  n.entities = None && n.last_heard > neg_infinity && n.queries > 0 && n.queries < most_queries
+  && not (Node.silent ~now ~timeout:5. n)
+
+let next_eager ~now s =
+  let waits _ n = is_courted ~now n || lacks_entities ~now n in
+  if Nodes.exists waits s.nodes then now +. eager_heartbeat_interval else infinity
+
 let beat ~now s =
-  let courted = is_courted ~now in
-  let next_eager () =
-    if Nodes.exists (fun _ n -> courted n) s.nodes then now +. eager_heartbeat_interval else infinity
-  in
+  let next_eager = next_eager ~now s in
   if now >= s.next_heartbeat then
-    ( { s with next_heartbeat = now +. heartbeat_interval; next_eager = next_eager () },
-      heartbeats ~now (is_kept ~now) s )
-  else if now >= s.next_eager then ({ s with next_eager = next_eager () }, heartbeats ~now courted s)
+    ({ s with next_heartbeat = now +. heartbeat_interval; next_eager }, heartbeats ~now (is_kept ~now) s)
+  else if now >= s.next_eager then ({ s with next_eager }, heartbeats ~now (is_courted ~now) s)
   else (s, [])
 
-(* Entity lists that did not come are asked for again, with every heartbeat. *)
 let query ~now s =
-  let lacks (n : Node.t) =
-    n.entities = None && n.last_heard > neg_infinity && n.queries > 0 && n.queries < most_queries
-    && not (Node.silent ~now ~timeout:5. n)
-  in
   let ask _ (n : Node.t) (s, sent) =
-    if not (lacks n) then (s, sent)
+    if not (lacks_entities ~now n) then (s, sent)
     else
       let n = Node.queried n in
       let query = Message.Entity_list { Message.Entity_list.default with op = Query } in
@@ -379,7 +399,7 @@ let check ~now _ (n : Node.t) (s, sent) =
 
 let tick ~now s =
   let s, announced = announce ~now s in
-  let beats = now >= s.next_heartbeat in
+  let beats = now >= Float.min s.next_heartbeat s.next_eager in
   let s, beaten = beat ~now s in
   let s, queried = if beats then query ~now s else (s, []) in
   let s, checked = Nodes.fold (check ~now) s.nodes (s, []) in
@@ -486,6 +506,7 @@ let sights ~now s =
   List.map (fun (_, n) -> sight n) (Nodes.bindings s.nodes)
   |> List.sort (fun a b -> compare (a.node.name, a.node.id) (b.node.name, b.node.id))
 
+let heard id s = Heard.of_system id s.heard
 let plan vehicle s = Option.bind (find vehicle s) (fun n -> Execution.progress n.execution)
 let dropped s = Names.bindings s.dropped
 let skipped s = s.skipped

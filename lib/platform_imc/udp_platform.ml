@@ -10,6 +10,9 @@ type options = {
   announce_ports : int list;
   group : Unix.inet_addr;
   payload : (Core.vehicle * string list) list;
+  types : (Core.vehicle * string) list;
+  type_names : (int * string) list;
+  listens : bool;
   close_patience : float;
   note : Core.vehicle -> string -> unit;
   keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
@@ -19,7 +22,8 @@ let default =
   { id = None; name = None; loopback = false; interfaces = []; data_port = 0;
     announce_ports = [ 30100; 30101; 30102; 30103; 30104 ];
     group = Unix.inet_addr_of_string "224.0.75.69";
-    payload = []; close_patience = 5.; note = (fun _ _ -> ()); keep = (fun ~time:_ _ _ -> ()) }
+    payload = []; types = []; type_names = []; listens = false; close_patience = 5.; note = (fun _ _ -> ());
+    keep = (fun ~time:_ _ _ -> ()) }
 
 type t = {
   options : options;
@@ -43,7 +47,7 @@ type t = {
 let name = "imc"
 let virtual_time = false
 
-(* Vehicles announce every 10 s, and speak to a console up to 5 s after it has introduced itself. *)
+(* Vehicles announce every 10 s, and speak to a console up to 5 s after it has introduced itself: see docs/rationale.md. *)
 let longest_silence = 16.
 let announce_period _ = longest_silence
 let gathering = 0.002
@@ -224,7 +228,7 @@ let settings options ~port ~hosts ~time : Station.settings =
     addresses = List.map (fun host -> { Service.host; port }) hosts;
     epoch = Unix.gettimeofday () -. time;
     first_request = Random.State.int random 0x10000;
-    payload = options.payload }
+    payload = options.payload; types = options.types; type_names = options.type_names; listens = options.listens }
 
 let guard p thread =
   let fail error =
@@ -333,6 +337,7 @@ let id p = p.settings.id
 let name_on_network p = p.settings.name
 let data_port p = p.port
 let sights p = Station.sights ~now:(now p) p.station
+let heard p id = Station.heard id p.station
 let progress p vehicle = Station.plan vehicle p.station
 
 type traffic = { accepted : int; skipped : int; dropped : (string * int) list; unsent : int }

@@ -4,7 +4,6 @@ module Property = Dolphin_explore.Property
 module Faults = Dolphin_explore.Faults
 module World_of = Dolphin_explore.World_of
 module Course = Dolphin_trace.Course
-module Columns = Dolphin_display.Columns
 
 type settings = {
   answers : string list;
@@ -13,6 +12,7 @@ type settings = {
   json : bool;
   trace : string option;
   reduction : Dolphin_explore.Reduction.t;
+  compress : bool;
   max_states : int option;
   max_depth : int option;
   max_memory : int option;
@@ -36,30 +36,11 @@ let clear_progress () = Printf.eprintf "\r\027[K%!"
 
 (* {1 Results} *)
 
-let print_run program (run : Search.run) =
-  let print = List.iter print_endline in
-  print (Columns.lines program run.steps);
-  if run.cycle <> [] then begin
-    print_endline "and from there, again and again:";
-    print (Columns.lines ~first:(List.length run.steps + 1) program run.cycle)
-  end
-
 let print_pieces (program : Dolphin_semantics.Core.program) pieces =
   List.iter
     (fun (piece : Dolphin_explore.Coverage.piece) ->
        Format.printf "  %a: %s@." Dolphin_syntax.Location.pp program.locations.(piece.site) piece.what)
     pieces
-
-(* Where a deadlock stands: what it waits for in vain. *)
-let print_waiting (program : Dolphin_semantics.Core.program) (run : Search.run) =
-  match List.rev run.steps with
-  | { next = { control = Executing (_, residual); _ }; _ } :: _ ->
-    let guard (c : Dolphin_semantics.Core.closure) =
-      Format.printf "waits for the condition at %a@." Dolphin_syntax.Location.pp
-        program.locations.(c.lambda.lambda_site)
-    in
-    List.iter guard (Dolphin_runtime.Driver.guards residual)
-  | _ -> ()
 
 let print_outcome program s (o : Search.outcome) =
   let shown = List.map (fun (property, verdict) -> (property, verdict, is_remark property && not s.strict)) o.verdicts in
@@ -79,8 +60,8 @@ let print_outcome program s (o : Search.outcome) =
          Format.printf "@.%s: a%s run in which %s@." (Property.name property)
            (if run.shortest then " shortest" else "")
            (Property.question property);
-         print_run program run;
-         if property = No_deadlock then print_waiting program run
+         Shown_run.print program ~steps:run.steps ~cycle:run.cycle;
+         if property = No_deadlock then Shown_run.print_waiting program run.steps
        | Unreached pieces when not remark ->
          Format.printf "@.%s: no run reaches@." (Property.name property);
          print_pieces program pieces
@@ -101,7 +82,7 @@ let json_of_run (run : Search.run) =
     else Some (`Assoc [ ("step", `Int (i + 1)); ("assumed", `List (List.map what t.assumed)) ])
   in
   let assumptions = List.filter_map Fun.id (List.mapi assumed (run.steps @ run.cycle)) in
-  [ ("run", labels run.steps); ("cycle", labels run.cycle) ]
+  [ ("shortest", `Bool run.shortest); ("run", labels run.steps); ("cycle", labels run.cycle) ]
   @ if assumptions = [] then [] else [ ("assumptions", `List assumptions) ]
 
 let json_of_outcome (program : Dolphin_semantics.Core.program) (o : Search.outcome) : Yojson.Safe.t =
@@ -135,22 +116,35 @@ let counter_example strict (o : Search.outcome) =
        | Violated _ | Holds | Unreached _ | Inconclusive _ -> None)
     o.verdicts
 
-let write_trace (program : Program_file.t) (fleet : Fleet_file.t) world path (property, (run : Search.run)) =
+let as_course (program : Program_file.t) (fleet : Fleet_file.t) world property (run : Search.run) =
   let source path text = Dolphin_trace.Header.source ~path text in
   let steps = Course.steps program.program world in
   let initial = Dolphin_semantics.Configuration.initial program.program in
   let last (_ : Dolphin_semantics.Configuration.t) (t : Dolphin_semantics.Transition.t) = t.next in
-  let course : Course.t =
+  Course.to_lines
     { program = source program.path program.source;
       fleet = Option.map (fun path -> source path fleet.source) fleet.path;
       property = Property.name property;
       steps = steps initial run.steps;
       cycle = steps (List.fold_left last initial run.steps) run.cycle }
-  in
+
+let as_itf (program : Program_file.t) property (run : Search.run) =
+  let description = Printf.sprintf "%s: %s" (Property.name property) (Property.question property) in
+  let initial = Dolphin_semantics.Configuration.initial program.program in
+  let trace = Dolphin_trace.Itf.trace program.program ~description initial run.steps ~cycle:run.cycle in
+  [ Yojson.Safe.to_string trace ]
+
+let write_trace program fleet world path (property, run) =
   match open_out_bin path with
   | exception Sys_error why -> Report.complain why; Some Exit_status.Platform_trouble
   | channel ->
-    let write () = List.iter (fun line -> output_string channel (line ^ "\n")) (Course.to_lines course) in
+    let write () =
+      let lines =
+        if Filename.check_suffix path ".itf.json" then as_itf program property run
+        else as_course program fleet world property run
+      in
+      List.iter (fun line -> output_string channel (line ^ "\n")) lines
+    in
     Fun.protect ~finally:(fun () -> close_out channel) write;
     None
 
@@ -169,9 +163,9 @@ let explore (program : Program_file.t) (fleet : Fleet_file.t) s invariants formu
   let live = Unix.isatty Unix.stderr && not s.json in
   let options : Search.options =
     { environment = World_of.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
-      reduction = s.reduction;
+      reduction = s.reduction; compress = s.compress;
       search_again = Search.default.search_again;
-      max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; timeout = s.timeout;
+      max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; memory_left = Memory.left; timeout = s.timeout;
       clock = Unix.gettimeofday;
       invariants; formulas;
       interrupted = (fun () -> !interrupted);
@@ -199,13 +193,13 @@ let read_all option of_string texts =
   in
   Result.map List.rev (List.fold_left read (Ok []) texts)
 
-let run path fleet answers faults strict json trace reduction invariants formulas max_states max_depth max_memory timeout =
+let run path fleet answers faults strict json trace reduction compress invariants formulas max_states max_depth max_memory timeout =
   match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet) with
   | Error trouble, _ -> Program_file.tell trouble; Exit_status.Bad_input
   | Ok _, Error trouble -> Fleet_file.tell trouble; Exit_status.Bad_input
   | Ok program, Ok fleet ->
     Report.diagnostics ~source:program.source program.warnings;
-    let settings = { answers; faults; strict; json; trace; reduction; max_states; max_depth; max_memory; timeout } in
+    let settings = { answers; faults; strict; json; trace; reduction; compress; max_states; max_depth; max_memory; timeout } in
     let program' = program.program in
     (match read_all "--invariant" (Dolphin_explore.Condition.of_string program') invariants,
            read_all "--ltl" (Dolphin_explore.Temporal.of_string program') formulas with
@@ -246,7 +240,9 @@ let faults =
 let bound kind name docv doc = Arg.(value & opt (some kind) None & info [ name ] ~docv ~doc)
 let max_states = bound Arg.int "max-states" "N" "Stop after $(docv) states."
 let max_depth = bound Arg.int "max-depth" "N" "Follow runs for $(docv) transitions only."
-let max_memory = bound size "max-memory" "SIZE" "Stop before more than $(docv) of memory is used, as in 512M or 8G."
+let max_memory = bound size "max-memory" "SIZE" 
+    "Stop before more than $(docv) of memory is used, as in 512M or 8G. Without it, the search stops before it has nine \
+     tenths of what the machine, and the limits on the process, leave to it."
 let timeout = bound Arg.float "timeout" "SECONDS" "Stop after $(docv) seconds."
 
 let answers =
@@ -278,8 +274,9 @@ let formulas =
 
 let trace =
   let doc =
-    "Write the first of the runs that are shown into the file $(docv). $(mname) $(b,exec --follow) $(docv) replays it. Nothing is \
-     written if there is none."
+    "Write the first of the runs that are shown into the file $(docv). $(mname) $(b,exec --follow) $(docv) replays it. If \
+     its name ends in $(b,.itf.json), it is written in the Informal Trace Format instead, for the tools of TLA+ and Quint. Nothing \
+     is written if there is none."
   in
   Arg.(value & opt (some string) None & info [ "trace" ] ~docv:"FILE" ~doc)
 
@@ -290,6 +287,12 @@ let reduction =
      order reduction), with the same verdicts; not used beside an $(b,--invariant). The number of states printed is that of the states looked at."
   in
   Arg.(value & opt (enum kinds) Partial_order & info [ "reduction" ] ~docv:"KIND" ~doc)
+
+let compress =
+  let doc =
+    "Keep the states in some 12 bytes each instead of 25 (or more: 8 for each further word), which takes half as much time again."
+  in
+  Arg.(value & flag & info [ "compress" ] ~doc)
 
 let json = Arg.(value & flag & info [ "json" ] ~doc:"Print the result as one JSON object.")
 
@@ -328,5 +331,5 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ trace $ reduction
+      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ trace $ reduction $ compress
       $ invariants $ formulas $ max_states $ max_depth $ max_memory $ timeout)

@@ -92,7 +92,8 @@ let show transitions path =
           Hashtbl.replace silent state.id (not state.connected);
           entries := entry :: !entries
         end
-      | Header _ | Event _ | Transition _ | End _ -> entries := entry :: !entries
+      | Note _ -> ()
+      | Header _ | Event _ | Transition _ | Resumed _ | End _ -> entries := entry :: !entries
     in
     let status = each_line path keep in
     if !entries <> [] then Table.print Format.std_formatter (List.rev !entries);

@@ -1,6 +1,7 @@
 (* fleet N F [MAX_STATES]: explores the program of the peers' models, N vehicles, F = 1 with failures, and prints one
-   line: states, transitions, depth, seconds of CPU, bytes a state as the explorer counts them. With REDUCTION=por in
-   the environment the search is reduced. *)
+   line: states, transitions, depth, seconds of CPU, bytes a state as the explorer counts them. With REDUCTION=por,
+   symmetry or all in the environment the search is reduced, with COMPRESS=yes states are compressed. CONTEXT (watch,
+   ignore, during, until or then) says what stands around the task that is executed; plain has nothing. *)
 
 open Dolphin_semantics
 open Dolphin_explore
@@ -8,17 +9,25 @@ open Dolphin_explore
 let program n =
   let each format = List.init n (fun i -> Printf.sprintf format (i + 1)) in
   let branch i = Printf.sprintf "when { consume ready:%d } then imcPlan('rv%d')" (i + 1) (i + 1) in
+  let around task =
+    match Option.value (Sys.getenv_opt "CONTEXT") ~default:"plain" with
+    | "plain" -> task
+    | "watch" -> Printf.sprintf "(watch (%s) onError { message 'failed' ; halt 'failed' })" task
+    | "ignore" -> Printf.sprintf "(watch (%s) onError { ignore() })" task
+    | "during" -> Printf.sprintf "(during 1.hours run (%s))" task
+    | "until" -> Printf.sprintf "(until { poll stop:1 } run (%s))" task
+    | "then" -> Printf.sprintf "(%s) >> action { post done:1 }" task
+    | context -> failwith ("no context: " ^ context)
+  in
+  let uuvs = String.concat " | " (each "UUVTask(%d)") and branches = String.concat "\n" (List.init n branch) in
   Printf.sprintf
     {|UUVs = pick { count %d; type 'UUV' }
 UAV = pick { type 'UAV' }
 def UUVTask(i) { imcPlan('survey' + i) >> action { post ready:i } >> imcPlan('sk' + i) }
-execute UUVs: %s, UAV: allOf {
-%s
-}
+execute %s
 |}
     n
-    (String.concat " | " (each "UUVTask(%d)"))
-    (String.concat "\n" (List.init n branch))
+    (around (Printf.sprintf "(%s)[UUVs] | (allOf {\n%s\n})[UAV]" uuvs branches))
 
 let compile source =
   let explain ds = failwith (Format.asprintf "%a" (Fmt.list (Dolphin_syntax.Diagnostic.pp ~source)) ds) in
@@ -44,8 +53,15 @@ let () =
       p.depth (p.memory / 1_000_000)
   in
   let progress = if Sys.getenv_opt "PROGRESS" = None then ignore else report in
-  let reduction = if Sys.getenv_opt "REDUCTION" = Some "por" then Reduction.Partial_order else Whole in
-  let options = { Search.default with environment; reduction; max_states = argument 3; progress } in
+  let reduction =
+    match Sys.getenv_opt "REDUCTION" with
+    | Some "por" -> Reduction.Partial_order
+    | Some "symmetry" -> Symmetry
+    | Some "all" -> All
+    | Some _ | None -> Whole
+  in
+  let compress = Sys.getenv_opt "COMPRESS" <> None in
+  let options = { Search.default with environment; reduction; compress; max_states = argument 3; progress } in
   let o = Search.run options (compile (program n)) (world n) in
   Printf.printf "%d states, %d transitions, depth %d, %.2f s, %.1f bytes a state%s\n" o.states o.transitions o.depth
     (Sys.time ())

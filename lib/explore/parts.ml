@@ -1,48 +1,5 @@
 open Dolphin_semantics
-module Shareds = Interner.Make (Shared)
-
-type target =
-  | Stays of int
-  | Gone
-  | Becomes of { serial : int; parts : part array }
-  | Ends of Configuration.ending
-
-and part = {
-  residual : Residual.t;
-  family : family;
-  local : int;
-  mutable steps : step array;
-  mutable worked_out : step array option;
-  mutable components : Components.t option;
-}
-
-and family = { number : int; mutable members : part array; mutable size : int; mutable width : int }
-and dependence = Free | Guarded of guard | By_case
-and guard = { mutable results : int array }
-and case = {
-  possible : bool;
-  certain : bool;
-  shared : int;
-  result : target;
-  mutable whole : int;
-  others : case list;
-}
-
-and step = {
-  index : int;
-  source : Residual.step;
-  event : Transition.event option;
-  dependence : dependence;
-  target : target;
-  stays : int;
-  mutable cases : case array;
-}
-
-let unknown = -1
-let impossible = -2
-let special = -3
-
-module Residuals = Hashtbl.Make (Residual)
+open Part
 
 (* A guard is known by its code, and by whether the code's value matters. *)
 module Guards = Hashtbl.Make (struct
@@ -56,37 +13,86 @@ type t = {
   options : Environment.options;
   program : Core.program;
   world : World.t;
-  shareds : Shareds.t;
-  parts : part Residuals.t;
+  root : path;
+  flat : bool;
   guards : guard Guards.t;
   coverage : Coverage.t;
   context : Components.context;
   foreseen : int;
+  mutable paths : int;
   mutable families : int;
   mutable serial : int;
   mutable outgrown : bool;
 }
 
-let create ?(foreseen = 2_048) options program world =
+(* Stands for the inside where contexts are compared. *)
+let hole = Residual.Idle { timer = 0; seconds = 0. }
+
+let new_path id contexts outer body =
+  let parts = Residuals.create 16 and inner = Residuals.create 1 in
+  { id; contexts; outer; body; parts; inner; cuts = None }
+
+let create ?(foreseen = 2_048) ?(flat = false) options program world =
   {
     options;
     program;
     world;
-    shareds = Shareds.create ();
-    parts = Residuals.create 1_000;
+    root = new_path 0 [] None hole;
+    flat;
     guards = Guards.create 64;
     coverage = Coverage.create ();
     context = Components.context options program;
     foreseen;
+    paths = 1;
     families = 0;
     serial = 0;
     outgrown = false;
   }
 
-let shareds t = t.shareds
+let options t = t.options
+let program t = t.program
+let world t = t.world
 let coverage t = t.coverage
+let root t = t.root
 
-(* {1 Parts and families} *)
+(* {1 Trees} *)
+
+let plug contexts r = List.fold_left (fun r context -> Residual.within context r) r contexts
+let around path r = plug path.contexts r
+
+let outside path =
+  match path.outer with Some outer -> outer | None -> invalid_arg "Parts.outside: the root"
+
+let inner t path contexts body =
+  let key = plug contexts hole in
+  match Residuals.find_opt path.inner key with
+  | Some inside -> inside
+  | None ->
+    let inside = new_path t.paths contexts (Some path) body in
+    t.paths <- t.paths + 1;
+    Residuals.add path.inner key inside;
+    inside
+
+(* Contexts, the innermost first, and what is in them. *)
+let opened r =
+  let rec from contexts r =
+    match Residual.opened r with
+    | Some (context, body) -> from (context :: contexts) body
+    | None -> (contexts, r)
+  in
+  from [] r
+
+let rec child t path r =
+  match opened r with
+  | (_ :: _ as contexts), (Residual.Parallel rs as body) when not t.flat ->
+    let inside = inner t path contexts body in
+    Nest (inside, List.map (child t inside) rs)
+  | _, _ -> Leaf r
+
+let tree t path (r : Residual.t) =
+  match r with Parallel rs -> List.map (child t path) rs | r -> [ child t path r ]
+
+(* {1 Families} *)
 
 let bits_for size =
   let rec from bits = if 1 lsl bits >= size then bits else from (bits + 1) in
@@ -96,18 +102,19 @@ let lay_out family = family.width <- bits_for family.size
 let outgrown t = t.outgrown
 let none_outgrown t = t.outgrown <- false
 
-let grown xs length x =
-  let longer = Array.make (max length (2 * Array.length xs)) x in
-  Array.blit xs 0 longer 0 (Array.length xs);
-  longer
-
-let member t family residual =
-  let p = { residual; family; local = family.size; steps = [||]; worked_out = None; components = None } in
-  if family.size = Array.length family.members then family.members <- grown family.members 8 p;
+let member t path family residual =
+  let p =
+    { residual; path; family; local = family.size; steps = [||]; worked_out = None; alone = None; components = None }
+  in
+  if family.size = Array.length family.members then begin
+    let longer = Array.make (max 8 (2 * family.size)) p in
+    Array.blit family.members 0 longer 0 family.size;
+    family.members <- longer
+  end;
   family.members.(family.size) <- p;
   family.size <- family.size + 1;
   if family.width > 0 && family.size > 1 lsl family.width then t.outgrown <- true;
-  Residuals.add t.parts residual p;
+  Residuals.add path.parts residual p;
   p
 
 let new_family t =
@@ -124,12 +131,12 @@ let guard t check closure =
 
 (* {1 Steps} *)
 
-let rec part t residual =
-  match Residuals.find_opt t.parts residual with
+let rec part t path residual =
+  match Residuals.find_opt path.parts residual with
   | Some p -> p
   | None ->
     let family = new_family t in
-    let p = member t family residual in
+    let p = member t path family residual in
     let rec foresee i =
       if i < family.size && i < t.foreseen then begin
         ignore (work_out t family.members.(i));
@@ -139,72 +146,77 @@ let rec part t residual =
     foresee 0;
     p
 
-and target_of t family residual =
-  let becomes parts =
-    t.serial <- t.serial + 1;
-    Becomes { serial = t.serial; parts }
-  in
-  match (residual : Residual.t) with
-  | Parallel rs -> becomes (Array.of_list (List.map (part t) rs))
-  | residual -> (
-      match Residuals.find_opt t.parts residual with
-      | Some p when p.family == family -> Stays p.local
-      | Some p -> becomes [| p |]
-      | None -> Stays (member t family residual).local)
+and grown t path = function
+  | Leaf r -> Leaf (part t path r)
+  | Nest (inside, children) -> Nest (inside, List.map (grown t inside) children)
 
-and target_of_outcome t family : Transition.outcome -> target = function
-  | Goes_on r -> target_of t family r
-  | Over -> Gone
-  | Ends ending -> Ends ending
+and becomes t path tree =
+  let children = List.map (grown t path) tree in
+  t.serial <- t.serial + 1;
+  Becomes { serial = t.serial; children; parts = Array.of_list (List.concat_map leaves children) }
+
+and target_of t path family residual =
+  match tree t path residual, family with
+  | [ Leaf r ], Some family -> (
+      match Residuals.find_opt path.parts r with
+      | Some p when p.family == family -> Stays p.local
+      | Some _ -> becomes t path [ Leaf r ]
+      | None -> Stays (member t path family r).local)
+  | tree, _ -> becomes t path tree
 
 (* Steps that go on in one way, whatever is shared, are settled here; the others case by case. *)
+and compile t home kin index (source : Residual.step) =
+  let by_case event =
+    { index; source; event; home; kin; dependence = By_case; target = Gone; stays = -1; cases = [||] }
+  in
+  let certain event dependence =
+    let settled target =
+      let stays = match target with Stays n -> n | Gone | Becomes _ | Ends _ -> -1 in
+      { (by_case event) with dependence; target; stays }
+    in
+    match (source.continue Went).outcome with
+    | Next r -> settled (target_of t home kin r)
+    | Finished -> settled Gone
+    | Failed _ | Handling _ -> by_case event
+  in
+  match source.offer with
+  | Start _ -> [ certain None Free ]
+  | Perform closure -> [ certain None (Guarded (guard t false closure)) ]
+  | Check closure -> [ certain None (Guarded (guard t true closure)) ]
+  | Measure _ -> [ by_case None ]
+  | Expiry_of timer -> [ certain (Some (Timer_expired timer)) Free ]
+  | End_of (task, v) ->
+    let on_event (event, _) =
+      match event with
+      | Transition.Vehicle_done _ when not (Environment.endings_remember t.options) -> certain (Some event) Free
+      | event -> by_case (Some event)
+    in
+    List.map on_event (Environment.task_ends t.options Environment.initial v task)
+
 and work_out t p =
   match p.worked_out with
   | Some steps -> steps
   | None ->
-    let by_case index source event =
-      { index; source; event; dependence = By_case; target = Gone; stays = -1; cases = [||] }
-    in
-    let certain index source event dependence =
-      let settled target =
-        let stays = match target with Stays n -> n | Gone | Becomes _ | Ends _ -> -1 in
-        { index; source; event; dependence; target; stays; cases = [||] }
-      in
-      match (source.Residual.continue Went).outcome with
-      | Next r -> settled (target_of t p.family r)
-      | Finished -> settled Gone
-      | Failed _ | Handling _ -> by_case index source event
-    in
-    let compile index (source : Residual.step) =
-      match source.offer with
-      | Start _ -> [ certain index source None Free ]
-      | Perform closure -> [ certain index source None (Guarded (guard t false closure)) ]
-      | Check closure -> [ certain index source None (Guarded (guard t true closure)) ]
-      | Measure _ -> [ by_case index source None ]
-      | Expiry_of timer -> [ certain index source (Some (Timer_expired timer)) Free ]
-      | End_of (task, v) ->
-        let on_event (event, _) =
-          match event with
-          | Transition.Vehicle_done _ when not (Environment.endings_remember t.options) ->
-            certain index source (Some event) Free
-          | event -> by_case index source (Some event)
-        in
-        List.map on_event (Environment.task_ends t.options Environment.initial v task)
-    in
-    let steps = Array.of_list (List.concat (List.mapi compile (List.of_seq (Residual.steps p.residual)))) in
+    let compiled = List.mapi (compile t p.path (Some p.family)) (List.of_seq (Residual.steps p.residual)) in
+    let steps = Array.of_list (List.concat compiled) in
     p.worked_out <- Some steps;
     steps
 
+let children t path r = List.map (grown t path) (tree t path r)
+
 (* Code of a part that is reached is run, whatever comes of it. *)
-let reach t p =
-  let steps = work_out t p in
-  let cover step =
+let cover t steps =
+  let step step =
     match step.source.Residual.offer with
     | Start (task, _) -> Coverage.start t.coverage task
     | Perform c | Check c | Measure c -> Coverage.run t.coverage c
     | End_of _ | Expiry_of _ -> ()
   in
-  Array.iter cover steps;
+  Array.iter step steps
+
+let reach t p =
+  let steps = work_out t p in
+  cover t steps;
   p.steps <- steps
 
 let components t p =
@@ -216,80 +228,40 @@ let components t p =
     p.components <- Some components;
     components
 
-(* {1 What depends on what is shared} *)
+(* {1 Nests} *)
 
-let configuration shared = Shared.under (Ended Interrupted) shared
+let cuts t path =
+  match path.cuts with
+  | Some cuts -> cuts
+  | None ->
+    let further contexts (step : Residual.step) =
+      let change reply =
+        List.fold_left (fun change context -> Residual.change_within context change) (step.continue reply) contexts
+      in
+      { step with continue = change }
+    in
+    let rec from body = function
+      | [] -> []
+      | context :: contexts ->
+        let cut = Option.map (further contexts) (Residual.cut context body) in
+        Option.to_list cut @ from (Residual.within context body) contexts
+    in
+    let compiled = List.mapi (compile t (outside path) None) (from path.body path.contexts) in
+    let cuts = Array.of_list (List.concat compiled) in
+    cover t cuts;
+    path.cuts <- Some cuts;
+    cuts
 
-(* The handlers that ran: one for each rule of a handler in the derivation, the innermost first. *)
-let note_handlers t (change : Residual.change) (local : Transition.local) =
-  let of_handler = function Rule.Watch_ignore | Watch_propagate | Watch_halt | Assert_err -> true | _ -> false in
-  let settled = match local.derivation with Rule.Assert_err :: _ -> [] | rules -> List.filter of_handler rules in
-  let rec note n (change : Residual.change) =
-    match change.outcome with
-    | Handling { handler; fault; propagated; _ } when n > 0 ->
-      Coverage.run t.coverage handler;
-      note (n - 1) (propagated fault)
-    | Handling _ | Next _ | Finished | Failed _ -> ()
-  in
-  note (List.length settled) change
+let alone t p =
+  match p.alone with
+  | Some target -> target
+  | None ->
+    let home = outside p.path in
+    let target = becomes t home (tree t home (around p.path p.residual)) in
+    p.alone <- Some target;
+    target
 
-let internal t step s =
-  let shared = Shareds.value t.shareds s in
-  let locals = Transition.local_internal t.program t.world (configuration shared) step.source in
-  (match step.source.offer with
-   | Perform _ | Check _ | Measure _ ->
-     let broken = Residual.Broke (Fault.make Fault.unknown_site "") in
-     List.iter (note_handlers t (step.source.continue broken)) locals
-   | Start _ | End_of _ | Expiry_of _ -> ());
-  (locals, shared.outside)
-
-let on_event t step event s =
-  let shared = Shareds.value t.shareds s in
-  let take outside =
-    let locals = Transition.local_event t.program t.world (configuration shared) step.source event in
-    let broken = Residual.Broke (Fault.make Fault.unknown_site "") in
-    List.iter (note_handlers t (step.source.continue broken)) locals;
-    (locals, outside)
-  in
-  match step.source.offer with
-  | End_of (task, v) -> (
-      match List.assoc_opt event (Environment.task_ends t.options shared.outside v task) with
-      | Some outside -> take outside
-      | None -> ([], shared.outside))
-  | Start _ | Perform _ | Check _ | Measure _ | Expiry_of _ -> take shared.outside
-
-let shared_after t (local : Transition.local) outside =
-  Shareds.number t.shareds (Shared.of_configuration local.after outside)
-
-let guarded t step guard s =
-  if s >= Array.length guard.results then guard.results <- grown guard.results (s + 1) unknown;
-  if guard.results.(s) = unknown then
-    guard.results.(s) <-
-      (match internal t step s with
-       | [], _ -> impossible
-       | [ ({ named = Check _ | Act _ | Cut _; assumed = []; _ } as local) ], outside -> shared_after t local outside
-       | _ :: _, _ -> special);
-  guard.results.(s)
-
-let no_case = { possible = false; certain = true; shared = -1; result = Gone; whole = -1; others = [] }
-
-(* What sensors show that may show anything makes several of one step. *)
-let case_of t family outside locals =
-  let one others (local : Transition.local) =
-    let result = target_of_outcome t family local.outcome in
-    let certain = local.assumed = [] in
-    { possible = true; certain; shared = shared_after t local outside; result; whole = -1; others }
-  in
-  match locals with
-  | [] -> { no_case with possible = false }
-  | first :: rest -> one (List.map (one []) rest) first
-
-let case t family step s =
-  if s >= Array.length step.cases then step.cases <- grown step.cases (s + 1) no_case;
-  if step.cases.(s) == no_case then
-    step.cases.(s) <-
-      (let locals, outside =
-         match step.event with None -> internal t step s | Some event -> on_event t step event s
-       in
-       case_of t family outside locals);
-  step.cases.(s)
+let landed t step level r =
+  let rec up path n = if n = 0 then path else up (outside path) (n - 1) in
+  let home = up step.home level in
+  target_of t home (if level = 0 then step.kin else None) r

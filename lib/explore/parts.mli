@@ -1,100 +1,52 @@
-(** The parts of executing tasks (the components of a [Residual.Parallel], or a residual by itself), each known by a
-    small number, with their local steps worked out once.
-
-    A part belongs to a family: the part that it comes from by local steps, and others that do. Its number is the one
-    within its family, so that few bits tell which of the family stands somewhere. *)
+(** The parts of executing tasks ({!Part}), each known by a small number, with their local steps worked out once. *)
 
 open Dolphin_semantics
 
-module Shareds : module type of Interner.Make (Shared)
-
-(** What becomes of a part. *)
-type target =
-  | Stays of int  (** in its family, with this number *)
-  | Gone
-  | Becomes of { serial : int; parts : part array }
-  (** these parts, side by side, or one of another family; [serial] tells such targets apart *)
-  | Ends of Configuration.ending  (** of the whole run *)
-
-and part = private {
-  residual : Residual.t;
-  family : family;
-  local : int;  (** its number in its family, from 0 *)
-  mutable steps : step array;  (** once it is {!reach}ed *)
-  mutable worked_out : step array option;
-  mutable components : Components.t option;
-}
-
-and family = private {
-  number : int;
-  mutable members : part array;
-  mutable size : int;
-  mutable width : int;  (** in bits, of the numbers of members in the layouts in use; 0 if there is none *)
-}
-
-(** How a step depends on what is shared. *)
-and dependence =
-  | Free  (** not: always possible, changes nothing *)
-  | Guarded of guard  (** it runs code, with the same target whenever the code goes well *)
-  | By_case  (** in any way *)
-
-and guard = private {
-  mutable results : int array;  (** by shared number: that of what is shared after, or one of those below *)
-}
-
-(** A step as it is when so and so is shared. *)
-and case = {
-  possible : bool;
-  certain : bool;  (** whatever sensors show *)
-  shared : int;  (** after the step *)
-  result : target;
-  mutable whole : int;  (** for the use of {!Space}: the number of the configuration that it ends in, or -1 *)
-  others : case list;  (** what else it does, if sensors show something else *)
-}
-
-and step = private {
-  index : int;  (** in [Residual.steps] *)
-  source : Residual.step;
-  event : Transition.event option;  (** the one that it takes *)
-  dependence : dependence;
-  target : target;  (** if it goes well *)
-  stays : int;  (** [n] if [target] is [Stays n], else -1 *)
-  mutable cases : case array;  (** by shared number *)
-}
-
-val unknown : int
-(** A guard's result that is to be found with {!guarded}. *)
-
-val impossible : int
-(** The guard does not hold. *)
-
-val special : int
-(** The code did not go well: see {!case}. *)
-
 type t
 
-val create : ?foreseen:int -> Environment.options -> Core.program -> World.t -> t
-(** So many members of a new family are worked out in advance: layouts are then seldom outgrown. *)
+val create : ?foreseen:int -> ?flat:bool -> Environment.options -> Core.program -> World.t -> t
+(** So many members of a new family are worked out in advance: layouts are then seldom outgrown. If it is [flat], there
+    are no nests, and parts may have a [Parallel] inside. *)
 
-val shareds : t -> Shareds.t
+val options : t -> Environment.options
+val program : t -> Core.program
+val world : t -> World.t
 val coverage : t -> Coverage.t
 
-val part : t -> Residual.t -> part
-(** [part t r] is the part [r], which is no [Parallel]. *)
+(** {1:parts Parts} *)
 
-val reach : t -> part -> unit
+val children : t -> Part.path -> Residual.t -> Part.part Part.tree list
+(** [children t p r] is what [r], at [p], is made of. *)
+
+val root : t -> Part.path
+
+val reach : t -> Part.part -> unit
 (** [reach t p] works out the steps of [p], which some run reaches. *)
 
-val components : t -> part -> Components.t
+val components : t -> Part.part -> Components.t
 (** [components t p] is of the steps of [p], in their order. *)
 
-val guarded : t -> step -> guard -> int -> int
-(** [guarded t step guard s] is the result of [guard] for shared number [s]. *)
+(** {1:nests Nests} *)
 
-val case : t -> family -> step -> int -> case
-(** [case t f step s] is what [step], of a part of [f], does when [s] is shared. *)
+val cuts : t -> Part.path -> Part.step array
+(** [cuts t p] is the steps of the contexts of nests whose inside is at [p], which some run reaches. *)
 
-val lay_out : family -> unit
+val alone : t -> Part.part -> Part.target
+(** [alone t p] is what becomes of the nest around [p] when nothing else is left in it. *)
+
+val around : Part.path -> Residual.t -> Residual.t
+(** [around p r] is [r] in the contexts of the nest whose inside is at [p], which is not the root. *)
+
+val outside : Part.path -> Part.path
+(** [outside p] is where that nest stands. *)
+
+val landed : t -> Part.step -> int -> Residual.t -> Part.target
+(** [landed t s n r] is what becomes of the nest that is [n] levels above what [s] belongs to (0: of that itself) when
+    [r] takes its place. *)
+
+(** {1:families Widths of families} *)
+
+val lay_out : Part.family -> unit
 (** [lay_out f] makes [f] as wide as its members need. *)
 
 val outgrown : t -> bool

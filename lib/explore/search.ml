@@ -3,10 +3,12 @@ open Dolphin_semantics
 type options = {
   environment : Environment.options;
   reduction : Reduction.t;
+  compress : bool;
   search_again : int;
   max_states : int option;
   max_depth : int option;
   max_memory : int option;
+  memory_left : unit -> int option;
   timeout : float option;
   clock : unit -> float;
   invariants : Condition.t list;
@@ -29,10 +31,12 @@ let default =
   {
     environment = Environment.default;
     reduction = Whole;
+    compress = false;
     search_again = 100_000;
     max_states = None;
     max_depth = None;
     max_memory = None;
+    memory_left = (fun () -> None);
     timeout = None;
     clock = Sys.time;
     invariants = [];
@@ -42,7 +46,15 @@ let default =
   }
 
 type run = { steps : Transition.t list; cycle : Transition.t list; shortest : bool }
-type bound = States | Depth | Memory | Time | Interruption | Broken_condition of string | Unsettled of string
+type bound =
+  | States
+  | Depth
+  | Memory
+  | No_memory
+  | Time
+  | Interruption
+  | Broken_condition of string
+  | Unsettled of string
 
 type verdict =
   | Holds
@@ -58,6 +70,7 @@ type outcome = {
   bytes : int;
   seconds : float;
   stopped : bound option;
+  reduction : Reduction.t;
   verdicts : (Property.t * verdict) list;
 }
 
@@ -68,6 +81,7 @@ type t = {
   invariants : Invariant.t list;
   started : float;
   mutable reported : float;
+  mutable weighed : float;  (* when memory was looked at *)
   mutable next : int;  (* to be expanded *)
   mutable depth : int;  (* of [next] *)
   mutable level_end : int;  (* the first state that is deeper *)
@@ -83,7 +97,20 @@ let unsettled program (fault : Fault.t) =
 (* {1 Bounds and progress} *)
 
 let memory t = Space.bytes t.space + (8 * (Gc.quick_stat ()).heap_words)
+let large_growth = 1 lsl 24
 let exceeds bound n = match bound with Some most -> n > most | None -> false
+
+(* A system that has given all its memory kills without a word. So a part of what could be had is left alone: for others,
+   and for what grows between two looks. To ask what is left costs some reads of files. *)
+let weigh t now =
+  let growth = Space.bytes_to_grow t.space in
+  if t.options.max_memory <> None && exceeds t.options.max_memory (memory t + growth) then raise (Stop Memory);
+  if growth >= large_growth || now -. t.weighed >= 0.1 then begin
+    t.weighed <- now;
+    match t.options.memory_left () with
+    | Some left when growth > left - ((memory t + left) / 10) -> raise (Stop No_memory)
+    | Some _ | None -> ()
+  end
 
 (* Doing this for every state would cost more than the state. *)
 let look_around t phase =
@@ -92,8 +119,7 @@ let look_around t phase =
   let elapsed = now -. t.started in
   if options.interrupted () then raise (Stop Interruption);
   if (match options.timeout with Some most -> elapsed > most | None -> false) then raise (Stop Time);
-  if options.max_memory <> None && exceeds options.max_memory (memory t + Space.bytes_to_grow t.space) then
-    raise (Stop Memory);
+  weigh t now;
   if now -. t.reported >= 1. then begin
     t.reported <- now;
     let states = Space.count t.space in
@@ -112,7 +138,7 @@ let look_around t phase =
 (* States between two looks around; memory can grow by one chunk meanwhile, or by a doubled table. *)
 let stride = 4_096
 
-let explore ?(enough = fun () -> false) t =
+let expand_all enough t =
   let space = t.space in
   let next_look = ref 0 in
   let more () =
@@ -139,6 +165,15 @@ let explore ?(enough = fun () -> false) t =
     if exceeds t.options.max_states (Space.count space) then raise (Stop States)
   done
 
+(* What stopped it, if anything. Once there is no memory nothing can be added, not even what waits. *)
+let explore ?(enough = fun () -> false) program t =
+  let settled stopped = match Space.flush t.space with () -> stopped | exception Out_of_memory -> Some No_memory in
+  match expand_all enough t with
+  | () -> settled None
+  | exception Stop bound -> settled (Some bound)
+  | exception Reading.Unsettled fault -> settled (Some (unsettled program fault))
+  | exception Out_of_memory -> Some No_memory
+
 (* {1 Formulas} *)
 
 (* The verdict of each formula, on a state graph of their own. *)
@@ -164,13 +199,13 @@ let formulas t world program =
   | exception Stop bound -> inconclusive bound
   | exception Temporal.Broken why -> inconclusive (Broken_condition why)
   | exception Reading.Unsettled fault -> inconclusive (unsettled program fault)
-  | exception Out_of_memory -> inconclusive Memory
+  | exception Out_of_memory -> inconclusive No_memory
 
 (* {1 Verdicts} *)
 
 let verdicts t program world stopped =
   let transitions = Replay.between t.options.environment program world t.space in
-  let shortest = t.options.reduction = Whole in
+  let shortest = not (Reduction.by_order t.options.reduction) in
   let run_to i = { steps = transitions (Replay.shortest t.space i); cycle = []; shortest } in
   let unless_stopped otherwise = match stopped with Some bound -> Inconclusive bound | None -> otherwise () in
   let interrupted () =
@@ -182,6 +217,7 @@ let verdicts t program world stopped =
     | None -> Holds
     | Some { stem; around } -> Violated { steps = transitions stem; cycle = transitions around; shortest }
     | exception Stop bound -> Inconclusive bound
+    | exception Out_of_memory -> Inconclusive No_memory
   in
   let invariant i =
     match Invariant.broken i with
@@ -212,10 +248,10 @@ let verdicts t program world stopped =
   | fs, Some bound -> List.map (fun f -> (named f, Inconclusive bound)) fs
   | fs, None -> List.combine (List.map named fs) (formulas t world program)
 
-let start options program world started =
-  let space = Space.create ~reduction:options.reduction options.environment program world in
+let start (options : options) program world started =
+  let space = Space.create ~reduction:options.reduction ~compress:options.compress options.environment program world in
   let invariants = List.map (Invariant.create program world) options.invariants in
-  { options; space; invariants; started; reported = started; next = 0; depth = -1; level_end = 0 }
+  { options; space; invariants; started; reported = started; weighed = Float.neg_infinity; next = 0; depth = -1; level_end = 0 }
 
 (* What a reduced search finds broken, the first of all states may show by a shortest run. *)
 let with_shortest_runs options program world started verdicts =
@@ -229,9 +265,7 @@ let with_shortest_runs options program world started verdicts =
     let most = Option.fold ~none:options.search_again ~some:(min options.search_again) options.max_states in
     let t = start { options with reduction = Whole; invariants = []; max_states = Some most } program world started in
     let is_found property = Space.broken t.space property <> None in
-    (try explore ~enough:(fun () -> List.for_all is_found sought) t
-     with Stop _ | Out_of_memory | Reading.Unsettled _ -> ());
-    Space.flush t.space;
+    ignore (explore ~enough:(fun () -> List.for_all is_found sought) program t);
     let shorter (property, verdict) =
       match List.mem property sought, Space.broken t.space property with
       | true, Some i ->
@@ -241,20 +275,15 @@ let with_shortest_runs options program world started verdicts =
     in
     List.map shorter verdicts
 
-let run (options : options) program world =
-  (* What is asked of every state cannot be judged by some of them. *)
-  let options = if options.invariants = [] then options else { options with reduction = Whole } in
-  let started = options.clock () in
+let rec run_from started (options : options) program world =
   let t = start options program world started in
-  let space = t.space in
-  let stopped =
-    match explore t with
-    | () -> None
-    | exception Stop bound -> Some bound
-    | exception Reading.Unsettled fault -> Some (unsettled program fault)
-    | exception Out_of_memory -> Some Memory
-  in
-  Space.flush space;
+  match explore program t with
+  | stopped -> outcome t program world stopped
+  | exception Symmetry.Unclear ->
+    run_from started { options with reduction = Reduction.without_symmetry options.reduction } program world
+
+and outcome t program world stopped =
+  let space = t.space and options = t.options and started = t.started in
   let verdicts = with_shortest_runs options program world started (verdicts t program world stopped) in
   {
     states = Space.count space;
@@ -264,8 +293,19 @@ let run (options : options) program world =
     bytes = memory t;
     seconds = options.clock () -. started;
     stopped;
+    reduction = (if Space.used_symmetry space then options.reduction else Reduction.without_symmetry options.reduction);
     verdicts;
   }
+
+let run (options : options) program world =
+  (* What is asked of every state cannot be judged by some of them. *)
+  let options = if options.invariants = [] then options else { options with reduction = Whole } in
+  (* States that are alike by symmetry may differ in who is lost. *)
+  let remembers = Environment.endings_remember options.environment in
+  let options =
+    if remembers then { options with reduction = Reduction.without_symmetry options.reduction } else options
+  in
+  run_from (options.clock ()) options program world
 
 (* {1 Text} *)
 
@@ -275,6 +315,7 @@ let pp_bound ppf bound =
      | States -> "the bound on states was met"
      | Depth -> "the bound on depth was met"
      | Memory -> "the bound on memory was met"
+     | No_memory -> "the machine has no more memory for it"
      | Time -> "the time was up"
      | Interruption -> "it was interrupted"
      | Broken_condition why -> "the condition cannot be told: " ^ why

@@ -8,11 +8,15 @@ open Dolphin_semantics
 type options = {
   environment : Environment.options;
   reduction : Reduction.t;  (** none is used where there are invariants *)
+  compress : bool;  (** keep states in less memory, in more time *)
   search_again : int;
   (** so many of all states are visited for a shortest run, if a reduced search found a violation *)
   max_states : int option;
   max_depth : int option;  (** in transitions *)
   max_memory : int option;  (** in bytes, of the whole process but for code and libraries *)
+  memory_left : unit -> int option;
+  (** bytes that the process can still have, if that is known; asked often. The search stops before it has nine tenths
+      of all that it can have. *)
   timeout : float option;  (** in seconds of [clock] *)
   clock : unit -> float;  (** seconds, from any start *)
   invariants : Condition.t list;
@@ -47,6 +51,7 @@ type bound =
   | States
   | Depth
   | Memory
+  | No_memory  (** the machine has no more *)
   | Time
   | Interruption
   | Broken_condition of string  (** what was asked is faulty in some state *)
@@ -68,6 +73,7 @@ type outcome = {
   bytes : int;  (** of memory, as [max_memory] counts it *)
   seconds : float;
   stopped : bound option;
+  reduction : Reduction.t;  (** the one that was used: less than was asked for where something stands against it *)
   verdicts : (Property.t * verdict) list;  (** for each of {!Property.all}, then for each invariant and formula *)
 }
 

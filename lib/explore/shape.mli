@@ -1,6 +1,6 @@
 (** Shapes of executing configurations, and how a configuration of a shape is laid out in words. A shape is the machine
-    that waits, and the families of the parts, in order. All else that tells configurations of one shape apart is a few
-    small numbers: what is shared, and each part's number in its family. *)
+    that waits, the tree of nests, and the families of the parts in it, in order. All else that tells configurations of
+    one shape apart is a few small numbers: what is shared, and each part's number in its family. *)
 
 open Dolphin_semantics
 
@@ -8,21 +8,47 @@ open Dolphin_semantics
 type frame = {
   frame : int;
   machine : Machine.t;
+  symmetry : Symmetry.t option;  (** if states are kept only up to what can change places *)
   mutable over : int array;
   (** by shared number, for the use of {!Space}: the number of the configuration that follows the end of the task *)
+}
+
+(** Where a part or a nest stands. *)
+type place = private {
+  index : int;  (** parts first, by position *)
+  from : int;
+  upto : int;  (** the positions of its parts: those from [from] on, below [upto] *)
+  inside : Part.path option;  (** of a nest *)
+  children : place list;  (** of a nest *)
+  mutable around : place option;  (** the nest that it is in *)
 }
 
 type t = {
   number : int;  (** from 1 *)
   frame : frame;
-  families : Parts.family array;
+  top : place list;
+  families : Part.family array;
+  leaves : place array;  (** by position *)
+  nests : place array;
   mutable word : int array;  (** by position: the word that holds the part *)
   mutable shift : int array;  (** its lowest bit there *)
   mutable mask : int array;  (** all bits of its width, at the right *)
-  without : t option array;  (** by position: the shape without that part, once it is known *)
+  without : t option array;  (** by place: the shape without what stands there, once it is known *)
   becoming : (int, t) Hashtbl.t;
-  (** by position and serial number of a target: the shape after it, once it is known *)
+  (** by place and serial number of a target: the shape after it, once it is known *)
 }
+
+val create : number:int -> frame -> Part.family Part.tree list -> t
+(** Not laid out yet. *)
+
+val replaced : t -> place -> Part.family Part.tree list -> Part.family Part.tree list
+(** [replaced s p trees] is the tree of [s] with [trees] for what stands at [p]. *)
+
+val key : frame -> Part.family Part.tree list -> int list
+(** [key f trees] is different for all that makes a different shape. *)
+
+val residual : t -> place -> (int -> Residual.t) -> Residual.t
+(** [residual s p part] is what stands at [p], with [part i] at position [i]. *)
 
 (** {1:words Words}
 
@@ -37,3 +63,9 @@ type widths = { shape : int; shared : int }
 val lay_out : widths -> t -> int
 (** [lay_out widths s] lays [s] out anew, in the present widths of its families; the result is how many words it
     needs. *)
+
+val local : t -> int array -> int -> int
+(** [local s key i] is the number of the part at position [i] in its family, in a state of shape [s]. *)
+
+val put : t -> int array -> int -> int -> unit
+(** [put s key i n] makes it [n], where all bits are 0. *)

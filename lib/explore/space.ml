@@ -1,17 +1,5 @@
 open Dolphin_semantics
-module Machines = Interner.Make (struct
-    type t = Machine.t
-
-    let equal a b = Machine.compare a b = 0
-    let hash m = Machine.hash m land max_int
-  end)
-
-module Wholes = Interner.Make (struct
-    type t = Configuration.t * Environment.t
-
-    let equal (c, e) (c', e') = Environment.compare e e' = 0 && Configuration.equal c c'
-    let hash (c, e) = (Configuration.hash c + Environment.hash e) land max_int
-  end)
+open Part
 
 type t = {
   options : Environment.options;
@@ -19,30 +7,23 @@ type t = {
   program : Core.program;
   world : World.t;
   parts : Parts.t;
-  shareds : Parts.Shareds.t;
-  machines : Machines.t;
-  frames : (int, Shape.frame) Hashtbl.t;  (* by number of the machine *)
-  wholes : Wholes.t;  (* configurations that execute nothing *)
-  mutable breaks : Property.t option array;  (* by number of such a configuration: what reaching it breaks *)
-  by_families : (int * int list, Shape.t) Hashtbl.t;  (* by machine and families *)
-  mutable shapes : Shape.t array;  (* by number; the first is none *)
-  mutable count_shapes : int;
-  mutable widths : Shape.widths;
-  mutable shape_mask : int;
-  mutable shared_mask : int;
-  mutable states : Packed.t;
+  cases : Cases.t;
+  words : Words.t;
+  shapes : Shapes.t;
+  mutable states : States.t;
   mutable key : int array;  (* the state being expanded, changed in place for its successors and changed back *)
   mutable other : int array;  (* successors of another shape *)
   mutable transitions : int;
   broken : int array;  (* by rank in [Property.all]: the first state, or -1 *)
-  places : (int * int, unit) Hashtbl.t;  (* which place of the script follows which; executing ones as negative numbers *)
+  script : Script_graph.t;
   mutable fresh : int -> int -> unit;  (* what is done with new states, by number and first word *)
   mutable gathering : bool;
-  mutable gathered : int list;
+  mutable gathered : (int * Symmetry.permutation option) list;
+  symmetry : Symmetry.finder option;
+  kinds : (int * int * int, int) Hashtbl.t;  (* of parts, by symmetry, family and place there *)
+  parts_of_kinds : (int * int, part) Hashtbl.t;
+  mutable folded : int array;  (* a state's canonical form *)
 }
-
-(* Raised when a number does not fit its field: the state is expanded again after [repack]. *)
-exception Outgrown
 
 let rank property =
   let rec from i = function
@@ -51,213 +32,95 @@ let rank property =
   in
   from 0 Property.all
 
-(* {1 Layout} *)
+(* {1 States} *)
 
-let set_widths t (widths : Shape.widths) =
-  t.widths <- widths;
-  t.shape_mask <- (1 lsl widths.shape) - 1;
-  t.shared_mask <- (1 lsl widths.shared) - 1
+let load t i =
+  let key = Array.make (States.words t.states) 0 in
+  States.load t.states i key;
+  key
 
-let bits_for n =
-  let rec from bits = if 1 lsl bits >= n then bits else from (bits + 1) in
-  from 1
-
-let fits t =
-  (not (Parts.outgrown t.parts))
-  && t.count_shapes <= t.shape_mask + 1
-  && Parts.Shareds.count t.shareds <= t.shared_mask + 1
-
-let check_fit t = if not (fits t) then raise Outgrown
-
-let local_of (s : Shape.t) key i = (key.(s.word.(i)) lsr s.shift.(i)) land s.mask.(i)
-
-(* Everything in fields that are wide enough. What a state is made of is read in the old layout and written in the new
-   one, so the shapes must be laid out twice. *)
-let repack t =
-  let old_widths = t.widths and old_shape_mask = t.shape_mask and old_shared_mask = t.shared_mask in
-  let shapes = if t.count_shapes = 1 then [||] else Array.sub t.shapes 1 (t.count_shapes - 1) in
-  let old = Array.map (fun (s : Shape.t) -> { s with number = s.number }) t.shapes in
-  let lay_out_families (s : Shape.t) = Array.iter Parts.lay_out s.families in
-  Array.iter lay_out_families shapes;
-  Parts.none_outgrown t.parts;
-  let shape = max t.widths.shape (bits_for t.count_shapes)
-  and shared = max t.widths.shared (bits_for (Parts.Shareds.count t.shareds)) in
-  set_widths t { shape; shared };
-  let needed = Array.fold_left (fun n s -> max n (Shape.lay_out t.widths s)) 1 shapes in
-  let words = max needed (Packed.words t.states) in
-  let rewritten from fresh =
-    let number = from.(0) land old_shape_mask in
-    if number = 0 then fresh.(0) <- (from.(0) lsr old_widths.shape) lsl t.widths.shape
-    else begin
-      let was = old.(number) and s = t.shapes.(number) in
-      let shared = (from.(0) lsr old_widths.shape) land old_shared_mask in
-      fresh.(0) <- number lor (shared lsl t.widths.shape);
-      for i = 0 to Array.length s.families - 1 do
-        fresh.(s.word.(i)) <- fresh.(s.word.(i)) lor (local_of was from i lsl s.shift.(i))
-      done
-    end
-  in
-  t.states <- Packed.rewrite t.states ~words rewritten;
-  t.key <- Array.make words 0;
-  t.other <- Array.make words 0
-
-(* {1 Shapes} *)
-
-let frame t machine =
-  let i = Machines.number t.machines machine in
-  match Hashtbl.find_opt t.frames i with
-  | Some frame -> frame
-  | None ->
-    let frame : Shape.frame = { frame = i; machine = Machines.value t.machines i; over = [||] } in
-    Hashtbl.add t.frames i frame;
-    frame
-
-let new_shape t key frame families =
-  let n = Array.length families in
-  let s : Shape.t =
-    {
-      number = t.count_shapes;
-      frame;
-      families;
-      word = [||];
-      shift = [||];
-      mask = [||];
-      without = Array.make n None;
-      becoming = Hashtbl.create 1;
-    }
-  in
-  if t.count_shapes >= Array.length t.shapes then begin
-    let shapes = Array.make (2 * (t.count_shapes + 1)) s in
-    Array.blit t.shapes 0 shapes 0 (Array.length t.shapes);
-    t.shapes <- shapes
-  end;
-  t.shapes.(t.count_shapes) <- s;
-  t.count_shapes <- t.count_shapes + 1;
-  Hashtbl.add t.by_families key s;
-  Array.iter (fun (f : Parts.family) -> if f.width = 0 then Parts.lay_out f) families;
-  let needed = Shape.lay_out t.widths s in
-  if needed > Packed.words t.states then raise Outgrown;
-  s
-
-let shape t (frame : Shape.frame) families =
-  let key = (frame.frame, List.map (fun (f : Parts.family) -> f.number) (Array.to_list families)) in
-  match Hashtbl.find_opt t.by_families key with
-  | Some s -> s
-  | None -> new_shape t key frame families
-
-let without t (s : Shape.t) position =
-  match s.without.(position) with
-  | Some s -> s
-  | None ->
-    let keep = List.filteri (fun i _ -> i <> position) (Array.to_list s.families) in
-    let smaller = shape t s.frame (Array.of_list keep) in
-    s.without.(position) <- Some smaller;
-    smaller
-
-let becoming t (s : Shape.t) position serial parts =
-  let key = (serial * Array.length s.families) + position in
-  match Hashtbl.find_opt s.becoming key with
-  | Some s -> s
-  | None ->
-    let families = Array.map (fun (p : Parts.part) -> p.family) parts in
-    let before = Array.sub s.families 0 position in
-    let after = Array.sub s.families (position + 1) (Array.length s.families - position - 1) in
-    let other = shape t s.frame (Array.concat [ before; families; after ]) in
-    Hashtbl.add s.becoming key other;
-    other
-
-(* {1 Words of configurations} *)
-
-let clear key = Array.fill key 0 (Array.length key) 0
-
-let write_whole t key number =
-  clear key;
-  key.(0) <- number lsl t.widths.shape
-
-let put (s : Shape.t) key i local = key.(s.word.(i)) <- key.(s.word.(i)) lor (local lsl s.shift.(i))
-
-let whole t rules c outside =
-  let known = Wholes.count t.wholes in
-  let number = Wholes.number t.wholes (c, outside) in
-  if number = known then begin
-    if number = Array.length t.breaks then t.breaks <- Array.append t.breaks (Array.make (max 8 number) None);
-    t.breaks.(number) <- Property.broken_by_end rules c
-  end;
-  number
-
-let write t key rules (c : Configuration.t) outside =
-  match c.control with
-  | Script _ | Waiting _ | Ended _ ->
-    let number = whole t rules c outside in
-    write_whole t key number;
-    number
-  | Executing (m, r) ->
-    let frame = frame t m in
-    let rs = match r with Residual.Parallel rs -> rs | r -> [ r ] in
-    let parts = Array.of_list (List.map (Parts.part t.parts) rs) in
-    let s = shape t frame (Array.map (fun (p : Parts.part) -> p.family) parts) in
-    let shared = Parts.Shareds.number t.shareds (Shared.of_configuration c outside) in
-    check_fit t;
-    clear key;
-    key.(0) <- s.number lor (shared lsl t.widths.shape);
-    Array.iteri (fun i (p : Parts.part) -> put s key i p.local) parts;
-    -1 - frame.frame
-
-let executing (s : Shape.t) key : Residual.t * Core.platform_task Configuration.Vehicle_map.t =
-  let parts = Array.to_list (Array.mapi (fun i (f : Parts.family) -> f.members.(local_of s key i)) s.families) in
-  let rs = List.map (fun (p : Parts.part) -> p.residual) parts in
-  let runs allocation (step : Residual.step) =
-    match step.offer with
-    | End_of (p, v) -> Configuration.Vehicle_map.add v p allocation
-    | Start _ | Perform _ | Check _ | Measure _ | Expiry_of _ -> allocation
-  in
-  let of_part allocation r = Seq.fold_left runs allocation (Residual.steps r) in
-  (Residual.parallel rs, List.fold_left of_part Configuration.Vehicle_map.empty rs)
-
-let read t key =
-  let number = key.(0) land t.shape_mask in
-  if number = 0 then Wholes.value t.wholes (key.(0) lsr t.widths.shape)
-  else begin
-    let s = t.shapes.(number) in
-    let shared = Parts.Shareds.value t.shareds ((key.(0) lsr t.widths.shape) land t.shared_mask) in
-    let r, allocation = executing s key in
-    ({ (Shared.under (Executing (s.frame.machine, r)) shared) with allocation }, shared.outside)
-  end
-
-let state t i =
-  let key = Array.make (Packed.words t.states) 0 in
-  Packed.load t.states i key;
-  read t key
+let state t i = Words.read t.words (load t i)
 
 let shared t i =
-  let key = Array.make (Packed.words t.states) 0 in
-  Packed.load t.states i key;
-  if key.(0) land t.shape_mask = 0 then -1 else (key.(0) lsr t.widths.shape) land t.shared_mask
+  let first = (load t i).(0) in
+  if Shapes.number t.shapes first = 0 then -1 else Shapes.shared t.shapes first
 
-(* {1 Expanding} *)
+(* Everything in fields that are wide enough. *)
+let repack t =
+  let rewritten = Words.widened t.words in
+  let words = Shapes.words t.shapes in
+  t.states <- States.rewrite t.states ~words rewritten;
+  t.key <- Array.make words 0;
+  t.other <- Array.make words 0;
+  t.folded <- Array.make words 0
 
 let note_broken t property i =
   let rank = rank property in
   if t.broken.(rank) < 0 then t.broken.(rank) <- i
 
 let fresh t i word =
-  if word land t.shape_mask = 0 then
-    Option.iter (fun property -> note_broken t property i) t.breaks.(word lsr t.widths.shape)
+  if Shapes.number t.shapes word = 0 then
+    Option.iter (fun property -> note_broken t property i) (Words.broken t.words (Shapes.shared t.shapes word))
 
-let flush t = Packed.flush t.states ~fresh:t.fresh
+let flush t = States.flush t.states ~fresh:t.fresh
+
+let add t key permutation parent =
+  if t.gathering then t.gathered <- (States.find t.states key, permutation) :: t.gathered
+  else States.push t.states key ~parent ~fresh:t.fresh
+
+(* {1 Symmetry} *)
+
+let kind_of t g (part : part) =
+  let key = (Symmetry.number g, part.family.number, part.local) in
+  match Hashtbl.find_opt t.kinds key with
+  | Some kind -> kind
+  | None ->
+    let kind = Symmetry.kind g part.residual in
+    Hashtbl.add t.kinds key kind;
+    kind
+
+let part_of_kind t g kind =
+  let key = (Symmetry.number g, kind) in
+  match Hashtbl.find_opt t.parts_of_kinds key with
+  | Some part -> part
+  | None -> (
+      match Parts.children t.parts (Parts.root t.parts) (Symmetry.residual g kind) with
+      | [ Leaf part ] ->
+        Hashtbl.add t.parts_of_kinds key part;
+        part
+      | _ -> invalid_arg "Space.part_of_kind: no part")
+
+let kinds t g (s : Shape.t) key = Array.init (Array.length s.families) (fun i -> kind_of t g (Words.part s key i))
+
+(* Few shapes are enough if parts stand in an order of their families. *)
+let by_family (a : part) (b : part) =
+  match Int.compare a.family.number b.family.number with 0 -> Int.compare a.local b.local | order -> order
+
+let write_folded t frame g (state : Symmetry.state) =
+  let parts = List.map (part_of_kind t g) (Array.to_list state.kinds) in
+  let leaves = List.map (fun part -> Leaf part) (List.sort by_family parts) in
+  Words.write_parts t.words t.folded frame leaves state.shared
 
 let visit t key parent =
-  if t.gathering then t.gathered <- Packed.find t.states key :: t.gathered
-  else Packed.push t.states key ~parent ~fresh:t.fresh
+  match Shapes.number t.shapes key.(0) with
+  | 0 -> add t key None parent
+  | number -> (
+      let s = Shapes.shape t.shapes number in
+      match s.frame.symmetry with
+      | None -> add t key None parent
+      | Some g ->
+        let state, permutation = Symmetry.canonical g (kinds t g s key) (Shapes.shared t.shapes key.(0)) in
+        write_folded t s.frame g state;
+        add t t.folded (Some permutation) parent)
 
-let follows t place place' = if not (Hashtbl.mem t.places (place, place')) then Hashtbl.add t.places (place, place') ()
+(* {1 Where nothing executes} *)
 
 let expand_whole t i number =
-  let c, outside = Wholes.value t.wholes number in
+  let c, outside = Words.value t.words number in
   let choices = Environment.choices t.options t.program t.world outside c in
   let go ((next : Transition.t), outside) =
     Coverage.transition (Parts.coverage t.parts) c next;
-    follows t number (write t t.other next.rules next.next outside);
+    Script_graph.follows t.script number (Words.write t.words t.other next.rules next.next outside);
     visit t t.other i
   in
   List.iter go choices;
@@ -268,11 +131,11 @@ let expand_whole t i number =
 
 (* The configuration that a local outcome ends the executing in, by the transition function. *)
 let concluded t (s : Shape.t) shared (outcome : Transition.outcome) =
-  let shared = Parts.Shareds.value t.shareds shared in
+  let shared = Cases.Shareds.value (Cases.shareds t.cases) shared in
   let c = Shared.under (Executing (s.frame.machine, Parallel [])) shared in
-  let local : Transition.local = { after = c; outcome; derivation = []; named = Silent; asked = []; assumed = [] } in
+  let local : Transition.local = { after = c; outcome; derivation = []; named = Silent; asked = [] } in
   let next = Transition.conclude c s.frame.machine local in
-  whole t next.rules next.next shared.outside
+  Words.whole t.words next.rules next.next shared.outside
 
 let over t (s : Shape.t) shared =
   let frame = s.frame in
@@ -283,144 +146,117 @@ let over t (s : Shape.t) shared =
   end;
   if frame.over.(shared) < 0 then begin
     frame.over.(shared) <- concluded t s shared Over;
-    follows t (-1 - frame.frame) frame.over.(shared)
+    Script_graph.follows t.script (-1 - frame.frame) frame.over.(shared)
   end;
   frame.over.(shared)
 
-(* The part at [position] gives way to [parts] (which may be none), with [shared] after the step. *)
-let replace t (s : Shape.t) (s' : Shape.t) position (parts : Parts.part array) shared i =
+(* {1 Going to other states} *)
+
+(* What stands at [place] gives way to [parts] (which may be none), with [shared] after the step. *)
+let replace t (s : Shape.t) (s' : Shape.t) (place : Shape.place) (parts : part array) shared i =
+  Words.check_fit t.words;
   let key = t.key and other = t.other in
-  clear other;
-  other.(0) <- s'.number lor (shared lsl t.widths.shape);
-  for j = 0 to position - 1 do
-    put s' other j (local_of s key j)
+  Array.fill other 0 (Array.length other) 0;
+  other.(0) <- Shapes.first t.shapes s'.number shared;
+  for j = 0 to place.from - 1 do
+    Shape.put s' other j (Shape.local s key j)
   done;
   let more = Array.length parts in
   for j = 0 to more - 1 do
-    put s' other (position + j) parts.(j).local
+    Shape.put s' other (place.from + j) parts.(j).local
   done;
-  for j = position + 1 to Array.length s.families - 1 do
-    put s' other (j + more - 1) (local_of s key j)
+  for j = place.upto to Array.length s.families - 1 do
+    Shape.put s' other (j - place.upto + place.from + more) (Shape.local s key j)
   done;
   visit t other i
 
-let no_parts : Parts.part array = [||]
+let no_parts : part array = [||]
 
-let leave t (s : Shape.t) position shared i =
-  if Array.length s.families = 1 then begin
-    write_whole t t.other (over t s shared);
-    visit t t.other i
-  end
-  else begin
-    let s' = without t s position in
-    check_fit t;
-    replace t s s' position no_parts shared i
-  end
+let finish t number permutation i =
+  Words.write_whole t.words t.other number;
+  add t t.other permutation i
 
-let go_to t (s : Shape.t) position (target : Parts.target) shared shared' i =
+(* The task is over: the script sees what is shared, so each state that this one stands for goes on by itself. *)
+let all_over t (s : Shape.t) shared i =
+  match s.frame.symmetry with
+  | None -> finish t (over t s shared) None i
+  | Some g ->
+    let image (shared, permutation) = finish t (over t s shared) (Some permutation) i in
+    List.iter image (Symmetry.images g shared)
+
+let rec go t (s : Shape.t) (place : Shape.place) target shared i =
+  match target, place.around with
+  | Gone, None when place.from = 0 && place.upto = Array.length s.families -> all_over t s shared i
+  | Gone, Some ({ children = [ a; b ]; _ } as nest) -> leave_alone t s nest (if a == place then b else a) shared i
+  | Gone, (None | Some _) -> replace t s (Shapes.without t.shapes s place) place no_parts shared i
+  | Becomes { serial; children; parts }, _ ->
+    replace t s (Shapes.becoming t.shapes s place serial children) place parts shared i
+  | (Stays _ | Ends _), _ -> invalid_arg "Space.go: no target elsewhere"
+
+(* Only [other] is left in a nest, which is none then. *)
+and leave_alone t s nest (other : Shape.place) shared i =
+  match nest.inside, other.inside with
+  | None, _ -> invalid_arg "Space.leave_alone: no nest"
+  | Some _, None -> go t s nest (Parts.alone t.parts (Words.part s t.key other.from)) shared i
+  | Some inside, Some _ ->
+    let r = Parts.around inside (Words.residual s t.key other) in
+    let children = Parts.children t.parts (Parts.outside inside) r in
+    let parts = Array.of_list (List.concat_map Part.leaves children) in
+    replace t s (Shapes.with_children t.shapes s nest children) nest parts shared i
+
+let go_to t (s : Shape.t) (place : Shape.place) target shared shared' i =
   match target with
   | Stays local ->
+    let position = place.from in
     let key = t.key and word = s.word.(position) in
-    let moved = (local - local_of s key position) lsl s.shift.(position) in
-    let shared_moved = (shared' - shared) lsl t.widths.shape in
+    let moved = (local - Shape.local s key position) lsl s.shift.(position) in
+    let shared_moved = Shapes.first t.shapes 0 (shared' - shared) in
     key.(word) <- key.(word) + moved;
     key.(0) <- key.(0) + shared_moved;
     visit t key i;
     key.(0) <- key.(0) - shared_moved;
     key.(word) <- key.(word) - moved
-  | Gone -> leave t s position shared' i
-  | Becomes { serial; parts } ->
-    let s' = becoming t s position serial parts in
-    check_fit t;
-    replace t s s' position parts shared' i
-  | Ends _ -> invalid_arg "Space.go_to: an end"
+  | Gone | Becomes _ | Ends _ -> go t s place target shared' i
 
-let ends_run (case : Parts.case) = match case.result with Ends _ -> true | Stays _ | Gone | Becomes _ -> false
+let rec above (place : Shape.place) level =
+  match place.around with
+  | Some nest when level > 0 -> above nest (level - 1)
+  | Some _ | None -> place
 
-let take_case t (s : Shape.t) position (case : Parts.case) shared i =
+let ends_run (case : case) = match case.result with Ends _ -> true | Stays _ | Gone | Becomes _ -> false
+
+let take_case t (s : Shape.t) place (case : case) shared i =
   match case.result with
   | Ends ending ->
     if case.whole < 0 then case.whole <- concluded t s case.shared (Ends ending);
-    write_whole t t.other case.whole;
-    visit t t.other i
+    finish t case.whole None i
   | (Stays _ | Gone | Becomes _) as target ->
-    check_fit t;
-    go_to t s position target shared case.shared i
+    Words.check_fit t.words;
+    go_to t s (above place case.level) target shared case.shared i
 
 (* The results of these are how many transitions there are. *)
-let go_by_case t (s : Shape.t) position (family : Parts.family) (step : Parts.step) shared i =
-  let case = Parts.case t.parts family step shared in
+let go_by_case t (s : Shape.t) place step shared i =
+  let case = Cases.case t.cases step shared in
   if not case.possible then 0
   else begin
-    take_case t s position case shared i;
-    List.iter (fun other -> take_case t s position other shared i) case.others;
+    take_case t s place case shared i;
+    List.iter (fun other -> take_case t s place other shared i) case.others;
     1 + List.length case.others
   end
 
-let go_to_ends t (s : Shape.t) position (family : Parts.family) (step : Parts.step) shared i =
-  let case = Parts.case t.parts family step shared in
+let go_to_ends t (s : Shape.t) place step shared i =
+  let case = Cases.case t.cases step shared in
   let ends = List.filter ends_run (case :: case.others) in
-  List.iter (fun case -> take_case t s position case shared i) ends;
+  List.iter (fun case -> take_case t s place case shared i) ends;
   List.length ends
 
+(* {1 All steps} *)
+
 (* As constants of this module they cost nothing. *)
-let unknown = Parts.unknown
-let special = Parts.special
+let unknown = Cases.unknown
+let special = Cases.special
 
-let local_status t (step : Parts.step) family shared : Stubborn.status =
-  let by_case () : Stubborn.status =
-    match Parts.case t.parts family step shared with
-    | { possible = false; _ } -> Impossible
-    | { certain = true; _ } as case -> if ends_run case then Ends else Moves
-    | { certain = false; _ } as case ->
-      let ends, moves = List.partition ends_run (case :: case.others) in
-      Depends { moves = moves <> []; ends = ends <> [] }
-  in
-  match step.dependence with
-  | Free -> Moves
-  | By_case -> by_case ()
-  | Guarded guard ->
-    let result = Parts.guarded t.parts step guard shared in
-    if result >= 0 then Moves else if result = special then by_case () else Impossible
-
-let take_step t s position family (step : Parts.step) shared i =
-  match step.dependence with
-  | Free -> go_to t s position step.target shared shared i; 1
-  | Guarded guard when Parts.guarded t.parts step guard shared >= 0 ->
-    go_to t s position step.target shared (Parts.guarded t.parts step guard shared) i;
-    1
-  | Guarded _ | By_case -> go_by_case t s position family step shared i
-
-(* As [expand_executing], with steps that are enough. Which they are depends on nothing but the configuration. *)
-let expand_some t (s : Shape.t) (parts : Parts.part array) shared i =
-  let status position k =
-    let part = parts.(position) in
-    local_status t part.steps.(k) part.family shared
-  in
-  let components = Array.map (Parts.components t.parts) parts in
-  let choice = Stubborn.choose components status in
-  let taken = ref 0 in
-  let go position (part : Parts.part) =
-    let take k step =
-      let is_chosen = match choice with None -> true | Some chosen -> chosen position k in
-      if is_chosen || components.(position).ends.(k) then
-        let status = status position k in
-        check_fit t;
-        match status with
-        | Impossible -> ()
-        | Moves when not is_chosen -> ()
-        | Depends _ when not is_chosen ->
-          taken := !taken + go_to_ends t s position part.family step shared i
-        | Moves | Ends | Depends _ -> taken := !taken + take_step t s position part.family step shared i
-    in
-    Array.iteri take part.steps
-  in
-  Array.iteri go parts;
-  check_fit t;
-  !taken
-
-let expand_part t (s : Shape.t) position (family : Parts.family) (part : Parts.part) shared i =
-  let steps = part.steps in
+let take_all t (s : Shape.t) place steps shared i =
   let taken = ref 0 in
   for k = 0 to Array.length steps - 1 do
     let step = Array.unsafe_get steps k in
@@ -432,67 +268,174 @@ let expand_part t (s : Shape.t) position (family : Parts.family) (part : Parts.p
         let known = if shared < Array.length guard.results then Array.unsafe_get guard.results shared else unknown in
         if known <> unknown then known
         else begin
-          let result = Parts.guarded t.parts step guard shared in
-          check_fit t;
+          let result = Cases.guarded t.cases step guard shared in
+          Words.check_fit t.words;
           result
         end
     in
     if shared' >= 0 then begin
       incr taken;
-      go_to t s position step.target shared shared' i
+      go_to t s place step.target shared shared' i
     end
-    else if shared' = special then taken := !taken + go_by_case t s position family step shared i
+    else if shared' = special then taken := !taken + go_by_case t s place step shared i
   done;
   !taken
 
 let part_at t (s : Shape.t) position =
-  let family = Array.unsafe_get s.families position in
-  let part = family.members.(local_of s t.key position) in
+  let part = Words.part s t.key position in
   if Array.length part.steps = 0 then begin
     Parts.reach t.parts part;
-    check_fit t
+    Words.check_fit t.words
   end;
   part
 
+let cuts t (nest : Shape.place) =
+  match nest.inside with
+  | None -> [||]
+  | Some { cuts = Some cuts; _ } -> cuts
+  | Some inside ->
+    let cuts = Parts.cuts t.parts inside in
+    Words.check_fit t.words;
+    cuts
+
+let expand_all t (s : Shape.t) shared i =
+  let taken = ref 0 in
+  for position = 0 to Array.length s.families - 1 do
+    let part = part_at t s position in
+    taken := !taken + take_all t s (Array.unsafe_get s.leaves position) part.steps shared i
+  done;
+  for n = 0 to Array.length s.nests - 1 do
+    let nest = s.nests.(n) in
+    taken := !taken + take_all t s nest (cuts t nest) shared i
+  done;
+  !taken
+
+(* {1 Steps that are enough} *)
+
+let local_status t step shared : Stubborn.status =
+  let by_case () : Stubborn.status =
+    match Cases.case t.cases step shared with
+    | { possible = false; _ } -> Impossible
+    | { certain = true; _ } as case -> if ends_run case then Ends else Moves
+    | { certain = false; _ } as case ->
+      let ends, moves = List.partition ends_run (case :: case.others) in
+      Depends { moves = moves <> []; ends = ends <> [] }
+  in
+  match step.dependence with
+  | Free -> Moves
+  | By_case -> by_case ()
+  | Guarded guard ->
+    let result = Cases.guarded t.cases step guard shared in
+    if result >= 0 then Moves else if result = special then by_case () else Impossible
+
+let take_step t s place step shared i =
+  match step.dependence with
+  | Free -> go_to t s place step.target shared shared i; 1
+  | Guarded guard when Cases.guarded t.cases step guard shared >= 0 ->
+    go_to t s place step.target shared (Cases.guarded t.cases step guard shared) i;
+    1
+  | Guarded _ | By_case -> go_by_case t s place step shared i
+
+(* As [expand_all]. Which steps are enough depends on nothing but the configuration. *)
+let expand_some t (s : Shape.t) shared i =
+  let parts = Array.init (Array.length s.families) (part_at t s) in
+  let status position k = local_status t parts.(position).steps.(k) shared in
+  let components = Array.map (Parts.components t.parts) parts in
+  let choice = Stubborn.choose components status in
+  let taken = ref 0 in
+  let go position (part : part) =
+    let take k step =
+      let is_chosen = match choice with None -> true | Some chosen -> chosen position k in
+      if is_chosen || components.(position).ends.(k) then begin
+        let status = status position k in
+        Words.check_fit t.words;
+        match status with
+        | Impossible -> ()
+        | Moves when not is_chosen -> ()
+        | Depends _ when not is_chosen -> taken := !taken + go_to_ends t s s.leaves.(position) step shared i
+        | Moves | Ends | Depends _ -> taken := !taken + take_step t s s.leaves.(position) step shared i
+      end
+    in
+    Array.iteri take part.steps
+  in
+  Array.iteri go parts;
+  Words.check_fit t.words;
+  !taken
+
+(* {1 Expanding} *)
+
 let expand_executing t i number =
-  let s = Array.unsafe_get t.shapes number in
-  let shared = (t.key.(0) lsr t.widths.shape) land t.shared_mask in
+  let s = Shapes.shape t.shapes number and shared = Shapes.shared t.shapes t.key.(0) in
   let taken =
-    match t.reduction with
-    | Partial_order -> expand_some t s (Array.init (Array.length s.families) (part_at t s)) shared i
-    | Whole ->
-      let taken = ref 0 in
-      for position = 0 to Array.length s.families - 1 do
-        let part = part_at t s position in
-        taken := !taken + expand_part t s position part.family part shared i
-      done;
-      !taken
+    if Reduction.by_order t.reduction then expand_some t s shared i else expand_all t s shared i
   in
   if taken = 0 then note_broken t No_deadlock i;
   taken
 
 let rec expand t i =
   match
-    Packed.load t.states i t.key;
-    let number = t.key.(0) land t.shape_mask in
-    if number = 0 then expand_whole t i (t.key.(0) lsr t.widths.shape) else expand_executing t i number
+    States.load t.states i t.key;
+    let number = Shapes.number t.shapes t.key.(0) in
+    if number = 0 then expand_whole t i (Shapes.shared t.shapes t.key.(0)) else expand_executing t i number
   with
   | taken -> if not t.gathering then t.transitions <- t.transitions + taken
-  | exception Outgrown ->
+  | exception Shapes.Outgrown ->
     flush t;
     repack t;
     expand t i
 
-let successors t i =
+let steps t i =
   t.gathering <- true;
   t.gathered <- [];
   expand t i;
   t.gathering <- false;
   List.rev t.gathered
 
-let create ?(reduction = Reduction.Whole) options program world =
-  let foreseen = match reduction with Whole -> None | Partial_order -> Some 0 in
-  let parts = Parts.create ?foreseen options program world in
+let successors t i = List.map fst (steps t i)
+
+type view = Exact of Configuration.t * Environment.t | Up_to of Symmetry.t * Symmetry.state
+
+let view t i =
+  let key = load t i in
+  let number = Shapes.number t.shapes key.(0) in
+  let exact () =
+    let c, outside = Words.read t.words key in
+    Exact (c, outside)
+  in
+  if number = 0 then exact ()
+  else
+    let s = Shapes.shape t.shapes number in
+    match s.frame.symmetry with
+    | None -> exact ()
+    | Some g ->
+      let kinds = kinds t g s key in
+      Array.sort Int.compare kinds;
+      Up_to (g, { kinds; shared = Shapes.shared t.shapes key.(0) })
+
+let folded t g (c : Configuration.t) outside : Symmetry.state option =
+  match c.control with
+  | Executing (_, r) ->
+    let rs = match r with Parallel rs -> rs | r -> [ r ] in
+    let shared = Cases.Shareds.number (Cases.shareds t.cases) (Shared.of_configuration c outside) in
+    Some (Symmetry.state g rs shared)
+  | Script _ | Waiting _ | Ended _ -> None
+
+let breaks t i =
+  let key = load t i in
+  if Shapes.number t.shapes key.(0) > 0 then None else Words.broken t.words (Shapes.shared t.shapes key.(0))
+
+let create ?(reduction = Reduction.Whole) ?(compress = false) options program world =
+  let foreseen = if Reduction.by_order reduction then Some 0 else None in
+  let parts = Parts.create ?foreseen ~flat:(reduction <> Whole) options program world in
+  let cases = Cases.create parts in
+  let shareds = Cases.shareds cases in
+  let symmetry =
+    if Reduction.by_symmetry reduction then
+      let number = Cases.Shareds.number shareds and value = Cases.Shareds.value shareds in
+      Some (Symmetry.finder options program { number; value })
+    else None
+  in
+  let words = Words.create ?find_symmetry:(Option.map Symmetry.find symmetry) parts cases in
   let t =
     {
       options;
@@ -500,30 +443,25 @@ let create ?(reduction = Reduction.Whole) options program world =
       program;
       world;
       parts;
-      shareds = Parts.shareds parts;
-      machines = Machines.create ();
-      frames = Hashtbl.create 16;
-      wholes = Wholes.create ();
-      breaks = [||];
-      by_families = Hashtbl.create 64;
-      shapes = [||];
-      count_shapes = 1;
-      widths = { shape = 4; shared = 4 };
-      shape_mask = 0;
-      shared_mask = 0;
-      states = Packed.create ~words:1;
+      cases;
+      words;
+      shapes = Words.shapes words;
+      states = States.create ~compress ~words:1;
       key = [| 0 |];
       other = [| 0 |];
       transitions = 0;
       broken = Array.make (List.length Property.all) (-1);
-      places = Hashtbl.create 64;
+      script = Script_graph.create ();
       fresh = (fun _ _ -> ());
       gathering = false;
       gathered = [];
+      symmetry;
+      kinds = Hashtbl.create 64;
+      parts_of_kinds = Hashtbl.create 64;
+      folded = [| 0 |];
     }
   in
-  set_widths t t.widths;
-  ignore (write t t.key [] (Configuration.initial program) Environment.initial);
+  ignore (Words.write words t.key [] (Configuration.initial program) Environment.initial);
   t.fresh <- fresh t;
   visit t t.key 0;
   flush t;
@@ -531,44 +469,32 @@ let create ?(reduction = Reduction.Whole) options program world =
 
 (* {1 Findings} *)
 
-let count t = Packed.count t.states
+let count t = States.count t.states
 let transitions t = t.transitions
-let parent t i = Packed.parent t.states i
-let coverage t = Parts.coverage t.parts
-let bytes t = Packed.bytes t.states
-let bytes_to_grow t = Packed.bytes_to_grow t.states
-let words t = Packed.words t.states
+let parent t i = States.parent t.states i
+let used_symmetry t = Option.fold ~none:false ~some:Symmetry.is_used t.symmetry
+
+(* What can change places is reached if one of it is. *)
+let coverage t =
+  let coverage = Parts.coverage t.parts in
+  let reached = function Alike.Task site -> Coverage.is_started coverage site | Code id -> Coverage.is_run coverage id in
+  let reach = function Alike.Task site -> Coverage.reach coverage site | Code id -> Coverage.reach_code coverage id in
+  let together labels = if List.exists reached labels then List.iter reach labels in
+  Option.iter (fun finder -> Symmetry.alike finder together) t.symmetry;
+  coverage
+let bytes t = States.bytes t.states
+let bytes_to_grow t = States.bytes_to_grow t.states
+let words t = States.words t.states
+let may_cycle t = Script_graph.may_cycle t.script
 
 let broken t property =
   match t.broken.(rank property) with
   | -1 -> None
   | i -> Some i
 
-(* Places that nothing follows are taken away again and again: what remains if anything does lies on cycles, or leads
-   to them. *)
-let may_cycle t =
-  let before = Hashtbl.create 64 and following = Hashtbl.create 64 in
-  let edge (place, place') () =
-    Hashtbl.add before place' place;
-    let n = Option.value (Hashtbl.find_opt following place) ~default:0 in
-    Hashtbl.replace following place (n + 1);
-    if not (Hashtbl.mem following place') then Hashtbl.add following place' 0
-  in
-  Hashtbl.iter edge t.places;
-  let ends = Stack.create () and left = ref (Hashtbl.length following) in
-  Hashtbl.iter (fun place n -> if n = 0 then Stack.push place ends) following;
-  while not (Stack.is_empty ends) do
-    decr left;
-    let less place =
-      let n = Hashtbl.find following place - 1 in
-      Hashtbl.replace following place n;
-      if n = 0 then Stack.push place ends
-    in
-    List.iter less (Hashtbl.find_all before (Stack.pop ends))
-  done;
-  !left > 0
-
 let statistics ppf t =
+  let widths = Shapes.widths t.shapes in
   Format.fprintf ppf "%d words; widths: shape %d, shared %d; %d shapes, %d shared, %d configurations" (words t)
-    t.widths.shape t.widths.shared (t.count_shapes - 1)
-    (Parts.Shareds.count t.shareds) (Wholes.count t.wholes)
+    widths.shape widths.shared (Shapes.count t.shapes)
+    (Cases.Shareds.count (Cases.shareds t.cases))
+    (Words.count_wholes t.words)

@@ -1,12 +1,15 @@
 open Dolphin_semantics
 module Scenario = Dolphin_scenario.Scenario
 
-let world (scenario : Scenario.t) =
+let still scenario =
   let add world (state : World.vehicle_state) = World.add { state with connected = true } world in
+  List.fold_left add World.empty (Scenario.states scenario)
+
+let world (scenario : Scenario.t) =
   let open_sensors world (v : Scenario.vehicle) =
     World.open_position v.id v.places (World.open_battery v.id v.batteries world)
   in
-  List.fold_left open_sensors (List.fold_left add World.empty (Scenario.states scenario)) scenario.vehicles
+  List.fold_left open_sensors (still scenario) scenario.vehicles
 
 let ending (scenario : Scenario.t) v name : Environment.endings =
   let vehicle = List.find_opt (fun (vehicle : Scenario.vehicle) -> vehicle.id = v) scenario.vehicles in

@@ -1,3 +1,5 @@
+type extended = [ Yojson.Safe.t | `Tuple of Yojson.Safe.t list | `Variant of string * Yojson.Safe.t option ]
+
 let number x : Yojson.Safe.t =
   if Float.is_integer x && Float.abs x <= 1e15 then `Int (int_of_float x) else `Float x
 
@@ -7,7 +9,7 @@ let of_float x =
   let shortest = List.find_opt gives_back [ text 15; text 16 ] in
   let text = Option.value shortest ~default:(text 17) in
   let is_marked c = c = '.' || c = 'e' in
-  if String.exists is_marked text then text else text ^ ".0"
+  if String.exists is_marked text || not (Float.is_finite x) then text else text ^ ".0"
 
 let write_string buffer text =
   let character c =
@@ -29,7 +31,7 @@ let rec write buffer (json : Yojson.Safe.t) =
     List.iteri (fun i x -> if i > 0 then Buffer.add_char buffer ','; item x) items;
     Buffer.add_char buffer closing
   in
-  match json with
+  match (json :> extended) with
   | `Null -> Buffer.add_string buffer "null"
   | `Bool b -> Buffer.add_string buffer (string_of_bool b)
   | `Int i -> Buffer.add_string buffer (string_of_int i)

@@ -77,7 +77,7 @@ let to_json = to_json_within 0
 (* {1 From JSON} *)
 
 let shortened json =
-  let text = Yojson.Safe.to_string json in
+  let text = Canonical.to_string json in
   if String.length text <= 60 then text else String.sub text 0 60 ^ "..."
 
 let expected what json = Error (Printf.sprintf "%s is expected, not %s" what (shortened json))
@@ -122,7 +122,7 @@ let to_vehicles names =
 let rec of_json_within depth ~site (json : Yojson.Safe.t) : (Core.value, string) result =
   if depth > deepest then Error too_deep
   else
-    match json with
+    match (json :> Canonical.extended) with
     | `Null -> Ok Null
     | `Bool b -> Ok (Boolean b)
     | `Int i -> Ok (Integer i)
@@ -180,8 +180,8 @@ let nesting text =
   String.iter (fun c -> if !quoted then within_string c else bracket c) text;
   !deepest_so_far
 
-let parse text =
-  if nesting text > 2 * deepest then Error too_deep
+let parse ?(deepest = 2 * deepest) text =
+  if nesting text > deepest then Error (Printf.sprintf "it is nested more than %d deep" deepest)
   else
     match Yojson.Safe.from_string text with
     | json -> Ok json

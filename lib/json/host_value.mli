@@ -21,6 +21,6 @@ val of_json : site:Core.site -> Yojson.Safe.t -> (Core.value, string) result
 (** [of_json ~site json] is the value that [json] stands for; its tasks come from [site]. A whole number is an integer
     if it is written as one and fits. *)
 
-val parse : string -> (Yojson.Safe.t, string) result
-(** [parse text] is the JSON value that [text] is, or what is wrong. Nesting is bounded, so that no text exhausts the
-    stack. *)
+val parse : ?deepest:int -> string -> (Yojson.Safe.t, string) result
+(** [parse text] is the JSON value that [text] is, or what is wrong. Nesting is bounded, by [deepest] (200 by default), so
+    that no text exhausts the stack. *)

@@ -322,6 +322,8 @@ let vehicles f =
     if craft.connected && craft.told <> None then Some (state f craft) else craft.told in
   List.filter_map seen f.order
 
+let told id f = (find id f).told
+
 let running f id =
   match (find id f).activity with
   | Free -> None

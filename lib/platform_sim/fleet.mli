@@ -52,5 +52,8 @@ val vehicles : t -> World.vehicle_state list
 (** All vehicles that were heard of, in the scenario's order: as they are now, or, without a link, as they were last
     seen. *)
 
+val told : Core.vehicle -> t -> World.vehicle_state option
+(** What was told of the vehicle last. *)
+
 val running : t -> Core.vehicle -> string option
 (** [running f v] is the name of the task that [v] runs, or has been told to run, for the program. *)

@@ -24,12 +24,17 @@ end
 
 (* The shell: one state, and a pending [next] that looks at it again when a command has changed it. *)
 module Make (Clock : Clock) = struct
-  type t = { clock : Clock.t; mutable fleet : Fleet.t; mutable changed : unit Lwt.u option }
+  type t = { clock : Clock.t; mutable fleet : Fleet.t; mutable changed : unit Lwt.u option; mutable early : Platform.event list }
 
   let name = "sim"
   let virtual_time = Clock.virtual_time
-  let announce_period _ = 10.
-  let make clock ~seed scenario = { clock; fleet = Fleet.create ~seed scenario; changed = None }
+  let announce_period = 10.
+  let make clock ~seed scenario = { clock; fleet = Fleet.create ~seed scenario; changed = None; early = [] }
+
+  let make_again clock ~seed scenario moments =
+    let again { Recreation.fleet; early; news } = ({ clock = clock (Fleet.now fleet); fleet; changed = None; early }, news) in
+    Result.map again (Recreation.make ~seed ~announce_period scenario moments)
+
   let catch_up p = p.fleet <- Fleet.advance p.fleet (Clock.elapsed p.clock)
 
   let now p =
@@ -47,12 +52,25 @@ module Make (Clock : Clock) = struct
       p.changed <- None;
       Lwt.wakeup_later waiting ()
 
+  let announce_period _ = announce_period
+
+  (* Of what was told early, nothing is told any more that a command has undone. *)
+  let undo p told = p.early <- List.filter (fun event -> not (told event)) p.early
+
   let set_timer p timer seconds = command p (Fleet.set_timer timer seconds)
-  let cancel_timer p timer = command p (Fleet.cancel_timer timer)
+
+  let cancel_timer p timer =
+    undo p (( = ) (Platform.Timer timer));
+    command p (Fleet.cancel_timer timer)
+
   let bind p vehicles = command p (Fleet.bind vehicles)
   let release p vehicles = command p (Fleet.release vehicles)
   let start p vehicle task = command p (Fleet.start vehicle task)
-  let stop p vehicle = command p (Fleet.stop vehicle)
+
+  let stop p vehicle =
+    undo p (function Platform.Task_done v | Task_failed (v, _) -> v = vehicle | Vehicle _ | Timer _ | Quiet -> false);
+    command p (Fleet.stop vehicle)
+
   let set_connection_timeout p vehicles seconds = command p (Fleet.set_connection_timeout vehicles seconds)
   let telemetry p on = command p (Fleet.telemetry on)
   let close _ = Lwt.return_unit
@@ -66,7 +84,12 @@ module Make (Clock : Clock) = struct
 
   let rec next p =
     catch_up p;
-    match Fleet.due p.fleet with
+    match p.early, Fleet.due p.fleet with
+    | event :: others, _ -> p.early <- others; Lwt.return event
+    | [], due -> next_due p due
+
+  and next_due p due =
+    match due with
     | None when Clock.virtual_time -> Lwt.return Platform.Quiet
     | None -> Lwt.bind (change p) (fun () -> next p)
     | Some time when Clock.virtual_time || time <= Clock.elapsed p.clock -> take p
@@ -82,7 +105,7 @@ module Make (Clock : Clock) = struct
 
   (* {1 Displays} *)
 
-  let idle p = Fleet.quiet p.fleet
+  let idle p = p.early = [] && Fleet.quiet p.fleet
 
   let vehicles p =
     catch_up p;
@@ -101,6 +124,7 @@ module Virtual = struct
     end)
 
   let create ~seed scenario = make () ~seed scenario
+  let create_again ~seed scenario moments = make_again ignore ~seed scenario moments
 end
 
 module Pace = struct
@@ -118,7 +142,10 @@ end
 module Paced = struct
   include Make (Pace)
 
-  let create ?(speed = 1.) ~seed scenario =
+  let clock speed time =
     if not (Float.is_finite speed && speed > 0.) then Fmt.invalid_arg "Simulator.Paced.create: speed %g" speed;
-    make { Pace.origin = Unix.gettimeofday (); speed } ~seed scenario
+    { Pace.origin = Unix.gettimeofday () -. (time /. speed); speed }
+
+  let create ?(speed = 1.) ~seed scenario = make (clock speed 0.) ~seed scenario
+  let create_again ?(speed = 1.) ~seed scenario moments = make_again (clock speed) ~seed scenario moments
 end

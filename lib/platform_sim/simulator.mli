@@ -98,6 +98,12 @@ module Virtual : sig
   include S
 
   val create : seed:int -> Scenario.t -> t
+
+  val create_again :
+    seed:int -> Scenario.t -> Past.moment list -> (t * World.vehicle_state list, string) result
+  (** [create_again ~seed s moments] is the platform of a run whose console died after [moments], with what was told of
+      vehicles since the journal's last lines on them: see {!Recreation}. No time has passed since. The error says why
+      [moments] are not those of this fleet. *)
 end
 
 (** Time passes by itself, perhaps faster than outside. *)
@@ -107,4 +113,8 @@ module Paced : sig
   val create : ?speed:float -> seed:int -> Scenario.t -> t
   (** [create ~speed ~seed s] starts now; [speed] seconds pass in a second (by default 1).
       @raise Invalid_argument if [speed] is not finite, or not more than 0. *)
+
+  val create_again :
+    ?speed:float -> seed:int -> Scenario.t -> Past.moment list -> (t * World.vehicle_state list, string) result
+  (** As that of {!Virtual}: the fleet stood still while there was no console. *)
 end

@@ -25,6 +25,16 @@ type call =
 let no_host ~site:_ ~subject:_ ~member:_ ~arguments:_ =
   Lwt.return (Error "there is no host process to call: name one with --supplier")
 
+type beginning = {
+  configuration : Configuration.t;
+  world : World.t;
+  news : World.vehicle_state list;
+  pending : Transition.event option;
+}
+
+let afresh program =
+  { configuration = Configuration.initial program; world = World.empty; news = []; pending = None }
+
 (* So many transitions and events may pass before others get their turn. *)
 let breath = 100
 
@@ -224,6 +234,16 @@ module Make (P : Platform.S) = struct
         | Executing (_, r) -> interrupt s; Lwt.return (Stuck r)
         | Script _ | Waiting _ | Ended _ -> advance s)
 
+  (* What a console that died was waiting for, people and the host are asked for again. *)
+  let begin_at s (b : beginning) =
+    List.iter (see s) b.news;
+    let is_delivered = Option.fold b.pending ~none:false ~some:(deliver s) in
+    if (not is_delivered) && s.reply = None then
+      match b.configuration.control with
+      | Waiting (_, Ask prompt) -> ask s prompt
+      | Waiting (_, Host_call { subject; member; arguments }) -> call_host s subject member arguments
+      | Waiting (_, (Pick _ | Pause _ | Execute _)) | Script _ | Executing _ | Ended _ -> ()
+
   let finish s =
     Option.iter Lwt.cancel s.upcoming;
     Option.iter Lwt.cancel s.reply;
@@ -238,16 +258,17 @@ module Make (P : Platform.S) = struct
         | Error (Not_awaited | Bad_answer _) -> ());
     Lwt.catch (fun () -> finish s) (fun _ -> Lwt.return_unit)
 
-  let run platform ~always_telemetry ~observer ~call ~console ~interruption program =
+  let run platform ~always_telemetry ~observer ~call ~console ~interruption ~(beginning : beginning) program =
     let s =
       { platform; program; console; call; observer; always_telemetry;
         interruption = (Lwt.protected interruption >|= fun () -> Event Interruption);
-        configuration = Configuration.initial program;
-        world = World.empty;
+        configuration = beginning.configuration;
+        world = beginning.world;
         telemetry = false; upcoming = None; reply = None; unbroken = 0 }
     in
     let whole () =
       switch_telemetry s always_telemetry;
+      begin_at s beginning;
       advance s
     in
     Lwt.try_bind whole
@@ -256,6 +277,9 @@ module Make (P : Platform.S) = struct
 end
 
 let run (type platform) (module P : Platform.S with type t = platform) (platform : platform)
-    ?(always_telemetry = false) ?(observer = Observer.nobody) ?(host = no_host) ~console ~interruption program =
+    ?(always_telemetry = false) ?(observer = Observer.nobody) ?(host = no_host) ?beginning ~console ~interruption
+    program =
   let module Driver = Make (P) in
-  Driver.run platform ~always_telemetry ~observer ~call:host ~console ~interruption program
+  Driver.run platform ~always_telemetry ~observer ~call:host ~console ~interruption
+    ~beginning:(Option.value beginning ~default:(afresh program))
+    program

@@ -27,12 +27,21 @@ type call =
   arguments:Core.value list option ->
   (Core.value, string) result Lwt.t
 
+(** Where a run begins that goes on with one whose console died. *)
+type beginning = {
+  configuration : Configuration.t;
+  world : World.t;
+  news : World.vehicle_state list;  (** of vehicles, since *)
+  pending : Transition.event option;  (** that happened, and was not dealt with *)
+}
+
 val run :
   (module Platform.S with type t = 'platform) ->
   'platform ->
   ?always_telemetry:bool ->
   ?observer:Observer.t ->
   ?host:call ->
+  ?beginning:beginning ->
   console:Console.t ->
   interruption:unit Lwt.t ->
   Core.program ->
@@ -42,6 +51,10 @@ val run :
 
     The platform's telemetry is on while it may matter to the program, or with [~always_telemetry:true] (by default
     false), for displays, all the time. Without [host], calls to the host process fail.
+
+    The run begins with the program, or as [beginning] says, and [platform] is one that stands as it did then: what the
+    program has started and not ended runs, its timers too. A question that was not answered, or a call of the host
+    without reply, is made again.
 
     While the program waits for the console or the host, a platform of virtual time stands still.
 

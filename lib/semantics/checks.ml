@@ -13,8 +13,8 @@ let block env at = function [ e ] -> e | es -> expression env at (Block es)
 let local env at slot = expression env at (Local slot)
 let set_local env at slot e = expression env at (Set_local (slot, e))
 
-let error env ?hint at format =
-  Printf.ksprintf (fun message -> Scope.report env.program (Diagnostic.error ?hint at message)) format
+let error env ?hint code at format =
+  Printf.ksprintf (fun message -> Scope.report env.program (Diagnostic.error ?hint ~code at message)) format
 
 let null env at = constant env at Null
 
@@ -57,7 +57,7 @@ let known_kind env (e : Ast.expression) =
 let check_kind env what wanted (e : Ast.expression) =
   let found = known_kind env e in
   if not (could_be wanted found) then
-    error env e.at "%s takes %s, this is %s" what (Builtins.describe wanted)
+    error env Wrong_kind e.at "%s takes %s, this is %s" what (Builtins.describe wanted)
       (match found with Other -> "none" | found -> Builtins.describe found)
 
 let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expression) =
@@ -70,7 +70,7 @@ let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expressio
       | _ -> None
     in
     if not (could_be Task (known_kind env e)) then
-      error env ?hint e.at "%s composes tasks, and this is %s" symbol (Builtins.describe (known_kind env e))
+      error env ?hint Wrong_kind e.at "%s composes tasks, and this is %s" symbol (Builtins.describe (known_kind env e))
   in
   match op, known_kind env a, known_kind env b with
   | Sequence, _, _ -> need a; need b
@@ -115,17 +115,18 @@ let check_place env (builtin : Builtins.t) name at =
   match builtin.place with
   | Anywhere -> ()
   | Script_only -> (
-      if env.answer then error env at "%s may not stand in an answer" name;
+      if env.answer then error env Deed_in_answer at "%s may not stand in an answer" name;
       Scope.note_blocking env.code name;
       match Scope.in_task env.code with
       | Some construct ->
-        error env at "%s belongs to the script: the code of %s is part of a task and cannot wait" name construct
+        error env Waits_in_task at "%s belongs to the script: the code of %s is part of a task and cannot wait" name
+          construct
           ~hint:"do it before execute, or split the task"
       | None -> ())
   | Handler_only -> (
       match Scope.purpose env.code with
       | Handler | Named_function _ | Plain -> ()
-      | Main | Task_code _ -> error env at "%s() belongs in onError { ... }" name)
+      | Main | Task_code _ -> error env Handler_only at "%s() belongs in onError { ... }" name)
 
 let sensor_members =
   [ "position"; "battery"; "getPosition"; "getBattery"; "latitude"; "longitude"; "getType"; "type" ]

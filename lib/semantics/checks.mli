@@ -3,6 +3,7 @@
 
 module Ast = Dolphin_syntax.Ast
 module Location = Dolphin_syntax.Location
+module Diagnostic = Dolphin_syntax.Diagnostic
 open Core
 
 (** The program's tables, the piece of code that is being translated, and whether it is an answer to [ask]. *)
@@ -22,7 +23,7 @@ val null : env -> Location.t -> expression
 
 (** {1:report Reports} *)
 
-val error : env -> ?hint:string -> Location.t -> ('a, unit, string, unit) format4 -> 'a
+val error : env -> ?hint:string -> Diagnostic.code -> Location.t -> ('a, unit, string, unit) format4 -> 'a
 val did_you_mean : string -> string list -> string option
 
 (** {1:kinds Kinds} *)

@@ -5,11 +5,13 @@ open Core
 
 (* Functions may be used before the line that defines them. *)
 let declare_function program ((name : string Ast.located), lambda, _, _, _) =
-  let wrong ?hint message = Scope.report program (Diagnostic.error ?hint name.at message) in
+  let wrong ?hint code message = Scope.report program (Diagnostic.error ?hint ~code name.at message) in
   if Scope.find_function program name.it <> None then
-    wrong (Printf.sprintf "function '%s' is defined twice" name.it)
+    wrong Defined_twice (Printf.sprintf "function '%s' is defined twice" name.it)
   else if Builtins.find name.it <> None || List.mem name.it Builtins.owners then
-    wrong (Printf.sprintf "'%s' is a name of the language and cannot be defined" name.it) ~hint:"choose another name"
+    wrong Reserved_name
+      (Printf.sprintf "'%s' is a name of the language and cannot be defined" name.it)
+      ~hint:"choose another name"
   else Scope.add_function program name.it lambda
 
 let report_unknown program =
@@ -17,7 +19,7 @@ let report_unknown program =
   List.iter
     (fun (name, at) ->
        Scope.report program
-         (Diagnostic.error at
+         (Diagnostic.error ~code:Unknown_name at
             (Printf.sprintf "unknown name '%s'" name)
             ?hint:(Checks.did_you_mean name (List.filter (fun other -> other <> name) names))))
     (Scope.unknown program)
@@ -29,7 +31,7 @@ let report_blocking program =
          Printf.sprintf "%s() uses %s, which belongs to the script: the code of %s is part of a task and cannot wait"
            callee what construct
        in
-       Scope.report program (Diagnostic.error at message))
+       Scope.report program (Diagnostic.error ~code:Waits_in_task at message))
     (Scope.blocking_calls_in_tasks program)
 
 let shell program at label parameters =

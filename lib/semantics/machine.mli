@@ -34,8 +34,38 @@ type context = {
 
 (** {1:machine Machines} *)
 
-type t
-(** Code about to run, or waiting for a value. *)
+(** What a loop has yet to go through: elements from an index on (-1: the loop waits for what it goes through), or
+    numbers up to and with the last, up or down. *)
+type items = Items of value array * int | Counting of int * int
+
+(** What is done with the value of the code in focus. *)
+type frame =
+  | Arguments of { operation : operation; at : site; evaluated : value list;  (** latest first *)
+                   remaining : expression list }
+  | Assign_local of int
+  | Assign_global of int
+  | Choose of expression * expression
+  | Rest of expression list
+  | Loop_test of expression * expression
+  | Loop_body of expression * expression
+  | Next_item of int * items * expression
+  | Leave of value array  (** a call ends: the locals of the caller *)
+  | Iterate of {
+      iteration : Code.iteration;
+      closure : closure;
+      subject : value;
+      items : value array;
+      index : int;  (** of the item whose result is awaited *)
+      gathered : value list;  (** latest first *)
+      at : site;
+    }
+
+type focus = Evaluate of expression | Give of value
+
+type t = { focus : focus; locals : value array; stack : frame list; calls : int;  (** as many as [Leave] in [stack] *)
+           at : site }
+(** Code about to run, or waiting for a value. It is open to those who store machines; whoever makes one up from parts
+    that do not belong together may see {!run} raise [Invalid_argument]. *)
 
 val compare : t -> t -> int
 val hash : t -> int

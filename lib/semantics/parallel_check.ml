@@ -94,7 +94,7 @@ let rec surely singles (e : expression) =
   | _ -> []
 
 let twice at v =
-  Diagnostic.error at
+  Diagnostic.error ~code:Vehicle_twice at
     (Printf.sprintf "vehicle '%s' is given to two tasks that run side by side" v)
     ~hint:"tasks of one vehicle follow each other by >>"
 
@@ -119,7 +119,7 @@ let named_clashes singles arguments =
   from [] arguments
 
 let too_narrow at v n =
-  Diagnostic.error at
+  Diagnostic.error ~code:Vehicle_twice at
     (Printf.sprintf "'%s' is one vehicle, and the task needs %d at the same time" v n)
     ~hint:"tasks of one vehicle follow each other by >>"
 

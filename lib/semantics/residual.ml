@@ -177,6 +177,33 @@ let timers =
       | Idle { timer; _ } | During { started = true; timer; _ } -> Some timer
       | _ -> None)
 
+(* {1 Contexts} *)
+
+type context =
+  | Before of t list
+  | Branch_of of branch list
+  | Body_until of closure
+  | Body_during of timer * duration
+  | Watched_by of closure
+
+let opened = function
+  | Sequence (a, rest) -> Some (Before rest, a)
+  | All_of (Some a, remaining) -> Some (Branch_of remaining, a)
+  | Until (condition, a) -> Some (Body_until condition, a)
+  | During { duration = Given_by _; started = false; _ } -> None
+  | During { timer; duration; body; _ } -> Some (Body_during (timer, duration), body)
+  | Watch (a, handler) -> Some (Watched_by handler, a)
+  | Ready _ | Running _ | Action _ | Condition _ | Parallel _ | All_of (None, _) | One_of _ | Idle _ -> None
+
+let within context r =
+  match context, r with
+  | Before rest, Sequence (a, before) -> Sequence (a, before @ rest)
+  | Before rest, r -> Sequence (r, rest)
+  | Branch_of remaining, r -> All_of (Some r, remaining)
+  | Body_until condition, r -> Until (condition, r)
+  | Body_during (timer, duration), body -> During { timer; duration; started = true; body }
+  | Watched_by handler, r -> Watch (r, handler)
+
 (* {1 Steps} *)
 
 type offer =
@@ -187,6 +214,7 @@ type offer =
   | End_of of platform_task * vehicle
   | Expiry_of of timer
 
+type undoing = Cancel of timer | Cut of t list
 type reply = Went | Gave of float | Broke of Fault.t
 
 type outcome =
@@ -204,13 +232,12 @@ and change = {
   outcome : outcome;
   rules : Rule.t list;
   timers : (timer * float) list;
-  cancelled : timer list;
-  abandoned : t list;
+  undone : undoing list;
 }
 
 type step = { offer : offer; continue : reply -> change }
 
-let change rule outcome = { outcome; rules = [ rule ]; timers = []; cancelled = []; abandoned = [] }
+let change rule outcome = { outcome; rules = [ rule ]; timers = []; undone = [] }
 
 (* [enter rule r] is the change to [r], which begins now. *)
 let enter rule around r =
@@ -243,7 +270,7 @@ let rec lift around change =
     let propagated fault = lift around (h.propagated fault) in
     { change with outcome = Handling { h with ignored; propagated } }
 
-let within around step = { step with continue = (fun reply -> lift around (step.continue reply)) }
+let step_within around step = { step with continue = (fun reply -> lift around (step.continue reply)) }
 
 (* The usual whole: [next] rebuilds it, and it ends as its part ends. *)
 let around ~next (step, finished, failed) =
@@ -258,8 +285,7 @@ let around_sequence rest =
     let next, timers = activate (of_parts rest) in
     { (add Rule.Seq_2 (Next next) c) with timers = c.timers @ timers }
   in
-  let next r = match r with Sequence (a, before) -> Sequence (a, before @ rest) | r -> Sequence (r, rest) in
-  { (around ~next (Rule.Seq_1, Rule.Seq_2, Rule.Seq_err)) with on_finished }
+  { (around ~next:(fun r -> within (Before rest) r) (Rule.Seq_1, Rule.Seq_2, Rule.Seq_err)) with on_finished }
 
 let around_parallel before after =
   let rebuild r = match r with Parallel rs -> Parallel (List.rev_append before (rs @ after))
@@ -269,23 +295,23 @@ let around_parallel before after =
     on_finished = (fun c -> add Rule.Par_2 (Next (parallel (List.rev_append before after))) c);
     on_failed =
       (fun fault c ->
-         let abandoned = List.rev_append before after @ c.abandoned in
-         { (add Rule.Par_err (Failed fault) c) with abandoned });
+         let others = Cut (List.rev_append before after) in
+         { (add Rule.Par_err (Failed fault) c) with undone = c.undone @ [ others ] });
   }
 
 let around_branch remaining =
-  let next r = All_of (Some r, remaining) in
+  let next r = within (Branch_of remaining) r in
   {
     (around ~next (Rule.Allof_1, Rule.Allof_2, Rule.Allof_err)) with
     on_finished = (fun c -> add Rule.Allof_2 (Next (all_of None remaining)) c);
   }
 
 let around_until condition =
-  around ~next:(fun r -> Until (condition, r)) (Rule.Until_1, Rule.Until_2, Rule.Until_err)
+  around ~next:(fun r -> within (Body_until condition) r) (Rule.Until_1, Rule.Until_2, Rule.Until_err)
 
 let around_during timer duration =
-  let next body = During { timer; duration; started = true; body } in
-  let cancel c = { c with cancelled = timer :: c.cancelled } in
+  let next body = within (Body_during (timer, duration)) body in
+  let cancel c = { c with undone = c.undone @ [ Cancel timer ] } in
   let plain = around ~next (Rule.During_1, Rule.During_2, Rule.During_err) in
   {
     plain with
@@ -295,15 +321,36 @@ let around_during timer duration =
 
 let around_watch handler =
   let on_failed fault c =
-    let nothing rule outcome = { outcome; rules = [ rule ]; timers = []; cancelled = []; abandoned = [] } in
+    let nothing rule outcome = { outcome; rules = [ rule ]; timers = []; undone = [] } in
     let ignored () = nothing Rule.Watch_ignore Finished in
     let propagated fault = nothing Rule.Watch_propagate (Failed fault) in
     { c with outcome = Handling { handler; fault; ignored; propagated } }
   in
   {
-    (around ~next:(fun r -> Watch (r, handler)) (Rule.Watch_1, Rule.Watch_2, Rule.Watch_propagate)) with
+    (around ~next:(fun r -> within (Watched_by handler) r) (Rule.Watch_1, Rule.Watch_2, Rule.Watch_propagate)) with
     on_failed;
   }
+
+let around_context = function
+  | Before rest -> around_sequence rest
+  | Branch_of remaining -> around_branch remaining
+  | Body_until condition -> around_until condition
+  | Body_during (timer, duration) -> around_during timer duration
+  | Watched_by handler -> around_watch handler
+
+let change_within context change = lift (around_context context) change
+
+(* What a context can do to its body. *)
+let cut context body =
+  match context with
+  | Before _ | Branch_of _ | Watched_by _ -> None
+  | Body_until condition ->
+    let went () = { (change Rule.Until_cut Finished) with undone = [ Cut [ body ] ] } in
+    let broke fault = { (failing Rule.Until_err fault) with undone = [ Cut [ body ] ] } in
+    Some { offer = Check condition; continue = settled ~went ~broke }
+  | Body_during (timer, _) ->
+    let cut = { (change Rule.During_cut Finished) with undone = [ Cut [ body ] ] } in
+    Some { offer = Expiry_of timer; continue = (fun _ -> cut) }
 
 let one step = Seq.return step
 
@@ -332,11 +379,9 @@ let rec steps_at relevant r : step Seq.t =
   | Condition c ->
     let continue = settled ~went:(fun () -> change Rule.Condition Finished) ~broke:(failing Rule.Condition_err) in
     one { offer = Check c; continue }
-  | Sequence (a, rest) -> Seq.map (within (around_sequence rest)) (steps a)
   | Parallel rs ->
-    let part before r after = Seq.map (within (around_parallel before after)) (steps r) in
+    let part before r after = Seq.map (step_within (around_parallel before after)) (steps r) in
     each ~relevant:(exists_active relevant) part rs
-  | All_of (Some a, remaining) -> Seq.map (within (around_branch remaining)) (steps a)
   | All_of (None, branches) ->
     let choose before b after =
       let remaining = List.rev_append before after in
@@ -350,11 +395,6 @@ let rec steps_at relevant r : step Seq.t =
       one { offer = Check b.guard; continue = settled ~went ~broke:(failing Rule.Oneof_err) }
     in
     each ~relevant:(fun _ -> true) choose branches
-  | Until (condition, a) ->
-    let went () = { (change Rule.Until_cut Finished) with abandoned = [ a ] } in
-    let broke fault = { (failing Rule.Until_err fault) with abandoned = [ a ] } in
-    let cut = { offer = Check condition; continue = settled ~went ~broke } in
-    fun () -> Seq.Cons (cut, Seq.map (within (around_until condition)) (steps a))
   | Idle { timer; _ } ->
     one { offer = Expiry_of timer; continue = (fun _ -> change Rule.Idle_end Finished) }
   | During { duration = Given_by c; started = false; timer; body } ->
@@ -369,11 +409,14 @@ let rec steps_at relevant r : step Seq.t =
       | Broke fault -> failing Rule.During_err fault
     in
     one { offer = Measure c; continue }
-  | During { timer; duration; body; _ } ->
-    let cut = { (change Rule.During_cut Finished) with abandoned = [ body ] } in
-    let expiry = { offer = Expiry_of timer; continue = (fun _ -> cut) } in
-    fun () -> Seq.Cons (expiry, Seq.map (within (around_during timer duration)) (steps body))
-  | Watch (a, handler) -> Seq.map (within (around_watch handler)) (steps a)
+  | Sequence _ | All_of (Some _, _) | Until _ | During _ | Watch _ -> (
+      match opened r with
+      | None -> Seq.empty
+      | Some (context, body) -> (
+          let inside = Seq.map (step_within (around_context context)) (steps body) in
+          match cut context body with
+          | None -> inside
+          | Some cut -> fun () -> Seq.Cons (cut, inside)))
 
 let steps = steps_at (fun _ -> true)
 

@@ -58,6 +58,11 @@ type offer =
   | End_of of platform_task * vehicle  (** that the vehicle reports the end *)
   | Expiry_of of timer  (** that the timer expires *)
 
+(** What no longer runs. *)
+type undoing =
+  | Cancel of timer
+  | Cut of t list  (** residuals that were cut off: their timers are cancelled, then their vehicles stop *)
+
 (** How it was settled. *)
 type reply = Went | Gave of float  (** to [Measure] *) | Broke of Fault.t
 
@@ -76,8 +81,7 @@ and change = {
   outcome : outcome;
   rules : Rule.t list;  (** the derivation, innermost rule first *)
   timers : (timer * float) list;  (** that start *)
-  cancelled : timer list;
-  abandoned : t list;  (** residuals that were cut off: their vehicles stop, their timers are cancelled *)
+  undone : undoing list;  (** in the order of the derivation, innermost rule first *)
 }
 
 type step = { offer : offer; continue : reply -> change }
@@ -90,6 +94,35 @@ val internal_steps : t -> step Seq.t
 
 val steps_of_vehicle : vehicle -> t -> step Seq.t
 (** [steps_of_vehicle v r] is [steps r], less some that do not wait for the end of a task of [v]. *)
+
+(** {1:contexts Contexts}
+
+    A residual that has begun stands in contexts: [opened] takes them off, one after the other. Changes of the residual
+    are changes of the whole by the contexts alone, whatever the residual is; so its steps are worked out once for all
+    that may stand beside it. *)
+
+type context =
+  | Before of t list  (** [_ >> t1 >> ... >> tn] *)
+  | Branch_of of branch list  (** [allOf(_; bs)] *)
+  | Body_until of closure
+  | Body_during of timer * duration  (** the timer runs *)
+  | Watched_by of closure
+
+val opened : t -> (context * t) option
+(** [opened r] is the outermost context of [r], and what is in it, if anything in it has begun. A [Parallel] is no
+    context. *)
+
+val within : context -> t -> t
+(** [within k r] is [r] in [k], in normal form. *)
+
+val change_within : context -> change -> change
+(** [change_within k c] is the change of [within k r] by a step of [r] that changes [r] by [c]. *)
+
+val cut : context -> t -> step option
+(** [cut k r] is the step of [within k r] that is none of [r]: the cut of an [until] or a [during]. [steps (within k r)]
+    is this one, and those of [r] with their changes within [k]. *)
+
+(** {1:active What is active} *)
 
 val running : t -> vehicle list
 (** [running r] is the vehicles that run a task of [r]. *)

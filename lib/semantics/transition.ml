@@ -221,10 +221,17 @@ let run_code program world c mode closure arguments =
     (Broke (Fault.make closure.lambda.lambda_site message), start)
   | Did | Waits _ -> invalid_arg "Transition.run_code: atomic code stopped"
 
-let active_changes (change : Residual.change) =
-  let cut = change.abandoned in
-  let cancelled = change.cancelled @ List.concat_map Residual.timers cut in
-  (cancelled, List.concat_map Residual.running cut)
+(* The vehicles that stop, and the effects in their order. *)
+let undo (change : Residual.change) =
+  let of_undoing : Residual.undoing -> vehicle list * Effect.t list = function
+    | Cancel timer -> ([], [ Cancel_timer timer ])
+    | Cut cut ->
+      let cancelled = List.map (fun timer -> Effect.Cancel_timer timer) (List.concat_map Residual.timers cut) in
+      let stopped = List.concat_map Residual.running cut in
+      (stopped, cancelled @ List.map (fun v -> Effect.Stop v) stopped)
+  in
+  let stopped, effects = List.split (List.map of_undoing change.undone) in
+  (List.concat stopped, List.concat effects)
 
 type outcome = Goes_on of Residual.t | Over | Ends of Configuration.ending
 
@@ -234,26 +241,20 @@ type local = {
   derivation : Rule.t list;
   named : Label.t;
   asked : Effect.t list;
-  assumed : World.assumption list;
 }
 
 (* [settle c change] carries a change of the residual over to the rest of the configuration, handlers of errors
    included. [asked] are the effects of the step itself. *)
 let rec settle program world (c : Configuration.t) named derivation asked (change : Residual.change) =
-  let cancelled, stopped = active_changes change in
+  let stopped, undone = undo change in
   let derivation = derivation @ change.rules in
   let allocation = List.fold_left (fun a v -> Vehicle_map.remove v a) c.allocation stopped in
   let settled = { c with allocation } in
-  let asked =
-    asked
-    @ List.map (fun timer -> Effect.Cancel_timer timer) cancelled
-    @ List.map (fun v -> Effect.Stop v) stopped
-    @ timers_started change.timers
-  in
+  let asked = asked @ undone @ timers_started change.timers in
   match change.outcome with
-  | Next r -> { after = settled; outcome = Goes_on r; derivation; named; asked; assumed = [] }
-  | Finished -> { after = settled; outcome = Over; derivation; named; asked; assumed = [] }
-  | Failed fault -> { after = settled; outcome = Ends (Failed fault); derivation; named; asked; assumed = [] }
+  | Next r -> { after = settled; outcome = Goes_on r; derivation; named; asked }
+  | Finished -> { after = settled; outcome = Over; derivation; named; asked }
+  | Failed fault -> { after = settled; outcome = Ends (Failed fault); derivation; named; asked }
   | Handling { handler; fault; ignored; propagated } -> (
       let mode = Machine.Handler Propagated in
       let result, context = run_code program world settled mode handler [ String fault.message ] in
@@ -262,41 +263,14 @@ let rec settle program world (c : Configuration.t) named derivation asked (chang
       match result, context.mode with
       | Halted_with message, _ ->
         let derivation = derivation @ [ Rule.Watch_halt ] in
-        { after = settled; outcome = Ends (Halted message); derivation; named; asked; assumed = [] }
+        { after = settled; outcome = Ends (Halted message); derivation; named; asked }
       | Broke fault, _ when Fault.is_assertion fault ->
         let derivation = derivation @ [ Rule.Assert_err ] in
-        { after = settled; outcome = Ends (Failed fault); derivation; named; asked; assumed = [] }
+        { after = settled; outcome = Ends (Failed fault); derivation; named; asked }
       | Broke fault, _ -> settle program world settled named derivation asked (propagated fault)
       | Value_of _, Handler Ignored -> settle program world settled named derivation asked (ignored ())
       | Value_of _, (Handler Propagated | Script | Task_code) ->
         settle program world settled named derivation asked (propagated fault))
-
-let conclude (c : Configuration.t) m { after; outcome; derivation; named; asked; assumed } =
-  match outcome with
-  | Goes_on r ->
-    { rules = derivation; label = named; next = { after with control = Executing (m, r) }; effects = asked; assumed }
-  | Over ->
-    let next = { after with control = Script (Machine.give Null m) } in
-    { rules = derivation @ [ Rule.Execute_done ]; label = named; next; effects = asked; assumed }
-  | Ends (Failed fault as ending) when not (Fault.is_assertion fault) ->
-    (* The failure has cut off all that ran. *)
-    let c = { after with control = Script m } in
-    { (ending_transition c (derivation @ [ Rule.Execute_err ]) named ending asked) with assumed }
-  | Ends ((Completed | Halted _ | Failed _ | Interrupted) as ending) ->
-    { (ending_transition { after with control = c.control } derivation named ending asked) with assumed }
-
-let check_label (change : Residual.change) deeds =
-  match change.rules with Rule.Until_cut :: _ -> Label.Cut deeds | _ -> Label.Check deeds
-
-(* {1 Readings} *)
-
-(* The different ones of [xs], found in different cases of one world, each as it came first. If they are all one, nothing
-   had to be assumed for it. *)
-let different equal forget (xs : 'a option list) =
-  let add kept x = if List.exists (equal x) kept then kept else x :: kept in
-  match List.rev (List.fold_left add [] (List.filter_map Fun.id xs)) with
-  | [ x ] when not (List.mem None xs) -> [ forget x ]
-  | xs -> xs
 
 let equal_outcome a b =
   match a, b with
@@ -308,45 +282,37 @@ let equal_outcome a b =
 let equal_local a b =
   Label.equal a.named b.named && equal_outcome a.outcome b.outcome && Configuration.equal a.after b.after
 
-let locals world f =
-  match World.cases world f with
-  | [ ([], local) ] -> Option.to_list local
-  | cases ->
-    let with_assumed (assumed, local) = Option.map (fun local -> { local with assumed }) local in
-    different equal_local (fun local -> { local with assumed = [] }) (List.map with_assumed cases)
+let conclude (c : Configuration.t) m { after; outcome; derivation; named; asked } =
+  match outcome with
+  | Goes_on r ->
+    { rules = derivation; label = named; next = { after with control = Executing (m, r) }; effects = asked; assumed = [] }
+  | Over ->
+    let next = { after with control = Script (Machine.give Null m) } in
+    { rules = derivation @ [ Rule.Execute_done ]; label = named; next; effects = asked; assumed = [] }
+  | Ends (Failed fault as ending) when not (Fault.is_assertion fault) ->
+    (* The failure has cut off all that ran. *)
+    ending_transition { after with control = Script m } (derivation @ [ Rule.Execute_err ]) named ending asked
+  | Ends ((Completed | Halted _ | Failed _ | Interrupted) as ending) ->
+    ending_transition { after with control = c.control } derivation named ending asked
 
-let equal_transition (t : t) (t' : t) = Label.equal t.label t'.label && Configuration.equal t.next t'.next
-
-let transitions world f : t Seq.t =
-  if not (World.is_open world) then f world
-  else fun () ->
-    let each (assumed, ts) = List.map (fun (t : t) -> { t with assumed }) ts in
-    let found = List.map each (World.cases world (fun world -> List.of_seq (f world))) in
-    match found with
-    | [ ts ] -> List.to_seq ts ()
-    | found ->
-      let forget (t : t) = { t with assumed = [] } in
-      let some = List.map Option.some (List.concat found) in
-      let everywhere = if List.exists (fun ts -> List.length ts <> 1) found then [ None ] else [] in
-      List.to_seq (different equal_transition forget (some @ everywhere)) ()
-
-(* {1 Local steps} *)
+let check_label (change : Residual.change) deeds =
+  match change.rules with Rule.Until_cut :: _ -> Label.Cut deeds | _ -> Label.Check deeds
 
 (* What one local step does that needs no event, if it is enabled. *)
-let internal_step program world (c : Configuration.t) (step : Residual.step) =
+let local_internal program world (c : Configuration.t) (step : Residual.step) =
   let coded closure continue =
     let result, context = run_code program world c Task_code closure [] in
     let d = deeds context in
     match result with
     | Broke fault when Fault.is_assertion fault ->
       let outcome = Ends (Failed fault) and named = Label.Broken fault.message in
-      Some { after = c; outcome; derivation = [ Rule.Assert_err ]; named; asked = []; assumed = [] }
+      Some { after = c; outcome; derivation = [ Rule.Assert_err ]; named; asked = [] }
     | Broke fault ->
       Some (settle program world c (Label.Broken fault.message) [] [] (step.continue (Broke fault)))
     | Halted_with message ->
       let outcome = Ends (Halted message) in
       let derivation = [ Rule.Halt ] and named = Label.Halt message in
-      Some { after = after context c; outcome; derivation; named; asked = effects_of d; assumed = [] }
+      Some { after = after context c; outcome; derivation; named; asked = effects_of d }
     | Value_of x -> continue x (after context c) d
   in
   match step.offer with
@@ -374,7 +340,7 @@ let internal_step program world (c : Configuration.t) (step : Residual.step) =
           Some (settle program world c (Label.Broken message) [] [] (step.continue (Broke fault))))
 
 (* What one local step does on the event that it awaits. *)
-let event_step program world (c : Configuration.t) (step : Residual.step) event =
+let local_event program world (c : Configuration.t) (step : Residual.step) event =
   let ended v named reply =
     let c = { c with allocation = Vehicle_map.remove v c.allocation } in
     Some (settle program world c named [] [] (step.continue reply))
@@ -390,18 +356,33 @@ let event_step program world (c : Configuration.t) (step : Residual.step) event 
       | Host_failed _ | Interruption ),
       (Start _ | Perform _ | Check _ | Measure _ | End_of _ | Expiry_of _) ) -> None
 
-let local_internal program world c step = locals world (fun world -> internal_step program world c step)
-let local_event program world c step event = locals world (fun world -> event_step program world c step event)
+(* {1 Of all that is left open} *)
+
+let equal (t : t) (t' : t) = Label.equal t.label t'.label && Configuration.equal t.next t'.next
+let with_assumed (assumed, (t : t)) = { t with assumed }
+
+(* What [f] gives, one transition at most, in each world that [world] leaves open. *)
+let in_all world f = List.map with_assumed (World.outcomes ~equal world f)
+
+let bindings_in_all world c m pick : t Seq.t =
+  if not (World.is_open world) then bindings world c m pick
+  else fun () ->
+    let add found (assumed, ts) =
+      let fresh = List.filter (fun t -> not (List.exists (equal t) found)) ts in
+      found @ List.map (fun t -> with_assumed (assumed, t)) fresh
+    in
+    let cases = World.cases world (fun world -> List.of_seq (bindings world c m pick)) in
+    List.to_seq (List.fold_left add [] cases) ()
 
 let internal program world (c : Configuration.t) : t Seq.t =
   match c.control with
   | Ended _ -> Seq.empty
-  | Script m -> transitions world (fun world () -> Seq.Cons (run_script program world c m, Seq.empty))
-  | Waiting (m, Pick pick) -> transitions world (fun world () -> bindings world c m pick ())
+  | Script m -> fun () -> List.to_seq (in_all world (fun world -> Some (run_script program world c m))) ()
+  | Waiting (m, Pick pick) -> fun () -> bindings_in_all world c m pick ()
   | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) -> Seq.empty
   | Executing (m, r) ->
-    let step s = Seq.map (conclude c m) (List.to_seq (local_internal program world c s)) in
-    Seq.flat_map step (Residual.internal_steps r)
+    let in_one s world = Option.map (conclude c m) (local_internal program world c s) in
+    Seq.flat_map (fun s -> List.to_seq (in_all world (in_one s))) (Residual.internal_steps r)
 
 (* {1 Events} *)
 
@@ -411,9 +392,9 @@ let executing_event program world c m r event =
     match steps () with
     | Seq.Nil -> [ Error Not_awaited ]
     | Seq.Cons (step, rest) -> (
-        match local_event program world c step event with
+        match in_all world (fun world -> Option.map (conclude c m) (local_event program world c step event)) with
         | [] -> first rest
-        | locals -> List.map (fun local -> Ok (conclude c m local)) locals)
+        | ts -> List.map Result.ok ts)
   in
   match event with
   | Vehicle_done v | Vehicle_failed (v, _) -> first (Residual.steps_of_vehicle v r)
@@ -465,16 +446,10 @@ let accept_all program world (c : Configuration.t) event =
   | (Vehicle_done _ | Vehicle_failed _ | Timer_expired _), Executing (m, r) ->
     executing_event program world c m r event
   | _, _ -> (
-      match World.cases world (fun world -> whole_event program world c event) with
-      | [ ([], result) ] -> [ result ]
-      | cases ->
-        let accepted (assumed, result) =
-          match result with Ok (t : t) -> Some { t with assumed } | Error (Not_awaited | Bad_answer _) -> None
-        in
-        let forget (t : t) = { t with assumed = [] } in
-        (match different equal_transition forget (List.map accepted cases) with
-         | [] -> [ snd (List.hd cases) ]
-         | ts -> List.map Result.ok ts))
+      let accepted world = Result.to_option (whole_event program world c event) in
+      match in_all world accepted with
+      | [] -> [ snd (List.hd (World.cases world (fun world -> whole_event program world c event))) ]
+      | ts -> List.map Result.ok ts)
 
 let accept program world c event = List.hd (accept_all program world c event)
 

@@ -31,7 +31,7 @@ type refusal =
 val internal : program -> World.t -> Configuration.t -> t Seq.t
 (** [internal p w c] is the transitions that [c] can make by itself, leftmost first, computed on demand. A [pick] has
     one for every choice of vehicles, in pick order. In an open world they are those for all that sensors may show; of
-    several with one label and one result there is the first only.
+    several of one step with one label and one result there is the first only.
     @raise Reading.Unsettled in an open world, as do the functions below. *)
 
 val accept : program -> World.t -> Configuration.t -> event -> (t, refusal) result
@@ -69,16 +69,17 @@ type local = {
   derivation : Rule.t list;
   named : Label.t;
   asked : Effect.t list;
-  assumed : World.assumption list;
 }
 
-val local_internal : program -> World.t -> Configuration.t -> Residual.step -> local list
-(** [local_internal p w c s] is what step [s] does with the store, A, B and N of [c]: nothing, if it is not enabled by
-    itself; one thing, unless the world is open. The control of [c] is not looked at. If something is assumed for what it
-    does, it is not enabled, or does something else, if that is not so. *)
+val local_internal : program -> World.t -> Configuration.t -> Residual.step -> local option
+(** [local_internal p w c s] is what step [s] does with the store, A, B and N of [c], if it is enabled by itself. The
+    control of [c] is not looked at. In an open world this may be called inside of {!World.cases} only. *)
 
-val local_event : program -> World.t -> Configuration.t -> Residual.step -> event -> local list
-(** [local_event p w c s e] is what [s] does on [e], if that is what it awaits. *)
+val local_event : program -> World.t -> Configuration.t -> Residual.step -> event -> local option
+(** [local_event p w c s e] is what [s] does on [e], if that is what it awaits. Likewise. *)
+
+val equal_local : local -> local -> bool
+(** Whether two steps of one residual have the same label, and the same result. *)
 
 val conclude : Configuration.t -> Machine.t -> local -> t
 (** [conclude c m l] is the transition of [c], in which [m] waits for the residual whose step did [l]. *)

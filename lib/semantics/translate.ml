@@ -1,4 +1,3 @@
-module Diagnostic = Dolphin_syntax.Diagnostic
 open Core
 open Checks
 
@@ -13,7 +12,7 @@ let variable env (name : string) at =
 (* What a [break] or [return] would leave half done. *)
 let check_not_in_settings env at what =
   match Scope.settings env.code with
-  | Some (builder, _) -> error env at "%s may not stand in %s { ... }" what (builder_name builder)
+  | Some (builder, _) -> error env Misplaced_jump at "%s may not stand in %s { ... }" what (builder_name builder)
   | None -> ()
 
 (* [execute (a | b) >> c] executes all of [(a | b) >> c]: a procedure that gives nothing is no operand, so what follows
@@ -50,8 +49,8 @@ let rec elaborate env (e : Ast.expression) : expression =
     apply env at Concatenate (List.map part parts)
   | Variable name -> elaborate_name env name at
   | Wildcard ->
-    error env at "_ has no value: it stands for any value in consume and poll, for all vehicles in count, and for no \
-                  vehicles in execute";
+    error env Wildcard_value at "_ has no value: it stands for any value in consume and poll, for all vehicles in \
+                                 count, and for no vehicles in execute";
     null env at
   | List es -> apply env at Make_list (List.map (elaborate env) es)
   | Map entries -> elaborate_map env at entries
@@ -59,7 +58,7 @@ let rec elaborate env (e : Ast.expression) : expression =
     let first = elaborate env first in
     apply env at (Make_range inclusive) [ first; elaborate env last ]
   | Closure c ->
-    if env.answer then error env at "an answer may not contain code { ... }";
+    if env.answer then error env Deed_in_answer at "an answer may not contain code { ... }";
     closure env at Scope.Plain "closure" c
   | Unary (op, e) -> apply env at (Unary op) [ elaborate env e ]
   | Binary (And, a, b) -> condition env at a (fun () -> truth env b) (fun () -> this (Boolean false))
@@ -86,7 +85,7 @@ let rec elaborate env (e : Ast.expression) : expression =
   | Member { subject; name; safe } -> member env e subject name safe
   | Index (subject, index) ->
     if known_kind env subject = Task && not (could_be Vehicles (known_kind env index)) then
-      error env index.at "between [ and ] after a task stands a vehicle set, this is %s"
+      error env Wrong_kind index.at "between [ and ] after a task stands a vehicle set, this is %s"
         (Builtins.describe (known_kind env index));
     let subject = elaborate env subject in
     apply env at Element [ subject; elaborate env index ]
@@ -108,7 +107,8 @@ let rec elaborate env (e : Ast.expression) : expression =
     check_kind env "watch" Task t;
     let t = elaborate env t in
     (match handler.parameters with
-     | Some (_ :: second :: _) -> error env second.at "the code of onError takes one parameter, the error"
+     | Some (_ :: second :: _) ->
+       error env Wrong_parameters second.at "the code of onError takes one parameter, the error"
      | Some ([] | [ _ ]) | None -> ());
     apply env at (Builtin Make_watch) [ t; closure env at Scope.Handler "onError" handler ]
 
@@ -125,13 +125,13 @@ and elaborate_name env name at =
   | Some slot when not (is_hidden env name) -> add_setting env at slot name []
   | Some _ | None ->
     if List.mem name Builtins.owners && not (is_hidden env name) then begin
-      error env at "'%s' is not a value by itself" name
+      error env No_value at "'%s' is not a value by itself" name
         ~hint:(Printf.sprintf "write one of %s"
                  (String.concat ", " (List.filter (fun c -> root c = name) Builtins.constants)));
       null env at
     end
     else if Builtins.find name <> None && not (is_hidden env name) then begin
-      error env at "'%s' is a procedure: it needs its arguments" name
+      error env No_value at "'%s' is a procedure: it needs its arguments" name
         ~hint:(Printf.sprintf "write %s(...)" name);
       null env at
     end
@@ -155,13 +155,13 @@ and member env (whole : Ast.expression) subject name safe =
       match Builtins.constant full with
       | Some x -> constant env at x
       | None ->
-        error env at "there is no '%s'" full ?hint:(did_you_mean full Builtins.constants);
+        error env Unknown_name at "there is no '%s'" full ?hint:(did_you_mean full Builtins.constants);
         null env at)
   | Some _ | None ->
     if List.mem name.it sensor_members then Scope.note_sensor env.program;
     (match kind_of subject with
      | Number when Operators.unit_factor name.it = None ->
-       error env name.at "there is no unit '%s'" name.it ?hint:(did_you_mean name.it Operators.unit_names)
+       error env Unknown_unit name.at "there is no unit '%s'" name.it ?hint:(did_you_mean name.it Operators.unit_names)
      | _ -> ());
     let subject = elaborate env subject in
     if safe then unless_null env at subject (fun e -> apply env at (Property name.it) [ e ])
@@ -207,7 +207,7 @@ and closure env at purpose label (c : Ast.closure) =
 
 and task_code env at construct (c : Ast.closure) =
   (match c.parameters with
-   | Some (first :: _) -> error env first.Ast.at "the code of %s takes no parameters" construct
+   | Some (first :: _) -> error env Wrong_parameters first.Ast.at "the code of %s takes no parameters" construct
    | Some [] | None -> ());
   closure env at (Scope.Task_code construct) construct c
 
@@ -241,7 +241,7 @@ and add_setting env at slot name arguments =
    | Some ((Pick | Pos | All_of | One_of), _) | None ->
      List.iter
        (function
-         | Ast.Named (k, _) -> error env k.Ast.at "'%s' takes no argument by name" name
+         | Ast.Named (k, _) -> error env Unknown_argument k.Ast.at "'%s' takes no argument by name" name
          | Ast.Positional _ -> ())
        arguments);
   set_local env at slot
@@ -252,7 +252,8 @@ and check_named_settings env name arguments =
   List.iter
     (function
       | Ast.Named (k, _) when not (List.mem k.Ast.it allowed) ->
-        error env k.Ast.at "'%s' has no argument '%s'" name k.Ast.it ?hint:(did_you_mean k.Ast.it allowed)
+        error env Unknown_argument k.Ast.at "'%s' has no argument '%s'" name k.Ast.it
+          ?hint:(did_you_mean k.Ast.it allowed)
       | Ast.Named _ | Ast.Positional _ -> ())
     arguments
 
@@ -265,7 +266,7 @@ and when_then env at guard t =
         let t = elaborate env t in
         set_local env at slot (apply env at Make_branch [ local env at slot; guard; t ]))
   | Some ((Pick | Imc_plan | Pos), _) | None ->
-    error env at "when { ... } then belongs in allOf { ... } or oneOf { ... }"
+    error env Misplaced_when at "when { ... } then belongs in allOf { ... } or oneOf { ... }"
       ~hint:"a task that waits for one condition is waitFor { ... } then TASK";
     null env at
 
@@ -279,7 +280,8 @@ and call env at (callee : Ast.expression) arguments =
       | Some _ | None -> call_by_name env at name callee arguments)
   | Member { subject = { it = Variable "Math"; _ }; name; _ } when not (is_hidden env "Math") ->
     if not (Builtins.math name.it) then
-      error env name.at "Math has no function '%s'" name.it ?hint:(did_you_mean name.it Builtins.math_names);
+      error env Unknown_name name.at "Math has no function '%s'" name.it
+        ?hint:(did_you_mean name.it Builtins.math_names);
     apply env at (Builtin (Math name.it)) (List.map (fun a -> elaborate env (value_of a)) arguments)
   | Member { subject; name; safe } -> call_method env at subject name safe arguments
   | _ ->
@@ -297,7 +299,7 @@ and call_by_name env at name callee arguments =
     let positional = List.filter (function Ast.Positional _ -> true | Ast.Named _ -> false) arguments in
     let n = List.length positional + if List.length positional < List.length arguments then 1 else 0 in
     if n <> lambda.parameters then
-      error env at "%s takes %d argument%s, not %d" name lambda.parameters
+      error env Wrong_arity at "%s takes %d argument%s, not %d" name lambda.parameters
         (if lambda.parameters = 1 then "" else "s")
         n;
     Scope.note_call env.code name callee.at;
@@ -308,7 +310,7 @@ and call_by_name env at name callee arguments =
   | None, None, None ->
     (match Scope.settings env.code with
      | Some (((Pick | Imc_plan | Pos) as builder), _) ->
-       error env callee.at "%s has no setting '%s'" (builder_name builder) name
+       error env Unknown_setting callee.at "%s has no setting '%s'" (builder_name builder) name
          ?hint:(did_you_mean name (Builtins.settings builder))
      | Some ((All_of | One_of), _) | None -> ());
     if Scope.settings env.code = None then called_value ()
@@ -320,11 +322,11 @@ and call_builtin env at name (builtin : Builtins.t) arguments =
     let count = List.length arguments and least = List.length required in
     let most = least + List.length optional in
     if count < least || count > most then
-      error env at "%s takes %s, not %d" name (number_of_arguments least most) count;
+      error env Wrong_arity at "%s takes %s, not %d" name (number_of_arguments least most) count;
     let kinds = required @ optional in
     let argument i a =
       (match a with
-       | Ast.Named (k, _) -> error env k.Ast.at "%s takes no argument by name" name
+       | Ast.Named (k, _) -> error env Unknown_argument k.Ast.at "%s takes no argument by name" name
        | Ast.Positional e -> if i < most then check_kind env name (List.nth kinds i) e);
       match value_of a with
       | { it = Closure c; at } when operation = Make_action || operation = Make_condition -> task_code env at name c
@@ -344,7 +346,9 @@ and call_builtin env at name (builtin : Builtins.t) arguments =
 
 (* [if (!C()) ...]: the text is computed only if the condition does not hold. *)
 and assertion env at arguments =
-  let not_code at = error env at "assert takes code { ... } that says what holds" ~hint:"write assert { CONDITION }, 'TEXT'" in
+  let not_code at =
+    error env Wrong_kind at "assert takes code { ... } that says what holds" ~hint:"write assert { CONDITION }, 'TEXT'"
+  in
   let failing text = apply env at (Builtin Assert) text in
   let holds (c : Ast.closure) closure_at =
     let closure = task_code env closure_at "assert" c in
@@ -357,9 +361,9 @@ and assertion env at arguments =
     let test = holds c closure_at in
     expression env at (If (test, null env at, failing [ elaborate env text ]))
   | Ast.Positional first :: _ :: _ :: _ ->
-    error env first.at "assert takes code and a text, not %d arguments" (List.length arguments);
+    error env Wrong_arity first.at "assert takes code and a text, not %d arguments" (List.length arguments);
     null env at
-  | [ _; Ast.Named (k, _) ] -> error env k.at "assert takes no argument by name"; null env at
+  | [ _; Ast.Named (k, _) ] -> error env Unknown_argument k.at "assert takes no argument by name"; null env at
   | (Ast.Positional { at = first; _ } | Ast.Named (_, { at = first; _ })) :: _ -> not_code first; null env at
   | [] -> not_code at; null env at
 
@@ -383,12 +387,13 @@ and pairs env at name operation arguments =
       constant env at Wildcard
     | Ast.Named (_, e) -> elaborate env e
     | Ast.Positional e ->
-      error env e.at "%s takes pairs of key and value" name
+      error env No_pairs e.at "%s takes pairs of key and value" name
         ~hint:(Printf.sprintf "write %s key: value" name);
       elaborate env e
   in
   let keys = List.filter_map (function Ast.Named (k, _) -> Some k.Ast.it | Ast.Positional _ -> None) arguments in
-  if arguments = [] then error env at "%s takes pairs of key and value" name ~hint:(Printf.sprintf "write %s key: value" name);
+  if arguments = [] then
+    error env No_pairs at "%s takes pairs of key and value" name ~hint:(Printf.sprintf "write %s key: value" name);
   apply env at (Builtin (operation keys)) (List.map value arguments)
 
 and execute env at arguments =
@@ -408,7 +413,7 @@ and execute env at arguments =
     let names = List.filter_map (function Ast.Named (k, _) -> Some k.Ast.it | Ast.Positional _ -> None) arguments in
     apply env at (Builtin (Execute_for names)) (List.concat_map part arguments)
   | _ ->
-    error env at "execute takes one task, or tasks by the vehicles that run them"
+    error env Wrong_arity at "execute takes one task, or tasks by the vehicles that run them"
       ~hint:"write execute T, or execute v1: T1, v2: T2";
     null env at
 
@@ -432,7 +437,7 @@ and set_connection_timeout env at arguments =
     in
     block env at (List.map one arguments)
   | _ ->
-    error env at "setConnectionTimeout takes a time, or vehicles and a time"
+    error env Wrong_arity at "setConnectionTimeout takes a time, or vehicles and a time"
       ~hint:"write setConnectionTimeout v1, 2.min";
     null env at
 
@@ -486,21 +491,23 @@ and assign env at (target : Ast.expression) e =
     let replaced = apply env at (Replace_member name.it) [ current; local env at slot ] in
     block env at [ keep; assign env at subject replaced; local env at slot ]
   | _ ->
-    error env target.at "this cannot be assigned to" ~hint:"assign to a variable, an element or a member";
+    error env Not_assignable target.at "this cannot be assigned to"
+      ~hint:"assign to a variable, an element or a member";
     e
 
 and assign_variable env at name name_at e =
   match Scope.find_local env.code name with
   | Some (Own slot) -> set_local env at slot e
   | Some (Captured _) ->
-    error env name_at "'%s' is a local of the code around: a closure has a copy of it and cannot assign it" name
+    error env Captured_local name_at
+      "'%s' is a local of the code around: a closure has a copy of it and cannot assign it" name
       ~hint:"make it a global variable, without def";
     e
   | None ->
     if Scope.find_function env.program name <> None then
-      error env name_at "'%s' is a function and cannot be assigned" name
+      error env Not_assignable name_at "'%s' is a function and cannot be assigned" name
     else if Builtins.find name <> None || List.mem name Builtins.owners then
-      error env name_at "'%s' is a name of the language and cannot be assigned" name
+      error env Not_assignable name_at "'%s' is a name of the language and cannot be assigned" name
         ~hint:"choose another name";
     expression env at (Set_global (Scope.assigned_global env.program name, e))
 
@@ -535,7 +542,8 @@ and statement env (s : Ast.statement) : expression =
     let e = Option.value (regroup env e) ~default:e in
     if Scope.at_top env.code && known_kind env e = Task && Scope.settings env.code = None then
       Scope.report env.program
-        (Diagnostic.warning e.at "this task is made but not executed" ~hint:"write execute before it, or give it a name");
+        (Diagnostic.warning Unused_task e.at "this task is made but not executed"
+           ~hint:"write execute before it, or give it a name");
     elaborate env e
   | Assign { target; operator = None; value } -> assign env at target (elaborate env value)
   | Assign { target; operator = Some op; value } ->
@@ -546,7 +554,7 @@ and statement env (s : Ast.statement) : expression =
     else set_local env at (Scope.define env.code name.it) e
   | Function { name; _ } ->
     if not (Scope.at_top env.code) then
-      error env name.at "functions are defined at the top of the program, not inside of a block"
+      error env Misplaced_function name.at "functions are defined at the top of the program, not inside of a block"
         ~hint:(Printf.sprintf "write def %s = { ... } for a closure" name.it);
     null env at
   | If (test, yes, no) ->
@@ -565,17 +573,17 @@ and statement env (s : Ast.statement) : expression =
     expression env at (Return (match value with Some e -> elaborate env e | None -> null env at))
   | Break | Continue ->
     if not (Scope.in_loop env.code) then
-      error env at "%s stands outside of a loop" (if s.it = Break then "break" else "continue");
+      error env Misplaced_jump at "%s stands outside of a loop" (if s.it = Break then "break" else "continue");
     expression env at (if s.it = Break then Break else Continue)
   | Block body -> body_of env at body
   | Setting (name, e) -> (
       match Scope.settings env.code, in_settings env name.it with
       | _, Some slot -> add_setting env at slot name.it [ Ast.Positional e ]
       | Some (builder, _), None ->
-        error env name.at "%s has no setting '%s'" (builder_name builder) name.it
+        error env Unknown_setting name.at "%s has no setting '%s'" (builder_name builder) name.it
           ?hint:(did_you_mean name.it (Builtins.settings builder));
         null env at
       | None, None ->
-        error env name.at "'%s:' stands outside of a block of settings" name.it
+        error env Misplaced_setting name.at "'%s:' stands outside of a block of settings" name.it
           ~hint:(Printf.sprintf "an assignment is %s = ..." name.it);
         null env at)

@@ -101,6 +101,19 @@ let rec cases world f =
     in
     List.concat_map further alternatives
 
+let outcomes ~equal world f =
+  match cases world f with
+  | [ ([], result) ] -> ( match result with Some result -> [ ([], result) ] | None -> [])
+  | all -> (
+      let add kept (assumed, result) =
+        match result with
+        | Some x when not (List.exists (fun (_, y) -> equal x y) kept) -> (assumed, x) :: kept
+        | Some _ | None -> kept
+      in
+      match List.rev (List.fold_left add [] all) with
+      | [ (_, x) ] when List.for_all (fun (_, result) -> result <> None) all -> [ ([], x) ]
+      | kept -> kept)
+
 (* {1 To look} *)
 
 let battery world state =

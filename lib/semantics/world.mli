@@ -62,6 +62,10 @@ val cases : t -> (t -> 'a) -> (assumption list * 'a) list
     each possible way, as far as [f] asks for it. If it asks for nothing, that is [[ ([], f w) ]]. [f] is begun anew for
     each. *)
 
+val outcomes : equal:('a -> 'a -> bool) -> t -> (t -> 'a option) -> (assumption list * 'a) list
+(** [outcomes ~equal w f] is the different ones of the results in {!cases}, each with what is assumed where it came
+    first. If it is one, and there is one in each case, nothing has to be assumed. *)
+
 (** {1:look To look}
 
     Of an open world these may be called inside of {!cases} only. *)

@@ -1,9 +1,34 @@
 type severity = Error | Warning
 
-type t = { at : Location.t; message : string; hint : string option; severity : severity }
+type code =
+  | Syntax
+  | Unknown_name | Unknown_unit | Unknown_setting | Unknown_argument
+  | Wrong_arity | Wrong_kind | Wrong_parameters | No_pairs | No_value
+  | Waits_in_task | Handler_only
+  | Captured_local | Not_assignable | Defined_twice | Reserved_name
+  | Wildcard_value
+  | Misplaced_jump | Misplaced_when | Misplaced_setting | Misplaced_function
+  | Deed_in_answer
+  | Vehicle_twice
+  | Unused_task | Unknown_plan
 
-let error ?hint at message = { at; message; hint; severity = Error }
-let warning ?hint at message = { at; message; hint; severity = Warning }
+let codes =
+  [ (Syntax, "syntax"); (Unknown_name, "unknown-name"); (Unknown_unit, "unknown-unit");
+    (Unknown_setting, "unknown-setting"); (Unknown_argument, "unknown-argument"); (Wrong_arity, "wrong-arity");
+    (Wrong_kind, "wrong-kind"); (Wrong_parameters, "wrong-parameters"); (No_pairs, "no-pairs"); (No_value, "no-value");
+    (Waits_in_task, "waits-in-task"); (Handler_only, "handler-only"); (Captured_local, "captured-local");
+    (Not_assignable, "not-assignable"); (Defined_twice, "defined-twice"); (Reserved_name, "reserved-name");
+    (Wildcard_value, "wildcard-value"); (Misplaced_jump, "misplaced-jump"); (Misplaced_when, "misplaced-when");
+    (Misplaced_setting, "misplaced-setting"); (Misplaced_function, "misplaced-function");
+    (Deed_in_answer, "deed-in-answer"); (Vehicle_twice, "vehicle-twice"); (Unused_task, "unused-task");
+    (Unknown_plan, "unknown-plan") ]
+
+let code_name code = List.assoc code codes
+
+type t = { at : Location.t; message : string; hint : string option; severity : severity; code : code }
+
+let error ?hint ?(code = Syntax) at message = { at; message; hint; severity = Error; code }
+let warning ?hint code at message = { at; message; hint; severity = Warning; code }
 
 let offset d = d.at.Location.start.Lexing.pos_cnum
 

@@ -2,18 +2,46 @@
 
 type severity = Error | Warning
 
+(** What kind of fault it is, for programs that read diagnostics and for tests that must outlive their wording. *)
+type code =
+  | Syntax  (** the text is no program *)
+  | Unknown_name | Unknown_unit | Unknown_setting | Unknown_argument
+  | Wrong_arity  (** a number of arguments *)
+  | Wrong_kind  (** a task where a number is needed, and the like *)
+  | Wrong_parameters  (** of the code of a guard or handler *)
+  | No_pairs  (** [post], [consume] and [poll] take pairs *)
+  | No_value  (** the name of a procedure, or of what has members only, in place of a value *)
+  | Waits_in_task  (** code of a task would wait, or does what belongs to the script *)
+  | Handler_only  (** [ignore()] or [propagate()] outside of [onError] *)
+  | Captured_local  (** assigned in a closure, which has a copy of it *)
+  | Not_assignable | Defined_twice
+  | Reserved_name  (** a name of the language, defined by the program *)
+  | Wildcard_value  (** [_] where a value is needed *)
+  | Misplaced_jump  (** [break], [continue], [return] *)
+  | Misplaced_when | Misplaced_setting | Misplaced_function
+  | Deed_in_answer  (** an answer may only compute *)
+  | Vehicle_twice  (** one vehicle, needed twice at once *)
+  | Unused_task  (** a warning *)
+  | Unknown_plan  (** a warning: the fleet says nothing of it *)
+
+val codes : (code * string) list
+(** Every code with its name, which does not change: ["unknown-name"]. *)
+
+val code_name : code -> string
+
 type t = {
   at : Location.t;
   message : string;      (** What is wrong. *)
   hint : string option;  (** What would be right. *)
   severity : severity;
+  code : code;
 }
 
-val error : ?hint:string -> Location.t -> string -> t
-(** [error ~hint at message] is an error at [at]. *)
+val error : ?hint:string -> ?code:code -> Location.t -> string -> t
+(** [error ~hint ~code at message] is an error at [at]; [code] is [Syntax] by default. *)
 
-val warning : ?hint:string -> Location.t -> string -> t
-(** [warning ~hint at message] is a warning at [at]. *)
+val warning : ?hint:string -> code -> Location.t -> string -> t
+(** [warning ~hint code at message] is a warning at [at]. *)
 
 val compare : t -> t -> int
 (** [compare a b] orders by place in the text, then by message. *)

@@ -8,11 +8,14 @@ type t =
   | Vehicle of { time : float; state : World.vehicle_state }
   | Event of { time : float; happening : Happening.t }
   | Transition of { time : float; index : int; step : Step.t }
+  | Note of { time : float; vehicle : Core.vehicle; note : Yojson.Safe.t }
+  | Resumed of { time : float; program : Header.source; at : string }
   | End of { time : float; transitions : int; ending : Request.ending }
 
 let time = function
   | Header _ -> 0.
-  | Vehicle { time; _ } | Event { time; _ } | Transition { time; _ } | End { time; _ } -> time
+  | Vehicle { time; _ } | Event { time; _ } | Transition { time; _ } | Note { time; _ } | Resumed { time; _ }
+  | End { time; _ } -> time
 
 (* {1 Writing} *)
 
@@ -32,6 +35,9 @@ let to_json entry : Yojson.Safe.t =
   | Vehicle { time; state } -> line "vehicle" time (of_state state)
   | Event { time; happening } -> line "event" time (Happening.members happening)
   | Transition { time; index; step } -> line "transition" time (("i", `Int index) :: Step.members step)
+  | Note { time; vehicle; note } -> line "platform" time [ ("vehicle", `String vehicle); ("note", note) ]
+  | Resumed { time; program; at } ->
+    line "resumed" time [ ("program", Header.of_source program); ("at", `String at) ]
   | End { time; transitions; ending } ->
     line "end" time (("transitions", `Int transitions) :: Request.ending_members ending)
 
@@ -64,6 +70,14 @@ let of_members found =
     let* index = get whole "i" found in
     let* step = Step.of_members found in
     Ok (Transition { time; index; step })
+  | "platform" ->
+    let* vehicle = get text "vehicle" found in
+    let* note = get members "note" found in
+    Ok (Note { time; vehicle; note = `Assoc note })
+  | "resumed" ->
+    let* program = get Header.to_source "program" found in
+    let* at = get text "at" found in
+    Ok (Resumed { time; program; at })
   | "end" ->
     let* transitions = get whole "transitions" found in
     let* ending = Request.ending_of_members found in

@@ -7,6 +7,11 @@ type t =
   | Vehicle of { time : float; state : World.vehicle_state }  (** what is known of a vehicle *)
   | Event of { time : float; happening : Happening.t }  (** what the transition that follows is caused by *)
   | Transition of { time : float; index : int;  (** from 0 *) step : Step.t }
+  | Note of { time : float; vehicle : Core.vehicle; note : Yojson.Safe.t }
+  (** What the platform wants to find again of a vehicle when the run is resumed: an object. It means nothing to the
+      semantics. *)
+  | Resumed of { time : float; program : Header.source; at : string  (** in UTC *) }
+  (** The console died, and another one went on from here, with this program. *)
   | End of { time : float; transitions : int; ending : Request.ending }  (** the last line of a run that ended *)
 
 val time : t -> float
@@ -20,3 +25,10 @@ val of_string : string -> (t, string) result
 
 val first_of_string : string -> (t, string) result
 (** The same for a first line, which is a header or that of no journal. *)
+
+(** {1:states What is known of vehicles} *)
+
+val of_state : World.vehicle_state -> Field.members
+(** The members of a [vehicle] line that say what is known. *)
+
+val to_state : Field.members -> (World.vehicle_state, string) result

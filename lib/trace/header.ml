@@ -16,6 +16,22 @@ let version = 1
 let source ~path text = { path; hash = Digest.to_hex (Digest.string text) }
 let of_source s : Yojson.Safe.t = `Assoc [ ("path", `String s.path); ("md5", `String s.hash) ]
 
+(* {1 Times} *)
+
+(* Years and months count from March here: leap days then come last, and each five months have 153 days. *)
+let days ~year ~month ~day =
+  let years, months = if month >= 3 then (year, month - 3) else (year - 1, month + 9) in
+  let since_year_0 = (365 * years) + (years / 4) - (years / 100) + (years / 400) + (((153 * months) + 2) / 5) in
+  since_year_0 + day - 1 - 719468
+
+let of_utc text =
+  match Scanf.sscanf text "%4d-%2d-%2dT%2d:%2d:%2dZ%!" (fun y m d h min s -> (y, m, d, h, min, s)) with
+  | year, month, day, h, min, s when year >= 1970 && month >= 1 && month <= 12 ->
+    Some (float_of_int ((days ~year ~month ~day * 86400) + (h * 3600) + (min * 60) + s))
+  | _ | (exception (Scanf.Scan_failure _ | Failure _ | End_of_file)) -> None
+
+(* {1 JSON} *)
+
 let to_json h : Yojson.Safe.t =
   `Assoc
     [ ("format", `String format);

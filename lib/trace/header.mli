@@ -9,14 +9,20 @@ type source = {
 type t = {
   program : source;
   fleet : source option;  (** [None]: the built-in fleet *)
-  platform : string;  (** ["sim"] *)
+  platform : string;  (** ["sim"], ["imc"] *)
   seed : int;
-  speed : float option;  (** times real time; [None]: as fast as it goes *)
+  speed : float option;  (** of a simulation, times real time; [None]: as fast as it goes *)
   started : string;  (** by the clock of the console, in UTC: ["2026-03-01T12:00:00Z"] *)
 }
 
 val source : path:string -> string -> source
 (** [source ~path text] is the file [path] whose contents are [text]. *)
+
+val of_source : source -> Yojson.Safe.t
+val to_source : Yojson.Safe.t -> (source, string) result
+
+val of_utc : string -> float option
+(** [of_utc "2026-03-01T12:00:00Z"] is that time in seconds since the beginning of 1970; [None] for what is none. *)
 
 val version : int
 (** Of the format: 1. *)

@@ -5,12 +5,13 @@ type t = {
   mutable until : int;
   line : Buffer.t;  (* what chunks before this one had of the line *)
   mutable number : int;
+  mutable whole : int;  (* bytes of the lines that had an end *)
 }
 
 let longest = 16 * 1024 * 1024
 
 let make input =
-  { input; chunk = Bytes.create 65536; from = 0; until = 0; line = Buffer.create 1024; number = 0 }
+  { input; chunk = Bytes.create 65536; from = 0; until = 0; line = Buffer.create 1024; number = 0; whole = 0 }
 
 let of_channel channel = make (input channel)
 
@@ -45,6 +46,7 @@ let rec read r =
     r.from <- r.from + length + 1;
     let text = Buffer.contents r.line in
     Buffer.clear r.line;
+    r.whole <- r.whole + String.length text + 1;
     Whole text
   | None ->
     Buffer.add_subbytes r.line r.chunk r.from (r.until - r.from);
@@ -56,6 +58,8 @@ let rec read r =
       let text = Buffer.contents r.line in
       Buffer.clear r.line;
       Unfinished text
+
+let whole r = r.whole
 
 let next r =
   r.number <- r.number + 1;

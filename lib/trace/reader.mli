@@ -16,5 +16,8 @@ type item =
 val next : t -> item
 (** The first line is a header, and no other one is: else it is [Wrong]. *)
 
+val whole : t -> int
+(** [whole r] is how many bytes the lines have that were read so far and have an end. *)
+
 val longest : int
 (** 16 MiB. *)

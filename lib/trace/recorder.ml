@@ -23,11 +23,24 @@ let make ?(period = 5.) program header write =
   { program; period; write; vehicles = Hashtbl.create 16; behind = [];
     configuration = Configuration.initial program; transitions = 0; time = 0. }
 
+let resume ?(period = 5.) program replay ~seen write =
+  let vehicles = Hashtbl.create 16 in
+  let add (written_at, (state : World.vehicle_state)) =
+    Hashtbl.replace vehicles state.id { written = state; written_at; untold = None }
+  in
+  List.iter add seen;
+  { program; period; write; vehicles; behind = []; configuration = Replay.configuration replay;
+    transitions = Replay.transitions replay; time = Replay.time replay }
+
 (* Metres. Who is fast has more samples, or its way could not be drawn. *)
 let nearby = 10.
 
 (* Journals never go back in time, whatever clocks do. *)
 let pass r time = r.time <- Float.max r.time time
+
+let write r ~time line =
+  pass r time;
+  r.write (line ~time:r.time)
 
 (* {1 Vehicles} *)
 

@@ -14,6 +14,14 @@ val make : ?period:float -> Core.program -> Header.t -> (Entry.t -> unit) -> t
     vehicle's samples are at most about [period] seconds apart, by default 5. An exception of [write] goes to whoever
     tells of the run. *)
 
+val resume :
+  ?period:float -> Core.program -> Replay.t -> seen:(float * World.vehicle_state) list -> (Entry.t -> unit) -> t
+(** [resume program replay ~seen write] goes on with the journal that [replay] has gone through, to its end; [seen] is
+    what it says of each vehicle, and when. Nothing is written of what it has. *)
+
+val write : t -> time:float -> (time:float -> Entry.t) -> unit
+(** [write r ~time line] writes [line ~time], at [time] or, if that is later, the time of the line before. *)
+
 val transition : t -> time:float -> cause:Transition.event option -> Transition.t -> unit
 val news : t -> time:float -> World.vehicle_state -> unit
 

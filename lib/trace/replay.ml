@@ -3,25 +3,38 @@ module Location = Dolphin_syntax.Location
 
 type t = {
   program : Core.program;
-  places : bool;
+  hash : string;  (* of its text *)
+  places : bool;  (* whether transitions are said to be where they are in that text *)
   configuration : Configuration.t;
   world : World.t;
   transitions : int;
   time : float;
   event : Happening.t option;  (* whose transition comes next *)
   stuck : bool;  (* the run was interrupted when nothing was left to do *)
+  latest : (Transition.event option * Transition.t) option;  (* of the latest line, if that was a transition *)
   ending : Request.ending option;
 }
 
-let start ~places program =
-  { program; places; configuration = Configuration.initial program; world = World.empty; transitions = 0; time = 0.;
-    event = None; stuck = false; ending = None }
+let start ~hash program =
+  { program; hash; places = true; configuration = Configuration.initial program; world = World.empty; transitions = 0;
+    time = 0.; event = None; stuck = false; latest = None; ending = None }
 
 let configuration r = r.configuration
 let world r = r.world
 let transitions r = r.transitions
 let time r = r.time
 let ending r = r.ending
+let latest r = r.latest
+let was_stuck r = r.stuck
+
+let site r =
+  match r.configuration.control with
+  | Script m | Waiting (m, _) | Executing (m, _) -> Machine.site m
+  | Ended _ -> Fault.unknown_site
+
+let event r =
+  let event happening = Result.to_option (Happening.to_event ~site:(site r) happening) in
+  Option.bind r.event event
 
 (* {1 Mismatches} *)
 
@@ -132,8 +145,8 @@ let no_transition r (step : Step.t) =
   | None when there = [] -> mismatch r (Printf.sprintf "nothing could happen by itself, so %s could not" step.label)
   | None -> mismatch r (Printf.sprintf "%s could not happen" step.label)
 
-let moved r (t : Transition.t) =
-  { r with configuration = t.next; transitions = r.transitions + 1; event = None }
+let moved r cause (t : Transition.t) =
+  { r with configuration = t.next; transitions = r.transitions + 1; event = None; latest = Some (cause, t) }
 
 let alone r (step : Step.t) =
   let fits (t : Transition.t) =
@@ -141,17 +154,12 @@ let alone r (step : Step.t) =
     && Step.same ~places:r.places (Step.of_transition r.program r.configuration t) step
   in
   match nth step.choice fits (candidates r step) with
-  | Some t -> Ok (moved r t)
+  | Some t -> Ok (moved r None t)
   | None -> no_transition r step
 
 let caused r (step : Step.t) event =
-  let site =
-    match r.configuration.control with
-    | Script m | Waiting (m, _) | Executing (m, _) -> Machine.site m
-    | Ended _ -> Fault.unknown_site
-  in
   let by = Format.asprintf "%a" Happening.pp event in
-  match Happening.to_event ~site event with
+  match Happening.to_event ~site:(site r) event with
   | Error why -> mismatch r (Printf.sprintf "%s is no event: %s" by why)
   | Ok e -> (
       match Transition.accept r.program r.world r.configuration e with
@@ -164,7 +172,7 @@ let caused r (step : Step.t) event =
           | None ->
             let is_left () = Transition.internal r.program r.world r.configuration () <> Seq.Nil in
             let stuck = event = Interruption && not (is_left ()) in
-            Ok { (moved r t) with stuck }))
+            Ok { (moved r (Some e) t) with stuck }))
 
 (* {1 Lines} *)
 
@@ -185,11 +193,12 @@ let feed r (entry : Entry.t) =
   if r.ending <> None then mismatch r "the journal goes on after its last line"
   else if time < r.time then mismatch r (Printf.sprintf "time goes back, from %g to %g" r.time time)
   else
-    let r = { r with time } in
+    let r = { r with time; latest = None } in
     match entry, r.event with
-    | (Header _ | Vehicle _ | Event _ | End _), Some event ->
+    | (Header _ | Vehicle _ | Event _ | Note _ | Resumed _ | End _), Some event ->
       mismatch r (Format.asprintf "the transition on %a is missing" Happening.pp event)
-    | Header _, None -> Ok r
+    | Header { program; _ }, None | Resumed { program; _ }, None -> Ok { r with places = program.hash = r.hash }
+    | Note _, None -> Ok r
     | Vehicle { state; _ }, None -> Ok { r with world = World.add state r.world }
     | Event { happening; _ }, None -> Ok { r with event = Some happening }
     | Transition { index; step; _ }, event ->

@@ -6,8 +6,9 @@ open Dolphin_semantics
 
 type t
 
-val start : places:bool -> Core.program -> t
-(** [start ~places program] is before the first transition. Without [places] it does not matter where transitions are
+val start : hash:string -> Core.program -> t
+(** [start ~hash program] is before the first line; [hash] is that of the program's text, as in {!Header.source}. Where a
+    journal's header, or the line of its latest resumption, has another one, it does not matter where transitions are
     said to be in the program: after it was changed, they are elsewhere. *)
 
 (** Why a line is none of a run. *)
@@ -20,7 +21,13 @@ type mismatch = {
 }
 
 val feed : t -> Entry.t -> (t, mismatch) result
-(** [feed r line] is [r] after [line]. A header changes nothing. *)
+(** [feed r line] is [r] after [line]. *)
+
+val latest : t -> (Transition.event option * Transition.t) option
+(** The transition of the latest line, with what caused it; [None] if that line was no transition. *)
+
+val event : t -> Transition.event option
+(** What the latest line told of, if the transition that it causes is still to come. *)
 
 val configuration : t -> Configuration.t
 val world : t -> World.t
@@ -31,6 +38,9 @@ val transitions : t -> int
 
 val time : t -> float
 (** Of the latest line. *)
+
+val was_stuck : t -> bool
+(** The latest transition interrupted a run in which nothing could happen any more. *)
 
 val ending : t -> Request.ending option
 (** How the run ended, if its last line was there. *)

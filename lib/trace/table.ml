@@ -133,6 +133,8 @@ let of_entry t (entry : Entry.t) =
       Hashtbl.replace t.silent state.id ();
       add t time [ (Vehicle state.id, "no link") ]
     end
+  | Note _ -> ()
+  | Resumed { time; at; _ } -> add t time [ (Program, "is resumed, at " ^ at) ]
   | End { time; ending; _ } ->
     let text = match ending.message with None | Some "" -> ending.how | Some text -> ending.how ^ ": " ^ text in
     add t time [ (Program, text) ]
@@ -216,4 +218,4 @@ let print_transitions ppf (entry : Entry.t) =
     let place = match step.at with Some (line, column) -> Printf.sprintf "%d:%d" line column | None -> "" in
     Format.fprintf ppf "%6d  %*s  %-7s  %s  %s@\n" index clock_width (Clock.text time) place
       (String.concat ", " step.rules) (harmless step.label)
-  | Header _ | Vehicle _ | Event _ | End _ -> ()
+  | Header _ | Vehicle _ | Event _ | Note _ | Resumed _ | End _ -> ()

@@ -23,8 +23,8 @@ let rec go reader replay =
 let check program ~hash reader =
   match Reader.next reader with
   | Line { entry = Header header; _ } ->
-    let places = header.program.hash = hash in
-    (Some header, go reader (Replay.start ~places program))
+    let start = Replay.start ~hash program in
+    (Some header, go reader (Result.value (Replay.feed start (Header header)) ~default:start))
   | Line { number; _ } | Torn number -> (None, Unreadable { number; why = "there is no header" })
   | End_of_file -> (None, Unreadable { number = 1; why = "the journal is empty" })
   | Wrong { number; why } -> (None, Unreadable { number; why })
@@ -44,6 +44,8 @@ let describe (entry : Entry.t) =
   | Transition { index; step; _ } ->
     let at = match step.at with Some (line, column) -> Printf.sprintf ", at %d:%d" line column | None -> "" in
     Printf.sprintf "transition %d%s: %s" index at step.label
+  | Note { vehicle; _ } -> "the platform's note on " ^ vehicle
+  | Resumed _ -> "a resumption"
   | End { ending; _ } -> Format.asprintf "the end: %a" pp_ending ending
 
 let count n = Printf.sprintf "%d transition%s" n (if n = 1 then "" else "s")

@@ -330,6 +330,26 @@ A run to follow.
      6  program     posts left:1
         here the recorded run stops
 
+The same in the Informal Trace Format: from the last state back to state 3.
+
+  $ explore again.dol --faults fail --trace again.itf.json > shown
+  [1]
+  $ python3 - << 'END'
+  > import json
+  > trace = json.load(open("again.itf.json"))
+  > print(trace["vars"], "loop:", trace["loop"], trace["#meta"]["back"])
+  > for state in trace["states"]:
+  >     print(state["#meta"], state["control"]["state"], state["A"], state["B"], state["N"])
+  > END
+  ['control', 'A', 'B', 'N', 'store'] loop: 3 {'label': 'execute', 'rules': ['EXECUTE']}
+  {'index': 0} script {'#map': []} [] {'#map': []}
+  {'index': 1, 'label': "pick(1 vehicle with id 'noptilus-1')", 'rules': ['PICK']} waiting {'#map': []} [] {'#map': []}
+  {'index': 2, 'label': 'bind(noptilus-1)', 'rules': ['PICK-BIND']} script {'#map': []} ['noptilus-1'] {'#map': []}
+  {'index': 3, 'label': 'execute', 'rules': ['EXECUTE']} executing {'#map': []} ['noptilus-1'] {'#map': []}
+  {'index': 4, 'label': 'start(noptilus-1, a)', 'rules': ['START', 'WATCH-1']} executing {'#map': [['noptilus-1', 'a']]} ['noptilus-1'] {'#map': []}
+  {'index': 5, 'label': 'fail(noptilus-1, a, failure)', 'rules': ['FAIL', 'WATCH-IGNORE', 'EXECUTE-DONE']} script {'#map': []} ['noptilus-1'] {'#map': [['failed', [{'#bigint': '1'}]]]}
+  {'index': 6, 'label': 'consume failed:1', 'rules': ['CONSUME']} script {'#map': []} ['noptilus-1'] {'#map': []}
+
 It does not fit another program, and no other file is one.
 
   $ dolphin exec deadlock.dol --follow assertion.run
@@ -359,6 +379,19 @@ A bound that is met leaves the answer open.
   vehicles for all tasks: inconclusive, the bound on states was met
   137 states, 266 transitions, depth 14
   [3]
+
+When the process can have no more memory, it says so.
+
+  $ cat > large.dol << 'END'
+  > vs = pick { count 9 }
+  > def T(i) { imcPlan('a' + i) >> action { post ready:i } >> imcPlan('b' + i) }
+  > execute T(1) | T(2) | T(3) | T(4) | T(5) | T(6) | T(7) | T(8) | T(9)
+  > END
+  $ for i in 1 2 3 4 5 6 7 8 9; do echo "vehicle 'u$i', { type 'UUV'; at 41.18$i, -8.70 }"; done > large.fleet
+  $ (ulimit -v 60000; dolphin explore large.dol --reduction none > result; echo status $?; head -n 2 result)
+  status 3
+  no deadlock: inconclusive, the machine has no more memory for it
+  termination: inconclusive, the machine has no more memory for it
 
 For machines.
 

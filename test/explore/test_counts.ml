@@ -63,15 +63,15 @@ let test_pick () =
    the meeting is not possible; after it, 3, it is to come or over: 9 together; or under way in 2 states: 6 more, for at
    most one i. So 9^N + N * 6 * 9^(N-1) = 9^(N-1) * (9 + 6 N), among them the state in which all is done, which is
    the script's; before there are initial, waiting, bound, waiting, bound, and after it the end: 6. *)
-let fleet n =
+let fleet ?(around = Fun.id) n =
   let each format = List.init n (fun i -> Printf.sprintf format (i + 1)) in
+  let meeting i = Printf.sprintf "when { consume ready:%d } then imcPlan('rv%d')" (i + 1) (i + 1) in
+  let uuvs = String.concat " | " (each "u(%d)") and meetings = String.concat "\n" (List.init n meeting) in
+  let task = Printf.sprintf "(%s)[us] | (allOf { %s })[ua]" uuvs meetings in
   Printf.sprintf
-    "us = pick { count %d; type 'UUV' }\nua = pick { type 'UAV' }\ndef u(i) { imcPlan('survey' + i) >> action { post \
-     ready:i } >> imcPlan('sk' + i) }\nexecute us: %s, ua: allOf { %s }"
-    n
-    (String.concat " | " (each "u(%d)"))
-    (String.concat "\n"
-       (List.init n (fun i -> Printf.sprintf "when { consume ready:%d } then imcPlan('rv%d')" (i + 1) (i + 1))))
+    "us = pick { count %d; type 'UUV' }\nua = pick { type 'UAV' }\n\
+     def u(i) { imcPlan('survey' + i) >> action { post ready:i } >> imcPlan('sk' + i) }\nexecute %s"
+    n (around task)
 
 let rec power b n = if n = 0 then 1 else b * power b (n - 1)
 let fleet_states n = (power 9 (n - 1) * (9 + (6 * n))) + 6
@@ -80,8 +80,28 @@ let test_fleet n () =
   let o = search ~vehicles:n (fleet n) in
   Alcotest.(check int) "states" (fleet_states n) o.states
 
+(* What stands around all of it, and never has anything to do, makes no more states. *)
+let test_watched_fleet n () =
+  let watched task = Printf.sprintf "(watch (%s) onError { ignore() })" task in
+  let o = search ~vehicles:n (fleet ~around:watched n) in
+  Alcotest.(check int) "states" (fleet_states n) o.states
+
+(* The time may be over in each of them, when any of the posts has been made and not been taken: 2^N sets of tuples are
+   left over where the script goes on, and where it ends. Without any, these are the states after what was not cut. *)
+let test_timed_fleet n () =
+  let timed task = Printf.sprintf "(during 1.hours run (%s))" task in
+  let o = search ~vehicles:n (fleet ~around:timed n) in
+  Alcotest.(check int) "states" (fleet_states n + (2 * ((1 lsl n) - 1))) o.states
+
+(* One more state, the action that follows, as the last of the others is done; it posts, and the script goes on. *)
+let test_followed_fleet n () =
+  let followed task = Printf.sprintf "(%s) >> action { post done:1 }" task in
+  let o = search ~vehicles:n (fleet ~around:followed n) in
+  Alcotest.(check int) "states" (fleet_states n + 1) o.states
+
 let () =
   let case name f = Alcotest.test_case name `Quick f in
+  let fleets most test = List.init most (fun i -> case (Printf.sprintf "of %d" (i + 1)) (test (i + 1))) in
   Alcotest.run "counts"
     [
       ( "by hand",
@@ -95,5 +115,8 @@ let () =
           case "equal actions" test_equal_actions;
           case "a pick has choices" test_pick;
         ] );
-      ("fleets", List.init 5 (fun i -> case (Printf.sprintf "of %d" (i + 1)) (test_fleet (i + 1))));
+      ("fleets", fleets 5 test_fleet);
+      ("fleets under watch", fleets 5 test_watched_fleet);
+      ("fleets for a time", fleets 5 test_timed_fleet);
+      ("fleets that an action follows", fleets 5 test_followed_fleet);
     ]

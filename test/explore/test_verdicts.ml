@@ -97,6 +97,7 @@ let bounds =
     ("states", stops "a bound on states" { options with max_states = Some 50 } States);
     ("depth", stops "a bound on depth" { options with max_depth = Some 5 } Depth);
     ("memory", stops "a bound on memory" { options with max_memory = Some 1_000 } Memory);
+    ("the machine's memory", stops "no memory" { options with memory_left = (fun () -> Some 0) } No_memory);
     ("time", stops "a timeout" { options with timeout = Some 0.4; clock = ticking () } Time);
     ("interruption", stops "an interruption" { options with interrupted = interrupted_after 1 } Interruption);
   ]

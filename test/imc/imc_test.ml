@@ -6,4 +6,5 @@ let () =
       ("corpus", Test_corpus.suite);
       ("random", Test_random.suite);
       ("hostile", Test_hostile.suite);
+      ("imcpy", Test_imcpy.suite);
     ]

@@ -46,9 +46,7 @@ let side_by_side ~sensing =
     | _ -> map (fun ab -> ab || c) (watched (a || b))
   in
   let* posts = oneofl [ []; [ ("x", 1) ]; [ ("y", 2); ("x", 2) ] ] in
-  let kept = { Generate.Ast.it = Ast.Assign { target = Generate.variable "h"; operator = None;
-                                                value = Generate.expression (Integer 1) }; at = Location.none } in
-  let before = kept :: List.map (fun (k, x) -> Generate.statement (Generate.post k x)) posts in
+  let before = Generate.kept :: List.map (fun (k, x) -> Generate.statement (Generate.post k x)) posts in
   return (Generate.executing ~before task)
 
 let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]) }

@@ -189,6 +189,56 @@ and branches guard part =
   let* n = int_range 1 3 in
   flatten_l (List.init n (fun _ -> branch ()))
 
+(* {1 Nests} *)
+
+(* Each vehicle goes to one of [n]. *)
+let dealt n vehicles =
+  let* owners = flatten_l (List.map (fun _ -> int_bound (n - 1)) vehicles) in
+  let both = List.combine vehicles owners in
+  return (List.init n (fun i -> List.filter_map (fun (v, owner) -> if owner = i then Some v else None) both))
+
+let branch guard t = statement (expression (When (guard, t)))
+
+let in_context ~sensing vehicles t =
+  let leaf = leaf ~sensing and guard = guard_of ~sensing in
+  let* shape =
+    frequencyl [ (3, `Until); (2, `During); (4, `Watch); (2, `Before); (1, `After); (2, `All_of); (1, `One_of) ]
+  in
+  match shape with
+  | `Until -> map (fun c -> expression (Until (c, t))) guard
+  | `During -> map (fun d -> expression (During (d, t))) duration
+  | `Watch -> map (fun c -> expression (Watch (t, c))) (handler ~sensing)
+  | `Before -> map (binary Sequence t) (leaf vehicles)
+  | `After -> map (fun first -> binary Sequence first t) (leaf vehicles)
+  | `One_of -> map (fun g -> expression (Builder (One_of, [ branch g t ]))) guard
+  | `All_of ->
+    let* g = guard and* g' = guard and* other = leaf vehicles in
+    return (expression (Builder (All_of, [ branch g t; branch g' other ])))
+
+let rec nested_of ~sensing ~vehicles ~depth =
+  let leaf = leaf ~sensing in
+  let* n = frequencyl [ (3, 2); (1, 3) ] in
+  let* shares = dealt n vehicles in
+  let part vehicles =
+    let* is_nest = if depth <= 0 then return false else map (fun i -> i < 2) (int_bound 4) in
+    if is_nest then nested_of ~sensing ~vehicles ~depth:(depth - 1)
+    else
+      let* task = leaf vehicles and* next = leaf vehicles and* short = bool in
+      return (if short then task else binary Sequence task next)
+  in
+  let* parts = flatten_l (List.map part shares) in
+  let t = List.fold_left (binary Parallel) (List.hd parts) (List.tl parts) in
+  let* contexts = frequencyl [ (1, 0); (4, 1); (2, 2) ] in
+  let rec wrap n t =
+    if n = 0 then return t
+    else
+      let* t = in_context ~sensing vehicles t in
+      wrap (n - 1) t
+  in
+  wrap contexts t
+
+let nested = nested_of ~sensing:false
+let sensing_nested = nested_of ~sensing:true
 let task = task_of ~sensing:false
 let sensing_task = task_of ~sensing:true
 

@@ -39,6 +39,16 @@ val task : vehicles:string list -> depth:int -> Ast.expression QCheck2.Gen.t
 val sensing_task : vehicles:string list -> depth:int -> Ast.expression QCheck2.Gen.t
 (** Likewise, with code as in {!sensing_program}; the global [h] must have a value. *)
 
+val nested : vehicles:string list -> depth:int -> Ast.expression QCheck2.Gen.t
+(** [nested ~vehicles ~depth] is as {!task}, of parts side by side, most of them inside of [until], [during], [watch],
+    [allOf] ..., and so again [depth] times. *)
+
+val sensing_nested : vehicles:string list -> depth:int -> Ast.expression QCheck2.Gen.t
+(** Likewise, with code as in {!sensing_program}. *)
+
+val kept : Ast.statement
+(** [h = battery(va)]. *)
+
 val guard : Ast.closure QCheck2.Gen.t
 (** Code of a [when], [waitFor], [condition] or [until]. *)
 

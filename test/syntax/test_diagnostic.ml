@@ -25,7 +25,7 @@ let pp =
 
 let placeless =
   Alcotest.test_case "without a place" `Quick (fun () ->
-      let text = Format.asprintf "@[<v>%a@]" (Diagnostic.pp ~source:"") (Diagnostic.warning Location.none "wrong" ~hint:"right") in
+      let text = Format.asprintf "@[<v>%a@]" (Diagnostic.pp ~source:"") (Diagnostic.warning Unused_task Location.none "wrong" ~hint:"right") in
       Alcotest.(check string) "text" "warning: wrong\n  hint: right" text)
 
 let suggested x xs expected =

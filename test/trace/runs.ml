@@ -4,7 +4,16 @@ open Dolphin_trace
 module Scenario = Dolphin_scenario.Scenario
 module Simulator = Dolphin_platform_sim.Simulator
 
-type t = { name : string; program : Core.program; hash : string; journal : string }
+type t = {
+  name : string;
+  program : Core.program;
+  hash : string;
+  journal : string;
+  scenario : Scenario.t;
+  seed : int;
+  period : float option;
+  host : unit -> Host.t option;
+}
 
 let folder = "../../examples"
 
@@ -27,11 +36,14 @@ let compile name source =
   | Ok (program, _) -> program
   | Error ds -> explain source ds
 
-let console scenario =
+let console ?(answered = []) scenario =
   let asked = Hashtbl.create 4 in
+  let next prompt = Option.value (Hashtbl.find_opt asked prompt) ~default:0 in
+  let count prompt = Hashtbl.replace asked prompt (next prompt + 1) in
+  List.iter (fun (prompt, _) -> count prompt) answered;
   let ask prompt =
-    let n = Option.value (Hashtbl.find_opt asked prompt) ~default:0 in
-    Hashtbl.replace asked prompt (n + 1);
+    let n = next prompt in
+    count prompt;
     Lwt.return (Option.to_result ~none:"nobody is there" (Scenario.answer scenario prompt n))
   in
   { Console.say = ignore; ask; refused = ignore }
@@ -41,37 +53,68 @@ let host path =
     match Host.start ("python3 " ^ path) with Ok host -> Some host | Error why -> failwith why
   else None
 
-let go ~seed ?period ~name ~source ~scenario host =
-  let program = compile name source in
-  let journal = Buffer.create 65536 in
-  let write entry = Buffer.add_string journal (Entry.to_string entry ^ "\n") in
-  let its_source = Header.source ~path:name source in
-  let header : Header.t =
-    { program = its_source; fleet = None; platform = "sim"; seed; speed = None; started = "2026-03-01T12:00:00Z" }
-  in
-  let recorder = Recorder.make ?period program header write in
-  let observer : Observer.t =
-    { transition = Recorder.transition recorder; news = Recorder.news recorder }
-  in
-  let platform = Simulator.Virtual.create ~seed scenario in
+let started = "2026-03-01T12:00:00Z"
+
+(* Writes what follows to [journal], with [recorder] told. *)
+let drive r recorder platform ?beginning ~answered host =
+  let observer : Observer.t = { transition = Recorder.transition recorder; news = Recorder.news recorder } in
+  let host = host () in
   let run =
     Driver.run (module Simulator.Virtual) platform ~always_telemetry:true ~observer ?host:(Option.map Host.call host)
-      ~console:(console scenario) ~interruption:(fst (Lwt.wait ())) program
+      ?beginning ~console:(console ~answered r.scenario) ~interruption:(fst (Lwt.wait ())) r.program
   in
   let outcome = Lwt_main.run run in
   Option.iter (fun host -> Lwt_main.run (Host.close host)) host;
   let stuck = match outcome with Stuck _ -> true | Ended _ -> false in
-  Recorder.finish recorder ~time:(Simulator.Virtual.now platform) ~stuck;
-  { name; program; hash = its_source.hash; journal = Buffer.contents journal }
+  Recorder.finish recorder ~time:(Simulator.Virtual.now platform) ~stuck
+
+let write_to journal entry = Buffer.add_string journal (Entry.to_string entry ^ "\n")
+
+let go ~seed ?period ~name ~source ~scenario host =
+  let program = compile name source in
+  let journal = Buffer.create 65536 in
+  let its_source = Header.source ~path:name source in
+  let header : Header.t =
+    { program = its_source; fleet = None; platform = "sim"; seed; speed = None; started }
+  in
+  let recorder = Recorder.make ?period program header (write_to journal) in
+  let r = { name; program; hash = its_source.hash; journal = ""; scenario; seed; period; host } in
+  drive r recorder (Simulator.Virtual.create ~seed scenario) ~answered:[] host;
+  { r with journal = Buffer.contents journal }
+
+let resume r text =
+  let refuse trouble = Error (Format.asprintf "@[<v>%a@]" Resumption.pp_trouble trouble) in
+  match Resumption.read r.program ~hash:r.hash (Reader.of_string text) with
+  | Error trouble -> refuse trouble
+  | Ok past -> (
+      match Simulator.Virtual.create_again ~seed:r.seed r.scenario past.moments with
+      | Error why -> Error why
+      | Ok (platform, news) ->
+        let journal = Buffer.create 65536 in
+        Buffer.add_string journal (String.sub text 0 past.kept);
+        let time = Replay.time past.replay in
+        let program = { past.header.program with hash = r.hash } in
+        let recorder =
+          Recorder.resume ?period:r.period r.program past.replay ~seen:(Resumption.seen past) (write_to journal)
+        in
+        Recorder.write recorder ~time (fun ~time -> Resumed { time; program; at = started });
+        let beginning : Driver.beginning =
+          { configuration = Replay.configuration past.replay; world = Replay.world past.replay; news;
+            pending = past.pending }
+        in
+        drive r recorder platform ~beginning ~answered:(Past.answers past.moments) r.host;
+        Ok (Buffer.contents journal))
 
 let run ?(seed = 0) ?period name =
   let file ending = Filename.concat folder (name ^ ending) in
   let fleet = read (file ".fleet") in
   match Scenario.read ~file:(file ".fleet") fleet with
   | Error ds -> explain fleet ds
-  | Ok scenario -> go ~seed ?period ~name ~source:(read (file ".dol")) ~scenario (host (file ".py"))
+  | Ok scenario -> go ~seed ?period ~name ~source:(read (file ".dol")) ~scenario (fun () -> host (file ".py"))
 
-let of_scenario ?period scenario source = go ~seed:0 ?period ~name:"test.dol" ~source ~scenario None
+let of_scenario ?period ?(seed = 0) scenario source =
+  go ~seed ?period ~name:"test.dol" ~source ~scenario (fun () -> None)
+
 let of_text ?period source = of_scenario ?period Scenario.default source
 let check_text r journal = snd (Verdict.check r.program ~hash:r.hash (Reader.of_string journal))
 let check r = check_text r r.journal

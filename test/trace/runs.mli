@@ -7,6 +7,10 @@ type t = {
   program : Core.program;
   hash : string;  (** of the program's text *)
   journal : string;
+  scenario : Dolphin_scenario.Scenario.t;
+  seed : int;
+  period : float option;
+  host : unit -> Dolphin_runtime.Host.t option;
 }
 
 val examples : string list
@@ -18,7 +22,11 @@ val run : ?seed:int -> ?period:float -> string -> t
 val of_text : ?period:float -> string -> t
 (** [of_text source] is a run of this program on the built-in fleet. *)
 
-val of_scenario : ?period:float -> Dolphin_scenario.Scenario.t -> string -> t
+val of_scenario : ?period:float -> ?seed:int -> Dolphin_scenario.Scenario.t -> string -> t
+
+val resume : t -> string -> (string, string) result
+(** [resume r text] is the joined journal of a run of [r]'s program that goes on where [text], the journal of a console
+    that died, breaks off; or why there is nothing to go on with. *)
 
 val check : t -> Dolphin_trace.Verdict.t
 (** The verdict on its journal. *)

@@ -1,0 +1,9 @@
+(** Residuals and the script's machine, written down whole: code is named by its place in the core program. *)
+
+open Dolphin_semantics
+
+val of_control : Data.budget -> Configuration.control -> Data.json
+(** @raise Data.Too_large as {!Data.part} does. *)
+
+val control : Nodes.t -> Data.json -> Configuration.control
+(** @raise Data.Wrong if it is none of this program. *)

@@ -1,0 +1,42 @@
+(** What the writers and readers of configurations share. Readers raise {!Wrong}, which [Snapshot] catches; what others
+    call gives results. *)
+
+type json = Yojson.Safe.t
+
+exception Wrong of string
+(** What is wrong, in a sentence without a full stop. *)
+
+exception Too_large
+(** What is to be written has more parts than fit a line. *)
+
+type budget
+(** How much may still be written. A task that shares its parts with itself may be small in memory and huge as text. *)
+
+val budget : unit -> budget
+val part : budget -> (unit -> json) -> json
+(** [part budget write] is [write ()], one part of the whole, with its own parts inside.
+
+    @raise Too_large if there are too many parts, or they nest so deep that readers might refuse them. *)
+
+val wrong : string -> json -> 'a
+(** [wrong what json] raises {!Wrong}: [json] is not [what]. *)
+
+val tagged : string -> json list -> json
+(** [tagged name parts] is the list of [name] and [parts]. *)
+
+val whole : json -> int
+val text : json -> string
+val truth : json -> bool
+val list : (json -> 'a) -> json -> 'a list
+val pair : (json -> 'a) -> (json -> 'b) -> json -> 'a * 'b
+
+val of_list : ('a -> json) -> 'a list -> json
+val of_pair : ('a -> json) -> ('b -> json) -> 'a * 'b -> json
+val of_option : ('a -> json) -> 'a option -> json
+val option : (json -> 'a) -> json -> 'a option
+(** [null] is [None]: not for what may be [null] itself. *)
+
+val of_float : float -> json
+(** With all of its digits; what JSON lacks is ["nan"], ["inf"] or ["-inf"]. *)
+
+val float : json -> float

@@ -1,0 +1,28 @@
+open Dolphin_semantics
+open Core
+
+type t = { expressions : (site, expression) Hashtbl.t; lambdas : (int, lambda) Hashtbl.t }
+
+let rec add_lambda nodes (lambda : lambda) =
+  if not (Hashtbl.mem nodes.lambdas lambda.id) then begin
+    Hashtbl.replace nodes.lambdas lambda.id lambda;
+    add nodes lambda.code
+  end
+
+and add nodes (e : expression) =
+  Hashtbl.replace nodes.expressions e.site e;
+  match e.node with
+  | Constant (Closure { lambda; _ }) | Make_closure (lambda, _) -> add_lambda nodes lambda
+  | Constant _ | Local _ | Global _ | Break | Continue -> ()
+  | Set_local (_, e) | Set_global (_, e) | Return e -> add nodes e
+  | Apply (_, es) | Block es -> List.iter (add nodes) es
+  | If (test, yes, no) -> List.iter (add nodes) [ test; yes; no ]
+  | While (test, body) | For (_, test, body) -> List.iter (add nodes) [ test; body ]
+
+let of_program (program : program) =
+  let nodes = { expressions = Hashtbl.create 256; lambdas = Hashtbl.create 32 } in
+  List.iter (add_lambda nodes) (program.main :: List.map snd program.functions);
+  nodes
+
+let expression nodes site = Hashtbl.find_opt nodes.expressions site
+let lambda nodes id = Hashtbl.find_opt nodes.lambdas id

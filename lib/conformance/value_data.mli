@@ -1,0 +1,23 @@
+(** Values and tasks, written down whole: closures by the number of their code and what they captured. *)
+
+open Dolphin_semantics
+
+(** {1:write Writing} *)
+
+val of_value : Data.budget -> Core.value -> Data.json
+(** @raise Data.Too_large as {!Data.part} does; so do the others. *)
+
+val of_closure : Data.budget -> Core.closure -> Data.json
+val of_platform_task : Data.budget -> Core.platform_task -> Data.json
+val of_duration : Data.budget -> Core.duration -> Data.json
+val of_task : Data.budget -> Core.task -> Data.json
+
+(** {1:read Reading}
+
+    @raise Data.Wrong if it is none of this program. *)
+
+val value : Nodes.t -> Data.json -> Core.value
+val closure : Nodes.t -> Data.json -> Core.closure
+val platform_task : Nodes.t -> Data.json -> Core.platform_task
+val duration : Nodes.t -> Data.json -> Core.duration
+val task : Nodes.t -> Data.json -> Core.task

@@ -1,0 +1,24 @@
+(** What steps of parts and of nests do when so and so is shared, each worked out once, by the transition function. *)
+
+module Shareds : module type of Interner.Make (Shared)
+
+type t
+
+val create : Parts.t -> t
+val shareds : t -> Shareds.t
+
+val unknown : int
+(** A guard's result that is to be found with {!guarded}. *)
+
+val impossible : int
+(** The guard does not hold. *)
+
+val special : int
+(** The code did not go well: see {!case}. *)
+
+val guarded : t -> Part.step -> Part.guard -> int -> int
+(** [guarded t step guard s] is the result of [guard] for shared number [s]: the number of what is shared after it, or
+    one of the above. *)
+
+val case : t -> Part.step -> int -> Part.case
+(** [case t step s] is what [step] does when [s] is shared. *)

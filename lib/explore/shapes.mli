@@ -1,0 +1,53 @@
+(** The shapes of a state space, numbered, all laid out alike: with so many bits for a shape's number and for that of
+    what is shared, and so many words. *)
+
+(** Some number does not fit its field: all must be laid out anew, by {!widened}. *)
+exception Outgrown
+
+type t
+
+val create : Parts.t -> t
+val count : t -> int
+
+val words : t -> int
+(** Words of a state. *)
+
+val widths : t -> Shape.widths
+
+(** {1:reading First words} *)
+
+val number : t -> int -> int
+(** [number t w] is the number of the shape of a state that starts with [w]; 0 is none. *)
+
+val shared : t -> int -> int
+(** [shared t w] is the number above it: of what is shared, or of a configuration that executes nothing. *)
+
+val first : t -> int -> int -> int
+(** [first t number shared] is the word that starts with these. *)
+
+val shape : t -> int -> Shape.t
+(** [shape t n] is the shape with number [n], from 1. *)
+
+(** {1:shapes Shapes} *)
+
+val find : t -> Shape.frame -> Part.family Part.tree list -> Shape.t
+(** [find t f trees] is the shape with frame [f] and parts of these families. *)
+
+val without : t -> Shape.t -> Shape.place -> Shape.t
+(** [without t s p] is [s] without what stands at [p]. *)
+
+val becoming : t -> Shape.t -> Shape.place -> int -> Part.part Part.tree list -> Shape.t
+(** [becoming t s p serial children] is [s] with [children], the ones of the target with this serial number, for what
+    stands at [p]. *)
+
+val with_children : t -> Shape.t -> Shape.place -> Part.part Part.tree list -> Shape.t
+(** As {!becoming}, of any children. *)
+
+(** {1:fields Fields} *)
+
+val fits : t -> shared:int -> bool
+(** [fits t ~shared] is whether all numbers fit their fields, those of what is shared being below [shared]. *)
+
+val widened : t -> shared:int -> int array -> int array -> unit
+(** [widened t ~shared] makes all fields as wide as they need be; [widened t ~shared old fresh] then puts the state that
+    was [old] into [fresh], which is all 0. *)

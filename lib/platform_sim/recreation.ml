@@ -1,0 +1,99 @@
+open Dolphin_runtime
+open Dolphin_semantics
+
+type t = { fleet : Fleet.t; early : Platform.event list; news : World.vehicle_state list }
+
+(* While it is made; lists have the latest first. *)
+type state = { f : Fleet.t; untold : Platform.event list; unsaid : World.vehicle_state list }
+
+let without v states = List.filter (fun (s : World.vehicle_state) -> s.id <> v) states
+
+let put_aside s : Platform.event -> state = function
+  | Vehicle state -> { s with unsaid = state :: without state.id s.unsaid }
+  | (Task_done _ | Task_failed _ | Timer _) as event -> { s with untold = event :: s.untold }
+  | Quiet -> s
+
+(* Whatever happens before [time]. *)
+let rec pass time s =
+  match Fleet.due s.f with
+  | Some due when due < time -> (
+      match Fleet.step s.f with
+      | Some (event, f) -> pass time (Option.fold event ~none:{ s with f } ~some:(put_aside { s with f }))
+      | None -> s)
+  | Some _ | None -> s
+
+(* [until ~last fits s] is [s] after the next event that fits, due at [last] at the latest. *)
+let rec until ~last fits s =
+  match Fleet.due s.f with
+  | Some due when due <= last -> (
+      match Fleet.step s.f with
+      | Some (Some event, f) when fits event -> Some { s with f }
+      | Some (event, f) -> until ~last fits (Option.fold event ~none:{ s with f } ~some:(put_aside { s with f }))
+      | None -> None)
+  | Some _ | None -> None
+
+(* In paced time rounding may let an event come later than it came then. *)
+let tolerance = 60.
+
+let see time (state : World.vehicle_state) s =
+  let said = { s with unsaid = without state.id s.unsaid } in
+  if Fleet.told state.id s.f = Some state then said
+  else
+    match until ~last:time (fun event -> event = Platform.Vehicle state) s with
+    | Some s -> { s with unsaid = without state.id s.unsaid }
+    | None -> said
+
+let same (event : Transition.event) (told : Platform.event) =
+  match event, told with
+  | Vehicle_done v, Task_done w -> v = w
+  | Vehicle_failed (v, why), Task_failed (w, why') -> v = w && why = why'
+  | Timer_expired timer, Timer timer' -> timer = timer'
+  | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _
+      | Interruption ),
+      (Vehicle _ | Task_done _ | Task_failed _ | Timer _ | Quiet) ) -> false
+
+let happen time (event : Transition.event) s =
+  match event with
+  | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Interruption -> Ok s
+  | Vehicle_done _ | Vehicle_failed _ | Timer_expired _ -> (
+      if List.exists (same event) s.untold then
+        Ok { s with untold = List.filter (fun told -> not (same event told)) s.untold }
+      else
+        match until ~last:(time +. tolerance) (same event) s with
+        | Some s -> Ok s
+        | None ->
+          let what : Transition.event -> string = function
+            | Vehicle_done v | Vehicle_failed (v, _) -> Printf.sprintf "the end of a task of %s" v
+            | _ -> "the end of a timer"
+          in
+          Error (Printf.sprintf "%s at %g s did not happen with this fleet and this seed" (what event) time))
+
+let command ~announce_period s : Effect.t -> state = function
+  | Start (v, task) -> { s with f = Fleet.start v task s.f }
+  | Stop v ->
+    let others = function Platform.Task_done w | Task_failed (w, _) -> v <> w | Vehicle _ | Timer _ | Quiet -> true in
+    { s with f = Fleet.stop v s.f; untold = List.filter others s.untold }
+  | Set_timer (timer, seconds) -> { s with f = Fleet.set_timer timer seconds s.f }
+  | Look_for { timeout; _ } ->
+    { s with f = Fleet.set_timer Effect.script_timer (Option.value timeout ~default:announce_period) s.f }
+  | Cancel_timer timer ->
+    { s with f = Fleet.cancel_timer timer s.f; untold = List.filter (( <> ) (Platform.Timer timer)) s.untold }
+  | Bind vs -> { s with f = Fleet.bind vs s.f }
+  | Release vs -> { s with f = Fleet.release vs s.f }
+  | Set_connection_timeout (vs, seconds) -> { s with f = Fleet.set_connection_timeout vs seconds s.f }
+  | Say _ | Ask _ | Call_host _ | End _ -> s
+
+let moment ~announce_period s { Past.time; what } =
+  match what with
+  | Saw state -> Ok (see time state s)
+  | Noted _ -> Ok s
+  | Happened event -> Result.map (fun s -> { s with f = Fleet.advance s.f time }) (happen time event s)
+  | Asked effects ->
+    let s = pass time s in
+    Ok (List.fold_left (command ~announce_period) { s with f = Fleet.advance s.f time } effects)
+
+let make ~seed ~announce_period scenario moments =
+  let start = { f = Fleet.telemetry true (Fleet.create ~seed scenario); untold = []; unsaid = [] } in
+  let add s m = Result.bind s (fun s -> moment ~announce_period s m) in
+  let finish s = { fleet = s.f; early = List.rev s.untold; news = List.rev s.unsaid } in
+  Result.map finish (List.fold_left add (Ok start) moments)

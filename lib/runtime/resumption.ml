@@ -1,0 +1,110 @@
+open Dolphin_semantics
+open Dolphin_trace
+module Names = Map.Make (String)
+
+type t = {
+  header : Header.t;
+  replay : Replay.t;
+  moments : Past.moment list;
+  pending : Transition.event option;
+  clock : float * string;
+  kept : int;
+}
+
+type trouble = Over of Request.ending | Changed | No_run of Verdict.t
+
+(* What was read so far. *)
+type reading = {
+  its_header : Header.t;
+  after : Replay.t;  (* all lines *)
+  reversed : Past.moment list;
+  held : (Entry.t * Replay.t) option;  (* the latest line, if that is an event, and what was before it *)
+  its_clock : float * string;
+  ran : string;  (* the hash of the program that ran last *)
+  whole : int;  (* bytes, without [held] *)
+}
+
+(* What a line adds to the moments, which are latest first. *)
+let remember (entry : Entry.t) replay moments =
+  let add what = { Past.time = Entry.time entry; what } :: moments in
+  match entry with
+  | Header _ | Resumed _ | End _ -> moments
+  | Vehicle { state; _ } -> add (Saw state)
+  | Note { vehicle; note; _ } -> add (Noted (vehicle, note))
+  | Event _ -> Option.fold (Replay.event replay) ~none:moments ~some:(fun event -> add (Happened event))
+  | Transition _ -> (
+      match Replay.latest replay with
+      | Some (_, t) when t.effects <> [] -> add (Asked t.effects)
+      | Some _ | None -> moments)
+
+(* An event is told of with its transition: without, it is not gone on with. *)
+let take tell reader r (entry : Entry.t) after =
+  let r' = { r with after; reversed = remember entry after r.reversed } in
+  match entry with
+  | Event _ -> { r' with held = Some (entry, r.after) }
+  | Header _ | Vehicle _ | Transition _ | Note _ | Resumed _ | End _ ->
+    Option.iter (fun (event, _) -> tell event r.after) r.held;
+    tell entry after;
+    let r' = { r' with held = None; whole = Reader.whole reader } in
+    (match entry with
+     | Resumed { time; at; program } -> { r' with its_clock = (time, at); ran = program.hash }
+     | Header _ | Vehicle _ | Event _ | Transition _ | Note _ | End _ -> r')
+
+let finish r =
+  match Replay.ending r.after with
+  | Some ending -> Error (Over ending)
+  | None ->
+    Ok
+      { header = r.its_header;
+        replay = (match r.held with Some (_, before) -> before | None -> r.after);
+        moments = List.rev r.reversed;
+        pending = Replay.event r.after;
+        clock = r.its_clock;
+        kept = r.whole }
+
+let read ?(tell = fun _ _ -> ()) ?(changed = false) program ~hash reader =
+  (* That the program is another one explains whatever does not fit. *)
+  let judge r result = if changed || r.ran = hash then result () else Error Changed in
+  let rec go r =
+    let before = Reader.whole reader in
+    match Reader.next reader with
+    (* A last line without its end may look whole: but what it tells of was not done yet. *)
+    | Line _ when Reader.whole reader = before -> judge r (fun () -> finish r)
+    | Torn _ | End_of_file -> judge r (fun () -> finish r)
+    | Wrong { number; why } -> Error (No_run (Unreadable { number; why }))
+    | Line { number; entry } -> (
+        match Replay.feed r.after entry with
+        | Ok after -> go (take tell reader r entry after)
+        | Error mismatch ->
+          judge r (fun () ->
+              Error (No_run (No_run { number; entry; transitions = Replay.transitions r.after; mismatch }))))
+  in
+  let start = Replay.start ~hash program in
+  match Reader.next reader with
+  | Line { entry = Header header as entry; _ } when Reader.whole reader > 0 ->
+    let after = Result.value (Replay.feed start entry) ~default:start in
+    tell entry after;
+    go
+      { its_header = header; after; reversed = []; held = None; its_clock = (0., header.started);
+        ran = header.program.hash; whole = Reader.whole reader }
+  | Line { number; _ } | Torn number -> Error (No_run (Unreadable { number; why = "not even its first line is whole" }))
+  | End_of_file -> Error (No_run (Unreadable { number = 1; why = "the journal is empty" }))
+  | Wrong { number; why } -> Error (No_run (Unreadable { number; why }))
+
+let seen r =
+  let add found { Past.time; what } =
+    match what with
+    | Saw state -> Names.add state.World.id (time, state) found
+    | Noted _ | Happened _ | Asked _ -> found
+  in
+  List.map snd (Names.bindings (List.fold_left add Names.empty r.moments))
+
+let pp_trouble ppf = function
+  | Over ending ->
+    Format.fprintf ppf "this run is over: it ended %s%s" ending.how
+      (match ending.message with None | Some "" -> "" | Some message -> ": " ^ message)
+  | Changed ->
+    Format.pp_print_string ppf
+      "this run was of another program, or the program has changed since; --force-prefix goes on with it if what \
+       happened so far is the beginning of a run of this one, too"
+  | No_run verdict -> Verdict.pp ppf verdict

@@ -1,0 +1,57 @@
+open Dolphin_trace
+
+let case name test = Alcotest.test_case name `Quick test
+let show verdict = Format.asprintf "@[<v>%a@]" Verdict.pp verdict
+
+(* A journal without what tells that there were two consoles: which samples were written, and when there was a new one. *)
+let story journal =
+  let is_told line =
+    match Entry.of_string line with
+    | Ok (Header _ | Event _ | Transition _ | End _) -> true
+    | Ok (Vehicle _ | Note _ | Resumed _) | Error _ -> false
+  in
+  List.filter is_told (Runs.lines journal)
+
+(* A supplier forgets what it has handed out when it is started again. *)
+let has_supplier (r : Runs.t) = Sys.file_exists ("../../examples/" ^ r.name ^ ".py")
+
+let resumes (r : Runs.t) ~at text =
+  match Runs.resume r text with
+  | Error why -> Alcotest.failf "%s, resumed at %d: %s" r.name at why
+  | Ok joined ->
+    (match Runs.check_text r joined with
+     | Run _ -> ()
+     | verdict -> Alcotest.failf "%s, resumed at %d: %s" r.name at (show verdict));
+    if story joined <> story r.journal && not (has_supplier r) then begin
+      let differs a b = a <> b in
+      let rec first a b =
+        match a, b with
+        | x :: a, y :: b -> if differs x y then (x, y) else first a b
+        | x :: _, [] -> (x, "nothing")
+        | [], y :: _ -> ("nothing", y)
+        | [], [] -> ("", "")
+      in
+      let expected, found = first (story r.journal) (story joined) in
+      Alcotest.failf "%s, resumed at %d, goes on otherwise:\n%s\nnot\n%s" r.name at found expected
+    end
+
+(* In virtual time a run that was broken off, wherever that was, goes on as if nothing had happened. The console died
+   after line [i], and in the middle of the next one. *)
+let at_line (r : Runs.t) i =
+  let lines = Runs.lines r.journal in
+  let whole = Runs.text (List.filteri (fun j _ -> j < i) lines) in
+  let next = List.nth lines i in
+  resumes r ~at:i (whole ^ String.sub next 0 (i mod (String.length next + 1)))
+
+(* [most] of the [n] lines, evenly. *)
+let sample ~most n = List.sort_uniq Int.compare (List.init most (fun k -> 1 + (k * (n - 2) / max 1 (most - 1))))
+
+let examples () =
+  let go name =
+    let r = Runs.run ~period:60. name in
+    let n = List.length (Runs.lines r.journal) in
+    List.iter (at_line r) (sample ~most:(if has_supplier r then 3 else 10) n)
+  in
+  List.iter go Runs.examples
+
+let () = Alcotest.run "resume" [ ("resume", [ case "after a sample of the lines of all examples" examples ]) ]

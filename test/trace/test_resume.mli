@@ -1,0 +1,1 @@
+(** Runs whose console died, gone on with. *)

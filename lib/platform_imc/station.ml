@@ -35,7 +35,7 @@ type t = {
   telemetry : bool;
   timeouts : float Names.t;
   timeout : float;  (* of vehicles that are not in [timeouts] *)
-  timers : (float * Residual.timer) list;  (* earliest first *)
+  timers : Timers.t;
   told : told Names.t;
   expected : wish Names.t;  (* vehicles of a console that died *)
   outbox : Outbox.t;
@@ -75,7 +75,7 @@ let telemetry_interval = 0.95
 
 let create settings =
   { settings; nodes = Nodes.empty; ids = Names.empty; bound = Names.empty; telemetry = false; timeouts = Names.empty;
-    timeout = 60.; timers = []; told = Names.empty; expected = Names.empty; outbox = Outbox.empty; next_announce = 0.;
+    timeout = 60.; timers = Timers.none; told = Names.empty; expected = Names.empty; outbox = Outbox.empty; next_announce = 0.;
     last_announce = neg_infinity; next_heartbeat = 0.; next_eager = infinity; dropped = Names.empty; skipped = 0;
     accepted = 0; heard = Heard.nothing }
 
@@ -182,8 +182,7 @@ let resume ~now (standing : Dolphin_runtime.Past.standing) s =
     else expect v (Run { begun = begun errand; before = before errand; deadline = deadline ~now v s }) s
   in
   let s = List.fold_left (fun s errand -> wish errand s) s standing.errands in
-  let by_time (_, due) (_, due') = Float.compare due due' in
-  { s with timers = List.map (fun (timer, due) -> (due, timer)) (List.stable_sort by_time standing.timers) }
+  { s with timers = Timers.of_list standing.timers }
 
 let adopt ~now ~stopped { order; memos } = command ~now (Adopt { order; stopped; memos })
 
@@ -373,10 +372,9 @@ let announce ~now s =
     let interval = if courting then eager_announce_interval else announce_interval in
     ({ s with next_announce = now +. interval; last_announce = now }, [ Announce (announcement ~now s) ])
 
-let rec expire ~now s =
-  match s.timers with
-  | (time, timer) :: timers when time <= now -> expire ~now (push (Timer timer) { s with timers })
-  | _ :: _ | [] -> s
+let expire ~now s =
+  let rung, timers = Timers.rung ~now s.timers in
+  List.fold_left (fun s timer -> push (Timer timer) s) { s with timers } rung
 
 let was_connected (n : Node.t) s =
   match Names.find_opt n.name s.told with Some told -> told.state.connected | None -> false
@@ -409,7 +407,7 @@ let due s =
   let of_node _ (n : Node.t) time =
     Float.min time (Float.min (Execution.due n.execution) (end_of_link n s))
   in
-  let timer = match s.timers with (time, _) :: _ -> time | [] -> infinity in
+  let timer = Timers.first s.timers in
   Float.min s.next_announce (Float.min s.next_heartbeat (Float.min s.next_eager (Float.min timer (expected_due s))))
   |> Nodes.fold of_node s.nodes
 
@@ -468,18 +466,11 @@ let bind vehicles s = { s with bound = List.fold_left (fun bound v -> Names.add 
 let release vehicles s = { s with bound = List.fold_left (fun bound v -> Names.remove v bound) s.bound vehicles }
 
 let cancel_timer timer s =
-  { s with
-    timers = List.filter (fun (_, other) -> other <> timer) s.timers;
-    outbox = Outbox.without_timer timer s.outbox }
+  { s with timers = Timers.cancel timer s.timers; outbox = Outbox.without_timer timer s.outbox }
 
 let set_timer ~now timer seconds s =
   let s = cancel_timer timer s in
-  let time = now +. seconds in
-  let rec insert = function
-    | (earlier, _) as other :: rest when earlier <= time -> other :: insert rest
-    | rest -> (time, timer) :: rest
-  in
-  { s with timers = insert s.timers }
+  { s with timers = Timers.set timer (now +. seconds) s.timers }
 
 let set_connection_timeout vehicles seconds s =
   match vehicles with

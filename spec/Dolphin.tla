@@ -697,11 +697,27 @@ Init ==
   /\ N = NoTuples
   /\ outside = [ failed |-> 0, asked |-> [ prompt \in Prompts |-> 0 ] ]
 
-Next == \E ts \in { Transitions } : \E j \in DOMAIN ts : Becomes(ts[j])
+(* A transition for which Which holds of what it answers. *)
+Some(Which(_)) == \E ts \in { Transitions } : \E j \in DOMAIN ts : Which(ts[j].cause) /\ Becomes(ts[j])
+Possible(Which(_)) == \E ts \in { Transitions } : \E j \in DOMAIN ts : Which(ts[j].cause)
+
+IsAny(cause) == TRUE
+IsProgram(cause) == cause = Program
+IsTimer(cause) == cause[1] = "timer"
+
+Next == Some(IsAny)
+
+(* WF_vars(Some(Which)), where Possible(Which) is the same as ENABLED <<Some(Which)>>_vars, as each transition changes       *)
+(* something, and is faster. Tasks that run end, timers that run expire, steps of the program that stay possible are taken. *)
+Fair(Which(_)) == []<>~Possible(Which) \/ []<><< Some(Which) >>_vars
 
 Identifiers == { Fleet[j].id : j \in DOMAIN Fleet }
 
-Fairness == WF_vars(Next)
+Fairness ==
+  /\ Fair(IsAny)
+  /\ Fair(IsProgram)
+  /\ Fair(IsTimer)
+  /\ \A v \in Identifiers : Fair(LAMBDA cause : cause[1] = "task" /\ cause[2] = v)
 
 Spec == Init /\ [][Next]_vars /\ Fairness
 

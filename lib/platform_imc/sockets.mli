@@ -14,7 +14,8 @@ val speaker : Unix.inet_addr -> Unix.file_descr option
 (** A socket whose multicasts and broadcasts leave by the interface with this address, with a time to live of 15. *)
 
 val join : Lwt_unix.file_descr -> Unix.inet_addr -> interfaces:Unix.inet_addr list -> unit
-(** [join socket group ~interfaces] hears the multicasts to [group] that come by [interfaces], as far as that is possible. *)
+(** [join socket group ~interfaces] hears the multicasts to [group] that come by [interfaces], as far as that is
+    possible. *)
 
 val port_of : Unix.file_descr -> int
 val close_quietly : Unix.file_descr -> unit

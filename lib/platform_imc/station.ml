@@ -55,7 +55,8 @@ let skip s = ({ s with skipped = s.skipped + 1 }, [])
 let is_wanted id =
   id = Message.Announce.id || id = Message.Heartbeat.id || id = Message.Estimated_state.id
   || id = Message.Vehicle_state.id || id = Message.Plan_control_state.id || id = Message.Plan_control.id
-  || id = Message.Fuel_level.id || id = Message.Log_book_entry.id || id = Message.Entity_list.id || id = Message.Abort.id
+  || id = Message.Fuel_level.id || id = Message.Log_book_entry.id || id = Message.Entity_list.id
+  || id = Message.Abort.id
 
 let request_of ~id s = (s.settings.first_request + (id * 257)) land 0xFFFF
 

@@ -47,7 +47,7 @@ type t = {
 let name = "imc"
 let virtual_time = false
 
-(* Vehicles announce every 10 s, and speak to a console up to 5 s after it has introduced itself: see docs/rationale.md. *)
+(* Vehicles announce every 10 s, and speak to a console up to 5 s after it has introduced itself: docs/rationale.md. *)
 let longest_silence = 16.
 let announce_period _ = longest_silence
 let gathering = 0.002

@@ -11,7 +11,7 @@ type settings = { mode : Invocation.mode; directory : string option; strict : bo
 
 let properties : (string * Property.t) list =
   [ ("NoDeadlock", No_deadlock); ("Termination", Termination); ("NoError", No_error); ("Assertions", Assertions);
-    ("Vehicles", Vehicles); ("NoHalt", No_halt); ("NoLeftover", No_leftover) ]
+    ("EnoughVehicles", Vehicles); ("NoHalt", No_halt); ("NoLeftover", No_leftover) ]
 
 let phrase name = match List.assoc_opt name properties with Some p -> Property.name p | None -> name
 

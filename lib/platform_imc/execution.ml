@@ -443,7 +443,7 @@ let memos x y =
     | before, Some (a, _) when is_other a before && not a.adopted -> [ asked a ]
     | Some (b, `Starting), Some (a, `Starting) when b.accepted = None && a.accepted <> None ->
       [ Taken { request = a.request } ]
-    | Some (_, `Starting), Some (a, `Running) -> [ Runs { request = a.request } ]
+    | (None | Some (_, `Starting)), Some (a, `Running) -> [ Runs { request = a.request } ]
     | (Some _ | None), (Some _ | None) -> []
   in
   List.map (fun m -> Keep m) (over @ rest)
@@ -493,9 +493,9 @@ let obey ~now ~clock input x =
   | Tick -> tick ~now ~clock x
 
 let step ~now ~clock input x =
-  let counted, notes = count input x in
-  let y, outputs = obey ~now ~clock input counted in
-  (y, memos x y @ notes @ outputs)
+  let x, notes = count input x in
+  let y, outputs = obey ~now ~clock input x in
+  (y, notes @ memos x y @ outputs)
 
 (* {1 Displays} *)
 

@@ -165,3 +165,7 @@ A plan as vehicles get it.
   $ dolphin plan plan.dol nothing
   dolphin: no vehicle is given a plan 'nothing'; inline plans are P
   [1]
+
+The programs that ran did what the semantics allows.
+
+  $ check-journals

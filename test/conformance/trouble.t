@@ -156,7 +156,7 @@ Both commands have a manual.
   
          0   all cases pass.
   
-         1   some do not.
+         1   some do not; or with --matrix, no case is about some rule.
   
          2   a case cannot be read, or the implementation does not speak the
              step protocol.

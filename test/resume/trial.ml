@@ -29,7 +29,7 @@ let check_journal path =
   close_in channel;
   match verdict with
   | Run { ending = { how = "completed"; _ }; _ } -> Ok ()
-  | Run _ | Prefix _ | No_run _ | Unreadable _ -> Error (Format.asprintf "@[<v>the journal: %a@]" Verdict.pp verdict)
+  | Run _ | Prefix _ | No_run _ | Possible _ | Impossible _ | Unknown _ | Unreadable _ -> Error (Format.asprintf "@[<v>the journal: %a@]" Verdict.pp verdict)
 
 let check_vehicles log =
   let started = List.sort String.compare (Vehicles.started log) in

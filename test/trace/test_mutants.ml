@@ -19,7 +19,7 @@ let kind line =
   | Ok (Event _) -> `Event
   | Ok (Transition _) -> `Transition
   | Ok (End _) -> `End
-  | Ok (Note _ | Resumed _) -> `Other
+  | Ok (Partial _ | Label _ | Note _ | Resumed _) -> `Other
   | Error _ -> `Nothing
 
 let pick random xs = xs.(Random.State.int random (Array.length xs))
@@ -68,7 +68,7 @@ let alter random lines =
     | Ok (Transition t) -> Some (Entry.to_string (Transition { t with time = 0. }))
     | Ok (Event e) -> Some (Entry.to_string (Event { e with time = 0. }))
     | Ok (End e) -> Some (Entry.to_string (End { e with time = 0. }))
-    | Ok (Header _ | Vehicle _ | Note _ | Resumed _) -> Some ""
+    | Ok (Header _ | Partial _ | Label _ | Vehicle _ | Note _ | Resumed _) -> Some ""
     | Error _ -> None
   in
   (* Why a vehicle failed is its own affair, but is told by what follows; the same holds for answers. *)

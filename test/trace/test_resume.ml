@@ -8,7 +8,7 @@ let story journal =
   let is_told line =
     match Entry.of_string line with
     | Ok (Header _ | Event _ | Transition _ | End _) -> true
-    | Ok (Vehicle _ | Note _ | Resumed _) | Error _ -> false
+    | Ok (Partial _ | Label _ | Vehicle _ | Note _ | Resumed _) | Error _ -> false
   in
   List.filter is_told (Runs.lines journal)
 

@@ -1,5 +1,6 @@
 open Cmdliner
 open Dolphin_trace
+module World_of = Dolphin_explore.World_of
 
 (* {1 Files} *)
 
@@ -42,7 +43,7 @@ let each_line path f =
 (* Of a partial trace: the vehicles that are known from the beginning. *)
 let world_of = function
   | None -> Ok Dolphin_semantics.World.empty
-  | Some _ as named -> Result.map (fun (f : Fleet_file.t) -> World_of.world f.scenario) (Fleet_file.load named)
+  | Some _ as named -> Result.map (fun (f : Fleet_file.t) -> World_of.still f.scenario) (Fleet_file.load named)
 
 let check program_path path fleet most =
   match Program_file.load program_path, world_of fleet with

@@ -240,3 +240,22 @@ An answer that is refused is asked for again.
   (1,"answer(2)",2)
   (2,"message '2'",3)
   (3,"end",4)
+
+A file that says less than it must is refused.
+
+  $ dolphin explore charge.dol --strict --trace charge.run > shown
+  [1]
+  $ sed -i 's/,"assumed":.*}$/}/' charge.run
+  $ dolphin exec --follow charge.run charge.dol 2>&1 | tail -1
+  dolphin: charge.run: charge.dol does not fit, at step 5: the program does end there, and not halt(too late)
+  $ cat > level.run <<'END'
+  > {"format":"dolphin-course","version":1,"program":{"path":"p","md5":""},"fleet":null,"property":"x","steps":3,"cycle":0}
+  > {"label":"pick(1 vehicle with id 'noptilus-1')","choice":0}
+  > {"label":"bind(noptilus-1)","choice":0}
+  > {"label":"post level:1","choice":0}
+  > END
+  $ rm level.fleet
+  $ dolphin exec --follow level.run level.dol
+     2  program     picks noptilus-1
+  dolphin: level.run: level.dol does not fit, at step 3: what battery(noptilus-1) is, is open, and more than a comparison depends on it: the fleet can give the values it may have
+  [2]

@@ -12,14 +12,14 @@ type options = {
   payload : (Core.vehicle * string list) list;
   close_patience : float;
   note : Core.vehicle -> string -> unit;
-  keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
+  keep : time:float -> urgent:bool -> Core.vehicle -> Yojson.Safe.t -> unit;
 }
 
 let default =
   { id = None; name = None; loopback = false; interfaces = []; data_port = 0;
     announce_ports = [ 30100; 30101; 30102; 30103; 30104 ];
     group = Unix.inet_addr_of_string "224.0.75.69";
-    payload = []; close_patience = 5.; note = (fun _ _ -> ()); keep = (fun ~time:_ _ _ -> ()) }
+    payload = []; close_patience = 5.; note = (fun _ _ -> ()); keep = (fun ~time:_ ~urgent:_ _ _ -> ()) }
 
 type t = {
   options : options;
@@ -72,7 +72,7 @@ let carry_out p : Station.output -> unit = function
   | Send { address; bytes } -> send p (data_socket p) bytes address.host address.port
   | Announce bytes -> announce p bytes
   | Announce_to (host, bytes) -> List.iter (send p (data_socket p) bytes host) p.options.announce_ports
-  | Keep (vehicle, memo) -> p.options.keep ~time:(now p) vehicle (Memo.to_json memo)
+  | Keep (vehicle, memo) -> p.options.keep ~time:(now p) ~urgent:(Memo.is_urgent memo) vehicle (Memo.to_json memo)
   | Note (vehicle, text) -> p.options.note vehicle text
 
 (* {1 The state and its changes} *)

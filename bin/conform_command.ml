@@ -53,7 +53,8 @@ let with_implementation command timeout f =
   | None -> f (ourselves ())
   | Some command ->
     let implementation = Implementation.make ~timeout command in
-    Fun.protect ~finally:(fun () -> Implementation.close implementation) (fun () -> f (Implementation.ask implementation))
+    let finally () = Implementation.close implementation in
+    Fun.protect ~finally (fun () -> f (Implementation.ask implementation))
 
 (* {1 The report} *)
 
@@ -66,8 +67,7 @@ let report verbose (case : Case.t) (verdict : Judge.verdict) passed =
     Printf.printf "  %s\n" case.title;
     List.iter (fun (f : Judge.failure) -> Printf.printf "  %s: %s\n" f.kind f.why) verdict.failures;
     if case.fails <> [] then
-      Printf.printf "  this case must fail, by %s; a runner that does not say so passes what is wrong\n"
-        (String.concat ", " case.fails)
+      Printf.printf "  this case is wrong on purpose, in %s, and that was not noticed\n" (String.concat ", " case.fails)
   end;
   flush stdout
 
@@ -79,7 +79,7 @@ let judge_all verbose ask cases =
     let matrix =
       if case.fails <> [] then matrix
       else
-        let name = Filename.remove_extension (Filename.basename case.path) in
+        let name = Filename.(concat (basename (dirname case.path)) (remove_extension (basename case.path))) in
         Matrix.add ~name ~covers:case.covers ~taken:verdict.rules matrix
     in
     if fine then (passed + 1, failed, matrix) else (passed, failed + 1, matrix)
@@ -132,8 +132,8 @@ let timeout =
 
 let matrix =
   let doc =
-    "Print a line for each rule of the semantics: how many of the cases take it, and which ones are about it. A rule that \
-     no case is about is a failure."
+    "Print a line for each rule of the semantics: how many of the cases take it, and which ones are about it. A rule \
+     that no case is about is a failure."
   in
   Arg.(value & flag & info [ "matrix" ] ~doc)
 
@@ -143,9 +143,10 @@ let verbose =
 
 let man =
   [ `S Manpage.s_description;
-    `P "$(tname) judges an implementation of Dolphin's semantics by the cases of a corpus. A case is a small program with \
-        its world, and says what must be so: that the program is rejected, which run it has, which outcomes all of its \
-        runs have, what it may and may not do. Cases in $(i,must-fail/) say what is not so: they pass if that is noticed.";
+    `P "$(tname) judges an implementation of Dolphin's semantics by the cases of a corpus. A case is a small program \
+        with its world, and says what must be so: that the program is rejected, which run it has, which outcomes all of \
+        its runs have, what it may and may not do. Cases in $(i,must-fail/) say what is not so: they pass if that is \
+        noticed.";
     `P "For each case that fails it is told what was expected and what was seen; the last line counts. \
         $(i,conformance/INTERPRETING.md) describes cases and the step protocol.";
     `S Manpage.s_examples;
@@ -154,7 +155,7 @@ let man =
   @ Options.see_also
 
 let exits =
-  [ Cmd.Exit.info 0 ~doc:"all cases pass."; Cmd.Exit.info 1 ~doc:"some do not.";
+  [ Cmd.Exit.info 0 ~doc:"all cases pass."; Cmd.Exit.info 1 ~doc:"some do not; or with $(b,--matrix), no case is about some rule.";
     Cmd.Exit.info 2 ~doc:"a case cannot be read, or the implementation does not speak the step protocol." ]
   @ Options.exits [ Bug ]
 

@@ -62,6 +62,7 @@ type outcome = {
   bytes : int;
   seconds : float;
   stopped : bound option;
+  reduction : Reduction.t;
   verdicts : (Property.t * verdict) list;
 }
 
@@ -189,7 +190,7 @@ let formulas t world program =
 
 let verdicts t program world stopped =
   let transitions = Replay.between t.options.environment program world t.space in
-  let shortest = t.options.reduction = Whole in
+  let shortest = not (Reduction.by_order t.options.reduction) in
   let run_to i = { steps = transitions (Replay.shortest t.space i); cycle = []; shortest } in
   let unless_stopped otherwise = match stopped with Some bound -> Inconclusive bound | None -> otherwise () in
   let interrupted () =
@@ -232,7 +233,7 @@ let verdicts t program world stopped =
   | fs, Some bound -> List.map (fun f -> (named f, Inconclusive bound)) fs
   | fs, None -> List.combine (List.map named fs) (formulas t world program)
 
-let start options program world started =
+let start (options : options) program world started =
   let space = Space.create ~reduction:options.reduction ~compress:options.compress options.environment program world in
   let invariants = List.map (Invariant.create program world) options.invariants in
   { options; space; invariants; started; reported = started; weighed = Float.neg_infinity; next = 0; depth = -1; level_end = 0 }
@@ -259,13 +260,15 @@ let with_shortest_runs options program world started verdicts =
     in
     List.map shorter verdicts
 
-let run (options : options) program world =
-  (* What is asked of every state cannot be judged by some of them. *)
-  let options = if options.invariants = [] then options else { options with reduction = Whole } in
-  let started = options.clock () in
+let rec run_from started (options : options) program world =
   let t = start options program world started in
-  let space = t.space in
-  let stopped = explore t in
+  match explore t with
+  | stopped -> outcome t program world stopped
+  | exception Symmetry.Unclear ->
+    run_from started { options with reduction = Reduction.without_symmetry options.reduction } program world
+
+and outcome t program world stopped =
+  let space = t.space and options = t.options and started = t.started in
   let verdicts = with_shortest_runs options program world started (verdicts t program world stopped) in
   {
     states = Space.count space;
@@ -275,8 +278,14 @@ let run (options : options) program world =
     bytes = memory t;
     seconds = options.clock () -. started;
     stopped;
+    reduction = (if Space.used_symmetry space then options.reduction else Reduction.without_symmetry options.reduction);
     verdicts;
   }
+
+let run (options : options) program world =
+  (* What is asked of every state cannot be judged by some of them. *)
+  let options = if options.invariants = [] then options else { options with reduction = Whole } in
+  run_from (options.clock ()) options program world
 
 (* {1 Text} *)
 

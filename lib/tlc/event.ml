@@ -123,6 +123,7 @@ let of_code code (severity : Message.severity) text =
   | 2201 -> Coverage_begins
   | 2772 | 2773 -> coverage text
   | 2121 | 2264 -> Other  (* headings of what follows *)
+  | 2401 -> Other  (* advice on Java's garbage collector *)
   | 7000 | 7001 | 7002 | 7003 | 7006 | 7008 | 7009 | 7010 -> Worker (String.trim text)
   | _ -> (
       match severity with

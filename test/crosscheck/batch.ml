@@ -13,7 +13,7 @@ type t = {
   used : (string * int) list;
 }
 
-type prepared = { case : Case.t; graph : Graph.t; constants : Family.constant list }
+type prepared = { case : Case.t; graph : Graph.t; transitions : int; constants : Family.constant list }
 type unfit = Refused of string | Too_large
 
 let prepare ~limit (case : Case.t) =
@@ -22,7 +22,7 @@ let prepare ~limit (case : Case.t) =
   | Ok constants -> (
       match Reference.explore ~limit case.environment case.program case.world with
       | None -> Error Too_large
-      | Some space -> Ok { case; graph = Explored.graph space; constants })
+      | Some space -> Ok { case; graph = Explored.graph space; transitions = Reference.transitions space; constants })
 
 let case p = p.case
 let states p = Graph.states p.graph
@@ -75,7 +75,7 @@ let explore installation directory =
     { messages = Message.start; outcome = Outcome.start; problem = None; warnings = []; printed = Printed_graph.create () }
   in
   let command =
-    Invocation.command installation (Local (Workers 1)) ~directory ~configuration:Family.configuration ~coverage:false
+    Invocation.command ~short:true installation (Local (Workers 1)) ~directory ~main:"MC" ~configuration:Family.configuration
   in
   ignore (Process.run ~interrupted:(fun () -> false) (line r) command : Process.ending);
   List.iter (take r) (Message.finish r.messages);
@@ -96,7 +96,7 @@ let judge graphs i p =
     | Some theirs -> (
         match Compare.isomorphic p.graph theirs with Ok () -> Agrees | Error difference -> Differs difference)
   in
-  { case = p.case; states = Graph.states p.graph; transitions = Graph.transitions p.graph; verdict }
+  { case = p.case; states = Graph.states p.graph; transitions = p.transitions; verdict }
 
 let conclude prepared r =
   let o = Outcome.finish r.outcome in

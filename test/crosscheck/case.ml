@@ -86,15 +86,16 @@ let examples directory =
 
 (* {1 Traps} *)
 
-let trap name source =
+let trap ?failures name source =
   let name = "trap: " ^ name in
-  let world = Generate.world and environment = Environment.failing answering in
+  let world = Generate.world and environment = Environment.failing ?failures answering in
   { name; source; program = compiled "trap.dol" source; world; environment; plans = []; prompts = [] }
 
 let two = "a = pick { id 'a' }; b = pick { id 'b' }\n"
 
 let traps =
-  List.map
+  trap "at most one failure" ~failures:1 (two ^ "execute watch (task('p')[a] >> task('q')[b]) onError { ignore() }\nexecute task('p')[a]")
+  :: List.map
     (fun (name, source) -> trap name source)
     [ ("vehicles that a failure stops are free again",
        two ^ "execute (watch (task('p')[a] | task('q')[b]) onError { ignore() }) >> (task('q')[a] | task('p')[b])");
@@ -102,6 +103,11 @@ let traps =
        two ^ "execute watch (until { 1 / 0 > 1 } run task('p')[a]) onError { ignore() }");
       ("a guard does not take a part", "post x: 1\nexecute condition { consume x: 1, y: 1 } | action { post y: 1 } >> condition { consume x: 1 }");
       ("code that breaks leaves nothing", "x = 0\nexecute watch (action { post k: 1; x = 1; y = 1 / 0 }) onError { ignore() }\nif (poll(k: 1) || x == 1) { message 'left' }");
+      ("a handler that breaks leaves nothing", two ^ "execute watch (watch task('p')[a] onError { post k: 1; 1 / 0 }) onError { ignore() }\nif (poll(k: 1)) { message 'left' }");
+      ("a guard that is false did nothing", "post k: 1\nexecute condition { consume k: 1; false } | condition { poll k: 1 }");
+      ("until stops what runs, or what did not start", two ^ "execute (until { poll x: 1 } run (task('p')[a] >> task('q')[a])) | action { post x: 1 }");
+      ("an error leaves out what would follow", two ^ "execute watch (task('p')[a] >> task('q')[b] >> task('q')[a]) onError { ignore() }");
+      ("a handler that does nothing propagates", two ^ "execute watch task('p')[a] onError { post k: 1 }");
       ("the oldest pair", "post k: 1\npost k: 2\nexecute condition { consume k: _ } >> condition { consume k: 2 }");
       ("a pair twice is there twice", "post k: 1\npost k: 1\nexecute condition { consume k: 1 } >> condition { consume k: 1 }");
       ("a handler's deeds", two ^ "execute watch task('p')[a] onError { post failed: 1; ignore() }\nif (consume(failed: 1)) { message 'seen' }");

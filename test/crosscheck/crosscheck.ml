@@ -119,8 +119,9 @@ let quick installation =
 
 let mutate installation =
   let limit = number "LIMIT" 150 and programs = number "PROGRAMS" 60 in
-  let prepared = prepare (tally ()) ~limit (Case.traps @ Case.random ~seed programs) in
-  Printf.printf "%d programs, SEED=%d\n%!" (List.length prepared) seed;
+  let prepare = prepare (tally ()) ~limit in
+  let traps = prepare Case.traps and random = prepare (Case.random ~seed programs) in
+  Printf.printf "SEED=%d: %d traps, %d random programs\n%!" seed (List.length traps) (List.length random);
   let caught (r : Batch.result) = match r.verdict with Agrees -> None | Differs _ | Not_printed -> Some r.case.name in
   let rec catch specification = function
     | [] -> None
@@ -134,7 +135,7 @@ let mutate installation =
   in
   let one (m : Mutant.t) =
     let outcome =
-      Result.map (fun specification -> catch specification (batches (number "BATCH" 25) prepared))
+      Result.map (fun specification -> catch specification (traps :: batches (number "BATCH" 25) random))
         (Mutant.apply m Translated.specification)
     in
     match outcome with

@@ -139,21 +139,21 @@ let check_problem expected lines =
 
 let graphs () =
   check_graphs "one program"
-    [ (1, [ (0, "go by SEQ-1, START", 1); (0, "say \"a\tb\" by MESSAGE", 2); (1, "(ended: completed)", 1); (2, "back", 0) ]) ]
+    [ (1, [ (0, "go by SEQ-1, START", 1); (0, "say \"a\tb\" by MESSAGE", 2); (1, "(B a)", 1); (1, "(ended: completed)", 1); (2, "back", 0) ]) ]
     [ "Parsing file MC.tla"; {|"S\tzero"|}; {|"E\tgo\tone\tSEQ-1, START"|}; {|"E\tsay \"a\tb\"\ttwo\tMESSAGE"|}; {|"other"|};
-      {|"S\tone\tcompleted"|}; {|"S\ttwo\t"|}; {|"E\tback\tzero\t"|} ];
+      {|"S\tone"|}; {|"M\tended: completed"|}; {|"M\tB a"|}; {|"S\ttwo\t1"|}; {|"E\tback\tzero\t"|} ];
   check_graphs "several programs, side by side"
     [ (1, [ (0, "a", 1) ]); (3, [ (0, "a", 2); (0, "b", 1); (1, "(ended: halted)", 1) ]) ]
-    [ {|"S\tp0\t\t1"|}; {|"E\ta\tp1\t"|}; {|"S\tq0\t\t3"|}; {|"E\tb\tq1\t"|}; {|"E\ta\tq2\t"|}; {|"S\tp1\t\t1"|};
-      {|"S\tq1\thalted\t3"|}; {|"S\tq2\t\t3"|} ]
+    [ {|"S\tp0\t1"|}; {|"E\ta\tp1\t"|}; {|"S\tq0\t3"|}; {|"E\tb\tq1\t"|}; {|"E\ta\tq2\t"|}; {|"S\tp1\t1"|}; {|"S\tq1\t3"|};
+      {|"M\tended: halted"|}; {|"S\tq2\t3"|} ]
 
 let broken_graphs () =
   check_problem "no state was printed" [ "Starting..." ];
-  check_problem "a transition comes before any state" [ {|"E\ta\tp1\t"|} ];
+  check_problem "a transition or a mark comes before any state" [ {|"E\ta\tp1\t"|} ];
   check_problem "a state comes twice: p" [ {|"S\tp"|}; {|"S\tp"|} ];
   check_problem "a transition a leads to a state that does not come" [ {|"S\tp"|}; {|"E\ta\tq\t"|} ];
-  check_problem "a transition leads from program 1 to program 2" [ {|"S\tp\t\t1"|}; {|"E\ta\tq\t"|}; {|"S\tq\t\t2"|} ];
-  check_problem {|this line tells of no state and no transition: "S\tp\t\tx"|} [ {|"S\tp\t\tx"|} ];
+  check_problem "a transition leads from program 1 to program 2" [ {|"S\tp\t1"|}; {|"E\ta\tq\t"|}; {|"S\tq\t2"|} ];
+  check_problem {|this line tells of no state and no transition: "S\tp\tx"|} [ {|"S\tp\tx"|} ];
   check_problem {|this line tells of no state and no transition: "E\ta\tq"|} [ {|"S\tp"|}; {|"E\ta\tq"|} ];
   check_problem {|this line tells of no state and no transition: "S\tp|} [ {|"S\tp|} ]
 

@@ -71,7 +71,7 @@ let check ?limit ?(reductions = [ Reduction.Partial_order; Symmetry; All ]) envi
     in
     let compare found reduction =
       let* _ = found in
-      let named what = Error (Reduction.name reduction ^ ": " ^ what) in
+      let named what = Error (String.concat ", " (Reduction.names reduction) ^ ": " ^ what) in
       let reduced = search reduction in
       let each found verdict =
         let* () = found in

@@ -2,7 +2,6 @@ open Cmdliner
 module Search = Dolphin_explore.Search
 module Property = Dolphin_explore.Property
 module Course = Dolphin_trace.Course
-module Columns = Dolphin_display.Columns
 
 type settings = {
   answers : string list;
@@ -35,30 +34,11 @@ let clear_progress () = Printf.eprintf "\r\027[K%!"
 
 (* {1 Results} *)
 
-let print_run program (run : Search.run) =
-  let print = List.iter print_endline in
-  print (Columns.lines program run.steps);
-  if run.cycle <> [] then begin
-    print_endline "and from there, again and again:";
-    print (Columns.lines ~first:(List.length run.steps + 1) program run.cycle)
-  end
-
 let print_pieces (program : Dolphin_semantics.Core.program) pieces =
   List.iter
     (fun (piece : Dolphin_explore.Coverage.piece) ->
        Format.printf "  %a: %s@." Dolphin_syntax.Location.pp program.locations.(piece.site) piece.what)
     pieces
-
-(* Where a deadlock stands: what it waits for in vain. *)
-let print_waiting (program : Dolphin_semantics.Core.program) (run : Search.run) =
-  match List.rev run.steps with
-  | { next = { control = Executing (_, residual); _ }; _ } :: _ ->
-    let guard (c : Dolphin_semantics.Core.closure) =
-      Format.printf "waits for the condition at %a@." Dolphin_syntax.Location.pp
-        program.locations.(c.lambda.lambda_site)
-    in
-    List.iter guard (Dolphin_runtime.Driver.guards residual)
-  | _ -> ()
 
 let print_outcome program s (o : Search.outcome) =
   let shown = List.map (fun (property, verdict) -> (property, verdict, is_remark property && not s.strict)) o.verdicts in
@@ -83,8 +63,8 @@ let print_outcome program s (o : Search.outcome) =
          Format.printf "@.%s: a%s run in which %s@." (Property.name property)
            (if run.shortest then " shortest" else "")
            (Property.question property);
-         print_run program run;
-         if property = No_deadlock then print_waiting program run
+         Shown_run.print program ~steps:run.steps ~cycle:run.cycle;
+         if property = No_deadlock then Shown_run.print_waiting program run.steps
        | Unreached pieces when not remark ->
          Format.printf "@.%s: no run reaches@." (Property.name property);
          print_pieces program pieces

@@ -128,7 +128,7 @@ let look_around t phase =
       }
   end
 
-let explore ?(enough = fun () -> false) t =
+let expand_all enough t =
   let space = t.space in
   let next_look = ref 0 in
   let more () =
@@ -154,6 +154,15 @@ let explore ?(enough = fun () -> false) t =
     t.next <- t.next + 1;
     if exceeds t.options.max_states (Space.count space) then raise (Stop States)
   done
+
+(* What stopped it, if anything. Once there is no memory nothing can be added, not even what waits. *)
+let explore ?(enough = fun () -> false) t =
+  let no_memory () = Space.forget_waiting t.space; Some No_memory in
+  let settled stopped = match Space.flush t.space with () -> stopped | exception Out_of_memory -> no_memory () in
+  match expand_all enough t with
+  | () -> settled None
+  | exception Stop bound -> settled (Some bound)
+  | exception Out_of_memory -> no_memory ()
 
 (* {1 Formulas} *)
 
@@ -255,8 +264,7 @@ let with_shortest_runs options program world started verdicts =
     let most = Option.fold ~none:options.search_again ~some:(min options.search_again) options.max_states in
     let t = start { options with reduction = Whole; invariants = []; max_states = Some most } program world started in
     let is_found property = Space.broken t.space property <> None in
-    (try explore ~enough:(fun () -> List.for_all is_found sought) t with Stop _ | Out_of_memory -> ());
-    (try Space.flush t.space with Out_of_memory -> Space.forget_waiting t.space);
+    ignore (explore ~enough:(fun () -> List.for_all is_found sought) t);
     let shorter (property, verdict) =
       match List.mem property sought, Space.broken t.space property with
       | true, Some i ->
@@ -269,15 +277,12 @@ let with_shortest_runs options program world started verdicts =
 let rec run_from started (options : options) program world =
   let t = start options program world started in
   match explore t with
-  | () -> outcome t program world None
-  | exception Stop bound -> outcome t program world (Some bound)
-  | exception Out_of_memory -> outcome t program world (Some No_memory)
+  | stopped -> outcome t program world stopped
   | exception Symmetry.Unclear ->
     run_from started { options with reduction = Reduction.without_symmetry options.reduction } program world
 
 and outcome t program world stopped =
   let space = t.space and options = t.options and started = t.started in
-  if stopped = Some No_memory then Space.forget_waiting space else Space.flush space;
   let verdicts = with_shortest_runs options program world started (verdicts t program world stopped) in
   {
     states = Space.count space;

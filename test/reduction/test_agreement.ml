@@ -76,7 +76,7 @@ let broken = Hashtbl.create 7
 
 let agrees (ast, (_, environment)) =
   let program = Generate.compile ast in
-  match Agreement.check ~limit environment program Generate.world with
+  match Agreement.check ~limit ~reductions:[ Partial_order; All ] environment program Generate.world with
   | Error what -> QCheck2.Test.fail_report what
   | Ok None ->
     incr skipped;

@@ -8,7 +8,7 @@ module Generate = Test_support.Generate
 let number name default = match Sys.getenv_opt name with Some n -> int_of_string n | None -> default
 let programs = number "PROGRAMS" 2_000
 let seed = number "SEED" 20_261_122
-let limit = number "LIMIT" 2_000
+let limit = number "LIMIT" 400
 let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]) }
 let failing fails : Environment.options = { answering with endings = (fun v p -> if fails v p then May_fail else Succeeds) }
 

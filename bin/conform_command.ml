@@ -155,7 +155,7 @@ let man =
   @ Options.see_also
 
 let exits =
-  [ Cmd.Exit.info 0 ~doc:"all cases pass."; Cmd.Exit.info 1 ~doc:"some do not.";
+  [ Cmd.Exit.info 0 ~doc:"all cases pass."; Cmd.Exit.info 1 ~doc:"some do not; or with $(b,--matrix), no case is about some rule.";
     Cmd.Exit.info 2 ~doc:"a case cannot be read, or the implementation does not speak the step protocol." ]
   @ Options.exits [ Bug ]
 

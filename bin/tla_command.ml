@@ -22,7 +22,7 @@ let load path fleet =
 type deed =
   | Write of string  (** into this directory *)
   | Check of Tlc_check.settings
-  | Compare of { directory : string option; limit : int }
+  | Compare of { directory : string option; limit : int; coverage : bool }
 
 let write directory files =
   let files = List.map (fun (f : Model.file) -> (f.name, f.text)) files in
@@ -33,19 +33,20 @@ let deed directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverag
   let only_with_run =
     List.filter_map
       (fun (given, option) -> if given then Some option else None)
-      [ (strict, "--strict"); (coverage, "--coverage"); (distributed <> None, "--distributed"); (workers <> None, "--workers") ]
+      [ (strict, "--strict"); (distributed <> None, "--distributed"); (workers <> None, "--workers") ]
   in
   match check, compare, only_with_run, directory, distributed, workers with
+  | _, false, _, _, _, _ when coverage -> wrong "--coverage is about --compare, which is not there"
   | true, true, _, _, _, _ -> wrong "--run and --compare are two things: ask for one at a time"
   | false, _, option :: _, _, _, _ -> wrong (option ^ " is about --run, which is not there")
   | true, false, _, _, Some _, Some _ ->
     wrong "--workers is not for --distributed: each worker says itself how many threads it has"
   | true, false, _, _, Some (host, port), None ->
-    Ok (Check { mode = Server { host; port }; directory; strict; coverage })
+    Ok (Check { mode = Server { host; port }; directory; strict })
   | true, false, _, _, None, _ ->
     let workers = Option.value workers ~default:Dolphin_tlc.Invocation.Automatic in
-    Ok (Check { mode = Local workers; directory; strict; coverage })
-  | false, true, [], _, _, _ -> Ok (Compare { directory; limit })
+    Ok (Check { mode = Local workers; directory; strict })
+  | false, true, [], _, _, _ -> Ok (Compare { directory; limit; coverage })
   | false, false, [], Some directory, _, _ -> Ok (Write directory)
   | false, false, [], None, _, _ ->
     wrong "what is to be done with the model? -o DIR writes it, --run has TLC check it, --compare compares state graphs"
@@ -57,9 +58,9 @@ let perform jar deed (program : Program_file.t) (fleet : Fleet_file.t) ~answers 
   | Check settings ->
     let* installation = Tlc_session.installation jar in
     Ok (Tlc_check.run installation settings files environment program world)
-  | Compare { directory; limit } ->
+  | Compare { directory; limit; coverage } ->
     let* installation = Tlc_session.installation jar in
-    Ok (Tlc_compare.run installation ~directory ~limit files environment program world)
+    Ok (Tlc_compare.run installation ~directory ~limit ~coverage files environment program world)
 
 let run path fleet answers faults directory check compare strict limit jar workers distributed coverage =
   let result =

@@ -32,7 +32,7 @@ let writer fd death ~from =
     let line = Entry.to_string entry ^ "\n" in
     match entry with
     | Vehicle _ -> write_all fd line
-    | Header _ | Event _ | Transition _ | Note _ | Resumed _ | End _ ->
+    | Header _ | Partial _ | Label _ | Event _ | Transition _ | Note _ | Resumed _ | End _ ->
       let i = !count in
       incr count;
       if death = Before i then die ();

@@ -181,8 +181,8 @@ let address =
 let settings =
   let make speed seed strict flood faults refuses blocks vanishes announce_period contact_period first_port first_id
       discovery_ports address scenario : Network.settings =
-    { scenario; seed; speed; strict; flood; faults; refuses; blocks; vanishes; announce_period; contact_period; first_port;
-      first_id; discovery_ports; address }
+    { scenario; seed; speed; strict; flood; faults; refuses; blocks; vanishes; announce_period; contact_period;
+      first_port; first_id; discovery_ports; address }
   in
   Term.(
     const make $ speed $ seed $ strict $ flood $ faults $ refuses $ blocks $ vanishes $ announce_period $ contact_period

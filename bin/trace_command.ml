@@ -1,6 +1,5 @@
 open Cmdliner
 open Dolphin_trace
-module World_of = Dolphin_explore.World_of
 
 (* {1 Files} *)
 

@@ -69,7 +69,7 @@ let contradiction how ~sim ~follow ~resumed ~changed =
   else if changed && resumed = None then Some "--force-prefix goes with --resume"
   else None
 
-let run path sim fleet network speed seed answers supplier supplier_timeout journal drawing follow resumed changed =
+let run path sim fleet network definition speed seed answers supplier supplier_timeout journal drawing follow resumed changed =
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
   let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
   let how = { network; named; speed; seed; answers; supplier; supplier_timeout; journal; drawing } in
@@ -82,9 +82,11 @@ let run path sim fleet network speed seed answers supplier supplier_timeout jour
     Fleet_file.tell trouble;
     Bad_input
   | Ok program, Ok fleet -> (
-      match contradiction how ~sim ~follow ~resumed ~changed with
-      | Some why -> Report.complain why; Bad_input
-      | None ->
+      match contradiction how ~sim ~follow ~resumed ~changed, Imc_definition.load definition with
+      | Some why, _ -> Report.complain why; Bad_input
+      | None, Error status -> status
+      | None, Ok definition ->
+        let how = { how with network = Option.map (Imc_options.with_names definition) how.network } in
         Report.diagnostics ~source:program.source program.warnings;
         (match follow, resumed with
          | Some recorded, _ -> Follow.run program fleet.scenario recorded
@@ -209,5 +211,5 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ sim $ fleet $ Imc_options.chosen $ speed $ seed $ answers $ supplier
-      $ supplier_timeout $ journal $ drawing $ follow $ resumed $ changed)
+      const run $ Options.program $ sim $ fleet $ Imc_options.chosen $ Imc_definition.file $ speed $ seed $ answers
+      $ supplier $ supplier_timeout $ journal $ drawing $ follow $ resumed $ changed)

@@ -55,6 +55,8 @@ type bound =
   | Time
   | Interruption
   | Broken_condition of string  (** what was asked is faulty in some state *)
+  | Unsettled of string
+  (** in some state, nobody can list what may happen: more than comparisons depends on what a sensor shows *)
 
 type verdict =
   | Holds
@@ -71,6 +73,7 @@ type outcome = {
   bytes : int;  (** of memory, as [max_memory] counts it *)
   seconds : float;
   stopped : bound option;
+  reduction : Reduction.t;  (** the one that was used: less than was asked for where something stands against it *)
   verdicts : (Property.t * verdict) list;  (** for each of {!Property.all}, then for each invariant and formula *)
 }
 

@@ -23,6 +23,7 @@ type t = {
   kinds : (int * int * int, int) Hashtbl.t;  (* of parts, by symmetry, family and place there *)
   parts_of_kinds : (int * int, part) Hashtbl.t;
   mutable folded : int array;  (* a state's canonical form *)
+  reserve : int -> unit;
 }
 
 let rank property =
@@ -223,19 +224,32 @@ let rec above (place : Shape.place) level =
   | Some nest when level > 0 -> above nest (level - 1)
   | Some _ | None -> place
 
+let ends_run (case : case) = match case.result with Ends _ -> true | Stays _ | Gone | Becomes _ -> false
+
+let take_case t (s : Shape.t) place (case : case) shared i =
+  match case.result with
+  | Ends ending ->
+    if case.whole < 0 then case.whole <- concluded t s case.shared (Ends ending);
+    finish t case.whole None i
+  | (Stays _ | Gone | Becomes _) as target ->
+    Words.check_fit t.words;
+    go_to t s (above place case.level) target shared case.shared i
+
+(* The results of these are how many transitions there are. *)
 let go_by_case t (s : Shape.t) place step shared i =
   let case = Cases.case t.cases step shared in
   if not case.possible then 0
   else begin
-    (match case.result with
-     | Ends ending ->
-       if case.whole < 0 then case.whole <- concluded t s case.shared (Ends ending);
-       finish t case.whole None i
-     | (Stays _ | Gone | Becomes _) as target ->
-       Words.check_fit t.words;
-       go_to t s (above place case.level) target shared case.shared i);
-    1
+    take_case t s place case shared i;
+    List.iter (fun other -> take_case t s place other shared i) case.others;
+    1 + List.length case.others
   end
+
+let go_to_ends t (s : Shape.t) place step shared i =
+  let case = Cases.case t.cases step shared in
+  let ends = List.filter ends_run (case :: case.others) in
+  List.iter (fun case -> take_case t s place case shared i) ends;
+  List.length ends
 
 (* {1 All steps} *)
 
@@ -303,8 +317,10 @@ let local_status t step shared : Stubborn.status =
   let by_case () : Stubborn.status =
     match Cases.case t.cases step shared with
     | { possible = false; _ } -> Impossible
-    | { result = Ends _; _ } -> Ends
-    | { result = Stays _ | Gone | Becomes _; _ } -> Moves
+    | { certain = true; _ } as case -> if ends_run case then Ends else Moves
+    | { certain = false; _ } as case ->
+      let ends, moves = List.partition ends_run (case :: case.others) in
+      Depends { moves = moves <> []; ends = ends <> [] }
   in
   match step.dependence with
   | Free -> Moves
@@ -315,10 +331,11 @@ let local_status t step shared : Stubborn.status =
 
 let take_step t s place step shared i =
   match step.dependence with
-  | Free -> go_to t s place step.target shared shared i
+  | Free -> go_to t s place step.target shared shared i; 1
   | Guarded guard when Cases.guarded t.cases step guard shared >= 0 ->
-    go_to t s place step.target shared (Cases.guarded t.cases step guard shared) i
-  | Guarded _ | By_case -> ignore (go_by_case t s place step shared i)
+    go_to t s place step.target shared (Cases.guarded t.cases step guard shared) i;
+    1
+  | Guarded _ | By_case -> go_by_case t s place step shared i
 
 (* As [expand_all]. Which steps are enough depends on nothing but the configuration. *)
 let expand_some t (s : Shape.t) shared i =
@@ -330,14 +347,15 @@ let expand_some t (s : Shape.t) shared i =
   let go position (part : part) =
     let take k step =
       let is_chosen = match choice with None -> true | Some chosen -> chosen position k in
-      if is_chosen || components.(position).ends.(k) then
-        match status position k with
+      if is_chosen || components.(position).ends.(k) then begin
+        let status = status position k in
+        Words.check_fit t.words;
+        match status with
         | Impossible -> ()
         | Moves when not is_chosen -> ()
-        | Moves | Ends ->
-          Words.check_fit t.words;
-          incr taken;
-          take_step t s s.leaves.(position) step shared i
+        | Depends _ when not is_chosen -> taken := !taken + go_to_ends t s s.leaves.(position) step shared i
+        | Moves | Ends | Depends _ -> taken := !taken + take_step t s s.leaves.(position) step shared i
+      end
     in
     Array.iteri take part.steps
   in
@@ -364,6 +382,8 @@ let rec expand t i =
   | taken -> if not t.gathering then t.transitions <- t.transitions + taken
   | exception Shapes.Outgrown ->
     flush t;
+    (* Once this has begun it must not fail. *)
+    t.reserve (States.bytes_to_rewrite t.states ~words:(States.words t.states + 1));
     repack t;
     expand t i
 
@@ -407,7 +427,7 @@ let breaks t i =
   let key = load t i in
   if Shapes.number t.shapes key.(0) > 0 then None else Words.broken t.words (Shapes.shared t.shapes key.(0))
 
-let create ?(reduction = Reduction.Whole) ?(compress = false) options program world =
+let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore) options program world =
   let foreseen = if Reduction.by_order reduction then Some 0 else None in
   let parts = Parts.create ?foreseen ~flat:(reduction <> Whole) options program world in
   let cases = Cases.create parts in
@@ -442,6 +462,7 @@ let create ?(reduction = Reduction.Whole) ?(compress = false) options program wo
       kinds = Hashtbl.create 64;
       parts_of_kinds = Hashtbl.create 64;
       folded = [| 0 |];
+      reserve;
     }
   in
   ignore (Words.write words t.key [] (Configuration.initial program) Environment.initial);
@@ -466,7 +487,8 @@ let coverage t =
   Option.iter (fun finder -> Symmetry.alike finder together) t.symmetry;
   coverage
 let bytes t = States.bytes t.states
-let bytes_to_grow t = States.bytes_to_grow t.states
+let bytes_to_grow t ~by = States.bytes_to_grow t.states ~by
+let forget_waiting t = States.forget_waiting t.states
 let words t = States.words t.states
 let may_cycle t = Script_graph.may_cycle t.script
 

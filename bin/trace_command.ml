@@ -1,6 +1,5 @@
 open Cmdliner
 open Dolphin_trace
-module World_of = Dolphin_explore.World_of
 
 (* {1 Files} *)
 
@@ -43,7 +42,9 @@ let each_line path f =
 (* Of a partial trace: the vehicles that are known from the beginning. *)
 let world_of = function
   | None -> Ok Dolphin_semantics.World.empty
-  | Some _ as named -> Result.map (fun (f : Fleet_file.t) -> World_of.still f.scenario) (Fleet_file.load named)
+  | Some _ as named ->
+    let world (f : Fleet_file.t) = Dolphin_explore.World_of.still f.scenario in
+    Result.map world (Fleet_file.load named)
 
 let check program_path path fleet most =
   match Program_file.load program_path, world_of fleet with
@@ -91,8 +92,8 @@ let check_command =
       `P "Of a journal that is none of a run, the first line that does not fit is told, and what could have happened \
           there instead.";
       `P "A trace whose first line says which labels it has, only starts and ends of tasks for example, is one of a run \
-          if there are steps between its lines that lead from each to the next. $(i,docs/trace.md) describes it. It \
-          may say itself which vehicles there are, or $(b,--fleet) does." ]
+          if there are steps between its lines that lead from each to the next. $(i,docs/trace.md) describes it. It may \
+          say itself which vehicles there are, or $(b,--fleet) does." ]
     @ Options.see_also
   in
   let info = Cmd.info "check" ~doc:"tell whether a journal is one of a run of a program" ~man ~exits:check_exits in

@@ -23,6 +23,7 @@ type t = {
   kinds : (int * int * int, int) Hashtbl.t;  (* of parts, by symmetry, family and place there *)
   parts_of_kinds : (int * int, part) Hashtbl.t;
   mutable folded : int array;  (* a state's canonical form *)
+  reserve : int -> unit;
 }
 
 let rank property =
@@ -381,6 +382,8 @@ let rec expand t i =
   | taken -> if not t.gathering then t.transitions <- t.transitions + taken
   | exception Shapes.Outgrown ->
     flush t;
+    (* Once this has begun it must not fail. *)
+    t.reserve (States.bytes_to_rewrite t.states ~words:(States.words t.states + 1));
     repack t;
     expand t i
 
@@ -424,13 +427,14 @@ let breaks t i =
   let key = load t i in
   if Shapes.number t.shapes key.(0) > 0 then None else Words.broken t.words (Shapes.shared t.shapes key.(0))
 
-let create ?(reduction = Reduction.Whole) ?(compress = false) options program world =
+let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore) options program world =
   let foreseen = if Reduction.by_order reduction then Some 0 else None in
   let parts = Parts.create ?foreseen ~flat:(reduction <> Whole) options program world in
   let cases = Cases.create parts in
   let shareds = Cases.shareds cases in
   let symmetry =
-    if Reduction.by_symmetry reduction then
+    (* Where the outside remembers vehicles, they are not alike. *)
+    if Reduction.by_symmetry reduction && not (Environment.endings_remember options) then
       let number = Cases.Shareds.number shareds and value = Cases.Shareds.value shareds in
       Some (Symmetry.finder options program { number; value })
     else None
@@ -459,6 +463,7 @@ let create ?(reduction = Reduction.Whole) ?(compress = false) options program wo
       kinds = Hashtbl.create 64;
       parts_of_kinds = Hashtbl.create 64;
       folded = [| 0 |];
+      reserve;
     }
   in
   ignore (Words.write words t.key [] (Configuration.initial program) Environment.initial);
@@ -483,7 +488,8 @@ let coverage t =
   Option.iter (fun finder -> Symmetry.alike finder together) t.symmetry;
   coverage
 let bytes t = States.bytes t.states
-let bytes_to_grow t = States.bytes_to_grow t.states
+let bytes_to_grow t ~by = States.bytes_to_grow t.states ~by
+let forget_waiting t = States.forget_waiting t.states
 let words t = States.words t.states
 let may_cycle t = Script_graph.may_cycle t.script
 

@@ -20,6 +20,7 @@ let violated : Event.violation -> string = function
   | Invariant name | Property name -> name
   | Temporal -> "Termination"
   | Deadlock -> "NoDeadlock"
+  | Unnamed -> ""
 
 (* Whether a run shows what is said to be violated: where labels leave a choice, such a run is wanted. *)
 let shows name options program world ((c, e) : Dolphin_explore.Labelled.state) (steps : Transition.t list) =
@@ -37,6 +38,14 @@ let print_states (c : Outcome.counter_example) =
     List.iter (fun line -> Printf.printf "      %s\n" line) (String.split_on_char '\n' step.state)
   in
   List.iteri print c.steps
+
+(* All that the server of the distributed mode shows. *)
+let print_last_step (c : Outcome.counter_example) =
+  print_endline "some property is violated: TLC's distributed mode does not say which, and shows only the last step. To see a run: --run alone.";
+  let label (step : Outcome.step) = Option.bind (Event.variable "label" step.state) Quoted.unescape in
+  match List.rev_map label c.steps with
+  | Some label :: _ -> Printf.printf "last step: %s\n" label
+  | None :: _ | [] -> ()
 
 let print_counter_example options (program : Program_file.t) world (c : Outcome.counter_example) =
   let name = violated c.violation in
@@ -89,6 +98,7 @@ let print names options program world (o : Outcome.t) =
   print_verdicts names o;
   print_counts o;
   match o.verdict with
+  | Violated ({ violation = Unnamed; _ } as c) -> print_last_step c
   | Violated c -> print_counter_example options program world c
   | Holds | Unfinished | Failed _ -> ()
 

@@ -15,7 +15,7 @@ type options = {
   listens : bool;
   close_patience : float;
   note : Core.vehicle -> string -> unit;
-  keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
+  keep : time:float -> urgent:bool -> Core.vehicle -> Yojson.Safe.t -> unit;
 }
 
 let default =
@@ -23,7 +23,7 @@ let default =
     announce_ports = [ 30100; 30101; 30102; 30103; 30104 ];
     group = Unix.inet_addr_of_string "224.0.75.69";
     payload = []; types = []; type_names = []; listens = false; close_patience = 5.; note = (fun _ _ -> ());
-    keep = (fun ~time:_ _ _ -> ()) }
+    keep = (fun ~time:_ ~urgent:_ _ _ -> ()) }
 
 type t = {
   options : options;
@@ -76,7 +76,7 @@ let carry_out p : Station.output -> unit = function
   | Send { address; bytes } -> send p (data_socket p) bytes address.host address.port
   | Announce bytes -> announce p bytes
   | Announce_to (host, bytes) -> List.iter (send p (data_socket p) bytes host) p.options.announce_ports
-  | Keep (vehicle, memo) -> p.options.keep ~time:(now p) vehicle (Memo.to_json memo)
+  | Keep (vehicle, memo) -> p.options.keep ~time:(now p) ~urgent:(Memo.is_urgent memo) vehicle (Memo.to_json memo)
   | Note (vehicle, text) -> p.options.note vehicle text
 
 (* {1 The state and its changes} *)

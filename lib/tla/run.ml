@@ -51,7 +51,7 @@ VARIABLE label
 
 RunInit == Init /\ label = ""
 RunNext == \E ts \in { Transitions } : \E j \in DOMAIN ts : Becomes(ts[j]) /\ label' = ts[j].label
-RunSpec == RunInit /\ [][RunNext]_vars /\ Fairness
+RunSpec == RunInit /\ [][RunNext]_<< vars, label >> /\ Fairness
 
 |}
   ^ printing ^ "\nPrintRun == PrintGraphOf(1)\n====\n"

@@ -1,4 +1,4 @@
-type violation = Invariant of string | Property of string | Temporal | Deadlock
+type violation = Invariant of string | Property of string | Temporal | Deadlock | Unnamed
 
 type t =
   | Version of string
@@ -7,6 +7,7 @@ type t =
   | Progress of { depth : int; generated : int; distinct : int; queue : int }
   | Checks_temporal of int
   | Violation of violation
+  | Behaviour
   | State of { number : int; action : string option; text : string }
   | Stutters
   | Returns_to of int
@@ -122,7 +123,7 @@ let of_code code (severity : Message.severity) text =
   | 2122 -> returns_to text
   | 2201 -> Coverage_begins
   | 2772 | 2773 -> coverage text
-  | 2121 | 2264 -> Other  (* headings of what follows *)
+  | 2121 | 2264 -> Behaviour
   | 2401 -> Other  (* advice on Java's garbage collector *)
   | 7000 | 7001 | 7002 | 7003 | 7006 | 7008 | 7009 | 7010 -> Worker (String.trim text)
   | _ -> (
@@ -132,6 +133,7 @@ let of_code code (severity : Message.severity) text =
       | Information | State -> Other)
 
 let of_message : Message.t -> t = function
+  | Line text when find "TLC2 TLC Server Version" text = Some 0 -> Version text
   | Line text -> Printed text
   | Message { code; severity; text } -> of_code code severity text
 

@@ -6,6 +6,7 @@ type violation =
   | Property of string  (** a property of single steps, by its name *)
   | Temporal  (** some property in the configuration: TLC does not say which *)
   | Deadlock
+  | Unnamed  (** the server of the distributed mode does not say what is violated, see {!Behaviour} *)
 
 type t =
   | Version of string  (** ["TLC2 Version 2.18 of 20 March 2023"] *)
@@ -15,6 +16,7 @@ type t =
   (** [depth] counts states: 1 for the initial ones *)
   | Checks_temporal of int  (** the temporal properties, on so many states *)
   | Violation of violation
+  | Behaviour  (** a counter-example follows *)
   | State of { number : int; action : string option; text : string }
   (** of a counter-example, from 1: the action that led there, unless it is an initial state; the variables, [/\ x = 1]
       and so on *)

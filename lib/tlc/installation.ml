@@ -69,7 +69,9 @@ let find_java getenv =
       | None -> Error (No_java { said_by = None }))
 
 let find ?jar getenv =
-  Result.bind (find_jar jar getenv) (fun jar -> Result.map (fun java -> { java; jar }) (find_java getenv))
+  let absolute path = if Filename.is_relative path then Sys.getcwd () / path else path in
+  Result.bind (find_jar jar getenv) (fun jar ->
+      Result.map (fun java -> { java = absolute java; jar = absolute jar }) (find_java getenv))
 
 let pp_trouble ppf = function
   | No_jar { places } ->

@@ -54,6 +54,7 @@ let event r (e : Event.t) =
     let before = Option.value (List.assoc_opt name so_far.coverage) ~default:0 in
     update { so_far with coverage = (name, before + generated) :: List.remove_assoc name so_far.coverage }
   | Violation v when r.violation = None -> { r with violation = Some v }
+  | Behaviour when r.violation = None && r.troubles = [] -> { r with violation = Some Unnamed }
   | State { number; action; text } when r.violation <> None ->
     { r with states = (number, { action; state = text }) :: r.states }
   | Stutters -> { r with repetition = Stays }
@@ -61,7 +62,7 @@ let event r (e : Event.t) =
   | Holds -> { r with holds = true }
   | Printed line -> { r with printed = keep line r.printed }
   | Trouble text -> { r with troubles = text :: r.troubles }
-  | Violation _ | State _ | Begins _ | Checks_temporal _ | Worker _ | Warning _ | Other -> r
+  | Violation _ | Behaviour | State _ | Begins _ | Checks_temporal _ | Worker _ | Warning _ | Other -> r
 
 (* The first state is the initial one: no step leads there. *)
 let steps r = List.filter_map (fun (number, step) -> if number > 1 then Some step else None) (List.rev r.states)

@@ -6,6 +6,7 @@ type step = { action : string option; state : string  (** as in {!Event.State} *
 (** How a counter-example goes on for ever, if it does. *)
 type repetition = Once | Stays | Back_to of int  (** that many steps from the start *)
 
+(** What is {!Event.Unnamed} comes with its last steps only. *)
 type counter_example = { violation : Event.violation; steps : step list; repetition : repetition }
 
 type verdict =

@@ -163,6 +163,9 @@ Both commands have a manual.
   
          125 a fault of dolphin itself. Please report it.
   
+         130 the run was interrupted: by Ctrl-C, by a request to terminate, or
+             because nobody reads its log any more.
+  
   EXAMPLES
   $ dolphin step --help=plain | sed -n '/^NAME/,/^DESCRIPTION/p'
   NAME

@@ -77,7 +77,7 @@ let explore installation directory =
   let command =
     Invocation.command ~short:true installation (Local (Workers 1)) ~directory ~main:"MC" ~configuration:Family.configuration
   in
-  ignore (Process.run ~interrupted:(fun () -> false) (line r) command : Process.ending);
+  ignore (Process.run ~directory ~interrupted:(fun () -> false) (line r) command : Process.ending);
   List.iter (take r) (Message.finish r.messages);
   r
 

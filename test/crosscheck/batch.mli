@@ -31,3 +31,6 @@ val states : prepared -> int
 val run : Installation.t -> specification:(string * string) list -> prepared list -> (t, string) Stdlib.result
 (** [run i ~specification ps] is what comes out, or what TLC says went wrong. Counts of TLC that are not those of
     what it printed are wrong too. *)
+
+val in_directory : (string * string) list -> (string -> 'a) -> 'a
+(** [in_directory files f] is [f d] where [d] is a directory with these files, which is gone afterwards. *)

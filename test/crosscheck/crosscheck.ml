@@ -2,7 +2,8 @@
    graphs, equal labels, derivations and ends.
 
    crosscheck.exe [quick | all | mutate | coverage]. In the environment: PROGRAMS, how many random programs; SEED; LIMIT, the
-   most states of one; BATCH, how many are given to TLC at once. *)
+   most states of one; BATCH, how many are given to TLC at once; VERDICTS, of how many random programs TLC's own verdict is
+   asked, which takes a start of TLC for each. *)
 
 open Dolphin_tlc
 
@@ -99,15 +100,41 @@ let compare_all title installation ~limit ~batch cases =
   Printf.printf "  %.0f s\n%!" (Unix.gettimeofday () -. start);
   t
 
+(* {1 Verdicts} *)
+
+(* What TLC says of one program, by its own properties, and what the explorer does: TLC stops at its first violation. *)
+let judge_verdict installation t (c : Case.t) =
+  match Judged.verdicts installation c with
+  | Error why -> t.programs <- t.programs + 1; tell_failure t c why
+  | Ok Not_translated -> t.refused <- (c.name, "") :: t.refused
+  | Ok (Judged { tlc; explorer; agree }) ->
+    t.programs <- t.programs + 1;
+    t.used <- sum_up t.used [ (tlc, 1) ];
+    if not agree then tell_failure t c (Printf.sprintf "TLC: %s; the explorer: %s" tlc explorer)
+
+let compare_verdicts installation cases =
+  let t = tally () and start = Unix.gettimeofday () in
+  List.iter (judge_verdict installation t) cases;
+  Printf.printf "verdicts: %d programs, each checked by TLC's own properties: %s" t.programs
+    (if t.failures = 0 then "all agree" else Printf.sprintf "%d do not agree" t.failures);
+  if t.refused <> [] then Printf.printf "; %d refused by the translation" (List.length t.refused);
+  Printf.printf "\n  %s\n  %.0f s\n%!"
+    (String.concat "; " (List.map (fun (verdict, n) -> Printf.sprintf "%s: %d" verdict n) t.used))
+    (Unix.gettimeofday () -. start);
+  t
+
 (* {1 The commands} *)
 
 let all installation =
-  let limit = number "LIMIT" 2_000 and batch = number "BATCH" 50 and programs = number "PROGRAMS" 300 in
+  let limit = number "LIMIT" 2_000 and batch = number "BATCH" 50 and programs = number "PROGRAMS" 400 in
   Printf.printf "SEED=%d PROGRAMS=%d LIMIT=%d BATCH=%d\n%!" seed programs limit batch;
   let examples = compare_all "examples" installation ~limit:20_000 ~batch:10 (Case.examples examples_directory) in
   let traps = compare_all "traps" installation ~limit ~batch Case.traps in
   let random = compare_all "random programs" installation ~limit ~batch (Case.random ~seed programs) in
-  List.for_all (fun t -> t.failures = 0 && t.programs > 0) [ examples; traps; random ]
+  let verdicts =
+    compare_verdicts installation (Case.examples examples_directory @ Case.traps @ Case.random ~seed (number "VERDICTS" 40))
+  in
+  List.for_all (fun t -> t.failures = 0 && t.programs > 0) [ examples; traps; random; verdicts ]
 
 let quick installation =
   let limit = number "LIMIT" 150 and programs = number "PROGRAMS" 30 in

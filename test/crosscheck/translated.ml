@@ -46,10 +46,14 @@ let of_line line : Family.constant option =
 
 let text_of files name = (List.find (fun (f : Model.file) -> f.name = name) files).text
 
-let constants (c : Case.t) =
-  match Model.of_program ~plans:c.plans ~prompts:c.prompts ~environment:c.environment c.world c.program with
-  | Error ds -> Error (Format.asprintf "%a" (Fmt.list (Dolphin_syntax.Diagnostic.pp ~source:c.source)) ds)
-  | Ok files ->
-    let program = List.filter_map of_paragraph (paragraphs (text_of files "MC.tla")) in
-    let fixed = List.filter_map of_line (String.split_on_char '\n' (text_of files "MC.cfg")) in
-    Ok (program @ fixed)
+let model (c : Case.t) =
+  let explain = Format.asprintf "%a" (Fmt.list (Dolphin_syntax.Diagnostic.pp ~source:c.source)) in
+  Result.map_error explain
+    (Model.of_program ~plans:c.plans ~prompts:c.prompts ~environment:c.environment c.world c.program)
+
+let of_model files =
+  let program = List.filter_map of_paragraph (paragraphs (text_of files "MC.tla")) in
+  let fixed = List.filter_map of_line (String.split_on_char '\n' (text_of files "MC.cfg")) in
+  program @ fixed
+
+let constants c = Result.map of_model (model c)

@@ -89,6 +89,7 @@ let verdict text =
       | Property name -> "property " ^ name
       | Temporal -> "temporal"
       | Deadlock -> "deadlock"
+      | Unnamed -> "something"
     in
     what ^ (match repetition with Once -> "" | Stays -> ", stays" | Back_to n -> Printf.sprintf ", back to %d" n)
 
@@ -105,6 +106,11 @@ let verdicts () =
   check "temporal, stays"
     (version ^ message_text 2116 1 "Temporal properties were violated.\n" ^ message_text 2217 4 "1: <Initial predicate>\n/\\ x = 0\n"
      ^ message_text 2218 4 "2: Stuttering\n");
+  check "something"
+    ("TLC2 TLC Server Version 2.18 of 20 March 2023\n" ^ message_text 2121 1 "The behavior up to this point is:"
+     ^ message_text 2217 4 "1: <Initial predicate>\n/\\ x = 0\n");
+  check "failed: The invariant cannot be evaluated."
+    (version ^ message_text 2111 1 "The invariant cannot be evaluated." ^ message_text 2121 1 "The behavior up to this point is:");
   check "failed: Parsing or semantic analysis failed."
     (version ^ "Lexical error at line 6, column 164.\n" ^ message_text 3002 1 "Parsing or semantic analysis failed.");
   check "failed: Error: Could not find or load main class tlc2.TLC" "Error: Could not find or load main class tlc2.TLC\n"

@@ -308,7 +308,7 @@ let reduction =
 
 let compress =
   let doc =
-    "Keep the states in some 12 bytes each instead of 25 (or more: 8 for each further word), which takes half as much time again."
+    "Keep the states in some 12 bytes each instead of 28 (or more, if they are large), which takes about twice the time."
   in
   Arg.(value & flag & info [ "compress" ] ~doc)
 

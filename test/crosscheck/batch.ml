@@ -7,8 +7,6 @@ type result = { case : Case.t; states : int; transitions : int; verdict : verdic
 
 type t = {
   results : result list;
-  distinct : int;
-  generated : int;
   warnings : string list;
   used : (string * int) list;
 }
@@ -25,7 +23,6 @@ let prepare ~limit (case : Case.t) =
       | Some space -> Ok { case; graph = Explored.graph space; transitions = Reference.transitions space; constants })
 
 let case p = p.case
-let states p = Graph.states p.graph
 
 (* {1 Running TLC} *)
 
@@ -114,8 +111,7 @@ let conclude prepared r =
          (o.generated - List.length prepared) states transitions)
   | None, Holds, Ok graphs ->
     Ok
-      { results = List.mapi (judge graphs) prepared; distinct = o.distinct; generated = o.generated;
-        warnings = List.rev r.warnings; used = rules_of graphs }
+      { results = List.mapi (judge graphs) prepared; warnings = List.rev r.warnings; used = rules_of graphs }
 
 let run installation ~specification prepared =
   Result.bind (Family.files ~specification (List.map (fun p -> p.constants) prepared)) (fun files ->

@@ -201,7 +201,9 @@ let man =
     `P "With tasks from a script, which has ten seconds for each reply:";
     `Pre "  $(mname) $(tname) examples/supplier.dol \\\\\n    --supplier examples/supplier.py --supplier-timeout 10";
     `P "With a journal of the run, and a picture of it:";
-    `Pre "  $(mname) $(tname) mission.dol --journal mission.run --draw mission.svg" ]
+    `Pre "  $(mname) $(tname) mission.dol --journal mission.run --draw mission.svg";
+    `P "Going on with it after the console was killed:";
+    `Pre "  $(mname) $(tname) mission.dol --resume mission.run" ]
   @ Options.see_also
 
 let command =

@@ -53,7 +53,10 @@ let with_implementation command timeout f =
   | None -> f (ourselves ())
   | Some command ->
     let implementation = Implementation.make ~timeout command in
-    Fun.protect ~finally:(fun () -> Implementation.close implementation) (fun () -> f (Implementation.ask implementation))
+    let finally () = Implementation.close implementation in
+    (* It leads a session of its own, so Ctrl-C is for us alone, and we end it. *)
+    List.iter (fun s -> Sys.set_signal s (Signal_handle (fun _ -> raise Sys.Break))) [ Sys.sigint; Sys.sigterm ];
+    Fun.protect ~finally (fun () -> f (Implementation.ask implementation))
 
 (* {1 The report} *)
 
@@ -66,8 +69,7 @@ let report verbose (case : Case.t) (verdict : Judge.verdict) passed =
     Printf.printf "  %s\n" case.title;
     List.iter (fun (f : Judge.failure) -> Printf.printf "  %s: %s\n" f.kind f.why) verdict.failures;
     if case.fails <> [] then
-      Printf.printf "  this case must fail, by %s; a runner that does not say so passes what is wrong\n"
-        (String.concat ", " case.fails)
+      Printf.printf "  this case is wrong on purpose, in %s, and that was not noticed\n" (String.concat ", " case.fails)
   end;
   flush stdout
 
@@ -99,19 +101,24 @@ let bad why =
   Report.complain why;
   Exit_status.Bad_input
 
+let judge_with ask ~named ~with_matrix ~verbose cases =
+  match Dialogue.hello ask with
+  | exception Dialogue.Trouble why -> bad ("the implementation does not speak the step protocol: " ^ why)
+  | name ->
+    if named then Printf.printf "%s\n%!" name;
+    let passed, failed, matrix = judge_all verbose ask cases in
+    let complete = tell_matrix with_matrix matrix in
+    Printf.printf "%d passed, %d failed\n" passed failed;
+    if failed = 0 && complete then Exit_status.Done else Exit_status.Violated
+
 let run paths command timeout with_matrix verbose =
   match load paths with
   | Error why -> bad why
-  | Ok cases ->
-    with_implementation command timeout (fun ask ->
-        match Dialogue.hello ask with
-        | exception Dialogue.Trouble why -> bad ("the implementation does not speak the step protocol: " ^ why)
-        | name ->
-          if command <> None then Printf.printf "%s\n%!" name;
-          let passed, failed, matrix = judge_all verbose ask cases in
-          let complete = tell_matrix with_matrix matrix in
-          Printf.printf "%d passed, %d failed\n" passed failed;
-          if failed = 0 && complete then Exit_status.Done else Exit_status.Violated)
+  | Ok cases -> (
+      let judge ask = judge_with ask ~named:(command <> None) ~with_matrix ~verbose cases in
+      match with_implementation command timeout judge with
+      | status -> status
+      | exception Sys.Break -> Exit_status.Interrupted)
 
 (* {1 The command} *)
 
@@ -132,8 +139,8 @@ let timeout =
 
 let matrix =
   let doc =
-    "Print a line for each rule of the semantics: how many of the cases take it, and which ones are about it. A rule that \
-     no case is about is a failure."
+    "Print a line for each rule of the semantics: how many of the cases take it, and which ones are about it. A rule \
+     that no case is about is a failure."
   in
   Arg.(value & flag & info [ "matrix" ] ~doc)
 
@@ -143,9 +150,10 @@ let verbose =
 
 let man =
   [ `S Manpage.s_description;
-    `P "$(tname) judges an implementation of Dolphin's semantics by the cases of a corpus. A case is a small program with \
-        its world, and says what must be so: that the program is rejected, which run it has, which outcomes all of its \
-        runs have, what it may and may not do. Cases in $(i,must-fail/) say what is not so: they pass if that is noticed.";
+    `P "$(tname) judges an implementation of Dolphin's semantics by the cases of a corpus. A case is a small program \
+        with its world, and says what must be so: that the program is rejected, which run it has, which outcomes all of \
+        its runs have, what it may and may not do. Cases in $(i,must-fail/) say what is not so: they pass if that is \
+        noticed.";
     `P "For each case that fails it is told what was expected and what was seen; the last line counts. \
         $(i,conformance/INTERPRETING.md) describes cases and the step protocol.";
     `S Manpage.s_examples;
@@ -154,9 +162,9 @@ let man =
   @ Options.see_also
 
 let exits =
-  [ Cmd.Exit.info 0 ~doc:"all cases pass."; Cmd.Exit.info 1 ~doc:"some do not.";
+  [ Cmd.Exit.info 0 ~doc:"all cases pass."; Cmd.Exit.info 1 ~doc:"some do not; or with $(b,--matrix), no case is about some rule.";
     Cmd.Exit.info 2 ~doc:"a case cannot be read, or the implementation does not speak the step protocol." ]
-  @ Options.exits [ Bug ]
+  @ Options.exits [ Bug; Interrupted ]
 
 let command =
   let info = Cmd.info "conform" ~doc:"judge an implementation by a corpus of cases" ~man ~exits in

@@ -1,11 +1,13 @@
 open Cmdliner
 module Search = Dolphin_explore.Search
 module Property = Dolphin_explore.Property
+module Faults = Dolphin_explore.Faults
+module World_of = Dolphin_explore.World_of
 module Course = Dolphin_trace.Course
 
 type settings = {
   answers : string list;
-  faults : int option option;
+  faults : Faults.t;
   strict : bool;
   json : bool;
   trace : string option;
@@ -41,7 +43,8 @@ let print_pieces (program : Dolphin_semantics.Core.program) pieces =
     pieces
 
 let print_outcome program s (o : Search.outcome) =
-  let shown = List.map (fun (property, verdict) -> (property, verdict, is_remark property && not s.strict)) o.verdicts in
+  let with_remark (property, verdict) = (property, verdict, is_remark property && not s.strict) in
+  let shown = List.map with_remark o.verdicts in
   List.iter
     (fun (property, (verdict : Search.verdict), remark) ->
        match verdict with
@@ -49,8 +52,13 @@ let print_outcome program s (o : Search.outcome) =
        | Holds | Violated _ | Unreached _ | Inconclusive _ ->
          Format.printf "%s%a@." (if remark then "note: " else "") (Search.pp_verdict program) (property, verdict))
     shown;
-  Printf.printf "%d states, %d transitions, depth %d, %.2f s, %d MiB\n" o.states o.transitions o.depth o.seconds
-    (mebibytes o.bytes);
+  let reduced =
+    match Dolphin_explore.Reduction.names o.reduction with
+    | [] -> ""
+    | names -> "; reduced by " ^ String.concat ", " names
+  in
+  Printf.printf "%d states, %d transitions, depth %d, %.2f s, %d MiB%s\n" o.states o.transitions o.depth o.seconds
+    (mebibytes o.bytes) reduced;
   List.iter
     (fun (property, (verdict : Search.verdict), remark) ->
        match verdict with
@@ -74,7 +82,14 @@ let json_of_run (run : Search.run) =
             `String (Format.asprintf "%a" Dolphin_semantics.Label.pp t.label))
          steps)
   in
+  let assumed i (t : Dolphin_semantics.Transition.t) =
+    let what a = `String (Format.asprintf "%a" Dolphin_semantics.World.pp_assumption a) in
+    if t.assumed = [] then None
+    else Some (`Assoc [ ("step", `Int (i + 1)); ("assumed", `List (List.map what t.assumed)) ])
+  in
+  let assumptions = List.filter_map Fun.id (List.mapi assumed (run.steps @ run.cycle)) in
   [ ("shortest", `Bool run.shortest); ("run", labels run.steps); ("cycle", labels run.cycle) ]
+  @ if assumptions = [] then [] else [ ("assumptions", `List assumptions) ]
 
 let json_of_outcome (program : Dolphin_semantics.Core.program) (o : Search.outcome) : Yojson.Safe.t =
   let verdict (property, verdict) =
@@ -96,7 +111,9 @@ let json_of_outcome (program : Dolphin_semantics.Core.program) (o : Search.outco
   in
   `Assoc
     [ ("states", `Int o.states); ("transitions", `Int o.transitions); ("depth", `Int o.depth);
-      ("seconds", `Float o.seconds); ("bytes", `Int o.bytes); ("verdicts", `List (List.map verdict o.verdicts)) ]
+      ("seconds", `Float o.seconds); ("bytes", `Int o.bytes);
+      ("reductions", `List (List.map (fun name -> `String name) (Dolphin_explore.Reduction.names o.reduction)));
+      ("verdicts", `List (List.map verdict o.verdicts)) ]
 
 (* The first of the runs that are shown. *)
 let counter_example strict (o : Search.outcome) =
@@ -156,7 +173,8 @@ let explore (program : Program_file.t) (fleet : Fleet_file.t) s invariants formu
     { environment = World_of.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
       reduction = s.reduction; compress = s.compress;
       search_again = Search.default.search_again;
-      max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; memory_left = Memory.left; timeout = s.timeout;
+      max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; memory_left = Memory.left;
+      timeout = s.timeout;
       clock = Unix.gettimeofday;
       invariants; formulas;
       interrupted = (fun () -> !interrupted);
@@ -184,36 +202,21 @@ let read_all option of_string texts =
   in
   Result.map List.rev (List.fold_left read (Ok []) texts)
 
-let run path fleet answers faults strict json trace reduction compress invariants formulas max_states max_depth max_memory timeout =
+let run path fleet answers faults strict json trace reduction compress invariants formulas max_states max_depth max_memory
+    timeout =
   match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet) with
   | Error trouble, _ -> Program_file.tell trouble; Exit_status.Bad_input
   | Ok _, Error trouble -> Fleet_file.tell trouble; Exit_status.Bad_input
   | Ok program, Ok fleet ->
     Report.diagnostics ~source:program.source program.warnings;
-    let settings = { answers; faults; strict; json; trace; reduction; compress; max_states; max_depth; max_memory; timeout } in
+    let settings =
+      { answers; faults; strict; json; trace; reduction; compress; max_states; max_depth; max_memory; timeout }
+    in
     let program' = program.program in
     (match read_all "--invariant" (Dolphin_explore.Condition.of_string program') invariants,
            read_all "--ltl" (Dolphin_explore.Temporal.of_string program') formulas with
     | Error why, _ | _, Error why -> Report.complain why; Bad_input
     | Ok invariants, Ok formulas -> explore program fleet settings invariants formulas)
-
-let faults =
-  let parse text =
-    match String.split_on_char '=' text with
-    | [ "fail" ] -> Ok None
-    | [ "fail"; n ] when (match int_of_string_opt n with Some n -> n >= 0 | None -> false) ->
-      Ok (int_of_string_opt n)
-    | _ -> Error (`Msg (Printf.sprintf "'%s' is neither fail nor fail=NUMBER" text))
-  in
-  let print ppf = function
-    | None -> Format.pp_print_string ppf "fail"
-    | Some n -> Format.fprintf ppf "fail=%d" n
-  in
-  let doc =
-    "Let every platform task fail too: $(b,fail), or at most $(i,N) of them in one run: $(b,fail=)$(i,N). By default \
-     only those may fail of which the fleet says so."
-  in
-  Arg.(value & opt (some (conv (parse, print))) None & info [ "faults" ] ~docv:"FAULTS" ~doc)
 
 (* A number of bytes, as in 512M or 8G. *)
 let size =
@@ -235,6 +238,17 @@ let size =
   in
   Arg.conv ~docv:"SIZE" (parse, Format.pp_print_int)
 
+let faults =
+  let parse text = Result.map_error (fun why -> `Msg why) (Faults.of_string text) in
+  let doc =
+    "What else may go wrong, separated by commas: $(b,fail), every platform task may fail; $(b,loss), the connection of a \
+     vehicle that runs a task may be lost for longer than its timeout; $(b,join), vehicles may be late or missing when \
+     the program picks them: those that the fleet lets join, leave or drop, or if there are none, all; $(b,all) of \
+     these. With $(b,=)$(i,N) at most $(i,N) times in one run: $(b,fail=1,loss=2). By default only those plans may \
+     fail of which the fleet says so."
+  in
+  Arg.(value & opt (conv ~docv:"FAULTS" (parse, Faults.pp)) Faults.none & info [ "faults" ] ~docv:"FAULTS" ~doc)
+
 let bound kind name docv doc = Arg.(value & opt (some kind) None & info [ name ] ~docv ~doc)
 let max_states = bound Arg.int "max-states" "N" "Stop after $(docv) states."
 let max_depth = bound Arg.int "max-depth" "N" "Follow runs for $(docv) transitions only."
@@ -251,44 +265,50 @@ let answers =
   Arg.(value & opt_all string [] & info [ "answer" ] ~docv:"TEXT" ~doc)
 
 let strict =
-  let doc = "Count as violations what otherwise is only noted: $(b,halt), tuples left over, code that no run reaches." in
+  let doc =
+    "Count as violations what otherwise is only noted: $(b,halt), tuples left over, code that no run reaches."
+  in
   Arg.(value & flag & info [ "strict" ] ~doc)
 
 let invariants =
   let doc =
     "Check that $(docv) holds in every state. It is an expression of the language over the global variables of the \
-     program, in which also $(b,running\\('plan'\\)), $(b,running\\('plan', 'vehicle'\\)), $(b,bound\\('vehicle'\\)) and \
-     $(b,poll\\(key: value\\)) may stand. As long as a variable in it has no value, it holds. May be repeated."
+     program, in which also $(b,running\\('plan'\\)), $(b,running\\('plan', 'vehicle'\\)), $(b,bound\\('vehicle'\\)) \
+     and $(b,poll\\(key: value\\)) may stand. As long as a variable in it has no value, it holds. May be repeated."
   in
   Arg.(value & opt_all string [] & info [ "invariant" ] ~docv:"EXPR" ~doc)
 
 let formulas =
   let doc =
     "Check that every run satisfies the formula of linear temporal logic $(docv), as in $(b,G \\(start\\(survey1\\) -> F \
-     done\\(survey1\\)\\)): with $(b,!), $(b,&), $(b,|), $(b,->), $(b,<->), $(b,X), $(b,F), $(b,G), $(b,U), $(b,R), $(b,W). \
-     $(i,docs/questions.md) lists its propositions. May be repeated."
+     done\\(survey1\\)\\)): with $(b,!), $(b,&), $(b,|), $(b,->), $(b,<->), $(b,X), $(b,F), $(b,G), $(b,U), $(b,R), \
+     $(b,W). $(i,docs/questions.md) lists its propositions. May be repeated."
   in
   Arg.(value & opt_all string [] & info [ "ltl" ] ~docv:"FORMULA" ~doc)
 
 let trace =
   let doc =
     "Write the first of the runs that are shown into the file $(docv). $(mname) $(b,exec --follow) $(docv) replays it. If \
-     its name ends in $(b,.itf.json), it is written in the Informal Trace Format instead, for the tools of TLA+ and Quint. Nothing \
-     is written if there is none."
+     its name ends in $(b,.itf.json), it is written in the Informal Trace Format instead, for the tools of TLA+ and \
+     Quint. Nothing is written if there is none."
   in
   Arg.(value & opt (some string) None & info [ "trace" ] ~docv:"FILE" ~doc)
 
 let reduction =
-  let kinds = [ ("none", Dolphin_explore.Reduction.Whole); ("por", Partial_order) ] in
+  let kinds =
+    [ ("none", Dolphin_explore.Reduction.Whole); ("por", Partial_order); ("symmetry", Symmetry); ("all", All) ]
+  in
   let doc =
     "How much is looked at: $(b,none) for every state; $(b,por) for one of the orders that make no difference (partial \
-     order reduction), with the same verdicts; not used beside an $(b,--invariant). The number of states printed is that of the states looked at."
+     order reduction); $(b,symmetry) for one of those that differ by exchanging vehicles, plans and tuples that are alike; $(b,all) \
+     for both. The verdicts are the same. None is used beside an $(b,--invariant). The number of states printed is that of \
+     the states looked at, and which reductions were used is said behind it."
   in
-  Arg.(value & opt (enum kinds) Partial_order & info [ "reduction" ] ~docv:"KIND" ~doc)
+  Arg.(value & opt (enum kinds) All & info [ "reduction" ] ~docv:"KIND" ~doc)
 
 let compress =
   let doc =
-    "Keep the states in some 12 bytes each instead of 25 (or more: 8 for each further word), which takes half as much time again."
+    "Keep the states in some 12 bytes each instead of 28 (or more, if they are large), which takes about twice the time."
   in
   Arg.(value & flag & info [ "compress" ] ~doc)
 
@@ -297,18 +317,21 @@ let json = Arg.(value & flag & info [ "json" ] ~doc:"Print the result as one JSO
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) follows every run that $(i,PROG) can have: every order in which tasks end and timers expire, every choice \
-        of vehicles, every branch that is ready. It uses the very transition function that $(mname) $(b,exec) uses. For \
-        each of these it says whether it holds, or shows a run that breaks it, a shortest one if it says so, a column for \
-        the program and one \
+        of vehicles, every branch that is ready. It uses the very transition function that $(mname) $(b,exec) uses. \
+        For each of these it says whether it holds, or shows a run that breaks it, a shortest one if it says so, a \
+        column for the program and one \
         for each vehicle:";
     `I ("no deadlock", "some transition is possible until the program ends.");
-    `I ("termination", "every fair run ends: tasks that run end some time, timers expire, no step is put off for ever.");
+    `I
+      ("termination",
+       "every fair run ends: tasks that run end some time, timers expire, no step is put off for ever.");
     `I ("no error", "no fault, and no error of a task that nothing handles.");
     `I ("assertions", "no $(b,assert) of the program fails.");
     `I ("vehicles", "every $(b,pick) and every $(b,execute) gets its vehicles.");
     `P "Noted are also runs that call $(b,halt), tuples left over at the end, and code that no run reaches.";
-    `P "Positions and batteries stay as they are at the start, and all vehicles of the fleet are in reach. Calls of a \
-        supplier fail.";
+    `P "What sensors show is open: of a condition such as $(b,battery\\(v\\) < 0.3) both outcomes are possible at each look, \
+        or those for the values that the fleet gives; a run says what it assumes. All vehicles of the fleet are in \
+        reach, unless $(b,--faults) says otherwise. Calls of a supplier fail.";
     `P "A bound that is met, or Ctrl-C, makes the answer inconclusive where no violation was found: it is never said that \
         something holds that was not wholly explored.";
     `S Manpage.s_arguments;
@@ -328,6 +351,5 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ trace $ reduction $ compress $ invariants $ formulas
-      $ max_states $ max_depth
-      $ max_memory $ timeout)
+      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ trace $ reduction $ compress
+      $ invariants $ formulas $ max_states $ max_depth $ max_memory $ timeout)

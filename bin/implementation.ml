@@ -62,7 +62,7 @@ let exchange t process id line =
     >>= fun () -> read_reply process id
   in
   let late =
-    Lwt_unix.sleep t.timeout >|= fun () -> Error (Printf.sprintf "it did not reply within %g seconds" t.timeout) in
+    Lwt_unix.sleep t.timeout >|= fun () -> Error (Printf.sprintf "it did not reply within %g s" t.timeout) in
   Lwt.pick [ answered; late ] >>= function
   | Ok _ as reply -> Lwt.return reply
   | Error _ as trouble -> give_up t >|= fun () -> trouble

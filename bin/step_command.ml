@@ -44,10 +44,10 @@ let run () =
 
 let man =
   [ `S Manpage.s_description;
-    `P "$(tname) answers questions about the semantics on its standard input, in lines of JSON: a program and a fleet in, \
-        where its runs begin out; a configuration in, all its transitions out, each with its rules, label, effects and \
-        next configuration. A configuration can be kept, compared, and asked about at any time: nothing is remembered but \
-        the program that was given last.";
+    `P "$(tname) answers questions about the semantics on its standard input, in lines of JSON: a program and a fleet \
+        in, where its runs begin out; a configuration in, all its transitions out, each with its rules, label, effects \
+        and next configuration. A configuration can be kept, compared, and asked about at any time: nothing is \
+        remembered but the program that was given last.";
     `P "So another implementation can be held against this one, and tools can walk through a program's runs without \
         OCaml. $(i,conformance/INTERPRETING.md) describes the protocol; $(mname) $(b,conform) speaks it to others.";
     `S Manpage.s_examples;

@@ -3,27 +3,24 @@ open Dolphin_semantics
 module Property = Dolphin_explore.Property
 module Environment = Dolphin_explore.Environment
 
-type model = {
-  files : Tlc_session.model;
-  configuration : string;
-  invariants : string list;
-  properties : string list;
-}
+module Run = Dolphin_tla.Run
+
+type settings = { mode : Invocation.mode; directory : string option; strict : bool }
 
 (* {1 Names} *)
 
 let properties : (string * Property.t) list =
   [ ("NoDeadlock", No_deadlock); ("Termination", Termination); ("NoError", No_error); ("Assertions", Assertions);
-    ("Vehicles", Vehicles); ("NoHalt", No_halt); ("NoLeftover", No_leftover) ]
+    ("EnoughVehicles", Vehicles); ("NoHalt", No_halt); ("NoLeftover", No_leftover) ]
 
 let phrase name = match List.assoc_opt name properties with Some p -> Property.name p | None -> name
 
-(* TLC does not say which temporal property is violated; where there is but one, it is that. *)
-let violated model (v : Event.violation) =
-  match v, model.properties with
-  | (Invariant name | Property name), _ | Temporal, [ name ] -> name
-  | Temporal, _ -> "a temporal property"
-  | Deadlock, _ -> "NoDeadlock"
+(* There is one temporal property: TLC does not say which is violated. *)
+let violated : Event.violation -> string = function
+  | Invariant name | Property name -> name
+  | Temporal -> "Termination"
+  | Deadlock -> "NoDeadlock"
+  | Unnamed -> ""
 
 (* Whether a run shows what is said to be violated: where labels leave a choice, such a run is wanted. *)
 let shows name options program world ((c, e) : Dolphin_explore.Labelled.state) (steps : Transition.t list) =
@@ -42,8 +39,18 @@ let print_states (c : Outcome.counter_example) =
   in
   List.iteri print c.steps
 
-let print_counter_example model options (program : Program_file.t) world (c : Outcome.counter_example) =
-  let name = violated model c.violation in
+(* All that the server of the distributed mode shows. *)
+let print_last_step (c : Outcome.counter_example) =
+  print_endline
+    "some property is violated: TLC's distributed mode does not say which, and shows only the last step. To see a run: \
+     --run alone.";
+  let label (step : Outcome.step) = Option.bind (Event.variable "label" step.state) Quoted.unescape in
+  match List.rev_map label c.steps with
+  | Some label :: _ -> Printf.printf "last step: %s\n" label
+  | None :: _ | [] -> ()
+
+let print_counter_example options (program : Program_file.t) world (c : Outcome.counter_example) =
+  let name = violated c.violation in
   let question =
     match List.assoc_opt name properties with Some p -> Property.question p | None -> "it does not hold"
   in
@@ -54,7 +61,8 @@ let print_counter_example model options (program : Program_file.t) world (c : Ou
     Shown_run.print program.program ~steps ~cycle;
     if name = "NoDeadlock" then Shown_run.print_waiting program.program steps
   | Error trouble ->
-    Format.printf "This is no run of the explorer: %a. --compare tells more. The states of TLC:@." Recovered.pp_trouble trouble;
+    Format.printf "This is no run of the explorer: %a. --compare tells more. The states of TLC:@." Recovered.pp_trouble
+      trouble;
     print_states c
 
 let length (c : Outcome.counter_example) =
@@ -67,51 +75,63 @@ let length (c : Outcome.counter_example) =
     Printf.sprintf "after %s, %s that can repeat for ever" (Report.count k "step")
       (Report.count (List.length c.steps - k + 1) "step")
 
-(* TLC looks no further than the first violation, and at temporal properties last. *)
-let print_verdicts model (verdict : Outcome.verdict) =
-  let broken = match verdict with Violated c -> Some (violated model c.violation, length c) | _ -> None in
+(* TLC looks no further than the first violation, but for temporal properties: these it looks at when it has all states,
+   and now and then before. What is asked of the specification rather than of the program is only told where it does not
+   hold. *)
+let print_verdicts names (o : Outcome.t) =
+  let broken = match o.verdict with Violated c -> Some (violated c.violation, length c) | _ -> None in
+  let all_states = match o.verdict with Violated { violation = Temporal; _ } -> o.queue = 0 | _ -> false in
   let print name =
-    match broken, verdict with
+    match broken, o.verdict with
     | Some (broken, how), _ when broken = name -> Printf.printf "%s: violated %s\n" (phrase name) how
-    | Some _, _ -> Printf.printf "%s: not decided, for TLC stops at a violation\n" (phrase name)
+    | _, _ when not (List.mem_assoc name properties) -> ()
     | None, Holds -> Printf.printf "%s: holds\n" (phrase name)
+    | Some _, _ when all_states -> Printf.printf "%s: holds\n" (phrase name)
+    | Some _, _ -> Printf.printf "%s: not decided: TLC stops at a violation\n" (phrase name)
     | None, _ -> Printf.printf "%s: not decided\n" (phrase name)
   in
-  let names = model.invariants @ model.properties in
-  List.iter print names;
-  match broken with
-  | Some (name, how) when not (List.mem name names) -> Printf.printf "%s: violated %s\n" (phrase name) how
-  | Some _ | None -> ()
+  List.iter print names
 
 let print_counts (o : Outcome.t) =
   let depth = match o.depth with Some d -> Printf.sprintf ", depth %d" d | None -> "" in
   let left = if o.queue > 0 then Printf.sprintf ", %d not looked at" o.queue else "" in
   Printf.printf "%d distinct states, %d generated%s%s\n" o.distinct o.generated left depth
 
-let print_coverage (o : Outcome.t) =
-  print_newline ();
-  let widest = List.fold_left (fun n (name, _) -> max n (String.length name)) 0 o.coverage in
-  List.iter (fun (name, n) -> Printf.printf "%-*s  %d\n" widest name n) o.coverage
-
-let print model options program world ~coverage (o : Outcome.t) =
+let print names options program world (o : Outcome.t) =
   Option.iter print_endline o.version;
-  print_verdicts model o.verdict;
+  print_verdicts names o;
   print_counts o;
-  (match o.verdict with
-   | Violated c -> print_counter_example model options program world c
-   | Holds | Unfinished | Failed _ -> ());
-  if coverage then print_coverage o
+  match o.verdict with
+  | Violated ({ violation = Unnamed; _ } as c) -> print_last_step c
+  | Violated c -> print_counter_example options program world c
+  | Holds | Unfinished | Failed _ -> ()
 
 let status : Outcome.verdict -> Exit_status.t = function
   | Holds -> Done
   | Violated _ -> Violated
   | Unfinished | Failed _ -> Inconclusive
 
-let run installation mode ~directory ~coverage model options program world =
-  Tlc_session.in_directory directory model.files @@ fun directory ->
-  let configuration = model.configuration in
-  match Tlc_session.run installation mode ~directory ~configuration ~coverage ignore with
+(* Workers may be started before or after the server; without any, nothing is computed. *)
+let tell_workers installation : Invocation.mode -> unit = function
+  | Local _ -> ()
+  | Server { host; port } ->
+    let command = String.concat " " (Invocation.worker installation ~host ~port) in
+    prerr_endline ("workers join by:\n  " ^ command)
+
+let run installation s model options program world =
+  let files = List.map (fun (f : Dolphin_tla.Model.file) -> (f.name, f.text)) (Run.files ~strict:s.strict model) in
+  let all = Run.properties ~strict:s.strict in
+  (* TLC's distributed mode cannot check temporal properties. *)
+  let configuration, checked =
+    match s.mode with
+    | Local _ -> (Run.check, all)
+    | Server _ -> (Run.check_states, List.filter (fun (p : Run.property) -> not p.of_runs) all)
+  in
+  tell_workers installation s.mode;
+  Tlc_session.in_directory s.directory files @@ fun directory ->
+  match Tlc_session.run installation s.mode ~directory ~main:Run.main ~configuration ignore with
   | Error status -> status
-  | Ok (Ended outcome | Interrupted outcome) ->
-    print model options program world ~coverage outcome;
+  | Ok (Ended outcome | Interrupted outcome as ended) ->
+    (match ended with Interrupted _ -> Report.complain "interrupted before TLC was done" | Ended _ -> ());
+    print (List.map (fun (p : Run.property) -> p.name) checked) options program world outcome;
     status outcome.verdict

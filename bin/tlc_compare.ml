@@ -1,12 +1,13 @@
 open Dolphin_tlc
 open Dolphin_lts
+module Run = Dolphin_tla.Run
 module Reference = Dolphin_explore.Reference
 
 (* What TLC counts must be what was printed: one line for each state, and one for each transition. *)
 let is_complete printed (o : Outcome.t) =
   o.queue = 0 && o.distinct = Printed_graph.states printed && o.generated = 1 + Printed_graph.transitions printed
 
-let graph_of_tlc installation ~directory ~configuration =
+let graph_of_tlc installation ~directory =
   let printed = Printed_graph.create () in
   let problem = ref None in
   let take text =
@@ -15,7 +16,9 @@ let graph_of_tlc installation ~directory ~configuration =
     | None, Ok (true | false) | Some _, _ -> ()
   in
   let mode = Invocation.Local (Workers 1) in
-  match Tlc_session.run installation mode ~directory ~configuration ~coverage:false take with
+  match
+    Tlc_session.run installation mode ~directory ~main:Run.main ~configuration:Run.graph take
+  with
   | Error status -> Error status
   | Ok (Interrupted _) -> Report.complain "interrupted before TLC was done"; Error Exit_status.Inconclusive
   | Ok (Ended outcome) -> (
@@ -30,23 +33,44 @@ let graph_of_tlc installation ~directory ~configuration =
         Report.complain (Format.asprintf "the graph that TLC printed cannot be read: %a" Printed_graph.pp_problem problem);
         Error Exit_status.Inconclusive)
 
-let judge ours theirs =
-  match Compare.isomorphic ours theirs with
+(* Beside its transitions a graph has what is seen of each state, as transitions from it to itself. *)
+let judge space theirs =
+  match Compare.isomorphic (Explored.graph space) theirs with
   | Ok () ->
-    Printf.printf "isomorphic, with equal labels and derivations: %d states, %d transitions\n" (Graph.states ours)
-      (Graph.transitions ours);
+    Printf.printf "isomorphic, with equal labels and derivations, and equal A, B and N: %d states, %d transitions\n"
+      (Array.length space.states) (Reference.transitions space);
     Exit_status.Done
   | Error difference ->
-    Format.printf "not isomorphic; left is the explorer's graph, right TLC's@.%a@." Isomorphism.pp_difference difference;
+    Format.printf
+      "not isomorphic. Left is the explorer's graph, right TLC's; what is seen of a state counts as a transition that stays there, \
+       in parentheses.@.%a@."
+      Isomorphism.pp_difference difference;
     (match difference.reason with Undecided -> Inconclusive | _ -> Violated)
 
-let run installation ~directory ~limit ~configuration model options (program : Program_file.t) world =
+(* Rules in the order of the semantics. *)
+let print_coverage graph =
+  let used = Hashtbl.create 60 in
+  let note rule = Hashtbl.replace used rule (1 + Option.value (Hashtbl.find_opt used rule) ~default:0) in
+  Graph.iter graph (fun _ l _ -> List.iter note (Printed_graph.rules (Graph.label graph l)));
+  let print rule =
+    let name = Dolphin_semantics.Rule.name rule in
+    match Hashtbl.find_opt used name with
+    | Some n -> Printf.printf "%-16s %d\n" name n
+    | None -> ()
+  in
+  List.iter print Dolphin_semantics.Rule.all
+
+let run installation ~directory ~limit ~coverage model options (program : Program_file.t) world =
   match Reference.explore ~limit options program.program world with
   | None ->
     Report.complain (Printf.sprintf "%s has more than %d states: see --max-states" program.path limit);
     Exit_status.Inconclusive
   | Some space -> (
-      Tlc_session.in_directory directory model @@ fun directory ->
-      match graph_of_tlc installation ~directory ~configuration with
+      let files = List.map (fun (f : Dolphin_tla.Model.file) -> (f.name, f.text)) (Run.files ~strict:false model) in
+      Tlc_session.in_directory directory files @@ fun directory ->
+      match graph_of_tlc installation ~directory with
       | Error status -> status
-      | Ok theirs -> judge (Explored.graph space) theirs)
+      | Ok theirs ->
+        let status = judge space theirs in
+        if coverage then print_coverage theirs;
+        status)

@@ -20,8 +20,8 @@ let workers =
     | Invocation.Automatic -> Format.pp_print_string ppf "auto"
     | Workers n -> Format.pp_print_int ppf n
   in
-  let doc = "How many threads search: a number, or $(b,auto) for one each core." in
-  Arg.(value & opt (conv (parse, print)) Automatic & info [ "workers" ] ~docv:"N" ~doc)
+  let doc = "With $(b,--run): how many threads search: a number, or $(b,auto), which is the default, for one each core." in
+  Arg.(value & opt (some (conv (parse, print))) None & info [ "workers" ] ~docv:"N" ~doc)
 
 let distributed =
   let parse text =
@@ -36,14 +36,14 @@ let distributed =
   in
   let print ppf (host, port) = Format.fprintf ppf "%s:%d" host port in
   let doc =
-    "Run TLC's distributed mode: start the server, which workers on this and other machines find at $(docv). It computes nothing \
+    "With $(b,--run): run TLC's distributed mode: start the server, which workers on this and other machines find at $(docv). It computes nothing \
      itself, and waits for them; their command line is printed. Termination is not checked: TLC's distributed mode \
      cannot. $(i,docs/scale.md) tells more."
   in
   Arg.(value & opt (some (conv (parse, print))) None & info [ "distributed" ] ~docv:"HOST:PORT" ~doc)
 
 let coverage =
-  let doc = "With $(b,--run): print how often TLC took each action of the specification." in
+  let doc = "With $(b,--compare): print how often each rule of the semantics is used in TLC's graph." in
   Arg.(value & flag & info [ "coverage" ] ~doc)
 
 let man =

@@ -5,8 +5,8 @@ open Cmdliner
 val jar : string option Term.t
 (** [--tlc JAR] *)
 
-val workers : Dolphin_tlc.Invocation.workers Term.t
-(** [--workers N], or [auto], which is the default *)
+val workers : Dolphin_tlc.Invocation.workers option Term.t
+(** [--workers N] or [auto] *)
 
 val distributed : (string * int) option Term.t
 (** [--distributed HOST:PORT] *)

@@ -2,8 +2,6 @@ open Dolphin_tlc
 
 type model = (string * string) list
 
-let ( let* ) = Result.bind
-
 let fail status sentence =
   Report.complain sentence;
   Error status
@@ -79,8 +77,7 @@ let show_progress : Event.t -> unit = function
     show "searches: %d distinct states, %d generated, %d left, depth %d" distinct generated queue (depth - 1)
   | Checks_temporal states -> show "checks termination on %d states" states
   | Worker text -> show "%s" text
-  | Begins _ | Violation _ | State _ | Stutters | Returns_to _ | Holds | Totals _ | Depth _ | Coverage_begins | Action _
-  | Printed _ | Trouble _ | Warning _ | Other -> ()
+  | Begins _ | Violation _ | Behaviour | State _ | Stutters | Returns_to _ | Holds | Totals _ | Depth _ | Printed _ | Trouble _ | Warning _ | Other -> ()
 
 (* {1 Running} *)
 
@@ -103,10 +100,12 @@ let judge (ending : Process.ending) ~interrupted (outcome : Outcome.t) =
     fail Exit_status.Platform_trouble (Printf.sprintf "TLC ended with status %d before it was done" status)
   | Unfinished, Killed _ -> fail Exit_status.Platform_trouble "TLC was killed before it was done"
 
-let run installation mode ~directory ~configuration ~coverage printed =
+let run installation mode ~directory ~main ~configuration printed =
   let interrupted = ref false in
   let ask_to_stop = Sys.Signal_handle (fun _ -> interrupted := true) in
-  let former = List.map (fun signal -> (signal, Sys.signal signal ask_to_stop)) [ Sys.sigint; Sys.sigterm; Sys.sighup ] in
+  let former =
+    List.map (fun signal -> (signal, Sys.signal signal ask_to_stop)) [ Sys.sigint; Sys.sigterm; Sys.sighup ]
+  in
   let live = Unix.isatty Unix.stderr in
   let reader = ref Message.start and outcome = ref Outcome.start in
   let take message =
@@ -120,9 +119,10 @@ let run installation mode ~directory ~configuration ~coverage printed =
     reader := next;
     List.iter take messages
   in
+  let directory = if Filename.is_relative directory then Filename.concat (Sys.getcwd ()) directory else directory in
   let ending =
-    Process.run ~interrupted:(fun () -> !interrupted) line
-      (Invocation.command installation mode ~directory ~configuration ~coverage)
+    Process.run ~directory ~interrupted:(fun () -> !interrupted) line
+      (Invocation.command installation mode ~directory ~main ~configuration)
   in
   List.iter take (Message.finish !reader);
   List.iter (fun (signal, behaviour) -> Sys.set_signal signal behaviour) former;

@@ -129,7 +129,7 @@ let expectation (name, json) =
   let one make read = Result.map (fun x -> [ make x ]) (read json) in
   let several make read = Result.map (List.map make) (list read json) in
   Result.map_error
-    (Printf.sprintf "in %S, %s" name)
+    (Printf.sprintf "expect.%s: %s" name)
     (match name with
      | "rejected" -> one (fun rs -> Rejected rs) (sorted (list rejection))
      | "trace" -> one (fun steps -> Trace steps) trace
@@ -176,7 +176,8 @@ let of_json path json =
   let* program = get lines "program" found in
   let* fleet = get lines "fleet" found in
   let* environment = optional environment ~default:nothing "environment" found in
-  let* expectations = get expectations "expect" found in
+  let* expected = get any "expect" found in
+  let* expectations = expectations expected in
   let* fails = optional (sorted (list text)) ~default:[] "fails" found in
   Ok { path; title; covers; program; fleet; environment; expectations; fails }
 

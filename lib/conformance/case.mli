@@ -53,5 +53,5 @@ val kind : expectation -> string
 (** Its name in the file: ["trace"]. *)
 
 val of_string : path:string -> string -> (t, string) result
-(** [of_string ~path text] is the case that [text] is, or what is wrong with it in a sentence without a full stop. Members
-    that are not known are errors: a misspelt expectation would expect nothing. *)
+(** [of_string ~path text] is the case that [text] is, or what is wrong with it in a sentence without a full stop.
+    Members that are not known are errors: a misspelt expectation would expect nothing. *)

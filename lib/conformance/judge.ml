@@ -15,7 +15,7 @@ let same_code (code, line) (code', line') = code = code' && (line = None || line
 
 let rejected expected seen =
   if List.length expected = List.length seen && List.for_all2 same_code expected seen then Ok ()
-  else Error (Printf.sprintf "%s should be rejected, and %s is" (show_codes expected) (show_codes seen))
+  else Error (Printf.sprintf "expected %s, seen %s" (show_codes expected) (show_codes seen))
 
 (* {1 Outcomes} *)
 
@@ -30,14 +30,15 @@ let outcomes expected seen =
   let missing = List.filter (fun e -> not (List.exists (same_outcome e) seen)) expected in
   let unexpected = List.filter (fun s -> not (List.exists (fun e -> same_outcome e s) expected)) seen in
   let tell what = function [] -> [] | xs -> [ what ^ " " ^ String.concat "; " (List.map show_outcome xs) ] in
-  match tell "no run ends" missing @ tell "some run ends" unexpected with
+  match tell "expected and not seen:" missing @ tell "seen and not expected:" unexpected with
   | [] -> Ok ()
-  | wrong -> Error (String.concat ", and " wrong)
+  | wrong -> Error (String.concat "; " wrong)
 
 let deadlock expected (all : Walks.all) =
   let stuck = List.exists (fun (o : Case.outcome) -> o.how = "stuck") all.outcomes in
   if stuck = expected then Ok ()
-  else Error (if stuck then "some run gets stuck, and none should" else "no run gets stuck, and one should")
+  else if stuck then Error "expected none, and some run gets stuck"
+  else Error "expected a run that gets stuck, and none does"
 
 (* {1 Cases} *)
 

@@ -44,13 +44,17 @@ let same_ending (how, message) seen =
 
 let bracketed show xs = "[" ^ String.concat ", " (List.map show xs) ^ "]"
 let assignment (name, x) = name ^ ": " ^ x
-let show_ending = function None -> "none" | Some (how, message) -> Option.fold ~none:how ~some:(fun m -> how ^ ": " ^ m) message
+
+let show_ending = function
+  | None -> "none"
+  | Some (how, None) -> how
+  | Some (how, Some message) -> how ^ ": " ^ message
 
 let difference (e : Case.seen) (t : Dialogue.transition) =
   let differs what same show expected seen =
     match expected with
     | Some expected when not (same expected seen) ->
-      Some (Printf.sprintf "%s should be %s, and is %s" what (show expected) (show seen))
+      Some (Printf.sprintf "%s: expected %s, seen %s" what (show expected) (show seen))
     | Some _ | None -> None
   in
   let among wanted there = List.for_all (fun x -> List.mem x there) wanted in

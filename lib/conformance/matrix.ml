@@ -16,7 +16,8 @@ let pp ppf rows =
   let width = List.fold_left (fun n rule -> max n (String.length rule)) 0 rules in
   let line ppf rule =
     let taking = List.length (List.filter (fun row -> List.mem rule row.taken) rows) in
-    let names = match about rule rows with [] -> "none" | rows -> String.concat ", " (List.map (fun r -> r.name) rows) in
+    let names =
+      match about rule rows with [] -> "none" | rows -> String.concat ", " (List.map (fun row -> row.name) rows) in
     Format.fprintf ppf "%-*s %4d  %s" width rule taking names
   in
   Format.fprintf ppf "@[<v>%a@]" (Format.pp_print_list line) rules

@@ -5,7 +5,8 @@ type t
 val empty : t
 
 val add : name:string -> covers:string list -> taken:string list -> t -> t
-(** [add ~name ~covers ~taken m] is [m] with case [name], which is about the rules [covers] and takes the rules [taken]. *)
+(** [add ~name ~covers ~taken m] is [m] with case [name], which is about the rules [covers] and takes the rules
+    [taken]. *)
 
 val untaken : t -> string list
 (** The rules that no case is about, as far as it takes them. *)

@@ -39,7 +39,8 @@ let to_json p (c : Configuration.t) =
   match of_state c with
   | exception Too_large -> Error "the configuration is too large to be written down"
   | state ->
-    let tasks = List.map (fun (v, (p : Core.platform_task)) -> (v, of_text p.name)) (Vehicle_map.bindings c.allocation) in
+    let task (v, (p : Core.platform_task)) = (v, of_text p.name) in
+    let tasks = List.map task (Vehicle_map.bindings c.allocation) in
     Ok
       (`Assoc
          [ ("control", `String (control c)); ("end", ending c); ("A", `Assoc tasks); ("B", of_list of_text c.bound);

@@ -125,7 +125,13 @@ let forbids ask place steps =
 type all = { outcomes : Case.outcome list; rules : Rules.t }
 
 let most_places = 20_000
-let text name json = match json with `Assoc ms -> (match List.assoc_opt name ms with Some (`String x) -> x | _ -> "") | _ -> ""
+
+(* A member that is a text, or nothing. *)
+let text name (json : json) =
+  match json with
+  | `Assoc members -> (match List.assoc_opt name members with Some (`String x) -> x | Some _ | None -> "")
+  | _ -> ""
+
 let event name members : json = `Assoc (("event", `String name) :: members)
 
 (* The events that [environment] makes of what is awaited, less ends and expiries. *)

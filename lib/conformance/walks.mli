@@ -7,8 +7,8 @@ type found = (unit, string) result * Rules.t
 (** What is wrong, in a sentence without a full stop; and the rules of the transitions that were taken. *)
 
 val trace : Dialogue.ask -> Dialogue.place -> Case.step list -> found
-(** [trace ask place steps] checks that the run in which the leftmost transition is taken, and events come as [steps] say,
-    is [steps], and that nothing more happens by itself. *)
+(** [trace ask place steps] checks that the run in which the leftmost transition is taken, and events come as [steps]
+    say, is [steps], and that nothing more happens by itself. *)
 
 val admits : Dialogue.ask -> Dialogue.place -> Case.step list -> found
 (** [admits ask place steps] checks that some run begins with [steps]. *)

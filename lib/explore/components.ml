@@ -22,9 +22,7 @@ let breaking = { Footprint.empty with breaks = true }
 (* {1 Futures} *)
 
 let ending c (p : platform_task) v =
-  match c.options.endings v p.name, c.options.failures with
-  | Succeeds, _ | May_fail, Some 0 -> Footprint.empty
-  | Fails, _ | May_fail, (None | Some _) -> breaking
+  if Environment.may_fail c.options v p.name then breaking else Footprint.empty
 
 (* Of a task whose errors this handler gets. *)
 let handled c (f : Footprint.t) handler = if f.breaks then union f (Footprint.of_code c.code handler) else f
@@ -73,7 +71,7 @@ let footprint c step =
 (* A body whose steps are always possible, touch nothing, and can end it. *)
 let rec is_settled c (r : Residual.t) =
   match r with
-  | Ready (p, v) | Running (p, v) -> c.options.endings v p.name <> Fails
+  | Ready (p, v) | Running (p, v) -> Environment.may_succeed c.options v p.name
   | Action a ->
     let f = Footprint.of_code c.code a in
     Footprint.is_free f && (not f.breaks) && not f.halts

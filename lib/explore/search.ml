@@ -46,7 +46,15 @@ let default =
   }
 
 type run = { steps : Transition.t list; cycle : Transition.t list; shortest : bool }
-type bound = States | Depth | Memory | No_memory | Time | Interruption | Broken_condition of string
+type bound =
+  | States
+  | Depth
+  | Memory
+  | No_memory
+  | Time
+  | Interruption
+  | Broken_condition of string
+  | Unsettled of string
 
 type verdict =
   | Holds
@@ -62,6 +70,7 @@ type outcome = {
   bytes : int;
   seconds : float;
   stopped : bound option;
+  reduction : Reduction.t;
   verdicts : (Property.t * verdict) list;
 }
 
@@ -80,22 +89,33 @@ type t = {
 
 exception Stop of bound
 
+let unsettled program (fault : Fault.t) =
+  match Fault.location program fault with
+  | Some at -> Unsettled (Format.asprintf "%a: %s" Dolphin_syntax.Location.pp at fault.message)
+  | None -> Unsettled fault.message
+
 (* {1 Bounds and progress} *)
 
 let memory t = Space.bytes t.space + (8 * (Gc.quick_stat ()).heap_words)
-let large_growth = 1 lsl 24
 let exceeds bound n = match bound with Some most -> n > most | None -> false
 
-(* A system that has given all its memory kills without a word. So a part of what could be had is left alone: for others,
-   and for what grows between two looks. To ask what is left costs some reads of files. *)
-let weigh t now =
-  let growth = Space.bytes_to_grow t.space in
+(* [weigh t growth] is for [growth] bytes more. A system that has given all its memory kills without a word. So a part of
+   what could be had is left alone: for others, and for what grows between two looks. *)
+let weigh t growth =
   if t.options.max_memory <> None && exceeds t.options.max_memory (memory t + growth) then raise (Stop Memory);
-  if growth >= large_growth || now -. t.weighed >= 0.1 then begin
+  match t.options.memory_left () with
+  | Some left when growth > left - ((memory t + left) / 10) -> raise (Stop No_memory)
+  | Some _ | None -> ()
+
+(* States that may be added between two looks around, at most, and twice as many are foreseen. *)
+let stride = 4_096
+
+(* To ask what is left costs some reads of files. *)
+let weigh_sometimes t now =
+  let growth = Space.bytes_to_grow t.space ~by:(2 * stride) in
+  if t.options.max_memory <> None || growth >= 1 lsl 20 || now -. t.weighed >= 0.1 then begin
     t.weighed <- now;
-    match t.options.memory_left () with
-    | Some left when growth > left - ((memory t + left) / 10) -> raise (Stop No_memory)
-    | Some _ | None -> ()
+    weigh t growth
   end
 
 (* Doing this for every state would cost more than the state. *)
@@ -105,7 +125,7 @@ let look_around t phase =
   let elapsed = now -. t.started in
   if options.interrupted () then raise (Stop Interruption);
   if (match options.timeout with Some most -> elapsed > most | None -> false) then raise (Stop Time);
-  weigh t now;
+  weigh_sometimes t now;
   if now -. t.reported >= 1. then begin
     t.reported <- now;
     let states = Space.count t.space in
@@ -120,9 +140,6 @@ let look_around t phase =
         elapsed;
       }
   end
-
-(* States between two looks around; memory can grow by one chunk meanwhile, or by a doubled table. *)
-let stride = 4_096
 
 let expand_all enough t =
   let space = t.space in
@@ -141,8 +158,8 @@ let expand_all enough t =
       t.level_end <- Space.count space;
       if t.options.max_depth = Some t.depth then raise (Stop Depth)
     end;
-    if t.next >= !next_look || Space.bytes_to_grow space > 0 then begin
-      next_look := t.next + stride;
+    if t.next + Space.count space >= !next_look then begin
+      next_look := t.next + Space.count space + stride;
       look_around t "exploring"
     end;
     List.iter (fun invariant -> Invariant.check invariant space t.next) t.invariants;
@@ -152,12 +169,14 @@ let expand_all enough t =
   done
 
 (* What stopped it, if anything. Once there is no memory nothing can be added, not even what waits. *)
-let explore ?(enough = fun () -> false) t =
-  let settled stopped = match Space.flush t.space with () -> stopped | exception Out_of_memory -> Some No_memory in
+let explore ?(enough = fun () -> false) program t =
+  let no_memory () = Space.forget_waiting t.space; Some No_memory in
+  let settled stopped = match Space.flush t.space with () -> stopped | exception Out_of_memory -> no_memory () in
   match expand_all enough t with
   | () -> settled None
   | exception Stop bound -> settled (Some bound)
-  | exception Out_of_memory -> Some No_memory
+  | exception Reading.Unsettled fault -> settled (Some (unsettled program fault))
+  | exception Out_of_memory -> no_memory ()
 
 (* {1 Formulas} *)
 
@@ -183,13 +202,14 @@ let formulas t world program =
   | graph -> List.map (check graph) t.options.formulas
   | exception Stop bound -> inconclusive bound
   | exception Temporal.Broken why -> inconclusive (Broken_condition why)
+  | exception Reading.Unsettled fault -> inconclusive (unsettled program fault)
   | exception Out_of_memory -> inconclusive No_memory
 
 (* {1 Verdicts} *)
 
 let verdicts t program world stopped =
   let transitions = Replay.between t.options.environment program world t.space in
-  let shortest = t.options.reduction = Whole in
+  let shortest = not (Reduction.by_order t.options.reduction) in
   let run_to i = { steps = transitions (Replay.shortest t.space i); cycle = []; shortest } in
   let unless_stopped otherwise = match stopped with Some bound -> Inconclusive bound | None -> otherwise () in
   let interrupted () =
@@ -232,10 +252,20 @@ let verdicts t program world stopped =
   | fs, Some bound -> List.map (fun f -> (named f, Inconclusive bound)) fs
   | fs, None -> List.combine (List.map named fs) (formulas t world program)
 
-let start options program world started =
-  let space = Space.create ~reduction:options.reduction ~compress:options.compress options.environment program world in
+let start (options : options) program world started =
+  let reserve = ref ignore in
+  let space =
+    Space.create ~reduction:options.reduction ~compress:options.compress
+      ~reserve:(fun bytes -> !reserve bytes)
+      options.environment program world
+  in
   let invariants = List.map (Invariant.create program world) options.invariants in
-  { options; space; invariants; started; reported = started; weighed = Float.neg_infinity; next = 0; depth = -1; level_end = 0 }
+  let t =
+    { options; space; invariants; started; reported = started; weighed = Float.neg_infinity; next = 0; depth = -1;
+      level_end = 0 }
+  in
+  reserve := weigh t;
+  t
 
 (* What a reduced search finds broken, the first of all states may show by a shortest run. *)
 let with_shortest_runs options program world started verdicts =
@@ -249,7 +279,7 @@ let with_shortest_runs options program world started verdicts =
     let most = Option.fold ~none:options.search_again ~some:(min options.search_again) options.max_states in
     let t = start { options with reduction = Whole; invariants = []; max_states = Some most } program world started in
     let is_found property = Space.broken t.space property <> None in
-    ignore (explore ~enough:(fun () -> List.for_all is_found sought) t);
+    ignore (explore ~enough:(fun () -> List.for_all is_found sought) program t);
     let shorter (property, verdict) =
       match List.mem property sought, Space.broken t.space property with
       | true, Some i ->
@@ -259,13 +289,15 @@ let with_shortest_runs options program world started verdicts =
     in
     List.map shorter verdicts
 
-let run (options : options) program world =
-  (* What is asked of every state cannot be judged by some of them. *)
-  let options = if options.invariants = [] then options else { options with reduction = Whole } in
-  let started = options.clock () in
+let rec run_from started (options : options) program world =
   let t = start options program world started in
-  let space = t.space in
-  let stopped = explore t in
+  match explore program t with
+  | stopped -> outcome t program world stopped
+  | exception Symmetry.Unclear ->
+    run_from started { options with reduction = Reduction.without_symmetry options.reduction } program world
+
+and outcome t program world stopped =
+  let space = t.space and options = t.options and started = t.started in
   let verdicts = with_shortest_runs options program world started (verdicts t program world stopped) in
   {
     states = Space.count space;
@@ -275,8 +307,19 @@ let run (options : options) program world =
     bytes = memory t;
     seconds = options.clock () -. started;
     stopped;
+    reduction = (if Space.used_symmetry space then options.reduction else Reduction.without_symmetry options.reduction);
     verdicts;
   }
+
+let run (options : options) program world =
+  (* What is asked of every state cannot be judged by some of them. *)
+  let options = if options.invariants = [] then options else { options with reduction = Whole } in
+  (* States that are alike by symmetry may differ in who is lost. *)
+  let remembers = Environment.endings_remember options.environment in
+  let options =
+    if remembers then { options with reduction = Reduction.without_symmetry options.reduction } else options
+  in
+  run_from (options.clock ()) options program world
 
 (* {1 Text} *)
 
@@ -289,7 +332,8 @@ let pp_bound ppf bound =
      | No_memory -> "the machine has no more memory for it"
      | Time -> "the time was up"
      | Interruption -> "it was interrupted"
-     | Broken_condition why -> "the condition cannot be told: " ^ why)
+     | Broken_condition why -> "the condition cannot be told: " ^ why
+     | Unsettled why -> why)
 
 let pp_verdict (program : Core.program) ppf (property, verdict) =
   let print format = Format.fprintf ppf format in

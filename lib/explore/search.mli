@@ -7,7 +7,9 @@ open Dolphin_semantics
 (** How far to go, and who is told. *)
 type options = {
   environment : Environment.options;
-  reduction : Reduction.t;  (** none is used where there are invariants *)
+  reduction : Reduction.t;
+  (** none is used where there are invariants; no symmetry where connections may be lost: states that are alike by it may
+      differ in which vehicle is lost *)
   compress : bool;  (** keep states in less memory, in more time *)
   search_again : int;
   (** so many of all states are visited for a shortest run, if a reduced search found a violation *)
@@ -55,6 +57,8 @@ type bound =
   | Time
   | Interruption
   | Broken_condition of string  (** what was asked is faulty in some state *)
+  | Unsettled of string
+  (** in some state, nobody can list what may happen: more than comparisons depends on what a sensor shows *)
 
 type verdict =
   | Holds
@@ -71,6 +75,7 @@ type outcome = {
   bytes : int;  (** of memory, as [max_memory] counts it *)
   seconds : float;
   stopped : bound option;
+  reduction : Reduction.t;  (** the one that was used: less than was asked for where something stands against it *)
   verdicts : (Property.t * verdict) list;  (** for each of {!Property.all}, then for each invariant and formula *)
 }
 

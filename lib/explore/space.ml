@@ -1,6 +1,13 @@
 open Dolphin_semantics
 open Part
 
+module Numbered = Hashtbl.Make (struct
+    type t = int * int
+
+    let equal (a, b) (a', b') = Int.equal a a' && Int.equal b b'
+    let hash (a, b) = ((a * 65599) + b) * 65599 land max_int
+  end)
+
 type t = {
   options : Environment.options;
   reduction : Reduction.t;
@@ -18,7 +25,12 @@ type t = {
   script : Script_graph.t;
   mutable fresh : int -> int -> unit;  (* what is done with new states, by number and first word *)
   mutable gathering : bool;
-  mutable gathered : int list;
+  mutable gathered : (int * Symmetry.permutation option) list;
+  symmetry : Symmetry.finder option;
+  kinds : int Numbered.t;  (* of parts, by symmetry, family and place there *)
+  parts_of_kinds : part Numbered.t;  (* by symmetry and kind *)
+  mutable folded : int array;  (* a state's canonical form *)
+  reserve : int -> unit;
 }
 
 let rank property =
@@ -47,7 +59,8 @@ let repack t =
   let words = Shapes.words t.shapes in
   t.states <- States.rewrite t.states ~words rewritten;
   t.key <- Array.make words 0;
-  t.other <- Array.make words 0
+  t.other <- Array.make words 0;
+  t.folded <- Array.make words 0
 
 let note_broken t property i =
   let rank = rank property in
@@ -59,9 +72,70 @@ let fresh t i word =
 
 let flush t = States.flush t.states ~fresh:t.fresh
 
-let visit t key parent =
-  if t.gathering then t.gathered <- States.find t.states key :: t.gathered
+let add t key permutation parent =
+  if t.gathering then t.gathered <- (States.find t.states key, permutation) :: t.gathered
   else States.push t.states key ~parent ~fresh:t.fresh
+
+(* {1 Symmetry} *)
+
+let kind_of t g (part : part) =
+  let key = ((Symmetry.number g lsl 31) lor part.family.number, part.local) in
+  match Numbered.find_opt t.kinds key with
+  | Some kind -> kind
+  | None ->
+    let kind = Symmetry.kind g part.residual in
+    Numbered.add t.kinds key kind;
+    kind
+
+let coverage_of_label coverage = function
+  | Alike.Task site -> Coverage.reach coverage site
+  | Code id -> Coverage.reach_code coverage id
+
+(* What a part of a state begins, those that the state stands for begin as well. *)
+let reach_alike t g (part : part) =
+  let reach label = List.iter (coverage_of_label (Parts.coverage t.parts)) (Symmetry.together g label) in
+  let step (step : Residual.step) =
+    match step.offer with
+    | Start (p, _) -> reach (Alike.Task p.task_site)
+    | Perform c | Check c | Measure c -> reach (Alike.Code c.lambda.id)
+    | End_of _ | Expiry_of _ -> ()
+  in
+  Seq.iter step (Residual.steps part.residual)
+
+let part_of_kind t g kind =
+  let key = (Symmetry.number g, kind) in
+  match Numbered.find_opt t.parts_of_kinds key with
+  | Some part -> part
+  | None -> (
+      match Parts.children t.parts (Parts.root t.parts) (Symmetry.residual g kind) with
+      | [ Leaf part ] ->
+        reach_alike t g part;
+        Numbered.add t.parts_of_kinds key part;
+        part
+      | _ -> invalid_arg "Space.part_of_kind: no part")
+
+let kinds t g (s : Shape.t) key = Array.init (Array.length s.families) (fun i -> kind_of t g (Words.part s key i))
+
+(* Few shapes are enough if parts stand in an order of their families. *)
+let by_family (a : part) (b : part) =
+  match Int.compare a.family.number b.family.number with 0 -> Int.compare a.local b.local | order -> order
+
+let write_folded t frame g (state : Symmetry.state) =
+  let parts = List.map (part_of_kind t g) (Array.to_list state.kinds) in
+  let leaves = List.map (fun part -> Leaf part) (List.sort by_family parts) in
+  Words.write_parts t.words t.folded frame leaves state.shared
+
+let visit t key parent =
+  match Shapes.number t.shapes key.(0) with
+  | 0 -> add t key None parent
+  | number -> (
+      let s = Shapes.shape t.shapes number in
+      match s.frame.symmetry with
+      | None -> add t key None parent
+      | Some g ->
+        let state, permutation = Symmetry.canonical g (kinds t g s key) (Shapes.shared t.shapes key.(0)) in
+        write_folded t s.frame g state;
+        add t t.folded (Some permutation) parent)
 
 (* {1 Where nothing executes} *)
 
@@ -122,13 +196,21 @@ let replace t (s : Shape.t) (s' : Shape.t) (place : Shape.place) (parts : part a
 
 let no_parts : part array = [||]
 
-let finish t number i =
+let finish t number permutation i =
   Words.write_whole t.words t.other number;
-  visit t t.other i
+  add t t.other permutation i
+
+(* The task is over: the script sees what is shared, so each state that this one stands for goes on by itself. *)
+let all_over t (s : Shape.t) shared i =
+  match s.frame.symmetry with
+  | None -> finish t (over t s shared) None i
+  | Some g ->
+    let image (shared, permutation) = finish t (over t s shared) (Some permutation) i in
+    List.iter image (Symmetry.images g shared)
 
 let rec go t (s : Shape.t) (place : Shape.place) target shared i =
   match target, place.around with
-  | Gone, None when place.from = 0 && place.upto = Array.length s.families -> finish t (over t s shared) i
+  | Gone, None when place.from = 0 && place.upto = Array.length s.families -> all_over t s shared i
   | Gone, Some ({ children = [ a; b ]; _ } as nest) -> leave_alone t s nest (if a == place then b else a) shared i
   | Gone, (None | Some _) -> replace t s (Shapes.without t.shapes s place) place no_parts shared i
   | Becomes { serial; children; parts }, _ ->
@@ -165,19 +247,32 @@ let rec above (place : Shape.place) level =
   | Some nest when level > 0 -> above nest (level - 1)
   | Some _ | None -> place
 
+let ends_run (case : case) = match case.result with Ends _ -> true | Stays _ | Gone | Becomes _ -> false
+
+let take_case t (s : Shape.t) place (case : case) shared i =
+  match case.result with
+  | Ends ending ->
+    if case.whole < 0 then case.whole <- concluded t s case.shared (Ends ending);
+    finish t case.whole None i
+  | (Stays _ | Gone | Becomes _) as target ->
+    Words.check_fit t.words;
+    go_to t s (above place case.level) target shared case.shared i
+
+(* The results of these are how many transitions there are. *)
 let go_by_case t (s : Shape.t) place step shared i =
   let case = Cases.case t.cases step shared in
   if not case.possible then 0
   else begin
-    (match case.result with
-     | Ends ending ->
-       if case.whole < 0 then case.whole <- concluded t s case.shared (Ends ending);
-       finish t case.whole i
-     | (Stays _ | Gone | Becomes _) as target ->
-       Words.check_fit t.words;
-       go_to t s (above place case.level) target shared case.shared i);
-    1
+    take_case t s place case shared i;
+    List.iter (fun other -> take_case t s place other shared i) case.others;
+    1 + List.length case.others
   end
+
+let go_to_ends t (s : Shape.t) place step shared i =
+  let case = Cases.case t.cases step shared in
+  let ends = List.filter ends_run (case :: case.others) in
+  List.iter (fun case -> take_case t s place case shared i) ends;
+  List.length ends
 
 (* {1 All steps} *)
 
@@ -245,8 +340,10 @@ let local_status t step shared : Stubborn.status =
   let by_case () : Stubborn.status =
     match Cases.case t.cases step shared with
     | { possible = false; _ } -> Impossible
-    | { result = Ends _; _ } -> Ends
-    | { result = Stays _ | Gone | Becomes _; _ } -> Moves
+    | { certain = true; _ } as case -> if ends_run case then Ends else Moves
+    | { certain = false; _ } as case ->
+      let ends, moves = List.partition ends_run (case :: case.others) in
+      Depends { moves = moves <> []; ends = ends <> [] }
   in
   match step.dependence with
   | Free -> Moves
@@ -257,10 +354,11 @@ let local_status t step shared : Stubborn.status =
 
 let take_step t s place step shared i =
   match step.dependence with
-  | Free -> go_to t s place step.target shared shared i
+  | Free -> go_to t s place step.target shared shared i; 1
   | Guarded guard when Cases.guarded t.cases step guard shared >= 0 ->
-    go_to t s place step.target shared (Cases.guarded t.cases step guard shared) i
-  | Guarded _ | By_case -> ignore (go_by_case t s place step shared i)
+    go_to t s place step.target shared (Cases.guarded t.cases step guard shared) i;
+    1
+  | Guarded _ | By_case -> go_by_case t s place step shared i
 
 (* As [expand_all]. Which steps are enough depends on nothing but the configuration. *)
 let expand_some t (s : Shape.t) shared i =
@@ -272,14 +370,15 @@ let expand_some t (s : Shape.t) shared i =
   let go position (part : part) =
     let take k step =
       let is_chosen = match choice with None -> true | Some chosen -> chosen position k in
-      if is_chosen || components.(position).ends.(k) then
-        match status position k with
+      if is_chosen || components.(position).ends.(k) then begin
+        let status = status position k in
+        Words.check_fit t.words;
+        match status with
         | Impossible -> ()
         | Moves when not is_chosen -> ()
-        | Moves | Ends ->
-          Words.check_fit t.words;
-          incr taken;
-          take_step t s s.leaves.(position) step shared i
+        | Depends _ when not is_chosen -> taken := !taken + go_to_ends t s s.leaves.(position) step shared i
+        | Moves | Ends | Depends _ -> taken := !taken + take_step t s s.leaves.(position) step shared i
+      end
     in
     Array.iteri take part.steps
   in
@@ -292,9 +391,7 @@ let expand_some t (s : Shape.t) shared i =
 let expand_executing t i number =
   let s = Shapes.shape t.shapes number and shared = Shapes.shared t.shapes t.key.(0) in
   let taken =
-    match t.reduction with
-    | Partial_order -> expand_some t s shared i
-    | Whole -> expand_all t s shared i
+    if Reduction.by_order t.reduction then expand_some t s shared i else expand_all t s shared i
   in
   if taken = 0 then note_broken t No_deadlock i;
   taken
@@ -308,21 +405,64 @@ let rec expand t i =
   | taken -> if not t.gathering then t.transitions <- t.transitions + taken
   | exception Shapes.Outgrown ->
     flush t;
+    (* Once this has begun it must not fail. *)
+    t.reserve (States.bytes_to_rewrite t.states ~words:(States.words t.states + 1));
     repack t;
     expand t i
 
-let successors t i =
+let steps t i =
   t.gathering <- true;
   t.gathered <- [];
   expand t i;
   t.gathering <- false;
   List.rev t.gathered
 
-let create ?(reduction = Reduction.Whole) ?(compress = false) options program world =
-  let foreseen, flat = match reduction with Whole -> (None, false) | Partial_order -> (Some 0, true) in
-  let parts = Parts.create ?foreseen ~flat options program world in
+let successors t i = List.map fst (steps t i)
+
+type view = Exact of Configuration.t * Environment.t | Up_to of Symmetry.t * Symmetry.state
+
+let view t i =
+  let key = load t i in
+  let number = Shapes.number t.shapes key.(0) in
+  let exact () =
+    let c, outside = Words.read t.words key in
+    Exact (c, outside)
+  in
+  if number = 0 then exact ()
+  else
+    let s = Shapes.shape t.shapes number in
+    match s.frame.symmetry with
+    | None -> exact ()
+    | Some g ->
+      let kinds = kinds t g s key in
+      Array.sort Int.compare kinds;
+      Up_to (g, { kinds; shared = Shapes.shared t.shapes key.(0) })
+
+let folded t g (c : Configuration.t) outside : Symmetry.state option =
+  match c.control with
+  | Executing (_, r) ->
+    let rs = match r with Parallel rs -> rs | r -> [ r ] in
+    let shared = Cases.Shareds.number (Cases.shareds t.cases) (Shared.of_configuration c outside) in
+    Some (Symmetry.state g rs shared)
+  | Script _ | Waiting _ | Ended _ -> None
+
+let breaks t i =
+  let key = load t i in
+  if Shapes.number t.shapes key.(0) > 0 then None else Words.broken t.words (Shapes.shared t.shapes key.(0))
+
+let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore) options program world =
+  let foreseen = if Reduction.by_order reduction then Some 0 else None in
+  let parts = Parts.create ?foreseen ~flat:(reduction <> Whole) options program world in
   let cases = Cases.create parts in
-  let words = Words.create parts cases in
+  let shareds = Cases.shareds cases in
+  let symmetry =
+    (* Where the outside remembers vehicles, they are not alike. *)
+    if Reduction.by_symmetry reduction && not (Environment.endings_remember options) then
+      let number = Cases.Shareds.number shareds and value = Cases.Shareds.value shareds in
+      Some (Symmetry.finder options program { number; value })
+    else None
+  in
+  let words = Words.create ?find_symmetry:(Option.map Symmetry.find symmetry) parts cases in
   let t =
     {
       options;
@@ -342,6 +482,11 @@ let create ?(reduction = Reduction.Whole) ?(compress = false) options program wo
       fresh = (fun _ _ -> ());
       gathering = false;
       gathered = [];
+      symmetry;
+      kinds = Numbered.create 64;
+      parts_of_kinds = Numbered.create 64;
+      folded = [| 0 |];
+      reserve;
     }
   in
   ignore (Words.write words t.key [] (Configuration.initial program) Environment.initial);
@@ -355,9 +500,19 @@ let create ?(reduction = Reduction.Whole) ?(compress = false) options program wo
 let count t = States.count t.states
 let transitions t = t.transitions
 let parent t i = States.parent t.states i
-let coverage t = Parts.coverage t.parts
+let used_symmetry t = Option.fold ~none:false ~some:Symmetry.is_used t.symmetry
+
+(* Handlers of errors are noted when they have run, in whatever task: see [Symmetry.Unclear]. *)
+let coverage t =
+  let coverage = Parts.coverage t.parts in
+  let is_reached = function Alike.Task site -> Coverage.is_started coverage site | Code id -> Coverage.is_run coverage id in
+  let alike labels = if List.exists is_reached labels then List.iter (coverage_of_label coverage) labels in
+  Option.iter (fun finder -> Symmetry.handlers_alike finder alike) t.symmetry;
+  coverage
+
 let bytes t = States.bytes t.states
-let bytes_to_grow t = States.bytes_to_grow t.states
+let bytes_to_grow t ~by = States.bytes_to_grow t.states ~by
+let forget_waiting t = States.forget_waiting t.states
 let words t = States.words t.states
 let may_cycle t = Script_graph.may_cycle t.script
 

@@ -1,6 +1,9 @@
 open Components
 
-type status = Impossible | Moves | Ends
+type status = Impossible | Moves | Ends | Depends of { moves : bool; ends : bool }
+
+let may_move = function Moves | Depends { moves = true; _ } -> true | Impossible | Ends | Depends _ -> false
+let may_end = function Ends | Depends { ends = true; _ } -> true | Impossible | Moves | Depends _ -> false
 
 (* A component of the configuration: of the part at this position. *)
 type place = { position : int; component : component }
@@ -9,7 +12,7 @@ type place = { position : int; component : component }
    outcomes: they are noted here, and nothing follows them. *)
 let some_end_depends parts status =
   let depends position part k (f : Footprint.t) =
-    part.ends.(k) && (not (Footprint.is_blind f)) && status position k = Ends
+    part.ends.(k) && (not (Footprint.is_blind f)) && may_end (status position k)
   in
   let found = ref false in
   let look position part =
@@ -18,7 +21,8 @@ let some_end_depends parts status =
   Array.iteri look parts;
   !found
 
-let moves status place k = status place.position k = Moves
+let moves status place k = may_move (status place.position k)
+let surely_moves status place k = status place.position k = Moves
 
 (* Nothing that others do has to do with such a component. *)
 let is_free parts place =
@@ -30,12 +34,12 @@ let touches parts status place k =
   let part = parts.(place.position) in
   match if part.ends.(k) then status place.position k else Moves with
   | Ends -> Footprint.empty
-  | Impossible | Moves -> part.footprints.(k)
+  | Impossible | Moves | Depends _ -> part.footprints.(k)
 
 let conflicts parts status place f =
   let clash k =
     let own = touches parts status place k in
-    (not (Footprint.is_free own)) && Footprint.conflict ~possible:(moves status place k) own f
+    (not (Footprint.is_free own)) && Footprint.conflict ~possible:(surely_moves status place k) own f
   in
   Array.exists clash place.component.steps
 
@@ -45,7 +49,7 @@ let branch_first parts status place =
   let clash f f' = Footprint.conflict ~possible:true f f' in
   let fits i k =
     place.component.alone.(i)
-    && moves status place k
+    && surely_moves status place k
     &&
     let f = part.branches.(k) in
     (not (clash f place.component.beside))

@@ -146,7 +146,7 @@ let in_service n =
 let silent ~now ~timeout n = now -. n.last_heard >= timeout
 let unknown_position = { Position.latitude = 0.; longitude = 0.; height = 0. }
 
-let state ~now ~timeout ~payload n : World.vehicle_state =
+let state ~now ~timeout ~kind ~payload n : World.vehicle_state =
   let position =
     match n.position, n.announced_position with
     | Some (_, p), _ | None, Some p -> p
@@ -156,13 +156,15 @@ let state ~now ~timeout ~payload n : World.vehicle_state =
   let is_ready = in_service n && Execution.is_heard n.execution in
   let useful = is_ready || not (Execution.idle n.execution) in
   { id = n.name;
-    kind = Service.kind n.kind;
+    kind;
     payload = (match payload with Some devices -> devices | None -> Option.value n.entities ~default:[]);
     position;
     battery = (match n.battery with Some (_, share) -> share | None -> 1.);
     connected = is_vehicle n && useful && not (silent ~now ~timeout n) }
 
-let mode n =
+let mode ~names n =
   match n.mode with
-  | Some (_, mode) -> Message.Vehicle_state.Op_mode.name mode
+  | Some (_, mode) ->
+    let number = Message.Vehicle_state.Op_mode.to_int mode in
+    Option.value (List.assoc_opt number names) ~default:(Message.Vehicle_state.Op_mode.name mode)
   | None -> "-"

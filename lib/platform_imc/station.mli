@@ -15,6 +15,9 @@ type settings = {
   epoch : float;  (** Seconds from 1970-01-01 00:00 UTC to time 0 of [now]. *)
   first_request : int;  (** Where requests are numbered from. *)
   payload : (Core.vehicle * string list) list;  (** Devices of vehicles, in place of their entity lists. *)
+  types : (Core.vehicle * string) list;  (** Types of vehicles, in place of what they announce. *)
+  type_names : (int * string) list;  (** Of types for which IMC 5.4 has no names. *)
+  listens : bool;  (** Whether {!heard} is kept. *)
 }
 
 val create : settings -> t
@@ -93,6 +96,9 @@ type sight = {
 val sights : now:float -> t -> sight list
 (** All systems that have announced, by name. *)
 
+val heard : int -> t -> (int * Heard.entry) list
+(** [heard id s] is what the system [id] sent, read or not, if the settings say that this is kept. *)
+
 val plan : Core.vehicle -> t -> Execution.progress option
 (** What the vehicle runs for the program. *)
 
@@ -117,7 +123,7 @@ val heartbeat_interval : float
 
 val eager_heartbeat_interval : float
 (** 0.2 s to a system that has announced and not yet spoken to us: it takes notice of us by our first packet after our
-    announcement. *)
+    announcement. Entity lists that did not come are asked for again as often. *)
 
 val most_nodes : int
 (** 2000: as many systems are remembered. *)

@@ -1,30 +1,29 @@
 type workers = Automatic | Workers of int
 type mode = Local of workers | Server of { host : string; port : int }
 
-let main_module = "MC"
 let ( / ) = Filename.concat
 
 (* Java's own options. Residuals and the tasks in a program are trees, and TLC goes through them by recursion. *)
-let java (i : Installation.t) =
-  [ i.java; "-XX:+UseParallelGC"; "-Xss64m"; "-Dfile.encoding=UTF-8"; "-Duser.language=en"; "-Duser.country=US" ]
+let java (i : Installation.t) ~short =
+  (i.java :: (if short then [ "-XX:+UseSerialGC"; "-XX:TieredStopAtLevel=1" ] else [ "-XX:+UseParallelGC" ]))
+  @ [ "-Xss64m"; "-Dfile.encoding=UTF-8"; "-Duser.language=en"; "-Duser.country=US" ]
 
 let port_option port = Printf.sprintf "-Dtlc2.tool.distributed.TLCServer.port=%d" port
 
-let main (i : Installation.t) = function
+let of_mode (i : Installation.t) = function
   | Local workers ->
     let workers = match workers with Automatic -> "auto" | Workers n -> string_of_int n in
     [ "-cp"; i.jar; "tlc2.TLC"; "-workers"; workers ]
   | Server { host; port } ->
     [ "-Djava.rmi.server.hostname=" ^ host; port_option port; "-cp"; i.jar; "tlc2.tool.distributed.TLCServer" ]
 
-let command i mode ~directory ~configuration ~coverage =
-  let coverage = if coverage then [ "-coverage"; "60" ] else [] in
-  java i
+(* [-deadlock] says not to look for deadlocks: an end has no successor either, so models have an invariant for that. The
+   server does not heed what the configuration says of it. *)
+let command ?(short = false) i mode ~directory ~main ~configuration =
+  java i ~short
   @ [ "-Djava.io.tmpdir=" ^ directory ]
-  @ main i mode
-  @ [ "-tool"; "-metadir"; directory / "states"; "-config"; directory / configuration ]
-  @ coverage
-  @ [ directory / (main_module ^ ".tla") ]
+  @ of_mode i mode
+  @ [ "-tool"; "-deadlock"; "-metadir"; directory / "states"; "-config"; configuration; main ^ ".tla" ]
 
 let worker i ~host ~port =
-  java i @ [ port_option port; "-cp"; i.jar; "tlc2.tool.distributed.TLCWorker"; host ]
+  java i ~short:false @ [ port_option port; "-cp"; i.jar; "tlc2.tool.distributed.TLCWorker"; host ]

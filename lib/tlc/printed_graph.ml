@@ -29,7 +29,7 @@ let create () =
     names = []; sources = Growing.create (); edge_labels = Growing.create (); targets = Growing.create (); current = None;
     transitions = 0 }
 
-let ending_label ending = "(ended: " ^ ending ^ ")"
+let mark text = "(" ^ text ^ ")"
 let by = " by "
 let label ~rules text = if rules = "" then text else text ^ by ^ rules
 
@@ -63,16 +63,20 @@ let add g source text target =
   Growing.add g.edge_labels (label_number g text);
   Growing.add g.targets target
 
-let state g text ~ending ~program =
+let state g text ~program =
   let s = state_number g text in
   if Hashtbl.mem g.programs s then Error (Twice text)
   else begin
     Hashtbl.add g.programs s program;
     if not (Hashtbl.mem g.initial program) then Hashtbl.add g.initial program s;
-    if ending <> "" then add g s (ending_label ending) s;
     g.current <- Some s;
     Ok true
   end
+
+let marked g text =
+  match g.current with
+  | None -> Error No_state_yet
+  | Some s -> add g s (mark text) s; Ok true
 
 let transition g text ~rules target =
   match g.current with
@@ -84,12 +88,12 @@ let transition g text ~rules target =
 
 let fields g line text =
   match String.split_on_char '\t' text with
-  | [ "S"; text ] -> state g text ~ending:"" ~program:1
-  | "S" :: text :: rest -> (
-      match List.rev rest with
-      | program :: (_ :: _ as ending) when int_of_string_opt program <> None ->
-        state g text ~ending:(String.concat "\t" (List.rev ending)) ~program:(int_of_string program)
-      | _ -> Error (Not_a_line line))
+  | [ "S"; text ] -> state g text ~program:1
+  | [ "S"; text; program ] -> (
+      match int_of_string_opt program with
+      | Some program -> state g text ~program
+      | None -> Error (Not_a_line line))
+  | "M" :: mark -> marked g (String.concat "\t" mark)
   | "E" :: rest -> (
       match List.rev rest with
       | rules :: target :: (_ :: _ as label) -> transition g (String.concat "\t" (List.rev label)) ~rules target
@@ -98,7 +102,7 @@ let fields g line text =
 
 let is_ours line =
   let begins prefix = String.length line >= String.length prefix && String.sub line 0 (String.length prefix) = prefix in
-  begins {|"S\t|} || begins {|"E\t|}
+  List.exists begins [ {|"S\t|}; {|"M\t|}; {|"E\t|} ]
 
 let line g line =
   if not (is_ours line) then Ok false
@@ -158,7 +162,7 @@ let graphs g =
 
 let pp_problem ppf = function
   | Not_a_line line -> Fmt.pf ppf "this line tells of no state and no transition: %s" line
-  | No_state_yet -> Fmt.string ppf "a transition comes before any state"
+  | No_state_yet -> Fmt.string ppf "a transition or a mark comes before any state"
   | Twice state -> Fmt.pf ppf "a state comes twice: %s" state
   | No_such_state label -> Fmt.pf ppf "a transition %s leads to a state that does not come" label
   | Other_program { from; target } -> Fmt.pf ppf "a transition leads from program %d to program %d" from target

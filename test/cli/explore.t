@@ -10,7 +10,7 @@ A program whose every run is sound. Without reduction every state is looked at.
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: holds
-  36 states, 35 transitions, depth 35
+  36 states, 35 transitions, depth 35; reduced by partial order, symmetry
   $ explore ../../examples/rendezvous.dol --reduction none
   no deadlock: holds
   termination: holds
@@ -27,7 +27,7 @@ The same, if a plan may fail once.
   no unhandled error: violated after 10 steps: an error that nobody handles ends the program
   assertions: holds
   vehicles for all tasks: holds
-  45 states, 44 transitions, depth 35
+  41 states, 50 transitions, depth 35; reduced by partial order, symmetry
   
   no unhandled error: a shortest run in which an error that nobody handles ends the program
        program                                   noptilus-1                 where
@@ -55,7 +55,7 @@ A program that may wait for ever.
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: holds
-  17 states, 16 transitions, depth 6
+  17 states, 16 transitions, depth 6; reduced by partial order
   
   no deadlock: a shortest run in which nothing can happen any more, and the program has not ended
       program                        noptilus-1  where
@@ -81,7 +81,7 @@ A program that may never end.
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: holds
-  5 states, 5 transitions, depth 4
+  5 states, 5 transitions, depth 4; reduced by partial order
   
   termination: a run in which the program can go on for ever
       program   where
@@ -108,7 +108,7 @@ Code that nothing reaches is only worth a note, unless one asks for more.
   vehicles for all tasks: holds
   note: no leftover tuples: violated after 2 steps: tuples are left when the program completes
   note: all code reached: violated: no run reaches message at unreached.dol:2:19
-  3 states, 2 transitions, depth 2
+  3 states, 2 transitions, depth 2; reduced by partial order
   $ explore --strict unreached.dol
   no deadlock: holds
   termination: holds
@@ -118,7 +118,7 @@ Code that nothing reaches is only worth a note, unless one asks for more.
   no halt: holds
   no leftover tuples: violated after 2 steps: tuples are left when the program completes
   all code reached: violated: no run reaches message at unreached.dol:2:19
-  3 states, 2 transitions, depth 2
+  3 states, 2 transitions, depth 2; reduced by partial order
   
   no leftover tuples: a shortest run in which tuples are left when the program completes
       program   where
@@ -145,7 +145,7 @@ An assertion that some run breaks.
   assertions: violated after 5 steps: assertion.dol:4:5: assertion failed
   vehicles for all tasks: holds
   note: all code reached: violated: no run reaches onError at assertion.dol:3:9
-  44 states, 61 transitions, depth 9
+  44 states, 61 transitions, depth 9; reduced by partial order
   
   assertions: a shortest run in which an assertion fails
       program                        where
@@ -232,7 +232,7 @@ Formulas of temporal logic.
   formula G (start(survey1) -> F done(survey1)): holds
   formula F ended: holds
   formula !start(survey1) W bind(x8-02): holds
-  36 states, 35 transitions, depth 35
+  36 states, 35 transitions, depth 35; reduced by partial order, symmetry
   $ cat > again.dol <<'END'
   > v = pick { id 'noptilus-1' }
   > n = 0
@@ -251,7 +251,7 @@ Formulas of temporal logic.
   formula G F {n == 1}: violated: after 3 steps, 4 steps that can repeat for ever
   formula message("done") R !end: holds
   formula G (fail -> X consume(failed: 1)): holds
-  10 states, 10 transitions, depth 7
+  10 states, 10 transitions, depth 7; reduced by partial order
   
   termination: a run in which the program can go on for ever
       program                               where
@@ -350,6 +350,52 @@ The same in the Informal Trace Format: from the last state back to state 3.
   {'index': 5, 'label': 'fail(noptilus-1, a, failure)', 'rules': ['FAIL', 'WATCH-IGNORE', 'EXECUTE-DONE']} script {'#map': []} ['noptilus-1'] {'#map': [['failed', [{'#bigint': '1'}]]]}
   {'index': 6, 'label': 'consume failed:1', 'rules': ['CONSUME']} script {'#map': []} ['noptilus-1'] {'#map': []}
 
+Where states stand for others that are alike, runs have the names that the program gives.
+
+  $ cat > alike.dol << 'END'
+  > vs = pick { count 3; type 'UUV' }
+  > def T(i) { imcPlan('a' + i) >> action { post ready:i } }
+  > execute (T(1) | T(2) | T(3) | waitFor { consume ready:_ } then idle(1)) >> condition { !poll(ready:2) }
+  > END
+  $ explore alike.dol --reduction symmetry --trace alike.run | tail -n 20
+  note: no leftover tuples: violated after 16 steps: tuples are left when the program completes
+  106 states, 231 transitions, depth 16; reduced by symmetry
+  
+  no deadlock: a shortest run in which nothing can happen any more, and the program has not ended
+       program                                   noptilus-1  noptilus-2  noptilus-3  where
+   1   pick(3 vehicles of type 'UUV')                                                alike.dol:1
+   2   picks noptilus-1, noptilus-2, noptilus-3                                      alike.dol:1
+   3   execute                                                                       alike.dol:3
+   4                                             starts a1                           alike.dol:2
+   5                                             ends a1                             alike.dol:2
+   6   act(post ready:1)                                                             alike.dol:3
+   7                                                         starts a2               alike.dol:2
+   8                                                         ends a2                 alike.dol:2
+   9   act(post ready:2)                                                             alike.dol:3
+  10                                                                     starts a3   alike.dol:2
+  11                                                                     ends a3     alike.dol:2
+  12   act(post ready:3)                                                             alike.dol:3
+  13   check(consume ready:1)                                                        alike.dol:3
+  14   timeout                                                                       alike.dol:3
+  waits for the condition at alike.dol:3:86
+  $ dolphin exec alike.dol --follow alike.run
+  breaks: no deadlock
+     2  program     picks noptilus-1, noptilus-2, noptilus-3
+     4  noptilus-1  starts a1
+     5  noptilus-1  ends a1
+     6  program     posts ready:1
+     7  noptilus-2  starts a2
+     8  noptilus-2  ends a2
+     9  program     posts ready:2
+    10  noptilus-3  starts a3
+    11  noptilus-3  ends a3
+    12  program     posts ready:3
+    13  program     consumes ready:1
+    14  program     idled long enough
+        here the recorded run stops
+  $ explore alike.dol --reduction none | grep depth
+  187 states, 406 transitions, depth 16
+
 It does not fit another program, and no other file is one.
 
   $ dolphin exec deadlock.dol --follow assertion.run
@@ -412,8 +458,8 @@ What cannot be explored.
   $ dolphin explore missing.dol
   dolphin: missing.dol: No such file or directory
   [2]
-  $ dolphin explore round.dol --faults loss
-  dolphin: option '--faults': 'loss' is neither fail nor fail=NUMBER
+  $ dolphin explore round.dol --faults lost=1
+  dolphin: option '--faults': there is no fault 'lost': did you mean loss?
   Usage: dolphin explore [OPTION]… PROG
   Try 'dolphin explore --help' or 'dolphin --help' for more information.
   [2]

@@ -10,8 +10,8 @@ import os
 import re
 import sys
 
-KNOWN = {"$schema", "$defs", "$ref", "title", "type", "properties", "required", "additionalProperties", "items", "oneOf",
-         "not", "enum", "const", "pattern", "minimum", "maximum", "minItems", "minProperties", "minLength"}
+KNOWN = {"$schema", "$defs", "$ref", "title", "type", "properties", "required", "additionalProperties", "items",
+         "oneOf", "not", "enum", "const", "pattern", "minimum", "maximum", "minItems", "minProperties", "minLength"}
 TYPES = {"object": dict, "array": list, "string": str, "boolean": bool, "null": type(None)}
 DOCUMENTS = {}
 

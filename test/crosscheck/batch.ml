@@ -7,13 +7,11 @@ type result = { case : Case.t; states : int; transitions : int; verdict : verdic
 
 type t = {
   results : result list;
-  distinct : int;
-  generated : int;
   warnings : string list;
   used : (string * int) list;
 }
 
-type prepared = { case : Case.t; graph : Graph.t; constants : Family.constant list }
+type prepared = { case : Case.t; graph : Graph.t; transitions : int; constants : Family.constant list }
 type unfit = Refused of string | Too_large
 
 let prepare ~limit (case : Case.t) =
@@ -22,10 +20,9 @@ let prepare ~limit (case : Case.t) =
   | Ok constants -> (
       match Reference.explore ~limit case.environment case.program case.world with
       | None -> Error Too_large
-      | Some space -> Ok { case; graph = Explored.graph space; constants })
+      | Some space -> Ok { case; graph = Explored.graph space; transitions = Reference.transitions space; constants })
 
 let case p = p.case
-let states p = Graph.states p.graph
 
 (* {1 Running TLC} *)
 
@@ -51,7 +48,7 @@ type reading = { mutable messages : Message.reader; mutable outcome : Outcome.re
                  mutable warnings : string list; printed : Printed_graph.t }
 
 (* SANY's warnings are lines of its own. *)
-let is_warning text = Event.number_after "*** Warnings: " text <> None || Event.number_after "Warning: line " text <> None
+let is_warning text = Event.number_after "*** Warnings: " text <> None
 
 let take r message =
   let event = Event.of_message message in
@@ -72,12 +69,14 @@ let line r text =
 
 let explore installation directory =
   let r =
-    { messages = Message.start; outcome = Outcome.start; problem = None; warnings = []; printed = Printed_graph.create () }
+    { messages = Message.start; outcome = Outcome.start; problem = None; warnings = [];
+      printed = Printed_graph.create () }
   in
   let command =
-    Invocation.command installation (Local (Workers 1)) ~directory ~configuration:Family.configuration ~coverage:false
+    Invocation.command ~short:true installation (Local (Workers 1)) ~directory ~main:"MC"
+      ~configuration:Family.configuration
   in
-  ignore (Process.run ~interrupted:(fun () -> false) (line r) command : Process.ending);
+  ignore (Process.run ~directory ~interrupted:(fun () -> false) (line r) command : Process.ending);
   List.iter (take r) (Message.finish r.messages);
   r
 
@@ -96,7 +95,7 @@ let judge graphs i p =
     | Some theirs -> (
         match Compare.isomorphic p.graph theirs with Ok () -> Agrees | Error difference -> Differs difference)
   in
-  { case = p.case; states = Graph.states p.graph; transitions = Graph.transitions p.graph; verdict }
+  { case = p.case; states = Graph.states p.graph; transitions = p.transitions; verdict }
 
 let conclude prepared r =
   let o = Outcome.finish r.outcome in
@@ -112,8 +111,7 @@ let conclude prepared r =
          (o.generated - List.length prepared) states transitions)
   | None, Holds, Ok graphs ->
     Ok
-      { results = List.mapi (judge graphs) prepared; distinct = o.distinct; generated = o.generated; warnings = List.rev r.warnings;
-        used = rules_of graphs }
+      { results = List.mapi (judge graphs) prepared; warnings = List.rev r.warnings; used = rules_of graphs }
 
 let run installation ~specification prepared =
   Result.bind (Family.files ~specification (List.map (fun p -> p.constants) prepared)) (fun files ->

@@ -1,6 +1,8 @@
 open Dolphin_syntax
 open Dolphin_semantics
 module Environment = Dolphin_explore.Environment
+module Faults = Dolphin_explore.Faults
+module World_of = Dolphin_explore.World_of
 module Generate = Test_support.Generate
 module Scenario = Dolphin_scenario.Scenario
 
@@ -68,7 +70,7 @@ let scenario_beside path =
     | Error ds -> failwith (Format.asprintf "%a" (Fmt.list (Diagnostic.pp ~source:(read fleet))) ds)
 
 let in_scenario name source program (scenario : Scenario.t) faults =
-  { name; source; program; world = World_of.world scenario;
+  { name; source; program; world = World_of.still scenario;
     environment = World_of.environment ~answers:[] ~faults scenario;
     plans = List.map (fun (p : Scenario.plan) -> p.name) scenario.plans;
     prompts = List.map (fun (a : Scenario.answer) -> a.prompt) scenario.answers }
@@ -77,8 +79,8 @@ let example directory file =
   let path = Filename.concat directory file in
   let source = read path in
   let program = compiled path source and scenario = scenario_beside path in
-  [ in_scenario file source program scenario None;
-    in_scenario (file ^ ", with failures") source program scenario (Some None) ]
+  [ in_scenario file source program scenario Faults.none;
+    in_scenario (file ^ ", with failures") source program scenario { Faults.none with fail = Any_number } ]
 
 let examples directory =
   let files = List.filter (fun f -> Filename.check_suffix f ".dol") (Array.to_list (Sys.readdir directory)) in
@@ -86,15 +88,16 @@ let examples directory =
 
 (* {1 Traps} *)
 
-let trap name source =
+let trap ?failures name source =
   let name = "trap: " ^ name in
-  let world = Generate.world and environment = Environment.failing answering in
+  let world = Generate.world and environment = Environment.failing ?failures answering in
   { name; source; program = compiled "trap.dol" source; world; environment; plans = []; prompts = [] }
 
 let two = "a = pick { id 'a' }; b = pick { id 'b' }\n"
 
 let traps =
-  List.map
+  trap "at most one failure" ~failures:1 (two ^ "execute watch (task('p')[a] >> task('q')[b]) onError { ignore() }\nexecute task('p')[a]")
+  :: List.map
     (fun (name, source) -> trap name source)
     [ ("vehicles that a failure stops are free again",
        two ^ "execute (watch (task('p')[a] | task('q')[b]) onError { ignore() }) >> (task('q')[a] | task('p')[b])");
@@ -102,6 +105,11 @@ let traps =
        two ^ "execute watch (until { 1 / 0 > 1 } run task('p')[a]) onError { ignore() }");
       ("a guard does not take a part", "post x: 1\nexecute condition { consume x: 1, y: 1 } | action { post y: 1 } >> condition { consume x: 1 }");
       ("code that breaks leaves nothing", "x = 0\nexecute watch (action { post k: 1; x = 1; y = 1 / 0 }) onError { ignore() }\nif (poll(k: 1) || x == 1) { message 'left' }");
+      ("a handler that breaks leaves nothing", two ^ "execute watch (watch task('p')[a] onError { post k: 1; 1 / 0 }) onError { ignore() }\nif (poll(k: 1)) { message 'left' }");
+      ("a guard that is false did nothing", "post k: 1\nexecute condition { consume k: 1; false } | condition { poll k: 1 }");
+      ("until stops what runs, or what did not start", two ^ "execute (until { poll x: 1 } run (task('p')[a] >> task('q')[a])) | action { post x: 1 }");
+      ("an error leaves out what would follow", two ^ "execute watch (task('p')[a] >> task('q')[b] >> task('q')[a]) onError { ignore() }");
+      ("a handler that does nothing propagates", two ^ "execute watch task('p')[a] onError { post k: 1 }");
       ("the oldest pair", "post k: 1\npost k: 2\nexecute condition { consume k: _ } >> condition { consume k: 2 }");
       ("a pair twice is there twice", "post k: 1\npost k: 1\nexecute condition { consume k: 1 } >> condition { consume k: 1 }");
       ("a handler's deeds", two ^ "execute watch task('p')[a] onError { post failed: 1; ignore() }\nif (consume(failed: 1)) { message 'seen' }");

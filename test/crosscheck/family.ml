@@ -53,20 +53,11 @@ let model_module count =
 EXTENDS Dolphin
 FamilyInit == which \in 1 .. %d /\ Init
 FamilyNext == which' = which /\ Next
-NoTuplesLeft == (\A k \in OrderedKeys : N.queue[k] = << >>) /\ DOMAIN N.bag = { }
-EndingText ==
-  CASE control.at # "end" -> ""
-    [] control.ending.how = "completed" -> IF NoTuplesLeft THEN "completed" ELSE "completed, with tuples left"
-    [] OTHER -> control.ending.how \o ": " \o control.ending.message
-Here == ToString(which) \o ": "
-PrintFamily ==
-  /\ PrintT("S\t" \o Here \o StateText(control, Shared, outside) \o "\t" \o EndingText \o "\t" \o ToString(which))
-  /\ \A ts \in { Transitions } : \A j \in DOMAIN ts :
-       PrintT("E\t" \o ts[j].label \o "\t" \o Here \o StateText(ts[j].control, ts[j].S, OutsideAfter(ts[j].cause))
-              \o "\t" \o Join(ts[j].rules, ", "))
+%s
+PrintFamily == PrintGraphOf(which)
 ====
 |}
-    count
+    count Dolphin_tla.Run.printing
 
 let files ~specification programs =
   if not (List.mem_assoc lowest specification) then Error ("there is no " ^ lowest ^ " in the specification")

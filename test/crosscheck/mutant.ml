@@ -24,16 +24,16 @@ let all =
       file = rules;
       pattern = {|<< "timer", r.timer >>, Cut(S, r.body), Done_, << >>)|};
       replacement = {|<< "timer", r.timer >>, S, Done_, << >>)|} };
-    { name = "a fault leaves what the code did before";
+    { name = "a handler that breaks leaves what it did before";
       file = rules;
       pattern = {|result("fault", m.stop[2], m.verdict, S, << >>)|};
       replacement = {|result("fault", m.stop[2], m.verdict, After(S, m), << >>)|} };
-    { name = "a guard that is false is not there, but takes effect: not atomic";
+    { name = "a guard that is false takes effect";
       file = rules;
-      pattern = {|IfTrue(run, steps) == IF Truth(run.value) THEN steps ELSE << >>|};
+      pattern = {|    [] ~Truth(run.value) -> << >>|};
       replacement =
-        {|IfTrue(run, steps) == IF Truth(run.value) THEN steps ELSE
-  IF run.deeds = << >> THEN << >> ELSE << Step("CONDITION", "check", Program, run.S, Done_, << >>) >>|} };
+        {|    [] ~Truth(run.value) ->
+         IF run.deeds = << >> THEN << >> ELSE << Step("CONDITION", "check", Program, run.S, Next_(r), << >>) >>|} };
     { name = "consume takes some of the pairs if not all are there";
       file = machine;
       pattern = {|          THEN LET y == Taken(N, k, x) IN TakeAll(WithoutPair(N, k, y), Tail(pairs), Append(taken, << k, y >>))
@@ -75,9 +75,8 @@ let all =
       replacement = {|ALLOF_2(s, bs) == By(s, "ALLOF-2", Done_)|} };
     { name = "until is ignored before the first step";
       file = rules;
-      pattern = {|         CodeSteps(S, r.guard, LAMBDA run : IfTrue(run, << UNTIL_CUT(run, r.body) >>),|};
-      replacement =
-        {|         CodeSteps(S, r.guard, LAMBDA run : IfTrue(run, IF r.body.op = "ready" THEN << >> ELSE << UNTIL_CUT(run, r.body) >>),|} };
+      pattern = {|    [] r.op = "until" -> << UNTIL_CUT(run, r.body) >>|};
+      replacement = {|    [] r.op = "until" -> IF r.body.op = "ready" THEN << >> ELSE << UNTIL_CUT(run, r.body) >>|} };
     { name = "the timer of a during outlives its task";
       file = rules;
       pattern = {|DURING_2(s) == By(s, "DURING-2", Done_)|};
@@ -112,10 +111,8 @@ let all =
       replacement = {|           TRUE }|} };
     { name = "an assertion that fails is an error";
       file = rules;
-      pattern = {|  IN CASE run.is = "value" -> IfValue(run)
-       [] run.is = "fault" -> IF run.value.assertion THEN << ASSERT_ERR(S, run.value) >> ELSE << IfFault(run.value) >>|};
-      replacement = {|  IN CASE run.is = "value" -> IfValue(run)
-       [] run.is = "fault" -> << IfFault(run.value) >>|} };
+      pattern = {|IF run.value.assertion THEN ASSERT_ERR(S, run.value) ELSE WithFault(S, r, run.value)|};
+      replacement = {|WithFault(S, r, run.value)|} };
     { name = "failures are not counted";
       file = rules;
       pattern = {|         [ outside EXCEPT !.failed = @ + 1 ]|};

@@ -5,11 +5,12 @@ open Dolphin_explore
 
 type t = {
   whole : int;  (** states *)
-  reduced : int;
+  reduced : int;  (** by the last reduction *)
   broken : Property.t list;
 }
 
-val check : ?limit:int -> Environment.options -> Core.program -> World.t -> (t option, string) result
-(** [check o p w] is an error unless both searches find the same properties broken, the same code unreached, and each
-    run that the reduced one shows is one of the semantics that ends as it should. [None] if the program has more than
+val check :
+  ?limit:int -> ?reductions:Reduction.t list -> Environment.options -> Core.program -> World.t -> (t option, string) result
+(** [check ~reductions o p w] is an error unless all searches, plain and with each of the reductions (at first
+    [Partial_order], [Symmetry], [All]), find the same properties broken, the same code unreached, and each run that a reduced one shows is one of the semantics that ends as it should. [None] if the program has more than
     [limit] states. *)

@@ -13,7 +13,7 @@ c = pick { id 'c' }
 let plain = Environment.default
 let failing = Environment.failing plain
 
-let check ?(environment = plain) text =
+let check ?(environment = plain) ?(world = world) text =
   match Agreement.check environment (Pure_run.compile_exn (picks ^ text)) world with
   | Ok (Some found) -> found
   | Ok None -> Alcotest.fail "too large"
@@ -21,8 +21,8 @@ let check ?(environment = plain) text =
 
 let property = Alcotest.testable Dolphin_explore.Property.pp ( = )
 
-let breaks name ?environment expected text =
-  let test () = Alcotest.(check (list property)) name expected (check ?environment text).broken in
+let breaks name ?environment ?world expected text =
+  let test () = Alcotest.(check (list property)) name expected (check ?environment ?world text).broken in
   Alcotest.test_case name `Quick test
 
 let saves name ?environment most text =
@@ -121,6 +121,18 @@ let traps =
       {|post x: 1, y: 1
         execute allOf { when { post z: 1 ; consume x: 1 } then task('p')[a]
                         when { consume y: 1 } then condition { consume z: 1 } }|};
+    breaks "a guard that may hold now, and otherwise could later" ~world:Test_support.Generate.open_world
+      [ No_halt; No_leftover ]
+      {|post x: 1
+        execute condition { consume x: (battery(a) < 0.3 ? 1 : 2) } | action { post x: 2 }
+        if (poll(x: 1)) { halt 'it waited' }|};
+    breaks "code that may end the run, or go on" ~world:Test_support.Generate.open_world [ No_halt; No_leftover ]
+      {|execute action { if (battery(a) < 0.3) { halt 'low' } ; post x: 1 } | action { post x: 2 }|};
+    breaks "a lost vehicle that is looked for again" ~environment:{ plain with losses = At_most 1 }
+      [ No_error; Vehicles ]
+      {|execute (watch task('p')[a] onError { ignore() }) | task('q')[b]
+        release a
+        v = pick { id 'a' }|};
     breaks "who posts first" [ No_halt ]
       {|execute action { post x: 1 } | action { post x: 2 }
         consume x: _
@@ -145,6 +157,114 @@ let traps =
         consume x: 1|};
   ]
 
+(* Copies that are not interchangeable, or not all the way. *)
+let copies =
+  [
+    breaks "the script asks for one of the copies' pairs" [ No_halt ]
+      {|execute (task('p')[a] >> oneOf { when { true } then action { post x: 1 }
+                                          when { true } then action { } }) |
+                (task('q')[b] >> oneOf { when { true } then action { post x: 2 }
+                                          when { true } then action { } })
+        if (poll(x: 2) && !poll(x: 1)) { consume x: 2 ; halt 'only 2' }
+        if (poll(x: 1)) { consume x: 1 }
+        if (poll(x: 2)) { consume x: 2 }|};
+    breaks "one copy's pair is there from the start" [ No_leftover ]
+      {|post x: 1
+        execute (task('p')[a] >> action { post x: 1 }) | (task('q')[b] >> action { post x: 2 }) |
+          (condition { consume x: 1 } >> condition { consume x: 2 })|};
+    breaks "the oldest pair of two" [ No_halt; No_leftover ]
+      {|execute action { post x: 1 } | action { post x: 2 }
+        consume x: _
+        if (poll(x: 1)) { halt '2 was first' }|};
+    breaks "code asks for one copy's pair only" [ No_halt ]
+      {|execute (task('p')[a] >> action { post x: 1 }) | (task('q')[b] >> action { post x: 2 }) |
+          (task('r')[c] >> action { if (poll(x: 2) && !poll(x: 1)) { halt 'h' } })
+        consume x: 1
+        consume x: 2|};
+    breaks "a computed pair" [ No_halt ]
+      {|def look(i) { if (poll(x: i) && !poll(x: 1)) { halt 'h' } }
+        execute (task('p')[a] >> action { post x: 1 }) | (task('q')[b] >> action { post x: 2 }) | action { look(2) }
+        consume x: 1
+        consume x: 2|};
+    breaks "another computed pair" [ No_halt ]
+      {|def look(i) { if (poll(x: i) && !poll(x: 2)) { halt 'h' } }
+        execute (task('p')[a] >> action { post x: 1 }) | (task('q')[b] >> action { post x: 2 }) | action { look(1) }
+        consume x: 1
+        consume x: 2|};
+    breaks "another handler that reads the error" ~environment:failing [ No_error; No_halt ]
+      {|execute watch (task('p')[a] | task('q')[b]) onError { if (it == 'p failed on a: failure') { halt 'p' } }|};
+    breaks "the other one of the vehicles fails"
+      ~environment:{ plain with endings = (fun v _ -> if v = "a" then Fails else Succeeds) }
+      [ No_error ]
+      {|execute (task('p')[a] >> action { post x: 1 }) | (task('q')[b] >> action { post x: 2 } >> condition { consume x: 1 })|};
+    breaks "tasks that are alike before, and all begun" []
+      {|s = task('p')[a] >> action { message 's' }
+        t = task('q')[b] >> action { message 't' }
+        execute s | t
+        execute s|};
+    breaks "handlers that are alike before" ~environment:failing [ No_error ]
+      {|s = watch task('p')[a] onError { message 's' }
+        t = watch task('q')[b] onError { message 't' }
+        execute until { true } run oneOf { when { consume x: 1 } then s
+                                           when { consume x: 2 } then t }
+        execute s|};
+    breaks "handlers that are alike, and all run" ~environment:failing [ No_error ]
+      {|s = watch task('p')[a] onError { message 's' }
+        t = watch task('q')[b] onError { message 't' }
+        execute s | t
+        execute s|};
+    breaks "tasks that are alike later, and only one of them begun" []
+      {|s = task('p')[a]
+        t = task('q')[b]
+        execute s
+        execute until { true } run oneOf { when { consume x: 1 } then s
+                                           when { consume x: 2 } then t }|};
+    breaks "tasks that are alike before, and only one of them begun" []
+      {|s = task('p')[a]
+        t = task('q')[b]
+        execute until { true } run oneOf { when { consume x: 1 } then s
+                                           when { consume x: 2 } then t }
+        execute s|};
+    breaks "a handler that reads the error" ~environment:failing [ No_error; No_halt ]
+      {|execute watch (task('p')[a] | task('q')[b]) onError { if (it.contains('q')) { halt 'q' } }|};
+    breaks "one of the vehicles fails"
+      ~environment:{ plain with endings = (fun v _ -> if v = "b" then Fails else Succeeds) }
+      [ No_leftover ]
+      {|execute (watch task('p')[a] onError { ignore() }) | (watch task('q')[b] onError { post x: 1 ; ignore() })|};
+    breaks "numbers that are counted with" [ No_halt ]
+      {|g = 0
+        execute (task('p')[a] >> action { g = g + 1 }) | (task('q')[b] >> action { g = g + 2 }) |
+          action { if (g == 2) { halt 'h' } }|};
+    breaks "the same code alike here, and not there" [ No_deadlock ]
+      {|def both() { execute (task('p')[a] >> condition { consume x: 1 }) | (task('q')[b] >> condition { consume x: 2 }) }
+        post x: 1, x: 2
+        both()
+        post x: 1
+        both()|};
+    breaks "a task of one copy never comes to its turn" [ No_leftover ]
+      {|post x: 1
+        execute oneOf { when { consume x: 1 } then task('p')[a]
+                        when { consume x: 2 } then task('q')[b] }
+        post x: 3|};
+    breaks "who was left over matters later" [ No_deadlock; No_halt ]
+      {|post x: 1, x: 2, x: 3
+        execute oneOf { when { consume x: 1 } then task('p')[a]
+                        when { consume x: 2 } then task('q')[a]
+                        when { consume x: 3 } then task('r')[a] }
+        if (!poll(x: 3)) { halt 'three' }
+        execute condition { consume x: 1 }
+        execute condition { consume x: 2 }
+        consume x: 3|};
+    breaks "around and around, with other ones each time" [ Termination ]
+      {|post x: 1, x: 2
+        while (true) {
+          execute oneOf { when { consume x: 1 } then action { post y: 1 }
+                          when { consume x: 2 } then action { post y: 2 } }
+          execute oneOf { when { consume y: 1 } then action { post x: 1 }
+                          when { consume y: 2 } then action { post x: 2 } }
+        }|};
+  ]
+
 let fleet n =
   let each separator f = String.concat separator (List.init n (fun i -> f (i + 1))) in
   let vehicle i = List.nth [ "a"; "b" ] (i - 1) in
@@ -160,7 +280,14 @@ let savings =
     saves "a rendezvous under watch" ~environment:failing 32
       (Printf.sprintf "t = %s\nexecute watch t onError { message 'failed' ; halt 'h' }"
          (String.sub (fleet 2) 8 (String.length (fleet 2) - 8)));
+    saves "copies that start with a choice" 40
+      {|execute (task('p')[a] >> action { post x: 1 } >> condition { consume x: 1 }) |
+          (task('q')[b] >> action { post x: 2 } >> condition { consume x: 2 }) |
+          (task('r')[c] >> action { post x: 3 } >> condition { consume x: 3 })|};
+    saves "copies that take from each other" 40
+      {|post x: 1, x: 2, x: 3
+        execute condition { consume x: _ } | condition { consume x: _ } | condition { consume x: _ }|};
     saves "parts of a sequence" 15 "execute (task('p')[a] | task('q')[b]) >> task('r')[c]";
   ]
 
-let () = Alcotest.run "reduction by hand" [ ("traps", traps); ("savings", savings) ]
+let () = Alcotest.run "reduction by hand" [ ("traps", traps); ("copies", copies); ("savings", savings) ]

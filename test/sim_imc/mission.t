@@ -79,3 +79,13 @@ A plan that fails, and plans that are refused.
   status 1
   $ grep -o 'failed on .*' errors.txt | sed 's/noptilus-[12]/one/' | head -1
   failed on one: unwell
+
+The programs that ran did what the semantics allows.
+
+  $ check-journals
+
+The mission of the paper, while the network loses, doubles and reorders.
+
+  $ ../../bench/imc_platform/lossy.py --runs 1 "$(command -v dolphin)" | grep -E 'completed|sent again' | sed 's/, in .*//'
+  1 of 1 missions completed
+  requests sent again to a vehicle that had taken them: 0

@@ -69,7 +69,8 @@ let contradiction how ~sim ~follow ~resumed ~changed =
   else if changed && resumed = None then Some "--force-prefix goes with --resume"
   else None
 
-let run path sim fleet network definition speed seed answers supplier supplier_timeout journal drawing follow resumed changed =
+let run path sim fleet network definition speed seed answers supplier supplier_timeout journal drawing follow resumed
+    changed =
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
   let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
   let how = { network; named; speed; seed; answers; supplier; supplier_timeout; journal; drawing } in
@@ -161,8 +162,8 @@ let follow =
 let resumed =
   let doc =
     "Go on with the run whose journal is the file $(docv), and whose console died. What it has done is not done again: \
-     vehicles are asked what they run, plans that run are waited for, those that ended meanwhile are taken as ended, those that \
-     were never started are started. The journal is gone on with in the same file, or with $(b,--journal) in another \
+     vehicles are asked what they run, plans that run are waited for, those that ended meanwhile are taken as \
+     ended, those that were never started are started. The journal is gone on with in the same file, or with $(b,--journal) in another \
      one. $(i,docs/trace.md) tells more."
   in
   Arg.(value & opt (some string) None & info [ "resume" ] ~docv:"RUN" ~doc)

@@ -242,18 +242,19 @@ let expand_all t (s : Shape.t) shared i =
 (* {1 Steps that are enough} *)
 
 let local_status t step shared : Stubborn.status =
+  let moves level target = Stubborn.Moves { level; gone = (match target with Gone -> true | Stays _ | Becomes _ | Ends _ -> false) } in
   let by_case () : Stubborn.status =
     match Cases.case t.cases step shared with
     | { possible = false; _ } -> Impossible
     | { result = Ends _; _ } -> Ends
-    | { result = Stays _ | Gone | Becomes _; _ } -> Moves
+    | { result = (Stays _ | Gone | Becomes _) as target; level; _ } -> moves level target
   in
   match step.dependence with
-  | Free -> Moves
+  | Free -> moves 0 step.target
   | By_case -> by_case ()
   | Guarded guard ->
     let result = Cases.guarded t.cases step guard shared in
-    if result >= 0 then Moves else if result = special then by_case () else Impossible
+    if result >= 0 then moves 0 step.target else if result = special then by_case () else Impossible
 
 let take_step t s place step shared i =
   match step.dependence with
@@ -262,28 +263,40 @@ let take_step t s place step shared i =
     go_to t s place step.target shared (Cases.guarded t.cases step guard shared) i
   | Guarded _ | By_case -> ignore (go_by_case t s place step shared i)
 
+(* Parts and nests, with their steps. *)
+let components t (s : Shape.t) =
+  let part position place =
+    let part = part_at t s position in
+    ({ Stubborn.place; analysis = Parts.components t.parts part }, part.steps)
+  in
+  let nest (place : Shape.place) =
+    let steps = cuts t place in
+    let of_path path = ({ Stubborn.place; analysis = Parts.cuts_components t.parts path }, steps) in
+    if Array.length steps = 0 then None else Option.map of_path place.inside
+  in
+  Array.append (Array.mapi part s.leaves) (Array.of_list (List.filter_map nest (Array.to_list s.nests)))
+
 (* As [expand_all]. Which steps are enough depends on nothing but the configuration. *)
 let expand_some t (s : Shape.t) shared i =
-  let parts = Array.init (Array.length s.families) (part_at t s) in
-  let status position k = local_status t parts.(position).steps.(k) shared in
-  let components = Array.map (Parts.components t.parts) parts in
-  let choice = Stubborn.choose components status in
+  let components = components t s in
+  let status x k = local_status t (snd components.(x)).(k) shared in
+  let choice = Stubborn.choose (Array.map fst components) status in
   let taken = ref 0 in
-  let go position (part : part) =
+  let go x ({ Stubborn.place; analysis }, steps) =
     let take k step =
-      let is_chosen = match choice with None -> true | Some chosen -> chosen position k in
-      if is_chosen || components.(position).ends.(k) then
-        match status position k with
+      let is_chosen = match choice with None -> true | Some chosen -> chosen x k in
+      if is_chosen || analysis.ends.(k) then
+        match status x k with
         | Impossible -> ()
-        | Moves when not is_chosen -> ()
-        | Moves | Ends ->
+        | Moves _ when not is_chosen -> ()
+        | Moves _ | Ends ->
           Words.check_fit t.words;
           incr taken;
-          take_step t s s.leaves.(position) step shared i
+          take_step t s place step shared i
     in
-    Array.iteri take part.steps
+    Array.iteri take steps
   in
-  Array.iteri go parts;
+  Array.iteri go components;
   Words.check_fit t.words;
   !taken
 
@@ -319,8 +332,8 @@ let successors t i =
   List.rev t.gathered
 
 let create ?(reduction = Reduction.Whole) options program world =
-  let foreseen, flat = match reduction with Whole -> (None, false) | Partial_order -> (Some 0, true) in
-  let parts = Parts.create ?foreseen ~flat options program world in
+  let foreseen = match reduction with Whole -> None | Partial_order -> Some 0 in
+  let parts = Parts.create ?foreseen options program world in
   let cases = Cases.create parts in
   let words = Words.create parts cases in
   let t =

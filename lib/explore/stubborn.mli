@@ -1,9 +1,17 @@
-(** Which steps of an executing configuration are enough: a persistent set. docs/explorer.md says why. *)
+(** Which steps of an executing configuration are enough: a persistent set, as far as what is cut off allows.
+    docs/explorer.md says why. *)
 
-(** What a step of a part does where it stands. *)
-type status = Impossible | Moves | Ends  (** the run *)
+(** What a step does where it stands. *)
+type status =
+  | Impossible
+  | Moves of { level : int; gone : bool }
+  (** something takes the place of the component (level 0), or of the nest so many levels above, or it is [gone] *)
+  | Ends  (** the run *)
 
-val choose : Components.t array -> (int -> int -> status) -> (int -> int -> bool) option
-(** [choose parts status] is, for the parts that stand side by side, which of the steps that move are enough, or
-    [None] if all are needed. Steps are told by position of their part, and place in its [footprints]. [status] is
-    asked only as far as needed. Steps that end the run are to be taken in any case. *)
+(** A part, or a nest with its cuts. *)
+type component = { place : Shape.place; analysis : Components.t }
+
+val choose : component array -> (int -> int -> status) -> (int -> int -> bool) option
+(** [choose components status] is which of the steps that move are enough, or [None] if all are needed. Steps are told
+    by index of their component, and place in its [footprints]. [status] is asked only as far as needed. Steps that end
+    the run are to be taken in any case. *)

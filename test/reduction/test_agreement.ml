@@ -49,6 +49,14 @@ let side_by_side =
   let before = List.map (fun (k, x) -> Generate.statement (Generate.post k x)) posts in
   return (Generate.executing ~before task)
 
+(* Tasks side by side inside of [until], [during], [watch] ..., and so again. *)
+let nested =
+  let open QCheck2.Gen in
+  let* depth = int_range 0 2 in
+  let* posts = oneofl [ []; [ ("x", 1) ]; [ ("y", 2); ("x", 2) ] ] in
+  let before = List.map (fun (k, x) -> Generate.statement (Generate.post k x)) posts in
+  map (Generate.executing ~before) (Generate.nested ~vehicles:Generate.vehicles ~depth)
+
 let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]) }
 
 let failing_vehicle v : Environment.options =
@@ -65,7 +73,7 @@ let case =
   let open QCheck2.Gen in
   pair
     (frequency
-       [ (1, Generate.program); (1, map for_ever Generate.program); (3, side_by_side) ])
+       [ (1, Generate.program); (1, map for_ever Generate.program); (2, side_by_side); (4, nested) ])
     (oneofl environments)
 
 let print (program, (name, _)) = Printf.sprintf "%s:\n%s" name (Generate.print program)

@@ -4,7 +4,6 @@ open Core
 type t = {
   footprints : Footprint.t array;
   ends : bool array;
-  steady : bool array;
   futures : Footprint.t array;
   kills : bool array;
   alone : Footprint.t option array;
@@ -142,15 +141,9 @@ let analyse c nests first alone steps =
   let kill level contexts = futures.(level).breaks && List.exists ignores (handlers_of c contexts) in
   let footprints = Array.map (footprint c) steps in
   let may_end (f : Footprint.t) = f.breaks || f.halts in
-  let is_steady step =
-    match step.source.offer, step.event, c.options.failures with
-    | End_of (p, v), Some (Vehicle_failed _), Some _ -> c.options.endings v p.name = Fails
-    | _, _, _ -> true
-  in
   {
     footprints;
     ends = Array.map may_end footprints;
-    steady = Array.map is_steady steps;
     futures;
     kills = Array.of_list (false :: List.mapi kill nests);
     alone = Array.map (fun step -> Option.join (List.nth_opt alone step.index)) steps;

@@ -7,7 +7,6 @@ open Dolphin_semantics
 type t = {
   footprints : Footprint.t array;  (** of each step *)
   ends : bool array;  (** by step: whether it may end the run *)
-  steady : bool array;  (** by step: whether failures elsewhere cannot use up the ones it needs *)
   futures : Footprint.t array;
   (** by level: all that the component may do until it is over, with what follows it inside of so many nests *)
   kills : bool array;

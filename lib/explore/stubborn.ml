@@ -94,14 +94,15 @@ let is_in_the_way t x k y =
     || ((not (is_traceless f)) && may_cut_off t y x)
     || (ends_nest && not (Array.for_all is_idle_cut other.analysis.footprints))
 
-(* The key of [x] that most others leave alone, with those that do not. *)
+(* The key of [x] that most others leave alone, with those that do not. Failures elsewhere may use up the ones that a
+   failure needs; but the success of the same task comes before it, and is no worse. *)
 let key t x =
   let best = ref None in
   let others k =
     List.filter (fun y -> y <> x && is_in_the_way t x k y) (List.init (Array.length t.components) Fun.id)
   in
   let try_step k =
-    if t.components.(x).analysis.steady.(k) && moves t x k then
+    if moves t x k then
       let others = others k in
       match !best with
       | Some best when List.compare_lengths best others <= 0 -> ()

@@ -161,6 +161,14 @@ let traps =
                                when { consume y: 1 } then task('q')[a] } | action { post z: 1 }) onError { ignore() }|};
     breaks "a failure that is ignored, between two posts" ~environment:failing [ No_leftover ]
       {|execute watch (task('p')[a] | action { post x: 1 } | action { post y: 1 }) onError { ignore() }|};
+    breaks "a failure that is ignored, between two that take" ~environment:failing [ No_leftover ]
+      {|post x: 1, y: 1
+        execute watch (task('p')[a] | action { consume x: 1 } | action { consume y: 1 }) onError { ignore() }|};
+    breaks "a failure that is ignored, between two that write" ~environment:failing [ No_leftover ]
+      {|g = 1
+        h = 1
+        execute watch (task('p')[a] | action { g = 2 } | action { h = 2 }) onError { ignore() }
+        if (g > h) { post x: 1 }|};
     breaks "a failure in an inner until" ~environment:failing [ No_leftover ]
       {|execute watch ((until { poll stop: 1 } run (task('p')[a] | action { post x: 1 })) | action { post stop: 1 })
           onError { ignore() }|};

@@ -21,8 +21,9 @@ let command =
       ~exits:(Options.exits [ Done; Failed; Bad_input; Platform_trouble; Bug; Interrupted ])
   in
   Cmd.group info
-    [ Exec_command.command; Check_command.command; Explore_command.command; Fleet_command.command;
-      Lts_command.command; Parse_command.command; Plan_command.command; Sim_command.command; Trace_command.command ]
+    [ Exec_command.command; Check_command.command; Conform_command.command; Explore_command.command;
+      Fleet_command.command; Lts_command.command; Parse_command.command; Plan_command.command; Sim_command.command;
+      Step_command.command; Tla_command.command; Trace_command.command ]
 
 (* [--sim] alone would take the next argument for its fleet. *)
 let arguments =
@@ -60,7 +61,8 @@ let () =
     with
     | status -> status
     | exception Sys_error why ->
-      Report.complain ("the output cannot be written: " ^ why);
+      (* Where SIGPIPE is ignored, this says that nobody reads on, which is no trouble. *)
+      if why <> Unix.error_message EPIPE then Report.complain ("the output cannot be written: " ^ why);
       (* What is at the exit would try once more. *)
       Unix._exit (Exit_status.code Platform_trouble)
     | exception Stack_overflow -> bug Stack_overflow

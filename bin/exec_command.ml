@@ -1,38 +1,97 @@
 open Cmdliner
 
+let no_fleet = { Fleet_file.path = None; source = ""; scenario = Fleet_file.nobody }
+
 (* On a network nobody answers for people, unless that is asked for: of a fleet only the answers are used then. *)
 let fleet_of ~path ~sim ~named = function
-  | Some _ when sim <> None || named = None -> Ok { Fleet_file.path = None; source = ""; scenario = Fleet_file.nobody }
+  | Some _ when sim <> None || named = None -> Ok no_fleet
   | Some _ -> Fleet_file.load named
   | None -> Fleet_file.load (Fleet_file.choose ~program:path named)
 
-let run path sim fleet network speed seed answers supplier supplier_timeout journal drawing follow =
+(* What the command line says of how to run a program. *)
+type how = {
+  network : Dolphin_platform_imc.Udp_platform.options option;
+  named : string option;  (* a fleet *)
+  speed : float option;
+  seed : int option;
+  answers : string list;
+  supplier : string option;
+  supplier_timeout : float option;
+  journal : string option;
+  drawing : Drawing_file.t option;
+}
+
+let start how ?resumed program (fleet : Fleet_file.t) ~seed ~speed header =
+  let { network; answers; supplier; supplier_timeout; journal; drawing; _ } = how in
+  Run.run
+    { program; scenario = fleet.scenario; network; speed; seed; answers; supplier; supplier_timeout; resumed;
+      record = { journal; drawing; header } }
+
+let begin_run how program fleet =
+  let seed = Option.value how.seed ~default:0 and speed = how.speed in
+  let platform = if how.network = None then "sim" else "imc" in
+  start how program fleet ~seed ~speed { (Record.header program fleet ~seed ~speed) with platform }
+
+(* The fleet, the seed and the speed with which a run goes on: they are those of its journal. *)
+let as_before how (resumed : Resumed.t) =
+  let header = resumed.past.header in
+  let refuse why = Error (Fleet_file.Unreadable (resumed.path ^ ": " ^ why)) in
+  match header.platform, how.network with
+  | "sim", Some _ -> refuse "this run was on a simulated fleet: leave out --imc"
+  | "sim", None when how.seed <> None -> refuse "a run goes on with the seed that it began with: leave out --seed"
+  | "sim", None ->
+    let speed = if how.speed = None then header.speed else how.speed in
+    Result.map (fun fleet -> (fleet, header.seed, speed)) (Resumed.fleet resumed ~named:how.named)
+  | _, Some _ ->
+    let fleet = if how.named = None then Ok no_fleet else Fleet_file.load how.named in
+    Result.map (fun fleet -> (fleet, header.seed, None)) fleet
+  | platform, None ->
+    refuse (Printf.sprintf "this run was on vehicles of a network, which will move again: say --%s" platform)
+
+let resume how ~changed program path : Exit_status.t =
+  match Resumed.read ~changed program path with
+  | Error why -> Report.complain why; Bad_input
+  | Ok resumed -> (
+      match as_before how resumed with
+      | Error trouble -> Fleet_file.tell trouble; Bad_input
+      | Ok (fleet, seed, speed) -> start how ~resumed program fleet ~seed ~speed resumed.past.header)
+
+(* What options do not go together, if so. *)
+let contradiction how ~sim ~follow ~resumed ~changed =
+  let { network; speed; answers; supplier; journal; drawing; _ } = how in
+  if network <> None && (sim <> None || speed <> None) then
+    Some "vehicles of a network (--imc) are not simulated: --sim and --speed do not go with them"
+  else if
+    follow <> None
+    && (network <> None || speed <> None || answers <> [] || supplier <> None || journal <> None || drawing <> None
+        || resumed <> None)
+  then Some "a recorded run (--follow) goes with its program and a fleet, and with no other options"
+  else if changed && resumed = None then Some "--force-prefix goes with --resume"
+  else None
+
+let run path sim fleet network definition speed seed answers supplier supplier_timeout journal drawing follow resumed changed =
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
   let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
-  match Program_file.load path, fleet_of ~path ~sim ~named network with
-  | Ok _, Ok _ when network <> None && (sim <> None || speed <> None) ->
-    Report.complain "vehicles of a network (--imc) are not simulated: --sim and --speed do not go with them";
-    Exit_status.Bad_input
-  | Ok _, Ok _
-    when follow <> None
-      && (network <> None || speed <> None || answers <> [] || supplier <> None || journal <> None || drawing <> None) ->
-    Report.complain "a recorded run (--follow) goes with its program and a fleet, and with no other options";
-    Exit_status.Bad_input
+  let how = { network; named; speed; seed; answers; supplier; supplier_timeout; journal; drawing } in
+  let fleet () = if resumed = None then fleet_of ~path ~sim ~named network else Ok no_fleet in
+  match Program_file.load path, fleet () with
   | Error trouble, _ ->
     Program_file.tell trouble;
     Exit_status.Bad_input
   | Ok _, Error trouble ->
     Fleet_file.tell trouble;
-    Exit_status.Bad_input
-  | Ok program, Ok fleet ->
-    Report.diagnostics ~source:program.source program.warnings;
-    let platform = if network = None then "sim" else "imc" in
-    let header = { (Record.header program fleet ~seed ~speed) with platform } in
-    let record = { Record.journal; drawing; header } in
-    (match follow with
-     | Some recorded -> Follow.run program fleet.scenario recorded
-     | None ->
-       Run.run { program; scenario = fleet.scenario; network; speed; seed; answers; supplier; supplier_timeout; record })
+    Bad_input
+  | Ok program, Ok fleet -> (
+      match contradiction how ~sim ~follow ~resumed ~changed, Imc_definition.load definition with
+      | Some why, _ -> Report.complain why; Bad_input
+      | None, Error status -> status
+      | None, Ok definition ->
+        let how = { how with network = Option.map (Imc_options.with_names definition) how.network } in
+        Report.diagnostics ~source:program.source program.warnings;
+        (match follow, resumed with
+         | Some recorded, _ -> Follow.run program fleet.scenario recorded
+         | None, Some run -> resume how ~changed program run
+         | None, None -> begin_run how program fleet))
 
 let positive =
   let parse text =
@@ -58,8 +117,8 @@ let speed =
   Arg.(value & opt (some positive) None & info [ "speed" ] ~docv:"X" ~doc)
 
 let seed =
-  let doc = "What chance depends on: two runs with the same seed have the same log." in
-  Arg.(value & opt int 0 & info [ "seed" ] ~docv:"N" ~doc)
+  let doc = "What chance depends on, by default 0: two runs with the same seed have the same log." in
+  Arg.(value & opt (some int) None & info [ "seed" ] ~docv:"N" ~doc)
 
 let answers =
   let doc =
@@ -99,6 +158,22 @@ let follow =
   in
   Arg.(value & opt (some string) None & info [ "follow" ] ~docv:"FILE" ~doc)
 
+let resumed =
+  let doc =
+    "Go on with the run whose journal is the file $(docv), and whose console died. What it has done is not done again: \
+     vehicles are asked what they run, plans that run are waited for, those that ended meanwhile are taken as ended, those that \
+     were never started are started. The journal is gone on with in the same file, or with $(b,--journal) in another \
+     one. $(i,docs/trace.md) tells more."
+  in
+  Arg.(value & opt (some string) None & info [ "resume" ] ~docv:"RUN" ~doc)
+
+let changed =
+  let doc =
+    "With $(b,--resume): go on although the program has changed since, if what happened so far is the beginning of a \
+     run of this program, too."
+  in
+  Arg.(value & flag & info [ "force-prefix" ] ~doc)
+
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) checks the program $(i,PROG) as $(mname) $(b,check) does and runs it on a fleet of simulated \
@@ -136,5 +211,5 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ sim $ fleet $ Imc_options.chosen $ speed $ seed $ answers $ supplier
-      $ supplier_timeout $ journal $ drawing $ follow)
+      const run $ Options.program $ sim $ fleet $ Imc_options.chosen $ Imc_definition.file $ speed $ seed $ answers
+      $ supplier $ supplier_timeout $ journal $ drawing $ follow $ resumed $ changed)

@@ -13,24 +13,40 @@ let plan_of network (s : Station.sight) =
   | Some { plan; _ } -> Some plan
   | None -> Execution.executing s.node.execution
 
+let mode definition n = Node.mode ~names:(Option.fold definition ~none:[] ~some:Vocabulary.modes) n
+
+(* What it sends, if there is a definition to read it by: the last of each kind, and how often it came. *)
+let messages network (n : Node.t) definition =
+  let shown (id, (e : Heard.entry)) : Yojson.Safe.t =
+    let last =
+      match Dolphin_imc.Dynamic.decode definition e.order ~id e.payload with
+      | Ok message -> Dolphin_imc.Dynamic.to_json message
+      | Error why -> `String (Format.asprintf "%a" Dolphin_imc.Error.pp_decode why)
+    in
+    `Assoc [ ("id", `Int id); ("count", `Int e.count); ("last", last) ]
+  in
+  List.map shown (Udp_platform.heard network n.id)
+
 let is_placed (s : Station.sight) = s.node.position <> None || s.node.announced_position <> None
 
-let json network (s : Station.sight) : Yojson.Safe.t =
+let json network definition (s : Station.sight) : Yojson.Safe.t =
   let n = s.node and state = s.state in
   let optional make = function Some x -> make x | None -> `Null in
   let number x = if Float.is_finite x then `Float x else `Null in
+  let said = Option.fold definition ~none:[] ~some:(fun d -> [ ("messages", `List (messages network n d)) ]) in
   `Assoc
-    [ ("id", `String state.id); ("imc_id", `Int n.id); ("type", `String state.kind);
-      ("address", optional (fun a -> `String (Format.asprintf "%a" Service.pp_address a)) n.address);
-      ("latitude", if is_placed s then number state.position.latitude else `Null);
-      ("longitude", if is_placed s then number state.position.longitude else `Null);
-      ("height", if is_placed s then number state.position.height else `Null);
-      ("mode", optional (fun (_, m) -> `String (Dolphin_imc.Message.Vehicle_state.Op_mode.name m)) n.mode);
-      ("error", if n.error = "" then `Null else `String n.error);
-      ("battery", optional (fun (_, share) -> number share) n.battery);
-      ("payload", `List (List.map (fun d -> `String d) state.payload));
-      ("plan", optional (fun p -> `String p) (plan_of network s));
-      ("linked", `Bool s.linked); ("available", `Bool state.connected); ("age", number s.age) ]
+    ([ ("id", `String state.id); ("imc_id", `Int n.id); ("type", `String state.kind);
+       ("address", optional (fun a -> `String (Format.asprintf "%a" Service.pp_address a)) n.address);
+       ("latitude", if is_placed s then number state.position.latitude else `Null);
+       ("longitude", if is_placed s then number state.position.longitude else `Null);
+       ("height", if is_placed s then number state.position.height else `Null);
+       ("mode", if n.mode = None then `Null else `String (mode definition n));
+       ("error", if n.error = "" then `Null else `String n.error);
+       ("battery", optional (fun (_, share) -> number share) n.battery);
+       ("payload", `List (List.map (fun d -> `String d) state.payload));
+       ("plan", optional (fun p -> `String p) (plan_of network s));
+       ("linked", `Bool s.linked); ("available", `Bool state.connected); ("age", number s.age) ]
+     @ said)
 
 (* Entity lists name every task on board: only short ones fit a table. *)
 let payload devices =
@@ -39,11 +55,11 @@ let payload devices =
   | n when n <= 4 -> String.concat ", " devices
   | n -> Printf.sprintf "%d entities" n
 
-let row network (s : Station.sight) =
+let row network definition (s : Station.sight) =
   let n = s.node and state = s.state in
   [ state.id; state.kind; Printf.sprintf "%04x" n.id; address n;
     (if is_placed s then Printf.sprintf "%.5f, %.5f" state.position.latitude state.position.longitude else "-");
-    Node.mode n;
+    mode definition n;
     (match n.battery with Some (_, share) -> Printf.sprintf "%.0f%%" (100. *. share) | None -> "-");
     payload state.payload;
     Option.value (plan_of network s) ~default:"-";
@@ -51,8 +67,8 @@ let row network (s : Station.sight) =
 
 let heads = [ "VEHICLE"; "TYPE"; "IMC"; "ADDRESS"; "POSITION"; "MODE"; "BATTERY"; "PAYLOAD"; "PLAN"; "HEARD" ]
 
-let table network sights =
-  let rows = heads :: List.map (fun s -> List.map Wording.harmless (row network s)) sights in
+let table network definition sights =
+  let rows = heads :: List.map (fun s -> List.map Wording.harmless (row network definition s)) sights in
   let wider = List.map2 (fun width cell -> max width (Wording.width cell)) in
   let widths = List.fold_left wider (List.map (fun _ -> 0) heads) rows in
   let rec trimmed text =
@@ -63,11 +79,11 @@ let table network sights =
 
 (* {1 The command} *)
 
-let lines network ~json:as_json =
+let lines network definition ~json:as_json =
   match Udp_platform.sights network with
-  | sights when as_json -> [ Yojson.Safe.to_string (`List (List.map (json network) sights)) ]
+  | sights when as_json -> [ Yojson.Safe.to_string (`List (List.map (json network definition) sights)) ]
   | [] -> [ "no system was heard of" ]
-  | sights -> table network sights
+  | sights -> table network definition sights
 
 let print lines =
   List.iter print_endline lines;
@@ -80,10 +96,10 @@ let is_live () =
 let wait interruption seconds = Lwt.pick [ Interruption.promise interruption; Lwt_unix.sleep seconds ]
 
 (* A table that changes, on a terminal. *)
-let watch network interruption ~until =
+let watch network definition interruption ~until =
   let screen = Screen.make ~live:true ~on_closed:(fun () -> Interruption.interrupt interruption) Unix.stdout in
   let head () = Printf.sprintf "%s hears, Ctrl-C ends" (Udp_platform.name_on_network network) in
-  Screen.show screen (fun () -> head () :: lines network ~json:false);
+  Screen.show screen (fun () -> head () :: lines network definition ~json:false);
   let rec go () =
     if Interruption.happened interruption || Udp_platform.now network >= until then Lwt.return_unit
     else begin
@@ -94,13 +110,13 @@ let watch network interruption ~until =
   go () >|= fun () -> Screen.close screen
 
 (* A line of JSON each second. *)
-let rec report network interruption ~until =
+let rec report network definition interruption ~until =
   if Interruption.happened interruption || Udp_platform.now network >= until then Lwt.return_unit
   else wait interruption 1. >>= fun () ->
-    print (lines network ~json:true);
-    report network interruption ~until
+    print (lines network definition ~json:true);
+    report network definition interruption ~until
 
-let run options as_json once seconds =
+let listen options definition ~as_json ~once ~seconds =
   match Udp_platform.open_ options with
   | Error why ->
     Report.complain why;
@@ -111,12 +127,19 @@ let run options as_json once seconds =
     let until = match seconds with Some s -> s | None -> infinity in
     let show () =
       if once || not (as_json || is_live ()) then
-        wait interruption patience >|= fun () -> print (lines network ~json:as_json)
-      else if as_json then report network interruption ~until
-      else watch network interruption ~until >|= fun () -> print (lines network ~json:false)
+        wait interruption patience >|= fun () -> print (lines network definition ~json:as_json)
+      else if as_json then report network definition interruption ~until
+      else watch network definition interruption ~until >|= fun () -> print (lines network definition ~json:false)
     in
     Lwt_main.run (show () >>= fun () -> Udp_platform.close network);
     Exit_status.Done
+
+let run options definition as_json once seconds =
+  match Imc_definition.load definition with
+  | Error status -> status
+  | Ok definition ->
+    let options = { (Imc_options.with_names definition options) with listens = definition <> None && as_json } in
+    listen options definition ~as_json ~once ~seconds
 
 let as_json =
   let doc = "Print JSON: an array with an object for each system, on one line; without $(b,--once), each second." in
@@ -148,6 +171,8 @@ let man =
         them. Programs can pick those in mode SERVICE.";
     `P "It introduces itself to vehicles as a console does, for otherwise they would not speak to it. It asks nothing of \
         them but their lists of entities.";
+    `P "With $(b,--json) and $(b,--imc-xml) each system has $(b,messages) too: an object for each kind of message that it \
+        sends, with its number ($(b,id)), how many came ($(b,count)) and what the last one said.";
     `S Manpage.s_options;
     `S Imc_options.s_network;
     `S Manpage.s_exit_status;
@@ -161,4 +186,4 @@ let command =
     Cmd.info "fleet" ~doc:"show the vehicles of the network" ~man
       ~exits:(Options.exits [ Done; Bad_input; Platform_trouble; Bug ])
   in
-  Cmd.v info Term.(const run $ Imc_options.options $ as_json $ once $ seconds)
+  Cmd.v info Term.(const run $ Imc_options.options $ Imc_definition.file $ as_json $ once $ seconds)

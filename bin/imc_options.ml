@@ -71,6 +71,21 @@ let payload =
   in
   Arg.(value & opt_all devices [] & info [ "imc-payload" ] ~docs:s_network ~docv:"VEHICLE=DEVICES" ~doc)
 
+let types =
+  let typed =
+    let parse text =
+      match String.split_on_char '=' text with
+      | [ vehicle; kind ] when vehicle <> "" && kind <> "" -> Ok (vehicle, kind)
+      | _ -> Error (`Msg (Printf.sprintf "'%s' is not like seacon-1=ROV" text))
+    in
+    Arg.conv ~docv:"VEHICLE=TYPE" (parse, fun ppf (vehicle, kind) -> Format.fprintf ppf "%s=%s" vehicle kind)
+  in
+  let doc =
+    "Let a vehicle be of another type than it announces, as in $(b,--imc-type seacon-1=ROV): IMC has no type for ROVs. May \
+     be repeated. Implies $(b,--imc)."
+  in
+  Arg.(value & opt_all typed [] & info [ "imc-type" ] ~docs:s_network ~docv:"VEHICLE=TYPE" ~doc)
+
 let ports =
   let parse text =
     match List.map int_of_string_opt (String.split_on_char '-' text) with
@@ -88,20 +103,27 @@ let discovery_ports =
   in
   Arg.(value & opt (some ports) None & info [ "imc-discovery-ports" ] ~docs:s_network ~docv:"FIRST-LAST" ~doc)
 
-let make loopback interfaces port discovery id payload =
+let make loopback interfaces port discovery id payload types =
   let options = Udp_platform.default in
   { options with
-    loopback; interfaces; id; payload;
+    loopback; interfaces; id; payload; types;
     data_port = Option.value port ~default:options.data_port;
     announce_ports = Option.value discovery ~default:options.announce_ports }
 
-let options = Term.(const make $ loopback $ interfaces $ port $ discovery_ports $ id $ payload)
+let options = Term.(const make $ loopback $ interfaces $ port $ discovery_ports $ id $ payload $ types)
 
 let chosen =
-  let choose imc loopback interfaces port discovery id payload =
+  let choose imc definition loopback interfaces port discovery id payload types =
     let implied =
-      loopback || interfaces <> [] || port <> None || discovery <> None || id <> None || payload <> []
+      definition <> None || loopback || interfaces <> [] || port <> None || discovery <> None || id <> None
+      || payload <> [] || types <> []
     in
-    if imc || implied then Some (make loopback interfaces port discovery id payload) else None
+    if imc || implied then Some (make loopback interfaces port discovery id payload types) else None
   in
-  Term.(const choose $ imc $ loopback $ interfaces $ port $ discovery_ports $ id $ payload)
+  Term.(
+    const choose $ imc $ Imc_definition.file $ loopback $ interfaces $ port $ discovery_ports $ id $ payload $ types)
+
+let with_names definition options =
+  match definition with
+  | None -> options
+  | Some d -> { options with Udp_platform.type_names = Vocabulary.types d }

@@ -28,7 +28,7 @@ let plans_of (program : Program_file.t) (fleet : Fleet_file.t) ~seed ~answers =
       (module Simulator.Virtual)
       (Simulator.Virtual.create ~seed fleet.scenario)
       ~observer:{ Observer.nobody with transition }
-      ~console:(Questions.console shown ~answers ~scenario:fleet.scenario)
+      ~console:(Questions.console shown ~answered:[] ~answers ~scenario:fleet.scenario)
       ~interruption:enough program.program
   in
   let outcome = Lwt_main.run run in
@@ -36,16 +36,22 @@ let plans_of (program : Program_file.t) (fleet : Fleet_file.t) ~seed ~answers =
 
 let names found = String.concat ", " (List.sort_uniq compare (List.map (fun f -> f.name) found))
 
-let show (plan : Plan.t) =
-  let message = Dolphin_platform_imc.Plan_message.of_plan plan in
-  print_endline (Yojson.Safe.pretty_to_string (Dolphin_imc.Message.to_json (Plan_specification message)))
+(* By the user's definition, if there is one. *)
+let show definition (plan : Plan.t) =
+  let message = Dolphin_imc.Message.Plan_specification (Dolphin_platform_imc.Plan_message.of_plan plan) in
+  let json =
+    match definition with
+    | None -> Dolphin_imc.Message.to_json message
+    | Some d -> Dolphin_imc.Dynamic.message_to_json d message
+  in
+  print_endline (Yojson.Safe.pretty_to_string json)
 
 let tell_end : Driver.outcome -> unit = function
   | Ended Completed -> ()
   | (Ended (Halted _ | Failed _ | Interrupted) | Stuck _) as outcome ->
     Report.complain (Format.asprintf "the run that the plans are taken from did not complete: %a" Driver.pp_outcome outcome)
 
-let print_named name found outcome : Exit_status.t =
+let print_named definition name found outcome : Exit_status.t =
   let inline = List.filter (fun f -> f.plan <> None) found in
   match List.filter (fun f -> f.name = name) found with
   | [] ->
@@ -59,7 +65,7 @@ let print_named name found outcome : Exit_status.t =
       | [] ->
         Report.complain (Printf.sprintf "'%s' is a plan that vehicles know by name: the program does not describe it" name);
         Failed
-      | plans -> List.iter show plans; Done)
+      | plans -> List.iter (show definition) plans; Done)
 
 let print_all found outcome : Exit_status.t =
   tell_end outcome;
@@ -70,15 +76,18 @@ let print_all found outcome : Exit_status.t =
     found;
   Done
 
-let run path name fleet seed answers =
-  match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet) with
-  | Error trouble, _ -> Program_file.tell trouble; Exit_status.Bad_input
-  | Ok _, Error trouble -> Fleet_file.tell trouble; Exit_status.Bad_input
-  | Ok program, Ok fleet -> (
+let run path name fleet seed answers definition =
+  match
+    Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet), Imc_definition.load definition
+  with
+  | Error trouble, _, _ -> Program_file.tell trouble; Exit_status.Bad_input
+  | Ok _, Error trouble, _ -> Fleet_file.tell trouble; Exit_status.Bad_input
+  | Ok _, Ok _, Error status -> status
+  | Ok program, Ok fleet, Ok definition -> (
       Report.diagnostics ~source:program.source program.warnings;
       let found, outcome = plans_of program fleet ~seed ~answers in
       match name with
-      | Some name -> print_named name found outcome
+      | Some name -> print_named definition name found outcome
       | None -> print_all found outcome)
 
 let plan_name =
@@ -103,6 +112,7 @@ let man =
         given different plans of one name, all are printed.";
     `S Manpage.s_arguments;
     `S Manpage.s_options;
+    `S Imc_options.s_network;
     `S Manpage.s_exit_status;
     `S Manpage.s_examples;
     `Pre "  $(mname) $(tname) examples/inline_plan.dol\n  $(mname) $(tname) examples/inline_plan.dol P" ]
@@ -113,4 +123,4 @@ let command =
     Cmd.info "plan" ~doc:"print an inline plan as IMC vehicles get it" ~man
       ~exits:(Options.exits [ Done; Failed; Bad_input; Bug ])
   in
-  Cmd.v info Term.(const run $ Options.program $ plan_name $ Options.fleet $ seed $ answers)
+  Cmd.v info Term.(const run $ Options.program $ plan_name $ Options.fleet $ seed $ answers $ Imc_definition.file)

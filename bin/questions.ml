@@ -7,12 +7,23 @@ type shown = { ask : string -> unit; answered : string -> unit; refused : string
 (* What is typed at a terminal stands there already. *)
 let echo text = if Unix.isatty Unix.stdin then "" else text
 
-let console shown ~answers ~scenario =
+let console shown ~answered ~answers ~scenario =
   let typed = Console.scripted ~output:ignore ~answers:[] () in
   let remaining = ref answers in
   let asked = Hashtbl.create 8 in  (* how often the fleet was asked each prompt *)
   let latest = ref None in  (* the fleet's answer just given, with its prompt *)
   let refused_by_fleet = ref [] in
+  (* Where the fleet's answers stand after it gave this one, if it did. *)
+  let count (prompt, text) =
+    let rec find n =
+      match Scenario.answer scenario prompt n with
+      | Some found when found = text -> Hashtbl.replace asked prompt (n + 1)
+      | Some _ -> find (n + 1)
+      | None -> ()
+    in
+    find (Option.value (Hashtbl.find_opt asked prompt) ~default:0)
+  in
+  List.iter count answered;
   let of_fleet prompt =
     let n = Option.value (Hashtbl.find_opt asked prompt) ~default:0 in
     match Scenario.answer scenario prompt n with

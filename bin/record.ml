@@ -1,3 +1,4 @@
+open Dolphin_runtime
 open Dolphin_trace
 
 type settings = { journal : string option; drawing : Drawing_file.t option; header : Header.t }
@@ -19,9 +20,12 @@ let header (program : Program_file.t) (fleet : Fleet_file.t) ~seed ~speed : Head
 
 let is_wanted s = s.journal <> None || s.drawing <> None
 
+(* What a journal is written to. *)
+type file = { path : string; channel : out_channel }
+
 type t = {
   settings : settings;
-  channel : out_channel option;
+  file : file option;
   teller : Story.teller;
   recorder : Recorder.t option;  (* if anything is to be kept *)
 }
@@ -37,11 +41,11 @@ let reason path why =
 let protected path f = try f () with Sys_error why -> raise (Broken (trouble path (reason path why)))
 
 (* Each line is out before what it tells of happens. *)
-let write_line path channel entry =
-  protected path (fun () ->
-      output_string channel (Entry.to_string entry);
-      output_char channel '\n';
-      flush channel)
+let write_line file entry =
+  protected file.path (fun () ->
+      output_string file.channel (Entry.to_string entry);
+      output_char file.channel '\n';
+      flush file.channel)
 
 (* A slip of the pen must not cost anybody a program. *)
 let would_overwrite settings =
@@ -55,22 +59,105 @@ let would_overwrite settings =
   in
   List.find_opt (fun output -> List.exists (same output) sources) outputs
 
-let start settings program =
-  let make () =
-    let channel = Option.map (fun path -> protected path (fun () -> open_out_bin path)) settings.journal in
-    let teller = Story.start () in
-    let write entry =
-      (match settings.journal, channel with
-       | Some path, Some channel -> write_line path channel entry
-       | _, _ -> ());
-      if settings.drawing <> None then Story.tell teller entry
-    in
-    let recorder = if is_wanted settings then Some (Recorder.make program settings.header write) else None in
-    { settings; channel; teller; recorder }
+(* The lock lasts as long as the console lives, and tells others that it does. Not all files can be locked. *)
+let lock path fd =
+  match Unix.lockf fd F_TLOCK 0 with
+  | () -> ()
+  | exception Unix.Unix_error ((EAGAIN | EACCES), _, _) ->
+    raise (Broken (path ^ ": another console is writing this journal"))
+  | exception Unix.Unix_error _ -> ()
+
+(* Nothing of the file is lost before it is ours. *)
+let open_file path =
+  match Unix.openfile path [ O_RDWR; O_CREAT; O_CLOEXEC ] 0o666 with
+  | fd ->
+    lock path fd;
+    fd
+  | exception Unix.Unix_error (error, _, _) -> raise (Broken (trouble path (Unix.error_message error)))
+
+let channel_of path fd =
+  let channel = Unix.out_channel_of_descr fd in
+  set_binary_mode_out channel true;
+  { path; channel }
+
+let truncate fd length =
+  match Unix.ftruncate fd length with
+  | () -> ignore (Unix.lseek fd length SEEK_SET)
+  | exception Unix.Unix_error _ -> ()  (* pipes and devices have no length *)
+
+let with_recorder settings file teller make =
+  let write entry =
+    Option.iter (fun file -> write_line file entry) file;
+    if settings.drawing <> None then Story.tell teller entry
   in
+  { settings; file; teller; recorder = (if is_wanted settings then Some (make write) else None) }
+
+let guarded settings make =
   match would_overwrite settings with
   | Some path -> Error (path ^ ": the run was to be written over its own program or fleet")
-  | None -> ( match make () with r -> Ok r | exception Broken why -> Error why)
+  | None -> (
+      match make () with
+      | r -> Ok r
+      | exception Broken why -> Error why
+      | exception Sys_error why -> Error why)
+
+let start settings program =
+  let begun path =
+    let fd = open_file path in
+    truncate fd 0;
+    channel_of path fd
+  in
+  guarded settings (fun () ->
+      let file = Option.map begun settings.journal in
+      with_recorder settings file (Story.start ()) (Recorder.make program settings.header))
+
+let same_file a b =
+  match Unix.stat a, Unix.stat b with
+  | a, b -> a.st_dev = b.st_dev && a.st_ino = b.st_ino
+  | exception Unix.Unix_error _ -> a = b
+
+(* The lines of [run] that are gone on with, in [path]. *)
+let continued (run : Resumed.t) path =
+  let kept = run.past.kept in
+  let copy fd =
+    let text = Bytes.create 65536 in
+    let input = open_in_bin run.path in
+    let rec go left =
+      if left > 0 then
+        match Stdlib.input input text 0 (min left (Bytes.length text)) with
+        | 0 -> ()
+        | n -> ignore (Unix.write fd text 0 n); go (left - n)
+    in
+    Fun.protect ~finally:(fun () -> close_in_noerr input) (fun () -> go kept)
+  in
+  let fd = open_file path in
+  if same_file path run.path then truncate fd kept
+  else begin
+    truncate fd 0;
+    copy fd
+  end;
+  channel_of path fd
+
+let resume settings program ~source (run : Resumed.t) =
+  let settings = { settings with journal = Some (Option.value settings.journal ~default:run.path) } in
+  guarded settings (fun () ->
+      let file = Option.map (continued run) settings.journal in
+      let seen = Resumption.seen run.past and replay = run.past.replay in
+      let r = with_recorder settings file run.teller (Recorder.resume program replay ~seen) in
+      let line ~time = Entry.Resumed { time; program = source; at = now () } in
+      Option.iter (fun recorder -> Recorder.write recorder ~time:(Replay.time replay) line) r.recorder;
+      r)
+
+let sync file =
+  match Unix.fsync (Unix.descr_of_out_channel file.channel) with
+  | () -> ()
+  | exception Unix.Unix_error (EINVAL, _, _) -> ()  (* a pipe *)
+  | exception Unix.Unix_error (error, _, _) -> raise (Broken (trouble file.path (Unix.error_message error)))
+
+let note r ~time ~vehicle note =
+  let line ~time = Entry.Note { time; vehicle; note } in
+  Option.iter (fun recorder -> Recorder.write recorder ~time line) r.recorder;
+  Option.iter sync r.file
 
 let observer r : Dolphin_runtime.Observer.t =
   match r.recorder with
@@ -80,9 +167,7 @@ let observer r : Dolphin_runtime.Observer.t =
 let finish r ~time ~stuck =
   let close () =
     Option.iter (fun recorder -> Recorder.finish recorder ~time ~stuck) r.recorder;
-    match r.settings.journal, r.channel with
-    | Some path, Some channel -> protected path (fun () -> close_out channel)
-    | _, _ -> ()
+    Option.iter (fun file -> protected file.path (fun () -> close_out file.channel)) r.file
   in
   match close () with
   | exception Broken why -> Error why

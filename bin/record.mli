@@ -22,6 +22,14 @@ exception Broken of string
 val start : settings -> Dolphin_semantics.Core.program -> (t, string) result
 (** [start s program] begins the journal. The error says why that is not possible. *)
 
+val resume : settings -> Dolphin_semantics.Core.program -> source:Header.source -> Resumed.t -> (t, string) result
+(** [resume s program ~source run] goes on with the journal of [run], in its own file, or if [s] names another one, in a
+    copy. [source] is the program's file. The error says why that is not possible: another console writes it, perhaps. *)
+
+val note : t -> time:float -> vehicle:string -> Yojson.Safe.t -> unit
+(** Keeps what the platform wants to find again of a vehicle. It is on the disk when this returns. It may raise
+    {!Broken}. *)
+
 val observer : t -> Dolphin_runtime.Observer.t
 (** To be told of the run before anybody else. It may raise {!Broken}. *)
 

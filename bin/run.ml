@@ -4,6 +4,7 @@ open Dolphin_display
 open Lwt.Infix
 module Diagnostic = Dolphin_syntax.Diagnostic
 module Location = Dolphin_syntax.Location
+module Replay = Dolphin_trace.Replay
 module Simulator = Dolphin_platform_sim.Simulator
 module Udp_platform = Dolphin_platform_imc.Udp_platform
 
@@ -17,6 +18,7 @@ type settings = {
   supplier : string option;
   supplier_timeout : float option;
   record : Record.settings;
+  resumed : Resumed.t option;
 }
 
 (* {1 What is seen} *)
@@ -78,16 +80,34 @@ let start_host s =
   | None -> Ok None
   | Some command -> Result.map Option.some (Host.start ?timeout:s.supplier_timeout command)
 
-(* A fleet, what is to stand on the board below its vehicles, and who is told of what is unusual. *)
-type platform = Platform : (module Platform.S with type t = 'p) * 'p * (unit -> string list) * (string -> unit) ref -> platform
+type 'p fleet = {
+  platform : 'p;
+  more_lines : unit -> string list;  (* for the board, below its vehicles *)
+  told : (string -> unit) ref;  (* is told of what is unusual *)
+  news : World.vehicle_state list;  (* since the console died, if the run is gone on with *)
+}
+
+type platform = Platform : (module Platform.S with type t = 'p) * 'p fleet -> platform
+
+let nothing_more () = []
+let simulated_fleet ?(news = []) platform = { platform; more_lines = nothing_more; told = ref ignore; news }
 
 (* The simulated fleet passes its time at once, or as a clock does. *)
 let simulated s =
-  let nothing () = [] and nobody = ref ignore in
-  match s.speed with
-  | None -> Platform ((module Simulator.Virtual), Simulator.Virtual.create ~seed:s.seed s.scenario, nothing, nobody)
-  | Some speed ->
-    Platform ((module Simulator.Paced), Simulator.Paced.create ~speed ~seed:s.seed s.scenario, nothing, nobody)
+  let { seed; scenario; _ } = s in
+  let again (platform, news) = simulated_fleet ~news platform in
+  match s.speed, s.resumed with
+  | None, None -> Ok (Platform ((module Simulator.Virtual), simulated_fleet (Simulator.Virtual.create ~seed scenario)))
+  | Some speed, None ->
+    Ok (Platform ((module Simulator.Paced), simulated_fleet (Simulator.Paced.create ~speed ~seed scenario)))
+  | None, Some { past; _ } ->
+    Result.map
+      (fun made -> Platform ((module Simulator.Virtual), again made))
+      (Simulator.Virtual.create_again ~seed scenario past.moments)
+  | Some speed, Some { past; _ } ->
+    Result.map
+      (fun made -> Platform ((module Simulator.Paced), again made))
+      (Simulator.Paced.create_again ~speed ~seed scenario past.moments)
 
 (* How far vehicles are with their plans, by their own estimate. *)
 let estimates network () =
@@ -101,20 +121,47 @@ let estimates network () =
   in
   List.filter_map line (Udp_platform.sights network)
 
-let open_platform s =
+(* What the time of a run is now whose console died: it went on. Clocks may have been set meanwhile, but runs never go
+   back. *)
+let time_of_run ({ past; _ } : Resumed.t) =
+  let time, at = past.clock in
+  let passed = Option.map (fun began -> Unix.gettimeofday () -. began) (Dolphin_trace.Header.of_utc at) in
+  Float.max (Replay.time past.replay) (time +. Option.value passed ~default:0.)
+
+(* Nothing is heard of vehicles until they are heard again. *)
+let unheard resumed =
+  let lose (state : World.vehicle_state) = { state with connected = false } in
+  let world (r : Resumed.t) = List.map lose (World.vehicles (Replay.world r.past.replay)) in
+  Option.fold resumed ~none:[] ~some:world
+
+let open_platform s ~keep =
   match s.network with
-  | None -> Ok (simulated s)
+  | None -> simulated s
   | Some options ->
     let told = ref ignore in
     let note vehicle text = !told (Printf.sprintf "%s: %s" vehicle text) in
-    let opened = Udp_platform.open_ { options with note } in
-    Result.map (fun network -> Platform ((module Udp_platform), network, estimates network, told)) opened
+    let options = { options with note; keep } in
+    let opened =
+      match s.resumed with
+      | None -> Udp_platform.open_ options
+      | Some r -> Udp_platform.open_again options ~time:(time_of_run r) r.past.moments
+    in
+    let fleet network = { platform = network; more_lines = estimates network; told; news = unheard s.resumed } in
+    Result.map (fun network -> Platform ((module Udp_platform), fleet network)) opened
 
-let drive s record host (Platform ((module P), platform, more_lines, told)) =
+let beginning resumed news : Driver.beginning option =
+  let of_past ({ past; _ } : Resumed.t) : Driver.beginning =
+    let replay = past.replay in
+    { configuration = Replay.configuration replay; world = Replay.world replay; news; pending = past.pending }
+  in
+  Option.map of_past resumed
+
+let drive s record host (Platform ((module P), { platform; more_lines; told; news })) =
   let interruption = Interruption.make () in
   let live = is_live () in
   let screen = Screen.make ~live ~on_closed:(fun () -> Interruption.interrupt interruption) Unix.stdout in
-  let log = ref Log.start and board = ref Board.start in
+  let log = ref (match s.resumed with Some r -> r.log | None -> Log.start) in
+  let board = ref (match s.resumed with Some r -> r.board | None -> Board.start) in
   (* The driver interrupts stuck programs by itself. *)
   let is_stuck () = not (Interruption.happened interruption) in
   let time () = P.now platform in
@@ -125,11 +172,13 @@ let drive s record host (Platform ((module P), platform, more_lines, told)) =
       answered = Screen.answered screen;
       refused = (fun why -> Screen.print screen (Log.remark !log ~time:(time ()) ("cannot take this answer: " ^ why))) }
   in
+  let answered = Option.fold s.resumed ~none:[] ~some:(fun (r : Resumed.t) -> Past.answers r.past.moments) in
   let run () =
     Driver.run (module P) platform ~always_telemetry:(live || Record.is_wanted s.record)
       ~observer:(Observer.both (Record.observer record) (observe screen log board ~is_stuck))
       ?host:(Option.map Host.call host)
-      ~console:(Questions.console shown ~answers:s.answers ~scenario:s.scenario)
+      ?beginning:(beginning s.resumed news)
+      ~console:(Questions.console shown ~answered ~answers:s.answers ~scenario:s.scenario)
       ~interruption:(Interruption.promise interruption) s.program.program
   in
   let close () =
@@ -137,7 +186,8 @@ let drive s record host (Platform ((module P), platform, more_lines, told)) =
     match host with None -> Lwt.return_unit | Some host -> Host.close host
   in
   let finish outcome =
-    let is_stuck = match (outcome : Driver.outcome) with Stuck _ -> true | Ended _ -> false in
+    let was_stuck = Option.fold s.resumed ~none:false ~some:(fun (r : Resumed.t) -> Replay.was_stuck r.past.replay) in
+    let is_stuck = match (outcome : Driver.outcome) with Stuck _ -> true | Ended _ -> was_stuck in
     match Record.finish record ~time:(time ()) ~stuck:is_stuck with
     | Ok () -> status s outcome
     | Error why -> in_trouble why
@@ -152,10 +202,18 @@ let drive s record host (Platform ((module P), platform, more_lines, told)) =
 
 let run s =
   Sys.set_signal Sys.sigpipe Signal_ignore;
-  match Record.start s.record s.program.program with
+  let program = s.program.program in
+  let record =
+    match s.resumed with
+    | None -> Record.start s.record program
+    | Some resumed ->
+      let source = Dolphin_trace.Header.source ~path:s.program.path s.program.source in
+      Record.resume s.record program ~source resumed
+  in
+  match record with
   | Error why -> in_trouble why
   | Ok record -> (
-      match open_platform s with
+      match open_platform s ~keep:(fun ~time vehicle memo -> Record.note record ~time ~vehicle memo) with
       | Error why -> in_trouble why
       | Ok platform -> (
           match start_host s with

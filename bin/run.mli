@@ -10,6 +10,7 @@ type settings = {
   supplier : string option;  (** a command *)
   supplier_timeout : float option;  (** seconds *)
   record : Record.settings;  (** what is kept of the run *)
+  resumed : Resumed.t option;  (** a run that is gone on with *)
 }
 
 val run : settings -> Exit_status.t

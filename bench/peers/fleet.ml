@@ -1,7 +1,7 @@
 (* fleet N F [MAX_STATES]: explores the program of the peers' models, N vehicles, F = 1 with failures, and prints one
-   line: states, transitions, depth, seconds of CPU, bytes a state as the explorer counts them. With REDUCTION=por in
-   the environment the search is reduced. CONTEXT (watch, ignore, during, until or then) says what stands around the
-   task that is executed; plain has nothing. *)
+   line: states, transitions, depth, seconds of CPU, bytes a state as the explorer counts them. With REDUCTION=por,
+   symmetry or all in the environment the search is reduced, with COMPRESS=yes states are compressed. CONTEXT (watch,
+   ignore, during, until or then) says what stands around the task that is executed; plain has nothing. *)
 
 open Dolphin_semantics
 open Dolphin_explore
@@ -53,8 +53,15 @@ let () =
       p.depth (p.memory / 1_000_000)
   in
   let progress = if Sys.getenv_opt "PROGRESS" = None then ignore else report in
-  let reduction = if Sys.getenv_opt "REDUCTION" = Some "por" then Reduction.Partial_order else Whole in
-  let options = { Search.default with environment; reduction; max_states = argument 3; progress } in
+  let reduction =
+    match Sys.getenv_opt "REDUCTION" with
+    | Some "por" -> Reduction.Partial_order
+    | Some "symmetry" -> Symmetry
+    | Some "all" -> All
+    | Some _ | None -> Whole
+  in
+  let compress = Sys.getenv_opt "COMPRESS" <> None in
+  let options = { Search.default with environment; reduction; compress; max_states = argument 3; progress } in
   let o = Search.run options (compile (program n)) (world n) in
   Printf.printf "%d states, %d transitions, depth %d, %.2f s, %.1f bytes a state%s\n" o.states o.transitions o.depth
     (Sys.time ())

@@ -6,7 +6,7 @@ open Value_data
 (* {1 Residuals} *)
 
 let rec of_residual budget (r : Residual.t) : json =
-  spend budget;
+  part budget @@ fun () ->
   let part = of_residual budget and code = of_closure budget in
   let branch (b : Residual.branch) : json = `List [ code b.guard; part b.body ] in
   match r with
@@ -73,7 +73,7 @@ let items nodes : json -> Machine.items = function
     if i < -1 then wrong "a place in a list" json else Items (xs, i)
 
 let of_frame budget (frame : Machine.frame) : json =
-  spend budget;
+  part budget @@ fun () ->
   let each = of_value budget in
   match frame with
   | Arguments { operation = _; at; evaluated; remaining } ->

@@ -3,7 +3,7 @@
 open Dolphin_semantics
 
 val of_control : Data.budget -> Configuration.control -> Data.json
-(** @raise Data.Too_large as {!Data.spend} does. *)
+(** @raise Data.Too_large as {!Data.part} does. *)
 
 val control : Nodes.t -> Data.json -> Configuration.control
 (** @raise Data.Wrong if it is none of this program. *)

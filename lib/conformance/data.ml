@@ -3,14 +3,22 @@ type json = Yojson.Safe.t
 exception Wrong of string
 exception Too_large
 
-type budget = int ref
+type budget = { mutable parts : int; mutable depth : int }
 
 let most_parts = 500_000
-let budget () = ref most_parts
 
-let spend left =
-  decr left;
-  if !left < 0 then raise Too_large
+(* Some parts are lists in lists: half of what [Oracle] reads. *)
+let deepest = 5_000
+
+let budget () = { parts = most_parts; depth = deepest }
+
+let part left write =
+  left.parts <- left.parts - 1;
+  if left.parts < 0 || left.depth = 0 then raise Too_large;
+  left.depth <- left.depth - 1;
+  let json = write () in
+  left.depth <- left.depth + 1;
+  json
 
 let shortened json =
   let text = Dolphin_json.Canonical.to_string json in

@@ -13,8 +13,10 @@ type budget
 (** How much may still be written. A task that shares its parts with itself may be small in memory and huge as text. *)
 
 val budget : unit -> budget
-val spend : budget -> unit
-(** @raise Too_large if there is nothing left. *)
+val part : budget -> (unit -> json) -> json
+(** [part budget write] is [write ()], one part of the whole, with its own parts inside.
+
+    @raise Too_large if there are too many parts, or they nest so deep that readers might refuse them. *)
 
 val wrong : string -> json -> 'a
 (** [wrong what json] raises {!Wrong}: [json] is not [what]. *)

@@ -8,11 +8,10 @@ let of_vehicles = of_list of_text
 (* {1 Writing} *)
 
 let of_platform_task budget (p : platform_task) : json =
-  spend budget;
-  `List [ `String p.name; `Int p.task_site; of_option Plan_data.to_json p.plan ]
+  part budget @@ fun () -> `List [ `String p.name; `Int p.task_site; of_option Plan_data.to_json p.plan ]
 
 let rec of_value budget (x : value) : json =
-  spend budget;
+  part budget @@ fun () ->
   let each = of_value budget in
   match x with
   | Null -> `Null
@@ -45,7 +44,7 @@ and of_closure budget (c : closure) : json =
   `List (`Int c.lambda.id :: List.map (of_value budget) (Array.to_list c.captured))
 
 and of_task budget (t : task) : json =
-  spend budget;
+  part budget @@ fun () ->
   let part = of_task budget and code = of_closure budget in
   match t with
   | Platform p -> tagged "platform" [ of_platform_task budget p ]

@@ -5,7 +5,7 @@ open Dolphin_semantics
 (** {1:write Writing} *)
 
 val of_value : Data.budget -> Core.value -> Data.json
-(** @raise Data.Too_large as {!Data.spend} does; so do the others. *)
+(** @raise Data.Too_large as {!Data.part} does; so do the others. *)
 
 val of_closure : Data.budget -> Core.closure -> Data.json
 val of_platform_task : Data.budget -> Core.platform_task -> Data.json

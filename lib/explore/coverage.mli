@@ -12,6 +12,18 @@ val run : t -> Core.closure -> unit
 val start : t -> Core.platform_task -> unit
 (** The task has been started. *)
 
+val is_started : t -> Core.site -> bool
+(** Of a task, by its site. *)
+
+val is_run : t -> int -> bool
+(** Of code, by the number of its lambda. *)
+
+val reach : t -> Core.site -> unit
+(** A task at that site has been started. *)
+
+val reach_code : t -> int -> unit
+(** The code with this number has been run. *)
+
 val transition : t -> Configuration.t -> Transition.t -> unit
 (** The script has made this transition from there. *)
 

@@ -56,5 +56,12 @@ let shortest_around space start =
 let find ~interrupted space =
   if not (Space.may_cycle space) then None
   else
-    let lasso start = { stem = Replay.shortest space start; around = shortest_around space start } in
+    (* Where states stand for others, the run need not come back to the very one that it left; it does to those of the
+       script, which stand for themselves. *)
+    let is_exact i = match Space.view space i with Exact _ -> true | Up_to _ -> false in
+    let exact i = if is_exact i then i else List.find is_exact (shortest_around space i) in
+    let lasso i =
+      let start = exact i in
+      { stem = Replay.shortest space start; around = shortest_around space start }
+    in
     Option.map lasso (state_on_cycle ~interrupted space)

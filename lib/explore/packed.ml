@@ -1,12 +1,11 @@
 open Bigarray
 
 type words_of_chunk = (int, int_elt, c_layout) Array1.t
-type parents_of_chunk = (int32, int32_elt, c_layout) Array1.t
 
 type t = {
   words : int;
   mutable chunks : words_of_chunk array;
-  mutable parents : parents_of_chunk array;
+  parents : Parents.t;
   mutable count : int;
   mutable table : words_of_chunk;  (* 0: free; else a tag above 32 bits of a state's number plus 1 *)
   mutable mask : int;
@@ -43,7 +42,7 @@ let nothing_waits words =
 let create ~words =
   let slots = 4096 in
   let table = fresh_table slots and waiting = nothing_waits words in
-  { words; chunks = [||]; parents = [||]; count = 0; table; mask = slots - 1; most = most_of slots; waiting }
+  { words; chunks = [||]; parents = Parents.create (); count = 0; table; mask = slots - 1; most = most_of slots; waiting }
 
 let words t = t.words
 let count t = t.count
@@ -54,9 +53,7 @@ let count t = t.count
 let chunk t i : words_of_chunk = Array.unsafe_get t.chunks (i lsr chunk_bits)
 let word (chunk : words_of_chunk) i = Array1.unsafe_get chunk i
 
-let parent t i =
-  let parents : parents_of_chunk = t.parents.(i lsr chunk_bits) in
-  Int32.to_int parents.{i land chunk_mask}
+let parent t i = Parents.get t.parents i
 
 let load t i key =
   let chunk = chunk t i and base = (i land chunk_mask) * t.words in
@@ -105,9 +102,11 @@ let fill t =
 
 let large = 1 lsl 20
 
-(* The old table is given back before there is a new one: the states can fill it again. *)
+(* The old table is given back before there is a new one: the states can fill it again. If there is no memory for that,
+   the set has none of its states, so that nothing is looked for where nothing is. *)
 let resize t slots =
   t.table <- fresh_table 1;
+  t.mask <- 0;
   if slots > large then Gc.full_major ();
   t.table <- fresh_table slots;
   t.mask <- slots - 1;
@@ -117,16 +116,12 @@ let resize t slots =
 let append t keys at ~parent =
   let i = t.count in
   let within = i land chunk_mask in
-  if within = 0 then begin
-    t.chunks <- Array.append t.chunks [| Array1.create int c_layout (chunk_states * t.words) |];
-    t.parents <- Array.append t.parents [| Array1.create int32 c_layout chunk_states |]
-  end;
-  let chunk = chunk t i and parents : parents_of_chunk = Array.unsafe_get t.parents (i lsr chunk_bits) in
-  let base = within * t.words in
+  if within = 0 then t.chunks <- Array.append t.chunks [| Array1.create int c_layout (chunk_states * t.words) |];
+  let chunk = chunk t i and base = within * t.words in
   for w = 0 to t.words - 1 do
     Array1.unsafe_set chunk (base + w) (Array.unsafe_get keys (at + w))
   done;
-  Array1.unsafe_set parents within (Int32.of_int parent);
+  Parents.add t.parents parent;
   t.count <- i + 1
 
 let add_at t keys at h ~parent =
@@ -196,8 +191,8 @@ let find t key =
   let slot = probe t t.table key 0 (tag_of h) (h land t.mask) in
   (t.table.{slot} land number_mask) - 1
 
-let bytes_of_chunk t = chunk_states * ((8 * t.words) + 4)
-let bytes t = (Array.length t.chunks * bytes_of_chunk t) + (8 * (t.mask + 1))
+let bytes_of_chunk t = chunk_states * 8 * t.words
+let bytes t = (Array.length t.chunks * bytes_of_chunk t) + (8 * (t.mask + 1)) + Parents.bytes t.parents
 
 let bytes_to_grow t =
   let table = if t.count >= t.most then 8 * (t.mask + 1) else 0 in

@@ -1,13 +1,9 @@
-(** A set of states, each a vector of a fixed number of words, that never forgets. States are numbered from 0 in the
-    order in which they come, so that the set is also the queue of a breadth-first search, and each knows the state it
-    was first reached from. Both live outside of OCaml's heap.
-
-    A state takes 8 bytes a word, 4 for where it came from, and 11 to 23 in the table that finds it. *)
+(** A set of states as {!States} has it, each state as it is: 8 bytes a word, a quarter of a byte for where it came from, and 11 to 23
+    in the table that finds it. *)
 
 type t
 
 val create : words:int -> t
-(** [create ~words] is an empty set of vectors of so many words. *)
 
 val words : t -> int
 val count : t -> int
@@ -16,29 +12,12 @@ val add : t -> int array -> parent:int -> int
 (** [add t key ~parent] is [i] if the first words of [key] are state [i], and [-1 - i] if that state is new. *)
 
 val push : t -> int array -> parent:int -> fresh:(int -> int -> unit) -> unit
-(** [push t key ~parent ~fresh] is [add t key ~parent], now or later, but before a {!flush}, and in the order of pushes.
-    When it comes, [fresh] gets the number and the first word of each state that is new. This is faster by far once the
-    set has outgrown the processor's caches. *)
+(** This is faster by far than {!add} once the set has outgrown the processor's caches. *)
 
 val flush : t -> fresh:(int -> int -> unit) -> unit
-(** [flush t ~fresh] adds what has been pushed. *)
-
 val find : t -> int array -> int
-(** [find t key] is the number of state [key], or [-1]. *)
-
 val load : t -> int -> int array -> unit
-(** [load t i key] puts the words of state [i] into [key]. *)
-
 val parent : t -> int -> int
-(** [parent t i] is the [parent] that [i] was added with. *)
-
 val bytes : t -> int
-(** Memory in use outside of OCaml's heap. *)
-
 val bytes_to_grow : t -> int
-(** [bytes_to_grow t] is how much more it may take at once for the next state. *)
-
 val rewrite : t -> words:int -> (int array -> int array -> unit) -> t
-(** [rewrite t ~words f] is the states of [t] in new words, under the same numbers: [f old fresh] puts the new words of
-    [old] into [fresh], which is all 0. Different states must stay different, and nothing may
-    wait to be added. [t] is used up. *)

@@ -5,3 +5,12 @@ type t =
   | Partial_order
   (** of orders in which independent steps may come, one. All verdicts are as of the whole; a run that shows a
       violation may be longer than the shortest. *)
+  | Symmetry  (** of states that differ by exchanging things that are alike, one. All verdicts are as of the whole. *)
+  | All  (** both *)
+
+val by_order : t -> bool
+val by_symmetry : t -> bool
+val without_symmetry : t -> t
+
+val name : t -> string
+(** ["none"], ["partial order"], ... *)

@@ -3,6 +3,7 @@ open Dolphin_semantics
 type options = {
   environment : Environment.options;
   reduction : Reduction.t;
+  compress : bool;
   search_again : int;
   max_states : int option;
   max_depth : int option;
@@ -30,6 +31,7 @@ let default =
   {
     environment = Environment.default;
     reduction = Whole;
+    compress = false;
     search_again = 100_000;
     max_states = None;
     max_depth = None;
@@ -60,6 +62,7 @@ type outcome = {
   bytes : int;
   seconds : float;
   stopped : bound option;
+  reduction : Reduction.t;
   verdicts : (Property.t * verdict) list;
 }
 
@@ -122,7 +125,7 @@ let look_around t phase =
 (* States between two looks around; memory can grow by one chunk meanwhile, or by a doubled table. *)
 let stride = 4_096
 
-let explore ?(enough = fun () -> false) t =
+let expand_all enough t =
   let space = t.space in
   let next_look = ref 0 in
   let more () =
@@ -148,6 +151,14 @@ let explore ?(enough = fun () -> false) t =
     t.next <- t.next + 1;
     if exceeds t.options.max_states (Space.count space) then raise (Stop States)
   done
+
+(* What stopped it, if anything. Once there is no memory nothing can be added, not even what waits. *)
+let explore ?(enough = fun () -> false) t =
+  let settled stopped = match Space.flush t.space with () -> stopped | exception Out_of_memory -> Some No_memory in
+  match expand_all enough t with
+  | () -> settled None
+  | exception Stop bound -> settled (Some bound)
+  | exception Out_of_memory -> Some No_memory
 
 (* {1 Formulas} *)
 
@@ -179,7 +190,7 @@ let formulas t world program =
 
 let verdicts t program world stopped =
   let transitions = Replay.between t.options.environment program world t.space in
-  let shortest = t.options.reduction = Whole in
+  let shortest = not (Reduction.by_order t.options.reduction) in
   let run_to i = { steps = transitions (Replay.shortest t.space i); cycle = []; shortest } in
   let unless_stopped otherwise = match stopped with Some bound -> Inconclusive bound | None -> otherwise () in
   let interrupted () =
@@ -222,8 +233,8 @@ let verdicts t program world stopped =
   | fs, Some bound -> List.map (fun f -> (named f, Inconclusive bound)) fs
   | fs, None -> List.combine (List.map named fs) (formulas t world program)
 
-let start options program world started =
-  let space = Space.create ~reduction:options.reduction options.environment program world in
+let start (options : options) program world started =
+  let space = Space.create ~reduction:options.reduction ~compress:options.compress options.environment program world in
   let invariants = List.map (Invariant.create program world) options.invariants in
   { options; space; invariants; started; reported = started; weighed = Float.neg_infinity; next = 0; depth = -1; level_end = 0 }
 
@@ -239,8 +250,7 @@ let with_shortest_runs options program world started verdicts =
     let most = Option.fold ~none:options.search_again ~some:(min options.search_again) options.max_states in
     let t = start { options with reduction = Whole; invariants = []; max_states = Some most } program world started in
     let is_found property = Space.broken t.space property <> None in
-    (try explore ~enough:(fun () -> List.for_all is_found sought) t with Stop _ | Out_of_memory -> ());
-    Space.flush t.space;
+    ignore (explore ~enough:(fun () -> List.for_all is_found sought) t);
     let shorter (property, verdict) =
       match List.mem property sought, Space.broken t.space property with
       | true, Some i ->
@@ -250,19 +260,15 @@ let with_shortest_runs options program world started verdicts =
     in
     List.map shorter verdicts
 
-let run (options : options) program world =
-  (* What is asked of every state cannot be judged by some of them. *)
-  let options = if options.invariants = [] then options else { options with reduction = Whole } in
-  let started = options.clock () in
+let rec run_from started (options : options) program world =
   let t = start options program world started in
-  let space = t.space in
-  let stopped =
-    match explore t with
-    | () -> None
-    | exception Stop bound -> Some bound
-    | exception Out_of_memory -> Some No_memory
-  in
-  Space.flush space;
+  match explore t with
+  | stopped -> outcome t program world stopped
+  | exception Symmetry.Unclear ->
+    run_from started { options with reduction = Reduction.without_symmetry options.reduction } program world
+
+and outcome t program world stopped =
+  let space = t.space and options = t.options and started = t.started in
   let verdicts = with_shortest_runs options program world started (verdicts t program world stopped) in
   {
     states = Space.count space;
@@ -272,8 +278,14 @@ let run (options : options) program world =
     bytes = memory t;
     seconds = options.clock () -. started;
     stopped;
+    reduction = (if Space.used_symmetry space then options.reduction else Reduction.without_symmetry options.reduction);
     verdicts;
   }
+
+let run (options : options) program world =
+  (* What is asked of every state cannot be judged by some of them. *)
+  let options = if options.invariants = [] then options else { options with reduction = Whole } in
+  run_from (options.clock ()) options program world
 
 (* {1 Text} *)
 

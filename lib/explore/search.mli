@@ -8,6 +8,7 @@ open Dolphin_semantics
 type options = {
   environment : Environment.options;
   reduction : Reduction.t;  (** none is used where there are invariants *)
+  compress : bool;  (** keep states in less memory, in more time *)
   search_again : int;
   (** so many of all states are visited for a shortest run, if a reduced search found a violation *)
   max_states : int option;
@@ -70,6 +71,7 @@ type outcome = {
   bytes : int;  (** of memory, as [max_memory] counts it *)
   seconds : float;
   stopped : bound option;
+  reduction : Reduction.t;  (** the one that was used: less than was asked for where something stands against it *)
   verdicts : (Property.t * verdict) list;  (** for each of {!Property.all}, then for each invariant and formula *)
 }
 

@@ -10,7 +10,7 @@ type t = {
   cases : Cases.t;
   words : Words.t;
   shapes : Shapes.t;
-  mutable states : Packed.t;
+  mutable states : States.t;
   mutable key : int array;  (* the state being expanded, changed in place for its successors and changed back *)
   mutable other : int array;  (* successors of another shape *)
   mutable transitions : int;
@@ -18,7 +18,10 @@ type t = {
   script : Script_graph.t;
   mutable fresh : int -> int -> unit;  (* what is done with new states, by number and first word *)
   mutable gathering : bool;
-  mutable gathered : int list;
+  mutable gathered : (int * Symmetry.permutation option) list;
+  symmetry : Symmetry.finder option;
+  folding : Folding.t;
+  mutable folded : int array;  (* a state's canonical form *)
 }
 
 let rank property =
@@ -31,8 +34,8 @@ let rank property =
 (* {1 States} *)
 
 let load t i =
-  let key = Array.make (Packed.words t.states) 0 in
-  Packed.load t.states i key;
+  let key = Array.make (States.words t.states) 0 in
+  States.load t.states i key;
   key
 
 let state t i = Words.read t.words (load t i)
@@ -45,9 +48,10 @@ let shared t i =
 let repack t =
   let rewritten = Words.widened t.words in
   let words = Shapes.words t.shapes in
-  t.states <- Packed.rewrite t.states ~words rewritten;
+  t.states <- States.rewrite t.states ~words rewritten;
   t.key <- Array.make words 0;
-  t.other <- Array.make words 0
+  t.other <- Array.make words 0;
+  t.folded <- Array.make words 0
 
 let note_broken t property i =
   let rank = rank property in
@@ -57,11 +61,25 @@ let fresh t i word =
   if Shapes.number t.shapes word = 0 then
     Option.iter (fun property -> note_broken t property i) (Words.broken t.words (Shapes.shared t.shapes word))
 
-let flush t = Packed.flush t.states ~fresh:t.fresh
+let flush t = States.flush t.states ~fresh:t.fresh
+
+let add t key permutation parent =
+  if t.gathering then t.gathered <- (States.find t.states key, permutation) :: t.gathered
+  else States.push t.states key ~parent ~fresh:t.fresh
+
+(* {1 Symmetry} *)
 
 let visit t key parent =
-  if t.gathering then t.gathered <- Packed.find t.states key :: t.gathered
-  else Packed.push t.states key ~parent ~fresh:t.fresh
+  match Shapes.number t.shapes key.(0) with
+  | 0 -> add t key None parent
+  | number -> (
+      let s = Shapes.shape t.shapes number in
+      match s.frame.symmetry with
+      | None -> add t key None parent
+      | Some g ->
+        let shared = Shapes.shared t.shapes key.(0) in
+        let permutation = Folding.canonical t.folding g s key shared ~into:t.folded in
+        add t t.folded (Some permutation) parent)
 
 (* {1 Where nothing executes} *)
 
@@ -122,13 +140,21 @@ let replace t (s : Shape.t) (s' : Shape.t) (place : Shape.place) (parts : part a
 
 let no_parts : part array = [||]
 
-let finish t number i =
+let finish t number permutation i =
   Words.write_whole t.words t.other number;
-  visit t t.other i
+  add t t.other permutation i
+
+(* The task is over: the script sees what is shared, so each state that this one stands for goes on by itself. *)
+let all_over t (s : Shape.t) shared i =
+  match s.frame.symmetry with
+  | None -> finish t (over t s shared) None i
+  | Some g ->
+    let image (shared, permutation) = finish t (over t s shared) (Some permutation) i in
+    List.iter image (Symmetry.images g shared)
 
 let rec go t (s : Shape.t) (place : Shape.place) target shared i =
   match target, place.around with
-  | Gone, None when place.from = 0 && place.upto = Array.length s.families -> finish t (over t s shared) i
+  | Gone, None when place.from = 0 && place.upto = Array.length s.families -> all_over t s shared i
   | Gone, Some ({ children = [ a; b ]; _ } as nest) -> leave_alone t s nest (if a == place then b else a) shared i
   | Gone, (None | Some _) -> replace t s (Shapes.without t.shapes s place) place no_parts shared i
   | Becomes { serial; children; parts }, _ ->
@@ -172,7 +198,7 @@ let go_by_case t (s : Shape.t) place step shared i =
     (match case.result with
      | Ends ending ->
        if case.whole < 0 then case.whole <- concluded t s case.shared (Ends ending);
-       finish t case.whole i
+       finish t case.whole None i
      | (Stays _ | Gone | Becomes _) as target ->
        Words.check_fit t.words;
        go_to t s (above place case.level) target shared case.shared i);
@@ -305,16 +331,14 @@ let expand_some t (s : Shape.t) shared i =
 let expand_executing t i number =
   let s = Shapes.shape t.shapes number and shared = Shapes.shared t.shapes t.key.(0) in
   let taken =
-    match t.reduction with
-    | Partial_order -> expand_some t s shared i
-    | Whole -> expand_all t s shared i
+    if Reduction.by_order t.reduction then expand_some t s shared i else expand_all t s shared i
   in
   if taken = 0 then note_broken t No_deadlock i;
   taken
 
 let rec expand t i =
   match
-    Packed.load t.states i t.key;
+    States.load t.states i t.key;
     let number = Shapes.number t.shapes t.key.(0) in
     if number = 0 then expand_whole t i (Shapes.shared t.shapes t.key.(0)) else expand_executing t i number
   with
@@ -324,18 +348,55 @@ let rec expand t i =
     repack t;
     expand t i
 
-let successors t i =
+let steps t i =
   t.gathering <- true;
   t.gathered <- [];
   expand t i;
   t.gathering <- false;
   List.rev t.gathered
 
-let create ?(reduction = Reduction.Whole) options program world =
-  let foreseen = match reduction with Whole -> None | Partial_order -> Some 0 in
+let successors t i = List.map fst (steps t i)
+
+type view = Exact of Configuration.t * Environment.t | Up_to of Symmetry.t * Symmetry.state
+
+let view t i =
+  let key = load t i in
+  let number = Shapes.number t.shapes key.(0) in
+  let exact () =
+    let c, outside = Words.read t.words key in
+    Exact (c, outside)
+  in
+  if number = 0 then exact ()
+  else
+    let s = Shapes.shape t.shapes number in
+    match s.frame.symmetry with
+    | None -> exact ()
+    | Some g -> Up_to (g, Folding.state t.folding g s key (Shapes.shared t.shapes key.(0)))
+
+let folded t g (c : Configuration.t) outside : Symmetry.state option =
+  match c.control with
+  | Executing (_, r) ->
+    let rs = match r with Parallel rs -> rs | r -> [ r ] in
+    let shared = Cases.Shareds.number (Cases.shareds t.cases) (Shared.of_configuration c outside) in
+    Some (Symmetry.state g rs shared)
+  | Script _ | Waiting _ | Ended _ -> None
+
+let breaks t i =
+  let key = load t i in
+  if Shapes.number t.shapes key.(0) > 0 then None else Words.broken t.words (Shapes.shared t.shapes key.(0))
+
+let create ?(reduction = Reduction.Whole) ?(compress = false) options program world =
+  let foreseen = if Reduction.by_order reduction then Some 0 else None in
   let parts = Parts.create ?foreseen options program world in
   let cases = Cases.create parts in
-  let words = Words.create parts cases in
+  let shareds = Cases.shareds cases in
+  let symmetry =
+    if Reduction.by_symmetry reduction then
+      let number = Cases.Shareds.number shareds and value = Cases.Shareds.value shareds in
+      Some (Symmetry.finder options program { number; value })
+    else None
+  in
+  let words = Words.create ?find_symmetry:(Option.map Symmetry.find symmetry) parts cases in
   let t =
     {
       options;
@@ -346,7 +407,7 @@ let create ?(reduction = Reduction.Whole) options program world =
       cases;
       words;
       shapes = Words.shapes words;
-      states = Packed.create ~words:1;
+      states = States.create ~compress ~words:1;
       key = [| 0 |];
       other = [| 0 |];
       transitions = 0;
@@ -355,6 +416,9 @@ let create ?(reduction = Reduction.Whole) options program world =
       fresh = (fun _ _ -> ());
       gathering = false;
       gathered = [];
+      symmetry;
+      folding = Folding.create parts words;
+      folded = [| 0 |];
     }
   in
   ignore (Words.write words t.key [] (Configuration.initial program) Environment.initial);
@@ -365,13 +429,22 @@ let create ?(reduction = Reduction.Whole) options program world =
 
 (* {1 Findings} *)
 
-let count t = Packed.count t.states
+let count t = States.count t.states
 let transitions t = t.transitions
-let parent t i = Packed.parent t.states i
-let coverage t = Parts.coverage t.parts
-let bytes t = Packed.bytes t.states
-let bytes_to_grow t = Packed.bytes_to_grow t.states
-let words t = Packed.words t.states
+let parent t i = States.parent t.states i
+let used_symmetry t = Option.fold ~none:false ~some:Symmetry.is_used t.symmetry
+
+(* What can change places is reached if one of it is. *)
+let coverage t =
+  let coverage = Parts.coverage t.parts in
+  let reached = function Alike.Task site -> Coverage.is_started coverage site | Code id -> Coverage.is_run coverage id in
+  let reach = function Alike.Task site -> Coverage.reach coverage site | Code id -> Coverage.reach_code coverage id in
+  let together labels = if List.exists reached labels then List.iter reach labels in
+  Option.iter (fun finder -> Symmetry.alike finder together) t.symmetry;
+  coverage
+let bytes t = States.bytes t.states
+let bytes_to_grow t = States.bytes_to_grow t.states
+let words t = States.words t.states
 let may_cycle t = Script_graph.may_cycle t.script
 
 let broken t property =

@@ -7,8 +7,8 @@ open Dolphin_semantics
 
 type t
 
-val create : ?reduction:Reduction.t -> Environment.options -> Core.program -> World.t -> t
-(** With the initial state, number 0. *)
+val create : ?reduction:Reduction.t -> ?compress:bool -> Environment.options -> Core.program -> World.t -> t
+(** With the initial state, number 0. [compress] is as for {!States.create}, [false] by default. *)
 
 val expand : t -> int -> unit
 (** [expand t i] adds the states that transitions of state [i] lead to, at the latest when {!flush} is called. *)
@@ -18,8 +18,25 @@ val flush : t -> unit
 val successors : t -> int -> int list
 (** [successors t i] is the states that transitions of [i] lead to, which have all been added before. *)
 
+val steps : t -> int -> (int * Symmetry.permutation option) list
+(** [steps t i] is {!successors}, each with the permutation that led there from what the transition leads to: of state
+    [i] of the task, or, when the task is over, of what was shared before. [None] where nothing was permuted. *)
+
 val state : t -> int -> Configuration.t * Environment.t
-(** [state t i] is state [i]. *)
+(** [state t i] is state [i], if it is {!view-type.Exact}. *)
+
+(** What a state stands for. *)
+type view =
+  | Exact of Configuration.t * Environment.t  (** itself *)
+  | Up_to of Symmetry.t * Symmetry.state  (** all that is alike *)
+
+val view : t -> int -> view
+
+val folded : t -> Symmetry.t -> Configuration.t -> Environment.t -> Symmetry.state option
+(** [folded t g c e] is [c] with [e], if it executes a task of [g]. *)
+
+val breaks : t -> int -> Property.t option
+(** [breaks t i] is what reaching state [i] breaks, if it is an end. *)
 
 val shared : t -> int -> int
 (** [shared t i] is a number for the store, N, B and what the outside remembers of state [i], if it executes a task, and
@@ -39,6 +56,9 @@ val broken : t -> Property.t -> int option
 val may_cycle : t -> bool
 (** Whether a run can come back to where it was, as far as can be seen from the places of the script alone: [false] is
     certain. *)
+
+val used_symmetry : t -> bool
+(** Whether some states stand for others. *)
 
 val coverage : t -> Coverage.t
 

@@ -19,14 +19,16 @@ type t = {
   shareds : Cases.Shareds.t;
   shapes : Shapes.t;
   machines : Machines.t;
-  frames : (int, Shape.frame) Hashtbl.t;  (* by number of the machine *)
+  find_symmetry : Residual.t -> Shared.t -> Symmetry.t option;
+  frames : (int * int, Shape.frame) Hashtbl.t;  (* by numbers of the machine and of the symmetry, 0 for none *)
   wholes : Wholes.t;
   mutable breaks : Property.t option array;  (* by number of such a configuration: what reaching it breaks *)
 }
 
-let create parts cases =
+let create ?(find_symmetry = fun _ _ -> None) parts cases =
   {
     parts;
+    find_symmetry;
     shareds = Cases.shareds cases;
     shapes = Shapes.create parts;
     machines = Machines.create ();
@@ -62,16 +64,23 @@ let write_whole t key number =
 
 (* {1 Words} *)
 
-let frame t machine =
-  let i = Machines.number t.machines machine in
-  match Hashtbl.find_opt t.frames i with
+let frame t machine symmetry =
+  let key = (Machines.number t.machines machine, Option.fold ~none:0 ~some:Symmetry.number symmetry) in
+  match Hashtbl.find_opt t.frames key with
   | Some frame -> frame
   | None ->
-    let frame : Shape.frame = { frame = i; machine = Machines.value t.machines i; over = [||] } in
-    Hashtbl.add t.frames i frame;
+    let frame : Shape.frame = { frame = Hashtbl.length t.frames; machine; symmetry; over = [||] } in
+    Hashtbl.add t.frames key frame;
     frame
 
 let family (p : Part.part) = p.family
+
+let write_parts t key frame children shared =
+  let s = Shapes.find t.shapes frame (List.map (Part.map family) children) in
+  check_fit t;
+  clear key;
+  key.(0) <- Shapes.first t.shapes s.number shared;
+  List.iteri (fun i (p : Part.part) -> Shape.put s key i p.local) (List.concat_map Part.leaves children)
 
 let write t key rules (c : Configuration.t) outside =
   match c.control with
@@ -80,14 +89,10 @@ let write t key rules (c : Configuration.t) outside =
     write_whole t key number;
     number
   | Executing (m, r) ->
-    let frame = frame t m in
+    let shared = Shared.of_configuration c outside in
+    let frame = frame t m (t.find_symmetry r shared) in
     let children = Parts.children t.parts (Parts.root t.parts) r in
-    let s = Shapes.find t.shapes frame (List.map (Part.map family) children) in
-    let shared = Cases.Shareds.number t.shareds (Shared.of_configuration c outside) in
-    check_fit t;
-    clear key;
-    key.(0) <- Shapes.first t.shapes s.number shared;
-    List.iteri (fun i (p : Part.part) -> Shape.put s key i p.local) (List.concat_map Part.leaves children);
+    write_parts t key frame children (Cases.Shareds.number t.shareds shared);
     -1 - frame.frame
 
 let part (s : Shape.t) key i =

@@ -4,7 +4,10 @@ open Dolphin_semantics
 
 type t
 
-val create : Parts.t -> Cases.t -> t
+val create : ?find_symmetry:(Residual.t -> Shared.t -> Symmetry.t option) -> Parts.t -> Cases.t -> t
+(** [find_symmetry r s] is what can change places in [r], which is about to be executed where [s] is shared: nothing by
+    default. *)
+
 val shapes : t -> Shapes.t
 
 val check_fit : t -> unit
@@ -16,6 +19,10 @@ val widened : t -> int array -> int array -> unit
 val write : t -> int array -> Rule.t list -> Configuration.t -> Environment.t -> int
 (** [write t key rules c e] puts the words of [c] with [e], which a step by [rules] led to, into [key]. The result is a
     number for the place of the script: below 0 where a task executes, and otherwise that of the configuration.
+    @raise Shapes.Outgrown *)
+
+val write_parts : t -> int array -> Shape.frame -> Part.part Part.tree list -> int -> unit
+(** [write_parts t key f children s] puts the words of [children] with shared [s] into [key].
     @raise Shapes.Outgrown *)
 
 val read : t -> int array -> Configuration.t * Environment.t

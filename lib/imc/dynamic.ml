@@ -71,6 +71,15 @@ and value_to_json (typ : Definition.typ) value =
   | _, Inline m -> Json.inline to_json m
   | _, List ms -> Json.list to_json ms
 
+let message_to_json d message =
+  let buffer = Buffer.create 1024 in
+  match Message.write (Writer.make Little_endian buffer) message with
+  | exception Writer.Fault _ -> Message.to_json message
+  | () -> (
+      match decode d Little_endian ~id:(Message.id message) (Buffer.contents buffer) with
+      | Ok m -> to_json m
+      | Error _ -> Message.to_json message)
+
 let packet_to_json d (p : Packet.t) =
   match (p.content, Packet.to_json p) with
   | Unknown { id; payload }, `Assoc members -> (

@@ -10,11 +10,13 @@ type input =
   | Reply of { sent : float; reply : Message.t Message.Plan_control.t }
   | State of { sent : float; state : Message.Plan_control_state.t }
   | Vehicle of { sent : float; state : Message.Vehicle_state.t }
+  | Log of { sent : float; entry : Message.Log_book_entry.t }
   | Abort of string
   | Lost of string
+  | Adopt of { order : order; stopped : bool; memos : Memo.t list }
   | Tick
 
-type output = Send of Message.t | Done | Failed of string | Note of string
+type output = Keep of Memo.t | Send of Message.t | Done | Failed of string | Note of string
 
 let most_copies = 10
 let most_copies_while_blocked = 3
@@ -43,8 +45,8 @@ type attempt = {
   before : sighting option;
   after : float;
   accepted : float option;  (* when the vehicle first answered that it takes the plan *)
+  adopted : bool;  (* the request was a console's that has died *)
   initialised : bool;  (* INITIALIZING was seen *)
-  anew : bool;  (* it was seen to begin anew *)
 }
 
 type phase =
@@ -75,12 +77,13 @@ type t = {
   last_stop : int option;
   stop_echo : float;  (* when the vehicle last answered a stop of ours *)
   former : former option;
+  takes : Takes.t;  (* of the last request *)
   phase : phase;
 }
 
 let create ~request =
   { next_request = request land 0xFFFF; seen = None; error = None; abort = None; last_stop = None;
-    stop_echo = neg_infinity; former = None; phase = Idle }
+    stop_echo = neg_infinity; former = None; takes = Takes.nothing; phase = Idle }
 
 let idle x = match x.phase with Idle -> true | Starting _ | Running _ | Ending _ | Stopping _ -> false
 
@@ -94,6 +97,26 @@ let due x =
   | Idle | Starting _ | Running _ -> infinity
   | Ending e -> e.deadline
   | Stopping s -> Float.min (s.last_sent +. stop_interval) (s.first_sent +. stop_patience)
+
+(* {1 Sightings} *)
+
+let is (plan : string) (s : sighting) = s.state.plan_id = plan
+
+(* The states in which a plan that runs, or has just been taken, is seen. *)
+let busy (s : sighting) =
+  match s.state.state with
+  | Executing | Initializing -> true
+  | Blocked | Ready | Other _ -> false
+
+let succeeded (s : sighting) =
+  match s.state.last_outcome with
+  | Success -> true
+  | None | Failure | Other _ -> false
+
+let failed (s : sighting) =
+  match s.state.last_outcome with
+  | Failure -> true
+  | None | Success | Other _ -> false
 
 (* {1 Requests} *)
 
@@ -114,9 +137,11 @@ let begin_attempt ~now ~clock order x =
       asked = Vehicle_clock.estimate ~now clock;
       before = x.seen;
       after = Vehicle_clock.latest clock;
-      accepted = None; initialised = false; anew = false }
+      accepted = None; adopted = false; initialised = false }
   in
-  ({ x with phase = Starting attempt; abort = None }, [ start_message attempt ])
+  let busy = match x.seen with Some s -> busy s && is order.plan s | None -> false in
+  let takes = Takes.request ~plan:order.plan ~number:request ~after:attempt.after ~busy in
+  ({ x with phase = Starting attempt; abort = None; takes }, [ start_message attempt ])
 
 let begin_stop ~now ~clock ~took_effect ?next attempt x =
   let stop, x = number x in
@@ -173,44 +198,33 @@ let words x ~since ~why =
 
 (* {1 What the vehicle's state means} *)
 
-let is (plan : string) (s : sighting) = s.state.plan_id = plan
-
-(* The states in which a plan that runs, or has just been taken, is seen. *)
-let busy (s : sighting) =
-  match s.state.state with
-  | Executing | Initializing -> true
-  | Blocked | Ready | Other _ -> false
-
-let succeeded (s : sighting) =
-  match s.state.last_outcome with
-  | Success -> true
-  | None | Failure | Other _ -> false
-
-let failed (s : sighting) =
-  match s.state.last_outcome with
-  | Failure -> true
-  | None | Success | Other _ -> false
-
 let ended_badly = "the plan ended without success, and the vehicle gave no reason"
 let refused = "the plan was refused, and the vehicle gave no reason"
 let blocked = "the vehicle is blocked: it cannot run plans now"
 let forgotten = "the vehicle knows of no plan any more: it was restarted"
+
+let unknown plan =
+  Printf.sprintf
+    "the console died just as it asked for plan %s, which the vehicle had run before: nobody knows whether it has run \
+     again"
+    plan
 
 (* The request seems to be without effect: if that is sure, it is sent again. *)
 let look ~now ~clock (a : attempt) (s : sighting) x =
   if a.accepted <> None || now < a.last_sent +. patience || s.sent < a.asked +. patience then (x, [])
   else
     let is_blocked = s.state.state = Blocked in
+    (* It may be that the plan ran and was over between two states, all signs of it being lost. *)
+    let doubtful = is a.order.plan s in
     if a.copies >= most_copies || (is_blocked && a.copies >= most_copies_while_blocked) then
       let why =
         if is_blocked then words x ~since:a.after ~why:blocked
         else Printf.sprintf "no answer to %d requests to start the plan" a.copies
       in
       fail ~now ~ended:s.sent a why x
+    else if a.adopted && doubtful then fail ~now ~ended:s.sent a (unknown a.order.plan) x
     else
       let x, outputs = resend ~now ~clock a x in
-      (* It may be that the plan ran and was over between two states, all signs of it being lost. *)
-      let doubtful = is a.order.plan s in
       let note = Printf.sprintf "plan %s is requested again; it cannot be excluded that it has run" a.order.plan in
       (x, if doubtful then Note note :: outputs else outputs)
 
@@ -257,11 +271,6 @@ let judge_run ~now ~clock (a : attempt) ~since (s : sighting) x =
     | Ready when s.state.plan_id = "" -> expect_words ~now ~clock a ~since forgotten x
     | Executing | Ready -> replaced ~now ~clock ~ended:s.sent a s.state.plan_id x
     | Blocked -> expect_words ~now ~clock a ~since blocked x
-    | Initializing when own && not a.anew ->
-      let note =
-        Printf.sprintf "plan %s begins anew: the request for it came twice, or another console made one" a.order.plan
-      in
-      ({ x with phase = Running { attempt = { a with anew = true }; since } }, [ Note note ])
     | Initializing | Other _ -> (x, [])
 
 let stopped ~now ~clock ~ended attempt next x =
@@ -377,6 +386,68 @@ let lost ~now ~clock why x =
     fail ~watch:remembrance ~now ~ended:(Vehicle_clock.latest clock) attempt why x
   | Stopping s -> ({ x with phase = Stopping { s with next = None } }, [ Failed why ])
 
+(* {1 What a console before this one has begun} *)
+
+(* A sighting of which no more is kept than what was judged by it. *)
+let remembered (plan_id, busy) =
+  let state : Control_state.State.t = if busy then Executing else Ready in
+  { sent = 0.; state = { Control_state.default with state; plan_id } }
+
+(* Whatever the vehicle says now, it says after all that the other console did. *)
+let adopted_attempt ~now ~clock order (k : Memo.knowledge) =
+  { order; request = k.request; copies = 1; last_sent = now;
+    asked = Vehicle_clock.estimate ~now clock;
+    before = Option.map remembered k.before;
+    after = neg_infinity;
+    accepted = (if k.taken || k.runs then Some neg_infinity else None);
+    adopted = true; initialised = false }
+
+let is_at_work plan (s : sighting) = busy s && is plan s
+
+let adopt ~now ~clock (order : order) ~stopped memos x =
+  match Memo.knowledge ~plan:order.plan memos, x.seen with
+  | None, _ -> if stopped then (x, []) else begin_attempt ~now ~clock order x
+  | Some { over = true; _ }, _ when stopped -> (x, [])
+  | Some k, Some s when stopped ->
+    let attempt = adopted_attempt ~now ~clock order k in
+    if is_at_work order.plan s then begin_stop ~now ~clock ~took_effect:true attempt x
+    else (close ~now ~ended:s.sent attempt x, [ Keep (Over { request = k.request }) ])
+  | Some k, seen ->
+    let attempt = adopted_attempt ~now ~clock order k in
+    let phase = if k.runs then Running { attempt; since = neg_infinity } else Starting attempt in
+    let x = { x with phase; abort = None; next_request = (k.request + 1) land 0xFFFF } in
+    (match seen with Some s -> judge ~now ~clock s x | None -> (x, []))
+
+(* What is to be kept of a step from [x] to [y]. A request is kept before it is sent. *)
+let memos x y =
+  let attempt z : (attempt * [ `Starting | `Running | `Stopping ]) option =
+    match z.phase with
+    | Idle -> None
+    | Starting attempt -> Some (attempt, `Starting)
+    | Running { attempt; _ } | Ending { attempt; _ } -> Some (attempt, `Running)
+    | Stopping { attempt; _ } -> Some (attempt, `Stopping)
+  in
+  let is_other (a : attempt) = function Some ((b : attempt), _) -> a.request <> b.request | None -> true in
+  let asked (a : attempt) : Memo.t =
+    Asked
+      { plan = a.order.plan; request = a.request;
+        before = Option.map (fun (s : sighting) -> (s.state.plan_id, busy s)) a.before }
+  in
+  let over : Memo.t list =
+    match attempt x, attempt y with
+    | Some (a, `Stopping), after when is_other a after -> [ Over { request = a.request } ]
+    | _, _ -> []
+  in
+  let rest : Memo.t list =
+    match attempt x, attempt y with
+    | before, Some (a, _) when is_other a before && not a.adopted -> [ asked a ]
+    | Some (b, `Starting), Some (a, `Starting) when b.accepted = None && a.accepted <> None ->
+      [ Taken { request = a.request } ]
+    | (None | Some (_, `Starting)), Some (a, `Running) -> [ Runs { request = a.request } ]
+    | (Some _ | None), (Some _ | None) -> []
+  in
+  List.map (fun m -> Keep m) (over @ rest)
+
 let tick ~now ~clock x =
   match x.phase with
   | Ending e when now >= e.deadline ->
@@ -393,16 +464,38 @@ let tick ~now ~clock x =
     ({ x with phase = Stopping { s with last_sent = now } }, [ request Stop s.stop s.attempt.order None ])
   | Idle | Starting _ | Running _ | Ending _ | Stopping _ -> (x, [])
 
-let step ~now ~clock input x =
+(* What the vehicle says is a sign of how often it took the request, whatever else it means. *)
+let count input x =
+  let takes =
+    match input with
+    | Reply { sent; reply } -> Takes.reply ~sent reply x.takes
+    | State { sent; state } -> Takes.state ~sent state x.takes
+    | Log { sent; entry } -> Takes.log ~sent entry x.takes
+    | Start _ | Stop | Vehicle _ | Abort _ | Lost _ | Adopt _ | Tick -> x.takes
+  in
+  match Takes.twice takes with
+  | None -> ({ x with takes }, [])
+  | Some (takes, plan) ->
+    let why = "the request for it came twice, or another console made one" in
+    ({ x with takes }, [ Note (Printf.sprintf "plan %s begins anew: %s" plan why) ])
+
+let obey ~now ~clock input x =
   match input with
   | Start order -> start ~now ~clock order x
   | Stop -> stop ~now ~clock x
   | Reply { sent; reply = r } -> reply ~now ~clock ~sent r x
   | State { sent; state = s } -> state ~now ~clock sent s x
   | Vehicle { sent; state } -> vehicle ~sent state x
+  | Log _ -> (x, [])
   | Abort by -> ({ x with abort = Some by }, [])
   | Lost why -> lost ~now ~clock why x
+  | Adopt { order; stopped; memos } -> adopt ~now ~clock order ~stopped memos x
   | Tick -> tick ~now ~clock x
+
+let step ~now ~clock input x =
+  let x, notes = count input x in
+  let y, outputs = obey ~now ~clock input x in
+  (y, notes @ memos x y @ outputs)
 
 (* {1 Displays} *)
 
@@ -428,6 +521,8 @@ let executing x =
   match x.seen with
   | Some { state = { state = Executing; plan_id; _ }; _ } -> Some plan_id
   | Some _ | None -> None
+
+let is_heard x = x.seen <> None
 
 let readiness x =
   match x.seen with

@@ -25,7 +25,14 @@
       start sent. After {!stop_patience} the stop is given up.
     - Late copies of our own datagrams are recognised by their replies: a stop that hits the next plan makes it start
       again; a start that comes after its plan was over is stopped; one that comes while the plan runs makes the vehicle
-      begin it anew, which nobody can prevent. All this is told as a [Note]. *)
+      begin it anew, which nobody can prevent ({!Takes} finds out). All this is told as a [Note].
+
+    {1:adoption What another console began}
+
+    A console that takes over decides in the same way. What it knows besides is what the other one kept: which plan the
+    vehicle had named before the request, and whether the vehicle had answered it. A request that was never sent is sent
+    now; one that may or may not have left is looked for like one that was not answered. If the vehicle named that very
+    plan before, and it is READY, nobody can know whether the plan has run: the order fails, and says so. *)
 
 open Dolphin_imc
 
@@ -44,11 +51,16 @@ type input =
   | Reply of { sent : float; reply : Message.t Message.Plan_control.t }
   | State of { sent : float; state : Message.Plan_control_state.t }
   | Vehicle of { sent : float; state : Message.Vehicle_state.t }
+  | Log of { sent : float; entry : Message.Log_book_entry.t }
   | Abort of string  (** The console of this name told the vehicle to abort. *)
   | Lost of string  (** The link is given up; why. *)
+  | Adopt of { order : order; stopped : bool; memos : Memo.t list  (** latest first *) }
+  (** A console before this one was told to start [order], and if [stopped] to stop it again, and then died; [memos] is
+      what it kept since then. To be given to an execution that has nothing to do, once the vehicle {!is_heard}. *)
   | Tick  (** Time has passed. *)
 
 type output =
+  | Keep of Memo.t  (** In case that we die: before what follows is sent. *)
   | Send of Message.t  (** To the vehicle. *)
   | Done
   | Failed of string  (** Without a full stop. *)
@@ -58,8 +70,8 @@ val create : request:int -> t
 (** Nothing to do; requests are numbered from [request], modulo 65536. *)
 
 val step : now:float -> clock:Vehicle_clock.t -> input -> t -> t * output list
-(** [step ~now ~clock i x] is what becomes of [x] when [i] happens at [now] (s, our clock). After each [Start] there is
-    exactly one [Done] or [Failed], unless [Stop] or another [Start] comes before. *)
+(** [step ~now ~clock i x] is what becomes of [x] when [i] happens at [now] (s, our clock). After each [Start], and
+    each [Adopt] that is not [stopped], there is exactly one [Done] or [Failed], unless [Stop] or another [Start] comes before. *)
 
 val due : t -> float
 (** When [Tick] has something to do, by our clock; [infinity] if never. *)
@@ -69,6 +81,9 @@ val idle : t -> bool
 
 val owes : t -> bool
 (** [owes x]: [Done] or [Failed] is still to come. *)
+
+val is_heard : t -> bool
+(** The vehicle has said something of its plan. *)
 
 (** {1:displays For displays} *)
 

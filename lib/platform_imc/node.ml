@@ -127,6 +127,7 @@ let hear ~now ~own (p : Packet.t) n =
   | Message (Entity_list list) -> (entities list n, [])
   | Message (Vehicle_state state) -> command ~now (Vehicle { sent; state }) (vehicle ~sent state n)
   | Message (Plan_control_state state) -> command ~now (State { sent; state }) n
+  | Message (Log_book_entry entry) -> command ~now (Log { sent; entry }) n
   | Message (Plan_control reply) when p.dst = own -> command ~now (Reply { sent; reply }) n
   | Message _ | Unknown _ -> (n, [])
 
@@ -145,21 +146,25 @@ let in_service n =
 let silent ~now ~timeout n = now -. n.last_heard >= timeout
 let unknown_position = { Position.latitude = 0.; longitude = 0.; height = 0. }
 
-let state ~now ~timeout ~payload n : World.vehicle_state =
+let state ~now ~timeout ~kind ~payload n : World.vehicle_state =
   let position =
     match n.position, n.announced_position with
     | Some (_, p), _ | None, Some p -> p
     | None, None -> unknown_position
   in
-  let useful = in_service n || not (Execution.idle n.execution) in
+  (* Nobody could tell later what became of a plan if it was not known what the vehicle ran before. *)
+  let is_ready = in_service n && Execution.is_heard n.execution in
+  let useful = is_ready || not (Execution.idle n.execution) in
   { id = n.name;
-    kind = Service.kind n.kind;
+    kind;
     payload = (match payload with Some devices -> devices | None -> Option.value n.entities ~default:[]);
     position;
     battery = (match n.battery with Some (_, share) -> share | None -> 1.);
     connected = is_vehicle n && useful && not (silent ~now ~timeout n) }
 
-let mode n =
+let mode ~names n =
   match n.mode with
-  | Some (_, mode) -> Message.Vehicle_state.Op_mode.name mode
+  | Some (_, mode) ->
+    let number = Message.Vehicle_state.Op_mode.to_int mode in
+    Option.value (List.assoc_opt number names) ~default:(Message.Vehicle_state.Op_mode.name mode)
   | None -> "-"

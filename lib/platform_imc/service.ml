@@ -43,8 +43,9 @@ let addresses services = List.filter_map address (String.split_on_char ';' servi
 let announced addresses =
   String.concat ";" (List.map (fun a -> Format.asprintf "%s%a/" scheme pp_address a) addresses)
 
-let kind : Message.System_type.t -> string = function
-  | (Ccu | Humansensor | Uuv | Usv | Uav | Ugv | Staticsensor | Mobilesensor | Wsn | Other _) as kind ->
+let kind ~names : Message.System_type.t -> string = function
+  | Other n as kind -> Option.value (List.assoc_opt n names) ~default:(Message.System_type.name kind)
+  | (Ccu | Humansensor | Uuv | Usv | Uav | Ugv | Staticsensor | Mobilesensor | Wsn) as kind ->
     Message.System_type.name kind
 
 let is_vehicle : Message.System_type.t -> bool = function

@@ -10,7 +10,19 @@ type settings = {
   epoch : float;
   first_request : int;
   payload : (Core.vehicle * string list) list;
+  types : (Core.vehicle * string) list;
+  type_names : (int * string) list;
+  listens : bool;
 }
+
+(* What is to be done with a vehicle when it is heard of. *)
+type wish =
+  | Nothing
+  | Run of { begun : begun; before : begun option;  (* is to be halted first *) deadline : float }
+  | Halt of begun
+
+(* What a console that died was told to have a vehicle do, and what it kept of that; nothing, if it did not ask yet. *)
+and begun = { order : Execution.order; memos : Memo.t list }
 
 (* What the program was told of a vehicle, and when. *)
 type told = { state : World.vehicle_state; at : float }
@@ -25,6 +37,7 @@ type t = {
   timeout : float;  (* of vehicles that are not in [timeouts] *)
   timers : (float * Residual.timer) list;  (* earliest first *)
   told : told Names.t;
+  expected : wish Names.t;  (* vehicles of a console that died *)
   outbox : Outbox.t;
   next_announce : float;
   last_announce : float;
@@ -33,12 +46,14 @@ type t = {
   dropped : int Names.t;
   skipped : int;
   accepted : int;
+  heard : Heard.t;
 }
 
 type output =
   | Send of { address : Service.address; bytes : string }
   | Announce of string
   | Announce_to of Unix.inet_addr * string
+  | Keep of Core.vehicle * Memo.t
   | Note of Core.vehicle * string
 
 let announce_interval = 10.
@@ -54,22 +69,28 @@ let least_announce_interval = 0.25
    heartbeats for so long. *)
 let courtship = 15.
 let patience = 300.
-let most_queries = 10
+let most_queries = 50
 let longest_name = 200
 let telemetry_interval = 0.95
 
 let create settings =
   { settings; nodes = Nodes.empty; ids = Names.empty; bound = Names.empty; telemetry = false; timeouts = Names.empty;
-    timeout = 60.; timers = []; told = Names.empty; outbox = Outbox.empty; next_announce = 0.;
+    timeout = 60.; timers = []; told = Names.empty; expected = Names.empty; outbox = Outbox.empty; next_announce = 0.;
     last_announce = neg_infinity; next_heartbeat = 0.; next_eager = infinity; dropped = Names.empty; skipped = 0;
-    accepted = 0 }
+    accepted = 0; heard = Heard.nothing }
 
 let timeout_of name s = Option.value (Names.find_opt name s.timeouts) ~default:s.timeout
 let find name s = Option.bind (Names.find_opt name s.ids) (fun id -> Nodes.find_opt id s.nodes)
 let put (n : Node.t) s = { s with nodes = Nodes.add n.id n s.nodes }
 
+let kind_of (n : Node.t) s =
+  match List.assoc_opt n.name s.settings.types with
+  | Some kind -> kind
+  | None -> Service.kind ~names:s.settings.type_names n.kind
+
 let state_of ~now (n : Node.t) s =
-  Node.state ~now ~timeout:(timeout_of n.name s) ~payload:(List.assoc_opt n.name s.settings.payload) n
+  let payload = List.assoc_opt n.name s.settings.payload in
+  Node.state ~now ~timeout:(timeout_of n.name s) ~kind:(kind_of n s) ~payload n
 
 (* {1 Sending} *)
 
@@ -117,6 +138,7 @@ let carry_out ~now (n : Node.t) outputs s =
     | Send message -> (s, List.rev_append (to_node ~now n message s) sent)
     | Done -> (push (Task_done n.name) (tell ~urgent:true ~now n s), sent)
     | Failed why -> (push (Task_failed (n.name, why)) (tell ~urgent:true ~now n s), sent)
+    | Keep memo -> (s, Keep (n.name, memo) :: sent)
     | Note text -> (s, Note (n.name, text) :: sent)
   in
   let s, sent = List.fold_left carry (s, []) outputs in
@@ -125,6 +147,78 @@ let carry_out ~now (n : Node.t) outputs s =
 let command ~now input (n : Node.t) s =
   let n, outputs = Node.command ~now input n in
   carry_out ~now n outputs (put n s)
+
+(* {1 Expected vehicles} *)
+
+let expect name wish s = { s with expected = Names.add name wish s.expected }
+
+(* An order of the console that died, or one that came before the vehicle was heard. *)
+let order_of (task : Core.platform_task) : Execution.order =
+  { plan = task.name; specification = Option.map Plan_message.of_plan task.plan }
+
+let deadline ~now name s = now +. timeout_of name s
+
+(* What is known to be over, or was never asked for, need not be halted. *)
+let halt name begun s =
+  match Memo.knowledge ~plan:begun.order.plan begun.memos with
+  | None | Some { over = true; _ } -> expect name Nothing s
+  | Some _ -> expect name (Halt begun) s
+
+let resume ~now (standing : Dolphin_runtime.Past.standing) s =
+  let timeouts = List.fold_left (fun map (v, seconds) -> Names.add v seconds map) s.timeouts standing.timeouts in
+  let s = { s with timeouts; timeout = Option.value standing.timeout ~default:s.timeout } in
+  let s = List.fold_left (fun s v -> expect v Nothing { s with bound = Names.add v () s.bound }) s standing.bound in
+  let begun (errand : Dolphin_runtime.Past.errand) =
+    { order = order_of errand.task; memos = List.filter_map Memo.of_json errand.notes }
+  in
+  (* The end of the errand before may have been noted during this one. *)
+  let before (errand : Dolphin_runtime.Past.errand) =
+    let is_over = function Memo.Over _ -> true | Asked _ | Taken _ | Runs _ -> false in
+    let with_ends b = { b with memos = List.filter is_over (begun errand).memos @ b.memos } in
+    Option.map with_ends (Option.map begun errand.before)
+  in
+  let wish (v, (errand : Dolphin_runtime.Past.errand)) s =
+    if errand.is_stopped then halt v (begun errand) s
+    else expect v (Run { begun = begun errand; before = before errand; deadline = deadline ~now v s }) s
+  in
+  let s = List.fold_left (fun s errand -> wish errand s) s standing.errands in
+  let by_time (_, due) (_, due') = Float.compare due due' in
+  { s with timers = List.map (fun (timer, due) -> (due, timer)) (List.stable_sort by_time standing.timers) }
+
+let adopt ~now ~stopped { order; memos } = command ~now (Adopt { order; stopped; memos })
+
+(* What was wished of [n] is done once it has said what it runs. *)
+let receive_expected ~now (n : Node.t) s =
+  match Names.find_opt n.name s.expected with
+  | Some wish when Execution.is_heard n.execution -> (
+      let s = { s with expected = Names.remove n.name s.expected } in
+      match wish with
+      | Nothing -> (s, [])
+      | Halt begun -> adopt ~now ~stopped:true begun n s
+      | Run { begun; before = Some before; _ } when begun.memos = [] ->
+        let s, sent = adopt ~now ~stopped:true before n s in
+        let s, more = command ~now (Start begun.order) (Nodes.find n.id s.nodes) s in
+        (s, sent @ more)
+      | Run { begun; _ } -> adopt ~now ~stopped:false begun n s)
+  | Some _ | None -> (s, [])
+
+let plural seconds = if seconds = 1. then "1 second" else Printf.sprintf "%.0f seconds" seconds
+
+let give_up_expected ~now s =
+  let give_up name wish s =
+    match wish with
+    | Run { begun; deadline; _ } when deadline <= now ->
+      let why = Printf.sprintf "no word from the vehicle for %s" (plural (timeout_of name s)) in
+      halt name begun (push (Task_failed (name, why)) s)
+    | Run _ | Nothing | Halt _ -> s
+  in
+  Names.fold give_up s.expected s
+
+let expected_due s =
+  let earlier _ wish time = match wish with Run { deadline; _ } -> Float.min deadline time | Nothing | Halt _ -> time in
+  Names.fold earlier s.expected infinity
+
+let owes_stop s = Names.exists (fun _ wish -> match wish with Halt _ -> true | Nothing | Run _ -> false) s.expected
 
 (* {1 Datagrams} *)
 
@@ -138,7 +232,7 @@ let skip s = ({ s with skipped = s.skipped + 1 }, [])
 let is_wanted id =
   id = Message.Announce.id || id = Message.Heartbeat.id || id = Message.Estimated_state.id
   || id = Message.Vehicle_state.id || id = Message.Plan_control_state.id || id = Message.Plan_control.id
-  || id = Message.Fuel_level.id || id = Message.Entity_list.id || id = Message.Abort.id
+  || id = Message.Fuel_level.id || id = Message.Log_book_entry.id || id = Message.Entity_list.id || id = Message.Abort.id
 
 let request_of ~id s = (s.settings.first_request + (id * 257)) land 0xFFFF
 
@@ -193,9 +287,12 @@ let heard ~now (p : Packet.t) (n : Node.t) s =
   let first = n.last_heard = neg_infinity in
   let n, outputs = Node.hear ~now ~own:s.settings.id p n in
   let s, sent = carry_out ~now n outputs (put n { s with accepted = s.accepted + 1 }) in
+  let s, more = receive_expected ~now n s in
+  let sent = sent @ more and n = Nodes.find n.id s.nodes in
   if first && Node.is_vehicle n && not (List.mem_assoc n.name s.settings.payload) then
     let n = Node.queried n in
     let query = Message.Entity_list { Message.Entity_list.default with op = Query } in
+    let s = { s with next_eager = Float.min s.next_eager (now +. eager_heartbeat_interval) } in
     (put n s, sent @ to_node ~now n query s)
   else (s, sent)
 
@@ -211,8 +308,17 @@ let packet ~now ~from (p : Packet.t) s =
           | Message Abort -> aborted ~now p s
           | Message _ | Unknown _ -> heard ~now p n s))
 
+(* Of systems that have announced, from where they are. *)
+let listen ~from (h : Header.t) bytes s =
+  match Nodes.find_opt h.src s.nodes with
+  | Some n when s.settings.listens && Node.belongs from n && Header.check h bytes = Ok () ->
+    { s with heard = Heard.add h bytes s.heard }
+  | Some _ | None -> s
+
 let datagram ~now ~from ?len bytes s =
-  match Header.read ?len bytes with
+  let header = Header.read ?len bytes in
+  let s = match header with Ok h -> listen ~from h bytes s | Error _ -> s in
+  match header with
   | Error why -> drop (Error.label why) s
   | Ok h when not (is_wanted h.id) -> skip s
   | Ok h when h.src = s.settings.id -> drop "our own" s
@@ -233,25 +339,25 @@ let is_kept ~now (n : Node.t) =
 let heartbeats ~now which s =
   Nodes.fold (fun _ n sent -> if which n then to_node ~now n Heartbeat s @ sent else sent) s.nodes []
 
+(* Entity lists that did not come are asked for again: programs pick vehicles by what they carry. *)
+let lacks_entities ~now (n : Node.t) =
+  n.entities = None && n.last_heard > neg_infinity && n.queries > 0 && n.queries < most_queries
+  && not (Node.silent ~now ~timeout:5. n)
+
+let next_eager ~now s =
+  let waits _ n = is_courted ~now n || lacks_entities ~now n in
+  if Nodes.exists waits s.nodes then now +. eager_heartbeat_interval else infinity
+
 let beat ~now s =
-  let courted = is_courted ~now in
-  let next_eager () =
-    if Nodes.exists (fun _ n -> courted n) s.nodes then now +. eager_heartbeat_interval else infinity
-  in
+  let next_eager = next_eager ~now s in
   if now >= s.next_heartbeat then
-    ( { s with next_heartbeat = now +. heartbeat_interval; next_eager = next_eager () },
-      heartbeats ~now (is_kept ~now) s )
-  else if now >= s.next_eager then ({ s with next_eager = next_eager () }, heartbeats ~now courted s)
+    ({ s with next_heartbeat = now +. heartbeat_interval; next_eager }, heartbeats ~now (is_kept ~now) s)
+  else if now >= s.next_eager then ({ s with next_eager }, heartbeats ~now (is_courted ~now) s)
   else (s, [])
 
-(* Entity lists that did not come are asked for again, with every heartbeat. *)
 let query ~now s =
-  let lacks (n : Node.t) =
-    n.entities = None && n.last_heard > neg_infinity && n.queries > 0 && n.queries < most_queries
-    && not (Node.silent ~now ~timeout:5. n)
-  in
   let ask _ (n : Node.t) (s, sent) =
-    if not (lacks n) then (s, sent)
+    if not (lacks_entities ~now n) then (s, sent)
     else
       let n = Node.queried n in
       let query = Message.Entity_list { Message.Entity_list.default with op = Query } in
@@ -279,8 +385,6 @@ let was_connected (n : Node.t) s =
 let end_of_link (n : Node.t) s =
   if was_connected n s || Execution.owes n.execution then n.last_heard +. timeout_of n.name s else infinity
 
-let plural seconds = if seconds = 1. then "1 second" else Printf.sprintf "%.0f seconds" seconds
-
 let check ~now _ (n : Node.t) (s, sent) =
   let timeout = timeout_of n.name s in
   let s, more = if Execution.due n.execution <= now then command ~now Tick n s else (s, []) in
@@ -295,27 +399,24 @@ let check ~now _ (n : Node.t) (s, sent) =
 
 let tick ~now s =
   let s, announced = announce ~now s in
-  let beats = now >= s.next_heartbeat in
+  let beats = now >= Float.min s.next_heartbeat s.next_eager in
   let s, beaten = beat ~now s in
   let s, queried = if beats then query ~now s else (s, []) in
   let s, checked = Nodes.fold (check ~now) s.nodes (s, []) in
-  (expire ~now s, announced @ beaten @ queried @ checked)
+  (expire ~now (give_up_expected ~now s), announced @ beaten @ queried @ checked)
 
 let due s =
   let of_node _ (n : Node.t) time =
     Float.min time (Float.min (Execution.due n.execution) (end_of_link n s))
   in
   let timer = match s.timers with (time, _) :: _ -> time | [] -> infinity in
-  Float.min s.next_announce (Float.min s.next_heartbeat (Float.min s.next_eager timer))
+  Float.min s.next_announce (Float.min s.next_heartbeat (Float.min s.next_eager (Float.min timer (expected_due s))))
   |> Nodes.fold of_node s.nodes
 
 (* {1 Commands} *)
 
 (* Larger ones do not fit a datagram. *)
 let largest = 65507
-
-let order_of (task : Core.platform_task) : Execution.order =
-  { plan = task.name; specification = Option.map Plan_message.of_plan task.plan }
 
 let check_order ~now (n : Node.t) (order : Execution.order) s =
   let arg = Option.map (fun p -> Message.Plan_specification p) order.specification in
@@ -330,6 +431,15 @@ let check_order ~now (n : Node.t) (order : Execution.order) s =
 let start ~now vehicle task s =
   let s = { s with outbox = Outbox.without_task vehicle s.outbox } in
   match find vehicle s with
+  | None | Some _ when Names.mem vehicle s.expected ->
+    let before =
+      match Names.find vehicle s.expected with
+      | Nothing -> None
+      | Halt begun -> Some begun
+      | Run { begun; before; _ } -> if begun.memos = [] then before else Some begun
+    in
+    let begun = { order = order_of task; memos = [] } in
+    (expect vehicle (Run { begun; before; deadline = deadline ~now vehicle s }) s, [])
   | None -> (push (Task_failed (vehicle, "no such vehicle was heard of")) s, [])
   | Some n -> (
       let order = order_of task in
@@ -339,11 +449,15 @@ let start ~now vehicle task s =
 
 let stop ~now vehicle s =
   let s = { s with outbox = Outbox.without_task vehicle s.outbox } in
-  match find vehicle s with
-  | None -> (s, [])
-  | Some n -> command ~now Stop n s
+  match Names.find_opt vehicle s.expected, find vehicle s with
+  | Some (Run { begun; before; _ }), _ ->
+    let which = match before with Some before when begun.memos = [] -> before | Some _ | None -> begun in
+    (halt vehicle which s, [])
+  | Some (Nothing | Halt _), _ | None, None -> (s, [])
+  | None, Some n -> command ~now Stop n s
 
 let stop_all ~now s =
+  let s = Names.fold (fun vehicle _ s -> fst (stop ~now vehicle s)) s.expected s in
   Nodes.fold
     (fun _ (n : Node.t) (s, sent) ->
        let s, more = stop ~now n.name s in
@@ -380,7 +494,7 @@ let telemetry ~now on s =
 
 let take s = Option.map (fun (event, outbox) -> (event, { s with outbox })) (Outbox.take s.outbox)
 let waiting s = not (Outbox.is_empty s.outbox)
-let quiet s = Nodes.for_all (fun _ (n : Node.t) -> Execution.idle n.execution) s.nodes
+let quiet s = (not (owes_stop s)) && Nodes.for_all (fun _ (n : Node.t) -> Execution.idle n.execution) s.nodes
 
 type sight = { node : Node.t; state : World.vehicle_state; age : float; linked : bool }
 
@@ -392,6 +506,7 @@ let sights ~now s =
   List.map (fun (_, n) -> sight n) (Nodes.bindings s.nodes)
   |> List.sort (fun a b -> compare (a.node.name, a.node.id) (b.node.name, b.node.id))
 
+let heard id s = Heard.of_system id s.heard
 let plan vehicle s = Option.bind (find vehicle s) (fun n -> Execution.progress n.execution)
 let dropped s = Names.bindings s.dropped
 let skipped s = s.skipped

@@ -15,10 +15,19 @@ type settings = {
   epoch : float;  (** Seconds from 1970-01-01 00:00 UTC to time 0 of [now]. *)
   first_request : int;  (** Where requests are numbered from. *)
   payload : (Core.vehicle * string list) list;  (** Devices of vehicles, in place of their entity lists. *)
+  types : (Core.vehicle * string) list;  (** Types of vehicles, in place of what they announce. *)
+  type_names : (int * string) list;  (** Of types for which IMC 5.4 has no names. *)
+  listens : bool;  (** Whether {!heard} is kept. *)
 }
 
 val create : settings -> t
 (** Nobody is known; an announcement is due. *)
+
+val resume : now:float -> Dolphin_runtime.Past.standing -> t -> t
+(** [resume ~now standing s] is [s], as {!create} made it, taking over at [now] from a console that died. Vehicles that
+    it held, and those that it had asked for something, are expected: what they were asked is settled when they have said
+    what they run ({!Execution}), and they may be commanded before they are heard. One that is not heard within its
+    connection timeout, though a task of it has not ended, has failed it. Timers go on. *)
 
 (** {1:time Input}
 
@@ -29,6 +38,7 @@ type output =
   | Announce of string
   (** To the announcement ports at 224.0.75.69, the broadcast address and 127.0.0.1. *)
   | Announce_to of Unix.inet_addr * string  (** To the announcement ports there. *)
+  | Keep of Core.vehicle * Memo.t  (** In case that we die: before what follows is sent. *)
   | Note of Core.vehicle * string  (** For people: something unusual that is not the end of a task. *)
 
 val datagram : now:float -> from:Unix.inet_addr -> ?len:int -> string -> t -> t * output list
@@ -67,6 +77,9 @@ val take : t -> (Platform.event * t) option
 val waiting : t -> bool
 (** Whether there is one. *)
 
+val owes_stop : t -> bool
+(** A vehicle that is to be stopped was not heard yet, since {!resume}. *)
+
 val quiet : t -> bool
 (** No plan is ordered, and no stop waits for its confirmation. *)
 
@@ -82,6 +95,9 @@ type sight = {
 
 val sights : now:float -> t -> sight list
 (** All systems that have announced, by name. *)
+
+val heard : int -> t -> (int * Heard.entry) list
+(** [heard id s] is what the system [id] sent, read or not, if the settings say that this is kept. *)
 
 val plan : Core.vehicle -> t -> Execution.progress option
 (** What the vehicle runs for the program. *)
@@ -107,7 +123,7 @@ val heartbeat_interval : float
 
 val eager_heartbeat_interval : float
 (** 0.2 s to a system that has announced and not yet spoken to us: it takes notice of us by our first packet after our
-    announcement. *)
+    announcement. Entity lists that did not come are asked for again as often. *)
 
 val most_nodes : int
 (** 2000: as many systems are remembered. *)

@@ -1,6 +1,6 @@
 type t = { mutable shown : float; mutable day : float }
 
-let make () = { shown = 0.; day = Unix.gettimeofday () }
+let make ?(time = 0.) () = { shown = time; day = Unix.gettimeofday () }
 
 let now c =
   let day = Unix.gettimeofday () in

@@ -3,7 +3,7 @@
 
 type t
 
-val make : unit -> t
-(** It shows 0 now. *)
+val make : ?time:float -> unit -> t
+(** It shows [time] now, by default 0. *)
 
 val now : t -> float

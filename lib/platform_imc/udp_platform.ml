@@ -10,15 +10,20 @@ type options = {
   announce_ports : int list;
   group : Unix.inet_addr;
   payload : (Core.vehicle * string list) list;
+  types : (Core.vehicle * string) list;
+  type_names : (int * string) list;
+  listens : bool;
   close_patience : float;
   note : Core.vehicle -> string -> unit;
+  keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
 }
 
 let default =
   { id = None; name = None; loopback = false; interfaces = []; data_port = 0;
     announce_ports = [ 30100; 30101; 30102; 30103; 30104 ];
     group = Unix.inet_addr_of_string "224.0.75.69";
-    payload = []; close_patience = 5.; note = (fun _ _ -> ()) }
+    payload = []; types = []; type_names = []; listens = false; close_patience = 5.; note = (fun _ _ -> ());
+    keep = (fun ~time:_ _ _ -> ()) }
 
 type t = {
   options : options;
@@ -42,8 +47,9 @@ type t = {
 let name = "imc"
 let virtual_time = false
 
-(* Vehicles announce every 10 s, and speak to a console up to 5 s after it has introduced itself. *)
-let announce_period _ = 16.
+(* Vehicles announce every 10 s, and speak to a console up to 5 s after it has introduced itself: see docs/rationale.md. *)
+let longest_silence = 16.
+let announce_period _ = longest_silence
 let gathering = 0.002
 let now p = Steady_clock.now p.clock
 
@@ -70,6 +76,7 @@ let carry_out p : Station.output -> unit = function
   | Send { address; bytes } -> send p (data_socket p) bytes address.host address.port
   | Announce bytes -> announce p bytes
   | Announce_to (host, bytes) -> List.iter (send p (data_socket p) bytes host) p.options.announce_ports
+  | Keep (vehicle, memo) -> p.options.keep ~time:(now p) vehicle (Memo.to_json memo)
   | Note (vehicle, text) -> p.options.note vehicle text
 
 (* {1 The state and its changes} *)
@@ -213,15 +220,15 @@ let join options fd interfaces =
   let join_by ifname = ignoring (fun () -> Lwt_unix.mcast_add_membership fd ~ifname options.group) in
   List.iter join_by interfaces
 
-let settings options ~port ~hosts : Station.settings =
+let settings options ~port ~hosts ~time : Station.settings =
   let random = Random.State.make_self_init () in
   let id = match options.id with Some id -> id | None -> 0x4000 + Random.State.int random 0x2000 in
   { id;
     name = Option.value options.name ~default:(Printf.sprintf "ccu-dolphin-%04x" id);
     addresses = List.map (fun host -> { Service.host; port }) hosts;
-    epoch = Unix.gettimeofday ();
+    epoch = Unix.gettimeofday () -. time;
     first_request = Random.State.int random 0x10000;
-    payload = options.payload }
+    payload = options.payload; types = options.types; type_names = options.type_names; listens = options.listens }
 
 let guard p thread =
   let fail error =
@@ -234,7 +241,7 @@ let guard p thread =
   in
   Lwt.async (fun () -> Lwt.catch thread fail)
 
-let make options =
+let make ?(time = 0.) ?standing options =
   let announcements, data = listen options in
   let loopback = Unix.inet_addr_loopback in
   let hosts =
@@ -244,13 +251,15 @@ let make options =
   in
   let interfaces = if options.loopback then [] else List.filter (fun h -> h <> loopback) hosts in
   let port = port_of data in
-  let settings = settings options ~port ~hosts in
+  let settings = settings options ~port ~hosts ~time in
+  let station = Station.create settings in
+  let station = Option.fold standing ~none:station ~some:(fun past -> Station.resume ~now:time past station) in
   let announcements = Lwt_unix.of_unix_file_descr ~blocking:false announcements in
   join options announcements interfaces;
   let p =
-    { options; settings; clock = Steady_clock.make (); data = Lwt_unix.of_unix_file_descr ~blocking:false data;
+    { options; settings; clock = Steady_clock.make ~time (); data = Lwt_unix.of_unix_file_descr ~blocking:false data;
       announcements; speakers = List.filter_map speaker interfaces; port;
-      buffer = Bytes.create 65536; station = Station.create settings; armed = infinity; rearm = None; waiting = None;
+      buffer = Bytes.create 65536; station; armed = infinity; rearm = None; waiting = None;
       closing = None; failure = None; closed = false; unsent = 0 }
   in
   guard p (fun () -> receive p p.data ~since:0. ~count:0);
@@ -258,12 +267,18 @@ let make options =
   guard p (fun () -> watch p);
   p
 
-let open_ options =
-  match make options with
+let opened make =
+  match make () with
   | p -> Ok p
   | exception Cannot why -> Error why
   | exception Unix.Unix_error (error, call, _) ->
     Error (Printf.sprintf "the network cannot be used: %s: %s" call (Unix.error_message error))
+
+let open_ options = opened (fun () -> make options)
+
+let open_again options ~time moments =
+  let standing = Dolphin_runtime.Past.standing ~announce_period:longest_silence moments in
+  opened (fun () -> make ~time ~standing options)
 
 (* {1 Commands} *)
 
@@ -308,7 +323,9 @@ let close p =
       else begin
         let promise, closing = Lwt.task () in
         p.closing <- Some closing;
-        Lwt.pick [ promise; Lwt_unix.sleep p.options.close_patience ]
+        let patience = p.options.close_patience in
+        let patience = if Station.owes_stop p.station then Float.max patience longest_silence else patience in
+        Lwt.pick [ promise; Lwt_unix.sleep patience ]
       end
     in
     all_quiet >>= fun () -> release_sockets p
@@ -320,6 +337,7 @@ let id p = p.settings.id
 let name_on_network p = p.settings.name
 let data_port p = p.port
 let sights p = Station.sights ~now:(now p) p.station
+let heard p id = Station.heard id p.station
 let progress p vehicle = Station.plan vehicle p.station
 
 type traffic = { accepted : int; skipped : int; dropped : (string * int) list; unsent : int }

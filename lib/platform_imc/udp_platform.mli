@@ -16,21 +16,32 @@ type options = {
   announce_ports : int list;  (** Where systems announce themselves: the first free one is taken. *)
   group : Unix.inet_addr;  (** Of the announcements. *)
   payload : (Core.vehicle * string list) list;  (** Devices of vehicles, in place of their entity lists. *)
-  close_patience : float;  (** So many seconds [close] waits for stops to be confirmed. *)
+  types : (Core.vehicle * string) list;  (** Types of vehicles, in place of what they announce. *)
+  type_names : (int * string) list;  (** Of types for which IMC 5.4 has no names. *)
+  listens : bool;  (** Whether {!heard} is kept. *)
+  close_patience : float;  (** So many seconds [close] waits for stops to be confirmed; for vehicles
+                               that are not heard again yet, {!announce_period} at least. *)
   note : Core.vehicle -> string -> unit;  (** Is told what is unusual, for people. *)
+  keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
+  (** Keeps what a console that takes over has to know ({!Memo}); when it returns that must be safe, as what it tells of
+      is done then. *)
 }
 
 val default : options
 (** As vehicles with the usual settings expect it: ports 30100 to 30104, the group 224.0.75.69, all interfaces, 5 s;
-    notes are thrown away. *)
+    notes are thrown away, and so is what is to be kept; {!heard} is not kept. *)
 
 include Platform.S
 
 val open_ : options -> (t, string) result
 (** [open_ options] listens and announces itself from now on. The error says which port cannot be had. *)
 
+val open_again : options -> time:float -> Past.moment list -> (t, string) result
+(** [open_again options ~time moments] takes over, at [time], from a console that died after [moments]; see
+    {!Station.resume}. *)
+
 val now : t -> float
-(** Seconds since [open_], by a clock that is never set back. *)
+(** Seconds since the beginning, by a clock that is never set back. *)
 
 val gathering : float
 (** 2 ms. *)
@@ -43,6 +54,9 @@ val data_port : t -> int
 
 val sights : t -> Station.sight list
 (** All systems that have announced, by name. *)
+
+val heard : t -> int -> (int * Heard.entry) list
+(** What the system with this IMC address sent, by the number of the message, if the options say that this is kept. *)
 
 val progress : t -> Core.vehicle -> Execution.progress option
 (** What the vehicle runs for the program. *)

@@ -7,7 +7,13 @@ type what =
   | Asked of Effect.t list
 
 type moment = { time : float; what : what }
-type errand = { task : Core.platform_task; is_stopped : bool; notes : Yojson.Safe.t list }
+
+type errand = {
+  task : Core.platform_task;
+  is_stopped : bool;
+  notes : Yojson.Safe.t list;
+  before : errand option;
+}
 
 type standing = {
   bound : Core.vehicle list;
@@ -30,7 +36,9 @@ let set_timer time timer seconds s =
   { s with timers = (if seconds = infinity then others else (timer, time +. Float.max 0. seconds) :: others) }
 
 let ask ~announce_period time s : Effect.t -> standing = function
-  | Start (v, task) -> { s with errands = put v { task; is_stopped = false; notes = [] } s.errands }
+  | Start (v, task) ->
+    let before = Option.map (fun errand -> { errand with before = None }) (List.assoc_opt v s.errands) in
+    { s with errands = put v { task; is_stopped = false; notes = []; before } s.errands }
   | Stop v -> of_errand v (fun errand -> { errand with is_stopped = true }) s
   | Set_timer (timer, seconds) -> set_timer time timer seconds s
   | Look_for { timeout; _ } ->

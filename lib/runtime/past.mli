@@ -17,6 +17,7 @@ type errand = {
   task : Core.platform_task;
   is_stopped : bool;  (** It was asked to stop. *)
   notes : Yojson.Safe.t list;  (** of the platform, since the task was to start; latest first *)
+  before : errand option;  (** The vehicle was to stop this one before; [notes] may say whether it has. *)
 }
 
 type standing = {

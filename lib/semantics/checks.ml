@@ -119,7 +119,8 @@ let check_place env (builtin : Builtins.t) name at =
       Scope.note_blocking env.code name;
       match Scope.in_task env.code with
       | Some construct ->
-        error env Waits_in_task at "%s belongs to the script: the code of %s is part of a task and cannot wait" name construct
+        error env Waits_in_task at "%s belongs to the script: the code of %s is part of a task and cannot wait" name
+          construct
           ~hint:"do it before execute, or split the task"
       | None -> ())
   | Handler_only -> (

@@ -9,7 +9,9 @@ let declare_function program ((name : string Ast.located), lambda, _, _, _) =
   if Scope.find_function program name.it <> None then
     wrong Defined_twice (Printf.sprintf "function '%s' is defined twice" name.it)
   else if Builtins.find name.it <> None || List.mem name.it Builtins.owners then
-    wrong Reserved_name (Printf.sprintf "'%s' is a name of the language and cannot be defined" name.it) ~hint:"choose another name"
+    wrong Reserved_name
+      (Printf.sprintf "'%s' is a name of the language and cannot be defined" name.it)
+      ~hint:"choose another name"
   else Scope.add_function program name.it lambda
 
 let report_unknown program =

@@ -214,6 +214,7 @@ type offer =
   | End_of of platform_task * vehicle
   | Expiry_of of timer
 
+type undoing = Cancel of timer | Cut of t list
 type reply = Went | Gave of float | Broke of Fault.t
 
 type outcome =
@@ -231,13 +232,12 @@ and change = {
   outcome : outcome;
   rules : Rule.t list;
   timers : (timer * float) list;
-  cancelled : timer list;
-  abandoned : t list;
+  undone : undoing list;
 }
 
 type step = { offer : offer; continue : reply -> change }
 
-let change rule outcome = { outcome; rules = [ rule ]; timers = []; cancelled = []; abandoned = [] }
+let change rule outcome = { outcome; rules = [ rule ]; timers = []; undone = [] }
 
 (* [enter rule r] is the change to [r], which begins now. *)
 let enter rule around r =
@@ -295,8 +295,8 @@ let around_parallel before after =
     on_finished = (fun c -> add Rule.Par_2 (Next (parallel (List.rev_append before after))) c);
     on_failed =
       (fun fault c ->
-         let abandoned = List.rev_append before after @ c.abandoned in
-         { (add Rule.Par_err (Failed fault) c) with abandoned });
+         let others = Cut (List.rev_append before after) in
+         { (add Rule.Par_err (Failed fault) c) with undone = c.undone @ [ others ] });
   }
 
 let around_branch remaining =
@@ -311,7 +311,7 @@ let around_until condition =
 
 let around_during timer duration =
   let next body = within (Body_during (timer, duration)) body in
-  let cancel c = { c with cancelled = timer :: c.cancelled } in
+  let cancel c = { c with undone = c.undone @ [ Cancel timer ] } in
   let plain = around ~next (Rule.During_1, Rule.During_2, Rule.During_err) in
   {
     plain with
@@ -321,7 +321,7 @@ let around_during timer duration =
 
 let around_watch handler =
   let on_failed fault c =
-    let nothing rule outcome = { outcome; rules = [ rule ]; timers = []; cancelled = []; abandoned = [] } in
+    let nothing rule outcome = { outcome; rules = [ rule ]; timers = []; undone = [] } in
     let ignored () = nothing Rule.Watch_ignore Finished in
     let propagated fault = nothing Rule.Watch_propagate (Failed fault) in
     { c with outcome = Handling { handler; fault; ignored; propagated } }
@@ -345,11 +345,11 @@ let cut context body =
   match context with
   | Before _ | Branch_of _ | Watched_by _ -> None
   | Body_until condition ->
-    let went () = { (change Rule.Until_cut Finished) with abandoned = [ body ] } in
-    let broke fault = { (failing Rule.Until_err fault) with abandoned = [ body ] } in
+    let went () = { (change Rule.Until_cut Finished) with undone = [ Cut [ body ] ] } in
+    let broke fault = { (failing Rule.Until_err fault) with undone = [ Cut [ body ] ] } in
     Some { offer = Check condition; continue = settled ~went ~broke }
   | Body_during (timer, _) ->
-    let cut = { (change Rule.During_cut Finished) with abandoned = [ body ] } in
+    let cut = { (change Rule.During_cut Finished) with undone = [ Cut [ body ] ] } in
     Some { offer = Expiry_of timer; continue = (fun _ -> cut) }
 
 let one step = Seq.return step

@@ -58,6 +58,11 @@ type offer =
   | End_of of platform_task * vehicle  (** that the vehicle reports the end *)
   | Expiry_of of timer  (** that the timer expires *)
 
+(** What no longer runs. *)
+type undoing =
+  | Cancel of timer
+  | Cut of t list  (** residuals that were cut off: their timers are cancelled, then their vehicles stop *)
+
 (** How it was settled. *)
 type reply = Went | Gave of float  (** to [Measure] *) | Broke of Fault.t
 
@@ -76,8 +81,7 @@ and change = {
   outcome : outcome;
   rules : Rule.t list;  (** the derivation, innermost rule first *)
   timers : (timer * float) list;  (** that start *)
-  cancelled : timer list;
-  abandoned : t list;  (** residuals that were cut off: their vehicles stop, their timers are cancelled *)
+  undone : undoing list;  (** in the order of the derivation, innermost rule first *)
 }
 
 type step = { offer : offer; continue : reply -> change }

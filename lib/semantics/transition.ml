@@ -204,10 +204,17 @@ let run_code program world c mode closure arguments =
     (Broke (Fault.make closure.lambda.lambda_site message), start)
   | Did | Waits _ -> invalid_arg "Transition.run_code: atomic code stopped"
 
-let active_changes (change : Residual.change) =
-  let cut = change.abandoned in
-  let cancelled = change.cancelled @ List.concat_map Residual.timers cut in
-  (cancelled, List.concat_map Residual.running cut)
+(* The vehicles that stop, and the effects in their order. *)
+let undo (change : Residual.change) =
+  let of_undoing : Residual.undoing -> vehicle list * Effect.t list = function
+    | Cancel timer -> ([], [ Cancel_timer timer ])
+    | Cut cut ->
+      let cancelled = List.map (fun timer -> Effect.Cancel_timer timer) (List.concat_map Residual.timers cut) in
+      let stopped = List.concat_map Residual.running cut in
+      (stopped, cancelled @ List.map (fun v -> Effect.Stop v) stopped)
+  in
+  let stopped, effects = List.split (List.map of_undoing change.undone) in
+  (List.concat stopped, List.concat effects)
 
 type outcome = Goes_on of Residual.t | Over | Ends of Configuration.ending
 
@@ -222,16 +229,11 @@ type local = {
 (* [settle c change] carries a change of the residual over to the rest of the configuration, handlers of errors
    included. [asked] are the effects of the step itself. *)
 let rec settle program world (c : Configuration.t) named derivation asked (change : Residual.change) =
-  let cancelled, stopped = active_changes change in
+  let stopped, undone = undo change in
   let derivation = derivation @ change.rules in
   let allocation = List.fold_left (fun a v -> Vehicle_map.remove v a) c.allocation stopped in
   let settled = { c with allocation } in
-  let asked =
-    asked
-    @ List.map (fun timer -> Effect.Cancel_timer timer) cancelled
-    @ List.map (fun v -> Effect.Stop v) stopped
-    @ timers_started change.timers
-  in
+  let asked = asked @ undone @ timers_started change.timers in
   match change.outcome with
   | Next r -> { after = settled; outcome = Goes_on r; derivation; named; asked }
   | Finished -> { after = settled; outcome = Over; derivation; named; asked }

@@ -129,6 +129,16 @@ let reply e ~by ~op ~request ~plan type_ info =
   in
   { from = entity; to_ = by; message = Plan_control reply }
 
+(* An entry of its log book, as DUNE makes them. *)
+let log ~at e ?(type_ = Message.Log_book_entry.Type.Info) text =
+  let entry : Message.Log_book_entry.t =
+    { type_; htime = e.settings.epoch +. at; context = "Plan.Engine"; text }
+  in
+  { from = entity; to_ = all; message = Log_book_entry entry }
+
+let log_request ~at e plan = log ~at e (Printf.sprintf "request -- Start Plan (%s)" plan)
+let log_beginning ~at e plan = log ~at e (Printf.sprintf "plan initializing: %s" plan)
+let log_answer ~at e ?type_ plan info = log ~at e ?type_ (Printf.sprintf "reply -- Start Plan (%s) -- %s" plan info)
 let reply_to_start e (r : run) type_ info = reply e ~by:r.by ~op:Start ~request:r.request ~plan:r.plan type_ info
 let deed_request (r : run) : Deed.request = { plan = r.plan; number = r.request; by = r.by.system; sent = r.sent }
 
@@ -148,7 +158,7 @@ let take_off ~at (run : run) e =
   let part = Flight.part run.flight 0. in
   let e = { e with body; loaded = run.plan; mode = Executing { run; since = at; part; ends; outcome } } in
   let executing = Printf.sprintf "%s: executing maneuver" part.id in
-  ( [ say_vehicle e; say_control ~at e; reply_to_start e run Success executing ],
+  ( [ say_vehicle e; say_control ~at e; reply_to_start e run Success executing; log_answer ~at e run.plan executing ],
     [ Deed.Started { request = deed_request run; inline = run.inline; instead = run.instead } ],
     e )
 
@@ -158,7 +168,9 @@ let refused ~at ~(request : Deed.request) ~by ~instead e why =
   let e = { (rest ~at Ready e) with last_outcome = Failure } in
   let failure = reply e ~by ~op:Start ~request:request.number ~plan:request.plan Failure why in
   let states = say_control ~at e :: (if was_running then [ say_vehicle e ] else []) in
-  initializing :: failure :: states, [ Deed.Refused { request; why; instead } ], e
+  let before = [ log_request ~at e request.plan; initializing; log_beginning ~at e request.plan ] in
+  let answer = log_answer ~at e ~type_:Error request.plan why in
+  before @ (failure :: answer :: states), [ Deed.Refused { request; why; instead } ], e
 
 (* [e] is still as before the START. *)
 let accepted ~at ~calibrate (run : run) e =
@@ -166,12 +178,13 @@ let accepted ~at ~calibrate (run : run) e =
   let statistics = Flight.statistics ~name:run.plan run.flight in
   let e = { e with statistics = Some (Message.Plan_statistics statistics); starts = e.starts + 1 } in
   let loaded = reply_to_start e run Success "plan loaded" in
+  let before = [ log_request ~at e run.plan; initializing; log_beginning ~at e run.plan ] in
   if calibrate then
     let e = rest ~at (Calibrating { run; until = at +. calibration }) e in
-    [ initializing; loaded; say_vehicle e ], [], e
+    before @ [ loaded; say_vehicle e ], [], e
   else
     let said, deeds, e = take_off ~at run e in
-    initializing :: loaded :: said, deeds, e
+    before @ (loaded :: said), deeds, e
 
 (* {1 START} *)
 

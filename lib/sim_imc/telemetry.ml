@@ -5,7 +5,8 @@ let system_type kind : Message.System_type.t =
   match String.uppercase_ascii kind with
   | "CCU" -> Ccu
   | "HUMANSENSOR" -> Humansensor
-  | "UUV" | "AUV" -> Uuv
+  (* IMC has no type for ROVs. *)
+  | "UUV" | "AUV" | "ROV" -> Uuv
   | "USV" | "ASV" -> Usv
   | "UAV" -> Uav
   | "UGV" -> Ugv

@@ -25,6 +25,7 @@ let transitions r = r.transitions
 let time r = r.time
 let ending r = r.ending
 let latest r = r.latest
+let was_stuck r = r.stuck
 
 let site r =
   match r.configuration.control with

@@ -73,3 +73,7 @@ The end of the input is no answer.
     6 | c = ask 'c?'
       |     ^^^^^^^^
   [1]
+
+The programs that ran did what the semantics allows.
+
+  $ check-journals

@@ -271,3 +271,7 @@ Usage.
   Usage: dolphin exec [OPTION]… PROG
   Try 'dolphin exec --help' or 'dolphin --help' for more information.
   [2]
+
+The programs that ran did what the semantics allows.
+
+  $ check-journals

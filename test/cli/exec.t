@@ -157,3 +157,7 @@ Nobody reads on: the run is interrupted, without a word.
      0:00  program     says: still here
      0:00  program     says: still here
   status 130
+
+The programs that ran did what the semantics allows.
+
+  $ check-journals

@@ -65,3 +65,7 @@ waiting.
   $ process=$!
   $ sleep 1; kill -INT $process; sleep 0.2; kill -INT $process; wait $process
   [130]
+
+The programs that ran did what the semantics allows.
+
+  $ check-journals

@@ -142,3 +142,7 @@ Values there and back.
      0:00  program     says: (41.000000, -8.000000) (41.000000, -8.000000)
      0:00  program     says: 1..3 [1, 2, 3]
      0:00  program     says: task('p') task('p')
+
+The programs that ran did what the semantics allows.
+
+  $ check-journals

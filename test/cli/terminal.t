@@ -31,3 +31,7 @@ Elsewhere there is no trace of it.
   $ grep -c "$(printf '\033')" typescript
   0
   [1]
+
+The programs that ran did what the semantics allows.
+
+  $ check-journals

@@ -1,6 +1,6 @@
 (* On random programs, the packed search finds what the plain search over configurations finds: as many states and
    transitions, the same depth, the same properties broken, each by as short a run; and each run that it shows is one of
-   the semantics. PROGRAMS in the environment is how many programs are tried, 2,000 by default. *)
+   the semantics. Of every other program the states are compressed. PROGRAMS in the environment is how many programs are tried, 2,000 by default. *)
 
 open Dolphin_syntax
 open Dolphin_explore
@@ -79,7 +79,8 @@ let agrees (ast, looped, (_, environment)) =
     incr skipped;
     true
   | Some reference ->
-    let o = Search.run { Search.default with environment } program Generate.world in
+    let compress = Hashtbl.hash (Generate.print ast) land 1 = 0 in
+    let o = Search.run { Search.default with environment; compress } program Generate.world in
     let same what expected found =
       if expected <> found then QCheck2.Test.fail_reportf "%d %s, %d expected" found what expected
     in

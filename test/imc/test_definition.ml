@@ -145,7 +145,9 @@ let xml_faults () =
   fails "<messages><message id='1' abbrev='A'><field abbrev='x' type='float'/></message></messages>"
     "1:68: <field>: float is not a type of IMC";
   fails "<messages><message id='1' abbrev='A'/><message id='1' abbrev='B'/></messages>"
-    "message B: the id 1 is taken";
+    "1:65: message B: the id 1 is taken";
+  fails "<messages><message id='1' abbrev='A'/>\n<message id='2' abbrev='A'/></messages>"
+    "2:27: message A is defined twice";
   (match Imc_xml.parse "<messages>" with
    | Ok _ -> Alcotest.fail "accepted: not closed"
    | Error { line; _ } -> check Alcotest.int "line" 1 line);

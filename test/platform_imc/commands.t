@@ -26,6 +26,90 @@ Who is there.
   x8-02 UAV 127.0.0.1:42211 SERVICE True True None False True
   $ kill $vehicles; wait $vehicles 2> wait.txt || true
 
+Its own definition of IMC gives names to what Dolphin has none for, and a vehicle can be of another type than IMC knows.
+
+  $ python3 imc_xml.py ../imc/data/facts.jsonl > IMC.xml
+  $ dolphin sim pair.fleet --imc --announce 0.5 --contact 0.2 --discovery-ports 42260-42264 --port 42270 --flood 100 \
+  >   --for 30 > vehicles.txt & vehicles=$!
+  $ until [ -s vehicles.txt ]; do sleep 0.05; done
+  $ dolphin fleet --imc-loopback --imc-discovery-ports 42260-42264 --once --seconds 3 --json --imc-xml IMC.xml \
+  >   --imc-type noptilus-1=ROV | python3 -c "
+  > import json, sys
+  > for v in json.load(sys.stdin):
+  >   said = {m['id']: m for m in v['messages']}
+  >   print(v['id'], v['type'], said[256]['last'], said[256]['count'] > 10, said[350]['last']['abbrev'], 281 in said)"
+  noptilus-1 ROV {'abbrev': 'AngularVelocity', 'time': 0.0, 'x': 0.0, 'y': 0.0, 'z': 0.0} True EstimatedState True
+  x8-02 UAV {'abbrev': 'AngularVelocity', 'time': 0.0, 'x': 0.0, 'y': 0.0, 'z': 0.0} True EstimatedState True
+  $ echo "v = pick { type 'ROV'; timeout 20.seconds }; message \"picked \${v}\"" > rov.dol
+  $ dolphin exec rov.dol --imc-loopback --imc-discovery-ports 42260-42264 --imc-type noptilus-1=ROV | grep -o 'says: .*'
+  says: picked noptilus-1
+  $ kill $vehicles; wait $vehicles 2> wait.txt || true
+
+A definition that is none, one that contradicts itself, and one of another protocol than vehicles speak to us.
+
+  $ printf '<messages>\n  <message id="1" abbrev="A"/>\n  <message id="1" abbrev="B"/>\n</messages>\n' > twice.xml
+  $ dolphin fleet --imc-xml twice.xml
+  twice.xml:3:29: error: message B: the id 1 is taken
+    3 |   <message id="1" abbrev="B"/>
+      |                             ^
+  [2]
+  $ printf '<messages>\n  <message id="1" abbrev="A">\n    <field abbrev="x" type="float"/>' > float.xml
+  $ dolphin fleet --imc-xml float.xml
+  float.xml:3:37: error: unexpected end of input
+    3 |     <field abbrev="x" type="float"/>
+      |                                     ^
+  [2]
+  $ echo '</message></messages>' >> float.xml
+  $ echo "message 'hello'" > hello.dol
+  $ dolphin exec hello.dol --imc-xml float.xml
+  float.xml:3:35: error: <field>: float is not a type of IMC
+    3 |     <field abbrev="x" type="float"/></message></messages>
+      |                                   ^
+  [2]
+  $ python3 imc_xml.py ../imc/data/facts.jsonl 'id="559"=>id="1559"' \
+  >   'abbrev="sys_name" type="plaintext"=>abbrev="sys_name" type="uint8_t"' > other.xml
+  $ dolphin exec hello.dol --imc-xml other.xml
+  dolphin: other.xml is not the IMC that Dolphin speaks: field 1 of message Announce is sys_name u8, not sys_name text
+  dolphin: other.xml is not the IMC that Dolphin speaks: message PlanControl has the id 1559, not 559
+  [2]
+  $ dolphin exec hello.dol --imc-xml nowhere.xml
+  dolphin: nowhere.xml: No such file or directory
+  [2]
+  $ dolphin exec hello.dol --imc-type ROV 2>&1 | head -1
+  dolphin: option '--imc-type': 'ROV' is not like seacon-1=ROV
+
+A vehicle that confirms nothing: its process is halted. The first interruption tells it to stop and waits for that to be
+confirmed, for five seconds at most; the second one ends the program at once.
+
+  $ vehicles 42280
+  $ echo "v = pick { type 'UUV'; timeout 20.seconds }; execute imcPlan('long')" > long.dol
+  $ (sh -c 'echo $$ > pid.txt; exec dolphin exec long.dol --imc-loopback --imc-discovery-ports 42280-42284 > log.txt'
+  >  echo $? > status.txt) &
+  $ for i in $(seq 200); do grep -q 'starts long' log.txt 2> grep.txt && break; sleep 0.1; done
+  $ kill -STOP $vehicles
+  $ kill -INT $(cat pid.txt); sleep 1; kill -INT $(cat pid.txt)
+  $ for i in $(seq 20); do [ -s status.txt ] && break; sleep 0.1; done; cat status.txt
+  130
+  $ cut -c 10- log.txt | tail -3
+  noptilus-1  stops long
+  program     releases noptilus-1
+  program     is interrupted
+  $ kill -CONT $vehicles; kill $vehicles; wait $vehicles 2> wait.txt || true
+
+With the first one only, it does wait, and ends.
+
+  $ vehicles 42300
+  $ rm status.txt log.txt
+  $ (sh -c 'echo $$ > pid.txt; exec dolphin exec long.dol --imc-loopback --imc-discovery-ports 42300-42304 > log.txt'
+  >  echo $? > status.txt) &
+  $ for i in $(seq 200); do grep -q 'starts long' log.txt 2> grep.txt && break; sleep 0.1; done
+  $ kill -STOP $vehicles
+  $ kill -INT $(cat pid.txt); sleep 2; [ -s status.txt ] || echo waits
+  waits
+  $ for i in $(seq 80); do [ -s status.txt ] && break; sleep 0.1; done; cat status.txt
+  130
+  $ kill -CONT $vehicles; kill $vehicles; wait $vehicles 2> wait.txt || true
+
 Nobody.
 
   $ dolphin fleet --imc-loopback --imc-discovery-ports 42220-42224 --once --seconds 0.2
@@ -71,9 +155,17 @@ A plan as vehicles get it.
   Sidescan [('Active', 'true'), ('Range', '50')]
   11.0 9.0
   [('1.Goto', '2.YoYo', 'maneuverIsDone')]
+  $ dolphin plan plan.dol P --imc-xml IMC.xml > by_definition.json
+  $ dolphin plan plan.dol P | diff - by_definition.json | grep '^[<>]'
+  <         "pitch": 0.2617993877991494,
+  >         "pitch": 0.2617993950843811,
   $ dolphin plan plan.dol survey
   dolphin: 'survey' is a plan that vehicles know by name: the program does not describe it
   [1]
   $ dolphin plan plan.dol nothing
   dolphin: no vehicle is given a plan 'nothing'; inline plans are P
   [1]
+
+The programs that ran did what the semantics allows.
+
+  $ check-journals

@@ -31,6 +31,7 @@ type world = {
   mutable clock : Vehicle_clock.t;
   mutable verdicts : verdict list;
   mutable notes : string list;
+  mutable told : string list;  (* all notes *)
   mutable copies : (int * int) list;  (* of each request for this order, how many were sent *)
   vehicle : Vehicle_model.t;
   out : (int * Message.t Message.Plan_control.t) Network.t;
@@ -42,11 +43,14 @@ let instant = 0.01
 let carry_out w : Execution.output -> unit = function
   | Done -> w.verdicts <- Done :: w.verdicts
   | Failed why -> w.verdicts <- Failed why :: w.verdicts
-  | Note text -> w.notes <- text :: w.notes
+  | Note text ->
+    w.notes <- text :: w.notes;
+    w.told <- text :: w.told
   | Send (Plan_control c) ->
     let sent = 1 + Option.value (List.assoc_opt c.request_id w.copies) ~default:0 in
     w.copies <- (c.request_id, sent) :: List.remove_assoc c.request_id w.copies;
     Network.send ~now:w.now (sent, c) w.out
+  | Keep _ -> ()
   | Send _ -> failwith "sent something else"
 
 let input w i =
@@ -61,6 +65,7 @@ let hear w (stamp, (message : Message.t)) =
   | Plan_control reply -> input w (Reply { sent; reply })
   | Plan_control_state state -> input w (State { sent; state })
   | Vehicle_state state -> input w (Vehicle { sent; state })
+  | Log_book_entry entry -> input w (Log { sent; entry })
   | _ -> ()
 
 (* Messages of one instant get stamps of their own, as they do on a real vehicle. *)
@@ -107,7 +112,7 @@ let play (s : script) =
   let random = Random.State.make [| s.seed |] in
   let fate plan = List.assoc plan s.fates in
   let w =
-    { now = 0.; execution = Execution.create ~request:65530; clock = Vehicle_clock.unknown; verdicts = []; notes = [];
+    { now = 0.; execution = Execution.create ~request:65530; clock = Vehicle_clock.unknown; verdicts = []; notes = []; told = [];
       copies = []; vehicle = Vehicle_model.create ~fate ~before:s.before; out = Network.create random s.outward;
       back = Network.create random s.inward }
   in
@@ -182,6 +187,7 @@ let quality ~loss ~duplication ~delay:longest =
 
 let perfect = QCheck2.Gen.return { Network.loss = 0.; duplication = 0.; delay = 0. }
 let reordering = quality ~loss:0. ~duplication:0. ~delay:0.3
+let doubling = quality ~loss:0. ~duplication:0.5 ~delay:0.3
 let losing = quality ~loss:0.3 ~duplication:0. ~delay:0.3
 let bad = quality ~loss:0.3 ~duplication:0.1 ~delay:0.3
 
@@ -214,6 +220,11 @@ let different_copies (l : log) =
 let ran_once_or_says_so (l : log) =
   List.length (different_copies l) <= 1 || l.notes <> [] || complain "%s ran several times" l.script_order.plan
 
+(* Copies that the network makes count here. The words may come when the order is over. *)
+let each_anew_is_told logs (w : world) =
+  let anew = List.filter (fun (l : log) -> List.length l.executions > 1) logs in
+  List.length anew <= List.length w.told || complain "%d begun anew, notes: %s" (List.length anew) (String.concat "; " w.told)
+
 (* No request whose copy had arrived was sent again. *)
 let never_resent_in_vain (l : log) =
   let requests = List.map fst (different_copies l) in
@@ -243,6 +254,8 @@ let tests =
           List.for_all (fun l -> verdict_is_fate s l && is_sound l && never_resent_in_vain l && ran_once_or_says_so l) logs && is_over w);
       property "requests get lost: each plan once" ~outward:losing ~inward:reordering (fun s logs w ->
           List.for_all (fun l -> verdict_is_fate s l && is_sound l && never_resent_in_vain l && ran_once_or_says_so l) logs && is_over w);
+      property "requests are doubled: no plan begins anew without a word" ~count:1000 ~outward:doubling ~inward:perfect
+        (fun _ logs w -> List.for_all is_complete logs && each_anew_is_told logs w && is_over w);
       property "what the vehicle says gets lost: no plan twice without a word" ~count:1000 ~outward:losing ~inward:losing
         (fun _ logs w ->
            List.for_all (fun l -> is_sound l && is_complete l && ran_once_or_says_so l) logs && is_over w);

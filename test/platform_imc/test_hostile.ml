@@ -4,10 +4,11 @@ open Dolphin_platform_imc
 let loopback = Unix.inet_addr_loopback
 let elsewhere = Unix.inet_addr_of_string "203.0.113.9"
 
-let station () =
-  Station.create
-    { id = Recording.console; name = "ccu-test"; addresses = [ { host = loopback; port = 6001 } ]; epoch = 1.79e9;
-      first_request = 0; payload = [] }
+let settings : Station.settings =
+  { id = Recording.console; name = "ccu-test"; addresses = [ { host = loopback; port = 6001 } ]; epoch = 1.79e9;
+    first_request = 0; payload = []; types = []; type_names = []; listens = false }
+
+let station () = Station.create settings
 
 let hear ?(from = loopback) ?(now = 0.) bytes s = fst (Station.datagram ~now ~from bytes s)
 
@@ -115,15 +116,16 @@ let spoofed =
       Alcotest.(check (option int)) "counted"
         (Some (List.length (List.filter (fun (l : Recording.line) ->
              match Recording.message l with
-             | Announce _ | Heartbeat | Estimated_state _ | Vehicle_state _ | Plan_control_state _ | Fuel_level _ | Entity_list _ -> true
+             | Announce _ | Heartbeat | Estimated_state _ | Vehicle_state _ | Plan_control_state _ | Fuel_level _ | Entity_list _
+             | Log_book_entry _ -> true
              | Plan_control c -> c.type_ <> Request
              | _ -> false) (Lazy.force inward))))
         (List.assoc_opt "foreign address" (Station.dropped s')))
 
-let announcement ?(services = "imc+udp://203.0.113.9:6002/") name =
+let announcement ?(services = "imc+udp://203.0.113.9:6002/") ?(sys_type = Message.System_type.Uuv) name =
   sealed
     (Packet.make ~src:0x1A ~dst:0 ~timestamp:1.8e9
-       (Announce { Message.Announce.default with sys_name = name; sys_type = Uuv; services }))
+       (Announce { Message.Announce.default with sys_name = name; sys_type; services }))
 
 let addresses s =
   List.map
@@ -146,4 +148,18 @@ let unknown =
       in
       Alcotest.(check int) "known" 0 (List.length (knowledge s)))
 
-let tests = ("hostile", [ mutations; valid; strange_numbers; spoofed; moved; unknown ])
+let types =
+  Alcotest.test_case "types that IMC does not know" `Quick (fun () ->
+      let kind ?(types = []) ?(type_names = []) sys_type =
+        let s = Station.create { settings with types; type_names } in
+        List.map (fun (x : Station.sight) -> x.state.kind)
+          (Station.sights ~now:0. (hear (announcement ~sys_type "seacon-1") s))
+      in
+      let check what expected kind = Alcotest.(check (list string)) what [ expected ] kind in
+      check "its number" "9" (kind (Other 9));
+      check "its name in IMC.xml" "ROV" (kind ~type_names:[ (2, "X"); (9, "ROV") ] (Other 9));
+      check "as it announces" "UUV" (kind ~type_names:[ (2, "X") ] Uuv);
+      check "as the user says" "ROV" (kind ~types:[ ("seacon-1", "ROV") ] Uuv);
+      check "another vehicle" "UUV" (kind ~types:[ ("seacon-2", "ROV") ] Uuv))
+
+let tests = ("hostile", [ mutations; valid; strange_numbers; spoofed; moved; unknown; types ])

@@ -11,7 +11,7 @@ let first_request request = (request - (0x1A * 257)) land 0xFFFF
 let station ~request =
   Station.create
     { id = Recording.console; name = "ccu-test"; addresses = [ { host = loopback; port = 6001 } ]; epoch = 1.79e9;
-      first_request = first_request request; payload = [] }
+      first_request = first_request request; payload = []; types = []; type_names = []; listens = false }
 
 type run = { station : Station.t; events : (float * Platform.event) list; sent : (float * Message.t) list }
 
@@ -26,7 +26,7 @@ let sent_by outputs =
         match Packet.decode bytes with
         | Ok { content = Message m; _ } -> Some m
         | Ok { content = Unknown _; _ } | Error _ -> Alcotest.fail "sent something broken")
-    | Announce _ | Announce_to _ | Note _ -> None
+    | Announce _ | Announce_to _ | Keep _ | Note _ -> None
   in
   List.filter_map message outputs
 
@@ -119,7 +119,7 @@ let seen =
          Alcotest.(check string) "kind" "UUV" s.kind;
          Alcotest.(check bool) "connected" true s.connected;
          Alcotest.(check bool) "linked" true linked;
-         Alcotest.(check string) "mode" "SERVICE" (Node.mode node);
+         Alcotest.(check string) "mode" "SERVICE" (Node.mode ~names:[] node);
          Alcotest.(check bool) "payload" true (World.carries [ "DVL"; "gps" ] s);
          Alcotest.(check bool) "not on board" false (World.carries [ "Sidescan" ] s);
          let apdl = Dolphin_geo.Place.apdl in

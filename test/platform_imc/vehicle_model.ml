@@ -30,17 +30,21 @@ let mode v =
   in
   Message.Vehicle_state { Message.Vehicle_state.default with op_mode }
 
+let log text = Message.Log_book_entry { Message.Log_book_entry.default with type_ = Info; context = "Plan.Engine"; text }
 let set v state = v.state <- state; said v
 
 let request ~now ~copy (r : Message.t Control.t) v =
   match r.op with
   | Start -> (
       v.running <- None;
+      let request = log (Printf.sprintf "request -- Start Plan (%s)" r.plan_id) in
       let initialising = set v { v.state with state = Initializing } in
+      let begins = log ("plan initializing: " ^ r.plan_id) in
+      let answer words = log (Printf.sprintf "reply -- Start Plan (%s) -- %s" r.plan_id words) in
       match v.fate r.plan_id with
       | Is_refused why ->
         let refused = reply r Failure why in
-        [ initialising; refused; set v { v.state with state = Ready; last_outcome = Failure } ]
+        [ request; initialising; begins; refused; answer why; set v { v.state with state = Ready; last_outcome = Failure } ]
       | (Succeeds after | Fails after) as fate ->
         let e = { plan = r.plan_id; request = r.request_id; copy; succeeded = false } in
         v.executions <- e :: v.executions;
@@ -48,7 +52,8 @@ let request ~now ~copy (r : Message.t Control.t) v =
         v.running <- Some (e, now +. after, succeeds);
         let loaded = reply r Success "plan loaded" in
         let executing = set v { v.state with state = Executing; plan_id = r.plan_id } in
-        [ initialising; loaded; executing; reply r Success "1: executing maneuver"; mode v ])
+        let words = "1: executing maneuver" in
+        [ request; initialising; begins; loaded; executing; reply r Success words; answer words; mode v ])
   | Stop ->
     if v.state.state = Executing then begin
       v.running <- None;

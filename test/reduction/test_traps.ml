@@ -180,6 +180,11 @@ let traps =
       {|post z: 1
         execute action { if (!poll(x: 1)) { post y: 1 } } |
           ((until { poll z: 1 } run (condition { consume u: 1 } | condition { consume v: 1 })) >> action { post x: 1 })|};
+    breaks "what handles errors of what follows an until" ~environment:failing [ No_leftover ]
+      {|post z: 1
+        execute action { if (!poll(x: 1)) { post y: 1 } } |
+          (watch ((until { poll z: 1 } run (condition { consume u: 1 } | condition { consume v: 1 })) >> task('p')[a])
+             onError { post x: 1 ; ignore() })|};
     breaks "one failure only, ignored in one of two nests" ~environment:(Environment.failing ~failures:1 plain)
       [ No_deadlock ]
       {|execute (watch ((task('p')[a] >> condition { false }) | task('q')[b]) onError { ignore() }) |

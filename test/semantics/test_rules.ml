@@ -62,6 +62,10 @@ let tasks : example list =
       [ "cancel timer 1"; "stop noptilus-2" ];
     example Par_err "the sibling that has not started is forgotten" (task "watch (%p | %q) onError { ignore() }")
       "fail(noptilus-1, p, broken)" "FAIL, PAR-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [];
+    example Par_err "what stops inside comes before what is cancelled around it"
+      (task "watch (during 60 run (%p | %q)) onError { ignore() }")
+      "fail(noptilus-1, p, broken)" "FAIL, PAR-ERR, DURING-ERR, WATCH-IGNORE, EXECUTE-DONE" "script"
+      [ "stop noptilus-2"; "cancel timer 1" ];
     example Allof_when "any ready branch" (task "allOf { when { poll(a: _) } then idle(1)\nwhen { true } then idle(2) }")
       "check" "ALLOF-WHEN" "allOf { idle(2); when { when } then idle(1) }" [ "set timer 2 to 2 s" ];
     example Allof_1 "the branch goes on" (task "allOf { when { false } then idle(1)\nwhen { true } then %p }")
@@ -240,6 +244,26 @@ let sorted = List.sort String.compare
 let are_documented () =
   Alcotest.(check (list string)) "each rule once in docs/semantics.md" (sorted names) (sorted (documented ()))
 
+(* An operator of its own in the specification, spelt [SEQ_1], or [ACTION_] where TLA+ has reserved the word. A rule with
+   several conclusions has one for each, as [UNTIL_ERR] and [UNTIL_ERR_WHEN]. *)
+let specified () =
+  let operator = Str.regexp "^\\([A-Z][A-Z0-9_]+\\)\\((.*)\\)? ==" in
+  List.filter_map
+    (fun line -> if Str.string_match operator line 0 then Some (Str.matched_group 1 line) else None)
+    (String.split_on_char '\n' (read "../../spec/Dolphin.tla"))
+
+let are_specified () =
+  let operators = specified () in
+  let spelt name = String.map (function '-' -> '_' | c -> c) name in
+  let is_of name operator =
+    operator = spelt name || String.length operator > String.length name
+                             && String.sub operator 0 (String.length name + 1) = spelt name ^ "_"
+  in
+  let missing = List.filter (fun name -> not (List.mem (spelt name) operators || List.mem (spelt name ^ "_") operators)) names in
+  let unknown = List.filter (fun operator -> not (List.exists (fun name -> is_of name operator) names)) operators in
+  Alcotest.(check (list string)) "each rule is an operator of spec/Dolphin.tla" [] missing;
+  Alcotest.(check (list string)) "each operator of this spelling is a rule" [] unknown
+
 let are_tested () =
   let tested = List.sort_uniq String.compare (List.map (fun e -> Rule.name e.rule) examples) in
   Alcotest.(check (list string)) "each rule has an example" (sorted names) tested
@@ -255,6 +279,6 @@ let rule_case e = case (Printf.sprintf "%s: %s" (Rule.name e.rule) e.shows) (hol
 let () =
   Alcotest.run "rules"
     [ ( "names",
-        [ case "are spelt once" are_spelt; case "are documented" are_documented; case "are tested" are_tested ] );
+        [ case "are spelt once" are_spelt; case "are documented" are_documented; case "are specified" are_specified; case "are tested" are_tested ] );
       ("tasks", List.map rule_case tasks);
       ("script", List.map rule_case script) ]

@@ -79,3 +79,7 @@ A plan that fails, and plans that are refused.
   status 1
   $ grep -o 'failed on .*' errors.txt | sed 's/noptilus-[12]/one/' | head -1
   failed on one: unwell
+
+The programs that ran did what the semantics allows.
+
+  $ check-journals

@@ -1,9 +1,11 @@
-(* Each example runs on the fleet beside it; a script beside it, NAME.py, is its supplier. *)
+(* Each example runs on the fleet beside it; a script beside it, NAME.py, is its supplier. What it says is as before, and
+   what it does is a run by the semantics. *)
 let rule ~has_supplier name =
   let supplier = if has_supplier then Printf.sprintf "\n      --supplier %%{dep:../%s.py}" name else "" in
   Printf.printf
     {|
 (rule
+ (targets %s.output %s.run)
  (deps ../%s.fleet)
  (action
   (with-outputs-to
@@ -12,14 +14,20 @@ let rule ~has_supplier name =
     (or 0 1)
     (chdir
      %%{workspace_root}
-     (run %%{exe:../../bin/dolphin.exe} exec %%{dep:../%s.dol}%s))))))
+     (run %%{exe:../../bin/dolphin.exe} exec %%{dep:../%s.dol} --journal examples/golden/%s.run%s))))))
 
 (rule
  (alias runtest)
  (action
   (diff %s.log %s.output)))
+
+(rule
+ (alias runtest)
+ (action
+  (system
+   "verdict=$(%%{exe:../../bin/dolphin.exe} trace check %%{dep:../%s.dol} %%{dep:%s.run}) || { echo $verdict; exit 1; }")))
 |}
-    name name name supplier name name
+    name name name name name name supplier name name name name
 
 let () =
   let files = List.map Filename.basename (List.tl (Array.to_list Sys.argv)) in

@@ -137,5 +137,5 @@ let parse text =
   try
     let lines = List.filter_map Fun.id (List.mapi line_of_text (String.split_on_char '\n' text)) in
     let trees, _ = forest 0 lines in
-    Result.map_error (fun why -> { line = 0; why }) (definition trees)
+    Result.map_error (fun ({ why; about = _ } : fault) -> { line = 0; why }) (definition trees)
   with Error error -> Error error

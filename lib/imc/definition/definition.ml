@@ -54,15 +54,17 @@ let admits d name (m : message) =
 
 (* {1 Making} *)
 
-exception Invalid of string
+type fault = { about : string; why : string }
 
-let invalid format = Printf.ksprintf (fun why -> raise (Invalid why)) format
+exception Invalid of fault
+
+let invalid about format = Printf.ksprintf (fun why -> raise (Invalid { about; why })) format
 
 let index_messages messages =
   let add (by_id, by_name) (m : message) =
-    if m.id < 0 || m.id >= 0xFFFF then invalid "message %s: the id %d is not in 0 .. 65534" m.name m.id;
-    if By_id.mem m.id by_id then invalid "message %s: the id %d is taken" m.name m.id;
-    if By_name.mem m.name by_name then invalid "message %s is defined twice" m.name;
+    if m.id < 0 || m.id >= 0xFFFF then invalid m.name "message %s: the id %d is not in 0 .. 65534" m.name m.id;
+    if By_id.mem m.id by_id then invalid m.name "message %s: the id %d is taken" m.name m.id;
+    if By_name.mem m.name by_name then invalid m.name "message %s is defined twice" m.name;
     (By_id.add m.id m by_id, By_name.add m.name m by_name)
   in
   List.fold_left add (By_id.empty, By_name.empty) messages
@@ -71,20 +73,20 @@ let check d =
   let defined name = By_name.mem name d.by_name || By_name.mem name d.group_of_name in
   let check_group g =
     let check_member name =
-      if not (By_name.mem name d.by_name) then invalid "group %s: no message is named %s" g.name name
+      if not (By_name.mem name d.by_name) then invalid g.name "group %s: no message is named %s" g.name name
     in
     List.iter check_member g.members
   in
   let check_field (m : message) (f : field) =
     match f.typ with
     | Inline (Some name) | List (Some name) ->
-      if not (defined name) then invalid "%s.%s: no message or group is named %s" m.name f.name name
+      if not (defined name) then invalid m.name "%s.%s: no message or group is named %s" m.name f.name name
     | Number (_, Enumeration { shared = Some name; _ }) ->
       if not (List.mem_assoc name d.enumerations) then
-        invalid "%s.%s: no enumeration is named %s" m.name f.name name
+        invalid m.name "%s.%s: no enumeration is named %s" m.name f.name name
     | Number (_, Bits { shared = Some name; _ }) ->
       if not (List.mem_assoc name d.bits) then
-        invalid "%s.%s: no set of bits is named %s" m.name f.name name
+        invalid m.name "%s.%s: no set of bits is named %s" m.name f.name name
     | Number _ | Text _ | Raw | Inline None | List None -> ()
   in
   List.iter check_group d.groups;
@@ -94,14 +96,41 @@ let make ~enumerations ~bits ~groups messages =
   try
     let by_id, by_name = index_messages messages in
     let add_group index (g : group) =
-      if By_name.mem g.name by_name then invalid "%s is both a message and a group" g.name;
+      if By_name.mem g.name by_name then invalid g.name "%s is both a message and a group" g.name;
       By_name.add g.name g index
     in
     let group_of_name = List.fold_left add_group By_name.empty groups in
     let d = { enumerations; bits; groups; messages; by_id; by_name; group_of_name } in
     check d;
     Ok d
-  with Invalid why -> Error why
+  with Invalid fault -> Error fault
+
+(* {1 Comparing} *)
+
+(* What of a field is seen on the wire. *)
+let layout (f : field) =
+  match f.typ with
+  | Number (scalar, _) -> scalar_name scalar
+  | Text _ -> "text"
+  | Raw -> "raw"
+  | Inline _ -> "inline"
+  | List _ -> "list"
+
+let difference d ~than name =
+  let spelt (f : field) = Printf.sprintf "%s %s" f.name (layout f) in
+  let rec fields n (here : field list) (there : field list) =
+    match here, there with
+    | [], [] -> None
+    | f :: here, g :: there when layout f = layout g -> fields (n + 1) here there
+    | f :: _, g :: _ -> Some (Printf.sprintf "field %d of message %s is %s, not %s" n name (spelt f) (spelt g))
+    | f :: _, [] -> Some (Printf.sprintf "message %s has a field %d, %s" name n (spelt f))
+    | [], g :: _ -> Some (Printf.sprintf "message %s has no field %d, %s" name n (spelt g))
+  in
+  match find_name d name, find_name than name with
+  | _, None -> None
+  | None, Some _ -> Some (Printf.sprintf "no message is named %s" name)
+  | Some m, Some m' when m.id <> m'.id -> Some (Printf.sprintf "message %s has the id %d, not %d" name m.id m'.id)
+  | Some m, Some m' -> fields 1 m.fields m'.fields
 
 (* {1 Printing} *)
 

@@ -50,12 +50,14 @@ type group = { name : string; members : string list }
 type t
 (** A set of messages in which every name that is mentioned is defined. *)
 
+type fault = { about : string;  (** The message or group that is at fault. *) why : string }
+
 val make :
   enumerations:(string * named list) list ->
   bits:(string * named list) list ->
   groups:group list ->
   message list ->
-  (t, string) result
+  (t, fault) result
 (** [make ~enumerations ~bits ~groups ms] is the definition of [ms], or why it cannot be: two messages
     with one id or name, or a name that stands for nothing. *)
 
@@ -75,6 +77,10 @@ val find_name : t -> string -> message option
 
 val admits : t -> string -> message -> bool
 (** [admits d name m]: [name] is that of [m], or of a group with [m] in it. *)
+
+val difference : t -> than:t -> string -> string option
+(** [difference d ~than:d' name] is why the message [name] of [d] looks otherwise on the wire than that of [d'], in words;
+    [None] if it does not, or [d'] has none. Names of fields, units and values may differ. *)
 
 val pp : Format.formatter -> t -> unit
 (** The definition as {!Def_file} spells it: if [d] was read by {!Def_file.parse}, then

@@ -128,7 +128,12 @@ let definition root =
   let messages = List.map (message ~enumerations ~bits) (children root "message") in
   match make ~enumerations ~bits ~groups messages with
   | Ok definition -> definition
-  | Error why -> fail (0, 0) "%s" why
+  | Error { about; why } ->
+    (* If it is there twice, the second is at fault. *)
+    let named e = optional e "abbrev" = Some about in
+    let all = children root "message" @ grandchildren root "message-groups" "message-group" in
+    let at = match List.rev (List.filter named all) with e :: _ -> e.at | [] -> (0, 0) in
+    fail at "%s" why
 
 let parse text =
   match definition (document text) with

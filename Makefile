@@ -1,0 +1,21 @@
+# What takes more than building and testing. The rest: dune build, dune test.
+.PHONY: tlc crosscheck mutate coverage
+
+# TLC, where `dolphin tla --run` finds it.
+tlc:
+	@scripts/tlc
+
+# TLC and the explorer on all examples and on random programs; docs/crosscheck.md.
+crosscheck: tlc
+	dune build bin/dolphin.exe test/crosscheck/crosscheck.exe
+	_build/default/test/crosscheck/crosscheck.exe all
+
+# Specifications that are wrong in one place, each of which the comparison must notice.
+mutate: tlc
+	dune build test/crosscheck/crosscheck.exe
+	_build/default/test/crosscheck/crosscheck.exe mutate
+
+# Which rules of the specification the examples use, and which actions TLC took.
+coverage: tlc
+	dune build test/crosscheck/crosscheck.exe
+	_build/default/test/crosscheck/crosscheck.exe coverage

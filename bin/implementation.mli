@@ -1,0 +1,12 @@
+(** Another implementation of the semantics, in a process that speaks the step protocol on its standard input and
+    output. *)
+
+type t
+
+val make : timeout:float -> string -> t
+(** [make ~timeout command] is the implementation that the shell command [command] starts, which is done when it is first
+    asked, and again after it died or was given up. It has [timeout] seconds for each reply. *)
+
+val ask : t -> Dolphin_conformance.Dialogue.ask
+val close : t -> unit
+(** Ends the process. *)

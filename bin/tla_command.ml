@@ -1,0 +1,129 @@
+open Cmdliner
+module Model = Dolphin_tla.Model
+module Scenario = Dolphin_scenario.Scenario
+
+let ( let* ) = Result.bind
+
+let model (program : Program_file.t) (fleet : Fleet_file.t) ~answers ~faults =
+  let scenario = fleet.scenario in
+  let plans = List.map (fun (plan : Scenario.plan) -> plan.name) scenario.plans in
+  let prompts = List.map (fun (answer : Scenario.answer) -> answer.prompt) scenario.answers in
+  let environment = World_of.environment ~answers ~faults scenario in
+  Model.of_program ~plans ~prompts ~environment (World_of.world scenario) program.program
+
+let load path fleet =
+  match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet) with
+  | Error trouble, _ -> Program_file.tell trouble; Error Exit_status.Bad_input
+  | Ok _, Error trouble -> Fleet_file.tell trouble; Error Exit_status.Bad_input
+  | Ok program, Ok fleet -> Ok (program, fleet)
+
+(* {1 What is done with the model} *)
+
+type deed =
+  | Write of string  (** into this directory *)
+  | Check of Tlc_check.settings
+  | Compare of { directory : string option; limit : int }
+
+let write directory files =
+  let files = List.map (fun (f : Model.file) -> (f.name, f.text)) files in
+  match Tlc_session.write ~directory files with Ok () -> Exit_status.Done | Error status -> status
+
+let deed directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverage =
+  let wrong why = Report.complain why; Error Exit_status.Bad_input in
+  let only_with_run =
+    List.filter_map
+      (fun (given, option) -> if given then Some option else None)
+      [ (strict, "--strict"); (coverage, "--coverage"); (distributed <> None, "--distributed"); (workers <> None, "--workers") ]
+  in
+  match check, compare, only_with_run, directory, distributed, workers with
+  | true, true, _, _, _, _ -> wrong "--run and --compare are two things: ask for one at a time"
+  | false, _, option :: _, _, _, _ -> wrong (option ^ " is about --run, which is not there")
+  | true, false, _, _, Some _, Some _ ->
+    wrong "--workers is not for --distributed: each worker says itself how many threads it has"
+  | true, false, _, _, Some (host, port), None ->
+    Ok (Check { mode = Server { host; port }; directory; strict; coverage })
+  | true, false, _, _, None, _ ->
+    let workers = Option.value workers ~default:Dolphin_tlc.Invocation.Automatic in
+    Ok (Check { mode = Local workers; directory; strict; coverage })
+  | false, true, [], _, _, _ -> Ok (Compare { directory; limit })
+  | false, false, [], Some directory, _, _ -> Ok (Write directory)
+  | false, false, [], None, _, _ ->
+    wrong "what is to be done with the model? -o DIR writes it, --run has TLC check it, --compare compares state graphs"
+
+let perform jar deed (program : Program_file.t) (fleet : Fleet_file.t) ~answers ~faults files =
+  let environment = World_of.environment ~answers ~faults fleet.scenario and world = World_of.world fleet.scenario in
+  match deed with
+  | Write directory -> Ok (write directory files)
+  | Check settings ->
+    let* installation = Tlc_session.installation jar in
+    Ok (Tlc_check.run installation settings files environment program world)
+  | Compare { directory; limit } ->
+    let* installation = Tlc_session.installation jar in
+    Ok (Tlc_compare.run installation ~directory ~limit files environment program world)
+
+let run path fleet answers faults directory check compare strict limit jar workers distributed coverage =
+  let result =
+    let* deed = deed directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverage in
+    let* program, fleet = load path fleet in
+    match model program fleet ~answers ~faults with
+    | Ok files -> perform jar deed program fleet ~answers ~faults files
+    | Error refusals -> Report.diagnostics ~source:program.source refusals; Error Exit_status.Bad_input
+  in
+  match result with Ok status | Error status -> status
+
+(* {1 The command} *)
+
+let directory =
+  let doc =
+    "Write the model into the directory $(docv), which is made if it is not there. With $(b,--run) and $(b,--compare) it is kept there, \
+     and so is what TLC writes."
+  in
+  Arg.(value & opt (some string) None & info [ "o"; "output" ] ~docv:"DIR" ~doc)
+
+let check = Arg.(value & flag & info [ "run" ] ~doc:"Have TLC check the model, and print its verdicts.")
+
+let compare =
+  let doc = "Have TLC print the state graph, and compare it with the explorer's." in
+  Arg.(value & flag & info [ "compare" ] ~doc)
+
+let strict =
+  let doc = "With $(b,--run): count as violations $(b,halt) and tuples left over." in
+  Arg.(value & flag & info [ "strict" ] ~doc)
+
+let limit =
+  let doc = "With $(b,--compare): give up after $(docv) states." in
+  Arg.(value & opt int 1_000_000 & info [ "max-states" ] ~docv:"N" ~doc)
+
+let man =
+  [ `S Manpage.s_description;
+    `P "$(tname) writes a model of a program in its world in TLA+, for the model checker TLC: $(b,MC.tla), which is the \
+        program as a table of expressions and the world as constants, and the modules of the specification of the language \
+        that it extends, of which $(b,Dolphin.tla) is the semantics, rule by rule. The world is that of $(mname) $(b,explore), \
+        and TLC finds the same states and transitions.";
+    `P "$(b,MC.cfg) checks the properties, $(b,Graph.cfg) prints the state graph. In the directory, with TLC's jar:";
+    `Pre "  java -Xss64m -cp tla2tools.jar tlc2.TLC -config MC.cfg MC.tla\n\
+         \  java -Xss64m -cp tla2tools.jar tlc2.TLC -workers 1 -config Graph.cfg MC.tla";
+    `P "What has no meaning in TLA+ is refused, with its place in the program: calls of a supplier, and coordinates that the \
+        program computes.";
+    `S "RUNNING TLC";
+  ]
+  @ Tlc_options.man
+  @ [
+    `S Manpage.s_arguments;
+    `S Manpage.s_options;
+    `S Manpage.s_exit_status;
+    `S Manpage.s_examples;
+    `Pre "  $(mname) $(tname) examples/rendezvous.dol -o rendezvous\n\
+         \  $(mname) $(tname) examples/rendezvous.dol --run --faults fail=1\n\
+         \  $(mname) $(tname) examples/rendezvous.dol --compare" ]
+  @ Options.see_also
+
+let command =
+  let info =
+    Cmd.info "tla" ~doc:"write a program as a model in TLA+, and have TLC check it" ~man
+      ~exits:(Options.exits [ Done; Violated; Bad_input; Inconclusive; Platform_trouble; Bug ])
+  in
+  Cmd.v info
+    Term.(
+      const run $ Options.program $ Options.fleet $ Explore_command.answers $ Explore_command.faults $ directory $ check $ compare
+      $ strict $ limit $ Tlc_options.jar $ Tlc_options.workers $ Tlc_options.distributed $ Tlc_options.coverage)

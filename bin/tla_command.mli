@@ -1,0 +1,3 @@
+(** [dolphin tla]. *)
+
+val command : Exit_status.t Cmdliner.Cmd.t

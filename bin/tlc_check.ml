@@ -1,0 +1,118 @@
+open Dolphin_tlc
+open Dolphin_semantics
+module Property = Dolphin_explore.Property
+module Environment = Dolphin_explore.Environment
+
+module Run = Dolphin_tla.Run
+
+type settings = { mode : Invocation.mode; directory : string option; strict : bool; coverage : bool }
+
+(* {1 Names} *)
+
+let properties : (string * Property.t) list =
+  [ ("NoDeadlock", No_deadlock); ("Termination", Termination); ("NoError", No_error); ("Assertions", Assertions);
+    ("Vehicles", Vehicles); ("NoHalt", No_halt); ("NoLeftover", No_leftover) ]
+
+let phrase name = match List.assoc_opt name properties with Some p -> Property.name p | None -> name
+
+(* There is one temporal property: TLC does not say which is violated. *)
+let violated : Event.violation -> string = function
+  | Invariant name | Property name -> name
+  | Temporal -> "Termination"
+  | Deadlock -> "NoDeadlock"
+
+(* Whether a run shows what is said to be violated: where labels leave a choice, such a run is wanted. *)
+let shows name options program world ((c, e) : Dolphin_explore.Labelled.state) (steps : Transition.t list) =
+  match List.assoc_opt name properties, List.rev steps with
+  | Some No_deadlock, _ -> Environment.choices options program world e c = []
+  | Some ((No_error | Assertions | Vehicles | No_halt | No_leftover) as p), last :: _ ->
+    Property.broken_by_end last.rules c = Some p
+  | (Some _ | None), _ -> true
+
+(* {1 Printing} *)
+
+let print_states (c : Outcome.counter_example) =
+  let print i (step : Outcome.step) =
+    Printf.printf "%4d  %s\n" (i + 1) (Option.value step.action ~default:"?");
+    List.iter (fun line -> Printf.printf "      %s\n" line) (String.split_on_char '\n' step.state)
+  in
+  List.iteri print c.steps
+
+let print_counter_example options (program : Program_file.t) world (c : Outcome.counter_example) =
+  let name = violated c.violation in
+  let question =
+    match List.assoc_opt name properties with Some p -> Property.question p | None -> "it does not hold"
+  in
+  Format.printf "@.%s: a run in which %s@." (phrase name) question;
+  let broken = shows name options program.program world in
+  match Recovered.run options program.program world ~broken c with
+  | Ok { steps; cycle } ->
+    Shown_run.print program.program ~steps ~cycle;
+    if name = "NoDeadlock" then Shown_run.print_waiting program.program steps
+  | Error trouble ->
+    Format.printf "This is no run of the explorer: %a. --compare tells more. The states of TLC:@." Recovered.pp_trouble trouble;
+    print_states c
+
+let length (c : Outcome.counter_example) =
+  let n = Report.count (List.length c.steps) "step" in
+  match c.repetition with
+  | Once -> "after " ^ n
+  | Stays -> Printf.sprintf "after %s, for ever" n
+  | Back_to 0 -> Printf.sprintf "%s that can repeat for ever" (Report.count (List.length c.steps + 1) "step")
+  | Back_to k ->
+    Printf.sprintf "after %s, %s that can repeat for ever" (Report.count k "step")
+      (Report.count (List.length c.steps - k + 1) "step")
+
+(* TLC looks no further than the first violation. What is asked of the specification rather than of the program is only
+   told where it does not hold. *)
+let print_verdicts names (verdict : Outcome.verdict) =
+  let broken = match verdict with Violated c -> Some (violated c.violation, length c) | _ -> None in
+  let print name =
+    match broken, verdict with
+    | Some (broken, how), _ when broken = name -> Printf.printf "%s: violated %s\n" (phrase name) how
+    | _, _ when not (List.mem_assoc name properties) -> ()
+    | Some _, _ -> Printf.printf "%s: not decided: TLC stops at a violation\n" (phrase name)
+    | None, Holds -> Printf.printf "%s: holds\n" (phrase name)
+    | None, _ -> Printf.printf "%s: not decided\n" (phrase name)
+  in
+  List.iter print names
+
+let print_counts (o : Outcome.t) =
+  let depth = match o.depth with Some d -> Printf.sprintf ", depth %d" d | None -> "" in
+  let left = if o.queue > 0 then Printf.sprintf ", %d not looked at" o.queue else "" in
+  Printf.printf "%d distinct states, %d generated%s%s\n" o.distinct o.generated left depth
+
+let print_coverage (o : Outcome.t) =
+  print_newline ();
+  let widest = List.fold_left (fun n (name, _) -> max n (String.length name)) 0 o.coverage in
+  List.iter (fun (name, n) -> Printf.printf "%-*s  %d\n" widest name n) o.coverage
+
+let print names options program world ~coverage (o : Outcome.t) =
+  Option.iter print_endline o.version;
+  print_verdicts names o.verdict;
+  print_counts o;
+  (match o.verdict with
+   | Violated c -> print_counter_example options program world c
+   | Holds | Unfinished | Failed _ -> ());
+  if coverage then print_coverage o
+
+let status : Outcome.verdict -> Exit_status.t = function
+  | Holds -> Done
+  | Violated _ -> Violated
+  | Unfinished | Failed _ -> Inconclusive
+
+let run installation s model options program world =
+  let files = List.map (fun (f : Dolphin_tla.Model.file) -> (f.name, f.text)) (Run.files ~strict:s.strict model) in
+  let all = Run.properties ~strict:s.strict in
+  (* TLC's distributed mode cannot check temporal properties. *)
+  let configuration, checked =
+    match s.mode with
+    | Local _ -> (Run.check, all)
+    | Server _ -> (Run.check_states, List.filter (fun (p : Run.property) -> not p.of_runs) all)
+  in
+  Tlc_session.in_directory s.directory files @@ fun directory ->
+  match Tlc_session.run installation s.mode ~directory ~main:Run.main ~configuration ~coverage:s.coverage ignore with
+  | Error status -> status
+  | Ok (Ended outcome | Interrupted outcome) ->
+    print (List.map (fun (p : Run.property) -> p.name) checked) options program world ~coverage:s.coverage outcome;
+    status outcome.verdict

@@ -1,0 +1,60 @@
+open Dolphin_tlc
+open Dolphin_lts
+module Run = Dolphin_tla.Run
+module Reference = Dolphin_explore.Reference
+
+(* What TLC counts must be what was printed: one line for each state, and one for each transition. *)
+let is_complete printed (o : Outcome.t) =
+  o.queue = 0 && o.distinct = Printed_graph.states printed && o.generated = 1 + Printed_graph.transitions printed
+
+let graph_of_tlc installation ~directory =
+  let printed = Printed_graph.create () in
+  let problem = ref None in
+  let take text =
+    match !problem, Printed_graph.line printed text with
+    | None, Error p -> problem := Some p
+    | None, Ok (true | false) | Some _, _ -> ()
+  in
+  let mode = Invocation.Local (Workers 1) in
+  match
+    Tlc_session.run installation mode ~directory ~main:Run.main ~configuration:Run.graph ~coverage:false take
+  with
+  | Error status -> Error status
+  | Ok (Interrupted _) -> Report.complain "interrupted before TLC was done"; Error Exit_status.Inconclusive
+  | Ok (Ended outcome) -> (
+      match !problem, Printed_graph.graphs printed with
+      | None, Ok [ (_, graph) ] when is_complete printed outcome -> Ok graph
+      | None, Ok _ ->
+        Report.complain
+          (Printf.sprintf "TLC counts %d states and %d transitions, but its model printed %d and %d" outcome.distinct
+             (outcome.generated - 1) (Printed_graph.states printed) (Printed_graph.transitions printed));
+        Error Exit_status.Inconclusive
+      | Some problem, _ | None, Error problem ->
+        Report.complain (Format.asprintf "the graph that TLC printed cannot be read: %a" Printed_graph.pp_problem problem);
+        Error Exit_status.Inconclusive)
+
+(* Beside its transitions a graph has what is seen of each state, as transitions from it to itself. *)
+let judge space theirs =
+  match Compare.isomorphic (Explored.graph space) theirs with
+  | Ok () ->
+    Printf.printf "isomorphic, with equal labels and derivations, and equal A, B and N: %d states, %d transitions\n"
+      (Array.length space.states) (Reference.transitions space);
+    Exit_status.Done
+  | Error difference ->
+    Format.printf
+      "not isomorphic. Left is the explorer's graph, right TLC's; what is seen of a state counts as a transition that stays there, \
+       in parentheses.@.%a@."
+      Isomorphism.pp_difference difference;
+    (match difference.reason with Undecided -> Inconclusive | _ -> Violated)
+
+let run installation ~directory ~limit model options (program : Program_file.t) world =
+  match Reference.explore ~limit options program.program world with
+  | None ->
+    Report.complain (Printf.sprintf "%s has more than %d states: see --max-states" program.path limit);
+    Exit_status.Inconclusive
+  | Some space -> (
+      let files = List.map (fun (f : Dolphin_tla.Model.file) -> (f.name, f.text)) (Run.files ~strict:false model) in
+      Tlc_session.in_directory directory files @@ fun directory ->
+      match graph_of_tlc installation ~directory with
+      | Error status -> status
+      | Ok theirs -> judge space theirs)

@@ -1,0 +1,55 @@
+(** Talking to an implementation: the requests of the protocol, and its replies read. *)
+
+type json = Yojson.Safe.t
+
+exception Trouble of string
+(** The implementation does not answer, or not what the protocol has: why, without a full stop. *)
+
+type ask = json -> (json, string) result
+(** [ask request] is the reply, or why there is none. *)
+
+(** Where a run is. *)
+type place = { configuration : json; world : json }
+
+type transition = {
+  event : json option;
+  label : string;
+  rules : string list;
+  effects : json list;
+  next : json;
+}
+
+type steps = {
+  internal : transition list;  (** leftmost first *)
+  caused : transition list;  (** by the events, in their order *)
+  awaited : json list;
+  refused : string list;  (** why events caused nothing *)
+}
+
+(** {1:ask Requests}
+
+    All of these raise {!Trouble}. *)
+
+val hello : ask -> string
+(** What the implementation calls itself. *)
+
+val initial : ask -> program:string -> fleet:string -> (place, (string * int option) list) result
+(** Where runs begin; or the codes and lines of what is wrong. *)
+
+val steps : ask -> place -> json list option -> steps
+(** [steps ask place events] is what may happen: without [events], those come that need nobody to say more. *)
+
+(** {1:configurations What a configuration shows} *)
+
+val ending : json -> (string * string option) option
+val running : json -> (string * string) list
+(** A, by vehicle, sorted. *)
+
+val bound : json -> string list
+val pairs : json -> string list
+(** N, sorted. *)
+
+val store : json -> (string * string) list
+
+val key : json -> string
+(** Equal for configurations that are equal, in whatever order their members are. *)

@@ -1,0 +1,16 @@
+(** Judging an implementation by a case of the corpus. *)
+
+(** What is not as expected. *)
+type failure = {
+  kind : string;  (** the expectation: ["trace"]; or ["covers"]; or ["implementation"], which did not answer *)
+  why : string;  (** one sentence without a full stop *)
+}
+
+type verdict = { failures : failure list; rules : string list  (** that were taken, sorted *) }
+
+val judge : Dialogue.ask -> Case.t -> verdict
+(** [judge ask case] is in what [case] fails, each expectation looked at. *)
+
+val passes : Case.t -> verdict -> bool
+(** [passes case verdict] is whether [verdict] is as it should be: without failures, or for a case that must fail with
+    failures of just those kinds. *)

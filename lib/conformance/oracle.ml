@@ -1,0 +1,229 @@
+open Dolphin_semantics
+open Dolphin_trace
+open Dolphin_trace.Field
+module Diagnostic = Dolphin_syntax.Diagnostic
+module Location = Dolphin_syntax.Location
+module Scenario = Dolphin_scenario.Scenario
+
+type json = Yojson.Safe.t
+type given = { program : Core.program; nodes : Nodes.t; world : World.t }
+type t = { name : string; given : given option }
+
+let version = 1
+let start ~name = { name; given = None }
+
+(* {1 Errors} *)
+
+(** Why a request has no answer. *)
+type error =
+  | No_json of string
+  | Bad_request of string
+  | Unknown_request of string
+  | No_program
+  | Bad_configuration of string
+  | Bad_world of string
+  | Bad_event of string
+  | Too_large of string
+
+let explain = function
+  | No_json why -> ("no-json", why)
+  | Bad_request why -> ("bad-request", why)
+  | Unknown_request name ->
+    ("unknown-request", Printf.sprintf "there is no request %S: there are hello, initial and step" name)
+  | No_program -> ("no-program", "no program was given: initial comes first")
+  | Bad_configuration why -> ("bad-configuration", why)
+  | Bad_world why -> ("bad-world", why)
+  | Bad_event why -> ("bad-event", why)
+  | Too_large why -> ("too-large", why)
+
+let of_error error : members =
+  let code, message = explain error in
+  [ ("error", `Assoc [ ("code", `String code); ("message", `String message) ]) ]
+
+let error make result = Result.map_error make result
+
+(* {1 Programs} *)
+
+(* What is wrong with a fleet is no matter of conformance in detail. *)
+let of_diagnostic ~part (d : Diagnostic.t) : json =
+  let code = if part = "fleet" then part else Diagnostic.code_name d.code in
+  let place =
+    if d.at = Location.none then []
+    else [ ("line", `Int (Location.line d.at)); ("column", `Int (Location.column d.at)) ]
+  in
+  `Assoc
+    ([ ("in", `String part); ("code", `String code) ] @ place
+     @ [ ("message", `String d.message) ]
+     @ match d.hint with None -> [] | Some hint -> [ ("hint", `String hint) ])
+
+let is_error (d : Diagnostic.t) = d.severity = Error
+let rejected ~part found = Error (List.map (of_diagnostic ~part) (List.filter is_error found))
+
+let compile source =
+  match Dolphin_syntax.Parse.program ~file:"program" source with
+  | Error found -> rejected ~part:"program" found
+  | Ok ast -> (
+      match Elaborate.program ~source_name:"program" ast with
+      | Error found -> rejected ~part:"program" found
+      | Ok (program, _) -> Ok program)
+
+let inhabit source =
+  match Scenario.read ~file:"fleet" source with
+  | Error found -> rejected ~part:"fleet" found
+  | Ok scenario -> Ok (List.fold_left (fun w s -> World.add s w) World.empty (Scenario.states scenario))
+
+let of_world world : json = `List (List.map (fun s -> `Assoc (Entry.of_state s)) (World.vehicles world))
+
+let to_world json =
+  let state json = Result.bind (members json) Entry.to_state in
+  let* states = error (fun why -> Bad_world why) (list state json) in
+  Ok (List.fold_left (fun w s -> World.add s w) World.empty states)
+
+let configuration program c = error (fun why -> Too_large why) (Snapshot.to_json program c)
+
+let initial o found =
+  let bad result = error (fun why -> Bad_request why) result in
+  let* source = bad (get text "program" found) in
+  let* fleet = bad (get text "fleet" found) in
+  match compile source, inhabit fleet with
+  | Error ds, Ok _ | Ok _, Error ds -> Ok ({ o with given = None }, [ ("rejected", `List ds) ])
+  | Error ds, Error ds' -> Ok ({ o with given = None }, [ ("rejected", `List (ds @ ds')) ])
+  | Ok program, Ok world ->
+    let given = { program; nodes = Nodes.of_program program; world } in
+    let* c = configuration program (Configuration.initial program) in
+    Ok ({ o with given = Some given }, [ ("configuration", c); ("world", of_world world) ])
+
+(* {1 Steps} *)
+
+(* A pick may be met in more ways than anybody wants to read. *)
+let most_transitions = 10_000
+
+let rec bounded n (xs : 'a Seq.t) =
+  match xs () with
+  | Seq.Nil -> Ok []
+  | Seq.Cons _ when n = 0 -> Error (Too_large (Printf.sprintf "there are more than %d transitions" most_transitions))
+  | Seq.Cons (x, rest) -> Result.map (fun xs -> x :: xs) (bounded (n - 1) rest)
+
+let each f xs =
+  let add found x =
+    let* found = found in
+    let* y = f x in
+    Ok (y :: found)
+  in
+  Result.map List.rev (List.fold_left add (Ok []) xs)
+
+let of_transition g c event (t : Transition.t) =
+  let* next = configuration g.program t.next in
+  let step = Step.members (Step.of_transition g.program c t) in
+  let event = match event with None -> [] | Some h -> [ ("event", `Assoc (Happening.members h)) ] in
+  Ok (`Assoc (event @ step @ [ ("next", next) ]))
+
+(* What is awaited, less what an event of the kind has to say. *)
+let patterns (c : Configuration.t) (event : Transition.event) : members list =
+  let named name rest = ("event", `String name) :: rest in
+  match event, c.control with
+  | Vehicle_done v, _ -> List.map (fun name -> named name [ ("vehicle", `String v) ]) [ "done"; "failed" ]
+  | Timer_expired timer, _ -> [ named "timer" [ ("timer", `Int timer) ] ]
+  | Answered _, Waiting (_, Ask prompt) -> [ named "answer" [ ("prompt", `String prompt) ]; named "no-answer" [] ]
+  | Replied _, _ -> [ named "reply" []; named "no-reply" [] ]
+  | (Answered _ | Vehicle_failed _ | Nobody_answers _ | Host_failed _ | Interruption), _ -> []
+
+(* The time-out of a pick that can be met is not awaited. *)
+let is_awaited g world c (event : Transition.event) =
+  match event with
+  | Timer_expired _ -> Result.is_ok (Transition.accept g.program world c event)
+  | Vehicle_done _ | Vehicle_failed _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Interruption -> true
+
+let has_ended (c : Configuration.t) =
+  match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false
+
+let awaited g world c = List.filter (is_awaited g world c) (Transition.awaited c)
+
+let of_awaited c events : json =
+  let all = List.concat_map (patterns c) events in
+  let all = if has_ended c then all else all @ [ [ ("event", `String "interruption") ] ] in
+  `List (List.map (fun members -> `Assoc members) all)
+
+(* Those that are what they are, and so need nobody to say more. *)
+let plain events : Happening.t list =
+  let of_event : Transition.event -> Happening.t option = function
+    | (Vehicle_done _ | Timer_expired _) as event -> Some (Happening.of_event event)
+    | Vehicle_failed _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Interruption -> None
+  in
+  List.filter_map of_event events
+
+let site (c : Configuration.t) =
+  match c.control with
+  | Script m | Waiting (m, _) | Executing (m, _) -> Machine.site m
+  | Ended _ -> Fault.unknown_site
+
+let deliver g world c happening =
+  let refused code message =
+    let message = match message with None -> [] | Some text -> [ ("message", `String text) ] in
+    Ok (Either.Right (`Assoc ([ ("event", `Assoc (Happening.members happening)); ("code", `String code) ] @ message)))
+  in
+  match Happening.to_event ~site:(site c) happening with
+  | Error why -> Error (Bad_event why)
+  | Ok event -> (
+      match Transition.accept g.program world c event with
+      | Ok t -> Result.map (fun t -> Either.Left t) (of_transition g c (Some happening) t)
+      | Error Not_awaited -> refused "not-awaited" None
+      | Error (Bad_answer why) -> refused "bad-answer" (Some why))
+
+let step_of g world c events =
+  let* internal = bounded most_transitions (Transition.internal g.program world c) in
+  let* internal = each (of_transition g c None) internal in
+  let there = awaited g world c in
+  let* delivered = each (deliver g world c) (Option.value events ~default:(plain there)) in
+  let caused, refused = List.partition_map Fun.id delivered in
+  let refused = if refused = [] then [] else [ ("refused", `List refused) ] in
+  Ok ([ ("transitions", `List (internal @ caused)); ("awaited", of_awaited c there) ] @ refused)
+
+let step g found =
+  let bad result = error (fun why -> Bad_request why) result in
+  let* json = bad (get any "configuration" found) in
+  let* c = error (fun why -> Bad_configuration why) (Snapshot.of_json g.nodes g.program json) in
+  let* world = match List.assoc_opt "world" found with None | Some `Null -> Ok g.world | Some json -> to_world json in
+  let to_event json = Result.bind (members json) Happening.of_members in
+  let* events =
+    match List.assoc_opt "events" found with
+    | None | Some `Null -> Ok None
+    | Some json -> error (fun why -> Bad_event why) (Result.map Option.some (list to_event json))
+  in
+  (* A configuration that was tampered with may name variables and places that are not there. *)
+  match step_of g world c events with
+  | result -> result
+  | exception (Invalid_argument _ | Not_found | Failure _ | Stack_overflow) ->
+    Error (Bad_configuration "its parts do not belong together")
+
+(* {1 Requests} *)
+
+let hello o : members =
+  [ ("protocol", `String "dolphin-step"); ("version", `Int version); ("implementation", `String o.name) ]
+
+let perform o found =
+  let* name = error (fun why -> Bad_request why) (get text "request" found) in
+  match name, o.given with
+  | "hello", _ -> Ok (o, hello o)
+  | "initial", _ -> initial o found
+  | "step", None -> Error No_program
+  | "step", Some g -> Result.map (fun reply -> (o, reply)) (step g found)
+  | other, _ -> Error (Unknown_request other)
+
+let answer o (request : json) : t * json =
+  match request with
+  | `Assoc found ->
+    let id = match List.assoc_opt "id" found with None -> [] | Some id -> [ ("id", id) ] in
+    let o, reply = match perform o found with Ok answered -> answered | Error e -> (o, of_error e) in
+    (o, `Assoc (id @ reply))
+  | _ -> (o, `Assoc (of_error (Bad_request "a request is an object")))
+
+let deepest = 20_000
+
+let answer_line o line =
+  let o, reply =
+    match Dolphin_json.Host_value.parse ~deepest line with
+    | Error why -> (o, `Assoc (of_error (No_json why)))
+    | Ok request -> answer o request
+  in
+  (o, Dolphin_json.Canonical.to_string reply)

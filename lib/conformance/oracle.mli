@@ -1,0 +1,18 @@
+(** The oracle: answers questions about what a configuration can do, one at a time, in JSON. It remembers the program
+    that it was last given, and nothing else: what it says of a configuration depends on that and on the question alone.
+    [conformance/INTERPRETING.md] describes the protocol member by member. *)
+
+type t
+
+val start : name:string -> t
+(** [start ~name] knows no program yet. [name] is what it says it is. *)
+
+val version : int
+(** Of the protocol. *)
+
+val answer : t -> Yojson.Safe.t -> t * Yojson.Safe.t
+(** [answer o request] is the reply to [request], and the oracle afterwards. A request that cannot be answered has a
+    reply with an [error]. *)
+
+val answer_line : t -> string -> t * string
+(** The same on lines of text, without their ends. *)

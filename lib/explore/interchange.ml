@@ -1,0 +1,159 @@
+open Dolphin_semantics
+
+type ring = int array array
+type t = { rings : ring list; labels : (Alike.label * Alike.label) list }
+
+(* {1 Pairs that may be renamed} *)
+
+(* Pairs within one key only: what looks at any pair of a key sees the same. *)
+let renamed patterns rename tuples =
+  let again before (k, xs) =
+    List.fold_left
+      (fun (before, same) x ->
+         let n = Pattern.pair patterns k x in
+         let n' = rename n in
+         (Tuples.post k (Pattern.value_of patterns n') before, same && n = n'))
+      before xs
+  in
+  let without =
+    List.fold_left
+      (fun n (k, xs) ->
+         List.fold_left (fun n x -> match Tuples.consume k x n with Some n -> n | None -> n) n xs)
+      tuples (Tuples.bindings tuples)
+  in
+  let again, same = List.fold_left again (without, true) (Tuples.bindings tuples) in
+  if same then tuples else again
+
+let movable context r =
+  let patterns = Alike.patterns context in
+  let of_code (handler, code) = (Pattern.of_code patterns ~handler code).fixed in
+  let add fixed code = Footprint.Pairs.union fixed (of_code code) in
+  let fixed = List.fold_left add Footprint.Pairs.empty (Alike.closures r) in
+  fun n ->
+    let pair = (Pattern.key_of patterns n, Some (Pattern.value_of patterns n)) in
+    not (Footprint.Pairs.meet (Footprint.Pairs.singleton pair) fixed)
+
+let is_clear context r =
+  let clear (handler, code) = not (Pattern.of_code (Alike.patterns context) ~handler code).unclear in
+  List.for_all clear (Alike.closures r)
+
+(* {1 What stands side by side} *)
+
+type thing = { pairs : int array; likeness : string }
+
+let things context r =
+  let patterns = Alike.patterns context in
+  let pair n = Pattern.key_of patterns n and label _ = "" in
+  let plain r =
+    { pairs = Alike.pairs context r; likeness = Alike.key context ~sorted:false ~pair ~label r }
+  in
+  let of_branch (b : Residual.branch) =
+    { pairs = Alike.pairs context (One_of [ b ]);
+      likeness = Alike.branch_key context ~sorted:false ~pair ~label b }
+  in
+  let rec lists (r : Residual.t) =
+    match r with
+    | Ready _ | Running _ | Action _ | Condition _ | Idle _ -> []
+    | Sequence (a, rest) -> List.concat_map lists (a :: rest)
+    | Parallel rs -> List.map plain rs :: List.concat_map lists rs
+    | All_of (a, bs) -> (List.map of_branch bs :: List.concat_map lists (Option.to_list a)) @ bodies bs
+    | One_of bs -> List.map of_branch bs :: bodies bs
+    | Until (_, a) | Watch (a, _) | During { body = a; _ } -> lists a
+  and bodies bs = List.concat_map (fun (b : Residual.branch) -> lists b.body) bs in
+  lists r
+
+(* {1 Automorphisms} *)
+
+(* The renaming that makes the one thing the other, and back. *)
+let exchange is_movable a b =
+  let map = Hashtbl.create 8 in
+  let rec from i =
+    if i = Array.length a then Some map
+    else
+      let p = a.(i) and q = b.(i) in
+      let agrees x y = match Hashtbl.find_opt map x with Some z -> z = y | None -> true in
+      if not (agrees p q && agrees q p) || (p <> q && not (is_movable p && is_movable q)) then None
+      else begin
+        Hashtbl.replace map p q;
+        Hashtbl.replace map q p;
+        from (i + 1)
+      end
+  in
+  from 0
+
+let rename map n = Option.value (Hashtbl.find_opt map n) ~default:n
+
+let checked context r tuples map =
+  let rename = rename map in
+  if Tuples.equal tuples (renamed (Alike.patterns context) rename tuples) then Alike.matched context ~rename r r else None
+
+(* {1 Rings} *)
+
+(* Where the things differ, once for each pair of theirs. *)
+let own_pairs members =
+  let first = List.hd members in
+  let at p = List.map (fun pairs -> pairs.(p)) members in
+  let differs p = List.exists (fun n -> n <> first.(p)) (at p) in
+  let places = List.filter differs (List.init (Array.length first) Fun.id) in
+  let add found p = if List.exists (fun q -> at q = at p) found then found else p :: found in
+  let places = List.rev (List.fold_left add [] places) in
+  Array.of_list (List.map (fun pairs -> Array.of_list (List.map (fun p -> pairs.(p)) places)) members)
+
+let is_disjoint (ring : ring) =
+  let all = List.concat_map Array.to_list (Array.to_list ring) in
+  List.length (List.sort_uniq Int.compare all) = List.length all
+
+let overlaps (ring : ring) (ring' : ring) =
+  let all = Array.concat (Array.to_list ring') in
+  Array.exists (Array.exists (fun n -> Array.mem n all)) ring
+
+(* Things of one likeness in rows, within which each can change places with the next. To compare all with all would take
+   too long if nothing fits. *)
+let rows check things =
+  let most_rows = 4 in
+  let into (rows, labels) pairs =
+    let rec join before = function
+      | [] -> (List.rev ([ pairs ] :: before), labels)
+      | row :: after when List.length before < most_rows -> (
+          match check (List.hd row) pairs with
+          | Some found -> (List.rev_append before ((pairs :: row) :: after), found @ labels)
+          | None -> join (row :: before) after)
+      | rows -> (List.rev_append before ([ pairs ] :: rows), labels)
+    in
+    join [] rows
+  in
+  let rows, labels = List.fold_left into ([], []) things in
+  (List.filter (fun row -> List.compare_length_with row 1 > 0) (List.map List.rev rows), labels)
+
+let by_likeness things =
+  let groups = Hashtbl.create 16 in
+  let add order thing =
+    match Hashtbl.find_opt groups thing.likeness with
+    | Some same -> same := thing.pairs :: !same; order
+    | None ->
+      let same = ref [ thing.pairs ] in
+      Hashtbl.add groups thing.likeness same;
+      same :: order
+  in
+  let order = List.rev (List.fold_left add [] things) in
+  List.map (fun same -> List.rev !same) order
+
+let find context r tuples =
+  if not (is_clear context r) then None
+  else begin
+    let is_movable = movable context r in
+    let check a b = Option.bind (exchange is_movable a b) (checked context r tuples) in
+    let groups = List.concat_map by_likeness (things context r) in
+    let groups = List.filter (fun group -> List.compare_length_with group 1 > 0) groups in
+    let group found things =
+      let rows, labels = rows check things in
+      let ring found members =
+        let ring = own_pairs members in
+        if Array.length ring.(0) = 0 || (not (is_disjoint ring)) || List.exists (overlaps ring) found then found
+        else ring :: found
+      in
+      { rings = List.fold_left ring found.rings rows; labels = labels @ found.labels }
+    in
+    let found = List.fold_left group { rings = []; labels = [] } groups in
+    if found.labels = [] then None else Some { found with rings = List.rev found.rings }
+  end

@@ -1,0 +1,182 @@
+open Bigarray
+
+type bytes_of_chunk = (char, int8_unsigned_elt, c_layout) Array1.t
+type segment = (int32, int32_elt, c_layout) Array1.t
+
+type t = {
+  mutable chunks : bytes_of_chunk array;
+  mutable width : int;  (* bytes a number *)
+  mutable mask : int;  (* all bits of the width *)
+  mutable count : int;
+  mutable table : segment array;  (* 0: free; else a tag above the bits of a place plus 1 *)
+  mutable slots : int;
+  mutable place_bits : int;
+  mutable most : int;  (* numbers before the table has to grow *)
+}
+
+external get64 : bytes_of_chunk -> int -> int64 = "%caml_bigstring_get64u"
+external set64 : bytes_of_chunk -> int -> int64 -> unit = "%caml_bigstring_set64u"
+
+let chunk_bits = 16
+let chunk_numbers = 1 lsl chunk_bits
+let chunk_mask = chunk_numbers - 1
+
+(* Numbers are read and written by eight bytes, from wherever they start. *)
+let padding = 8
+let bytes_of_chunk width = (chunk_numbers * width) + padding
+let most_of slots = slots / 20 * 17
+
+let bits_for n =
+  let rec from bits = if 1 lsl bits > n then bits else from (bits + 1) in
+  from 1
+
+(* The table is in segments, none of which is ever given back: what is freed between things that stay is seldom of use
+   to anything else. *)
+let segment_bits = 12
+let segment_mask = (1 lsl segment_bits) - 1
+
+let set_segments t n =
+  let more = n - Array.length t.table in
+  let segment _ = Array1.create int32 c_layout (1 lsl segment_bits) in
+  t.table <- Array.append t.table (Array.init more segment);
+  Array.iter (fun (segment : segment) -> Array1.fill segment 0l) t.table;
+  t.slots <- n lsl segment_bits;
+  t.most <- most_of t.slots;
+  t.place_bits <- bits_for t.most
+
+let create () =
+  let t = { chunks = [||]; width = 1; mask = 0xFF; count = 0; table = [||]; slots = 0; place_bits = 1; most = 0 } in
+  set_segments t 1;
+  t
+
+let count t = t.count
+
+(* Places are below [count], and slots below [slots], from here on. *)
+
+let get t i =
+  let chunk = Array.unsafe_get t.chunks (i lsr chunk_bits) in
+  Int64.to_int (get64 chunk ((i land chunk_mask) * t.width)) land t.mask
+
+let set t i x =
+  let chunk = Array.unsafe_get t.chunks (i lsr chunk_bits) in
+  set64 chunk ((i land chunk_mask) * t.width) (Int64.of_int x)
+
+(* [set] where numbers follow. *)
+let set_within t i x =
+  let chunk = Array.unsafe_get t.chunks (i lsr chunk_bits) in
+  for b = 0 to t.width - 1 do
+    Array1.set chunk (((i land chunk_mask) * t.width) + b) (Char.unsafe_chr ((x asr (8 * b)) land 0xFF))
+  done
+
+(* {1 The table} *)
+
+let hash x =
+  let h = x * 0x1E37_79B9_7F4A_7C15 in
+  let h = (h lxor (h lsr 32)) * 0x1F58_476D_1CE4_E5B9 in
+  h lxor (h lsr 29)
+
+(* 31 bits choose the slot, others are the tag. *)
+let slot_of t h = ((h land 0x7FFF_FFFF) * t.slots) lsr 31
+let tag_of t h = (h lsr 31) lsl t.place_bits land 0xFFFF_FFFF
+
+let entry t slot =
+  let segment : segment = Array.unsafe_get t.table (slot lsr segment_bits) in
+  Int32.to_int (Array1.unsafe_get segment (slot land segment_mask)) land 0xFFFF_FFFF
+
+let place_of t entry = (entry land ((1 lsl t.place_bits) - 1)) - 1
+let tag_in t entry = (entry lsr t.place_bits) lsl t.place_bits
+let next t slot = if slot + 1 = t.slots then 0 else slot + 1
+
+(* The slot of [x], or the free one where it belongs. *)
+let rec probe t x tag slot =
+  let entry = entry t slot in
+  if entry = 0 || (tag_in t entry = tag && get t (place_of t entry) = x) then slot else probe t x tag (next t slot)
+
+let rec free t slot = if entry t slot = 0 then slot else free t (next t slot)
+
+let occupy t slot tag i =
+  let segment : segment = Array.unsafe_get t.table (slot lsr segment_bits) in
+  Array1.unsafe_set segment (slot land segment_mask) (Int32.of_int (tag lor (i + 1)))
+
+let fill t =
+  for i = 0 to t.count - 1 do
+    let h = hash (get t i) in
+    occupy t (free t (slot_of t h)) (tag_of t h) i
+  done
+
+(* By small steps: a table is never much larger than it must be. *)
+let grow t =
+  let n = Array.length t.table in
+  set_segments t (n + max 1 (n / 4));
+  fill t
+
+(* {1 Adding} *)
+
+let widen t =
+  let width = t.width + 1 in
+  let renew c _ =
+    let chunk : bytes_of_chunk = Array1.create char c_layout (bytes_of_chunk width) in
+    for i = 0 to min chunk_numbers (t.count - (c * chunk_numbers)) - 1 do
+      set64 chunk (i * width) (Int64.of_int (get t ((c * chunk_numbers) + i)))
+    done;
+    chunk
+  in
+  t.chunks <- Array.mapi renew t.chunks;
+  t.width <- width;
+  t.mask <- (if width = 8 then -1 else (1 lsl (8 * width)) - 1)
+
+let rec append t x =
+  if x land t.mask <> x then begin
+    widen t;
+    append t x
+  end
+  else begin
+    if t.count land chunk_mask = 0 then
+      t.chunks <- Array.append t.chunks [| Array1.create char c_layout (bytes_of_chunk t.width) |];
+    set t t.count x;
+    t.count <- t.count + 1
+  end
+
+let add t x =
+  let h = hash x in
+  let tag = tag_of t h in
+  let slot = probe t x tag (slot_of t h) in
+  let entry = entry t slot in
+  if entry <> 0 then place_of t entry
+  else begin
+    let i = t.count in
+    append t x;
+    occupy t slot tag i;
+    if t.count > t.most then grow t;
+    -1 - i
+  end
+
+let find t x =
+  let h = hash x in
+  place_of t (entry t (probe t x (tag_of t h) (slot_of t h)))
+
+let bytes t = (Array.length t.chunks * bytes_of_chunk t.width) + (4 * t.slots)
+
+let bytes_to_grow t =
+  let table = if t.count >= t.most then t.slots else 0 in
+  let chunk = if t.count land chunk_mask = 0 then bytes_of_chunk t.width else 0 in
+  table + chunk
+
+let renew t f =
+  for i = 0 to t.count - 1 do
+    let x = f (get t i) in
+    while x land t.mask <> x do
+      widen t
+    done;
+    set_within t i x
+  done;
+  set_segments t (Array.length t.table);
+  fill t
+
+(* {1 Reading ahead} *)
+
+let read_table t x = entry t (slot_of t (hash x))
+
+let read_number t x =
+  let i = place_of t (entry t (slot_of t (hash x))) in
+  if i >= 0 then get t i else 0

@@ -1,0 +1,65 @@
+(** States of an executing task up to what can change places in it. Two states are alike if one becomes the other by
+    exchanging things of {!Interchange}, by the names that do not matter, and by the order of what stands side by side; one of those
+    alike is looked at for all. docs/explorer.md says why that is enough. *)
+
+open Dolphin_semantics
+
+(** {1:groups Groups} *)
+
+type t
+(** What can change places in one task: a group of permutations. *)
+
+type finder
+
+(** What is shared, by numbers. *)
+type shareds = { number : Shared.t -> int; value : int -> Shared.t }
+
+val finder : Environment.options -> Core.program -> shareds -> finder
+
+exception Unclear
+(** The same piece of a program can change places in one execution and not in another. What is true of one of the pieces
+    is then not known to be true of the other. *)
+
+val find : finder -> Residual.t -> Shared.t -> t option
+(** [find f r s] is for [r], about to be executed where [s] is shared; [None] if nothing can change places.
+    @raise Unclear *)
+
+val number : t -> int
+(** From 1; equal groups have the same. *)
+
+val alike : finder -> (Alike.label list -> unit) -> unit
+(** [alike f note] calls [note] with all that is reached if one of it is. *)
+
+val is_used : finder -> bool
+(** Whether there is any group. *)
+
+(** {1:states States}
+
+    A state is the kinds of the parts that stand side by side, each a number, and what is shared. *)
+
+type state = { kinds : int array;  (** ascending *) shared : int }
+
+val kind : t -> Residual.t -> int
+(** [kind g r] is the same for residuals that differ in names that do not matter. *)
+
+val residual : t -> int -> Residual.t
+(** [residual g k] is some residual of kind [k]. *)
+
+val state : t -> Residual.t list -> int -> state
+(** [state g rs s] is the residuals [rs] side by side, with shared [s]. *)
+
+type permutation
+
+val identity : t -> permutation
+
+val compose : permutation -> permutation -> permutation
+(** [compose p q] is [q], then [p]. *)
+
+val apply : t -> permutation -> state -> state
+
+val canonical : t -> int array -> int -> state * permutation
+(** [canonical g kinds s] is a state that is alike, mostly the same one for all that are, and the permutation that leads
+    there. *)
+
+val images : t -> int -> (int * permutation) list
+(** [images g s] is each that shared [s] can become by some permutation, with one that does it: itself first. *)

@@ -1,0 +1,24 @@
+(** What systems were heard to send, message by message: for people who wonder what a vehicle says. *)
+
+open Dolphin_imc
+
+type t
+
+(** Of one message of one system. *)
+type entry = {
+  count : int;  (** so many times *)
+  order : Byte_order.t;  (** of the last one *)
+  payload : string;  (** of the last one *)
+}
+
+val nothing : t
+
+val add : Header.t -> string -> t -> t
+(** [add h bytes x] is [x] after the packet [bytes] with the header [h]. Of one system {!most_kinds} different messages are
+    kept. *)
+
+val of_system : int -> t -> (int * entry) list
+(** [of_system id x] is what the system [id] sent, by the number of the message. *)
+
+val most_kinds : int
+(** 1000: IMC has fewer. *)

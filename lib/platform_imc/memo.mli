@@ -1,0 +1,28 @@
+(** What is known of a plan's execution that the vehicle itself does not tell, and that a console which takes over from
+    one that died has to know: what journals keep of {!Execution}. *)
+
+type t =
+  | Asked of { plan : string; request : int; before : (string * bool) option }
+  (** A request to start [plan] is about to be sent. [before]: the plan that the vehicle named last, and whether it was
+      busy with it; [None] if it had named none. *)
+  | Taken of { request : int }  (** The vehicle answered that it takes the plan. *)
+  | Runs of { request : int }  (** It was seen to execute it. *)
+  | Over of { request : int }  (** It was stopped, and confirmed that. *)
+
+val to_json : t -> Yojson.Safe.t
+
+val of_json : Yojson.Safe.t -> t option
+(** [of_json (to_json m)] is [Some m]; [None] for what is no memo. *)
+
+(** What memos come to. *)
+type knowledge = {
+  request : int;
+  before : (string * bool) option;
+  taken : bool;
+  runs : bool;
+  over : bool;
+}
+
+val knowledge : plan:string -> t list -> knowledge option
+(** [knowledge ~plan memos] is what [memos], latest first, say of the latest request for [plan]; [None]: none was ever
+    sent. *)

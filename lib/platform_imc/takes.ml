@@ -1,0 +1,88 @@
+open Dolphin_imc
+
+type t = {
+  plan : string;
+  number : int;
+  after : float;
+  busy : bool;
+  begun : bool;  (* the vehicle has begun the plan at least once *)
+  words : (string * float) list;  (* what is said once each time, and when it was said first *)
+  doubled : bool;  (* one of these was said twice *)
+  beginning : float;  (* when it was last said that the plan begins *)
+  initializing : float;  (* when it was last said that some plan does *)
+  first_executing : float;
+  last_executing : float;
+  told : bool;
+}
+
+let request ~plan ~number ~after ~busy =
+  { plan; number; after; busy; begun = false; words = []; doubled = false; beginning = neg_infinity;
+    initializing = neg_infinity; first_executing = infinity; last_executing = neg_infinity; told = false }
+
+let nothing = request ~plan:"" ~number:(-1) ~after:infinity ~busy:false
+
+(* {1 Signs} *)
+
+(* A vehicle that says more different things at each start need not be believed in all of them. *)
+let most_words = 16
+
+let once ~sent word x =
+  match List.assoc_opt word x.words with
+  | Some at when at <> sent -> { x with doubled = true }
+  | Some _ -> x
+  | None -> if List.length x.words < most_words then { x with words = (word, sent) :: x.words } else x
+
+let begins ~sent x = { x with beginning = Float.max sent x.beginning }
+
+let executes ~sent x =
+  { x with
+    begun = true;
+    first_executing = (if x.busy then infinity else Float.min sent x.first_executing);
+    last_executing = Float.max sent x.last_executing }
+
+let starts_with prefix text =
+  let n = String.length prefix in
+  String.length text >= n && String.sub text 0 n = prefix
+
+let ends_with suffix text =
+  let n = String.length suffix and length = String.length text in
+  length >= n && String.sub text (length - n) n = suffix
+
+(* {1 What the vehicle says} *)
+
+let loaded = "plan loaded"
+let executing = ": executing maneuver"
+
+let reply ~sent (r : Message.t Message.Plan_control.t) x =
+  match r.op, r.type_ with
+  | Start, (Success | In_progress) when r.request_id = x.number && sent > x.after ->
+    let x = once ~sent ("reply " ^ r.info) { x with begun = true } in
+    if r.info = loaded then begins ~sent x else if ends_with executing r.info then executes ~sent x else x
+  | (Start | Stop | Load | Get | Other _), (Request | Success | Failure | In_progress | Other _) -> x
+
+let state ~sent (s : Message.Plan_control_state.t) x =
+  if sent <= x.after then x
+  else
+    match s.state, s.last_outcome with
+    | Initializing, _ -> { x with initializing = Float.max sent x.initializing }
+    | Executing, _ when s.plan_id = x.plan -> executes ~sent x
+    | Ready, Success when s.plan_id = x.plan -> { x with last_executing = Float.max sent x.last_executing }
+    | (Executing | Ready | Blocked | Other _), (None | Success | Failure | Other _) -> x
+
+let log ~sent (entry : Message.Log_book_entry.t) x =
+  let text = entry.text in
+  if sent <= x.after then x
+  else if text = Printf.sprintf "request -- Start Plan (%s)" x.plan || text = "plan initializing: " ^ x.plan then
+    begins ~sent (once ~sent text x)
+  else if starts_with (Printf.sprintf "reply -- Start Plan (%s) -- " x.plan) text && ends_with executing text then
+    once ~sent text x
+  else x
+
+(* {1 Verdict} *)
+
+(* What another plan's request makes a vehicle say looks the same at first: until it executes this one again. *)
+let resumed x = x.first_executing < x.initializing && x.initializing < x.last_executing
+
+let twice x =
+  if x.told || not (x.begun && (x.doubled || x.beginning > x.first_executing || resumed x)) then None
+  else Some ({ x with told = true }, x.plan)

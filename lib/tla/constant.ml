@@ -1,0 +1,50 @@
+open Dolphin_semantics
+open Core
+
+let is_computation : operation -> bool = function
+  | Unary _ | Binary _ | Make_list | Make_map _ | Make_range _ | Concatenate | Element | Property _ | Add_setting _
+  | Build ((Pos | Imc_plan), _)
+  | Builtin (Location_of | Area_of | Math _) -> true
+  | Replace_element | Replace_member _ | Call _ | Method _
+  | Build ((Pick | All_of | One_of), _)
+  | Builtin _ | Make_branch -> false
+
+(* Locals that [e] itself has set before count as its own. *)
+let is_closed e =
+  let own = Hashtbl.create 4 in
+  let rec closed (e : expression) =
+    match e.node with
+    | Constant _ -> true
+    | Local slot -> Hashtbl.mem own slot
+    | Set_local (slot, e) ->
+      let is_closed = closed e in
+      Hashtbl.replace own slot ();
+      is_closed
+    | Apply (operation, arguments) -> is_computation operation && List.for_all closed arguments
+    | Block parts -> List.for_all closed parts
+    | Global _ | Set_global _ | Make_closure _ | If _ | While _ | For _ | Return _ | Break | Continue -> false
+  in
+  closed e
+
+let rec slots (e : expression) =
+  let of_all = List.fold_left (fun most e -> max most (slots e)) 0 in
+  match e.node with
+  | Local slot -> slot + 1
+  | Set_local (slot, e) -> max (slot + 1) (slots e)
+  | Apply (_, es) | Block es -> of_all es
+  | Constant _ | Global _ | Set_global _ | Make_closure _ | If _ | While _ | For _ | Return _ | Break | Continue -> 0
+
+let fuel = 100_000
+
+let value program world e =
+  let lambda =
+    { id = -1; label = "constant"; parameters = 0; implicit = false; captures = [||]; slots = slots e; code = e;
+      lambda_site = e.site }
+  in
+  let context : Machine.context =
+    { program; world; bound = []; store = Store.empty; tuples = Tuples.empty No_key; mode = Task_code; deeds = [] }
+  in
+  match Machine.run ~fuel context (Machine.call { lambda; captured = [||] } []) with
+  | Finished x, _, _ -> Ok x
+  | Faulted fault, _, _ -> Error fault
+  | (Exhausted | Did | Waits _ | Halted _), _, _ -> Error (Fault.make e.site "this has no value")

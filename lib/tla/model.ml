@@ -1,0 +1,144 @@
+open Dolphin_semantics
+module Environment = Dolphin_explore.Environment
+module Location = Dolphin_syntax.Location
+
+type file = { name : string; text : string }
+
+(* {1 The world} *)
+
+let devices payload = Tla.Set (List.map (fun d -> Tla.String (String.lowercase_ascii d)) payload)
+
+let battery level =
+  let n, d =
+    match Fraction.of_float level with
+    | Some fraction -> fraction
+    | None -> (int_of_float (Float.round (level *. 1e6)), 1_000_000)
+  in
+  Tla.Tuple [ String "number"; Integer n; Integer d ]
+
+let vehicle translation (s : World.vehicle_state) =
+  Tla.Record
+    [ ("id", String s.id); ("type", String s.kind); ("payload", Tla.strings s.payload); ("devices", devices s.payload);
+      ("place", Integer (Translation.place translation s.position)); ("battery", battery s.battery) ]
+
+let ending : Environment.endings -> string = function
+  | Succeeds -> "succeeds"
+  | May_fail -> "may fail"
+  | Fails -> "fails"
+
+(* A name that no program has. *)
+let nobody = "\000"
+
+(* [v] and [p] as in the definition of Ending; what most have comes last. *)
+let endings (environment : Environment.options) world plans =
+  let ids = List.map (fun (s : World.vehicle_state) -> s.id) (World.vehicles world) in
+  let usual = match ids with id :: _ -> environment.endings id nobody | [] -> Environment.Succeeds in
+  let clause id plan =
+    let this = environment.endings id plan in
+    if this = usual then None
+    else
+      Some
+        (Format.asprintf "v = %a /\\ p = %a -> %a" Tla.pp (Tla.String id) Tla.pp (Tla.String plan) Tla.pp
+           (Tla.String (ending this)))
+  in
+  let clauses = List.concat_map (fun id -> List.filter_map (clause id) plans) ids in
+  let usual = Format.asprintf "%a" Tla.pp (Tla.String (ending usual)) in
+  match clauses with
+  | [] -> usual
+  | clauses -> Printf.sprintf "CASE %s\n    [] OTHER -> %s" (String.concat "\n    [] " clauses) usual
+
+(* {1 Answers} *)
+
+let answer translation program text =
+  let lambda, why =
+    match Elaborate.answer program text with
+    | Ok closure -> (Translation.lambda translation closure.Core.lambda, "")
+    | Error why -> (0, why)
+  in
+  Tla.Record [ ("text", String text); ("lambda", Integer lambda); ("why", String why) ]
+
+let rounds translation program texts =
+  Tla.Tuple (List.map (fun round -> Tla.Tuple (List.map (answer translation program) round)) texts)
+
+let answers translation program (environment : Environment.options) prompts =
+  let clause prompt =
+    Format.asprintf "prompt = %a -> %a" Tla.pp (Tla.String prompt) Tla.pp
+      (rounds translation program (environment.answers prompt))
+  in
+  let others = Format.asprintf "%a" Tla.pp (rounds translation program (environment.answers nobody)) in
+  match prompts with
+  | [] -> others
+  | prompts -> Printf.sprintf "CASE %s\n    [] OTHER -> %s" (String.concat "\n    [] " (List.map clause prompts)) others
+
+(* {1 The module} *)
+
+let definition ppf name e = Format.fprintf ppf "%s == %a@.@." name Tla.pp e
+
+(* A row for each number, with the place in the program that it stands for. *)
+let table ppf name rows =
+  let last = List.length rows - 1 in
+  Format.fprintf ppf "%s == <<@." name;
+  List.iteri
+    (fun i (row, at) ->
+       Format.fprintf ppf "  %a%s" Tla.pp row (if i = last then "" else ",");
+       let place = match at with Some at -> Format.asprintf " at %a" Location.pp at | None -> "" in
+       Format.fprintf ppf "  \\* %d%s@." (i + 1) (Tla.comment place))
+    rows;
+  Format.fprintf ppf ">>@.@."
+
+let text program world (environment : Environment.options) plans prompts translation main =
+  let fleet = List.map (fun s -> (vehicle translation s, None)) (World.vehicles world) in
+  let answers = answers translation program environment prompts in
+  let several prompt = List.length (environment.answers prompt) > 1 in
+  let b = Buffer.create 10_000 in
+  let ppf = Format.formatter_of_buffer b in
+  Format.pp_set_margin ppf 1_000_000;
+  Format.fprintf ppf "---- MODULE MC ----@.(* %s in its world. Made by dolphin tla: make it anew rather than change it. *)@."
+    (Tla.comment program.Core.source_name);
+  Format.fprintf ppf "EXTENDS Dolphin@.@.";
+  table ppf "MCFleet" fleet;
+  table ppf "MCCode" (Translation.code translation);
+  table ppf "MCLambdas" (Translation.lambdas translation);
+  definition ppf "MCLambdaNames" (Translation.lambda_names translation);
+  definition ppf "MCMain" (Tla.Tuple [ String "closure"; Integer main; Tuple [] ]);
+  definition ppf "MCGlobalNames" (Tla.strings (Array.to_list program.global_names));
+  definition ppf "MCOrderedKeys" (Tla.Set (List.map (fun k -> Tla.String k) program.ordered_keys));
+  definition ppf "MCPlaces" (Translation.places translation);
+  definition ppf "MCDistances" (Translation.distances translation);
+  definition ppf "MCPlans" (Translation.plans translation);
+  definition ppf "MCPrompts" (Tla.Set (List.map (fun p -> Tla.String p) (List.filter several prompts)));
+  definition ppf "MCFailures" (Tla.Integer (Option.value environment.failures ~default:(-1)));
+  definition ppf "MCHostReplies" (Tla.Tuple []);
+  Format.fprintf ppf "MCEnding(v, p) ==@.  %s@.@." (endings environment world plans);
+  Format.fprintf ppf "MCAnswers(prompt) ==@.  %s@.@." answers;
+  Format.fprintf ppf "====@.";
+  Buffer.contents b
+
+let constants =
+  let replaced =
+    [ "Fleet"; "Code"; "Lambdas"; "LambdaNames"; "Main"; "GlobalNames"; "OrderedKeys"; "Places"; "Distances"; "Plans";
+      "Prompts"; "Failures"; "HostReplies"; "Ending"; "Answers" ]
+  in
+  let lines = List.map (fun name -> Printf.sprintf "  %s <- MC%s\n" name name) replaced in
+  "CONSTANTS\n" ^ String.concat "" lines
+  ^ "  Interruptions = FALSE\n  ScriptFuel = 10000\n  AtomicFuel = 2000000\n  MaximumCalls = 10000\n"
+
+let invariants = [ "TypeOK"; "AllocationWithinBound"; "OneTaskEach"; "EmptyAfterEnd"; "TuplesConserved"; "NoDeadlock" ]
+
+let check =
+  "SPECIFICATION Spec\n" ^ constants ^ "INVARIANTS " ^ String.concat " " invariants
+  ^ "\nPROPERTY Termination\nCHECK_DEADLOCK FALSE\n"
+
+let graph = "INIT Init\nNEXT Next\n" ^ constants ^ "INVARIANT PrintGraph\nCHECK_DEADLOCK FALSE\n"
+
+let of_program ?(plans = []) ?(prompts = []) ~environment world program =
+  let translation = Translation.create program world in
+  let main = Translation.lambda translation program.Core.main in
+  let text = text program world environment plans prompts translation main in
+  match Translation.refusals translation with
+  | [] ->
+    Ok
+      [ { name = "MC.tla"; text }; { name = "MC.cfg"; text = check }; { name = "Graph.cfg"; text = graph };
+        { name = "Dolphin.tla"; text = Spec.dolphin }; { name = "DolphinMachine.tla"; text = Spec.machine };
+        { name = "DolphinValues.tla"; text = Spec.values } ]
+  | refusals -> Error refusals

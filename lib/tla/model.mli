@@ -1,0 +1,20 @@
+(** The TLA+ model of one program in one world: what TLC needs to explore it, by the specification in [spec/]. The
+    program is a table of expressions there, which the specification runs itself: nothing of what it does is computed
+    here, but for geometry. *)
+
+open Dolphin_semantics
+module Environment = Dolphin_explore.Environment
+
+type file = { name : string;  (** without a directory *) text : string }
+
+val of_program :
+  ?plans:string list ->
+  ?prompts:string list ->
+  environment:Environment.options ->
+  World.t ->
+  Core.program ->
+  (file list, Dolphin_syntax.Diagnostic.t list) result
+(** [of_program ~plans ~prompts ~environment w p] is the model of [p] in [w]: the specification's modules, [MC.tla] with the
+    program and the world as constants, [MC.cfg] to check its properties and [Graph.cfg] to print its graph; all
+    for one directory. Or what cannot be translated, at least one, in the order of the text. [environment] is asked about
+    the plans and prompts that are listed here; what it says of a name that nobody has holds for all others. *)

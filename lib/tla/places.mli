@@ -1,0 +1,17 @@
+(** The positions that matter to a program: those it names, and those of the vehicles, with the distances between them.
+    Mutable while a program is translated. *)
+
+module Position = Dolphin_geo.Position
+
+type t
+
+val create : unit -> t
+
+val index : t -> Position.t -> int
+(** [index ps p] is the number of [p] in [ps], from 1; it is added if it is not there yet. *)
+
+val texts : t -> Tla.t
+(** The positions as messages show them. *)
+
+val distances : t -> Tla.t
+(** A row for each place: over the ground to each, in millimetres, rounded up; as far as TLC's whole numbers go. *)

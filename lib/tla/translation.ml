@@ -1,0 +1,328 @@
+open Dolphin_semantics
+open Core
+module Diagnostic = Dolphin_syntax.Diagnostic
+module Location = Dolphin_syntax.Location
+module Ast = Dolphin_syntax.Ast
+module Wgs84 = Dolphin_geo.Wgs84
+
+type t = {
+  program : program;
+  world : World.t;
+  places : Places.t;
+  nodes : (int, Tla.t * site) Hashtbl.t;
+  mutable lambdas : (lambda * int * Tla.t) list;  (* latest first *)
+  mutable plans : Tla.t list;  (* latest first *)
+  mutable refusals : Diagnostic.t list;
+}
+
+let create program world =
+  { program; world; places = Places.create (); nodes = Hashtbl.create 1000; lambdas = []; plans = []; refusals = [] }
+
+let place t p = Places.index t.places p
+
+let location t site =
+  if 0 <= site && site < Array.length t.program.locations then Some t.program.locations.(site) else None
+
+let refuse t ?hint site format =
+  let at = Option.value (location t site) ~default:Location.none in
+  Format.kasprintf
+    (fun message -> t.refusals <- Diagnostic.error ?hint at ("cannot be translated to TLA+: " ^ message) :: t.refusals)
+    format
+
+let refusals t = List.sort_uniq Diagnostic.compare t.refusals
+let numbers ints = Tla.Tuple (List.map (fun i -> Tla.Integer i) ints)
+
+(* {1 Values} *)
+
+let tagged tag rest = Tla.Tuple (Tla.String tag :: rest)
+
+let integer t site i =
+  if i < Tla.least || i > Tla.greatest then
+    refuse t site "%d is beyond TLC's whole numbers, which have 32 bits" i;
+  Tla.Integer i
+
+let rec value t site x =
+  let both tag (a, b) = tagged tag [ Tla.Integer a; Tla.Integer b ] in
+  match x with
+  | Null -> tagged "null" []
+  | Boolean b -> tagged "boolean" [ Boolean b ]
+  | Integer i -> tagged "integer" [ integer t site i ]
+  | Number n -> both "number" (fraction t site n)
+  | String s -> tagged "string" [ String s ]
+  | Wildcard -> tagged "wildcard" []
+  | Symbol s -> tagged "symbol" [ String s ]
+  | List xs -> tagged "list" [ Tuple (List.map (value t site) (Array.to_list xs)) ]
+  | Map entries ->
+    tagged "map" [ Tuple (List.map (fun (k, x) -> Tla.Tuple [ String k; value t site x ]) entries) ]
+  | Range (a, b) -> both "range" (a, b)
+  | Position p -> tagged "position" [ Integer (place t p) ]
+  | Area area ->
+    let n, d = fraction t site area.radius in
+    tagged "area" [ Integer (place t area.centre); Integer n; Integer d ]
+  | Vehicles vs -> tagged "vehicles" [ Tla.strings vs ]
+  | Settings [] -> tagged "settings" [ Tuple [] ]
+  | Closure { lambda = l; captured } ->
+    let captured = List.map (value t site) (Array.to_list captured) in
+    tagged "closure" [ Integer (lambda t l); Tuple captured ]
+  | Task _ | Host _ | Settings _ ->
+    refuse t site "%s as a constant" (Value.kind x);
+    tagged "null" []
+
+and fraction t site n =
+  match Fraction.of_float n with
+  | Some fraction -> fraction
+  | None ->
+    refuse t site "the number %g: TLC's whole numbers, which have 32 bits, cannot hold it as a fraction" n;
+    (0, 1)
+
+(* {1 Operations} *)
+
+and sign : Ast.binary -> string = function
+  | Divide -> "/" | Multiply -> "*" | Remainder -> "%" | Power -> "**" | Add -> "+" | Subtract -> "-"
+  | Sequence -> ">>" | Append -> "<<" | Less -> "<" | Less_equal -> "<=" | Greater -> ">" | Greater_equal -> ">="
+  | Equal -> "==" | Not_equal -> "!=" | Member_of -> "in" | Intersect -> "&" | Around -> "^" | Parallel -> "|"
+  | And -> "&&" | Or -> "||"
+
+and names options = Tla.strings (List.map (Option.value ~default:"") options)
+
+and operation t site op : Tla.t =
+  let record name fields = Tla.Record (("op", Tla.String name) :: fields) in
+  let named op name names' = record op [ ("name", Tla.String name); ("names", names names') ] in
+  match op with
+  | Unary Not -> record "unary" [ ("sign", String "!") ]
+  | Unary Negate -> record "unary" [ ("sign", String "-") ]
+  | Binary op -> record "binary" [ ("sign", String (sign op)) ]
+  | Make_list -> record "list" []
+  | Make_map keys ->
+    let key = function Some k -> Tla.Tuple [ Tla.String k ] | None -> Tla.Tuple [] in
+    record "map" [ ("keys", Tuple (List.map key keys)) ]
+  | Make_range inclusive -> record "range" [ ("inclusive", Boolean inclusive) ]
+  | Concatenate -> record "concatenate" []
+  | Element -> record "element" []
+  | Replace_element -> record "replaceElement" []
+  | Replace_member k -> record "replaceMember" [ ("name", String k) ]
+  | Property name ->
+    if Supported.is_refused_property name then
+      refuse t site "'.%s' of a value that is not a constant: TLA+ has no such numbers" name;
+    record "property" [ ("name", String name) ]
+  | Call names' -> record "call" [ ("names", names names') ]
+  | Method (name, names') ->
+    if Supported.is_refused_method name then refuse t site "the method '%s'" name;
+    named "method" name names'
+  | Add_setting (name, names') -> named "setting" name names'
+  | Make_branch -> record "branch" []
+  | Build (Pick, _) -> record "build" [ ("builder", String "pick") ]
+  | Build (All_of, _) -> record "build" [ ("builder", String "allOf") ]
+  | Build (One_of, _) -> record "build" [ ("builder", String "oneOf") ]
+  | Build ((Pos | Imc_plan), _) ->
+    refuse t site "a position or plan whose settings are not constants"
+      ~hint:"the translator computes it once, so its settings may not depend on variables";
+    record "list" []
+  | Builtin builtin -> procedure t site builtin
+
+and procedure t site builtin : Tla.t =
+  let record name fields = Tla.Record (("op", Tla.String name) :: fields) in
+  let plain name = record name [] in
+  let keyed name keys = record name [ ("keys", Tla.strings keys) ] in
+  match builtin with
+  | Platform_task -> plain "task"
+  | Make_action -> plain "action"
+  | Make_condition -> plain "condition"
+  | Make_wait_for -> plain "waitFor"
+  | Make_until -> plain "until"
+  | Make_idle -> plain "idle"
+  | Make_during -> plain "during"
+  | Make_watch -> plain "watch"
+  | Execute -> plain "execute"
+  | Execute_for vehicles -> record "executeFor" [ ("names", Tla.strings vehicles) ]
+  | Release -> plain "release"
+  | Set_connection_timeout -> plain "setConnectionTimeout"
+  | Ask -> plain "ask"
+  | Message -> plain "message"
+  | Pause -> plain "pause"
+  | Halt -> plain "halt"
+  | Post keys -> keyed "post" keys
+  | Consume keys -> keyed "consume" keys
+  | Poll keys -> keyed "poll" keys
+  | Position_of -> plain "position"
+  | Battery_of -> plain "battery"
+  | Area_of -> plain "area"
+  | Assert -> plain "assert"
+  | Ignore -> plain "ignore"
+  | Propagate -> plain "propagate"
+  | Is_host -> plain "isHost"
+  | Math name ->
+    if not (Supported.is_mathematics name) then
+      refuse t site "Math.%s of a value that is not a constant: TLA+ has whole numbers only" name;
+    record "math" [ ("name", String name) ]
+  | Location_of ->
+    refuse t site "a location whose coordinates are not constants"
+      ~hint:"the translator computes distances, so it must know the coordinates";
+    plain "list"
+  | Get_supplier ->
+    refuse t site "a call of the host"
+      ~hint:"what the procedures of a supplier answer is known only when the program runs";
+    plain "getSupplier"
+
+(* {1 Expressions} *)
+
+and reserve t site =
+  let n = Hashtbl.length t.nodes + 1 in
+  Hashtbl.add t.nodes n (Tla.Tuple [], site);
+  n
+
+and define t n site is fields =
+  Hashtbl.replace t.nodes n (Tla.Record (("is", Tla.String is) :: fields), site);
+  n
+
+and expression t (e : expression) =
+  match e.node with
+  | Block [ start; body; { node = Apply (Build (Imc_plan, name), [ _ ]); site } ] -> plan t e.site start body name site
+  | Block [ _; _; { node = Apply (Build (Pos, _), _); _ } ] | Apply (Builtin (Location_of | Area_of | Math _), _)
+    when Constant.is_closed e -> folded t e
+  | Apply (Property name, _) when Supported.is_refused_property name && Constant.is_closed e -> folded t e
+  | _ -> unfolded t e
+
+and folded t (e : expression) =
+  let n = reserve t e.site in
+  match Constant.value t.program t.world e with
+  | Ok x -> define t n e.site "constant" [ ("value", value t e.site x) ]
+  | Error fault ->
+    refuse t e.site "it has no value: %s" fault.message;
+    n
+
+and unfolded t (e : expression) =
+  let n = reserve t e.site in
+  let define is fields = define t n e.site is fields in
+  let part e = Tla.Integer (expression t e) in
+  let parts es = Tla.Tuple (List.map part es) in
+  let slot i = ("slot", Tla.Integer (i + 1)) and global i = ("global", Tla.Integer (i + 1)) in
+  match e.node with
+  | Constant x -> define "constant" [ ("value", value t e.site x) ]
+  | Local i -> define "local" [ slot i ]
+  | Global i -> define "global" [ global i ]
+  | Set_local (i, e) -> define "setLocal" [ slot i; ("value", part e) ]
+  | Set_global (i, e) -> define "setGlobal" [ global i; ("value", part e) ]
+  | Apply (op, arguments) ->
+    let op = operation t e.site op in
+    define "apply" [ ("operation", op); ("arguments", parts arguments) ]
+  | Make_closure (l, captured) ->
+    let l = lambda t l in
+    define "closure" [ ("lambda", Integer l); ("slots", numbers (List.map succ captured)) ]
+  | If (test, yes, no) ->
+    let test = part test in
+    let yes = part yes in
+    define "if" [ ("test", test); ("yes", yes); ("no", part no) ]
+  | Block es -> define "block" [ ("parts", parts es) ]
+  | While (test, body) ->
+    let test = part test in
+    define "while" [ ("test", test); ("body", part body) ]
+  | For (i, range, body) ->
+    let range = part range in
+    define "for" [ slot i; ("range", range); ("body", part body) ]
+  | Return e -> define "return" [ ("value", part e) ]
+  | Break -> define "break" []
+  | Continue -> define "continue" []
+
+(* {1 Inline plans} *)
+
+(* A plan is built once, here: all its settings but the name must be constants. Of the lines of the block only planName
+   is left to the program; the others only say that they are there. *)
+and plan t site start body default build_site =
+  let n = reserve t site in
+  let settings = ref [] in
+  let setting (s : setting) = settings := s :: !settings in
+  let start = expression t start in
+  let body = plan_lines t setting body in
+  let number = plan_number t build_site (List.rev !settings) in
+  let slot = match Hashtbl.find t.nodes start with Tla.Record fields, _ -> List.assoc "slot" fields | _, _ -> Tla.Integer 1 in
+  let local = reserve t build_site in
+  let local = define t local build_site "local" [ ("slot", slot) ] in
+  let op =
+    Tla.Record
+      [ ("op", String "build"); ("builder", String "imcPlan"); ("name", String default); ("plan", Integer number) ]
+  in
+  let build = reserve t build_site in
+  let build = define t build build_site "apply" [ ("operation", op); ("arguments", numbers [ local ]) ] in
+  define t n site "block" [ ("parts", numbers [ start; body; build ]) ]
+
+and plan_lines t setting (e : expression) =
+  match e.node with
+  | Block es ->
+    let n = reserve t e.site in
+    define t n e.site "block" [ ("parts", numbers (List.map (plan_lines t setting) es)) ]
+  | Set_local (_, { node = Apply (Add_setting ("planName", _), _); _ }) | Constant Null -> unfolded t e
+  | Set_local (slot, ({ node = Apply (Add_setting (name, names), so_far :: arguments); site } as line)) ->
+    Option.iter setting (constant_setting t line site name names arguments);
+    let empty = { line with node = Apply (Add_setting (name, []), [ so_far ]) } in
+    unfolded t { e with node = Set_local (slot, empty) }
+  | _ ->
+    refuse t e.site "an inline plan with code among its settings"
+      ~hint:"the translator computes plans once, so their settings must be there in any case";
+    reserve t e.site
+
+and constant_setting t line site name names arguments =
+  let known = List.for_all Constant.is_closed arguments in
+  if not known then begin
+    refuse t line.site "'%s' of an inline plan depends on what the program computes" name
+      ~hint:"of an inline plan, only planName may do so";
+    None
+  end
+  else
+    let values = List.map (Constant.value t.program t.world) arguments in
+    match List.find_opt Result.is_error values with
+    | Some (Error fault) -> refuse t line.site "'%s' has no value: %s" name fault.message; None
+    | Some (Ok _) | None ->
+      let all = List.combine names (List.filter_map Result.to_option values) in
+      let positional = List.filter_map (function None, x -> Some x | Some _, _ -> None) all in
+      let named = List.filter_map (function Some k, x -> Some (k, x) | None, _ -> None) all in
+      Some { setting = name; positional; named; setting_site = site }
+
+and plan_number t site settings =
+  match Plan_builder.build ~name:"plan" site settings with
+  | Error fault -> refuse t site "this plan cannot be built: %s" fault.message; 0
+  | Ok plan ->
+    let reference = Wgs84.cartesian (Plan.reference plan) in
+    let millimetres (s : World.vehicle_state) =
+      Float.round (1000. *. Wgs84.straight (Wgs84.cartesian s.position) reference)
+    in
+    let ways = List.map millimetres (World.vehicles t.world) in
+    let nearest = List.fold_left Float.min infinity ways in
+    let farther way = Tla.Integer (int_of_float (Float.min (way -. nearest) (float_of_int (Tla.greatest / 1000)))) in
+    let facts =
+      [ ("devices", Tla.strings (Plan.required_payload plan)); ("vehicles", Tla.strings plan.vehicles);
+        ("farther", Tla.Tuple (List.map farther ways)) ]
+    in
+    t.plans <- Record facts :: t.plans;
+    List.length t.plans
+
+(* {1 Closures} *)
+
+and lambda t (l : lambda) =
+  match List.find_opt (fun (l', _, _) -> l == l') t.lambdas with
+  | Some (_, n, _) -> n
+  | None ->
+    let n = List.length t.lambdas + 1 in
+    (* Functions may refer to themselves, so its number is given out before its code is translated. *)
+    t.lambdas <- (l, n, Tla.Tuple []) :: t.lambdas;
+    let code = expression t l.code in
+    let fields =
+      [ ("label", Tla.String l.label); ("parameters", Tla.Integer l.parameters); ("implicit", Tla.Boolean l.implicit);
+        ("captures", numbers (List.map succ (Array.to_list l.captures))); ("slots", Integer l.slots);
+        ("code", Integer code) ]
+    in
+    t.lambdas <- List.map (fun (l', n', x) -> if n' = n then (l', n, Tla.Record fields) else (l', n', x)) t.lambdas;
+    n
+
+(* {1 The tables} *)
+
+let code t =
+  List.map
+    (fun i -> let node, site = Hashtbl.find t.nodes (i + 1) in (node, location t site))
+    (List.init (Hashtbl.length t.nodes) Fun.id)
+
+let lambdas t = List.rev_map (fun (l, _, record) -> (record, location t l.lambda_site)) t.lambdas
+let lambda_names t = Tla.strings (List.rev_map (fun (l, _, _) -> l.label) t.lambdas)
+let plans t = Tla.Tuple (List.rev t.plans)
+let places t = Places.texts t.places
+let distances t = Places.distances t.places

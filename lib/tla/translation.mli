@@ -1,0 +1,29 @@
+(** Programs as tables of TLA+: every expression has a number, so has every closure; expressions refer to their parts by
+    number. What [spec/DolphinMachine.tla] cannot run is refused, with its place in the program. *)
+
+open Dolphin_semantics
+
+type t
+(** Mutable: what has been translated so far. *)
+
+val create : Core.program -> World.t -> t
+
+val lambda : t -> Core.lambda -> int
+(** [lambda t l] is the number of [l], with all that it contains translated. *)
+
+val place : t -> Dolphin_geo.Position.t -> int
+(** [place t p] is the number of the position [p]. *)
+
+val refusals : t -> Dolphin_syntax.Diagnostic.t list
+(** What cannot be translated, in the order of the text. *)
+
+(** {1:tables The tables} *)
+
+val code : t -> (Tla.t * Dolphin_syntax.Location.t option) list
+(** The expressions, each with its place in the program. *)
+
+val lambdas : t -> (Tla.t * Dolphin_syntax.Location.t option) list
+val lambda_names : t -> Tla.t
+val plans : t -> Tla.t
+val places : t -> Tla.t
+val distances : t -> Tla.t

@@ -1,0 +1,42 @@
+(** What TLC's messages say. The codes are those of its class [EC], of TLC 2.18; a message with another code is
+    {!Trouble} if TLC calls it an error, and otherwise {!Other}. *)
+
+type violation =
+  | Invariant of string  (** its name in the configuration *)
+  | Property of string  (** a property of single steps, by its name *)
+  | Temporal  (** some property in the configuration: TLC does not say which *)
+  | Deadlock
+
+type t =
+  | Version of string  (** ["TLC2 Version 2.18 of 20 March 2023"] *)
+  | Begins of string  (** how it searches: workers, memory *)
+  | Initial_states of int
+  | Progress of { depth : int; generated : int; distinct : int; queue : int }
+  (** [depth] counts states: 1 for the initial ones *)
+  | Checks_temporal of int  (** the temporal properties, on so many states *)
+  | Violation of violation
+  | State of { number : int; action : string option; text : string }
+  (** of a counter-example, from 1: the action that led there, unless it is an initial state; the variables, [/\ x = 1]
+      and so on *)
+  | Stutters  (** the counter-example stays in its last state for ever *)
+  | Returns_to of int  (** the counter-example goes on from its last state to this one, and so on for ever *)
+  | Holds  (** no error was found *)
+  | Totals of { generated : int; distinct : int; queue : int }
+  | Depth of int  (** of the complete state graph, in states: 1 if there are only initial ones *)
+  | Coverage_begins  (** what follows tells of all that was done so far: earlier coverage is void *)
+  | Action of { name : string; line : int; distinct : int; generated : int }
+  (** coverage: an action, the line where it is defined, the states that it led to first, and all *)
+  | Printed of string  (** a line outside of messages, by the model, SANY or Java *)
+  | Worker of string  (** what a server says of workers and fingerprint servers *)
+  | Trouble of string
+  | Warning of string
+  | Other
+
+val of_message : Message.t -> t
+
+val variable : string -> string -> string option
+(** [variable x text] is the value of the variable [x], as TLC prints it, in the text of a {!State}, if it stands on
+    one line. *)
+
+val number_after : string -> string -> int option
+(** [number_after part text] is the number that begins where [part] first ends in [text]. *)

@@ -1,0 +1,46 @@
+open Dolphin_semantics
+open Dolphin_lts
+module Reference = Dolphin_explore.Reference
+
+let ending (c : Configuration.t) =
+  match c.control with
+  | Ended Completed -> if Tuples.is_empty c.tuples then "completed" else "completed, with tuples left"
+  | Ended (Halted message) -> "halted: " ^ message
+  | Ended (Failed fault) -> "failed: " ^ fault.message
+  | Ended Interrupted -> "interrupted"
+  | Script _ | Waiting _ | Executing _ -> ""
+
+let label (t : Transition.t) =
+  let rules = String.concat ", " (List.map Rule.name t.rules) in
+  Printed_graph.label ~rules (Format.asprintf "%a" Label.pp t.label)
+
+(* Of a key whose order matters one mark for all its pairs, of others one for each pair. *)
+let marks_of_key (c : Configuration.t) (k, values) =
+  let pair x = Format.asprintf "%a" Value.pp_tuple (k, x) in
+  if Tuples.is_ordered k c.tuples then [ Printf.sprintf "N %s in order" (String.concat ", " (List.map pair values)) ]
+  else
+    let rec runs = function
+      | [] -> []
+      | x :: rest -> (
+          match runs rest with
+          | (y, n) :: others when Value.compare x y = 0 -> (y, n + 1) :: others
+          | others -> (x, 1) :: others)
+    in
+    List.map (fun (x, n) -> Printf.sprintf "N %s * %d" (pair x) n) (runs values)
+
+let marks (c : Configuration.t) =
+  let ended = match ending c with "" -> [] | how -> [ "ended: " ^ how ] in
+  let bound = if c.bound = [] then [] else [ "B " ^ String.concat ", " c.bound ] in
+  let runs (v, (p : Core.platform_task)) = Printf.sprintf "A %s: %s" v p.name in
+  ended @ bound
+  @ List.map runs (Configuration.Vehicle_map.bindings c.allocation)
+  @ List.concat_map (marks_of_key c) (Tuples.bindings c.tuples)
+
+let graph (space : Reference.t) =
+  let b = Graph.Builder.create () in
+  let state s (edges : (Transition.t * int) list) =
+    List.iter (fun (t, target) -> Graph.Builder.add b s (label t) target) edges;
+    List.iter (fun m -> Graph.Builder.add b s (Printed_graph.mark m) s) (marks space.states.(s).configuration)
+  in
+  Array.iteri state space.edges;
+  Graph.Builder.finish ~states:(Array.length space.states) b

@@ -1,0 +1,30 @@
+type workers = Automatic | Workers of int
+type mode = Local of workers | Server of { host : string; port : int }
+
+let ( / ) = Filename.concat
+
+(* Java's own options. Residuals and the tasks in a program are trees, and TLC goes through them by recursion. *)
+let java (i : Installation.t) ~short =
+  (i.java :: (if short then [ "-XX:+UseSerialGC"; "-XX:TieredStopAtLevel=1" ] else [ "-XX:+UseParallelGC" ]))
+  @ [ "-Xss64m"; "-Dfile.encoding=UTF-8"; "-Duser.language=en"; "-Duser.country=US" ]
+
+let port_option port = Printf.sprintf "-Dtlc2.tool.distributed.TLCServer.port=%d" port
+
+let of_mode (i : Installation.t) = function
+  | Local workers ->
+    let workers = match workers with Automatic -> "auto" | Workers n -> string_of_int n in
+    [ "-cp"; i.jar; "tlc2.TLC"; "-workers"; workers ]
+  | Server { host; port } ->
+    [ "-Djava.rmi.server.hostname=" ^ host; port_option port; "-cp"; i.jar; "tlc2.tool.distributed.TLCServer" ]
+
+let command ?(short = false) i mode ~directory ~main ~configuration ~coverage =
+  let coverage = if coverage then [ "-coverage"; "60" ] else [] in
+  java i ~short
+  @ [ "-Djava.io.tmpdir=" ^ directory ]
+  @ of_mode i mode
+  @ [ "-tool"; "-metadir"; directory / "states"; "-config"; directory / configuration ]
+  @ coverage
+  @ [ directory / (main ^ ".tla") ]
+
+let worker i ~host ~port =
+  java i ~short:false @ [ port_option port; "-cp"; i.jar; "tlc2.tool.distributed.TLCWorker"; host ]

@@ -1,0 +1,11 @@
+(** Another program, run to its end. *)
+
+type ending =
+  | Exited of int  (** its status *)
+  | Killed of int  (** by this signal, as OCaml numbers signals *)
+  | Not_started of string  (** why *)
+
+val run : interrupted:(unit -> bool) -> (string -> unit) -> string list -> ending
+(** [run ~interrupted line (program :: arguments)] runs it, without input, and calls [line] for each line that it prints
+    on standard output or standard error. When [interrupted ()], which is asked a few times a second, it is told to
+    terminate, and killed if it has not after three seconds. It is also killed if [line] raises. *)

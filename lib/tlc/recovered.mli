@@ -1,0 +1,24 @@
+(** Counter-examples of TLC as runs of the semantics, by their labels. *)
+
+open Dolphin_semantics
+module Environment := Dolphin_explore.Environment
+
+type run = {
+  steps : Transition.t list;
+  cycle : Transition.t list;  (** goes on from there for ever, if there is any *)
+}
+
+type trouble =
+  | No_label of int  (** the state after so many steps does not say by which label it was reached *)
+  | No_such_run of { after : string list; label : string }
+  (** the semantics can do [after], but then not [label]: the two statements of the semantics differ *)
+  | Does_not_return of string list  (** these labels, of the cycle, lead to another state than TLC says *)
+
+val run :
+  Environment.options -> Core.program -> World.t -> broken:(Dolphin_explore.Labelled.state -> Transition.t list -> bool) ->
+  Outcome.counter_example -> (run, trouble) result
+(** [run o p w ~broken c] is a run with the labels of [c], which are the values of the variable [label] in its states.
+    If there are several, it is one for whose last state and transitions [broken] holds, if one is. *)
+
+val labels : Outcome.counter_example -> (string list, trouble) result
+val pp_trouble : Format.formatter -> trouble -> unit

@@ -1,0 +1,791 @@
+-------------------------------- MODULE Dolphin --------------------------------
+(* The semantics of Dolphin, to be read next to docs/semantics.md: one operator   *)
+(* for each inference rule, under the rule's name (PAR_ERR is [PAR-ERR]).         *)
+(*                                                                                *)
+(* Letters as there: v, V vehicles; p a platform task; t a task; r a residual;    *)
+(* k, x a pair of N; g a guard; i a timer; m a message; M the script's machine;   *)
+(* S the shared part <store, A, B, N>; l a label. Its kappa and sigma are the     *)
+(* variables control and store.                                                   *)
+(*                                                                                *)
+(* Steps(S, r) is the steps of a residual, Transitions those of a configuration:  *)
+(* sequences, the leftmost first. A step is a record:                             *)
+(*                                                                                *)
+(*   rules  the derivation, the axiom first                                       *)
+(*   label  what an observer sees, as text                                        *)
+(*   cause  what it answers: <<"program">>, or an event <<"task", v>> ...         *)
+(*   S      the shared part after it                                              *)
+(*   out    <<"next", r>>, <<"ok">>, <<"err", fault>>, or <<"ends", ending>> if   *)
+(*          the whole program ends, whatever is around                            *)
+(*   deeds  what its code did, handlers included                                  *)
+(*                                                                                *)
+(* Effects are in docs/semantics.md only: they follow from the step, and nothing  *)
+(* here depends on them.                                                          *)
+EXTENDS DolphinMachine
+
+CONSTANTS
+  Main,          \* the closure of the whole program
+  Ending(_, _),  \* how plan p may end on vehicle v: "succeeds", "may fail" or "fails"
+  Failures,      \* how many of the failures that need not be there may be in one run; -1: any number
+  Answers(_),    \* to a prompt: for the first time it is asked, the second ..., the answers that may be given; the last item is
+                 \* for all later times
+  Prompts,       \* the prompts whose answers depend on how often they were asked
+  HostReplies,   \* what the host may reply to a call
+  Interruptions  \* whether the program may be interrupted
+
+VARIABLES
+  control,  \* kappa: what runs
+  store,    \* sigma: the values of the global variables, << >> for those that have none yet
+  A,        \* the allocation: which platform task each vehicle runs, for those that run one
+  B,        \* the bound vehicles, in the order in which they were picked
+  N,        \* the tuple space
+  outside   \* what the environment remembers: failures so far, how often it was asked
+
+vars == << control, store, A, B, N, outside >>
+
+Shared == [ store |-> store, A |-> A, B |-> B, N |-> N ]
+
+(* kappa *)
+Script(M) == [ at |-> "script", M |-> M ]
+Waiting(M, request) == [ at |-> "wait", M |-> M, request |-> request ]
+Executing(M, r) == [ at |-> "exec", M |-> M, r |-> r ]
+Ended(ending) == [ at |-> "end", ending |-> ending ]
+
+Completed == [ how |-> "completed", message |-> "", site |-> 0 ]
+Halted(m) == [ how |-> "halted", message |-> m, site |-> 0 ]
+Failed(fault) == [ how |-> "failed", message |-> fault.message, site |-> fault.at ]
+Interrupted == [ how |-> "interrupted", message |-> "", site |-> 0 ]
+
+-----------------------------------------------------------------------------
+(* {1 Residuals} *)
+
+(* r >> ts: it leans to the right. *)
+SeqOf(r, ts) ==
+  IF r.op = "seq" THEN [ op |-> "seq", first |-> r.first, rest |-> r.rest \o ts ]
+  ELSE [ op |-> "seq", first |-> r, rest |-> ts ]
+
+Parts(r) == IF r.op = "seq" THEN << r.first >> \o r.rest ELSE << r >>
+FromParts(rs) == IF Len(rs) = 1 THEN rs[1] ELSE [ op |-> "seq", first |-> rs[1], rest |-> Tail(rs) ]
+
+(* r1 | .. | rn: it is flat. *)
+ParOf(rs) ==
+  LET flat == Flatten(Each(rs, LAMBDA r : IF r.op = "par" THEN r.branches ELSE << r >>))
+  IN IF Len(flat) = 1 THEN flat[1] ELSE [ op |-> "par", branches |-> flat ]
+
+(* allOf(r; bs) and allOf(bs): of one branch it is a oneOf. *)
+AllOf(runs, choices) ==
+  CASE choices = << >> -> runs[1]
+    [] runs = << >> /\ Len(choices) = 1 -> [ op |-> "oneOf", choices |-> choices ]
+    [] OTHER -> [ op |-> "allOf", runs |-> runs, choices |-> choices ]
+
+(* act(r): r when its turn has come; its timers start. *)
+RECURSIVE Act(_)
+Act(r) ==
+  CASE r.op = "seq" -> [ r EXCEPT !.first = Act(@) ]
+    [] r.op = "par" -> [ r EXCEPT !.branches = Each(@, Act) ]
+    [] r.op = "allOf" -> [ r EXCEPT !.runs = Each(@, Act) ]
+    [] r.op \in { "until", "watch" } -> [ r EXCEPT !.body = Act(@) ]
+    [] r.op = "during" -> IF Is(r.time, "closure") THEN r ELSE [ r EXCEPT !.started = TRUE, !.body = Act(@) ]
+    [] OTHER -> r
+
+(* run(r): the vehicles that run in the active part of r. *)
+RECURSIVE Running(_)
+Running(r) ==
+  CASE r.op = "running" -> << r.v >>
+    [] r.op = "seq" -> Running(r.first)
+    [] r.op = "par" -> Flatten(Each(r.branches, Running))
+    [] r.op = "allOf" -> Flatten(Each(r.runs, Running))
+    [] r.op \in { "until", "watch" } -> Running(r.body)
+    [] r.op = "during" -> IF r.started THEN Running(r.body) ELSE << >>
+    [] OTHER -> << >>
+
+(* S without A(run(r)): what is cut off stops. *)
+WithoutA(S, V) == [ S EXCEPT !.A = [ v \in DOMAIN @ \ V |-> @[v] ] ]
+Cut(S, r) == WithoutA(S, Range(Running(r)))
+
+-----------------------------------------------------------------------------
+(* {1 Labels} *)
+
+PairText(pair) == pair[1] \o ":" \o Literal(pair[2])
+PairsText(pairs) == Join(Each(pairs, PairText), ", ")
+
+DeedText(d) ==
+  CASE d.did = "post" -> "post " \o PairsText(d.pairs)
+    [] d.did = "consume" -> "consume " \o PairsText(d.pairs)
+    [] d.did = "message" -> "message " \o Quoted(d.text)
+    [] d.did = "release" -> "release " \o Join(d.vehicles, ", ")
+    [] d.did = "timeout" ->
+         "setConnectionTimeout " \o (IF d.vehicles = << >> THEN "" ELSE Join(d.vehicles[1], ", ") \o ", ") \o ShortText(d.time)
+
+Labelled(name, ds) == IF ds = << >> THEN name ELSE name \o "(" \o Join(Each(ds, DeedText), "; ") \o ")"
+
+PickText(q) ==
+  (CASE q.all -> "all vehicles" [] q.count = 1 -> "1 vehicle" [] OTHER -> ToString(q.count) \o " vehicles")
+  \o (IF q.id = << >> THEN "" ELSE " with id '" \o q.id[1] \o "'")
+  \o (IF q.type = << >> THEN "" ELSE " of type '" \o q.type[1] \o "'")
+  \o (IF q.payload = << >> THEN "" ELSE " with payload " \o Join(q.payload, ", "))
+  \o (IF q.region = << >> THEN "" ELSE " in region " \o Text(q.region[1]))
+
+-----------------------------------------------------------------------------
+(* {1 Steps of residuals} *)
+
+Step(rule, label, cause, S, out, deeds) ==
+  [ rules |-> << rule >>, label |-> label, cause |-> cause, S |-> S, out |-> out, deeds |-> deeds ]
+
+Program == << "program" >>
+
+(* What the step s of a part is for the whole around it: by one more rule, the outcome out. *)
+By(s, rule, out) == [ s EXCEPT !.rules = Append(@, rule), !.out = out ]
+
+Next_(r) == << "next", r >>
+Done_ == << "ok" >>
+Err(fault) == << "err", fault >>
+Ends(ending) == << "ends", ending >>
+
+GoesOn(s) == s.out[1] = "next"
+IsDone(s) == s.out[1] = "ok"
+IsErr(s) == s.out[1] = "err"
+
+(* S |- g => x, S', ds: the code g with these arguments. A fault leaves no effect. *)
+After(S, m) == [ S EXCEPT !.store = m.store, !.N = m.N ]
+
+Endless == "this code does not come to an end, and code inside of a task is atomic"
+
+RunCode(S, mode, closure, arguments) ==
+  LET m == Run(Call(closure, arguments), S, mode, AtomicFuel)
+      result(is, value, verdict, after, deeds) ==
+        [ is |-> is, value |-> value, verdict |-> verdict, S |-> after, deeds |-> deeds ]
+  IN CASE m.stop[1] = "finished" -> result("value", m.stop[2], m.verdict, After(S, m), m.deeds)
+       [] m.stop[1] = "halted" -> result("halt", m.stop[2], m.verdict, After(S, m), m.deeds)
+       [] m.stop[1] = "faulted" -> result("fault", m.stop[2], m.verdict, S, << >>)
+       [] m.stop[1] = "exhausted" -> result("fault", Fault(Endless, -closure[2]), m.verdict, S, << >>)
+
+(* No watch handles an assertion that fails, nor halt. *)
+ASSERT_ERR(S, fault) == Step("ASSERT-ERR", "broken(" \o fault.message \o ")", Program, S, Ends(Failed(fault)), << >>)
+HaltLabel(m) == IF m = "" THEN "halt" ELSE "halt(" \o m \o ")"
+HALT_CODE(run) == Step("HALT", HaltLabel(run.value), Program, run.S, Ends(Halted(run.value)), run.deeds)
+
+Broken(rule, S, fault) == Step(rule, "broken(" \o fault.message \o ")", Program, S, Err(fault), << >>)
+
+(* {2 Platform tasks} *)
+
+START(S, r) == Step("START", "start(" \o r.v \o ", " \o r.p.name \o ")", Program,
+                    [ S EXCEPT !.A = (r.v :> r.p) @@ @ ], Next_([ r EXCEPT !.op = "running" ]), << >>)
+
+DONE(S, r) == Step("DONE", "done(" \o r.v \o ", " \o r.p.name \o ")", << "task", r.v, "done" >>,
+                   WithoutA(S, { r.v }), Done_, << >>)
+
+FAIL(S, r, m) ==
+  LET fault == Fault(r.p.name \o " failed on " \o r.v \o ": " \o m, r.p.at)
+  IN Step("FAIL", "fail(" \o r.v \o ", " \o r.p.name \o ", " \o m \o ")", << "task", r.v, "failed" >>,
+          WithoutA(S, { r.v }), Err(fault), << >>)
+
+(* {2 Code} *)
+
+ACTION_(run) == Step("ACTION", Labelled("act", run.deeds), Program, run.S, Done_, run.deeds)
+ACTION_ERR(S, fault) == Broken("ACTION-ERR", S, fault)
+
+CONDITION(run) == Step("CONDITION", Labelled("check", run.deeds), Program, run.S, Done_, run.deeds)
+CONDITION_ERR(S, fault) == Broken("CONDITION-ERR", S, fault)
+
+(* {2 One after the other} *)
+
+SEQ_1(s, ts) == By(s, "SEQ-1", Next_(SeqOf(s.out[2], ts)))
+SEQ_2(s, ts) == By(s, "SEQ-2", Next_(Act(FromParts(ts))))
+SEQ_ERR(s) == By(s, "SEQ-ERR", s.out)
+
+InSeq(s, ts) ==
+  CASE GoesOn(s) -> SEQ_1(s, ts)
+    [] IsDone(s) -> SEQ_2(s, ts)
+    [] IsErr(s) -> SEQ_ERR(s)
+    [] OTHER -> s
+
+(* {2 Side by side} *)
+
+PAR_1(s, rs, j) == By(s, "PAR-1", Next_(ParOf(With(rs, j, s.out[2]))))
+PAR_2(s, rs, j) == By(s, "PAR-2", Next_(ParOf(Without(rs, j))))
+PAR_ERR(s, rs, j) ==
+  By([ s EXCEPT !.S = WithoutA(@, Range(Flatten(Each(Without(rs, j), Running)))) ], "PAR-ERR", s.out)
+
+InPar(s, rs, j) ==
+  CASE GoesOn(s) -> PAR_1(s, rs, j)
+    [] IsDone(s) -> PAR_2(s, rs, j)
+    [] IsErr(s) -> PAR_ERR(s, rs, j)
+    [] OTHER -> s
+
+(* {2 Branches with guards} *)
+
+ALLOF_WHEN(run, bs, j) ==
+  Step("ALLOF-WHEN", Labelled("check", run.deeds), Program, run.S,
+       Next_(AllOf(<< Act(bs[j].body) >>, Without(bs, j))), run.deeds)
+ALLOF_1(s, bs) == By(s, "ALLOF-1", Next_(AllOf(<< s.out[2] >>, bs)))
+ALLOF_2(s, bs) == By(s, "ALLOF-2", Next_(AllOf(<< >>, bs)))
+ALLOF_ERR(s) == By(s, "ALLOF-ERR", s.out)
+ALLOF_ERR_WHEN(S, fault) == Broken("ALLOF-ERR", S, fault)
+
+InAllOf(s, bs) ==
+  CASE GoesOn(s) -> ALLOF_1(s, bs)
+    [] IsDone(s) -> ALLOF_2(s, bs)
+    [] IsErr(s) -> ALLOF_ERR(s)
+    [] OTHER -> s
+
+ONEOF_WHEN(run, b) ==
+  Step("ONEOF-WHEN", Labelled("check", run.deeds), Program, run.S, Next_(Act(b.body)), run.deeds)
+ONEOF_ERR(S, fault) == Broken("ONEOF-ERR", S, fault)
+
+(* {2 Until} *)
+
+UNTIL_CUT(run, r) == Step("UNTIL-CUT", Labelled("cut", run.deeds), Program, Cut(run.S, r), Done_, run.deeds)
+UNTIL_1(s, g) == By(s, "UNTIL-1", Next_([ op |-> "until", guard |-> g, body |-> s.out[2] ]))
+UNTIL_2(s) == By(s, "UNTIL-2", Done_)
+UNTIL_ERR(s) == By(s, "UNTIL-ERR", s.out)
+UNTIL_ERR_WHEN(S, r, fault) == Broken("UNTIL-ERR", Cut(S, r), fault)
+
+InUntil(s, g) ==
+  CASE GoesOn(s) -> UNTIL_1(s, g)
+    [] IsDone(s) -> UNTIL_2(s)
+    [] IsErr(s) -> UNTIL_ERR(s)
+    [] OTHER -> s
+
+(* {2 Time} *)
+
+IDLE_END(S, r) == Step("IDLE-END", "timeout", << "timer", r.timer >>, S, Done_, << >>)
+
+DURING_SET(run, r, n) ==
+  Step("DURING-SET", "set-time(" \o ShortText(n) \o ")", Program, run.S,
+       Next_([ r EXCEPT !.time = n, !.started = TRUE, !.body = Act(@) ]), run.deeds)
+DURING_CUT(S, r) == Step("DURING-CUT", "timeout", << "timer", r.timer >>, Cut(S, r.body), Done_, << >>)
+DURING_1(s, r) == By(s, "DURING-1", Next_([ r EXCEPT !.body = s.out[2] ]))
+DURING_2(s) == By(s, "DURING-2", Done_)
+DURING_ERR(s) == By(s, "DURING-ERR", s.out)
+DURING_ERR_SET(S, fault) == Broken("DURING-ERR", S, fault)
+
+InDuring(s, r) ==
+  CASE GoesOn(s) -> DURING_1(s, r)
+    [] IsDone(s) -> DURING_2(s)
+    [] IsErr(s) -> DURING_ERR(s)
+    [] OTHER -> s
+
+NoTime(x, g) == Fault("during takes a time of 0 seconds or more, this code gives " \o Text(x), -g[2])
+
+(* {2 Errors} *)
+
+WATCH_1(s, h) == By(s, "WATCH-1", Next_([ op |-> "watch", body |-> s.out[2], handler |-> h ]))
+WATCH_2(s) == By(s, "WATCH-2", Done_)
+WATCH_IGNORE(s) == By(s, "WATCH-IGNORE", Done_)
+WATCH_PROPAGATE(s, fault) == By(s, "WATCH-PROPAGATE", Err(fault))
+WATCH_HALT(s, m) == By(s, "WATCH-HALT", Ends(Halted(m)))
+
+(* The handler runs in the step that failed. *)
+Handled(s, h) ==
+  LET run == Only({ RunCode(s.S, "handler", h, << String(s.out[2].message) >>) })
+      after == [ s EXCEPT !.S = run.S, !.deeds = @ \o run.deeds ]
+  IN CASE run.is = "halt" -> WATCH_HALT(after, run.value)
+       [] run.is = "fault" ->
+            IF run.value.assertion THEN By(after, "ASSERT-ERR", Ends(Failed(run.value)))
+            ELSE WATCH_PROPAGATE(after, run.value)
+       [] run.verdict = "ignore" -> WATCH_IGNORE(after)
+       [] OTHER -> WATCH_PROPAGATE(after, s.out[2])
+
+InWatch(s, h) ==
+  CASE GoesOn(s) -> WATCH_1(s, h)
+    [] IsDone(s) -> WATCH_2(s)
+    [] IsErr(s) -> Handled(s, h)
+    [] OTHER -> s
+
+(* {2 All steps of r} *)
+
+(* A platform task that runs ends as the environment lets it. *)
+Endings(S, r) ==
+  LET ending == Ending(r.v, r.p.name)
+      mayFail == ending = "may fail" /\ (Failures = -1 \/ outside.failed < Failures)
+      done == << DONE(S, r) >>
+      fail == << FAIL(S, r, "failure") >>
+  IN CASE ending = "fails" -> fail
+       [] mayFail -> done \o fail
+       [] OTHER -> done
+
+(* The code that r looks at: of an action, a condition, guards, a duration that is not known yet. *)
+CodeOf(r) ==
+  CASE r.op \in { "action", "condition" } -> << r.code >>
+    [] r.op = "oneOf" \/ (r.op = "allOf" /\ r.runs = << >>) -> Each(r.choices, LAMBDA b : b.guard)
+    [] r.op = "until" -> << r.guard >>
+    [] r.op = "during" /\ ~r.started -> << r.time >>
+    [] OTHER -> << >>
+
+(* What r does when its j-th code gave a value; guards that are not true do nothing. *)
+WithValue(S, r, j, run) ==
+  CASE r.op = "action" -> << ACTION_(run) >>
+    [] r.op = "during" ->
+         << IF IsTime(run.value) THEN DURING_SET(run, r, Time(run.value)) ELSE DURING_ERR_SET(S, NoTime(run.value, r.time)) >>
+    [] ~Truth(run.value) -> << >>
+    [] r.op = "condition" -> << CONDITION(run) >>
+    [] r.op = "allOf" -> << ALLOF_WHEN(run, r.choices, j) >>
+    [] r.op = "oneOf" -> << ONEOF_WHEN(run, r.choices[j]) >>
+    [] r.op = "until" -> << UNTIL_CUT(run, r.body) >>
+
+(* ... when it broke. *)
+WithFault(S, r, fault) ==
+  CASE r.op = "action" -> ACTION_ERR(S, fault)
+    [] r.op = "during" -> DURING_ERR_SET(S, fault)
+    [] r.op = "condition" -> CONDITION_ERR(S, fault)
+    [] r.op = "allOf" -> ALLOF_ERR_WHEN(S, fault)
+    [] r.op = "oneOf" -> ONEOF_ERR(S, fault)
+    [] r.op = "until" -> UNTIL_ERR_WHEN(S, r.body, fault)
+
+WithCode(S, r, j, run) ==
+  CASE run.is = "value" -> WithValue(S, r, j, run)
+    [] run.is = "halt" -> << HALT_CODE(run) >>
+    [] run.is = "fault" -> << IF run.value.assertion THEN ASSERT_ERR(S, run.value) ELSE WithFault(S, r, run.value) >>
+
+CodeSteps(S, r) ==
+  LET codes == CodeOf(r)
+  IN Flatten([ j \in DOMAIN codes |-> WithCode(S, r, j, Only({ RunCode(S, "task", codes[j], << >>) })) ])
+
+RECURSIVE Steps(_, _)
+Steps(S, r) ==
+  CodeSteps(S, r) \o
+  CASE r.op = "ready" -> << START(S, r) >>
+    [] r.op = "running" -> Endings(S, r)
+    [] r.op = "seq" -> Each(Steps(S, r.first), LAMBDA s : InSeq(s, r.rest))
+    [] r.op = "par" ->
+         Flatten([ j \in DOMAIN r.branches |-> Each(Steps(S, r.branches[j]), LAMBDA s : InPar(s, r.branches, j)) ])
+    [] r.op = "allOf" /\ r.runs # << >> -> Each(Steps(S, r.runs[1]), LAMBDA s : InAllOf(s, r.choices))
+    [] r.op = "until" -> Each(Steps(S, r.body), LAMBDA s : InUntil(s, r.guard))
+    [] r.op = "idle" -> << IDLE_END(S, r) >>
+    [] r.op = "during" /\ r.started -> << DURING_CUT(S, r) >> \o Each(Steps(S, r.body), LAMBDA s : InDuring(s, r))
+    [] r.op = "watch" -> Each(Steps(S, r.body), LAMBDA s : InWatch(s, r.handler))
+    [] OTHER -> << >>
+
+-----------------------------------------------------------------------------
+(* {1 Allocation} *)
+
+(* The platform tasks of t from left to right, each with the vehicles that the T[V] around it leave: << >> for all. *)
+RECURSIVE Leaves(_, _)
+Leaves(t, allowed) ==
+  CASE t.op = "platform" -> << [ p |-> t, allowed |-> allowed ] >>
+    [] t.op \in { "seq", "par" } -> Leaves(t.left, allowed) \o Leaves(t.right, allowed)
+    [] t.op = "on" ->
+         Leaves(t.body, << IF allowed = << >> THEN t.vehicles ELSE Intersection(t.vehicles, allowed[1]) >>)
+    [] t.op \in { "allOf", "oneOf" } -> Flatten(Each(t.branches, LAMBDA b : Leaves(b.body, allowed)))
+    [] t.op \in { "until", "during", "watch" } -> Leaves(t.body, allowed)
+    [] OTHER -> << >>
+
+LeafCount(t) == Len(Leaves(t, << >>))
+
+(* The pairs of platform tasks, by number after the n-th, that are in different branches of a |. *)
+RECURSIVE Exclusive(_, _)
+Exclusive(t, n) ==
+  CASE t.op = "seq" -> Exclusive(t.left, n) \cup Exclusive(t.right, n + LeafCount(t.left))
+    [] t.op = "par" ->
+         LET middle == n + LeafCount(t.left)
+             right == middle + LeafCount(t.right)
+         IN Exclusive(t.left, n) \cup Exclusive(t.right, middle) \cup ((n + 1 .. middle) \X (middle + 1 .. right))
+    [] t.op \in { "allOf", "oneOf" } ->
+         UNION { LET before == Flatten(Each(SubSeq(t.branches, 1, j - 1), LAMBDA b : Leaves(b.body, << >>)))
+                 IN Exclusive(t.branches[j].body, n + Len(before)) : j \in DOMAIN t.branches }
+    [] t.op \in { "on", "until", "during", "watch" } -> Exclusive(t.body, n)
+    [] OTHER -> { }
+
+(* What v lacks for p, or nothing. *)
+Lack(p, v) ==
+  LET missing == SelectSeq(Plans[p.plan].devices, LAMBDA d : ~Carries(VehicleOf(v), << d >>))
+  IN CASE ~IsKnown(v) -> << "nothing is known of it" >>
+       [] p.plan = 0 -> << >>
+       [] Plans[p.plan].vehicles # << >> /\ v \notin Range(Plans[p.plan].vehicles) -> << "the plan is for other vehicles" >>
+       [] missing # << >> -> << "it lacks " \o Join(missing, ", ") >>
+       [] OTHER -> << >>
+
+Permitted(leaf, v) == leaf.allowed = << >> \/ v \in Range(leaf.allowed[1])
+
+(* The places in B of those that can run it. *)
+Candidates(leaf) == { j \in DOMAIN B : Permitted(leaf, B[j]) /\ Lack(leaf.p, B[j]) = << >> }
+
+(* How much farther it is from v to where p begins than from the nearest vehicle of the fleet, in millimetres. *)
+Farther(p, v) == IF p.plan = 0 \/ ~IsKnown(v) THEN 0 ELSE Plans[p.plan].farther[CHOOSE j \in DOMAIN Fleet : Fleet[j].id = v]
+
+(* f[n] is the place in B of the vehicle of the n-th platform task. *)
+RECURSIVE Feasible(_, _, _)
+Feasible(leaves, exclusive, n) ==
+  IF n = 0 THEN { << >> }
+  ELSE { f \in { Append(f, j) : f \in Feasible(leaves, exclusive, n - 1), j \in Candidates(leaves[n]) } :
+           \A i \in 1 .. n - 1 : << i, n >> \in exclusive => f[i] # f[n] }
+
+RECURSIVE Total(_, _)
+Total(leaves, f) == IF f = << >> THEN 0 ELSE Farther(leaves[Len(f)].p, B[Last(f)]) + Total(leaves, SubSeq(f, 1, Len(f) - 1))
+
+LeastBy(F, Measure(_)) == LET least == Minimum({ Measure(f) : f \in F }) IN { f \in F : Measure(f) = least }
+
+RECURSIVE FirstInPickOrder(_, _)
+FirstInPickOrder(F, n) ==
+  IF Cardinality(F) = 1 THEN Only(F) ELSE FirstInPickOrder(LeastBy(F, LAMBDA f : f[n]), n + 1)
+
+Best(leaves, F) ==
+  FirstInPickOrder(LeastBy(LeastBy(F, LAMBDA f : Cardinality(Range(f))), LAMBDA f : Total(leaves, f)), 1)
+
+(* t with its vehicles, and timers numbered from left to right: after the n-th platform task and the i-th timer. *)
+RECURSIVE TimerCount(_)
+TimerCount(t) ==
+  CASE t.op = "idle" -> 1
+    [] t.op = "during" -> 1 + TimerCount(t.body)
+    [] t.op \in { "seq", "par" } -> TimerCount(t.left) + TimerCount(t.right)
+    [] t.op \in { "allOf", "oneOf" } ->
+         LET counts[j \in 0 .. Len(t.branches)] == IF j = 0 THEN 0 ELSE counts[j - 1] + TimerCount(t.branches[j].body)
+         IN counts[Len(t.branches)]
+    [] t.op \in { "on", "until", "watch" } -> TimerCount(t.body)
+    [] OTHER -> 0
+
+RECURSIVE Assigned(_, _, _, _)
+Assigned(t, f, n, i) ==
+  CASE t.op = "platform" -> [ op |-> "ready", p |-> t, v |-> B[f[n + 1]] ]
+    [] t.op = "seq" ->
+         SeqOf(Assigned(t.left, f, n, i), Parts(Assigned(t.right, f, n + LeafCount(t.left), i + TimerCount(t.left))))
+    [] t.op = "par" ->
+         ParOf(<< Assigned(t.left, f, n, i), Assigned(t.right, f, n + LeafCount(t.left), i + TimerCount(t.left)) >>)
+    [] t.op = "on" -> Assigned(t.body, f, n, i)
+    [] t.op \in { "allOf", "oneOf" } ->
+         LET before(j) == [ op |-> "allOf", branches |-> SubSeq(t.branches, 1, j - 1) ]
+             branch(j) == [ guard |-> t.branches[j].guard,
+                            body |-> Assigned(t.branches[j].body, f, n + LeafCount(before(j)), i + TimerCount(before(j))) ]
+             choices == << >> \o [ j \in DOMAIN t.branches |-> branch(j) ]
+         IN IF t.op = "oneOf" THEN [ op |-> "oneOf", choices |-> choices ] ELSE AllOf(<< >>, choices)
+    [] t.op = "until" -> [ op |-> "until", guard |-> t.guard, body |-> Assigned(t.body, f, n, i) ]
+    [] t.op = "idle" -> [ op |-> "idle", timer |-> i + 1, time |-> t.time ]
+    [] t.op = "during" ->
+         [ op |-> "during", timer |-> i + 1, time |-> t.time, started |-> FALSE, body |-> Assigned(t.body, f, n, i + 1) ]
+    [] t.op = "watch" -> [ op |-> "watch", body |-> Assigned(t.body, f, n, i), handler |-> t.handler ]
+    [] t.op \in { "action", "condition" } -> t
+
+NoCandidate(leaf) ==
+  LET permitted == SelectSeq(B, LAMBDA v : Permitted(leaf, v))
+      why(v) == v \o ": " \o Lack(leaf.p, v)[1]
+      reason == CASE B = << >> -> "no vehicle is bound to the program: pick one first"
+                  [] leaf.allowed = << << >> >> -> "the vehicle set given to it is empty"
+                  [] permitted = << >> ->
+                       "none of the vehicles given to it is bound to the program: " \o Join(leaf.allowed[1], ", ")
+                  [] OTHER -> Join(Each(permitted, why), "; ")
+  IN Fault("no vehicle can run task '" \o leaf.p.name \o "': " \o reason, leaf.p.at)
+
+(* As few tasks as can be that cannot all have vehicles. *)
+Conflict(leaves, exclusive) ==
+  LET numbers == 1 .. Len(leaves)
+      ordered(X) == SelectSeq([ n \in numbers |-> n ], LAMBDA n : n \in X)
+      excludes(X) == { << i, j >> \in (1 .. Cardinality(X)) \X (1 .. Cardinality(X)) :
+                         i < j /\ << ordered(X)[i], ordered(X)[j] >> \in exclusive }
+      impossible(X) == Feasible(Each(ordered(X), LAMBDA n : leaves[n]), excludes(X), Cardinality(X)) = { }
+      few == LeastBy({ X \in SUBSET numbers : impossible(X) }, Cardinality)
+      those == FirstInPickOrder({ ordered(X) : X \in few }, 1)
+      competing == SelectSeq([ j \in DOMAIN B |-> j ], LAMBDA j : \E n \in Range(those) : j \in Candidates(leaves[n]))
+  IN Fault("tasks " \o Join(Each(those, LAMBDA n : "'" \o leaves[n].p.name \o "'"), ", ")
+           \o " run side by side and need different vehicles, but there is only "
+           \o Join(Each(competing, LAMBDA j : B[j]), ", "), leaves[those[1]].p.at)
+
+(* alloc(t, B): <<"ok", r>>, or <<"wrong", fault>>. *)
+Alloc(t) ==
+  LET leaves == Leaves(t, << >>)
+      hopeless == SelectSeq(leaves, LAMBDA leaf : Candidates(leaf) = { })
+      exclusive == Exclusive(t, 0)
+      feasible == Feasible(leaves, exclusive, Len(leaves))
+  IN CASE hopeless # << >> -> Bad(NoCandidate(hopeless[1]))
+       [] feasible = { } -> Bad(Conflict(leaves, exclusive))
+       [] OTHER -> Ok(Assigned(t, Best(leaves, feasible), 0, 0))
+
+-----------------------------------------------------------------------------
+(* {1 Transitions of configurations} *)
+
+Transition(rules, label, cause, kappa, S, deeds) ==
+  [ rules |-> rules, label |-> label, cause |-> cause, control |-> kappa, S |-> S, deeds |-> deeds ]
+
+(* ended(S, e): all stops, all of B is released. *)
+ToEnd(rules, label, cause, ending, S, deeds) ==
+  Transition(rules, label, cause, Ended(ending), [ S EXCEPT !.A = << >>, !.B = << >> ], deeds)
+
+(* {2 Deeds of the script} *)
+
+(* m is the machine after it ran from M, S the shared part then. *)
+DeedOf(m) == m.deeds[1]
+DeedStep(rule, m, S) == Transition(<< rule >>, DeedText(DeedOf(m)), Program, Script(Machine(m)), S, m.deeds)
+
+SCRIPT(m, S) == Transition(<< "SCRIPT" >>, "script", Program, Script(Machine(m)), S, << >>)
+POST(m, S) == DeedStep("POST", m, S)
+CONSUME(m, S) == DeedStep("CONSUME", m, S)
+MESSAGE(m, S) == DeedStep("MESSAGE", m, S)
+RELEASE(m, S) ==
+  LET V == Range(DeedOf(m).vehicles)
+  IN DeedStep("RELEASE", m, WithoutA([ S EXCEPT !.B = SelectSeq(@, LAMBDA v : v \notin V) ], V))
+SET_TIMEOUT(m, S) == DeedStep("SET-TIMEOUT", m, S)
+
+Deed(m, S) ==
+  CASE DeedOf(m).did = "post" -> POST(m, S)
+    [] DeedOf(m).did = "consume" -> CONSUME(m, S)
+    [] DeedOf(m).did = "message" -> MESSAGE(m, S)
+    [] DeedOf(m).did = "release" -> RELEASE(m, S)
+    [] DeedOf(m).did = "timeout" -> SET_TIMEOUT(m, S)
+
+(* {2 Waiting begins} *)
+
+WaitStep(rule, label, m, S) ==
+  Transition(<< rule >>, label, Program, Waiting(Machine(m), m.stop[2]), S, << >>)
+
+PICK_(m, S, q) == WaitStep("PICK", "pick(" \o PickText(q) \o ")", m, S)
+ASK(m, S, x) == WaitStep("ASK", "ask(" \o x \o ")", m, S)
+PAUSE(m, S, n) == WaitStep("PAUSE", "pause(" \o ShortText(n) \o ")", m, S)
+CALL(m, S, what) == WaitStep("CALL", "call(" \o what \o ")", m, S)
+
+EXECUTE(m, S, r) == Transition(<< "EXECUTE" >>, "execute", Program, Executing(Machine(m), Act(r)), S, << >>)
+ALLOC_ERR(S, fault) ==
+  ToEnd(<< "ALLOC-ERR" >>, "cannot-execute(" \o fault.message \o ")", Program, Failed(fault), S, << >>)
+
+ExecuteStep(m, S, t) ==
+  LET allocated == Only({ Alloc(t) }) IN IF IsOk(allocated) THEN EXECUTE(m, S, allocated[2]) ELSE ALLOC_ERR(S, allocated[2])
+
+Wait(m, S, request) ==
+  CASE request[1] = "pick" -> PICK_(m, S, request[2])
+    [] request[1] = "ask" -> ASK(m, S, request[2])
+    [] request[1] = "pause" -> PAUSE(m, S, request[2])
+    [] request[1] = "call" -> CALL(m, S, request[2])
+    [] request[1] = "execute" -> ExecuteStep(m, S, request[2])
+
+(* {2 Ends} *)
+
+END(S) == ToEnd(<< "END" >>, "end", Program, Completed, S, << >>)
+HALT(S, m) == ToEnd(<< "HALT" >>, HaltLabel(m), Program, Halted(m), S, << >>)
+FAULT(S, fault) == ToEnd(<< "FAULT" >>, "fault(" \o fault.message \o ")", Program, Failed(fault), S, << >>)
+INTERRUPT == ToEnd(<< "INTERRUPT" >>, "interrupt", << "interruption" >>, Interrupted, Shared, << >>)
+
+ScriptStep(M) ==
+  LET m == Only({ Run(M, Shared, "script", ScriptFuel) })
+      S == After(Shared, m)
+  IN CASE m.stop[1] = "did" -> Deed(m, S)
+       [] m.stop[1] = "waits" -> Wait(m, S, m.stop[2])
+       [] m.stop[1] = "finished" -> END(S)
+       [] m.stop[1] = "halted" -> HALT(S, m.stop[2])
+       [] m.stop[1] = "faulted" -> FAULT(S, m.stop[2])
+       [] m.stop[1] = "exhausted" -> SCRIPT(m, S)
+
+(* {2 Picking vehicles} *)
+
+Accepts(q, vehicle) ==
+  /\ q.id = << >> \/ q.id[1] = vehicle.id
+  /\ q.type = << >> \/ q.type[1] = vehicle.type
+  /\ Carries(vehicle, q.payload)
+  /\ q.region = << >> \/ Within(q.region[1], vehicle.place)
+
+(* fit(q, w, B), in the order in which they were heard of. *)
+Fit(q) ==
+  Each(SelectSeq(Fleet, LAMBDA vehicle : Accepts(q, vehicle) /\ vehicle.id \notin Range(B)), LAMBDA vehicle : vehicle.id)
+
+(* All sequences of n elements of xs in their order, the first ones first. *)
+RECURSIVE Choices(_, _)
+Choices(n, xs) ==
+  CASE n = 0 -> << << >> >>
+    [] n > Len(xs) -> << >>
+    [] OTHER -> Each(Choices(n - 1, Tail(xs)), LAMBDA chosen : << Head(xs) >> \o chosen) \o Choices(n, Tail(xs))
+
+WhyNot(q, vehicle) ==
+  vehicle.id \o " " \o
+  CASE vehicle.id \in Range(B) -> "is already bound"
+    [] q.id # << >> /\ q.id[1] # vehicle.id -> "has another id"
+    [] q.type # << >> /\ q.type[1] # vehicle.type -> "is a " \o vehicle.type
+    [] ~Carries(vehicle, q.payload) ->
+         "lacks " \o Join(SelectSeq(q.payload, LAMBDA d : ~Carries(vehicle, << d >>)), ", ")
+    [] q.region # << >> /\ ~Within(q.region[1], vehicle.place) ->
+         "is at " \o Places[vehicle.place] \o ", outside of the region"
+    [] OTHER -> "fits"
+
+NoVehicles(q) ==
+  LET shown == SubSeq(Fleet, 1, Clipped(8, 0, Len(Fleet)))
+      more == Len(Fleet) - Len(shown)
+      there == IF Fleet = << >> THEN "no vehicle was heard of"
+               ELSE Join(Each(shown, LAMBDA vehicle : WhyNot(q, vehicle)), "; ")
+                    \o (IF more > 0 THEN "; and " \o ToString(more) \o " more" ELSE "")
+  IN "could not pick " \o PickText(q) \o ": " \o there
+
+PICK_BIND(M, V, cause) ==
+  Transition(<< "PICK-BIND" >>, "bind(" \o Join(V, ", ") \o ")", cause, Script(GoOn(M, Vehicles(V))),
+             [ Shared EXCEPT !.B = @ \o V ], << >>)
+PICK_ERR(M, q) ==
+  ToEnd(<< "PICK-ERR" >>, "no-vehicles(" \o NoVehicles(q) \o ")", << "timer", 0 >>, Failed(Fault(NoVehicles(q), M.at)), Shared, << >>)
+
+PickSteps(M, q) ==
+  LET fit == Fit(q)
+  IN CASE q.all -> << IF fit = << >> THEN PICK_ERR(M, q) ELSE PICK_BIND(M, fit, << "timer", 0 >>) >>
+       [] Len(fit) < q.count -> << PICK_ERR(M, q) >>
+       [] OTHER -> Each(Choices(q.count, fit), LAMBDA V : PICK_BIND(M, V, Program))
+
+(* {2 Waiting ends} *)
+
+ANSWER(M, prompt, text, y) ==
+  Transition(<< "ANSWER" >>, "answer(" \o text \o ")", << "answer", prompt >>, Script(GoOn(M, y)), Shared, << >>)
+ANSWER_ERR(M, prompt, m, cause) ==
+  ToEnd(<< "ANSWER-ERR" >>, "no-answer", cause, Failed(Fault("no answer to '" \o prompt \o "': " \o m, M.at)), Shared, << >>)
+
+RESUME(M) == Transition(<< "RESUME" >>, "resume", << "timer", 0 >>, Script(GoOn(M, Null)), Shared, << >>)
+
+REPLY(M, y) == Transition(<< "REPLY" >>, "reply(" \o Text(y) \o ")", << "host" >>, Script(GoOn(M, y)), Shared, << >>)
+CALL_ERR(M, what, m) ==
+  ToEnd(<< "CALL-ERR" >>, "no-reply(" \o m \o ")", << "host" >>, Failed(Fault(what \o ": " \o m, M.at)), Shared, << >>)
+
+NoDeeds == "an answer may only compute a value"
+
+(* An answer is an expression over the program's variables; a bad one counts as none. *)
+AnswerStep(M, prompt, answer) ==
+  LET run == Only({ RunCode(Shared, "task", << "closure", answer.lambda, << >> >>, << >>) })
+      bad(m) == ANSWER_ERR(M, prompt, m, << "answer", prompt >>)
+  IN CASE answer.lambda = 0 -> bad(answer.why)
+       [] run.is = "fault" -> bad(run.value.message)
+       [] run.is = "halt" \/ run.deeds # << >> \/ run.S.store # store -> bad(NoDeeds)
+       [] OTHER -> ANSWER(M, prompt, answer.text, run.value)
+
+Times(prompt) == IF prompt \in Prompts THEN outside.asked[prompt] ELSE 0
+
+AnswerSteps(M, prompt) ==
+  LET rounds == Answers(prompt)
+      times == Times(prompt)
+      given == IF rounds = << >> THEN << >> ELSE rounds[IF times < Len(rounds) THEN times + 1 ELSE Len(rounds)]
+  IN IF given = << >> THEN << ANSWER_ERR(M, prompt, "none is given", << "nobody" >>) >>
+     ELSE Each(given, LAMBDA answer : AnswerStep(M, prompt, answer))
+
+WaitSteps(M, request) ==
+  CASE request[1] = "pick" -> PickSteps(M, request[2])
+    [] request[1] = "ask" -> AnswerSteps(M, request[2])
+    [] request[1] = "pause" -> << RESUME(M) >>
+    [] request[1] = "call" ->
+         Each(HostReplies, LAMBDA y : REPLY(M, y)) \o << CALL_ERR(M, request[2], "a host's procedures are not explored") >>
+
+(* {2 Executing tasks} *)
+
+EXECUTE_DONE(M, s) ==
+  Transition(Append(s.rules, "EXECUTE-DONE"), s.label, s.cause, Script(GoOn(M, Null)), s.S, s.deeds)
+EXECUTE_ERR(M, s) == ToEnd(Append(s.rules, "EXECUTE-ERR"), s.label, s.cause, Failed(s.out[2]), s.S, s.deeds)
+
+InExecute(M, s) ==
+  CASE GoesOn(s) -> Transition(s.rules, s.label, s.cause, Executing(M, s.out[2]), s.S, s.deeds)
+    [] IsDone(s) -> EXECUTE_DONE(M, s)
+    [] IsErr(s) -> EXECUTE_ERR(M, s)
+    [] OTHER -> ToEnd(s.rules, s.label, s.cause, s.out[2], s.S, s.deeds)
+
+-----------------------------------------------------------------------------
+(* {1 The whole system} *)
+
+Transitions ==
+  (CASE control.at = "script" -> << ScriptStep(control.M) >>
+     [] control.at = "wait" -> WaitSteps(control.M, control.request)
+     [] control.at = "exec" -> Each(Steps(Shared, control.r), LAMBDA s : InExecute(control.M, s))
+     [] control.at = "end" -> << >>)
+  \o (IF Interruptions /\ control.at # "end" THEN << INTERRUPT >> ELSE << >>)
+
+(* The environment counts failures where their number is bounded, and questions as far as their answers depend on it. *)
+OutsideAfter(cause) ==
+  CASE cause[1] = "task" /\ cause[3] = "failed" /\ Failures # -1 /\ Ending(cause[2], A[cause[2]].name) = "may fail" ->
+         [ outside EXCEPT !.failed = @ + 1 ]
+    [] cause[1] = "answer" /\ Times(cause[2]) + 1 < Len(Answers(cause[2])) -> [ outside EXCEPT !.asked[cause[2]] = @ + 1 ]
+    [] OTHER -> outside
+
+Becomes(t) ==
+  /\ control' = t.control
+  /\ store' = t.S.store
+  /\ A' = t.S.A
+  /\ B' = t.S.B
+  /\ N' = t.S.N
+  /\ outside' = OutsideAfter(t.cause)
+
+Init ==
+  /\ control = Script(Call(Main, << >>))
+  /\ store = [ i \in DOMAIN GlobalNames |-> << >> ]
+  /\ A = << >>
+  /\ B = << >>
+  /\ N = NoTuples
+  /\ outside = [ failed |-> 0, asked |-> [ prompt \in Prompts |-> 0 ] ]
+
+(* A transition for which Which holds of what it answers. *)
+Some(Which(_)) == \E ts \in { Transitions } : \E j \in DOMAIN ts : Which(ts[j].cause) /\ Becomes(ts[j])
+Possible(Which(_)) == \E ts \in { Transitions } : \E j \in DOMAIN ts : Which(ts[j].cause)
+
+IsAny(cause) == TRUE
+IsProgram(cause) == cause = Program
+IsTimer(cause) == cause[1] = "timer"
+
+Next == Some(IsAny)
+
+(* WF_vars(Some(Which)), where Possible(Which) is the same as ENABLED <<Some(Which)>>_vars, as each transition changes       *)
+(* something, and is faster. Tasks that run end, timers that run expire, steps of the program that stay possible are taken. *)
+Fair(Which(_)) == []<>~Possible(Which) \/ []<><< Some(Which) >>_vars
+
+Identifiers == { Fleet[j].id : j \in DOMAIN Fleet }
+
+Fairness ==
+  /\ Fair(IsAny)
+  /\ Fair(IsProgram)
+  /\ Fair(IsTimer)
+  /\ \A v \in Identifiers : Fair(LAMBDA cause : cause[1] = "task" /\ cause[2] = v)
+
+Spec == Init /\ [][Next]_vars /\ Fairness
+
+-----------------------------------------------------------------------------
+(* {1 Properties} *)
+
+HasEnded == control.at = "end"
+
+NoDeadlock == HasEnded \/ Transitions # << >>
+
+Termination == <>HasEnded
+
+TypeOK ==
+  /\ control.at \in { "script", "wait", "exec", "end" }
+  /\ Len(store) = Len(GlobalNames)
+  /\ DOMAIN A \subseteq Identifiers
+  /\ Range(B) \subseteq Identifiers
+  /\ Cardinality(Range(B)) = Len(B)
+  /\ DOMAIN N.queue = OrderedKeys
+  /\ \A pair \in DOMAIN N.bag : N.bag[pair] \in Nat \ { 0 }
+  /\ outside.failed \in Nat
+
+AllocationWithinBound == DOMAIN A \subseteq Range(B)
+
+(* A is exactly what runs, and no vehicle runs two tasks. *)
+OneTaskEach ==
+  LET running == IF control.at = "exec" THEN Running(control.r) ELSE << >>
+  IN Range(running) = DOMAIN A /\ Cardinality(Range(running)) = Len(running)
+
+EmptyAfterEnd == HasEnded => A = << >> /\ B = << >>
+
+(* N changes by what is posted and consumed, and by nothing else. *)
+RECURSIVE Tally(_)
+Tally(pairs) == IF pairs = << >> THEN EmptyBag ELSE SetToBag({ Head(pairs) }) (+) Tally(Tail(pairs))
+
+PairsOf(deeds, kind) == Flatten(Each(SelectSeq(deeds, LAMBDA d : d.did = kind), LAMBDA d : d.pairs))
+
+AllPairs(n) ==
+  LET queued == UNION { { << k, j >> : j \in DOMAIN n.queue[k] } : k \in OrderedKeys }
+      pairs == { << k, n.queue[k][j] >> : << k, j >> \in queued } 
+      count(pair) == Cardinality({ q \in queued : q[1] = pair[1] /\ n.queue[q[1]][q[2]] = pair[2] })
+  IN [ pair \in pairs |-> count(pair) ] (+) n.bag
+
+TuplesConserved ==
+  \A ts \in { Transitions } : \A j \in DOMAIN ts :
+    LET t == ts[j]
+    IN AllPairs(t.S.N) (+) Tally(PairsOf(t.deeds, "consume")) = AllPairs(N) (+) Tally(PairsOf(t.deeds, "post"))
+
+-----------------------------------------------------------------------------
+(* {1 The graph, printed} *)
+
+(* The elements of a set, in an order that is always the same. *)
+RECURSIVE InOrder(_)
+InOrder(set) == IF set = { } THEN << >> ELSE LET x == CHOOSE x \in set : TRUE IN << x >> \o InOrder(set \ { x })
+
+(* A text for a state, the same for equal ones: comparing a value brings TLC to put the fields of its records in order. *)
+StateText(kappa, S, environment) ==
+  Only({ IF state = state THEN ToString(state) ELSE "" : state \in {
+    << kappa, S.store, Each(S.B, LAMBDA v : IF v \in DOMAIN S.A THEN << S.A[v] >> ELSE << >>), S.B,
+       Each(InOrder(OrderedKeys), LAMBDA k : S.N.queue[k]),
+       Each(InOrder(DOMAIN S.N.bag), LAMBDA pair : << pair, S.N.bag[pair] >>),
+       environment.failed, Each(InOrder(Prompts), LAMBDA prompt : environment.asked[prompt]) >> } })
+
+PrintTransition(t) ==
+  PrintT("E\t" \o t.label \o "\t" \o StateText(t.control, t.S, OutsideAfter(t.cause)) \o "\t" \o Join(t.rules, ", "))
+
+(* TLC evaluates an invariant once for each state that it finds: this one is always true, and prints the state and its transitions. *)
+PrintGraph ==
+  /\ PrintT("S\t" \o StateText(control, Shared, outside))
+  /\ \A ts \in { Transitions } : \A j \in DOMAIN ts : PrintTransition(ts[j])
+==============================================================================

@@ -1,0 +1,120 @@
+open Dolphin_tlc
+open Dolphin_lts
+module Reference = Dolphin_explore.Reference
+
+type verdict = Agrees | Differs of Isomorphism.difference | Not_printed
+type result = { case : Case.t; states : int; transitions : int; verdict : verdict }
+
+type t = {
+  results : result list;
+  distinct : int;
+  generated : int;
+  warnings : string list;
+  used : (string * int) list;
+}
+
+type prepared = { case : Case.t; graph : Graph.t; transitions : int; constants : Family.constant list }
+type unfit = Refused of string | Too_large
+
+let prepare ~limit (case : Case.t) =
+  match Translated.constants case with
+  | Error why -> Error (Refused why)
+  | Ok constants -> (
+      match Reference.explore ~limit case.environment case.program case.world with
+      | None -> Error Too_large
+      | Some space -> Ok { case; graph = Explored.graph space; transitions = Reference.transitions space; constants })
+
+let case p = p.case
+let states p = Graph.states p.graph
+
+(* {1 Running TLC} *)
+
+let rec remove path =
+  if Sys.is_directory path then begin
+    Array.iter (fun name -> remove (Filename.concat path name)) (Sys.readdir path);
+    Unix.rmdir path
+  end
+  else Sys.remove path
+
+let in_directory files f =
+  let directory = Filename.temp_file "crosscheck" "" in
+  Sys.remove directory;
+  Unix.mkdir directory 0o700;
+  let write (name, text) =
+    let channel = open_out_bin (Filename.concat directory name) in
+    output_string channel text;
+    close_out channel
+  in
+  Fun.protect ~finally:(fun () -> remove directory) (fun () -> List.iter write files; f directory)
+
+type reading = { mutable messages : Message.reader; mutable outcome : Outcome.reader; mutable problem : string option;
+                 mutable warnings : string list; printed : Printed_graph.t }
+
+(* SANY's warnings are lines of its own. *)
+let is_warning text = Event.number_after "*** Warnings: " text <> None || Event.number_after "Warning: line " text <> None
+
+let take r message =
+  let event = Event.of_message message in
+  r.outcome <- Outcome.event r.outcome event;
+  match event with
+  | Warning text -> r.warnings <- text :: r.warnings
+  | Printed text when is_warning text -> r.warnings <- text :: r.warnings
+  | Printed text -> (
+      match r.problem, Printed_graph.line r.printed text with
+      | None, Error problem -> r.problem <- Some (Format.asprintf "%a" Printed_graph.pp_problem problem)
+      | None, Ok (true | false) | Some _, _ -> ())
+  | _ -> ()
+
+let line r text =
+  let messages, complete = Message.line r.messages text in
+  r.messages <- messages;
+  List.iter (take r) complete
+
+let explore installation directory =
+  let r =
+    { messages = Message.start; outcome = Outcome.start; problem = None; warnings = []; printed = Printed_graph.create () }
+  in
+  let command =
+    Invocation.command ~short:true installation (Local (Workers 1)) ~directory ~main:"MC" ~configuration:Family.configuration ~coverage:false
+  in
+  ignore (Process.run ~interrupted:(fun () -> false) (line r) command : Process.ending);
+  List.iter (take r) (Message.finish r.messages);
+  r
+
+(* {1 Judging} *)
+
+let rules_of graphs =
+  let used = Hashtbl.create 60 in
+  let note rule = Hashtbl.replace used rule (1 + Option.value (Hashtbl.find_opt used rule) ~default:0) in
+  List.iter (fun (_, g) -> Graph.iter g (fun _ l _ -> List.iter note (Printed_graph.rules (Graph.label g l)))) graphs;
+  List.sort compare (Hashtbl.fold (fun rule n all -> (rule, n) :: all) used [])
+
+let judge graphs i p =
+  let verdict =
+    match List.assoc_opt (i + 1) graphs with
+    | None -> Not_printed
+    | Some theirs -> (
+        match Compare.isomorphic p.graph theirs with Ok () -> Agrees | Error difference -> Differs difference)
+  in
+  { case = p.case; states = Graph.states p.graph; transitions = p.transitions; verdict }
+
+let conclude prepared r =
+  let o = Outcome.finish r.outcome in
+  let states = Printed_graph.states r.printed and transitions = Printed_graph.transitions r.printed in
+  match r.problem, o.verdict, Printed_graph.graphs r.printed with
+  | Some problem, _, _ -> Error problem
+  | None, Failed lines, _ -> Error (String.concat "\n" lines)
+  | None, (Violated _ | Unfinished), _ -> Error "TLC did not come to its end"
+  | None, Holds, Error problem -> Error (Format.asprintf "%a" Printed_graph.pp_problem problem)
+  | None, Holds, Ok _ when o.distinct <> states || o.generated <> transitions + List.length prepared ->
+    Error
+      (Printf.sprintf "TLC counts %d states and %d transitions, but %d and %d were printed" o.distinct
+         (o.generated - List.length prepared) states transitions)
+  | None, Holds, Ok graphs ->
+    Ok
+      { results = List.mapi (judge graphs) prepared; distinct = o.distinct; generated = o.generated; warnings = List.rev r.warnings;
+        used = rules_of graphs }
+
+let run installation ~specification prepared =
+  Result.bind (Family.files ~specification (List.map (fun p -> p.constants) prepared)) (fun files ->
+      in_directory files (fun directory -> conclude prepared (explore installation directory)))

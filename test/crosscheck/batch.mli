@@ -1,0 +1,33 @@
+(** TLC and the explorer side by side, on several programs at once. *)
+
+open Dolphin_tlc
+
+type verdict =
+  | Agrees  (** isomorphic graphs, with equal labels, derivations and ends *)
+  | Differs of Dolphin_lts.Isomorphism.difference  (** left is the explorer's graph *)
+  | Not_printed  (** TLC printed no state of it *)
+
+type result = { case : Case.t; states : int; transitions : int; verdict : verdict }
+
+type t = {
+  results : result list;
+  distinct : int;  (** states that TLC counted *)
+  generated : int;  (** and transitions, with one for each program *)
+  warnings : string list;  (** what SANY and TLC warn of *)
+  used : (string * int) list;  (** the rules in the derivations of TLC's transitions, by name, with how often *)
+}
+
+type prepared
+(** A program, translated and explored. *)
+
+type unfit = Refused of string  (** by the translation: why *) | Too_large
+
+val prepare : limit:int -> Case.t -> (prepared, unfit) Stdlib.result
+(** [prepare ~limit c] explores at most [limit] states. *)
+
+val case : prepared -> Case.t
+val states : prepared -> int
+
+val run : Installation.t -> specification:(string * string) list -> prepared list -> (t, string) Stdlib.result
+(** [run i ~specification ps] is what comes out, or what TLC says went wrong. Counts of TLC that are not those of
+    what it printed are wrong too. *)

@@ -1,0 +1,121 @@
+open Dolphin_syntax
+open Dolphin_semantics
+module Environment = Dolphin_explore.Environment
+module Generate = Test_support.Generate
+module Scenario = Dolphin_scenario.Scenario
+
+type t = {
+  name : string;
+  source : string;
+  program : Core.program;
+  world : World.t;
+  environment : Environment.options;
+  plans : string list;
+  prompts : string list;
+}
+
+(* {1 Random programs} *)
+
+(* What the script does after its picks, again and again: for cycles. *)
+let for_ever (program : Ast.program) =
+  let comes_first (s : Ast.statement) =
+    match s.it with Assign { value = { it = Builder _ | Integer _; _ }; _ } -> true | _ -> false
+  in
+  let first, rest = List.partition comes_first program in
+  first @ [ { it = Ast.While (Generate.expression (Boolean true), rest); at = Location.none } ]
+
+let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]) }
+
+let environments =
+  [ ("as planned", answering);
+    ("with failures", Environment.failing answering);
+    ("with a failure", Environment.failing ~failures:1 answering) ]
+
+let of_generated name environment ast =
+  { name; source = Generate.print ast; program = Generate.compile ast; world = Generate.world; environment; plans = [];
+    prompts = [ "how many?" ] }
+
+let random ~seed n =
+  let rand = Random.State.make [| seed |] in
+  let one i =
+    let ast = QCheck2.Gen.generate1 ~rand Generate.program in
+    let looped = QCheck2.Gen.(generate1 ~rand (frequencyl [ (3, false); (1, true) ])) in
+    let kind, environment = List.nth environments (i mod 3) in
+    let name = Printf.sprintf "random %d, %s%s" (i + 1) kind (if looped then ", for ever" else "") in
+    of_generated name environment (if looped then for_ever ast else ast)
+  in
+  List.init n one
+
+(* {1 Examples} *)
+
+let read path =
+  let channel = open_in_bin path in
+  Fun.protect ~finally:(fun () -> close_in channel) (fun () -> really_input_string channel (in_channel_length channel))
+
+let compiled path source =
+  let explain ds = Format.asprintf "%a" (Fmt.list (Diagnostic.pp ~source)) ds in
+  let result =
+    Result.bind (Parse.program ~file:path source) (fun ast -> Elaborate.program ~source_name:path ast)
+  in
+  match result with Ok (program, _) -> program | Error ds -> failwith (explain ds)
+
+let scenario_beside path =
+  let fleet = Scenario.beside path in
+  if not (Sys.file_exists fleet) then Scenario.default
+  else
+    match Scenario.read ~file:fleet (read fleet) with
+    | Ok scenario -> scenario
+    | Error ds -> failwith (Format.asprintf "%a" (Fmt.list (Diagnostic.pp ~source:(read fleet))) ds)
+
+let in_scenario name source program (scenario : Scenario.t) faults =
+  { name; source; program; world = World_of.world scenario;
+    environment = World_of.environment ~answers:[] ~faults scenario;
+    plans = List.map (fun (p : Scenario.plan) -> p.name) scenario.plans;
+    prompts = List.map (fun (a : Scenario.answer) -> a.prompt) scenario.answers }
+
+let example directory file =
+  let path = Filename.concat directory file in
+  let source = read path in
+  let program = compiled path source and scenario = scenario_beside path in
+  [ in_scenario file source program scenario None;
+    in_scenario (file ^ ", with failures") source program scenario (Some None) ]
+
+let examples directory =
+  let files = List.filter (fun f -> Filename.check_suffix f ".dol") (Array.to_list (Sys.readdir directory)) in
+  List.concat_map (example directory) (List.sort compare files)
+
+(* {1 Traps} *)
+
+let trap ?failures name source =
+  let name = "trap: " ^ name in
+  let world = Generate.world and environment = Environment.failing ?failures answering in
+  { name; source; program = compiled "trap.dol" source; world; environment; plans = []; prompts = [] }
+
+let two = "a = pick { id 'a' }; b = pick { id 'b' }\n"
+
+let traps =
+  trap "at most one failure" ~failures:1 (two ^ "execute watch (task('p')[a] >> task('q')[b]) onError { ignore() }\nexecute task('p')[a]")
+  :: List.map
+    (fun (name, source) -> trap name source)
+    [ ("vehicles that a failure stops are free again",
+       two ^ "execute (watch (task('p')[a] | task('q')[b]) onError { ignore() }) >> (task('q')[a] | task('p')[b])");
+      ("a fault of an until's condition stops vehicles",
+       two ^ "execute watch (until { 1 / 0 > 1 } run task('p')[a]) onError { ignore() }");
+      ("a guard does not take a part", "post x: 1\nexecute condition { consume x: 1, y: 1 } | action { post y: 1 } >> condition { consume x: 1 }");
+      ("code that breaks leaves nothing", "x = 0\nexecute watch (action { post k: 1; x = 1; y = 1 / 0 }) onError { ignore() }\nif (poll(k: 1) || x == 1) { message 'left' }");
+      ("a handler that breaks leaves nothing", two ^ "execute watch (watch task('p')[a] onError { post k: 1; 1 / 0 }) onError { ignore() }\nif (poll(k: 1)) { message 'left' }");
+      ("a guard that is false did nothing", "post k: 1\nexecute condition { consume k: 1; false } | condition { poll k: 1 }");
+      ("until stops what runs, or what did not start", two ^ "execute (until { poll x: 1 } run (task('p')[a] >> task('q')[a])) | action { post x: 1 }");
+      ("an error leaves out what would follow", two ^ "execute watch (task('p')[a] >> task('q')[b] >> task('q')[a]) onError { ignore() }");
+      ("a handler that does nothing propagates", two ^ "execute watch task('p')[a] onError { post k: 1 }");
+      ("the oldest pair", "post k: 1\npost k: 2\nexecute condition { consume k: _ } >> condition { consume k: 2 }");
+      ("a pair twice is there twice", "post k: 1\npost k: 1\nexecute condition { consume k: 1 } >> condition { consume k: 1 }");
+      ("a handler's deeds", two ^ "execute watch task('p')[a] onError { post failed: 1; ignore() }\nif (consume(failed: 1)) { message 'seen' }");
+      ("a handler's halt", two ^ "execute (watch task('p')[a] onError { halt 'enough' }) | task('q')[b]");
+      ("three branches, one at a time", two ^ "execute allOf { when { true } then task('p')[a] \n when { true } then task('q')[b] \n when { poll x: 1 } then action { post y: 1 } } | action { post x: 1 }");
+      ("a timer that is not needed any more", two ^ "execute (during 10.seconds run task('p')[a]) >> idle(5.seconds)");
+      ("code that says how long", "execute during { post asked: 1; 3 } run condition { consume asked: 1 }");
+      ("released, and picked again", two ^ "release a\nc = pick { id 'a' }\nexecute task('p')[c] | task('q')[b]");
+      ("which two of three", "v = pick { count 2 }\nexecute task('p') | task('q')");
+      ("not enough for all", "v = pick { id 'a' }\nexecute task('p') | task('q')");
+      ("an assertion that no watch sees", two ^ "execute watch (assert({ poll x: 1 }, 'x is there') | action { post x: 1 } | task('p')[a]) onError { ignore() }") ]

@@ -1,0 +1,73 @@
+type constant = { name : string; parameters : string list; definition : string }
+
+let configuration = "Family.cfg"
+
+(* {1 The constants as definitions} *)
+
+let applied name = function [] -> name | parameters -> Printf.sprintf "%s(%s)" name (String.concat ", " parameters)
+let of_program i name = Printf.sprintf "%s_%d" name i
+
+(* For each constant without parameters, the tuple of its values, which TLC computes once. *)
+let definition count (c : constant) =
+  let all = List.init count (fun i -> of_program (i + 1) c.name) in
+  match c.parameters with
+  | [] -> Printf.sprintf "All%s == << %s >>\n%s == All%s[which]\n" c.name (String.concat ", " all) c.name c.name
+  | parameters ->
+    let case i name = Printf.sprintf "which = %d -> %s" (i + 1) (applied name parameters) in
+    Printf.sprintf "%s == CASE %s\n" (applied c.name parameters) (String.concat "\n  [] " (List.mapi case all))
+
+let programs_module programs =
+  let of_one i constants =
+    List.map (fun c -> Printf.sprintf "%s == %s\n" (applied (of_program (i + 1) c.name) c.parameters) c.definition) constants
+  in
+  let lookups = match programs with [] -> [] | first :: _ -> List.map (definition (List.length programs)) first in
+  String.concat ""
+    ([ "---- MODULE Programs ----\nEXTENDS Integers, Sequences, TLC\nVARIABLE which\n" ]
+     @ List.concat (List.mapi of_one programs)
+     @ lookups @ [ "====\n" ])
+
+(* {1 The specification without constants} *)
+
+let begins prefix line =
+  String.length line >= String.length prefix && String.sub line 0 (String.length prefix) = prefix
+
+(* [CONSTANTS] and the lines that follow, up to an empty one, are gone. *)
+let without_constants text =
+  let rec outside = function
+    | line :: rest when begins "CONSTANT" line -> inside rest
+    | line :: rest -> line :: outside rest
+    | [] -> []
+  and inside = function "" :: rest -> "" :: outside rest | _ :: rest -> inside rest | [] -> [] in
+  String.concat "\n" (outside (String.split_on_char '\n' text))
+
+(* The lowest module of the specification extends nothing but standard ones: it extends the programs too. *)
+let lowest = "DolphinValues.tla"
+
+let extending_programs text =
+  let extend line = if begins "EXTENDS " line then line ^ ", Programs" else line in
+  String.concat "\n" (List.map extend (String.split_on_char '\n' text))
+
+let model_module count =
+  Printf.sprintf
+    {|---- MODULE MC ----
+EXTENDS Dolphin
+FamilyInit == which \in 1 .. %d /\ Init
+FamilyNext == which' = which /\ Next
+%s
+PrintFamily == PrintGraphOf(which)
+====
+|}
+    count Dolphin_tla.Run.printing
+
+let files ~specification programs =
+  if not (List.mem_assoc lowest specification) then Error ("there is no " ^ lowest ^ " in the specification")
+  else
+    let changed (name, text) =
+      let text = without_constants text in
+      (name, if name = lowest then extending_programs text else text)
+    in
+    Ok
+      ([ ("Programs.tla", programs_module programs);
+         ("MC.tla", model_module (List.length programs));
+         (configuration, "INIT FamilyInit\nNEXT FamilyNext\nINVARIANT PrintFamily\nCHECK_DEADLOCK FALSE\n") ]
+       @ List.map changed specification)

@@ -1,0 +1,14 @@
+(** One model of several programs, so that TLC starts once for all: the graph has an initial state for each, and their
+    states have nothing in common, by a variable that says which program they are of.
+
+    The specification is for one program, which is its constants. Here its [CONSTANTS] are definitions instead, that
+    look up what the constant is for the program at hand; nothing else of its text is changed. *)
+
+type constant = { name : string; parameters : string list; definition : string }
+
+val configuration : string
+(** The name of the file with TLC's configuration. *)
+
+val files : specification:(string * string) list -> constant list list -> ((string * string) list, string) result
+(** [files ~specification programs] is the model's files, names and texts: each program is given by its constants, and has
+    a number, from 1, in what the model prints ({!Dolphin_tlc.Printed_graph}). It is an error if the text of the specification is not as expected. *)

@@ -1,0 +1,140 @@
+type t = { name : string; file : string; pattern : string; replacement : string }
+
+let rules = "Dolphin.tla"
+let machine = "DolphinMachine.tla"
+
+let all =
+  [ { name = "PAR-ERR leaves the siblings running";
+      file = rules;
+      pattern = {|  By([ s EXCEPT !.S = WithoutA(@, Range(Flatten(Each(Without(rs, j), Running)))) ], "PAR-ERR", s.out)|};
+      replacement = {|  By(s, "PAR-ERR", s.out)|} };
+    { name = "PAR-ERR lets the siblings go on";
+      file = rules;
+      pattern = {|    [] IsErr(s) -> PAR_ERR(s, rs, j)|};
+      replacement = {|    [] IsErr(s) -> PAR_2(s, rs, j)|} };
+    { name = "UNTIL-CUT stops nothing";
+      file = rules;
+      pattern = {|Program, Cut(run.S, r), Done_, run.deeds)|};
+      replacement = {|Program, run.S, Done_, run.deeds)|} };
+    { name = "a fault of an until's condition stops nothing";
+      file = rules;
+      pattern = {|Broken("UNTIL-ERR", Cut(S, r), fault)|};
+      replacement = {|Broken("UNTIL-ERR", S, fault)|} };
+    { name = "DURING-CUT stops nothing";
+      file = rules;
+      pattern = {|<< "timer", r.timer >>, Cut(S, r.body), Done_, << >>)|};
+      replacement = {|<< "timer", r.timer >>, S, Done_, << >>)|} };
+    { name = "a handler that breaks leaves what it did before";
+      file = rules;
+      pattern = {|result("fault", m.stop[2], m.verdict, S, << >>)|};
+      replacement = {|result("fault", m.stop[2], m.verdict, After(S, m), << >>)|} };
+    { name = "a guard that is false takes effect";
+      file = rules;
+      pattern = {|    [] ~Truth(run.value) -> << >>|};
+      replacement =
+        {|    [] ~Truth(run.value) ->
+         IF run.deeds = << >> THEN << >> ELSE << Step("CONDITION", "check", Program, run.S, Next_(r), << >>) >>|} };
+    { name = "consume takes some of the pairs if not all are there";
+      file = machine;
+      pattern = {|          THEN LET y == Taken(N, k, x) IN TakeAll(WithoutPair(N, k, y), Tail(pairs), Append(taken, << k, y >>))
+          ELSE << >>|};
+      replacement =
+        {|          THEN LET y == Taken(N, k, x) IN TakeAll(WithoutPair(N, k, y), Tail(pairs), Append(taken, << k, y >>))
+          ELSE TakeAll(N, Tail(pairs), taken)|} };
+    { name = "consume takes the newest pair";
+      file = machine;
+      pattern = {|Taken(N, k, x) == IF x = Wildcard THEN Head(N.queue[k]) ELSE x|};
+      replacement = {|Taken(N, k, x) == IF x = Wildcard THEN Last(N.queue[k]) ELSE x|} };
+    { name = "N is a set";
+      file = machine;
+      pattern = {|  ELSE [ N EXCEPT !.bag = @ (+) SetToBag({ << k, x >> }) ]|};
+      replacement = {|  ELSE IF HasPair(N, k, x) THEN N ELSE [ N EXCEPT !.bag = @ (+) SetToBag({ << k, x >> }) ]|} };
+    { name = "an error passes a watch";
+      file = rules;
+      pattern = {|    [] IsErr(s) -> Handled(s, h)|};
+      replacement = {|    [] IsErr(s) -> WATCH_PROPAGATE(s, s.out[2])|} };
+    { name = "handlers ignore unless they propagate";
+      file = rules;
+      pattern = {|       [] run.verdict = "ignore" -> WATCH_IGNORE(after)|};
+      replacement = {|       [] TRUE -> WATCH_IGNORE(after)|} };
+    { name = "what a handler posts is lost";
+      file = rules;
+      pattern = {|      after == [ s EXCEPT !.S = run.S, !.deeds = @ \o run.deeds ]|};
+      replacement = {|      after == s|} };
+    { name = "a handler's halt only propagates";
+      file = rules;
+      pattern = {|  IN CASE run.is = "halt" -> WATCH_HALT(after, run.value)|};
+      replacement = {|  IN CASE run.is = "halt" -> WATCH_PROPAGATE(after, s.out[2])|} };
+    { name = "allOf runs two branches at a time";
+      file = rules;
+      pattern = {|       Next_(AllOf(<< Act(bs[j].body) >>, Without(bs, j))), run.deeds)|};
+      replacement = {|       Next_(ParOf(<< Act(bs[j].body), AllOf(<< >>, Without(bs, j)) >>)), run.deeds)|} };
+    { name = "allOf ends with its first branch";
+      file = rules;
+      pattern = {|ALLOF_2(s, bs) == By(s, "ALLOF-2", Next_(AllOf(<< >>, bs)))|};
+      replacement = {|ALLOF_2(s, bs) == By(s, "ALLOF-2", Done_)|} };
+    { name = "until is ignored before the first step";
+      file = rules;
+      pattern = {|    [] r.op = "until" -> << UNTIL_CUT(run, r.body) >>|};
+      replacement = {|    [] r.op = "until" -> IF r.body.op = "ready" THEN << >> ELSE << UNTIL_CUT(run, r.body) >>|} };
+    { name = "the timer of a during outlives its task";
+      file = rules;
+      pattern = {|DURING_2(s) == By(s, "DURING-2", Done_)|};
+      replacement = {|DURING_2(s) == By(s, "DURING-2", Next_([ op |-> "idle", timer |-> 0, time |-> Integer(1) ]))|} };
+    { name = "what the code of a during does is lost";
+      file = rules;
+      pattern = {|DURING-SET", "set-time(" \o ShortText(n) \o ")", Program, run.S,|};
+      replacement = {|DURING-SET", "set-time(" \o ShortText(n) \o ")", Program, Shared,|} };
+    { name = "SEQ-2 skips a part";
+      file = rules;
+      pattern = {|SEQ_2(s, ts) == By(s, "SEQ-2", Next_(Act(FromParts(ts))))|};
+      replacement = {|SEQ_2(s, ts) == By(s, "SEQ-2", Next_(Act(FromParts(IF Len(ts) > 1 THEN Tail(ts) ELSE ts))))|} };
+    { name = "an error goes on with the next part";
+      file = rules;
+      pattern = {|    [] IsErr(s) -> SEQ_ERR(s)|};
+      replacement = {|    [] IsErr(s) -> SEQ_2(s, ts)|} };
+    { name = "release forgets to unbind";
+      file = rules;
+      pattern = {|SelectSeq(@, LAMBDA v : v \notin V)|};
+      replacement = {|@|} };
+    { name = "the end releases no vehicles";
+      file = rules;
+      pattern = {|Ended(ending), [ S EXCEPT !.A = << >>, !.B = << >> ], deeds)|};
+      replacement = {|Ended(ending), [ S EXCEPT !.A = << >> ], deeds)|} };
+    { name = "pick takes the first vehicles only";
+      file = rules;
+      pattern = {|       [] OTHER -> Each(Choices(q.count, fit), LAMBDA V : PICK_BIND(M, V, Program))|};
+      replacement = {|       [] OTHER -> << PICK_BIND(M, Choices(q.count, fit)[1], Program) >>|} };
+    { name = "branches of | may share vehicles";
+      file = rules;
+      pattern = {|           \A i \in 1 .. n - 1 : << i, n >> \in exclusive => f[i] # f[n] }|};
+      replacement = {|           TRUE }|} };
+    { name = "an assertion that fails is an error";
+      file = rules;
+      pattern = {|IF run.value.assertion THEN ASSERT_ERR(S, run.value) ELSE WithFault(S, r, run.value)|};
+      replacement = {|WithFault(S, r, run.value)|} };
+    { name = "failures are not counted";
+      file = rules;
+      pattern = {|         [ outside EXCEPT !.failed = @ + 1 ]|};
+      replacement = {|         outside|} } ]
+
+(* Where [part] begins in [text], each time. *)
+let occurrences part text =
+  let n = String.length part in
+  let rec go i found =
+    if i + n > String.length text then List.rev found
+    else if String.sub text i n = part then go (i + n) (i :: found)
+    else go (i + 1) found
+  in
+  go 0 []
+
+let apply m files =
+  match List.assoc_opt m.file files with
+  | None -> Error (Printf.sprintf "there is no %s" m.file)
+  | Some text -> (
+      match occurrences m.pattern text with
+      | [ i ] ->
+        let after = i + String.length m.pattern in
+        let mutated = String.sub text 0 i ^ m.replacement ^ String.sub text after (String.length text - after) in
+        Ok ((m.file, mutated) :: List.remove_assoc m.file files)
+      | found -> Error (Printf.sprintf "its pattern stands %d times in %s" (List.length found) m.file))

@@ -1,0 +1,95 @@
+open Dolphin_imc
+open Dolphin_platform_imc
+module State = Message.Plan_control_state
+
+let order : Execution.order = { plan = "p"; specification = None }
+let says state ?(outcome = State.Last_outcome.None) plan_id = { State.default with state; plan_id; last_outcome = outcome }
+let ready = says Ready and executing = says Executing
+
+(* A vehicle that says [first] and later [rest], half a second apart, to a console that has nothing yet but memos. *)
+let outputs ?(stopped = false) memos first rest =
+  let time = ref 0. and clock = ref Vehicle_clock.unknown in
+  let x = ref (Execution.create ~request:500) in
+  let input i =
+    let y, outputs = Execution.step ~now:!time ~clock:!clock i !x in
+    x := y;
+    outputs
+  in
+  let hear state =
+    time := !time +. 0.5;
+    let known, sent = Vehicle_clock.observe ~now:!time ~sent:(1000. +. !time) !clock in
+    clock := known;
+    input (Execution.State { sent; state })
+  in
+  let heard = hear first in
+  let adopted = input (Adopt { order; stopped; memos = List.rev memos }) in
+  let later = List.concat_map hear rest in
+  time := !time +. 5.;
+  heard @ adopted @ later @ input Tick
+
+let show : Execution.output -> string = function
+  | Keep (Asked { plan; _ }) -> "keep asked " ^ plan
+  | Keep (Taken _) -> "keep taken"
+  | Keep (Runs _) -> "keep runs"
+  | Keep (Over _) -> "keep over"
+  | Send (Plan_control { op = Start; plan_id; _ }) -> "start " ^ plan_id
+  | Send (Plan_control { op = Stop; plan_id; _ }) -> "stop " ^ plan_id
+  | Send _ -> "something else"
+  | Done -> "done"
+  | Failed why -> "failed: " ^ why
+  | Note text -> "note: " ^ text
+
+let case name ?stopped memos first rest expected =
+  Alcotest.test_case name `Quick (fun () ->
+      let found = List.map show (outputs ?stopped memos first rest) in
+      Alcotest.(check (list string)) name expected found)
+
+let asked ?before () : Memo.t = Asked { plan = "p"; request = 7; before }
+let taken : Memo.t = Taken { request = 7 }
+let runs : Memo.t = Runs { request = 7 }
+let over : Memo.t = Over { request = 7 }
+let another = ("q", false)
+
+let nobody_knows =
+  "failed: the console died just as it asked for plan p, which the vehicle had run before: nobody knows whether it has run \
+   again"
+
+(* The states of a vehicle with which nothing happens. *)
+let still state = [ state; state; state; state ]
+
+let cases =
+  [ case "never asked for: it is started" [] (ready "q") [] [ "keep asked p"; "start p" ];
+    case "never asked for, and not wanted any more" ~stopped:true [] (ready "q") [] [];
+    case "it runs" [ asked ~before:another (); taken; runs ] (executing "p") (still (executing "p")) [ "keep runs" ];
+    case "it runs, which nobody had seen" [ asked ~before:another () ] (executing "p") [] [ "keep runs" ];
+    case "it ends later" [ asked ~before:another (); taken; runs ] (executing "p")
+      [ executing "p"; ready ~outcome:Success "p" ]
+      [ "keep runs"; "done" ];
+    case "it ended meanwhile" [ asked ~before:another (); taken; runs ] (ready ~outcome:Success "p") [] [ "done" ];
+    case "it ended before anybody saw it run" [ asked ~before:another () ] (ready ~outcome:Success "p") [] [ "done" ];
+    case "it ended on a vehicle that had run nothing" [ asked ~before:("", false) () ] (ready ~outcome:Success "p") []
+      [ "done" ];
+    case "it failed meanwhile" [ asked ~before:another (); taken; runs ] (ready ~outcome:Failure "p") []
+      [ "keep runs"; "failed: the plan ended without success, and the vehicle gave no reason" ];
+    case "another console has replaced it" [ asked ~before:another (); taken; runs ] (executing "r") []
+      [ "failed: replaced by plan r" ];
+    case "it did not arrive: it is sent again, after a look" [ asked ~before:another () ] (ready "q") [ ready "q"; ready "q" ]
+      [ "start p" ];
+    case "the same plan ran before, and runs now" [ asked ~before:("p", false) () ] (executing "p") [] [ "keep runs" ];
+    case "the same plan ran before, and was taken" [ asked ~before:("p", false) (); taken ]
+      (ready ~outcome:Success "p") [] [ "done" ];
+    case "the same plan ran before, and nobody knows more" [ asked ~before:("p", false) () ]
+      (ready ~outcome:Success "p")
+      (still (ready ~outcome:Success "p"))
+      [ nobody_knows ];
+    case "to be stopped, and still running" ~stopped:true [ asked ~before:another (); taken; runs ] (executing "p")
+      [ ready ~outcome:Failure "p" ]
+      [ "stop p"; "keep over" ];
+    case "to be stopped, and not running" ~stopped:true [ asked ~before:another (); taken; runs ]
+      (ready ~outcome:Failure "p") [] [ "keep over" ];
+    case "to be stopped, and the vehicle runs another's plan" ~stopped:true [ asked ~before:another (); runs ]
+      (executing "r") [] [ "keep over" ];
+    case "it was stopped: the same plan of another console goes on" ~stopped:true [ asked ~before:another (); over ]
+      (executing "p") (still (executing "p")) [] ]
+
+let tests = ("adoption", cases)

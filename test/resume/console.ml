@@ -1,0 +1,106 @@
+open Dolphin_semantics
+open Dolphin_runtime
+open Dolphin_trace
+module Udp_platform = Dolphin_platform_imc.Udp_platform
+
+type death = Before of int | Within of int | After of int | Never
+
+let program, hash =
+  let parsed = Dolphin_syntax.Parse.program ~file:"mission.dol" Mission.source in
+  match Result.bind parsed (Elaborate.program ~source_name:"mission.dol") with
+  | Ok (program, _) -> (program, (Header.source ~path:"mission.dol" Mission.source).hash)
+  | Error ds ->
+    List.iter (Format.eprintf "%a@." (Dolphin_syntax.Diagnostic.pp ~source:Mission.source)) ds;
+    failwith "the program of the kill tests is wrong"
+
+let source = { Header.path = "mission.dol"; hash }
+let started = "2026-03-01T12:00:00Z"
+
+let header : Header.t =
+  { program = source; fleet = None; platform = "imc"; seed = 0; speed = None; started }
+
+let die () =
+  Unix.kill (Unix.getpid ()) Sys.sigkill;
+  assert false
+
+(* Writes straight to the file: what is written is there, whoever dies. *)
+let write_all fd text = ignore (Unix.write_substring fd text 0 (String.length text))
+
+let writer fd death ~from =
+  let count = ref from in
+  fun (entry : Entry.t) ->
+    let line = Entry.to_string entry ^ "\n" in
+    match entry with
+    | Vehicle _ -> write_all fd line
+    | Header _ | Event _ | Transition _ | Note _ | Resumed _ | End _ ->
+      let i = !count in
+      incr count;
+      if death = Before i then die ();
+      if death = Within i then begin
+        write_all fd (String.sub line 0 (String.length line / 2));
+        die ()
+      end;
+      write_all fd line;
+      if death = After i then die ()
+
+let console = { Console.say = ignore; ask = (fun _ -> Lwt.return (Ok "2")); refused = ignore }
+
+let options ~port ~keep =
+  { Udp_platform.default with
+    loopback = true; announce_ports = List.init 5 (fun i -> port + i); close_patience = 2.; keep }
+
+let drive recorder platform beginning =
+  let observer : Observer.t = { transition = Recorder.transition recorder; news = Recorder.news recorder } in
+  let run =
+    Driver.run (module Udp_platform) platform ~always_telemetry:true ~observer ?beginning ~console
+      ~interruption:(fst (Lwt.wait ())) program
+  in
+  let outcome = Lwt_main.run run in
+  Recorder.finish recorder ~time:(Udp_platform.now platform) ~stuck:false;
+  match outcome with
+  | Ended Completed -> 0
+  | Ended _ | Stuck _ -> Format.eprintf "%a@." Driver.pp_outcome outcome; 1
+
+let keep_with recorder ~time vehicle note =
+  Recorder.write (Option.get !recorder) ~time (fun ~time -> Note { time; vehicle; note })
+
+let opened = function Ok platform -> platform | Error why -> failwith why
+
+let begin_run ~port fd death =
+  let recorder = ref None in
+  let platform = opened (Udp_platform.open_ (options ~port ~keep:(keep_with recorder))) in
+  let its_recorder = Recorder.make program header (writer fd death ~from:0) in
+  recorder := Some its_recorder;
+  drive its_recorder platform None
+
+let go_on ~port ~journal fd death =
+  let channel = open_in_bin journal in
+  let counted = ref 0 in
+  let tell (entry : Entry.t) _ = match entry with Vehicle _ -> () | _ -> incr counted in
+  match Resumption.read ~tell program ~hash (Reader.of_channel channel) with
+  | Error (No_run (Unreadable { number = 1; _ })) ->
+    (* Not even the header is whole: nothing was done. *)
+    Unix.ftruncate fd 0;
+    begin_run ~port fd death
+  | Error (Over { how = "completed"; _ }) -> 0
+  | Error trouble -> failwith (Format.asprintf "@[<v>%a@]" Resumption.pp_trouble trouble)
+  | Ok past ->
+    Unix.ftruncate fd past.kept;
+    let recorder = ref None in
+    let time = Replay.time past.replay in
+    let platform = opened (Udp_platform.open_again (options ~port ~keep:(keep_with recorder)) ~time past.moments) in
+    let its_recorder =
+      Recorder.resume program past.replay ~seen:(Resumption.seen past) (writer fd death ~from:!counted)
+    in
+    recorder := Some its_recorder;
+    Recorder.write its_recorder ~time (fun ~time -> Resumed { time; program = source; at = started });
+    let world = Replay.world past.replay in
+    let news = List.map (fun s -> { s with World.connected = false }) (World.vehicles world) in
+    drive its_recorder platform
+      (Some { configuration = Replay.configuration past.replay; world; news; pending = past.pending })
+
+let start ~port ~journal death =
+  Processes.fork (fun () ->
+      let is_there = Sys.file_exists journal in
+      let fd = Unix.openfile journal [ O_RDWR; O_CREAT; O_APPEND ] 0o644 in
+      if is_there then go_on ~port ~journal fd death else begin_run ~port fd death)

@@ -1,0 +1,13 @@
+(** One console that dies, and others that go on. *)
+
+type t = { death : Console.death; again : Console.death;  (** of the next console *) pause : float  (** before it, s *) }
+
+val pp : Format.formatter -> t -> unit
+
+val run : t -> number:int -> (unit, string) result
+(** [run t ~number] has the mission run to its end, by as many consoles as that takes. It is right if each plan was
+    started once, as the vehicles' own log tells, the mission was completed, and the joined journal is one of a run. The
+    error says what is wrong. Trials of other numbers can run at the same time. *)
+
+val lines : unit -> int
+(** How many lines of a journal count when nobody dies. *)

@@ -54,6 +54,8 @@ let with_implementation command timeout f =
   | Some command ->
     let implementation = Implementation.make ~timeout command in
     let finally () = Implementation.close implementation in
+    (* It leads a session of its own, so Ctrl-C is for us alone, and we end it. *)
+    List.iter (fun s -> Sys.set_signal s (Signal_handle (fun _ -> raise Sys.Break))) [ Sys.sigint; Sys.sigterm ];
     Fun.protect ~finally (fun () -> f (Implementation.ask implementation))
 
 (* {1 The report} *)
@@ -99,19 +101,24 @@ let bad why =
   Report.complain why;
   Exit_status.Bad_input
 
+let judge_with ask ~named ~with_matrix ~verbose cases =
+  match Dialogue.hello ask with
+  | exception Dialogue.Trouble why -> bad ("the implementation does not speak the step protocol: " ^ why)
+  | name ->
+    if named then Printf.printf "%s\n%!" name;
+    let passed, failed, matrix = judge_all verbose ask cases in
+    let complete = tell_matrix with_matrix matrix in
+    Printf.printf "%d passed, %d failed\n" passed failed;
+    if failed = 0 && complete then Exit_status.Done else Exit_status.Violated
+
 let run paths command timeout with_matrix verbose =
   match load paths with
   | Error why -> bad why
-  | Ok cases ->
-    with_implementation command timeout (fun ask ->
-        match Dialogue.hello ask with
-        | exception Dialogue.Trouble why -> bad ("the implementation does not speak the step protocol: " ^ why)
-        | name ->
-          if command <> None then Printf.printf "%s\n%!" name;
-          let passed, failed, matrix = judge_all verbose ask cases in
-          let complete = tell_matrix with_matrix matrix in
-          Printf.printf "%d passed, %d failed\n" passed failed;
-          if failed = 0 && complete then Exit_status.Done else Exit_status.Violated)
+  | Ok cases -> (
+      let judge ask = judge_with ask ~named:(command <> None) ~with_matrix ~verbose cases in
+      match with_implementation command timeout judge with
+      | status -> status
+      | exception Sys.Break -> Exit_status.Interrupted)
 
 (* {1 The command} *)
 
@@ -155,9 +162,9 @@ let man =
   @ Options.see_also
 
 let exits =
-  [ Cmd.Exit.info 0 ~doc:"all cases pass."; Cmd.Exit.info 1 ~doc:"some do not.";
+  [ Cmd.Exit.info 0 ~doc:"all cases pass."; Cmd.Exit.info 1 ~doc:"some do not; or with $(b,--matrix), no case is about some rule.";
     Cmd.Exit.info 2 ~doc:"a case cannot be read, or the implementation does not speak the step protocol." ]
-  @ Options.exits [ Bug ]
+  @ Options.exits [ Bug; Interrupted ]
 
 let command =
   let info = Cmd.info "conform" ~doc:"judge an implementation by a corpus of cases" ~man ~exits in

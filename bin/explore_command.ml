@@ -1,11 +1,13 @@
 open Cmdliner
 module Search = Dolphin_explore.Search
 module Property = Dolphin_explore.Property
+module Faults = Dolphin_explore.Faults
+module World_of = Dolphin_explore.World_of
 module Course = Dolphin_trace.Course
 
 type settings = {
   answers : string list;
-  faults : int option option;
+  faults : Faults.t;
   strict : bool;
   json : bool;
   trace : string option;
@@ -74,7 +76,14 @@ let json_of_run (run : Search.run) =
             `String (Format.asprintf "%a" Dolphin_semantics.Label.pp t.label))
          steps)
   in
+  let assumed i (t : Dolphin_semantics.Transition.t) =
+    let what a = `String (Format.asprintf "%a" Dolphin_semantics.World.pp_assumption a) in
+    if t.assumed = [] then None
+    else Some (`Assoc [ ("step", `Int (i + 1)); ("assumed", `List (List.map what t.assumed)) ])
+  in
+  let assumptions = List.filter_map Fun.id (List.mapi assumed (run.steps @ run.cycle)) in
   [ ("shortest", `Bool run.shortest); ("run", labels run.steps); ("cycle", labels run.cycle) ]
+  @ if assumptions = [] then [] else [ ("assumptions", `List assumptions) ]
 
 let json_of_outcome (program : Dolphin_semantics.Core.program) (o : Search.outcome) : Yojson.Safe.t =
   let verdict (property, verdict) =
@@ -197,24 +206,6 @@ let run path fleet answers faults strict json trace reduction compress invariant
     | Error why, _ | _, Error why -> Report.complain why; Bad_input
     | Ok invariants, Ok formulas -> explore program fleet settings invariants formulas)
 
-let faults =
-  let parse text =
-    match String.split_on_char '=' text with
-    | [ "fail" ] -> Ok None
-    | [ "fail"; n ] when (match int_of_string_opt n with Some n -> n >= 0 | None -> false) ->
-      Ok (int_of_string_opt n)
-    | _ -> Error (`Msg (Printf.sprintf "'%s' is neither fail nor fail=NUMBER" text))
-  in
-  let print ppf = function
-    | None -> Format.pp_print_string ppf "fail"
-    | Some n -> Format.fprintf ppf "fail=%d" n
-  in
-  let doc =
-    "Let every platform task fail too: $(b,fail), or at most $(i,N) of them in one run: $(b,fail=)$(i,N). By default \
-     only those may fail of which the fleet says so."
-  in
-  Arg.(value & opt (some (conv (parse, print))) None & info [ "faults" ] ~docv:"FAULTS" ~doc)
-
 (* A number of bytes, as in 512M or 8G. *)
 let size =
   let parse text =
@@ -234,6 +225,17 @@ let size =
     | Some _ | None -> Error (`Msg (Printf.sprintf "'%s' is no size such as 512M or 8G" text))
   in
   Arg.conv ~docv:"SIZE" (parse, Format.pp_print_int)
+
+let faults =
+  let parse text = Result.map_error (fun why -> `Msg why) (Faults.of_string text) in
+  let doc =
+    "What else may go wrong, separated by commas: $(b,fail), every platform task may fail; $(b,loss), the connection of a \
+     vehicle that runs a task may be lost for longer than its timeout; $(b,join), vehicles may be late or missing when \
+     the program picks them: those that the fleet lets join, leave or drop, or if there are none, all; $(b,all) of these. \
+     With $(b,=)$(i,N) at most $(i,N) times in one run: $(b,fail=1,loss=2). By default only those plans may fail of which \
+     the fleet says so."
+  in
+  Arg.(value & opt (conv ~docv:"FAULTS" (parse, Faults.pp)) Faults.none & info [ "faults" ] ~docv:"FAULTS" ~doc)
 
 let bound kind name docv doc = Arg.(value & opt (some kind) None & info [ name ] ~docv ~doc)
 let max_states = bound Arg.int "max-states" "N" "Stop after $(docv) states."
@@ -307,8 +309,9 @@ let man =
     `I ("assertions", "no $(b,assert) of the program fails.");
     `I ("vehicles", "every $(b,pick) and every $(b,execute) gets its vehicles.");
     `P "Noted are also runs that call $(b,halt), tuples left over at the end, and code that no run reaches.";
-    `P "Positions and batteries stay as they are at the start, and all vehicles of the fleet are in reach. Calls of a \
-        supplier fail.";
+    `P "What sensors show is open: of a condition such as $(b,battery\\(v\\) < 0.3) both outcomes are possible at each look, \
+        or those for the values that the fleet gives; a run says what it assumes. All vehicles of the fleet are in reach, \
+        unless $(b,--faults) says otherwise. Calls of a supplier fail.";
     `P "A bound that is met, or Ctrl-C, makes the answer inconclusive where no violation was found: it is never said that \
         something holds that was not wholly explored.";
     `S Manpage.s_arguments;
@@ -328,6 +331,5 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ trace $ reduction $ compress $ invariants $ formulas
-      $ max_states $ max_depth
-      $ max_memory $ timeout)
+      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ trace $ reduction $ compress
+      $ invariants $ formulas $ max_states $ max_depth $ max_memory $ timeout)

@@ -171,8 +171,8 @@ let man =
         them. Programs can pick those in mode SERVICE.";
     `P "It introduces itself to vehicles as a console does, for otherwise they would not speak to it. It asks nothing of \
         them but their lists of entities.";
-    `P "With $(b,--json) and $(b,--imc-xml) each system has $(b,messages) too: an object for each kind of message that it \
-        sends, with its number ($(b,id)), how many came ($(b,count)) and what the last one said.";
+    `P "With $(b,--json) and $(b,--imc-xml) each system has $(b,messages) too: an object for each kind of message that \
+        it sends, with its number ($(b,id)), how many came ($(b,count)) and what the last one said.";
     `S Manpage.s_options;
     `S Imc_options.s_network;
     `S Manpage.s_exit_status;

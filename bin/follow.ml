@@ -1,6 +1,7 @@
 open Dolphin_semantics
 module Course = Dolphin_trace.Course
 module Log = Dolphin_display.Log
+module World_of = Dolphin_explore.World_of
 
 (* The columns of the time, which there is none of. *)
 let time_columns = 9
@@ -13,9 +14,10 @@ let without_time number text =
   String.concat "\n" (List.mapi cut (String.split_on_char '\n' text))
 
 let print_log first log transitions =
-  let print (number, log) t =
+  let print (number, log) (t : Transition.t) =
     let log, lines = Log.transition log ~time:0. t in
     List.iter (fun line -> print_endline (without_time number line)) lines;
+    List.iter (fun a -> print_endline (Format.asprintf "      if %a" World.pp_assumption a)) t.assumed;
     (number + 1, log)
   in
   List.fold_left print (first, log) transitions

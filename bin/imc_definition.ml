@@ -4,8 +4,8 @@ module Imc_xml = Dolphin_imc_definition.Imc_xml
 
 let file =
   let doc =
-    "Take names that Dolphin has not got, and messages that it does not know, from the definition of IMC in $(docv), as \
-     vehicles come with it: $(i,IMC.xml). It is an error if Dolphin's messages differ from it."
+    "Take names that Dolphin has not got, and messages that it does not know, from the definition of IMC in $(docv), \
+     as vehicles come with it: $(i,IMC.xml). It is an error if Dolphin's messages differ from it."
   in
   Arg.(value & opt (some string) None & info [ "imc-xml" ] ~docs:"IMC NETWORK" ~docv:"FILE" ~doc)
 

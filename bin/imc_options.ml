@@ -81,8 +81,8 @@ let types =
     Arg.conv ~docv:"VEHICLE=TYPE" (parse, fun ppf (vehicle, kind) -> Format.fprintf ppf "%s=%s" vehicle kind)
   in
   let doc =
-    "Let a vehicle be of another type than it announces, as in $(b,--imc-type seacon-1=ROV): IMC has no type for ROVs. May \
-     be repeated. Implies $(b,--imc)."
+    "Let a vehicle be of another type than it announces, as in $(b,--imc-type seacon-1=ROV): IMC has no type for ROVs. \
+     May be repeated. Implies $(b,--imc)."
   in
   Arg.(value & opt_all typed [] & info [ "imc-type" ] ~docs:s_network ~docv:"VEHICLE=TYPE" ~doc)
 

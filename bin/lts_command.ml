@@ -1,6 +1,7 @@
 open Cmdliner
 open Dolphin_lts
 module Reference = Dolphin_explore.Reference
+module World_of = Dolphin_explore.World_of
 
 type format = Aut | Dot | Json
 
@@ -17,6 +18,11 @@ let graph_of_program path fleet ~answers ~faults ~limit =
       match Reference.explore ~limit environment program.program (World_of.world fleet.scenario) with
       | None ->
         Report.complain (Printf.sprintf "%s has more than %d states: see --max-states" path limit);
+        Error Exit_status.Inconclusive
+      | exception Dolphin_semantics.Reading.Unsettled fault ->
+        let at = Dolphin_semantics.Fault.location program.program fault in
+        let at = Option.value at ~default:Dolphin_syntax.Location.none in
+        Report.diagnostics ~source:program.source [ Dolphin_syntax.Diagnostic.error at fault.message ];
         Error Exit_status.Inconclusive
       | Some space ->
         let builder = Graph.Builder.create () in

@@ -154,10 +154,10 @@ let sync file =
   | exception Unix.Unix_error (EINVAL, _, _) -> ()  (* a pipe *)
   | exception Unix.Unix_error (error, _, _) -> raise (Broken (trouble file.path (Unix.error_message error)))
 
-let note r ~time ~vehicle note =
+let note r ~time ~urgent ~vehicle note =
   let line ~time = Entry.Note { time; vehicle; note } in
   Option.iter (fun recorder -> Recorder.write recorder ~time line) r.recorder;
-  Option.iter sync r.file
+  if urgent then Option.iter sync r.file
 
 let observer r : Dolphin_runtime.Observer.t =
   match r.recorder with

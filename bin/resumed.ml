@@ -19,7 +19,7 @@ let remember log board (entry : Entry.t) replay =
   | Transition { time; _ }, Some (_, t) ->
     log := fst (Log.transition !log ~time t);
     board := Board.transition !board ~time t
-  | (Header _ | Event _ | Transition _ | Note _ | Resumed _ | End _), _ -> ()
+  | (Header _ | Partial _ | Label _ | Event _ | Transition _ | Note _ | Resumed _ | End _), _ -> ()
 
 let read_channel ~changed (program : Program_file.t) path channel =
   let log = ref Log.start and board = ref Board.start and teller = Story.start () in

@@ -213,7 +213,7 @@ let run s =
   match record with
   | Error why -> in_trouble why
   | Ok record -> (
-      match open_platform s ~keep:(fun ~time vehicle memo -> Record.note record ~time ~vehicle memo) with
+      match open_platform s ~keep:(fun ~time ~urgent vehicle memo -> Record.note record ~time ~urgent ~vehicle memo) with
       | Error why -> in_trouble why
       | Ok platform -> (
           match start_host s with

@@ -1,6 +1,7 @@
 open Cmdliner
 module Model = Dolphin_tla.Model
 module Scenario = Dolphin_scenario.Scenario
+module World_of = Dolphin_explore.World_of
 
 let ( let* ) = Result.bind
 
@@ -9,7 +10,7 @@ let model (program : Program_file.t) (fleet : Fleet_file.t) ~answers ~faults =
   let plans = List.map (fun (plan : Scenario.plan) -> plan.name) scenario.plans in
   let prompts = List.map (fun (answer : Scenario.answer) -> answer.prompt) scenario.answers in
   let environment = World_of.environment ~answers ~faults scenario in
-  Model.of_program ~plans ~prompts ~environment (World_of.world scenario) program.program
+  Model.of_program ~plans ~prompts ~environment (World_of.still scenario) program.program
 
 let load path fleet =
   match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet) with
@@ -22,7 +23,7 @@ let load path fleet =
 type deed =
   | Write of string  (** into this directory *)
   | Check of Tlc_check.settings
-  | Compare of { directory : string option; limit : int }
+  | Compare of { directory : string option; limit : int; coverage : bool }
 
 let write directory files =
   let files = List.map (fun (f : Model.file) -> (f.name, f.text)) files in
@@ -33,37 +34,48 @@ let deed directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverag
   let only_with_run =
     List.filter_map
       (fun (given, option) -> if given then Some option else None)
-      [ (strict, "--strict"); (coverage, "--coverage"); (distributed <> None, "--distributed"); (workers <> None, "--workers") ]
+      [ (strict, "--strict"); (distributed <> None, "--distributed"); (workers <> None, "--workers") ]
   in
   match check, compare, only_with_run, directory, distributed, workers with
+  | _, false, _, _, _, _ when coverage -> wrong "--coverage is about --compare, which is not there"
   | true, true, _, _, _, _ -> wrong "--run and --compare are two things: ask for one at a time"
   | false, _, option :: _, _, _, _ -> wrong (option ^ " is about --run, which is not there")
   | true, false, _, _, Some _, Some _ ->
     wrong "--workers is not for --distributed: each worker says itself how many threads it has"
   | true, false, _, _, Some (host, port), None ->
-    Ok (Check { mode = Server { host; port }; directory; strict; coverage })
+    Ok (Check { mode = Server { host; port }; directory; strict })
   | true, false, _, _, None, _ ->
     let workers = Option.value workers ~default:Dolphin_tlc.Invocation.Automatic in
-    Ok (Check { mode = Local workers; directory; strict; coverage })
-  | false, true, [], _, _, _ -> Ok (Compare { directory; limit })
+    Ok (Check { mode = Local workers; directory; strict })
+  | false, true, [], _, _, _ -> Ok (Compare { directory; limit; coverage })
   | false, false, [], Some directory, _, _ -> Ok (Write directory)
   | false, false, [], None, _, _ ->
     wrong "what is to be done with the model? -o DIR writes it, --run has TLC check it, --compare compares state graphs"
 
 let perform jar deed (program : Program_file.t) (fleet : Fleet_file.t) ~answers ~faults files =
-  let environment = World_of.environment ~answers ~faults fleet.scenario and world = World_of.world fleet.scenario in
+  let environment = World_of.environment ~answers ~faults fleet.scenario and world = World_of.still fleet.scenario in
   match deed with
   | Write directory -> Ok (write directory files)
   | Check settings ->
     let* installation = Tlc_session.installation jar in
     Ok (Tlc_check.run installation settings files environment program world)
-  | Compare { directory; limit } ->
+  | Compare { directory; limit; coverage } ->
     let* installation = Tlc_session.installation jar in
-    Ok (Tlc_compare.run installation ~directory ~limit files environment program world)
+    Ok (Tlc_compare.run installation ~directory ~limit ~coverage files environment program world)
+
+(* The specification knows of no other faults. *)
+let is_modelled (faults : Dolphin_explore.Faults.t) = faults.loss = Never && faults.join = Never
 
 let run path fleet answers faults directory check compare strict limit jar workers distributed coverage =
   let result =
     let* deed = deed directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverage in
+    let* () =
+      if is_modelled faults then Ok ()
+      else begin
+        Report.complain "of faults, the model in TLA+ has only fail, as in --faults fail=1";
+        Error Exit_status.Bad_input
+      end
+    in
     let* program, fleet = load path fleet in
     match model program fleet ~answers ~faults with
     | Ok files -> perform jar deed program fleet ~answers ~faults files
@@ -99,7 +111,8 @@ let man =
     `P "$(tname) writes a model of a program in its world in TLA+, for the model checker TLC: $(b,MC.tla), which is the \
         program as a table of expressions and the world as constants, and the modules of the specification of the language \
         that it extends, of which $(b,Dolphin.tla) is the semantics, rule by rule. The world is that of $(mname) $(b,explore), \
-        and TLC finds the same states and transitions.";
+        but for sensors, which always show what they show at the start; where no program looks at them, TLC finds the same \
+        states and transitions.";
     `P "$(b,MC.cfg) checks the properties, $(b,Graph.cfg) prints the state graph. In the directory, with TLC's jar:";
     `Pre "  java -Xss64m -cp tla2tools.jar tlc2.TLC -config MC.cfg MC.tla\n\
          \  java -Xss64m -cp tla2tools.jar tlc2.TLC -workers 1 -config Graph.cfg MC.tla";

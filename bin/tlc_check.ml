@@ -5,13 +5,13 @@ module Environment = Dolphin_explore.Environment
 
 module Run = Dolphin_tla.Run
 
-type settings = { mode : Invocation.mode; directory : string option; strict : bool; coverage : bool }
+type settings = { mode : Invocation.mode; directory : string option; strict : bool }
 
 (* {1 Names} *)
 
 let properties : (string * Property.t) list =
   [ ("NoDeadlock", No_deadlock); ("Termination", Termination); ("NoError", No_error); ("Assertions", Assertions);
-    ("Vehicles", Vehicles); ("NoHalt", No_halt); ("NoLeftover", No_leftover) ]
+    ("EnoughVehicles", Vehicles); ("NoHalt", No_halt); ("NoLeftover", No_leftover) ]
 
 let phrase name = match List.assoc_opt name properties with Some p -> Property.name p | None -> name
 
@@ -63,16 +63,18 @@ let length (c : Outcome.counter_example) =
     Printf.sprintf "after %s, %s that can repeat for ever" (Report.count k "step")
       (Report.count (List.length c.steps - k + 1) "step")
 
-(* TLC looks no further than the first violation. What is asked of the specification rather than of the program is only
-   told where it does not hold. *)
-let print_verdicts names (verdict : Outcome.verdict) =
-  let broken = match verdict with Violated c -> Some (violated c.violation, length c) | _ -> None in
+(* TLC looks no further than the first violation, but for temporal properties: these it looks at when it has all states,
+   and now and then before. What is asked of the specification rather than of the program is only told where it does not hold. *)
+let print_verdicts names (o : Outcome.t) =
+  let broken = match o.verdict with Violated c -> Some (violated c.violation, length c) | _ -> None in
+  let all_states = match o.verdict with Violated { violation = Temporal; _ } -> o.queue = 0 | _ -> false in
   let print name =
-    match broken, verdict with
+    match broken, o.verdict with
     | Some (broken, how), _ when broken = name -> Printf.printf "%s: violated %s\n" (phrase name) how
     | _, _ when not (List.mem_assoc name properties) -> ()
-    | Some _, _ -> Printf.printf "%s: not decided: TLC stops at a violation\n" (phrase name)
     | None, Holds -> Printf.printf "%s: holds\n" (phrase name)
+    | Some _, _ when all_states -> Printf.printf "%s: holds\n" (phrase name)
+    | Some _, _ -> Printf.printf "%s: not decided: TLC stops at a violation\n" (phrase name)
     | None, _ -> Printf.printf "%s: not decided\n" (phrase name)
   in
   List.iter print names
@@ -82,24 +84,25 @@ let print_counts (o : Outcome.t) =
   let left = if o.queue > 0 then Printf.sprintf ", %d not looked at" o.queue else "" in
   Printf.printf "%d distinct states, %d generated%s%s\n" o.distinct o.generated left depth
 
-let print_coverage (o : Outcome.t) =
-  print_newline ();
-  let widest = List.fold_left (fun n (name, _) -> max n (String.length name)) 0 o.coverage in
-  List.iter (fun (name, n) -> Printf.printf "%-*s  %d\n" widest name n) o.coverage
-
-let print names options program world ~coverage (o : Outcome.t) =
+let print names options program world (o : Outcome.t) =
   Option.iter print_endline o.version;
-  print_verdicts names o.verdict;
+  print_verdicts names o;
   print_counts o;
-  (match o.verdict with
-   | Violated c -> print_counter_example options program world c
-   | Holds | Unfinished | Failed _ -> ());
-  if coverage then print_coverage o
+  match o.verdict with
+  | Violated c -> print_counter_example options program world c
+  | Holds | Unfinished | Failed _ -> ()
 
 let status : Outcome.verdict -> Exit_status.t = function
   | Holds -> Done
   | Violated _ -> Violated
   | Unfinished | Failed _ -> Inconclusive
+
+(* Workers may be started before or after the server; without any, nothing is computed. *)
+let tell_workers installation : Invocation.mode -> unit = function
+  | Local _ -> ()
+  | Server { host; port } ->
+    let command = String.concat " " (Invocation.worker installation ~host ~port) in
+    prerr_endline ("workers join by:\n  " ^ command)
 
 let run installation s model options program world =
   let files = List.map (fun (f : Dolphin_tla.Model.file) -> (f.name, f.text)) (Run.files ~strict:s.strict model) in
@@ -110,9 +113,11 @@ let run installation s model options program world =
     | Local _ -> (Run.check, all)
     | Server _ -> (Run.check_states, List.filter (fun (p : Run.property) -> not p.of_runs) all)
   in
+  tell_workers installation s.mode;
   Tlc_session.in_directory s.directory files @@ fun directory ->
-  match Tlc_session.run installation s.mode ~directory ~main:Run.main ~configuration ~coverage:s.coverage ignore with
+  match Tlc_session.run installation s.mode ~directory ~main:Run.main ~configuration ignore with
   | Error status -> status
-  | Ok (Ended outcome | Interrupted outcome) ->
-    print (List.map (fun (p : Run.property) -> p.name) checked) options program world ~coverage:s.coverage outcome;
+  | Ok (Ended outcome | Interrupted outcome as ended) ->
+    (match ended with Interrupted _ -> Report.complain "interrupted before TLC was done" | Ended _ -> ());
+    print (List.map (fun (p : Run.property) -> p.name) checked) options program world outcome;
     status outcome.verdict

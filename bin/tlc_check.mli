@@ -6,7 +6,6 @@ type settings = {
   mode : Invocation.mode;
   directory : string option;  (** where the model is kept; otherwise it is gone afterwards *)
   strict : bool;  (** also that nothing halts and that no tuples are left *)
-  coverage : bool;  (** print how often each action was taken *)
 }
 
 val run :

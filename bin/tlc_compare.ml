@@ -17,7 +17,7 @@ let graph_of_tlc installation ~directory =
   in
   let mode = Invocation.Local (Workers 1) in
   match
-    Tlc_session.run installation mode ~directory ~main:Run.main ~configuration:Run.graph ~coverage:false take
+    Tlc_session.run installation mode ~directory ~main:Run.main ~configuration:Run.graph take
   with
   | Error status -> Error status
   | Ok (Interrupted _) -> Report.complain "interrupted before TLC was done"; Error Exit_status.Inconclusive
@@ -47,7 +47,20 @@ let judge space theirs =
       Isomorphism.pp_difference difference;
     (match difference.reason with Undecided -> Inconclusive | _ -> Violated)
 
-let run installation ~directory ~limit model options (program : Program_file.t) world =
+(* Rules in the order of the semantics. *)
+let print_coverage graph =
+  let used = Hashtbl.create 60 in
+  let note rule = Hashtbl.replace used rule (1 + Option.value (Hashtbl.find_opt used rule) ~default:0) in
+  Graph.iter graph (fun _ l _ -> List.iter note (Printed_graph.rules (Graph.label graph l)));
+  let print rule =
+    let name = Dolphin_semantics.Rule.name rule in
+    match Hashtbl.find_opt used name with
+    | Some n -> Printf.printf "%-16s %d\n" name n
+    | None -> ()
+  in
+  List.iter print Dolphin_semantics.Rule.all
+
+let run installation ~directory ~limit ~coverage model options (program : Program_file.t) world =
   match Reference.explore ~limit options program.program world with
   | None ->
     Report.complain (Printf.sprintf "%s has more than %d states: see --max-states" program.path limit);
@@ -57,4 +70,7 @@ let run installation ~directory ~limit model options (program : Program_file.t) 
       Tlc_session.in_directory directory files @@ fun directory ->
       match graph_of_tlc installation ~directory with
       | Error status -> status
-      | Ok theirs -> judge space theirs)
+      | Ok theirs ->
+        let status = judge space theirs in
+        if coverage then print_coverage theirs;
+        status)

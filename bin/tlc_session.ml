@@ -101,7 +101,7 @@ let judge (ending : Process.ending) ~interrupted (outcome : Outcome.t) =
     fail Exit_status.Platform_trouble (Printf.sprintf "TLC ended with status %d before it was done" status)
   | Unfinished, Killed _ -> fail Exit_status.Platform_trouble "TLC was killed before it was done"
 
-let run installation mode ~directory ~main ~configuration ~coverage printed =
+let run installation mode ~directory ~main ~configuration printed =
   let interrupted = ref false in
   let ask_to_stop = Sys.Signal_handle (fun _ -> interrupted := true) in
   let former = List.map (fun signal -> (signal, Sys.signal signal ask_to_stop)) [ Sys.sigint; Sys.sigterm; Sys.sighup ] in
@@ -120,7 +120,7 @@ let run installation mode ~directory ~main ~configuration ~coverage printed =
   in
   let ending =
     Process.run ~interrupted:(fun () -> !interrupted) line
-      (Invocation.command installation mode ~directory ~main ~configuration ~coverage)
+      (Invocation.command installation mode ~directory ~main ~configuration)
   in
   List.iter take (Message.finish !reader);
   List.iter (fun (signal, behaviour) -> Sys.set_signal signal behaviour) former;

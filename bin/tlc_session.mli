@@ -17,7 +17,7 @@ val in_directory : string option -> model -> (string -> Exit_status.t) -> Exit_s
 
 type ended = Ended of Outcome.t | Interrupted of Outcome.t  (** by a signal, before its end *)
 
-val run : Installation.t -> Invocation.mode -> directory:string -> main:string -> configuration:string -> coverage:bool ->
+val run : Installation.t -> Invocation.mode -> directory:string -> main:string -> configuration:string ->
   (string -> unit) -> (ended, Exit_status.t) result
-(** [run i m ~directory ~main ~configuration ~coverage printed] runs TLC, showing its progress where standard error is a
+(** [run i m ~directory ~main ~configuration printed] runs TLC, showing its progress where standard error is a
     terminal; signals that ask to stop stop it. [printed] is called for each line that is not TLC's. If it failed, it has been told why. *)

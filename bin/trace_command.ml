@@ -39,29 +39,47 @@ let each_line path f =
 
 (* {1 Check} *)
 
-let check program_path path =
-  match Program_file.load program_path with
-  | Error trouble ->
+(* Of a partial trace: the vehicles that are known from the beginning. *)
+let world_of = function
+  | None -> Ok Dolphin_semantics.World.empty
+  | Some _ as named -> Result.map (fun (f : Fleet_file.t) -> Dolphin_explore.World_of.world f.scenario) (Fleet_file.load named)
+
+let check program_path path fleet most =
+  match Program_file.load program_path, world_of fleet with
+  | Error trouble, _ ->
     Program_file.tell trouble;
     Exit_status.Bad_input
-  | Ok p ->
+  | Ok _, Error trouble ->
+    Fleet_file.tell trouble;
+    Exit_status.Bad_input
+  | Ok p, Ok world ->
     with_journal path (fun reader ->
         let hash = (Header.source ~path:program_path p.source).hash in
-        let header, verdict = Verdict.check p.program ~hash reader in
+        let header, verdict = Verdict.check ~world ~most p.program ~hash reader in
         let is_other (h : Header.t) = h.program.hash <> hash in
         if Option.fold ~none:false ~some:is_other header then
           Report.complain
             (Printf.sprintf "%s is not the text that this run was of, or has changed since: places are not compared"
                program_path);
         match verdict with
-        | Run _ | Prefix _ -> Format.printf "@[<v 2>%s: %a@]@." path Verdict.pp verdict; Exit_status.Done
-        | No_run _ -> Format.printf "@[<v 2>%s: %a@]@." path Verdict.pp verdict; Exit_status.Failed
+        | Run _ | Prefix _ | Possible _ -> Format.printf "@[<v 2>%s: %a@]@." path Verdict.pp verdict; Exit_status.Done
+        | No_run _ | Impossible _ -> Format.printf "@[<v 2>%s: %a@]@." path Verdict.pp verdict; Exit_status.Failed
+        | Unknown _ -> Format.printf "@[<v 2>%s: %a@]@." path Verdict.pp verdict; Exit_status.Inconclusive
         | Unreadable { number; why } -> bad (Printf.sprintf "%s:%d: %s" path number why))
 
 let check_exits =
   [ Cmd.Exit.info 0 ~doc:"the journal is one of a run of the program, or of the beginning of one.";
-    Cmd.Exit.info 1 ~doc:"it is not." ]
+    Cmd.Exit.info 1 ~doc:"it is not.";
+    Cmd.Exit.info 3 ~doc:"a partial trace leaves more possibilities open than $(b,--max-states) allows to go through." ]
   @ Options.exits [ Bad_input; Bug ]
+
+let known =
+  let doc = "Of a partial trace: know the vehicles of the file $(docv) from the beginning, where it places them." in
+  Arg.(value & opt (some string) None & info [ "fleet" ] ~docv:"FLEET" ~doc)
+
+let most =
+  let doc = "Of a partial trace: look at $(docv) configurations at most between two lines." in
+  Arg.(value & opt int Verdict.most & info [ "max-states" ] ~docv:"N" ~doc)
 
 let check_command =
   let man =
@@ -70,11 +88,14 @@ let check_command =
           semantics has at that point, on the event that the journal tells of, with just these changes and effects. A \
           journal that breaks off, even in the middle of a line, is one of the beginning of a run.";
       `P "Of a journal that is none of a run, the first line that does not fit is told, and what could have happened \
-          there instead." ]
+          there instead.";
+      `P "A trace whose first line says which labels it has, only starts and ends of tasks for example, is one of a run \
+          if there are steps between its lines that lead from each to the next. $(i,docs/trace.md) describes it. It may \
+          say itself which vehicles there are, or $(b,--fleet) does." ]
     @ Options.see_also
   in
   let info = Cmd.info "check" ~doc:"tell whether a journal is one of a run of a program" ~man ~exits:check_exits in
-  Cmd.v info Term.(const check $ Options.program $ journal 1)
+  Cmd.v info Term.(const check $ Options.program $ journal 1 $ known $ most)
 
 (* {1 Show} *)
 
@@ -93,7 +114,7 @@ let show transitions path =
           entries := entry :: !entries
         end
       | Note _ -> ()
-      | Header _ | Event _ | Transition _ | Resumed _ | End _ -> entries := entry :: !entries
+      | Header _ | Partial _ | Label _ | Event _ | Transition _ | Resumed _ | End _ -> entries := entry :: !entries
     in
     let status = each_line path keep in
     if !entries <> [] then Table.print Format.std_formatter (List.rev !entries);

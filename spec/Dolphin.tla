@@ -50,10 +50,11 @@ Waiting(M, request) == [ at |-> "wait", M |-> M, request |-> request ]
 Executing(M, r) == [ at |-> "exec", M |-> M, r |-> r ]
 Ended(ending) == [ at |-> "end", ending |-> ending ]
 
-Completed == [ how |-> "completed", message |-> "", site |-> 0 ]
-Halted(m) == [ how |-> "halted", message |-> m, site |-> 0 ]
-Failed(fault) == [ how |-> "failed", message |-> fault.message, site |-> fault.at ]
-Interrupted == [ how |-> "interrupted", message |-> "", site |-> 0 ]
+Completed == [ how |-> "completed", why |-> "", message |-> "", site |-> 0 ]
+Halted(m) == [ how |-> "halted", why |-> "", message |-> m, site |-> 0 ]
+FailedFor(why, fault) == [ how |-> "failed", why |-> why, message |-> fault.message, site |-> fault.at ]
+Failed(fault) == FailedFor(IF fault.assertion THEN "assertion" ELSE "error", fault)
+Interrupted == [ how |-> "interrupted", why |-> "", message |-> "", site |-> 0 ]
 
 -----------------------------------------------------------------------------
 (* {1 Residuals} *)
@@ -533,7 +534,7 @@ CALL(m, S, what) == WaitStep("CALL", "call(" \o what \o ")", m, S)
 
 EXECUTE(m, S, r) == Transition(<< "EXECUTE" >>, "execute", Program, Executing(Machine(m), Act(r)), S, << >>)
 ALLOC_ERR(S, fault) ==
-  ToEnd(<< "ALLOC-ERR" >>, "cannot-execute(" \o fault.message \o ")", Program, Failed(fault), S, << >>)
+  ToEnd(<< "ALLOC-ERR" >>, "cannot-execute(" \o fault.message \o ")", Program, FailedFor("vehicles", fault), S, << >>)
 
 ExecuteStep(m, S, t) ==
   LET allocated == Only({ Alloc(t) }) IN IF IsOk(allocated) THEN EXECUTE(m, S, allocated[2]) ELSE ALLOC_ERR(S, allocated[2])
@@ -604,7 +605,8 @@ PICK_BIND(M, V, cause) ==
   Transition(<< "PICK-BIND" >>, "bind(" \o Join(V, ", ") \o ")", cause, Script(GoOn(M, Vehicles(V))),
              [ Shared EXCEPT !.B = @ \o V ], << >>)
 PICK_ERR(M, q) ==
-  ToEnd(<< "PICK-ERR" >>, "no-vehicles(" \o NoVehicles(q) \o ")", << "timer", 0 >>, Failed(Fault(NoVehicles(q), M.at)), Shared, << >>)
+  ToEnd(<< "PICK-ERR" >>, "no-vehicles(" \o NoVehicles(q) \o ")", << "timer", 0 >>, FailedFor("vehicles", Fault(NoVehicles(q), M.at)),
+        Shared, << >>)
 
 PickSteps(M, q) ==
   LET fit == Fit(q)
@@ -729,6 +731,16 @@ HasEnded == control.at = "end"
 NoDeadlock == HasEnded \/ Transitions # << >>
 
 Termination == <>HasEnded
+
+(* How a run may end. NoHalt and NoLeftover are asked for by name only: a program may mean to halt, or to leave pairs in N. *)
+EndsSo(how, why) == HasEnded /\ control.ending.how = how /\ control.ending.why = why
+NothingLeft == (\A k \in OrderedKeys : N.queue[k] = << >>) /\ DOMAIN N.bag = { }
+
+NoError == ~EndsSo("failed", "error")
+Assertions == ~EndsSo("failed", "assertion")
+EnoughVehicles == ~EndsSo("failed", "vehicles")
+NoHalt == ~EndsSo("halted", "")
+NoLeftover == EndsSo("completed", "") => NothingLeft
 
 TypeOK ==
   /\ control.at \in { "script", "wait", "exec", "end" }

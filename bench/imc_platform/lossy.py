@@ -3,9 +3,9 @@
 
 Usage: bench/imc_platform/lossy.py [--runs N] [--first SEED] [--at-once N] [--speed X] [--keep FOLDER] [DOLPHIN]
 
-The mission of the paper runs N times (100), on simulated vehicles in another process that lose 30% of all datagrams, double
-10% and reorder 20%, both ways. Of each run, with a seed of its own, the log of the vehicles is compared with that of the
-console: did the mission complete, was each plan started once, and where a vehicle began one anew, was that said?
+The mission of the paper runs N times (100), on simulated vehicles in another process that lose 30% of all datagrams,
+double 10% and reorder 20%, both ways. Of each run, with a seed of its own, the log of the vehicles is compared with that
+of the console: did the mission complete, was each plan started once, and where a vehicle began one anew, was that said?
 
 The status is 1 if a mission did not complete, or if a request was sent again to a vehicle that had taken it.
 """
@@ -35,8 +35,9 @@ def run(dolphin, folder, seed, speed):
     ports = f"{first}-{first + 4}"
     log = os.path.join(folder, f"vehicles-{seed}.jsonl")
     vehicles = subprocess.Popen(
-        [dolphin, "sim", FLEET, "--imc", "--speed", str(speed), "--announce", "1", "--contact", "1", "--seed", str(seed),
-         "--discovery-ports", ports, "--port", str(first + 10), "--log", log, *FAULTS], stdout=subprocess.PIPE, text=True)
+        [dolphin, "sim", FLEET, "--imc", "--speed", str(speed), "--announce", "1", "--contact", "1",
+         "--seed", str(seed), "--discovery-ports", ports, "--port", str(first + 10), "--log", log, *FAULTS],
+        stdout=subprocess.PIPE, text=True)
     try:
         vehicles.stdout.readline()
         console = subprocess.run(
@@ -55,7 +56,7 @@ def run(dolphin, folder, seed, speed):
 
 
 def compare(seed, said, deeds):
-    """What became of each plan, counted; and the words of doubt that nothing answers to."""
+    """What became of each plan, counted; and how often the console said that one began anew which did not."""
     taken = collections.defaultdict(list)
     for deed in deeds:
         if deed["did"] == "started":
@@ -109,9 +110,11 @@ def main():
                 total += compare(seed, said, deeds)
     print(f"{completed} of {arguments.runs} missions completed, in {time.time() - began:.0f} s")
     print(f"{total['plans']} of {PLANS * arguments.runs} plans started; once: {total['once']}; "
-          f"begun anew by a request that the network doubled: {total['anew']}, of which the console said {total['anew, said']}")
+          f"begun anew by a request that the network doubled: {total['anew']}, "
+          f"of which the console said {total['anew, said']}")
     print(f"requests sent again to a vehicle that had taken them: {total['sent again in vain']}")
-    print(f"plans of which the console said that they began anew, and they did not: {total['said of a plan that began once']}")
+    print("plans of which the console said that they began anew, and they did not: "
+          f"{total['said of a plan that began once']}")
     sys.exit(0 if completed == arguments.runs and total["sent again in vain"] == 0 else 1)
 
 

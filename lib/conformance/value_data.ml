@@ -31,6 +31,7 @@ let rec of_value budget (x : value) : json =
   | Closure c -> tagged "closure" [ of_closure budget c ]
   | Host name -> tagged "host" [ `String name ]
   | Settings settings -> tagged "settings" (List.map (of_setting budget) settings)
+  | Reading r -> tagged "reading" [ `String r.text ]
 
 (* Texts stand for themselves, so what JSON has no number for needs a tag. *)
 and of_number n = if Float.is_finite n then of_float n else tagged "number" [ of_float n ]

@@ -5,7 +5,7 @@ let program_column = "program"
 let widest = 40
 
 (* Who a transition is about, what happened, and where the program says so, as far as it can be told. *)
-type row = { actor : string; text : string; at : Location.t option }
+type row = { actor : string; text : string; at : Location.t option; assumed : World.assumption list }
 
 let site_of (label : Label.t) (t : Transition.t) before =
   let task v = Option.map (fun (p : Core.platform_task) -> p.task_site) (Configuration.Vehicle_map.find_opt v before) in
@@ -32,11 +32,12 @@ let row (program : Core.program) before (t : Transition.t) =
     | Bind vs -> "picks " ^ Wording.vehicles vs
     | label -> Format.asprintf "%a" Label.pp label
   in
-  { actor; text = Wording.harmless text; at = Option.bind (site_of t.label t before) at }
+  { actor; text = Wording.harmless text; at = Option.bind (site_of t.label t before) at; assumed = t.assumed }
 
 let rows program run =
   let add (before, rows) (t : Transition.t) =
-    let rows = match t.label with Silent -> rows | _ -> row program before t :: rows in
+    let is_shown = match t.label with Silent -> t.assumed <> [] | _ -> true in
+    let rows = if is_shown then row program before t :: rows else rows in
     (t.next.allocation, rows)
   in
   List.rev (snd (List.fold_left add (Configuration.Vehicle_map.empty, []) run))
@@ -76,6 +77,7 @@ let lines ?(first = 1) program run =
       | None -> ""
     in
     let n = string_of_int (first + i) in
-    print (String.make (number - String.length n) ' ' ^ n) (List.map cell actors) where
+    let assumed a = String.make (number + 3) ' ' ^ "if " ^ Wording.harmless (Format.asprintf "%a" World.pp_assumption a) in
+    print (String.make (number - String.length n) ' ' ^ n) (List.map cell actors) where :: List.map assumed row.assumed
   in
-  print "" actors "where" :: List.mapi body rows
+  print "" actors "where" :: List.concat (List.mapi body rows)

@@ -11,4 +11,5 @@ open Dolphin_semantics
 
 val lines : ?first:int -> Core.program -> Transition.t list -> string list
 (** [lines program run] is the table of [run]. Silent transitions have no row. Rows are numbered from [first], by
-    default 1; of long texts the beginning is shown. *)
+    default 1; of long texts the beginning is shown. What a transition takes for granted of an open world stands below
+    it. *)

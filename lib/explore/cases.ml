@@ -27,35 +27,47 @@ let note_handlers t step (local : Transition.local) =
 let program t = Parts.program t.parts
 let world t = Parts.world t.parts
 
-let internal t step source shared =
-  let local = Transition.local_internal (program t) (world t) (configuration shared) source in
-  (match source.Residual.offer with
-   | Perform _ | Check _ | Measure _ -> Option.iter (note_handlers t step) local
-   | Start _ | End_of _ | Expiry_of _ -> ());
-  (local, shared.Shared.outside)
+let internal t world source shared = Transition.local_internal (program t) world (configuration shared) source
 
-let on_event t step (source : Residual.step) event shared =
-  let take outside =
-    let local = Transition.local_event (program t) (world t) (configuration shared) source event in
-    Option.iter (note_handlers t step) local;
-    (local, outside)
-  in
+let on_event t world (source : Residual.step) event shared =
+  Transition.local_event (program t) world (configuration shared) source event
+
+(* What the outside remembers after the event, if it can happen. *)
+let outside_after t (source : Residual.step) event (shared : Shared.t) =
   match source.offer with
-  | End_of (task, v) -> (
-      match List.assoc_opt event (Environment.task_ends (Parts.options t.parts) shared.Shared.outside v task) with
-      | Some outside -> take outside
-      | None -> (None, shared.outside))
-  | Start _ | Perform _ | Check _ | Measure _ | Expiry_of _ -> take shared.outside
+  | End_of (task, v) ->
+    List.assoc_opt event (Environment.task_ends (Parts.options t.parts) shared.outside v task)
+  | Start _ | Perform _ | Check _ | Measure _ | Expiry_of _ -> Some shared.outside
 
-(* What [step] does, and at which level. *)
+type taken = { local : Transition.local; level : int; certain : bool }
+
+(* What [step] does, and at which level: several things, if it depends on sensors that may show this or that. *)
 let taken t step s =
-  let shared = Shareds.value t.shareds s and source, level = Climb.lifted step in
-  let local, outside =
-    match step.event with
-    | None -> internal t step source shared
-    | Some event -> on_event t step source event shared
+  let shared = Shareds.value t.shareds s in
+  let take world =
+    let source, level = Climb.lifted step in
+    let local =
+      match step.event with
+      | None -> internal t world source shared
+      | Some event -> on_event t world source event shared
+    in
+    Option.map (fun local -> (local, !level)) local
   in
-  (local, outside, !level)
+  let equal (local, level) (local', level') = Int.equal level level' && Transition.equal_local local local' in
+  let outside =
+    match step.event with
+    | None -> Some shared.outside
+    | Some event -> outside_after t step.source event shared
+  in
+  match outside with
+  | None -> ([], shared.outside)
+  | Some outside ->
+    let one (assumed, (local, level)) = { local; level; certain = assumed = [] } in
+    let found = List.map one (World.outcomes ~equal (world t) take) in
+    (match step.source.offer with
+     | Perform _ | Check _ | Measure _ | End_of _ -> List.iter (fun { local; _ } -> note_handlers t step local) found
+     | Start _ | Expiry_of _ -> ());
+    (found, outside)
 
 let shared_after t (local : Transition.local) outside =
   Shareds.number t.shareds (Shared.of_configuration local.after outside)
@@ -70,24 +82,29 @@ let guarded t step guard s =
   if guard.results.(s) = unknown then
     guard.results.(s) <-
       (match taken t step s with
-       | None, _, _ -> impossible
-       | Some ({ named = Check _ | Act _ | Cut _; _ } as local), outside, _ -> shared_after t local outside
-       | Some _, _, _ -> special);
+       | [], _ -> impossible
+       | [ { local = { named = Check _ | Act _ | Cut _; _ } as local; certain = true; _ } ], outside ->
+         shared_after t local outside
+       | _ :: _, _ -> special);
   guard.results.(s)
 
-let no_case = { possible = false; shared = -1; level = 0; result = Gone; whole = -1 }
+let no_case =
+  { possible = false; certain = true; shared = -1; level = 0; result = Gone; whole = -1; others = [] }
 
 let find t step s =
-  match taken t step s with
-  | None, _, _ -> { no_case with possible = false }
-  | Some local, outside, level ->
+  let found, outside = taken t step s in
+  let case others { local; level; certain } =
     let result =
       match local.outcome with
       | Goes_on r -> Parts.landed t.parts step level r
       | Over -> Gone
       | Ends ending -> Ends ending
     in
-    { possible = true; shared = shared_after t local outside; level; result; whole = -1 }
+    { possible = true; certain; shared = shared_after t local outside; level; result; whole = -1; others }
+  in
+  match found with
+  | [] -> { no_case with possible = false }
+  | first :: rest -> case (List.map (case []) rest) first
 
 let case t step s =
   if s >= Array.length step.cases then step.cases <- grown step.cases (s + 1) no_case;

@@ -20,9 +20,8 @@ let breaking = { Footprint.empty with breaks = true }
 (* {1 Futures} *)
 
 let ending c (p : platform_task) v =
-  match c.options.endings v p.name, c.options.failures with
-  | Succeeds, _ | May_fail, Some 0 -> Footprint.empty
-  | Fails, _ | May_fail, (None | Some _) -> breaking
+  let remembered = Environment.endings_remember c.options in
+  { Footprint.empty with remembered; breaks = Environment.may_fail c.options v p.name }
 
 (* Of a task whose errors this handler gets. *)
 let handled c (f : Footprint.t) handler = if f.breaks then union f (Footprint.of_code c.code handler) else f
@@ -59,7 +58,8 @@ let footprint c step =
   let f =
     match step.source.offer, step.event with
     | End_of (p, v), Some (Vehicle_failed _) -> ending c p v
-    | (Start _ | End_of _ | Expiry_of _), _ -> Footprint.empty
+    | End_of (p, v), _ -> { (ending c p v) with breaks = false }
+    | (Start _ | Expiry_of _), _ -> Footprint.empty
     | Perform a, _ -> Footprint.of_code c.code a
     | Check g, _ -> Footprint.of_guard c.code g
     | Measure d, _ -> union breaking (Footprint.of_code c.code d)
@@ -71,7 +71,7 @@ let footprint c step =
 (* A body whose steps are always possible, touch nothing, and can end it. *)
 let rec is_settled c (r : Residual.t) =
   match r with
-  | Ready (p, v) | Running (p, v) -> c.options.endings v p.name <> Fails
+  | Ready (p, v) | Running (p, v) -> Environment.may_succeed c.options v p.name
   | Action a ->
     let f = Footprint.of_code c.code a in
     Footprint.is_free f && (not f.breaks) && not f.halts

@@ -108,7 +108,7 @@ let answer_to (c : Configuration.t) = function
 
 let fuel = 100_000
 
-let eval program world t (c : Configuration.t) =
+let eval_in program world t (c : Configuration.t) =
   if List.exists (fun i -> Store.find i c.store = None) t.names then Not_yet
   else
     let set store (i, question) = Store.set i (Core.Boolean (answer_to c question)) store in
@@ -119,11 +119,17 @@ let eval program world t (c : Configuration.t) =
     let stop, _, after = Machine.run ~fuel context (Machine.call t.closure []) in
     match stop with
     | Finished x when after.deeds = [] && Store.compare after.store store = 0 ->
-      if Value.truth x then Holds else Fails
+      if Value.truth (Reading.settled Fault.unknown_site x) then Holds else Fails
     | Finished _ -> Broken "a condition may only look, and not do anything"
     | Faulted fault -> Broken fault.message
     | Halted _ -> Broken "a condition may not halt the program"
     | Exhausted -> Broken "it does not come to an end"
     | Did | Waits _ -> Broken "a condition cannot wait"
+
+let eval program world t c =
+  match World.cases world (fun world -> eval_in program world t c) with
+  | (_, answer) :: others when List.for_all (fun (_, answer') -> answer' = answer) others -> answer
+  | _ -> Broken "it depends on what sensors show, which may be this or that in one state"
+  | exception Reading.Unsettled fault -> Broken fault.message
 
 let only_shared t = List.for_all (function _, Bound _ -> true | _, Running _ -> false) t.questions

@@ -1,14 +1,20 @@
 open Dolphin_semantics
 
 type endings = Succeeds | May_fail | Fails
+type limit = Never | At_most of int | Any_number
 
 type options = {
   endings : Core.vehicle -> string -> endings;
   failures : int option;
+  losses : limit;
+  latecomers : limit;
+  may_be_late : Core.vehicle -> bool;
   answers : string -> string list list;
 }
 
-let default = { endings = (fun _ _ -> Succeeds); failures = None; answers = (fun _ -> []) }
+let default =
+  { endings = (fun _ _ -> Succeeds); failures = None; losses = Never; latecomers = Never;
+    may_be_late = (fun _ -> true); answers = (fun _ -> []) }
 
 let failing ?failures options =
   let endings v name =
@@ -16,11 +22,30 @@ let failing ?failures options =
   in
   { options with endings; failures }
 
-(* [failed] is counted only where there is a bound, [asked] only as far as answers depend on it: what makes no
-   difference must not tell states apart. *)
-type t = { failed : int; asked : (string * int) list }
+let is_possible = function Never | At_most 0 -> false | At_most _ | Any_number -> true
 
-let initial = { failed = 0; asked = [] }
+let may_succeed options v name =
+  match options.endings v name with Succeeds | May_fail -> true | Fails -> false
+
+let may_fail options v name =
+  is_possible options.losses
+  || match options.endings v name, options.failures with
+  | Succeeds, _ | May_fail, Some 0 -> false
+  | Fails, _ | May_fail, (None | Some _) -> true
+
+(* {1 What the outside remembers} *)
+
+(* Counted is only what has a bound, [asked] only as far as answers depend on it: what makes no difference must not tell
+   states apart. Vehicles are in ascending order. *)
+type t = {
+  failed : int;
+  losses : int;
+  lost : Core.vehicle list;  (* and not heard of since *)
+  late : Core.vehicle list;  (* those that were late, or missing, at some time *)
+  asked : (string * int) list;
+}
+
+let initial = { failed = 0; losses = 0; lost = []; late = []; asked = [] }
 
 let compare a b =
   let both first second = if first <> 0 then first else second () in
@@ -29,20 +54,48 @@ let compare a b =
     let compare_asked (prompt, n) (prompt', n') =
       both (String.compare prompt prompt') (fun () -> Int.compare n n')
     in
-    both (Int.compare a.failed b.failed) (fun () -> List.compare compare_asked a.asked b.asked)
+    let compare_vehicles = List.compare String.compare in
+    both (Int.compare a.failed b.failed) (fun () ->
+        both (Int.compare a.losses b.losses) (fun () ->
+            both (compare_vehicles a.lost b.lost) (fun () ->
+                both (compare_vehicles a.late b.late) (fun () -> List.compare compare_asked a.asked b.asked))))
 
-let hash e = List.fold_left (fun h (_, n) -> (h * 31) + n) e.failed e.asked
+let hash e =
+  let mix h x = (h * 31) + Hashtbl.hash x in
+  List.fold_left mix
+    (List.fold_left mix (List.fold_left (fun h (_, n) -> (h * 31) + n) ((e.failed * 7) + e.losses) e.asked) e.lost)
+    e.late
+
+let lost e = e.lost
+let add v vs = List.sort_uniq String.compare (v :: vs)
+let less v vs = List.filter (fun v' -> not (String.equal v v')) vs
+
+(* {1 Ends of tasks} *)
 
 let failure = "failure"
+let loss = "connection lost"
+let endings_remember (options : options) = is_possible options.losses
 
-let task_ends options e v (p : Core.platform_task) : (Transition.event * t) list =
-  let succeeded = (Transition.Vehicle_done v, e) and failed e = (Transition.Vehicle_failed (v, failure), e) in
-  match options.endings v p.name, options.failures with
-  | Succeeds, _ -> [ succeeded ]
-  | Fails, _ -> [ failed e ]
-  | May_fail, None -> [ succeeded; failed e ]
-  | May_fail, Some most when e.failed < most -> [ succeeded; failed { e with failed = e.failed + 1 } ]
-  | May_fail, Some _ -> [ succeeded ]
+let task_ends (options : options) e v (p : Core.platform_task) : (Transition.event * t) list =
+  let is_lost = List.mem v e.lost in
+  let heard = if is_lost then { e with lost = less v e.lost } else e in
+  let succeeded = (Transition.Vehicle_done v, heard) and failed e = (Transition.Vehicle_failed (v, failure), e) in
+  let ends =
+    match options.endings v p.name, options.failures with
+    | Succeeds, _ -> [ succeeded ]
+    | Fails, _ -> [ failed heard ]
+    | May_fail, None -> [ succeeded; failed heard ]
+    | May_fail, Some most when e.failed < most -> [ succeeded; failed { heard with failed = e.failed + 1 } ]
+    | May_fail, Some _ -> [ succeeded ]
+  in
+  let lost e = [ (Transition.Vehicle_failed (v, loss), { e with lost = add v e.lost }) ] in
+  match options.losses with
+  | _ when is_lost -> ends @ lost e
+  | Any_number -> ends @ lost e
+  | At_most most when e.losses < most -> ends @ lost { e with losses = e.losses + 1 }
+  | At_most _ | Never -> ends
+
+(* {1 Answers} *)
 
 let times e prompt = Option.value (List.assoc_opt prompt e.asked) ~default:0
 
@@ -60,6 +113,16 @@ let answered options e prompt : (Transition.event * t) list =
   | [] -> [ (Transition.Nobody_answers "none is given", e) ]
   | texts -> List.map (fun text -> (Transition.Answered text, asked_again options e prompt)) texts
 
+(* After an answer that was refused the question is asked again, [e] being remembered, and [before] when it was asked
+   first. Who has nothing else to say has said nothing. *)
+let after_refusal options ~before e (c : Configuration.t) why : (Transition.event * t) list =
+  match c.control with
+  | Waiting (_, Ask prompt) when times before prompt < List.length (options.answers prompt) - 1 ->
+    answered options e prompt
+  | Waiting _ | Script _ | Executing _ | Ended _ -> [ (Nobody_answers why, e) ]
+
+(* {1 Transitions} *)
+
 let events options e (c : Configuration.t) (event : Transition.event) : (Transition.event * t) list =
   match event, c.control with
   | Vehicle_done v, _ -> (
@@ -71,13 +134,106 @@ let events options e (c : Configuration.t) (event : Transition.event) : (Transit
   | ( ( Answered _ | Vehicle_failed _ | Timer_expired _ | Nobody_answers _ | Host_failed _ | Interruption),
       (Script _ | Waiting _ | Executing _ | Ended _) ) -> [ (event, e) ]
 
-let choices options program world e c =
+let in_world options program world e c =
   let internal = List.of_seq (Seq.map (fun t -> (t, e)) (Transition.internal program world c)) in
-  let rec accept (event, e) =
-    match Transition.accept program world c event with
-    | Ok t -> Some (t, e)
-    | Error Not_awaited -> None
-    | Error (Bad_answer why) -> accept (Transition.Nobody_answers why, e)
+  let rec accept before (event, e) =
+    let of_result = function
+      | Ok t -> [ (t, e) ]
+      | Error Transition.Not_awaited -> []
+      | Error (Bad_answer why) -> List.concat_map (accept e) (after_refusal options ~before e c why)
+    in
+    List.concat_map of_result (Transition.accept_all program world c event)
   in
-  let on_event event = List.filter_map accept (events options e c event) in
+  let on_event event = List.concat_map (accept e) (events options e c event) in
   internal @ List.concat_map on_event (Transition.awaited c)
+
+(* {1 Who is there} *)
+
+(* The sets of at most [most] elements of [xs], smaller ones first. *)
+let subsets most xs =
+  let rec of_size n xs =
+    match xs with
+    | _ when n = 0 -> [ [] ]
+    | [] -> []
+    | x :: rest -> List.map (fun set -> x :: set) (of_size (n - 1) rest) @ of_size n rest
+  in
+  List.concat_map (fun n -> of_size n xs) (List.init (min most (List.length xs) + 1) Fun.id)
+
+(* The lists of at most [most] different elements of [xs]. *)
+let rec arrangements most xs =
+  if most = 0 then [ [] ]
+  else
+    let first x = List.map (fun rest -> x :: rest) (arrangements (most - 1) (List.filter (fun y -> y <> x) xs)) in
+    [] :: List.concat_map first xs
+
+(* The vehicles that [pick] may look for, and of which it is open whether they are there. *)
+let uncertain (options : options) world e (c : Configuration.t) (pick : Settings.pick) =
+  let may_miss v = List.mem v e.lost || (is_possible options.latecomers && options.may_be_late v) in
+  let is_wanted (s : World.vehicle_state) =
+    Settings.accepts { pick.filter with region = None } s && (not (List.mem s.id c.bound)) && may_miss s.id
+  in
+  List.map (fun (s : World.vehicle_state) -> s.id) (List.filter is_wanted (World.vehicles world))
+
+(* Who comes after all others, in this order, and who does not come. *)
+type attendance = { coming : Core.vehicle list; missing : Core.vehicle list }
+
+(* How many vehicles that are neither [lost] nor were late before this takes. *)
+let cost e ~lost a =
+  let is_new v = not (List.mem v lost || List.mem v e.late) in
+  List.length (List.filter is_new (a.coming @ a.missing))
+
+(* Whatever can come of a pick comes of one of these, cheaper ones first. If a number is wanted, nobody need be missing
+   for it to be met, and if it is not met all may be that can be. *)
+let attendances (options : options) e (pick : Settings.pick) ~lost ~late =
+  let most_new =
+    match options.latecomers with Never -> 0 | At_most n -> max 0 (n - List.length e.late) | Any_number -> max_int
+  in
+  let known = List.length (List.filter (fun v -> List.mem v e.late) late) in
+  let most = if most_new > List.length late then List.length late else most_new + known in
+  let ways =
+    match pick.count, options.latecomers with
+    | _, _ when lost = [] && late = [] -> [ { coming = []; missing = [] } ]
+    | Exactly n, limit ->
+      let on_the_way = List.map (fun coming -> { coming; missing = [] }) (arrangements (min n most) late) in
+      let missing = match limit with Any_number -> [ late ] | Never | At_most _ -> subsets most late in
+      on_the_way @ List.map (fun missing -> { coming = []; missing = lost @ missing }) missing
+    | All, _ ->
+      let with_missing missing =
+        let others = List.filter (fun v -> not (List.mem v missing)) late in
+        List.map (fun coming -> { coming; missing }) (arrangements most others)
+      in
+      List.concat_map
+        (fun silent -> List.concat_map (fun missing -> with_missing (silent @ missing)) (subsets most late))
+        (subsets (List.length lost) lost)
+  in
+  let by_cost a b = Int.compare (cost e ~lost a) (cost e ~lost b) in
+  List.stable_sort by_cost (List.filter (fun a -> cost e ~lost a <= most_new) ways)
+
+let picking (options : options) program world e (c : Configuration.t) (pick : Settings.pick) =
+  let lost, late = List.partition (fun v -> List.mem v e.lost) (uncertain options world e c pick) in
+  let remember a ((t : Transition.t), e) =
+    let lost = List.filter (fun v -> not (List.mem v t.next.bound)) e.lost in
+    let noted = List.filter (fun v -> List.mem v late) (a.coming @ a.missing) in
+    let noted = match options.latecomers with At_most _ -> noted | Never | Any_number -> [] in
+    (t, { e with lost; late = List.fold_left (fun vs v -> add v vs) e.late noted })
+  in
+  let given a =
+    let assumed = List.map (fun v -> World.Late v) a.coming @ List.map (fun v -> World.Missing v) a.missing in
+    let with_assumed ((t : Transition.t), e) = remember a ({ t with assumed = assumed @ t.assumed }, e) in
+    List.map with_assumed (in_world options program (World.suppose assumed world) e c)
+  in
+  let found = Hashtbl.create 16 in
+  let is_new ((t : Transition.t), _) =
+    let same (t' : Transition.t) = Label.equal t.label t'.label && Configuration.equal t.next t'.next in
+    let hash = Configuration.hash t.next in
+    let is_new = not (List.exists same (Hashtbl.find_all found hash)) in
+    if is_new then Hashtbl.add found hash t;
+    is_new
+  in
+  List.filter is_new (List.concat_map given (attendances options e pick ~lost ~late))
+
+let choices options program world e (c : Configuration.t) =
+  match c.control with
+  | Waiting (_, Pick pick) -> picking options program world e c pick
+  | Script _ | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) | Executing _ | Ended _ ->
+    in_world options program world e c

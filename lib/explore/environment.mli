@@ -1,36 +1,68 @@
 (** The outside of an explored program: what may happen to a configuration besides its own steps. Everything that
-    [Transition] offers may happen in any order, restricted as {!options} say. Sensors do not change: code that reads
-    positions and batteries always sees the world as it is given. *)
+    [Transition] offers may happen in any order, restricted as {!options} say. What sensors show is the world's, which may
+    leave it open. *)
 
 open Dolphin_semantics
 
 (** How a platform task may end. *)
 type endings = Succeeds | May_fail | Fails
 
+(** How often something may happen in one run. *)
+type limit = Never | At_most of int | Any_number
+
 type options = {
   endings : Core.vehicle -> string -> endings;  (** of a vehicle's run of the plan with this name *)
   failures : int option;  (** at most so many of those that need not be in one run; [None]: no bound *)
+  losses : limit;
+  (** how often the connection of a vehicle that runs a task may be lost for longer than its timeout. It is counted
+      once until the vehicle is heard of again. *)
+  latecomers : limit;  (** how many vehicles of one run may be late, or missing, when they are looked for *)
+  may_be_late : Core.vehicle -> bool;  (** which ones those may be *)
   answers : string -> string list list;
   (** by prompt, for the first time it is asked, the second and so on: what may be answered then. The last item is for
       all later times. Where there is none, nobody answers. *)
 }
 
 val default : options
-(** Tasks succeed, nobody answers. *)
+(** Tasks succeed, nothing is lost, nobody is late, nobody answers. *)
 
 val failing : ?failures:int -> options -> options
 (** [failing options] is [options] with every task that may succeed failing too, at most [failures] times. *)
 
+val may_succeed : options -> Core.vehicle -> string -> bool
+(** [may_succeed o v name] is whether [v] may end the plan of this name well. *)
+
+val may_fail : options -> Core.vehicle -> string -> bool
+(** Whether it may fail, or be lost. *)
+
+(** {1:memory What the outside remembers} *)
+
 type t
-(** What the outside remembers. *)
 
 val initial : t
 val compare : t -> t -> int
 val hash : t -> int
 
+val lost : t -> Core.vehicle list
+(** The vehicles whose connection was lost and of which nothing was heard since, in ascending order. *)
+
+(** {1:happens What may happen} *)
+
+val failure : string
+(** Why a task fails, where it fails: ["failure"]. *)
+
+val loss : string
+(** Why it does where the connection is lost: ["connection lost"]. *)
+
 val task_ends : options -> t -> Core.vehicle -> Core.platform_task -> (Transition.event * t) list
-(** [task_ends o e v p] is the events that may end [p] on [v]. *)
+(** [task_ends o e v p] is the events that may end [p] on [v]; each of them is among [task_ends o initial v p], perhaps
+    with another memory. *)
+
+val endings_remember : options -> bool
+(** Whether the memory after an end that [task_ends] gives may differ from that before it although the task succeeds. *)
 
 val choices : options -> Core.program -> World.t -> t -> Configuration.t -> (Transition.t * t) list
 (** [choices o p w e c] is every transition of [c]: its own, leftmost first, then those on events, in the order of
-    [Transition.awaited]. A call of the host fails: there is none to explore. *)
+    [Transition.awaited]. A call of the host fails: there is none to explore. What a transition takes for granted, of
+    sensors and of who is there, is among its [assumed].
+    @raise Reading.Unsettled if [w] is open and the outcomes of a step cannot be listed. *)

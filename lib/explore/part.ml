@@ -61,10 +61,12 @@ and guard = { mutable results : int array }  (* see {!Cases.guarded} *)
 (* A step as it is when so and so is shared. *)
 and case = {
   possible : bool;
+  certain : bool;  (* whatever sensors show, where they may show this or that *)
   shared : int;  (* after the step *)
   level : int;  (* of what [result] is said: of what the step belongs to (0), the nest around it (1), ... *)
   result : target;
   mutable whole : int;  (* for the use of {!Space}: the number of the configuration that it ends in, or -1 *)
+  others : case list;  (* what else it does, if sensors show something else *)
 }
 
 and step = {

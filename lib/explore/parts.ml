@@ -186,7 +186,7 @@ and compile t home kin index (source : Residual.step) =
   | End_of (task, v) ->
     let on_event (event, _) =
       match event with
-      | Transition.Vehicle_done _ -> certain (Some event) Free
+      | Transition.Vehicle_done _ when not (Environment.endings_remember t.options) -> certain (Some event) Free
       | event -> by_case (Some event)
     in
     List.map on_event (Environment.task_ends t.options Environment.initial v task)

@@ -46,7 +46,15 @@ let default =
   }
 
 type run = { steps : Transition.t list; cycle : Transition.t list; shortest : bool }
-type bound = States | Depth | Memory | No_memory | Time | Interruption | Broken_condition of string
+type bound =
+  | States
+  | Depth
+  | Memory
+  | No_memory
+  | Time
+  | Interruption
+  | Broken_condition of string
+  | Unsettled of string
 
 type verdict =
   | Holds
@@ -80,6 +88,11 @@ type t = {
 }
 
 exception Stop of bound
+
+let unsettled program (fault : Fault.t) =
+  match Fault.location program fault with
+  | Some at -> Unsettled (Format.asprintf "%a: %s" Dolphin_syntax.Location.pp at fault.message)
+  | None -> Unsettled fault.message
 
 (* {1 Bounds and progress} *)
 
@@ -153,11 +166,12 @@ let expand_all enough t =
   done
 
 (* What stopped it, if anything. Once there is no memory nothing can be added, not even what waits. *)
-let explore ?(enough = fun () -> false) t =
+let explore ?(enough = fun () -> false) program t =
   let settled stopped = match Space.flush t.space with () -> stopped | exception Out_of_memory -> Some No_memory in
   match expand_all enough t with
   | () -> settled None
   | exception Stop bound -> settled (Some bound)
+  | exception Reading.Unsettled fault -> settled (Some (unsettled program fault))
   | exception Out_of_memory -> Some No_memory
 
 (* {1 Formulas} *)
@@ -184,6 +198,7 @@ let formulas t world program =
   | graph -> List.map (check graph) t.options.formulas
   | exception Stop bound -> inconclusive bound
   | exception Temporal.Broken why -> inconclusive (Broken_condition why)
+  | exception Reading.Unsettled fault -> inconclusive (unsettled program fault)
   | exception Out_of_memory -> inconclusive No_memory
 
 (* {1 Verdicts} *)
@@ -250,7 +265,7 @@ let with_shortest_runs options program world started verdicts =
     let most = Option.fold ~none:options.search_again ~some:(min options.search_again) options.max_states in
     let t = start { options with reduction = Whole; invariants = []; max_states = Some most } program world started in
     let is_found property = Space.broken t.space property <> None in
-    ignore (explore ~enough:(fun () -> List.for_all is_found sought) t);
+    ignore (explore ~enough:(fun () -> List.for_all is_found sought) program t);
     let shorter (property, verdict) =
       match List.mem property sought, Space.broken t.space property with
       | true, Some i ->
@@ -262,7 +277,7 @@ let with_shortest_runs options program world started verdicts =
 
 let rec run_from started (options : options) program world =
   let t = start options program world started in
-  match explore t with
+  match explore program t with
   | stopped -> outcome t program world stopped
   | exception Symmetry.Unclear ->
     run_from started { options with reduction = Reduction.without_symmetry options.reduction } program world
@@ -285,6 +300,11 @@ and outcome t program world stopped =
 let run (options : options) program world =
   (* What is asked of every state cannot be judged by some of them. *)
   let options = if options.invariants = [] then options else { options with reduction = Whole } in
+  (* States that are alike by symmetry may differ in who is lost. *)
+  let remembers = Environment.endings_remember options.environment in
+  let options =
+    if remembers then { options with reduction = Reduction.without_symmetry options.reduction } else options
+  in
   run_from (options.clock ()) options program world
 
 (* {1 Text} *)
@@ -298,7 +318,8 @@ let pp_bound ppf bound =
      | No_memory -> "the machine has no more memory for it"
      | Time -> "the time was up"
      | Interruption -> "it was interrupted"
-     | Broken_condition why -> "the condition cannot be told: " ^ why)
+     | Broken_condition why -> "the condition cannot be told: " ^ why
+     | Unsettled why -> why)
 
 let pp_verdict (program : Core.program) ppf (property, verdict) =
   let print format = Format.fprintf ppf format in

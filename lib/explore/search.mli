@@ -55,6 +55,8 @@ type bound =
   | Time
   | Interruption
   | Broken_condition of string  (** what was asked is faulty in some state *)
+  | Unsettled of string
+  (** in some state, nobody can list what may happen: more than comparisons depends on what a sensor shows *)
 
 type verdict =
   | Holds

@@ -191,19 +191,32 @@ let rec above (place : Shape.place) level =
   | Some nest when level > 0 -> above nest (level - 1)
   | Some _ | None -> place
 
+let ends_run (case : case) = match case.result with Ends _ -> true | Stays _ | Gone | Becomes _ -> false
+
+let take_case t (s : Shape.t) place (case : case) shared i =
+  match case.result with
+  | Ends ending ->
+    if case.whole < 0 then case.whole <- concluded t s case.shared (Ends ending);
+    finish t case.whole None i
+  | (Stays _ | Gone | Becomes _) as target ->
+    Words.check_fit t.words;
+    go_to t s (above place case.level) target shared case.shared i
+
+(* The results of these are how many transitions there are. *)
 let go_by_case t (s : Shape.t) place step shared i =
   let case = Cases.case t.cases step shared in
   if not case.possible then 0
   else begin
-    (match case.result with
-     | Ends ending ->
-       if case.whole < 0 then case.whole <- concluded t s case.shared (Ends ending);
-       finish t case.whole None i
-     | (Stays _ | Gone | Becomes _) as target ->
-       Words.check_fit t.words;
-       go_to t s (above place case.level) target shared case.shared i);
-    1
+    take_case t s place case shared i;
+    List.iter (fun other -> take_case t s place other shared i) case.others;
+    1 + List.length case.others
   end
+
+let go_to_ends t (s : Shape.t) place step shared i =
+  let case = Cases.case t.cases step shared in
+  let ends = List.filter ends_run (case :: case.others) in
+  List.iter (fun case -> take_case t s place case shared i) ends;
+  List.length ends
 
 (* {1 All steps} *)
 
@@ -268,26 +281,32 @@ let expand_all t (s : Shape.t) shared i =
 (* {1 Steps that are enough} *)
 
 let local_status t step shared : Stubborn.status =
-  let moves level target = Stubborn.Moves { level; gone = (match target with Gone -> true | Stays _ | Becomes _ | Ends _ -> false) } in
+  let landing level target : Stubborn.landing =
+    { level; gone = (match target with Gone -> true | Stays _ | Becomes _ | Ends _ -> false) }
+  in
+  let of_case case = landing case.level case.result in
   let by_case () : Stubborn.status =
     match Cases.case t.cases step shared with
     | { possible = false; _ } -> Impossible
-    | { result = Ends _; _ } -> Ends
-    | { result = (Stays _ | Gone | Becomes _) as target; level; _ } -> moves level target
+    | { certain = true; _ } as case -> if ends_run case then Ends else Moves (of_case case)
+    | { certain = false; _ } as case ->
+      let ends, moves = List.partition ends_run (case :: case.others) in
+      Depends { moves = List.map of_case moves; ends = ends <> [] }
   in
   match step.dependence with
-  | Free -> moves 0 step.target
+  | Free -> Moves (landing 0 step.target)
   | By_case -> by_case ()
   | Guarded guard ->
     let result = Cases.guarded t.cases step guard shared in
-    if result >= 0 then moves 0 step.target else if result = special then by_case () else Impossible
+    if result >= 0 then Moves (landing 0 step.target) else if result = special then by_case () else Impossible
 
 let take_step t s place step shared i =
   match step.dependence with
-  | Free -> go_to t s place step.target shared shared i
+  | Free -> go_to t s place step.target shared shared i; 1
   | Guarded guard when Cases.guarded t.cases step guard shared >= 0 ->
-    go_to t s place step.target shared (Cases.guarded t.cases step guard shared) i
-  | Guarded _ | By_case -> ignore (go_by_case t s place step shared i)
+    go_to t s place step.target shared (Cases.guarded t.cases step guard shared) i;
+    1
+  | Guarded _ | By_case -> go_by_case t s place step shared i
 
 (* Parts and nests, with their steps. *)
 let components t (s : Shape.t) =
@@ -311,14 +330,15 @@ let expand_some t (s : Shape.t) shared i =
   let go x ({ Stubborn.place; analysis }, steps) =
     let take k step =
       let is_chosen = match choice with None -> true | Some chosen -> chosen x k in
-      if is_chosen || analysis.ends.(k) then
-        match status x k with
+      if is_chosen || analysis.ends.(k) then begin
+        let status = status x k in
+        Words.check_fit t.words;
+        match status with
         | Impossible -> ()
         | Moves _ when not is_chosen -> ()
-        | Moves _ | Ends ->
-          Words.check_fit t.words;
-          incr taken;
-          take_step t s place step shared i
+        | Depends _ when not is_chosen -> taken := !taken + go_to_ends t s place step shared i
+        | Moves _ | Ends | Depends _ -> taken := !taken + take_step t s place step shared i
+      end
     in
     Array.iteri take steps
   in

@@ -1,8 +1,16 @@
 open Components
 
-type status = Impossible | Moves of { level : int; gone : bool } | Ends
+type landing = { level : int; gone : bool }
+type status = Impossible | Moves of landing | Ends | Depends of { moves : landing list; ends : bool }
 type component = { place : Shape.place; analysis : Components.t }
 type t = { components : component array; status : int -> int -> status }
+
+let landings t x k =
+  match t.status x k with Moves landing -> [ landing ] | Depends { moves; _ } -> moves | Impossible | Ends -> []
+
+let moves t x k = landings t x k <> []
+let surely_moves t x k = match t.status x k with Moves _ -> true | Impossible | Ends | Depends _ -> false
+let may_end t x k = match t.status x k with Ends -> true | Depends { ends; _ } -> ends | Impossible | Moves _ -> false
 
 let exists_step t x p =
   let rec from k = k < Array.length t.components.(x).analysis.footprints && (p k || from (k + 1)) in
@@ -29,12 +37,8 @@ let future t y x =
   let c = t.components.(y) in
   c.analysis.futures.(apart c.place t.components.(x).place)
 
-(* What a step of [x] replaces, if that is more than a part: what stands in there is cut off. *)
-let cut_off t x k =
-  let place = t.components.(x).place in
-  match t.status x k with
-  | Moves { level; _ } when level > 0 || is_nest place -> Some (above place level)
-  | Moves _ | Impossible | Ends -> None
+(* Whether what stands at [place] is cut off when a step of the component at [own] lands there. *)
+let is_cut_off own place { level; _ } = (level > 0 || is_nest own) && contains (above own level) place
 
 (* Whether a step of [y] may ever cut off [x]. *)
 let may_cut_off t y x =
@@ -48,31 +52,24 @@ let may_cut_off t y x =
 
 (* {1 What must be taken along} *)
 
-(* Nobody can tell, once what it belongs to is cut off, whether such a step was taken. *)
-let is_traceless (f : Footprint.t) =
-  Footprint.(Pairs.is_empty f.posts && Pairs.is_empty f.takes && Globals.is_empty f.writes && not f.anything)
-
 (* What may be done to a step, or by it. One that ends the run now ends it whatever others do: see below. *)
 let touches t x k =
   let { ends; footprints; _ } = t.components.(x).analysis in
-  match if ends.(k) then t.status x k else Moves { level = 0; gone = false } with
-  | Ends -> Footprint.empty
-  | Impossible | Moves _ -> footprints.(k)
-
-let moves t x k = match t.status x k with Moves _ -> true | Impossible | Ends -> false
+  let is_end = ends.(k) && match t.status x k with Ends -> true | Impossible | Moves _ | Depends _ -> false in
+  if is_end then Footprint.empty else footprints.(k)
 
 let conflict t x y =
   let f = future t y x in
   let clash k =
     let own = touches t x k in
-    (not (Footprint.is_free own)) && Footprint.conflict ~possible:(moves t x k) own f
+    (not (Footprint.is_free own)) && Footprint.conflict ~possible:(surely_moves t x k) own f
   in
   (not (Footprint.is_free f)) && exists_step t x clash
 
 (* A step of [x] would cut off [y], which may leave traces before. *)
 let cuts_off t x y =
-  let cut k = match cut_off t x k with Some nest -> contains nest t.components.(y).place | None -> false in
-  exists_step t x cut && not (is_traceless (future t y x))
+  let cut k = List.exists (is_cut_off t.components.(x).place t.components.(y).place) (landings t x k) in
+  exists_step t x cut && not (Footprint.is_traceless (future t y x))
 
 (* {1 Keys}
 
@@ -83,16 +80,15 @@ let cuts_off t x y =
 let is_in_the_way t x k y =
   let own = t.components.(x) and other = t.components.(y) in
   let f = own.analysis.footprints.(k) in
-  match t.status x k with
-  | Impossible | Ends -> false
-  | Moves { level; gone } ->
+  let is_idle_cut (f : Footprint.t) = Footprint.is_traceless f && (not f.breaks) && not f.halts in
+  let ends_nest { level; gone } =
     let place = above own.place level in
-    let is_cut = (level > 0 || is_nest own.place) && contains place other.place in
-    let is_idle_cut (f : Footprint.t) = is_traceless f && (not f.breaks) && not f.halts in
-    let ends_nest = gone && is_nest other.place && other.place != place && contains other.place place in
-    is_cut
-    || ((not (is_traceless f)) && may_cut_off t y x)
-    || (ends_nest && not (Array.for_all is_idle_cut other.analysis.footprints))
+    gone && is_nest other.place && other.place != place && contains other.place place
+  in
+  let landings = landings t x k in
+  List.exists (is_cut_off own.place other.place) landings
+  || ((not (Footprint.is_traceless f)) && may_cut_off t y x)
+  || (List.exists ends_nest landings && not (Array.for_all is_idle_cut other.analysis.footprints))
 
 (* The key of [x] that most others leave alone, with those that do not. Failures elsewhere may use up the ones that a
    failure needs; but the success of the same task comes before it, and is no worse. *)
@@ -140,7 +136,7 @@ let closure t seed =
 let some_end_depends t =
   let depends x k =
     let { footprints; ends; _ } = t.components.(x).analysis in
-    ends.(k) && (not (Footprint.is_blind footprints.(k))) && t.status x k = Ends
+    ends.(k) && (not (Footprint.is_blind footprints.(k))) && may_end t x k
   in
   let rec from x = x < Array.length t.components && (exists_step t x (depends x) || from (x + 1)) in
   from 0
@@ -176,7 +172,7 @@ let branch_first t =
     from 0
   in
   let fits x k f =
-    moves t x k
+    surely_moves t x k
     && (not (Array.exists Fun.id t.components.(x).analysis.kills))
     && others x (fun y -> (not (Footprint.conflict ~possible:true f (future t y x))) && not (may_cut_off t y x))
   in

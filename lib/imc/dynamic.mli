@@ -21,7 +21,8 @@ val to_json : t -> Yojson.Safe.t
 (** As {!Message.to_json} shows it. *)
 
 val message_to_json : Definition.t -> Message.t -> Yojson.Safe.t
-(** [message_to_json d m] is [m] as one shows it who knows IMC from [d]; as {!Message.to_json}, if [d] cannot read it. *)
+(** [message_to_json d m] is [m] as one shows it who knows IMC from [d]; as {!Message.to_json}, if [d] cannot read
+    it. *)
 
 val packet_to_json : Definition.t -> Packet.t -> Yojson.Safe.t
 (** As {!Packet.to_json} shows it, but a message that is unknown there and known to the definition is

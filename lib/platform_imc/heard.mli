@@ -14,8 +14,8 @@ type entry = {
 val nothing : t
 
 val add : Header.t -> string -> t -> t
-(** [add h bytes x] is [x] after the packet [bytes] with the header [h]. Of one system {!most_kinds} different messages are
-    kept. *)
+(** [add h bytes x] is [x] after the packet [bytes] with the header [h]. Of one system {!most_kinds} different messages
+    are kept. *)
 
 val of_system : int -> t -> (int * entry) list
 (** [of_system id x] is what the system [id] sent, by the number of the message. *)

@@ -4,6 +4,8 @@ type t =
   | Runs of { request : int }
   | Over of { request : int }
 
+let is_urgent = function Asked _ -> true | Taken _ | Runs _ | Over _ -> false
+
 let to_json m : Yojson.Safe.t =
   match m with
   | Asked { plan; request; before } ->

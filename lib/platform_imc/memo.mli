@@ -9,6 +9,9 @@ type t =
   | Runs of { request : int }  (** It was seen to execute it. *)
   | Over of { request : int }  (** It was stopped, and confirmed that. *)
 
+val is_urgent : t -> bool
+(** Whether something is sent next that must not be forgotten: of [Asked]. *)
+
 val to_json : t -> Yojson.Safe.t
 
 val of_json : Yojson.Safe.t -> t option

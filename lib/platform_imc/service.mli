@@ -20,8 +20,8 @@ val announced : address list -> string
     [addresses (announced xs) = xs]. *)
 
 val kind : names:(int * string) list -> Message.System_type.t -> string
-(** ["UUV"], ["USV"], ["UAV"], ["UGV"]; other types by their IMC names, as ["CCU"]. A type that IMC 5.4 does not name has its
-    name in [names], or is its number. *)
+(** ["UUV"], ["USV"], ["UAV"], ["UGV"]; other types by their IMC names, as ["CCU"]. A type that IMC 5.4 does not
+    name has its name in [names], or is its number. *)
 
 val is_vehicle : Message.System_type.t -> bool
 (** Whether systems of this type run plans: UUV, USV, UAV, UGV, and types that this version of IMC does not know. *)

@@ -15,7 +15,7 @@ type options = {
   listens : bool;
   close_patience : float;
   note : Core.vehicle -> string -> unit;
-  keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
+  keep : time:float -> urgent:bool -> Core.vehicle -> Yojson.Safe.t -> unit;
 }
 
 let default =
@@ -23,7 +23,7 @@ let default =
     announce_ports = [ 30100; 30101; 30102; 30103; 30104 ];
     group = Unix.inet_addr_of_string "224.0.75.69";
     payload = []; types = []; type_names = []; listens = false; close_patience = 5.; note = (fun _ _ -> ());
-    keep = (fun ~time:_ _ _ -> ()) }
+    keep = (fun ~time:_ ~urgent:_ _ _ -> ()) }
 
 type t = {
   options : options;
@@ -47,7 +47,7 @@ type t = {
 let name = "imc"
 let virtual_time = false
 
-(* Vehicles announce every 10 s, and speak to a console up to 5 s after it has introduced itself: see docs/rationale.md. *)
+(* Vehicles announce every 10 s, and speak to a console up to 5 s after it has introduced itself: docs/rationale.md. *)
 let longest_silence = 16.
 let announce_period _ = longest_silence
 let gathering = 0.002
@@ -76,7 +76,7 @@ let carry_out p : Station.output -> unit = function
   | Send { address; bytes } -> send p (data_socket p) bytes address.host address.port
   | Announce bytes -> announce p bytes
   | Announce_to (host, bytes) -> List.iter (send p (data_socket p) bytes host) p.options.announce_ports
-  | Keep (vehicle, memo) -> p.options.keep ~time:(now p) vehicle (Memo.to_json memo)
+  | Keep (vehicle, memo) -> p.options.keep ~time:(now p) ~urgent:(Memo.is_urgent memo) vehicle (Memo.to_json memo)
   | Note (vehicle, text) -> p.options.note vehicle text
 
 (* {1 The state and its changes} *)
@@ -171,55 +171,6 @@ let rec watch p =
 
 (* {1 Opening} *)
 
-exception Cannot of string
-
-let ignoring f = try f () with Unix.Unix_error _ | Invalid_argument _ -> ()
-
-let bound host port =
-  let fd = Unix.socket ~cloexec:true PF_INET SOCK_DGRAM 0 in
-  match Unix.bind fd (ADDR_INET (host, port)) with
-  | () ->
-    Unix.set_nonblock fd;
-    ignoring (fun () -> Unix.setsockopt fd SO_BROADCAST true);
-    Ok fd
-  | exception Unix.Unix_error (error, _, _) -> Unix.close fd; Error (Unix.error_message error)
-
-(* What the system grants of this holds a tenth of a second of a loud fleet. *)
-let receive_buffer = 4 * 1024 * 1024
-
-let first_free host ports =
-  let rec find = function
-    | [] ->
-      let named = String.concat ", " (List.map string_of_int ports) in
-      raise (Cannot (Printf.sprintf "all ports for announcements are taken: %s" named))
-    | port :: rest -> (match bound host port with Ok fd -> fd | Error _ -> find rest)
-  in
-  find ports
-
-let port_of fd = match Unix.getsockname fd with ADDR_INET (_, port) -> port | ADDR_UNIX _ -> 0
-
-let listen options =
-  let host = if options.loopback then Unix.inet_addr_loopback else Unix.inet_addr_any in
-  let announcements = first_free host options.announce_ports in
-  match bound host options.data_port with
-  | Error why ->
-    Unix.close announcements;
-    raise (Cannot (Printf.sprintf "port %d cannot be had: %s" options.data_port why))
-  | Ok data ->
-    ignoring (fun () -> Unix.setsockopt_int data SO_RCVBUF receive_buffer);
-    (announcements, data)
-
-let speaker host =
-  match bound host 0 with
-  | Ok fd ->
-    ignoring (fun () -> Lwt_unix.mcast_set_ttl (Lwt_unix.of_unix_file_descr ~blocking:false fd) 15);
-    Some fd
-  | Error _ -> None
-
-let join options fd interfaces =
-  let join_by ifname = ignoring (fun () -> Lwt_unix.mcast_add_membership fd ~ifname options.group) in
-  List.iter join_by interfaces
-
 let settings options ~port ~hosts ~time : Station.settings =
   let random = Random.State.make_self_init () in
   let id = match options.id with Some id -> id | None -> 0x4000 + Random.State.int random 0x2000 in
@@ -242,23 +193,26 @@ let guard p thread =
   Lwt.async (fun () -> Lwt.catch thread fail)
 
 let make ?(time = 0.) ?standing options =
-  let announcements, data = listen options in
   let loopback = Unix.inet_addr_loopback in
+  let host = if options.loopback then loopback else Unix.inet_addr_any in
+  let announcements, data =
+    Sockets.listen ~host ~announce_ports:options.announce_ports ~data_port:options.data_port
+  in
   let hosts =
     if options.loopback then [ loopback ]
     else if options.interfaces <> [] then options.interfaces
     else Interfaces.local ()
   in
   let interfaces = if options.loopback then [] else List.filter (fun h -> h <> loopback) hosts in
-  let port = port_of data in
+  let port = Sockets.port_of data in
   let settings = settings options ~port ~hosts ~time in
   let station = Station.create settings in
   let station = Option.fold standing ~none:station ~some:(fun past -> Station.resume ~now:time past station) in
   let announcements = Lwt_unix.of_unix_file_descr ~blocking:false announcements in
-  join options announcements interfaces;
+  Sockets.join announcements options.group ~interfaces;
   let p =
     { options; settings; clock = Steady_clock.make ~time (); data = Lwt_unix.of_unix_file_descr ~blocking:false data;
-      announcements; speakers = List.filter_map speaker interfaces; port;
+      announcements; speakers = List.filter_map Sockets.speaker interfaces; port;
       buffer = Bytes.create 65536; station; armed = infinity; rearm = None; waiting = None;
       closing = None; failure = None; closed = false; unsent = 0 }
   in
@@ -270,7 +224,7 @@ let make ?(time = 0.) ?standing options =
 let opened make =
   match make () with
   | p -> Ok p
-  | exception Cannot why -> Error why
+  | exception Sockets.Cannot why -> Error why
   | exception Unix.Unix_error (error, call, _) ->
     Error (Printf.sprintf "the network cannot be used: %s: %s" call (Unix.error_message error))
 
@@ -310,7 +264,7 @@ let release_sockets p =
   p.closed <- true;
   wake p.rearm;
   p.rearm <- None;
-  List.iter (fun fd -> ignoring (fun () -> Unix.close fd)) p.speakers;
+  List.iter Sockets.close_quietly p.speakers;
   Lwt.catch (fun () -> Lwt_unix.close p.data) (fun _ -> Lwt.return_unit) >>= fun () ->
   Lwt.catch (fun () -> Lwt_unix.close p.announcements) (fun _ -> Lwt.return_unit)
 

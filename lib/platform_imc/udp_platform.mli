@@ -22,9 +22,9 @@ type options = {
   close_patience : float;  (** So many seconds [close] waits for stops to be confirmed; for vehicles
                                that are not heard again yet, {!announce_period} at least. *)
   note : Core.vehicle -> string -> unit;  (** Is told what is unusual, for people. *)
-  keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
-  (** Keeps what a console that takes over has to know ({!Memo}); when it returns that must be safe, as what it tells of
-      is done then. *)
+  keep : time:float -> urgent:bool -> Core.vehicle -> Yojson.Safe.t -> unit;
+  (** Keeps what a console that takes over has to know ({!Memo}). When it returns, that must survive this process; what
+      is [urgent], this machine: a request that it tells of leaves then. *)
 }
 
 val default : options

@@ -70,14 +70,14 @@ let stranger id =
   let position = Dolphin_geo.Place.apdl in
   make_craft ~connected:false ~changes:[]
     { id; kind = ""; payload = []; position; speed = 1.; battery = 1.; drain = 0.; charge = 0.; joins = 0.;
-      leaves = None; drops = [] }
+      leaves = None; drops = []; batteries = []; places = [] }
 
 let find id f = match String_map.find_opt id f.crafts with Some craft -> craft | None -> stranger id
 
 let state f craft : World.vehicle_state =
   let v = Vehicle.scenario craft.body in
-  { id = v.id; kind = v.kind; payload = v.payload; position = Vehicle.position craft.body ~at:f.now;
-    battery = Vehicle.battery craft.body ~at:f.now; connected = craft.connected }
+  { id = v.id; kind = v.kind; payload = v.payload; position = Vehicle.seen_at craft.body ~at:f.now;
+    battery = Vehicle.shown_battery craft.body ~at:f.now; connected = craft.connected }
 
 (* [tell id f] is the event that makes the state of [id] known, if it is not, and can be. *)
 let tell id f =

@@ -37,6 +37,14 @@ let battery v ~at =
 
 let position v ~at = Track.position v.way (at -. v.since)
 
+(* The nearest of [xs] to [x], the first of several; [x] if there are none. *)
+let nearest distance x = function
+  | [] -> x
+  | first :: rest -> List.fold_left (fun best y -> if distance x y < distance x best then y else best) first rest
+
+let seen_at v ~at = nearest Dolphin_geo.Wgs84.distance (position v ~at) v.scenario.places
+let shown_battery v ~at = nearest (fun a b -> Float.abs (a -. b)) (battery v ~at) v.scenario.batteries
+
 let go v ~at way rate = { v with way; since = at; battery = battery v ~at; rate }
 let set_out v ~at way = go v ~at way (working v.scenario)
 let rest v ~at = go v ~at (Track.stay (position v ~at)) (resting v.scenario)

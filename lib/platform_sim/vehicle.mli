@@ -26,6 +26,12 @@ val battery : t -> at:float -> float
 (** From 0 to 1: under way it falls by [drain] each hour; at rest it rises by [charge], or if that is 0 falls by a
     quarter of [drain]. *)
 
+val seen_at : t -> at:float -> Dolphin_geo.Position.t
+(** Where it is seen: at {!position}, or if the scenario gives several places, at the nearest of them. *)
+
+val shown_battery : t -> at:float -> float
+(** What its battery shows: {!battery}, or if the scenario gives several values, the nearest of them. *)
+
 val empty_from : t -> float
 (** [empty_from v] is when the battery is empty, if [v] goes on as it does; [infinity] if never. *)
 

@@ -28,7 +28,7 @@ type reading = {
 let remember (entry : Entry.t) replay moments =
   let add what = { Past.time = Entry.time entry; what } :: moments in
   match entry with
-  | Header _ | Resumed _ | End _ -> moments
+  | Header _ | Partial _ | Label _ | Resumed _ | End _ -> moments
   | Vehicle { state; _ } -> add (Saw state)
   | Note { vehicle; note; _ } -> add (Noted (vehicle, note))
   | Event _ -> Option.fold (Replay.event replay) ~none:moments ~some:(fun event -> add (Happened event))
@@ -42,13 +42,13 @@ let take tell reader r (entry : Entry.t) after =
   let r' = { r with after; reversed = remember entry after r.reversed } in
   match entry with
   | Event _ -> { r' with held = Some (entry, r.after) }
-  | Header _ | Vehicle _ | Transition _ | Note _ | Resumed _ | End _ ->
+  | Header _ | Partial _ | Label _ | Vehicle _ | Transition _ | Note _ | Resumed _ | End _ ->
     Option.iter (fun (event, _) -> tell event r.after) r.held;
     tell entry after;
     let r' = { r' with held = None; whole = Reader.whole reader } in
     (match entry with
      | Resumed { time; at; program } -> { r' with its_clock = (time, at); ran = program.hash }
-     | Header _ | Vehicle _ | Event _ | Transition _ | Note _ | End _ -> r')
+     | Header _ | Partial _ | Label _ | Vehicle _ | Event _ | Transition _ | Note _ | End _ -> r')
 
 let finish r =
   match Replay.ending r.after with

@@ -15,6 +15,8 @@ type vehicle = {
   joins : float;
   leaves : float option;
   drops : drop list;
+  batteries : float list;
+  places : Dolphin_geo.Position.t list;
 }
 
 type duration = { least : float; most : float }

@@ -28,6 +28,14 @@ let several read set draft = function
     in
     Some (Result.map (fun xs -> set draft (List.rev xs)) (List.fold_left add (Ok []) values))
 
+(* The first of several is the one at the start. *)
+let shares v = function
+  | [ battery ] -> { v with battery }
+  | batteries -> { v with battery = List.hd batteries; batteries }
+
+let seen_at (v : vehicle) position =
+  if v.places = [] then { v with position; places = [ position ] } else { v with places = v.places @ [ position ] }
+
 let place set draft values = Option.map (Result.map (set draft)) (Setting.position values)
 let setting ?(again = false) word takes read : 'draft Setting.t = { word; takes; again; read }
 let position_takes = "a latitude and a longitude in degrees or a place, as in at 41.185, -8.706 or at Location.APDL"
@@ -40,9 +48,9 @@ let vehicle_table : vehicle Setting.t list =
   [ setting "type" "a text, as in type 'UUV'" (one Setting.text (fun v kind -> { v with kind }));
     setting "payload" ~again:true "names of devices, as in payload 'DVL', 'Sidescan'"
       (several Setting.text (fun v payload -> { v with payload = v.payload @ payload }));
-    setting "at" position_takes (place (fun (v : vehicle) position -> { v with position }));
+    setting "at" ~again:true position_takes (place seen_at);
     setting "speed" "metres per second, as in speed 1.5" (one Setting.speed (fun v speed -> { v with speed }));
-    setting "battery" "a share, as in battery 80.percent" (one Setting.share (fun v battery -> { v with battery }));
+    setting "battery" "a share, or several, as in battery 80.percent" (several Setting.share shares);
     setting "drain" "the share of the battery that an hour's work takes, as in drain 10.percent"
       (one Setting.per_hour (fun v drain -> { v with drain }));
     setting "charge" "the share of the battery that an hour's rest gives, as in charge 50.percent"
@@ -104,8 +112,10 @@ let add_fault state fault = add_faults state [ fault ]
 let vehicle state (id : string located) body =
   let draft =
     { id = id.it; kind = ""; payload = []; position = Defaults.position state.unplaced; speed = 0.;
-      battery = Defaults.battery; drain = Defaults.drain; charge = 0.; joins = 0.; leaves = None; drops = [] } in
+      battery = Defaults.battery; drain = Defaults.drain; charge = 0.; joins = 0.; leaves = None; drops = [];
+      batteries = []; places = [] } in
   let v, seen, faults = Setting.block ~what:"a vehicle" vehicle_table draft body in
+  let v = match v.places with [ _ ] -> { v with places = [] } | [] | _ :: _ :: _ -> v in
   let given word = List.mem word seen in
   let v = if given "speed" then v else { v with speed = Defaults.speed ~kind:v.kind } in
   let untyped =

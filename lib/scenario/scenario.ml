@@ -14,6 +14,8 @@ type vehicle = Entry.vehicle = {
   joins : float;
   leaves : float option;
   drops : drop list;
+  batteries : float list;
+  places : Dolphin_geo.Position.t list;
 }
 
 type duration = Entry.duration = { least : float; most : float }
@@ -96,9 +98,9 @@ let pp_vehicle ppf v =
   Format.fprintf ppf "vehicle %a, {@\n" pp_text v.id;
   line "type %a" pp_text v.kind;
   if v.payload <> [] then line "payload %a" pp_texts v.payload;
-  line "%a" pp_place v.position;
+  List.iter (line "%a" pp_place) (if v.places = [] then [ v.position ] else v.places);
   line "speed %a" pp_number v.speed;
-  line "battery %a" pp_share v.battery;
+  line "battery %a" Fmt.(list ~sep:(any ", ") pp_share) (if v.batteries = [] then [ v.battery ] else v.batteries);
   line "drain %a" pp_share v.drain;
   if v.charge > 0. then line "charge %a" pp_share v.charge;
   if v.joins > 0. then line "joins %a" pp_time v.joins;
@@ -140,7 +142,7 @@ let default =
   let at latitude longitude : Dolphin_geo.Position.t = { latitude; longitude; height = 0. } in
   let vehicle id kind payload position drain =
     { id; kind; payload; position; speed = Defaults.speed ~kind; battery = Defaults.battery; drain; charge = 0.;
-      joins = 0.; leaves = None; drops = [] } in
+      joins = 0.; leaves = None; drops = []; batteries = []; places = [] } in
   let underwater id position = vehicle id "UUV" [ "DVL"; "Sidescan"; "Camera" ] position Defaults.drain in
   { vehicles =
       [ underwater "noptilus-1" (at 41.18500 (-8.70620));

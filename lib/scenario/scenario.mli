@@ -18,6 +18,11 @@ type vehicle = Entry.vehicle = {
   joins : float;  (** seconds since the start *)
   leaves : float option;  (** seconds since the start, after [joins]; [None]: it stays *)
   drops : drop list;  (** in the order of the file *)
+  batteries : float list;
+  (** if not empty, all that the battery ever shows: at least two, [battery] first. If empty, it shows what is left. *)
+  places : Dolphin_geo.Position.t list;
+  (** if not empty, all places where it is ever seen: at least two, [position] first. If empty, it is seen where it
+      is. *)
 }
 
 (** How long a plan takes, in seconds: [0 <= least <= most]. *)
@@ -106,9 +111,10 @@ answer 'Radius of operation area? (km)', 2
     - [payload TEXT, ...]: may stand again. Default: none.
     - [at LATITUDE, LONGITUDE], in degrees, [at LATITUDE, LONGITUDE, HEIGHT], in metres, or [at Location.APDL]. Default:
       off Leixões, beside one another ({!Defaults.position}). South of the equator write [at(-33.9, 18.4)] or
-      [at 33.9.south, 18.4.east]: without parentheses the first minus sign would be a subtraction.
+      [at 33.9.south, 18.4.east]: without parentheses the first minus sign would be a subtraction. May stand again: the
+      vehicle is at the first place at the start, and is only ever seen at one of them.
     - [speed NUMBER]: m/s. Default: 18 for a UAV, 1.5 for others.
-    - [battery SHARE]. Default: [100.percent].
+    - [battery SHARE, ...]. Default: [100.percent]. Of several, the first is at the start, and no others are ever shown.
     - [drain SHARE]: an hour's work takes so much, an hour's rest a quarter of it. Default: [10.percent].
     - [charge SHARE]: an hour's rest gives so much instead. Default: it does not charge.
     - [joins TIME], [leaves TIME]. Default: there from the start, and for good.

@@ -47,19 +47,18 @@ let lack task =
 module Wgs84 = Dolphin_geo.Wgs84
 
 (* A vehicle of B, with what the world says of it. *)
-type candidate = { vehicle : vehicle; state : World.vehicle_state option; place : Wgs84.cartesian option }
+type candidate = { vehicle : vehicle; state : World.vehicle_state option; place : Wgs84.cartesian option Lazy.t }
 
 let candidate_of world vehicle =
   let state = World.find vehicle world in
-  { vehicle; state; place = Option.map (fun (s : World.vehicle_state) -> Wgs84.cartesian s.position) state }
+  { vehicle; state; place = lazy (Option.map (fun s -> Wgs84.cartesian (World.place world s)) state) }
 
 let cost task =
   match Option.map (fun plan -> Wgs84.cartesian (Plan.reference plan)) task.plan with
   | None -> fun _ -> 0.
   | Some reference -> (
-      function
-      | { place = Some place; _ } -> Wgs84.straight place reference
-      | { place = None; _ } -> 0.)
+      fun candidate ->
+        match Lazy.force candidate.place with Some place -> Wgs84.straight place reference | None -> 0.)
 
 module String_set = Set.Make (String)
 

@@ -10,6 +10,8 @@ type ending =
   | Failed of Fault.t  (** a fault of the program, or an error of a task that nobody handled *)
   | Interrupted  (** from outside, by Ctrl-C for example *)
 
+val compare_ending : ending -> ending -> int
+
 type control =
   | Script of Machine.t
   | Waiting of Machine.t * Machine.request  (** the script waits; never for [Execute] *)

@@ -31,6 +31,13 @@ type value =
   | Closure of closure
   | Host of string                              (* an object of the host process, by its name there *)
   | Settings of setting list                    (* a block of settings being read, latest first *)
+  | Reading of reading                          (* what a sensor shows that may show anything *)
+
+(** In open worlds only. A reading is known by its text: how it was got, or the variable that keeps it from one step to
+    another. *)
+and reading = { quantity : quantity; text : string }
+
+and quantity = Amount | Place | Region | Words  (* a number, a position, an area, a string *)
 
 (** One line of a block of settings: [name positional, k: named]. *)
 and setting = {

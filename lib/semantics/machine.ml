@@ -202,7 +202,7 @@ let rec evaluate context fuel (e : expression) locals stack calls =
         (Arguments { operation; at = e.site; evaluated = []; remaining } :: stack)
         calls
     | Make_closure (lambda, slots) ->
-      let captured = Array.of_list (List.map (fun slot -> locals.(slot)) slots) in
+      let captured = Array.of_list (List.map (fun slot -> Reading.settled e.site locals.(slot)) slots) in
       continue (Closure { lambda; captured })
     | If (test, yes, no) -> evaluate context fuel test locals (Choose (yes, no) :: stack) calls
     | Block [] -> continue Null
@@ -244,12 +244,14 @@ and proceed context fuel x locals stack calls at =
       | Assign_local slot -> proceed context fuel x (set_local locals slot x) stack calls at
       | Assign_global i ->
         proceed { context with store = Store.set i x context.store } fuel x locals stack calls at
-      | Choose (yes, no) -> evaluate context fuel (if Value.truth x then yes else no) locals stack calls
+      | Choose (yes, no) ->
+        evaluate context fuel (if Value.truth (Reading.settled at x) then yes else no) locals stack calls
       | Rest [] -> proceed context fuel x locals stack calls at
       | Rest [ last ] -> evaluate context fuel last locals stack calls
       | Rest (next :: rest) -> evaluate context fuel next locals (Rest rest :: stack) calls
       | Loop_test (test, body) ->
-        if Value.truth x then evaluate context fuel body locals (Loop_body (test, body) :: stack) calls
+        if Value.truth (Reading.settled at x) then
+          evaluate context fuel body locals (Loop_body (test, body) :: stack) calls
         else proceed context fuel Null locals stack calls at
       | Loop_body (test, body) -> evaluate context fuel test locals (Loop_test (test, body) :: stack) calls
       | Next_item (slot, Items (_, -1), body) -> begin_loop context fuel x slot body locals stack calls at
@@ -257,6 +259,7 @@ and proceed context fuel x locals stack calls at =
       | Leave callers -> proceed context fuel x callers stack (calls - 1) at
       | Iterate i -> (
           let item = i.items.(i.index) in
+          let x = match i.iteration with Each -> x | _ -> Reading.settled i.at x in
           match Iteration.early i.iteration item x with
           | Some result -> proceed context fuel result locals stack calls i.at
           | None ->
@@ -266,7 +269,7 @@ and proceed context fuel x locals stack calls at =
 
 and begin_loop context fuel x slot body locals stack calls at =
   let start items = next_item context fuel slot items body locals stack calls at in
-  match x with
+  match Reading.settled at x with
   | Range (first, last) -> start (Counting (first, last))
   | Null -> proceed context fuel Null locals stack calls at
   | x -> (
@@ -337,6 +340,25 @@ and settle_outcome context fuel (outcome : Code.outcome) at locals stack calls =
   | Wrong message -> fault context (stopped (Give Null)) at message
   | Wrong_at f -> (Faulted f, stopped (Give Null), context)
   | Refuted message -> (Faulted (Fault.assertion at message), stopped (Give Null), context)
+
+(* {1 Readings} *)
+
+(* Where a value is kept tells readings apart: two that were made at different times are seldom the same. *)
+let keep_readings m =
+  let keep where i x = match x with Reading r -> Reading { r with text = Printf.sprintf "%s %d" where i } | x -> x in
+  let frame depth = function
+    | Arguments a ->
+      Arguments { a with evaluated = List.mapi (keep (Printf.sprintf "argument at %d:" depth)) a.evaluated }
+    | Leave callers -> Leave (Array.mapi (keep (Printf.sprintf "local at %d:" depth)) callers)
+    | ( Assign_local _ | Assign_global _ | Choose _ | Rest _ | Loop_test _ | Loop_body _ | Next_item _
+      | Iterate _ ) as frame -> frame
+  in
+  let focus = match m.focus with Give x -> Give (keep "value" 0 x) | Evaluate _ as focus -> focus in
+  let depth = List.length m.stack in
+  { m with
+    focus;
+    locals = Array.mapi (keep "local") m.locals;
+    stack = List.mapi (fun i f -> frame (depth - i) f) m.stack }
 
 let run ~fuel context m =
   match m.focus with

@@ -80,6 +80,10 @@ val call : closure -> value list -> t
 val give : value -> t -> t
 (** [give x m] is [m], which waited, going on with [x]. *)
 
+val keep_readings : t -> t
+(** [keep_readings m] is [m] with readings of sensors known by where [m] keeps them, as must be when a step is over: see
+    {!Reading.keep}. *)
+
 (** {1:running Running} *)
 
 (** What the script waits for. *)

@@ -85,8 +85,8 @@ let of_vehicles world vs name =
   | "id" -> (match vs with [ v ] -> Some (Ok (String v)) | _ -> Some (with_state (fun s -> String s.World.id)))
   | "ids" -> Some (Ok (strings vs))
   | "type" -> Some (with_state (fun s -> String s.World.kind))
-  | "position" -> Some (with_state (fun s -> Position s.World.position))
-  | "battery" -> Some (with_state (fun s -> Number s.World.battery))
+  | "position" -> Some (with_state (Reading.position world))
+  | "battery" -> Some (with_state (Reading.battery world))
   | "payload" -> Some (with_state (fun s -> strings s.World.payload))
   | _ -> None
 
@@ -118,7 +118,7 @@ let getter world x name =
     | List _ | Range _ -> (match Value.items x with Some items -> of_items items name | None -> None)
     | Task (Platform p) when name = "id" || name = "name" -> Some (Ok (String p.name))
     | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Map _ | Task _ | Closure _
-    | Host _ | Settings _ -> None
+    | Host _ | Settings _ | Reading _ -> None
   in
   match specific, name with
   | Some result, _ -> Some result
@@ -143,7 +143,7 @@ let property world x name =
     Error (Printf.sprintf "a number has no unit '%s'%s" name (near name Operators.unit_names))
   | Null, None -> Error (Printf.sprintf "null has no property '%s'" name)
   | ( ( Boolean _ | String _ | Wildcard | Symbol _ | List _ | Range _ | Position _ | Area _ | Vehicles _ | Task _
-      | Closure _ | Host _ | Settings _ ),
+      | Closure _ | Host _ | Settings _ | Reading _ ),
       None ) -> Error (Printf.sprintf "%s has no property '%s'%s" (Value.kind x) name (near name properties))
 
 (* "getId" is a getter of "id". *)
@@ -277,7 +277,7 @@ let specific x name arguments =
       match Value.items x with Some items -> on_items x items name arguments | None -> None)
   | Integer _ | Number _ -> on_number (number_text x) x name arguments
   | Position p -> on_position p name arguments
-  | Null | Boolean _ | Wildcard | Symbol _ | Area _ | Task _ | Closure _ | Host _ | Settings _ -> None
+  | Null | Boolean _ | Wildcard | Symbol _ | Area _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ -> None
 
 let known =
   [ "size"; "isEmpty"; "contains"; "getId"; "getType"; "getPosition"; "getBattery"; "getPayload"; "equals";
@@ -293,7 +293,7 @@ let too_many x name =
   | Range _ -> Value.items x = None
   | Integer n -> name = "times" && n > Value.most_items
   | Null | Boolean _ | Number _ | String _ | Wildcard | Symbol _ | List _ | Map _ | Position _ | Area _ | Vehicles _
-  | Task _ | Closure _ | Host _ | Settings _ -> false
+  | Task _ | Closure _ | Host _ | Settings _ | Reading _ -> false
 
 let call world x name arguments =
   match name, arguments with

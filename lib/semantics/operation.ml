@@ -69,7 +69,7 @@ let call_method context name names arguments =
       | None -> of_result (Methods.call context.world subject name arguments))
   | [] -> Wrong "a method needs something to be called on"
 
-let apply context at operation arguments =
+let apply_settled context at operation arguments =
   match operation, arguments with
   | Unary op, [ x ] -> of_result (Operators.unary op x)
   | Binary Parallel, [ (Vehicles _ as vs); Closure c ] -> Walk (Find_all, c, vs, [])
@@ -93,3 +93,10 @@ let apply context at operation arguments =
   | ( ( Unary _ | Binary _ | Make_range _ | Element | Replace_element | Replace_member _ | Property _ | Call _
       | Method _ ),
       _ ) -> Wrong "wrong number of operands"
+
+let apply context at operation arguments =
+  if World.is_open context.world && List.exists Reading.is_reading arguments then
+    match Reading.apply context.world at operation arguments with
+    | Some result -> of_result result
+    | None -> apply_settled context at operation arguments
+  else apply_settled context at operation arguments

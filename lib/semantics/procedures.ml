@@ -185,10 +185,12 @@ let apply context at operation arguments =
   | Poll keys, arguments -> poll context (pair keys arguments)
   | Position_of, [ x ] -> (
       match one_vehicle context x with
-      | Ok state -> Value (Position state.position)
+      | Ok state -> Value (Reading.position context.world state)
       | Error e -> of_result e)
   | Battery_of, [ x ] -> (
-      match one_vehicle context x with Ok state -> Value (Number state.battery) | Error e -> of_result e)
+      match one_vehicle context x with
+      | Ok state -> Value (Reading.battery context.world state)
+      | Error e -> of_result e)
   | Location_of, ([ _; _ ] | [ _; _; _ ]) -> (
       match numbers arguments with
       | Some (latitude :: longitude :: height) -> (

@@ -11,7 +11,14 @@ type event =
   | Host_failed of string
   | Interruption
 
-type t = { rules : Rule.t list; label : Label.t; next : Configuration.t; effects : Effect.t list }
+type t = {
+  rules : Rule.t list;
+  label : Label.t;
+  next : Configuration.t;
+  effects : Effect.t list;
+  assumed : World.assumption list;
+}
+
 type refusal = Not_awaited | Bad_answer of string
 
 (* The script runs so many expressions in one silent transition, then lets others see it; atomic code may take so
@@ -40,7 +47,7 @@ let ended (c : Configuration.t) ending before =
 
 let ending_transition c rules label ending before =
   let next, effects = ended c ending before in
-  { rules; label; next; effects = before @ effects }
+  { rules; label; next; effects = before @ effects; assumed = [] }
 
 (* {1 Deeds of code} *)
 
@@ -56,7 +63,8 @@ let effect_of_deed : Machine.deed -> Effect.t option = function
   | Set_connection_timeout (vs, seconds) -> Some (Set_connection_timeout (vs, seconds))
 
 let after (context : Machine.context) (c : Configuration.t) =
-  { c with store = context.store; tuples = context.tuples }
+  let store = if World.is_open context.world then Reading.keep context.program context.store else context.store in
+  { c with store; tuples = context.tuples }
 
 let deeds (context : Machine.context) = List.rev context.deeds
 let effects_of deeds = List.filter_map effect_of_deed deeds
@@ -74,7 +82,7 @@ let describe_call subject member =
   match subject with None -> member | Some subject -> Printf.sprintf "%s.%s" subject member
 
 let waiting c m (request : Machine.request) rule label effects =
-  { rules = [ rule ]; label; next = { c with Configuration.control = Waiting (m, request) }; effects }
+  { rules = [ rule ]; label; next = { c with Configuration.control = Waiting (m, request) }; effects; assumed = [] }
 
 let timers_started = List.map (fun (timer, seconds) -> Effect.Set_timer (timer, seconds))
 
@@ -86,7 +94,7 @@ let start_execution world (c : Configuration.t) m t =
   | Ok r ->
     let r, timers = Residual.activate r in
     let next = { c with control = Executing (m, r) } in
-    { rules = [ Rule.Execute ]; label = Label.Execute; next; effects = timers_started timers }
+    { rules = [ Rule.Execute ]; label = Label.Execute; next; effects = timers_started timers; assumed = [] }
 
 let wait world c m (request : Machine.request) =
   match request with
@@ -102,8 +110,9 @@ let wait world c m (request : Machine.request) =
 
 let run_script program world (c : Configuration.t) m =
   let stop, m, context = Machine.run ~fuel:script_fuel (context program world c Script) m in
+  let m = if World.is_open world then Machine.keep_readings m else m in
   let c = after context c in
-  let going rules label effects = { rules; label; next = { c with control = Script m }; effects } in
+  let going rules label effects = { rules; label; next = { c with control = Script m }; effects; assumed = [] } in
   match stop with
   | Exhausted -> going [ Rule.Script ] Label.Silent []
   | Did -> (
@@ -123,7 +132,12 @@ let run_script program world (c : Configuration.t) m =
 (* {1 Picking vehicles} *)
 
 let candidates world (c : Configuration.t) (pick : Settings.pick) =
-  let fits (s : World.vehicle_state) = Settings.accepts pick.filter s && not (List.mem s.id c.bound) in
+  let is_near (s : World.vehicle_state) area = Dolphin_geo.Area.contains area (World.place world s) in
+  let fits (s : World.vehicle_state) =
+    Settings.accepts { pick.filter with region = None } s
+    && (not (List.mem s.id c.bound))
+    && Option.fold ~none:true ~some:(is_near s) pick.filter.region
+  in
   List.map (fun (s : World.vehicle_state) -> s.id) (List.filter fits (World.vehicles world))
 
 (* All lists of [n] elements of [xs] in their order, the first ones first. *)
@@ -140,7 +154,7 @@ let choices n xs : 'a list Seq.t =
 
 let bind (c : Configuration.t) m effects vs =
   let next = { c with control = Script (Machine.give (Vehicles vs) m); bound = c.bound @ vs } in
-  { rules = [ Rule.Pick_bind ]; label = Label.Bind vs; next; effects = effects @ [ Effect.Bind vs ] }
+  { rules = [ Rule.Pick_bind ]; label = Label.Bind vs; next; effects = effects @ [ Effect.Bind vs ]; assumed = [] }
 
 (* The ways to meet a [pick] now. One that takes all there are waits for its whole time-out. *)
 let bindings world (c : Configuration.t) m (pick : Settings.pick) =
@@ -149,9 +163,11 @@ let bindings world (c : Configuration.t) m (pick : Settings.pick) =
   | Exactly n ->
     Seq.map (bind c m [ Effect.Cancel_timer Effect.script_timer ]) (choices n (candidates world c pick))
 
-let why_not (c : Configuration.t) (pick : Settings.pick) (s : World.vehicle_state) =
+let why_not world (c : Configuration.t) (pick : Settings.pick) (s : World.vehicle_state) =
   let f = pick.filter in
-  let region_missed = match f.region with Some a -> not (Dolphin_geo.Area.contains a s.position) | None -> false in
+  let place = lazy (World.place world s) in
+  let is_missed area = not (Dolphin_geo.Area.contains area (Lazy.force place)) in
+  let region_missed = lazy (Option.fold ~none:false ~some:is_missed f.region) in
   let reason =
     if List.mem s.id c.bound then "is already bound"
     else if not s.connected then "is not connected"
@@ -159,7 +175,8 @@ let why_not (c : Configuration.t) (pick : Settings.pick) (s : World.vehicle_stat
     else if Option.fold ~none:false ~some:(fun kind -> kind <> s.kind) f.kind then "is a " ^ s.kind
     else if not (World.carries f.payload s) then
       "lacks " ^ String.concat ", " (List.filter (fun d -> not (World.carries [ d ] s)) f.payload)
-    else if region_missed then Format.asprintf "is at %a, outside of the region" Dolphin_geo.Position.pp s.position
+    else if Lazy.force region_missed then
+      Format.asprintf "is at %a, outside of the region" Dolphin_geo.Position.pp (Lazy.force place)
     else "fits"
   in
   Printf.sprintf "%s %s" s.id reason
@@ -171,7 +188,7 @@ let no_vehicles world (c : Configuration.t) m pick =
     | states ->
       let shown = List.filteri (fun i _ -> i < 8) states in
       let more = List.length states - List.length shown in
-      String.concat "; " (List.map (why_not c pick) shown)
+      String.concat "; " (List.map (why_not world c pick) shown)
       ^ if more > 0 then Printf.sprintf "; and %d more" more else ""
   in
   let message = Format.asprintf "could not pick %a: %s" Settings.pp_pick pick there in
@@ -248,19 +265,30 @@ let rec settle program world (c : Configuration.t) named derivation asked (chang
         let derivation = derivation @ [ Rule.Watch_halt ] in
         { after = settled; outcome = Ends (Halted message); derivation; named; asked }
       | Broke fault, _ when Fault.is_assertion fault ->
-        { after = settled; outcome = Ends (Failed fault); derivation = derivation @ [ Rule.Assert_err ]; named; asked }
+        let derivation = derivation @ [ Rule.Assert_err ] in
+        { after = settled; outcome = Ends (Failed fault); derivation; named; asked }
       | Broke fault, _ -> settle program world settled named derivation asked (propagated fault)
       | Value_of _, Handler Ignored -> settle program world settled named derivation asked (ignored ())
       | Value_of _, (Handler Propagated | Script | Task_code) ->
         settle program world settled named derivation asked (propagated fault))
 
+let equal_outcome a b =
+  match a, b with
+  | Goes_on r, Goes_on r' -> Residual.equal r r'
+  | Over, Over -> true
+  | Ends e, Ends e' -> Configuration.compare_ending e e' = 0
+  | (Goes_on _ | Over | Ends _), _ -> false
+
+let equal_local a b =
+  Label.equal a.named b.named && equal_outcome a.outcome b.outcome && Configuration.equal a.after b.after
+
 let conclude (c : Configuration.t) m { after; outcome; derivation; named; asked } =
   match outcome with
   | Goes_on r ->
-    { rules = derivation; label = named; next = { after with control = Executing (m, r) }; effects = asked }
+    { rules = derivation; label = named; next = { after with control = Executing (m, r) }; effects = asked; assumed = [] }
   | Over ->
     let next = { after with control = Script (Machine.give Null m) } in
-    { rules = derivation @ [ Rule.Execute_done ]; label = named; next; effects = asked }
+    { rules = derivation @ [ Rule.Execute_done ]; label = named; next; effects = asked; assumed = [] }
   | Ends (Failed fault as ending) when not (Fault.is_assertion fault) ->
     (* The failure has cut off all that ran. *)
     ending_transition { after with control = Script m } (derivation @ [ Rule.Execute_err ]) named ending asked
@@ -296,13 +324,13 @@ let local_internal program world (c : Configuration.t) (step : Residual.step) =
     coded closure (fun _ c d -> Some (settle program world c (Label.Act d) [] (effects_of d) (step.continue Went)))
   | Check closure ->
     coded closure (fun x c d ->
-        if Value.truth x then
+        if Value.truth (Reading.settled closure.lambda.lambda_site x) then
           let change = step.continue Went in
           Some (settle program world c (check_label change d) [] (effects_of d) change)
         else None)
   | Measure closure ->
     coded closure (fun x after d ->
-        match Value.to_number x with
+        match Value.to_number (Reading.settled closure.lambda.lambda_site x) with
         | Some seconds when seconds >= 0. && seconds < infinity ->
           let label = Label.Set_time seconds in
           Some (settle program world after label [] (effects_of d) (step.continue (Gave seconds)))
@@ -328,15 +356,33 @@ let local_event program world (c : Configuration.t) (step : Residual.step) event
       | Host_failed _ | Interruption ),
       (Start _ | Perform _ | Check _ | Measure _ | End_of _ | Expiry_of _) ) -> None
 
+(* {1 Of all that is left open} *)
+
+let equal (t : t) (t' : t) = Label.equal t.label t'.label && Configuration.equal t.next t'.next
+let with_assumed (assumed, (t : t)) = { t with assumed }
+
+(* What [f] gives, one transition at most, in each world that [world] leaves open. *)
+let in_all world f = List.map with_assumed (World.outcomes ~equal world f)
+
+let bindings_in_all world c m pick : t Seq.t =
+  if not (World.is_open world) then bindings world c m pick
+  else fun () ->
+    let add found (assumed, ts) =
+      let fresh = List.filter (fun t -> not (List.exists (equal t) found)) ts in
+      found @ List.map (fun t -> with_assumed (assumed, t)) fresh
+    in
+    let cases = World.cases world (fun world -> List.of_seq (bindings world c m pick)) in
+    List.to_seq (List.fold_left add [] cases) ()
+
 let internal program world (c : Configuration.t) : t Seq.t =
   match c.control with
   | Ended _ -> Seq.empty
-  | Script m -> fun () -> Seq.Cons (run_script program world c m, Seq.empty)
-  | Waiting (m, Pick pick) -> fun () -> bindings world c m pick ()
+  | Script m -> fun () -> List.to_seq (in_all world (fun world -> Some (run_script program world c m))) ()
+  | Waiting (m, Pick pick) -> fun () -> bindings_in_all world c m pick ()
   | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) -> Seq.empty
   | Executing (m, r) ->
-    let step s = Option.map (conclude c m) (local_internal program world c s) in
-    Seq.filter_map step (Residual.internal_steps r)
+    let in_one s world = Option.map (conclude c m) (local_internal program world c s) in
+    Seq.flat_map (fun s -> List.to_seq (in_all world (in_one s))) (Residual.internal_steps r)
 
 (* {1 Events} *)
 
@@ -344,11 +390,11 @@ let internal program world (c : Configuration.t) : t Seq.t =
 let executing_event program world c m r event =
   let rec first (steps : Residual.step Seq.t) =
     match steps () with
-    | Seq.Nil -> Error Not_awaited
+    | Seq.Nil -> [ Error Not_awaited ]
     | Seq.Cons (step, rest) -> (
-        match local_event program world c step event with
-        | Some local -> Ok (conclude c m local)
-        | None -> first rest)
+        match in_all world (fun world -> Option.map (conclude c m) (local_event program world c step event)) with
+        | [] -> first rest
+        | ts -> List.map Result.ok ts)
   in
   match event with
   | Vehicle_done v | Vehicle_failed (v, _) -> first (Residual.steps_of_vehicle v r)
@@ -356,7 +402,8 @@ let executing_event program world c m r event =
     first (Residual.steps r)
 
 let resume (c : Configuration.t) m x rule label =
-  { rules = [ rule ]; label; next = { c with control = Script (Machine.give x m) }; effects = [] }
+  let next = { c with control = Script (Machine.give x m) } in
+  { rules = [ rule ]; label; next; effects = []; assumed = [] }
 
 let failed (c : Configuration.t) m rule label message =
   let fault = Fault.make (Machine.site m) message in
@@ -373,13 +420,12 @@ let answered program world (c : Configuration.t) m text =
       | Broke fault, _ -> Error (Bad_answer fault.message)
       | Halted_with _, _ -> Error (Bad_answer "an answer may only compute a value"))
 
-let accept program world (c : Configuration.t) event =
+(* Of a configuration that executes nothing, in a world of which enough is known. *)
+let whole_event program world (c : Configuration.t) event =
   match event, c.control with
   | _, Ended _ -> Error Not_awaited
   | Interruption, (Script _ | Waiting _ | Executing _) ->
     Ok (ending_transition c [ Rule.Interrupt ] Label.Interrupt Interrupted [])
-  | (Vehicle_done _ | Vehicle_failed _ | Timer_expired _), Executing (m, r) ->
-    executing_event program world c m r event
   | Timer_expired timer, Waiting (m, Pick pick) when timer = Effect.script_timer ->
     pick_timed_out world c m pick
   | Timer_expired timer, Waiting (m, Pause _) when timer = Effect.script_timer ->
@@ -394,6 +440,18 @@ let accept program world (c : Configuration.t) event =
   | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _
       | Host_failed _ ),
       (Script _ | Waiting _ | Executing _) ) -> Error Not_awaited
+
+let accept_all program world (c : Configuration.t) event =
+  match event, c.control with
+  | (Vehicle_done _ | Vehicle_failed _ | Timer_expired _), Executing (m, r) ->
+    executing_event program world c m r event
+  | _, _ -> (
+      let accepted world = Result.to_option (whole_event program world c event) in
+      match in_all world accepted with
+      | [] -> [ snd (List.hd (World.cases world (fun world -> whole_event program world c event))) ]
+      | ts -> List.map Result.ok ts)
+
+let accept program world c event = List.hd (accept_all program world c event)
 
 let awaited (c : Configuration.t) =
   match c.control with

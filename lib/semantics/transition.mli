@@ -20,6 +20,7 @@ type t = {
   label : Label.t;
   next : Configuration.t;
   effects : Effect.t list;  (** in the order in which they are to be carried out *)
+  assumed : World.assumption list;  (** what of an open world it takes for granted; otherwise nothing *)
 }
 
 (** Why an event makes no transition. *)
@@ -29,10 +30,16 @@ type refusal =
 
 val internal : program -> World.t -> Configuration.t -> t Seq.t
 (** [internal p w c] is the transitions that [c] can make by itself, leftmost first, computed on demand. A [pick] has
-    one for every choice of vehicles, in pick order. *)
+    one for every choice of vehicles, in pick order. In an open world they are those for all that sensors may show; of
+    several of one step with one label and one result there is the first only.
+    @raise Reading.Unsettled in an open world, as do the functions below. *)
 
 val accept : program -> World.t -> Configuration.t -> event -> (t, refusal) result
-(** [accept p w c e] is the transition of [c] on [e]. [Interruption] is accepted wherever the program has not ended. *)
+(** [accept p w c e] is the transition of [c] on [e]. [Interruption] is accepted wherever the program has not ended. In an
+    open world it is the first one. *)
+
+val accept_all : program -> World.t -> Configuration.t -> event -> (t, refusal) result list
+(** [accept_all p w c e] is every transition of [c] on [e], one unless the world is open; or one refusal. *)
 
 val awaited : Configuration.t -> event list
 (** [awaited c] is the events that [c] has transitions for, less [Interruption]: the ends of tasks that run (as
@@ -66,10 +73,13 @@ type local = {
 
 val local_internal : program -> World.t -> Configuration.t -> Residual.step -> local option
 (** [local_internal p w c s] is what step [s] does with the store, A, B and N of [c], if it is enabled by itself. The
-    control of [c] is not looked at. *)
+    control of [c] is not looked at. In an open world this may be called inside of {!World.cases} only. *)
 
 val local_event : program -> World.t -> Configuration.t -> Residual.step -> event -> local option
-(** [local_event p w c s e] is what [s] does on [e], if that is what it awaits. *)
+(** [local_event p w c s e] is what [s] does on [e], if that is what it awaits. Likewise. *)
+
+val equal_local : local -> local -> bool
+(** Whether two steps of one residual have the same label, and the same result. *)
 
 val conclude : Configuration.t -> Machine.t -> local -> t
 (** [conclude c m l] is the transition of [c], in which [m] waits for the residual whose step did [l]. *)

@@ -9,7 +9,7 @@ type t = value
 let rank = function
   | Null -> 0 | Boolean _ -> 1 | Integer _ -> 2 | Number _ -> 3 | String _ -> 4 | Wildcard -> 5 | Symbol _ -> 6
   | List _ -> 7 | Map _ -> 8 | Range _ -> 9 | Position _ -> 10 | Area _ -> 11 | Vehicles _ -> 12 | Task _ -> 13
-  | Closure _ -> 14 | Host _ -> 15 | Settings _ -> 16
+  | Closure _ -> 14 | Host _ -> 15 | Settings _ -> 16 | Reading _ -> 17
 
 let rank_task = function
   | Platform _ -> 0 | Action _ -> 1 | Condition _ -> 2 | Sequence _ -> 3 | Parallel _ -> 4 | Allocated _ -> 5
@@ -47,8 +47,9 @@ let rec compare x y =
     | Task a, Task b -> compare_task a b
     | Closure a, Closure b -> compare_closure a b
     | Settings a, Settings b -> compare_list compare_setting a b
+    | Reading a, Reading b -> both (Stdlib.compare a.quantity b.quantity) (fun () -> String.compare a.text b.text)
     | ( ( Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | List _ | Map _ | Range _
-        | Position _ | Area _ | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ ),
+        | Position _ | Area _ | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ ),
         _ ) -> Int.compare (rank x) (rank y)
 
 and compare_entry (k, x) (k', x') = both (String.compare k k') (fun () -> compare x x')
@@ -112,6 +113,7 @@ let rec hash x =
   | Task t -> mix 13 (hash_task hashed_depth t)
   | Closure c -> mix 14 (hash_closure c)
   | Settings settings -> mix 16 (List.length settings)
+  | Reading r -> mix 17 (Hashtbl.hash r.text)
 
 and hash_closure c = Array.fold_left (fun h x -> mix h (hash x)) c.lambda.id c.captured
 
@@ -137,7 +139,7 @@ let rec canonical x =
   | List xs -> List (Array.map canonical xs)
   | Map entries -> Map (List.map (fun (k, x) -> (k, canonical x)) entries)
   | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _
-  | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ -> x
+  | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ -> x
 
 let sorted_entries entries = List.sort compare_entry entries
 
@@ -156,7 +158,7 @@ let truth = function
   | List xs -> xs <> [||]
   | Map entries -> entries <> []
   | Vehicles vs -> vs <> []
-  | Wildcard | Symbol _ | Range _ | Position _ | Area _ | Task _ | Closure _ | Host _ | Settings _ -> true
+  | Wildcard | Symbol _ | Range _ | Position _ | Area _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ -> true
 
 let kind = function
   | Null -> "null"
@@ -175,12 +177,16 @@ let kind = function
   | Closure _ -> "a closure"
   | Host _ -> "a host object"
   | Settings _ -> "a block of settings"
+  | Reading { quantity = Amount; _ } -> "a number"
+  | Reading { quantity = Place; _ } -> "a position"
+  | Reading { quantity = Region; _ } -> "an area"
+  | Reading { quantity = Words; _ } -> "a string"
 
 let to_number = function
   | Integer i -> Some (float_of_int i)
   | Number n -> Some n
   | Null | Boolean _ | String _ | Wildcard | Symbol _ | List _ | Map _ | Range _ | Position _ | Area _ | Vehicles _
-  | Task _ | Closure _ | Host _ | Settings _ -> None
+  | Task _ | Closure _ | Host _ | Settings _ | Reading _ -> None
 
 let of_number n = Number n
 
@@ -211,7 +217,7 @@ let items = function
     Some (Array.of_list (List.map (fun (k, x) -> Map [ ("key", String k); ("value", x) ]) entries))
   | String s -> Some (characters s)
   | Null | Boolean _ | Integer _ | Number _ | Wildcard | Symbol _ | Position _ | Area _ | Task _ | Closure _
-  | Host _ | Settings _ -> None
+  | Host _ | Settings _ | Reading _ -> None
 
 let length = function
   | List xs -> Some (Array.length xs)
@@ -220,7 +226,7 @@ let length = function
   | Map entries -> Some (List.length entries)
   | String s -> Some (Array.length (characters s))
   | Null | Boolean _ | Integer _ | Number _ | Wildcard | Symbol _ | Position _ | Area _ | Task _ | Closure _
-  | Host _ | Settings _ -> None
+  | Host _ | Settings _ | Reading _ -> None
 
 (* The shortest decimal text that reads back as the same number. *)
 let text_of_number n =
@@ -274,6 +280,7 @@ let rec print ~bare ppf x =
   | Closure c -> Format.fprintf ppf "{ %s }" c.lambda.label
   | Host name -> Format.fprintf ppf "host object %s" name
   | Settings _ -> text "{ ... }"
+  | Reading r -> text r.text
 
 and pp_task ppf t =
   let left = ref shown_parts in

@@ -9,7 +9,7 @@ let graph = "RunGraph.cfg"
 (* What [dolphin explore] asks of a program comes first, in its order; the rest is asked of the specification. *)
 let properties ~strict =
   let invariant name = { name; of_runs = false } in
-  List.map invariant [ "NoDeadlock"; "NoError"; "Assertions"; "Vehicles" ]
+  List.map invariant [ "NoDeadlock"; "NoError"; "Assertions"; "EnoughVehicles" ]
   @ (if strict then List.map invariant [ "NoHalt"; "NoLeftover" ] else [])
   @ List.map invariant [ "TypeOK"; "AllocationWithinBound"; "OneTaskEach"; "EmptyAfterEnd"; "TuplesConserved" ]
   @ [ { name = "Termination"; of_runs = true } ]
@@ -17,7 +17,6 @@ let properties ~strict =
 let printing =
   {|(* Prints the state and its transitions, of the program with this number. TLC evaluates an invariant once for each state. *)
 PrintMark(text) == PrintT("M\t" \o text)
-NothingLeft == (\A k \in OrderedKeys : N.queue[k] = << >>) /\ DOMAIN N.bag = { }
 
 PrintEnd ==
   LET ending == control.ending
@@ -52,7 +51,7 @@ VARIABLE label
 
 RunInit == Init /\ label = ""
 RunNext == \E ts \in { Transitions } : \E j \in DOMAIN ts : Becomes(ts[j]) /\ label' = ts[j].label
-RunSpec == RunInit /\ [][RunNext]_vars /\ WF_vars(RunNext)
+RunSpec == RunInit /\ [][RunNext]_vars /\ Fairness
 
 |}
   ^ printing ^ "\nPrintRun == PrintGraphOf(1)\n====\n"

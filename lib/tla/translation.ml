@@ -64,7 +64,7 @@ let rec value t site x =
   | Closure { lambda = l; captured } ->
     let captured = List.map (value t site) (Array.to_list captured) in
     tagged "closure" [ Integer (lambda t l); Tuple captured ]
-  | Task _ | Host _ | Settings _ ->
+  | Task _ | Host _ | Settings _ | Reading _ ->
     refuse t site "%s as a constant" (Value.kind x);
     tagged "null" []
 

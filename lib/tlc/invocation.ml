@@ -17,14 +17,12 @@ let of_mode (i : Installation.t) = function
   | Server { host; port } ->
     [ "-Djava.rmi.server.hostname=" ^ host; port_option port; "-cp"; i.jar; "tlc2.tool.distributed.TLCServer" ]
 
-let command ?(short = false) i mode ~directory ~main ~configuration ~coverage =
-  let coverage = if coverage then [ "-coverage"; "60" ] else [] in
+let command ?(short = false) i mode ~directory ~main ~configuration =
   java i ~short
   @ [ "-Djava.io.tmpdir=" ^ directory ]
   @ of_mode i mode
-  @ [ "-tool"; "-metadir"; directory / "states"; "-config"; directory / configuration ]
-  @ coverage
-  @ [ directory / (main ^ ".tla") ]
+  @ [ "-tool"; "-metadir"; directory / "states"; "-config"; directory / configuration;
+      directory / (main ^ ".tla") ]
 
 let worker i ~host ~port =
   java i ~short:false @ [ port_option port; "-cp"; i.jar; "tlc2.tool.distributed.TLCWorker"; host ]

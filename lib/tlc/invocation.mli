@@ -10,8 +10,8 @@ type mode =
       [port] that of its registry. It computes no states itself. *)
 
 val command :
-  ?short:bool -> Installation.t -> mode -> directory:string -> main:string -> configuration:string -> coverage:bool -> string list
-(** [command i m ~directory ~main ~configuration ~coverage] explores the module [main] in [directory] under the file
+  ?short:bool -> Installation.t -> mode -> directory:string -> main:string -> configuration:string -> string list
+(** [command i m ~directory ~main ~configuration] explores the module [main] in [directory] under the file
     [configuration] in it. What TLC writes (the queue, fingerprints, modules unpacked from its archive) goes below [directory] too.
     Java reads files as UTF-8 and prints numbers as the English do, whatever the locale, and has room for deep
     recursion. With [short], false by default, Java spends less time on making code fast: for runs of some seconds. *)

@@ -2,8 +2,8 @@ open Story
 
 (* From and until which share, in whole steps. *)
 let range story =
-  let charges = List.concat_map (fun v -> List.map (fun s -> s.battery) v.samples) story.vehicles in
-  let least = List.fold_left Float.min 1. charges and most = List.fold_left Float.max 0. charges in
+  let batteries = List.concat_map (fun v -> List.map (fun s -> s.battery) v.samples) story.vehicles in
+  let least = List.fold_left Float.min 1. batteries and most = List.fold_left Float.max 0. batteries in
   let least = Float.max 0. least and most = Float.min 1. (Float.max least most) in
   let span = Float.max 0.05 (most -. least) in
   let step = Scale.step ~most:5 span in

@@ -2,7 +2,7 @@ open Dolphin_semantics
 open Field
 
 type cause = Choice of int | Event of Happening.t
-type step = { cause : cause; label : string }
+type step = { cause : cause; assumed : World.assumption list; label : string }
 
 type t = {
   program : Header.source;
@@ -29,6 +29,7 @@ let candidates (c : Configuration.t) (t : Transition.t) : Transition.event list 
   | _ -> Transition.awaited c
 
 let step program world c (t : Transition.t) =
+  let world = World.suppose t.assumed world in
   let is_it (t' : Transition.t) = Label.equal t.label t'.label && Configuration.equal t.next t'.next in
   let rec choice i (ts : Transition.t Seq.t) =
     match ts () with
@@ -46,13 +47,15 @@ let step program world c (t : Transition.t) =
         | No_answer, None ->
           (* Nobody answered for another reason: an answer that was refused. *)
           let why = match t.next.control with Ended (Failed fault) -> fault.message | _ -> "" in
-          let prompt = match c.control with Waiting (_, Ask prompt) -> Printf.sprintf "no answer to '%s': " prompt | _ -> "" in
+          let prompt =
+            match c.control with Waiting (_, Ask prompt) -> Printf.sprintf "no answer to '%s': " prompt | _ -> ""
+          in
           let n = String.length prompt in
           let why = if String.length why > n then String.sub why n (String.length why - n) else why in
           Event (No_answer why)
         | _, None -> invalid_arg ("Course.step: no transition " ^ text_of_label t.label))
   in
-  { cause; label = text_of_label t.label }
+  { cause; assumed = t.assumed; label = text_of_label t.label }
 
 let rec steps program world c = function
   | [] -> []
@@ -65,6 +68,7 @@ let rec steps program world c = function
 type misfit = { number : int; why : string }
 
 let take program world (c : Configuration.t) s =
+  let world = World.suppose s.assumed world in
   let found =
     match s.cause with
     | Choice i -> (
@@ -86,7 +90,7 @@ let take program world (c : Configuration.t) s =
             | Error (Bad_answer why) -> Error why))
   in
   match found with
-  | Ok t when text_of_label t.label = s.label -> Ok t
+  | Ok t when text_of_label t.label = s.label -> Ok { t with assumed = s.assumed }
   | Ok t -> Error (Printf.sprintf "the program does %s there, and not %s" (text_of_label t.label) s.label)
   | Error why -> Error (Printf.sprintf "%s (%s)" why s.label)
 
@@ -112,19 +116,62 @@ let to_source json : (Header.source, string) result =
   let* hash = get text "md5" found in
   Ok { Header.path; hash }
 
+let json_of_assumption (a : World.assumption) : Yojson.Safe.t =
+  match a with
+  | Late v -> `Assoc [ ("late", `String v) ]
+  | Missing v -> `Assoc [ ("missing", `String v) ]
+  | Charged (v, x) -> `Assoc [ ("battery", `String v); ("is", `Float x) ]
+  | Placed (v, { latitude; longitude; height }) ->
+    `Assoc [ ("position", `String v); ("is", `List [ `Float latitude; `Float longitude; `Float height ]) ]
+  | Claim (text, holds) -> `Assoc [ ("claim", `String text); ("is", `Bool holds) ]
+
+let assumption_of_json json : (World.assumption, string) result =
+  let* found = members json in
+  match found with
+  | (("late" | "missing") as kind, name) :: _ ->
+    let* v = text name in
+    Ok (if kind = "late" then World.Late v else Missing v)
+  | ("battery", name) :: _ ->
+    let* v = text name in
+    let* x = get number "is" found in
+    Ok (World.Charged (v, x))
+  | ("position", name) :: _ -> (
+      let* v = text name in
+      let* coordinates = get (list number) "is" found in
+      match coordinates with
+      | [ latitude; longitude; height ] -> (
+          match Dolphin_geo.Position.make ~latitude ~longitude ~height with
+          | Ok p -> Ok (World.Placed (v, p))
+          | Error fault -> Error (Format.asprintf "%a" Dolphin_geo.Position.pp_error fault))
+      | _ -> Error "a position is three numbers")
+  | ("claim", claimed) :: _ ->
+    let* claimed = text claimed in
+    let* holds = get truth "is" found in
+    Ok (World.Claim (claimed, holds))
+  | _ -> Error "what is assumed is late, missing, battery, position or claim"
+
+let rec all_assumptions = function
+  | [] -> Ok []
+  | json :: rest ->
+    let* a = assumption_of_json json in
+    Result.map (fun all -> a :: all) (all_assumptions rest)
+
 let json_of_step s : Yojson.Safe.t =
   let cause = match s.cause with Choice i -> [ ("choice", `Int i) ] | Event h -> Happening.members h in
-  `Assoc (("label", `String s.label) :: cause)
+  let assumed = unless_empty "assumed" (fun all -> `List (List.map json_of_assumption all)) s.assumed in
+  `Assoc ((("label", `String s.label) :: cause) @ assumed)
 
 let step_of_json json =
   let* found = members json in
   let* label = get text "label" found in
+  let* items = optional (list any) ~default:[] "assumed" found in
+  let* assumed = all_assumptions items in
   if List.mem_assoc "choice" found then
     let* i = get whole "choice" found in
-    if i < 0 then Error "a choice is a number from 0" else Ok { cause = Choice i; label }
+    if i < 0 then Error "a choice is a number from 0" else Ok { cause = Choice i; assumed; label }
   else
     let* h = Happening.of_members found in
-    Ok { cause = Event h; label }
+    Ok { cause = Event h; assumed; label }
 
 let to_lines course =
   let header : Yojson.Safe.t =

@@ -1,13 +1,19 @@
-(** A run to be followed: what happened at each step, without the times. [dolphin explore --trace] writes counter-examples so,
-    [dolphin exec --follow] follows them. A line of JSON for the whole, then one for each step. *)
+(** A run to be followed: what happened at each step, without the times. [dolphin explore --trace] writes
+    counter-examples so, [dolphin exec --follow] follows them. A line of JSON for the whole, then one for each step. *)
 
 open Dolphin_semantics
 
 type cause =
-  | Choice of int  (** the transition that the program took by itself: its place in {!Transition.internal} *)
+  | Choice of int
+  (** the transition that the program took by itself: its place in {!Transition.internal}, in the world with what is
+      assumed *)
   | Event of Happening.t
 
-type step = { cause : cause; label : string }
+type step = {
+  cause : cause;
+  assumed : World.assumption list;  (** what the step takes for granted of an open world *)
+  label : string;
+}
 
 type t = {
   program : Header.source;
@@ -26,8 +32,8 @@ val steps : Core.program -> World.t -> Configuration.t -> Transition.t list -> s
 type misfit = { number : int;  (** of the step, from 1 *) why : string }
 
 val follow : Core.program -> World.t -> t -> (Transition.t list * Transition.t list, Transition.t list * misfit) result
-(** [follow p w course] is the transitions of its steps, and those of its cycle, once around. The error has the transitions
-    up to the first step that [p] cannot take there, or that has another label. *)
+(** [follow p w course] is the transitions of its steps, and those of its cycle, once around. The error has the
+    transitions up to the first step that [p] cannot take there, or that has another label. *)
 
 val to_lines : t -> string list
 val of_lines : string list -> (t, string) result

@@ -5,6 +5,8 @@ open Field
 
 type t =
   | Header of Header.t
+  | Partial of { observed : string list }
+  | Label of { time : float; label : string }
   | Vehicle of { time : float; state : World.vehicle_state }
   | Event of { time : float; happening : Happening.t }
   | Transition of { time : float; index : int; step : Step.t }
@@ -13,8 +15,8 @@ type t =
   | End of { time : float; transitions : int; ending : Request.ending }
 
 let time = function
-  | Header _ -> 0.
-  | Vehicle { time; _ } | Event { time; _ } | Transition { time; _ } | Note { time; _ } | Resumed { time; _ }
+  | Header _ | Partial _ -> 0.
+  | Label { time; _ } | Vehicle { time; _ } | Event { time; _ } | Transition { time; _ } | Note { time; _ } | Resumed { time; _ }
   | End { time; _ } -> time
 
 (* {1 Writing} *)
@@ -32,6 +34,10 @@ let to_json entry : Yojson.Safe.t =
   let line kind time rest = `Assoc (("kind", `String kind) :: ("time", Canonical.number time) :: rest) in
   match entry with
   | Header h -> Header.to_json h
+  | Partial { observed } ->
+    let all : Yojson.Safe.t = if observed = [] then `String "all" else texts observed in
+    `Assoc (Header.format_members @ [ ("observed", all) ])
+  | Label { time; label } -> line "label" time [ ("label", `String label) ]
   | Vehicle { time; state } -> line "vehicle" time (of_state state)
   | Event { time; happening } -> line "event" time (Happening.members happening)
   | Transition { time; index; step } -> line "transition" time (("i", `Int index) :: Step.members step)
@@ -62,8 +68,9 @@ let to_state found =
 
 let of_members found =
   let* kind = get text "kind" found in
-  let* time = get number "time" found in
+  let* time = if kind = "label" then optional number ~default:0. "time" found else get number "time" found in
   match kind with
+  | "label" -> Result.map (fun label -> Label { time; label }) (get text "label" found)
   | "vehicle" -> Result.map (fun state -> Vehicle { time; state }) (to_state found)
   | "event" -> Result.map (fun happening -> Event { time; happening }) (Happening.of_members found)
   | "transition" ->
@@ -84,13 +91,26 @@ let of_members found =
     Ok (End { time; transitions; ending })
   | other -> Error (Printf.sprintf "there are no lines of kind %S" other)
 
-let first_of_string line =
-  let json = Result.value (Host_value.parse line) ~default:`Null in
-  Result.map (fun h -> Header h) (Header.of_json json)
+(* Which labels a trace has: all, or those of some kinds. *)
+let to_observed : Yojson.Safe.t -> (string list, string) result = function
+  | `String "all" -> Ok []
+  | json -> (
+      match list text json with
+      | Ok [] -> Error "an empty list: a trace with no labels"
+      | found -> found)
+
+let first_of_json json =
+  match json with
+  | `Assoc found when List.mem_assoc "observed" found ->
+    let* () = Header.check_format json in
+    Result.map (fun observed -> Partial { observed }) (get to_observed "observed" found)
+  | json -> Result.map (fun h -> Header h) (Header.of_json json)
+
+let first_of_string line = first_of_json (Result.value (Host_value.parse line) ~default:`Null)
 
 let of_string line =
   match Host_value.parse line with
   | Error why -> Error ("this is no JSON: " ^ why)
-  | Ok (`Assoc (("format", _) :: _) as json) -> Result.map (fun h -> Header h) (Header.of_json json)
+  | Ok (`Assoc (("format", _) :: _) as json) -> first_of_json json
   | Ok (`Assoc found) -> of_members found
   | Ok _ -> Error "this is no JSON object"

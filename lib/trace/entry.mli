@@ -4,6 +4,9 @@ open Dolphin_semantics
 
 type t =
   | Header of Header.t  (** the first line, and only that *)
+  | Partial of { observed : string list }
+  (** the first line of a trace that has only labels, of these kinds; [[]]: of all *)
+  | Label of { time : float; label : string }  (** in such a trace, in place of a transition *)
   | Vehicle of { time : float; state : World.vehicle_state }  (** what is known of a vehicle *)
   | Event of { time : float; happening : Happening.t }  (** what the transition that follows is caused by *)
   | Transition of { time : float; index : int;  (** from 0 *) step : Step.t }
@@ -15,7 +18,7 @@ type t =
   | End of { time : float; transitions : int; ending : Request.ending }  (** the last line of a run that ended *)
 
 val time : t -> float
-(** Seconds since the start; 0 for the header. *)
+(** Seconds since the start; 0 for the first line. *)
 
 val to_string : t -> string
 (** One line, without its end. *)

@@ -32,16 +32,17 @@ let of_utc text =
 
 (* {1 JSON} *)
 
+let format_members : members = [ ("format", `String format); ("version", `Int version) ]
+
 let to_json h : Yojson.Safe.t =
   `Assoc
-    [ ("format", `String format);
-      ("version", `Int version);
-      ("program", of_source h.program);
+    (format_members
+     @ [ ("program", of_source h.program);
       ("fleet", of_option of_source h.fleet);
       ("platform", `String h.platform);
       ("seed", `Int h.seed);
       ("speed", of_option Dolphin_json.Canonical.number h.speed);
-      ("started", `String h.started) ]
+      ("started", `String h.started) ])
 
 let to_source json =
   let* found = members json in
@@ -49,19 +50,21 @@ let to_source json =
   let* hash = get text "md5" found in
   Ok { path; hash }
 
-let of_json json =
-  let no_journal = Error "this is no journal: its first line is not the header of one" in
+let check_format json =
   match json with
   | `Assoc found when List.assoc_opt "format" found = Some (`String format) ->
     let* its_version = get whole "version" found in
-    if its_version <> version then
-      Error (Printf.sprintf "this journal is of version %d; version %d is known here" its_version version)
-    else
+    if its_version = version then Ok ()
+    else Error (Printf.sprintf "this journal is of version %d; version %d is known here" its_version version)
+  | _ -> Error "this is no journal: its first line is not the header of one"
+
+let of_json json =
+  let* () = check_format json in
+  let* found = members json in
       let* program = get to_source "program" found in
       let* fleet = get (nullable to_source) "fleet" found in
       let* platform = get text "platform" found in
       let* seed = get whole "seed" found in
       let* speed = get (nullable number) "speed" found in
       let* started = get text "started" found in
-      Ok { program; fleet; platform; seed; speed; started }
-  | _ -> no_journal
+  Ok { program; fleet; platform; seed; speed; started }

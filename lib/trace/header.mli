@@ -27,6 +27,12 @@ val of_utc : string -> float option
 val version : int
 (** Of the format: 1. *)
 
+val format_members : Field.members
+(** What first lines begin with. *)
+
+val check_format : Yojson.Safe.t -> (unit, string) result
+(** Refuses what is no journal, and journals of other versions. *)
+
 val to_json : t -> Yojson.Safe.t
 val of_json : Yojson.Safe.t -> (t, string) result
-(** Refuses what is no journal, and journals of other versions. *)
+(** Refuses what {!check_format} refuses. *)

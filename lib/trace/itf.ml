@@ -14,7 +14,7 @@ let rec value : value -> Yojson.Safe.t = function
   | Map entries -> map (List.map (fun (k, x) -> (k, value x)) entries)
   | Vehicles vs -> `List (List.map text vs)
   | ( Null | Number _ | Wildcard | Symbol _ | Range _ | Position _ | Area _ | Task _ | Closure _ | Host _
-    | Settings _ ) as x -> unserializable (Format.asprintf "%a" Value.pp x)
+    | Settings _ | Reading _ ) as x -> unserializable (Format.asprintf "%a" Value.pp x)
 
 let control program (c : Configuration.t) : Yojson.Safe.t =
   let place fault =
@@ -45,7 +45,9 @@ let variables program (c : Configuration.t) =
 
 let way (t : Transition.t) =
   let rule r = text (Rule.name r) in
+  let assumed a = text (Format.asprintf "%a" World.pp_assumption a) in
   [ ("label", text (Format.asprintf "%a" Label.pp t.label)); ("rules", `List (List.map rule t.rules)) ]
+  @ if t.assumed = [] then [] else [ ("assumed", `List (List.map assumed t.assumed)) ]
 
 let without_last xs = List.filteri (fun i _ -> i < List.length xs - 1) xs
 

@@ -195,6 +195,7 @@ let feed r (entry : Entry.t) =
   else
     let r = { r with time; latest = None } in
     match entry, r.event with
+    | (Partial _ | Label _), _ -> mismatch r "such lines are those of a partial trace"
     | (Header _ | Vehicle _ | Event _ | Note _ | Resumed _ | End _), Some event ->
       mismatch r (Format.asprintf "the transition on %a is missing" Happening.pp event)
     | Header { program; _ }, None | Resumed { program; _ }, None -> Ok { r with places = program.hash = r.hash }

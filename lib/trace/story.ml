@@ -164,7 +164,7 @@ let tell t (entry : Entry.t) =
   | Vehicle { state; _ } -> see t state
   | Event { happening; _ } -> t.cause <- Some happening
   | Transition { step; _ } -> take t step
-  | Note _ | Resumed _ -> ()
+  | Partial _ | Label _ | Note _ | Resumed _ -> ()
   | End { ending; _ } -> t.its_ending <- Some ending
 
 (* {1 The end} *)

@@ -120,7 +120,8 @@ let of_step t time (s : Step.t) =
 
 let of_entry t (entry : Entry.t) =
   match entry with
-  | Header _ -> ()
+  | Header _ | Partial _ -> ()
+  | Label { time; label } -> add t time [ (Program, label) ]
   | Event { happening; _ } -> t.cause <- Some happening
   | Transition { time; step; _ } -> of_step t time step
   | Vehicle { time; state } ->
@@ -218,4 +219,4 @@ let print_transitions ppf (entry : Entry.t) =
     let place = match step.at with Some (line, column) -> Printf.sprintf "%d:%d" line column | None -> "" in
     Format.fprintf ppf "%6d  %*s  %-7s  %s  %s@\n" index clock_width (Clock.text time) place
       (String.concat ", " step.rules) (harmless step.label)
-  | Header _ | Vehicle _ | Event _ | Note _ | Resumed _ | End _ -> ()
+  | Header _ | Partial _ | Label _ | Vehicle _ | Event _ | Note _ | Resumed _ | End _ -> ()

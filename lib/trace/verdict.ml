@@ -1,8 +1,15 @@
+open Dolphin_semantics
+
 type t =
   | Run of { transitions : int; time : float; ending : Request.ending }
   | Prefix of { transitions : int; time : float; torn : bool }
   | No_run of { number : int; entry : Entry.t; transitions : int; mismatch : Replay.mismatch }
+  | Possible of { lines : int; over : bool }
+  | Impossible of { number : int; entry : Entry.t; lines : int; mismatch : Partial.mismatch }
+  | Unknown of { number : int; most : int }
   | Unreadable of { number : int; why : string }
+
+let most = 100_000
 
 let over replay ~torn =
   let transitions = Replay.transitions replay and time = Replay.time replay in
@@ -20,8 +27,20 @@ let rec go reader replay =
   | End_of_file -> over replay ~torn:false
   | Wrong { number; why } -> Unreadable { number; why }
 
-let check program ~hash reader =
+let rec search ~most reader partial =
   match Reader.next reader with
+  | Line { number; entry } -> (
+      match Partial.feed partial entry with
+      | Ok partial -> search ~most reader partial
+      | Error (Impossible mismatch) -> Impossible { number; entry; lines = Partial.lines partial; mismatch }
+      | Error Too_many -> Unknown { number; most })
+  | Torn _ | End_of_file -> Possible { lines = Partial.lines partial; over = Partial.is_over partial }
+  | Wrong { number; why } -> Unreadable { number; why }
+
+let check ?(world = World.empty) ?(most = most) program ~hash reader =
+  match Reader.next reader with
+  | Line { entry = Partial { observed }; _ } ->
+    (None, search ~most reader (Partial.start ~observed ~most world program))
   | Line { entry = Header header; _ } ->
     let start = Replay.start ~hash program in
     (Some header, go reader (Result.value (Replay.feed start (Header header)) ~default:start))
@@ -29,7 +48,9 @@ let check program ~hash reader =
   | End_of_file -> (None, Unreadable { number = 1; why = "the journal is empty" })
   | Wrong { number; why } -> (None, Unreadable { number; why })
 
-let is_legal = function Run _ | Prefix _ -> true | No_run _ | Unreadable _ -> false
+let is_legal = function
+  | Run _ | Prefix _ | Possible _ -> true
+  | No_run _ | Impossible _ | Unknown _ | Unreadable _ -> false
 
 let pp_ending ppf (e : Request.ending) =
   match e.message with
@@ -38,7 +59,8 @@ let pp_ending ppf (e : Request.ending) =
 
 let describe (entry : Entry.t) =
   match entry with
-  | Header _ -> "a header"
+  | Header _ | Partial _ -> "a header"
+  | Label { label; _ } -> label
   | Vehicle { state; _ } -> "what is known of " ^ state.id
   | Event { happening; _ } -> Format.asprintf "%a" Happening.pp happening
   | Transition { index; step; _ } ->
@@ -59,4 +81,20 @@ let pp ppf = function
   | No_run { number; entry; transitions; mismatch } ->
     Format.fprintf ppf "line %d is none of a run: %s@,%a@,before it: %s of a run" number (describe entry)
       Replay.pp_mismatch mismatch (count transitions)
+  | Possible { lines; over } ->
+    Format.fprintf ppf "what a run can look like: %d line%s%s" lines (if lines = 1 then "" else "s")
+      (if over then ", to its end" else "")
+  | Impossible { number; entry; lines; mismatch } ->
+    let show_all ppf = function
+      | [] -> Format.pp_print_string ppf "nothing"
+      | labels -> Format.pp_print_string ppf (String.concat ", " labels)
+    in
+    Format.fprintf ppf "line %d is not what a run can look like: %s@,%s@,what could come: %a@,before it: %d line%s" number
+      (describe entry) mismatch.reason show_all mismatch.possible lines
+      (if lines = 1 then "" else "s")
+  | Unknown { number; most } ->
+    Format.fprintf ppf
+      "not known: between line %d and the one before, more than %d configurations can be hidden; a trace with more labels \
+       is easier to judge, and --max-states allows for more"
+      number most
   | Unreadable { number; why } -> Format.fprintf ppf "line %d: %s" number why

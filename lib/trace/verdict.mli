@@ -9,12 +9,22 @@ type t =
   | No_run of { number : int;  (** of the first line that is wrong *) entry : Entry.t; transitions : int;
                 mismatch : Replay.mismatch }
   (** the [transitions] transitions before that line are the beginning of a run *)
+  | Possible of { lines : int;  (** labels and events *) over : bool  (** with the end *) }
+  (** a partial trace of what the program can do *)
+  | Impossible of { number : int; entry : Entry.t; lines : int;  (** that were possible before *)
+                    mismatch : Partial.mismatch }
+  | Unknown of { number : int; most : int }
+  (** a partial trace: up to this line there are more ways than could be gone through *)
   | Unreadable of { number : int; why : string }  (** this line is no line of a journal *)
 
-val check : Core.program -> hash:string -> Reader.t -> Header.t option * t
-(** [check program ~hash reader] reads the journal to its end, or to what is wrong with it; [hash] is that of the
+val check : ?world:World.t -> ?most:int -> Core.program -> hash:string -> Reader.t -> Header.t option * t
+(** [check ~world ~most program ~hash reader] reads the journal to its end, or to what is wrong with it; [hash] is that of the
     program's text, as in {!Header.source}. Where transitions are in the program only matters if the program is that of
-    the journal. *)
+    the journal. Of a partial trace, [world] is what is known of vehicles from the beginning (by default nothing), and at
+    most [most] configurations, by default {!most}, are looked at between two lines: see {!Partial}. *)
+
+val most : int
+(** 100,000. *)
 
 val is_legal : t -> bool
 val pp : Format.formatter -> t -> unit

@@ -412,8 +412,8 @@ What cannot be explored.
   $ dolphin explore missing.dol
   dolphin: missing.dol: No such file or directory
   [2]
-  $ dolphin explore round.dol --faults loss
-  dolphin: option '--faults': 'loss' is neither fail nor fail=NUMBER
+  $ dolphin explore round.dol --faults lost=1
+  dolphin: option '--faults': there is no fault 'lost': did you mean loss?
   Usage: dolphin explore [OPTION]… PROG
   Try 'dolphin explore --help' or 'dolphin --help' for more information.
   [2]

@@ -147,3 +147,37 @@ One that does so later has another try with the next case.
     implementation: the reply to step is the error bad-request: "configuration" is missing
   0 passed, 3 failed
   [1]
+
+Both commands have a manual.
+
+  $ dolphin conform --help=plain | sed -n '/^EXIT STATUS/,/^EXAMPLES/p'
+  EXIT STATUS
+         conform exits with the following status:
+  
+         0   all cases pass.
+  
+         1   some do not; or with --matrix, no case is about some rule.
+  
+         2   a case cannot be read, or the implementation does not speak the
+             step protocol.
+  
+         125 a fault of dolphin itself. Please report it.
+  
+         130 the run was interrupted: by Ctrl-C, by a request to terminate, or
+             because nobody reads its log any more.
+  
+  EXAMPLES
+  $ dolphin step --help=plain | sed -n '/^NAME/,/^DESCRIPTION/p'
+  NAME
+         dolphin-step - tell what a configuration can do, for other programs
+  
+  SYNOPSIS
+         dolphin step [OPTION]…
+  
+  DESCRIPTION
+  $ dolphin --help=plain | grep -A 1 '^       \(conform\|step\) '
+         conform [OPTION]… [CASES]…
+             judge an implementation by a corpus of cases
+  --
+         step [OPTION]…
+             tell what a configuration can do, for other programs

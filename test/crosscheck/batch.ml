@@ -75,7 +75,7 @@ let explore installation directory =
     { messages = Message.start; outcome = Outcome.start; problem = None; warnings = []; printed = Printed_graph.create () }
   in
   let command =
-    Invocation.command ~short:true installation (Local (Workers 1)) ~directory ~main:"MC" ~configuration:Family.configuration ~coverage:false
+    Invocation.command ~short:true installation (Local (Workers 1)) ~directory ~main:"MC" ~configuration:Family.configuration
   in
   ignore (Process.run ~interrupted:(fun () -> false) (line r) command : Process.ending);
   List.iter (take r) (Message.finish r.messages);

@@ -1,6 +1,8 @@
 open Dolphin_syntax
 open Dolphin_semantics
 module Environment = Dolphin_explore.Environment
+module Faults = Dolphin_explore.Faults
+module World_of = Dolphin_explore.World_of
 module Generate = Test_support.Generate
 module Scenario = Dolphin_scenario.Scenario
 
@@ -68,7 +70,7 @@ let scenario_beside path =
     | Error ds -> failwith (Format.asprintf "%a" (Fmt.list (Diagnostic.pp ~source:(read fleet))) ds)
 
 let in_scenario name source program (scenario : Scenario.t) faults =
-  { name; source; program; world = World_of.world scenario;
+  { name; source; program; world = World_of.still scenario;
     environment = World_of.environment ~answers:[] ~faults scenario;
     plans = List.map (fun (p : Scenario.plan) -> p.name) scenario.plans;
     prompts = List.map (fun (a : Scenario.answer) -> a.prompt) scenario.answers }
@@ -77,8 +79,8 @@ let example directory file =
   let path = Filename.concat directory file in
   let source = read path in
   let program = compiled path source and scenario = scenario_beside path in
-  [ in_scenario file source program scenario None;
-    in_scenario (file ^ ", with failures") source program scenario (Some None) ]
+  [ in_scenario file source program scenario Faults.none;
+    in_scenario (file ^ ", with failures") source program scenario { Faults.none with fail = Any_number } ]
 
 let examples directory =
   let files = List.filter (fun f -> Filename.check_suffix f ".dol") (Array.to_list (Sys.readdir directory)) in

@@ -1,4 +1,5 @@
-(* Counter-examples of random programs are written, read, and followed to where they lead; what does not fit is refused. *)
+(* Counter-examples of random programs, with what they assume of the world, are written, read, and followed to where they
+   lead; what does not fit is refused. *)
 
 open Dolphin_explore
 module Generate = Test_support.Generate
@@ -8,10 +9,10 @@ module Transition = Dolphin_semantics.Transition
 
 let source path : Dolphin_trace.Header.source = Dolphin_trace.Header.source ~path ""
 
-let course_of program property (run : Search.run) : Course.t =
+let course_of program world property (run : Search.run) : Course.t =
   let initial = Configuration.initial program in
   let after = List.fold_left (fun _ (t : Transition.t) -> t.next) initial run.steps in
-  let steps = Course.steps program Generate.world in
+  let steps = Course.steps program world in
   { program = source "random.dol"; fleet = None; property = Property.name property; steps = steps initial run.steps;
     cycle = steps after run.cycle }
 
@@ -19,32 +20,46 @@ let same ts ts' =
   List.compare_lengths ts ts' = 0
   && List.for_all2 (fun (t : Transition.t) (t' : Transition.t) -> Configuration.equal t.next t'.next) ts ts'
 
-let comes_back program (property, (run : Search.run)) =
-  let course = course_of program property run in
+let comes_back program world (property, (run : Search.run)) =
+  let course = course_of program world property run in
   match Course.of_lines (Course.to_lines course) with
   | Error why -> QCheck2.Test.fail_reportf "not read: %s" why
   | Ok read -> (
       read = course
       &&
-      match Course.follow program Generate.world read with
+      match Course.follow program world read with
       | Ok (steps, cycle) -> same steps run.steps && same cycle run.cycle
       | Error (_, { number; why }) -> QCheck2.Test.fail_reportf "step %d: %s" number why)
 
-let follows (ast, answers) =
+let follows ((ast, world), answers) =
   let program = Generate.compile ast in
-  let environment = Environment.failing { Environment.default with answers = (fun _ -> answers) } in
-  let options = { Search.default with environment; max_states = Some 2_000 } in
-  let o = Search.run options program Generate.world in
-  let violation (property, verdict) =
-    match (verdict : Search.verdict) with Violated run -> Some (property, run) | Holds | Unreached _ | Inconclusive _ -> None
+  let environment =
+    { (Environment.failing { Environment.default with answers = (fun _ -> answers) }) with
+      losses = Any_number;
+      latecomers = Any_number;
+      may_be_late = (fun v -> v = "b") }
   in
-  List.for_all (comes_back program) (List.filter_map violation o.verdicts)
+  let options = { Search.default with environment; max_states = Some 2_000 } in
+  let o = Search.run options program world in
+  let violation (property, verdict) =
+    match (verdict : Search.verdict) with
+    | Violated run -> Some (property, run)
+    | Holds | Unreached _ | Inconclusive _ -> None
+  in
+  List.for_all (comes_back program world) (List.filter_map violation o.verdicts)
 
-let case = QCheck2.Gen.(pair Generate.program (oneofl [ []; [ [ "1"; "2" ] ]; [ [ "nonsense(" ] ] ]))
+let case =
+  let open QCheck2.Gen in
+  let closed = map (fun p -> (p, Generate.world)) Generate.program in
+  let opened = map (fun p -> (p, Generate.open_world)) Generate.sensing_program in
+  pair (oneof [ closed; opened ])
+    (oneofl [ []; [ [ "1"; "2" ] ]; [ [ "nonsense(" ] ]; [ [ "nonsense(" ]; [ "2" ] ] ])
 
 (* {1 What does not fit} *)
 
-let header = {|{"format":"dolphin-course","version":1,"program":{"path":"p","md5":""},"fleet":null,"property":"x","steps":1,"cycle":0}|}
+let header =
+  {|{"format":"dolphin-course","version":1,"program":{"path":"p","md5":""},"fleet":null,|}
+  ^ {|"property":"x","steps":1,"cycle":0}|}
 
 let refused =
   [ ([], "this is no run to follow: it is empty"); ([ "{" ], "line 1 is no JSON");
@@ -52,6 +67,11 @@ let refused =
     ([ {|{"format":"dolphin-course","version":9}|} ], "this run is of version 9; version 1 is known here");
     ([ header ], "1 steps are announced, and 0 are there"); ([ header; "{}" ], {|line 2: "label" is missing|});
     ([ header; {|{"label":"end","choice":-1}|} ], "line 2: a choice is a number from 0");
+    ([ header; {|{"label":"end","choice":0,"assumed":[{"wind":"a"}]}|} ],
+     "line 2: what is assumed is late, missing, battery, position or claim");
+    ([ header; {|{"label":"end","choice":0,"assumed":[{"battery":"a"}]}|} ], {|line 2: "is" is missing|});
+    ([ header; {|{"label":"end","choice":0,"assumed":[{"position":"a","is":[91,0,0]}]}|} ],
+     "line 2: latitude 91 is not from -90 to 90 degrees");
     ([ header; {|{"label":"end","event":"rain"}|} ], {|line 2: there are no events of kind "rain"|}) ]
 
 let refused_case (lines, expected) =
@@ -65,5 +85,6 @@ let refused_case (lines, expected) =
 let () =
   Alcotest.run "course"
     [ ( "random programs",
-        [ Test_support.Property.case "runs are followed" ~count:500 case ~print:(fun (p, _) -> Generate.print p) follows ] );
+        [ Test_support.Property.case "runs are followed" ~count:500 case follows
+            ~print:(fun ((p, _), _) -> Generate.print p) ] );
       ("refused", List.map refused_case refused) ]

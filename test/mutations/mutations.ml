@@ -91,8 +91,8 @@ let knowledge s = List.map (fun (x : Station.sight) -> x.node) (Station.sights ~
 
 let rec drained s = match Station.take s with Some (_, s) -> drained s | None -> s
 
-(* How often an invalid datagram is held against all that is known, not only against the count of those that were believed:
-   with many systems that takes long. *)
+(* How often an invalid datagram is held against all that is known, not only against the count of those that were
+   believed: with many systems that takes long. *)
 let look_every = 50
 
 type tally = { mutable valid : int; mutable invalid : int; mutable looked : int }

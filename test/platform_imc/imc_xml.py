@@ -1,4 +1,5 @@
-"""Writes the messages of facts.jsonl as an IMC.xml, with a type of systems and a message that Dolphin does not know. Usage:
+"""Writes the messages of facts.jsonl as an IMC.xml, with a type of systems and a message that Dolphin does not know.
+Usage:
 
   imc_xml.py FACTS [OLD=>NEW ...] > IMC.xml    each OLD is replaced by NEW in what is written
 """

@@ -112,7 +112,8 @@ let play (s : script) =
   let random = Random.State.make [| s.seed |] in
   let fate plan = List.assoc plan s.fates in
   let w =
-    { now = 0.; execution = Execution.create ~request:65530; clock = Vehicle_clock.unknown; verdicts = []; notes = []; told = [];
+    { now = 0.; execution = Execution.create ~request:65530;
+      clock = Vehicle_clock.unknown; verdicts = []; notes = []; told = [];
       copies = []; vehicle = Vehicle_model.create ~fate ~before:s.before; out = Network.create random s.outward;
       back = Network.create random s.inward }
   in

@@ -30,7 +30,9 @@ let mode v =
   in
   Message.Vehicle_state { Message.Vehicle_state.default with op_mode }
 
-let log text = Message.Log_book_entry { Message.Log_book_entry.default with type_ = Info; context = "Plan.Engine"; text }
+let log text =
+  Message.Log_book_entry { Message.Log_book_entry.default with type_ = Info; context = "Plan.Engine"; text }
+
 let set v state = v.state <- state; said v
 
 let request ~now ~copy (r : Message.t Control.t) v =
@@ -44,7 +46,8 @@ let request ~now ~copy (r : Message.t Control.t) v =
       match v.fate r.plan_id with
       | Is_refused why ->
         let refused = reply r Failure why in
-        [ request; initialising; begins; refused; answer why; set v { v.state with state = Ready; last_outcome = Failure } ]
+        let ready = set v { v.state with state = Ready; last_outcome = Failure } in
+        [ request; initialising; begins; refused; answer why; ready ]
       | (Succeeds after | Fails after) as fate ->
         let e = { plan = r.plan_id; request = r.request_id; copy; succeeded = false } in
         v.executions <- e :: v.executions;

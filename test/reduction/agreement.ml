@@ -114,7 +114,7 @@ let agrees options program world reference unreached (property, verdict) =
 
 let check ?limit environment program world =
   match Reference.explore ?limit environment program world with
-  | None -> Ok None
+  | None | (exception Reading.Unsettled _) -> Ok None
   | Some graph ->
     let reference = Reference.broken graph in
     let search reduction = Search.run { Search.default with environment; reduction; search_again = 0 } program world in

@@ -20,9 +20,9 @@ let for_ever (program : Ast.program) =
   first @ [ { it = Ast.While (Generate.expression (Boolean true), rest); at = Location.none } ]
 
 (* Tasks side by side, which the programs of [Generate] have too few of for our purpose. *)
-let side_by_side =
+let side_by_side ~sensing =
   let open QCheck2.Gen in
-  let part vehicles depth = Generate.task ~vehicles ~depth in
+  let part vehicles depth = (if sensing then Generate.sensing_task else Generate.task) ~vehicles ~depth in
   let* first = int_range 1 3 and* second = int_range 0 2 and* third = int_range 0 2 in
   let* a = part [ "va" ] first in
   let* b = part [ "vb" ] second in
@@ -46,16 +46,17 @@ let side_by_side =
     | _ -> map (fun ab -> ab || c) (watched (a || b))
   in
   let* posts = oneofl [ []; [ ("x", 1) ]; [ ("y", 2); ("x", 2) ] ] in
-  let before = List.map (fun (k, x) -> Generate.statement (Generate.post k x)) posts in
+  let before = Generate.kept :: List.map (fun (k, x) -> Generate.statement (Generate.post k x)) posts in
   return (Generate.executing ~before task)
 
 (* Tasks side by side inside of [until], [during], [watch] ..., and so again. *)
-let nested =
+let nested ~sensing =
   let open QCheck2.Gen in
   let* depth = int_range 0 2 in
   let* posts = oneofl [ []; [ ("x", 1) ]; [ ("y", 2); ("x", 2) ] ] in
-  let before = List.map (fun (k, x) -> Generate.statement (Generate.post k x)) posts in
-  map (Generate.executing ~before) (Generate.nested ~vehicles:Generate.vehicles ~depth)
+  let before = Generate.kept :: List.map (fun (k, x) -> Generate.statement (Generate.post k x)) posts in
+  let nested = if sensing then Generate.sensing_nested else Generate.nested in
+  map (Generate.executing ~before) (nested ~vehicles:Generate.vehicles ~depth)
 
 let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]) }
 
@@ -67,24 +68,33 @@ let environments =
     ("with failures", Environment.failing answering);
     ("with a failure", Environment.failing ~failures:1 answering);
     ("with two failures", Environment.failing ~failures:2 answering);
-    ("vehicle a fails", failing_vehicle "a") ]
+    ("vehicle a fails", failing_vehicle "a");
+    ("with losses", { answering with losses = Any_number });
+    ("with a failure and a loss", { (Environment.failing ~failures:1 answering) with losses = At_most 1 });
+    ("with latecomers", { answering with latecomers = Any_number; may_be_late = (fun v -> v = "b") }) ]
 
 let case =
   let open QCheck2.Gen in
+  let closed program = pair program (return Generate.world) and opened program = pair program (return Generate.open_world) in
   pair
     (frequency
-       [ (1, Generate.program); (1, map for_ever Generate.program); (2, side_by_side); (4, nested) ])
+       [ (2, closed Generate.program); (2, closed (map for_ever Generate.program));
+         (3, closed (side_by_side ~sensing:false)); (5, closed (nested ~sensing:false));
+         (1, opened Generate.sensing_program); (2, opened (side_by_side ~sensing:true));
+         (2, opened (nested ~sensing:true)) ])
     (oneofl environments)
 
-let print (program, (name, _)) = Printf.sprintf "%s:\n%s" name (Generate.print program)
+let print ((program, world), (name, _)) =
+  let sensors = if Dolphin_semantics.World.is_open world then "open" else "closed" in
+  Printf.sprintf "%s, %s world:\n%s" name sensors (Generate.print program)
 let skipped = ref 0
 let whole = ref 0
 let reduced = ref 0
 let broken = Hashtbl.create 7
 
-let agrees (ast, (_, environment)) =
+let agrees ((ast, world), (_, environment)) =
   let program = Generate.compile ast in
-  match Agreement.check ~limit environment program Generate.world with
+  match Agreement.check ~limit environment program world with
   | Error what -> QCheck2.Test.fail_report what
   | Ok None ->
     incr skipped;

@@ -13,7 +13,7 @@ c = pick { id 'c' }
 let plain = Environment.default
 let failing = Environment.failing plain
 
-let check ?(environment = plain) text =
+let check ?(environment = plain) ?(world = world) text =
   match Agreement.check environment (Pure_run.compile_exn (picks ^ text)) world with
   | Ok (Some found) -> found
   | Ok None -> Alcotest.fail "too large"
@@ -21,8 +21,8 @@ let check ?(environment = plain) text =
 
 let property = Alcotest.testable Dolphin_explore.Property.pp ( = )
 
-let breaks name ?environment expected text =
-  let test () = Alcotest.(check (list property)) name expected (check ?environment text).broken in
+let breaks name ?environment ?world expected text =
+  let test () = Alcotest.(check (list property)) name expected (check ?environment ?world text).broken in
   Alcotest.test_case name `Quick test
 
 let saves name ?environment most text =
@@ -121,6 +121,18 @@ let traps =
       {|post x: 1, y: 1
         execute allOf { when { post z: 1 ; consume x: 1 } then task('p')[a]
                         when { consume y: 1 } then condition { consume z: 1 } }|};
+    breaks "a guard that may hold now, and otherwise could later" ~world:Test_support.Generate.open_world
+      [ No_halt; No_leftover ]
+      {|post x: 1
+        execute condition { consume x: (battery(a) < 0.3 ? 1 : 2) } | action { post x: 2 }
+        if (poll(x: 1)) { halt 'it waited' }|};
+    breaks "code that may end the run, or go on" ~world:Test_support.Generate.open_world [ No_halt; No_leftover ]
+      {|execute action { if (battery(a) < 0.3) { halt 'low' } ; post x: 1 } | action { post x: 2 }|};
+    breaks "a lost vehicle that is looked for again" ~environment:{ plain with losses = At_most 1 }
+      [ No_error; Vehicles ]
+      {|execute (watch task('p')[a] onError { ignore() }) | task('q')[b]
+        release a
+        v = pick { id 'a' }|};
     breaks "who posts first" [ No_halt ]
       {|execute action { post x: 1 } | action { post x: 2 }
         consume x: _
@@ -185,6 +197,12 @@ let traps =
         execute action { if (!poll(x: 1)) { post y: 1 } } |
           (watch ((until { poll z: 1 } run (condition { consume u: 1 } | condition { consume v: 1 })) >> task('p')[a])
              onError { post x: 1 ; ignore() })|};
+    breaks "a lost vehicle that is missed later" ~environment:{ plain with losses = Any_number }
+      [ Vehicles ]
+      {|execute watch (task('q')[b] | (watch task('p')[a] onError { ignore() })) onError { ignore() }
+        release a
+        release b
+        x = pick { type 'UUV'; timeout 1.seconds }|};
     breaks "one failure only, ignored in one of two nests" ~environment:(Environment.failing ~failures:1 plain)
       [ No_deadlock ]
       {|execute (watch ((task('p')[a] >> condition { false }) | task('q')[b]) onError { ignore() }) |

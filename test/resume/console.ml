@@ -32,7 +32,7 @@ let writer fd death ~from =
     let line = Entry.to_string entry ^ "\n" in
     match entry with
     | Vehicle _ -> write_all fd line
-    | Header _ | Event _ | Transition _ | Note _ | Resumed _ | End _ ->
+    | Header _ | Partial _ | Label _ | Event _ | Transition _ | Note _ | Resumed _ | End _ ->
       let i = !count in
       incr count;
       if death = Before i then die ();
@@ -61,7 +61,7 @@ let drive recorder platform beginning =
   | Ended Completed -> 0
   | Ended _ | Stuck _ -> Format.eprintf "%a@." Driver.pp_outcome outcome; 1
 
-let keep_with recorder ~time vehicle note =
+let keep_with recorder ~time ~urgent:_ vehicle note =
   Recorder.write (Option.get !recorder) ~time (fun ~time -> Note { time; vehicle; note })
 
 let opened = function Ok platform -> platform | Error why -> failwith why

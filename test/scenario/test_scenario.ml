@@ -118,22 +118,27 @@ let scenario =
   let name = string_size ~gen:(oneof [ char_range 'a' 'z'; odd ]) (int_range 1 8) in
   let amount = oneof [ float_range 0.001 1e6; map float_of_int (int_range 1 10_000) ] in
   let share = oneof [ float_range 0. 1.; map (fun n -> float_of_int n /. 100.) (int_range 0 100) ] in
-  let position =
+  let place =
     map3
       (fun latitude longitude height : Dolphin_geo.Position.t -> { latitude; longitude; height })
       (float_range (-90.) 90.) (float_range (-180.) 180.) (oneof [ return 0.; float_range (-100.) 100. ]) in
+  let several first gen =
+    let+ others = list_size (int_bound 2) gen in
+    if others = [] then [] else first :: others in
   let drop = map2 (fun from lasts : Scenario.drop -> { from; lasts }) amount amount in
   let vehicle id =
-    let* kind = name and* payload = list_size (int_bound 4) name and* position = position in
+    let* kind = name and* payload = list_size (int_bound 4) name and* position = place in
     let* speed = amount and* battery = share and* drain = share and* charge = share in
     let* joins = oneof [ return 0.; amount ] and* stay = opt amount and* drops = list_size (int_bound 4) drop in
+    let* batteries = several battery share and* places = several position place in
     let leaves = Option.map (fun stay -> joins +. stay) stay in
-    return { Scenario.id; kind; payload; position; speed; battery; drain; charge; joins; leaves; drops } in
+    return
+      { Scenario.id; kind; payload; position; speed; battery; drain; charge; joins; leaves; drops; batteries; places } in
   let plan name_of_it =
     let* least = amount and* more = oneof [ return 0.; amount ] and* timed = bool in
     let duration = if timed then Some { Scenario.least; most = least +. more } else None in
     let* ending = oneof [ return Scenario.Succeeds; return Scenario.Fails; map (fun n -> Scenario.May_fail n) share ] in
-    let* place = opt position and* only = list_size (int_bound 4) name in
+    let* place = opt place and* only = list_size (int_bound 4) name in
     return { Scenario.name = name_of_it; duration; ending; place; only } in
   let answer prompt =
     let texts = list_size (int_range 1 3) (oneofl [ "2"; "'x'"; "3.km"; "[1, _]" ]) in

@@ -8,6 +8,12 @@ let world =
   Pure_run.world
     [ Pure_run.vehicle "a"; Pure_run.vehicle "b" ~north:100.; Pure_run.vehicle "c" ~kind:"UAV" ~north:200. ]
 
+let open_world =
+  let module World = Dolphin_semantics.World in
+  let place north = (Pure_run.vehicle ~north "c").position in
+  world |> World.open_battery "a" [] |> World.open_position "a" [] |> World.open_battery "b" [ 1.; 0.2 ]
+  |> World.open_position "b" [] |> World.open_battery "c" [] |> World.open_position "c" [ place 200.; place 5_000. ]
+
 let answer = "1"
 
 (* {1 Building syntax} *)
@@ -39,7 +45,7 @@ let taking name =
 let counted = assign "g" (binary Add (variable "g") (integer 1))
 let this body = map (fun body -> code (List.map statement body)) body
 
-let guard =
+let plain_guard =
   frequency
     [ (1, return (code [ statement (expression (Boolean true)) ]));
       (4, this (map (fun e -> [ e ]) (taking "poll")));
@@ -49,30 +55,73 @@ let guard =
       (1, map2 (fun p e -> code [ statement p; counted; statement e ]) posting (taking "consume"));
       (1, map (fun e -> code [ counted; statement e ]) (taking "poll")) ]
 
+(* {2 Sensors} *)
+
+let share x = expression (Number x)
+let kept = assign "h" (call "battery" [ Positional (variable "va") ])
+
+(* A comparison with what a sensor shows, or has shown. *)
+let comparison =
+  let* v = map variable (oneofl [ "va"; "vb"; "vc" ]) in
+  let battery = call "battery" [ Positional v ] and position = call "position" [ Positional v ] in
+  let west = expression (Unary (Negate, share 8.7048)) in
+  let centre = call "location" [ Positional (share 41.1852); Positional west ] in
+  let near = call "area" [ Positional centre; Positional (integer 400) ] in
+  oneofl
+    [ binary Less battery (share 0.3); binary Greater_equal battery (share 0.3);
+      binary Greater (binary Multiply battery (integer 100)) (integer 50); binary Less (variable "h") (share 0.3);
+      binary Less (call "battery" [ Positional (variable "va") ]) (call "battery" [ Positional (variable "vb") ]);
+      (* It has been charged since. *)
+      binary And (binary Less (variable "h") (share 0.3)) (binary Greater_equal (call "battery" [ Positional (variable "va") ]) (share 0.3));
+      binary Member_of position near ]
+
+let sensing_guard =
+  let one e = code [ statement e ] in
+  frequency
+    [ (3, map one comparison);
+      (2, map2 (fun e e' -> one (binary And e e')) comparison (taking "consume"));
+      (1, map2 (fun e e' -> one (binary Or e e')) comparison (taking "poll"));
+      (1, map (fun e -> code [ kept; statement e ]) comparison);
+      (3, plain_guard) ]
+
+let guard_of ~sensing = if sensing then sensing_guard else plain_guard
+let guard = plain_guard
+let deciding yes = map (fun e -> located (If (e, [ statement yes ], []))) comparison
+
 let division_by_zero = binary Divide (integer 1) (integer 0)
 
-let action_code =
+let action_code ~sensing =
+  let sensed =
+    if sensing then
+      [ (3, map (fun s -> code [ s ]) (deciding (post "x" 1))); (2, return (code [ kept ]));
+        (1, map (fun s -> code [ s ]) (deciding (call "halt" [ Positional (string "h") ]))) ]
+    else []
+  in
+  let asserting g = code [ statement (call "assert" [ Positional (expression (Closure g)) ]) ] in
   frequency
-    [ (1, return (code []));
-      (6, this (map (fun e -> [ e ]) posting));
-      (2, this (map (fun e -> [ e ]) (taking "consume")));
-      (2, return (code [ counted ]));
-      (2, return (code [ statement (call "message" [ Positional (string "m") ]) ]));
-      (2, this (map2 (fun a b -> [ a; b ]) posting posting));
-      (1, map (fun g -> code [ statement (call "assert" [ Positional (expression (Closure g)) ]) ]) guard);
-      (1, return (code [ statement division_by_zero ])) ]
+    (sensed
+     @ [ (1, return (code []));
+         (6, this (map (fun e -> [ e ]) posting));
+         (2, this (map (fun e -> [ e ]) (taking "consume")));
+         (2, return (code [ counted ]));
+         (2, return (code [ statement (call "message" [ Positional (string "m") ]) ]));
+         (2, this (map2 (fun a b -> [ a; b ]) posting posting));
+         (1, map asserting (guard_of ~sensing));
+         (1, return (code [ statement division_by_zero ])) ])
 
-let handler =
+let handler ~sensing =
   let no_arguments name = statement (call name []) in
+  let sensed = if sensing then [ map (fun s -> code [ s ]) (deciding (call "ignore" [])) ] else [] in
   oneof
-    [ return (code [ no_arguments "ignore" ]);
-      return (code []);
-      return (code [ no_arguments "propagate" ]);
-      map (fun e -> code [ statement e; no_arguments "ignore" ]) posting;
-      map (fun e -> code [ statement e ]) posting;
-      return (code [ statement (call "message" [ Positional (variable "it") ]); no_arguments "ignore" ]);
-      return (code [ statement (call "halt" [ Positional (string "h") ]) ]);
-      return (code [ statement division_by_zero ]) ]
+    (sensed
+     @ [ return (code [ no_arguments "ignore" ]);
+         return (code []);
+         return (code [ no_arguments "propagate" ]);
+         map (fun e -> code [ statement e; no_arguments "ignore" ]) posting;
+         map (fun e -> code [ statement e ]) posting;
+         return (code [ statement (call "message" [ Positional (variable "it") ]); no_arguments "ignore" ]);
+         return (code [ statement (call "halt" [ Positional (string "h") ]) ]);
+         return (code [ statement division_by_zero ]) ])
 
 let duration =
   frequency
@@ -82,9 +131,10 @@ let duration =
 
 (* {1 Tasks} *)
 
-let code_task =
+let code_task ~sensing =
+  let guard = guard_of ~sensing in
   frequency
-    [ (3, map (fun c -> call "action" [ Positional (expression (Closure c)) ]) action_code);
+    [ (3, map (fun c -> call "action" [ Positional (expression (Closure c)) ]) (action_code ~sensing));
       (2, map (fun c -> call "condition" [ Positional (expression (Closure c)) ]) guard);
       (1, map (fun i -> call "idle" [ Positional (integer i) ]) (int_range 0 2));
       (1, map (fun c -> call "assert" [ Positional (expression (Closure c)); Positional (string "a") ]) guard) ]
@@ -94,9 +144,9 @@ let platform_task vehicles =
   let* v = oneofl vehicles in
   return (expression (Index (call "task" [ Positional (string plan) ], variable v)))
 
-let leaf = function
-  | [] -> code_task
-  | vehicles -> frequency [ (3, platform_task vehicles); (1, code_task) ]
+let leaf ~sensing = function
+  | [] -> code_task ~sensing
+  | vehicles -> frequency [ (3, platform_task vehicles); (1, code_task ~sensing) ]
 
 (* [vehicles] shared out to two branches. *)
 let shared_out vehicles =
@@ -105,10 +155,11 @@ let shared_out vehicles =
   let side wanted = List.filter_map (fun (v, left) -> if left = wanted then Some v else None) both in
   return (side true, side false)
 
-let rec task ~vehicles ~depth : expression Gen.t =
+let rec task_of ~sensing ~vehicles ~depth : expression Gen.t =
+  let leaf = leaf ~sensing and guard = guard_of ~sensing in
   if depth <= 0 then leaf vehicles
   else
-    let part = fun () -> task ~vehicles ~depth:(depth - 1) in
+    let part = fun () -> task_of ~sensing ~vehicles ~depth:(depth - 1) in
     let* shape =
       frequencyl
         [ (2, `Leaf); (5, `Sequence); (5, `Parallel); (2, `All_of); (2, `One_of); (1, `Wait_for); (2, `Until);
@@ -119,21 +170,21 @@ let rec task ~vehicles ~depth : expression Gen.t =
     | `Sequence -> map2 (binary Sequence) (part ()) (part ())
     | `Parallel ->
       let* left, right = shared_out vehicles in
-      let* a = task ~vehicles:left ~depth:(depth - 1) in
-      map (binary Parallel a) (task ~vehicles:right ~depth:(depth - 1))
-    | `All_of -> map (fun branches -> expression (Builder (All_of, branches))) (branches part)
-    | `One_of -> map (fun branches -> expression (Builder (One_of, branches))) (branches part)
+      let* a = task_of ~sensing ~vehicles:left ~depth:(depth - 1) in
+      map (binary Parallel a) (task_of ~sensing ~vehicles:right ~depth:(depth - 1))
+    | `All_of -> map (fun branches -> expression (Builder (All_of, branches))) (branches guard part)
+    | `One_of -> map (fun branches -> expression (Builder (One_of, branches))) (branches guard part)
     | `Wait_for -> map2 (fun c t -> expression (Wait_for (c, t))) guard (part ())
     | `Until -> map2 (fun c t -> expression (Until (c, t))) guard (part ())
     | `During -> map2 (fun d t -> expression (During (d, t))) duration (part ())
-    | `Watch -> map2 (fun t c -> expression (Watch (t, c))) (part ()) handler
+    | `Watch -> map2 (fun t c -> expression (Watch (t, c))) (part ()) (handler ~sensing)
     | `Allocated ->
       let all = match vehicles with [] -> [ "va" ] | vehicles -> vehicles in
       let set = List.map variable all in
       let set = List.fold_left (binary Add) (List.hd set) (List.tl set) in
       map (fun t -> expression (Index (t, set))) (part ())
 
-and branches part =
+and branches guard part =
   let branch () = map2 (fun c t -> statement (expression (When (c, t)))) guard (part ()) in
   let* n = int_range 1 3 in
   flatten_l (List.init n (fun _ -> branch ()))
@@ -148,14 +199,15 @@ let dealt n vehicles =
 
 let branch guard t = statement (expression (When (guard, t)))
 
-let in_context vehicles t =
+let in_context ~sensing vehicles t =
+  let leaf = leaf ~sensing and guard = guard_of ~sensing in
   let* shape =
     frequencyl [ (3, `Until); (2, `During); (4, `Watch); (2, `Before); (1, `After); (2, `All_of); (1, `One_of) ]
   in
   match shape with
   | `Until -> map (fun c -> expression (Until (c, t))) guard
   | `During -> map (fun d -> expression (During (d, t))) duration
-  | `Watch -> map (fun c -> expression (Watch (t, c))) handler
+  | `Watch -> map (fun c -> expression (Watch (t, c))) (handler ~sensing)
   | `Before -> map (binary Sequence t) (leaf vehicles)
   | `After -> map (fun first -> binary Sequence first t) (leaf vehicles)
   | `One_of -> map (fun g -> expression (Builder (One_of, [ branch g t ]))) guard
@@ -163,12 +215,13 @@ let in_context vehicles t =
     let* g = guard and* g' = guard and* other = leaf vehicles in
     return (expression (Builder (All_of, [ branch g t; branch g' other ])))
 
-let rec nested ~vehicles ~depth =
+let rec nested_of ~sensing ~vehicles ~depth =
+  let leaf = leaf ~sensing in
   let* n = frequencyl [ (3, 2); (1, 3) ] in
   let* shares = dealt n vehicles in
   let part vehicles =
     let* is_nest = if depth <= 0 then return false else map (fun i -> i < 2) (int_bound 4) in
-    if is_nest then nested ~vehicles ~depth:(depth - 1)
+    if is_nest then nested_of ~sensing ~vehicles ~depth:(depth - 1)
     else
       let* task = leaf vehicles and* next = leaf vehicles and* short = bool in
       return (if short then task else binary Sequence task next)
@@ -179,10 +232,15 @@ let rec nested ~vehicles ~depth =
   let rec wrap n t =
     if n = 0 then return t
     else
-      let* t = in_context vehicles t in
+      let* t = in_context ~sensing vehicles t in
       wrap (n - 1) t
   in
   wrap contexts t
+
+let nested = nested_of ~sensing:false
+let sensing_nested = nested_of ~sensing:true
+let task = task_of ~sensing:false
+let sensing_task = task_of ~sensing:true
 
 (* {1 Scripts} *)
 
@@ -213,12 +271,12 @@ let picks =
       (1, return ([ by_type ], [ "va" ]));
       (1, return ([ everything ], [ "va" ])) ]
 
-let rec body vehicles level : statement list Gen.t =
+let rec body ~sensing vehicles level : statement list Gen.t =
   let* n = int_range 1 (if level = 0 then 3 else 2) in
-  let* parts = flatten_l (List.init n (fun _ -> some_statements vehicles level)) in
+  let* parts = flatten_l (List.init n (fun _ -> some_statements ~sensing vehicles level)) in
   return (List.concat parts)
 
-and some_statements vehicles level =
+and some_statements ~sensing vehicles level =
   let* shape =
     frequencyl
       ([ (6, `Execute); (2, `Post); (1, `Message); (1, `Pause); (1, `Ask); (1, `Release); (1, `Set_timeout);
@@ -229,7 +287,7 @@ and some_statements vehicles level =
   match shape with
   | `Execute ->
     let* depth = int_bound (3 - level) in
-    map (fun t -> [ statement (call "execute" [ Positional t ]) ]) (task ~vehicles ~depth)
+    map (fun t -> [ statement (call "execute" [ Positional t ]) ]) (task_of ~sensing ~vehicles ~depth)
   | `Post -> map (fun e -> [ statement e ]) posting
   | `Consume -> map (fun e -> [ statement e ]) (taking "consume")
   | `Message -> one (statement (call "message" [ Positional (variable "g") ]))
@@ -238,28 +296,31 @@ and some_statements vehicles level =
   | `Release -> map (fun v -> [ statement (call "release" [ Positional (variable v) ]) ]) (oneofl vehicles)
   | `Set_timeout -> one (statement (call "setConnectionTimeout" [ Positional (integer 10) ]))
   | `If ->
-    let* test = taking "poll" in
-    let* yes = body vehicles (level + 1) in
-    let* no = body vehicles (level + 1) in
+    let* test = if sensing then oneof [ taking "poll"; comparison ] else taking "poll" in
+    let* yes = body ~sensing vehicles (level + 1) in
+    let* no = body ~sensing vehicles (level + 1) in
     one (located (If (test, yes, no)))
   | `While ->
     let i = Printf.sprintf "i%d" level in
-    let* inside = body vehicles (level + 1) in
+    let* inside = body ~sensing vehicles (level + 1) in
     let next = assign i (binary Add (variable i) (integer 1)) in
     return [ assign i (integer 0); located (While (binary Less (variable i) (integer 2), next :: inside)) ]
 
-let program =
-  let* picked, vehicles = picks in
-  let* before = body vehicles 1 in
+let programs ~sensing =
+  let* picked, vehicles = if sensing then return (List.map pick_by_id all, vehicles) else picks in
+  let* before = body ~sensing vehicles 1 in
   let* depth = frequencyl [ (1, 0); (1, 1); (2, 2); (5, 3); (4, 4) ] in
   let* posts = oneofl [ []; [ ("x", 1) ]; [ ("x", 1); ("y", 2); ("z", 1) ] ] in
   let posts = List.map (fun (k, x) -> statement (post k x)) posts in
-  let* t = task ~vehicles ~depth in
-  let* after = body vehicles 0 in
+  let* t = task_of ~sensing ~vehicles ~depth in
+  let* after = body ~sensing vehicles 0 in
   let* first = bool in
   let executed = [ statement (call "execute" [ Positional t ]) ] in
-  return ((start :: picked) @ posts @ if first then executed @ after else before @ executed @ after)
+  let start = if sensing then [ start; assign "h" (integer 1) ] else [ start ] in
+  return (start @ picked @ posts @ if first then executed @ after else before @ executed @ after)
 
+let program = programs ~sensing:false
+let sensing_program = programs ~sensing:true
 let print p = Format.asprintf "%a" Print.program p
 let source = map print program
 let compile p = Pure_run.compile_exn (print p)

@@ -6,6 +6,10 @@ module Ast = Dolphin_syntax.Ast
 val world : Dolphin_semantics.World.t
 (** The world of these programs: the UUVs [a] and [b], and the UAV [c]. *)
 
+val open_world : Dolphin_semantics.World.t
+(** The same, where sensors may show this or that: of [a] anything; of [b] one of two charges, and any position; of [c]
+    any charge, and one of two positions. *)
+
 val answer : string
 (** What any [ask] of these programs may be answered. *)
 
@@ -13,6 +17,9 @@ val answer : string
 
 val program : Ast.program QCheck2.Gen.t
 (** A script that picks one to three vehicles and then executes tasks, posts, polls, asks, releases... It shrinks. *)
+
+val sensing_program : Ast.program QCheck2.Gen.t
+(** Likewise with code that compares what sensors show, at once or later. *)
 
 val source : string QCheck2.Gen.t
 (** {!program} as text. *)
@@ -29,9 +36,18 @@ val task : vehicles:string list -> depth:int -> Ast.expression QCheck2.Gen.t
 (** [task ~vehicles ~depth] is a task of at most that depth, each of whose platform tasks names its vehicle, by one of
     these variables; branches of [|] name different ones. Without vehicles it has no platform tasks. *)
 
+val sensing_task : vehicles:string list -> depth:int -> Ast.expression QCheck2.Gen.t
+(** Likewise, with code as in {!sensing_program}; the global [h] must have a value. *)
+
 val nested : vehicles:string list -> depth:int -> Ast.expression QCheck2.Gen.t
 (** [nested ~vehicles ~depth] is as {!task}, of parts side by side, most of them inside of [until], [during], [watch],
     [allOf] ..., and so again [depth] times. *)
+
+val sensing_nested : vehicles:string list -> depth:int -> Ast.expression QCheck2.Gen.t
+(** Likewise, with code as in {!sensing_program}. *)
+
+val kept : Ast.statement
+(** [h = battery(va)]. *)
 
 val guard : Ast.closure QCheck2.Gen.t
 (** Code of a [when], [waitFor], [condition] or [until]. *)

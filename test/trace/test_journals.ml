@@ -6,7 +6,7 @@ let show verdict = Format.asprintf "@[<v>%a@]" Verdict.pp verdict
 let is_run name verdict =
   match verdict with
   | Verdict.Run _ -> ()
-  | Prefix _ | No_run _ | Unreadable _ -> Alcotest.failf "%s: %s" name (show verdict)
+  | _ -> Alcotest.failf "%s: %s" name (show verdict)
 
 (* {1 What runs write checks} *)
 
@@ -53,7 +53,7 @@ let ends_of name source expected =
   let r = Runs.of_text source in
   match Runs.check r with
   | Run { ending; _ } -> Alcotest.(check string) name expected ending.how
-  | (Prefix _ | No_run _ | Unreadable _) as verdict -> Alcotest.failf "%s: %s" name (show verdict)
+  | verdict -> Alcotest.failf "%s: %s" name (show verdict)
 
 let endings () =
   ends_of "completed" "message 1" "completed";

@@ -8,7 +8,7 @@ let story journal =
   let is_told line =
     match Entry.of_string line with
     | Ok (Header _ | Event _ | Transition _ | End _) -> true
-    | Ok (Vehicle _ | Note _ | Resumed _) | Error _ -> false
+    | Ok (Partial _ | Label _ | Vehicle _ | Note _ | Resumed _) | Error _ -> false
   in
   List.filter is_told (Runs.lines journal)
 
@@ -54,4 +54,21 @@ let examples () =
   in
   List.iter go Runs.examples
 
-let () = Alcotest.run "resume" [ ("resume", [ case "after a sample of the lines of all examples" examples ]) ]
+(* Cut at any byte, a journal is gone on with from its last whole line, or refused. *)
+let at_each_byte () =
+  let r = Runs.run ~period:60. "tuple_space" in
+  let header = 1 + String.index r.journal '\n' in
+  let read length =
+    let cut = String.sub r.journal 0 length in
+    match Dolphin_runtime.Resumption.read r.program ~hash:r.hash (Reader.of_string cut) with
+    | Ok past ->
+      if past.kept > length || r.journal.[past.kept - 1] <> '\n' then Alcotest.failf "cut at %d, it goes on at %d" length past.kept
+    | Error (No_run (Unreadable _)) when length < header -> ()
+    | Error (Over _) when length = String.length r.journal -> ()
+    | Error trouble -> Alcotest.failf "cut at %d: %a" length Dolphin_runtime.Resumption.pp_trouble trouble
+  in
+  for length = 0 to String.length r.journal do read length done
+
+let () = Alcotest.run "resume" 
+    [ ( "resume",
+        [ case "after a sample of the lines of all examples" examples; case "cut at each byte" at_each_byte ] ) ]

@@ -79,8 +79,8 @@ val admits : t -> string -> message -> bool
 (** [admits d name m]: [name] is that of [m], or of a group with [m] in it. *)
 
 val difference : t -> than:t -> string -> string option
-(** [difference d ~than:d' name] is why the message [name] of [d] looks otherwise on the wire than that of [d'], in words;
-    [None] if it does not, or [d'] has none. Names of fields, units and values may differ. *)
+(** [difference d ~than:d' name] is why the message [name] of [d] looks otherwise on the wire than that of [d'], in
+    words; [None] if it does not, or [d'] has none. Names of fields, units and values may differ. *)
 
 val pp : Format.formatter -> t -> unit
 (** The definition as {!Def_file} spells it: if [d] was read by {!Def_file.parse}, then

@@ -43,7 +43,7 @@ let configuration bound running : Configuration.t =
   }
 
 let transition ?(rules = []) ?(effects = []) ?(running = []) ?(bound = []) label : Transition.t =
-  { rules; label; next = configuration bound running; effects }
+  { rules; label; next = configuration bound running; effects; assumed = [] }
 
 let told ts =
   let tell (log, reversed) (time, t) =

@@ -1,0 +1,15 @@
+(** What may go wrong in a world that is explored, as [--faults] says. *)
+
+type t = {
+  fail : Environment.limit;  (** tasks that fail though the fleet does not say so *)
+  loss : Environment.limit;  (** lost connections *)
+  join : Environment.limit;  (** vehicles that come late, or never *)
+}
+
+val none : t
+
+val of_string : string -> (t, string) result
+(** [of_string text] is what [text] spells: ["fail"], ["fail=1,loss=2"], ["all"]; or what is wrong with it. *)
+
+val pp : Format.formatter -> t -> unit
+(** As {!of_string} reads it. *)

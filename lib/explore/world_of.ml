@@ -1,0 +1,44 @@
+open Dolphin_semantics
+module Scenario = Dolphin_scenario.Scenario
+
+let still scenario =
+  let add world (state : World.vehicle_state) = World.add { state with connected = true } world in
+  List.fold_left add World.empty (Scenario.states scenario)
+
+let world (scenario : Scenario.t) =
+  let open_sensors world (v : Scenario.vehicle) =
+    World.open_position v.id v.places (World.open_battery v.id v.batteries world)
+  in
+  List.fold_left open_sensors (still scenario) scenario.vehicles
+
+let ending (scenario : Scenario.t) v name : Environment.endings =
+  let vehicle = List.find_opt (fun (vehicle : Scenario.vehicle) -> vehicle.id = v) scenario.vehicles in
+  match Scenario.plan scenario name, vehicle with
+  | None, _ -> Succeeds
+  | Some plan, Some vehicle when not (Scenario.knows plan vehicle) -> Fails
+  | Some plan, _ -> (
+      match plan.ending with Succeeds -> Succeeds | May_fail _ -> May_fail | Fails -> Fails)
+
+let answers given (scenario : Scenario.t) prompt =
+  match given, List.find_opt (fun (a : Scenario.answer) -> a.prompt = prompt) scenario.answers with
+  | _ :: _, _ -> [ given ]
+  | [], Some answer -> List.map (fun text -> [ text ]) answer.texts
+  | [], None -> []
+
+let is_unsteady (v : Scenario.vehicle) = v.joins > 0. || v.leaves <> None || v.drops <> []
+
+let environment ~answers:given ~(faults : Faults.t) (scenario : Scenario.t) =
+  let unsteady = List.filter is_unsteady scenario.vehicles in
+  let late = List.map (fun (v : Scenario.vehicle) -> v.id) (if unsteady = [] then scenario.vehicles else unsteady) in
+  let options =
+    { Environment.default with
+      endings = ending scenario;
+      answers = answers given scenario;
+      losses = faults.loss;
+      latecomers = faults.join;
+      may_be_late = (fun v -> List.mem v late) }
+  in
+  match faults.fail with
+  | Never -> options
+  | Any_number -> Environment.failing options
+  | At_most n -> Environment.failing ~failures:n options

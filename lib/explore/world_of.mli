@@ -1,0 +1,15 @@
+(** What may happen to a program in the world that a fleet file describes, for exploring. *)
+
+module Scenario := Dolphin_scenario.Scenario
+
+val world : Scenario.t -> Dolphin_semantics.World.t
+(** [world s] is the vehicles of [s], all in reach, at their places at the start. What their sensors show is open: one of
+    the values that [s] gives, or if it gives none but the first, any. *)
+
+val still : Scenario.t -> Dolphin_semantics.World.t
+(** [still s] is [world s] in which sensors always show what they show at the start. *)
+
+val environment : answers:string list -> faults:Faults.t -> Scenario.t -> Environment.options
+(** [environment ~answers ~faults s] is what else may happen. Plans end as [s] says, and as [faults] do. Late may be the
+    vehicles that join, leave or drop in [s]; if none does, all. Each question is answered by any of [answers], or if
+    there are none by what [s] answers. *)

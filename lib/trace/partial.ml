@@ -1,0 +1,170 @@
+open Dolphin_semantics
+module Vehicle_map = Configuration.Vehicle_map
+module Seen = Hashtbl.Make (Configuration)
+
+type t = {
+  program : Core.program;
+  world : World.t;
+  observed : string list;
+  most : int;
+  ways : Configuration.t list;  (* all that the lines so far may have led to, each once *)
+  lines : int;
+  over : bool;
+}
+
+type mismatch = { reason : string; possible : string list }
+type trouble = Impossible of mismatch | Too_many
+
+let start ~observed ~most world program =
+  { program; world; observed; most; ways = [ Configuration.initial program ]; lines = 0; over = false }
+
+let lines p = p.lines
+let is_over p = p.over
+
+let kind label =
+  let stop = ref (String.length label) in
+  String.iteri (fun i c -> if (c = '(' || c = ' ') && i < !stop then stop := i) label;
+  String.sub label 0 !stop
+
+let show (t : Transition.t) = Format.asprintf "%a" Label.pp t.label
+let is_hidden p label = p.observed <> [] && not (List.mem (kind label) p.observed)
+
+(* {1 Steps} *)
+
+(* What follows [prefix] in [label], less its closing parenthesis. *)
+let inside prefix label =
+  let n = String.length prefix and length = String.length label in
+  if length > n && String.sub label 0 n = prefix && label.[length - 1] = ')' then Some (String.sub label n (length - n - 1))
+  else None
+
+(* The events that may make a transition of [c] with this label; without, those that may have been hidden. *)
+let events p (c : Configuration.t) label =
+  let ends v =
+    let name = match Vehicle_map.find_opt v c.allocation with Some task -> task.name | None -> "" in
+    match label with
+    | None when is_hidden p "fail" -> [ Transition.Vehicle_done v; Vehicle_failed (v, "failed") ]
+    | None -> [ Vehicle_done v ]
+    | Some label -> (
+        match inside (Printf.sprintf "fail(%s, %s, " v name) label with
+        | Some why -> [ Vehicle_failed (v, why) ]
+        | None -> [ Vehicle_done v ])
+  in
+  let of_awaited : Transition.event -> Transition.event list = function
+    | Vehicle_done v | Vehicle_failed (v, _) -> ends v
+    | Timer_expired timer -> [ Timer_expired timer ]
+    | Answered _ | Nobody_answers _ -> (
+        match label with
+        | None -> []
+        | Some "no-answer" -> [ Nobody_answers "" ]
+        | Some label -> Option.to_list (Option.map (fun text -> Transition.Answered text) (inside "answer(" label)))
+    | Replied _ | Host_failed _ -> (
+        match label with
+        | None -> []
+        | Some label -> Option.to_list (Option.map (fun why -> Transition.Host_failed why) (inside "no-reply(" label)))
+    | Interruption -> []
+  in
+  let interruption = if label = Some "interrupt" then [ Transition.Interruption ] else [] in
+  List.concat_map of_awaited (Transition.awaited c) @ interruption
+
+let on p c event = Result.to_option (Transition.accept p.program p.world c event)
+
+let steps p c label : Transition.t Seq.t =
+  let caused () = List.to_seq (List.filter_map (on p c) (events p c label)) () in
+  Seq.append (Transition.internal p.program p.world c) caused
+
+(* {1 Search} *)
+
+exception Enough
+
+(* [f] of each configuration that hidden steps lead to, breadth first, each once. *)
+let each_way p f =
+  let seen = Seen.create 64 and queue = Queue.create () in
+  let reach c =
+    if not (Seen.mem seen c) then begin
+      if Seen.length seen >= p.most then raise Enough;
+      Seen.replace seen c ();
+      Queue.add c queue
+    end
+  in
+  List.iter reach p.ways;
+  while not (Queue.is_empty queue) do
+    let c = Queue.take queue in
+    f c;
+    Seq.iter (fun (t : Transition.t) -> if is_hidden p (show t) then reach t.next) (steps p c None)
+  done
+
+let most_shown = 8
+
+(* [after p choose what] is all that [choose] makes of the configurations that are possible now. *)
+let after p choose what =
+  let found = Seen.create 64 and ways = ref [] and possible = ref [] in
+  let add c =
+    if not (Seen.mem found c) then begin
+      Seen.replace found c ();
+      ways := c :: !ways
+    end
+  in
+  let note c =
+    if List.length !possible < most_shown then
+      Seq.iter
+        (fun t ->
+           let label = show t in
+           if (not (is_hidden p label)) && not (List.mem label !possible) then possible := label :: !possible)
+        (steps p c None)
+  in
+  match each_way p (fun c -> choose c add; if !ways = [] then note c) with
+  | exception Enough -> Error Too_many
+  | () ->
+    if !ways <> [] then Ok { p with ways = List.rev !ways; lines = p.lines + 1 }
+    else Error (Impossible { reason = what ^ " could not happen"; possible = List.rev !possible })
+
+let label p text =
+  let choose c add =
+    Seq.iter (fun (t : Transition.t) -> if show t = text then add t.next) (steps p c (Some text))
+  in
+  if is_hidden p text then
+    Error (Impossible { reason = Printf.sprintf "labels like %s are not among those that this trace has" text; possible = [] })
+  else after p choose text
+
+let event p happening =
+  let choose (c : Configuration.t) add =
+    let site =
+      match c.control with Script m | Waiting (m, _) | Executing (m, _) -> Machine.site m | Ended _ -> Fault.unknown_site
+    in
+    match Happening.to_event ~site happening with
+    | Ok event -> Option.iter (fun (t : Transition.t) -> add t.next) (on p c event)
+    | Error _ -> ()
+  in
+  after p choose (Format.asprintf "%a" Happening.pp happening)
+
+let finish p (ending : Request.ending) =
+  (* The words of a failure that is hidden are not known. *)
+  let same (its : Request.ending) = its = ending || (is_hidden p "fail" && its.how = "failed" && ending.how = "failed") in
+  let choose (c : Configuration.t) add =
+    match c.control with
+    | Ended its_ending when same (Request.ending its_ending) -> add c
+    | Ended Interrupted when ending.how = "stuck" -> add c
+    | Script _ | Waiting _ | Executing _ | Ended _ -> ()
+  in
+  let what = Printf.sprintf "a run that ended %s" ending.how in
+  Result.map (fun p -> { p with over = true; lines = p.lines - 1 }) (after p choose what)
+
+(* What was hidden may have happened before this was known, or will after. *)
+let see p (state : World.vehicle_state) =
+  if World.find state.id p.world = Some state then Ok p
+  else
+    let ways = ref [] in
+    match each_way p (fun c -> ways := c :: !ways) with
+    | exception Enough -> Error Too_many
+    | () -> Ok { p with ways = List.rev !ways; world = World.add state p.world }
+
+let feed p (entry : Entry.t) =
+  if p.over then Error (Impossible { reason = "the trace goes on after its last line"; possible = [] })
+  else
+    match entry with
+    | Vehicle { state; _ } -> see p state
+    | Label { label = text; _ } -> label p text
+    | Event { happening; _ } -> event p happening
+    | End { ending; _ } -> finish p ending
+    | Header _ | Partial _ | Note _ | Resumed _ -> Ok p
+    | Transition _ -> Error (Impossible { reason = "transitions are lines of whole journals"; possible = [] })

@@ -1,0 +1,255 @@
+(* Every run on the simulated fleet lies within the explored graph of the same program in the same world: of all
+   examples, and of random programs with random fleets; and so does every run whose sensors show anything at each step.
+   The graph is followed along the run, from what the explorer says may happen: a transition of the run must be among
+   those, with the same label and the same result. PROGRAMS in the environment is how many programs are tried of each
+   kind, 300 by default. *)
+
+open Dolphin_semantics
+open Dolphin_runtime
+open Dolphin_explore
+module Scenario = Dolphin_scenario.Scenario
+module Simulator = Dolphin_platform_sim.Simulator
+module Generate = Test_support.Generate
+
+(* {1 Runs} *)
+
+(* The simulated fleet, in whose words the explorer speaks of failures. *)
+module Platform = struct
+  include Simulator.Virtual
+
+  let begins prefix text = String.length text >= String.length prefix && String.sub text 0 (String.length prefix) = prefix
+
+  let next p =
+    let translate : Dolphin_runtime.Platform.event -> Dolphin_runtime.Platform.event = function
+      | Task_failed (v, why) ->
+        Task_failed (v, if begins "connection lost" why then Environment.loss else Environment.failure)
+      | (Vehicle _ | Task_done _ | Timer _ | Quiet) as event -> event
+    in
+    Lwt.map translate (next p)
+end
+
+let console scenario =
+  let asked = Hashtbl.create 4 in
+  let ask prompt =
+    let n = Option.value (Hashtbl.find_opt asked prompt) ~default:0 in
+    Hashtbl.replace asked prompt (n + 1);
+    Lwt.return (Option.to_result ~none:"none is given" (Scenario.answer scenario prompt n))
+  in
+  { Console.say = ignore; ask; refused = ignore }
+
+let no_host ~site:_ ~subject:_ ~member:_ ~arguments:_ = Lwt.return (Error "a host's procedures are not explored")
+
+(* So many transitions of a run that does not end are enough. *)
+let most_steps = 400
+
+exception Enough
+
+let run ~seed scenario program =
+  let taken = ref [] and left = ref most_steps in
+  let transition ~time:_ ~cause:_ (t : Transition.t) =
+    if !left = 0 then raise Enough;
+    decr left;
+    match t.label with Interrupt -> () | _ -> taken := t :: !taken
+  in
+  let platform = Platform.create ~seed scenario in
+  let observer : Observer.t = { transition; news = (fun ~time:_ _ -> ()) } in
+  let whole () =
+    Driver.run (module Platform) platform ~observer ~host:no_host ~console:(console scenario)
+      ~interruption:(fst (Lwt.wait ())) program
+  in
+  (match Lwt_main.run (whole ()) with Ended _ | Stuck _ -> () | exception Enough -> ());
+  List.rev !taken
+
+(* {1 The graph} *)
+
+(* A global that holds what a sensor has shown: the explorer knows no more of it. *)
+let same_store (found : Store.t) (store : Store.t) =
+  let same (i, x) (i', x') = i = i' && (Reading.is_reading x || Value.compare x x' = 0) in
+  let found = Store.bindings found and store = Store.bindings store in
+  List.compare_lengths found store = 0 && List.for_all2 same found store
+
+(* Messages of the explorer speak of vehicles and sensors as it knows them, and so do machines. *)
+let same_control ~senses (found : Configuration.control) (control : Configuration.control) =
+  match found, control with
+  | Ended (Failed f), Ended (Failed f') -> f.site = f'.site
+  | Ended (Halted _), Ended (Halted _) -> true
+  | Script m, Script m' -> Machine.compare m m' = 0 || (senses && Machine.site m = Machine.site m')
+  | Waiting (m, request), Waiting (m', request') ->
+    (Machine.compare m m' = 0 || (senses && Machine.site m = Machine.site m'))
+    && Machine.compare_request request request' = 0
+  | Executing (m, r), Executing (m', r') ->
+    (Machine.compare m m' = 0 || (senses && Machine.site m = Machine.site m')) && Residual.equal r r'
+  | Ended e, Ended e' -> Configuration.compare_ending e e' = 0
+  | (Script _ | Waiting _ | Executing _ | Ended _), _ -> false
+
+let same_configuration ~senses (found : Configuration.t) (c : Configuration.t) =
+  same_control ~senses found.control c.control
+  && same_store found.store c.store
+  && Configuration.Vehicle_map.equal (fun (p : Core.platform_task) p' -> p.name = p'.name) found.allocation c.allocation
+  && found.bound = c.bound
+  && Tuples.compare found.tuples c.tuples = 0
+
+let same_label ~senses (found : Label.t) (label : Label.t) =
+  match found, label with
+  | No_vehicles _, No_vehicles _ | Cannot_execute _, Cannot_execute _ | Fault _, Fault _ -> true
+  | (Did (Said _) | Halt _), (Did (Said _) | Halt _) when senses -> true
+  | (Act ds, Act ds' | Check ds, Check ds' | Cut ds, Cut ds') when senses -> List.compare_lengths ds ds' = 0
+  | _, _ -> Label.equal found label
+
+let follow options program world taken =
+  let senses = program.Core.reads_sensors in
+  let step (number, states) (t : Transition.t) =
+    let leads ((t' : Transition.t), e) =
+      if same_label ~senses t'.label t.label && same_configuration ~senses t'.next t.next then Some (t'.next, e) else None
+    in
+    let after (c, e) = List.filter_map leads (Environment.choices options program world e c) in
+    let distinct found (c, e) =
+      let same (c', e') = Configuration.equal c c' && Environment.compare e e' = 0 in
+      if List.exists same found then found else (c, e) :: found
+    in
+    match List.fold_left distinct [] (List.concat_map after states) with
+    | [] ->
+      let offered (c, e) =
+        List.map
+          (fun ((t : Transition.t), _) -> Format.asprintf "%a" Label.pp t.label)
+          (Environment.choices options program world e c)
+      in
+      let offered = String.concat ", " (List.concat_map offered states) in
+      failwith (Format.asprintf "step %d, %a, is not explored; there are: %s" number Label.pp t.label offered)
+    | states -> (number + 1, states)
+  in
+  let start = (Configuration.initial program, Environment.initial) in
+  fst (List.fold_left step (1, [ start ]) taken) - 1
+
+let is_unsteady (v : Scenario.vehicle) = v.joins > 0. || v.leaves <> None || v.drops <> []
+
+(* Links come and go where the fleet says so, and then only; nor do batteries run empty elsewhere, which makes tasks
+   fail. *)
+let environment (scenario : Scenario.t) =
+  let is_drained (v : Scenario.vehicle) = v.drain > 1. in
+  let where is_so : Environment.limit = if List.exists is_so scenario.vehicles then Any_number else Never in
+  let faults : Faults.t = { fail = where is_drained; loss = where is_unsteady; join = where is_unsteady } in
+  World_of.environment ~answers:[] ~faults scenario
+
+let steps = ref 0
+
+let is_explored ~seed scenario program =
+  let taken = run ~seed scenario program in
+  steps := !steps + follow (environment scenario) program (World_of.world scenario) taken
+
+(* {1 Examples} *)
+
+let folder = "../../examples"
+
+let contents path =
+  let channel = open_in_bin path in
+  Fun.protect ~finally:(fun () -> close_in channel) (fun () -> really_input_string channel (in_channel_length channel))
+
+let examples =
+  let program file = Filename.chop_suffix_opt ~suffix:".dol" file in
+  List.sort String.compare (List.filter_map program (Array.to_list (Sys.readdir folder)))
+
+let example name =
+  let check () =
+    let file ending = Filename.concat folder (name ^ ending) in
+    let program = Test_support.Pure_run.compile_exn (contents (file ".dol")) in
+    match Scenario.read ~file:name (contents (file ".fleet")) with
+    | Error _ -> Alcotest.fail "the fleet is wrong"
+    | Ok scenario -> List.iter (fun seed -> is_explored ~seed scenario program) [ 0; 1; 2; 3; 4 ]
+  in
+  Alcotest.test_case name `Quick check
+
+(* {1 Random programs} *)
+
+let fleet =
+  let open QCheck2.Gen in
+  let time = map float_of_int (int_range 1 200) in
+  let vehicle id kind north =
+    let* joins = frequency [ (3, return 0.); (1, time) ] and* stay = frequency [ (4, return None); (1, map Option.some time) ] in
+    let* drops = frequency [ (3, return []); (1, map2 (fun from lasts -> [ { Scenario.from; lasts } ]) time time) ] in
+    let* batteries = frequencyl [ (1, []); (1, [ 1.; 0.2 ]) ] in
+    let first = List.hd Scenario.default.vehicles in
+    let position = (Test_support.Pure_run.vehicle ~north id).position in
+    let leaves = Option.map (fun stay -> joins +. stay) stay in
+    return { first with id; kind; position; joins; leaves; drops; batteries; payload = [] }
+  in
+  let plan name =
+    let* least = time and* more = time in
+    let* ending = oneofl [ Scenario.Succeeds; Succeeds; May_fail 0.5; Fails ] in
+    let* only = frequencyl [ (4, []); (1, [ "UUV" ]) ] in
+    return { Scenario.name; duration = Some { least; most = least +. more }; ending; place = None; only }
+  in
+  let* steady = bool in
+  let steadily (v : Scenario.vehicle) = if steady then { v with joins = 0.; leaves = None; drops = [] } else v in
+  (* With so much drain sensors show a change. *)
+  let* drain = oneofl [ 0.1; 12. ] in
+  let draining (v : Scenario.vehicle) = { v with drain } in
+  let* vehicles = flatten_l [ vehicle "a" "UUV" 0.; vehicle "b" "UUV" 100.; vehicle "c" "UAV" 200. ] in
+  let* plans = flatten_l [ plan "p"; plan "q" ] in
+  let answers = [ { Scenario.prompt = "how many?"; texts = [ "1"; "2" ] } ] in
+  return { Scenario.vehicles = List.map (fun v -> draining (steadily v)) vehicles; plans; answers }
+
+let random_case =
+  QCheck2.Gen.(triple (oneof [ Generate.program; Generate.sensing_program ]) fleet (int_bound 1_000))
+
+let print (ast, scenario, seed) =
+  Format.asprintf "seed %d@.%a@.%s" seed Scenario.pp scenario (Generate.print ast)
+
+let random_runs (ast, scenario, seed) =
+  is_explored ~seed scenario (Generate.compile ast);
+  true
+
+(* {1 Sensors that show anything} *)
+
+(* What sensors may show in [Generate.open_world] at one time, by three numbers. *)
+let world_at (x, y, z) =
+  let place north = (Test_support.Pure_run.vehicle ~north "a").position in
+  let show (s : World.vehicle_state) =
+    match s.id with
+    | "a" -> { s with battery = x; position = place (1_000. *. y) }
+    | "b" -> { s with battery = (if z < 0.5 then 1. else 0.2); position = place (1_000. *. x) }
+    | _ -> { s with battery = y; position = place (if x < 0.5 then 200. else 5_000.) }
+  in
+  List.fold_left (fun world s -> World.add (show s) world) World.empty (World.vehicles Generate.world)
+
+let options =
+  { (Environment.failing { Environment.default with answers = (fun _ -> [ [ "1"; "2" ] ]) }) with losses = Any_number }
+
+(* At each step sensors show something new, and of what may happen then one thing does. *)
+let walk program choices =
+  let step ((c, e), taken) (shown, choice) =
+    match Environment.choices options program (world_at shown) e c with
+    | [] -> ((c, e), taken)
+    | all ->
+      let (t : Transition.t), e = List.nth all (choice mod List.length all) in
+      ((t.next, e), t :: taken)
+  in
+  let start = (Configuration.initial program, Environment.initial) in
+  List.rev (snd (List.fold_left step (start, []) choices))
+
+let walks =
+  let open QCheck2.Gen in
+  let share = float_bound_inclusive 1. in
+  pair Generate.sensing_program (list_size (int_range 10 40) (pair (triple share share share) (int_bound 1_000)))
+
+let walks_are_explored (ast, choices) =
+  let program = Generate.compile ast in
+  let taken = walk program choices in
+  steps := !steps + follow options program Generate.open_world taken;
+  true
+
+let number name default = match Sys.getenv_opt name with Some n -> int_of_string n | None -> default
+let count = number "PROGRAMS" 300
+
+let enough () =
+  Printf.printf "%d steps\n" !steps;
+  if !steps < 5 * count then Alcotest.failf "%d steps are few" !steps
+
+let () =
+  Alcotest.run "runs"
+    [ ("examples", List.map example examples);
+      ( "random programs",
+        [ Test_support.Property.case "simulated runs are explored" ~count random_case ~print random_runs;
+          Test_support.Property.case "whatever sensors show is explored" ~count walks
+            ~print:(fun (ast, _) -> Generate.print ast) walks_are_explored;
+          Alcotest.test_case "runs have many steps" `Quick enough ] ) ]

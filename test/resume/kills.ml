@@ -1,0 +1,56 @@
+let soon = 0.
+let late = 0.7  (* whatever runs and has an end has ended *)
+
+let all lines =
+  let deaths i = [ Console.Before i; Within i; After i ] in
+  let points = List.concat_map deaths (List.init lines Fun.id) in
+  let of_point k (death : Console.death) : Trial.t list =
+    let first : Trial.t = { death; again = Never; pause = (if k mod 2 = 0 then soon else late) } in
+    let second : Trial.t = { death; again = After (lines / 2); pause = (if k mod 2 = 0 then late else soon) } in
+    if k mod 3 = 1 then [ first ] else [ first; second ]
+  in
+  List.concat (List.mapi of_point points)
+
+let sample n trials =
+  let total = List.length trials in
+  List.filteri (fun i _ -> i * n / total <> (i - 1) * n / total || i = 0) trials
+
+let at_once = 10
+
+(* A process for each, so many at once; the numbers of those that are wrong. *)
+let run_all trials =
+  let failed = ref [] and running = Hashtbl.create 16 in
+  let wait () =
+    match Unix.wait () with
+    | pid, status ->
+      let number, trial = Hashtbl.find running pid in
+      Hashtbl.remove running pid;
+      if status <> WEXITED 0 then failed := (number, trial) :: !failed
+  in
+  let start number trial =
+    if Hashtbl.length running >= at_once then wait ();
+    let judge () =
+      match Trial.run trial ~number with
+      | Ok () -> 0
+      | Error why -> Format.eprintf "%a:@.%s@." Trial.pp trial why; 1
+    in
+    Hashtbl.replace running (Processes.fork judge) (number, trial)
+  in
+  List.iteri start trials;
+  while Hashtbl.length running > 0 do wait () done;
+  !failed
+
+let run how_many =
+  let lines = Trial.lines () in
+  let trials = all lines in
+  let trials = match how_many with Some n -> sample n trials | None -> trials in
+  let began = Unix.gettimeofday () in
+  let failed = run_all trials in
+  let summary =
+    Printf.sprintf "%d consoles killed, of a journal of %d lines: %d gone on with rightly, %d not; %.0f s"
+      (List.length trials) lines
+      (List.length trials - List.length failed)
+      (List.length failed)
+      (Unix.gettimeofday () -. began)
+  in
+  if failed = [] then Ok summary else Error summary

@@ -1,0 +1,103 @@
+open Dolphin_trace
+
+let case name test = Alcotest.test_case name `Quick test
+let show verdict = Format.asprintf "@[<v>%a@]" Verdict.pp verdict
+let entry line = match Entry.of_string line with Ok entry -> entry | Error why -> failwith why
+
+(* Labels of these kinds, and what cannot be hidden; of vehicles, what is new of them. *)
+let partial ~observed journal =
+  let is_observed label = observed = [] || List.mem (Partial.kind label) observed in
+  let cause = ref None in
+  let line text =
+    match entry text with
+    | Header _ -> [ Entry.Partial { observed } ]
+    | Event { happening = Answer _ | No_answer _ | Reply _ | No_reply _ | Interruption; _ } as event ->
+      cause := Some event;
+      []
+    | Transition { step; time; _ } ->
+      let caused = Option.to_list !cause in
+      cause := None;
+      if caused <> [] then caused else if is_observed step.label then [ Label { time; label = step.label } ] else []
+    | Vehicle _ as vehicle -> [ vehicle ]
+    | End _ as last -> [ last ]
+    | Event _ | Partial _ | Label _ | Note _ | Resumed _ -> []
+  in
+  Runs.text (List.map Entry.to_string (List.concat_map line (Runs.lines journal)))
+
+let ends = [ "start"; "done"; "fail" ]
+let runs = lazy (List.map (fun name -> Runs.run ~period:1e9 name) Runs.examples)
+
+let all_possible observed () =
+  let check (r : Runs.t) =
+    match Runs.check_text r (partial ~observed r.journal) with
+    | Possible { over = true; _ } -> ()
+    | verdict -> Alcotest.failf "%s: %s" r.name (show verdict)
+  in
+  List.iter check (Lazy.force runs)
+
+(* What no run of the program can look like. *)
+let impossible name r text expected =
+  match Runs.check_text r text with
+  | Impossible _ as verdict -> Alcotest.(check string) name expected (show verdict)
+  | verdict -> Alcotest.failf "%s: %s" name (show verdict)
+
+let header = {|{"format":"dolphin-journal","version":1,"observed":["start","done"]}|}
+
+let vehicle =
+  {|{"kind":"vehicle","time":0,"vehicle":"v","type":"UUV","payload":[],"latitude":41,"longitude":-8,"height":0,"battery":1,"connected":true}|}
+
+let label text = Printf.sprintf {|{"kind":"label","label":"%s"}|} text
+let program = Runs.of_text "v = pick { type 'UUV' }\nexecute task('a')[v] >> idle(5.seconds) >> task('b')[v]"
+let trace lines = Runs.text (header :: vehicle :: lines)
+
+let wrong () =
+  impossible "b before a" program
+    (trace [ label "start(v, b)" ])
+    "line 3 is not what a run can look like: start(v, b)\nstart(v, b) could not happen\nwhat could come: start(v, a)\nbefore it: 0 lines";
+  impossible "twice" program
+    (trace [ label "start(v, a)"; label "done(v, a)"; label "start(v, a)" ])
+    "line 5 is not what a run can look like: start(v, a)\nstart(v, a) could not happen\nwhat could come: start(v, b)\nbefore it: 2 lines";
+  impossible "what it does not tell" program
+    (trace [ label "timeout" ])
+    "line 3 is not what a run can look like: timeout\nlabels like timeout are not among those that this trace has\nwhat could come: nothing\nbefore it: 0 lines"
+
+let beginnings () =
+  let check lines =
+    match Runs.check_text program (trace lines) with
+    | Possible { over = false; lines = n } -> Alcotest.(check int) "lines" (List.length lines) n
+    | verdict -> Alcotest.fail (show verdict)
+  in
+  check [];
+  check [ label "start(v, a)" ];
+  check [ label "start(v, a)"; label "done(v, a)"; label "start(v, b)"; label "done(v, b)" ]
+
+(* What fails has a reason, which is in its label. *)
+let failures () =
+  let r = Runs.of_text "v = pick { type 'UUV' }\nexecute watch (task('a')[v]) onError { ignore() }" in
+  let text observed lines =
+    Runs.text
+      (Printf.sprintf {|{"format":"dolphin-journal","version":1,"observed":%s}|} observed :: vehicle :: lines)
+  in
+  let possible text = match Runs.check_text r text with Possible _ -> () | verdict -> Alcotest.fail (show verdict) in
+  possible (text {|["start","fail"]|} [ label "start(v, a)"; label "fail(v, a, no (more) fuel)" ]);
+  possible (text {|["start","end"]|} [ label "start(v, a)"; label "end" ])
+
+(* With more that may be hidden than can be gone through, nothing is said. *)
+let unknown () =
+  let branches = String.concat " | " (List.init 9 (fun i -> Printf.sprintf "(idle(1) >> action { post x%d: 1 })" i)) in
+  let r = Runs.of_text (Printf.sprintf "execute %s\nmessage 'over'" branches) in
+  let text = Runs.text [ {|{"format":"dolphin-journal","version":1,"observed":["message"]}|}; label "message 'over'" ] in
+  let check most = snd (Verdict.check ~most r.program ~hash:r.hash (Reader.of_string text)) in
+  (match check 1000 with Unknown { number = 2; most = 1000 } -> () | verdict -> Alcotest.fail (show verdict));
+  match check 100_000 with Possible _ -> () | verdict -> Alcotest.fail (show verdict)
+
+let () =
+  Alcotest.run "partial traces"
+    [ ( "partial",
+        [ case "labels of all examples" (all_possible []);
+          case "starts and ends of all examples" (all_possible ends);
+          case "only starts" (all_possible [ "start" ]);
+          case "what is no trace of a run" wrong;
+          case "beginnings" beginnings;
+          case "failures" failures;
+          case "too much is hidden" unknown ] ) ]

@@ -1,0 +1,1 @@
+(** Traces that tell only part of what happened. *)

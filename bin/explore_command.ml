@@ -51,8 +51,13 @@ let print_outcome program s (o : Search.outcome) =
        | Holds | Violated _ | Unreached _ | Inconclusive _ ->
          Format.printf "%s%a@." (if remark then "note: " else "") (Search.pp_verdict program) (property, verdict))
     shown;
-  Printf.printf "%d states, %d transitions, depth %d, %.2f s, %d MiB\n" o.states o.transitions o.depth o.seconds
-    (mebibytes o.bytes);
+  let reduced =
+    match Dolphin_explore.Reduction.names o.reduction with
+    | [] -> ""
+    | names -> "; reduced by " ^ String.concat ", " names
+  in
+  Printf.printf "%d states, %d transitions, depth %d, %.2f s, %d MiB%s\n" o.states o.transitions o.depth o.seconds
+    (mebibytes o.bytes) reduced;
   List.iter
     (fun (property, (verdict : Search.verdict), remark) ->
        match verdict with
@@ -105,7 +110,9 @@ let json_of_outcome (program : Dolphin_semantics.Core.program) (o : Search.outco
   in
   `Assoc
     [ ("states", `Int o.states); ("transitions", `Int o.transitions); ("depth", `Int o.depth);
-      ("seconds", `Float o.seconds); ("bytes", `Int o.bytes); ("verdicts", `List (List.map verdict o.verdicts)) ]
+      ("seconds", `Float o.seconds); ("bytes", `Int o.bytes);
+      ("reductions", `List (List.map (fun name -> `String name) (Dolphin_explore.Reduction.names o.reduction)));
+      ("verdicts", `List (List.map verdict o.verdicts)) ]
 
 (* The first of the runs that are shown. *)
 let counter_example strict (o : Search.outcome) =
@@ -281,12 +288,16 @@ let trace =
   Arg.(value & opt (some string) None & info [ "trace" ] ~docv:"FILE" ~doc)
 
 let reduction =
-  let kinds = [ ("none", Dolphin_explore.Reduction.Whole); ("por", Partial_order) ] in
+  let kinds =
+    [ ("none", Dolphin_explore.Reduction.Whole); ("por", Partial_order); ("symmetry", Symmetry); ("all", All) ]
+  in
   let doc =
     "How much is looked at: $(b,none) for every state; $(b,por) for one of the orders that make no difference (partial \
-     order reduction), with the same verdicts; not used beside an $(b,--invariant). The number of states printed is that of the states looked at."
+     order reduction); $(b,symmetry) for one of those that differ by exchanging vehicles, plans and tuples that are alike; $(b,all) \
+     for both. The verdicts are the same. None is used beside an $(b,--invariant). The number of states printed is that of \
+     the states looked at, and which reductions were used is said behind it."
   in
-  Arg.(value & opt (enum kinds) Partial_order & info [ "reduction" ] ~docv:"KIND" ~doc)
+  Arg.(value & opt (enum kinds) All & info [ "reduction" ] ~docv:"KIND" ~doc)
 
 let compress =
   let doc =

@@ -54,7 +54,8 @@ let run fleet imc log_file lasts (settings : Scenario.t -> Network.settings) : E
     | Error trouble -> Fleet_file.tell trouble; Bad_input
     | Ok { scenario; path = _ } -> (
         let settings = settings scenario in
-        match no_such_vehicle scenario (List.map fst settings.refuses @ List.map fst settings.blocks) with
+        let named = List.map fst settings.refuses @ List.map fst (settings.blocks @ settings.vanishes) in
+        match no_such_vehicle scenario named with
         | Some name -> Report.complain (Printf.sprintf "the fleet has no vehicle '%s'" name); Bad_input
         | None -> serve settings ~log_file lasts)
 

@@ -76,6 +76,22 @@ let block =
   let print ppf (name, (from, lasts)) = Format.fprintf ppf "%s=%g,%g" name from lasts in
   Arg.conv ~docv:"VEHICLE=FROM,LASTING" (parse, print)
 
+let vanishing =
+  let seconds text = match float_of_string_opt text with Some x when x >= 0. -> Some x | Some _ | None -> None in
+  let span text =
+    match List.map seconds (String.split_on_char ',' text) with
+    | [ Some from ] -> Some (from, infinity)
+    | [ Some from; Some lasts ] when lasts > 0. -> Some (from, lasts)
+    | _ -> None
+  in
+  let parse text =
+    match named text with
+    | name, Some rest when span rest <> None -> Ok (name, Option.get (span rest))
+    | _ -> Error (`Msg (Printf.sprintf "'%s' is not of the form VEHICLE=FROM or VEHICLE=FROM,LASTING" text))
+  in
+  let print ppf (name, (from, lasts)) = Format.fprintf ppf "%s=%g,%g" name from lasts in
+  Arg.conv ~docv:"VEHICLE=FROM[,LASTING]" (parse, print)
+
 (* {1 Options} *)
 
 let faults_section = "FAULTS"
@@ -128,6 +144,13 @@ let blocks =
   in
   Arg.(value & opt_all block [] & info [ "block" ] ~docs:faults_section ~docv:"VEHICLE=FROM,LASTING" ~doc)
 
+let vanishes =
+  let doc =
+    "Let the vehicle vanish from the network $(i,FROM) seconds after the start, by the mission's clock, and return \
+     $(i,LASTING) seconds later, or never. What it runs goes on meanwhile. May be repeated."
+  in
+  Arg.(value & opt_all vanishing [] & info [ "vanish" ] ~docs:faults_section ~docv:"VEHICLE=FROM[,LASTING]" ~doc)
+
 (* {2 Network} *)
 
 let network name kind default ~docv doc = option ~section:network_section name kind default ~docv doc
@@ -156,11 +179,11 @@ let address =
   Arg.(value & opt (some host) None & info [ "address" ] ~docs:network_section ~docv:"ADDRESS" ~doc)
 
 let settings =
-  let make speed seed strict flood faults refuses blocks announce_period contact_period first_port first_id
+  let make speed seed strict flood faults refuses blocks vanishes announce_period contact_period first_port first_id
       discovery_ports address scenario : Network.settings =
-    { scenario; seed; speed; strict; flood; faults; refuses; blocks; announce_period; contact_period; first_port;
-      first_id; discovery_ports; address }
+    { scenario; seed; speed; strict; flood; faults; refuses; blocks; vanishes; announce_period; contact_period;
+      first_port; first_id; discovery_ports; address }
   in
   Term.(
-    const make $ speed $ seed $ strict $ flood $ faults $ refuses $ blocks $ announce_period $ contact_period
+    const make $ speed $ seed $ strict $ flood $ faults $ refuses $ blocks $ vanishes $ announce_period $ contact_period
     $ first_port $ first_id $ discovery_ports $ address)

@@ -42,7 +42,9 @@ let each_line path f =
 (* Of a partial trace: the vehicles that are known from the beginning. *)
 let world_of = function
   | None -> Ok Dolphin_semantics.World.empty
-  | Some _ as named -> Result.map (fun (f : Fleet_file.t) -> Dolphin_explore.World_of.world f.scenario) (Fleet_file.load named)
+  | Some _ as named ->
+    let world (f : Fleet_file.t) = Dolphin_explore.World_of.world f.scenario in
+    Result.map world (Fleet_file.load named)
 
 let check program_path path fleet most =
   match Program_file.load program_path, world_of fleet with

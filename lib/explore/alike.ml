@@ -76,7 +76,6 @@ let rec spell s (r : Residual.t) =
 and spell_branch s (b : Residual.branch) = code s ~handler:false b.guard ^ "?" ^ spell s b.body
 
 let key context ~sorted ~pair ~label r = spell { context; sorted; pair; name = label } r
-let branch_key context ~sorted ~pair ~label b = spell_branch { context; sorted; pair; name = label } b
 
 (* {1 Matching} *)
 

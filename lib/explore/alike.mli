@@ -28,9 +28,6 @@ val key : context -> sorted:bool -> pair:(int -> string) -> label:(label -> stri
 (** [key c ~sorted ~pair ~label r] is the same for residuals that are alike if pairs with the same [pair] and labels with the same
     [label] are. If it is [sorted], the order of what stands side by side does not matter. *)
 
-val branch_key :
-  context -> sorted:bool -> pair:(int -> string) -> label:(label -> string) -> Residual.branch -> string
-
 val matched : context -> rename:(int -> int) -> Residual.t -> Residual.t -> (label * label) list option
 (** [matched c ~rename r r'] is which label of [r] becomes which of [r'], if [r] becomes [r'] by renaming its pairs, its names, and
     by changing the order of what stands side by side; [None] if it does not. *)

@@ -39,18 +39,15 @@ let is_clear context r =
 
 (* {1 What stands side by side} *)
 
-type thing = { pairs : int array; likeness : string }
+type thing = { pairs : int array; labels : Alike.label list; likeness : string }
 
 let things context r =
   let patterns = Alike.patterns context in
   let pair n = Pattern.key_of patterns n and label _ = "" in
   let plain r =
-    { pairs = Alike.pairs context r; likeness = Alike.key context ~sorted:false ~pair ~label r }
+    { pairs = Alike.pairs context r; labels = Alike.labels r; likeness = Alike.key context ~sorted:false ~pair ~label r }
   in
-  let of_branch (b : Residual.branch) =
-    { pairs = Alike.pairs context (One_of [ b ]);
-      likeness = Alike.branch_key context ~sorted:false ~pair ~label b }
-  in
+  let of_branch b = plain (Residual.One_of [ b ]) in
   let rec lists (r : Residual.t) =
     match r with
     | Ready _ | Running _ | Action _ | Condition _ | Idle _ -> []
@@ -83,9 +80,16 @@ let exchange is_movable a b =
 
 let rename map n = Option.value (Hashtbl.find_opt map n) ~default:n
 
-let checked context r tuples map =
-  let rename = rename map in
-  if Tuples.equal tuples (renamed (Alike.patterns context) rename tuples) then Alike.matched context ~rename r r else None
+(* If the whole is the same after the exchange, there is an automorphism that puts [a] in the place of [b], and the
+   other things where they fit. *)
+let checked context is_movable r tuples a b =
+  match exchange is_movable a.pairs b.pairs with
+  | None -> None
+  | Some map ->
+    let rename = rename map in
+    if Tuples.equal tuples (renamed (Alike.patterns context) rename tuples) then
+      Option.map (List.rev_append (List.combine a.labels b.labels)) (Alike.matched context ~rename r r)
+    else None
 
 (* {1 Rings} *)
 
@@ -111,14 +115,14 @@ let overlaps (ring : ring) (ring' : ring) =
    too long if nothing fits. *)
 let rows check things =
   let most_rows = 4 in
-  let into (rows, labels) pairs =
+  let into (rows, labels) thing =
     let rec join before = function
-      | [] -> (List.rev ([ pairs ] :: before), labels)
+      | [] -> (List.rev ([ thing ] :: before), labels)
       | row :: after when List.length before < most_rows -> (
-          match check (List.hd row) pairs with
-          | Some found -> (List.rev_append before ((pairs :: row) :: after), found @ labels)
+          match check (List.hd row) thing with
+          | Some found -> (List.rev_append before ((thing :: row) :: after), List.rev_append found labels)
           | None -> join (row :: before) after)
-      | rows -> (List.rev_append before ([ pairs ] :: rows), labels)
+      | rows -> (List.rev_append before ([ thing ] :: rows), labels)
     in
     join [] rows
   in
@@ -129,9 +133,9 @@ let by_likeness things =
   let groups = Hashtbl.create 16 in
   let add order thing =
     match Hashtbl.find_opt groups thing.likeness with
-    | Some same -> same := thing.pairs :: !same; order
+    | Some same -> same := thing :: !same; order
     | None ->
-      let same = ref [ thing.pairs ] in
+      let same = ref [ thing ] in
       Hashtbl.add groups thing.likeness same;
       same :: order
   in
@@ -142,13 +146,13 @@ let find context r tuples =
   if not (is_clear context r) then None
   else begin
     let is_movable = movable context r in
-    let check a b = Option.bind (exchange is_movable a b) (checked context r tuples) in
+    let check = checked context is_movable r tuples in
     let groups = List.concat_map by_likeness (things context r) in
     let groups = List.filter (fun group -> List.compare_length_with group 1 > 0) groups in
     let group found things =
       let rows, labels = rows check things in
       let ring found members =
-        let ring = own_pairs members in
+        let ring = own_pairs (List.map (fun thing -> thing.pairs) members) in
         if Array.length ring.(0) = 0 || (not (is_disjoint ring)) || List.exists (overlaps ring) found then found
         else ring :: found
       in

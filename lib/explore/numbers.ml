@@ -157,10 +157,10 @@ let find t x =
 
 let bytes t = (Array.length t.chunks * bytes_of_chunk t.width) + (4 * t.slots)
 
-let bytes_to_grow t =
-  let table = if t.count >= t.most then t.slots else 0 in
-  let chunk = if t.count land chunk_mask = 0 then bytes_of_chunk t.width else 0 in
-  table + chunk
+let bytes_to_grow ~by t =
+  let table = if t.count + by > t.most then t.slots else 0 in
+  let chunks = ((t.count + by) lsr chunk_bits) + 1 - Array.length t.chunks in
+  table + (max 0 chunks * bytes_of_chunk t.width)
 
 let renew t f =
   for i = 0 to t.count - 1 do

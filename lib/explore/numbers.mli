@@ -18,8 +18,8 @@ val get : t -> int -> int
 
 val bytes : t -> int
 
-val bytes_to_grow : t -> int
-(** How much more it may take at once for the next number. *)
+val bytes_to_grow : by:int -> t -> int
+(** How much more it may take at once for so many more numbers. *)
 
 val renew : t -> (int -> int) -> unit
 (** [renew t f] puts [f x] in the place of each number [x], from 0 on; different numbers must stay different. *)

@@ -102,16 +102,23 @@ let fill t =
 
 let large = 1 lsl 20
 
-(* The old table is given back before there is a new one: the states can fill it again. If there is no memory for that,
-   the set has none of its states, so that nothing is looked for where nothing is. *)
-let resize t slots =
-  t.table <- fresh_table 1;
-  t.mask <- 0;
-  if slots > large then Gc.full_major ();
+let set_table t slots =
   t.table <- fresh_table slots;
   t.mask <- slots - 1;
   t.most <- most_of slots;
   fill t
+
+(* The old table is given back before there is a new one: the states can fill it again. If there is no memory for the new
+   one, there is for one like the old one. *)
+let resize t slots =
+  let before = t.mask + 1 in
+  t.table <- fresh_table 1;
+  t.mask <- 0;
+  if slots > large then Gc.full_major ();
+  try set_table t slots
+  with Out_of_memory ->
+    set_table t before;
+    raise Out_of_memory
 
 let append t keys at ~parent =
   let i = t.count in
@@ -194,10 +201,13 @@ let find t key =
 let bytes_of_chunk t = chunk_states * 8 * t.words
 let bytes t = (Array.length t.chunks * bytes_of_chunk t) + (8 * (t.mask + 1)) + Parents.bytes t.parents
 
-let bytes_to_grow t =
-  let table = if t.count >= t.most then 8 * (t.mask + 1) else 0 in
-  let chunk = if t.count land chunk_mask = 0 then bytes_of_chunk t else 0 in
-  table + chunk
+let bytes_to_grow t ~by =
+  let table = if t.count + by > t.most then 8 * (t.mask + 1) else 0 in
+  let chunks = ((t.count + by) lsr chunk_bits) + 1 - Array.length t.chunks in
+  table + (max 0 chunks * bytes_of_chunk t)
+
+let bytes_to_rewrite t ~words = if words = t.words then 0 else Array.length t.chunks * chunk_states * 8 * words
+let forget_waiting t = t.waiting.length <- 0
 
 let rewrite t ~words f =
   let old = Array.make t.words 0 and fresh = Array.make words 0 in

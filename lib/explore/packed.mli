@@ -19,5 +19,7 @@ val find : t -> int array -> int
 val load : t -> int -> int array -> unit
 val parent : t -> int -> int
 val bytes : t -> int
-val bytes_to_grow : t -> int
+val bytes_to_grow : t -> by:int -> int
+val bytes_to_rewrite : t -> words:int -> int
+val forget_waiting : t -> unit
 val rewrite : t -> words:int -> (int array -> int array -> unit) -> t

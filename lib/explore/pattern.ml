@@ -58,9 +58,9 @@ type writing = {
   captured : (int * value) list;
   handler : bool;
   text : Buffer.t;
-  mutable named : int list;  (* latest first *)
-  mutable touched : Pairs.t;
-  mutable reads_error : bool;
+  named : int list ref;  (* latest first *)
+  touched : Pairs.t ref;
+  reads_error : bool ref;
 }
 
 let print w format = Printf.bprintf w.text format
@@ -82,7 +82,7 @@ let constant w x =
   | _ -> raise Opaque
 
 let local w slot =
-  if w.handler && slot = 0 then w.reads_error <- true;
+  if w.handler && slot = 0 then w.reads_error := true;
   print w "L%d" slot
 
 let rec expression w e =
@@ -120,9 +120,27 @@ and applied w operation arguments =
   | (Unary _ | Binary _ | Make_list | Make_range _ | Concatenate | Element), _ ->
     plain w operation;
     all w arguments
+  | Call [], [ { node = Make_closure (lambda, slots); _ } ] when lambda.parameters = 0 || lambda.implicit ->
+    called w lambda slots
   | ( ( Make_map _ | Replace_element | Replace_member _ | Property _ | Call _ | Method _ | Builtin _ | Add_setting _
       | Build _ | Make_branch ),
       _ ) -> raise Opaque
+
+(* Code that is called where it is written, as that of assertions. *)
+and called w lambda slots =
+  let outer = List.combine (Array.to_list lambda.captures) slots in
+  let capture (inner, slot) =
+    match List.assoc_opt slot w.captured with
+    | Some x -> Some (inner, x)
+    | None ->
+      print w "%d=" inner;
+      local w slot;
+      None
+  in
+  let captured = List.filter_map capture outer in
+  print w "call{";
+  expression { w with captured; handler = false } lambda.code;
+  print w "}"
 
 (* The value of a pair. *)
 and named w k e =
@@ -130,9 +148,9 @@ and named w k e =
   | Some Wildcard -> print w "_"
   | Some x ->
     print w "#";
-    w.named <- pair w.context k x :: w.named
+    w.named := pair w.context k x :: !(w.named)
   | None ->
-    w.touched <- Pairs.add (k, None) w.touched;
+    w.touched := Pairs.add (k, None) !(w.touched);
     expression w e
 
 (* What is said, for people: what it says does not matter, only that it can be said. *)
@@ -150,15 +168,16 @@ and text w e =
 let seen_through context handler (c : closure) =
   let captured = List.mapi (fun i slot -> (slot, c.captured.(i))) (Array.to_list c.lambda.captures) in
   let w =
-    { context; captured; handler; text = Buffer.create 64; named = []; touched = Pairs.empty; reads_error = false }
+    { context; captured; handler; text = Buffer.create 64; named = ref []; touched = ref Pairs.empty;
+      reads_error = ref false }
   in
   print w "%d:" c.lambda.parameters;
   expression w c.lambda.code;
   {
     skeleton = Names.number context.skeletons (Buffer.contents w.text);
-    pairs = Array.of_list (List.rev w.named);
-    fixed = w.touched;
-    unclear = w.reads_error;
+    pairs = Array.of_list (List.rev !(w.named));
+    fixed = !(w.touched);
+    unclear = !(w.reads_error);
   }
 
 (* {1 Any code} *)

@@ -12,5 +12,5 @@ val by_order : t -> bool
 val by_symmetry : t -> bool
 val without_symmetry : t -> t
 
-val name : t -> string
-(** ["none"], ["partial order"], ... *)
+val names : t -> string list
+(** Of the reductions: ["partial order"], ["symmetry"]. *)

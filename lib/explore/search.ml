@@ -97,19 +97,25 @@ let unsettled program (fault : Fault.t) =
 (* {1 Bounds and progress} *)
 
 let memory t = Space.bytes t.space + (8 * (Gc.quick_stat ()).heap_words)
-let large_growth = 1 lsl 24
 let exceeds bound n = match bound with Some most -> n > most | None -> false
 
-(* A system that has given all its memory kills without a word. So a part of what could be had is left alone: for others,
-   and for what grows between two looks. To ask what is left costs some reads of files. *)
-let weigh t now =
-  let growth = Space.bytes_to_grow t.space in
+(* [weigh t growth] is for [growth] bytes more. A system that has given all its memory kills without a word. So a part of
+   what could be had is left alone: for others, and for what grows between two looks. *)
+let weigh t growth =
   if t.options.max_memory <> None && exceeds t.options.max_memory (memory t + growth) then raise (Stop Memory);
-  if growth >= large_growth || now -. t.weighed >= 0.1 then begin
+  match t.options.memory_left () with
+  | Some left when growth > left - ((memory t + left) / 10) -> raise (Stop No_memory)
+  | Some _ | None -> ()
+
+(* States that may be added between two looks around, at most, and twice as many are foreseen. *)
+let stride = 4_096
+
+(* To ask what is left costs some reads of files. *)
+let weigh_sometimes t now =
+  let growth = Space.bytes_to_grow t.space ~by:(2 * stride) in
+  if t.options.max_memory <> None || growth >= 1 lsl 20 || now -. t.weighed >= 0.1 then begin
     t.weighed <- now;
-    match t.options.memory_left () with
-    | Some left when growth > left - ((memory t + left) / 10) -> raise (Stop No_memory)
-    | Some _ | None -> ()
+    weigh t growth
   end
 
 (* Doing this for every state would cost more than the state. *)
@@ -119,7 +125,7 @@ let look_around t phase =
   let elapsed = now -. t.started in
   if options.interrupted () then raise (Stop Interruption);
   if (match options.timeout with Some most -> elapsed > most | None -> false) then raise (Stop Time);
-  weigh t now;
+  weigh_sometimes t now;
   if now -. t.reported >= 1. then begin
     t.reported <- now;
     let states = Space.count t.space in
@@ -134,9 +140,6 @@ let look_around t phase =
         elapsed;
       }
   end
-
-(* States between two looks around; memory can grow by one chunk meanwhile, or by a doubled table. *)
-let stride = 4_096
 
 let expand_all enough t =
   let space = t.space in
@@ -155,8 +158,8 @@ let expand_all enough t =
       t.level_end <- Space.count space;
       if t.options.max_depth = Some t.depth then raise (Stop Depth)
     end;
-    if t.next >= !next_look || Space.bytes_to_grow space > 0 then begin
-      next_look := t.next + stride;
+    if t.next + Space.count space >= !next_look then begin
+      next_look := t.next + Space.count space + stride;
       look_around t "exploring"
     end;
     List.iter (fun invariant -> Invariant.check invariant space t.next) t.invariants;
@@ -167,12 +170,13 @@ let expand_all enough t =
 
 (* What stopped it, if anything. Once there is no memory nothing can be added, not even what waits. *)
 let explore ?(enough = fun () -> false) program t =
-  let settled stopped = match Space.flush t.space with () -> stopped | exception Out_of_memory -> Some No_memory in
+  let no_memory () = Space.forget_waiting t.space; Some No_memory in
+  let settled stopped = match Space.flush t.space with () -> stopped | exception Out_of_memory -> no_memory () in
   match expand_all enough t with
   | () -> settled None
   | exception Stop bound -> settled (Some bound)
   | exception Reading.Unsettled fault -> settled (Some (unsettled program fault))
-  | exception Out_of_memory -> Some No_memory
+  | exception Out_of_memory -> no_memory ()
 
 (* {1 Formulas} *)
 
@@ -249,9 +253,19 @@ let verdicts t program world stopped =
   | fs, None -> List.combine (List.map named fs) (formulas t world program)
 
 let start (options : options) program world started =
-  let space = Space.create ~reduction:options.reduction ~compress:options.compress options.environment program world in
+  let reserve = ref ignore in
+  let space =
+    Space.create ~reduction:options.reduction ~compress:options.compress
+      ~reserve:(fun bytes -> !reserve bytes)
+      options.environment program world
+  in
   let invariants = List.map (Invariant.create program world) options.invariants in
-  { options; space; invariants; started; reported = started; weighed = Float.neg_infinity; next = 0; depth = -1; level_end = 0 }
+  let t =
+    { options; space; invariants; started; reported = started; weighed = Float.neg_infinity; next = 0; depth = -1;
+      level_end = 0 }
+  in
+  reserve := weigh t;
+  t
 
 (* What a reduced search finds broken, the first of all states may show by a shortest run. *)
 let with_shortest_runs options program world started verdicts =

@@ -22,6 +22,7 @@ type t = {
   symmetry : Symmetry.finder option;
   folding : Folding.t;
   mutable folded : int array;  (* a state's canonical form *)
+  reserve : int -> unit;
 }
 
 let rank property =
@@ -365,6 +366,8 @@ let rec expand t i =
   | taken -> if not t.gathering then t.transitions <- t.transitions + taken
   | exception Shapes.Outgrown ->
     flush t;
+    (* Once this has begun it must not fail. *)
+    t.reserve (States.bytes_to_rewrite t.states ~words:(States.words t.states + 1));
     repack t;
     expand t i
 
@@ -405,7 +408,7 @@ let breaks t i =
   let key = load t i in
   if Shapes.number t.shapes key.(0) > 0 then None else Words.broken t.words (Shapes.shared t.shapes key.(0))
 
-let create ?(reduction = Reduction.Whole) ?(compress = false) options program world =
+let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore) options program world =
   let foreseen = if Reduction.by_order reduction then Some 0 else None in
   let parts = Parts.create ?foreseen options program world in
   let cases = Cases.create parts in
@@ -439,6 +442,7 @@ let create ?(reduction = Reduction.Whole) ?(compress = false) options program wo
       symmetry;
       folding = Folding.create parts words;
       folded = [| 0 |];
+      reserve;
     }
   in
   ignore (Words.write words t.key [] (Configuration.initial program) Environment.initial);
@@ -463,7 +467,8 @@ let coverage t =
   Option.iter (fun finder -> Symmetry.alike finder together) t.symmetry;
   coverage
 let bytes t = States.bytes t.states
-let bytes_to_grow t = States.bytes_to_grow t.states
+let bytes_to_grow t ~by = States.bytes_to_grow t.states ~by
+let forget_waiting t = States.forget_waiting t.states
 let words t = States.words t.states
 let may_cycle t = Script_graph.may_cycle t.script
 

@@ -7,13 +7,18 @@ open Dolphin_semantics
 
 type t
 
-val create : ?reduction:Reduction.t -> ?compress:bool -> Environment.options -> Core.program -> World.t -> t
-(** With the initial state, number 0. [compress] is as for {!States.create}, [false] by default. *)
+val create :
+  ?reduction:Reduction.t -> ?compress:bool -> ?reserve:(int -> unit) -> Environment.options -> Core.program -> World.t -> t
+(** With the initial state, number 0. [compress] is as for {!States.create}, [false] by default. [reserve n] is called
+    before [n] bytes are taken at once to lay states out anew; it may raise. *)
 
 val expand : t -> int -> unit
 (** [expand t i] adds the states that transitions of state [i] lead to, at the latest when {!flush} is called. *)
 
 val flush : t -> unit
+
+val forget_waiting : t -> unit
+(** What has not been added yet is not: for when there is no memory. *)
 
 val successors : t -> int -> int list
 (** [successors t i] is the states that transitions of [i] lead to, which have all been added before. *)
@@ -65,7 +70,9 @@ val coverage : t -> Coverage.t
 val bytes : t -> int
 (** Memory outside of OCaml's heap. *)
 
-val bytes_to_grow : t -> int
+val bytes_to_grow : t -> by:int -> int
+(** [bytes_to_grow t ~by:n] is how much more may be taken at once for the next [n] states. *)
+
 val words : t -> int
 
 val statistics : Format.formatter -> t -> unit

@@ -12,7 +12,13 @@ let find t key = match t with As_it_is s -> Packed.find s key | Compressed s -> 
 let load t i key = match t with As_it_is s -> Packed.load s i key | Compressed s -> Tree.load s i key
 let parent t i = match t with As_it_is s -> Packed.parent s i | Compressed s -> Tree.parent s i
 let bytes = function As_it_is s -> Packed.bytes s | Compressed s -> Tree.bytes s
-let bytes_to_grow = function As_it_is s -> Packed.bytes_to_grow s | Compressed s -> Tree.bytes_to_grow s
+let bytes_to_grow t ~by =
+  match t with As_it_is s -> Packed.bytes_to_grow s ~by | Compressed s -> Tree.bytes_to_grow s ~by
+
+let bytes_to_rewrite t ~words =
+  match t with As_it_is s -> Packed.bytes_to_rewrite s ~words | Compressed s -> Tree.bytes_to_rewrite s
+
+let forget_waiting = function As_it_is s -> Packed.forget_waiting s | Compressed s -> Tree.forget_waiting s
 
 let rewrite t ~words f =
   match t with

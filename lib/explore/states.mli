@@ -30,8 +30,14 @@ val parent : t -> int -> int
 val bytes : t -> int
 (** Memory in use outside of OCaml's heap. *)
 
-val bytes_to_grow : t -> int
-(** [bytes_to_grow t] is how much more it may take at once for the next state. *)
+val bytes_to_grow : t -> by:int -> int
+(** [bytes_to_grow t ~by:n] is how much more it may take at once for the next [n] states. *)
+
+val bytes_to_rewrite : t -> words:int -> int
+(** [bytes_to_rewrite t ~words] is how much {!rewrite} may take beside what there is. *)
+
+val forget_waiting : t -> unit
+(** What has been pushed and not added is not: for when there is no memory. *)
 
 val rewrite : t -> words:int -> (int array -> int array -> unit) -> t
 (** [rewrite t ~words f] is the states of [t] in new words, under the same numbers: [f old fresh] puts the new words of

@@ -113,7 +113,11 @@ let rec sum f node =
   f (numbers node) + match node with Word _ -> 0 | Pair (_, left, right) -> sum f left + sum f right
 
 let bytes t = sum Numbers.bytes t.root + Parents.bytes t.parents
-let bytes_to_grow t = sum Numbers.bytes_to_grow t.root
+let bytes_to_grow t ~by = sum (Numbers.bytes_to_grow ~by) t.root
+
+(* Numbers at the top may become wider. *)
+let bytes_to_rewrite t = 8 * count t
+let forget_waiting t = t.waiting <- 0
 
 (* The tops stay where they are: there are many of them. What is below is made anew. *)
 let rewrite t ~words f =

@@ -4,7 +4,7 @@ let one =
   let rec steps n crc = if n = 0 then crc else steps (n - 1) (step crc) in
   Array.init 256 (steps 8)
 
-(* Those of a byte with one, two, three zeros after it: so four bytes need not wait for each other. Source: Kounavis, Berry:
+(* Those of a byte with one, two, three zeros after it: so four bytes need not wait for each other. Kounavis, Berry:
    Novel table lookup-based algorithms for high-performance CRC generation, 2008. *)
 let shifted table = Array.map (fun crc -> (crc lsr 8) lxor one.(crc land 0xFF)) table
 let two = shifted one

@@ -9,6 +9,7 @@ type settings = {
   strict : bool;
   refuses : (string * string) list;
   blocks : (string * (float * float)) list;
+  vanishes : (string * (float * float)) list;
   announce_period : float;
   contact_period : float;
   first_id : int;
@@ -19,7 +20,7 @@ type settings = {
 }
 
 let default scenario =
-  { scenario; seed = 0; speed = 1.; faults = Faults.none; strict = false; refuses = []; blocks = [];
+  { scenario; seed = 0; speed = 1.; faults = Faults.none; strict = false; refuses = []; blocks = []; vanishes = [];
     announce_period = 10.; contact_period = 5.; first_id = 0x3001; first_port = 6002;
     discovery_ports = 30100, 30104; address = None; flood = 0. }
 
@@ -117,11 +118,13 @@ let radio n (c : craft) =
   let s = n.settings in
   let address host : Address.t = { host; port = c.socket.port } in
   let others = match s.address with Some host -> [ address host ] | None -> [] in
-  let blocks = List.filter_map (fun (name, block) -> if name = c.vehicle.id then Some block else None) s.blocks in
+  let own (name, x) = if name = c.vehicle.id then Some x else None in
+  let drops = List.map (fun (from, lasts) -> { Scenario.from; lasts }) (List.filter_map own s.vanishes) in
+  let vehicle = { c.vehicle with drops = c.vehicle.drops @ drops } in
   Radio.create ~faults:s.faults ~seed:s.seed
     { engine =
-        { vehicle = c.vehicle; plans = s.scenario.plans; seed = s.seed; epoch = n.origin; strict = s.strict;
-          refuses = List.assoc_opt c.vehicle.id s.refuses; blocks };
+        { vehicle; plans = s.scenario.plans; seed = s.seed; epoch = n.origin; strict = s.strict;
+          refuses = List.assoc_opt c.vehicle.id s.refuses; blocks = List.filter_map own s.blocks };
       id = c.id; addresses = address loopback :: others; speed = s.speed; announce_period = s.announce_period;
       contact_period = s.contact_period }
 

@@ -10,7 +10,7 @@ A program whose every run is sound. Without reduction every state is looked at.
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: holds
-  36 states, 35 transitions, depth 35
+  36 states, 35 transitions, depth 35; reduced by partial order, symmetry
   $ explore ../../examples/rendezvous.dol --reduction none
   no deadlock: holds
   termination: holds
@@ -27,7 +27,7 @@ The same, if a plan may fail once.
   no unhandled error: violated after 10 steps: an error that nobody handles ends the program
   assertions: holds
   vehicles for all tasks: holds
-  45 states, 44 transitions, depth 35
+  41 states, 50 transitions, depth 35; reduced by partial order, symmetry
   
   no unhandled error: a shortest run in which an error that nobody handles ends the program
        program                                   noptilus-1                 where
@@ -55,7 +55,7 @@ A program that may wait for ever.
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: holds
-  17 states, 16 transitions, depth 6
+  17 states, 16 transitions, depth 6; reduced by partial order
   
   no deadlock: a shortest run in which nothing can happen any more, and the program has not ended
       program                        noptilus-1  where
@@ -81,7 +81,7 @@ A program that may never end.
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: holds
-  5 states, 5 transitions, depth 4
+  5 states, 5 transitions, depth 4; reduced by partial order
   
   termination: a run in which the program can go on for ever
       program   where
@@ -108,7 +108,7 @@ Code that nothing reaches is only worth a note, unless one asks for more.
   vehicles for all tasks: holds
   note: no leftover tuples: violated after 2 steps: tuples are left when the program completes
   note: all code reached: violated: no run reaches message at unreached.dol:2:19
-  3 states, 2 transitions, depth 2
+  3 states, 2 transitions, depth 2; reduced by partial order
   $ explore --strict unreached.dol
   no deadlock: holds
   termination: holds
@@ -118,7 +118,7 @@ Code that nothing reaches is only worth a note, unless one asks for more.
   no halt: holds
   no leftover tuples: violated after 2 steps: tuples are left when the program completes
   all code reached: violated: no run reaches message at unreached.dol:2:19
-  3 states, 2 transitions, depth 2
+  3 states, 2 transitions, depth 2; reduced by partial order
   
   no leftover tuples: a shortest run in which tuples are left when the program completes
       program   where
@@ -145,7 +145,7 @@ An assertion that some run breaks.
   assertions: violated after 5 steps: assertion.dol:4:5: assertion failed
   vehicles for all tasks: holds
   note: all code reached: violated: no run reaches onError at assertion.dol:3:9
-  44 states, 61 transitions, depth 9
+  44 states, 61 transitions, depth 9; reduced by partial order
   
   assertions: a shortest run in which an assertion fails
       program                        where
@@ -232,7 +232,7 @@ Formulas of temporal logic.
   formula G (start(survey1) -> F done(survey1)): holds
   formula F ended: holds
   formula !start(survey1) W bind(x8-02): holds
-  36 states, 35 transitions, depth 35
+  36 states, 35 transitions, depth 35; reduced by partial order, symmetry
   $ cat > again.dol <<'END'
   > v = pick { id 'noptilus-1' }
   > n = 0
@@ -251,7 +251,7 @@ Formulas of temporal logic.
   formula G F {n == 1}: violated: after 3 steps, 4 steps that can repeat for ever
   formula message("done") R !end: holds
   formula G (fail -> X consume(failed: 1)): holds
-  10 states, 10 transitions, depth 7
+  10 states, 10 transitions, depth 7; reduced by partial order
   
   termination: a run in which the program can go on for ever
       program                               where

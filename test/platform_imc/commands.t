@@ -78,6 +78,16 @@ A definition that is none, one that contradicts itself, and one of another proto
   $ dolphin exec hello.dol --imc-type ROV 2>&1 | head -1
   dolphin: option '--imc-type': 'ROV' is not like seacon-1=ROV
 
+One that has vanished, and one that returns.
+
+  $ dolphin sim pair.fleet --imc --announce 0.3 --contact 0.2 --discovery-ports 42320-42324 --port 42330 --for 30 \
+  >   --vanish x8-02=0 --vanish noptilus-1=0,1 > vehicles.txt & vehicles=$!
+  $ until [ -s vehicles.txt ]; do sleep 0.05; done
+  $ dolphin fleet --imc-loopback --imc-discovery-ports 42320-42324 --once --seconds 3 | awk '{ print $1, $2 }'
+  VEHICLE TYPE
+  noptilus-1 UUV
+  $ kill $vehicles; wait $vehicles 2> wait.txt || true
+
 A vehicle that confirms nothing: its process is halted. The first interruption tells it to stop and waits for that to be
 confirmed, for five seconds at most; the second one ends the program at once.
 

@@ -112,23 +112,36 @@ let agrees options program world reference unreached (property, verdict) =
   | Unreached _, _ -> wrong "other pieces are reached"
   | Inconclusive _, _ -> wrong "inconclusive"
 
-let check ?limit environment program world =
+let check ?limit ?(reductions = [ Reduction.Partial_order; Symmetry; All ]) environment program world =
   match Reference.explore ?limit environment program world with
   | None | (exception Reading.Unsettled _) -> Ok None
   | Some graph ->
     let reference = Reference.broken graph in
     let search reduction = Search.run { Search.default with environment; reduction; search_again = 0 } program world in
-    let whole = search Whole and reduced = search Partial_order in
+    let whole = search Whole in
     let unreached =
       match List.assoc Property.All_reached whole.verdicts with
       | Unreached pieces -> pieces
       | Holds | Violated _ | Inconclusive _ -> []
     in
-    let each found verdict =
-      let* () = found in
-      agrees environment program world reference unreached verdict
+    let is_as_short (property, verdict) =
+      match (verdict : Search.verdict), List.assoc_opt property reference with
+      | Violated { shortest = true; steps; cycle = [] }, Some length -> List.length steps = length
+      | _, _ -> true
     in
-    let* () = List.fold_left each (Ok ()) reduced.verdicts in
+    let compare found reduction =
+      let* _ = found in
+      let named what = Error (String.concat ", " (Reduction.names reduction) ^ ": " ^ what) in
+      let reduced = search reduction in
+      let each found verdict =
+        let* () = found in
+        if is_as_short verdict then agrees environment program world reference unreached verdict
+        else Error "there is a shorter run"
+      in
+      match List.fold_left each (Ok ()) reduced.verdicts with
+      | Error what -> named what
+      | Ok () -> if reduced.states > whole.states then named "more states than there are" else Ok reduced.states
+    in
+    let* reduced = List.fold_left compare (Ok 0) reductions in
     let* () = same_outcomes program environment world graph in
-    let* () = if reduced.states > whole.states then Error "more states than there are" else Ok () in
-    Ok (Some { whole = whole.states; reduced = reduced.states; broken = List.map fst reference })
+    Ok (Some { whole = whole.states; reduced; broken = List.map fst reference })

@@ -94,7 +94,7 @@ let broken = Hashtbl.create 7
 
 let agrees ((ast, world), (_, environment)) =
   let program = Generate.compile ast in
-  match Agreement.check ~limit environment program world with
+  match Agreement.check ~limit ~reductions:[ Partial_order; All ] environment program world with
   | Error what -> QCheck2.Test.fail_report what
   | Ok None ->
     incr skipped;

@@ -217,6 +217,75 @@ let traps =
         consume x: 1|};
   ]
 
+(* Copies that are not interchangeable, or not all the way. *)
+let copies =
+  [
+    breaks "the script asks for one of the copies' pairs" [ No_halt ]
+      {|execute (task('p')[a] >> oneOf { when { true } then action { post x: 1 }
+                                          when { true } then action { } }) |
+                (task('q')[b] >> oneOf { when { true } then action { post x: 2 }
+                                          when { true } then action { } })
+        if (poll(x: 2) && !poll(x: 1)) { consume x: 2 ; halt 'only 2' }
+        if (poll(x: 1)) { consume x: 1 }
+        if (poll(x: 2)) { consume x: 2 }|};
+    breaks "one copy's pair is there from the start" [ No_leftover ]
+      {|post x: 1
+        execute (task('p')[a] >> action { post x: 1 }) | (task('q')[b] >> action { post x: 2 }) |
+          (condition { consume x: 1 } >> condition { consume x: 2 })|};
+    breaks "the oldest pair of two" [ No_halt; No_leftover ]
+      {|execute action { post x: 1 } | action { post x: 2 }
+        consume x: _
+        if (poll(x: 1)) { halt '2 was first' }|};
+    breaks "code asks for one copy's pair only" [ No_halt ]
+      {|execute (task('p')[a] >> action { post x: 1 }) | (task('q')[b] >> action { post x: 2 }) |
+          (task('r')[c] >> action { if (poll(x: 2) && !poll(x: 1)) { halt 'h' } })
+        consume x: 1
+        consume x: 2|};
+    breaks "a computed pair" [ No_halt ]
+      {|def look(i) { if (poll(x: i) && !poll(x: 1)) { halt 'h' } }
+        execute (task('p')[a] >> action { post x: 1 }) | (task('q')[b] >> action { post x: 2 }) | action { look(2) }
+        consume x: 1
+        consume x: 2|};
+    breaks "a handler that reads the error" ~environment:failing [ No_error; No_halt ]
+      {|execute watch (task('p')[a] | task('q')[b]) onError { if (it.contains('q')) { halt 'q' } }|};
+    breaks "one of the vehicles fails"
+      ~environment:{ plain with endings = (fun v _ -> if v = "b" then Fails else Succeeds) }
+      [ No_leftover ]
+      {|execute (watch task('p')[a] onError { ignore() }) | (watch task('q')[b] onError { post x: 1 ; ignore() })|};
+    breaks "numbers that are counted with" [ No_halt ]
+      {|g = 0
+        execute (task('p')[a] >> action { g = g + 1 }) | (task('q')[b] >> action { g = g + 2 }) |
+          action { if (g == 2) { halt 'h' } }|};
+    breaks "the same code alike here, and not there" [ No_deadlock ]
+      {|def both() { execute (task('p')[a] >> condition { consume x: 1 }) | (task('q')[b] >> condition { consume x: 2 }) }
+        post x: 1, x: 2
+        both()
+        post x: 1
+        both()|};
+    breaks "a task of one copy never comes to its turn" [ No_leftover ]
+      {|post x: 1
+        execute oneOf { when { consume x: 1 } then task('p')[a]
+                        when { consume x: 2 } then task('q')[b] }
+        post x: 3|};
+    breaks "who was left over matters later" [ No_deadlock; No_halt ]
+      {|post x: 1, x: 2, x: 3
+        execute oneOf { when { consume x: 1 } then task('p')[a]
+                        when { consume x: 2 } then task('q')[a]
+                        when { consume x: 3 } then task('r')[a] }
+        if (!poll(x: 3)) { halt 'three' }
+        execute condition { consume x: 1 }
+        execute condition { consume x: 2 }
+        consume x: 3|};
+    breaks "around and around, with other ones each time" [ Termination ]
+      {|post x: 1, x: 2
+        while (true) {
+          execute oneOf { when { consume x: 1 } then action { post y: 1 }
+                          when { consume x: 2 } then action { post y: 2 } }
+          execute oneOf { when { consume y: 1 } then action { post x: 1 }
+                          when { consume y: 2 } then action { post x: 2 } }
+        }|};
+  ]
+
 let fleet n =
   let each separator f = String.concat separator (List.init n (fun i -> f (i + 1))) in
   let vehicle i = List.nth [ "a"; "b" ] (i - 1) in
@@ -241,7 +310,14 @@ let savings =
     saves "nests side by side" ~environment:failing 20
       "execute (during 1.minutes run (task('p')[a] | task('q')[b])) | (watch (task('r')[c] | idle(1.seconds)) onError { \
        ignore() })";
+    saves "copies that start with a choice" 40
+      {|execute (task('p')[a] >> action { post x: 1 } >> condition { consume x: 1 }) |
+          (task('q')[b] >> action { post x: 2 } >> condition { consume x: 2 }) |
+          (task('r')[c] >> action { post x: 3 } >> condition { consume x: 3 })|};
+    saves "copies that take from each other" 40
+      {|post x: 1, x: 2, x: 3
+        execute condition { consume x: _ } | condition { consume x: _ } | condition { consume x: _ }|};
     saves "parts of a sequence" 15 "execute (task('p')[a] | task('q')[b]) >> task('r')[c]";
   ]
 
-let () = Alcotest.run "reduction by hand" [ ("traps", traps); ("savings", savings) ]
+let () = Alcotest.run "reduction by hand" [ ("traps", traps); ("copies", copies); ("savings", savings) ]

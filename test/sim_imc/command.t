@@ -51,6 +51,15 @@ Usage.
   Usage: dolphin sim [OPTION]… [FLEET]
   Try 'dolphin sim --help' or 'dolphin --help' for more information.
   [2]
+  $ sim two.fleet --vanish x8-02
+  dolphin: option '--vanish': 'x8-02' is not of the form VEHICLE=FROM or
+           VEHICLE=FROM,LASTING
+  Usage: dolphin sim [OPTION]… [FLEET]
+  Try 'dolphin sim --help' or 'dolphin --help' for more information.
+  [2]
+  $ sim two.fleet --vanish nobody=10,5
+  dolphin: the fleet has no vehicle 'nobody'
+  [2]
   $ sim two.fleet --log no/such/log
   dolphin: no/such/log: No such file or directory
   [2]

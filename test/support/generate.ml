@@ -321,6 +321,94 @@ let programs ~sensing =
 
 let program = programs ~sensing:false
 let sensing_program = programs ~sensing:true
+(* {1 Copies}
+
+   A piece of program is copied as text: pairs with 1 become the copy's own, those with 2 stay; likewise its plans and its vehicle. *)
+
+let replace ~by pattern text =
+  let n = String.length pattern in
+  let b = Buffer.create (String.length text) in
+  let rec from i =
+    if i + n > String.length text then Buffer.add_substring b text i (String.length text - i)
+    else if String.sub text i n = pattern then begin
+      Buffer.add_string b by;
+      from (i + n)
+    end
+    else begin
+      Buffer.add_char b text.[i];
+      from (i + 1)
+    end
+  in
+  from 0;
+  Buffer.contents b
+
+let text e = Format.asprintf "%a" Print.expression e
+
+let copy i text =
+  let vehicle = List.nth [ "va"; "vb"; "vc" ] i and own = string_of_int (i + 3) in
+  List.fold_left
+    (fun text (pattern, by) -> replace ~by pattern text)
+    text
+    [ (": 1", ": " ^ own); ("'p'", "'p" ^ own ^ "'"); ("vown", vehicle) ]
+
+(* Most copies are true ones. *)
+let copies k text =
+  let* slip = frequencyl [ (9, None); (1, Some 0) ] in
+  let copy i = if slip = Some i then replace ~by:": 2" ": 1" (copy i text) else copy i text in
+  return (List.init k copy)
+
+let parse source =
+  match Parse.program ~file:"generated.dol" source with
+  | Ok program -> program
+  | Error _ -> invalid_arg ("Generate.parse: " ^ source)
+
+let branch_text = map2 (fun g t -> text (expression (When (g, t)))) guard
+
+let replicated =
+  let* k = frequencyl [ (3, 2); (2, 3) ] in
+  let* vehicles = frequencyl [ (3, [ "vown" ]); (1, []) ] in
+  let part vehicles depth = task ~vehicles ~depth in
+  let* depth = frequencyl [ (1, 0); (3, 1); (3, 2) ] in
+  let* row = map text (part vehicles depth) in
+  let* row = copies k row in
+  let* others = frequencyl [ (2, `None); (2, `All_of); (1, `One_of); (1, `Common); (1, `Row) ] in
+  let* beside =
+    match others with
+    | `None -> return []
+    | `Common -> map (fun t -> [ text t ]) (part [] 1)
+    | `Row -> Gen.bind (map text (part [] 1)) (copies k)
+    | (`All_of | `One_of) as kind ->
+      let* depth = frequencyl [ (3, 0); (1, 1) ] in
+      let* branches = Gen.bind (branch_text (part [] depth)) (copies k) in
+      let name = match kind with `All_of -> "allOf" | `One_of -> "oneOf" in
+      return [ Printf.sprintf "%s {\n%s\n}" name (String.concat "\n" branches) ]
+  in
+  let all = String.concat " | " (List.map (Printf.sprintf "(%s)") (row @ beside)) in
+  let* wrapped =
+    frequency
+      [ (5, return all);
+        (1, map (fun h -> text (expression (Watch (variable "t", h)))) (handler ~sensing:false));
+        (1, map (fun g -> text (expression (Until (g, variable "t")))) guard);
+        (1, map (fun t -> text (binary Sequence (variable "t") t)) (part [] 0)) ]
+  in
+  let executed = if wrapped = all then "execute " ^ all else Printf.sprintf "t = %s\nexecute %s" all wrapped in
+  let own = List.init k (fun i -> i + 3) in
+  let each format = String.concat "\n" (List.map (Printf.sprintf format) own) in
+  let* before =
+    frequencyl
+      [ (3, ""); (2, each "post x: %d"); (1, each "post x: %d" ^ "\n" ^ each "post y: %d"); (1, "post x: 3"); (1, "post x: 2, y: 2") ]
+  in
+  let* after =
+    frequencyl
+      [ (3, ""); (1, "if (poll(x: 4)) { halt 'four' }"); (1, "consume x: 3"); (1, "consume y: _"); (1, each "consume x: %d");
+        (1, "if (poll(y: 3)) { post x: 1 } else { consume x: _ }") ]
+  in
+  let* loop = frequencyl [ (4, false); (1, true) ] in
+  let body = String.concat "\n" [ before; executed; after ] in
+  let body = if loop then Printf.sprintf "while (g < 2) { g = g + 1\n%s\n}" body else body in
+  let picks = "va = pick { id 'a' }\nvb = pick { id 'b' }\nvc = pick { id 'c' }" in
+  return (parse (String.concat "\n" [ "g = 0"; picks; body; "" ]))
+
 let print p = Format.asprintf "%a" Print.program p
 let source = map print program
 let compile p = Pure_run.compile_exn (print p)

@@ -1,0 +1,70 @@
+(* On random programs that execute copies of one task side by side, every verdict of a search with symmetry, with and without partial
+   order, is that of the plain one, and every run that it shows is one of the semantics. PROGRAMS in the environment is
+   how many programs are tried, 2,000 by default; SEED is where they start. *)
+
+open Dolphin_explore
+module Generate = Test_support.Generate
+
+let number name default = match Sys.getenv_opt name with Some n -> int_of_string n | None -> default
+let programs = number "PROGRAMS" 2_000
+let seed = number "SEED" 20_261_122
+let limit = number "LIMIT" 400
+let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]) }
+let failing fails : Environment.options = { answering with endings = (fun v p -> if fails v p then May_fail else Succeeds) }
+
+let environments =
+  [ ("as planned", answering);
+    ("with failures", Environment.failing answering);
+    ("with a failure", Environment.failing ~failures:1 answering);
+    ("vehicle a may fail", failing (fun v _ -> v = "a"));
+    ("plan p3 may fail", failing (fun _ p -> p = "p3")) ]
+
+let case = QCheck2.Gen.(pair Generate.replicated (oneofl environments))
+let print (program, (name, _)) = Printf.sprintf "%s:\n%s" name (Generate.print program)
+let skipped = ref 0
+let whole = ref 0
+let reduced = ref 0
+let smaller = ref 0
+let broken = Hashtbl.create 7
+
+let agrees (ast, (_, environment)) =
+  let program = Generate.compile ast in
+  match Agreement.check ~limit ~reductions:[ All; Symmetry ] environment program Generate.world with
+  | Error what -> QCheck2.Test.fail_report what
+  | Ok None ->
+    incr skipped;
+    true
+  | Ok (Some found) ->
+    whole := !whole + found.whole;
+    reduced := !reduced + found.reduced;
+    if found.reduced < found.whole then incr smaller;
+    let note p = Hashtbl.replace broken p (1 + Option.value (Hashtbl.find_opt broken p) ~default:0) in
+    List.iter note found.broken;
+    true
+
+let test_agreement () =
+  Printf.printf "SEED=%d PROGRAMS=%d\n%!" seed programs;
+  let test = QCheck2.Test.make ~count:programs ~print ~name:"symmetric and plain search agree" case agrees in
+  QCheck2.Test.check_exn ~rand:(Random.State.make [| seed |]) test;
+  Printf.printf "%d skipped, of more than %d states; %d of %d states by symmetry alone, fewer for %d programs\n" !skipped limit
+    !reduced !whole !smaller;
+  Hashtbl.iter (fun p n -> Printf.printf "%s: broken by %d\n" (Property.name p) n) broken
+
+(* Where nothing is broken, or nothing reduced, agreement says little. *)
+let test_variety () =
+  let enough property =
+    if not (List.mem property [ Property.All_reached; Termination; Vehicles ] || Hashtbl.mem broken property) then
+      Alcotest.failf "no program breaks: %s" (Property.name property)
+  in
+  List.iter enough Property.all;
+  if 2 * !smaller < programs - !skipped then Alcotest.fail "few programs have less states"
+
+let () =
+  Alcotest.run "symmetry"
+    [
+      ( "random programs",
+        [
+          Alcotest.test_case "symmetric and plain search agree" `Quick test_agreement;
+          Alcotest.test_case "properties are broken by some, and states are saved" `Quick test_variety;
+        ] );
+    ]

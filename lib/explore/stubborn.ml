@@ -20,10 +20,6 @@ let exists_step t x p =
 
 let is_nest (place : Shape.place) = place.inside <> None
 let contains (nest : Shape.place) (place : Shape.place) = nest.from <= place.from && place.upto <= nest.upto
-let rec above (place : Shape.place) level =
-  match place.around with
-  | Some nest when level > 0 -> above nest (level - 1)
-  | Some _ | None -> place
 
 (* The nests around [y] that [x] is not in. *)
 let apart y x =
@@ -38,7 +34,7 @@ let future t y x =
   c.analysis.futures.(apart c.place t.components.(x).place)
 
 (* Whether what stands at [place] is cut off when a step of the component at [own] lands there. *)
-let is_cut_off own place { level; _ } = (level > 0 || is_nest own) && contains (above own level) place
+let is_cut_off own place { level; _ } = (level > 0 || is_nest own) && contains (Shape.above own level) place
 
 (* Whether a step of [y] may ever cut off [x]. *)
 let may_cut_off t y x =
@@ -82,7 +78,7 @@ let is_in_the_way t x k y =
   let f = own.analysis.footprints.(k) in
   let is_idle_cut (f : Footprint.t) = Footprint.is_traceless f && (not f.breaks) && not f.halts in
   let ends_nest { level; gone } =
-    let place = above own.place level in
+    let place = Shape.above own.place level in
     gone && is_nest other.place && other.place != place && contains other.place place
   in
   let landings = landings t x k in

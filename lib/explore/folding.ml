@@ -1,13 +1,36 @@
+open Dolphin_semantics
 open Part
+
+module Numbered = Hashtbl.Make (struct
+    type t = int * int
+
+    let equal (a, b) (a', b') = Int.equal a a' && Int.equal b b'
+    let hash (a, b) = ((a * 65599) + b) * 65599 land max_int
+  end)
 
 type t = {
   parts : Parts.t;
   words : Words.t;
-  kinds : (int * int * int, int) Hashtbl.t;  (* of parts, by symmetry, family and place there *)
-  children : (int * int, part tree list) Hashtbl.t;  (* by symmetry and kind *)
+  kinds : int Numbered.t;  (* of parts, by symmetry, family and place there *)
+  children : part tree list Numbered.t;  (* by symmetry and kind *)
 }
 
-let create parts words = { parts; words; kinds = Hashtbl.create 64; children = Hashtbl.create 64 }
+let create parts words = { parts; words; kinds = Numbered.create 64; children = Numbered.create 64 }
+
+let cover coverage = function
+  | Alike.Task site -> Coverage.reach coverage site
+  | Code id -> Coverage.reach_code coverage id
+
+(* What [r] begins in a state, those that the state stands for begin as well. *)
+let reach_alike t g r =
+  let reach label = List.iter (cover (Parts.coverage t.parts)) (Symmetry.together g label) in
+  let step (step : Residual.step) =
+    match step.offer with
+    | Start (p, _) -> reach (Alike.Task p.task_site)
+    | Perform c | Check c | Measure c -> reach (Alike.Code c.lambda.id)
+    | End_of _ | Expiry_of _ -> ()
+  in
+  Seq.iter step (Residual.steps r)
 
 (* What stands side by side at the top has a kind, be it a part or a nest. *)
 let kind t g (s : Shape.t) key (place : Shape.place) =
@@ -15,21 +38,23 @@ let kind t g (s : Shape.t) key (place : Shape.place) =
   | Some _ -> Symmetry.kind g (Words.residual s key place)
   | None -> (
       let part = Words.part s key place.from in
-      let known = (Symmetry.number g, part.family.number, part.local) in
-      match Hashtbl.find_opt t.kinds known with
+      let known = ((Symmetry.number g lsl 31) lor part.family.number, part.local) in
+      match Numbered.find_opt t.kinds known with
       | Some kind -> kind
       | None ->
         let kind = Symmetry.kind g part.residual in
-        Hashtbl.add t.kinds known kind;
+        Numbered.add t.kinds known kind;
         kind)
 
 let children t g kind =
   let known = (Symmetry.number g, kind) in
-  match Hashtbl.find_opt t.children known with
+  match Numbered.find_opt t.children known with
   | Some children -> children
   | None ->
-    let children = Parts.children t.parts (Parts.root t.parts) (Symmetry.residual g kind) in
-    Hashtbl.add t.children known children;
+    let r = Symmetry.residual g kind in
+    let children = Parts.children t.parts (Parts.root t.parts) r in
+    reach_alike t g r;
+    Numbered.add t.children known children;
     children
 
 let kinds t g (s : Shape.t) key = Array.of_list (List.map (kind t g s key) s.top)

@@ -11,3 +11,6 @@ val canonical : t -> Symmetry.t -> Shape.t -> int array -> int -> into:int array
 (** [canonical t g s key n ~into] puts a state that is alike, mostly the same one for all that are, into [into]; the
     result leads there.
     @raise Shapes.Outgrown *)
+
+val cover : Coverage.t -> Alike.label -> unit
+(** [cover c l] notes that [l] is reached. *)

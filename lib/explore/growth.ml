@@ -205,7 +205,8 @@ let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore
   let cases = Cases.create parts in
   let shareds = Cases.shareds cases in
   let symmetry =
-    if Reduction.by_symmetry reduction then
+    (* Where the outside remembers vehicles, they are not alike. *)
+    if Reduction.by_symmetry reduction && not (Environment.endings_remember options) then
       let number = Cases.Shareds.number shareds and value = Cases.Shareds.value shareds in
       Some (Symmetry.finder options program { number; value })
     else None

@@ -1,5 +1,5 @@
-(** A state space as it grows: the states that there are, and going from the one that is expanded to others. {!Space} says
-    which steps are taken. *)
+(** A state space as it grows: the states that there are, and going from the one that is expanded to others. {!Space}
+    says which steps are taken. *)
 
 open Dolphin_semantics
 

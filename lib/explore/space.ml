@@ -224,14 +224,14 @@ let transitions t = t.transitions
 let parent t i = States.parent t.states i
 let used_symmetry t = Option.fold ~none:false ~some:Symmetry.is_used t.symmetry
 
-(* What can change places is reached if one of it is. *)
+(* Handlers of errors are noted when they have run, in whatever task: see [Symmetry.Unclear]. *)
 let coverage t =
   let coverage = Parts.coverage t.parts in
-  let reached = function Alike.Task site -> Coverage.is_started coverage site | Code id -> Coverage.is_run coverage id in
-  let reach = function Alike.Task site -> Coverage.reach coverage site | Code id -> Coverage.reach_code coverage id in
-  let together labels = if List.exists reached labels then List.iter reach labels in
-  Option.iter (fun finder -> Symmetry.alike finder together) t.symmetry;
+  let is_reached = function Alike.Task site -> Coverage.is_started coverage site | Code id -> Coverage.is_run coverage id in
+  let alike labels = if List.exists is_reached labels then List.iter (Folding.cover coverage) labels in
+  Option.iter (fun finder -> Symmetry.handlers_alike finder alike) t.symmetry;
   coverage
+
 let bytes t = States.bytes t.states
 let bytes_to_grow t ~by = States.bytes_to_grow t.states ~by
 let forget_waiting t = States.forget_waiting t.states

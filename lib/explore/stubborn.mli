@@ -1,8 +1,8 @@
 (** Which steps of an executing configuration are enough: a persistent set, as far as what is cut off allows.
     docs/explorer.md says why. *)
 
-(** What becomes of a component that moves: something takes its place (level 0), or that of the nest so many levels above,
-    or it is [gone]. *)
+(** What becomes of a component that moves: something takes its place (level 0), or that of the nest so many levels
+    above, or it is [gone]. *)
 type landing = { level : int; gone : bool }
 
 (** What a step does where it stands. *)

@@ -38,11 +38,11 @@ let to_json h : Yojson.Safe.t =
   `Assoc
     (format_members
      @ [ ("program", of_source h.program);
-      ("fleet", of_option of_source h.fleet);
-      ("platform", `String h.platform);
-      ("seed", `Int h.seed);
-      ("speed", of_option Dolphin_json.Canonical.number h.speed);
-      ("started", `String h.started) ])
+         ("fleet", of_option of_source h.fleet);
+         ("platform", `String h.platform);
+         ("seed", `Int h.seed);
+         ("speed", of_option Dolphin_json.Canonical.number h.speed);
+         ("started", `String h.started) ])
 
 let to_source json =
   let* found = members json in
@@ -61,10 +61,10 @@ let check_format json =
 let of_json json =
   let* () = check_format json in
   let* found = members json in
-      let* program = get to_source "program" found in
-      let* fleet = get (nullable to_source) "fleet" found in
-      let* platform = get text "platform" found in
-      let* seed = get whole "seed" found in
-      let* speed = get (nullable number) "speed" found in
-      let* started = get text "started" found in
+  let* program = get to_source "program" found in
+  let* fleet = get (nullable to_source) "fleet" found in
+  let* platform = get text "platform" found in
+  let* seed = get whole "seed" found in
+  let* speed = get (nullable number) "speed" found in
+  let* started = get text "started" found in
   Ok { program; fleet; platform; seed; speed; started }

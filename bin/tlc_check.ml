@@ -20,6 +20,7 @@ let violated : Event.violation -> string = function
   | Invariant name | Property name -> name
   | Temporal -> "Termination"
   | Deadlock -> "NoDeadlock"
+  | Unnamed -> ""
 
 (* Whether a run shows what is said to be violated: where labels leave a choice, such a run is wanted. *)
 let shows name options program world ((c, e) : Dolphin_explore.Labelled.state) (steps : Transition.t list) =
@@ -38,6 +39,16 @@ let print_states (c : Outcome.counter_example) =
   in
   List.iteri print c.steps
 
+(* All that the server of the distributed mode shows. *)
+let print_last_step (c : Outcome.counter_example) =
+  print_endline
+    "some property is violated: TLC's distributed mode does not say which, and shows only the last step. To see a run: \
+     --run alone.";
+  let label (step : Outcome.step) = Option.bind (Event.variable "label" step.state) Quoted.unescape in
+  match List.rev_map label c.steps with
+  | Some label :: _ -> Printf.printf "last step: %s\n" label
+  | None :: _ | [] -> ()
+
 let print_counter_example options (program : Program_file.t) world (c : Outcome.counter_example) =
   let name = violated c.violation in
   let question =
@@ -50,7 +61,8 @@ let print_counter_example options (program : Program_file.t) world (c : Outcome.
     Shown_run.print program.program ~steps ~cycle;
     if name = "NoDeadlock" then Shown_run.print_waiting program.program steps
   | Error trouble ->
-    Format.printf "This is no run of the explorer: %a. --compare tells more. The states of TLC:@." Recovered.pp_trouble trouble;
+    Format.printf "This is no run of the explorer: %a. --compare tells more. The states of TLC:@." Recovered.pp_trouble
+      trouble;
     print_states c
 
 let length (c : Outcome.counter_example) =
@@ -64,7 +76,8 @@ let length (c : Outcome.counter_example) =
       (Report.count (List.length c.steps - k + 1) "step")
 
 (* TLC looks no further than the first violation, but for temporal properties: these it looks at when it has all states,
-   and now and then before. What is asked of the specification rather than of the program is only told where it does not hold. *)
+   and now and then before. What is asked of the specification rather than of the program is only told where it does not
+   hold. *)
 let print_verdicts names (o : Outcome.t) =
   let broken = match o.verdict with Violated c -> Some (violated c.violation, length c) | _ -> None in
   let all_states = match o.verdict with Violated { violation = Temporal; _ } -> o.queue = 0 | _ -> false in
@@ -89,6 +102,7 @@ let print names options program world (o : Outcome.t) =
   print_verdicts names o;
   print_counts o;
   match o.verdict with
+  | Violated ({ violation = Unnamed; _ } as c) -> print_last_step c
   | Violated c -> print_counter_example options program world c
   | Holds | Unfinished | Failed _ -> ()
 

@@ -15,7 +15,7 @@ let properties ~strict =
   @ [ { name = "Termination"; of_runs = true } ]
 
 let printing =
-  {|(* Prints the state and its transitions, of the program with this number. TLC evaluates an invariant once for each state. *)
+  {|(* Prints the state and its transitions, of the program with this number: TLC evaluates an invariant once a state. *)
 PrintMark(text) == PrintT("M\t" \o text)
 
 PrintEnd ==
@@ -51,7 +51,7 @@ VARIABLE label
 
 RunInit == Init /\ label = ""
 RunNext == \E ts \in { Transitions } : \E j \in DOMAIN ts : Becomes(ts[j]) /\ label' = ts[j].label
-RunSpec == RunInit /\ [][RunNext]_vars /\ Fairness
+RunSpec == RunInit /\ [][RunNext]_<< vars, label >> /\ Fairness
 
 |}
   ^ printing ^ "\nPrintRun == PrintGraphOf(1)\n====\n"

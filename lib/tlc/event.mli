@@ -6,6 +6,7 @@ type violation =
   | Property of string  (** a property of single steps, by its name *)
   | Temporal  (** some property in the configuration: TLC does not say which *)
   | Deadlock
+  | Unnamed  (** the server of the distributed mode does not say what is violated, see {!Behaviour} *)
 
 type t =
   | Version of string  (** ["TLC2 Version 2.18 of 20 March 2023"] *)
@@ -15,6 +16,7 @@ type t =
   (** [depth] counts states: 1 for the initial ones *)
   | Checks_temporal of int  (** the temporal properties, on so many states *)
   | Violation of violation
+  | Behaviour  (** a counter-example follows *)
   | State of { number : int; action : string option; text : string }
   (** of a counter-example, from 1: the action that led there, unless it is an initial state; the variables, [/\ x = 1]
       and so on *)
@@ -23,9 +25,6 @@ type t =
   | Holds  (** no error was found *)
   | Totals of { generated : int; distinct : int; queue : int }
   | Depth of int  (** of the complete state graph, in states: 1 if there are only initial ones *)
-  | Coverage_begins  (** what follows tells of all that was done so far: earlier coverage is void *)
-  | Action of { name : string; line : int; distinct : int; generated : int }
-  (** coverage: an action, the line where it is defined, the states that it led to first, and all *)
   | Printed of string  (** a line outside of messages, by the model, SANY or Java *)
   | Worker of string  (** what a server says of workers and fingerprint servers *)
   | Trouble of string

@@ -1,7 +1,7 @@
 (** Where Java and TLC are. *)
 
 type t = { java : string; jar : string }
-(** Paths: of the program [java], and of the archive that TLC is in. *)
+(** Absolute paths: of the program [java], and of the archive that TLC is in. *)
 
 type trouble =
   | No_jar of { places : string list }  (** nowhere, of the usual places *)

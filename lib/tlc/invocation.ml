@@ -17,12 +17,13 @@ let of_mode (i : Installation.t) = function
   | Server { host; port } ->
     [ "-Djava.rmi.server.hostname=" ^ host; port_option port; "-cp"; i.jar; "tlc2.tool.distributed.TLCServer" ]
 
+(* [-deadlock] says not to look for deadlocks: an end has no successor either, so models have an invariant for that. The
+   server does not heed what the configuration says of it. *)
 let command ?(short = false) i mode ~directory ~main ~configuration =
   java i ~short
   @ [ "-Djava.io.tmpdir=" ^ directory ]
   @ of_mode i mode
-  @ [ "-tool"; "-metadir"; directory / "states"; "-config"; directory / configuration;
-      directory / (main ^ ".tla") ]
+  @ [ "-tool"; "-deadlock"; "-metadir"; directory / "states"; "-config"; configuration; main ^ ".tla" ]
 
 let worker i ~host ~port =
   java i ~short:false @ [ port_option port; "-cp"; i.jar; "tlc2.tool.distributed.TLCWorker"; host ]

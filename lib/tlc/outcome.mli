@@ -6,6 +6,7 @@ type step = { action : string option; state : string  (** as in {!Event.State} *
 (** How a counter-example goes on for ever, if it does. *)
 type repetition = Once | Stays | Back_to of int  (** that many steps from the start *)
 
+(** What is {!Event.Unnamed} comes with its last steps only. *)
 type counter_example = { violation : Event.violation; steps : step list; repetition : repetition }
 
 type verdict =
@@ -20,7 +21,6 @@ type t = {
   distinct : int;
   queue : int;  (** states whose successors were not looked at *)
   depth : int option;  (** of the complete state graph, in transitions *)
-  coverage : (string * int) list;  (** how often each action was taken, summed up over what has one name, in order *)
   verdict : verdict;
 }
 

@@ -51,15 +51,20 @@ let read_all ~interrupted ~pid line input =
   in
   go None
 
-let start argv output =
-  let nothing = Unix.openfile "/dev/null" [ O_RDONLY; O_CLOEXEC ] 0 in
-  Fun.protect
-    ~finally:(fun () -> Unix.close nothing)
-    (fun () -> Unix.create_process (List.hd argv) (Array.of_list argv) nothing output output)
+(* A child begins where its parent is: we go there for that moment. *)
+let start directory argv output =
+  let nothing = Unix.openfile "/dev/null" [ O_RDONLY; O_CLOEXEC ] 0 and here = Sys.getcwd () in
+  let back () =
+    Unix.close nothing;
+    Unix.chdir here
+  in
+  Fun.protect ~finally:back (fun () ->
+      Unix.chdir directory;
+      Unix.create_process (List.hd argv) (Array.of_list argv) nothing output output)
 
-let run ~interrupted line argv =
+let run ?(directory = Filename.current_dir_name) ~interrupted line argv =
   let input, output = Unix.pipe ~cloexec:true () in
-  match start argv output with
+  match start directory argv output with
   | exception Unix.Unix_error (error, _, _) ->
     Unix.close input;
     Unix.close output;

@@ -3,13 +3,13 @@ What `dolphin tla --run` and `--compare` do with what TLC says. Here `java` is a
   $ mkdir bin
   $ cat > bin/java <<'END'
   > #!/bin/sh
-  > for argument; do case "$argument" in -D*tmpdir*|-X*|*.tla|*/*) ;; *) printf '%s ' "$argument" ;; esac; done > arguments
-  > cat said
-  > exit $(cat status)
+  > for argument; do case "$argument" in -D*tmpdir*|-X*|*.tla|*/*) ;; *) printf '%s ' "$argument" ;; esac; done > "$HERE/arguments"
+  > cat "$HERE/said"
+  > exit $(cat "$HERE/status")
   > END
   $ chmod +x bin/java
   $ touch tlc.jar
-  $ export PATH="$PWD/bin:$PATH" DOLPHIN_TLC="$PWD/tlc.jar"
+  $ export HERE="$PWD" PATH="$PWD/bin:$PATH" DOLPHIN_TLC="$PWD/tlc.jar"
   $ unset JAVA_HOME
   $ message() { printf '@!@!@STARTMSG %s @!@!@\n' "$1"; cat; printf '@!@!@ENDMSG %s @!@!@\n' "${1%:*}"; }
   $ version() { echo TLC2 Version 2.18 of 20 March 2023 | message 2262:0; }
@@ -36,7 +36,7 @@ A program of which everything holds.
   termination: holds
   20 distinct states, 25 generated, depth 6
   $ cat arguments; echo
-  -Dfile.encoding=UTF-8 -Duser.language=en -Duser.country=US -cp tlc2.TLC -workers auto -tool -metadir -config 
+  -Dfile.encoding=UTF-8 -Duser.language=en -Duser.country=US -cp tlc2.TLC -workers auto -tool -deadlock -metadir -config Run.cfg 
 
 A counter-example: its labels are enough to find where in the program each step is.
 
@@ -126,7 +126,22 @@ The server of the distributed mode says who may work for it, and how.
   workers join by:
     bin/java -XX:+UseParallelGC -Xss64m -Dfile.encoding=UTF-8 -Duser.language=en -Duser.country=US -Dtlc2.tool.distributed.TLCServer.port=10997 -cp tlc.jar tlc2.tool.distributed.TLCWorker 127.0.0.1
   $ cat arguments; echo
-  -Dfile.encoding=UTF-8 -Duser.language=en -Duser.country=US -Djava.rmi.server.hostname=127.0.0.1 -Dtlc2.tool.distributed.TLCServer.port=10997 -cp tlc2.tool.distributed.TLCServer -tool -metadir -config 
+  -Dfile.encoding=UTF-8 -Duser.language=en -Duser.country=US -Djava.rmi.server.hostname=127.0.0.1 -Dtlc2.tool.distributed.TLCServer.port=10997 -cp tlc2.tool.distributed.TLCServer -tool -deadlock -metadir -config RunStates.cfg 
+
+On a violation it says little.
+
+  $ { echo TLC2 TLC Server Version 2.18 of 20 March 2023; echo The behavior up to this point is: | message 2121:1
+  >   state 1 'Initial predicate' resume; step 2 'pause(1)'; counts 6 5 0; } > said
+  $ dolphin tla round.dol --run --distributed 127.0.0.1:10997 2> told
+  TLC2 TLC Server Version 2.18 of 20 March 2023
+  no deadlock: not decided: TLC stops at a violation
+  no unhandled error: not decided: TLC stops at a violation
+  assertions: not decided: TLC stops at a violation
+  vehicles for all tasks: not decided: TLC stops at a violation
+  5 distinct states, 6 generated
+  some property is violated: TLC's distributed mode does not say which, and shows only the last step. To see a run: --run alone.
+  last step: pause(1)
+  [1]
 
 State graphs: equal, and not.
 

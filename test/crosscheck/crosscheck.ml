@@ -1,8 +1,9 @@
 (* TLC and the explorer, each with its own statement of the semantics, on the same programs: as many states, isomorphic
    graphs, equal labels, derivations and ends.
 
-   crosscheck.exe [quick | all | mutate | coverage]. In the environment: PROGRAMS, how many random programs; SEED; LIMIT, the
-   most states of one; BATCH, how many are given to TLC at once. *)
+   crosscheck.exe [quick | all | mutate | coverage]. In the environment: PROGRAMS, how many random programs; SEED;
+   LIMIT, the most states of one; BATCH, how many are given to TLC at once; VERDICTS, of how many random programs TLC's
+   own verdict is asked, which takes a start of TLC for each. *)
 
 open Dolphin_tlc
 
@@ -51,7 +52,9 @@ let rec batches size = function
 (* {1 Comparing} *)
 
 let sum_up used more =
-  let add used (rule, n) = (rule, n + Option.value (List.assoc_opt rule used) ~default:0) :: List.remove_assoc rule used in
+  let add used (rule, n) =
+    (rule, n + Option.value (List.assoc_opt rule used) ~default:0) :: List.remove_assoc rule used
+  in
   List.sort compare (List.fold_left add used more)
 
 let tell_failure t (case : Case.t) what =
@@ -66,7 +69,8 @@ let note t (r : Batch.result) =
   | Agrees -> ()
   | Not_printed -> tell_failure t r.case "TLC found no state of it"
   | Differs difference ->
-    tell_failure t r.case (Format.asprintf "left is the explorer, right TLC@.%a" Dolphin_lts.Isomorphism.pp_difference difference)
+    tell_failure t r.case
+      (Format.asprintf "left is the explorer, right TLC@.%a" Dolphin_lts.Isomorphism.pp_difference difference)
 
 let rec compare_batch t installation ~specification prepared =
   match Batch.run installation ~specification prepared, prepared with
@@ -82,7 +86,8 @@ let rec compare_batch t installation ~specification prepared =
   | Error _, _ -> List.iter (fun one -> compare_batch t installation ~specification [ one ]) prepared
 
 let summary title t =
-  Printf.printf "%s: %d programs, %s states, %s transitions: %s" title t.programs (thousands t.states) (thousands t.transitions)
+  Printf.printf "%s: %d programs, %s states, %s transitions: %s" title t.programs (thousands t.states)
+    (thousands t.transitions)
     (if t.failures = 0 then "all agree" else Printf.sprintf "%d do not agree" t.failures);
   if t.too_large > 0 then Printf.printf "; %d left out as too large" t.too_large;
   if t.refused <> [] then Printf.printf "; %d refused by the translation" (List.length t.refused);
@@ -99,15 +104,42 @@ let compare_all title installation ~limit ~batch cases =
   Printf.printf "  %.0f s\n%!" (Unix.gettimeofday () -. start);
   t
 
+(* {1 Verdicts} *)
+
+(* What TLC says of one program, by its own properties, and what the explorer does: TLC stops at its first violation. *)
+let judge_verdict installation t (c : Case.t) =
+  match Judged.verdicts installation c with
+  | Error why -> t.programs <- t.programs + 1; tell_failure t c why
+  | Ok Not_translated -> t.refused <- (c.name, "") :: t.refused
+  | Ok (Judged { tlc; explorer; agree }) ->
+    t.programs <- t.programs + 1;
+    t.used <- sum_up t.used [ (tlc, 1) ];
+    if not agree then tell_failure t c (Printf.sprintf "TLC: %s; the explorer: %s" tlc explorer)
+
+let compare_verdicts installation cases =
+  let t = tally () and start = Unix.gettimeofday () in
+  List.iter (judge_verdict installation t) cases;
+  Printf.printf "verdicts: %d programs, each checked by TLC's own properties: %s" t.programs
+    (if t.failures = 0 then "all agree" else Printf.sprintf "%d do not agree" t.failures);
+  if t.refused <> [] then Printf.printf "; %d refused by the translation" (List.length t.refused);
+  Printf.printf "\n  %s\n  %.0f s\n%!"
+    (String.concat "; " (List.map (fun (verdict, n) -> Printf.sprintf "%s: %d" verdict n) t.used))
+    (Unix.gettimeofday () -. start);
+  t
+
 (* {1 The commands} *)
 
 let all installation =
-  let limit = number "LIMIT" 2_000 and batch = number "BATCH" 50 and programs = number "PROGRAMS" 300 in
+  let limit = number "LIMIT" 2_000 and batch = number "BATCH" 50 and programs = number "PROGRAMS" 400 in
   Printf.printf "SEED=%d PROGRAMS=%d LIMIT=%d BATCH=%d\n%!" seed programs limit batch;
   let examples = compare_all "examples" installation ~limit:20_000 ~batch:10 (Case.examples examples_directory) in
   let traps = compare_all "traps" installation ~limit ~batch Case.traps in
   let random = compare_all "random programs" installation ~limit ~batch (Case.random ~seed programs) in
-  List.for_all (fun t -> t.failures = 0 && t.programs > 0) [ examples; traps; random ]
+  let verdicts =
+    compare_verdicts installation
+      (Case.examples examples_directory @ Case.traps @ Case.random ~seed (number "VERDICTS" 20))
+  in
+  List.for_all (fun t -> t.failures = 0 && t.programs > 0) [ examples; traps; random; verdicts ]
 
 let quick installation =
   let limit = number "LIMIT" 150 and programs = number "PROGRAMS" 30 in
@@ -160,7 +192,8 @@ let coverage installation =
        if examples + traps = 0 then missing := name :: !missing;
        Printf.printf "%-16s %8s %8s\n" name (thousands examples) (thousands traps))
     Dolphin_semantics.Rule.all;
-  Printf.printf "in no example and no trap: %s\n" (match !missing with [] -> "none" | names -> String.concat ", " (List.rev names));
+  Printf.printf "in no example and no trap: %s\n"
+    (match !missing with [] -> "none" | names -> String.concat ", " (List.rev names));
   t.failures = 0
 
 let () =

@@ -7,7 +7,9 @@ let specification =
 (* Where [part] begins in [text]. *)
 let find part text =
   let n = String.length part in
-  let rec go i = if i + n > String.length text then None else if String.sub text i n = part then Some i else go (i + 1) in
+  let rec go i =
+    if i + n > String.length text then None else if String.sub text i n = part then Some i else go (i + 1)
+  in
   go 0
 
 let split_at part text =
@@ -19,7 +21,8 @@ let split_at part text =
 
 let prefixed prefix text =
   let n = String.length prefix in
-  if String.length text > n && String.sub text 0 n = prefix then Some (String.sub text n (String.length text - n)) else None
+  if String.length text > n && String.sub text 0 n = prefix then Some (String.sub text n (String.length text - n))
+  else None
 
 (* Paragraphs of MC.tla: "MCName == ..." and "MCName(x, y) == ...". *)
 let of_paragraph text : Family.constant option =
@@ -46,10 +49,14 @@ let of_line line : Family.constant option =
 
 let text_of files name = (List.find (fun (f : Model.file) -> f.name = name) files).text
 
-let constants (c : Case.t) =
-  match Model.of_program ~plans:c.plans ~prompts:c.prompts ~environment:c.environment c.world c.program with
-  | Error ds -> Error (Format.asprintf "%a" (Fmt.list (Dolphin_syntax.Diagnostic.pp ~source:c.source)) ds)
-  | Ok files ->
-    let program = List.filter_map of_paragraph (paragraphs (text_of files "MC.tla")) in
-    let fixed = List.filter_map of_line (String.split_on_char '\n' (text_of files "MC.cfg")) in
-    Ok (program @ fixed)
+let model (c : Case.t) =
+  let explain = Format.asprintf "%a" (Fmt.list (Dolphin_syntax.Diagnostic.pp ~source:c.source)) in
+  Result.map_error explain
+    (Model.of_program ~plans:c.plans ~prompts:c.prompts ~environment:c.environment c.world c.program)
+
+let of_model files =
+  let program = List.filter_map of_paragraph (paragraphs (text_of files "MC.tla")) in
+  let fixed = List.filter_map of_line (String.split_on_char '\n' (text_of files "MC.cfg")) in
+  program @ fixed
+
+let constants c = Result.map of_model (model c)

@@ -3,5 +3,8 @@
 val specification : (string * string) list
 (** The modules of [spec/]: names of files, and texts. *)
 
+val model : Case.t -> (Dolphin_tla.Model.file list, string) result
+(** The model of this program in its world, or why it cannot be translated. *)
+
 val constants : Case.t -> (Family.constant list, string) result
 (** All constants of the specification for this program in its world, or why it cannot be translated. *)

@@ -16,6 +16,7 @@ let environments =
   [ ("as planned", answering);
     ("with failures", Environment.failing answering);
     ("with a failure", Environment.failing ~failures:1 answering);
+    ("with losses", { answering with losses = Any_number });
     ("vehicle a may fail", failing (fun v _ -> v = "a"));
     ("plan p3 may fail", failing (fun _ p -> p = "p3")) ]
 

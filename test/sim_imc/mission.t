@@ -83,3 +83,9 @@ A plan that fails, and plans that are refused.
 The programs that ran did what the semantics allows.
 
   $ check-journals
+
+The mission of the paper, while the network loses, doubles and reorders.
+
+  $ ../../bench/imc_platform/lossy.py --runs 1 "$(command -v dolphin)" | grep -E 'completed|sent again' | sed 's/, in .*//'
+  1 of 1 missions completed
+  requests sent again to a vehicle that had taken them: 0

@@ -321,6 +321,7 @@ let programs ~sensing =
 
 let program = programs ~sensing:false
 let sensing_program = programs ~sensing:true
+
 (* {1 Copies}
 
    A piece of program is copied as text: pairs with 1 become the copy's own, those with 2 stay; likewise its plans and its vehicle. *)
@@ -362,7 +363,7 @@ let parse source =
   | Ok program -> program
   | Error _ -> invalid_arg ("Generate.parse: " ^ source)
 
-let branch_text = map2 (fun g t -> text (expression (When (g, t)))) guard
+let branch_text = map2 (fun g t -> text (expression (When (g, t)))) (guard_of ~sensing:false)
 
 let replicated =
   let* k = frequencyl [ (3, 2); (2, 3) ] in
@@ -388,7 +389,7 @@ let replicated =
     frequency
       [ (5, return all);
         (1, map (fun h -> text (expression (Watch (variable "t", h)))) (handler ~sensing:false));
-        (1, map (fun g -> text (expression (Until (g, variable "t")))) guard);
+        (1, map (fun g -> text (expression (Until (g, variable "t")))) (guard_of ~sensing:false));
         (1, map (fun t -> text (binary Sequence (variable "t") t)) (part [] 0)) ]
   in
   let executed = if wrapped = all then "execute " ^ all else Printf.sprintf "t = %s\nexecute %s" all wrapped in

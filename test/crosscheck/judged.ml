@@ -1,0 +1,61 @@
+open Dolphin_tlc
+module Run = Dolphin_tla.Run
+module Search = Dolphin_explore.Search
+module Property = Dolphin_explore.Property
+
+type t = Not_translated | Judged of { tlc : string; explorer : string; agree : bool }
+
+let properties =
+  [ ("NoDeadlock", Property.No_deadlock); ("Termination", Termination); ("NoError", No_error);
+    ("Assertions", Assertions); ("EnoughVehicles", Vehicles); ("NoHalt", No_halt); ("NoLeftover", No_leftover) ]
+
+let all_hold = "all hold"
+
+let violated_here (c : Case.t) =
+  let o = Search.run { Search.default with environment = c.environment } c.program c.world in
+  let violated (property, (verdict : Search.verdict)) =
+    match verdict with
+    | Violated _ when List.exists (fun (_, p) -> p = property) properties -> Some (Property.name property)
+    | Violated _ | Holds | Unreached _ | Inconclusive _ -> None
+  in
+  List.filter_map violated o.verdicts
+
+let outcome installation directory =
+  let reader = ref Message.start and outcome = ref Outcome.start in
+  let take message = outcome := Outcome.event !outcome (Event.of_message message) in
+  let line text =
+    let next, messages = Message.line !reader text in
+    reader := next;
+    List.iter take messages
+  in
+  let command =
+    Invocation.command ~short:true installation (Local (Workers 1)) ~directory ~main:Run.main ~configuration:Run.check
+  in
+  ignore (Process.run ~directory ~interrupted:(fun () -> false) line command : Process.ending);
+  List.iter take (Message.finish !reader);
+  Outcome.finish !outcome
+
+let judge (c : Case.t) (o : Outcome.t) =
+  let here = violated_here c in
+  let judged tlc agree =
+    Ok (Judged { tlc; explorer = (if here = [] then all_hold else String.concat ", " here); agree })
+  in
+  let named name =
+    match List.assoc_opt name properties with
+    | Some property -> judged (Property.name property) (List.mem (Property.name property) here)
+    | None -> Error (name ^ " does not hold")
+  in
+  match o.verdict with
+  | Holds -> judged all_hold (here = [])
+  | Violated { violation = Invariant name | Property name; _ } -> named name
+  | Violated { violation = Temporal; _ } -> named "Termination"
+  | Violated { violation = Deadlock | Unnamed; _ } -> Error "TLC looked for deadlocks by itself, though told not to"
+  | Unfinished -> Error "TLC did not come to its end"
+  | Failed lines -> Error (String.concat "\n" lines)
+
+let verdicts installation (c : Case.t) =
+  match Translated.model c with
+  | Error _ -> Ok Not_translated
+  | Ok model ->
+    let files = List.map (fun (f : Dolphin_tla.Model.file) -> (f.name, f.text)) (Run.files ~strict:true model) in
+    judge c (Batch.in_directory files (outcome installation))

@@ -1,0 +1,13 @@
+(** TLC's verdict on a program, by the properties of the specification, beside the explorer's. *)
+
+type t =
+  | Not_translated
+  | Judged of {
+      tlc : string;  (** what is violated first, or ["all hold"] *)
+      explorer : string;  (** all that is violated, or ["all hold"] *)
+      agree : bool;  (** TLC's is one of the explorer's *)
+    }
+
+val verdicts : Dolphin_tlc.Installation.t -> Case.t -> (t, string) result
+(** Starts TLC, as [dolphin tla --run --strict] does. An error is what TLC says went wrong; also a property of the
+    specification alone that does not hold. *)

@@ -259,3 +259,7 @@ A file that says less than it must is refused.
      2  program     picks noptilus-1
   dolphin: level.run: level.dol does not fit, at step 3: what battery(noptilus-1) is, is open, and more than a comparison depends on it: the fleet can give the values it may have
   [2]
+
+The programs that ran did what the semantics allows.
+
+  $ check-journals

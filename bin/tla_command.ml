@@ -63,19 +63,9 @@ let perform jar deed (program : Program_file.t) (fleet : Fleet_file.t) ~answers 
     let* installation = Tlc_session.installation jar in
     Ok (Tlc_compare.run installation ~directory ~limit ~coverage files environment program world)
 
-(* The specification knows of no other faults. *)
-let is_modelled (faults : Dolphin_explore.Faults.t) = faults.loss = Never && faults.join = Never
-
 let run path fleet answers faults directory check compare strict limit jar workers distributed coverage =
   let result =
     let* deed = deed directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverage in
-    let* () =
-      if is_modelled faults then Ok ()
-      else begin
-        Report.complain "of faults, the model in TLA+ has only fail, as in --faults fail=1";
-        Error Exit_status.Bad_input
-      end
-    in
     let* program, fleet = load path fleet in
     match model program fleet ~answers ~faults with
     | Ok files -> perform jar deed program fleet ~answers ~faults files

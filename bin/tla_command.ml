@@ -18,6 +18,22 @@ let load path fleet =
   | Ok _, Error trouble -> Fleet_file.tell trouble; Error Exit_status.Bad_input
   | Ok program, Ok fleet -> Ok (program, fleet)
 
+(* In the model a sensor always shows the same. *)
+let open_sensors (fleet : Fleet_file.t) =
+  let named = Scenario.vehicles_at ~file:(Option.value fleet.path ~default:"") fleet.source in
+  let refusal (v : Scenario.vehicle) =
+    let shown =
+      (if v.batteries = [] then [] else [ "battery" ]) @ if v.places = [] then [] else [ "at" ]
+    in
+    match shown, List.assoc_opt v.id named with
+    | setting :: _, Some at ->
+      let message = Printf.sprintf "the model in TLA+ has no sensors that show one of several values: '%s' of %s" setting v.id in
+      let hint = Printf.sprintf "leave one value of %s; dolphin explore follows them all" setting in
+      Some (Dolphin_syntax.Diagnostic.error at message ~hint)
+    | _, _ -> None
+  in
+  List.filter_map refusal fleet.scenario.vehicles
+
 (* {1 What is done with the model} *)
 
 type deed =
@@ -63,20 +79,15 @@ let perform jar deed (program : Program_file.t) (fleet : Fleet_file.t) ~answers 
     let* installation = Tlc_session.installation jar in
     Ok (Tlc_compare.run installation ~directory ~limit ~coverage files environment program world)
 
-(* The specification knows of no other faults. *)
-let is_modelled (faults : Dolphin_explore.Faults.t) = faults.loss = Never && faults.join = Never
-
 let run path fleet answers faults directory check compare strict limit jar workers distributed coverage =
   let result =
     let* deed = deed directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverage in
-    let* () =
-      if is_modelled faults then Ok ()
-      else begin
-        Report.complain "of faults, the model in TLA+ has only fail, as in --faults fail=1";
-        Error Exit_status.Bad_input
-      end
-    in
     let* program, fleet = load path fleet in
+    let* () =
+      match open_sensors fleet with
+      | [] -> Ok ()
+      | refusals -> Report.diagnostics ~source:fleet.source refusals; Error Exit_status.Bad_input
+    in
     match model program fleet ~answers ~faults with
     | Ok files -> perform jar deed program fleet ~answers ~faults files
     | Error refusals -> Report.diagnostics ~source:program.source refusals; Error Exit_status.Bad_input
@@ -111,8 +122,8 @@ let man =
     `P "$(tname) writes a model of a program in its world in TLA+, for the model checker TLC: $(b,MC.tla), which is the \
         program as a table of expressions and the world as constants, and the modules of the specification of the language \
         that it extends, of which $(b,Dolphin.tla) is the semantics, rule by rule. The world is that of $(mname) $(b,explore), \
-        but for sensors, which always show what they show at the start; where no program looks at them, TLC finds the same \
-        states and transitions.";
+        with the same $(b,--faults), but for sensors, which always show what they show at the start; where no program looks at \
+        them, TLC finds the same states and transitions. A fleet that gives a sensor several values is refused.";
     `P "$(b,MC.cfg) checks the properties, $(b,Graph.cfg) prints the state graph. In the directory, with TLC's jar:";
     `Pre "  java -Xss64m -cp tla2tools.jar tlc2.TLC -config MC.cfg MC.tla\n\
          \  java -Xss64m -cp tla2tools.jar tlc2.TLC -workers 1 -config Graph.cfg MC.tla";

@@ -26,6 +26,9 @@ CONSTANTS
   Main,          \* the closure of the whole program
   Ending(_, _),  \* how plan p may end on vehicle v: "succeeds", "may fail" or "fails"
   Failures,      \* how many of the failures that need not be there may be in one run; -1: any number
+  Losses,        \* how often connections may be lost in one run; -1: any number
+  Latecomers,    \* how many vehicles of one run may be late, or missing, when they are looked for; -1: any number
+  MayBeLate,     \* which ones those may be
   Answers(_),    \* to a prompt: for the first time it is asked, the second ..., the answers that may be given; the last
                  \* item is for all later times
   Prompts,       \* the prompts whose answers depend on how often they were asked
@@ -38,7 +41,7 @@ VARIABLES
   A,        \* the allocation: which platform task each vehicle runs, for those that run one
   B,        \* the bound vehicles, in the order in which they were picked
   N,        \* the tuple space
-  outside   \* what the environment remembers: failures so far, how often it was asked
+  outside   \* what the environment remembers: failures and losses so far, who is lost, who was late, how often it was asked
 
 vars == << control, store, A, B, N, outside >>
 
@@ -306,6 +309,13 @@ Endings(S, r) ==
        [] mayFail -> done \o fail
        [] OTHER -> done
 
+(* Or the connection is lost for longer than its timeout: that counts as a failure. As long as nothing else was heard of *)
+(* the vehicle, it is no further loss.                                                                                   *)
+LOST(S, r) == [ FAIL(S, r, "connection lost") EXCEPT !.cause = << "task", r.v, "lost" >> ]
+
+MayBeLost(v) == v \in outside.lost \/ Losses = -1 \/ outside.losses < Losses
+LossOf(S, r) == IF MayBeLost(r.v) THEN << LOST(S, r) >> ELSE << >>
+
 (* The code that r looks at: of an action, a condition, guards, a duration that is not known yet. *)
 CodeOf(r) ==
   CASE r.op \in { "action", "condition" } -> << r.code >>
@@ -348,7 +358,7 @@ RECURSIVE Steps(_, _)
 Steps(S, r) ==
   CodeSteps(S, r) \o
   CASE r.op = "ready" -> << START(S, r) >>
-    [] r.op = "running" -> Endings(S, r)
+    [] r.op = "running" -> Endings(S, r) \o LossOf(S, r)
     [] r.op = "seq" -> Each(Steps(S, r.first), LAMBDA s : InSeq(s, r.rest))
     [] r.op = "par" ->
          Flatten([ j \in DOMAIN r.branches |-> Each(Steps(S, r.branches[j]), LAMBDA s : InPar(s, r.branches, j)) ])
@@ -501,7 +511,7 @@ Alloc(t) ==
 (* {1 Transitions of configurations} *)
 
 Transition(rules, label, cause, kappa, S, deeds) ==
-  [ rules |-> rules, label |-> label, cause |-> cause, control |-> kappa, S |-> S, deeds |-> deeds ]
+  [ rules |-> rules, label |-> label, cause |-> cause, control |-> kappa, S |-> S, deeds |-> deeds, late |-> { } ]
 
 (* ended(S, e): all stops, all of B is released. *)
 ToEnd(rules, label, cause, ending, S, deeds) ==
@@ -571,18 +581,13 @@ ScriptStep(M) ==
        [] m.stop[1] = "faulted" -> FAULT(S, m.stop[2])
        [] m.stop[1] = "exhausted" -> SCRIPT(m, S)
 
-(* {2 Picking vehicles} *)
+(* {2 Who is there} *)
 
 Accepts(q, vehicle) ==
   /\ q.id = << >> \/ q.id[1] = vehicle.id
   /\ q.type = << >> \/ q.type[1] = vehicle.type
   /\ Carries(vehicle, q.payload)
   /\ q.region = << >> \/ Within(q.region[1], vehicle.place)
-
-(* fit(q, w, B), in the order in which they were heard of. *)
-Fit(q) ==
-  Each(SelectSeq(Fleet, LAMBDA vehicle : Accepts(q, vehicle) /\ vehicle.id \notin Range(B)),
-       LAMBDA vehicle : vehicle.id)
 
 (* All sequences of n elements of xs in their order, the first ones first. *)
 RECURSIVE Choices(_, _)
@@ -591,9 +596,60 @@ Choices(n, xs) ==
     [] n > Len(xs) -> << >>
     [] OTHER -> Each(Choices(n - 1, Tail(xs)), LAMBDA chosen : << Head(xs) >> \o chosen) \o Choices(n, Tail(xs))
 
-WhyNot(q, vehicle) ==
+(* An attendance is who comes after all others, in this order, and who is missing. *)
+World(a) ==
+  LET moved == a.coming \o a.missing
+  IN SelectSeq(Fleet, LAMBDA vehicle : vehicle.id \notin Range(moved)) \o Each(moved, VehicleOf)
+
+Subsequences(xs) == Flatten([ n \in 1 .. Len(xs) + 1 |-> Choices(n - 1, xs) ])
+
+(* All sequences of at most n different elements of xs. *)
+RECURSIVE Arrangements(_, _)
+Arrangements(n, xs) ==
+  << << >> >> \o
+  IF n = 0 THEN << >>
+  ELSE Flatten([ j \in DOMAIN xs |-> Each(Arrangements(n - 1, Without(xs, j)), LAMBDA rest : << xs[j] >> \o rest) ])
+
+(* Whom q looks for, wherever they are. Nothing was heard of the silent ones since they were lost; the unsure may be late. *)
+Wanted(q) ==
+  Each(SelectSeq(Fleet, LAMBDA vehicle : Accepts([ q EXCEPT !.region = << >> ], vehicle) /\ vehicle.id \notin Range(B)),
+       LAMBDA vehicle : vehicle.id)
+Silent(q) == SelectSeq(Wanted(q), LAMBDA v : v \in outside.lost)
+Unsure(q) == SelectSeq(Wanted(q), LAMBDA v : v \notin outside.lost /\ Latecomers # 0 /\ v \in MayBeLate)
+
+LateIn(a) == (Range(a.coming) \cup Range(a.missing)) \ outside.lost
+LateAnew(a) == Cardinality(LateIn(a) \ outside.late)
+
+(* A pick of all waits for its whole time-out: some may come late while others are missing. One of n vehicles goes on with the *)
+(* first n, of which up to n were late; or too few come, and then all silent ones are missing, and of the unsure any or, where  *)
+(* there is no bound, all. Attendances with fewer vehicles that are late anew come first.                                      *)
+Attendances(q) ==
+  LET silent == Silent(q)
+      unsure == Unsure(q)
+      attendance(coming, missing) == [ coming |-> coming, missing |-> missing ]
+      ofAll(unheard, absent) ==
+        Each(Arrangements(Len(unsure), SelectSeq(unsure, LAMBDA v : v \notin Range(absent))),
+             LAMBDA coming : attendance(coming, unheard \o absent))
+      all == Flatten(Each(Subsequences(silent), LAMBDA unheard :
+                            Flatten(Each(Subsequences(unsure), LAMBDA absent : ofAll(unheard, absent)))))
+      some == Each(Arrangements(q.count, unsure), LAMBDA coming : attendance(coming, << >>))
+              \o Each(IF Latecomers = -1 THEN << unsure >> ELSE Subsequences(unsure),
+                      LAMBDA absent : attendance(<< >>, silent \o absent))
+      most == IF Latecomers = -1 THEN Len(unsure) ELSE Latecomers - Cardinality(outside.late)
+      byNumber(as) == Flatten([ n \in 1 .. most + 1 |-> SelectSeq(as, LAMBDA a : LateAnew(a) = n - 1) ])
+  IN Only({ byNumber(as) : as \in { IF q.all THEN all ELSE some } })
+
+(* {2 Picking vehicles} *)
+
+(* fit(q, w, B), in the order in which they were heard of, where w is the world with attendance a. *)
+Fit(q, a) ==
+  Each(SelectSeq(World(a), LAMBDA vehicle : Accepts(q, vehicle) /\ vehicle.id \notin Range(B) \cup Range(a.missing)),
+       LAMBDA vehicle : vehicle.id)
+
+WhyNot(q, a, vehicle) ==
   vehicle.id \o " " \o
   CASE vehicle.id \in Range(B) -> "is already bound"
+    [] vehicle.id \in Range(a.missing) -> "is not connected"
     [] q.id # << >> /\ q.id[1] # vehicle.id -> "has another id"
     [] q.type # << >> /\ q.type[1] # vehicle.type -> "is a " \o vehicle.type
     [] ~Carries(vehicle, q.payload) ->
@@ -602,27 +658,32 @@ WhyNot(q, vehicle) ==
          "is at " \o Places[vehicle.place] \o ", outside of the region"
     [] OTHER -> "fits"
 
-NoVehicles(q) ==
-  LET shown == SubSeq(Fleet, 1, Clipped(8, 0, Len(Fleet)))
+NoVehicles(q, a) ==
+  LET shown == SubSeq(World(a), 1, Clipped(8, 0, Len(Fleet)))
       more == Len(Fleet) - Len(shown)
       there == IF Fleet = << >> THEN "no vehicle was heard of"
-               ELSE Join(Each(shown, LAMBDA vehicle : WhyNot(q, vehicle)), "; ")
+               ELSE Join(Each(shown, LAMBDA vehicle : WhyNot(q, a, vehicle)), "; ")
                     \o (IF more > 0 THEN "; and " \o ToString(more) \o " more" ELSE "")
   IN "could not pick " \o PickText(q) \o ": " \o there
 
 PICK_BIND(M, V, cause) ==
   Transition(<< "PICK-BIND" >>, "bind(" \o Join(V, ", ") \o ")", cause, Script(GoOn(M, Vehicles(V))),
              [ Shared EXCEPT !.B = @ \o V ], << >>)
-PICK_ERR(M, q) ==
-  ToEnd(<< "PICK-ERR" >>, "no-vehicles(" \o NoVehicles(q) \o ")", << "timer", 0 >>,
-        FailedFor("vehicles", Fault(NoVehicles(q), M.at)),
-        Shared, << >>)
+PICK_ERR(M, q, a) ==
+  ToEnd(<< "PICK-ERR" >>, "no-vehicles(" \o NoVehicles(q, a) \o ")", << "timer", 0 >>,
+        FailedFor("vehicles", Fault(NoVehicles(q, a), M.at)), Shared, << >>)
 
-PickSteps(M, q) ==
-  LET fit == Fit(q)
-  IN CASE q.all -> << IF fit = << >> THEN PICK_ERR(M, q) ELSE PICK_BIND(M, fit, << "timer", 0 >>) >>
-       [] Len(fit) < q.count -> << PICK_ERR(M, q) >>
+PickStepsIn(M, q, a) ==
+  LET fit == Fit(q, a)
+  IN CASE q.all -> << IF fit = << >> THEN PICK_ERR(M, q, a) ELSE PICK_BIND(M, fit, << "timer", 0 >>) >>
+       [] Len(fit) < q.count -> << PICK_ERR(M, q, a) >>
        [] OTHER -> Each(Choices(q.count, fit), LAMBDA V : PICK_BIND(M, V, Program))
+
+(* In each world that may be. What comes of several is remembered as of the first: with the fewest that are late anew. *)
+PickSteps(M, q) ==
+  LET steps(a) == Each(PickStepsIn(M, q, a), LAMBDA t : [ t EXCEPT !.late = LateIn(a) ])
+      first(ts) == SelectSeq([ j \in DOMAIN ts |-> j ], LAMBDA j : \A i \in 1 .. j - 1 : ts[i].label # ts[j].label)
+  IN Only({ Each(first(ts), LAMBDA j : ts[j]) : ts \in { Flatten(Each(Attendances(q), steps)) } })
 
 (* {2 Waiting ends} *)
 
@@ -700,13 +761,25 @@ OutsideAfter(cause) ==
     [] cause[1] = "answer" /\ cause[2] \in Prompts -> [ outside EXCEPT !.asked[cause[2]] = cause[3] ]
     [] OTHER -> outside
 
+(* Of a vehicle whose task ends otherwise than by a loss something was heard, so it was of one that is picked. What has no   *)
+(* bound is not counted.                                                                                                    *)
+Remembered(t) ==
+  LET before == OutsideAfter(t.cause)
+      v == t.cause[2]
+  IN CASE t.cause[1] = "task" /\ t.cause[3] # "lost" -> [ before EXCEPT !.lost = @ \ { v } ]
+       [] t.cause[1] = "task" /\ v \notin outside.lost ->
+            [ before EXCEPT !.lost = @ \cup { v }, !.losses = IF Losses = -1 THEN @ ELSE @ + 1 ]
+       [] OTHER ->
+            [ before EXCEPT !.lost = @ \ (Range(t.S.B) \ Range(B)),
+                            !.late = IF Latecomers = -1 THEN @ ELSE @ \cup t.late ]
+
 Becomes(t) ==
   /\ control' = t.control
   /\ store' = t.S.store
   /\ A' = t.S.A
   /\ B' = t.S.B
   /\ N' = t.S.N
-  /\ outside' = OutsideAfter(t.cause)
+  /\ outside' = Remembered(t)
 
 Init ==
   /\ control = Script(Call(Main, << >>))
@@ -714,7 +787,7 @@ Init ==
   /\ A = << >>
   /\ B = << >>
   /\ N = NoTuples
-  /\ outside = [ failed |-> 0, asked |-> [ prompt \in Prompts |-> 0 ] ]
+  /\ outside = [ failed |-> 0, losses |-> 0, lost |-> { }, late |-> { }, asked |-> [ prompt \in Prompts |-> 0 ] ]
 
 (* A transition for which Which holds of what it answers. *)
 Some(Which(_)) == \E ts \in { Transitions } : \E j \in DOMAIN ts : Which(ts[j].cause) /\ Becomes(ts[j])
@@ -770,6 +843,9 @@ TypeOK ==
   /\ DOMAIN N.queue = OrderedKeys
   /\ \A pair \in DOMAIN N.bag : N.bag[pair] \in Nat \ { 0 }
   /\ outside.failed \in Nat
+  /\ outside.losses \in Nat
+  /\ outside.lost \subseteq Identifiers
+  /\ outside.late \subseteq MayBeLate
 
 AllocationWithinBound == DOMAIN A \subseteq Range(B)
 
@@ -811,10 +887,11 @@ StateText(kappa, S, environment) ==
     << kappa, S.store, Each(S.B, LAMBDA v : IF v \in DOMAIN S.A THEN << S.A[v] >> ELSE << >>), S.B,
        Each(InOrder(OrderedKeys), LAMBDA k : S.N.queue[k]),
        Each(InOrder(DOMAIN S.N.bag), LAMBDA pair : << pair, S.N.bag[pair] >>),
-       environment.failed, Each(InOrder(Prompts), LAMBDA prompt : environment.asked[prompt]) >> } })
+       environment.failed, environment.losses, InOrder(environment.lost), InOrder(environment.late),
+       Each(InOrder(Prompts), LAMBDA prompt : environment.asked[prompt]) >> } })
 
 PrintTransition(t) ==
-  PrintT("E\t" \o t.label \o "\t" \o StateText(t.control, t.S, OutsideAfter(t.cause)) \o "\t" \o Join(t.rules, ", "))
+  PrintT("E\t" \o t.label \o "\t" \o StateText(t.control, t.S, Remembered(t)) \o "\t" \o Join(t.rules, ", "))
 
 (* TLC evaluates an invariant once for each state that it finds: this one is always true, and prints the state and its
    transitions. *)

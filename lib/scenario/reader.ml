@@ -224,3 +224,13 @@ let read ~file source =
   if faults = [] then
     Ok { Entry.vehicles = entries state.vehicles; plans = entries state.plans; answers = entries state.answers }
   else Error (take Parse.most_faults (List.sort Diagnostic.compare faults))
+
+let vehicles_at ~file source =
+  let at (s : statement) =
+    match s.it with
+    | Expression
+        { it = Call { callee = { it = Variable "vehicle"; _ }; arguments = Positional { it = String id; at } :: _ }; _ } ->
+      Some (id, at)
+    | _ -> None
+  in
+  match Parse.program ~file source with Ok program -> List.filter_map at program | Error _ -> []

@@ -6,6 +6,9 @@ open Dolphin_syntax
 val read : file:string -> string -> (Entry.t, Diagnostic.t list) result
 (** See {!Scenario.read}. *)
 
+val vehicles_at : file:string -> string -> (string * Location.t) list
+(** See {!Scenario.vehicles_at}. *)
+
 val vehicle_settings : string list
 val plan_settings : string list
 (** The names of settings, as in {!Scenario}. *)

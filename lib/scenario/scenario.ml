@@ -33,6 +33,7 @@ type answer = Entry.answer = { prompt : string; texts : string list }
 type t = Entry.t = { vehicles : vehicle list; plans : plan list; answers : answer list }
 
 let read = Reader.read
+let vehicles_at = Reader.vehicles_at
 
 (* Plain data without functions or cycles, and without numbers that are none. *)
 let equal (a : t) (b : t) = a = b

@@ -55,6 +55,9 @@ val read : file:string -> string -> (t, Dolphin_syntax.Diagnostic.t list) result
     at most {!Dolphin_syntax.Parse.most_faults}, in the order of the text. [file] is only a name. No text makes it
     raise. *)
 
+val vehicles_at : file:string -> string -> (string * Dolphin_syntax.Location.t) list
+(** [vehicles_at ~file source] is where [source], which {!read} reads, names each vehicle, by their ids. *)
+
 val pp : Format.formatter -> t -> unit
 (** As a fleet file: [read ~file (Fmt.str "%a" pp s)] is [Ok s]. *)
 

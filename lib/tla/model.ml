@@ -47,6 +47,16 @@ let endings (environment : Environment.options) world plans =
   | [] -> usual
   | clauses -> Printf.sprintf "CASE %s\n    [] OTHER -> %s" (String.concat "\n    [] " clauses) usual
 
+(* -1 stands for any number. *)
+let limit : Environment.limit -> Tla.t = function
+  | Never -> Integer 0
+  | At_most n -> Integer n
+  | Any_number -> Integer (-1)
+
+let late (environment : Environment.options) world =
+  let ids = List.map (fun (s : World.vehicle_state) -> s.id) (World.vehicles world) in
+  Tla.Set (List.map (fun id -> Tla.String id) (List.filter environment.may_be_late ids))
+
 (* {1 Answers} *)
 
 let answer translation program text =
@@ -109,6 +119,9 @@ let text program world (environment : Environment.options) plans prompts transla
   definition ppf "MCPlans" (Translation.plans translation);
   definition ppf "MCPrompts" (Tla.Set (List.map (fun p -> Tla.String p) (List.filter several prompts)));
   definition ppf "MCFailures" (Tla.Integer (Option.value environment.failures ~default:(-1)));
+  definition ppf "MCLosses" (limit environment.losses);
+  definition ppf "MCLatecomers" (limit environment.latecomers);
+  definition ppf "MCMayBeLate" (late environment world);
   definition ppf "MCHostReplies" (Tla.Tuple []);
   Format.fprintf ppf "MCEnding(v, p) ==@.  %s@.@." (endings environment world plans);
   Format.fprintf ppf "MCAnswers(prompt) ==@.  %s@.@." answers;
@@ -118,7 +131,7 @@ let text program world (environment : Environment.options) plans prompts transla
 let constants =
   let replaced =
     [ "Fleet"; "Code"; "Lambdas"; "LambdaNames"; "Main"; "GlobalNames"; "OrderedKeys"; "Places"; "Distances"; "Plans";
-      "Prompts"; "Failures"; "HostReplies"; "Ending"; "Answers" ]
+      "Prompts"; "Failures"; "Losses"; "Latecomers"; "MayBeLate"; "HostReplies"; "Ending"; "Answers" ]
   in
   let lines = List.map (fun name -> Printf.sprintf "  %s <- MC%s\n" name name) replaced in
   "CONSTANTS\n" ^ String.concat "" lines

@@ -38,7 +38,7 @@ PrintGraphOf(number) ==
   IN /\ PrintT("S\t" \o here \o StateText(control, Shared, outside) \o "\t" \o ToString(number))
      /\ PrintMarks
      /\ \A ts \in { Transitions } : \A j \in DOMAIN ts :
-          PrintT("E\t" \o ts[j].label \o "\t" \o here \o StateText(ts[j].control, ts[j].S, OutsideAfter(ts[j].cause))
+          PrintT("E\t" \o ts[j].label \o "\t" \o here \o StateText(ts[j].control, ts[j].S, Remembered(ts[j]))
                  \o "\t" \o Join(ts[j].rules, ", "))
 |}
 

@@ -28,10 +28,20 @@ let for_ever (program : Ast.program) =
 
 let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]) }
 
+let with_losses losses = { answering with losses }
+let with_latecomers latecomers = { answering with latecomers }
+
+let all_once =
+  { (Environment.failing ~failures:1 answering) with losses = At_most 1; latecomers = At_most 1 }
+
 let environments =
   [ ("as planned", answering);
     ("with failures", Environment.failing answering);
-    ("with a failure", Environment.failing ~failures:1 answering) ]
+    ("with a failure", Environment.failing ~failures:1 answering);
+    ("with losses", with_losses Any_number);
+    ("with a loss", with_losses (At_most 1));
+    ("with latecomers", with_latecomers Any_number);
+    ("with all faults once", all_once) ]
 
 let of_generated name environment ast =
   { name; source = Generate.print ast; program = Generate.compile ast; world = Generate.world; environment; plans = [];
@@ -42,7 +52,7 @@ let random ~seed n =
   let one i =
     let ast = QCheck2.Gen.generate1 ~rand Generate.program in
     let looped = QCheck2.Gen.(generate1 ~rand (frequencyl [ (3, false); (1, true) ])) in
-    let kind, environment = List.nth environments (i mod 3) in
+    let kind, environment = List.nth environments (i mod List.length environments) in
     let name = Printf.sprintf "random %d, %s%s" (i + 1) kind (if looped then ", for ever" else "") in
     of_generated name environment (if looped then for_ever ast else ast)
   in
@@ -75,16 +85,23 @@ let in_scenario name source program (scenario : Scenario.t) faults =
     plans = List.map (fun (p : Scenario.plan) -> p.name) scenario.plans;
     prompts = List.map (fun (a : Scenario.answer) -> a.prompt) scenario.answers }
 
-let example directory file =
+let example directory kinds file =
   let path = Filename.concat directory file in
   let source = read path in
   let program = compiled path source and scenario = scenario_beside path in
-  [ in_scenario file source program scenario Faults.none;
-    in_scenario (file ^ ", with failures") source program scenario { Faults.none with fail = Any_number } ]
+  List.map (fun (kind, faults) -> in_scenario (file ^ kind) source program scenario faults) kinds
 
-let examples directory =
+let examples_with kinds directory =
   let files = List.filter (fun f -> Filename.check_suffix f ".dol") (Array.to_list (Sys.readdir directory)) in
-  List.concat_map (example directory) (List.sort compare files)
+  List.concat_map (example directory kinds) (List.sort compare files)
+
+let examples =
+  examples_with [ ("", Faults.none); (", with failures", { Faults.none with fail = Any_number }) ]
+
+let faulty_examples =
+  examples_with
+    [ (", with losses", { Faults.none with loss = Any_number }); (", with a latecomer", { Faults.none with join = At_most 1 });
+      (", with all faults once", { fail = At_most 1; loss = At_most 1; join = At_most 1 }) ]
 
 (* {1 Traps} *)
 
@@ -121,3 +138,26 @@ let traps =
       ("which two of three", "v = pick { count 2 }\nexecute task('p') | task('q')");
       ("not enough for all", "v = pick { id 'a' }\nexecute task('p') | task('q')");
       ("an assertion that no watch sees", two ^ "execute watch (assert({ poll x: 1 }, 'x is there') | action { post x: 1 } | task('p')[a]) onError { ignore() }") ]
+
+let lost_once = "v = pick { id 'a' }\nt = watch task('p')[v] onError { post failed: 1; ignore() }\nexecute t\n"
+
+(* Each with losses and with vehicles that are late, with and without bounds. *)
+let faulty_traps =
+  let programs =
+    [ ("a lost vehicle may be lost again, and that is no other loss", lost_once ^ "execute t\nexecute t");
+      ("nothing is heard of a lost vehicle when another one is picked", lost_once ^ "w = pick { id 'b' }\nexecute t");
+      ("of two vehicles, one after the other", two ^ "execute watch (task('p')[a] | task('q')[b]) onError { ignore() }\nexecute task('q')[b] >> task('p')[a]");
+      ("a lost vehicle is missing, or is there", lost_once ^ "release v\nw = pick { id 'a'; timeout 1.seconds }\nexecute t");
+      ("all, less who is lost", lost_once ^ "release v\nw = pick { count _ }");
+      ("two, less who is lost", lost_once ^ "release v\nw = pick { count 2 }");
+      ("late for two picks", "v = pick { count 2; type 'UUV' }\nrelease v\nw = pick { count _ }");
+      ("late in a place", "v = pick { region Location.APDL, 150 }\nw = pick { count _; region Location.APDL, 150; timeout 0.seconds }") ]
+  in
+  let kinds =
+    [ ("with losses", with_losses Any_number); ("with a loss", with_losses (At_most 1));
+      ("with latecomers", with_latecomers Any_number); ("with all faults once", all_once) ]
+  in
+  let one (name, source) (kind, environment) =
+    { (trap (name ^ ", " ^ kind) source) with environment }
+  in
+  List.concat_map (fun program -> List.map (one program) kinds) programs

@@ -116,7 +116,35 @@ let all =
     { name = "failures are not counted";
       file = rules;
       pattern = {|         [ outside EXCEPT !.failed = @ + 1 ]|};
-      replacement = {|         outside|} } ]
+      replacement = {|         outside|} };
+    { name = "losses are not counted";
+      file = rules;
+      pattern = {|, !.losses = IF Losses = -1 THEN @ ELSE @ + 1 ]|};
+      replacement = {| ]|} };
+    { name = "a lost vehicle can be lost no more";
+      file = rules;
+      pattern = {|MayBeLost(v) == v \in outside.lost \/ |};
+      replacement = {|MayBeLost(v) == |} };
+    { name = "a lost vehicle stays lost whatever it does";
+      file = rules;
+      pattern = {|[ before EXCEPT !.lost = @ \ { v } ]|};
+      replacement = {|before|} };
+    { name = "a lost vehicle is there when it is looked for";
+      file = rules;
+      pattern = {|LAMBDA v : v \in outside.lost)|};
+      replacement = {|LAMBDA v : FALSE)|} };
+    { name = "a pick of others finds the lost";
+      file = rules;
+      pattern = {|!.lost = @ \ (Range(t.S.B) \ Range(B))|};
+      replacement = {|!.lost = @ \ Range(t.S.B)|} };
+    { name = "who was late is not remembered";
+      file = rules;
+      pattern = {|IF Latecomers = -1 THEN @ ELSE @ \cup t.late ]|};
+      replacement = {|@ ]|} };
+    { name = "the late come in the order of the fleet";
+      file = rules;
+      pattern = {|Each(moved, VehicleOf)|};
+      replacement = {|SelectSeq(Fleet, LAMBDA vehicle : vehicle.id \in Range(moved))|} } ]
 
 (* Where [part] begins in [text], each time. *)
 let occurrences part text =

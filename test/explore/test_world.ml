@@ -122,6 +122,11 @@ let vehicles =
        ^ "t = watch task('p')[v] onError { post failed: 1; ignore() }\nexecute t\nexecute t\n\
           if (consume(failed: 1) && consume(failed: 1)) { halt 'twice' }")
       ~some:[ "halt(twice)" ] ~none:[];
+    happens "nothing is heard of it when another one is picked" ~environment:(lossy (At_most 1)) ~world:closed
+      (pick
+       ^ "t = watch task('p')[v] onError { post failed: 1; ignore() }\nexecute t\nw = pick { id 'b' }\nexecute t\n\
+          if (consume(failed: 1) && consume(failed: 1)) { halt 'twice' }")
+      ~some:[ "halt(twice)" ] ~none:[];
     happens "a lost vehicle that was released may be missing" ~environment:(lossy (At_most 1)) ~world:closed
       (pick
        ^ "execute watch task('p')[v] onError { ignore() }\nrelease v\nw = pick { id 'a' }\nmessage 'there'")

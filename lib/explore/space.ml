@@ -1,13 +1,6 @@
 open Dolphin_semantics
 open Part
 
-module Numbered = Hashtbl.Make (struct
-    type t = int * int
-
-    let equal (a, b) (a', b') = Int.equal a a' && Int.equal b b'
-    let hash (a, b) = ((a * 65599) + b) * 65599 land max_int
-  end)
-
 type t = {
   options : Environment.options;
   reduction : Reduction.t;
@@ -26,9 +19,8 @@ type t = {
   mutable fresh : int -> int -> unit;  (* what is done with new states, by number and first word *)
   mutable gathering : bool;
   mutable gathered : (int * Symmetry.permutation option) list;
-  symmetry : Symmetry.finder option;
-  kinds : int Numbered.t;  (* of parts, by symmetry, family and place there *)
-  parts_of_kinds : part Numbered.t;  (* by symmetry and kind *)
+  symmetries : Symmetries.t option;
+  folding : Folding.t;
   mutable folded : int array;  (* a state's canonical form *)
   reserve : int -> unit;
 }
@@ -78,53 +70,6 @@ let add t key permutation parent =
 
 (* {1 Symmetry} *)
 
-let kind_of t g (part : part) =
-  let key = ((Symmetry.number g lsl 31) lor part.family.number, part.local) in
-  match Numbered.find_opt t.kinds key with
-  | Some kind -> kind
-  | None ->
-    let kind = Symmetry.kind g part.residual in
-    Numbered.add t.kinds key kind;
-    kind
-
-let coverage_of_label coverage = function
-  | Alike.Task site -> Coverage.reach coverage site
-  | Code id -> Coverage.reach_code coverage id
-
-(* What a part of a state begins, those that the state stands for begin as well. *)
-let reach_alike t g (part : part) =
-  let reach label = List.iter (coverage_of_label (Parts.coverage t.parts)) (Symmetry.together g label) in
-  let step (step : Residual.step) =
-    match step.offer with
-    | Start (p, _) -> reach (Alike.Task p.task_site)
-    | Perform c | Check c | Measure c -> reach (Alike.Code c.lambda.id)
-    | End_of _ | Expiry_of _ -> ()
-  in
-  Seq.iter step (Residual.steps part.residual)
-
-let part_of_kind t g kind =
-  let key = (Symmetry.number g, kind) in
-  match Numbered.find_opt t.parts_of_kinds key with
-  | Some part -> part
-  | None -> (
-      match Parts.children t.parts (Parts.root t.parts) (Symmetry.residual g kind) with
-      | [ Leaf part ] ->
-        reach_alike t g part;
-        Numbered.add t.parts_of_kinds key part;
-        part
-      | _ -> invalid_arg "Space.part_of_kind: no part")
-
-let kinds t g (s : Shape.t) key = Array.init (Array.length s.families) (fun i -> kind_of t g (Words.part s key i))
-
-(* Few shapes are enough if parts stand in an order of their families. *)
-let by_family (a : part) (b : part) =
-  match Int.compare a.family.number b.family.number with 0 -> Int.compare a.local b.local | order -> order
-
-let write_folded t frame g (state : Symmetry.state) =
-  let parts = List.map (part_of_kind t g) (Array.to_list state.kinds) in
-  let leaves = List.map (fun part -> Leaf part) (List.sort by_family parts) in
-  Words.write_parts t.words t.folded frame leaves state.shared
-
 let visit t key parent =
   match Shapes.number t.shapes key.(0) with
   | 0 -> add t key None parent
@@ -133,8 +78,8 @@ let visit t key parent =
       match s.frame.symmetry with
       | None -> add t key None parent
       | Some g ->
-        let state, permutation = Symmetry.canonical g (kinds t g s key) (Shapes.shared t.shapes key.(0)) in
-        write_folded t s.frame g state;
+        let state, permutation = Symmetry.canonical g (Folding.kinds t.folding g s key) (Shapes.shared t.shapes key.(0)) in
+        Folding.write t.folding t.words t.folded s.frame g state;
         add t t.folded (Some permutation) parent)
 
 (* {1 Where nothing executes} *)
@@ -434,7 +379,7 @@ let view t i =
     match s.frame.symmetry with
     | None -> exact ()
     | Some g ->
-      let kinds = kinds t g s key in
+      let kinds = Folding.kinds t.folding g s key in
       Array.sort Int.compare kinds;
       Up_to (g, { kinds; shared = Shapes.shared t.shapes key.(0) })
 
@@ -455,14 +400,14 @@ let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore
   let parts = Parts.create ?foreseen ~flat:(reduction <> Whole) options program world in
   let cases = Cases.create parts in
   let shareds = Cases.shareds cases in
-  let symmetry =
+  let symmetries =
     (* Where the outside remembers vehicles, they are not alike. *)
     if Reduction.by_symmetry reduction && not (Environment.endings_remember options) then
       let number = Cases.Shareds.number shareds and value = Cases.Shareds.value shareds in
-      Some (Symmetry.finder options program { number; value })
+      Some (Symmetries.create options program { number; value })
     else None
   in
-  let words = Words.create ?find_symmetry:(Option.map Symmetry.find symmetry) parts cases in
+  let words = Words.create ?find_symmetry:(Option.map Symmetries.find symmetries) parts cases in
   let t =
     {
       options;
@@ -482,9 +427,8 @@ let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore
       fresh = (fun _ _ -> ());
       gathering = false;
       gathered = [];
-      symmetry;
-      kinds = Numbered.create 64;
-      parts_of_kinds = Numbered.create 64;
+      symmetries;
+      folding = Folding.create parts;
       folded = [| 0 |];
       reserve;
     }
@@ -500,14 +444,14 @@ let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore
 let count t = States.count t.states
 let transitions t = t.transitions
 let parent t i = States.parent t.states i
-let used_symmetry t = Option.fold ~none:false ~some:Symmetry.is_used t.symmetry
+let used_symmetry t = Option.fold ~none:false ~some:Symmetries.is_used t.symmetries
 
-(* Handlers of errors are noted when they have run, in whatever task: see [Symmetry.Unclear]. *)
+(* Handlers of errors are noted when they have run, in whatever task: see [Symmetries.Unclear]. *)
 let coverage t =
   let coverage = Parts.coverage t.parts in
-  let is_reached = function Alike.Task site -> Coverage.is_started coverage site | Code id -> Coverage.is_run coverage id in
-  let alike labels = if List.exists is_reached labels then List.iter (coverage_of_label coverage) labels in
-  Option.iter (fun finder -> Symmetry.handlers_alike finder alike) t.symmetry;
+  let is_run = function Alike.Task _ -> false | Code id -> Coverage.is_run coverage id in
+  let alike labels = if List.exists is_run labels then List.iter (Folding.reach coverage) labels in
+  Option.iter (fun symmetries -> Symmetries.handlers_alike symmetries alike) t.symmetries;
   coverage
 
 let bytes t = States.bytes t.states

@@ -41,7 +41,9 @@ let print_states (c : Outcome.counter_example) =
 
 (* All that the server of the distributed mode shows. *)
 let print_last_step (c : Outcome.counter_example) =
-  print_endline "some property is violated: TLC's distributed mode does not say which, and shows only the last step. To see a run: --run alone.";
+  print_endline
+    "some property is violated: TLC's distributed mode does not say which, and shows only the last step. To see a run: \
+     --run alone.";
   let label (step : Outcome.step) = Option.bind (Event.variable "label" step.state) Quoted.unescape in
   match List.rev_map label c.steps with
   | Some label :: _ -> Printf.printf "last step: %s\n" label
@@ -59,7 +61,8 @@ let print_counter_example options (program : Program_file.t) world (c : Outcome.
     Shown_run.print program.program ~steps ~cycle;
     if name = "NoDeadlock" then Shown_run.print_waiting program.program steps
   | Error trouble ->
-    Format.printf "This is no run of the explorer: %a. --compare tells more. The states of TLC:@." Recovered.pp_trouble trouble;
+    Format.printf "This is no run of the explorer: %a. --compare tells more. The states of TLC:@." Recovered.pp_trouble
+      trouble;
     print_states c
 
 let length (c : Outcome.counter_example) =
@@ -73,7 +76,8 @@ let length (c : Outcome.counter_example) =
       (Report.count (List.length c.steps - k + 1) "step")
 
 (* TLC looks no further than the first violation, but for temporal properties: these it looks at when it has all states,
-   and now and then before. What is asked of the specification rather than of the program is only told where it does not hold. *)
+   and now and then before. What is asked of the specification rather than of the program is only told where it does not
+   hold. *)
 let print_verdicts names (o : Outcome.t) =
   let broken = match o.verdict with Violated c -> Some (violated c.violation, length c) | _ -> None in
   let all_states = match o.verdict with Violated { violation = Temporal; _ } -> o.queue = 0 | _ -> false in

@@ -77,8 +77,7 @@ let show_progress : Event.t -> unit = function
     show "searches: %d distinct states, %d generated, %d left, depth %d" distinct generated queue (depth - 1)
   | Checks_temporal states -> show "checks termination on %d states" states
   | Worker text -> show "%s" text
-  | Begins _ | Violation _ | Behaviour | State _ | Stutters | Returns_to _ | Holds | Totals _ | Depth _ | Coverage_begins | Action _
-  | Printed _ | Trouble _ | Warning _ | Other -> ()
+  | Begins _ | Violation _ | Behaviour | State _ | Stutters | Returns_to _ | Holds | Totals _ | Depth _ | Printed _ | Trouble _ | Warning _ | Other -> ()
 
 (* {1 Running} *)
 
@@ -104,7 +103,9 @@ let judge (ending : Process.ending) ~interrupted (outcome : Outcome.t) =
 let run installation mode ~directory ~main ~configuration printed =
   let interrupted = ref false in
   let ask_to_stop = Sys.Signal_handle (fun _ -> interrupted := true) in
-  let former = List.map (fun signal -> (signal, Sys.signal signal ask_to_stop)) [ Sys.sigint; Sys.sigterm; Sys.sighup ] in
+  let former =
+    List.map (fun signal -> (signal, Sys.signal signal ask_to_stop)) [ Sys.sigint; Sys.sigterm; Sys.sighup ]
+  in
   let live = Unix.isatty Unix.stderr in
   let reader = ref Message.start and outcome = ref Outcome.start in
   let take message =

@@ -11,26 +11,6 @@ let impossible = -2
 let special = -3
 let configuration shared = Shared.under (Ended Interrupted) shared
 
-(* [step] as one of the whole, and where it stops: what goes on somewhere, or is gone from there, leaves all that stands
-   around it as it is; an error climbs on, cuts off what stood beside, and passes through the contexts of nests. *)
-let lifted step =
-  let level = ref 0 in
-  let rec climb path n (change : Residual.change) =
-    match change.outcome, path.outer with
-    | (Next _ | Finished), _ ->
-      level := n;
-      change
-    | Failed _, None -> change
-    | Failed _, Some outer ->
-      let through change context = Residual.change_within context change in
-      climb outer (n + 1) (List.fold_left through change path.contexts)
-    | Handling h, _ ->
-      let ignored () = climb path n (h.ignored ()) and propagated fault = climb path n (h.propagated fault) in
-      { change with outcome = Handling { h with ignored; propagated } }
-  in
-  let continue reply = climb step.home 0 (step.source.Residual.continue reply) in
-  ({ step.source with continue }, level)
-
 (* The handlers that ran: one for each rule of a handler in the derivation, the innermost first. *)
 let note_handlers t step (local : Transition.local) =
   let of_handler = function Rule.Watch_ignore | Watch_propagate | Watch_halt | Assert_err -> true | _ -> false in
@@ -42,7 +22,7 @@ let note_handlers t step (local : Transition.local) =
       note (n - 1) (propagated fault)
     | Handling _ | Next _ | Finished | Failed _ -> ()
   in
-  note (List.length settled) ((fst (lifted step)).continue (Broke (Fault.make Fault.unknown_site "")))
+  note (List.length settled) ((fst (Climb.lifted step)).continue (Broke (Fault.make Fault.unknown_site "")))
 
 let program t = Parts.program t.parts
 let world t = Parts.world t.parts
@@ -65,7 +45,7 @@ type taken = { local : Transition.local; level : int; certain : bool }
 let taken t step s =
   let shared = Shareds.value t.shareds s in
   let take world =
-    let source, level = lifted step in
+    let source, level = Climb.lifted step in
     let local =
       match step.event with
       | None -> internal t world source shared

@@ -1,14 +1,12 @@
 open Dolphin_semantics
 open Core
 
-type component = { steps : int array; beside : Footprint.t; alone : bool array }
-
 type t = {
   footprints : Footprint.t array;
   ends : bool array;
-  components : component array;
-  branches : Footprint.t array;
-  future : Footprint.t;
+  futures : Footprint.t array;
+  kills : bool array;
+  alone : Footprint.t option array;
 }
 
 type step = { index : int; source : Residual.step; event : Transition.event option }
@@ -22,7 +20,8 @@ let breaking = { Footprint.empty with breaks = true }
 (* {1 Futures} *)
 
 let ending c (p : platform_task) v =
-  if Environment.may_fail c.options v p.name then breaking else Footprint.empty
+  let remembered = Environment.endings_remember c.options in
+  { Footprint.empty with remembered; breaks = Environment.may_fail c.options v p.name }
 
 (* Of a task whose errors this handler gets. *)
 let handled c (f : Footprint.t) handler = if f.breaks then union f (Footprint.of_code c.code handler) else f
@@ -59,7 +58,8 @@ let footprint c step =
   let f =
     match step.source.offer, step.event with
     | End_of (p, v), Some (Vehicle_failed _) -> ending c p v
-    | (Start _ | End_of _ | Expiry_of _), _ -> Footprint.empty
+    | End_of (p, v), _ -> { (ending c p v) with breaks = false }
+    | (Start _ | Expiry_of _), _ -> Footprint.empty
     | Perform a, _ -> Footprint.of_code c.code a
     | Check g, _ -> Footprint.of_guard c.code g
     | Measure d, _ -> union breaking (Footprint.of_code c.code d)
@@ -84,7 +84,7 @@ let only_takes (f : Footprint.t) =
   Footprint.(Pairs.is_empty f.posts && Pairs.is_empty f.tests && Globals.is_empty f.writes && not f.anything)
 
 (* By branch: its footprint, if it may run first. [around] is what handlers of its errors touch. *)
-let alone c around (bs : Residual.branch list) =
+let branches_alone c around (bs : Residual.branch list) =
   let whole = List.map (of_branch c) bs in
   let rec each before (whole : Footprint.t list) (bs : Residual.branch list) =
     match whole, bs with
@@ -100,56 +100,63 @@ let alone c around (bs : Residual.branch list) =
   in
   each [] whole bs
 
+(* Those of an [allOf] that waits, where errors cannot be ignored; [around] as above. *)
+let rec alone c around (r : Residual.t) =
+  match r with
+  | Sequence (r, _) | All_of (Some r, _) -> alone c around r
+  | Watch (r, handler) when not ((Footprint.of_code c.code handler).ignores && (future c r).breaks) ->
+    alone c (union around (Footprint.of_code c.code handler)) r
+  | All_of (None, bs) -> branches_alone c around bs
+  | Parallel _ | Ready _ | Running _ | Action _ | Condition _ | One_of _ | Until _ | Idle _ | During _ | Watch _ -> []
+
 (* {1 Components} *)
 
-type part = { count : int; others : Footprint.t; first : Footprint.t option list }
-
-let rec split c around others (r : Residual.t) found =
-  match r with
-  | Sequence (r, _) | All_of (Some r, _) -> split c around others r found
-  | Watch (r, handler) when not ((Footprint.of_code c.code handler).ignores && (future c r).breaks) ->
-    split c (union around (Footprint.of_code c.code handler)) others r found
-  | Parallel rs ->
-    let future r =
-      let f = future c r in
-      if f.breaks then union f around else f
-    in
-    let futures = List.map future rs in
-    let rec each before futures rs found =
-      match futures, rs with
-      | f :: futures, r :: rs ->
-        let found = split c around (union others (union before (all futures))) r found in
-        each (union before f) futures rs found
-      | _, _ -> found
-    in
-    each Footprint.empty futures rs found
-  | All_of (None, bs) -> { count = List.length bs; others; first = alone c around bs } :: found
-  | Ready _ | Running _ | Action _ | Condition _ | One_of _ | Until _ | Idle _ | During _ | Watch _ ->
-    { count = Seq.fold_left (fun n _ -> n + 1) 0 (Residual.steps r); others; first = [] } :: found
-
-let analyse c r steps =
-  let parts = List.rev (split c Footprint.empty Footprint.empty r []) in
-  let footprints = Array.map (footprint c) steps in
-  let branches = Array.make (Array.length steps) Footprint.empty in
-  let numbers = List.init (Array.length steps) Fun.id in
-  let component (index, components) part =
-    let inside k = steps.(k).index >= index && steps.(k).index < index + part.count in
-    let own = Array.of_list (List.filter inside numbers) in
-    let first = Array.of_list part.first in
-    let is_alone k =
-      let i = steps.(k).index - index in
-      match if i < Array.length first then first.(i) else None with
-      | Some f -> branches.(k) <- f; true
-      | None -> false
-    in
-    (index + part.count, { steps = own; beside = part.others; alone = Array.map is_alone own } :: components)
+(* What handlers among the contexts touch, and what starts when all in them is over. *)
+let handlers_of c contexts =
+  let handler = function
+    | Residual.Watched_by handler -> Some (Footprint.of_code c.code handler)
+    | Before _ | Branch_of _ | Body_until _ | Body_during _ -> None
   in
-  let _, components = List.fold_left component (0, []) parts in
+  List.filter_map handler contexts
+
+let following c contexts =
+  let following = function
+    | Residual.Before rest -> all (List.map (future c) rest)
+    | Branch_of bs -> all (List.map (of_branch c) bs)
+    | Body_until _ | Body_during _ | Watched_by _ -> Footprint.empty
+  in
+  all (List.map following contexts)
+
+(* [first] is what the component itself may do. An error may reach any handler around. *)
+let analyse c nests first alone steps =
+  let around = all (List.concat_map (handlers_of c) nests) in
+  let with_handlers (f : Footprint.t) = if f.breaks then union f around else f in
+  let further futures contexts =
+    match futures with
+    | f :: _ -> with_handlers (union f (following c contexts)) :: futures
+    | [] -> [ with_handlers first ]
+  in
+  let futures = Array.of_list (List.rev (List.fold_left further (further [] []) nests)) in
+  let ignores (f : Footprint.t) = f.ignores in
+  let kill level contexts = futures.(level).breaks && List.exists ignores (handlers_of c contexts) in
+  let footprints = Array.map (footprint c) steps in
   let may_end (f : Footprint.t) = f.breaks || f.halts in
   {
     footprints;
     ends = Array.map may_end footprints;
-    components = Array.of_list (List.rev components);
-    branches;
-    future = future c r;
+    futures;
+    kills = Array.of_list (false :: List.mapi kill nests);
+    alone = Array.map (fun step -> Option.join (List.nth_opt alone step.index)) steps;
   }
+
+let of_part c nests r steps =
+  let around = all (List.concat_map (handlers_of c) nests) in
+  analyse c nests (future c r) (alone c around r) steps
+
+let of_cuts c nests steps =
+  match nests with
+  | [] -> invalid_arg "Components.of_cuts: no nest"
+  | contexts :: nests ->
+    let f = all (following c contexts :: Array.to_list (Array.map (footprint c) steps)) in
+    let first = if f.breaks then all (f :: handlers_of c contexts) else f in
+    analyse c nests first [] steps

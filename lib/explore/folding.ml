@@ -10,55 +10,74 @@ module Numbered = Hashtbl.Make (struct
 
 type t = {
   parts : Parts.t;
+  words : Words.t;
   kinds : int Numbered.t;  (* of parts, by symmetry, family and place there *)
-  parts_of_kinds : part Numbered.t;  (* by symmetry and kind *)
+  children : part tree list Numbered.t;  (* by symmetry and kind *)
 }
 
-let create parts = { parts; kinds = Numbered.create 64; parts_of_kinds = Numbered.create 64 }
+let create parts words = { parts; words; kinds = Numbered.create 64; children = Numbered.create 64 }
 
-let kind_of t g (part : part) =
-  let key = ((Symmetry.number g lsl 31) lor part.family.number, part.local) in
-  match Numbered.find_opt t.kinds key with
-  | Some kind -> kind
-  | None ->
-    let kind = Symmetry.kind g part.residual in
-    Numbered.add t.kinds key kind;
-    kind
-
-let reach coverage = function
+let cover coverage = function
   | Alike.Task site -> Coverage.reach coverage site
   | Code id -> Coverage.reach_code coverage id
 
-(* What a part of a state begins, those that the state stands for begin as well. *)
-let reach_alike t g (part : part) =
-  let reach label = List.iter (reach (Parts.coverage t.parts)) (Symmetry.together g label) in
+(* What [r] begins in a state, those that the state stands for begin as well. *)
+let reach_alike t g r =
+  let reach label = List.iter (cover (Parts.coverage t.parts)) (Symmetry.together g label) in
   let step (step : Residual.step) =
     match step.offer with
     | Start (p, _) -> reach (Alike.Task p.task_site)
     | Perform c | Check c | Measure c -> reach (Alike.Code c.lambda.id)
     | End_of _ | Expiry_of _ -> ()
   in
-  Seq.iter step (Residual.steps part.residual)
+  Seq.iter step (Residual.steps r)
 
-let part_of_kind t g kind =
-  let key = (Symmetry.number g, kind) in
-  match Numbered.find_opt t.parts_of_kinds key with
-  | Some part -> part
+(* What stands side by side at the top has a kind, be it a part or a nest. *)
+let kind t g (s : Shape.t) key (place : Shape.place) =
+  match place.inside with
+  | Some _ -> Symmetry.kind g (Words.residual s key place)
   | None -> (
-      match Parts.children t.parts (Parts.root t.parts) (Symmetry.residual g kind) with
-      | [ Leaf part ] ->
-        reach_alike t g part;
-        Numbered.add t.parts_of_kinds key part;
-        part
-      | _ -> invalid_arg "Space.part_of_kind: no part")
+      let part = Words.part s key place.from in
+      let known = ((Symmetry.number g lsl 31) lor part.family.number, part.local) in
+      match Numbered.find_opt t.kinds known with
+      | Some kind -> kind
+      | None ->
+        let kind = Symmetry.kind g part.residual in
+        Numbered.add t.kinds known kind;
+        kind)
 
-let kinds t g (s : Shape.t) key = Array.init (Array.length s.families) (fun i -> kind_of t g (Words.part s key i))
+let children t g kind =
+  let known = (Symmetry.number g, kind) in
+  match Numbered.find_opt t.children known with
+  | Some children -> children
+  | None ->
+    let r = Symmetry.residual g kind in
+    let children = Parts.children t.parts (Parts.root t.parts) r in
+    reach_alike t g r;
+    Numbered.add t.children known children;
+    children
 
-(* Few shapes are enough if parts stand in an order of their families. *)
-let by_family (a : part) (b : part) =
-  match Int.compare a.family.number b.family.number with 0 -> Int.compare a.local b.local | order -> order
+let kinds t g (s : Shape.t) key = Array.of_list (List.map (kind t g s key) s.top)
 
-let write t words key frame g (state : Symmetry.state) =
-  let parts = List.map (part_of_kind t g) (Array.to_list state.kinds) in
-  let leaves = List.map (fun part -> Leaf part) (List.sort by_family parts) in
-  Words.write_parts words key frame leaves state.shared
+let state t g s key shared : Symmetry.state =
+  let kinds = kinds t g s key in
+  Array.sort Int.compare kinds;
+  { kinds; shared }
+
+(* Few shapes are enough if what stands side by side is in an order of families. *)
+let by_family tree tree' =
+  let both (p : part) (p' : part) order =
+    if order <> 0 then order
+    else
+      match Int.compare p.family.number p'.family.number with 0 -> Int.compare p.local p'.local | order -> order
+  in
+  let leaves = Part.leaves tree and leaves' = Part.leaves tree' in
+  match List.compare_lengths leaves leaves' with
+  | 0 -> List.fold_right2 both leaves leaves' 0
+  | order -> order
+
+let canonical t g (s : Shape.t) key shared ~into =
+  let state, permutation = Symmetry.canonical g (kinds t g s key) shared in
+  let trees = List.concat_map (children t g) (Array.to_list state.kinds) in
+  Words.write_parts t.words into s.frame (List.stable_sort by_family trees) state.shared;
+  permutation

@@ -1,15 +1,16 @@
-(** Parts as {!Symmetry} has them, and back. *)
+(** States that stand for all that are alike ({!Symmetry}), as words. *)
 
 type t
 
-val create : Parts.t -> t
+val create : Parts.t -> Words.t -> t
 
-val kinds : t -> Symmetry.t -> Shape.t -> int array -> int array
-(** [kinds t g s key] is the kinds of the parts of the state [key] of shape [s]. *)
+val state : t -> Symmetry.t -> Shape.t -> int array -> int -> Symmetry.state
+(** [state t g s key n] is the state [key] of shape [s], with shared [n], as [g] sees it. *)
 
-val write : t -> Words.t -> int array -> Shape.frame -> Symmetry.t -> Symmetry.state -> unit
-(** [write t w key f g state] puts the words of [state] into [key]. All code that its parts begin, and that of those that
-    they stand for, counts as reached.
+val canonical : t -> Symmetry.t -> Shape.t -> int array -> int -> into:int array -> Symmetry.permutation
+(** [canonical t g s key n ~into] puts a state that is alike, mostly the same one for all that are, into [into]; the
+    result leads there.
     @raise Shapes.Outgrown *)
 
-val reach : Coverage.t -> Alike.label -> unit
+val cover : Coverage.t -> Alike.label -> unit
+(** [cover c l] notes that [l] is reached. *)

@@ -34,6 +34,7 @@ type t = {
   reads : Globals.t;
   writes : Globals.t;
   anything : bool;
+  remembered : bool;
   breaks : bool;
   halts : bool;
   ignores : bool;
@@ -49,6 +50,7 @@ let empty =
     reads = Globals.empty;
     writes = Globals.empty;
     anything = false;
+    remembered = false;
     breaks = false;
     halts = false;
     ignores = false;
@@ -67,6 +69,7 @@ let union f f' =
       reads = Globals.union f.reads f'.reads;
       writes = Globals.union f.writes f'.writes;
       anything = f.anything || f'.anything;
+      remembered = f.remembered || f'.remembered;
       breaks = f.breaks || f'.breaks;
       halts = f.halts || f'.halts;
       ignores = f.ignores || f'.ignores;
@@ -78,6 +81,10 @@ let is_blind f =
 
 let is_free f =
   is_blind f && Pairs.is_empty f.posts && Globals.is_empty f.writes
+
+let is_traceless f =
+  Pairs.is_empty f.posts && Pairs.is_empty f.takes && Globals.is_empty f.writes
+  && (not f.anything) && not f.remembered
 
 let share a b = not (Globals.disjoint a b)
 

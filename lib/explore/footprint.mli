@@ -24,6 +24,7 @@ type t = {
   reads : Globals.t;
   writes : Globals.t;
   anything : bool;  (** nothing is known: code that cannot be seen may be called *)
+  remembered : bool;  (** the outside may remember it, for a later [pick] *)
   breaks : bool;  (** it may be faulty, or fail *)
   halts : bool;  (** it may end the run, by [halt] or an assertion that fails *)
   ignores : bool;  (** a handler: it may ignore the error *)
@@ -34,6 +35,9 @@ val union : t -> t -> t
 
 val is_free : t -> bool
 (** [is_free f] is whether [f] touches nothing, so that it conflicts with nothing. *)
+
+val is_traceless : t -> bool
+(** [is_traceless f] is whether nobody can tell, once what [f] is of is cut off, whether it was. *)
 
 val is_blind : t -> bool
 (** [is_blind f] is whether what happens does not depend on what is shared. *)

@@ -29,6 +29,7 @@ and path = {
   parts : part Residuals.t;  (* that stand there, by residual *)
   inner : path Residuals.t;  (* those of nests that stand there, by their contexts *)
   mutable cuts : step array option;  (* the steps of the contexts themselves, once they are worked out *)
+  mutable cuts_components : Components.t option;
 }
 
 and part = {

@@ -14,7 +14,6 @@ type t = {
   program : Core.program;
   world : World.t;
   root : path;
-  flat : bool;
   guards : guard Guards.t;
   coverage : Coverage.t;
   context : Components.context;
@@ -30,15 +29,14 @@ let hole = Residual.Idle { timer = 0; seconds = 0. }
 
 let new_path id contexts outer body =
   let parts = Residuals.create 16 and inner = Residuals.create 1 in
-  { id; contexts; outer; body; parts; inner; cuts = None }
+  { id; contexts; outer; body; parts; inner; cuts = None; cuts_components = None }
 
-let create ?(foreseen = 2_048) ?(flat = false) options program world =
+let create ?(foreseen = 2_048) options program world =
   {
     options;
     program;
     world;
     root = new_path 0 [] None hole;
-    flat;
     guards = Guards.create 64;
     coverage = Coverage.create ();
     context = Components.context options program;
@@ -84,7 +82,7 @@ let opened r =
 
 let rec child t path r =
   match opened r with
-  | (_ :: _ as contexts), (Residual.Parallel rs as body) when not t.flat ->
+  | (_ :: _ as contexts), (Residual.Parallel rs as body) ->
     let inside = inner t path contexts body in
     Nest (inside, List.map (child t inside) rs)
   | _, _ -> Leaf r
@@ -219,12 +217,19 @@ let reach t p =
   cover t steps;
   p.steps <- steps
 
+(* {1 Components} *)
+
+let component_step step : Components.step =
+  { index = step.index; source = fst (Climb.lifted step); event = step.event }
+
+let rec nests path = match path.outer with Some outer -> path.contexts :: nests outer | None -> []
+
 let components t p =
   match p.components with
   | Some components -> components
   | None ->
-    let step { index; source; event; _ } : Components.step = { index; source; event } in
-    let components = Components.analyse t.context p.residual (Array.map step (work_out t p)) in
+    let steps = Array.map component_step (work_out t p) in
+    let components = Components.of_part t.context (nests p.path) p.residual steps in
     p.components <- Some components;
     components
 
@@ -251,6 +256,14 @@ let cuts t path =
     cover t cuts;
     path.cuts <- Some cuts;
     cuts
+
+let cuts_components t path =
+  match path.cuts_components with
+  | Some components -> components
+  | None ->
+    let components = Components.of_cuts t.context (nests path) (Array.map component_step (cuts t path)) in
+    path.cuts_components <- Some components;
+    components
 
 let alone t p =
   match p.alone with

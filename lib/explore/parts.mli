@@ -4,9 +4,8 @@ open Dolphin_semantics
 
 type t
 
-val create : ?foreseen:int -> ?flat:bool -> Environment.options -> Core.program -> World.t -> t
-(** So many members of a new family are worked out in advance: layouts are then seldom outgrown. If it is [flat], there
-    are no nests, and parts may have a [Parallel] inside. *)
+val create : ?foreseen:int -> Environment.options -> Core.program -> World.t -> t
+(** So many members of a new family are worked out in advance: layouts are then seldom outgrown. *)
 
 val options : t -> Environment.options
 val program : t -> Core.program
@@ -30,6 +29,9 @@ val components : t -> Part.part -> Components.t
 
 val cuts : t -> Part.path -> Part.step array
 (** [cuts t p] is the steps of the contexts of nests whose inside is at [p], which some run reaches. *)
+
+val cuts_components : t -> Part.path -> Components.t
+(** [cuts_components t p] is of these steps, in their order. *)
 
 val alone : t -> Part.part -> Part.target
 (** [alone t p] is what becomes of the nest around [p] when nothing else is left in it. *)

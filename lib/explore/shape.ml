@@ -65,6 +65,11 @@ let create ~number frame trees =
     becoming = Hashtbl.create 1;
   }
 
+let rec above place level =
+  match place.around with
+  | Some nest when level > 0 -> above nest (level - 1)
+  | Some _ | None -> place
+
 let replaced s place trees =
   let rec tree p : Part.family Part.tree list =
     if p == place then trees

@@ -41,6 +41,9 @@ type t = {
 val create : number:int -> frame -> Part.family Part.tree list -> t
 (** Not laid out yet. *)
 
+val above : place -> int -> place
+(** [above p n] is the nest that is [n] levels above [p]; [p] itself if [n] is 0. *)
+
 val replaced : t -> place -> Part.family Part.tree list -> Part.family Part.tree list
 (** [replaced s p trees] is the tree of [s] with [trees] for what stands at [p]. *)
 

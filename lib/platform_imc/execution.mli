@@ -71,7 +71,8 @@ val create : request:int -> t
 
 val step : now:float -> clock:Vehicle_clock.t -> input -> t -> t * output list
 (** [step ~now ~clock i x] is what becomes of [x] when [i] happens at [now] (s, our clock). After each [Start], and
-    each [Adopt] that is not [stopped], there is exactly one [Done] or [Failed], unless [Stop] or another [Start] comes before. *)
+    each [Adopt] that is not [stopped], there is exactly one [Done] or [Failed], unless [Stop] or another [Start] comes
+    before. *)
 
 val due : t -> float
 (** When [Tick] has something to do, by our clock; [infinity] if never. *)

@@ -24,7 +24,12 @@ end
 
 (* The shell: one state, and a pending [next] that looks at it again when a command has changed it. *)
 module Make (Clock : Clock) = struct
-  type t = { clock : Clock.t; mutable fleet : Fleet.t; mutable changed : unit Lwt.u option; mutable early : Platform.event list }
+  type t = {
+    clock : Clock.t;
+    mutable fleet : Fleet.t;
+    mutable changed : unit Lwt.u option;
+    mutable early : Platform.event list;  (* to be told before anything else: see {!Recreation} *)
+  }
 
   let name = "sim"
   let virtual_time = Clock.virtual_time
@@ -32,7 +37,9 @@ module Make (Clock : Clock) = struct
   let make clock ~seed scenario = { clock; fleet = Fleet.create ~seed scenario; changed = None; early = [] }
 
   let make_again clock ~seed scenario moments =
-    let again { Recreation.fleet; early; news } = ({ clock = clock (Fleet.now fleet); fleet; changed = None; early }, news) in
+    let again { Recreation.fleet; early; news } =
+      ({ clock = clock (Fleet.now fleet); fleet; changed = None; early }, news)
+    in
     Result.map again (Recreation.make ~seed ~announce_period scenario moments)
 
   let catch_up p = p.fleet <- Fleet.advance p.fleet (Clock.elapsed p.clock)

@@ -15,7 +15,7 @@ let properties ~strict =
   @ [ { name = "Termination"; of_runs = true } ]
 
 let printing =
-  {|(* Prints the state and its transitions, of the program with this number. TLC evaluates an invariant once for each state. *)
+  {|(* Prints the state and its transitions, of the program with this number: TLC evaluates an invariant once a state. *)
 PrintMark(text) == PrintT("M\t" \o text)
 
 PrintEnd ==

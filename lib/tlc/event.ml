@@ -14,8 +14,6 @@ type t =
   | Holds
   | Totals of { generated : int; distinct : int; queue : int }
   | Depth of int
-  | Coverage_begins
-  | Action of { name : string; line : int; distinct : int; generated : int }
   | Printed of string
   | Worker of string
   | Trouble of string
@@ -27,7 +25,9 @@ type t =
 (* Where [part] begins in [text]. *)
 let find part text =
   let n = String.length part in
-  let rec go i = if i + n > String.length text then None else if String.sub text i n = part then Some i else go (i + 1) in
+  let rec go i =
+    if i + n > String.length text then None else if String.sub text i n = part then Some i else go (i + 1)
+  in
   go 0
 
 let from i text = String.sub text i (String.length text - i)
@@ -57,8 +57,8 @@ let first_line text = match String.index_opt text '\n' with Some i -> String.sub
 (* {1 Messages} *)
 
 let counts make text =
-  let before_words words = number_before words text in
-  match before_words " states generated", before_words " distinct states found", before_words " states left on queue" with
+  let counted what = number_before (" states " ^ what) text in
+  match counted "generated", number_before " distinct states found" text, counted "left on queue" with
   | Some generated, Some distinct, Some queue -> make generated distinct queue
   | _, _, _ -> Other
 
@@ -93,15 +93,6 @@ let state text =
 
 let returns_to text = match leading_number text with Some n -> Returns_to n | None -> Other
 
-let coverage text =
-  let line = number_after " line " text in
-  match action text, line, Option.map (String.split_on_char ':') (after ">: " text) with
-  | Some name, Some line, Some [ distinct; generated ] -> (
-      match number distinct, number (String.trim generated) with
-      | Some distinct, Some generated -> Action { name; line; distinct; generated }
-      | None, _ | _, None -> Other)
-  | _, _, _ -> Other
-
 let of_numbered make = function Some n -> make n | None -> Other
 
 let of_code code (severity : Message.severity) text =
@@ -121,8 +112,6 @@ let of_code code (severity : Message.severity) text =
   | 2217 -> state text
   | 2218 -> Stutters
   | 2122 -> returns_to text
-  | 2201 -> Coverage_begins
-  | 2772 | 2773 -> coverage text
   | 2121 | 2264 -> Behaviour
   | 2401 -> Other  (* advice on Java's garbage collector *)
   | 7000 | 7001 | 7002 | 7003 | 7006 | 7008 | 7009 | 7010 -> Worker (String.trim text)

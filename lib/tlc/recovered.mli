@@ -20,5 +20,4 @@ val run :
 (** [run o p w ~broken c] is a run with the labels of [c], which are the values of the variable [label] in its states.
     If there are several, it is one for whose last state and transitions [broken] holds, if one is. *)
 
-val labels : Outcome.counter_example -> (string list, trouble) result
 val pp_trouble : Format.formatter -> trouble -> unit

@@ -16,7 +16,8 @@ type t =
 
 let time = function
   | Header _ | Partial _ -> 0.
-  | Label { time; _ } | Vehicle { time; _ } | Event { time; _ } | Transition { time; _ } | Note { time; _ } | Resumed { time; _ }
+  | Label { time; _ } | Vehicle { time; _ } | Event { time; _ } | Transition { time; _ } | Note { time; _ }
+  | Resumed { time; _ }
   | End { time; _ } -> time
 
 (* {1 Writing} *)

@@ -34,8 +34,8 @@ let is_hidden p label = p.observed <> [] && not (List.mem (kind label) p.observe
 (* What follows [prefix] in [label], less its closing parenthesis. *)
 let inside prefix label =
   let n = String.length prefix and length = String.length label in
-  if length > n && String.sub label 0 n = prefix && label.[length - 1] = ')' then Some (String.sub label n (length - n - 1))
-  else None
+  let fits = length > n && String.sub label 0 n = prefix && label.[length - 1] = ')' in
+  if fits then Some (String.sub label n (length - n - 1)) else None
 
 (* The events that may make a transition of [c] with this label; without, those that may have been hidden. *)
 let events p (c : Configuration.t) label =
@@ -123,13 +123,16 @@ let label p text =
     Seq.iter (fun (t : Transition.t) -> if show t = text then add t.next) (steps p c (Some text))
   in
   if is_hidden p text then
-    Error (Impossible { reason = Printf.sprintf "labels like %s are not among those that this trace has" text; possible = [] })
+    let reason = Printf.sprintf "labels like %s are not among those that this trace has" text in
+    Error (Impossible { reason; possible = [] })
   else after p choose text
 
 let event p happening =
   let choose (c : Configuration.t) add =
     let site =
-      match c.control with Script m | Waiting (m, _) | Executing (m, _) -> Machine.site m | Ended _ -> Fault.unknown_site
+      match c.control with
+      | Script m | Waiting (m, _) | Executing (m, _) -> Machine.site m
+      | Ended _ -> Fault.unknown_site
     in
     match Happening.to_event ~site happening with
     | Ok event -> Option.iter (fun (t : Transition.t) -> add t.next) (on p c event)
@@ -139,7 +142,8 @@ let event p happening =
 
 let finish p (ending : Request.ending) =
   (* The words of a failure that is hidden are not known. *)
-  let same (its : Request.ending) = its = ending || (is_hidden p "fail" && its.how = "failed" && ending.how = "failed") in
+  let failed (e : Request.ending) = e.how = "failed" in
+  let same its = its = ending || (is_hidden p "fail" && failed its && failed ending) in
   let choose (c : Configuration.t) add =
     match c.control with
     | Ended its_ending when same (Request.ending its_ending) -> add c

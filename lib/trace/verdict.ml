@@ -89,12 +89,12 @@ let pp ppf = function
       | [] -> Format.pp_print_string ppf "nothing"
       | labels -> Format.pp_print_string ppf (String.concat ", " labels)
     in
-    Format.fprintf ppf "line %d is not what a run can look like: %s@,%s@,what could come: %a@,before it: %d line%s" number
-      (describe entry) mismatch.reason show_all mismatch.possible lines
+    Format.fprintf ppf "line %d is not what a run can look like: %s@,%s@,what could come: %a@,before it: %d line%s"
+      number (describe entry) mismatch.reason show_all mismatch.possible lines
       (if lines = 1 then "" else "s")
   | Unknown { number; most } ->
     Format.fprintf ppf
-      "not known: between line %d and the one before, more than %d configurations can be hidden; a trace with more labels \
-       is easier to judge, and --max-states allows for more"
+      "not known: between line %d and the one before, more than %d configurations can be hidden; a trace with more \
+       labels is easier to judge, and --max-states allows for more"
       number most
   | Unreadable { number; why } -> Format.fprintf ppf "line %d: %s" number why

@@ -145,7 +145,7 @@ An assertion that some run breaks.
   assertions: violated after 5 steps: assertion.dol:4:5: assertion failed
   vehicles for all tasks: holds
   note: all code reached: violated: no run reaches onError at assertion.dol:3:9
-  44 states, 61 transitions, depth 9; reduced by partial order
+  32 states, 31 transitions, depth 9; reduced by partial order
   
   assertions: a shortest run in which an assertion fails
       program                        where

@@ -7,8 +7,6 @@ type result = { case : Case.t; states : int; transitions : int; verdict : verdic
 
 type t = {
   results : result list;
-  distinct : int;
-  generated : int;
   warnings : string list;
   used : (string * int) list;
 }
@@ -25,7 +23,6 @@ let prepare ~limit (case : Case.t) =
       | Some space -> Ok { case; graph = Explored.graph space; transitions = Reference.transitions space; constants })
 
 let case p = p.case
-let states p = Graph.states p.graph
 
 (* {1 Running TLC} *)
 
@@ -51,7 +48,7 @@ type reading = { mutable messages : Message.reader; mutable outcome : Outcome.re
                  mutable warnings : string list; printed : Printed_graph.t }
 
 (* SANY's warnings are lines of its own. *)
-let is_warning text = Event.number_after "*** Warnings: " text <> None || Event.number_after "Warning: line " text <> None
+let is_warning text = Event.number_after "*** Warnings: " text <> None
 
 let take r message =
   let event = Event.of_message message in
@@ -72,10 +69,12 @@ let line r text =
 
 let explore installation directory =
   let r =
-    { messages = Message.start; outcome = Outcome.start; problem = None; warnings = []; printed = Printed_graph.create () }
+    { messages = Message.start; outcome = Outcome.start; problem = None; warnings = [];
+      printed = Printed_graph.create () }
   in
   let command =
-    Invocation.command ~short:true installation (Local (Workers 1)) ~directory ~main:"MC" ~configuration:Family.configuration
+    Invocation.command ~short:true installation (Local (Workers 1)) ~directory ~main:"MC"
+      ~configuration:Family.configuration
   in
   ignore (Process.run ~directory ~interrupted:(fun () -> false) (line r) command : Process.ending);
   List.iter (take r) (Message.finish r.messages);
@@ -112,8 +111,7 @@ let conclude prepared r =
          (o.generated - List.length prepared) states transitions)
   | None, Holds, Ok graphs ->
     Ok
-      { results = List.mapi (judge graphs) prepared; distinct = o.distinct; generated = o.generated; warnings = List.rev r.warnings;
-        used = rules_of graphs }
+      { results = List.mapi (judge graphs) prepared; warnings = List.rev r.warnings; used = rules_of graphs }
 
 let run installation ~specification prepared =
   Result.bind (Family.files ~specification (List.map (fun p -> p.constants) prepared)) (fun files ->

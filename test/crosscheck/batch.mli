@@ -11,8 +11,6 @@ type result = { case : Case.t; states : int; transitions : int; verdict : verdic
 
 type t = {
   results : result list;
-  distinct : int;  (** states that TLC counted *)
-  generated : int;  (** and transitions, with one for each program *)
   warnings : string list;  (** what SANY and TLC warn of *)
   used : (string * int) list;  (** the rules in the derivations of TLC's transitions, by name, with how often *)
 }
@@ -26,7 +24,6 @@ val prepare : limit:int -> Case.t -> (prepared, unfit) Stdlib.result
 (** [prepare ~limit c] explores at most [limit] states. *)
 
 val case : prepared -> Case.t
-val states : prepared -> int
 
 val run : Installation.t -> specification:(string * string) list -> prepared list -> (t, string) Stdlib.result
 (** [run i ~specification ps] is what comes out, or what TLC says went wrong. Counts of TLC that are not those of

@@ -1,9 +1,9 @@
 (* TLC and the explorer, each with its own statement of the semantics, on the same programs: as many states, isomorphic
    graphs, equal labels, derivations and ends.
 
-   crosscheck.exe [quick | all | mutate | coverage]. In the environment: PROGRAMS, how many random programs; SEED; LIMIT, the
-   most states of one; BATCH, how many are given to TLC at once; VERDICTS, of how many random programs TLC's own verdict is
-   asked, which takes a start of TLC for each. *)
+   crosscheck.exe [quick | all | mutate | coverage]. In the environment: PROGRAMS, how many random programs; SEED;
+   LIMIT, the most states of one; BATCH, how many are given to TLC at once; VERDICTS, of how many random programs TLC's
+   own verdict is asked, which takes a start of TLC for each. *)
 
 open Dolphin_tlc
 
@@ -52,7 +52,9 @@ let rec batches size = function
 (* {1 Comparing} *)
 
 let sum_up used more =
-  let add used (rule, n) = (rule, n + Option.value (List.assoc_opt rule used) ~default:0) :: List.remove_assoc rule used in
+  let add used (rule, n) =
+    (rule, n + Option.value (List.assoc_opt rule used) ~default:0) :: List.remove_assoc rule used
+  in
   List.sort compare (List.fold_left add used more)
 
 let tell_failure t (case : Case.t) what =
@@ -67,7 +69,8 @@ let note t (r : Batch.result) =
   | Agrees -> ()
   | Not_printed -> tell_failure t r.case "TLC found no state of it"
   | Differs difference ->
-    tell_failure t r.case (Format.asprintf "left is the explorer, right TLC@.%a" Dolphin_lts.Isomorphism.pp_difference difference)
+    tell_failure t r.case
+      (Format.asprintf "left is the explorer, right TLC@.%a" Dolphin_lts.Isomorphism.pp_difference difference)
 
 let rec compare_batch t installation ~specification prepared =
   match Batch.run installation ~specification prepared, prepared with
@@ -83,7 +86,8 @@ let rec compare_batch t installation ~specification prepared =
   | Error _, _ -> List.iter (fun one -> compare_batch t installation ~specification [ one ]) prepared
 
 let summary title t =
-  Printf.printf "%s: %d programs, %s states, %s transitions: %s" title t.programs (thousands t.states) (thousands t.transitions)
+  Printf.printf "%s: %d programs, %s states, %s transitions: %s" title t.programs (thousands t.states)
+    (thousands t.transitions)
     (if t.failures = 0 then "all agree" else Printf.sprintf "%d do not agree" t.failures);
   if t.too_large > 0 then Printf.printf "; %d left out as too large" t.too_large;
   if t.refused <> [] then Printf.printf "; %d refused by the translation" (List.length t.refused);
@@ -132,7 +136,8 @@ let all installation =
   let traps = compare_all "traps" installation ~limit ~batch Case.traps in
   let random = compare_all "random programs" installation ~limit ~batch (Case.random ~seed programs) in
   let verdicts =
-    compare_verdicts installation (Case.examples examples_directory @ Case.traps @ Case.random ~seed (number "VERDICTS" 40))
+    compare_verdicts installation
+      (Case.examples examples_directory @ Case.traps @ Case.random ~seed (number "VERDICTS" 20))
   in
   List.for_all (fun t -> t.failures = 0 && t.programs > 0) [ examples; traps; random; verdicts ]
 
@@ -187,7 +192,8 @@ let coverage installation =
        if examples + traps = 0 then missing := name :: !missing;
        Printf.printf "%-16s %8s %8s\n" name (thousands examples) (thousands traps))
     Dolphin_semantics.Rule.all;
-  Printf.printf "in no example and no trap: %s\n" (match !missing with [] -> "none" | names -> String.concat ", " (List.rev names));
+  Printf.printf "in no example and no trap: %s\n"
+    (match !missing with [] -> "none" | names -> String.concat ", " (List.rev names));
   t.failures = 0
 
 let () =

@@ -6,8 +6,8 @@ module Property = Dolphin_explore.Property
 type t = Not_translated | Judged of { tlc : string; explorer : string; agree : bool }
 
 let properties =
-  [ ("NoDeadlock", Property.No_deadlock); ("Termination", Termination); ("NoError", No_error); ("Assertions", Assertions);
-    ("EnoughVehicles", Vehicles); ("NoHalt", No_halt); ("NoLeftover", No_leftover) ]
+  [ ("NoDeadlock", Property.No_deadlock); ("Termination", Termination); ("NoError", No_error);
+    ("Assertions", Assertions); ("EnoughVehicles", Vehicles); ("NoHalt", No_halt); ("NoLeftover", No_leftover) ]
 
 let all_hold = "all hold"
 
@@ -49,7 +49,7 @@ let judge (c : Case.t) (o : Outcome.t) =
   | Holds -> judged all_hold (here = [])
   | Violated { violation = Invariant name | Property name; _ } -> named name
   | Violated { violation = Temporal; _ } -> named "Termination"
-  | Violated { violation = Deadlock | Unnamed; _ } -> Error "TLC found a deadlock by itself, which it is told not to look for"
+  | Violated { violation = Deadlock | Unnamed; _ } -> Error "TLC looked for deadlocks by itself, though told not to"
   | Unfinished -> Error "TLC did not come to its end"
   | Failed lines -> Error (String.concat "\n" lines)
 

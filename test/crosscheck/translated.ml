@@ -7,7 +7,9 @@ let specification =
 (* Where [part] begins in [text]. *)
 let find part text =
   let n = String.length part in
-  let rec go i = if i + n > String.length text then None else if String.sub text i n = part then Some i else go (i + 1) in
+  let rec go i =
+    if i + n > String.length text then None else if String.sub text i n = part then Some i else go (i + 1)
+  in
   go 0
 
 let split_at part text =
@@ -19,7 +21,8 @@ let split_at part text =
 
 let prefixed prefix text =
   let n = String.length prefix in
-  if String.length text > n && String.sub text 0 n = prefix then Some (String.sub text n (String.length text - n)) else None
+  if String.length text > n && String.sub text 0 n = prefix then Some (String.sub text n (String.length text - n))
+  else None
 
 (* Paragraphs of MC.tla: "MCName == ..." and "MCName(x, y) == ...". *)
 let of_paragraph text : Family.constant option =

@@ -3,7 +3,10 @@ open Dolphin_platform_imc
 module State = Message.Plan_control_state
 
 let order : Execution.order = { plan = "p"; specification = None }
-let says state ?(outcome = State.Last_outcome.None) plan_id = { State.default with state; plan_id; last_outcome = outcome }
+
+let says state ?(outcome = State.Last_outcome.None) plan_id =
+  { State.default with state; plan_id; last_outcome = outcome }
+
 let ready = says Ready and executing = says Executing
 
 (* A vehicle that says [first] and later [rest], half a second apart, to a console that has nothing yet but memos. *)
@@ -51,8 +54,8 @@ let over : Memo.t = Over { request = 7 }
 let another = ("q", false)
 
 let nobody_knows =
-  "failed: the console died just as it asked for plan p, which the vehicle had run before: nobody knows whether it has run \
-   again"
+  "failed: the console died just as it asked for plan p, which the vehicle had run before: nobody knows whether it has \
+   run again"
 
 (* The states of a vehicle with which nothing happens. *)
 let still state = [ state; state; state; state ]
@@ -73,7 +76,8 @@ let cases =
       [ "keep runs"; "failed: the plan ended without success, and the vehicle gave no reason" ];
     case "another console has replaced it" [ asked ~before:another (); taken; runs ] (executing "r") []
       [ "failed: replaced by plan r" ];
-    case "it did not arrive: it is sent again, after a look" [ asked ~before:another () ] (ready "q") [ ready "q"; ready "q" ]
+    case "it did not arrive: it is sent again, after a look" [ asked ~before:another () ] (ready "q")
+      [ ready "q"; ready "q" ]
       [ "start p" ];
     case "the same plan ran before, and runs now" [ asked ~before:("p", false) () ] (executing "p") [] [ "keep runs" ];
     case "the same plan ran before, and was taken" [ asked ~before:("p", false) (); taken ]

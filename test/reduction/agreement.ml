@@ -40,6 +40,66 @@ let shows options program world property (run : Search.run) =
       | last :: _ -> there <> [] && Property.broken_by_end last.rules last.next = Some property)
   | All_reached | Invariant _ | Formula _ -> false
 
+(* {1 Outcomes}
+
+   More than any property asks: what the executing of tasks comes to, in all runs. How many failures there were is left
+   out: a reduced run may do with fewer. And a deadlock beside branches of an [allOf] may be shown after those only. *)
+
+type outcome = Of_script of Configuration.t | Stuck of Configuration.t | Broken of Configuration.ending
+
+module Outcomes = Set.Make (struct
+    type t = outcome
+
+    let compare a b =
+      match a, b with
+      | Of_script c, Of_script c' | Stuck c, Stuck c' -> Configuration.compare c c'
+      | Broken e, Broken e' -> Stdlib.compare e e'
+      | (Of_script _ | Stuck _ | Broken _), _ ->
+        let rank = function Of_script _ -> 0 | Stuck _ -> 1 | Broken _ -> 2 in
+        Int.compare (rank a) (rank b)
+  end)
+
+let rec is_in_all_of : Residual.t -> bool = function
+  | All_of _ -> true
+  | Parallel rs -> List.exists is_in_all_of rs
+  | r -> ( match Residual.opened r with Some (_, body) -> is_in_all_of body | None -> false)
+
+let outcome (c : Configuration.t) ~stuck outcomes =
+  match c.control with
+  | Ended ((Halted _ | Failed _ | Interrupted) as ending) -> Outcomes.add (Broken ending) outcomes
+  | Ended Completed | Script _ | Waiting _ -> Outcomes.add (Of_script c) outcomes
+  | Executing (_, r) -> if stuck && not (is_in_all_of r) then Outcomes.add (Stuck c) outcomes else outcomes
+
+let all_outcomes (g : Reference.t) =
+  let found = ref Outcomes.empty in
+  let state i (s : Reference.state) = found := outcome s.configuration ~stuck:(g.edges.(i) = []) !found in
+  Array.iteri state g.states;
+  !found
+
+let reduced_outcomes environment program world =
+  let space = Space.create ~reduction:Partial_order environment program world in
+  let rec from i found =
+    if i = Space.count space then Space.flush space;
+    if i = Space.count space then found
+    else begin
+      let before = Space.transitions space in
+      Space.expand space i;
+      let stuck = Space.transitions space = before in
+      from (i + 1) (outcome (fst (Space.state space i)) ~stuck found)
+    end
+  in
+  from 0 Outcomes.empty
+
+let same_outcomes program environment world graph =
+  let missing = Outcomes.diff (all_outcomes graph) (reduced_outcomes environment program world) in
+  match Outcomes.choose_opt missing with
+  | None -> Ok ()
+  | Some (Of_script c) -> Error (Format.asprintf "the script never comes to %a" (Configuration.pp program) c)
+  | Some (Stuck c) -> Error (Format.asprintf "no run gets stuck in %a" (Configuration.pp program) c)
+  | Some (Broken (Halted m)) -> Error ("no run halts with " ^ m)
+  | Some (Broken (Failed fault)) -> Error ("no run fails with " ^ fault.message)
+  | Some (Broken (Completed | Interrupted)) -> Error "an end is missing"
+
 (* {1 Verdicts} *)
 
 let agrees options program world reference unreached (property, verdict) =
@@ -83,4 +143,5 @@ let check ?limit ?(reductions = [ Reduction.Partial_order; Symmetry; All ]) envi
       | Ok () -> if reduced.states > whole.states then named "more states than there are" else Ok reduced.states
     in
     let* reduced = List.fold_left compare (Ok 0) reductions in
+    let* () = same_outcomes program environment world graph in
     Ok (Some { whole = whole.states; reduced; broken = List.map fst reference })

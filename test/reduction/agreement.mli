@@ -10,7 +10,14 @@ type t = {
 }
 
 val check :
-  ?limit:int -> ?reductions:Reduction.t list -> Environment.options -> Core.program -> World.t -> (t option, string) result
+  ?limit:int ->
+  ?reductions:Reduction.t list ->
+  Environment.options ->
+  Core.program ->
+  World.t ->
+  (t option, string) result
 (** [check ~reductions o p w] is an error unless all searches, plain and with each of the reductions (at first
-    [Partial_order], [Symmetry], [All]), find the same properties broken, the same code unreached, and each run that a reduced one shows is one of the semantics that ends as it should. [None] if the program has more than
-    [limit] states. *)
+    [Partial_order], [Symmetry], [All]), find the same properties broken, the same code unreached, and each run that a
+    reduced one shows is one of the semantics that ends as it should; and unless with [Partial_order] executing tasks come
+    to the same as without: to the same configurations of the script, the same deadlocks, the same halts and failures.
+    [None] if the program has more than [limit] states. *)

@@ -49,6 +49,15 @@ let side_by_side ~sensing =
   let before = Generate.kept :: List.map (fun (k, x) -> Generate.statement (Generate.post k x)) posts in
   return (Generate.executing ~before task)
 
+(* Tasks side by side inside of [until], [during], [watch] ..., and so again. *)
+let nested ~sensing =
+  let open QCheck2.Gen in
+  let* depth = int_range 0 2 in
+  let* posts = oneofl [ []; [ ("x", 1) ]; [ ("y", 2); ("x", 2) ] ] in
+  let before = Generate.kept :: List.map (fun (k, x) -> Generate.statement (Generate.post k x)) posts in
+  let nested = if sensing then Generate.sensing_nested else Generate.nested in
+  map (Generate.executing ~before) (nested ~vehicles:Generate.vehicles ~depth)
+
 let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]) }
 
 let failing_vehicle v : Environment.options =
@@ -70,8 +79,9 @@ let case =
   pair
     (frequency
        [ (2, closed Generate.program); (2, closed (map for_ever Generate.program));
-         (5, closed (side_by_side ~sensing:false)); (1, opened Generate.sensing_program);
-         (3, opened (side_by_side ~sensing:true)) ])
+         (3, closed (side_by_side ~sensing:false)); (5, closed (nested ~sensing:false));
+         (1, opened Generate.sensing_program); (2, opened (side_by_side ~sensing:true));
+         (2, opened (nested ~sensing:true)) ])
     (oneofl environments)
 
 let print ((program, world), (name, _)) =

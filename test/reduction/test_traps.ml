@@ -147,6 +147,66 @@ let traps =
     breaks "an assertion on how far others are" [ Assertions ]
       {|execute watch (task('p')[a] >> action { post x: 1 } >> task('q')[a] >> action { consume x: 1 }) |
                       (task('r')[b] >> assert({ !poll(x: 1) }, 'x is there')) onError { ignore() }|};
+    breaks "until is faulty once all but one of its parts are done" [ No_error; No_leftover ]
+      {|g = 1
+        post x: 1
+        execute until { 1 / g > 5 } run (task('p')[a] | action { g = 0 })|};
+    breaks "until takes something once all but one of its parts are done" [ No_leftover ]
+      {|post x: 1
+        execute until { consume x: 1 } run (task('p')[a] | task('q')[b])|};
+    breaks "until cuts off what had posted" [ No_leftover ]
+      {|execute until { poll stop: 1 } run (action { post x: 1 } | action { post y: 1 } | action { post stop: 1 })|};
+    breaks "during ends between two posts" [ No_leftover ]
+      {|execute during 1.minutes run (action { post x: 1 } | action { post y: 1 } | task('p')[a])|};
+    breaks "what follows two parts, side by side with who looks" [ No_leftover ]
+      {|post z: 1
+        execute action { if (!poll(x: 1)) { post y: 1 } } |
+          (watch ((condition { consume z: 1 } | action { post w: 1 }) >> action { post x: 1 }) onError { })|};
+    breaks "an until around an allOf" [ No_leftover ]
+      {|post x: 1, y: 1
+        execute until { consume stop: 1 } run
+          (allOf { when { consume x: 1 } then task('p')[a]
+                   when { consume y: 1 } then task('q')[a] } | action { post stop: 1 })|};
+    breaks "an allOf whose branch may fail, and be ignored" ~environment:failing [ No_leftover ]
+      {|post x: 1, y: 1
+        execute watch (allOf { when { consume x: 1 } then task('p')[a]
+                               when { consume y: 1 } then task('q')[a] } | action { post z: 1 }) onError { ignore() }|};
+    breaks "a failure that is ignored, between two posts" ~environment:failing [ No_leftover ]
+      {|execute watch (task('p')[a] | action { post x: 1 } | action { post y: 1 }) onError { ignore() }|};
+    breaks "a failure that is ignored, between two that take" ~environment:failing [ No_leftover ]
+      {|post x: 1, y: 1
+        execute watch (task('p')[a] | action { consume x: 1 } | action { consume y: 1 }) onError { ignore() }|};
+    breaks "a failure that is ignored, between two that write" ~environment:failing [ No_leftover ]
+      {|g = 1
+        h = 1
+        execute watch (task('p')[a] | action { g = 2 } | action { h = 2 }) onError { ignore() }
+        if (g > h) { post x: 1 }|};
+    breaks "a failure in an inner until" ~environment:failing [ No_leftover ]
+      {|execute watch ((until { poll stop: 1 } run (task('p')[a] | action { post x: 1 })) | action { post stop: 1 })
+          onError { ignore() }|};
+    breaks "a handler that posts what others look for" ~environment:failing [ No_leftover ]
+      {|post z: 1
+        execute action { if (!poll(x: 1)) { post y: 1 } } |
+          (watch ((condition { consume z: 1 } >> task('p')[a]) | action { post w: 1 }) onError { post x: 1 ; ignore() })|};
+    breaks "what follows an until that looks for what another part has" [ No_leftover ]
+      {|post z: 1
+        execute action { if (!poll(x: 1)) { post y: 1 } } |
+          ((until { poll z: 1 } run (condition { consume u: 1 } | condition { consume v: 1 })) >> action { post x: 1 })|};
+    breaks "what handles errors of what follows an until" ~environment:failing [ No_leftover ]
+      {|post z: 1
+        execute action { if (!poll(x: 1)) { post y: 1 } } |
+          (watch ((until { poll z: 1 } run (condition { consume u: 1 } | condition { consume v: 1 })) >> task('p')[a])
+             onError { post x: 1 ; ignore() })|};
+    breaks "a lost vehicle that is missed later" ~environment:{ plain with losses = Any_number }
+      [ Vehicles ]
+      {|execute watch (task('q')[b] | (watch task('p')[a] onError { ignore() })) onError { ignore() }
+        release a
+        release b
+        x = pick { type 'UUV'; timeout 1.seconds }|};
+    breaks "one failure only, ignored in one of two nests" ~environment:(Environment.failing ~failures:1 plain)
+      [ No_deadlock ]
+      {|execute (watch ((task('p')[a] >> condition { false }) | task('q')[b]) onError { ignore() }) |
+          (watch ((task('r')[c] >> condition { false }) | condition { false }) onError { ignore() })|};
     breaks "code behind a variable" [ No_halt ]
       {|f = { post x: 1 }
         execute action { f.call() } | (task('p')[a] >> action { if (poll(x: 1)) { halt 'h' } }) | task('q')[b]
@@ -287,6 +347,15 @@ let savings =
     saves "a rendezvous under watch" ~environment:failing 32
       (Printf.sprintf "t = %s\nexecute watch t onError { message 'failed' ; halt 'h' }"
          (String.sub (fleet 2) 8 (String.length (fleet 2) - 8)));
+    saves "parts for a time" 17 "execute during 1.minutes run (task('p')[a] | task('q')[b] | task('r')[c])";
+    saves "parts until something is there" 17
+      "execute (until { poll stop: 1 } run (task('p')[a] | task('q')[b])) | (task('r')[c] >> action { post stop: 1 })\n\
+       consume stop: 1";
+    saves "parts whose failures are ignored" ~environment:failing 20
+      "execute watch (task('p')[a] | task('q')[b] | task('r')[c]) onError { ignore() }";
+    saves "nests side by side" ~environment:failing 20
+      "execute (during 1.minutes run (task('p')[a] | task('q')[b])) | (watch (task('r')[c] | idle(1.seconds)) onError { \
+       ignore() })";
     saves "copies that start with a choice" 40
       {|execute (task('p')[a] >> action { post x: 1 } >> condition { consume x: 1 }) |
           (task('q')[b] >> action { post x: 2 } >> condition { consume x: 2 }) |

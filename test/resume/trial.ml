@@ -29,7 +29,8 @@ let check_journal path =
   close_in channel;
   match verdict with
   | Run { ending = { how = "completed"; _ }; _ } -> Ok ()
-  | Run _ | Prefix _ | No_run _ | Possible _ | Impossible _ | Unknown _ | Unreadable _ -> Error (Format.asprintf "@[<v>the journal: %a@]" Verdict.pp verdict)
+  | Run _ | Prefix _ | No_run _ | Possible _ | Impossible _ | Unknown _ | Unreadable _ ->
+    Error (Format.asprintf "@[<v>the journal: %a@]" Verdict.pp verdict)
 
 let check_vehicles log =
   let started = List.sort String.compare (Vehicles.started log) in
@@ -44,7 +45,8 @@ let read path =
   Fun.protect ~finally:(fun () -> close_in channel) (fun () -> really_input_string channel (in_channel_length channel))
 
 let in_folder number f =
-  let name file = Printf.sprintf "%s/dolphin-kill-%d-%d.%s" (Filename.get_temp_dir_name ()) (Unix.getpid ()) number file in
+  let folder = Filename.get_temp_dir_name () in
+  let name file = Printf.sprintf "%s/dolphin-kill-%d-%d.%s" folder (Unix.getpid ()) number file in
   let journal = name "run" and log = name "log" in
   let remove path = if Sys.file_exists path then Sys.remove path in
   Fun.protect ~finally:(fun () -> List.iter remove [ journal; log ]) (fun () -> f ~journal ~log)
@@ -87,5 +89,6 @@ let lines () =
       match ending with
       | Error why -> failwith (why ^ "\n" ^ read journal ^ read log)
       | Ok (`Killed | `Completed) ->
-        let counts line = line <> "" && not (String.length line > 17 && String.sub line 0 17 = "{\"kind\":\"vehicle\"") in
+        let is_sample line = String.length line > 17 && String.sub line 0 17 = "{\"kind\":\"vehicle\"" in
+        let counts line = line <> "" && not (is_sample line) in
         List.length (List.filter counts (String.split_on_char '\n' (read journal))))

@@ -1,6 +1,10 @@
 (** One console that dies, and others that go on. *)
 
-type t = { death : Console.death; again : Console.death;  (** of the next console *) pause : float  (** before it, s *) }
+type t = {
+  death : Console.death;
+  again : Console.death;  (** of the next console *)
+  pause : float;  (** before it, s *)
+}
 
 val pp : Format.formatter -> t -> unit
 

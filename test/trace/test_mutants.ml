@@ -113,12 +113,13 @@ let trial () =
       incr doubtful;
       if Verdict.is_legal verdict then incr still_runs
     end
-    else if Verdict.is_legal verdict then passed := Printf.sprintf "%s, %s: %s" run.name m.what (show verdict) :: !passed
+    else if Verdict.is_legal verdict then
+      passed := Printf.sprintf "%s, %s: %s" run.name m.what (show verdict) :: !passed
     else incr rejected
   done;
   let figures =
-    Printf.sprintf "of %d mutants that are no runs %d were rejected; of %d that may be, %d are" wanted !rejected !doubtful
-      !still_runs
+    Printf.sprintf "of %d mutants that are no runs %d were rejected; of %d that may be, %d are" wanted !rejected
+      !doubtful !still_runs
   in
   print_endline figures;
   if !passed <> [] then Alcotest.failf "%s\n%s" figures (String.concat "\n" !passed)

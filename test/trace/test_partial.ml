@@ -36,7 +36,8 @@ let all_possible observed () =
   List.iter check (Lazy.force runs)
 
 (* What no run of the program can look like. *)
-let impossible name r text expected =
+let impossible name r text lines =
+  let expected = String.concat "\n" lines in
   match Runs.check_text r text with
   | Impossible _ as verdict -> Alcotest.(check string) name expected (show verdict)
   | verdict -> Alcotest.failf "%s: %s" name (show verdict)
@@ -44,7 +45,8 @@ let impossible name r text expected =
 let header = {|{"format":"dolphin-journal","version":1,"observed":["start","done"]}|}
 
 let vehicle =
-  {|{"kind":"vehicle","time":0,"vehicle":"v","type":"UUV","payload":[],"latitude":41,"longitude":-8,"height":0,"battery":1,"connected":true}|}
+  {|{"kind":"vehicle","time":0,"vehicle":"v","type":"UUV","payload":[],|}
+  ^ {|"latitude":41,"longitude":-8,"height":0,"battery":1,"connected":true}|}
 
 let label text = Printf.sprintf {|{"kind":"label","label":"%s"}|} text
 let program = Runs.of_text "v = pick { type 'UUV' }\nexecute task('a')[v] >> idle(5.seconds) >> task('b')[v]"
@@ -53,13 +55,16 @@ let trace lines = Runs.text (header :: vehicle :: lines)
 let wrong () =
   impossible "b before a" program
     (trace [ label "start(v, b)" ])
-    "line 3 is not what a run can look like: start(v, b)\nstart(v, b) could not happen\nwhat could come: start(v, a)\nbefore it: 0 lines";
+    [ "line 3 is not what a run can look like: start(v, b)"; "start(v, b) could not happen";
+      "what could come: start(v, a)"; "before it: 0 lines" ];
   impossible "twice" program
     (trace [ label "start(v, a)"; label "done(v, a)"; label "start(v, a)" ])
-    "line 5 is not what a run can look like: start(v, a)\nstart(v, a) could not happen\nwhat could come: start(v, b)\nbefore it: 2 lines";
+    [ "line 5 is not what a run can look like: start(v, a)"; "start(v, a) could not happen";
+      "what could come: start(v, b)"; "before it: 2 lines" ];
   impossible "what it does not tell" program
     (trace [ label "timeout" ])
-    "line 3 is not what a run can look like: timeout\nlabels like timeout are not among those that this trace has\nwhat could come: nothing\nbefore it: 0 lines"
+    [ "line 3 is not what a run can look like: timeout"; "labels like timeout are not among those that this trace has";
+      "what could come: nothing"; "before it: 0 lines" ]
 
 let beginnings () =
   let check lines =

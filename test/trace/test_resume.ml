@@ -62,7 +62,8 @@ let at_each_byte () =
     let cut = String.sub r.journal 0 length in
     match Dolphin_runtime.Resumption.read r.program ~hash:r.hash (Reader.of_string cut) with
     | Ok past ->
-      if past.kept > length || r.journal.[past.kept - 1] <> '\n' then Alcotest.failf "cut at %d, it goes on at %d" length past.kept
+      if past.kept > length || r.journal.[past.kept - 1] <> '\n' then
+        Alcotest.failf "cut at %d, it goes on at %d" length past.kept
     | Error (No_run (Unreadable _)) when length < header -> ()
     | Error (Over _) when length = String.length r.journal -> ()
     | Error trouble -> Alcotest.failf "cut at %d: %a" length Dolphin_runtime.Resumption.pp_trouble trouble

@@ -1,0 +1,244 @@
+open Dolphin_semantics
+open Part
+
+type t = {
+  options : Environment.options;
+  reduction : Reduction.t;
+  program : Core.program;
+  world : World.t;
+  parts : Parts.t;
+  cases : Cases.t;
+  words : Words.t;
+  shapes : Shapes.t;
+  mutable states : States.t;
+  mutable key : int array;  (* the state being expanded, changed in place for its successors and changed back *)
+  mutable other : int array;  (* successors of another shape *)
+  mutable transitions : int;
+  broken : int array;  (* by rank in [Property.all]: the first state, or -1 *)
+  script : Script_graph.t;
+  mutable fresh : int -> int -> unit;  (* what is done with new states, by number and first word *)
+  mutable gathering : bool;
+  mutable gathered : (int * Symmetry.permutation option) list;
+  symmetries : Symmetries.t option;
+  folding : Folding.t;
+  mutable folded : int array;  (* a state's canonical form *)
+  reserve : int -> unit;
+}
+
+let rank property =
+  let rec from i = function
+    | [] -> invalid_arg "Growth.rank"
+    | p :: rest -> if p = property then i else from (i + 1) rest
+  in
+  from 0 Property.all
+
+(* {1 States} *)
+
+let load t i =
+  let key = Array.make (States.words t.states) 0 in
+  States.load t.states i key;
+  key
+
+(* Everything in fields that are wide enough. *)
+let repack t =
+  let rewritten = Words.widened t.words in
+  let words = Shapes.words t.shapes in
+  t.states <- States.rewrite t.states ~words rewritten;
+  t.key <- Array.make words 0;
+  t.other <- Array.make words 0;
+  t.folded <- Array.make words 0
+
+let note_broken t property i =
+  let rank = rank property in
+  if t.broken.(rank) < 0 then t.broken.(rank) <- i
+
+let broken t property =
+  match t.broken.(rank property) with
+  | -1 -> None
+  | i -> Some i
+
+let fresh t i word =
+  if Shapes.number t.shapes word = 0 then
+    Option.iter (fun property -> note_broken t property i) (Words.broken t.words (Shapes.shared t.shapes word))
+
+let flush t = States.flush t.states ~fresh:t.fresh
+
+let add t key permutation parent =
+  if t.gathering then t.gathered <- (States.find t.states key, permutation) :: t.gathered
+  else States.push t.states key ~parent ~fresh:t.fresh
+
+let visit t key parent =
+  match Shapes.number t.shapes key.(0) with
+  | 0 -> add t key None parent
+  | number -> (
+      let s = Shapes.shape t.shapes number in
+      match s.frame.symmetry with
+      | None -> add t key None parent
+      | Some g ->
+        let shared = Shapes.shared t.shapes key.(0) in
+        let permutation = Folding.canonical t.folding g s key shared ~into:t.folded in
+        add t t.folded (Some permutation) parent)
+
+(* {1 Ends of tasks} *)
+
+(* The configuration that a local outcome ends the executing in, by the transition function. *)
+let concluded t (s : Shape.t) shared (outcome : Transition.outcome) =
+  let shared = Cases.Shareds.value (Cases.shareds t.cases) shared in
+  let c = Shared.under (Executing (s.frame.machine, Parallel [])) shared in
+  let local : Transition.local = { after = c; outcome; derivation = []; named = Silent; asked = [] } in
+  let next = Transition.conclude c s.frame.machine local in
+  Words.whole t.words next.rules next.next shared.outside
+
+let over t (s : Shape.t) shared =
+  let frame = s.frame in
+  if shared >= Array.length frame.over then begin
+    let longer = Array.make (max (shared + 1) (2 * Array.length frame.over)) (-1) in
+    Array.blit frame.over 0 longer 0 (Array.length frame.over);
+    frame.over <- longer
+  end;
+  if frame.over.(shared) < 0 then begin
+    frame.over.(shared) <- concluded t s shared Over;
+    Script_graph.follows t.script (-1 - frame.frame) frame.over.(shared)
+  end;
+  frame.over.(shared)
+
+(* {1 Going to other states} *)
+
+(* What stands at [place] gives way to [parts] (which may be none), with [shared] after the step. *)
+let replace t (s : Shape.t) (s' : Shape.t) (place : Shape.place) (parts : part array) shared i =
+  Words.check_fit t.words;
+  let key = t.key and other = t.other in
+  Array.fill other 0 (Array.length other) 0;
+  other.(0) <- Shapes.first t.shapes s'.number shared;
+  for j = 0 to place.from - 1 do
+    Shape.put s' other j (Shape.local s key j)
+  done;
+  let more = Array.length parts in
+  for j = 0 to more - 1 do
+    Shape.put s' other (place.from + j) parts.(j).local
+  done;
+  for j = place.upto to Array.length s.families - 1 do
+    Shape.put s' other (j - place.upto + place.from + more) (Shape.local s key j)
+  done;
+  visit t other i
+
+let no_parts : part array = [||]
+
+let finish t number permutation i =
+  Words.write_whole t.words t.other number;
+  add t t.other permutation i
+
+(* The task is over: the script sees what is shared, so each state that this one stands for goes on by itself. *)
+let all_over t (s : Shape.t) shared i =
+  match s.frame.symmetry with
+  | None -> finish t (over t s shared) None i
+  | Some g ->
+    let image (shared, permutation) = finish t (over t s shared) (Some permutation) i in
+    List.iter image (Symmetry.images g shared)
+
+let rec go t (s : Shape.t) (place : Shape.place) target shared i =
+  match target, place.around with
+  | Gone, None when place.from = 0 && place.upto = Array.length s.families -> all_over t s shared i
+  | Gone, Some ({ children = [ a; b ]; _ } as nest) -> leave_alone t s nest (if a == place then b else a) shared i
+  | Gone, (None | Some _) -> replace t s (Shapes.without t.shapes s place) place no_parts shared i
+  | Becomes { serial; children; parts }, _ ->
+    replace t s (Shapes.becoming t.shapes s place serial children) place parts shared i
+  | (Stays _ | Ends _), _ -> invalid_arg "Growth.go: no target elsewhere"
+
+(* Only [other] is left in a nest, which is none then. *)
+and leave_alone t s nest (other : Shape.place) shared i =
+  match nest.inside, other.inside with
+  | None, _ -> invalid_arg "Growth.leave_alone: no nest"
+  | Some _, None -> go t s nest (Parts.alone t.parts (Words.part s t.key other.from)) shared i
+  | Some inside, Some _ ->
+    let r = Parts.around inside (Words.residual s t.key other) in
+    let children = Parts.children t.parts (Parts.outside inside) r in
+    let parts = Array.of_list (List.concat_map Part.leaves children) in
+    replace t s (Shapes.with_children t.shapes s nest children) nest parts shared i
+
+let go_to t (s : Shape.t) (place : Shape.place) target shared shared' i =
+  match target with
+  | Stays local ->
+    let position = place.from in
+    let key = t.key and word = s.word.(position) in
+    let moved = (local - Shape.local s key position) lsl s.shift.(position) in
+    let shared_moved = Shapes.first t.shapes 0 (shared' - shared) in
+    key.(word) <- key.(word) + moved;
+    key.(0) <- key.(0) + shared_moved;
+    visit t key i;
+    key.(0) <- key.(0) - shared_moved;
+    key.(word) <- key.(word) - moved
+  | Gone | Becomes _ | Ends _ -> go t s place target shared' i
+
+let ends_run (case : case) = match case.result with Ends _ -> true | Stays _ | Gone | Becomes _ -> false
+
+let take_case t (s : Shape.t) place (case : case) shared i =
+  match case.result with
+  | Ends ending ->
+    if case.whole < 0 then case.whole <- concluded t s case.shared (Ends ending);
+    finish t case.whole None i
+  | (Stays _ | Gone | Becomes _) as target ->
+    Words.check_fit t.words;
+    go_to t s (Shape.above place case.level) target shared case.shared i
+
+(* The results of these are how many transitions there are. *)
+let go_by_case t (s : Shape.t) place step shared i =
+  let case = Cases.case t.cases step shared in
+  if not case.possible then 0
+  else begin
+    take_case t s place case shared i;
+    List.iter (fun other -> take_case t s place other shared i) case.others;
+    1 + List.length case.others
+  end
+
+let go_to_ends t (s : Shape.t) place step shared i =
+  let case = Cases.case t.cases step shared in
+  let ends = List.filter ends_run (case :: case.others) in
+  List.iter (fun case -> take_case t s place case shared i) ends;
+  List.length ends
+
+(* {1 Beginning} *)
+
+let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore) options program world =
+  let foreseen = if Reduction.by_order reduction then Some 0 else None in
+  let parts = Parts.create ?foreseen options program world in
+  let cases = Cases.create parts in
+  let shareds = Cases.shareds cases in
+  let symmetries =
+    (* Where the outside remembers vehicles, they are not alike. *)
+    if Reduction.by_symmetry reduction && not (Environment.endings_remember options) then
+      let number = Cases.Shareds.number shareds and value = Cases.Shareds.value shareds in
+      Some (Symmetries.create options program { number; value })
+    else None
+  in
+  let words = Words.create ?find_symmetry:(Option.map Symmetries.find symmetries) parts cases in
+  let t =
+    {
+      options;
+      reduction;
+      program;
+      world;
+      parts;
+      cases;
+      words;
+      shapes = Words.shapes words;
+      states = States.create ~compress ~words:1;
+      key = [| 0 |];
+      other = [| 0 |];
+      transitions = 0;
+      broken = Array.make (List.length Property.all) (-1);
+      script = Script_graph.create ();
+      fresh = (fun _ _ -> ());
+      gathering = false;
+      gathered = [];
+      symmetries;
+      folding = Folding.create parts words;
+      folded = [| 0 |];
+      reserve;
+    }
+  in
+  ignore (Words.write words t.key [] (Configuration.initial program) Environment.initial);
+  t.fresh <- fresh t;
+  visit t t.key 0;
+  flush t;
+  t

@@ -1,0 +1,69 @@
+(** A state space as it grows: the states that there are, and going from the one that is expanded to others. {!Space}
+    says which steps are taken. *)
+
+open Dolphin_semantics
+
+type t = {
+  options : Environment.options;
+  reduction : Reduction.t;
+  program : Core.program;
+  world : World.t;
+  parts : Parts.t;
+  cases : Cases.t;
+  words : Words.t;
+  shapes : Shapes.t;
+  mutable states : States.t;
+  mutable key : int array;  (** the state being expanded, changed in place for its successors and changed back *)
+  mutable other : int array;  (** successors of another shape *)
+  mutable transitions : int;
+  broken : int array;  (** by rank in [Property.all]: the first state, or -1 *)
+  script : Script_graph.t;
+  mutable fresh : int -> int -> unit;  (** what is done with new states, by number and first word *)
+  mutable gathering : bool;
+  mutable gathered : (int * Symmetry.permutation option) list;
+  symmetries : Symmetries.t option;
+  folding : Folding.t;
+  mutable folded : int array;  (** a state's canonical form *)
+  reserve : int -> unit;
+}
+
+val create :
+  ?reduction:Reduction.t ->
+  ?compress:bool ->
+  ?reserve:(int -> unit) ->
+  Environment.options ->
+  Core.program ->
+  World.t ->
+  t
+(** See {!Space.create}. *)
+
+(** {1:states States} *)
+
+val load : t -> int -> int array
+(** [load t i] is the words of state [i]. *)
+
+val repack : t -> unit
+(** Everything in fields that are wide enough. Nothing may wait to be added. *)
+
+val flush : t -> unit
+val note_broken : t -> Property.t -> int -> unit
+val broken : t -> Property.t -> int option
+
+val visit : t -> int array -> int -> unit
+(** [visit t key i] adds the state [key], to which state [i] leads, or what stands for it; or gathers its number. *)
+
+(** {1:going Going to other states}
+
+    From state [i], which is [t.key] and of shape [s], with number [n] of what is shared.
+    @raise Shapes.Outgrown *)
+
+val go_to : t -> Shape.t -> Shape.place -> Part.target -> int -> int -> int -> unit
+(** [go_to t s p target n n' i] is where [target] becomes of what stands at [p], with [n'] shared. *)
+
+val go_by_case : t -> Shape.t -> Shape.place -> Part.step -> int -> int -> int
+(** [go_by_case t s p step n i] takes [step] of what stands at [p]; the result is how many transitions that makes. *)
+
+val go_to_ends : t -> Shape.t -> Shape.place -> Part.step -> int -> int -> int
+(** Likewise, only as far as it ends the run. *)
+
+val ends_run : Part.case -> bool

@@ -161,9 +161,9 @@ let follow =
 let resumed =
   let doc =
     "Go on with the run whose journal is the file $(docv), and whose console died. What it has done is not done again: \
-     vehicles are asked what they run, plans that run are waited for, those that ended meanwhile are taken as ended, those that \
-     were never started are started. The journal is gone on with in the same file, or with $(b,--journal) in another \
-     one. $(i,docs/trace.md) tells more."
+     vehicles are asked what they run, plans that run are waited for, those that ended meanwhile are taken as ended, \
+     those that were never started are started. The journal is gone on with in the same file, or with $(b,--journal) \
+     in another one. $(i,docs/trace.md) tells more."
   in
   Arg.(value & opt (some string) None & info [ "resume" ] ~docv:"RUN" ~doc)
 
@@ -177,9 +177,9 @@ let changed =
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) checks the program $(i,PROG) as $(mname) $(b,check) does and runs it on a fleet of simulated \
-        vehicles. The vehicles move, their batteries drain, their plans take the time that the fleet file says and may fail. \
-        Unless $(b,--speed) is given the run takes no longer than it takes to compute: a mission of an hour is over at \
-        once.";
+        vehicles. The vehicles move, their batteries drain, their plans take the time that the fleet file says and \
+        may fail. Unless $(b,--speed) is given the run takes no longer than it takes to compute: a mission of an \
+        hour is over at once.";
     `P "The log on standard output has a line for whatever happens: the time since the start, who, what. On a terminal \
         a board below it shows each vehicle of the program: its task, for how long it has been running, its position \
         and its battery.";

@@ -43,7 +43,8 @@ let print_pieces (program : Dolphin_semantics.Core.program) pieces =
     pieces
 
 let print_outcome program s (o : Search.outcome) =
-  let shown = List.map (fun (property, verdict) -> (property, verdict, is_remark property && not s.strict)) o.verdicts in
+  let with_remark (property, verdict) = (property, verdict, is_remark property && not s.strict) in
+  let shown = List.map with_remark o.verdicts in
   List.iter
     (fun (property, (verdict : Search.verdict), remark) ->
        match verdict with
@@ -172,7 +173,8 @@ let explore (program : Program_file.t) (fleet : Fleet_file.t) s invariants formu
     { environment = World_of.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
       reduction = s.reduction; compress = s.compress;
       search_again = Search.default.search_again;
-      max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; memory_left = Memory.left; timeout = s.timeout;
+      max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; memory_left = Memory.left;
+      timeout = s.timeout;
       clock = Unix.gettimeofday;
       invariants; formulas;
       interrupted = (fun () -> !interrupted);
@@ -200,13 +202,16 @@ let read_all option of_string texts =
   in
   Result.map List.rev (List.fold_left read (Ok []) texts)
 
-let run path fleet answers faults strict json trace reduction compress invariants formulas max_states max_depth max_memory timeout =
+let run path fleet answers faults strict json trace reduction compress invariants formulas max_states max_depth max_memory
+    timeout =
   match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet) with
   | Error trouble, _ -> Program_file.tell trouble; Exit_status.Bad_input
   | Ok _, Error trouble -> Fleet_file.tell trouble; Exit_status.Bad_input
   | Ok program, Ok fleet ->
     Report.diagnostics ~source:program.source program.warnings;
-    let settings = { answers; faults; strict; json; trace; reduction; compress; max_states; max_depth; max_memory; timeout } in
+    let settings =
+      { answers; faults; strict; json; trace; reduction; compress; max_states; max_depth; max_memory; timeout }
+    in
     let program' = program.program in
     (match read_all "--invariant" (Dolphin_explore.Condition.of_string program') invariants,
            read_all "--ltl" (Dolphin_explore.Temporal.of_string program') formulas with
@@ -238,9 +243,9 @@ let faults =
   let doc =
     "What else may go wrong, separated by commas: $(b,fail), every platform task may fail; $(b,loss), the connection of a \
      vehicle that runs a task may be lost for longer than its timeout; $(b,join), vehicles may be late or missing when \
-     the program picks them: those that the fleet lets join, leave or drop, or if there are none, all; $(b,all) of these. \
-     With $(b,=)$(i,N) at most $(i,N) times in one run: $(b,fail=1,loss=2). By default only those plans may fail of which \
-     the fleet says so."
+     the program picks them: those that the fleet lets join, leave or drop, or if there are none, all; $(b,all) of \
+     these. With $(b,=)$(i,N) at most $(i,N) times in one run: $(b,fail=1,loss=2). By default only those plans may \
+     fail of which the fleet says so."
   in
   Arg.(value & opt (conv ~docv:"FAULTS" (parse, Faults.pp)) Faults.none & info [ "faults" ] ~docv:"FAULTS" ~doc)
 
@@ -260,30 +265,32 @@ let answers =
   Arg.(value & opt_all string [] & info [ "answer" ] ~docv:"TEXT" ~doc)
 
 let strict =
-  let doc = "Count as violations what otherwise is only noted: $(b,halt), tuples left over, code that no run reaches." in
+  let doc =
+    "Count as violations what otherwise is only noted: $(b,halt), tuples left over, code that no run reaches."
+  in
   Arg.(value & flag & info [ "strict" ] ~doc)
 
 let invariants =
   let doc =
     "Check that $(docv) holds in every state. It is an expression of the language over the global variables of the \
-     program, in which also $(b,running\\('plan'\\)), $(b,running\\('plan', 'vehicle'\\)), $(b,bound\\('vehicle'\\)) and \
-     $(b,poll\\(key: value\\)) may stand. As long as a variable in it has no value, it holds. May be repeated."
+     program, in which also $(b,running\\('plan'\\)), $(b,running\\('plan', 'vehicle'\\)), $(b,bound\\('vehicle'\\)) \
+     and $(b,poll\\(key: value\\)) may stand. As long as a variable in it has no value, it holds. May be repeated."
   in
   Arg.(value & opt_all string [] & info [ "invariant" ] ~docv:"EXPR" ~doc)
 
 let formulas =
   let doc =
     "Check that every run satisfies the formula of linear temporal logic $(docv), as in $(b,G \\(start\\(survey1\\) -> F \
-     done\\(survey1\\)\\)): with $(b,!), $(b,&), $(b,|), $(b,->), $(b,<->), $(b,X), $(b,F), $(b,G), $(b,U), $(b,R), $(b,W). \
-     $(i,docs/questions.md) lists its propositions. May be repeated."
+     done\\(survey1\\)\\)): with $(b,!), $(b,&), $(b,|), $(b,->), $(b,<->), $(b,X), $(b,F), $(b,G), $(b,U), $(b,R), \
+     $(b,W). $(i,docs/questions.md) lists its propositions. May be repeated."
   in
   Arg.(value & opt_all string [] & info [ "ltl" ] ~docv:"FORMULA" ~doc)
 
 let trace =
   let doc =
     "Write the first of the runs that are shown into the file $(docv). $(mname) $(b,exec --follow) $(docv) replays it. If \
-     its name ends in $(b,.itf.json), it is written in the Informal Trace Format instead, for the tools of TLA+ and Quint. Nothing \
-     is written if there is none."
+     its name ends in $(b,.itf.json), it is written in the Informal Trace Format instead, for the tools of TLA+ and \
+     Quint. Nothing is written if there is none."
   in
   Arg.(value & opt (some string) None & info [ "trace" ] ~docv:"FILE" ~doc)
 
@@ -301,7 +308,7 @@ let reduction =
 
 let compress =
   let doc =
-    "Keep the states in some 12 bytes each instead of 25 (or more: 8 for each further word), which takes half as much time again."
+    "Keep the states in some 12 bytes each instead of 28 (or more, if they are large), which takes about twice the time."
   in
   Arg.(value & flag & info [ "compress" ] ~doc)
 
@@ -310,19 +317,21 @@ let json = Arg.(value & flag & info [ "json" ] ~doc:"Print the result as one JSO
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) follows every run that $(i,PROG) can have: every order in which tasks end and timers expire, every choice \
-        of vehicles, every branch that is ready. It uses the very transition function that $(mname) $(b,exec) uses. For \
-        each of these it says whether it holds, or shows a run that breaks it, a shortest one if it says so, a column for \
-        the program and one \
+        of vehicles, every branch that is ready. It uses the very transition function that $(mname) $(b,exec) uses. \
+        For each of these it says whether it holds, or shows a run that breaks it, a shortest one if it says so, a \
+        column for the program and one \
         for each vehicle:";
     `I ("no deadlock", "some transition is possible until the program ends.");
-    `I ("termination", "every fair run ends: tasks that run end some time, timers expire, no step is put off for ever.");
+    `I
+      ("termination",
+       "every fair run ends: tasks that run end some time, timers expire, no step is put off for ever.");
     `I ("no error", "no fault, and no error of a task that nothing handles.");
     `I ("assertions", "no $(b,assert) of the program fails.");
     `I ("vehicles", "every $(b,pick) and every $(b,execute) gets its vehicles.");
     `P "Noted are also runs that call $(b,halt), tuples left over at the end, and code that no run reaches.";
     `P "What sensors show is open: of a condition such as $(b,battery\\(v\\) < 0.3) both outcomes are possible at each look, \
-        or those for the values that the fleet gives; a run says what it assumes. All vehicles of the fleet are in reach, \
-        unless $(b,--faults) says otherwise. Calls of a supplier fail.";
+        or those for the values that the fleet gives; a run says what it assumes. All vehicles of the fleet are in \
+        reach, unless $(b,--faults) says otherwise. Calls of a supplier fail.";
     `P "A bound that is met, or Ctrl-C, makes the answer inconclusive where no violation was found: it is never said that \
         something holds that was not wholly explored.";
     `S Manpage.s_arguments;

@@ -4,8 +4,8 @@
 type t
 
 val make : timeout:float -> string -> t
-(** [make ~timeout command] is the implementation that the shell command [command] starts, which is done when it is first
-    asked, and again after it died or was given up. It has [timeout] seconds for each reply. *)
+(** [make ~timeout command] is the implementation that the shell command [command] starts, which is done when it is
+    first asked, and again after it died or was given up. It has [timeout] seconds for each reply. *)
 
 val ask : t -> Dolphin_conformance.Dialogue.ask
 val close : t -> unit

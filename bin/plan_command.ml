@@ -49,7 +49,8 @@ let show definition (plan : Plan.t) =
 let tell_end : Driver.outcome -> unit = function
   | Ended Completed -> ()
   | (Ended (Halted _ | Failed _ | Interrupted) | Stuck _) as outcome ->
-    Report.complain (Format.asprintf "the run that the plans are taken from did not complete: %a" Driver.pp_outcome outcome)
+    let why = Format.asprintf "%a" Driver.pp_outcome outcome in
+    Report.complain ("the run that the plans are taken from did not complete: " ^ why)
 
 let print_named definition name found outcome : Exit_status.t =
   let inline = List.filter (fun f -> f.plan <> None) found in

@@ -12,8 +12,9 @@ val console :
   answers:string list ->
   scenario:Dolphin_scenario.Scenario.t ->
   Dolphin_runtime.Console.t
-(** [console shown ~answered ~answers ~scenario] answers with each of [answers] in turn, then with what [scenario] has for the
-    prompt, then with lines of standard input. What the program says is shown by the log, not by this console. [answered] is the questions that were answered before, with the answers: what
-    the fleet has given it does not give again.
+(** [console shown ~answered ~answers ~scenario] answers with each of [answers] in turn, then with what [scenario] has
+    for the prompt, then with lines of standard input. What the program says is shown by the log, not by this console.
+    [answered] is the questions that were answered before, with the answers: what the fleet has given it does not give
+    again.
 
     An answer of the fleet that is refused would be refused for ever: it is not given twice. *)

@@ -24,7 +24,8 @@ val start : settings -> Dolphin_semantics.Core.program -> (t, string) result
 
 val resume : settings -> Dolphin_semantics.Core.program -> source:Header.source -> Resumed.t -> (t, string) result
 (** [resume s program ~source run] goes on with the journal of [run], in its own file, or if [s] names another one, in a
-    copy. [source] is the program's file. The error says why that is not possible: another console writes it, perhaps. *)
+    copy. [source] is the program's file. The error says why that is not possible: another console writes it, perhaps.
+    *)
 
 val note : t -> time:float -> urgent:bool -> vehicle:string -> Yojson.Safe.t -> unit
 (** Keeps what the platform wants to find again of a vehicle. What is [urgent] is on the disk when this returns, with

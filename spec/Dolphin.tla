@@ -616,8 +616,8 @@ PickSteps(M, q) ==
 
 (* {2 Waiting ends} *)
 
-ANSWER(M, prompt, text, y) ==
-  Transition(<< "ANSWER" >>, "answer(" \o text \o ")", << "answer", prompt >>, Script(GoOn(M, y)), Shared, << >>)
+ANSWER(M, prompt, text, y, cause) ==
+  Transition(<< "ANSWER" >>, "answer(" \o text \o ")", cause, Script(GoOn(M, y)), Shared, << >>)
 ANSWER_ERR(M, prompt, m, cause) ==
   ToEnd(<< "ANSWER-ERR" >>, "no-answer", cause, Failed(Fault("no answer to '" \o prompt \o "': " \o m, M.at)), Shared, << >>)
 
@@ -627,29 +627,33 @@ REPLY(M, y) == Transition(<< "REPLY" >>, "reply(" \o Text(y) \o ")", << "host" >
 CALL_ERR(M, what, m) ==
   ToEnd(<< "CALL-ERR" >>, "no-reply(" \o m \o ")", << "host" >>, Failed(Fault(what \o ": " \o m, M.at)), Shared, << >>)
 
-NoDeeds == "an answer may only compute a value"
-
-(* An answer is an expression over the program's variables; a bad one counts as none. *)
-AnswerStep(M, prompt, answer) ==
-  LET run == Only({ RunCode(Shared, "task", << "closure", answer.lambda, << >> >>, << >>) })
-      bad(m) == ANSWER_ERR(M, prompt, m, << "answer", prompt >>)
-  IN CASE answer.lambda = 0 -> bad(answer.why)
-       [] run.is = "fault" -> bad(run.value.message)
-       [] run.is = "halt" \/ run.deeds # << >> \/ run.S.store # store -> bad(NoDeeds)
-       [] OTHER -> ANSWER(M, prompt, answer.text, run.value)
-
 Times(prompt) == IF prompt \in Prompts THEN outside.asked[prompt] ELSE 0
 
-AnswerSteps(M, prompt) ==
+(* How often it was asked then, as far as it matters: rounds is what is answered the first time, the second ... *)
+OnceMore(rounds, times) == IF times + 1 < Len(rounds) THEN times + 1 ELSE times
+
+(* An answer is an expression over the program's variables, which may only compute a value. A refused one is asked for
+   again, while there are others to come; then it counts as none. *)
+RECURSIVE AnswerSteps(_, _, _)
+AnswerSteps(M, prompt, times) ==
   LET rounds == Answers(prompt)
-      times == Times(prompt)
       given == IF rounds = << >> THEN << >> ELSE rounds[IF times < Len(rounds) THEN times + 1 ELSE Len(rounds)]
-  IN IF given = << >> THEN << ANSWER_ERR(M, prompt, "none is given", << "nobody" >>) >>
-     ELSE Each(given, LAMBDA answer : AnswerStep(M, prompt, answer))
+      cause == << "answer", prompt, OnceMore(rounds, times) >>
+      refused(m) ==
+        IF times + 1 < Len(rounds) THEN AnswerSteps(M, prompt, times + 1) ELSE << ANSWER_ERR(M, prompt, m, cause) >>
+      evaluated(answer) == RunCode(Shared, "task", << "closure", answer.lambda, << >> >>, << >>)
+      by(answer, run) ==
+        CASE run.is = "fault" -> refused(run.value.message)
+          [] run.is = "halt" \/ run.deeds # << >> \/ run.S.store # store -> refused("an answer may only compute a value")
+          [] OTHER -> << ANSWER(M, prompt, answer.text, run.value, cause) >>
+      step(answer) ==
+        IF answer.lambda = 0 THEN refused(answer.why) ELSE Only({ by(answer, run) : run \in { evaluated(answer) } })
+  IN IF given = << >> THEN << ANSWER_ERR(M, prompt, "none is given", << "answer", prompt, times >>) >>
+     ELSE Flatten(Each(given, step))
 
 WaitSteps(M, request) ==
   CASE request[1] = "pick" -> PickSteps(M, request[2])
-    [] request[1] = "ask" -> AnswerSteps(M, request[2])
+    [] request[1] = "ask" -> AnswerSteps(M, request[2], Times(request[2]))
     [] request[1] = "pause" -> << RESUME(M) >>
     [] request[1] = "call" ->
          Each(HostReplies, LAMBDA y : REPLY(M, y)) \o << CALL_ERR(M, request[2], "a host's procedures are not explored") >>
@@ -680,7 +684,7 @@ Transitions ==
 OutsideAfter(cause) ==
   CASE cause[1] = "task" /\ cause[3] = "failed" /\ Failures # -1 /\ Ending(cause[2], A[cause[2]].name) = "may fail" ->
          [ outside EXCEPT !.failed = @ + 1 ]
-    [] cause[1] = "answer" /\ Times(cause[2]) + 1 < Len(Answers(cause[2])) -> [ outside EXCEPT !.asked[cause[2]] = @ + 1 ]
+    [] cause[1] = "answer" /\ cause[2] \in Prompts -> [ outside EXCEPT !.asked[cause[2]] = cause[3] ]
     [] OTHER -> outside
 
 Becomes(t) ==

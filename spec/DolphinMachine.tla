@@ -381,7 +381,8 @@ Method(x, name, xs) ==
        [] name = "contains" /\ Len(xs) = 1 /\ (HasItems(x) \/ Is(x, "area")) -> Member(xs[1], x)
        [] specific # NoGetter -> specific
        [] xs = << >> /\ getter # NoGetter -> getter
-       [] OTHER -> Bad(Assert(FALSE, << "the method has no meaning in this model", name, Kind(x) >>))
+       [] IsString(x) /\ name \in { "toInteger", "toDouble" } -> Bad(Assert(FALSE, "this model cannot read numbers"))
+       [] OTHER -> Bad(Kind(x) \o " has no method '" \o name \o "'")
 
 Mathematics(name, xs) ==
   LET x == xs[1]
@@ -523,8 +524,7 @@ MakeTask(op, xs) ==
             CASE ~Is(y, "task") -> Expected("a task", y)
               [] Is(x, "closure") -> Ok(TaskValue([ op |-> "during", time |-> x, body |-> y[2] ]))
               [] IsTime(x) -> Ok(TaskValue([ op |-> "during", time |-> Time(x), body |-> y[2] ]))
-              [] IsNumber(x) -> TimeWanted("during", "", x)
-              [] OTHER -> Bad("this construct has the wrong number of parts")
+              [] OTHER -> TimeWanted("during", "a time after during, as in during 10.minutes run T", x)
 
 TaskNames == { "action", "condition", "waitFor", "until", "watch", "idle", "during" }
 

@@ -77,7 +77,9 @@ let lines ?(first = 1) program run =
       | None -> ""
     in
     let n = string_of_int (first + i) in
-    let assumed a = String.make (number + 3) ' ' ^ "if " ^ Wording.harmless (Format.asprintf "%a" World.pp_assumption a) in
+    let assumed a =
+      String.make (number + 3) ' ' ^ "if " ^ Wording.harmless (Format.asprintf "%a" World.pp_assumption a)
+    in
     print (String.make (number - String.length n) ' ' ^ n) (List.map cell actors) where :: List.map assumed row.assumed
   in
   print "" actors "where" :: List.concat (List.mapi body rows)

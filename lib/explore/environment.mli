@@ -1,6 +1,6 @@
 (** The outside of an explored program: what may happen to a configuration besides its own steps. Everything that
-    [Transition] offers may happen in any order, restricted as {!options} say. What sensors show is the world's, which may
-    leave it open. *)
+    [Transition] offers may happen in any order, restricted as {!options} say. What sensors show is the world's, which
+    may leave it open. *)
 
 open Dolphin_semantics
 

@@ -1,5 +1,5 @@
-(** A condition that every state must meet. Where it does not ask what runs, the states that share store, N and B are looked
-    at once; otherwise each state is. *)
+(** A condition that every state must meet. Where it does not ask what runs, the states that share store, N and B are
+    looked at once; otherwise each state is. *)
 
 open Dolphin_semantics
 

@@ -7,7 +7,9 @@ open Dolphin_semantics
 (** How far to go, and who is told. *)
 type options = {
   environment : Environment.options;
-  reduction : Reduction.t;  (** none is used where there are invariants *)
+  reduction : Reduction.t;
+  (** none is used where there are invariants; no symmetry where connections may be lost: states that are alike by it may
+      differ in which vehicle is lost *)
   compress : bool;  (** keep states in less memory, in more time *)
   search_again : int;
   (** so many of all states are visited for a shortest run, if a reduced search found a violation *)

@@ -1,6 +1,13 @@
 open Dolphin_semantics
 open Part
 
+module Numbered = Hashtbl.Make (struct
+    type t = int * int
+
+    let equal (a, b) (a', b') = Int.equal a a' && Int.equal b b'
+    let hash (a, b) = ((a * 65599) + b) * 65599 land max_int
+  end)
+
 type t = {
   options : Environment.options;
   reduction : Reduction.t;
@@ -20,8 +27,8 @@ type t = {
   mutable gathering : bool;
   mutable gathered : (int * Symmetry.permutation option) list;
   symmetry : Symmetry.finder option;
-  kinds : (int * int * int, int) Hashtbl.t;  (* of parts, by symmetry, family and place there *)
-  parts_of_kinds : (int * int, part) Hashtbl.t;
+  kinds : int Numbered.t;  (* of parts, by symmetry, family and place there *)
+  parts_of_kinds : part Numbered.t;  (* by symmetry and kind *)
   mutable folded : int array;  (* a state's canonical form *)
   reserve : int -> unit;
 }
@@ -72,22 +79,38 @@ let add t key permutation parent =
 (* {1 Symmetry} *)
 
 let kind_of t g (part : part) =
-  let key = (Symmetry.number g, part.family.number, part.local) in
-  match Hashtbl.find_opt t.kinds key with
+  let key = ((Symmetry.number g lsl 31) lor part.family.number, part.local) in
+  match Numbered.find_opt t.kinds key with
   | Some kind -> kind
   | None ->
     let kind = Symmetry.kind g part.residual in
-    Hashtbl.add t.kinds key kind;
+    Numbered.add t.kinds key kind;
     kind
+
+let coverage_of_label coverage = function
+  | Alike.Task site -> Coverage.reach coverage site
+  | Code id -> Coverage.reach_code coverage id
+
+(* What a part of a state begins, those that the state stands for begin as well. *)
+let reach_alike t g (part : part) =
+  let reach label = List.iter (coverage_of_label (Parts.coverage t.parts)) (Symmetry.together g label) in
+  let step (step : Residual.step) =
+    match step.offer with
+    | Start (p, _) -> reach (Alike.Task p.task_site)
+    | Perform c | Check c | Measure c -> reach (Alike.Code c.lambda.id)
+    | End_of _ | Expiry_of _ -> ()
+  in
+  Seq.iter step (Residual.steps part.residual)
 
 let part_of_kind t g kind =
   let key = (Symmetry.number g, kind) in
-  match Hashtbl.find_opt t.parts_of_kinds key with
+  match Numbered.find_opt t.parts_of_kinds key with
   | Some part -> part
   | None -> (
       match Parts.children t.parts (Parts.root t.parts) (Symmetry.residual g kind) with
       | [ Leaf part ] ->
-        Hashtbl.add t.parts_of_kinds key part;
+        reach_alike t g part;
+        Numbered.add t.parts_of_kinds key part;
         part
       | _ -> invalid_arg "Space.part_of_kind: no part")
 
@@ -460,8 +483,8 @@ let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore
       gathering = false;
       gathered = [];
       symmetry;
-      kinds = Hashtbl.create 64;
-      parts_of_kinds = Hashtbl.create 64;
+      kinds = Numbered.create 64;
+      parts_of_kinds = Numbered.create 64;
       folded = [| 0 |];
       reserve;
     }
@@ -479,14 +502,14 @@ let transitions t = t.transitions
 let parent t i = States.parent t.states i
 let used_symmetry t = Option.fold ~none:false ~some:Symmetry.is_used t.symmetry
 
-(* What can change places is reached if one of it is. *)
+(* Handlers of errors are noted when they have run, in whatever task: see [Symmetry.Unclear]. *)
 let coverage t =
   let coverage = Parts.coverage t.parts in
-  let reached = function Alike.Task site -> Coverage.is_started coverage site | Code id -> Coverage.is_run coverage id in
-  let reach = function Alike.Task site -> Coverage.reach coverage site | Code id -> Coverage.reach_code coverage id in
-  let together labels = if List.exists reached labels then List.iter reach labels in
-  Option.iter (fun finder -> Symmetry.alike finder together) t.symmetry;
+  let is_reached = function Alike.Task site -> Coverage.is_started coverage site | Code id -> Coverage.is_run coverage id in
+  let alike labels = if List.exists is_reached labels then List.iter (coverage_of_label coverage) labels in
+  Option.iter (fun finder -> Symmetry.handlers_alike finder alike) t.symmetry;
   coverage
+
 let bytes t = States.bytes t.states
 let bytes_to_grow t ~by = States.bytes_to_grow t.states ~by
 let forget_waiting t = States.forget_waiting t.states

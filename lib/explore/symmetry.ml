@@ -11,6 +11,13 @@ module Keys = Interner.Make (struct
 
 module Residuals = Hashtbl.Make (Residual)
 
+module Moves = Hashtbl.Make (struct
+    type t = int * int list
+
+    let equal (x, xs) (y, ys) = Int.equal x y && List.equal Int.equal xs ys
+    let hash (x, xs) = List.fold_left (fun h x -> (h * 65599) + x) x xs land max_int
+  end)
+
 (* Of a kind of part, or of what is shared: the things whose pairs are in it, and for each of them how, in a way that
    stays the same when things change places. *)
 type profile = { things : int array; looks : int array }
@@ -28,21 +35,26 @@ type t = {
   ring : int array;  (* by thing: the first thing of its ring *)
   owner : (int, int * int) Hashtbl.t;  (* by pair: thing, and place among its pairs *)
   classes : (Alike.label, int) Hashtbl.t;
+  members : (Alike.label, Alike.label list) Hashtbl.t;  (* of its class *)
   closures : (string, Core.closure) Hashtbl.t;  (* by class, pattern and pairs *)
   keys : Keys.t;  (* of kinds *)
   mutable kinds : kind array;
   by_residual : int Residuals.t;
   looks : Keys.t;
   profiles : (int, profile) Hashtbl.t;  (* of what is shared *)
-  moved_kinds : (int * int list, int) Hashtbl.t;  (* by kind, and what its things become *)
-  moved_shareds : (int * int list, int) Hashtbl.t;
+  moved_kinds : int Moves.t;  (* by kind, and what its things become *)
+  moved_shareds : int Moves.t;
 }
 
 let number g = g.number
 let patterns g = Alike.patterns g.alike
 let identity g = Array.init (Array.length g.pairs) Fun.id
 let compose p q = Array.map (fun x -> p.(x)) q
-let is_identity p = Array.for_all Fun.id (Array.mapi ( = ) p)
+let is_identity p =
+  let rec from x = x = Array.length p || (p.(x) = x && from (x + 1)) in
+  from 0
+
+let together g label = Option.value (Hashtbl.find_opt g.members label) ~default:[ label ]
 
 (* {1 Kinds} *)
 
@@ -149,11 +161,11 @@ let moved known x things (p : permutation) move =
   if Array.for_all (fun thing -> p.(thing) = thing) things then x
   else
     let key = (x, Array.to_list (Array.map (fun thing -> p.(thing)) things)) in
-    match Hashtbl.find_opt known key with
+    match Moves.find_opt known key with
     | Some x' -> x'
     | None ->
       let x' = move () in
-      Hashtbl.add known key x';
+      Moves.add known key x';
       x'
 
 let moved_kind g p k =
@@ -168,7 +180,11 @@ let sorted kinds =
   Array.sort Int.compare kinds;
   kinds
 
-let apply g p { kinds; shared } = { kinds = sorted (Array.map (moved_kind g p) kinds); shared = moved_shared g p shared }
+let moved_state g p kinds shared = { kinds = Array.map (moved_kind g p) kinds; shared = moved_shared g p shared }
+
+let apply g p { kinds; shared } =
+  let state = moved_state g p kinds shared in
+  { state with kinds = sorted state.kinds }
 
 (* {1 Canonical states} *)
 
@@ -203,7 +219,7 @@ let state g rs shared = { kinds = sorted (Array.of_list (List.map (kind g) rs));
 
 let canonical g kinds shared =
   let p = sorting g (looks g kinds shared) in
-  if is_identity p then ({ kinds = sorted (Array.copy kinds); shared }, p) else (apply g p { kinds; shared }, p)
+  if is_identity p then ({ kinds; shared }, p) else (moved_state g p kinds shared, p)
 
 let images g s =
   let found = Hashtbl.create 8 and queue = Queue.create () in
@@ -249,7 +265,7 @@ type finder = {
   groups : (int * Interchange.ring list, t) Hashtbl.t;  (* by task *)
   found : t option Executions.t;
   tasks : int Residuals.t;
-  together : (Alike.label, Alike.label list) Hashtbl.t;  (* what it can change places with, wherever it is executed *)
+  handlers : (Alike.label, Alike.label list) Hashtbl.t;  (* what each can change places with, wherever it is executed *)
 }
 
 let finder options program all_shareds =
@@ -259,7 +275,7 @@ let finder options program all_shareds =
     groups = Hashtbl.create 8;
     found = Executions.create 8;
     tasks = Residuals.create 8;
-    together = Hashtbl.create 64;
+    handlers = Hashtbl.create 64;
   }
 
 (* The labels of a task, each with all that can change places with it. *)
@@ -276,13 +292,18 @@ let classes labels pairs =
   List.iter (fun l -> Hashtbl.add members (root l) l) labels;
   List.map (fun l -> (l, List.sort Stdlib.compare (Hashtbl.find_all members (root l)))) labels
 
-(* What is alike in one task is alike in all. *)
-let agree f classes =
+(* Handlers that are alike in one task are alike in all. *)
+let agree f handlers =
   List.for_all
-    (fun (l, members) -> match Hashtbl.find_opt f.together l with Some known -> known = members | None -> true)
-    classes
+    (fun (l, members) -> match Hashtbl.find_opt f.handlers l with Some known -> known = members | None -> true)
+    handlers
 
-let remember f classes = List.iter (fun (l, members) -> Hashtbl.replace f.together l members) classes
+let remember f handlers = List.iter (fun (l, members) -> Hashtbl.replace f.handlers l members) handlers
+
+let handlers_of r classes =
+  let handlers = List.filter fst (Alike.closures r) in
+  let is_handler (l, _) = List.exists (fun (_, (c : Core.closure)) -> l = Alike.Code c.lambda.id) handlers in
+  List.filter is_handler classes
 
 let task f r =
   match Residuals.find_opt f.tasks r with
@@ -300,7 +321,8 @@ let create f number r (found : Interchange.t) classes =
       (fun (first, rings) ring -> (first + Array.length ring, Array.append rings (ring_of first ring)))
       (0, [||]) found.rings
   in
-  let owner = Hashtbl.create 64 and by_label = Hashtbl.create 64 in
+  let owner = Hashtbl.create 64 and by_label = Hashtbl.create 64 and members = Hashtbl.create 64 in
+  List.iter (fun (l, all) -> Hashtbl.replace members l all) classes;
   Array.iteri (fun thing own -> Array.iteri (fun place n -> Hashtbl.replace owner n (thing, place)) own) pairs;
   List.iteri (fun i (_, members) -> List.iter (fun l -> Hashtbl.replace by_label l i) members) classes;
   let g =
@@ -312,14 +334,15 @@ let create f number r (found : Interchange.t) classes =
       ring;
       owner;
       classes = by_label;
+      members;
       closures = Hashtbl.create 64;
       keys = Keys.create ();
       kinds = [||];
       by_residual = Residuals.create 64;
       looks = Keys.create ();
       profiles = Hashtbl.create 64;
-      moved_kinds = Hashtbl.create 64;
-      moved_shareds = Hashtbl.create 64;
+      moved_kinds = Moves.create 64;
+      moved_shareds = Moves.create 64;
     }
   in
   let add (handler, c) = Hashtbl.replace g.closures (closure_key g Fun.id ~handler c) c in
@@ -328,11 +351,13 @@ let create f number r (found : Interchange.t) classes =
 
 let find_group f r tuples =
   let labels = Alike.labels r in
-  let alone = classes labels [] in
-  match Interchange.find f.context r tuples with
-  | Some found when agree f (classes labels found.labels) ->
+  let known (found : Interchange.t) =
     let classes = classes labels found.labels in
-    remember f classes;
+    (found, classes, handlers_of r classes)
+  in
+  match Option.map known (Interchange.find f.context r tuples) with
+  | Some (found, classes, handlers) when agree f handlers ->
+    remember f handlers;
     let key = (task f r, found.rings) in
     (match Hashtbl.find_opt f.groups key with
      | Some g -> Some g
@@ -341,6 +366,7 @@ let find_group f r tuples =
        Hashtbl.add f.groups key g;
        Some g)
   | Some _ | None ->
+    let alone = handlers_of r (classes labels []) in
     if not (agree f alone) then raise Unclear;
     remember f alone;
     None
@@ -354,8 +380,8 @@ let find f r (shared : Shared.t) =
     Executions.add f.found key group;
     group
 
-let alike f note =
+let handlers_alike f note =
   let once l members = if List.compare_length_with members 1 > 0 && List.hd members = l then note members in
-  Hashtbl.iter once f.together
+  Hashtbl.iter once f.handlers
 
 let is_used f = Hashtbl.length f.groups > 0

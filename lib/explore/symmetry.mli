@@ -17,8 +17,8 @@ type shareds = { number : Shared.t -> int; value : int -> Shared.t }
 val finder : Environment.options -> Core.program -> shareds -> finder
 
 exception Unclear
-(** The same piece of a program can change places in one execution and not in another. What is true of one of the pieces
-    is then not known to be true of the other. *)
+(** The same handler of errors can change places with others in one execution and not in another. If one of them has run,
+    it is then not known whether the others do. *)
 
 val find : finder -> Residual.t -> Shared.t -> t option
 (** [find f r s] is for [r], about to be executed where [s] is shared; [None] if nothing can change places.
@@ -27,17 +27,20 @@ val find : finder -> Residual.t -> Shared.t -> t option
 val number : t -> int
 (** From 1; equal groups have the same. *)
 
-val alike : finder -> (Alike.label list -> unit) -> unit
-(** [alike f note] calls [note] with all that is reached if one of it is. *)
+val together : t -> Alike.label -> Alike.label list
+(** [together g l] is all that can change places with [l], itself included. *)
+
+val handlers_alike : finder -> (Alike.label list -> unit) -> unit
+(** [handlers_alike f note] calls [note] with handlers that all run in some run if one of them does. *)
 
 val is_used : finder -> bool
 (** Whether there is any group. *)
 
 (** {1:states States}
 
-    A state is the kinds of the parts that stand side by side, each a number, and what is shared. *)
+    A state is the kinds of the parts that stand side by side, each a number, in any order, and what is shared. *)
 
-type state = { kinds : int array;  (** ascending *) shared : int }
+type state = { kinds : int array; shared : int }
 
 val kind : t -> Residual.t -> int
 (** [kind g r] is the same for residuals that differ in names that do not matter. *)
@@ -46,7 +49,7 @@ val residual : t -> int -> Residual.t
 (** [residual g k] is some residual of kind [k]. *)
 
 val state : t -> Residual.t list -> int -> state
-(** [state g rs s] is the residuals [rs] side by side, with shared [s]. *)
+(** [state g rs s] is the residuals [rs] side by side, with shared [s]; kinds ascend. *)
 
 type permutation
 
@@ -56,6 +59,7 @@ val compose : permutation -> permutation -> permutation
 (** [compose p q] is [q], then [p]. *)
 
 val apply : t -> permutation -> state -> state
+(** Kinds ascend. *)
 
 val canonical : t -> int array -> int -> state * permutation
 (** [canonical g kinds s] is a state that is alike, mostly the same one for all that are, and the permutation that leads

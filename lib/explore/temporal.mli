@@ -1,6 +1,6 @@
-(** Formulas of linear temporal logic, checked of every run of a program. A position of a run is a state together with the
-    transition that led to it. A run that comes to an end, or cannot go on, stays in its last state for ever, without
-    transitions.
+(** Formulas of linear temporal logic, checked of every run of a program. A position of a run is a state together with
+    the transition that led to it. A run that comes to an end, or cannot go on, stays in its last state for ever,
+    without transitions.
 
     Every run without end is fair (see {!Cycle}): so a formula holds of the program if it holds of every path of its
     state graph. No reduction is used: propositions see every transition. *)
@@ -31,5 +31,5 @@ val explore : ?tick:(int -> unit) -> Environment.options -> Core.program -> Worl
 type run = { steps : Transition.t list; cycle : Transition.t list }
 
 val violation : ?tick:(unit -> unit) -> graph -> t -> run option
-(** [violation g f] is a run of which [f] does not hold, if there is any. [f] is one of those that [g] was made for. [tick]
-    is called for each state of the product with the formula's automaton. *)
+(** [violation g f] is a run of which [f] does not hold, if there is any. [f] is one of those that [g] was made for.
+    [tick] is called for each state of the product with the formula's automaton. *)

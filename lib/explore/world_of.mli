@@ -3,8 +3,8 @@
 module Scenario := Dolphin_scenario.Scenario
 
 val world : Scenario.t -> Dolphin_semantics.World.t
-(** [world s] is the vehicles of [s], all in reach, at their places at the start. What their sensors show is open: one of
-    the values that [s] gives, or if it gives none but the first, any. *)
+(** [world s] is the vehicles of [s], all in reach, at their places at the start. What their sensors show is open: one
+    of the values that [s] gives, or if it gives none but the first, any. *)
 
 val still : Scenario.t -> Dolphin_semantics.World.t
 (** [still s] is [world s] in which sensors always show what they show at the start. *)

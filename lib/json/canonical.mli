@@ -2,8 +2,8 @@
     numbers are as short as they can be. *)
 
 type extended = [ Yojson.Safe.t | `Tuple of Yojson.Safe.t list | `Variant of string * Yojson.Safe.t option ]
-(** JSON with the two constructors that Yojson 2 has and Yojson 3 has no more: a match on [(json :> extended)] is complete
-    in both, and has no case too many. *)
+(** JSON with the two constructors that Yojson 2 has and Yojson 3 has no more: a match on [(json :> extended)] is
+    complete in both, and has no case too many. *)
 
 val number : float -> Yojson.Safe.t
 (** [number x] is [x], which is finite, as an integer if it is whole: [2.] and [2] are one number. *)

@@ -22,5 +22,5 @@ val of_json : site:Core.site -> Yojson.Safe.t -> (Core.value, string) result
     if it is written as one and fits. *)
 
 val parse : ?deepest:int -> string -> (Yojson.Safe.t, string) result
-(** [parse text] is the JSON value that [text] is, or what is wrong. Nesting is bounded, by [deepest] (200 by default), so
-    that no text exhausts the stack. *)
+(** [parse text] is the JSON value that [text] is, or what is wrong. Nesting is bounded, by [deepest] (200 by
+    default), so that no text exhausts the stack. *)

@@ -63,8 +63,8 @@ type 'p t = {
   sets : bool array array;  (* by state, then by acceptance set *)
 }
 
-(* A way in which formulas can hold at a position: the literals that hold there, what must hold from the next position on,
-   and which acceptance sets it is in. All in order, so that equal ways are equal values. *)
+(* A way in which formulas can hold at a position: the literals that hold there, what must hold from the next position
+   on, and which acceptance sets it is in. All in order, so that equal ways are equal values. *)
 type 'p way = { now : (bool * 'p) list; later : 'p normal list; inside : bool list }
 
 let add f fs = if List.mem f fs then fs else f :: fs

@@ -108,7 +108,8 @@ let tokens text =
         | None -> wrong "unexpected '%c'" text.[i]
   and word i found =
     (* A minus sign is part of a name, unless it begins an arrow. *)
-    let rec stop j = if j < n && is_inner text.[j] && not (text.[j] = '-' && j + 1 < n && text.[j + 1] = '>') then stop (j + 1) else j in
+    let begins_arrow j = text.[j] = '-' && j + 1 < n && text.[j + 1] = '>' in
+    let rec stop j = if j < n && is_inner text.[j] && not (begins_arrow j) then stop (j + 1) else j in
     let j = stop i in
     let name = String.sub text i (j - i) in
     let is_operator = List.mem name [ "X"; "F"; "G"; "U"; "R"; "W"; "not"; "true"; "false" ] in

@@ -18,5 +18,5 @@ type 'letter lasso = {
 val satisfying :
   ?tick:(unit -> unit) -> holds:('letter -> 'p -> bool) -> 'letter graph -> 'p Formula.t -> 'letter lasso option
 (** [satisfying ~holds g f] is a run of [g] of which [f] holds, if there is one. The stem is a shortest one to the
-    component that the cycle is in, and the cycle goes by the shortest way from one acceptance set to the next. [tick] is
-    called once for each state of the product. *)
+    component that the cycle is in, and the cycle goes by the shortest way from one acceptance set to the next. [tick]
+    is called once for each state of the product. *)

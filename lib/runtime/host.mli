@@ -16,10 +16,10 @@
 {"id": 1, "value": {"object": "supplier"}}
 {"id": 3, "error": "the queue is closed"}
     v}
-    Values are as {!Dolphin_json.Host_value} says. An object is known by a name that the host chooses; it lives as long as the host
-    likes. There is one request at a time; a reply may take as long as the program is to wait. A reply is at most
-    1 MiB long. The host writes nothing unasked. It should ignore fields of requests that it does not know, and end
-    when its input ends; otherwise it is terminated at the end of the run.
+    Values are as {!Dolphin_json.Host_value} says. An object is known by a name that the host chooses; it lives as
+    long as the host likes. There is one request at a time; a reply may take as long as the program is to wait. A
+    reply is at most 1 MiB long. The host writes nothing unasked. It should ignore fields of requests that it does not
+    know, and end when its input ends; otherwise it is terminated at the end of the run.
 
     {1:host Hosts} *)
 

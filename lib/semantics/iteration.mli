@@ -1,5 +1,5 @@
-(** Methods that call a closure for each item of what they are called on, as [xs.collect { ... }] does. The machine makes
-    the calls; this says which, and what comes of them. *)
+(** Methods that call a closure for each item of what they are called on, as [xs.collect { ... }] does. The machine
+    makes the calls; this says which, and what comes of them. *)
 
 open Core
 

@@ -127,8 +127,8 @@ let getter world x name =
   | None, _ -> None
 
 let properties =
-  [ "id"; "ids"; "type"; "position"; "battery"; "payload"; "size"; "length"; "latitude"; "longitude"; "height"; "centre";
-    "radius"; "first"; "last"; "head"; "tail"; "name" ]
+  [ "id"; "ids"; "type"; "position"; "battery"; "payload"; "size"; "length"; "latitude"; "longitude"; "height";
+    "centre"; "radius"; "first"; "last"; "head"; "tail"; "name" ]
 
 let near name names =
   match Suggest.suggest name names with Some near -> Printf.sprintf "; did you mean '%s'?" near | None -> ""

@@ -101,7 +101,9 @@ let numbers arguments =
 
 let mathematics name arguments =
   let whole f = if Float.abs f < 0x1p62 then Value (Integer (int_of_float f)) else Value (Number f) in
-  let result f = if Float.is_nan f then Wrong (Printf.sprintf "Math.%s has no result there" name) else Value (Number f) in
+  let result f =
+    if Float.is_nan f then Wrong (Printf.sprintf "Math.%s has no result there" name) else Value (Number f)
+  in
   match name, arguments, numbers arguments with
   | "abs", [ Integer i ], _ when i <> min_int -> Value (Integer (abs i))
   | "max", [ x; y ], Some [ a; b ] -> Value (if a >= b then x else y)
@@ -143,7 +145,8 @@ let apply context at operation arguments =
   match operation, arguments with
   | Platform_task, [ String name ] when name <> "" ->
     Value (Task (Platform { name; plan = None; task_site = at }))
-  | ( (Platform_task | Make_action | Make_condition | Make_wait_for | Make_until | Make_idle | Make_during | Make_watch),
+  | ( ( Platform_task | Make_action | Make_condition | Make_wait_for | Make_until | Make_idle | Make_during
+      | Make_watch ),
       _ ) -> make_task (operation, arguments)
   | Execute, [ Task t ] -> blocking context "execute" (Execute t)
   | Execute, [ x ] -> expected "a task to execute" x
@@ -175,7 +178,8 @@ let apply context at operation arguments =
   | Halt, [ x ] -> Stop (Value.to_string x)
   | Post keys, arguments ->
     let pairs = pair keys arguments in
-    if List.exists (function _, Wildcard -> true | _, _ -> false) pairs then Wrong "only consume and poll take the wildcard _"
+    if List.exists (function _, Wildcard -> true | _, _ -> false) pairs then
+      Wrong "only consume and poll take the wildcard _"
     else
       let tuples = List.fold_left (fun n (k, x) -> Tuples.post k x n) context.tuples pairs in
       Done (did { context with tuples } (Posted pairs), Null)

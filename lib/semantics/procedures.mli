@@ -3,8 +3,8 @@
 open Core
 
 val apply : Code.context -> site -> builtin -> value list -> Code.outcome
-(** [apply context site procedure arguments] is what [procedure] gives. It is called at [site], which platform tasks made
-    there remember. *)
+(** [apply context site procedure arguments] is what [procedure] gives. It is called at [site], which platform tasks
+    made there remember. *)
 
 val blocking : Code.context -> string -> Code.request -> Code.outcome
 (** [blocking context name request] waits for [request] in the script, and is a fault elsewhere, where [name] cannot

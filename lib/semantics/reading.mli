@@ -14,8 +14,8 @@ val position : World.t -> World.vehicle_state -> value
 val is_reading : value -> bool
 
 val keep : program -> Store.t -> Store.t
-(** [keep p s] is [s], in which each reading is known by the variable that holds it. In the next step the sensor may show
-    something else, so what it showed then must not be taken for what it shows now. *)
+(** [keep p s] is [s], in which each reading is known by the variable that holds it. In the next step the sensor may
+    show something else, so what it showed then must not be taken for what it shows now. *)
 
 val settled : site -> value -> value
 (** [settled at x] is [x].

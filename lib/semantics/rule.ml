@@ -18,7 +18,8 @@ type t =
   | End | Halt | Fault | Interrupt
 
 let all =
-  [ Start; Done; Fail; Action; Action_err; Condition; Condition_err; Assert_err; Seq_1; Seq_2; Seq_err; Par_1; Par_2; Par_err;
+  [ Start; Done; Fail; Action; Action_err; Condition; Condition_err; Assert_err; Seq_1; Seq_2; Seq_err; Par_1; Par_2;
+    Par_err;
     Allof_when; Allof_1; Allof_2; Allof_err; Oneof_when; Oneof_err; Until_cut; Until_1; Until_2; Until_err; Idle_end;
     During_set; During_cut; During_1; During_2; During_err; Watch_1; Watch_2; Watch_ignore; Watch_propagate;
     Watch_halt; Script; Post; Consume; Message; Release; Set_timeout; Pick; Pick_bind; Pick_err; Ask; Answer;

@@ -190,7 +190,8 @@ let rec function_of code =
 (* What a closure inside of a function does counts as the function's doing, unless it is code of a task. *)
 let note_blocking code what =
   match in_task code, function_of code with
-  | None, Some name -> if not (Hashtbl.mem code.program.blocking name) then Hashtbl.replace code.program.blocking name what
+  | None, Some name ->
+    if not (Hashtbl.mem code.program.blocking name) then Hashtbl.replace code.program.blocking name what
   | Some _, _ | None, None -> ()
 
 let note_call code callee at =

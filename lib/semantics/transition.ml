@@ -285,7 +285,8 @@ let equal_local a b =
 let conclude (c : Configuration.t) m { after; outcome; derivation; named; asked } =
   match outcome with
   | Goes_on r ->
-    { rules = derivation; label = named; next = { after with control = Executing (m, r) }; effects = asked; assumed = [] }
+    let next = { after with control = Executing (m, r) } in
+    { rules = derivation; label = named; next; effects = asked; assumed = [] }
   | Over ->
     let next = { after with control = Script (Machine.give Null m) } in
     { rules = derivation @ [ Rule.Execute_done ]; label = named; next; effects = asked; assumed = [] }

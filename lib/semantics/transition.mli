@@ -35,8 +35,8 @@ val internal : program -> World.t -> Configuration.t -> t Seq.t
     @raise Reading.Unsettled in an open world, as do the functions below. *)
 
 val accept : program -> World.t -> Configuration.t -> event -> (t, refusal) result
-(** [accept p w c e] is the transition of [c] on [e]. [Interruption] is accepted wherever the program has not ended. In an
-    open world it is the first one. *)
+(** [accept p w c e] is the transition of [c] on [e]. [Interruption] is accepted wherever the program has not ended.
+    In an open world it is the first one. *)
 
 val accept_all : program -> World.t -> Configuration.t -> event -> (t, refusal) result list
 (** [accept_all p w c e] is every transition of [c] on [e], one unless the world is open; or one refusal. *)

@@ -202,7 +202,8 @@ and closure env at purpose label (c : Ast.closure) =
   let parameters =
     match c.parameters with Some parameters -> parameters | None -> [ { Ast.it = "it"; at } ]
   in
-  let lambda, captured = make_lambda env at purpose label ~parameters ~implicit (fun env at -> statements env at c.body) in
+  let body env at = statements env at c.body in
+  let lambda, captured = make_lambda env at purpose label ~parameters ~implicit body in
   expression env at (Make_closure (lambda, captured))
 
 and task_code env at construct (c : Ast.closure) =
@@ -456,7 +457,8 @@ and call_method env at subject name safe arguments =
     let first, receiver = keep (elaborate env subject) in
     let rest = List.map keep (values ()) in
     let again () =
-      apply env at (Method (name.it, keys)) (local env at receiver :: List.map (fun (_, slot) -> local env at slot) rest)
+      let arguments = List.map (fun (_, slot) -> local env at slot) rest in
+      apply env at (Method (name.it, keys)) (local env at receiver :: arguments)
     in
     let is_host = apply env at (Builtin Is_host) [ local env at receiver ] in
     let on_host = again () in
@@ -536,7 +538,8 @@ and body_of env at body = Scope.in_block env.code (fun () -> statements env at b
 and statement env (s : Ast.statement) : expression =
   let at = s.at in
   match s.it with
-  | Expression { it = Call { callee = { it = Variable "assert"; _ }; arguments }; _ } when not (is_hidden env "assert") ->
+  | Expression { it = Call { callee = { it = Variable "assert"; _ }; arguments }; _ }
+    when not (is_hidden env "assert") ->
     assertion env at arguments
   | Expression e ->
     let e = Option.value (regroup env e) ~default:e in

@@ -29,9 +29,9 @@ val carries : string list -> vehicle_state -> bool
 (** {1:open Worlds that leave something open}
 
     A driver knows what sensors show. Whoever looks at all that may happen does not: in an {e open} world, batteries and
-    positions may show one of several values, or any. The transition function then gives the transitions for all that may
-    be shown, each with what it assumes. Within one step a sensor does not change; from one step to the next it may show
-    anything anew. *)
+    positions may show one of several values, or any. The transition function then gives the transitions for all that
+    may be shown, each with what it assumes. Within one step a sensor does not change; from one step to the next it
+    may show anything anew. *)
 
 type assumption =
   | Late of Core.vehicle  (** it was first heard of after all others so far *)

@@ -61,7 +61,8 @@ let shown source first last =
   in
   characters first []
 
-let columns cells = List.fold_left (fun n cell -> if cell = "    " then n + 4 else if cell = "" then n else n + 1) 0 cells
+let columns cells =
+  List.fold_left (fun n cell -> if cell = "    " then n + 4 else if cell = "" then n else n + 1) 0 cells
 
 let rec drop n = function
   | _ :: rest when n > 0 -> drop (n - 1) rest
@@ -93,8 +94,10 @@ let pp_line source ppf at =
   let before_first = max first (here - near) in
   let before = shown source before_first here in
   let marked = shown source here (min last (min (here + near) (max here stop.Lexing.pos_cnum))) in
-  let after = shown source (min last (max here stop.Lexing.pos_cnum)) (min last (max here stop.Lexing.pos_cnum + near)) in
-  let cut_before = before_first > first || List.length before + List.length marked + List.length after > width && List.length before > lead in
+  let stops = max here stop.Lexing.pos_cnum in
+  let after = shown source (min last stops) (min last (stops + near)) in
+  let is_wide = List.length before + List.length marked + List.length after > width in
+  let cut_before = before_first > first || (is_wide && List.length before > lead) in
   let before = if cut_before then drop (List.length before - lead) before else before in
   let room = max 1 (width - List.length before) in
   let marked' = take room marked in

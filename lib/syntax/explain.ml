@@ -60,7 +60,8 @@ let expected place =
         [ when_acceptable LPAREN (if place.acceptable PLUS then "" else "'('");
           when_acceptable BLOCK "'{'"; when_acceptable LBRACE "'{'";
           when_acceptable IN (if place.acceptable PLUS then "" else "'in'");
-          when_acceptable ASSIGN (if place.acceptable PLUS then "" else "'='"); when_acceptable ARROW "'->'"; when_acceptable COLON "':'";
+          when_acceptable ASSIGN (if place.acceptable PLUS then "" else "'='");
+          when_acceptable ARROW "'->'"; when_acceptable COLON "':'";
           when_acceptable PLUS "an operator"; when_acceptable COMMA "','";
           when_acceptable RPAREN "')'"; when_acceptable RBRACKET "']'"; when_acceptable HOLE_CLOSE "'}'";
           when_acceptable SEPARATOR "the end of the statement" ]
@@ -138,7 +139,8 @@ let assignment place =
   match this place, head place with
   | ASSIGN, (IF | WHILE) -> Some ("'=' does not compare", "write '==' to compare")
   | COMMAND _, FOR -> None
-  | _, FOR -> Some ("a 'for' runs over the elements of something", "write for (x in xs) { ... }, such as for (i in 1..3)")
+  | _, FOR ->
+    Some ("a 'for' runs over the elements of something", "write for (x in xs) { ... }, such as for (i in 1..3)")
   | ASSIGN, _ when not (place.acceptable (INTEGER 0)) ->
     begin match before place 2, before place 1, kind place (opener place) with
       | COMMAND _, NAME x, _ ->

@@ -29,7 +29,8 @@ let faults (tokens : Token.t array) =
       let is_member = i > 0 && (match tokens.(i - 1).token with DOT | SAFE_DOT | DEF -> true | _ -> false) in
       begin match advice word with
         | Some hint when not is_member ->
-          found := Diagnostic.error (Token.at token) (Printf.sprintf "there is no '%s' in this language" word) ~hint :: !found
+          let message = Printf.sprintf "there is no '%s' in this language" word in
+          found := Diagnostic.error (Token.at token) message ~hint :: !found
         | Some _ | None -> ()
       end
     | _ -> ()

@@ -69,7 +69,7 @@ type misfit = { number : int; why : string }
 
 let take program world (c : Configuration.t) s =
   let world = World.suppose s.assumed world in
-  let found =
+  let found () =
     match s.cause with
     | Choice i -> (
         let rec nth i (ts : Transition.t Seq.t) =
@@ -89,7 +89,8 @@ let take program world (c : Configuration.t) s =
             | Error Not_awaited -> Error (Format.asprintf "the program does not wait for %a there" Happening.pp h)
             | Error (Bad_answer why) -> Error why))
   in
-  match found with
+  match found () with
+  | exception Reading.Unsettled fault -> Error fault.message
   | Ok t when text_of_label t.label = s.label -> Ok { t with assumed = s.assumed }
   | Ok t -> Error (Printf.sprintf "the program does %s there, and not %s" (text_of_label t.label) s.label)
   | Error why -> Error (Printf.sprintf "%s (%s)" why s.label)

@@ -350,6 +350,52 @@ The same in the Informal Trace Format: from the last state back to state 3.
   {'index': 5, 'label': 'fail(noptilus-1, a, failure)', 'rules': ['FAIL', 'WATCH-IGNORE', 'EXECUTE-DONE']} script {'#map': []} ['noptilus-1'] {'#map': [['failed', [{'#bigint': '1'}]]]}
   {'index': 6, 'label': 'consume failed:1', 'rules': ['CONSUME']} script {'#map': []} ['noptilus-1'] {'#map': []}
 
+Where states stand for others that are alike, runs have the names that the program gives.
+
+  $ cat > alike.dol << 'END'
+  > vs = pick { count 3; type 'UUV' }
+  > def T(i) { imcPlan('a' + i) >> action { post ready:i } }
+  > execute (T(1) | T(2) | T(3) | waitFor { consume ready:_ } then idle(1)) >> condition { !poll(ready:2) }
+  > END
+  $ explore alike.dol --reduction symmetry --trace alike.run | tail -n 20
+  note: no leftover tuples: violated after 16 steps: tuples are left when the program completes
+  106 states, 231 transitions, depth 16; reduced by symmetry
+  
+  no deadlock: a shortest run in which nothing can happen any more, and the program has not ended
+       program                                   noptilus-1  noptilus-2  noptilus-3  where
+   1   pick(3 vehicles of type 'UUV')                                                alike.dol:1
+   2   picks noptilus-1, noptilus-2, noptilus-3                                      alike.dol:1
+   3   execute                                                                       alike.dol:3
+   4                                             starts a1                           alike.dol:2
+   5                                             ends a1                             alike.dol:2
+   6   act(post ready:1)                                                             alike.dol:3
+   7                                                         starts a2               alike.dol:2
+   8                                                         ends a2                 alike.dol:2
+   9   act(post ready:2)                                                             alike.dol:3
+  10                                                                     starts a3   alike.dol:2
+  11                                                                     ends a3     alike.dol:2
+  12   act(post ready:3)                                                             alike.dol:3
+  13   check(consume ready:1)                                                        alike.dol:3
+  14   timeout                                                                       alike.dol:3
+  waits for the condition at alike.dol:3:86
+  $ dolphin exec alike.dol --follow alike.run
+  breaks: no deadlock
+     2  program     picks noptilus-1, noptilus-2, noptilus-3
+     4  noptilus-1  starts a1
+     5  noptilus-1  ends a1
+     6  program     posts ready:1
+     7  noptilus-2  starts a2
+     8  noptilus-2  ends a2
+     9  program     posts ready:2
+    10  noptilus-3  starts a3
+    11  noptilus-3  ends a3
+    12  program     posts ready:3
+    13  program     consumes ready:1
+    14  program     idled long enough
+        here the recorded run stops
+  $ explore alike.dol --reduction none | grep depth
+  187 states, 406 transitions, depth 16
+
 It does not fit another program, and no other file is one.
 
   $ dolphin exec deadlock.dol --follow assertion.run

@@ -18,7 +18,7 @@ Of a comparison with a sensor both outcomes are possible. A counter-example says
   no halt: violated after 5 steps: the program halts
   no leftover tuples: holds
   all code reached: holds
-  8 states, 9 transitions, depth 5
+  8 states, 9 transitions, depth 5; reduced by partial order
   
   no halt: a shortest run in which the program halts
       program                               where
@@ -45,7 +45,7 @@ Values that the fleet gives are all that there are.
   no halt: holds
   no leftover tuples: holds
   all code reached: holds
-  7 states, 8 transitions, depth 5
+  7 states, 8 transitions, depth 5; reduced by partial order
   $ sed -i 's/20.percent/5.percent/' charge.fleet
   $ explore charge.dol --strict --trace charge.run > shown
   [1]
@@ -129,7 +129,7 @@ Vehicles may be late or missing: those that join, leave or drop, or if the fleet
   no halt: holds
   no leftover tuples: holds
   all code reached: holds
-  4 states, 3 transitions, depth 3
+  4 states, 3 transitions, depth 3; reduced by partial order
   $ explore late.dol --strict --faults join --trace late.run
   no deadlock: holds
   termination: holds
@@ -139,7 +139,7 @@ Vehicles may be late or missing: those that join, leave or drop, or if the fleet
   no halt: violated after 3 steps: the program halts
   no leftover tuples: holds
   all code reached: holds
-  6 states, 5 transitions, depth 3
+  6 states, 5 transitions, depth 3; reduced by partial order
   
   no halt: a shortest run in which the program halts
       program                           where
@@ -181,14 +181,14 @@ A lost vehicle stays bound. It is not there for a pick until something is heard 
   assertions: holds
   vehicles for all tasks: holds
   note: all code reached: violated: no run reaches onError at lost.dol:2:9
-  10 states, 9 transitions, depth 9
+  10 states, 9 transitions, depth 9; reduced by partial order
   $ explore lost.dol --faults loss=1
   no deadlock: holds
   termination: holds
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: violated after 8 steps: vehicles are missing
-  16 states, 15 transitions, depth 9
+  16 states, 15 transitions, depth 9; reduced by partial order
   
   vehicles for all tasks: a shortest run in which vehicles are missing
       program                                   noptilus-1                        where
@@ -240,3 +240,22 @@ An answer that is refused is asked for again.
   (1,"answer(2)",2)
   (2,"message '2'",3)
   (3,"end",4)
+
+A file that says less than it must is refused.
+
+  $ dolphin explore charge.dol --strict --trace charge.run > shown
+  [1]
+  $ sed -i 's/,"assumed":.*}$/}/' charge.run
+  $ dolphin exec --follow charge.run charge.dol 2>&1 | tail -1
+  dolphin: charge.run: charge.dol does not fit, at step 5: the program does end there, and not halt(too late)
+  $ cat > level.run <<'END'
+  > {"format":"dolphin-course","version":1,"program":{"path":"p","md5":""},"fleet":null,"property":"x","steps":3,"cycle":0}
+  > {"label":"pick(1 vehicle with id 'noptilus-1')","choice":0}
+  > {"label":"bind(noptilus-1)","choice":0}
+  > {"label":"post level:1","choice":0}
+  > END
+  $ rm level.fleet
+  $ dolphin exec --follow level.run level.dol
+     2  program     picks noptilus-1
+  dolphin: level.run: level.dol does not fit, at step 3: what battery(noptilus-1) is, is open, and more than a comparison depends on it: the fleet can give the values it may have
+  [2]

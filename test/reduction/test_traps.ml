@@ -197,6 +197,22 @@ let copies =
       ~environment:{ plain with endings = (fun v _ -> if v = "a" then Fails else Succeeds) }
       [ No_error ]
       {|execute (task('p')[a] >> action { post x: 1 }) | (task('q')[b] >> action { post x: 2 } >> condition { consume x: 1 })|};
+    breaks "tasks that are alike before, and all begun" []
+      {|s = task('p')[a] >> action { message 's' }
+        t = task('q')[b] >> action { message 't' }
+        execute s | t
+        execute s|};
+    breaks "handlers that are alike before" ~environment:failing [ No_error ]
+      {|s = watch task('p')[a] onError { message 's' }
+        t = watch task('q')[b] onError { message 't' }
+        execute until { true } run oneOf { when { consume x: 1 } then s
+                                           when { consume x: 2 } then t }
+        execute s|};
+    breaks "handlers that are alike, and all run" ~environment:failing [ No_error ]
+      {|s = watch task('p')[a] onError { message 's' }
+        t = watch task('q')[b] onError { message 't' }
+        execute s | t
+        execute s|};
     breaks "tasks that are alike later, and only one of them begun" []
       {|s = task('p')[a]
         t = task('q')[b]

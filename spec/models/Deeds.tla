@@ -1,0 +1,23 @@
+-------------------------------- MODULE Deeds --------------------------------
+(* SCRIPT, POST, CONSUME, MESSAGE, RELEASE, SET-TIMEOUT: what the script does for others to see. Deeds.cfg lets it
+   evaluate only 20 expressions in one silent step. *)
+EXTENDS Model
+
+Body ==
+  Block(<< Assign(1, NumberOf(0)),
+           Loop(Operator("<", V, NumberOf(5)), Assign(1, Operator("+", V, NumberOf(1)))),
+           DoPosting("oldest", NumberOf(1)), DoPosting("oldest", NumberOf(2)), DoPosting("k", NumberOf(1)),
+           Loop(Consuming("oldest", Const(Wildcard)), Message("one more")),
+           Assign(2, PickId("u1")), TimeoutOf(10), ReleaseAll(W), ReleaseAll(W) >>)
+
+Closures == << >>
+
+(* The oldest first; what is not bound is not released. *)
+Claim ==
+  /\ By_("CONSUME", LAMBDA t : t.S.N.queue["oldest"] = Tail(N.queue["oldest"]))
+  /\ By_("RELEASE", LAMBDA t : B = << "u1" >> /\ t.S.B = << >>)
+  /\ By_("SCRIPT", LAMBDA t : t.deeds = << >> /\ t.S.N = N)
+
+ModelCode == CodeOfModel(Body, Closures)
+ModelLambdas == LambdasOfModel(Body, Closures)
+==============================================================================

@@ -127,6 +127,10 @@ let traps =
       ("until stops what runs, or what did not start", two ^ "execute (until { poll x: 1 } run (task('p')[a] >> task('q')[a])) | action { post x: 1 }");
       ("an error leaves out what would follow", two ^ "execute watch (task('p')[a] >> task('q')[b] >> task('q')[a]) onError { ignore() }");
       ("a handler that does nothing propagates", two ^ "execute watch task('p')[a] onError { post k: 1 }");
+      ("a condition that breaks", "execute watch condition { 1 / 0 } onError { ignore() }");
+      ("a guard that breaks", "execute watch (oneOf { when { 1 / 0 } then idle(1.seconds) }) onError { ignore() }");
+      ("a script that breaks", "x = 1\npost k: x\nx / 0");
+      ("a script that computes for long", "x = 0\nwhile (x < 2000) { x = x + 1 }\npost k: x");
       ("the oldest pair", "post k: 1\npost k: 2\nexecute condition { consume k: _ } >> condition { consume k: 2 }");
       ("a pair twice is there twice", "post k: 1\npost k: 1\nexecute condition { consume k: 1 } >> condition { consume k: 1 }");
       ("a handler's deeds", two ^ "execute watch task('p')[a] onError { post failed: 1; ignore() }\nif (consume(failed: 1)) { message 'seen' }");

@@ -29,8 +29,8 @@ CONSTANTS
   Losses,        \* how often connections may be lost in one run; -1: any number
   Latecomers,    \* how many vehicles of one run may be late, or missing, when they are looked for; -1: any number
   MayBeLate,     \* which ones those may be
-  Answers(_),    \* to a prompt: for the first time it is asked, the second ..., the answers that may be given; the last item is
-                 \* for all later times
+  Answers(_),    \* to a prompt: for the first time it is asked, the second ..., the answers that may be given; the last
+                 \* item is for all later times
   Prompts,       \* the prompts whose answers depend on how often they were asked
   HostReplies,   \* what the host may reply to a call
   Interruptions  \* whether the program may be interrupted
@@ -118,7 +118,8 @@ DeedText(d) ==
     [] d.did = "message" -> "message " \o Quoted(d.text)
     [] d.did = "release" -> "release " \o Join(d.vehicles, ", ")
     [] d.did = "timeout" ->
-         "setConnectionTimeout " \o (IF d.vehicles = << >> THEN "" ELSE Join(d.vehicles[1], ", ") \o ", ") \o ShortText(d.time)
+         "setConnectionTimeout " \o (IF d.vehicles = << >> THEN "" ELSE Join(d.vehicles[1], ", ") \o ", ")
+         \o ShortText(d.time)
 
 Labelled(name, ds) == IF ds = << >> THEN name ELSE name \o "(" \o Join(Each(ds, DeedText), "; ") \o ")"
 
@@ -327,7 +328,8 @@ CodeOf(r) ==
 WithValue(S, r, j, run) ==
   CASE r.op = "action" -> << ACTION_(run) >>
     [] r.op = "during" ->
-         << IF IsTime(run.value) THEN DURING_SET(run, r, Time(run.value)) ELSE DURING_ERR_SET(S, NoTime(run.value, r.time)) >>
+         << IF IsTime(run.value) THEN DURING_SET(run, r, Time(run.value))
+            ELSE DURING_ERR_SET(S, NoTime(run.value, r.time)) >>
     [] ~Truth(run.value) -> << >>
     [] r.op = "condition" -> << CONDITION(run) >>
     [] r.op = "allOf" -> << ALLOF_WHEN(run, r.choices, j) >>
@@ -402,7 +404,8 @@ Lack(p, v) ==
   LET missing == SelectSeq(Plans[p.plan].devices, LAMBDA d : ~Carries(VehicleOf(v), << d >>))
   IN CASE ~IsKnown(v) -> << "nothing is known of it" >>
        [] p.plan = 0 -> << >>
-       [] Plans[p.plan].vehicles # << >> /\ v \notin Range(Plans[p.plan].vehicles) -> << "the plan is for other vehicles" >>
+       [] Plans[p.plan].vehicles # << >> /\ v \notin Range(Plans[p.plan].vehicles) ->
+            << "the plan is for other vehicles" >>
        [] missing # << >> -> << "it lacks " \o Join(missing, ", ") >>
        [] OTHER -> << >>
 
@@ -412,7 +415,8 @@ Permitted(leaf, v) == leaf.allowed = << >> \/ v \in Range(leaf.allowed[1])
 Candidates(leaf) == { j \in DOMAIN B : Permitted(leaf, B[j]) /\ Lack(leaf.p, B[j]) = << >> }
 
 (* How much farther it is from v to where p begins than from the nearest vehicle of the fleet, in millimetres. *)
-Farther(p, v) == IF p.plan = 0 \/ ~IsKnown(v) THEN 0 ELSE Plans[p.plan].farther[CHOOSE j \in DOMAIN Fleet : Fleet[j].id = v]
+Farther(p, v) ==
+  IF p.plan = 0 \/ ~IsKnown(v) THEN 0 ELSE Plans[p.plan].farther[CHOOSE j \in DOMAIN Fleet : Fleet[j].id = v]
 
 (* f[n] is the place in B of the vehicle of the n-th platform task. *)
 RECURSIVE Feasible(_, _, _)
@@ -422,7 +426,8 @@ Feasible(leaves, exclusive, n) ==
            \A i \in 1 .. n - 1 : << i, n >> \in exclusive => f[i] # f[n] }
 
 RECURSIVE Total(_, _)
-Total(leaves, f) == IF f = << >> THEN 0 ELSE Farther(leaves[Len(f)].p, B[Last(f)]) + Total(leaves, SubSeq(f, 1, Len(f) - 1))
+Total(leaves, f) ==
+  IF f = << >> THEN 0 ELSE Farther(leaves[Len(f)].p, B[Last(f)]) + Total(leaves, SubSeq(f, 1, Len(f) - 1))
 
 LeastBy(F, Measure(_)) == LET least == Minimum({ Measure(f) : f \in F }) IN { f \in F : Measure(f) = least }
 
@@ -456,13 +461,15 @@ Assigned(t, f, n, i) ==
     [] t.op \in { "allOf", "oneOf" } ->
          LET before(j) == [ op |-> "allOf", branches |-> SubSeq(t.branches, 1, j - 1) ]
              branch(j) == [ guard |-> t.branches[j].guard,
-                            body |-> Assigned(t.branches[j].body, f, n + LeafCount(before(j)), i + TimerCount(before(j))) ]
+                            body |-> Assigned(t.branches[j].body, f, n + LeafCount(before(j)),
+                                              i + TimerCount(before(j))) ]
              choices == << >> \o [ j \in DOMAIN t.branches |-> branch(j) ]
          IN IF t.op = "oneOf" THEN [ op |-> "oneOf", choices |-> choices ] ELSE AllOf(<< >>, choices)
     [] t.op = "until" -> [ op |-> "until", guard |-> t.guard, body |-> Assigned(t.body, f, n, i) ]
     [] t.op = "idle" -> [ op |-> "idle", timer |-> i + 1, time |-> t.time ]
     [] t.op = "during" ->
-         [ op |-> "during", timer |-> i + 1, time |-> t.time, started |-> FALSE, body |-> Assigned(t.body, f, n, i + 1) ]
+         [ op |-> "during", timer |-> i + 1, time |-> t.time, started |-> FALSE,
+           body |-> Assigned(t.body, f, n, i + 1) ]
     [] t.op = "watch" -> [ op |-> "watch", body |-> Assigned(t.body, f, n, i), handler |-> t.handler ]
     [] t.op \in { "action", "condition" } -> t
 
@@ -547,7 +554,8 @@ ALLOC_ERR(S, fault) ==
   ToEnd(<< "ALLOC-ERR" >>, "cannot-execute(" \o fault.message \o ")", Program, FailedFor("vehicles", fault), S, << >>)
 
 ExecuteStep(m, S, t) ==
-  LET allocated == Only({ Alloc(t) }) IN IF IsOk(allocated) THEN EXECUTE(m, S, allocated[2]) ELSE ALLOC_ERR(S, allocated[2])
+  LET allocated == Only({ Alloc(t) })
+  IN IF IsOk(allocated) THEN EXECUTE(m, S, allocated[2]) ELSE ALLOC_ERR(S, allocated[2])
 
 Wait(m, S, request) ==
   CASE request[1] = "pick" -> PICK_(m, S, request[2])
@@ -682,7 +690,8 @@ PickSteps(M, q) ==
 ANSWER(M, prompt, text, y, cause) ==
   Transition(<< "ANSWER" >>, "answer(" \o text \o ")", cause, Script(GoOn(M, y)), Shared, << >>)
 ANSWER_ERR(M, prompt, m, cause) ==
-  ToEnd(<< "ANSWER-ERR" >>, "no-answer", cause, Failed(Fault("no answer to '" \o prompt \o "': " \o m, M.at)), Shared, << >>)
+  ToEnd(<< "ANSWER-ERR" >>, "no-answer", cause,
+        Failed(Fault("no answer to '" \o prompt \o "': " \o m, M.at)), Shared, << >>)
 
 RESUME(M) == Transition(<< "RESUME" >>, "resume", << "timer", 0 >>, Script(GoOn(M, Null)), Shared, << >>)
 
@@ -707,7 +716,8 @@ AnswerSteps(M, prompt, times) ==
       evaluated(answer) == RunCode(Shared, "task", << "closure", answer.lambda, << >> >>, << >>)
       by(answer, run) ==
         CASE run.is = "fault" -> refused(run.value.message)
-          [] run.is = "halt" \/ run.deeds # << >> \/ run.S.store # store -> refused("an answer may only compute a value")
+          [] run.is = "halt" \/ run.deeds # << >> \/ run.S.store # store ->
+               refused("an answer may only compute a value")
           [] OTHER -> << ANSWER(M, prompt, answer.text, run.value, cause) >>
       step(answer) ==
         IF answer.lambda = 0 THEN refused(answer.why) ELSE Only({ by(answer, run) : run \in { evaluated(answer) } })
@@ -719,7 +729,8 @@ WaitSteps(M, request) ==
     [] request[1] = "ask" -> AnswerSteps(M, request[2], Times(request[2]))
     [] request[1] = "pause" -> << RESUME(M) >>
     [] request[1] = "call" ->
-         Each(HostReplies, LAMBDA y : REPLY(M, y)) \o << CALL_ERR(M, request[2], "a host's procedures are not explored") >>
+         Each(HostReplies, LAMBDA y : REPLY(M, y))
+         \o << CALL_ERR(M, request[2], "a host's procedures are not explored") >>
 
 (* {2 Executing tasks} *)
 
@@ -788,8 +799,9 @@ IsTimer(cause) == cause[1] = "timer"
 
 Next == Some(IsAny)
 
-(* WF_vars(Some(Which)), where Possible(Which) is the same as ENABLED <<Some(Which)>>_vars, as each transition changes       *)
-(* something, and is faster. Tasks that run end, timers that run expire, steps of the program that stay possible are taken. *)
+(* WF_vars(Some(Which)), where Possible(Which) is the same as ENABLED <<Some(Which)>>_vars, as each transition changes
+   something, and is faster. Tasks that run end, timers that run expire, steps of the program that stay possible are
+   taken. *)
 Fair(Which(_)) == []<>~Possible(Which) \/ []<><< Some(Which) >>_vars
 
 Identifiers == { Fleet[j].id : j \in DOMAIN Fleet }
@@ -811,7 +823,8 @@ NoDeadlock == HasEnded \/ Transitions # << >>
 
 Termination == <>HasEnded
 
-(* How a run may end. NoHalt and NoLeftover are asked for by name only: a program may mean to halt, or to leave pairs in N. *)
+(* How a run may end. NoHalt and NoLeftover are asked for by name only: a program may mean to halt, or to leave pairs
+   in N. *)
 EndsSo(how, why) == HasEnded /\ control.ending.how = how /\ control.ending.why = why
 NothingLeft == (\A k \in OrderedKeys : N.queue[k] = << >>) /\ DOMAIN N.bag = { }
 
@@ -867,7 +880,8 @@ TuplesConserved ==
 RECURSIVE InOrder(_)
 InOrder(set) == IF set = { } THEN << >> ELSE LET x == CHOOSE x \in set : TRUE IN << x >> \o InOrder(set \ { x })
 
-(* A text for a state, the same for equal ones: comparing a value brings TLC to put the fields of its records in order. *)
+(* A text for a state, the same for equal ones: comparing a value brings TLC to put the fields of its records in
+   order. *)
 StateText(kappa, S, environment) ==
   Only({ IF state = state THEN ToString(state) ELSE "" : state \in {
     << kappa, S.store, Each(S.B, LAMBDA v : IF v \in DOMAIN S.A THEN << S.A[v] >> ELSE << >>), S.B,
@@ -879,7 +893,8 @@ StateText(kappa, S, environment) ==
 PrintTransition(t) ==
   PrintT("E\t" \o t.label \o "\t" \o StateText(t.control, t.S, Remembered(t)) \o "\t" \o Join(t.rules, ", "))
 
-(* TLC evaluates an invariant once for each state that it finds: this one is always true, and prints the state and its transitions. *)
+(* TLC evaluates an invariant once for each state that it finds: this one is always true, and prints the state and its
+   transitions. *)
 PrintGraph ==
   /\ PrintT("S\t" \o StateText(control, Shared, outside))
   /\ \A ts \in { Transitions } : \A j \in DOMAIN ts : PrintTransition(ts[j])

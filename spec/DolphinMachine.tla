@@ -63,8 +63,9 @@ Carries(vehicle, devices) == { Lower(d) : d \in Range(devices) } \subseteq vehic
 
 (* {1 Machines} *)
 
-(* M is a record: its focus, an expression to evaluate or a value to give to the stack; its locals; its stack of frames,  *)
-(* the latest first; and where it stands. While it runs, m has beside these what code sees and changes, and why it stops. *)
+(* M is a record: its focus, an expression to evaluate or a value to give to the stack; its locals; its stack of frames,
+   the latest first; and where it stands. While it runs, m has beside these what code sees and changes, and why it
+   stops. *)
 
 (* While it runs, the focus may also be an operation whose arguments are values, or the result of one. *)
 Evaluate(e) == << "evaluate", e >>
@@ -127,14 +128,16 @@ SettingWrong(s, message) == << "at", s.at, Bad(message) >>
 RECURSIVE Unescaped(_)
 Unescaped(characters) ==
   CASE Len(characters) = 0 -> ""
-    [] Head(characters) = "\\" /\ Len(characters) > 1 -> characters[2] \o Unescaped(SubSeq(characters, 3, Len(characters)))
+    [] Head(characters) = "\\" /\ Len(characters) > 1 ->
+         characters[2] \o Unescaped(SubSeq(characters, 3, Len(characters)))
     [] OTHER -> Head(characters) \o Unescaped(Tail(characters))
 
 AnyVehicle ==
   [ id |-> << >>, type |-> << >>, payload |-> << >>, region |-> << >>, count |-> 1, all |-> FALSE, timeout |-> << >> ]
 
 IsString(x) == Is(x, "string")
-AreStrings(xs) == \A i \in DOMAIN xs : Is(xs[i], "string") \/ (Is(xs[i], "list") /\ \A j \in DOMAIN xs[i][2] : IsString(xs[i][2][j]))
+AreStrings(xs) ==
+  \A i \in DOMAIN xs : Is(xs[i], "string") \/ (Is(xs[i], "list") /\ \A j \in DOMAIN xs[i][2] : IsString(xs[i][2][j]))
 StringsOf(x) == IF IsString(x) THEN << x[2] >> ELSE LET text(y) == y[2] IN Each(x[2], text)
 
 PickSetting(q, s) ==
@@ -233,8 +236,9 @@ VehicleGetter(vs, name) ==
 
 ItemGetter(items, name) ==
   CASE name \in { "first", "head" } ->
-         IF items = << >> THEN Bad(IF name = "head" THEN "an empty list has no head" ELSE "an empty list has no first element")
-         ELSE Ok(Head(items))
+         CASE items # << >> -> Ok(Head(items))
+           [] name = "head" -> Bad("an empty list has no head")
+           [] OTHER -> Bad("an empty list has no first element")
     [] name = "last" -> IF items = << >> THEN Bad("an empty list has no last element") ELSE Ok(Last(items))
     [] name = "tail" -> Ok(List(IF items = << >> THEN << >> ELSE Tail(items)))
     [] OTHER -> NoGetter
@@ -299,7 +303,8 @@ SortedBy(items, ranks) ==
        IN << items[i] >> \o SortedBy(Without(items, i), Without(ranks, i))
 
 Sorted(items, ranks) ==
-  IF Assert(\A i \in DOMAIN ranks : IsNumber(ranks[i]), "this model can sort by numbers only") THEN SortedBy(items, ranks)
+  IF Assert(\A i \in DOMAIN ranks : IsNumber(ranks[i]), "this model can sort by numbers only")
+  THEN SortedBy(items, ranks)
   ELSE << >>
 
 ItemMethod(x, items, name, xs) ==
@@ -370,7 +375,8 @@ Specific(x, name, xs) ==
 
 (* getX() is the getter x. *)
 Getters == [ getId |-> "id", getIds |-> "ids", getType |-> "type", getPosition |-> "position", getBattery |-> "battery",
-             getPayload |-> "payload", getSize |-> "size", getLength |-> "length", getFirst |-> "first", getLast |-> "last",
+             getPayload |-> "payload", getSize |-> "size", getLength |-> "length", getFirst |-> "first",
+             getLast |-> "last",
              getCentre |-> "centre", getCenter |-> "center", getRadius |-> "radius", getName |-> "name" ]
 
 Method(x, name, xs) ==
@@ -399,7 +405,8 @@ Mathematics(name, xs) ==
 
 (* {1 Going through items with a closure} *)
 
-Iterations == { "each", "eachWithIndex", "times", "collect", "collectWithIndex", "findAll", "filter", "find", "any", "every",
+Iterations == { "each", "eachWithIndex", "times", "collect", "collectWithIndex", "findAll", "filter", "find", "any",
+                "every",
                 "count", "sum", "sort", "max", "min", "inject" }
 
 IsIteration(x, name, xs) ==
@@ -409,7 +416,8 @@ IsIteration(x, name, xs) ==
   /\ Len(xs) = IF name = "inject" THEN 2 ELSE 1
   /\ HasItems(x) \/ (Is(x, "integer") /\ name = "times")
 
-IteratedItems(x) == IF Is(x, "integer") THEN Each([ i \in 1 .. Clipped(x[2], 0, x[2]) |-> i - 1 ], Integer) ELSE Items(x)
+IteratedItems(x) ==
+  IF Is(x, "integer") THEN Each([ i \in 1 .. Clipped(x[2], 0, x[2]) |-> i - 1 ], Integer) ELSE Items(x)
 
 IterationArguments(f, item) ==
   LET two == Lambdas[f.closure[2]].parameters = 2
@@ -513,7 +521,8 @@ MakeTask(op, xs) ==
             IF Is(y, "task") THEN Ok(TaskValue([ op |-> "oneOf", branches |-> << [ guard |-> x, body |-> y[2] ] >> ]))
             ELSE Expected("a task", y)
        [] op = "until" ->
-            IF Is(y, "task") THEN Ok(TaskValue([ op |-> "until", guard |-> x, body |-> y[2] ])) ELSE Expected("a task", y)
+            IF Is(y, "task") THEN Ok(TaskValue([ op |-> "until", guard |-> x, body |-> y[2] ]))
+            ELSE Expected("a task", y)
        [] op = "watch" ->
             IF Is(x, "task") THEN Ok(TaskValue([ op |-> "watch", body |-> x[2], handler |-> y ]))
             ELSE Expected("a task after watch", x)
@@ -646,7 +655,8 @@ Perform(before, n, xs) ==
       m == [ before EXCEPT !.at = n ]
   IN CASE op.op = "unary" -> Settle(m, Unary(op.sign, xs[1]))
        [] op.op = "binary" ->
-            IF op.sign = "|" /\ Is(xs[1], "vehicles") /\ Is(xs[2], "closure") THEN Walk(m, "findAll", xs[2], xs[1], << >>)
+            IF op.sign = "|" /\ Is(xs[1], "vehicles") /\ Is(xs[2], "closure")
+            THEN Walk(m, "findAll", xs[2], xs[1], << >>)
             ELSE Settle(m, Binary(op.sign, xs[1], xs[2]))
        [] op.op = "property" -> Settle(m, Property(xs[1], op.name))
        [] op.op = "method" -> CallMethod(m, op.name, Named(<< "" >> \o op.names, xs))
@@ -713,7 +723,8 @@ NextItem(m, n, items) ==
             IF items[3] <= Len(items[2]) THEN body(items[2][items[3]], << "these", items[2], items[3] + 1 >>)
             ELSE Result(m, Null)
        [] items[2] = items[3] -> body(Integer(items[2]), << "these", << >>, 1 >>)
-       [] OTHER -> body(Integer(items[2]), << "numbers", items[2] + (IF items[2] < items[3] THEN 1 ELSE -1), items[3] >>)
+       [] OTHER ->
+            body(Integer(items[2]), << "numbers", items[2] + (IF items[2] < items[3] THEN 1 ELSE -1), items[3] >>)
 
 BeginLoop(m, n, x) ==
   CASE Is(x, "range") -> NextItem(m, n, << "numbers", x[2], x[3] >>)
@@ -754,7 +765,9 @@ Conclusion(m, result) ==
     [] OTHER -> Faulty(m, Sentence(result))
 
 MachineStep(m) ==
-  CASE m.focus[1] = "evaluate" -> IF m.fuel = 0 THEN [ m EXCEPT !.at = m.focus[2], !.stop = << "exhausted" >> ] ELSE Evaluation(m, m.focus[2])
+  CASE m.focus[1] = "evaluate" ->
+         IF m.fuel = 0 THEN [ m EXCEPT !.at = m.focus[2], !.stop = << "exhausted" >> ]
+         ELSE Evaluation(m, m.focus[2])
     [] m.focus[1] = "operate" -> Perform(m, m.focus[2], m.focus[3])
     [] m.focus[1] = "result" -> Conclusion(m, m.focus[2])
     [] m.stack = << >> -> Stop(m, << "finished", m.focus[2] >>)

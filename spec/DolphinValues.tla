@@ -124,7 +124,8 @@ Equals(x, y) ==
   IN CASE Is(a, "map") /\ Is(b, "map") -> Len(a[2]) = Len(b[2]) /\ Range(a[2]) = Range(b[2])
        [] Is(a, "vehicles") /\ Is(b, "vehicles") -> Range(a[2]) = Range(b[2])
        [] Is(a, "distance") \/ Is(b, "distance") ->
-            Assert(IsNumber(a) # IsNumber(b), "a distance is known to the millimetre: this model cannot tell what it equals")
+            Assert(IsNumber(a) # IsNumber(b),
+                   "a distance is known to the millimetre: this model cannot tell what it equals")
             /\ FALSE
        [] OTHER -> a = b
 
@@ -206,7 +207,8 @@ NumberText(n, d) ==
   CASE n = 0 -> "0.0"
     [] d = 1 -> ToString(n) \o ".0"
     [] OTHER ->
-         IF Assert(10000 * Abs(n) >= d, "a number is too small for this model to write it") THEN DecimalText(n, d) ELSE ""
+         IF Assert(10000 * Abs(n) >= d, "a number is too small for this model to write it")
+         THEN DecimalText(n, d) ELSE ""
 
 (* Without a point if the number is whole, as labels show seconds: six digits, as C's %g. *)
 ShortText(x) ==
@@ -408,7 +410,8 @@ Member(x, y) ==
   CASE Is(y, "list") -> Ok(Boolean(\E i \in DOMAIN y[2] : Equals(x, y[2][i])))
     [] Is(y, "range") ->
          LET i == Canonical(x)
-         IN Ok(Boolean(Is(i, "integer") /\ Minimum({ y[2], y[3] }) <= i[2] /\ i[2] <= Minimum({ y[2], y[3] }) + Abs(y[3] - y[2])))
+             low == Minimum({ y[2], y[3] })
+         IN Ok(Boolean(Is(i, "integer") /\ low <= i[2] /\ i[2] <= low + Abs(y[3] - y[2])))
     [] Is(y, "map") -> Ok(Boolean(HasKey(y[2], Text(x))))
     [] Is(y, "vehicles") /\ Is(x, "vehicles") -> Ok(Boolean(Range(x[2]) \subseteq Range(y[2])))
     [] Is(y, "area") /\ Is(x, "position") -> Ok(Boolean(Within(y, x[2])))
@@ -449,7 +452,8 @@ Binary(op, x, y) ==
     [] op = "*" -> Multiply(x, y)
     [] op = "%" -> Remainder(x, y)
     [] op = "**" ->
-         Arithmetic(op, x, y, LAMBDA a, b : Ok(Integer(Power(Integer(a), Integer(b))[2])), LAMBDA a, b : Ok(Power(a, b)))
+         Arithmetic(op, x, y, LAMBDA a, b : Ok(Integer(Power(Integer(a), Integer(b))[2])),
+                    LAMBDA a, b : Ok(Power(a, b)))
     [] op = "<<" -> AppendTo(x, y)
     [] op = "in" -> Member(x, y)
     [] op = "&" ->

@@ -1,4 +1,5 @@
-(** Residuals up to names: of vehicles, plans, timers, places in the text, texts for people, and of the order of what stands
+(** Residuals up to names: of vehicles, plans, timers, places in the text, texts for people, and of the order of what
+    stands
     side by side. Whether two are alike is decided by comparing keys, which say all that can matter to a run. *)
 
 open Dolphin_semantics
@@ -25,9 +26,11 @@ val pairs : context -> Residual.t -> int array
 (** {1:keys Keys} *)
 
 val key : context -> sorted:bool -> pair:(int -> string) -> label:(label -> string) -> Residual.t -> string
-(** [key c ~sorted ~pair ~label r] is the same for residuals that are alike if pairs with the same [pair] and labels with the same
+(** [key c ~sorted ~pair ~label r] is the same for residuals that are alike if pairs with the same [pair] and labels
+    with the same
     [label] are. If it is [sorted], the order of what stands side by side does not matter. *)
 
 val matched : context -> rename:(int -> int) -> Residual.t -> Residual.t -> (label * label) list option
-(** [matched c ~rename r r'] is which label of [r] becomes which of [r'], if [r] becomes [r'] by renaming its pairs, its names, and
+(** [matched c ~rename r r'] is which label of [r] becomes which of [r'], if [r] becomes [r'] by renaming its pairs,
+    its names, and
     by changing the order of what stands side by side; [None] if it does not. *)

@@ -8,7 +8,6 @@ let create () = { reached = Sites.empty; lambdas = Sites.empty }
 let run t (c : closure) = t.lambdas <- Sites.add c.lambda.id t.lambdas
 let start t (p : platform_task) = t.reached <- Sites.add p.task_site t.reached
 
-let is_started t site = Sites.mem site t.reached
 let is_run t id = Sites.mem id t.lambdas
 let reach t site = t.reached <- Sites.add site t.reached
 let reach_code t id = t.lambdas <- Sites.add id t.lambdas

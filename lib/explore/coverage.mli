@@ -12,9 +12,6 @@ val run : t -> Core.closure -> unit
 val start : t -> Core.platform_task -> unit
 (** The task has been started. *)
 
-val is_started : t -> Core.site -> bool
-(** Of a task, by its site. *)
-
 val is_run : t -> int -> bool
 (** Of code, by the number of its lambda. *)
 

@@ -19,7 +19,7 @@ type t = {
   mutable fresh : int -> int -> unit;  (* what is done with new states, by number and first word *)
   mutable gathering : bool;
   mutable gathered : (int * Symmetry.permutation option) list;
-  symmetry : Symmetry.finder option;
+  symmetries : Symmetries.t option;
   folding : Folding.t;
   mutable folded : int array;  (* a state's canonical form *)
   reserve : int -> unit;
@@ -204,14 +204,14 @@ let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore
   let parts = Parts.create ?foreseen options program world in
   let cases = Cases.create parts in
   let shareds = Cases.shareds cases in
-  let symmetry =
+  let symmetries =
     (* Where the outside remembers vehicles, they are not alike. *)
     if Reduction.by_symmetry reduction && not (Environment.endings_remember options) then
       let number = Cases.Shareds.number shareds and value = Cases.Shareds.value shareds in
-      Some (Symmetry.finder options program { number; value })
+      Some (Symmetries.create options program { number; value })
     else None
   in
-  let words = Words.create ?find_symmetry:(Option.map Symmetry.find symmetry) parts cases in
+  let words = Words.create ?find_symmetry:(Option.map Symmetries.find symmetries) parts cases in
   let t =
     {
       options;
@@ -231,7 +231,7 @@ let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore
       fresh = (fun _ _ -> ());
       gathering = false;
       gathered = [];
-      symmetry;
+      symmetries;
       folding = Folding.create parts words;
       folded = [| 0 |];
       reserve;

@@ -21,7 +21,7 @@ type t = {
   mutable fresh : int -> int -> unit;  (** what is done with new states, by number and first word *)
   mutable gathering : bool;
   mutable gathered : (int * Symmetry.permutation option) list;
-  symmetry : Symmetry.finder option;
+  symmetries : Symmetries.t option;
   folding : Folding.t;
   mutable folded : int array;  (** a state's canonical form *)
   reserve : int -> unit;

@@ -45,7 +45,8 @@ let things context r =
   let patterns = Alike.patterns context in
   let pair n = Pattern.key_of patterns n and label _ = "" in
   let plain r =
-    { pairs = Alike.pairs context r; labels = Alike.labels r; likeness = Alike.key context ~sorted:false ~pair ~label r }
+    let likeness = Alike.key context ~sorted:false ~pair ~label r in
+    { pairs = Alike.pairs context r; labels = Alike.labels r; likeness }
   in
   let of_branch b = plain (Residual.One_of [ b ]) in
   let rec lists (r : Residual.t) =

@@ -1,4 +1,5 @@
-(** What can change places in a task that is about to be executed: an automorphism is looked for between each two things that
+(** What can change places in a task that is about to be executed: an automorphism is looked for between each two
+    things that
     stand side by side and are alike, and is used only once it has been checked on the whole task and on N. *)
 
 open Dolphin_semantics

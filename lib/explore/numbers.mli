@@ -1,5 +1,7 @@
-(** A set of numbers of at most 63 bits, itself numbered from 0 in the order in which they come, that never forgets and takes little
-    memory: as many bytes a number as the largest one needs, and 5 to 6 in the table that finds it. All of it is outside of
+(** A set of numbers of at most 63 bits, itself numbered from 0 in the order in which they come, that never forgets and
+    takes little
+    memory: as many bytes a number as the largest one needs, and 5 to 6 in the table that finds it. All of it is
+    outside of
     OCaml's heap. *)
 
 type t
@@ -26,7 +28,8 @@ val renew : t -> (int -> int) -> unit
 
 (** {1:reading Reading ahead}
 
-    A look-up waits for two reads of memory. The processor waits for those of many look-ups at once if they are done before any of
+    A look-up waits for two reads of memory. The processor waits for those of many look-ups at once if they are done
+    before any of
     them is needed. *)
 
 val read_table : t -> int -> int

@@ -42,7 +42,8 @@ let nothing_waits words =
 let create ~words =
   let slots = 4096 in
   let table = fresh_table slots and waiting = nothing_waits words in
-  { words; chunks = [||]; parents = Parents.create (); count = 0; table; mask = slots - 1; most = most_of slots; waiting }
+  let parents = Parents.create () in
+  { words; chunks = [||]; parents; count = 0; table; mask = slots - 1; most = most_of slots; waiting }
 
 let words t = t.words
 let count t = t.count

@@ -1,4 +1,5 @@
-(** A set of states as {!States} has it, each state as it is: 8 bytes a word, a quarter of a byte for where it came from, and 11 to 23
+(** A set of states as {!States} has it, each state as it is: 8 bytes a word, a quarter of a byte for where it came
+    from, and 11 to 23
     in the table that finds it. *)
 
 type t

@@ -1,6 +1,7 @@
 open Bigarray
 
-(* State after state, a one for each number by which the parent has grown, and a zero: state [i] with parent [p] has its zero at bit
+(* State after state, a one for each number by which the parent has grown, and a zero: state [i] with parent [p] has
+   its zero at bit
    [i + p]. All bits are one at first. *)
 
 type chunk = (int, int8_unsigned_elt, c_layout) Array1.t

@@ -1,4 +1,5 @@
-(** Code up to names: what two pieces of code have in common that differ only in the pairs of N they name one by one, and in
+(** Code up to names: what two pieces of code have in common that differ only in the pairs of N they name one by one,
+    and in
     texts for people. Found in the code, with what it has captured, without running it. *)
 
 open Dolphin_semantics
@@ -26,5 +27,6 @@ type t = {
 }
 
 val of_code : context -> handler:bool -> Core.closure -> t
-(** [of_code c ~handler f] is the pattern of [f], which gets an error if it is a [handler]. Code that calls other code, or reads
+(** [of_code c ~handler f] is the pattern of [f], which gets an error if it is a [handler]. Code that calls other code,
+    or reads
     sensors, is like no other. *)

@@ -99,7 +99,8 @@ let unsettled program (fault : Fault.t) =
 let memory t = Space.bytes t.space + (8 * (Gc.quick_stat ()).heap_words)
 let exceeds bound n = match bound with Some most -> n > most | None -> false
 
-(* [weigh t growth] is for [growth] bytes more. A system that has given all its memory kills without a word. So a part of
+(* [weigh t growth] is for [growth] bytes more. A system that has given all its memory kills without a word. So a part
+   of
    what could be had is left alone: for others, and for what grows between two looks. *)
 let weigh t growth =
   if t.options.max_memory <> None && exceeds t.options.max_memory (memory t + growth) then raise (Stop Memory);
@@ -293,7 +294,7 @@ let rec run_from started (options : options) program world =
   let t = start options program world started in
   match explore program t with
   | stopped -> outcome t program world stopped
-  | exception Symmetry.Unclear ->
+  | exception Symmetries.Unclear ->
     run_from started { options with reduction = Reduction.without_symmetry options.reduction } program world
 
 and outcome t program world stopped =

@@ -222,14 +222,14 @@ let breaks t i =
 let count t = States.count t.states
 let transitions t = t.transitions
 let parent t i = States.parent t.states i
-let used_symmetry t = Option.fold ~none:false ~some:Symmetry.is_used t.symmetry
+let used_symmetry t = Option.fold ~none:false ~some:Symmetries.is_used t.symmetries
 
-(* Handlers of errors are noted when they have run, in whatever task: see [Symmetry.Unclear]. *)
+(* Handlers of errors are noted when they have run, in whatever task: see [Symmetries.Unclear]. *)
 let coverage t =
   let coverage = Parts.coverage t.parts in
-  let is_reached = function Alike.Task site -> Coverage.is_started coverage site | Code id -> Coverage.is_run coverage id in
-  let alike labels = if List.exists is_reached labels then List.iter (Folding.cover coverage) labels in
-  Option.iter (fun finder -> Symmetry.handlers_alike finder alike) t.symmetry;
+  let is_run = function Alike.Task _ -> false | Code id -> Coverage.is_run coverage id in
+  let alike labels = if List.exists is_run labels then List.iter (Folding.cover coverage) labels in
+  Option.iter (fun symmetries -> Symmetries.handlers_alike symmetries alike) t.symmetries;
   coverage
 
 let bytes t = States.bytes t.states

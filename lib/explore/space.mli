@@ -1,6 +1,7 @@
 (** The state space of a program, state by state. A state is the configuration and what the outside remembers; it is
     kept as a few words (see {!Shape}), configurations that execute nothing as a number. Steps of executing
-    configurations are found in the parts (see {!Parts}): nothing is computed twice, and the transition function computes
+    configurations are found in the parts (see {!Parts}): nothing is computed twice, and the transition function
+    computes
     all of it. *)
 
 open Dolphin_semantics
@@ -8,7 +9,8 @@ open Dolphin_semantics
 type t
 
 val create :
-  ?reduction:Reduction.t -> ?compress:bool -> ?reserve:(int -> unit) -> Environment.options -> Core.program -> World.t -> t
+  ?reduction:Reduction.t -> ?compress:bool -> ?reserve:(int -> unit) ->
+  Environment.options -> Core.program -> World.t -> t
 (** With the initial state, number 0. [compress] is as for {!States.create}, [false] by default. [reserve n] is called
     before [n] bytes are taken at once to lay states out anew; it may raise. *)
 

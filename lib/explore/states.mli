@@ -1,6 +1,7 @@
 (** A set of states, each a vector of a fixed number of words, that never forgets. States are numbered from 0 in the
     order in which they come, so that the set is also the queue of a breadth-first search, and each knows the state it
-    was first reached from. All that lives outside of OCaml's heap: as it is ({!Packed}), or in less memory and more time ({!Tree}). *)
+    was first reached from. All that lives outside of OCaml's heap: as it is ({!Packed}), or in less memory and more
+    time ({!Tree}). *)
 
 type t
 
@@ -11,8 +12,10 @@ val words : t -> int
 val count : t -> int
 
 val push : t -> int array -> parent:int -> fresh:(int -> int -> unit) -> unit
-(** [push t key ~parent ~fresh] adds the first words of [key], unless they are there, now or later, but before a {!flush}, and in
-    the order of pushes. [parent] is the state that it was found from, and never less than at the push before. When it comes, [fresh] gets the number and the
+(** [push t key ~parent ~fresh] adds the first words of [key], unless they are there, now or later, but before a
+    {!flush}, and in
+    the order of pushes. [parent] is the state that it was found from, and never less than at the push before. When it
+    comes, [fresh] gets the number and the
     first word of each state that is new. *)
 
 val flush : t -> fresh:(int -> int -> unit) -> unit

@@ -1,5 +1,6 @@
 (** States of an executing task up to what can change places in it. Two states are alike if one becomes the other by
-    exchanging things of {!Interchange}, by the names that do not matter, and by the order of what stands side by side; one of those
+    exchanging things of {!Interchange}, by the names that do not matter, and by the order of what stands side by side;
+    one of those
     alike is looked at for all. docs/explorer.md says why that is enough. *)
 
 open Dolphin_semantics
@@ -9,32 +10,25 @@ open Dolphin_semantics
 type t
 (** What can change places in one task: a group of permutations. *)
 
-type finder
-
 (** What is shared, by numbers. *)
 type shareds = { number : Shared.t -> int; value : int -> Shared.t }
 
-val finder : Environment.options -> Core.program -> shareds -> finder
-
-exception Unclear
-(** The same handler of errors can change places with others in one execution and not in another. If one of them has run,
-    it is then not known whether the others do. *)
-
-val find : finder -> Residual.t -> Shared.t -> t option
-(** [find f r s] is for [r], about to be executed where [s] is shared; [None] if nothing can change places.
-    @raise Unclear *)
+val create :
+  Alike.context ->
+  shareds ->
+  number:int ->
+  classes:(Alike.label * Alike.label list) list ->
+  Residual.t ->
+  Interchange.t ->
+  t
+(** [create a s ~number ~classes r i] is what [i] found in [r]; [classes] has all that can change places with a label,
+    for each label of [r]. *)
 
 val number : t -> int
-(** From 1; equal groups have the same. *)
+(** As it was given. *)
 
 val together : t -> Alike.label -> Alike.label list
 (** [together g l] is all that can change places with [l], itself included. *)
-
-val handlers_alike : finder -> (Alike.label list -> unit) -> unit
-(** [handlers_alike f note] calls [note] with handlers that all run in some run if one of them does. *)
-
-val is_used : finder -> bool
-(** Whether there is any group. *)
 
 (** {1:states States}
 

@@ -103,7 +103,8 @@ let text program world (environment : Environment.options) plans prompts transla
   let b = Buffer.create 10_000 in
   let ppf = Format.formatter_of_buffer b in
   Format.pp_set_margin ppf 1_000_000;
-  Format.fprintf ppf "---- MODULE MC ----@.(* %s in its world. Made by dolphin tla: make it anew rather than change it. *)@."
+  Format.fprintf ppf
+    "---- MODULE MC ----@.\\* %s in its world. Made by dolphin tla: make it anew rather than change it.@."
     (Tla.comment program.Core.source_name);
   Format.fprintf ppf "EXTENDS Dolphin@.@.";
   table ppf "MCFleet" fleet;

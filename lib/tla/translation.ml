@@ -235,7 +235,11 @@ and plan t site start body default build_site =
   let start = expression t start in
   let body = plan_lines t setting body in
   let number = plan_number t build_site (List.rev !settings) in
-  let slot = match Hashtbl.find t.nodes start with Tla.Record fields, _ -> List.assoc "slot" fields | _, _ -> Tla.Integer 1 in
+  let slot =
+    match Hashtbl.find t.nodes start with
+    | Tla.Record fields, _ -> List.assoc "slot" fields
+    | _, _ -> Tla.Integer 1
+  in
   let local = reserve t build_site in
   let local = define t local build_site "local" [ ("slot", slot) ] in
   let op =

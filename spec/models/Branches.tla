@@ -4,10 +4,12 @@ EXTENDS Model
 
 Body ==
   Block(<< Assign(1, PickId("u1")), DoPosting("k", NumberOf(1)), DoPosting("k", NumberOf(2)),
-           ExecuteTask(On(Builder("allOf", << << 1, Plan("first") >>, << 2, Plan("second") >>, << 3, Plan("risky") >> >>), V)),
+           ExecuteTask(On(Builder("allOf", << << 1, Plan("first") >>, << 2, Plan("second") >>,
+                                              << 3, Plan("risky") >> >>), V)),
            DoPosting("k", NumberOf(1)),
            ExecuteTask(WatchOnError(On(Builder("allOf", << << 1, Plan("first") >>, << 4, Plan("second") >> >>), V), 5)),
-           ExecuteTask(WatchOnError(On(Builder("oneOf", << << 3, Plan("first") >>, << 4, Plan("second") >> >>), V), 5)) >>)
+           ExecuteTask(WatchOnError(On(Builder("oneOf", << << 3, Plan("first") >>, << 4, Plan("second") >> >>), V),
+                                    5)) >>)
 
 Closures ==
   << Consuming("k", NumberOf(1)), Consuming("k", NumberOf(2)), Const(True), Broke, Ignore >>

@@ -6,7 +6,8 @@ EXTENDS Model
 Body ==
   Block(<< Assign(1, PickId("u1")),
            ExecuteTask(Beside(WatchOnError(On(Plan("risky"), V), 1), Beside(Action(2), Action(3)))),
-           If(Polling("k", NumberOf(1)), Halt("by the script"), If(Polling("failed", NumberOf(1)), Broke, Message("well"))) >>)
+           If(Polling("k", NumberOf(1)), Halt("by the script"),
+              If(Polling("failed", NumberOf(1)), Broke, Message("well"))) >>)
 
 Closures ==
   << Block(<< DoPosting("failed", NumberOf(1)), Ignore >>),

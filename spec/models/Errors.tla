@@ -12,8 +12,6 @@ Closures ==
      Block(<< DoPosting("errors", NumberOf(2)), Ignore >>),
      Halt("enough") >>
 
-Errors(n) == n.bag
-
 Claim ==
   /\ By_("WATCH-PROPAGATE", LAMBDA t : "WATCH-IGNORE" \in Rules(t) /\ Len(PairsOf(t.deeds, "post")) = 2)
   /\ By_("WATCH-IGNORE", LAMBDA t : t.S.A = << >> /\ t.control.at = "exec")

@@ -1,7 +1,7 @@
 --------------------------------- MODULE Model ---------------------------------
-(* Words to write small programs in, as TLA+ expressions, where `dolphin tla` would translate a text. A model extends this  *)
-(* module and says what the script is (Body), the code of its closures (Closures), and what must hold in it (Claim).      *)
-(* Model.cfg has the rest in common.                                                                                      *)
+(* Words to write small programs in, as TLA+ expressions, where `dolphin tla` would translate a text. A model extends
+   this module and says what the script is (Body), the code of its closures (Closures), and what must hold in it
+   (Claim). Model.cfg has the rest in common. *)
 EXTENDS Dolphin
 
 (* {1 Expressions, as tables: a node, then those of its parts; the parts by how far on they are} *)
@@ -99,10 +99,12 @@ VehicleNamed(v, type) ==
   [ id |-> v, type |-> type, payload |-> << >>, devices |-> { }, place |-> 1, battery |-> << "number", 1, 1 >> ]
 
 (* Three UUVs and a plane, at one place. *)
-ModelFleet == << VehicleNamed("u1", "UUV"), VehicleNamed("u2", "UUV"), VehicleNamed("u3", "UUV"), VehicleNamed("a", "UAV") >>
+ModelFleet ==
+  << VehicleNamed("u1", "UUV"), VehicleNamed("u2", "UUV"), VehicleNamed("u3", "UUV"), VehicleNamed("a", "UAV") >>
 
 (* What people answer, twice; and then nothing. *)
-ModelAnswers(prompt) == << << [ text |-> "2", lambda |-> 2, why |-> "" ] >>, << [ text |-> "2", lambda |-> 2, why |-> "" ] >>, << >> >>
+Two_ == [ text |-> "2", lambda |-> 2, why |-> "" ]
+ModelAnswers(prompt) == << << Two_ >>, << Two_ >>, << >> >>
 ModelPrompts == { "how many?" }
 ModelHostReplies == << String("yes") >>
 

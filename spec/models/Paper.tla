@@ -1,5 +1,6 @@
 -------------------------------- MODULE Paper --------------------------------
-(* The program of the paper: three vehicles survey, tell that they are ready, and keep station; a plane meets each, in any order. *)
+(* The program of the paper: three vehicles survey, tell that they are ready, and keep station; a plane meets each, in
+   any order. *)
 EXTENDS Model
 
 (* No ToString here: TLC would make the program anew whenever it looks at it. *)

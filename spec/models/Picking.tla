@@ -3,9 +3,9 @@
 EXTENDS Model
 
 Two == Pick(<< Setting("type", String("UUV")), Setting("count", Integer(2)) >>)
-All == Pick(<< Setting("count", Wildcard) >>)
+Rest == Pick(<< Setting("count", Wildcard) >>)
 
-Body == Block(<< Assign(1, Two), Assign(2, All), Assign(1, PickId("u1")) >>)
+Body == Block(<< Assign(1, Two), Assign(2, Rest), Assign(1, PickId("u1")) >>)
 
 Closures == << >>
 

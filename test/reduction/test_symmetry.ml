@@ -1,4 +1,5 @@
-(* On random programs that execute copies of one task side by side, every verdict of a search with symmetry, with and without partial
+(* On random programs that execute copies of one task side by side, every verdict of a search with symmetry, with and
+   without partial
    order, is that of the plain one, and every run that it shows is one of the semantics. PROGRAMS in the environment is
    how many programs are tried, 2,000 by default; SEED is where they start. *)
 

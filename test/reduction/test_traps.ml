@@ -268,6 +268,13 @@ let copies =
         execute until { true } run oneOf { when { consume x: 1 } then s
                                            when { consume x: 2 } then t }
         execute s|};
+    breaks "handlers that are alike later" ~environment:failing [ No_error ]
+      {|s = watch task('p')[a] onError { message 's' ; ignore() }
+        t = watch task('q')[b] onError { message 't' ; ignore() }
+        execute s
+        execute until { true } run oneOf { when { consume x: 1 } then s
+                                           when { consume x: 2 } then t }
+        execute task('r')[c]|};
     breaks "handlers that are alike, and all run" ~environment:failing [ No_error ]
       {|s = watch task('p')[a] onError { message 's' }
         t = watch task('q')[b] onError { message 't' }

@@ -19,7 +19,8 @@ val program : Ast.program QCheck2.Gen.t
 (** A script that picks one to three vehicles and then executes tasks, posts, polls, asks, releases... It shrinks. *)
 
 val replicated : Ast.program QCheck2.Gen.t
-(** A program that executes two or three copies of a random task side by side, each with names of its own, and perhaps other things
+(** A program that executes two or three copies of a random task side by side, each with names of its own, and perhaps
+    other things
     of which there is a copy for each. Some are not quite copies. *)
 
 val sensing_program : Ast.program QCheck2.Gen.t

@@ -1,0 +1,146 @@
+open Dolphin_semantics
+open Dolphin_tla
+module Pure_run = Test_support.Pure_run
+
+let case name f = Alcotest.test_case name `Quick f
+
+(* {1 Numbers} *)
+
+let fractions () =
+  let check n expected =
+    Alcotest.(check (option (pair int int))) (Printf.sprintf "%.17g" n) expected (Fraction.of_float n)
+  in
+  check 0. (Some (0, 1));
+  check 0.3 (Some (3, 10));
+  check (-8.7062) (Some (-43531, 5000));
+  check 12. (Some (12, 1));
+  check 2e9 (Some (2_000_000_000, 1));
+  check 3e9 None;
+  check 1e-300 None;
+  check Float.pi None;
+  check infinity None;
+  check Float.nan None
+
+let texts () =
+  let check e text = Alcotest.(check string) text text (Format.asprintf "%a" Tla.pp e) in
+  check (Tla.String "a\"b\\c\n") {|"a\"b\\c\n"|};
+  check (Tuple []) "<< >>";
+  check (Record [ ("is", String "x"); ("n", Integer (-1)) ]) {|[ is |-> "x", n |-> -1 ]|};
+  check (Set [ Boolean true ]) "{ TRUE }"
+
+(* {1 Programs} *)
+
+let translate source =
+  Model.of_program ~environment:Dolphin_explore.Environment.default Pure_run.fleet (Pure_run.compile_exn source)
+
+let refused source line part () =
+  match translate source with
+  | Ok _ -> Alcotest.failf "translated, but it has %s" part
+  | Error ds ->
+    let is_it (d : Dolphin_syntax.Diagnostic.t) =
+      Dolphin_syntax.Location.line d.at = line
+      && Str.string_match (Str.regexp (".*" ^ Str.quote part)) d.message 0
+    in
+    if not (List.exists is_it ds) then Alcotest.failf "refused otherwise:\n%s" (Pure_run.explain source ds)
+
+let refusals =
+  [ case "calls of the host" (refused "x = 1\ny = getSupplier()" 2 "a call of the host");
+    case "locations that the program computes" (refused "x = 41\np = location x, -8" 2 "coordinates are not constants");
+    case "plans that it computes"
+      (refused "n = 5\np = imcPlan { planName 'p'\n loiter radius:n }" 3 "depends on what the program computes");
+    case "code in plans" (refused "p = imcPlan {\nif (1) { speed 2 }\ngoTo() }" 2 "code among its settings");
+    case "large numbers" (refused "message 'a'\nmessage 10000000000" 2 "beyond TLC's whole numbers");
+    case "trigonometry" (refused "x = 2\ny = Math.sin(x)" 2 "Math.sin");
+    case "methods of strings" (refused "message 'a'.toUpperCase()" 1 "toUpperCase") ]
+
+let translated source () =
+  match translate source with
+  | Ok files ->
+    Alcotest.(check (list string)) "files"
+      [ "MC.tla"; "MC.cfg"; "Graph.cfg"; "Dolphin.tla"; "DolphinMachine.tla"; "DolphinValues.tla" ]
+      (List.map (fun (file : Model.file) -> file.name) files)
+  | Error ds -> Alcotest.failf "refused:\n%s" (Pure_run.explain source ds)
+
+let constants =
+  [ case "constant locations" (translated "p = location(41.185, -8.7062) ^ 2.km");
+    case "constant trigonometry" (translated "message Math.floor(Math.sin(1))");
+    case "plans by name" (translated "i = 1\np = imcPlan { planName 'p' + i\n loiter radius:100 }") ]
+
+(* {1 Models written by hand} *)
+
+let read path =
+  let channel = open_in_bin path in
+  Fun.protect ~finally:(fun () -> close_in channel) (fun () -> really_input_string channel (in_channel_length channel))
+
+(* Each rule is what some model is about. *)
+let rules_have_models () =
+  let text = read "../../spec/README.md" in
+  let has rule =
+    match Str.search_forward (Str.regexp ("[ |]" ^ Str.quote (Rule.name rule) ^ "[ ,]")) text 0 with
+    | _ -> true
+    | exception Not_found -> false
+  in
+  let missing = List.filter (fun rule -> not (has rule)) Rule.all in
+  Alcotest.(check (list string)) "rules without a model" [] (List.map Rule.name missing)
+
+let models =
+  [ "Paper"; "Platform"; "CodeOfTasks"; "Sequence"; "Parallel"; "Branches"; "Until"; "Time"; "Errors"; "Deeds";
+    "Picking"; "Waiting"; "Executing"; "Ends" ]
+
+(* [f run] where [run arguments] is the status of Java with TLC's classes in a directory with all models, and what it
+   says; skipped where there is no Java or no TLC. *)
+let with_tlc f =
+  match Dolphin_tlc.Installation.find Sys.getenv_opt with
+  | Error trouble ->
+    Format.printf "skipped, no model was looked at: %a@." Dolphin_tlc.Installation.pp_trouble trouble
+  | Ok { java; jar } ->
+    let directory = Filename.temp_file "dolphin" ".tla" in
+    Sys.remove directory;
+    Unix.mkdir directory 0o700;
+    let path = Filename.concat directory in
+    let write name text =
+      let channel = open_out_bin (path name) in
+      output_string channel text;
+      close_out channel
+    in
+    let copy name = write name (read ("../../spec/models/" ^ name)) in
+    List.iter copy [ "Model.tla"; "Model.cfg" ];
+    List.iter (fun name -> copy (name ^ ".tla")) models;
+    write "Dolphin.tla" Spec.dolphin;
+    write "DolphinMachine.tla" Spec.machine;
+    write "DolphinValues.tla" Spec.values;
+    let run arguments =
+      let command =
+        Printf.sprintf "cd %s && %s -Xss64m -XX:+UseSerialGC -cp %s %s > output 2>&1" (Filename.quote directory)
+          (Filename.quote java) (Filename.quote jar) arguments
+      in
+      let status = Sys.command command in
+      (status, read (path "output"))
+    in
+    let remove () = ignore (Sys.command (Printf.sprintf "rm -r %s" (Filename.quote directory))) in
+    Fun.protect ~finally:remove (fun () -> f run)
+
+let has text part =
+  match Str.search_forward (Str.regexp_case_fold part) text 0 with _ -> true | exception Not_found -> false
+
+(* Without a warning. *)
+let models_parse () =
+  with_tlc (fun run ->
+      let arguments = String.concat " " (List.map (fun name -> name ^ ".tla") models) in
+      let status, output = run ("tla2sany.SANY " ^ arguments) in
+      if status <> 0 || has output "\\(^\\|[^a-z]\\)\\(warning\\|\\*\\*\\* errors\\|could not\\)" then
+        Alcotest.failf "SANY says:\n%s" output)
+
+(* [REPLY] is explored nowhere else: the explorer has no host. *)
+let waiting_holds () =
+  with_tlc (fun run ->
+      let status, output = run "tlc2.TLC -config Model.cfg Waiting.tla" in
+      if status <> 0 || not (has output "12 distinct states found") then Alcotest.failf "TLC says:\n%s" output)
+
+let () =
+  Alcotest.run "tla"
+    [ ("numbers", [ case "are fractions" fractions; case "and texts" texts ]);
+      ("refused", refusals);
+      ("constants", constants);
+      ( "models",
+        [ case "each rule has one" rules_have_models; case "are well formed" models_parse; case "waiting" waiting_holds ] ) ]

@@ -1,0 +1,1 @@
+(** Programs as models in TLA+: what is written, and what is refused. *)

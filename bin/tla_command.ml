@@ -27,7 +27,9 @@ let open_sensors (fleet : Fleet_file.t) =
     in
     match shown, List.assoc_opt v.id named with
     | setting :: _, Some at ->
-      let message = Printf.sprintf "the model in TLA+ has no sensors that show one of several values: '%s' of %s" setting v.id in
+      let message =
+        Printf.sprintf "the model in TLA+ has no sensors that show one of several values: '%s' of %s" setting v.id
+      in
       let hint = Printf.sprintf "leave one value of %s; dolphin explore follows them all" setting in
       Some (Dolphin_syntax.Diagnostic.error at message ~hint)
     | _, _ -> None

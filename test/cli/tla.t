@@ -43,6 +43,9 @@
     Plans <- MCPlans
     Prompts <- MCPrompts
     Failures <- MCFailures
+    Losses <- MCLosses
+    Latecomers <- MCLatecomers
+    MayBeLate <- MCMayBeLate
     HostReplies <- MCHostReplies
     Ending <- MCEnding
     Answers <- MCAnswers

@@ -311,10 +311,10 @@ Endings(S, r) ==
 
 (* Or the connection is lost for longer than its timeout: that counts as a failure. As long as nothing else was heard of *)
 (* the vehicle, it is no further loss.                                                                                   *)
-LOST(S, r) == [ FAIL(S, r, "connection lost") EXCEPT !.cause = << "task", r.v, "lost" >> ]
+LostConnection(S, r) == [ FAIL(S, r, "connection lost") EXCEPT !.cause = << "task", r.v, "lost" >> ]
 
 MayBeLost(v) == v \in outside.lost \/ Losses = -1 \/ outside.losses < Losses
-LossOf(S, r) == IF MayBeLost(r.v) THEN << LOST(S, r) >> ELSE << >>
+LossOf(S, r) == IF MayBeLost(r.v) THEN << LostConnection(S, r) >> ELSE << >>
 
 (* The code that r looks at: of an action, a condition, guards, a duration that is not known yet. *)
 CodeOf(r) ==

@@ -155,6 +155,9 @@ let quick installation =
   in
   t.failures = 0 && t.programs > 50
 
+(* What says nothing about the comparison. *)
+let malformed = "TLC: Parsing or semantic analysis failed."
+
 let mutate installation =
   let limit = number "LIMIT" 150 and programs = number "PROGRAMS" 60 in
   let prepare = prepare (tally ()) ~limit in
@@ -179,6 +182,7 @@ let mutate installation =
     match outcome with
     | Error why -> Printf.printf "%s: does not apply: %s\n%!" m.name why; false
     | Ok None -> Printf.printf "%s: NOT NOTICED\n%!" m.name; false
+    | Ok (Some by) when by = malformed -> Printf.printf "%s: is no specification\n%!" m.name; false
     | Ok (Some by) -> Printf.printf "%s: noticed by %s\n%!" m.name by; true
   in
   let noticed = List.map one Mutant.all in

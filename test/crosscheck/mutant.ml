@@ -48,7 +48,7 @@ let all =
     { name = "N is a set";
       file = machine;
       pattern = {|  ELSE [ N EXCEPT !.bag = @ (+) SetToBag({ << k, x >> }) ]|};
-      replacement = {|  ELSE IF HasPair(N, k, x) THEN N ELSE [ N EXCEPT !.bag = @ (+) SetToBag({ << k, x >> }) ]|} };
+      replacement = {|  ELSE IF BagIn(<< k, x >>, N.bag) THEN N ELSE [ N EXCEPT !.bag = @ (+) SetToBag({ << k, x >> }) ]|} };
     { name = "an error passes a watch";
       file = rules;
       pattern = {|    [] IsErr(s) -> Handled(s, h)|};

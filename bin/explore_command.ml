@@ -325,9 +325,9 @@ let man =
     `I
       ("termination",
        "every fair run ends: tasks that run end some time, timers expire, no step is put off for ever.");
-    `I ("no error", "no fault, and no error of a task that nothing handles.");
+    `I ("no unhandled error", "no fault, and no error of a task that nothing handles.");
     `I ("assertions", "no $(b,assert) of the program fails.");
-    `I ("vehicles", "every $(b,pick) and every $(b,execute) gets its vehicles.");
+    `I ("vehicles for all tasks", "every $(b,pick) and every $(b,execute) gets its vehicles.");
     `P "Noted are also runs that call $(b,halt), tuples left over at the end, and code that no run reaches.";
     `P "What sensors show is open: of a condition such as $(b,battery\\(v\\) < 0.3) both outcomes are possible at each look, \
         or those for the values that the fleet gives; a run says what it assumes. All vehicles of the fleet are in \

@@ -362,11 +362,3 @@ let pp_verdict (program : Core.program) ppf (property, verdict) =
     in
     print "violated: no run reaches %a" (Fmt.list ~sep:(Fmt.any ", ") piece) pieces
   | Inconclusive bound -> print "inconclusive, %a" pp_bound bound
-
-let pp_run ppf { steps; cycle } =
-  let line i (t : Transition.t) = Format.fprintf ppf "%4d  %a@." (i + 1) Label.pp t.label in
-  List.iteri line steps;
-  if cycle <> [] then begin
-    Format.fprintf ppf "      and for ever again@.";
-    List.iteri (fun i -> line (List.length steps + i)) cycle
-  end

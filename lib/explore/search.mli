@@ -87,6 +87,3 @@ val pp_bound : Format.formatter -> bound -> unit
 
 val pp_verdict : Core.program -> Format.formatter -> Property.t * verdict -> unit
 (** One line, without the runs: ["no deadlock: violated after 12 steps"]. *)
-
-val pp_run : Format.formatter -> run -> unit
-(** The labels of its transitions, numbered, one a line. *)

@@ -59,8 +59,6 @@ val residual : t -> place -> (int -> Residual.t) -> Residual.t
     follow, none across the end of a word. Shape 0 stands for all other configurations, each with its own number above
     it. *)
 
-val bits_of_word : int
-
 type widths = { shape : int; shared : int }
 
 val lay_out : widths -> t -> int

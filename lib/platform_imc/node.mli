@@ -58,10 +58,6 @@ val queried : t -> t
 
 val is_vehicle : t -> bool
 
-val in_service : t -> bool
-(** The last word of the vehicle is that it could be given a plan: VehicleState in mode SERVICE, or PlanControlState
-    READY, whichever was sent later. *)
-
 val silent : now:float -> timeout:float -> t -> bool
 (** [silent ~now ~timeout n] is whether nothing but announcements was heard of [n] for [timeout] seconds. *)
 

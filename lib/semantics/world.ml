@@ -52,14 +52,6 @@ let carries devices state =
 
 (* {1 Open worlds} *)
 
-let equal_assumption a b =
-  match a, b with
-  | Late v, Late v' | Missing v, Missing v' -> String.equal v v'
-  | Charged (v, x), Charged (v', x') -> String.equal v v' && Float.equal x x'
-  | Placed (v, p), Placed (v', p') -> String.equal v v' && Position.equal p p'
-  | Claim (text, holds), Claim (text', holds') -> String.equal text text' && Bool.equal holds holds'
-  | (Late _ | Missing _ | Charged _ | Placed _ | Claim _), _ -> false
-
 let pp_assumption ppf = function
   | Late v -> Format.fprintf ppf "%s comes late" v
   | Missing v -> Format.fprintf ppf "%s is missing" v

@@ -40,8 +40,6 @@ type assumption =
   | Placed of Core.vehicle * Dolphin_geo.Position.t  (** it is seen there *)
   | Claim of string * bool  (** this comparison with what a sensor shows holds, or does not *)
 
-val equal_assumption : assumption -> assumption -> bool
-
 val pp_assumption : Format.formatter -> assumption -> unit
 (** ["battery(x8-02) is 0.2"], ["battery(x8-02) < 0.3 is true"], ["x8-02 is missing"]. *)
 

@@ -157,7 +157,10 @@ let beginning resumed news : Driver.beginning option =
   Option.map of_past resumed
 
 let drive s record host (Platform ((module P), { platform; more_lines; told; news })) =
-  let interruption = Interruption.make () in
+  let last_words =
+    Option.map (fun _ -> "interrupted twice: ended at once; vehicles that were not told to stop yet run on") s.network
+  in
+  let interruption = Interruption.make ?last_words () in
   let live = is_live () in
   let screen = Screen.make ~live ~on_closed:(fun () -> Interruption.interrupt interruption) Unix.stdout in
   let log = ref (match s.resumed with Some r -> r.log | None -> Log.start) in

@@ -30,6 +30,7 @@ let create = Phase.create
 let due = Phase.due
 let idle = Phase.idle
 let owes = Phase.owes
+let unsettled = Phase.unsettled
 
 (* {1 What the vehicle's state means} *)
 

@@ -83,6 +83,10 @@ val idle : t -> bool
 val owes : t -> bool
 (** [owes x]: [Done] or [Failed] is still to come. *)
 
+val unsettled : t -> string option
+(** The plan that the vehicle may still run though nobody wants it to: its stop is not confirmed, or it was given up and
+    the vehicle has said nothing since. *)
+
 val is_heard : t -> bool
 (** The vehicle has said something of its plan. *)
 

@@ -312,6 +312,15 @@ let take s = Option.map (fun (event, outbox) -> (event, { s with outbox })) (Out
 let waiting s = not (Outbox.is_empty s.outbox)
 let quiet s = (not (owes_stop s)) && Nodes.for_all (fun _ (n : Node.t) -> Execution.idle n.execution) s.nodes
 
+let unsettled s =
+  let of_node _ (n : Node.t) found =
+    match Execution.unsettled n.execution with Some plan -> (n.name, plan) :: found | None -> found
+  in
+  let of_wish name wish found =
+    match wish with Halt { order; _ } -> (name, order.plan) :: found | Nothing | Run _ -> found
+  in
+  List.sort compare (Nodes.fold of_node s.nodes (Names.fold of_wish s.expected []))
+
 type sight = { node : Node.t; state : World.vehicle_state; age : float; linked : bool }
 
 let sights ~now s =

@@ -83,6 +83,10 @@ val owes_stop : t -> bool
 val quiet : t -> bool
 (** No plan is ordered, and no stop waits for its confirmation. *)
 
+val unsettled : t -> (Core.vehicle * string) list
+(** Vehicles that may still run a plan though the program does not want it any more: it was stopped or given up, and
+    they have not been heard to have ended it. *)
+
 (** {1:displays For displays} *)
 
 (** A system as [dolphin fleet] shows it. *)

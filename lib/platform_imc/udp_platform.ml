@@ -268,21 +268,36 @@ let release_sockets p =
   Lwt.catch (fun () -> Lwt_unix.close p.data) (fun _ -> Lwt.return_unit) >>= fun () ->
   Lwt.catch (fun () -> Lwt_unix.close p.announcements) (fun _ -> Lwt.return_unit)
 
+(* A stop that is confirmed later than this is worth a word to whoever waits. *)
+let prompt = 1.
+
+let tell_unsettled p text = List.iter (fun (v, plan) -> p.options.note v (text plan)) (Station.unsettled p.station)
+
+(* All is quiet, or has not become so in time. *)
+let wait_for_stops p =
+  if Station.quiet p.station then Lwt.return_unit
+  else begin
+    let quiet, closing = Lwt.task () in
+    p.closing <- Some closing;
+    let patience = p.options.close_patience in
+    let patience = if Station.owes_stop p.station then Float.max patience longest_silence else patience in
+    let tell () =
+      let never, _ = Lwt.task () in
+      tell_unsettled p (fun plan ->
+          Printf.sprintf "has not confirmed yet that it stopped plan %s; waiting %.0f s more" plan
+            (patience -. prompt));
+      never
+    in
+    Lwt.pick [ quiet; Lwt_unix.sleep patience; (Lwt_unix.sleep prompt >>= tell) ]
+  end
+
 let close p =
   if p.closed then Lwt.return_unit
   else begin
     command p (Station.stop_all ~now:(now p));
-    let all_quiet =
-      if Station.quiet p.station then Lwt.return_unit
-      else begin
-        let promise, closing = Lwt.task () in
-        p.closing <- Some closing;
-        let patience = p.options.close_patience in
-        let patience = if Station.owes_stop p.station then Float.max patience longest_silence else patience in
-        Lwt.pick [ promise; Lwt_unix.sleep patience ]
-      end
-    in
-    all_quiet >>= fun () -> release_sockets p
+    wait_for_stops p >>= fun () ->
+    tell_unsettled p (Printf.sprintf "may still run plan %s: it was not heard to have stopped");
+    release_sockets p
   end
 
 (* {1 Displays} *)

@@ -75,6 +75,15 @@ let open_file path =
     fd
   | exception Unix.Unix_error (error, _, _) -> raise (Broken (trouble path (Unix.error_message error)))
 
+(* Whoever types a command once more after the console died must not lose what vehicles may still be doing. The channel
+   is never closed: to close any of its file would give the lock away. *)
+let spare_unfinished path fd =
+  if (Unix.fstat fd).st_kind = S_REG && Reader.breaks_off (Unix.in_channel_of_descr fd) then
+    raise
+      (Broken
+         (Printf.sprintf "%s: this is the journal of a run that broke off: go on with it by --resume %s, or remove it"
+            path path))
+
 let channel_of path fd =
   let channel = Unix.out_channel_of_descr fd in
   set_binary_mode_out channel true;
@@ -104,6 +113,7 @@ let guarded settings make =
 let start settings program =
   let begun path =
     let fd = open_file path in
+    spare_unfinished path fd;
     truncate fd 0;
     channel_of path fd
   in
@@ -133,6 +143,7 @@ let continued (run : Resumed.t) path =
   let fd = open_file path in
   if same_file path run.path then truncate fd kept
   else begin
+    spare_unfinished path fd;
     truncate fd 0;
     copy fd
   end;

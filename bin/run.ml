@@ -73,6 +73,11 @@ let in_trouble why : Exit_status.t =
   Report.complain why;
   Platform_trouble
 
+(* That nobody reads the log any more is no trouble: whoever did has gone, as [head] does. *)
+let trouble_of_log : Unix.error -> string option = function
+  | EPIPE | EIO | EBADF -> None
+  | error -> Some (Printf.sprintf "the log cannot be written: %s" (Unix.error_message error))
+
 (* {1 The run} *)
 
 let start_host s =
@@ -162,7 +167,12 @@ let drive s record host (Platform ((module P), { platform; more_lines; told; new
   in
   let interruption = Interruption.make ?last_words () in
   let live = is_live () in
-  let screen = Screen.make ~live ~on_closed:(fun () -> Interruption.interrupt interruption) Unix.stdout in
+  let log_trouble = ref None in
+  let on_closed error =
+    log_trouble := trouble_of_log error;
+    Interruption.interrupt interruption
+  in
+  let screen = Screen.make ~live ~on_closed Unix.stdout in
   let log = ref (match s.resumed with Some r -> r.log | None -> Log.start) in
   let board = ref (match s.resumed with Some r -> r.board | None -> Board.start) in
   (* The driver interrupts stuck programs by itself. *)
@@ -191,12 +201,12 @@ let drive s record host (Platform ((module P), { platform; more_lines; told; new
   let finish outcome =
     let was_stuck = Option.fold s.resumed ~none:false ~some:(fun (r : Resumed.t) -> Replay.was_stuck r.past.replay) in
     let is_stuck = match (outcome : Driver.outcome) with Stuck _ -> true | Ended _ -> was_stuck in
-    match Record.finish record ~time:(time ()) ~stuck:is_stuck with
-    | Ok () -> status s outcome
-    | Error why -> in_trouble why
+    match Record.finish record ~time:(time ()) ~stuck:is_stuck, !log_trouble with
+    | Error why, _ | Ok (), Some why -> in_trouble why
+    | Ok (), None -> status s outcome
   in
   let broken = function
-    | Record.Broken why -> Lwt.return (in_trouble why)
+    | Record.Broken why -> Lwt.return (in_trouble (why ^ "; the run was ended as by Ctrl-C"))
     | Unix.Unix_error (error, call, _) ->
       Lwt.return (in_trouble (Printf.sprintf "trouble of the platform: %s: %s" call (Unix.error_message error)))
     | error -> Lwt.fail error

@@ -116,6 +116,17 @@ let quietly p f = command p (fun s -> (f s, []))
 (* So many datagrams are taken before others have their turn. *)
 let most_at_once = 512
 
+(* Once something cannot be kept any more, the run is over: {!next} fails. The network is served all the same, so that
+   stops are seen through. *)
+let fail p error =
+  if p.failure = None && not p.closed then begin
+    p.failure <- Some error;
+    wake p.waiting;
+    p.waiting <- None
+  end
+
+let absorb p changed = try change p changed with error -> fail p error
+
 (* How many were there. *)
 let drain p fd =
   let socket = Lwt_unix.unix_file_descr fd in
@@ -125,7 +136,7 @@ let drain p fd =
       match Unix.recvfrom socket p.buffer 0 (Bytes.length p.buffer) [] with
       | len, ADDR_INET (from, _) ->
         (* Nothing is kept of the buffer. *)
-        change p (Station.datagram ~now:(now p) ~from ~len (Bytes.unsafe_to_string p.buffer) p.station);
+        absorb p (Station.datagram ~now:(now p) ~from ~len (Bytes.unsafe_to_string p.buffer) p.station);
         take (n + 1)
       | _, ADDR_UNIX _ -> take (n + 1)
       | exception Unix.Unix_error ((EAGAIN | EWOULDBLOCK), _, _) -> n
@@ -159,7 +170,7 @@ let rec watch p =
     let time = now p in
     if Station.due p.station <= time then begin
       p.armed <- infinity;
-      change p (Station.tick ~now:time p.station);
+      absorb p (Station.tick ~now:time p.station);
       settle p
     end;
     let due = Station.due p.station in
@@ -181,16 +192,7 @@ let settings options ~port ~hosts ~time : Station.settings =
     first_request = Random.State.int random 0x10000;
     payload = options.payload; types = options.types; type_names = options.type_names; listens = options.listens }
 
-let guard p thread =
-  let fail error =
-    if not p.closed then begin
-      p.failure <- Some error;
-      wake p.waiting;
-      p.waiting <- None
-    end;
-    Lwt.return_unit
-  in
-  Lwt.async (fun () -> Lwt.catch thread fail)
+let guard p thread = Lwt.async (fun () -> Lwt.catch thread (fun error -> fail p error; Lwt.return_unit))
 
 let make ?(time = 0.) ?standing options =
   let loopback = Unix.inet_addr_loopback in

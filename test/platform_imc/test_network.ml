@@ -108,6 +108,34 @@ execute imcPlan('long')
         Lwt.return_unit
       | other -> Alcotest.failf "%a" Driver.pp_outcome other)
 
+exception Disk_full
+
+(* The vehicle's answer to the first START cannot be kept. That is no reason not to see its stop through. *)
+let journal_breaks =
+  in_a_world "what cannot be kept ends the run, and vehicles are stopped" (fun () ->
+      let announce_ports = ports () in
+      let notes = ref [] in
+      let note vehicle text = notes := (vehicle, text) :: !notes in
+      let keep ~time:_ ~urgent _ _ = if not urgent then raise Disk_full in
+      let platform = open_exn { (options ~note announce_ports) with keep } in
+      let quality = { Network.loss = 0.3; duplication = 0.; delay = 0. } in
+      let fate = fates [ ("long", Vehicle_model.Succeeds 60.) ] in
+      let vehicle id name = Udp_vehicle.start ~quality ~seed:id ~announce_ports ~id ~name ~fate () in
+      let a = vehicle 0x1A "noptilus-1" and b = vehicle 0x1B "noptilus-2" in
+      let run () =
+        run_program ~seconds:20. platform
+          {|
+v = pick { count 2; type 'UUV'; timeout 10.seconds }
+execute imcPlan('long') | imcPlan('long')
+|}
+      in
+      Lwt.catch
+        (fun () -> run () >>= fun outcome -> Alcotest.failf "%a" Driver.pp_outcome outcome)
+        (function Disk_full -> Lwt.return_unit | error -> Lwt.fail error)
+      >>= fun () ->
+      Alcotest.(check (list (pair string string))) "all stops are confirmed" [] !notes;
+      Lwt.join [ Udp_vehicle.stop a; Udp_vehicle.stop b ])
+
 let nobody =
   in_a_world "nobody is there" (fun () ->
       let platform = open_exn (options (ports ())) in
@@ -151,4 +179,4 @@ execute all
       Printf.printf "end to next start: median %.1f ms, 99%% %.1f ms\n" (1000. *. at 0.5) (1000. *. at 0.99);
       Lwt.join (List.map Udp_vehicle.stop vehicles))
 
-let tests = ("network", [ program; bad_network; vanished; nobody; taken; many ])
+let tests = ("network", [ program; bad_network; vanished; journal_breaks; nobody; taken; many ])

@@ -80,10 +80,17 @@ let trouble_of_log : Unix.error -> string option = function
 
 (* {1 The run} *)
 
+(* What a host remembers died with it, and only its people can know what that was. *)
 let start_host s =
+  let calls = match s.resumed with Some r -> Past.calls r.past.moments | None -> 0 in
   match s.supplier with
   | None -> Ok None
-  | Some command -> Result.map Option.some (Host.start ?timeout:s.supplier_timeout command)
+  | Some command ->
+    if calls > 0 then
+      Report.complain
+        (Printf.sprintf "the supplier is started anew: %s that it has answered in this run %s not made again"
+           (Report.count calls "call") (if calls = 1 then "is" else "are"));
+    Result.map Option.some (Host.start ?timeout:s.supplier_timeout ~calls command)
 
 type 'p fleet = {
   platform : 'p;

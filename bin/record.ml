@@ -102,9 +102,10 @@ let with_recorder settings file teller make =
   { settings; file; teller; recorder = (if is_wanted settings then Some (make write) else None) }
 
 let guarded settings make =
-  match would_overwrite settings with
-  | Some path -> Error (path ^ ": the run was to be written over its own program or fleet")
-  | None -> (
+  match would_overwrite settings, Option.fold settings.drawing ~none:(Ok ()) ~some:Drawing_file.check with
+  | Some path, _ -> Error (path ^ ": the run was to be written over its own program or fleet")
+  | None, (Error _ as trouble) -> trouble
+  | None, Ok () -> (
       match make () with
       | r -> Ok r
       | exception Broken why -> Error why

@@ -197,6 +197,7 @@ let guard p thread = Lwt.async (fun () -> Lwt.catch thread (fun error -> fail p 
 let make ?(time = 0.) ?standing options =
   let loopback = Unix.inet_addr_loopback in
   let host = if options.loopback then loopback else Unix.inet_addr_any in
+  List.iter Sockets.check_own options.interfaces;
   let announcements, data =
     Sockets.listen ~host ~announce_ports:options.announce_ports ~data_port:options.data_port
   in

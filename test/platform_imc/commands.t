@@ -140,6 +140,9 @@ What does not go together, and what is no option.
   dolphin: option '--imc-payload': 'x8-02' is not like x8-02=Camera,Sidescan
   $ dolphin exec hello.dol --imc-id 1 2>&1 | head -1
   dolphin: option '--imc-id': '1' is not the IMC address of a console, from
+  $ dolphin exec hello.dol --imc-interface 192.0.2.1 --imc-discovery-ports 42240-42244
+  dolphin: no interface of this machine has the address 192.0.2.1
+  [3]
   $ dolphin exec hello.dol --imc-loopback --imc-discovery-ports 42240-42244
      0:00  program     says: hello
      0:00  program     ends

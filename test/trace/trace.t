@@ -184,7 +184,7 @@ Pictures are whole documents that need nothing else.
   dolphin: option '-o': 'run.png' ends neither in .svg nor in .html
   Usage: dolphin trace draw [--output=FILE] [OPTION]… RUN
 
-A journal that cannot be written stops the run, and the vehicles.
+A journal that cannot be written stops the run, and the vehicles. If that can be seen before, nothing starts.
 
   $ dolphin exec ../../examples/sequence.dol --journal /dev/full
   dolphin: the journal cannot be written: /dev/full: No space left on device
@@ -192,8 +192,13 @@ A journal that cannot be written stops the run, and the vehicles.
   $ dolphin exec ../../examples/sequence.dol --journal missing/x.run
   dolphin: the journal cannot be written: missing/x.run: No such file or directory
   [3]
-  $ dolphin exec ../../examples/sequence.dol --draw missing/x.svg > /dev/null
+  $ dolphin exec ../../examples/sequence.dol --draw missing/x.svg
   dolphin: the picture cannot be written: missing/x.svg: No such file or directory
+  [3]
+
+  $ mkdir folder.svg
+  $ dolphin exec ../../examples/sequence.dol --draw folder.svg
+  dolphin: the picture cannot be written: folder.svg: this is a directory, not a file
   [3]
 
 Nor can it go over the program.

@@ -160,16 +160,22 @@ let resume settings program ~source (run : Resumed.t) =
       Option.iter (fun recorder -> Recorder.write recorder ~time:(Replay.time replay) line) r.recorder;
       r)
 
-let sync file =
-  match Unix.fsync (Unix.descr_of_out_channel file.channel) with
-  | () -> ()
-  | exception Unix.Unix_error (EINVAL, _, _) -> ()  (* a pipe *)
-  | exception Unix.Unix_error (error, _, _) -> raise (Broken (trouble file.path (Unix.error_message error)))
-
-let note r ~time ~urgent ~vehicle note =
+let note r ~time ~vehicle note =
   let line ~time = Entry.Note { time; vehicle; note } in
-  Option.iter (fun recorder -> Recorder.write recorder ~time line) r.recorder;
-  if urgent then Option.iter sync r.file
+  Option.iter (fun recorder -> Recorder.write recorder ~time line) r.recorder
+
+let sync r =
+  let sync file =
+    let fd = Lwt_unix.of_unix_file_descr ~blocking:true ~set_flags:false (Unix.descr_of_out_channel file.channel) in
+    fun () ->
+      Lwt.catch
+        (fun () -> Lwt_unix.fdatasync fd)
+        (function
+          | Unix.Unix_error (EINVAL, _, _) -> Lwt.return_unit  (* a pipe *)
+          | Unix.Unix_error (error, _, _) -> Lwt.fail (Broken (trouble file.path (Unix.error_message error)))
+          | error -> Lwt.fail error)
+  in
+  Option.map sync r.file
 
 let observer r : Dolphin_runtime.Observer.t =
   match r.recorder with

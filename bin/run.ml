@@ -146,13 +146,13 @@ let unheard resumed =
   let world (r : Resumed.t) = List.map lose (World.vehicles (Replay.world r.past.replay)) in
   Option.fold resumed ~none:[] ~some:world
 
-let open_platform s ~keep =
+let open_platform s ~keep ~sync =
   match s.network with
   | None -> simulated s
   | Some options ->
     let told = ref ignore in
     let note vehicle text = !told (Printf.sprintf "%s: %s" vehicle text) in
-    let options = { options with note; keep } in
+    let options = { options with note; keep; sync } in
     let opened =
       match s.resumed with
       | None -> Udp_platform.open_ options
@@ -233,7 +233,8 @@ let run s =
   match record with
   | Error why -> in_trouble why
   | Ok record -> (
-      match open_platform s ~keep:(fun ~time ~urgent vehicle memo -> Record.note record ~time ~urgent ~vehicle memo) with
+      let keep ~time vehicle memo = Record.note record ~time ~vehicle memo in
+      match open_platform s ~keep ~sync:(Record.sync record) with
       | Error why -> in_trouble why
       | Ok platform -> (
           match start_host s with

@@ -279,6 +279,12 @@ let stop ~now vehicle s =
   | Some (Nothing | Halt _), _ | None, None -> (s, [])
   | None, Some n -> command ~now Stop n s
 
+let leaves ~now ~at vehicles s =
+  let postpone s vehicle =
+    match find vehicle s with Some n -> fst (command ~now (Leaves at) n s) | None -> s
+  in
+  List.fold_left postpone s vehicles
+
 let stop_all ~now s =
   let s = Names.fold (fun vehicle _ s -> fst (stop ~now vehicle s)) s.expected s in
   Nodes.fold

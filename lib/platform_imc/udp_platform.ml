@@ -15,7 +15,8 @@ type options = {
   listens : bool;
   close_patience : float;
   note : Core.vehicle -> string -> unit;
-  keep : time:float -> urgent:bool -> Core.vehicle -> Yojson.Safe.t -> unit;
+  keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
+  sync : (unit -> unit Lwt.t) option;
 }
 
 let default =
@@ -23,7 +24,7 @@ let default =
     announce_ports = [ 30100; 30101; 30102; 30103; 30104 ];
     group = Unix.inet_addr_of_string "224.0.75.69";
     payload = []; types = []; type_names = []; listens = false; close_patience = 5.; note = (fun _ _ -> ());
-    keep = (fun ~time:_ ~urgent:_ _ _ -> ()) }
+    keep = (fun ~time:_ _ _ -> ()); sync = None }
 
 type t = {
   options : options;
@@ -35,6 +36,7 @@ type t = {
   port : int;
   buffer : Bytes.t;
   mutable station : Station.t;
+  mutable gate : (Service.address * string) Gate.t option;  (* if requests wait for the disk *)
   mutable armed : float;  (* when the timer rings *)
   mutable rearm : unit Lwt.u option;
   mutable waiting : unit Lwt.u option;  (* [next] *)
@@ -72,11 +74,23 @@ let announce p bytes =
        to_ports socket broadcast)
     p.speakers
 
+let send_to p ((address : Service.address), bytes) =
+  if not p.closed then send p (data_socket p) bytes address.host address.port
+
 let carry_out p : Station.output -> unit = function
-  | Send { address; bytes } -> send p (data_socket p) bytes address.host address.port
+  | Send { address; bytes } -> (
+      match p.gate with
+      | Some gate when Gate.is_shut gate -> Gate.hold gate (address, bytes)
+      | Some _ | None -> send_to p (address, bytes))
   | Announce bytes -> announce p bytes
   | Announce_to (host, bytes) -> List.iter (send p (data_socket p) bytes host) p.options.announce_ports
-  | Keep (vehicle, memo) -> p.options.keep ~time:(now p) ~urgent:(Memo.is_urgent memo) vehicle (Memo.to_json memo)
+  | Keep (vehicle, memo) -> (
+      p.options.keep ~time:(now p) vehicle (Memo.to_json memo);
+      match p.gate with
+      | Some gate when Memo.is_urgent memo ->
+        p.station <- Station.leaves ~now:(now p) ~at:infinity [ vehicle ] p.station;
+        Gate.shut gate vehicle
+      | Some _ | None -> ())
   | Note (vehicle, text) -> p.options.note vehicle text
 
 (* {1 The state and its changes} *)
@@ -124,6 +138,15 @@ let fail p error =
     wake p.waiting;
     p.waiting <- None
   end
+
+let gate p sync =
+  let settled vehicles =
+    let time = now p in
+    p.station <- Station.leaves ~now:time ~at:time vehicles p.station
+  in
+  let leave vehicles messages = List.iter (send_to p) messages; settled vehicles in
+  let failed vehicles error = settled vehicles; fail p error in
+  Gate.make ~sync ~leave ~failed
 
 let absorb p changed = try change p changed with error -> fail p error
 
@@ -216,9 +239,10 @@ let make ?(time = 0.) ?standing options =
   let p =
     { options; settings; clock = Steady_clock.make ~time (); data = Lwt_unix.of_unix_file_descr ~blocking:false data;
       announcements; speakers = List.filter_map Sockets.speaker interfaces; port;
-      buffer = Bytes.create 65536; station; armed = infinity; rearm = None; waiting = None;
+      buffer = Bytes.create 65536; station; gate = None; armed = infinity; rearm = None; waiting = None;
       closing = None; failure = None; closed = false; unsent = 0 }
   in
+  p.gate <- Option.map (gate p) options.sync;
   guard p (fun () -> receive p p.data ~since:0. ~count:0);
   guard p (fun () -> receive p p.announcements ~since:0. ~count:0);
   guard p (fun () -> watch p);
@@ -271,8 +295,8 @@ let release_sockets p =
   Lwt.catch (fun () -> Lwt_unix.close p.data) (fun _ -> Lwt.return_unit) >>= fun () ->
   Lwt.catch (fun () -> Lwt_unix.close p.announcements) (fun _ -> Lwt.return_unit)
 
-(* A stop that is confirmed later than this is worth a word to whoever waits. *)
-let prompt = 1.
+(* A stop that is confirmed later than this is worth a word to whoever waits; Execution.patience is usual. *)
+let prompt = 2.
 
 let tell_unsettled p text = List.iter (fun (v, plan) -> p.options.note v (text plan)) (Station.unsettled p.station)
 

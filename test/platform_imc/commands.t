@@ -97,14 +97,14 @@ confirmed, for five seconds at most, and says so; the second one ends the progra
   >  echo $? > status.txt) &
   $ for i in $(seq 200); do grep -q 'starts long' log.txt 2> grep.txt && break; sleep 0.1; done
   $ kill -STOP $vehicles
-  $ kill -INT $(cat pid.txt); sleep 2; kill -INT $(cat pid.txt)
+  $ kill -INT $(cat pid.txt); sleep 3; kill -INT $(cat pid.txt)
   $ for i in $(seq 20); do [ -s status.txt ] && break; sleep 0.1; done; cat status.txt
   130
   $ cut -c 10- log.txt | tail -4; cat errors.txt
   noptilus-1  stops long
   program     releases noptilus-1
   program     is interrupted
-  program     noptilus-1: has not confirmed yet that it stopped plan long; waiting 4 s more
+  program     noptilus-1: has not confirmed yet that it stopped plan long; waiting 3 s more
   dolphin: interrupted twice: ended at once; vehicles that were not told to stop yet run on
   $ kill -CONT $vehicles; kill $vehicles; wait $vehicles 2> wait.txt || true
 
@@ -121,7 +121,7 @@ With the first one only, it does wait, and ends. What became of the plan nobody 
   $ for i in $(seq 80); do [ -s status.txt ] && break; sleep 0.1; done; cat status.txt
   130
   $ cut -c 10- log.txt | tail -2
-  program     noptilus-1: has not confirmed yet that it stopped plan long; waiting 4 s more
+  program     noptilus-1: has not confirmed yet that it stopped plan long; waiting 3 s more
   program     noptilus-1: may still run plan long: it was not heard to have stopped
   $ kill -CONT $vehicles; kill $vehicles; wait $vehicles 2> wait.txt || true
 

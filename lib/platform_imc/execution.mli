@@ -18,7 +18,7 @@
       than SUCCESS; when the vehicle went from INITIALIZING to READY without taking the plan; when it is BLOCKED; when it
       executes another plan, or has executed one. Where the words are missing they are waited for, {!grace} long; an
       error that the vehicle reports stands in for them.
-    - A request whose memo the disk has not got yet waits ([Leaves]): until it has left, nothing is concluded from silence.
+    - A request whose memo the disk has not got yet waits ([Leaves]). Until it has left nothing follows from silence.
     - A request is {e sent again} only after a look: no reply came within {!patience}, and a state that the vehicle sent
       so long after the request shows that it was without effect. After {!most_copies} the plan has failed.
     - A stop is sent again every {!stop_interval} until a reply or a later state confirms it; if it is not known whether

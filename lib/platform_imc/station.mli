@@ -67,7 +67,7 @@ val set_connection_timeout : Core.vehicle list option -> float -> t -> t
 val telemetry : now:float -> bool -> t -> t
 
 val leaves : now:float -> at:float -> Core.vehicle list -> t -> t
-(** [leaves ~now ~at vs s]: the requests to start that were made of [vs] last leave at [at], and not when they were made;
+(** [leaves ~now ~at vs s]: the requests to start that were made of [vs] last leave at [at], not when they were made;
     [infinity]: nobody knows yet when. *)
 
 val stop_all : now:float -> t -> t * output list

@@ -25,8 +25,8 @@ type options = {
   keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
   (** Keeps what a console that takes over has to know ({!Memo}). When it returns, that must survive this process. *)
   sync : (unit -> unit Lwt.t) option;
-  (** Resolves once all that was kept before survives this machine, too. Requests to start plans wait for that ({!Gate});
-      with [None] they do not. *)
+  (** Resolves once all that was kept before survives this machine, too. Requests to start plans wait for that
+      ({!Gate}); with [None] they do not. *)
 }
 
 val default : options

@@ -6,7 +6,8 @@ type 'a t
 val make :
   sync:(unit -> unit Lwt.t) -> leave:(string list -> 'a list -> unit) -> failed:(string list -> exn -> unit) -> 'a t
 (** [make ~sync ~leave ~failed] is an open gate. [sync ()] resolves once the disk has all that was kept before. Then
-    [leave vehicles messages] is to send these messages, in this order; for [vehicles] the gate was shut. If [sync] fails, [failed] is told instead, and the messages are dropped. *)
+    [leave vehicles messages] is to send these messages, in this order; for [vehicles] the gate was shut. If [sync]
+    fails, [failed] is told instead, and the messages are dropped. *)
 
 val shut : 'a t -> string -> unit
 (** [shut g vehicle]: something was kept that the disk must have before a request to [vehicle] leaves. *)

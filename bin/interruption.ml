@@ -14,7 +14,7 @@ let on_signal ?last_words i notification =
     (fun _ ->
        incr signals;
        if !signals > 1 || i.happened then begin
-         Option.iter Report.complain last_words;
+         (try Option.iter Report.complain last_words with Sys_error _ -> ());
          Unix._exit (Exit_status.code Interrupted)
        end
        else Lwt_unix.send_notification notification)

@@ -1,17 +1,10 @@
 open Cmdliner
+open Dolphin_results
 open Dolphin_conformance
 
 let ( let* ) = Result.bind
 
 (* {1 Cases} *)
-
-let all f xs =
-  let add found x =
-    let* found = found in
-    let* more = f x in
-    Ok (found @ more)
-  in
-  List.fold_left add (Ok []) xs
 
 let is_case path = Filename.check_suffix path ".json"
 
@@ -27,15 +20,15 @@ let rec files path =
     in
     let entries = Sys.readdir path in
     Array.sort String.compare entries;
-    all inside (Array.to_list entries)
+    Results.concat_map inside (Array.to_list entries)
 
 let read path =
   let* source = Text_file.read path in
   Result.map_error (fun why -> Printf.sprintf "%s: %s" path why) (Case.of_string ~path source)
 
 let load paths =
-  let* files = all files paths in
-  let* cases = all (fun path -> Result.map (fun case -> [ case ]) (read path)) files in
+  let* files = Results.concat_map files paths in
+  let* cases = Results.map read files in
   if cases = [] then Error (String.concat ", " paths ^ ": there are no cases here") else Ok cases
 
 (* {1 Implementations} *)

@@ -1,3 +1,4 @@
+open Dolphin_results
 open Dolphin_runtime
 open Dolphin_semantics
 
@@ -94,6 +95,5 @@ let moment ~announce_period s { Past.time; what } =
 
 let make ~seed ~announce_period scenario moments =
   let start = { f = Fleet.telemetry true (Fleet.create ~seed scenario); untold = []; unsaid = [] } in
-  let add s m = Result.bind s (fun s -> moment ~announce_period s m) in
   let finish s = { fleet = s.f; early = List.rev s.untold; news = List.rev s.unsaid } in
-  Result.map finish (List.fold_left add (Ok start) moments)
+  Result.map finish (Results.fold (moment ~announce_period) start moments)

@@ -1,3 +1,4 @@
+open Dolphin_results
 open Core
 module Suggest = Dolphin_syntax.Diagnostic
 
@@ -14,18 +15,14 @@ let strings names = List (Array.of_list (List.map (fun name -> String name) name
 
 let number_text x = match Value.to_number x with Some n -> n | None -> 0.
 
-let sum items =
-  Array.fold_left (fun total x -> let* total = total in Operators.binary Add total x) (Ok (Integer 0)) items
+let sum items = Results.fold (Operators.binary Add) (Integer 0) (Array.to_list items)
 
 let extreme better items =
-  if items = [||] then Ok Null
-  else
-    Array.fold_left
-      (fun best x ->
-         let* best = best in
-         let* replace = Operators.binary better x best in
-         Ok (if Value.truth replace then x else best))
-      (Ok items.(0)) items
+  let choose best x =
+    let* replace = Operators.binary better x best in
+    Ok (if Value.truth replace then x else best)
+  in
+  match Array.to_list items with [] -> Ok Null | first :: _ as items -> Results.fold choose first items
 
 let distinct items =
   Array.fold_left

@@ -1,3 +1,4 @@
+open Dolphin_results
 open Core
 module Position = Dolphin_geo.Position
 
@@ -77,13 +78,6 @@ let position s what = function
   | Position p -> Ok p
   | List [| latitude; longitude |] -> coordinates s latitude longitude
   | x -> wrong s (Printf.sprintf "a position %s" what) x
-
-let rec each read = function
-  | [] -> Ok []
-  | x :: xs ->
-    let* y = read x in
-    let* ys = each read xs in
-    Ok (y :: ys)
 
 (* {1 Quantities with a unit: speeds and z} *)
 
@@ -176,14 +170,14 @@ let device s what = function
       | None -> fault s "%s lacks its name, as in [name:'Camera']" what
       | Some name ->
         let* name = string s ("name in " ^ what) name in
-        let* parameters = each (parameter s name) (List.remove_assoc "name" entries) in
+        let* parameters = Results.map (parameter s name) (List.remove_assoc "name" entries) in
         let active, others = List.partition (fun (k, _) -> k = "Active") parameters in
         let active = if active = [] then [ ("Active", "true") ] else active in
         Ok { Plan.name = capitalised name; parameters = active @ others })
   | x -> wrong s (Printf.sprintf "devices as %s, as in [[name:'Camera', Frequency:50]]" what) x
 
 let devices s what = function
-  | List xs -> each (device s what) (Array.to_list xs)
+  | List xs -> Results.map (device s what) (Array.to_list xs)
   | x ->
     let* payload = device s what x in
     Ok [ payload ]

@@ -1,3 +1,4 @@
+open Dolphin_results
 open Dolphin_semantics
 open Field
 module Vehicle_map = Configuration.Vehicle_map
@@ -132,12 +133,7 @@ let of_allocated changes : Yojson.Safe.t =
 
 let to_allocated json =
   let* changes = members json in
-  let add found (v, json) =
-    let* found = found in
-    let* name = nullable text json in
-    Ok ((v, name) :: found)
-  in
-  Result.map List.rev (List.fold_left add (Ok []) changes)
+  Results.map_values (nullable text) changes
 
 (* What came to B or N, and what went. *)
 let of_difference name ~come:(come, xs) ~gone:(gone, ys) : members =

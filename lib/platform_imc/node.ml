@@ -1,5 +1,6 @@
 open Dolphin_semantics
 open Dolphin_imc
+open Dolphin_geo.Angle
 module Position = Dolphin_geo.Position
 
 type t = {
@@ -31,7 +32,7 @@ let last_sign n = Float.max n.last_announced n.last_heard
 
 let placed ~lat ~lon ~height =
   Result.to_option
-    (Position.make ~latitude:(Plan_message.degrees lat) ~longitude:(Plan_message.degrees lon) ~height)
+    (Position.make ~latitude:(degrees lat) ~longitude:(degrees lon) ~height)
 
 (* Where the system can be reached: 0.0.0.0 stands for where the announcement came from. *)
 let addresses ~from services =

@@ -118,7 +118,7 @@ let point s origin = function
   | Map entries -> point_of_map s entries
   | Position p ->
     let* metres = within 0. longest " m" s "the distance of a point" (Number (Wgs84.distance origin p)) in
-    let course = Wgs84.bearing origin p *. Float.pi /. 180. in
+    let course = Dolphin_geo.Angle.radians (Wgs84.bearing origin p) in
     Ok (metres *. cos course, metres *. sin course, 0.)
   | x -> wrong s no_point x
 

@@ -30,6 +30,11 @@ let make_checks_ranges () =
   check "height" "height inf is not a finite number of metres"
     (rejected ~latitude:0. ~longitude:0. ~height:Float.infinity)
 
+let angles () =
+  let check = Alcotest.(check (float 1e-15)) in
+  check "half a turn" Float.pi (Angle.radians 180.);
+  check "an eighth, the other way" (-45.) (Angle.degrees (-.Float.pi /. 4.))
+
 let printing () =
   let check expected position = Alcotest.(check string) expected expected (Fmt.str "%a" Position.pp position) in
   check "(41.185242, -8.704803)" Place.apdl;
@@ -172,7 +177,7 @@ let () =
   let law name property = law name moved ~print:print_moved property in
   Alcotest.run "geo"
     [
-      ("position", [ case "ranges" make_checks_ranges; case "printing" printing ]);
+      ("position", [ case "ranges" make_checks_ranges; case "printing" printing; case "angles" angles ]);
       ( "known values",
         [
           case "degrees of arc" degrees_of_arc;

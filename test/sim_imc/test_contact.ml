@@ -148,8 +148,6 @@ let battery () =
   in
   Alcotest.(check (list (float 1e-3))) "percent" [ 80. ] (List.filter_map level (Scene.heard s))
 
-let degrees radians = radians *. 180. /. Float.pi
-
 (* EstimatedState is a place and a displacement: both together are where the vehicle is. *)
 let moves () =
   let s = Scene.make (Scene.settings ~speed:10. (source ^ "\nplan 'p', { duration 10.min }")) in
@@ -160,7 +158,7 @@ let moves () =
     match h.packet.content with
     | Message (Estimated_state e) ->
       let position latitude longitude : Dolphin_geo.Position.t = { latitude; longitude; height = 0. } in
-      let reference = position (degrees e.lat) (degrees e.lon) in
+      let reference = position (Dolphin_geo.Angle.degrees e.lat) (Dolphin_geo.Angle.degrees e.lon) in
       let there = Dolphin_geo.Wgs84.displace reference ~north:e.x ~east:e.y in
       let truth = Vehicle_node.position ~at:h.time (Scene.node s) in
       if Dolphin_geo.Wgs84.distance there truth > 0.1 then Alcotest.failf "not there at %g" h.time;

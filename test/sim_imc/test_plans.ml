@@ -144,11 +144,10 @@ let aborted_at_rest () =
 
 (* {1 Inline plans} *)
 
-let radians degrees = degrees *. Float.pi /. 180.
-
 let go_to north : Message.Maneuver.t =
   let p = Dolphin_geo.Wgs84.displace { latitude = 41.1850; longitude = -8.7060; height = 0. } ~north ~east:0. in
-  Goto { Message.Goto.default with lat = radians p.latitude; lon = radians p.longitude; speed = 2.; speed_units = Meters_ps }
+  let lat = Dolphin_geo.Angle.radians p.latitude and lon = Dolphin_geo.Angle.radians p.longitude in
+  Goto { Message.Goto.default with lat; lon; speed = 2.; speed_units = Meters_ps }
 
 let maneuver id data = { Message.Plan_maneuver.default with maneuver_id = id; data = Some data }
 let transition source_man dest_man = { Message.Plan_transition.default with source_man; dest_man }

@@ -84,8 +84,6 @@ val iter_from : t -> int -> (int -> int -> unit) -> unit
 val fold_from : t -> int -> ('a -> int -> int -> 'a) -> 'a -> 'a
 (** [fold_from g s f a] is [f (... (f a l s') ...) l s'] over the transitions of [s], in order. *)
 
-val exists_from : t -> int -> (int -> int -> bool) -> bool
-
 val iter : t -> (int -> int -> int -> unit) -> unit
 (** [iter g f] is [f s l s'] for every transition of [g], in ascending order. *)
 

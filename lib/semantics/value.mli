@@ -31,9 +31,6 @@ val kind : t -> string
 val to_number : t -> float option
 (** [to_number x] is [Some] for integers and numbers. *)
 
-val of_number : float -> t
-(** [of_number n] is [Number n]. *)
-
 val items : t -> t array option
 (** [items x] is what a loop over [x] goes through: elements, numbers of a range, single vehicles, entries of a map
     (each a map with [key] and [value]), characters; [None] if [x] is no such thing, or a range of more than
@@ -53,9 +50,6 @@ val to_string : t -> string
 
 val pp : Format.formatter -> t -> unit
 (** As a literal: strings in quotes, else as {!to_string}. *)
-
-val pp_task : Format.formatter -> Core.task -> unit
-(** A short text of a task, in the language's syntax. *)
 
 val pp_tuple : Format.formatter -> string * t -> unit
 (** ["k:x"]. *)

@@ -64,6 +64,5 @@ val tell : at:float -> src_ent:int -> content:Packet.content -> t -> output list
 
 (** {1:state Its state} *)
 
-val is_silent : at:float -> t -> bool
 val listeners : at:float -> t -> Address.t list
 val position : at:float -> t -> Dolphin_geo.Position.t

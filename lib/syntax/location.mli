@@ -9,9 +9,6 @@ val none : t
 
 val make : Lexing.position * Lexing.position -> t
 
-val span : t -> t -> t
-(** [span a b] is from the start of [a] to the stop of [b]. *)
-
 val file : t -> string
 
 val line : t -> int

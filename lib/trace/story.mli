@@ -46,6 +46,3 @@ type teller
 val start : unit -> teller
 val tell : teller -> Entry.t -> unit
 val finish : teller -> t
-
-val errors : Step.t -> Happening.t option -> string list
-(** [errors s cause] is the errors of tasks that [s], caused by [cause], has: what failed, and why. *)

@@ -6,8 +6,22 @@ module Location = Dolphin_syntax.Location
 module Diagnostic = Dolphin_syntax.Diagnostic
 open Core
 
-(** The program's tables, the piece of code that is being translated, and whether it is an answer to [ask]. *)
-type env = { program : Scope.program; code : Scope.code; answer : bool }
+type env = {
+  program : Scope.program;  (** its tables *)
+  code : Scope.code;  (** the piece that is being translated *)
+  answer : bool;  (** whether that is an answer to [ask] *)
+  of_expression : env -> Ast.expression -> expression;
+  of_statements : env -> Location.t -> Ast.statement list -> expression;
+}
+(** What stands inside of a construct may be anything. So the modules of single constructs come before {!Translate},
+    and it gives itself to them here. *)
+
+val elaborate : env -> Ast.expression -> expression
+(** [elaborate env e] is [e] in the core. *)
+
+val statements : env -> Location.t -> Ast.statement list -> expression
+(** [statements env at body] is [body], which stands at [at], as one expression: its value is that of the last
+    statement. *)
 
 (** {1:make Core expressions} *)
 
@@ -20,6 +34,9 @@ val block : env -> Location.t -> expression list -> expression
 val local : env -> Location.t -> int -> expression
 val set_local : env -> Location.t -> int -> expression -> expression
 val null : env -> Location.t -> expression
+
+val unless_null : env -> Location.t -> expression -> (expression -> expression) -> expression
+(** [unless_null env at e f] is [null] if [e] is, otherwise [f x] of the local [x] that keeps the value of [e]. *)
 
 (** {1:report Reports} *)
 
@@ -61,6 +78,9 @@ val in_settings : env -> string -> int option
 (** The slot of the block of settings around, if it has a setting of this name. *)
 
 val builder_name : Ast.builder -> string
+
+val check_in_script : env -> string -> Location.t -> unit
+(** Reports what belongs to the script if it stands in code of a task or in an answer. *)
 
 val check_place : env -> Builtins.t -> string -> Location.t -> unit
 (** Reports a procedure that may not stand here, and notes what the program uses. *)

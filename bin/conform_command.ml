@@ -144,9 +144,9 @@ let verbose =
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) judges an implementation of Dolphin's semantics by the cases of a corpus. A case is a small program \
-        with its world, and says what must be so: that the program is rejected, which run it has, which outcomes all of \
-        its runs have, what it may and may not do. Cases in $(i,must-fail/) say what is not so: they pass if that is \
-        noticed.";
+        with its world, and says what must be so: that the program is rejected, which run it has, which outcomes all \
+        of its runs have, what it may and may not do. Cases in $(i,must-fail/) say what is not so: they pass if that \
+        is noticed.";
     `P "For each case that fails it is told what was expected and what was seen; the last line counts. \
         $(i,conformance/INTERPRETING.md) describes cases and the step protocol.";
     `S Manpage.s_examples;
@@ -155,7 +155,8 @@ let man =
   @ Options.see_also
 
 let exits =
-  [ Cmd.Exit.info 0 ~doc:"all cases pass."; Cmd.Exit.info 1 ~doc:"some do not; or with $(b,--matrix), no case is about some rule.";
+  [ Cmd.Exit.info 0 ~doc:"all cases pass.";
+    Cmd.Exit.info 1 ~doc:"some do not; or with $(b,--matrix), no case is about some rule.";
     Cmd.Exit.info 2 ~doc:"a case cannot be read, or the implementation does not speak the step protocol." ]
   @ Options.exits [ Bug; Interrupted ]
 

@@ -213,7 +213,8 @@ let run s =
   match record with
   | Error why -> in_trouble why
   | Ok record -> (
-      match open_platform s ~keep:(fun ~time ~urgent vehicle memo -> Record.note record ~time ~urgent ~vehicle memo) with
+      let keep ~time ~urgent vehicle memo = Record.note record ~time ~urgent ~vehicle memo in
+      match open_platform s ~keep with
       | Error why -> in_trouble why
       | Ok platform -> (
           match start_host s with

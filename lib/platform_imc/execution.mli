@@ -12,11 +12,11 @@
 
     - The plan {e runs} once EXECUTING is seen with its name, sent after our request. If the vehicle ran a plan of the
       same name before, a sign of our request is needed too: a reply to it, or INITIALIZING.
-    - It is {e done} when READY with its name and outcome SUCCESS was sent after EXECUTING was, or after a positive reply
-      to our request, or, both being lost, where the vehicle had another plan's name before.
+    - It is {e done} when READY with its name and outcome SUCCESS was sent after EXECUTING was, or after a positive
+      reply to our request, or, both being lost, where the vehicle had another plan's name before.
     - It {e failed} when a FAILURE replies to our request, in the words of that reply; when READY has another outcome
-      than SUCCESS; when the vehicle went from INITIALIZING to READY without taking the plan; when it is BLOCKED; when it
-      executes another plan, or has executed one. Where the words are missing they are waited for, {!grace} long; an
+      than SUCCESS; when the vehicle went from INITIALIZING to READY without taking the plan; when it is BLOCKED; when
+      it executes another plan, or has executed one. Where the words are missing they are waited for, {!grace} long; an
       error that the vehicle reports stands in for them.
     - A request is {e sent again} only after a look: no reply came within {!patience}, and a state that the vehicle sent
       so long after the request shows that it was without effect. After {!most_copies} the plan has failed.

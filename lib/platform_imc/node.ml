@@ -136,8 +136,8 @@ let queried n = { n with queries = n.queries + 1 }
 
 (* {1 As programs see it} *)
 
-(* The last word of the vehicle is that it could be given a plan: VehicleState in mode SERVICE, or PlanControlState READY,
-   whichever was sent later. *)
+(* The last word of the vehicle is that it could be given a plan: VehicleState in mode SERVICE, or PlanControlState
+   READY, whichever was sent later. *)
 let in_service n =
   let by_mode = Option.map (fun (sent, mode) -> (sent, mode = Message.Vehicle_state.Op_mode.Service)) n.mode in
   match by_mode, Execution.readiness n.execution with

@@ -1,4 +1,5 @@
-(** A system on the network as this console knows it: who it is, where it can be reached, what it last said of itself. *)
+(** A system on the network as this console knows it: who it is, where it can be reached, what it last said of
+    itself. *)
 
 open Dolphin_semantics
 open Dolphin_imc
@@ -42,8 +43,8 @@ val absence : float
 (** {1:telemetry What it says} *)
 
 val hear : now:float -> own:int -> Packet.t -> t -> t * Execution.output list
-(** [hear ~now ~own p n] is [n] after its packet [p] came, and what follows for its plan. Replies of PlanControl count if
-    they are for the console [own]; values that are no numbers, or out of range, are left out.
+(** [hear ~now ~own p n] is [n] after its packet [p] came, and what follows for its plan. Replies of PlanControl count
+    if they are for the console [own]; values that are no numbers, or out of range, are left out.
 
     The position is EstimatedState's reference point, moved [x] metres north and [y] metres east over the ground, [z]
     metres down. The battery is FuelLevel's percentage, as a share. *)

@@ -25,8 +25,8 @@ val create : settings -> t
 
 val resume : now:float -> Dolphin_runtime.Past.standing -> t -> t
 (** [resume ~now standing s] is [s], as {!create} made it, taking over at [now] from a console that died. Vehicles that
-    it held, and those that it had asked for something, are expected: what they were asked is settled when they have said
-    what they run ({!Execution}), and they may be commanded before they are heard. One that is not heard within its
+    it held, and those that it had asked for something, are expected: what they were asked is settled when they have
+    said what they run ({!Execution}), and they may be commanded before they are heard. One that is not heard within its
     connection timeout, though a task of it has not ended, has failed it. Timers go on. *)
 
 (** {1:time Input}

@@ -101,9 +101,9 @@ module Virtual : sig
 
   val create_again :
     seed:int -> Scenario.t -> Past.moment list -> (t * World.vehicle_state list, string) result
-    (** [create_again ~seed s moments] is the platform of a run whose console died after [moments], with what was told of
-        vehicles since the journal's last lines on them: see {!Recreation}. No time has passed since. The error says why
-        [moments] are not those of this fleet. *)
+    (** [create_again ~seed s moments] is the platform of a run whose console died after [moments], with what was told
+        of vehicles since the journal's last lines on them: see {!Recreation}. No time has passed since. The error says
+        why [moments] are not those of this fleet. *)
 end
 
 (** Time passes by itself, perhaps faster than outside. *)

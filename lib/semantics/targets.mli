@@ -1,4 +1,5 @@
-(** Assignments. Values are immutable, so to assign to an element or a member is to assign a new whole to the variable. *)
+(** Assignments. Values are immutable, so to assign to an element or a member is to assign a new whole to the
+    variable. *)
 
 open Checks
 open Core

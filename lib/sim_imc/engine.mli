@@ -10,13 +10,13 @@
     - A plan that comes with a START is kept, and known by its name from then on.
     - With the flag CALIBRATE the plan begins 3 s later; until then the state is INITIALIZING.
     - STOP: a SUCCESS reply, READY, outcome FAILURE; without a plan a FAILURE reply.
-    - Abort: a FAILURE reply to the START of the plan that was running, VehicleState ERROR, BLOCKED; after 0.9 s SERVICE and
-      READY.
+    - Abort: a FAILURE reply to the START of the plan that was running, VehicleState ERROR, BLOCKED; after 0.9 s SERVICE
+      and READY.
     - The last outcome stays until the next. The statistics in a reply are those of the last plan that was loaded.
     - A START of the plan [dislodge] is ignored.
 
-    Assumed, not measured: while BLOCKED a START is answered by FAILURE ["vehicle is blocked"] and changes nothing; other
-    requests than START and STOP are answered by FAILURE.
+    Assumed, not measured: while BLOCKED a START is answered by FAILURE ["vehicle is blocked"] and changes nothing;
+    other requests than START and STOP are answered by FAILURE.
 
     All times are seconds of the mission since its start, whatever clock the outside has. *)
 

@@ -1,7 +1,7 @@
 (** Simulated vehicles on the network: sockets and a clock around {!Radio}.
 
-    Every vehicle has a data port of its own, and all share one discovery port, on which they hear consoles. Real vehicles
-    have one discovery port each, of which a host has five. *)
+    Every vehicle has a data port of its own, and all share one discovery port, on which they hear consoles. Real
+    vehicles have one discovery port each, of which a host has five. *)
 
 open Dolphin_scenario
 

@@ -2,8 +2,8 @@
 
     What is told of vehicles becomes a line at once if it is new or the link came or went. The rest, positions and
     batteries, becomes one every few seconds or every ten metres of a vehicle; but before a transition that may depend
-    on it, all of it does. So whoever reads the journal knows of vehicles, at each transition, all that the program could
-    know. *)
+    on it, all of it does. So whoever reads the journal knows of vehicles, at each transition, all that the program
+    could know. *)
 
 open Dolphin_semantics
 

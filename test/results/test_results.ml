@@ -19,14 +19,16 @@ let in_order () =
     "with keys"
     (Ok [ ("b", 2); ("a", 4) ])
     (Results.map_values (double asked) [ ("b", 1); ("a", 2) ]);
-  Alcotest.check (or_error Alcotest.string) "from the left" (Ok "abc") (Results.fold (fun text c -> Ok (text ^ c)) "a" [ "b"; "c" ])
+  Alcotest.check (or_error Alcotest.string) "from the left" (Ok "abc")
+    (Results.fold (fun text c -> Ok (text ^ c)) "a" [ "b"; "c" ])
 
 let the_first_error () =
   let asked = ref 0 in
   Alcotest.check ints "the first" (Error "-2") (Results.map (double asked) [ 1; -2; 3; -4 ]);
   Alcotest.(check int) "nothing is asked behind it" 2 !asked;
   Alcotest.check (or_error Alcotest.int) "of a fold" (Error "7 and 1")
-    (Results.fold (fun sum x -> if x = 1 then Error (Printf.sprintf "%d and %d" sum x) else Ok (sum + x)) 0 [ 3; 4; 1; 1 ])
+    (Results.fold (fun sum x -> if x = 1 then Error (Printf.sprintf "%d and %d" sum x) else Ok (sum + x)) 0
+       [ 3; 4; 1; 1 ])
 
 let long_lists () =
   let n = 1_000_000 in

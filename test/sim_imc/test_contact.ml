@@ -16,7 +16,8 @@ let announces () =
   let s = Scene.make (Scene.settings source) in
   Scene.until s 25.;
   match Scene.heard s with
-  | [ { time = 0.; _ }; { time = 10.; _ }; { time = 20.; packet = { content = Message (Announce a); dst; src; _ }; _ } ] ->
+  | [ { time = 0.; _ }; { time = 10.; _ };
+      { time = 20.; packet = { content = Message (Announce a); dst; src; _ }; _ } ] ->
     Alcotest.(check string) "name" "a" a.sys_name;
     Alcotest.(check string) "type" "UUV" (Message.System_type.name a.sys_type);
     Alcotest.(check (pair int int)) "from and to" (Scene.vehicle, 0) (src, dst);
@@ -52,7 +53,8 @@ let within_five_seconds () =
     | None -> Alcotest.fail "nothing came"
   in
   let waits = List.init 20 first in
-  Alcotest.(check bool) "sooner or later" true (List.exists (fun t -> t < 2.) waits && List.exists (fun t -> t > 3.) waits)
+  Alcotest.(check bool) "sooner or later" true
+    (List.exists (fun t -> t < 2.) waits && List.exists (fun t -> t > 3.) waits)
 
 let rates () =
   let s = Scene.make (Scene.settings source) in

@@ -134,10 +134,12 @@ let maneuver =
   oneof
     [ map3 (fun lat lon speed -> Message.Maneuver.Goto { Message.Goto.default with lat; lon; speed }) any any any;
       map3
-        (fun width hstep length -> Message.Maneuver.Rows { Message.Rows.default with width; hstep; length; alternation = 100 })
+        (fun width hstep length ->
+           Message.Maneuver.Rows { Message.Rows.default with width; hstep; length; alternation = 100 })
         any any any;
       map2
-        (fun duration speed -> Message.Maneuver.Station_keeping { Message.Station_keeping.default with duration; speed })
+        (fun duration speed ->
+           Message.Maneuver.Station_keeping { Message.Station_keeping.default with duration; speed })
         (0 -- 300) any;
       map
         (fun points ->
@@ -167,8 +169,10 @@ let fleet =
 let rec is_well_formed running : Deed.t list -> bool = function
   | [] -> true
   | Started { instead; request; _ } :: rest -> instead = running && is_well_formed (Some request.plan) rest
-  | Refused { instead; _ } :: rest -> (instead = None || instead = running) && is_well_formed (if instead = None then running else None) rest
-  | (Completed { plan; _ } | Failed { request = { plan; _ }; _ }) :: rest -> running = Some plan && is_well_formed None rest
+  | Refused { instead; _ } :: rest ->
+    (instead = None || instead = running) && is_well_formed (if instead = None then running else None) rest
+  | (Completed { plan; _ } | Failed { request = { plan; _ }; _ }) :: rest ->
+    running = Some plan && is_well_formed None rest
   | (Stopped { plan; _ } | Aborted { plan; _ } | Blocked { plan }) :: rest -> plan = running && is_well_formed None rest
   | (Ignored _ | Unblocked) :: rest -> is_well_formed running rest
 

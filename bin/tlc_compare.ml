@@ -46,7 +46,9 @@ let judge space theirs =
       "not isomorphic. Left is the explorer's graph, right TLC's; what is seen of a state counts as a transition that \
        stays there, in parentheses.@.%a@."
       Isomorphism.pp_difference difference;
-    (match difference.reason with Undecided -> Inconclusive | _ -> Violated)
+    (match difference.reason with
+     | Undecided -> Inconclusive
+     | Enabled _ | Merged _ | Unmatched _ | No_matching -> Violated)
 
 (* Rules in the order of the semantics. *)
 let print_coverage graph =

@@ -132,9 +132,12 @@ let near name names =
 
 let property world x name =
   match x, getter world x name with
-  | Map entries, _ when List.mem_assoc name entries -> Ok (List.assoc name entries)
+  | Map entries, inherent -> (
+      match List.assoc_opt name entries, inherent with
+      | Some x, _ -> Ok x
+      | None, Some result -> result
+      | None, None -> Ok Null)
   | _, Some result -> result
-  | Map _, None -> Ok Null
   | (Integer _ | Number _), None when Operators.unit_factor name <> None -> Operators.in_unit x name
   | (Integer _ | Number _), None ->
     Error (Printf.sprintf "a number has no unit '%s'%s" name (near name Operators.unit_names))

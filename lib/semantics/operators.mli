@@ -27,5 +27,8 @@ val unit_names : string list
 val in_unit : value -> string -> (value, string) result
 (** [in_unit n name] is [n.name]. *)
 
+val instead_of : string -> value -> string
+(** [instead_of what x] is "expected [what], found [kind and text of x]". *)
+
 val expected : string -> value -> ('any, string) result
-(** [expected what x] is the error "expected [what], found [kind and text of x]". *)
+(** [expected what x] is the error {!instead_of}[ what x]. *)

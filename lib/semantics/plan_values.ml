@@ -9,7 +9,7 @@ let ( let* ) = Result.bind
 (* {1 Faults} *)
 
 let fault s format = Format.kasprintf (fun message -> Error (Fault.make s.setting_site message)) format
-let wrong s what x = Result.map_error (Fault.make s.setting_site) (Operators.expected what x)
+let wrong s what x = Error (Fault.make s.setting_site (Operators.instead_of what x))
 let listed = String.concat ", "
 
 let instead x xs ~otherwise =
@@ -92,6 +92,9 @@ let z_units : (string * Plan.z_unit) list =
 
 let units = List.map fst speed_units @ List.map fst z_units
 
+(* The first of the units is the example; no table of them is empty. *)
+let example known = fst (List.hd known)
+
 (* A unit may go by its last names, and as a string in any case: 'rpm'. *)
 let unit_of known s what x =
   let names text =
@@ -106,7 +109,7 @@ let unit_of known s what x =
       | Some (_, unit) -> Ok unit
       | None ->
         fault s "'%s' is no unit of %s: %s" text what (instead text (List.map fst known) ~otherwise:"units are"))
-  | x -> wrong s (Printf.sprintf "a unit of %s, as in %s" what (fst (List.hd known))) x
+  | x -> wrong s (Printf.sprintf "a unit of %s, as in %s" what (example known)) x
 
 (* [quantity known default s what xs] is the number and the unit that [xs] are, spread out or as a list. *)
 let quantity known default s what xs =
@@ -118,7 +121,7 @@ let quantity known default s what xs =
     let* unit = unit_of known s what unit in
     let* n = number s what n in
     Ok (n, unit)
-  | [] | _ :: _ -> fault s "%s is a number and a unit, as in %s 1, %s" what what (fst (List.hd known))
+  | [] | _ :: _ -> fault s "%s is a number and a unit, as in %s 1, %s" what what (example known)
 
 let fastest = 100.
 

@@ -37,10 +37,7 @@ let fault (s : setting) message = Error (Fault.make s.setting_site message)
 
 let wrong s what =
   match s.positional with
-  | [ x ] -> (
-      match Operators.expected (Printf.sprintf "%s after '%s'" what s.setting) x with
-      | Ok () -> assert false
-      | Error message -> fault s message)
+  | [ x ] -> fault s (Operators.instead_of (Printf.sprintf "%s after '%s'" what s.setting) x)
   | [] | _ :: _ -> fault s (Printf.sprintf "'%s' takes %s" s.setting what)
 
 let number s = match s.positional with [ x ] -> Value.to_number x | _ -> None
@@ -126,10 +123,7 @@ let branches site settings =
   let read s =
     match s.setting, s.positional with
     | "when", [ Closure guard; Task body ] -> Ok { guard; body }
-    | "when", [ Closure _; x ] -> (
-        match Operators.expected "a task after then" x with
-        | Ok () -> assert false
-        | Error message -> fault s message)
+    | "when", [ Closure _; x ] -> fault s (Operators.instead_of "a task after then" x)
     | _, _ -> fault s "only when { ... } then TASK may stand here"
   in
   let* branches = Results.map read settings in

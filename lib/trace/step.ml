@@ -99,9 +99,10 @@ let tuple_changes (before : Configuration.t) (t : Transition.t) =
       | Rule.Watch_ignore | Watch_propagate | Watch_halt -> true
       | _ -> false
     in
+    let is_handled = List.exists is_handling t.rules in
     match t.label with
-    | (Did _ | Check _ | Act _ | Cut _) when not (List.exists is_handling t.rules) ->
-      of_deeds (match t.label with Did deed -> [ deed ] | Check ds | Act ds | Cut ds -> ds | _ -> [])
+    | Did deed when not is_handled -> of_deeds [ deed ]
+    | (Check deeds | Act deeds | Cut deeds) when not is_handled -> of_deeds deeds
     | _ -> balance (all t.next.tuples) (all before.tuples)
 
 let of_transition program (before : Configuration.t) (t : Transition.t) =

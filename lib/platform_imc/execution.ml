@@ -3,7 +3,7 @@ open Phase
 module Control = Message.Plan_control
 module Control_state = Message.Plan_control_state
 
-type order = Phase.order = { plan : string; specification : Message.t Message.Plan_specification.t option }
+type order = Phase.order
 type t = Phase.t
 
 type input =
@@ -18,7 +18,7 @@ type input =
   | Adopt of { order : order; stopped : bool; memos : Memo.t list }
   | Tick
 
-type output = Phase.output = Keep of Memo.t | Send of Message.t | Done | Failed of string | Note of string
+type output = Phase.output
 
 let most_copies = 10
 let most_copies_while_blocked = 3

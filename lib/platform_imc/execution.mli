@@ -38,10 +38,8 @@ open Dolphin_imc
 
 type t
 
-type order = {
-  plan : string;
-  specification : Message.t Message.Plan_specification.t option;  (** [None]: the vehicle knows the plan by name *)
-}
+type order = Phase.order
+(** A plan to run: see {!Phase.order}. *)
 
 (** Times [sent] are by the vehicle's clock as {!Vehicle_clock.observe} returns them. Only messages of this vehicle, and
     only replies to this console, are given. *)
@@ -59,12 +57,8 @@ type input =
       what it kept since then. To be given to an execution that has nothing to do, once the vehicle {!is_heard}. *)
   | Tick  (** Time has passed. *)
 
-type output =
-  | Keep of Memo.t  (** In case that we die: before what follows is sent. *)
-  | Send of Message.t  (** To the vehicle. *)
-  | Done
-  | Failed of string  (** Without a full stop. *)
-  | Note of string  (** For people: a request sent again that may have an effect twice, a stop given up. *)
+type output = Phase.output
+(** What is to be sent, kept and told: see {!Phase.output}. *)
 
 val create : request:int -> t
 (** Nothing to do; requests are numbered from [request], modulo 65536. *)

@@ -5,17 +5,16 @@ open Dolphin_runtime
 module Nodes : Map.S with type key = int
 module Names : Map.S with type key = string
 
-(** Both as {!Station} has them. *)
 type settings = {
   id : int;  (** The console's IMC address, from 0x4000 to 0x5FFF, other than those of other consoles. *)
   name : string;  (** As other systems see it. *)
   addresses : Service.address list;  (** Where vehicles can send to, announced to them. *)
-  epoch : float;  (** Seconds from 1970-01-01 00:00 UTC to time 0 of [now]. *)
+  epoch : float;  (** Seconds from 1970-01-01 00:00 UTC to time 0 of our clock. *)
   first_request : int;  (** Where requests are numbered from. *)
   payload : (Core.vehicle * string list) list;  (** Devices of vehicles, in place of their entity lists. *)
   types : (Core.vehicle * string) list;  (** Types of vehicles, in place of what they announce. *)
   type_names : (int * string) list;  (** Of types for which IMC 5.4 has no names. *)
-  listens : bool;  (** Whether {!heard} is kept. *)
+  listens : bool;  (** Whether {!Station.heard} is kept. *)
 }
 
 type output =

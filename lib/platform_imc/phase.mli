@@ -3,10 +3,17 @@
 
 open Dolphin_imc
 
-(** Both as {!Execution} has them. *)
-type order = { plan : string; specification : Message.t Message.Plan_specification.t option }
+type order = {
+  plan : string;
+  specification : Message.t Message.Plan_specification.t option;  (** [None]: the vehicle knows the plan by name *)
+}
 
-type output = Keep of Memo.t | Send of Message.t | Done | Failed of string | Note of string
+type output =
+  | Keep of Memo.t  (** In case that we die: before what follows is sent. *)
+  | Send of Message.t  (** To the vehicle. *)
+  | Done
+  | Failed of string  (** Without a full stop. *)
+  | Note of string  (** For people: a request sent again that may have an effect twice, a stop given up. *)
 
 (** {1:sightings Sightings} *)
 

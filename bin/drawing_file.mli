@@ -6,6 +6,7 @@ val argument : t Cmdliner.Arg.conv
 (** A name that ends in [.svg] or [.html]. *)
 
 val path : t -> string
+(** Where it is written. *)
 
 val write : t -> Dolphin_trace.Story.t -> (unit, string) result
 (** The error says why it cannot be written. *)

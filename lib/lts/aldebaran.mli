@@ -16,6 +16,7 @@ val write : (string -> unit) -> Graph.t -> unit
     states are left out. *)
 
 val to_string : Graph.t -> string
+(** The text that {!write} writes. *)
 
 (** {1:read To read} *)
 
@@ -38,3 +39,4 @@ val of_string : string -> (Graph.t, error) result
     and UTF-8: it ends at the last quote of the line. Escapes, as above, are undone. *)
 
 val pp_error : Format.formatter -> error -> unit
+(** What is wrong in which line, without a full stop. *)

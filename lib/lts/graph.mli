@@ -13,6 +13,7 @@ module Builder : sig
   type t
 
   val create : unit -> t
+  (** No states and no transitions. *)
 
   val label : t -> string -> int
   (** [label b text] is the number of the label [text]: that of the first call with [text]. *)
@@ -50,6 +51,7 @@ val reverse : t -> t
 (** {1:read To read} *)
 
 val initial : t -> int
+(** The state where runs begin. *)
 
 val states : t -> int
 (** The number of states, at least 1. *)

@@ -62,8 +62,13 @@ type t = {
 }
 
 val create : settings -> t
+(** As {!Station.create}. *)
+
 val timeout_of : Core.vehicle -> t -> float
+(** The connection timeout of a vehicle, in seconds. *)
+
 val find : Core.vehicle -> t -> Node.t option
+(** The system of that name, if it has announced itself. *)
 
 val put : Node.t -> t -> t
 (** [put n s] is [s] with [n] in place of what was known of it. *)
@@ -74,6 +79,7 @@ val state_of : now:float -> Node.t -> t -> World.vehicle_state
 (** {1:sending Sending} *)
 
 val encode : now:float -> dst:int -> Dolphin_imc.Message.t -> t -> (string, Dolphin_imc.Error.encode) result
+(** The bytes of a packet of ours to the system [dst], stamped with the time [now]. *)
 
 val to_node : now:float -> Node.t -> Dolphin_imc.Message.t -> t -> output list
 (** Nothing if it has no address. *)
@@ -84,6 +90,7 @@ val announcement : now:float -> t -> string
 (** {1:telling Telling the program} *)
 
 val push : Platform.event -> t -> t
+(** Puts an event into the outbox. *)
 
 val tell : ?urgent:bool -> now:float -> Node.t -> t -> t
 (** [tell ~urgent ~now n s] tells what is new of [n]: what changes at once if it changed, or [urgent]; positions and

@@ -58,6 +58,7 @@ val queried : t -> t
 (** {1:state As programs see it} *)
 
 val is_vehicle : t -> bool
+(** Whether its type is one that runs plans. *)
 
 val silent : now:float -> timeout:float -> t -> bool
 (** [silent ~now ~timeout n] is whether nothing but announcements was heard of [n] for [timeout] seconds. *)

@@ -80,9 +80,16 @@ type t = {
 }
 
 val create : request:int -> t
+(** Nothing to do; requests are numbered from [request]. *)
+
 val idle : t -> bool
+(** No order, and none to be undone. *)
+
 val owes : t -> bool
+(** As {!Execution.owes}. *)
+
 val due : t -> float
+(** When the passing of time matters next, in seconds; [infinity] if it does not. *)
 
 (** {1:ways Ways} *)
 
@@ -121,7 +128,11 @@ val effect_of : attempt -> float
 (** When, by the vehicle's clock, the order took effect, as far as is known. *)
 
 val hit_by_late_stop : t -> since:float -> bool
+(** Whether the vehicle answered a stop that was for an order before, after the plan ran at [since]: it may have
+    stopped the wrong one. *)
+
 val late_stop : string
+(** What is told of it. *)
 
 val words : t -> since:float -> why:string -> string
 (** Why it failed, in the vehicle's words if there are any; in ours, [why]. *)
@@ -129,8 +140,13 @@ val words : t -> since:float -> why:string -> string
 (** {1:constants Constants} Seconds. *)
 
 val grace : float
+(** As {!Execution.grace}. *)
+
 val stop_interval : float
+(** As {!Execution.stop_interval}. *)
+
 val stop_patience : float
+(** As {!Execution.stop_patience}. *)
 
 val echo : float
 (** 10 s: for so long after it was sent last, a datagram of ours may still arrive. *)

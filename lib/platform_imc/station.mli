@@ -95,6 +95,7 @@ val skipped : t -> int
 (** Datagrams of no interest. *)
 
 val accepted : t -> int
+(** Datagrams that were neither dropped nor skipped. *)
 
 (** {1:constants Constants} Seconds, but for the last. *)
 

@@ -98,6 +98,7 @@ module Virtual : sig
   include S
 
   val create : seed:int -> Scenario.t -> t
+  (** [create ~seed s] is the fleet of [s] at time 0. *)
 
   val create_again :
     seed:int -> Scenario.t -> Past.moment list -> (t * World.vehicle_state list, string) result

@@ -29,8 +29,13 @@ val expression : env -> Location.t -> node -> expression
 (** [expression env at node] is [node] with a site of its own. *)
 
 val constant : env -> Location.t -> value -> expression
+(** [constant env at x], like those below, makes an expression that stands at [at]. *)
+
 val apply : env -> Location.t -> operation -> expression list -> expression
+
 val block : env -> Location.t -> expression list -> expression
+(** One expression is itself. *)
+
 val local : env -> Location.t -> int -> expression
 val set_local : env -> Location.t -> int -> expression -> expression
 val null : env -> Location.t -> expression
@@ -41,7 +46,10 @@ val unless_null : env -> Location.t -> expression -> (expression -> expression) 
 (** {1:report Reports} *)
 
 val error : env -> ?hint:string -> Diagnostic.code -> Location.t -> ('a, unit, string, unit) format4 -> 'a
+(** [error env ~hint code at format ...] reports that text; translation goes on, to find other faults. *)
+
 val did_you_mean : string -> string list -> string option
+(** The hint that one of the names may be meant, if one is near. *)
 
 (** {1:kinds Kinds} *)
 
@@ -63,7 +71,10 @@ val check_operator : env -> Ast.binary -> Ast.expression -> Ast.expression -> un
 (** {1:names Names} *)
 
 val keys_of : Ast.argument list -> string option list
+(** The names of arguments, [None] for those without. *)
+
 val value_of : Ast.argument -> Ast.expression
+(** An argument without its name. *)
 
 val dotted : Ast.expression -> string option
 (** ["Speed.Units.RPM"] of the members that spell it. *)
@@ -78,6 +89,7 @@ val in_settings : env -> string -> int option
 (** The slot of the block of settings around, if it has a setting of this name. *)
 
 val builder_name : Ast.builder -> string
+(** As programs spell it. *)
 
 val check_in_script : env -> string -> Location.t -> unit
 (** Reports what belongs to the script if it stands in code of a task or in an answer. *)

@@ -33,6 +33,8 @@ type t =
   | Interrupt
 
 val compare : t -> t -> int
+(** A total order; values of tuples are compared by their texts. *)
+
 val equal : t -> t -> bool
 
 val pp : Format.formatter -> t -> unit

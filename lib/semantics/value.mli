@@ -9,8 +9,13 @@ val compare : t -> t -> int
     the piece of program they come from and by what they captured. *)
 
 val compare_task : Core.task -> Core.task -> int
+(** As {!compare}; so is {!compare_closure}. *)
+
 val compare_closure : Core.closure -> Core.closure -> int
+
 val hash : t -> int
+(** Equal values have equal hashes. *)
+
 val hash_closure : Core.closure -> int
 
 (** {1:language As the language has it} *)

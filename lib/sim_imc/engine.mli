@@ -69,9 +69,16 @@ val abort : at:float -> by:party -> name:string -> t -> outcome
 (** {1:state Its state} *)
 
 val plan_control_state : at:float -> t -> Message.Plan_control_state.t
+(** What it says of its plan. *)
+
 val vehicle_state : t -> Message.Vehicle_state.t
+(** What it says of itself. *)
+
 val position : at:float -> t -> Dolphin_geo.Position.t
+(** Where it is. *)
+
 val battery : at:float -> t -> float
+(** The charge, as a share of 1. *)
 
 val is_under_way : t -> bool
 (** Whether a plan moves the vehicle. *)

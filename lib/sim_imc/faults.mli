@@ -9,6 +9,7 @@ type t = {
 }
 
 val none : t
+(** Every datagram arrives once, at once. *)
 
 val held_back : float * float
 (** 10 ms to 100 ms. *)

@@ -44,3 +44,4 @@ val run : log:(Yojson.Safe.t -> unit) -> until:unit Lwt.t -> t -> unit Lwt.t
 (** [run ~log ~until n] lets the vehicles live until [until] is resolved; [log] takes {!Deed}s. To be called once. *)
 
 val close : t -> unit
+(** Closes the sockets. *)

@@ -32,7 +32,10 @@ val create : settings -> t
 (** At time 0, when the engine's [epoch] is. *)
 
 val id : t -> int
+(** Its IMC address. *)
+
 val name : t -> string
+(** As other systems see it. *)
 
 (** {1:packets Packets} *)
 
@@ -65,4 +68,7 @@ val tell : at:float -> src_ent:int -> content:Packet.content -> t -> output list
 (** {1:state Its state} *)
 
 val listeners : at:float -> t -> Address.t list
+(** The data addresses of the systems in contact. *)
+
 val position : at:float -> t -> Dolphin_geo.Position.t
+(** Where it is. *)

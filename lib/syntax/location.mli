@@ -8,8 +8,10 @@ val none : t
 (** The location of what no source text stands for. *)
 
 val make : Lexing.position * Lexing.position -> t
+(** From the start to the stop. *)
 
 val file : t -> string
+(** The file's name. *)
 
 val line : t -> int
 (** The line of the start, from 1. *)

@@ -30,6 +30,8 @@ val event : t -> Transition.event option
 (** What the latest line told of, if the transition that it causes is still to come. *)
 
 val configuration : t -> Configuration.t
+(** After the latest transition. *)
+
 val world : t -> World.t
 (** What was known of vehicles. *)
 

@@ -44,5 +44,10 @@ type t = {
 type teller
 
 val start : unit -> teller
+(** Nothing is told so far. *)
+
 val tell : teller -> Entry.t -> unit
+(** One line more, in order. *)
+
 val finish : teller -> t
+(** All that was told. *)

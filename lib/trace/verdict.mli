@@ -27,5 +27,7 @@ val most : int
 (** 100,000. *)
 
 val is_legal : t -> bool
+(** Whether the journal is one of a run of the program, as far as it goes. *)
+
 val pp : Format.formatter -> t -> unit
 (** A sentence without a full stop, and for what is no run, further lines, for a vertical box. *)

@@ -31,8 +31,8 @@ val initial : program -> t
 (** [initial p] is where runs of [p] begin. *)
 
 val compare : t -> t -> int
-(** A total order, of which {!equal} is the equality: what behaves alike is equal, as far as it can be told from
-    control, store, A, B and N. *)
+(** A total order, of which {!equal} is the equality. Of one program, those are equal that have the same control, store,
+    A, B and N. *)
 
 val equal : t -> t -> bool
 

@@ -4,9 +4,7 @@ let at ?(height = 0.) latitude longitude : Position.t = { latitude; longitude; h
 
 let case name run = Alcotest.test_case name `Quick run
 
-let law ?(count = 1000) name generator ~print property =
-  let cell = QCheck2.Test.make_cell ~count ~name ~print generator property in
-  case name (fun () -> QCheck2.Test.check_cell_exn ~rand:(Random.State.make [| 2016 |]) cell)
+let law ?(count = 1000) name = Test_support.Property.case ~count name
 
 let position = Alcotest.testable Position.pp Position.equal
 

@@ -2,6 +2,8 @@ open Core
 open Checks
 open Closures
 
+let values env = List.map (fun a -> elaborate env (value_of a))
+
 (* [if (!C()) ...]: the text is computed only if the condition does not hold. *)
 let assertion env at arguments =
   let not_code at =
@@ -130,7 +132,7 @@ let to_builtin env at name (builtin : Builtins.t) arguments =
 let by_name env at name (callee : Ast.expression) arguments =
   let called_value () =
     let callee = Names.variable env name callee.at in
-    apply env at (Call (keys_of arguments)) (callee :: List.map (fun a -> elaborate env (value_of a)) arguments)
+    apply env at (Call (keys_of arguments)) (callee :: values env arguments)
   in
   match Scope.find_local env.code name, Scope.find_function env.program name, Builtins.find name with
   | Some _, _, _ -> called_value ()
@@ -153,13 +155,12 @@ let by_name env at name (callee : Ast.expression) arguments =
          ?hint:(did_you_mean name (Builtins.settings builder))
      | Some ((All_of | One_of), _) | None -> ());
     if Scope.settings env.code = None then called_value ()
-    else apply env at Make_list (List.map (fun a -> elaborate env (value_of a)) arguments)
+    else apply env at Make_list (values env arguments)
 
 let to_method env at subject name safe arguments =
   if List.mem name.Ast.it sensor_members then Scope.note_sensor env.program;
-  let values () = List.map (fun a -> elaborate env (value_of a)) arguments in
   let keys = keys_of arguments in
-  let on e = apply env at (Method (name.it, keys)) (e :: values ()) in
+  let on e = apply env at (Method (name.it, keys)) (e :: values env arguments) in
   if safe then unless_null env at (elaborate env subject) on
   else if Methods.updates name.it && Targets.is_path subject then begin
     (* An update assigns the new value to what it was called on, unless that is an object of the host. *)
@@ -168,7 +169,7 @@ let to_method env at subject name safe arguments =
       (set_local env at slot e, slot)
     in
     let first, receiver = keep (elaborate env subject) in
-    let rest = List.map keep (values ()) in
+    let rest = List.map keep (values env arguments) in
     let again () =
       let arguments = List.map (fun (_, slot) -> local env at slot) rest in
       apply env at (Method (name.it, keys)) (local env at receiver :: arguments)
@@ -190,8 +191,8 @@ let call env at (callee : Ast.expression) arguments =
     if not (Builtins.math name.it) then
       error env Unknown_name name.at "Math has no function '%s'" name.it
         ?hint:(did_you_mean name.it Builtins.math_names);
-    apply env at (Builtin (Math name.it)) (List.map (fun a -> elaborate env (value_of a)) arguments)
+    apply env at (Builtin (Math name.it)) (values env arguments)
   | Member { subject; name; safe } -> to_method env at subject name safe arguments
   | _ ->
     let callee = elaborate env callee in
-    apply env at (Call (keys_of arguments)) (callee :: List.map (fun a -> elaborate env (value_of a)) arguments)
+    apply env at (Call (keys_of arguments)) (callee :: values env arguments)

@@ -55,7 +55,9 @@ let agrees (ast, looped, failing) =
   let environment = if failing then Environment.failing Environment.default else Environment.default in
   let read text = match Temporal.of_string program text with Ok f -> f | Error why -> failwith why in
   let options = { Search.default with environment; max_states = Some 3_000 } in
-  let o = Search.run { options with formulas = List.map (fun (text, _) -> read text) agreements } program Generate.world in
+  let o =
+    Search.run { options with formulas = List.map (fun (text, _) -> read text) agreements } program Generate.world
+  in
   let agree (text, properties) =
     match List.assoc (Property.Formula text) o.verdicts with
     | Inconclusive _ -> true
@@ -67,4 +69,5 @@ let agrees (ast, looped, failing) =
 
 let () =
   Alcotest.run "temporal"
-    [ ("random programs", [ Test_support.Property.case "formulas and properties agree" ~count:300 case ~print agrees ]) ]
+    [ ( "random programs",
+        [ Test_support.Property.case "formulas and properties agree" ~count:300 case ~print agrees ] ) ]

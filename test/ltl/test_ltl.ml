@@ -3,8 +3,8 @@ module Gen = QCheck2.Gen
 
 (* {1 By the definitions} *)
 
-(* A word without end: its positions, of which the last is followed by the one at [back]. A letter is the propositions, by
-   number, that hold. *)
+(* A word without end: its positions, of which the last is followed by the one at [back]. A letter is the propositions,
+   by number, that hold. *)
 type word = { letters : int list array; back : int }
 
 (* Whether the formula holds, by position. Until is the least solution of its equation, release the greatest. *)
@@ -177,7 +177,8 @@ let pair_case expected (f, g) =
 let reads =
   [ ("G (start(survey1) -> F done(survey1))", "G (start(survey1) -> F done(survey1))");
     ("a & b | c -> d <-> e", "((((a & b) | c) -> d) <-> e)"); ("a -> b -> c", "(a -> (b -> c))");
-    ("a U b U c & d", "((a U (b U c)) & d)"); ("!a U X b", "(!a U X b)"); ("F done(a, x8-02)->b", "(F done(a, x8-02) -> b)");
+    ("a U b U c & d", "((a U (b U c)) & d)"); ("!a U X b", "(!a U X b)");
+    ("F done(a, x8-02)->b", "(F done(a, x8-02) -> b)");
     ("G {n < 3 && f('}')} && true", "(G {n < 3 && f('}')} & true)"); ("not a || false", "(!a | false)") ]
 
 let refused =
@@ -204,7 +205,8 @@ let () =
       ("differences", List.map (pair_case false) differences);
       ( "random",
         [ property "what is printed is read as the same" ~count:500 formula ~print:show read_back;
-          property "a word satisfies what the definitions say" ~count:3_000 (Gen.pair word formula) ~print:print_pair one_word;
+          property "a word satisfies what the definitions say" ~count:3_000 (Gen.pair word formula) ~print:print_pair
+            one_word;
           property "a run that is found is one, and satisfies" ~count:3_000 (Gen.pair graph formula) ~print:print_pair
             found_runs_satisfy;
           property "no run is missed" ~count:2_000

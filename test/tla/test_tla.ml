@@ -143,4 +143,5 @@ let () =
       ("refused", refusals);
       ("constants", constants);
       ( "models",
-        [ case "each rule has one" rules_have_models; case "are well formed" models_parse; case "waiting" waiting_holds ] ) ]
+        [ case "each rule has one" rules_have_models; case "are well formed" models_parse;
+          case "waiting" waiting_holds ] ) ]

@@ -144,6 +144,13 @@ let look_around t phase =
       }
   end
 
+(* To be called at each state. *)
+let looking t phase =
+  let ticks = ref 0 in
+  fun () ->
+    incr ticks;
+    if !ticks land 0xFF = 0 then look_around t phase
+
 let expand_all enough t =
   let space = t.space in
   let next_look = ref 0 in
@@ -188,12 +195,8 @@ let verdicts t program world stopped =
   let shortest = not (Reduction.by_order t.options.reduction) in
   let run_to i = { steps = transitions (Replay.shortest t.space i); cycle = []; shortest } in
   let unless_stopped otherwise = match stopped with Some bound -> Inconclusive bound | None -> otherwise () in
-  let interrupted () =
-    look_around t "looking for cycles";
-    false
-  in
   let termination () =
-    match Cycle.find ~interrupted t.space with
+    match Cycle.find ~tick:(looking t "looking for cycles") t.space with
     | None -> Holds
     | Some { stem; around } -> Violated { steps = transitions stem; cycle = transitions around; shortest }
     | exception Stop bound -> Inconclusive bound
@@ -267,11 +270,7 @@ let formula started (options : options) program world f =
   let watch = Watch.create program world f in
   let options = { options with reduction = Whole; invariants = [] } in
   let judge t =
-    let ticks = ref 0 in
-    let tick () =
-      incr ticks;
-      if !ticks land 0xFF = 0 then look_around t "checking formulas"
-    in
+    let tick = looking t "checking formulas" in
     match explore ~enough:(fun () -> Space.shown t.space <> None) program t with
     | Some bound when Space.shown t.space = None -> Inconclusive bound
     | None | Some _ -> (

@@ -95,7 +95,8 @@ let rec residual s place part =
 
 (* {1 Words} *)
 
-let bits_of_word = 63
+(* So that no word is negative. *)
+let bits_of_word = 62
 
 type widths = { shape : int; watched : int; shared : int }
 

@@ -75,10 +75,10 @@ let () =
   Printf.printf "%d states, %d transitions, depth %d, %.2f s, %.1f bytes a state%s\n" o.states o.transitions o.depth
     (Sys.time ())
     (float_of_int o.bytes /. float_of_int o.states)
-    (match o.stopped with None -> "" | Some bound -> Format.asprintf ", %a" Search.pp_bound bound)
-;
+    (match o.stopped with None -> "" | Some bound -> Format.asprintf ", %a" Search.pp_bound bound);
   let print_formula = function
-    | (Property.Formula _, _) as verdict -> Format.printf "%d states for formulas; %a@." o.formula_states (Search.pp_verdict program) verdict
+    | (Property.Formula _, _) as verdict ->
+      Format.printf "%d states for formulas; %a@." o.formula_states (Search.pp_verdict program) verdict
     | _ -> ()
   in
   List.iter print_formula o.verdicts

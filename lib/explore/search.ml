@@ -235,8 +235,8 @@ let start ?watch ?(phase = "exploring") (options : options) program world starte
   in
   let invariants = List.map (Invariant.create program world) options.invariants in
   let t =
-    { options; space; invariants; phase; started; reported = started; weighed = Float.neg_infinity; next = 0; depth = -1;
-      level_end = 0 }
+    { options; space; invariants; phase; started; reported = started; weighed = Float.neg_infinity; next = 0;
+      depth = -1; level_end = 0 }
   in
   reserve := weigh t;
   t
@@ -300,6 +300,7 @@ let rec run_from started (options : options) program world =
 
 and outcome t program world stopped =
   let space = t.space and options = t.options and started = t.started in
+  let without_symmetry = Reduction.without_symmetry options.reduction in
   let verdicts = with_shortest_runs options program world started (verdicts t program world stopped) in
   let found =
     {
@@ -311,7 +312,7 @@ and outcome t program world stopped =
       bytes = memory t;
       seconds = options.clock () -. started;
       stopped;
-      reduction = (if Space.used_symmetry space then options.reduction else Reduction.without_symmetry options.reduction);
+      reduction = (if Space.used_symmetry space then options.reduction else without_symmetry);
       verdicts;
     }
   in

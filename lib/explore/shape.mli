@@ -55,8 +55,8 @@ val residual : t -> place -> (int -> Residual.t) -> Residual.t
 
 (** {1:words Words}
 
-    The first word starts with the shape's number, lowest bits first, then has what a {!Watch} knows, if there is one, and
-    the number of what is shared; the parts follow, none across the end of a word. Shape 0 stands for all other
+    The first word starts with the shape's number, lowest bits first, then has what a {!Watch} knows, if there is one,
+    and the number of what is shared; the parts follow, none across the end of a word. Shape 0 stands for all other
     configurations, each with its own number above these. *)
 
 type widths = { shape : int; watched : int; shared : int }

@@ -68,7 +68,8 @@ val executes : t -> int -> bool
 (** [executes t i] is whether a task executes in state [i]. *)
 
 val shown : t -> int option
-(** A state all of whose runs violate the formula, or that the run to it violates it if it stays there, which it must. *)
+(** The first state found from which every run violates the formula, or which has no transitions and where a run that
+    stays violates it. *)
 
 (** {1:findings What was found on the way} *)
 

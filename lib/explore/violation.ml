@@ -65,8 +65,8 @@ let onwards tick x i =
 
 (* {1 Cycles}
 
-   Nodes are pairs of a state of the space and a state of the automaton, among those that the watch knows of. A cycle goes
-   through the script, and its states of the automaton are in one component. *)
+   Nodes are pairs of a state of the space and a state of the automaton, among those that the watch knows of. A cycle
+   goes through the script, and its states of the automaton are in one component. *)
 
 let graph x : int Cycles.graph =
   let monitor = Watch.monitor x.watch in
@@ -80,16 +80,16 @@ let graph x : int Cycles.graph =
     in
     List.concat_map after (Space.arrivals x.space (node / q))
   in
-  { successors; sets = Monitor.acceptance_sets monitor; is_in = (fun node set -> Monitor.is_in monitor (node mod q) set) }
+  let is_in node set = Monitor.is_in monitor (node mod q) set in
+  { successors; sets = Monitor.acceptance_sets monitor; is_in }
 
 let starts x =
   let monitor = Watch.monitor x.watch in
   let q = Monitor.automaton_states monitor in
   let of_state i =
+    let node q' = if Monitor.component monitor q' < 0 then None else Some ((i * q) + q') in
     if Space.executes x.space i then []
-    else
-      let hopeful = List.filter (fun q' -> Monitor.component monitor q' >= 0) (Monitor.members monitor (Space.watched x.space i)) in
-      List.map (fun q' -> (i * q) + q') hopeful
+    else List.filter_map node (Monitor.members monitor (Space.watched x.space i))
   in
   let rec from i found = if i < 0 then found else from (i - 1) (of_state i @ found) in
   from (Space.count x.space - 1) []

@@ -44,15 +44,17 @@ let with_known values n x =
 
 (* A bit for each question. *)
 let runs t (p : Part.part) =
-  let answer (step : Residual.step) bits =
-    let asks i (plan, vehicle) =
-      match step.offer with
-      | End_of (task, v) when String.equal task.name plan && Option.fold ~none:true ~some:(String.equal v) vehicle -> 1 lsl i
-      | End_of _ | Start _ | Perform _ | Check _ | Measure _ | Expiry_of _ -> 0
-    in
-    List.fold_left ( lor ) bits (List.mapi asks t.questions)
+  let is_asked (task : Core.platform_task) v (plan, vehicle) =
+    String.equal task.name plan && Option.fold ~none:true ~some:(String.equal v) vehicle
   in
-  Seq.fold_left (fun bits step -> answer step bits) 0 (Residual.steps p.residual)
+  let answer bits (step : Residual.step) =
+    match step.offer with
+    | End_of (task, v) ->
+      let bit i question = if is_asked task v question then 1 lsl i else 0 in
+      List.fold_left ( lor ) bits (List.mapi bit t.questions)
+    | Start _ | Perform _ | Check _ | Measure _ | Expiry_of _ -> bits
+  in
+  Seq.fold_left answer 0 (Residual.steps p.residual)
 
 let running t (s : Shape.t) key =
   if t.questions = [] then 0

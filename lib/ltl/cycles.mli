@@ -20,10 +20,10 @@ val first : component -> int
 val mem : component -> int -> bool
 
 val around : 'label graph -> component -> int -> (int * 'label) list
-(** [around g c i] is a way from node [i] of [c] back to [i], not empty, that meets all sets: arrivals in nodes of [c]. It
-    goes by the shortest way from one set to the next. *)
+(** [around g c i] is a way from node [i] of [c] back to [i], not empty, that meets all sets: arrivals in nodes of [c].
+    It goes by the shortest way from one set to the next. *)
 
 val way :
   'label graph -> within:(int -> bool) -> goal:(int -> bool) -> (int * 'label) list -> (int * 'label) list option
-(** [way g ~within ~goal firsts] is a shortest way, not empty, that begins with one of the arrivals [firsts], and ends in
-    a node with [goal], all of its nodes having [within]. *)
+(** [way g ~within ~goal firsts] is a shortest way, not empty, that begins with one of the arrivals [firsts], and ends
+    in a node with [goal], all of its nodes having [within]. *)

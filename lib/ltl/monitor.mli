@@ -36,4 +36,5 @@ val is_in : t -> int -> int -> bool
 (** As in {!Automaton}. *)
 
 val component : t -> int -> int
-(** States [q], [q'] may be on one accepting cycle only if [component m q] and [component m q'] are equal and not [-1]. *)
+(** States [q] and [q'] can be on one accepting cycle only if [component m q] and [component m q'] are equal and not
+    [-1]. *)

@@ -91,8 +91,8 @@ let monitor_agrees (letters, f) =
   let holds letter p = letter land (1 lsl p) <> 0 in
   let monitor = Monitor.create ~holds (Automaton.of_formula f) in
   let read set letter = if set < 0 then set else Monitor.next monitor set (number letter) in
-  let sets = List.tl (List.rev (List.fold_left (fun sets l -> read (List.hd sets) l :: sets) [ Monitor.start ] letters)) in
-  let last = List.nth sets (List.length sets - 1) in
+  let sets = List.fold_left (fun sets l -> read (List.hd sets) l :: sets) [ Monitor.start ] letters in
+  let last = List.hd sets in
   let expected = holds_of { letters = Array.of_list letters; back = List.length letters - 1 } f in
   let is_certain set = set >= 0 && Monitor.is_certain monitor set in
   let stays = last >= 0 && Monitor.stays monitor last (number (List.nth letters (List.length letters - 1))) in

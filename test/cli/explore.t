@@ -283,6 +283,18 @@ Formulas of temporal logic.
   15 states, 14 transitions, depth 11; reduced by partial order; 24 states for formulas
   formula F (done(a) & running(a)): a run in which it does not hold
 
+Beside a violation that a reduced search has found.
+
+  $ explore ../../examples/rendezvous.dol --faults fail --ltl 'F ended' --ltl 'G !error' | grep -e '^[a-z ]*: ' -e '^formula.*: [hv]'
+  no deadlock: holds
+  termination: holds
+  no unhandled error: violated after 10 steps: an error that nobody handles ends the program
+  assertions: holds
+  vehicles for all tasks: holds
+  formula F ended: holds
+  formula G !error: violated after 10 steps: it does not hold
+  no unhandled error: a shortest run in which an error that nobody handles ends the program
+
 What has been violated stays so: not all states need be seen. What nobody can list is not followed where it cannot matter.
 
   $ explore again.dol --faults fail --ltl 'G !start(a)' --ltl 'X X X X running(a)' | grep -e '^formula.*violated' -e 'for formulas'

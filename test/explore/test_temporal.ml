@@ -203,7 +203,7 @@ let agrees_with_properties (ast, looped, failing) =
 
 let () =
   let properties =
-    Test_support.Property.case "formulas and properties agree" ~count:300 properties_case ~print:print_properties_case
+    Test_support.Property.case "formulas and properties agree" ~count:150 properties_case ~print:print_properties_case
       agrees_with_properties
   in
   Alcotest.run "temporal"

@@ -135,13 +135,15 @@ let constants =
   in
   let lines = List.map (fun name -> Printf.sprintf "  %s <- MC%s\n" name name) replaced in
   "CONSTANTS\n" ^ String.concat "" lines
-  ^ "  Interruptions = FALSE\n  ScriptFuel = 10000\n  AtomicFuel = 2000000\n  MaximumCalls = 10000\n"
+  ^ "  Known <- ComputedOnce\n  Interruptions = FALSE\n  ScriptFuel = 10000\n  AtomicFuel = 2000000\n  MaximumCalls = 10000\n"
 
 let invariants = [ "TypeOK"; "AllocationWithinBound"; "OneTaskEach"; "EmptyAfterEnd"; "TuplesConserved"; "NoDeadlock" ]
 
 let check =
   "SPECIFICATION Spec\n" ^ constants ^ "INVARIANTS " ^ String.concat " " invariants
   ^ "\nPROPERTY Termination\nCHECK_DEADLOCK FALSE\n"
+
+let coverage = "INIT Init\nNEXT NextByRule\n" ^ constants ^ "CHECK_DEADLOCK FALSE\n"
 
 let graph = "INIT Init\nNEXT Next\n" ^ constants ^ "INVARIANT PrintGraph\nCHECK_DEADLOCK FALSE\n"
 
@@ -153,6 +155,7 @@ let of_program ?(plans = []) ?(prompts = []) ~environment world program =
   | [] ->
     Ok
       [ { name = "MC.tla"; text }; { name = "MC.cfg"; text = check }; { name = "Graph.cfg"; text = graph };
+        { name = "Coverage.cfg"; text = coverage };
         { name = "Dolphin.tla"; text = Spec.dolphin }; { name = "DolphinMachine.tla"; text = Spec.machine };
         { name = "DolphinValues.tla"; text = Spec.values } ]
   | refusals -> Error refusals

@@ -128,7 +128,7 @@ W == Variable(2)
 Rules(t) == Range(t.rules)
 
 (* P holds of each transition that is possible. *)
-Every(P(_)) == \A ts \in { Transitions } : \A j \in DOMAIN ts : P(ts[j])
+Every(P(_)) == \A ts \in { Known(vars) } : \A j \in DOMAIN ts : P(ts[j])
 
 (* Wherever this rule is used, P holds of the transition. *)
 By_(rule, P(_)) == Every(LAMBDA t : rule \in Rules(t) => P(t))

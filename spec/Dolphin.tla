@@ -968,6 +968,22 @@ TuplesConserved ==
     IN AllPairs(t.S.N) (+) Tally(PairsOf(t.deeds, "consume")) = AllPairs(N) (+) Tally(PairsOf(t.deeds, "post"))
 
 -----------------------------------------------------------------------------
+(* {1 A run, told} *)
+
+(* An ALIAS, for TLC to show of each state of a run instead of the variables: what is seen of it, and by what transition
+   the run goes on; by several, if they lead to the same state. *)
+Told ==
+  LET taken == SelectSeq(Known(vars), Becomes)
+  IN [ control |-> IF control.at = "end" THEN << "end", control.ending.how, control.ending.message >>
+                   ELSE << control.at >>,
+       store |-> [ x \in Range(GlobalNames) |-> store[IndexOf(GlobalNames, x)] ],
+       A |-> [ v \in DOMAIN A |-> A[v].name ],
+       B |-> B,
+       N |-> N,
+       goes_on |-> Each(taken, LAMBDA t : t.label),
+       by |-> Each(taken, LAMBDA t : t.rules) ]
+
+-----------------------------------------------------------------------------
 (* {1 The graph, printed} *)
 
 (* The elements of a set, in an order that is always the same. *)

@@ -1,6 +1,7 @@
 type constant = { name : string; parameters : string list; definition : string }
 
 let configuration = "Family.cfg"
+let by_rule = "FamilyByRule.cfg"
 
 (* {1 The constants as definitions} *)
 
@@ -64,6 +65,10 @@ PrintFamily == PrintGraphOf(which)
 |}
     count Dolphin_tla.Run.printing
 
+let taking next =
+  Printf.sprintf
+    "INIT FamilyInit\nNEXT %s\nCONSTANT Known <- ComputedOnce\nINVARIANT PrintFamily\nCHECK_DEADLOCK FALSE\n" next
+
 let files ~specification programs =
   if not (List.mem_assoc lowest specification) then Error ("there is no " ^ lowest ^ " in the specification")
   else
@@ -74,5 +79,5 @@ let files ~specification programs =
     Ok
       ([ ("Programs.tla", programs_module programs);
          ("MC.tla", model_module (List.length programs));
-         (configuration, "INIT FamilyInit\nNEXT Next\nCONSTANT Known <- ComputedOnce\nINVARIANT PrintFamily\nCHECK_DEADLOCK FALSE\n") ]
+         (configuration, taking "Next"); (by_rule, taking "NextByRule") ]
        @ List.map changed specification)

@@ -22,6 +22,7 @@ type t = {
   symmetries : Symmetries.t option;
   folding : Folding.t;
   mutable folded : int array;  (* a state's canonical form *)
+  roster : Roster.t option;
   reserve : int -> unit;
 }
 
@@ -199,7 +200,8 @@ let go_to_ends t (s : Shape.t) place step shared i =
 
 (* {1 Beginning} *)
 
-let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore) options program world =
+let create ?(reduction = Reduction.Whole) ?(peers = Peers.none) ?(asked = []) ?(compress = false) ?(reserve = ignore)
+    options program world =
   let foreseen = if Reduction.by_order reduction then Some 0 else None in
   let parts = Parts.create ?foreseen options program world in
   let cases = Cases.create parts in
@@ -211,7 +213,9 @@ let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore
       Some (Symmetries.create options program { number; value })
     else None
   in
-  let words = Words.create ?find_symmetry:(Option.map Symmetries.find symmetries) parts cases in
+  let roster = if Peers.is_none peers then None else Some (Roster.create options program ~asked world peers) in
+  let find_symmetry = Option.map Symmetries.find symmetries and canonical = Option.map Roster.canonical roster in
+  let words = Words.create ?find_symmetry ?canonical parts cases in
   let t =
     {
       options;
@@ -234,6 +238,7 @@ let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore
       symmetries;
       folding = Folding.create parts words;
       folded = [| 0 |];
+      roster;
       reserve;
     }
   in

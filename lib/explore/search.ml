@@ -71,6 +71,7 @@ type outcome = {
   seconds : float;
   stopped : bound option;
   reduction : Reduction.t;
+  peers : bool;
   verdicts : (Property.t * verdict) list;
 }
 
@@ -209,9 +210,8 @@ let formulas t world program =
 (* {1 Verdicts} *)
 
 let verdicts t program world stopped =
-  let transitions = Replay.between t.options.environment program world t.space in
   let shortest = not (Reduction.by_order t.options.reduction) in
-  let run_to i = { steps = transitions (Replay.shortest t.space i); cycle = []; shortest } in
+  let run_to i = { steps = Replay.through t.space (Replay.shortest t.space i); cycle = []; shortest } in
   let unless_stopped otherwise = match stopped with Some bound -> Inconclusive bound | None -> otherwise () in
   let interrupted () =
     look_around t "looking for cycles";
@@ -220,7 +220,10 @@ let verdicts t program world stopped =
   let termination () =
     match Cycle.find ~interrupted t.space with
     | None -> Holds
-    | Some { stem; around } -> Violated { steps = transitions stem; cycle = transitions around; shortest }
+    | Some { stem; around } ->
+      let steps, cycle = Replay.around t.space ~stem around in
+      let is_as_short = List.compare_lengths stem steps > 0 && List.compare_lengths around cycle > 0 in
+      Violated { steps; cycle; shortest = shortest && is_as_short }
     | exception Stop bound -> Inconclusive bound
     | exception Out_of_memory -> Inconclusive No_memory
   in
@@ -253,10 +256,10 @@ let verdicts t program world stopped =
   | fs, Some bound -> List.map (fun f -> (named f, Inconclusive bound)) fs
   | fs, None -> List.combine (List.map named fs) (formulas t world program)
 
-let start (options : options) program world started =
+let start (options : options) ~peers program world started =
   let reserve = ref ignore in
   let space =
-    Space.create ~reduction:options.reduction ~compress:options.compress
+    Space.create ~reduction:options.reduction ~peers ~asked:options.invariants ~compress:options.compress
       ~reserve:(fun bytes -> !reserve bytes)
       options.environment program world
   in
@@ -269,7 +272,7 @@ let start (options : options) program world started =
   t
 
 (* What a reduced search finds broken, the first of all states may show by a shortest run. *)
-let with_shortest_runs options program world started verdicts =
+let with_shortest_runs options ~peers program world started verdicts =
   let is_sought = function
     | (Property.Termination | Invariant _ | Formula _), _ | _, (Holds | Unreached _ | Inconclusive _) -> false
     | _, Violated { shortest; _ } -> not shortest
@@ -278,28 +281,34 @@ let with_shortest_runs options program world started verdicts =
   | [] -> verdicts
   | sought ->
     let most = Option.fold ~none:options.search_again ~some:(min options.search_again) options.max_states in
-    let t = start { options with reduction = Whole; invariants = []; max_states = Some most } program world started in
+    let options = { options with reduction = Whole; invariants = []; max_states = Some most } in
+    let t = start options ~peers program world started in
     let is_found property = Space.broken t.space property <> None in
     ignore (explore ~enough:(fun () -> List.for_all is_found sought) program t);
     let shorter (property, verdict) =
       match List.mem property sought, Space.broken t.space property with
       | true, Some i ->
-        let steps = Replay.between options.environment program world t.space (Replay.shortest t.space i) in
+        let steps = Replay.through t.space (Replay.shortest t.space i) in
         (property, Violated { steps; cycle = []; shortest = true })
       | _, _ -> (property, verdict)
     in
     List.map shorter verdicts
 
-let rec run_from started (options : options) program world =
-  let t = start options program world started in
-  match explore program t with
-  | stopped -> outcome t program world stopped
+(* Begun anew with less where something turns out to stand against what states stand for. *)
+let rec run_from started (options : options) ~peers program world =
+  match
+    let t = start options ~peers program world started in
+    outcome t ~peers program world (explore program t)
+  with
+  | outcome -> outcome
   | exception Symmetries.Unclear ->
-    run_from started { options with reduction = Reduction.without_symmetry options.reduction } program world
+    let reduction = Reduction.without_symmetry options.reduction in
+    run_from started { options with reduction } ~peers program world
+  | exception Roster.Told_apart peers -> run_from started options ~peers program world
 
-and outcome t program world stopped =
+and outcome t ~peers program world stopped =
   let space = t.space and options = t.options and started = t.started in
-  let verdicts = with_shortest_runs options program world started (verdicts t program world stopped) in
+  let verdicts = with_shortest_runs options ~peers program world started (verdicts t program world stopped) in
   {
     states = Space.count space;
     transitions = Space.transitions space;
@@ -309,20 +318,23 @@ and outcome t program world stopped =
     seconds = options.clock () -. started;
     stopped;
     reduction = (if Space.used_symmetry space then options.reduction else Reduction.without_symmetry options.reduction);
+    peers = Space.used_peers space;
     verdicts;
   }
 
 let run (options : options) program world =
-  (* What is asked of every state cannot be judged by some of them. *)
-  let options = if options.invariants = [] then options else { options with reduction = Whole } in
-  (* States that are alike by symmetry may differ in who is lost. *)
-  let remembers = Environment.endings_remember options.environment in
-  let options =
-    if remembers then { options with reduction = Reduction.without_symmetry options.reduction } else options
+  let peers =
+    if Reduction.by_symmetry options.reduction then
+      Peers.find options.environment program ~asked:options.invariants world
+    else Peers.none
   in
-  run_from (options.clock ()) options program world
+  (* What is asked of every state cannot be judged by some of those of a task. *)
+  let options = if options.invariants = [] then options else { options with reduction = Whole } in
+  run_from (options.clock ()) options ~peers program world
 
 (* {1 Text} *)
+
+let reductions o = Reduction.names o.reduction @ if o.peers then [ "symmetry of vehicles" ] else []
 
 let pp_bound ppf bound =
   Format.pp_print_string ppf

@@ -4,9 +4,12 @@ open Dolphin_semantics
 
 type t
 
-val create : ?find_symmetry:(Residual.t -> Shared.t -> Symmetry.t option) -> Parts.t -> Cases.t -> t
+val create :
+  ?find_symmetry:(Residual.t -> Shared.t -> Symmetry.t option) ->
+  ?canonical:(Configuration.t -> Environment.t -> Configuration.t * Environment.t) ->
+  Parts.t -> Cases.t -> t
 (** [find_symmetry r s] is what can change places in [r], which is about to be executed where [s] is shared: nothing by
-    default. *)
+    default. [canonical c e] is the form in which [c] with [e] is kept, if it executes nothing: by default itself. *)
 
 val shapes : t -> Shapes.t
 

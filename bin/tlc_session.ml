@@ -77,7 +77,7 @@ let show_progress : Event.t -> unit = function
     show "searches: %d distinct states, %d generated, %d left, depth %d" distinct generated queue (depth - 1)
   | Checks_temporal states -> show "checks termination on %d states" states
   | Worker text -> show "%s" text
-  | Begins _ | Violation _ | Behaviour | State _ | Stutters | Returns_to _ | Holds | Totals _ | Depth _ | Printed _ | Trouble _ | Warning _ | Other -> ()
+  | Begins _ | Violation _ | Behaviour | State _ | Stutters | Returns_to _ | Holds | Totals _ | Depth _ | Printed _ | Assertion _ | Trouble _ | Warning _ | Other -> ()
 
 (* {1 Running} *)
 
@@ -92,6 +92,7 @@ let because lines =
 let judge (ending : Process.ending) ~interrupted (outcome : Outcome.t) =
   match outcome.verdict, ending with
   | Failed lines, _ -> fail Exit_status.Platform_trouble (because lines)
+  | Gave_up why, _ -> fail Exit_status.Inconclusive ("TLC gave up: " ^ why)
   | (Holds | Violated _ | Unfinished), _ when interrupted -> Ok (Interrupted outcome)
   | (Holds | Violated _), _ -> Ok (Ended outcome)
   | Unfinished, Not_started why -> fail Exit_status.Platform_trouble ("Java could not be started: " ^ why)

@@ -103,6 +103,7 @@ let conclude prepared r =
   match r.problem, o.verdict, Printed_graph.graphs r.printed with
   | Some problem, _, _ -> Error problem
   | None, Failed lines, _ -> Error (String.concat "\n" lines)
+  | None, Gave_up why, _ -> Error why
   | None, (Violated _ | Unfinished), _ -> Error "TLC did not come to its end"
   | None, Holds, Error problem -> Error (Format.asprintf "%a" Printed_graph.pp_problem problem)
   | None, Holds, Ok _ when o.distinct <> states || o.generated <> transitions + List.length prepared ->

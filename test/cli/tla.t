@@ -47,6 +47,7 @@
     Latecomers <- MCLatecomers
     MayBeLate <- MCMayBeLate
     HostReplies <- MCHostReplies
+    SiteOf <- MCSiteOf
     Ending <- MCEnding
     Answers <- MCAnswers
     Interruptions = FALSE

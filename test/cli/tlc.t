@@ -119,7 +119,7 @@ One that the explorer does not know: then the two statements of the semantics di
 What the model cannot tell ends the search.
 
   $ { version; printf '@!@!@STARTMSG 2111:1 @!@!@\nEvaluating invariant NoDeadlock failed.\n'
-  >   printf 'The first argument of Assert evaluated to FALSE; the second argument was:\n"a number has too many decimals"' | message 2132:0
+  >   printf 'The first argument of Assert evaluated to FALSE; the second argument was:\n"a number has too many decimals"\n' | message 2132:0
   >   echo '@!@!@ENDMSG 2111 @!@!@'; echo The behavior up to this point is: | message 2121:1; state 1 'Initial predicate' ''
   >   echo The error occurred when TLC was evaluating the nested expressions | message 2103:1; counts 2 2 1; } > said
   $ dolphin tla round.dol --run

@@ -12,7 +12,7 @@ type t = {
 }
 
 type prepared = { case : Case.t; graph : Graph.t; transitions : int; constants : Family.constant list }
-type unfit = Refused of string | Too_large
+type unfit = Refused of string | Too_large | Unsettled of string
 
 let prepare ~limit (case : Case.t) =
   match Translated.constants case with
@@ -20,6 +20,7 @@ let prepare ~limit (case : Case.t) =
   | Ok constants -> (
       match Reference.explore ~limit case.environment case.program case.world with
       | None -> Error Too_large
+      | exception Dolphin_semantics.Reading.Unsettled fault -> Error (Unsettled fault.message)
       | Some space -> Ok { case; graph = Explored.graph space; transitions = Reference.transitions space; constants })
 
 let case p = p.case

@@ -85,7 +85,7 @@ let rules_have_models () =
 
 let models =
   [ "Paper"; "Platform"; "CodeOfTasks"; "Sequence"; "Parallel"; "Branches"; "Until"; "Time"; "Errors"; "Deeds";
-    "Picking"; "Waiting"; "Executing"; "Ends" ]
+    "Picking"; "Sensors"; "Waiting"; "Executing"; "Ends" ]
 
 (* [f run] where [run arguments] is the status of Java with TLC's classes in a directory with all models, and what it
    says; skipped where there is no Java or no TLC. *)

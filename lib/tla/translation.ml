@@ -24,6 +24,8 @@ let whereabouts world =
     (fun s -> List.map snd (World.cases world (fun world -> World.place world s)))
     (World.vehicles world)
 
+let shows_anything world look = List.for_all (fun (_, shown) -> shown = None) (World.cases world look)
+
 let create program world =
   let places = Places.create () in
   List.iter (fun p -> ignore (Places.index places p : int)) (whereabouts world);
@@ -91,6 +93,13 @@ and fraction t site n =
     refuse t site "the number %g: TLC's whole numbers, which have 32 bits, cannot hold it as a fraction" n;
     (0, 1)
 
+(* [position(...)] where no position is known. *)
+and is_open_position t (e : expression) =
+  let is_open s = shows_anything t.world (fun world -> World.position world s) in
+  match e.node with
+  | Apply (Builtin Position_of, _) -> List.for_all is_open (World.vehicles t.world)
+  | _ -> false
+
 (* {1 Operations} *)
 
 and sign : Ast.binary -> string = function
@@ -101,7 +110,8 @@ and sign : Ast.binary -> string = function
 
 and names options = Tla.strings (List.map (Option.value ~default:"") options)
 
-and operation t site op : Tla.t =
+(* [known] is whether its operands may be values other than readings. *)
+and operation t ~known site op : Tla.t =
   let record name fields = Tla.Record (("op", Tla.String name) :: fields) in
   let named op name names' = record op [ ("name", Tla.String name); ("names", names names') ] in
   match op with
@@ -118,13 +128,14 @@ and operation t site op : Tla.t =
   | Replace_element -> record "replaceElement" []
   | Replace_member k -> record "replaceMember" [ ("name", String k) ]
   | Property name ->
-    if Supported.is_refused_property name then
+    if Supported.is_refused_property name && (known || not (Supported.is_for_readings name)) then
       refuse t site "'.%s' of a value that is not a constant: TLA+ has no such numbers" name;
     note_sensor t name;
     record "property" [ ("name", String name) ]
   | Call names' -> record "call" [ ("names", names names') ]
   | Method (name, names') ->
-    if Supported.is_refused_method name then refuse t site "the method '%s'" name;
+    if Supported.is_refused_method name && (known || not (Supported.is_for_readings name)) then
+      refuse t site "the method '%s'" name;
     note_sensor t name;
     named "method" name names'
   | Add_setting (name, names') -> named "setting" name names'
@@ -222,7 +233,8 @@ and unfolded t (e : expression) =
   | Set_local (i, e) -> define "setLocal" [ slot i; ("value", part e) ]
   | Set_global (i, e) -> define "setGlobal" [ global i; ("value", part e) ]
   | Apply (op, arguments) ->
-    let op = operation t e.site op in
+    let known = match arguments with subject :: _ -> not (is_open_position t subject) | [] -> true in
+    let op = operation t ~known e.site op in
     define "apply" [ ("operation", op); ("arguments", parts arguments) ]
   | Make_closure (l, captured) ->
     let l = lambda t l in

@@ -8,9 +8,9 @@
 (* l a label. Its kappa and sigma are the variables control and store.            *)
 (*                                                                                *)
 (* Steps(S, r) is the steps of a residual, Transitions those of a configuration:  *)
-(* sequences, the leftmost first. Of a step there is a sequence too: what it is,  *)
-(* as sensors show this or that; once if it does not depend on them, not at all   *)
-(* where it is not enabled. Each of these is a record:                            *)
+(* sequences, the leftmost first. A step of a residual is a sequence of what it   *)
+(* may be, as sensors show this or that; mostly of one. Each of these is a        *)
+(* record:                                                                        *)
 (*                                                                                *)
 (*   rules  the derivation, the axiom first                                       *)
 (*   label  what an observer sees, as text                                        *)
@@ -153,9 +153,9 @@ IsDone(s) == s.out[1] = "ok"
 IsErr(s) == s.out[1] = "err"
 
 (* S |- g => x, S', ds: the code g with these arguments, as often as its outcome may be another one by what sensors show.
-   A fault leaves no effect. *)
+   A fault leaves no effect. What was seen stays so for the rest of the step. *)
 After(S, m) == [ S EXCEPT !.store = m.store, !.N = m.N, !.sees = m.sees ]
-Unchanged(S, sees) == [ S EXCEPT !.sees = sees ]
+Knowing(S, sees) == [ S EXCEPT !.sees = sees ]
 
 (* The step is over: what sensors show is from now on what they have shown. *)
 Over(S) == IF HasReadings THEN [ S EXCEPT !.store = KeptInStore(@) ] ELSE S
@@ -168,8 +168,8 @@ RunCode(S, mode, closure, arguments) ==
       of(m) ==
         CASE m.stop[1] = "finished" -> result(m, "value", m.stop[2], After(S, m), m.deeds)
           [] m.stop[1] = "halted" -> result(m, "halt", m.stop[2], After(S, m), m.deeds)
-          [] m.stop[1] = "faulted" -> result(m, "fault", m.stop[2], Unchanged(S, m.sees), << >>)
-          [] m.stop[1] = "exhausted" -> result(m, "fault", Fault(Endless, -closure[2]), Unchanged(S, m.sees), << >>)
+          [] m.stop[1] = "faulted" -> result(m, "fault", m.stop[2], Knowing(S, m.sees), << >>)
+          [] m.stop[1] = "exhausted" -> result(m, "fault", Fault(Endless, -closure[2]), Knowing(S, m.sees), << >>)
   IN Each(Run(Call(closure, arguments), S, mode, AtomicFuel), of)
 
 (* No watch handles an assertion that fails, nor halt. *)
@@ -339,7 +339,7 @@ WithValue(S, r, j, run) ==
     [] IsReading(run.value) -> Assert(FALSE, OpenHere(run.value[3], -CodeOf(r)[j][2]))
     [] r.op = "during" ->
          << IF IsTime(run.value) THEN DURING_SET(run, r, Time(run.value))
-            ELSE DURING_ERR_SET(Unchanged(S, run.S.sees), NoTime(run.value, r.time)) >>
+            ELSE DURING_ERR_SET(Knowing(S, run.S.sees), NoTime(run.value, r.time)) >>
     [] ~Truth(run.value) -> << >>
     [] r.op = "condition" -> << CONDITION(run) >>
     [] r.op = "allOf" -> << ALLOF_WHEN(run, r.choices, j) >>
@@ -539,7 +539,7 @@ Transition(rules, label, cause, kappa, S, deeds) ==
 
 (* Of what a step may be as sensors show this or that, the first of those with the same label and the same result. *)
 Different(ts) ==
-  LET result(t) == << t.label, t.control, Unchanged(t.S, NothingSeen) >>
+  LET result(t) == << t.label, t.control, Knowing(t.S, NothingSeen) >>
       isNew(j) == \A i \in 1 .. j - 1 : result(ts[i]) # result(ts[j])
   IN IF Len(ts) < 2 THEN ts ELSE Each(SelectSeq([ j \in DOMAIN ts |-> j ], isNew), LAMBDA j : ts[j])
 
@@ -678,8 +678,8 @@ Attendances(q) ==
    were seen. *)
 Fit(q, a, sees) ==
   LET fits(vehicle) == /\ Accepts(q, vehicle)
-                       /\ IsInRegion(q, vehicle, sees)
                        /\ vehicle.id \notin Range(B) \cup Range(a.missing)
+                       /\ IsInRegion(q, vehicle, sees)
   IN Each(SelectSeq(World(a), fits), LAMBDA vehicle : vehicle.id)
 
 WhyNot(q, a, sees, vehicle) ==

@@ -112,8 +112,12 @@ let conclude prepared r =
       (Printf.sprintf "TLC counts %d states and %d transitions, but %d and %d were printed" o.distinct
          (o.generated - List.length prepared) states transitions)
   | None, Holds, Ok graphs ->
-    Ok
-      { results = List.mapi (judge graphs) prepared; warnings = List.rev r.warnings; used = rules_of graphs }
+    let results = List.mapi (judge graphs) prepared in
+    let ours = List.fold_left (fun n (r : result) -> n + r.transitions) 0 results in
+    (* Transitions with one label between two states are one in a graph. *)
+    if ours <> transitions && List.for_all (fun (r : result) -> r.verdict = Agrees) results then
+      Error (Printf.sprintf "the explorer counts %d transitions, and TLC %d" ours transitions)
+    else Ok { results; warnings = List.rev r.warnings; used = rules_of graphs }
 
 let run installation ~specification prepared =
   Result.bind (Family.files ~specification (List.map (fun p -> p.constants) prepared)) (fun files ->

@@ -149,9 +149,9 @@ let traps =
 
 (* In a world where the batteries of a and c may show anything, b's 1 or 0.2, and c is in one of two places. *)
 let sensor_traps =
-  let one (name, source) = trap ~world:Generate.open_world ("sensors: " ^ name) source in
+  let one ?(world = Generate.open_world) (name, source) = trap ~world ("sensors: " ^ name) source in
   let three = two ^ "c = pick { id 'c' }\n" and low = "battery(a) < 0.3" and charged = "battery(a) >= 0.3" in
-  List.map one
+  List.map (fun case -> one case)
     [ ("a guard", two ^ "execute (waitFor { " ^ low ^ " } then task('p')[a]) | task('q')[b]");
       ("until", two ^ "execute (task('p')[a] / { " ^ low ^ " }) | condition { " ^ charged ^ " }");
       ("an assertion", two ^ "execute task('p')[a] | assert({ battery(a) > 0.1 }, 'low')");
@@ -176,14 +176,18 @@ let sensor_traps =
       ("a handler sees what the code saw", two ^ "execute watch (action { if (" ^ low ^ ") { 1 / 0 } else { 2 / 0 } }) onError { if (" ^ low ^ ") { post x: 1; ignore() } }");
       ("a handler sees what another one saw", two ^ "execute watch (watch task('p')[a] onError { if (" ^ low ^ ") { post x: 1 } }) onError { if (" ^ charged ^ ") { ignore() } }");
       ("kept by one handler, and compared by another", two ^ "h = battery(a)\nexecute watch (watch task('p')[a] onError { if (h < 0.3) { post low: 1; h = battery(a) } }) onError { if (h >= 0.3) { post high: 1 } ; ignore() }");
+      ("a loop that looks again and again", two ^ "while (battery(a) >= 0.3) { pause 5 }");
       ("one of several values", two ^ "message battery(b)\nif (battery(b) == 1 && battery(b) < 0.3) { halt 'both' }\nmessage battery(b)");
       ("several values of two sensors", three ^ "if (battery(b) < 0.3) { message position(c) in (Location.APDL ^ 1.km) }");
       ("picked where it is seen", "v = pick { id 'c'; region Location.APDL, 1.km }\nrelease v\nv = pick { id 'c'; region Location.APDL, 1.km }");
+      ("beside one that is bound", "c = pick { id 'c' }\nv = pick { count _; region Location.APDL, 1.km }\nw = pick { id 'c'; region Location.APDL, 1.km }");
       ("all that are seen there", "v = pick { count _; region Location.APDL, 1.km }");
       ("picked in a place, and seen in another one", "v = pick { id 'c'; region Location.APDL, 1.km }\nmessage position(v)");
       ("the nearer one", three ^ "t = imcPlan { planName 'q'\n locate 41.2032, -8.7048\n goTo() }\nexecute t\nexecute t | t");
       ("the nearer one, as was seen in this step", three ^ "if (position(c) in (Location.APDL ^ 1.km)) {\nexecute imcPlan { planName 'q'\n locate 41.2032, -8.7048\n goTo() }\n}") ]
-  @ [ { (trap ~world:Generate.open_world "sensors: an answer" "a = pick { id 'a' }\nh = ask 'how many?'\npost x: 1\nif (h < 0.3 && battery(a) >= 0.3) { halt h }\nmessage ask('how many?') < 0.3 && battery(a) < 0.3")
+  @ [ one ~world:(World.open_position "c" [] Generate.open_world)
+        ("coordinates", two ^ "if (position(a).latitude > 41 && position(a).bearing(Location.APDL) < 90) { message position(a).longitude - 1 }");
+      { (trap ~world:Generate.open_world "sensors: an answer" "a = pick { id 'a' }\nh = ask 'how many?'\npost x: 1\nif (h < 0.3 && battery(a) >= 0.3) { halt h }\nmessage ask('how many?') < 0.3 && battery(a) < 0.3")
         with prompts = [ "how many?" ];
              environment = { answering with answers = (fun _ -> [ [ "battery(a)" ]; [ "battery(a) < 0.3 ? battery(a) : 1 / 0"; "1 / 0" ] ]) } } ]
 

@@ -27,7 +27,7 @@ let all =
       replacement = {|<< "timer", r.timer >>, S, Done_, << >>)|} };
     { name = "a handler that breaks leaves what it did before";
       file = rules;
-      pattern = {|result(m, "fault", m.stop[2], Unchanged(S, m.sees), << >>)|};
+      pattern = {|result(m, "fault", m.stop[2], Knowing(S, m.sees), << >>)|};
       replacement = {|result(m, "fault", m.stop[2], After(S, m), << >>)|} };
     { name = "a guard that is false takes effect";
       file = rules;
@@ -169,7 +169,7 @@ let all =
     { name = "a handler does not see what the code saw";
       file = rules;
       pattern = {|  IN Each(RunCode(s.S, "handler", h,|};
-      replacement = {|  IN Each(RunCode(Unchanged(s.S, NothingSeen), "handler", h,|} };
+      replacement = {|  IN Each(RunCode(Knowing(s.S, NothingSeen), "handler", h,|} };
     { name = "a step is another one by what sensors show, even if nothing depends on it";
       file = rules;
       pattern = {|IF Len(ts) < 2 THEN ts ELSE|};
@@ -192,6 +192,8 @@ let occurrences part text =
     else go (i + 1) found
   in
   go 0 []
+
+let about part = if part = "" then all else List.filter (fun m -> occurrences part m.name <> []) all
 
 let apply m files =
   match List.assoc_opt m.file files with

@@ -434,7 +434,7 @@ Permitted(leaf, v) == leaf.allowed = << >> \/ v \in Range(leaf.allowed[1])
 (* The places in B of those that can run it. *)
 Candidates(leaf) == { j \in DOMAIN B : Permitted(leaf, B[j]) /\ Lack(leaf.p, B[j]) = << >> }
 
-(* How much farther it is from v to where p begins than from the nearest place of a vehicle of the fleet, in millimetres. *)
+(* How much farther it is from v to where p begins than from the nearest place of a vehicle, in millimetres. *)
 Farther(p, v, sees) ==
   IF p.plan = 0 \/ ~IsKnown(v) THEN 0 ELSE Plans[p.plan].farther[FoundAt(VehicleOf(v), sees)]
 

@@ -718,28 +718,31 @@ AddSetting(op, xs, at) ==
        [ name |-> op.name, positional |-> Each(positional, LAMBDA i : more[i]),
          named |-> Each(named, LAMBDA i : << op.names[i], more[i] >>), at |-> at ]))
 
-AsAnyValues == << "as any values" >>
+ArePositional(names) == \A i \in DOMAIN names : names[i] = ""
 
-(* What an operation makes of values some of which are readings. *)
+(* These hand readings on, or tell of them, as they do with any values. *)
+TakesReadings(op, xs) ==
+  \/ op.op = "call" /\ Is(xs[1], "closure") /\ ArePositional(op.names)
+  \/ op.op \in { "message", "halt", "assert", "isHost" }
+
+IsAboutReadings(op, xs) == (\E i \in DOMAIN xs : IsReading(xs[i])) /\ ~TakesReadings(op, xs)
+
+(* What all others make of values some of which are readings. *)
 OnReadings(op, xs) ==
-  LET positional(names) == \A i \in DOMAIN names : names[i] = ""
-  IN CASE op.op = "binary" -> BinaryOnReadings(op.sign, xs[1], xs[2])
-       [] op.op = "unary" /\ op.sign = "-" /\ IsReadingOf(xs[1], "amount") ->
-            Ok(Reading("amount", "-" \o Enclosed(xs[1][3])))
-       [] op.op = "concatenate" -> Ok(Reading("words", Join(Each(xs, Text), "")))
-       [] op.op = "math" -> MathematicsOnReadings(op.name, xs)
-       [] op.op = "property" /\ IsPlace(xs[1]) -> MethodOnReadings(op.name, xs)
-       [] op.op = "method" /\ positional(op.names) -> MethodOnReadings(op.name, xs)
-       [] op.op = "call" /\ Is(xs[1], "closure") /\ positional(op.names) -> AsAnyValues
-       [] op.op \in { "message", "halt", "assert", "isHost" } -> AsAnyValues
-       [] OTHER -> AnyMore(xs)
+  CASE op.op = "binary" -> BinaryOnReadings(op.sign, xs[1], xs[2])
+    [] op.op = "unary" /\ op.sign = "-" /\ IsReadingOf(xs[1], "amount") ->
+         Ok(Reading("amount", "-" \o Enclosed(xs[1][3])))
+    [] op.op = "concatenate" -> Ok(Reading("words", Join(Each(xs, Text), "")))
+    [] op.op = "math" -> MathematicsOnReadings(op.name, xs)
+    [] op.op = "property" /\ IsPlace(xs[1]) -> MethodOnReadings(op.name, xs)
+    [] op.op = "method" /\ ArePositional(op.names) -> MethodOnReadings(op.name, xs)
+    [] OTHER -> AnyMore(xs)
 
 (* What expression n does once its arguments are the values xs. *)
 Perform(before, n, xs) ==
   LET op == Code[n].operation
       m == [ before EXCEPT !.at = n ]
-      sensed == IF HasReadings /\ \E i \in DOMAIN xs : IsReading(xs[i]) THEN OnReadings(op, xs) ELSE AsAnyValues
-  IN CASE sensed # AsAnyValues -> Settle(m, sensed)
+  IN CASE HasReadings /\ IsAboutReadings(op, xs) -> Settle(m, OnReadings(op, xs))
        [] op.op = "unary" -> Settle(m, Unary(op.sign, xs[1]))
        [] op.op = "binary" ->
             IF op.sign = "|" /\ Is(xs[1], "vehicles") /\ Is(xs[2], "closure")
@@ -829,7 +832,7 @@ MustKnow(f) ==
 (* The value x, given to the frame f on top of the stack. *)
 Continuation(m, f, x) ==
   LET below == [ m EXCEPT !.stack = Tail(@) ]
-  IN CASE IsReading(x) /\ MustKnow(f) -> NoTelling(m, x)
+  IN CASE HasReadings /\ IsReading(x) /\ MustKnow(f) -> NoTelling(m, x)
        [] f.frame = "arguments" ->
             LET xs == Append(f.values, x)
                 arguments == Code[f.node].arguments

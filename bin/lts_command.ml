@@ -20,9 +20,7 @@ let graph_of_program path fleet ~answers ~faults ~limit =
         Report.complain (Printf.sprintf "%s has more than %d states: see --max-states" path limit);
         Error Exit_status.Inconclusive
       | exception Dolphin_semantics.Reading.Unsettled fault ->
-        let at = Dolphin_semantics.Fault.location program.program fault in
-        let at = Option.value at ~default:Dolphin_syntax.Location.none in
-        Report.diagnostics ~source:program.source [ Dolphin_syntax.Diagnostic.error at fault.message ];
+        Program_file.tell_fault program fault;
         Error Exit_status.Inconclusive
       | Some space ->
         let builder = Graph.Builder.create () in

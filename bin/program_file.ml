@@ -28,6 +28,10 @@ let load path =
   let* program, warnings = wrong source (Dolphin_semantics.Elaborate.program ~source_name:path ast) in
   Ok { path; source; program; warnings }
 
+let tell_fault p fault =
+  let at = Option.value (Dolphin_semantics.Fault.location p.program fault) ~default:Location.none in
+  Report.diagnostics ~source:p.source [ Diagnostic.error at fault.message ]
+
 let tell = function
   | Unreadable why -> Report.complain why
   | Wrong { source; found } -> Report.diagnostics ~source found

@@ -20,5 +20,8 @@ val load : string -> (t, trouble) result
 val parse : string -> (Ast.program, trouble) result
 (** [parse path] only reads and parses. *)
 
+val tell_fault : t -> Dolphin_semantics.Fault.t -> unit
+(** Tells a fault of the program, with its place, on standard error. *)
+
 val tell : trouble -> unit
 (** On standard error. *)

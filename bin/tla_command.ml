@@ -10,31 +10,13 @@ let model (program : Program_file.t) (fleet : Fleet_file.t) ~answers ~faults =
   let plans = List.map (fun (plan : Scenario.plan) -> plan.name) scenario.plans in
   let prompts = List.map (fun (answer : Scenario.answer) -> answer.prompt) scenario.answers in
   let environment = World_of.environment ~answers ~faults scenario in
-  Model.of_program ~plans ~prompts ~environment (World_of.still scenario) program.program
+  Model.of_program ~plans ~prompts ~environment (World_of.world scenario) program.program
 
 let load path fleet =
   match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet) with
   | Error trouble, _ -> Program_file.tell trouble; Error Exit_status.Bad_input
   | Ok _, Error trouble -> Fleet_file.tell trouble; Error Exit_status.Bad_input
   | Ok program, Ok fleet -> Ok (program, fleet)
-
-(* In the model a sensor always shows the same. *)
-let open_sensors (fleet : Fleet_file.t) =
-  let named = Scenario.vehicles_at ~file:(Option.value fleet.path ~default:"") fleet.source in
-  let refusal (v : Scenario.vehicle) =
-    let shown =
-      (if v.batteries = [] then [] else [ "battery" ]) @ if v.places = [] then [] else [ "at" ]
-    in
-    match shown, List.assoc_opt v.id named with
-    | setting :: _, Some at ->
-      let message =
-        Printf.sprintf "the model in TLA+ has no sensors that show one of several values: '%s' of %s" setting v.id
-      in
-      let hint = Printf.sprintf "leave one value of %s; dolphin explore follows them all" setting in
-      Some (Dolphin_syntax.Diagnostic.error at message ~hint)
-    | _, _ -> None
-  in
-  List.filter_map refusal fleet.scenario.vehicles
 
 (* {1 What is done with the model} *)
 
@@ -71,7 +53,7 @@ let deed directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverag
     wrong "what is to be done with the model? -o DIR writes it, --run has TLC check it, --compare compares state graphs"
 
 let perform jar deed (program : Program_file.t) (fleet : Fleet_file.t) ~answers ~faults files =
-  let environment = World_of.environment ~answers ~faults fleet.scenario and world = World_of.still fleet.scenario in
+  let environment = World_of.environment ~answers ~faults fleet.scenario and world = World_of.world fleet.scenario in
   match deed with
   | Write directory -> Ok (write directory files)
   | Check settings ->
@@ -85,11 +67,6 @@ let run path fleet answers faults directory check compare strict limit jar worke
   let result =
     let* deed = deed directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverage in
     let* program, fleet = load path fleet in
-    let* () =
-      match open_sensors fleet with
-      | [] -> Ok ()
-      | refusals -> Report.diagnostics ~source:fleet.source refusals; Error Exit_status.Bad_input
-    in
     match model program fleet ~answers ~faults with
     | Ok files -> perform jar deed program fleet ~answers ~faults files
     | Error refusals -> Report.diagnostics ~source:program.source refusals; Error Exit_status.Bad_input
@@ -124,8 +101,8 @@ let man =
     `P "$(tname) writes a model of a program in its world in TLA+, for the model checker TLC: $(b,MC.tla), which is the \
         program as a table of expressions and the world as constants, and the modules of the specification of the language \
         that it extends, of which $(b,Dolphin.tla) is the semantics, rule by rule. The world is that of $(mname) $(b,explore), \
-        with the same $(b,--faults), but for sensors, which always show what they show at the start; where no program looks at \
-        them, TLC finds the same states and transitions. A fleet that gives a sensor several values is refused.";
+        with the same $(b,--faults), and what sensors show is open in the same way: TLC finds the states and transitions of \
+        $(mname) $(b,explore --reduction none).";
     `P "$(b,MC.cfg) checks the properties; $(b,Told.cfg) too, and has TLC show of a run what is seen of each state, and the \
         label and the rules of each transition (by an $(b,ALIAS), which the TLC that $(b,make tlc) fetches does not know yet); \
         $(b,Graph.cfg) prints the state graph; $(b,Coverage.cfg) has an action for each rule, for TLC to count. In the \
@@ -134,7 +111,8 @@ let man =
          \  java -Xss64m -cp tla2tools.jar tlc2.TLC -workers 1 -config Graph.cfg MC.tla\n\
          \  java -Xss64m -cp tla2tools.jar tlc2.TLC -config Coverage.cfg -coverage 1 MC.tla";
     `P "What has no meaning in TLA+ is refused, with its place in the program: calls of a supplier, and coordinates that the \
-        program computes.";
+        program computes. What is known only when TLC gets there ends it, with status 3: numbers that it cannot hold, and more than comparisons that \
+        depends on what a sensor shows.";
     `S "RUNNING TLC";
   ]
   @ Tlc_options.man

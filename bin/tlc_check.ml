@@ -57,6 +57,9 @@ let print_counter_example options (program : Program_file.t) world (c : Outcome.
   Format.printf "@.%s: a run in which %s@." (phrase name) question;
   let broken = shows name options program.program world in
   match Recovered.run options program.program world ~broken c with
+  | exception Reading.Unsettled fault ->
+    Format.printf "Of this run the explorer cannot list what may happen: %s. The states of TLC:@." fault.message;
+    print_states c
   | Ok { steps; cycle } ->
     Shown_run.print program.program ~steps ~cycle;
     if name = "NoDeadlock" then Shown_run.print_waiting program.program steps
@@ -104,12 +107,12 @@ let print names options program world (o : Outcome.t) =
   match o.verdict with
   | Violated ({ violation = Unnamed; _ } as c) -> print_last_step c
   | Violated c -> print_counter_example options program world c
-  | Holds | Unfinished | Failed _ -> ()
+  | Holds | Unfinished | Gave_up _ | Failed _ -> ()
 
 let status : Outcome.verdict -> Exit_status.t = function
   | Holds -> Done
   | Violated _ -> Violated
-  | Unfinished | Failed _ -> Inconclusive
+  | Unfinished | Gave_up _ | Failed _ -> Inconclusive
 
 (* Workers may be started before or after the server; without any, nothing is computed. *)
 let tell_workers installation : Invocation.mode -> unit = function

@@ -69,6 +69,9 @@ let run installation ~directory ~limit ~coverage model options (program : Progra
   | None ->
     Report.complain (Printf.sprintf "%s has more than %d states: see --max-states" program.path limit);
     Exit_status.Inconclusive
+  | exception Dolphin_semantics.Reading.Unsettled fault ->
+    Program_file.tell_fault program fault;
+    Exit_status.Inconclusive
   | Some space -> (
       let files = List.map (fun (f : Dolphin_tla.Model.file) -> (f.name, f.text)) (Run.files ~strict:false model) in
       Tlc_session.in_directory directory files @@ fun directory ->

@@ -78,7 +78,7 @@ let show_progress : Event.t -> unit = function
   | Checks_temporal states -> show "checks termination on %d states" states
   | Worker text -> show "%s" text
   | Begins _ | Violation _ | Behaviour | State _ | Stutters | Returns_to _ | Holds | Totals _ | Depth _ | Printed _
-  | Trouble _ | Warning _ | Other -> ()
+  | Assertion _ | Trouble _ | Warning _ | Other -> ()
 
 (* {1 Running} *)
 
@@ -93,6 +93,7 @@ let because lines =
 let judge (ending : Process.ending) ~interrupted (outcome : Outcome.t) =
   match outcome.verdict, ending with
   | Failed lines, _ -> fail Exit_status.Platform_trouble (because lines)
+  | Gave_up why, _ -> fail Exit_status.Inconclusive ("TLC gave up: " ^ why)
   | (Holds | Violated _ | Unfinished), _ when interrupted -> Ok (Interrupted outcome)
   | (Holds | Violated _), _ -> Ok (Ended outcome)
   | Unfinished, Not_started why -> fail Exit_status.Platform_trouble ("Java could not be started: " ^ why)

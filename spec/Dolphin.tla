@@ -4,11 +4,13 @@
 (*                                                                                *)
 (* Letters as there: v, V vehicles; p a platform task; t a task; r a residual;    *)
 (* k, x a pair of N; g a guard; i a timer; m a message; M the script's machine;   *)
-(* S the shared part <store, A, B, N>; l a label. Its kappa and sigma are the     *)
-(* variables control and store.                                                   *)
+(* S the shared part <store, A, B, N>, with what sensors have shown in the step;  *)
+(* l a label. Its kappa and sigma are the variables control and store.            *)
 (*                                                                                *)
 (* Steps(S, r) is the steps of a residual, Transitions those of a configuration:  *)
-(* sequences, the leftmost first. A step is a record:                             *)
+(* sequences, the leftmost first. A step of a residual is a sequence of what it   *)
+(* may be, as sensors show this or that; mostly of one. Each of these is a        *)
+(* record:                                                                        *)
 (*                                                                                *)
 (*   rules  the derivation, the axiom first                                       *)
 (*   label  what an observer sees, as text                                        *)
@@ -49,7 +51,7 @@ VARIABLES
 
 vars == << control, store, A, B, N, outside >>
 
-Shared == [ store |-> store, A |-> A, B |-> B, N |-> N ]
+Shared == [ store |-> store, A |-> A, B |-> B, N |-> N, sees |-> NothingSeen ]
 
 (* kappa *)
 Script(M) == [ at |-> "script", M |-> M ]
@@ -154,19 +156,25 @@ GoesOn(s) == s.out[1] = "next"
 IsDone(s) == s.out[1] = "ok"
 IsErr(s) == s.out[1] = "err"
 
-(* S |- g => x, S', ds: the code g with these arguments. A fault leaves no effect. *)
-After(S, m) == [ S EXCEPT !.store = m.store, !.N = m.N ]
+(* S |- g => x, S', ds: the code g with these arguments, as often as its outcome may be another one by what sensors show.
+   A fault leaves no effect. What was seen stays so for the rest of the step. *)
+After(S, m) == [ S EXCEPT !.store = m.store, !.N = m.N, !.sees = m.sees ]
+Knowing(S, sees) == [ S EXCEPT !.sees = sees ]
+
+(* The step is over: what sensors show is from now on what they have shown. *)
+Over(S) == IF HasReadings THEN [ S EXCEPT !.store = KeptInStore(@) ] ELSE S
 
 Endless == "this code does not come to an end, and code inside of a task is atomic"
 
 RunCode(S, mode, closure, arguments) ==
-  LET m == Run(Call(closure, arguments), S, mode, AtomicFuel)
-      result(is, value, verdict, after, deeds) ==
-        [ is |-> is, value |-> value, verdict |-> verdict, S |-> after, deeds |-> deeds ]
-  IN CASE m.stop[1] = "finished" -> result("value", m.stop[2], m.verdict, After(S, m), m.deeds)
-       [] m.stop[1] = "halted" -> result("halt", m.stop[2], m.verdict, After(S, m), m.deeds)
-       [] m.stop[1] = "faulted" -> result("fault", m.stop[2], m.verdict, S, << >>)
-       [] m.stop[1] = "exhausted" -> result("fault", Fault(Endless, -closure[2]), m.verdict, S, << >>)
+  LET result(m, is, value, after, deeds) ==
+        [ is |-> is, value |-> value, verdict |-> m.verdict, S |-> after, deeds |-> deeds ]
+      of(m) ==
+        CASE m.stop[1] = "finished" -> result(m, "value", m.stop[2], After(S, m), m.deeds)
+          [] m.stop[1] = "halted" -> result(m, "halt", m.stop[2], After(S, m), m.deeds)
+          [] m.stop[1] = "faulted" -> result(m, "fault", m.stop[2], Knowing(S, m.sees), << >>)
+          [] m.stop[1] = "exhausted" -> result(m, "fault", Fault(Endless, -closure[2]), Knowing(S, m.sees), << >>)
+  IN Each(Run(Call(closure, arguments), S, mode, AtomicFuel), of)
 
 (* No watch handles an assertion that fails, nor halt. *)
 ASSERT_ERR(S, fault) == Step("ASSERT-ERR", "broken(" \o fault.message \o ")", Program, S, Ends(Failed(fault)), << >>)
@@ -286,20 +294,21 @@ WATCH_HALT(s, m) == By(s, "WATCH-HALT", Ends(Halted(m)))
 
 (* The handler runs in the step that failed. *)
 Handled(s, h) ==
-  LET run == Only({ RunCode(s.S, "handler", h, << String(s.out[2].message) >>) })
-      after == [ s EXCEPT !.S = run.S, !.deeds = @ \o run.deeds ]
-  IN CASE run.is = "halt" -> WATCH_HALT(after, run.value)
-       [] run.is = "fault" ->
-            IF run.value.assertion THEN By(after, "ASSERT-ERR", Ends(Failed(run.value)))
-            ELSE WATCH_PROPAGATE(after, run.value)
-       [] run.verdict = "ignore" -> WATCH_IGNORE(after)
-       [] OTHER -> WATCH_PROPAGATE(after, s.out[2])
+  LET after(run) == [ s EXCEPT !.S = run.S, !.deeds = @ \o run.deeds ]
+      by(run) ==
+        CASE run.is = "halt" -> WATCH_HALT(after(run), run.value)
+          [] run.is = "fault" ->
+               IF run.value.assertion THEN By(after(run), "ASSERT-ERR", Ends(Failed(run.value)))
+               ELSE WATCH_PROPAGATE(after(run), run.value)
+          [] run.verdict = "ignore" -> WATCH_IGNORE(after(run))
+          [] OTHER -> WATCH_PROPAGATE(after(run), s.out[2])
+  IN Each(RunCode(s.S, "handler", h, << String(s.out[2].message) >>), by)
 
 InWatch(s, h) ==
-  CASE GoesOn(s) -> WATCH_1(s, h)
-    [] IsDone(s) -> WATCH_2(s)
+  CASE GoesOn(s) -> << WATCH_1(s, h) >>
+    [] IsDone(s) -> << WATCH_2(s) >>
     [] IsErr(s) -> Handled(s, h)
-    [] OTHER -> s
+    [] OTHER -> << s >>
 
 (* {2 All steps of r} *)
 
@@ -331,9 +340,10 @@ CodeOf(r) ==
 (* What r does when its j-th code gave a value; guards that are not true do nothing. *)
 WithValue(S, r, j, run) ==
   CASE r.op = "action" -> << ACTION_(run) >>
+    [] IsReading(run.value) -> Assert(FALSE, OpenHere(run.value[3], -CodeOf(r)[j][2]))
     [] r.op = "during" ->
          << IF IsTime(run.value) THEN DURING_SET(run, r, Time(run.value))
-            ELSE DURING_ERR_SET(S, NoTime(run.value, r.time)) >>
+            ELSE DURING_ERR_SET(Knowing(S, run.S.sees), NoTime(run.value, r.time)) >>
     [] ~Truth(run.value) -> << >>
     [] r.op = "condition" -> << CONDITION(run) >>
     [] r.op = "allOf" -> << ALLOF_WHEN(run, r.choices, j) >>
@@ -352,25 +362,35 @@ WithFault(S, r, fault) ==
 WithCode(S, r, j, run) ==
   CASE run.is = "value" -> WithValue(S, r, j, run)
     [] run.is = "halt" -> << HALT_CODE(run) >>
-    [] run.is = "fault" -> << IF run.value.assertion THEN ASSERT_ERR(S, run.value) ELSE WithFault(S, r, run.value) >>
+    [] run.is = "fault" ->
+         << IF run.value.assertion THEN ASSERT_ERR(run.S, run.value) ELSE WithFault(run.S, r, run.value) >>
 
 CodeSteps(S, r) ==
   LET codes == CodeOf(r)
-  IN Flatten([ j \in DOMAIN codes |-> WithCode(S, r, j, Only({ RunCode(S, "task", codes[j], << >>) })) ])
+      of(j) == Flatten(Each(RunCode(S, "task", codes[j], << >>), LAMBDA run : WithCode(S, r, j, run)))
+  IN IF codes = << >> THEN << >>
+     ELSE SelectSeq(<< >> \o [ j \in DOMAIN codes |-> of(j) ], LAMBDA outcomes : outcomes # << >>)
+
+(* A step that does not depend on sensors; steps of a part, in what is around it. Mostly there is one outcome, which TLC
+   need not make a function for. *)
+Always(s) == << s >>
+In(steps, F(_)) == Each(steps, LAMBDA outcomes : IF Len(outcomes) = 1 THEN << F(outcomes[1]) >> ELSE Each(outcomes, F))
 
 RECURSIVE Steps(_, _)
 Steps(S, r) ==
   CodeSteps(S, r) \o
-  CASE r.op = "ready" -> << START(S, r) >>
-    [] r.op = "running" -> Endings(S, r) \o LossOf(S, r)
-    [] r.op = "seq" -> Each(Steps(S, r.first), LAMBDA s : InSeq(s, r.rest))
+  CASE r.op = "ready" -> << Always(START(S, r)) >>
+    [] r.op = "running" -> Each(Endings(S, r) \o LossOf(S, r), Always)
+    [] r.op = "seq" -> In(Steps(S, r.first), LAMBDA s : InSeq(s, r.rest))
     [] r.op = "par" ->
-         Flatten([ j \in DOMAIN r.branches |-> Each(Steps(S, r.branches[j]), LAMBDA s : InPar(s, r.branches, j)) ])
-    [] r.op = "allOf" /\ r.runs # << >> -> Each(Steps(S, r.runs[1]), LAMBDA s : InAllOf(s, r.choices))
-    [] r.op = "until" -> Each(Steps(S, r.body), LAMBDA s : InUntil(s, r.guard))
-    [] r.op = "idle" -> << IDLE_END(S, r) >>
-    [] r.op = "during" /\ r.started -> << DURING_CUT(S, r) >> \o Each(Steps(S, r.body), LAMBDA s : InDuring(s, r))
-    [] r.op = "watch" -> Each(Steps(S, r.body), LAMBDA s : InWatch(s, r.handler))
+         Flatten([ j \in DOMAIN r.branches |-> In(Steps(S, r.branches[j]), LAMBDA s : InPar(s, r.branches, j)) ])
+    [] r.op = "allOf" /\ r.runs # << >> -> In(Steps(S, r.runs[1]), LAMBDA s : InAllOf(s, r.choices))
+    [] r.op = "until" -> In(Steps(S, r.body), LAMBDA s : InUntil(s, r.guard))
+    [] r.op = "idle" -> << Always(IDLE_END(S, r)) >>
+    [] r.op = "during" /\ r.started ->
+         << Always(DURING_CUT(S, r)) >> \o In(Steps(S, r.body), LAMBDA s : InDuring(s, r))
+    [] r.op = "watch" ->
+         Each(Steps(S, r.body), LAMBDA outcomes : Flatten(Each(outcomes, LAMBDA s : InWatch(s, r.handler))))
     [] OTHER -> << >>
 
 -----------------------------------------------------------------------------
@@ -418,9 +438,9 @@ Permitted(leaf, v) == leaf.allowed = << >> \/ v \in Range(leaf.allowed[1])
 (* The places in B of those that can run it. *)
 Candidates(leaf) == { j \in DOMAIN B : Permitted(leaf, B[j]) /\ Lack(leaf.p, B[j]) = << >> }
 
-(* How much farther it is from v to where p begins than from the nearest vehicle of the fleet, in millimetres. *)
-Farther(p, v) ==
-  IF p.plan = 0 \/ ~IsKnown(v) THEN 0 ELSE Plans[p.plan].farther[CHOOSE j \in DOMAIN Fleet : Fleet[j].id = v]
+(* How much farther it is from v to where p begins than from the nearest place of a vehicle, in millimetres. *)
+Farther(p, v, sees) ==
+  IF p.plan = 0 \/ ~IsKnown(v) THEN 0 ELSE Plans[p.plan].farther[FoundAt(VehicleOf(v), sees)]
 
 (* f[n] is the place in B of the vehicle of the n-th platform task. *)
 RECURSIVE Feasible(_, _, _)
@@ -429,9 +449,10 @@ Feasible(leaves, exclusive, n) ==
   ELSE { f \in { Append(f, j) : f \in Feasible(leaves, exclusive, n - 1), j \in Candidates(leaves[n]) } :
            \A i \in 1 .. n - 1 : << i, n >> \in exclusive => f[i] # f[n] }
 
-RECURSIVE Total(_, _)
-Total(leaves, f) ==
-  IF f = << >> THEN 0 ELSE Farther(leaves[Len(f)].p, B[Last(f)]) + Total(leaves, SubSeq(f, 1, Len(f) - 1))
+RECURSIVE Total(_, _, _)
+Total(leaves, f, sees) ==
+  IF f = << >> THEN 0
+  ELSE Farther(leaves[Len(f)].p, B[Last(f)], sees) + Total(leaves, SubSeq(f, 1, Len(f) - 1), sees)
 
 LeastBy(F, Measure(_)) == LET least == Minimum({ Measure(f) : f \in F }) IN { f \in F : Measure(f) = least }
 
@@ -439,8 +460,8 @@ RECURSIVE FirstInPickOrder(_, _)
 FirstInPickOrder(F, n) ==
   IF Cardinality(F) = 1 THEN Only(F) ELSE FirstInPickOrder(LeastBy(F, LAMBDA f : f[n]), n + 1)
 
-Best(leaves, F) ==
-  FirstInPickOrder(LeastBy(LeastBy(F, LAMBDA f : Cardinality(Range(f))), LAMBDA f : Total(leaves, f)), 1)
+Best(leaves, F, sees) ==
+  FirstInPickOrder(LeastBy(LeastBy(F, LAMBDA f : Cardinality(Range(f))), LAMBDA f : Total(leaves, f, sees)), 1)
 
 (* t with its vehicles, and timers numbered from left to right: after the n-th platform task and the i-th timer. *)
 RECURSIVE TimerCount(_)
@@ -501,21 +522,30 @@ Conflict(leaves, exclusive) ==
            \o " run side by side and need different vehicles, but there is only "
            \o Join(Each(competing, LAMBDA j : B[j]), ", "), leaves[those[1]].p.at)
 
-(* alloc(t, B): <<"ok", r>>, or <<"wrong", fault>>. *)
-Alloc(t) ==
+(* Whether it matters to the allocation of t where vehicles are. *)
+PrefersTheNear(t) == \E leaf \in Range(Leaves(t, << >>)) : leaf.p.plan # 0
+
+(* alloc(t, B) where vehicles are where they were seen: <<"ok", r>>, or <<"wrong", fault>>. *)
+Alloc(t, sees) ==
   LET leaves == Leaves(t, << >>)
       hopeless == SelectSeq(leaves, LAMBDA leaf : Candidates(leaf) = { })
       exclusive == Exclusive(t, 0)
       feasible == Feasible(leaves, exclusive, Len(leaves))
   IN CASE hopeless # << >> -> Bad(NoCandidate(hopeless[1]))
        [] feasible = { } -> Bad(Conflict(leaves, exclusive))
-       [] OTHER -> Ok(Assigned(t, Best(leaves, feasible), 0, 0))
+       [] OTHER -> Ok(Assigned(t, Best(leaves, feasible, sees), 0, 0))
 
 -----------------------------------------------------------------------------
 (* {1 Transitions of configurations} *)
 
 Transition(rules, label, cause, kappa, S, deeds) ==
   [ rules |-> rules, label |-> label, cause |-> cause, control |-> kappa, S |-> S, deeds |-> deeds, late |-> { } ]
+
+(* Of what a step may be as sensors show this or that, the first of those with the same label and the same result. *)
+Different(ts) ==
+  LET result(t) == << t.label, t.control, Knowing(t.S, NothingSeen) >>
+      isNew(j) == \A i \in 1 .. j - 1 : result(ts[i]) # result(ts[j])
+  IN IF Len(ts) < 2 THEN ts ELSE Each(SelectSeq([ j \in DOMAIN ts |-> j ], isNew), LAMBDA j : ts[j])
 
 (* ended(S, e): all stops, all of B is released. *)
 ToEnd(rules, label, cause, ending, S, deeds) ==
@@ -557,16 +587,17 @@ EXECUTE(m, S, r) == Transition(<< "EXECUTE" >>, "execute", Program, Executing(Ma
 ALLOC_ERR(S, fault) ==
   ToEnd(<< "ALLOC-ERR" >>, "cannot-execute(" \o fault.message \o ")", Program, FailedFor("vehicles", fault), S, << >>)
 
-ExecuteStep(m, S, t) ==
-  LET allocated == Only({ Alloc(t) })
-  IN IF IsOk(allocated) THEN EXECUTE(m, S, allocated[2]) ELSE ALLOC_ERR(S, allocated[2])
+ExecuteSteps(m, S, t) ==
+  LET step(allocated) == IF IsOk(allocated) THEN EXECUTE(m, S, allocated[2]) ELSE ALLOC_ERR(S, allocated[2])
+  IN Each(Placings(S.sees, IF PrefersTheNear(t) THEN B ELSE << >>),
+          LAMBDA sees : Only({ step(allocated) : allocated \in { Alloc(t, sees) } }))
 
 Wait(m, S, request) ==
-  CASE request[1] = "pick" -> PICK_(m, S, request[2])
-    [] request[1] = "ask" -> ASK(m, S, request[2])
-    [] request[1] = "pause" -> PAUSE(m, S, request[2])
-    [] request[1] = "call" -> CALL(m, S, request[2])
-    [] request[1] = "execute" -> ExecuteStep(m, S, request[2])
+  CASE request[1] = "pick" -> << PICK_(m, S, request[2]) >>
+    [] request[1] = "ask" -> << ASK(m, S, request[2]) >>
+    [] request[1] = "pause" -> << PAUSE(m, S, request[2]) >>
+    [] request[1] = "call" -> << CALL(m, S, request[2]) >>
+    [] request[1] = "execute" -> ExecuteSteps(m, S, request[2])
 
 (* {2 Ends} *)
 
@@ -575,23 +606,25 @@ HALT(S, m) == ToEnd(<< "HALT" >>, HaltLabel(m), Program, Halted(m), S, << >>)
 FAULT(S, fault) == ToEnd(<< "FAULT" >>, "fault(" \o fault.message \o ")", Program, Failed(fault), S, << >>)
 INTERRUPT == ToEnd(<< "INTERRUPT" >>, "interrupt", << "interruption" >>, Interrupted, Shared, << >>)
 
-ScriptStep(M) ==
-  LET m == Only({ Run(M, Shared, "script", ScriptFuel) })
-      S == After(Shared, m)
-  IN CASE m.stop[1] = "did" -> Deed(m, S)
-       [] m.stop[1] = "waits" -> Wait(m, S, m.stop[2])
-       [] m.stop[1] = "finished" -> END(S)
-       [] m.stop[1] = "halted" -> HALT(S, m.stop[2])
-       [] m.stop[1] = "faulted" -> FAULT(S, m.stop[2])
-       [] m.stop[1] = "exhausted" -> SCRIPT(m, S)
+ScriptSteps(M) ==
+  LET of(m, S) ==
+        CASE m.stop[1] = "did" -> << Deed(m, S) >>
+          [] m.stop[1] = "waits" -> Wait(m, S, m.stop[2])
+          [] m.stop[1] = "finished" -> << END(S) >>
+          [] m.stop[1] = "halted" -> << HALT(S, m.stop[2]) >>
+          [] m.stop[1] = "faulted" -> << FAULT(S, m.stop[2]) >>
+          [] m.stop[1] = "exhausted" -> << SCRIPT(m, S) >>
+  IN Different(Flatten(Each(Run(M, Shared, "script", ScriptFuel), LAMBDA m : of(m, Over(After(Shared, m))))))
 
 (* {2 Who is there} *)
 
+(* Wherever it is. *)
 Accepts(q, vehicle) ==
   /\ q.id = << >> \/ q.id[1] = vehicle.id
   /\ q.type = << >> \/ q.type[1] = vehicle.type
   /\ Carries(vehicle, q.payload)
-  /\ q.region = << >> \/ Within(q.region[1], vehicle.place)
+
+IsInRegion(q, vehicle, sees) == q.region = << >> \/ Within(q.region[1], FoundAt(vehicle, sees))
 
 (* All sequences of n elements of xs in their order, the first ones first. *)
 RECURSIVE Choices(_, _)
@@ -616,7 +649,7 @@ Arrangements(n, xs) ==
 
 (* Whom q looks for, wherever they are. Nothing was heard of the silent ones since they were lost; the unsure may be late. *)
 Wanted(q) ==
-  Each(SelectSeq(Fleet, LAMBDA vehicle : Accepts([ q EXCEPT !.region = << >> ], vehicle) /\ vehicle.id \notin Range(B)),
+  Each(SelectSeq(Fleet, LAMBDA vehicle : Accepts(q, vehicle) /\ vehicle.id \notin Range(B)),
        LAMBDA vehicle : vehicle.id)
 Silent(q) == SelectSeq(Wanted(q), LAMBDA v : v \in outside.lost)
 Unsure(q) == SelectSeq(Wanted(q), LAMBDA v : v \notin outside.lost /\ Latecomers # 0 /\ v \in MayBeLate)
@@ -645,12 +678,15 @@ Attendances(q) ==
 
 (* {2 Picking vehicles} *)
 
-(* fit(q, w, B), in the order in which they were heard of, where w is the world with attendance a. *)
-Fit(q, a) ==
-  Each(SelectSeq(World(a), LAMBDA vehicle : Accepts(q, vehicle) /\ vehicle.id \notin Range(B) \cup Range(a.missing)),
-       LAMBDA vehicle : vehicle.id)
+(* fit(q, w, B), in the order in which they were heard of, where w is the world with attendance a and vehicles where they
+   were seen. *)
+Fit(q, a, sees) ==
+  LET fits(vehicle) == /\ Accepts(q, vehicle)
+                       /\ vehicle.id \notin Range(B) \cup Range(a.missing)
+                       /\ IsInRegion(q, vehicle, sees)
+  IN Each(SelectSeq(World(a), fits), LAMBDA vehicle : vehicle.id)
 
-WhyNot(q, a, vehicle) ==
+WhyNot(q, a, sees, vehicle) ==
   vehicle.id \o " " \o
   CASE vehicle.id \in Range(B) -> "is already bound"
     [] vehicle.id \in Range(a.missing) -> "is not connected"
@@ -658,41 +694,42 @@ WhyNot(q, a, vehicle) ==
     [] q.type # << >> /\ q.type[1] # vehicle.type -> "is a " \o vehicle.type
     [] ~Carries(vehicle, q.payload) ->
          "lacks " \o Join(SelectSeq(q.payload, LAMBDA d : ~Carries(vehicle, << d >>)), ", ")
-    [] q.region # << >> /\ ~Within(q.region[1], vehicle.place) ->
-         "is at " \o Places[vehicle.place] \o ", outside of the region"
+    [] ~IsInRegion(q, vehicle, sees) -> "is at " \o Places[FoundAt(vehicle, sees)] \o ", outside of the region"
     [] OTHER -> "fits"
 
-NoVehicles(q, a) ==
+NoVehicles(q, a, sees) ==
   LET shown == SubSeq(World(a), 1, Clipped(8, 0, Len(Fleet)))
       more == Len(Fleet) - Len(shown)
       there == IF Fleet = << >> THEN "no vehicle was heard of"
-               ELSE Join(Each(shown, LAMBDA vehicle : WhyNot(q, a, vehicle)), "; ")
+               ELSE Join(Each(shown, LAMBDA vehicle : WhyNot(q, a, sees, vehicle)), "; ")
                     \o (IF more > 0 THEN "; and " \o ToString(more) \o " more" ELSE "")
   IN "could not pick " \o PickText(q) \o ": " \o there
 
 PICK_BIND(M, V, cause) ==
   Transition(<< "PICK-BIND" >>, "bind(" \o Join(V, ", ") \o ")", cause, Script(GoOn(M, Vehicles(V))),
              [ Shared EXCEPT !.B = @ \o V ], << >>)
-PICK_ERR(M, q, a) ==
-  ToEnd(<< "PICK-ERR" >>, "no-vehicles(" \o NoVehicles(q, a) \o ")", << "timer", 0 >>,
-        FailedFor("vehicles", Fault(NoVehicles(q, a), M.at)), Shared, << >>)
+PICK_ERR(M, q, a, sees) ==
+  ToEnd(<< "PICK-ERR" >>, "no-vehicles(" \o NoVehicles(q, a, sees) \o ")", << "timer", 0 >>,
+        FailedFor("vehicles", Fault(NoVehicles(q, a, sees), M.at)), Shared, << >>)
 
-PickStepsIn(M, q, a) ==
-  LET fit == Fit(q, a)
-  IN CASE q.all -> << IF fit = << >> THEN PICK_ERR(M, q, a) ELSE PICK_BIND(M, fit, << "timer", 0 >>) >>
-       [] Len(fit) < q.count -> << PICK_ERR(M, q, a) >>
+PickStepsIn(M, q, a, sees) ==
+  LET fit == Fit(q, a, sees)
+  IN CASE q.all -> << IF fit = << >> THEN PICK_ERR(M, q, a, sees) ELSE PICK_BIND(M, fit, << "timer", 0 >>) >>
+       [] Len(fit) < q.count -> << PICK_ERR(M, q, a, sees) >>
        [] OTHER -> Each(Choices(q.count, fit), LAMBDA V : PICK_BIND(M, V, Program))
 
 (* In each world that may be. What comes of several is remembered as of the first: with the fewest that are late anew. *)
 PickSteps(M, q) ==
-  LET steps(a) == Each(PickStepsIn(M, q, a), LAMBDA t : [ t EXCEPT !.late = LateIn(a) ])
+  LET placings == Placings(NothingSeen, IF q.region = << >> THEN << >> ELSE Wanted(q))
+      in(a) == Flatten(Each(placings, LAMBDA sees : PickStepsIn(M, q, a, sees)))
+      steps(a) == Each(in(a), LAMBDA t : [ t EXCEPT !.late = LateIn(a) ])
       first(ts) == SelectSeq([ j \in DOMAIN ts |-> j ], LAMBDA j : \A i \in 1 .. j - 1 : ts[i].label # ts[j].label)
   IN Only({ Each(first(ts), LAMBDA j : ts[j]) : ts \in { Flatten(Each(Attendances(q), steps)) } })
 
 (* {2 Waiting ends} *)
 
 ANSWER(M, prompt, text, y, cause) ==
-  Transition(<< "ANSWER" >>, "answer(" \o text \o ")", cause, Script(GoOn(M, y)), Shared, << >>)
+  Transition(<< "ANSWER" >>, "answer(" \o text \o ")", cause, Script(Machine(GoOn(M, y))), Shared, << >>)
 ANSWER_ERR(M, prompt, m, cause) ==
   ToEnd(<< "ANSWER-ERR" >>, "no-answer", cause,
         Failed(Fault("no answer to '" \o prompt \o "': " \o m, M.at)), Shared, << >>)
@@ -718,13 +755,14 @@ AnswerSteps(M, prompt, times) ==
       refused(m) ==
         IF times + 1 < Len(rounds) THEN AnswerSteps(M, prompt, times + 1) ELSE << ANSWER_ERR(M, prompt, m, cause) >>
       evaluated(answer) == RunCode(Shared, "task", << "closure", answer.lambda, << >> >>, << >>)
-      by(answer, run) ==
-        CASE run.is = "fault" -> refused(run.value.message)
-          [] run.is = "halt" \/ run.deeds # << >> \/ run.S.store # store ->
-               refused("an answer may only compute a value")
-          [] OTHER -> << ANSWER(M, prompt, answer.text, run.value, cause) >>
+      isValue(run) == run.is = "value" /\ run.deeds = << >> /\ run.S.store = store
+      by(answer, runs) ==
+        CASE \E j \in DOMAIN runs : isValue(runs[j]) ->
+               Different(Each(SelectSeq(runs, isValue), LAMBDA run : ANSWER(M, prompt, answer.text, run.value, cause)))
+          [] runs[1].is = "fault" -> refused(runs[1].value.message)
+          [] OTHER -> refused("an answer may only compute a value")
       step(answer) ==
-        IF answer.lambda = 0 THEN refused(answer.why) ELSE Only({ by(answer, run) : run \in { evaluated(answer) } })
+        IF answer.lambda = 0 THEN refused(answer.why) ELSE Only({ by(answer, runs) : runs \in { evaluated(answer) } })
   IN IF given = << >> THEN << ANSWER_ERR(M, prompt, "none is given", << "answer", prompt, times >>) >>
      ELSE Flatten(Each(given, step))
 
@@ -751,10 +789,17 @@ InExecute(M, s) ==
 -----------------------------------------------------------------------------
 (* {1 The whole system} *)
 
+ExecutingSteps(M, r) ==
+  LET in(s) == InExecute(M, IF HasReadings THEN [ s EXCEPT !.S = Over(@) ] ELSE s)
+      alone(outcomes) == Len(outcomes) = 1
+      all(steps) == IF \A j \in DOMAIN steps : alone(steps[j]) THEN Each(steps, LAMBDA outcomes : in(outcomes[1]))
+                    ELSE Flatten(Each(steps, LAMBDA outcomes : Different(Each(outcomes, in))))
+  IN Only({ all(steps) : steps \in { Steps(Shared, r) } })
+
 Transitions ==
-  (CASE control.at = "script" -> << ScriptStep(control.M) >>
+  (CASE control.at = "script" -> ScriptSteps(control.M)
      [] control.at = "wait" -> WaitSteps(control.M, control.request)
-     [] control.at = "exec" -> Each(Steps(Shared, control.r), LAMBDA s : InExecute(control.M, s))
+     [] control.at = "exec" -> ExecutingSteps(control.M, control.r)
      [] control.at = "end" -> << >>)
   \o (IF Interruptions /\ control.at # "end" THEN << INTERRUPT >> ELSE << >>)
 

@@ -11,11 +11,13 @@ CONSTANTS
   Lambdas,      \* its closures and functions, by number
   GlobalNames,  \* the names of its global variables, by number
   OrderedKeys,  \* the keys of which some "consume k:_" takes the oldest pair
-  Fleet,        \* the vehicles around, in the order in which they were heard of
+  Fleet,        \* the vehicles around, in the order in which they were heard of; battery and position: what these may
+                \* show, anything if it is nothing; places: where it may be when it is picked
   Plans,        \* what allocation must know of each inline plan, by number
   ScriptFuel,   \* how many expressions the script evaluates in one silent step
   AtomicFuel,   \* how many code of a task may take before it counts as endless
-  MaximumCalls  \* how deep calls may nest
+  MaximumCalls, \* how deep calls may nest
+  SiteOf(_)     \* where expression n is in the text of the program; of -n, where closure n is
 
 (* {1 The tuple space N} *)
 
@@ -61,6 +63,47 @@ IsKnown(v) == \E i \in DOMAIN Fleet : Fleet[i].id = v
 
 Carries(vehicle, devices) == { Lower(d) : d \in Range(devices) } \subseteq vehicle.devices
 
+(* {2 Sensors} *)
+
+(* What a sensor shows is open, at each step anew; within one step it stays. S.sees is what was seen in this step so far:
+   of each question its answer, by number. There are three kinds of questions: <<"battery", v>> and <<"position", v>> where
+   the fleet gives several values, and <<"claim", text>>, of a comparison. *)
+NothingSeen == << >>
+Seeing(sees, question, i) == (question :> i) @@ sees
+Claims(sees) == { question \in DOMAIN sees : question[1] = "claim" }
+
+MostClaims == 12
+
+(* Whether there are readings at all. *)
+HasReadings == \E j \in DOMAIN Fleet : Fleet[j].battery = << >> \/ Fleet[j].position = << >>
+
+Shown(quantity, sensor, v, xs) ==
+  CASE xs = << >> -> Ok(Reading(quantity, sensor \o "(" \o v \o ")"))
+    [] Len(xs) = 1 -> Ok(xs[1])
+    [] OTHER -> Depends(<< sensor, v >>, xs)
+
+(* Where v is, as far as picking and allocating are concerned. *)
+FoundAt(vehicle, sees) ==
+  vehicle.places[IF Len(vehicle.places) = 1 THEN 1 ELSE sees[<< "position", vehicle.id >>]]
+
+(* What was seen, and of each of vs where it is: in all ways. *)
+RECURSIVE Placings(_, _)
+Placings(sees, vs) ==
+  IF vs = << >> THEN << sees >>
+  ELSE LET question == << "position", Head(vs) >>
+           places == VehicleOf(Head(vs)).places
+           at(i) == Placings(Seeing(sees, question, i), Tail(vs))
+       IN IF Len(places) = 1 \/ question \in DOMAIN sees THEN Placings(sees, Tail(vs))
+          ELSE Flatten([ i \in DOMAIN places |-> at(i) ])
+
+(* In the next step a sensor may show something else: what it showed then must not be taken for what it shows now. So a
+   reading is known by what keeps it. *)
+KeptBy(keeper, x) == IF IsReading(x) THEN Reading(x[2], keeper) ELSE x
+
+KeptInStore(store) ==
+  LET kept(i) == IF store[i] = << >> THEN << >> ELSE << KeptBy(GlobalNames[i], store[i][1]) >>
+  IN << >> \o [ i \in DOMAIN store |-> kept(i) ]
+
 (* {1 Machines} *)
 
 (* M is a record: its focus, an expression to evaluate or a value to give to the stack; its locals; its stack of frames,
@@ -90,15 +133,40 @@ Going == << "going" >>
 
 Started(M, S, mode, fuel) ==
   [ focus |-> M.focus, locals |-> M.locals, stack |-> M.stack, at |-> M.at,
-    store |-> S.store, B |-> S.B, N |-> S.N,
+    store |-> S.store, B |-> S.B, N |-> S.N, sees |-> S.sees,
     mode |-> mode, verdict |-> "propagate", deeds |-> << >>, fuel |-> fuel, stop |-> Going ]
 
-Machine(m) == [ focus |-> m.focus, locals |-> m.locals, stack |-> m.stack, at |-> m.at ]
+(* Slots are counted from 0 here, arguments from the last one backwards. *)
+KeptInSlots(where, xs) == << >> \o [ j \in DOMAIN xs |-> KeptBy(where \o " " \o ToString(j - 1), xs[j]) ]
+
+KeptInFrame(f, height) ==
+  LET n == Len(f.values)
+      argument(j) == "argument at " \o ToString(height) \o ": " \o ToString(n - j)
+  IN CASE f.frame = "arguments" ->
+            [ f EXCEPT !.values = << >> \o [ j \in 1 .. n |-> KeptBy(argument(j), f.values[j]) ] ]
+       [] f.frame = "leave" -> [ f EXCEPT !.locals = KeptInSlots("local at " \o ToString(height) \o ":", @) ]
+       [] OTHER -> f
+
+Machine(m) ==
+  IF HasReadings
+  THEN LET height(i) == Len(m.stack) + 1 - i
+       IN [ focus |-> IF m.focus[1] = "give" THEN Give(KeptBy("value 0", m.focus[2])) ELSE m.focus,
+            locals |-> KeptInSlots("local", m.locals),
+            stack |-> << >> \o [ i \in DOMAIN m.stack |-> KeptInFrame(m.stack[i], height(i)) ],
+            at |-> m.at ]
+  ELSE [ focus |-> m.focus, locals |-> m.locals, stack |-> m.stack, at |-> m.at ]
 
 Stop(m, why) == [ m EXCEPT !.stop = why ]
 
 Fault(message, at) == [ message |-> message, at |-> at, assertion |-> FALSE ]
 Faulty(m, message) == Stop(m, << "faulted", Fault(message, m.at) >>)
+
+(* x is a reading, and more than a comparison depends on it. *)
+NoTelling(m, x) == Stop(m, << "unsettled", x[3] >>)
+
+OpenHere(text, at) ==
+  SiteOf(at) \o ": what " \o text
+  \o " is, is open, and more than a comparison depends on it: the fleet can give the values it may have"
 
 Result(m, x) == [ m EXCEPT !.focus = Give(x) ]
 Settle(m, result) == [ m EXCEPT !.focus = << "result", result >> ]
@@ -211,27 +279,28 @@ Build(m, op, ss) ==
 
 (* {1 Properties and methods} *)
 
+(* F gives a result. *)
 OneVehicle(vs, F(_)) ==
   CASE Len(vs) # 1 -> Bad("the set must be a single vehicle, it has " \o ToString(Len(vs)))
     [] ~IsKnown(vs[1]) -> Bad("nothing is known of vehicle " \o vs[1])
-    [] OTHER -> Ok(F(VehicleOf(vs[1])))
+    [] OTHER -> F(VehicleOf(vs[1]))
 
 OneVehicleValue(x, F(_)) == IF Is(x, "vehicles") THEN OneVehicle(x[2], F) ELSE Expected("a vehicle", x)
 
 StringList(names) == List(Each(names, String))
 
-PositionOf(vehicle) == << "position", vehicle.place >>
-BatteryOf(vehicle) == vehicle.battery
+PositionOf(vehicle) == Shown("place", "position", vehicle.id, vehicle.position)
+BatteryOf(vehicle) == Shown("amount", "battery", vehicle.id, vehicle.battery)
 
 NoGetter == << "none" >>
 
 VehicleGetter(vs, name) ==
-  CASE name = "id" -> IF Len(vs) = 1 THEN Ok(String(vs[1])) ELSE OneVehicle(vs, LAMBDA vehicle : String(vehicle.id))
+  CASE name = "id" -> IF Len(vs) = 1 THEN Ok(String(vs[1])) ELSE OneVehicle(vs, LAMBDA vehicle : Ok(String(vehicle.id)))
     [] name = "ids" -> Ok(StringList(vs))
-    [] name = "type" -> OneVehicle(vs, LAMBDA vehicle : String(vehicle.type))
+    [] name = "type" -> OneVehicle(vs, LAMBDA vehicle : Ok(String(vehicle.type)))
     [] name = "position" -> OneVehicle(vs, PositionOf)
     [] name = "battery" -> OneVehicle(vs, BatteryOf)
-    [] name = "payload" -> OneVehicle(vs, LAMBDA vehicle : StringList(vehicle.payload))
+    [] name = "payload" -> OneVehicle(vs, LAMBDA vehicle : Ok(StringList(vehicle.payload)))
     [] OTHER -> NoGetter
 
 ItemGetter(items, name) ==
@@ -649,11 +718,32 @@ AddSetting(op, xs, at) ==
        [ name |-> op.name, positional |-> Each(positional, LAMBDA i : more[i]),
          named |-> Each(named, LAMBDA i : << op.names[i], more[i] >>), at |-> at ]))
 
+ArePositional(names) == \A i \in DOMAIN names : names[i] = ""
+
+(* These hand readings on, or tell of them, as they do with any values. *)
+TakesReadings(op, xs) ==
+  \/ op.op = "call" /\ Is(xs[1], "closure") /\ ArePositional(op.names)
+  \/ op.op \in { "message", "halt", "assert", "isHost" }
+
+IsAboutReadings(op, xs) == (\E i \in DOMAIN xs : IsReading(xs[i])) /\ ~TakesReadings(op, xs)
+
+(* What all others make of values some of which are readings. *)
+OnReadings(op, xs) ==
+  CASE op.op = "binary" -> BinaryOnReadings(op.sign, xs[1], xs[2])
+    [] op.op = "unary" /\ op.sign = "-" /\ IsReadingOf(xs[1], "amount") ->
+         Ok(Reading("amount", "-" \o Enclosed(xs[1][3])))
+    [] op.op = "concatenate" -> Ok(Reading("words", Join(Each(xs, Text), "")))
+    [] op.op = "math" -> MathematicsOnReadings(op.name, xs)
+    [] op.op = "property" /\ IsPlace(xs[1]) -> MethodOnReadings(op.name, xs)
+    [] op.op = "method" /\ ArePositional(op.names) -> MethodOnReadings(op.name, xs)
+    [] OTHER -> AnyMore(xs)
+
 (* What expression n does once its arguments are the values xs. *)
 Perform(before, n, xs) ==
   LET op == Code[n].operation
       m == [ before EXCEPT !.at = n ]
-  IN CASE op.op = "unary" -> Settle(m, Unary(op.sign, xs[1]))
+  IN CASE HasReadings /\ IsAboutReadings(op, xs) -> Settle(m, OnReadings(op, xs))
+       [] op.op = "unary" -> Settle(m, Unary(op.sign, xs[1]))
        [] op.op = "binary" ->
             IF op.sign = "|" /\ Is(xs[1], "vehicles") /\ Is(xs[2], "closure")
             THEN Walk(m, "findAll", xs[2], xs[1], << >>)
@@ -702,7 +792,9 @@ Evaluation(m, n) ==
             IF e.arguments = << >> THEN Operate(going, n, << >>)
             ELSE Enter(Push(going, [ frame |-> "arguments", node |-> n, values |-> << >> ]), e.arguments[1])
        [] e.is = "closure" ->
-            Result(going, << "closure", e.lambda, Each(e.slots, LAMBDA slot : m.locals[slot]) >>)
+            LET captured == Each(e.slots, LAMBDA slot : m.locals[slot])
+                open == SelectSeq(captured, IsReading)
+            IN IF open = << >> THEN Result(going, << "closure", e.lambda, captured >>) ELSE NoTelling(going, open[1])
        [] e.is = "if" -> Enter(Push(going, [ frame |-> "choose", node |-> n ]), e.test)
        [] e.is = "block" ->
             CASE e.parts = << >> -> Result(going, Null)
@@ -732,10 +824,16 @@ BeginLoop(m, n, x) ==
     [] HasItems(x) -> NextItem(m, n, << "these", Items(x), 1 >>)
     [] OTHER -> Settle(m, Expected("a list, range, map, string or vehicle set to loop over", x))
 
+(* What f does depends on what it is given, and not by comparisons alone. *)
+MustKnow(f) ==
+  f.frame \in { "choose", "loopTest", "loopRange" }
+  \/ (f.frame = "iterate" /\ f.iteration \notin { "each", "eachWithIndex", "times" })
+
 (* The value x, given to the frame f on top of the stack. *)
 Continuation(m, f, x) ==
   LET below == [ m EXCEPT !.stack = Tail(@) ]
-  IN CASE f.frame = "arguments" ->
+  IN CASE HasReadings /\ IsReading(x) /\ MustKnow(f) -> NoTelling(m, x)
+       [] f.frame = "arguments" ->
             LET xs == Append(f.values, x)
                 arguments == Code[f.node].arguments
             IN IF Len(xs) = Len(arguments) THEN Operate(below, f.node, xs)
@@ -758,10 +856,18 @@ Continuation(m, f, x) ==
             IN IF early # << >> THEN Result([ below EXCEPT !.at = f.node ], early[1])
                ELSE Iterate(below, [ f EXCEPT !.gathered = Append(@, x), !.index = @ + 1 ])
 
+(* Which of xs it is depends on the answer to the question: if it is not known yet, the machine stops and asks for it. *)
+Answered(m, question, xs) ==
+  CASE question \in DOMAIN m.sees -> Result(m, xs[m.sees[question]])
+    [] question[1] = "claim" /\ Cardinality(Claims(m.sees)) >= MostClaims -> Stop(m, << "unsettled", question[2] >>)
+    [] OTHER -> Stop(m, << "asks", question, Len(xs) >>)
+
 (* The value of an operation, or its fault; of a setting, where the setting is. *)
 Conclusion(m, result) ==
   CASE IsOk(result) -> Result(m, result[2])
     [] result[1] = "at" -> Stop(m, << "faulted", Fault(Sentence(result[3]), result[2]) >>)
+    [] result[1] = "depends" -> Answered(m, result[2], result[3])
+    [] result[1] = "unsettled" -> Stop(m, result)
     [] OTHER -> Faulty(m, Sentence(result))
 
 MachineStep(m) ==
@@ -781,5 +887,17 @@ Steps2(k, m) ==
     [] OTHER -> Only({ Steps2(k - 1, half) : half \in { Steps2(k - 1, m) } })
 
 (* A machine takes at most a few steps for each expression, so it stops before it has made 2^26. *)
-Run(M, S, mode, fuel) == Only({ Steps2(26, m) : m \in { Started(M, S, mode, fuel) } })
+Stopped(started) == Only({ Steps2(26, m) : m \in { started } })
+
+(* A machine that asks goes on with each answer, the first one first. *)
+RECURSIVE WithAllAnswers(_)
+WithAllAnswers(m) ==
+  LET seeing(i) == Stopped([ m EXCEPT !.stop = Going, !.sees = Seeing(@, m.stop[2], i) ])
+  IN CASE m.stop[1] = "asks" ->
+            Flatten([ i \in 1 .. m.stop[3] |-> Only({ WithAllAnswers(n) : n \in { seeing(i) } }) ])
+       [] m.stop[1] = "unsettled" -> Assert(FALSE, OpenHere(m.stop[2], m.at))
+       [] OTHER -> << m >>
+
+(* The machines that M comes to: one, unless it depends on what sensors show. *)
+Run(M, S, mode, fuel) == Only({ WithAllAnswers(m) : m \in { Stopped(Started(M, S, mode, fuel)) } })
 ==============================================================================

@@ -15,6 +15,9 @@
 (*   <<"area", i, n, d>>      around place i, with a radius of n/d metres        *)
 (*   <<"task", t>>            <<"closure", lambda, captured values>>             *)
 (*   <<"settings", ss>>       the lines of a block of settings, as far as read   *)
+(*   <<"reading", "amount", "battery(x8)">>   what a sensor shows that may show  *)
+(*                            anything, or what is computed from it: an amount,  *)
+(*                            a place, a region, or words                        *)
 EXTENDS Integers, Sequences, FiniteSets, TLC
 
 CONSTANTS
@@ -265,6 +268,7 @@ Written(x, bare) ==
     [] Is(x, "task") -> TaskText(x[2], 0)
     [] Is(x, "closure") -> "{ " \o LambdaNames[x[2]] \o " }"
     [] Is(x, "settings") -> "{ ... }"
+    [] Is(x, "reading") -> x[3]
 
 Text(x) == Written(x, TRUE)
 Literal(x) == Written(x, FALSE)
@@ -285,14 +289,25 @@ Kind(x) ==
     [] Is(x, "task") -> "a task"
     [] Is(x, "closure") -> "a closure"
     [] Is(x, "settings") -> "a block of settings"
+    [] Is(x, "reading") ->
+         CASE x[2] = "amount" -> "a number"
+           [] x[2] = "place" -> "a position"
+           [] x[2] = "region" -> "an area"
+           [] x[2] = "words" -> "a string"
 
-(* {1 Results of operations: a value, or what is wrong} *)
+(* {1 Results of operations: a value, or what is wrong; or the value depends on what sensors show} *)
 
 Ok(x) == << "ok", x >>
 Bad(message) == << "wrong", message >>
 Expected(what, x) == << "expected", what, x >>
 Mismatch(op, x, y) == << "mismatch", op, x, y >>
 IsOk(result) == result[1] = "ok"
+
+(* The value is xs[i] if the i-th answer to the question is the one that is given. *)
+Depends(question, xs) == << "depends", question, xs >>
+
+(* There is no telling. *)
+Unsettled(text) == << "unsettled", text >>
 
 Takes(op) ==
   CASE op = "/" -> "two numbers, or a task and a condition { ... }"
@@ -309,7 +324,7 @@ Takes(op) ==
     [] OTHER -> "two values"
 
 Found(x) ==
-  IF x[1] \in { "null", "closure", "settings" } \/ Len(Text(x)) > 60 THEN Kind(x) ELSE Kind(x) \o ", " \o Literal(x)
+  IF x[1] \in { "null", "closure", "settings", "reading" } \/ Len(Text(x)) > 60 THEN Kind(x) ELSE Kind(x) \o ", " \o Literal(x)
 
 (* The sentence of a result that is none. TLC looks through all operators that a definition can reach, once for each way
    there; so sentences are made here, and not where the trouble is. *)
@@ -525,4 +540,73 @@ InUnit(x, name) ==
   IN CASE unit[2] = 0 -> Bad("a number has no unit '" \o name \o "'")
        [] Is(x, "integer") /\ unit[2] = 1 -> Ok(Integer(x[2] * unit[1]))
        [] OTHER -> Ok(Number(Numerator(x) * unit[1], Denominator(x) * unit[2]))
+
+(* {1 Readings} *)
+
+(* A reading is known by its text: how it was got, or where it is kept. It may be handed on, computed with, compared and
+   told of. Of a comparison either outcome is possible, the same wherever the same texts are compared so; of whatever else
+   could be done with it nobody could list the outcomes. *)
+
+Reading(quantity, text) == << "reading", quantity, text >>
+IsReading(x) == Is(x, "reading")
+IsReadingOf(x, quantity) == IsReading(x) /\ x[2] = quantity
+
+IsAmount(x) == IsNumber(x) \/ IsReadingOf(x, "amount")
+IsPlace(x) == Is(x, "position") \/ IsReadingOf(x, "place")
+IsRegion(x) == Is(x, "area") \/ IsReadingOf(x, "region")
+IsWords(x) == Is(x, "string") \/ IsReadingOf(x, "words")
+
+(* In the text of a comparison; as an operand of an operator in it. *)
+Spelled(x) == IF IsReading(x) THEN x[3] ELSE Literal(Canonical(x))
+Enclosed(text) == IF Contains(text, " ") THEN "(" \o text \o ")" ELSE text
+SpelledBinary(op, x, y) == Enclosed(Spelled(x)) \o " " \o op \o " " \o Enclosed(Spelled(y))
+
+(* A comparison that holds, or does not; its opposite. *)
+Holds(text) == Depends(<< "claim", text >>, << True, False >>)
+HoldsNot(text) == Depends(<< "claim", text >>, << False, True >>)
+
+AnyMore(xs) == Unsettled(Join(Each(SelectSeq(xs, IsReading), Spelled), ", "))
+
+BinaryOnReadings(op, x, y) ==
+  LET amounts == IsAmount(x) /\ IsAmount(y)
+      computed(quantity) == Ok(Reading(quantity, SpelledBinary(op, x, y)))
+      isNumber == ~IsReading(y) /\ IsNumber(y)
+  IN CASE op \in { "<", ">" } /\ amounts -> Holds(SpelledBinary(op, x, y))
+       [] op = ">=" /\ amounts -> HoldsNot(SpelledBinary("<", x, y))
+       [] op = "<=" /\ amounts -> HoldsNot(SpelledBinary(">", x, y))
+       [] op = "==" -> Holds(SpelledBinary(op, x, y))
+       [] op = "!=" -> HoldsNot(SpelledBinary("==", x, y))
+       [] op = "in" /\ IsPlace(x) /\ IsRegion(y) -> Holds(SpelledBinary(op, x, y))
+       [] op = "+" /\ (IsWords(x) \/ IsWords(y)) -> Ok(Reading("words", Text(x) \o Text(y)))
+       [] op \in { "+", "-", "*" } /\ amounts -> computed("amount")
+       [] op = "/" /\ amounts /\ isNumber -> IF Numerator(y) = 0 THEN Bad("division by zero") ELSE computed("amount")
+       [] op = "^" /\ IsPlace(x) /\ isNumber /\ ~Less(y, Integer(0)) -> computed("region")
+       [] OTHER -> AnyMore(<< x, y >>)
+
+Coordinates ==
+  { "latitude", "lat", "longitude", "lon", "height", "getLatitude", "getLat", "getLongitude", "getLon", "getHeight" }
+
+(* They make a number of each number. *)
+Roundings == { "abs", "round", "intValue", "toInteger", "doubleValue", "toDouble" }
+
+MethodOnReadings(name, xs) ==
+  LET x == xs[1]
+      y == xs[2]
+      alone == Len(xs) = 1
+      two == Len(xs) = 2
+      amount(text) == Ok(Reading("amount", text))
+  IN CASE alone /\ IsPlace(x) /\ name \in Coordinates -> amount(Spelled(x) \o "." \o name)
+       [] alone /\ IsAmount(x) /\ name \in Roundings -> amount(Enclosed(Spelled(x)) \o "." \o name \o "()")
+       [] two /\ name = "round" /\ IsAmount(x) /\ Is(y, "integer") ->
+            amount(Enclosed(Spelled(x)) \o ".round(" \o ToString(y[2]) \o ")")
+       [] two /\ name \in { "distance", "distanceTo", "bearing", "bearingTo" } /\ IsPlace(x) /\ IsPlace(y) ->
+            amount(Spelled(x) \o "." \o name \o "(" \o Spelled(y) \o ")")
+       [] two /\ name = "contains" -> BinaryOnReadings("in", y, x)
+       [] two /\ name = "equals" -> BinaryOnReadings("==", x, y)
+       [] OTHER -> AnyMore(xs)
+
+MathematicsOnReadings(name, xs) ==
+  IF name \in { "abs", "round", "floor", "ceil", "min", "max" } /\ \A i \in DOMAIN xs : IsAmount(xs[i])
+  THEN Ok(Reading("amount", "Math." \o name \o "(" \o Join(Each(xs, Spelled), ", ") \o ")"))
+  ELSE AnyMore(xs)
 ==============================================================================

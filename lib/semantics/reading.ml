@@ -40,7 +40,9 @@ let settled at = function Reading r -> unsettled at r.text | x -> x
 let most_claims = 12
 
 let claim world at text =
-  if World.claims world >= most_claims then unsettled at text else World.claim world text
+  match World.claimed world text with
+  | Some holds -> holds
+  | None -> if World.claims world >= most_claims then unsettled at text else World.claim world text
 
 let spell x = match x with Reading r -> r.text | x -> Format.asprintf "%a" Value.pp (Value.canonical x)
 
@@ -75,7 +77,7 @@ let binary world at (op : Ast.binary) x y =
   | Equal -> truth (holds "==" x y)
   | Not_equal -> truth (not (holds "==" x y))
   | Member_of when is_place x && is_region y -> truth (holds "in" x y)
-  | Add when is_words x || is_words y -> Some (Ok (reading Words (spell x ^ spell y)))
+  | Add when is_words x || is_words y -> Some (Ok (reading Words (Value.to_string x ^ Value.to_string y)))
   | Add when is_amount x && is_amount y -> computed Amount "+"
   | Subtract when is_amount x && is_amount y -> computed Amount "-"
   | Multiply when is_amount x && is_amount y -> computed Amount "*"
@@ -113,7 +115,7 @@ let apply world at operation arguments =
   in
   match result, operation, arguments with
   | Some result, _, _ -> Some result
-  | None, Call _, Closure _ :: _ -> None
+  | None, Call names, Closure _ :: _ when List.for_all Option.is_none names -> None
   | None, Builtin (Message | Halt | Assert | Is_host), _ -> None
   | None, _, _ ->
     let texts = List.filter_map (function Reading r -> Some r.text | _ -> None) arguments in

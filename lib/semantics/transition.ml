@@ -63,8 +63,13 @@ let effect_of_deed : Machine.deed -> Effect.t option = function
   | Set_connection_timeout (vs, seconds) -> Some (Set_connection_timeout (vs, seconds))
 
 let after (context : Machine.context) (c : Configuration.t) =
-  let store = if World.is_open context.world then Reading.keep context.program context.store else context.store in
-  { c with store; tuples = context.tuples }
+  { c with store = context.store; tuples = context.tuples }
+
+(* A step is over: what sensors show is from now on what they have shown. *)
+let keep program world (c : Configuration.t) =
+  if World.is_open world then { c with store = Reading.keep program c.store } else c
+
+let keep_in_machine world m = if World.is_open world then Machine.keep_readings m else m
 
 let deeds (context : Machine.context) = List.rev context.deeds
 let effects_of deeds = List.filter_map effect_of_deed deeds
@@ -110,8 +115,8 @@ let wait world c m (request : Machine.request) =
 
 let run_script program world (c : Configuration.t) m =
   let stop, m, context = Machine.run ~fuel:script_fuel (context program world c Script) m in
-  let m = if World.is_open world then Machine.keep_readings m else m in
-  let c = after context c in
+  let m = keep_in_machine world m in
+  let c = keep program world (after context c) in
   let going rules label effects = { rules; label; next = { c with control = Script m }; effects; assumed = [] } in
   match stop with
   | Exhausted -> going [ Rule.Script ] Label.Silent []
@@ -299,8 +304,11 @@ let conclude (c : Configuration.t) m { after; outcome; derivation; named; asked 
 let check_label (change : Residual.change) deeds =
   match change.rules with Rule.Until_cut :: _ -> Label.Cut deeds | _ -> Label.Check deeds
 
+let kept program world = Option.map (fun local -> { local with after = keep program world local.after })
+
 (* What one local step does that needs no event, if it is enabled. *)
 let local_internal program world (c : Configuration.t) (step : Residual.step) =
+  kept program world @@
   let coded closure continue =
     let result, context = run_code program world c Task_code closure [] in
     let d = deeds context in
@@ -342,6 +350,7 @@ let local_internal program world (c : Configuration.t) (step : Residual.step) =
 
 (* What one local step does on the event that it awaits. *)
 let local_event program world (c : Configuration.t) (step : Residual.step) event =
+  kept program world @@
   let ended v named reply =
     let c = { c with allocation = Vehicle_map.remove v c.allocation } in
     Some (settle program world c named [] [] (step.continue reply))
@@ -402,8 +411,8 @@ let executing_event program world c m r event =
   | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Interruption ->
     first (Residual.steps r)
 
-let resume (c : Configuration.t) m x rule label =
-  let next = { c with control = Script (Machine.give x m) } in
+let resume (c : Configuration.t) m rule label =
+  let next = { c with control = Script m } in
   { rules = [ rule ]; label; next; effects = []; assumed = [] }
 
 let failed (c : Configuration.t) m rule label message =
@@ -416,7 +425,7 @@ let answered program world (c : Configuration.t) m text =
   | Ok closure -> (
       match run_code program world c Task_code closure [] with
       | Value_of x, { deeds = []; store; _ } when Store.compare store c.store = 0 ->
-        Ok (resume c m x Rule.Answer (Label.Answer text))
+        Ok (resume c (keep_in_machine world (Machine.give x m)) Rule.Answer (Label.Answer text))
       | Value_of _, _ -> Error (Bad_answer "an answer may only compute a value")
       | Broke fault, _ -> Error (Bad_answer fault.message)
       | Halted_with _, _ -> Error (Bad_answer "an answer may only compute a value"))
@@ -430,12 +439,12 @@ let whole_event program world (c : Configuration.t) event =
   | Timer_expired timer, Waiting (m, Pick pick) when timer = Effect.script_timer ->
     pick_timed_out world c m pick
   | Timer_expired timer, Waiting (m, Pause _) when timer = Effect.script_timer ->
-    Ok (resume c m Null Rule.Resume Label.Resume)
+    Ok (resume c (Machine.give Null m) Rule.Resume Label.Resume)
   | Answered text, Waiting (m, Ask _) -> answered program world c m text
   | Nobody_answers why, Waiting (m, Ask prompt) ->
     failed c m Rule.Answer_err Label.No_answer (Printf.sprintf "no answer to '%s': %s" prompt why)
   | Replied x, Waiting (m, Host_call _) ->
-    Ok (resume c m x Rule.Reply (Label.Reply (Value.to_string x)))
+    Ok (resume c (Machine.give x m) Rule.Reply (Label.Reply (Value.to_string x)))
   | Host_failed why, Waiting (m, Host_call { subject; member; _ }) ->
     failed c m Rule.Call_err (Label.No_reply why) (Printf.sprintf "%s: %s" (describe_call subject member) why)
   | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _

@@ -131,9 +131,12 @@ let position world state =
 
 let place world state = Option.value (position world state) ~default:state.position
 
-let claim world text =
+let claimed world text =
   let made = function Claim (text', holds) when String.equal text text' -> Some holds | _ -> None in
-  match List.find_map made world.supposed with
+  List.find_map made world.supposed
+
+let claim world text =
+  match claimed world text with
   | Some holds -> holds
   | None -> raise (Open [ Claim (text, true); Claim (text, false) ])
 

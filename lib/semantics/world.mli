@@ -83,5 +83,8 @@ val place : t -> vehicle_state -> Dolphin_geo.Position.t
 val claim : t -> string -> bool
 (** [claim w text] is whether a comparison with what may be anything holds. *)
 
+val claimed : t -> string -> bool option
+(** [claimed w text] is [claim w text] if that is known. *)
+
 val claims : t -> int
 (** How many were made. *)

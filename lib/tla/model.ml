@@ -8,7 +8,7 @@ type file = { name : string; text : string }
 
 let devices payload = Tla.Set (List.map (fun d -> Tla.String (String.lowercase_ascii d)) payload)
 
-let battery level =
+let charge level =
   let n, d =
     match Fraction.of_float level with
     | Some fraction -> fraction
@@ -16,10 +16,24 @@ let battery level =
   in
   Tla.Tuple [ String "number"; Integer n; Integer d ]
 
-let vehicle translation (s : World.vehicle_state) =
+let shows world look = List.map snd (World.cases world look)
+
+(* What a sensor may show, nothing if that may be anything. Where no code looks at sensors, they may as well show what
+   they show at the start: TLC is faster if it need not look for readings among values. *)
+let sensor translation world look value at_start =
+  match shows world look with
+  | [ None ] when Translation.reads_sensors translation -> Tla.Tuple []
+  | [ None ] -> Tla.Tuple [ value at_start ]
+  | shown -> Tla.Tuple (List.map value (List.filter_map Fun.id shown))
+
+let vehicle translation world (s : World.vehicle_state) =
+  let place p = Tla.Integer (Translation.place translation p) in
+  let position p = Tla.Tuple [ String "position"; place p ] in
   Tla.Record
     [ ("id", String s.id); ("type", String s.kind); ("payload", Tla.strings s.payload); ("devices", devices s.payload);
-      ("place", Integer (Translation.place translation s.position)); ("battery", battery s.battery) ]
+      ("places", Tuple (List.map place (shows world (fun world -> World.place world s))));
+      ("position", sensor translation world (fun world -> World.position world s) position s.position);
+      ("battery", sensor translation world (fun world -> World.battery world s) charge s.battery) ]
 
 let ending : Environment.endings -> string = function
   | Succeeds -> "succeeds"
@@ -88,9 +102,12 @@ let tables = [ "Fleet"; "Code"; "Lambdas"; "LambdaNames"; "Places"; "Distances";
 
 let small =
   [ "Main"; "GlobalNames"; "OrderedKeys"; "Prompts"; "Failures"; "Losses"; "Latecomers"; "MayBeLate"; "HostReplies";
-    "Ending"; "Answers" ]
+    "SiteOf"; "Ending"; "Answers" ]
 
 let definition ppf name e = Format.fprintf ppf "%s == %a@.@." name Tla.pp e
+
+let site (_, at) = Tla.String (match at with Some at -> Format.asprintf "%a" Location.pp at | None -> "")
+let sites rows = Tla.Tuple (List.map site rows)
 
 (* A row for each number, with the place in the program that it stands for. *)
 let table ppf name rows =
@@ -105,8 +122,8 @@ let table ppf name rows =
   Format.fprintf ppf ">>@.@."
 
 let text program world (environment : Environment.options) plans prompts translation main =
-  let fleet = List.map (fun s -> (vehicle translation s, None)) (World.vehicles world) in
   let answers = answers translation program environment prompts in
+  let fleet = List.map (fun s -> (vehicle translation world s, None)) (World.vehicles world) in
   let several prompt = List.length (environment.answers prompt) > 1 in
   let b = Buffer.create 10_000 in
   let ppf = Format.formatter_of_buffer b in
@@ -131,6 +148,8 @@ let text program world (environment : Environment.options) plans prompts transla
   definition ppf "MCLatecomers" (limit environment.latecomers);
   definition ppf "MCMayBeLate" (late environment world);
   definition ppf "MCHostReplies" (Tla.Tuple []);
+  Format.fprintf ppf "MCSiteOf(n) ==@.  IF n > 0 THEN %a[n] ELSE %a[-n]@.@." Tla.pp (sites (Translation.code translation))
+    Tla.pp (sites (Translation.lambdas translation));
   Format.fprintf ppf "MCEnding(v, p) ==@.  %s@.@." (endings environment world plans);
   Format.fprintf ppf "MCAnswers(prompt) ==@.  %s@.@." answers;
   List.iter (fun name -> Format.fprintf ppf "The%s == MC%s@." name name) tables;

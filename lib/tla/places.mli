@@ -10,6 +10,9 @@ val create : unit -> t
 val index : t -> Position.t -> int
 (** [index ps p] is the number of [p] in [ps], from 1; it is added if it is not there yet. *)
 
+val positions : t -> Position.t list
+(** In the order of their numbers. *)
+
 val texts : t -> Tla.t
 (** The positions as messages show them. *)
 

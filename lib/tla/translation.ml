@@ -3,22 +3,40 @@ open Core
 module Diagnostic = Dolphin_syntax.Diagnostic
 module Location = Dolphin_syntax.Location
 module Ast = Dolphin_syntax.Ast
+module Position = Dolphin_geo.Position
 module Wgs84 = Dolphin_geo.Wgs84
 
 type t = {
   program : program;
   world : World.t;
   places : Places.t;
+  vehicles_at : Position.t list;  (* where vehicles may be: the first of [places] *)
   nodes : (int, Tla.t * site) Hashtbl.t;
   mutable lambdas : (lambda * int * Tla.t) list;  (* latest first *)
   mutable plans : Tla.t list;  (* latest first *)
+  mutable reads_sensors : bool;
   mutable refusals : Diagnostic.t list;
 }
 
+(* Everywhere where a vehicle may be. *)
+let whereabouts world =
+  List.concat_map
+    (fun s -> List.map snd (World.cases world (fun world -> World.place world s)))
+    (World.vehicles world)
+
+let shows_anything world look = List.for_all (fun (_, shown) -> shown = None) (World.cases world look)
+
 let create program world =
-  { program; world; places = Places.create (); nodes = Hashtbl.create 1000; lambdas = []; plans = []; refusals = [] }
+  let places = Places.create () in
+  List.iter (fun p -> ignore (Places.index places p : int)) (whereabouts world);
+  { program; world; places; vehicles_at = Places.positions places; nodes = Hashtbl.create 1000; lambdas = []; plans = [];
+    reads_sensors = false; refusals = [] }
 
 let place t p = Places.index t.places p
+let reads_sensors t = t.reads_sensors
+
+let note_sensor t name =
+  if List.mem name [ "position"; "battery"; "getPosition"; "getBattery" ] then t.reads_sensors <- true
 
 let location t site =
   if 0 <= site && site < Array.length t.program.locations then Some t.program.locations.(site) else None
@@ -75,6 +93,13 @@ and fraction t site n =
     refuse t site "the number %g: TLC's whole numbers, which have 32 bits, cannot hold it as a fraction" n;
     (0, 1)
 
+(* [position(...)] where no position is known. *)
+and is_open_position t (e : expression) =
+  let is_open s = shows_anything t.world (fun world -> World.position world s) in
+  match e.node with
+  | Apply (Builtin Position_of, _) -> List.for_all is_open (World.vehicles t.world)
+  | _ -> false
+
 (* {1 Operations} *)
 
 and sign : Ast.binary -> string = function
@@ -85,7 +110,8 @@ and sign : Ast.binary -> string = function
 
 and names options = Tla.strings (List.map (Option.value ~default:"") options)
 
-and operation t site op : Tla.t =
+(* [known] is whether its operands may be values other than readings. *)
+and operation t ~known site op : Tla.t =
   let record name fields = Tla.Record (("op", Tla.String name) :: fields) in
   let named op name names' = record op [ ("name", Tla.String name); ("names", names names') ] in
   match op with
@@ -102,12 +128,15 @@ and operation t site op : Tla.t =
   | Replace_element -> record "replaceElement" []
   | Replace_member k -> record "replaceMember" [ ("name", String k) ]
   | Property name ->
-    if Supported.is_refused_property name then
+    if Supported.is_refused_property name && (known || not (Supported.is_for_readings name)) then
       refuse t site "'.%s' of a value that is not a constant: TLA+ has no such numbers" name;
+    note_sensor t name;
     record "property" [ ("name", String name) ]
   | Call names' -> record "call" [ ("names", names names') ]
   | Method (name, names') ->
-    if Supported.is_refused_method name then refuse t site "the method '%s'" name;
+    if Supported.is_refused_method name && (known || not (Supported.is_for_readings name)) then
+      refuse t site "the method '%s'" name;
+    note_sensor t name;
     named "method" name names'
   | Add_setting (name, names') -> named "setting" name names'
   | Make_branch -> record "branch" []
@@ -144,8 +173,8 @@ and procedure t site builtin : Tla.t =
   | Post keys -> keyed "post" keys
   | Consume keys -> keyed "consume" keys
   | Poll keys -> keyed "poll" keys
-  | Position_of -> plain "position"
-  | Battery_of -> plain "battery"
+  | Position_of -> note_sensor t "position"; plain "position"
+  | Battery_of -> note_sensor t "battery"; plain "battery"
   | Area_of -> plain "area"
   | Assert -> plain "assert"
   | Ignore -> plain "ignore"
@@ -204,7 +233,8 @@ and unfolded t (e : expression) =
   | Set_local (i, e) -> define "setLocal" [ slot i; ("value", part e) ]
   | Set_global (i, e) -> define "setGlobal" [ global i; ("value", part e) ]
   | Apply (op, arguments) ->
-    let op = operation t e.site op in
+    let known = match arguments with subject :: _ -> not (is_open_position t subject) | [] -> true in
+    let op = operation t ~known e.site op in
     define "apply" [ ("operation", op); ("arguments", parts arguments) ]
   | Make_closure (l, captured) ->
     let l = lambda t l in
@@ -287,10 +317,8 @@ and plan_number t site settings =
   | Error fault -> refuse t site "this plan cannot be built: %s" fault.message; 0
   | Ok plan ->
     let reference = Wgs84.cartesian (Plan.reference plan) in
-    let millimetres (s : World.vehicle_state) =
-      Float.round (1000. *. Wgs84.straight (Wgs84.cartesian s.position) reference)
-    in
-    let ways = List.map millimetres (World.vehicles t.world) in
+    let millimetres p = Float.round (1000. *. Wgs84.straight (Wgs84.cartesian p) reference) in
+    let ways = List.map millimetres t.vehicles_at in
     let nearest = List.fold_left Float.min infinity ways in
     let farther way = Tla.Integer (int_of_float (Float.min (way -. nearest) (float_of_int (Tla.greatest / 1000)))) in
     let facts =

@@ -14,6 +14,9 @@ val lambda : t -> Core.lambda -> int
 val place : t -> Dolphin_geo.Position.t -> int
 (** [place t p] is the number of the position [p]. *)
 
+val reads_sensors : t -> bool
+(** Whether any code that has been translated looks at a battery or a position. *)
+
 val refusals : t -> Dolphin_syntax.Diagnostic.t list
 (** What cannot be translated, in the order of the text. *)
 

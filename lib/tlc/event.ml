@@ -16,6 +16,7 @@ type t =
   | Depth of int
   | Printed of string
   | Worker of string
+  | Assertion of string
   | Trouble of string
   | Warning of string
   | Other
@@ -81,6 +82,11 @@ let named text =
   | "Action" :: "property" :: name :: _ -> name
   | _ -> first_line text
 
+(* ["The first argument of Assert evaluated to FALSE; the second argument was:\n\"too large\""]. *)
+let assertion text =
+  let said = Option.value (after "\n" text) ~default:"" in
+  Assertion (Option.value (Quoted.unescape said) ~default:said)
+
 (* ["<Inc line 5, col 11 to line 5, col 78 of module M>"], ["<Initial predicate>"]. *)
 let action text = Option.bind (after "<" text) (before " line ")
 
@@ -109,6 +115,7 @@ let of_code code (severity : Message.severity) text =
   | 2108 | 2112 -> Violation (Property (named text))
   | 2114 -> Violation Deadlock
   | 2116 -> Violation Temporal
+  | 2132 -> assertion text
   | 2217 -> state text
   | 2218 -> Stutters
   | 2122 -> returns_to text

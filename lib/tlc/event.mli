@@ -27,6 +27,7 @@ type t =
   | Depth of int  (** of the complete state graph, in states: 1 if there are only initial ones *)
   | Printed of string  (** a line outside of messages, by the model, SANY or Java *)
   | Worker of string  (** what a server says of workers and fingerprint servers *)
+  | Assertion of string  (** the model's own, which does not hold: what it says *)
   | Trouble of string
   | Warning of string
   | Other

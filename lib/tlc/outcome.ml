@@ -1,7 +1,7 @@
 type step = { action : string option; state : string }
 type repetition = Once | Stays | Back_to of int
 type counter_example = { violation : Event.violation; steps : step list; repetition : repetition }
-type verdict = Holds | Violated of counter_example | Unfinished | Failed of string list
+type verdict = Holds | Violated of counter_example | Unfinished | Gave_up of string | Failed of string list
 
 type t = {
   version : string option;
@@ -18,6 +18,7 @@ type reader = {
   violation : Event.violation option;
   states : (int * step) list;
   repetition : repetition;
+  assertion : string option;
   troubles : string list;
   printed : string list;
   holds : bool;
@@ -29,6 +30,7 @@ let start =
     violation = None;
     states = [];
     repetition = Once;
+    assertion = None;
     troubles = [];
     printed = [];
     holds = false }
@@ -56,6 +58,7 @@ let event r (e : Event.t) =
   | Returns_to n -> { r with repetition = Back_to (n - 1) }
   | Holds -> { r with holds = true }
   | Printed line -> { r with printed = keep line r.printed }
+  | Assertion why -> { r with assertion = Some why }
   | Trouble text -> { r with troubles = text :: r.troubles }
   | Violation _ | Behaviour | State _ | Begins _ | Checks_temporal _ | Worker _ | Warning _ | Other -> r
 
@@ -63,9 +66,10 @@ let event r (e : Event.t) =
 let steps r = List.filter_map (fun (number, step) -> if number > 1 then Some step else None) (List.rev r.states)
 
 let verdict r =
-  match r.violation with
-  | Some violation -> Violated { violation; steps = steps r; repetition = r.repetition }
-  | None ->
+  match r.violation, r.assertion with
+  | Some violation, _ -> Violated { violation; steps = steps r; repetition = r.repetition }
+  | None, Some why -> Gave_up why
+  | None, None ->
     if r.troubles <> [] then Failed (List.rev r.troubles)
     else if r.holds then Holds
     else if r.so_far.version = None && r.printed <> [] then Failed (List.rev r.printed)

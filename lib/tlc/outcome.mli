@@ -13,6 +13,7 @@ type verdict =
   | Holds
   | Violated of counter_example  (** the first that TLC came across: it looks no further *)
   | Unfinished  (** it ended, or was ended, before the search did *)
+  | Gave_up of string  (** an assertion of the model says so: why *)
   | Failed of string list  (** what TLC, or Java, says went wrong *)
 
 type t = {

@@ -108,7 +108,8 @@ ModelLambdas == LambdaTable
 (* {1 A world} *)
 
 VehicleNamed(v, type) ==
-  [ id |-> v, type |-> type, payload |-> << >>, devices |-> { }, place |-> 1, battery |-> << "number", 1, 1 >> ]
+  [ id |-> v, type |-> type, payload |-> << >>, devices |-> { }, places |-> << 1 >>,
+    position |-> << << "position", 1 >> >>, battery |-> << << "number", 1, 1 >> >> ]
 
 (* Three UUVs and a plane, at one place. *)
 ModelFleet ==
@@ -123,6 +124,8 @@ ModelHostReplies == << String("yes") >>
 (* Plans succeed, but for some. *)
 ModelEnding(v, p) == CASE p = "risky" -> "may fail" [] p = "doomed" -> "fails" [] OTHER -> "succeeds"
 ModelFailures == -1
+
+ModelSiteOf(n) == "expression " \o ToString(n)
 
 ModelMain == << "closure", 1, << >> >>
 ModelPlaces == << "(41.185000, -8.706200)" >>

@@ -50,6 +50,7 @@
     Latecomers <- MCLatecomers
     MayBeLate <- MCMayBeLate
     HostReplies <- MCHostReplies
+    SiteOf <- MCSiteOf
     Ending <- MCEnding
     Answers <- MCAnswers
     Interruptions = FALSE

@@ -116,6 +116,16 @@ One that the explorer does not know: then the two statements of the semantics di
         /\ label = "pause(2)"
   [1]
 
+What the model cannot tell ends the search.
+
+  $ { version; printf '@!@!@STARTMSG 2111:1 @!@!@\nEvaluating invariant NoDeadlock failed.\n'
+  >   printf 'The first argument of Assert evaluated to FALSE; the second argument was:\n"a number has too many decimals"\n' | message 2132:0
+  >   echo '@!@!@ENDMSG 2111 @!@!@'; echo The behavior up to this point is: | message 2121:1; state 1 'Initial predicate' ''
+  >   echo The error occurred when TLC was evaluating the nested expressions | message 2103:1; counts 2 2 1; } > said
+  $ dolphin tla round.dol --run
+  dolphin: TLC gave up: a number has too many decimals
+  [3]
+
 The server of the distributed mode says who may work for it, and how.
 
   $ { version; echo Model checking completed. No error has been found. | message 2193:0; counts 6 5 0; } > said

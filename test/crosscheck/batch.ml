@@ -13,7 +13,7 @@ type t = {
 }
 
 type prepared = { case : Case.t; graph : Graph.t; transitions : int; constants : Family.constant list }
-type unfit = Refused of string | Too_large
+type unfit = Refused of string | Too_large | Unsettled of string
 
 let prepare ~limit (case : Case.t) =
   match Translated.constants case with
@@ -21,6 +21,7 @@ let prepare ~limit (case : Case.t) =
   | Ok constants -> (
       match Reference.explore ~limit case.environment case.program case.world with
       | None -> Error Too_large
+      | exception Dolphin_semantics.Reading.Unsettled fault -> Error (Unsettled fault.message)
       | Some space -> Ok { case; graph = Explored.graph space; transitions = Reference.transitions space; constants })
 
 let case p = p.case
@@ -110,6 +111,7 @@ let conclude prepared ~coverage r =
   match r.problem, o.verdict, Printed_graph.graphs r.printed with
   | Some problem, _, _ -> Error problem
   | None, Failed lines, _ -> Error (String.concat "\n" lines)
+  | None, Gave_up why, _ -> Error why
   | None, (Violated _ | Unfinished), _ -> Error "TLC did not come to its end"
   | None, Holds, Error problem -> Error (Format.asprintf "%a" Printed_graph.pp_problem problem)
   | None, Holds, Ok _
@@ -118,9 +120,12 @@ let conclude prepared ~coverage r =
       (Printf.sprintf "TLC counts %d states and %d transitions, but %d and %d were printed" o.distinct
          (o.generated - List.length prepared) states transitions)
   | None, Holds, Ok graphs ->
-    Ok
-      { results = List.mapi (judge graphs) prepared; warnings = List.rev r.warnings; used = rules_of graphs;
-        counted = r.counted }
+    let results = List.mapi (judge graphs) prepared in
+    let ours = List.fold_left (fun n (r : result) -> n + r.transitions) 0 results in
+    (* Transitions with one label between two states are one in a graph. *)
+    if ours <> transitions && List.for_all (fun (r : result) -> r.verdict = Agrees) results then
+      Error (Printf.sprintf "the explorer counts %d transitions, and TLC %d" ours transitions)
+    else Ok { results; warnings = List.rev r.warnings; used = rules_of graphs; counted = r.counted }
 
 let run ?(coverage = false) installation ~specification prepared =
   Result.bind (Family.files ~specification (List.map (fun p -> p.constants) prepared)) (fun files ->

@@ -19,7 +19,10 @@ type t = {
 type prepared
 (** A program, translated and explored. *)
 
-type unfit = Refused of string  (** by the translation: why *) | Too_large
+type unfit =
+  | Refused of string  (** by the translation: why *)
+  | Too_large
+  | Unsettled of string  (** more than comparisons depends on what a sensor shows: why the explorer gives up *)
 
 val prepare : limit:int -> Case.t -> (prepared, unfit) Stdlib.result
 (** [prepare ~limit c] explores at most [limit] states. *)

@@ -43,20 +43,23 @@ let environments =
     ("with latecomers", with_latecomers Any_number);
     ("with all faults once", all_once) ]
 
-let of_generated name environment ast =
-  { name; source = Generate.print ast; program = Generate.compile ast; world = Generate.world; environment; plans = [];
+let of_generated name world environment ast =
+  { name; source = Generate.print ast; program = Generate.compile ast; world; environment; plans = [];
     prompts = [ "how many?" ] }
 
-let random ~seed n =
+let generated title programs world ~seed n =
   let rand = Random.State.make [| seed |] in
   let one i =
-    let ast = QCheck2.Gen.generate1 ~rand Generate.program in
+    let ast = QCheck2.Gen.generate1 ~rand programs in
     let looped = QCheck2.Gen.(generate1 ~rand (frequencyl [ (3, false); (1, true) ])) in
     let kind, environment = List.nth environments (i mod List.length environments) in
-    let name = Printf.sprintf "random %d, %s%s" (i + 1) kind (if looped then ", for ever" else "") in
-    of_generated name environment (if looped then for_ever ast else ast)
+    let name = Printf.sprintf "%s %d, %s%s" title (i + 1) kind (if looped then ", for ever" else "") in
+    of_generated name world environment (if looped then for_ever ast else ast)
   in
   List.init n one
+
+let random = generated "random" Generate.program Generate.world
+let sensing = generated "with sensors" Generate.sensing_program Generate.open_world
 
 (* {1 Examples} *)
 
@@ -80,7 +83,7 @@ let scenario_beside path =
     | Error ds -> failwith (Format.asprintf "%a" (Fmt.list (Diagnostic.pp ~source:(read fleet))) ds)
 
 let in_scenario name source program (scenario : Scenario.t) faults =
-  { name; source; program; world = World_of.still scenario;
+  { name; source; program; world = World_of.world scenario;
     environment = World_of.environment ~answers:[] ~faults scenario;
     plans = List.map (fun (p : Scenario.plan) -> p.name) scenario.plans;
     prompts = List.map (fun (a : Scenario.answer) -> a.prompt) scenario.answers }
@@ -106,9 +109,9 @@ let faulty_examples =
 
 (* {1 Traps} *)
 
-let trap ?failures name source =
+let trap ?failures ?(world = Generate.world) name source =
   let name = "trap: " ^ name in
-  let world = Generate.world and environment = Environment.failing ?failures answering in
+  let environment = Environment.failing ?failures answering in
   { name; source; program = compiled "trap.dol" source; world; environment; plans = []; prompts = [] }
 
 let two = "a = pick { id 'a' }; b = pick { id 'b' }\n"
@@ -143,6 +146,50 @@ let traps =
       ("which two of three", "v = pick { count 2 }\nexecute task('p') | task('q')");
       ("not enough for all", "v = pick { id 'a' }\nexecute task('p') | task('q')");
       ("an assertion that no watch sees", two ^ "execute watch (assert({ poll x: 1 }, 'x is there') | action { post x: 1 } | task('p')[a]) onError { ignore() }") ]
+
+(* In a world where the batteries of a and c may show anything, b's 1 or 0.2, and c is in one of two places. *)
+let sensor_traps =
+  let one ?(world = Generate.open_world) (name, source) = trap ~world ("sensors: " ^ name) source in
+  let three = two ^ "c = pick { id 'c' }\n" and low = "battery(a) < 0.3" and charged = "battery(a) >= 0.3" in
+  List.map (fun case -> one case)
+    [ ("a guard", two ^ "execute (waitFor { " ^ low ^ " } then task('p')[a]) | task('q')[b]");
+      ("until", two ^ "execute (task('p')[a] / { " ^ low ^ " }) | condition { " ^ charged ^ " }");
+      ("an assertion", two ^ "execute task('p')[a] | assert({ battery(a) > 0.1 }, 'low')");
+      ("a time", two ^ "execute during { " ^ low ^ " ? 5 : 10 } run task('p')[a]");
+      ("one battery against another", three ^ "message battery(a) < battery(c)\nmessage (battery(a) < battery(b) && battery(c) > battery(a))");
+      ("of two batteries one is low", three ^ "if (" ^ low ^ " && battery(c) >= 0.3) { halt 'a is low' }");
+      ("the same comparison again", two ^ "message ((" ^ low ^ ") == (" ^ low ^ "))");
+      ("a comparison and its opposite", two ^ "message (" ^ low ^ " && " ^ charged ^ ")");
+      ("the same at another step", two ^ "execute condition { " ^ low ^ " } >> condition { " ^ charged ^ " }");
+      ("kept, and compared later", two ^ "h = battery(a)\npost x: 1\nif (h < 0.3 && " ^ charged ^ ") { halt 'charged' }");
+      ("kept twice", two ^ "h = battery(a)\npost x: 1\ni = battery(a)\npost x: 1\nif (h < 0.3 && i >= 0.3) { halt h }");
+      ("kept by a task", two ^ "h = 1\nexecute (action { h = battery(a) }) >> condition { h < 0.3 && " ^ charged ^ " }");
+      ("kept by a local", two ^ "def f(l) { post x: 1; return l < 0.3 && " ^ charged ^ " }\nif (f(battery(a))) { halt 'charged' }");
+      ("kept by a caller", two ^ "def g() { post x: 1; return 1 }\ndef f(l) { y = g(); message l; return y }\nmessage f(battery(a)) + 1");
+      ("kept by an argument", two ^ "def f(l, x, m) { message l; return l < m && " ^ charged ^ " }\npost x: 1\nif (f(battery(a), consume(x: 1), 0.3)) { halt 'charged' }");
+      ("told of", two ^ "message \"${(battery(a) * 100 - 1).round()} percent\"\nmessage 'at ' + position(a)\nmessage(-battery(a))");
+      ("computed with", two ^ "message Math.max(battery(a), 0.5) > 0.7 && position(a).distance(Location.APDL) / 2 < 100 && Location.APDL in (position(a) ^ 10)");
+      ("equal", two ^ "message battery(a) == 1\nmessage battery(a) != 'x'\nmessage position(a).equals(Location.APDL)");
+      ("in an area", two ^ "execute waitFor { position(a) in (Location.APDL ^ 150) || position(b) in (Location.APDL ^ 150) } then task('p')[a]");
+      ("outcomes that are one", two ^ "execute action { if (" ^ low ^ ") { post x: 1 } else { post x: 1 } }\nif (" ^ low ^ ") { post y: 1 } else { post y: 1 }");
+      ("one outcome, by two rules", two ^ "execute watch (watch task('p')[a] onError { if (" ^ low ^ ") { ignore() } }) onError { ignore() }");
+      ("a handler sees what the code saw", two ^ "execute watch (action { if (" ^ low ^ ") { 1 / 0 } else { 2 / 0 } }) onError { if (" ^ low ^ ") { post x: 1; ignore() } }");
+      ("a handler sees what another one saw", two ^ "execute watch (watch task('p')[a] onError { if (" ^ low ^ ") { post x: 1 } }) onError { if (" ^ charged ^ ") { ignore() } }");
+      ("kept by one handler, and compared by another", two ^ "h = battery(a)\nexecute watch (watch task('p')[a] onError { if (h < 0.3) { post low: 1; h = battery(a) } }) onError { if (h >= 0.3) { post high: 1 } ; ignore() }");
+      ("a loop that looks again and again", two ^ "while (battery(a) >= 0.3) { pause 5 }");
+      ("one of several values", two ^ "message battery(b)\nif (battery(b) == 1 && battery(b) < 0.3) { halt 'both' }\nmessage battery(b)");
+      ("several values of two sensors", three ^ "if (battery(b) < 0.3) { message position(c) in (Location.APDL ^ 1.km) }");
+      ("picked where it is seen", "v = pick { id 'c'; region Location.APDL, 1.km }\nrelease v\nv = pick { id 'c'; region Location.APDL, 1.km }");
+      ("beside one that is bound", "c = pick { id 'c' }\nv = pick { count _; region Location.APDL, 1.km }\nw = pick { id 'c'; region Location.APDL, 1.km }");
+      ("all that are seen there", "v = pick { count _; region Location.APDL, 1.km }");
+      ("picked in a place, and seen in another one", "v = pick { id 'c'; region Location.APDL, 1.km }\nmessage position(v)");
+      ("the nearer one", three ^ "t = imcPlan { planName 'q'\n locate 41.2032, -8.7048\n goTo() }\nexecute t\nexecute t | t");
+      ("the nearer one, as was seen in this step", three ^ "if (position(c) in (Location.APDL ^ 1.km)) {\nexecute imcPlan { planName 'q'\n locate 41.2032, -8.7048\n goTo() }\n}") ]
+  @ [ one ~world:(World.open_position "c" [] Generate.open_world)
+        ("coordinates", two ^ "if (position(a).latitude > 41 && position(a).bearing(Location.APDL) < 90) { message position(a).longitude - 1 }");
+      { (trap ~world:Generate.open_world "sensors: an answer" "a = pick { id 'a' }\nh = ask 'how many?'\npost x: 1\nif (h < 0.3 && battery(a) >= 0.3) { halt h }\nmessage ask('how many?') < 0.3 && battery(a) < 0.3")
+        with prompts = [ "how many?" ];
+             environment = { answering with answers = (fun _ -> [ [ "battery(a)" ]; [ "battery(a) < 0.3 ? battery(a) : 1 / 0"; "1 / 0" ] ]) } } ]
 
 let lost_once = "v = pick { id 'a' }\nt = watch task('p')[v] onError { post failed: 1; ignore() }\nexecute t\n"
 

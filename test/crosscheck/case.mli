@@ -14,6 +14,9 @@ val random : seed:int -> int -> t list
 (** [random ~seed n] is [n] programs of [Test_support.Generate]: without faults, with failures, with losses, with
     vehicles that are late, with and without a bound, by turns; a quarter of them repeat for ever what they do. The same for the same seed. *)
 
+val sensing : seed:int -> int -> t list
+(** Likewise, programs that look at sensors, in a world where these may show this or that. *)
+
 val examples : string -> t list
 (** [examples directory] is the programs there, each with its fleet, first as the fleet says and then with failures of all
     plans. A program that cannot be compiled is an error of ours, and raises [Failure]. *)
@@ -23,6 +26,9 @@ val faulty_examples : string -> t list
 
 val traps : t list
 (** Small programs for what random ones seldom meet. *)
+
+val sensor_traps : t list
+(** Likewise, in a world that leaves open what sensors show. *)
 
 val faulty_traps : t list
 (** Likewise for losses and vehicles that are late. *)

@@ -51,6 +51,7 @@ let judge (c : Case.t) (o : Outcome.t) =
   | Violated { violation = Temporal; _ } -> named "Termination"
   | Violated { violation = Deadlock | Unnamed; _ } -> Error "TLC looked for deadlocks by itself, though told not to"
   | Unfinished -> Error "TLC did not come to its end"
+  | Gave_up why -> Error why
   | Failed lines -> Error (String.concat "\n" lines)
 
 let verdicts installation (c : Case.t) =

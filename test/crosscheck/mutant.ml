@@ -2,6 +2,7 @@ type t = { name : string; file : string; pattern : string; replacement : string 
 
 let rules = "Dolphin.tla"
 let machine = "DolphinMachine.tla"
+let values = "DolphinValues.tla"
 
 let all =
   [ { name = "PAR-ERR leaves the siblings running";
@@ -26,8 +27,8 @@ let all =
       replacement = {|<< "timer", r.timer >>, S, Done_, << >>)|} };
     { name = "a handler that breaks leaves what it did before";
       file = rules;
-      pattern = {|result("fault", m.stop[2], m.verdict, S, << >>)|};
-      replacement = {|result("fault", m.stop[2], m.verdict, After(S, m), << >>)|} };
+      pattern = {|result(m, "fault", m.stop[2], Knowing(S, m.sees), << >>)|};
+      replacement = {|result(m, "fault", m.stop[2], After(S, m), << >>)|} };
     { name = "a guard that is false takes effect";
       file = rules;
       pattern = {|    [] ~Truth(run.value) -> << >>|};
@@ -52,19 +53,19 @@ let all =
     { name = "an error passes a watch";
       file = rules;
       pattern = {|    [] IsErr(s) -> Handled(s, h)|};
-      replacement = {|    [] IsErr(s) -> WATCH_PROPAGATE(s, s.out[2])|} };
+      replacement = {|    [] IsErr(s) -> << WATCH_PROPAGATE(s, s.out[2]) >>|} };
     { name = "handlers ignore unless they propagate";
       file = rules;
-      pattern = {|       [] run.verdict = "ignore" -> WATCH_IGNORE(after)|};
-      replacement = {|       [] TRUE -> WATCH_IGNORE(after)|} };
+      pattern = {|          [] run.verdict = "ignore" -> WATCH_IGNORE(after(run))|};
+      replacement = {|          [] TRUE -> WATCH_IGNORE(after(run))|} };
     { name = "what a handler posts is lost";
       file = rules;
-      pattern = {|      after == [ s EXCEPT !.S = run.S, !.deeds = @ \o run.deeds ]|};
-      replacement = {|      after == s|} };
+      pattern = {|after(run) == [ s EXCEPT !.S = run.S, !.deeds = @ \o run.deeds ]|};
+      replacement = {|after(run) == s|} };
     { name = "a handler's halt only propagates";
       file = rules;
-      pattern = {|  IN CASE run.is = "halt" -> WATCH_HALT(after, run.value)|};
-      replacement = {|  IN CASE run.is = "halt" -> WATCH_PROPAGATE(after, s.out[2])|} };
+      pattern = {|        CASE run.is = "halt" -> WATCH_HALT(after(run), run.value)|};
+      replacement = {|        CASE run.is = "halt" -> WATCH_PROPAGATE(after(run), s.out[2])|} };
     { name = "allOf runs two branches at a time";
       file = rules;
       pattern = {|       Next_(AllOf(<< Act(bs[j].body) >>, Without(bs, j))), run.deeds)|};
@@ -111,8 +112,8 @@ let all =
       replacement = {|           TRUE }|} };
     { name = "an assertion that fails is an error";
       file = rules;
-      pattern = {|IF run.value.assertion THEN ASSERT_ERR(S, run.value) ELSE WithFault(S, r, run.value)|};
-      replacement = {|WithFault(S, r, run.value)|} };
+      pattern = {|IF run.value.assertion THEN ASSERT_ERR(run.S, run.value) ELSE WithFault(run.S, r, run.value)|};
+      replacement = {|WithFault(run.S, r, run.value)|} };
     { name = "failures are not counted";
       file = rules;
       pattern = {|         [ outside EXCEPT !.failed = @ + 1 ]|};
@@ -144,7 +145,43 @@ let all =
     { name = "the late come in the order of the fleet";
       file = rules;
       pattern = {|Each(moved, VehicleOf)|};
-      replacement = {|SelectSeq(Fleet, LAMBDA vehicle : vehicle.id \in Range(moved))|} } ]
+      replacement = {|SelectSeq(Fleet, LAMBDA vehicle : vehicle.id \in Range(moved))|} };
+    { name = "what was seen is forgotten within the step";
+      file = machine;
+      pattern = {|Result(m, xs[m.sees[question]])|};
+      replacement = {|Result([ m EXCEPT !.sees = NothingSeen ], xs[m.sees[question]])|} };
+    { name = "a sensor shows its first value only, and comparisons hold";
+      file = machine;
+      pattern = {|Flatten([ i \in 1 .. m.stop[3] |-> Only|};
+      replacement = {|Flatten([ i \in 1 .. 1 |-> Only|} };
+    { name = "sensors of all vehicles show the same";
+      file = machine;
+      pattern = {|Ok(Reading(quantity, sensor \o "(" \o v \o ")"))|};
+      replacement = {|Ok(Reading(quantity, sensor \o "(" \o Fleet[1].id \o ")"))|} };
+    { name = "the opposite of a comparison is another comparison";
+      file = values;
+      pattern = {|HoldsNot(text) == Depends(<< "claim", text >>, << False, True >>)|};
+      replacement = {|HoldsNot(text) == Depends(<< "claim", "not " \o text >>, << False, True >>)|} };
+    { name = "what was shown is what is shown later";
+      file = machine;
+      pattern = {|KeptBy(keeper, x) == IF IsReading(x) THEN Reading(x[2], keeper) ELSE x|};
+      replacement = {|KeptBy(keeper, x) == x|} };
+    { name = "a handler does not see what the code saw";
+      file = rules;
+      pattern = {|  IN Each(RunCode(s.S, "handler", h,|};
+      replacement = {|  IN Each(RunCode(Knowing(s.S, NothingSeen), "handler", h,|} };
+    { name = "a step is another one by what sensors show, even if nothing depends on it";
+      file = rules;
+      pattern = {|IF Len(ts) < 2 THEN ts ELSE|};
+      replacement = {|IF TRUE THEN ts ELSE|} };
+    { name = "a vehicle is picked and allocated from where it was first";
+      file = machine;
+      pattern = {|  vehicle.places[IF Len(vehicle.places) = 1 THEN 1 ELSE sees[<< "position", vehicle.id >>]]|};
+      replacement = {|  vehicle.places[1]|} };
+    { name = "a vehicle is allocated from elsewhere than it was seen in the step";
+      file = rules;
+      pattern = {|Placings(S.sees, IF PrefersTheNear(t) THEN B ELSE << >>)|};
+      replacement = {|Placings(NothingSeen, IF PrefersTheNear(t) THEN B ELSE << >>)|} } ]
 
 (* Where [part] begins in [text], each time. *)
 let occurrences part text =
@@ -155,6 +192,8 @@ let occurrences part text =
     else go (i + 1) found
   in
   go 0 []
+
+let about part = if part = "" then all else List.filter (fun m -> occurrences part m.name <> []) all
 
 let apply m files =
   match List.assoc_opt m.file files with

@@ -7,7 +7,8 @@ type t = {
   replacement : string;
 }
 
-val all : t list
+val about : string -> t list
+(** [about part] is those with [part] in their names. *)
 
 val apply : t -> (string * string) list -> ((string * string) list, string) result
 (** [apply m files] is [files], names and texts, with [m]'s mistake in them; or why it does not apply. *)

@@ -37,6 +37,9 @@ let only name result condition =
     ~some:[ Printf.sprintf "message '%b'" result ]
     ~none:[ Printf.sprintf "message '%b'" (not result) ]
 
+let comparisons n =
+  String.concat " || " (List.init n (fun i -> Printf.sprintf "battery(v) == %d" i))
+
 let sensors =
   [ either "less" "battery(v) < 0.3"; either "at least, behind arithmetic" "10 <= battery(v) * 100 - 5";
     either "equal" "battery(v) == 1"; either "by property" "v.battery > 0.5";
@@ -61,6 +64,17 @@ let sensors =
       ~some:[ "halt(charged)"; "end" ] ~none:[];
     happens "a message with what a sensor shows" (say "\"at ${battery(v)}\"") ~some:[ "message 'at battery(a)'" ]
       ~none:[];
+    happens "told of, behind words" (say "'at ' + battery(v)") ~some:[ "message 'at battery(a)'" ] ~none:[];
+    happens "twelve comparisons in one step" (say (comparisons 12)) ~some:both ~none:[];
+    happens "what one handler keeps is not what another one kept"
+      (pick
+       ^ "h = battery(v)\nexecute watch (watch action { 1 / 0 } onError { if (h < 0.3) { post low: 1; h = battery(v) } }) onError { \
+          if (h >= 0.3) { post high: 1 } ; ignore() }\nif (poll(low: 1) && poll(high: 1)) { message 'charged' }")
+      ~some:[ "message 'charged'" ] ~none:[];
+    happens "what was answered is not what is shown later"
+      ~environment:{ Environment.default with answers = (fun _ -> [ [ "battery(v)" ] ]) }
+      (pick ^ "h = ask 'level?'\nif (h < 0.3 && battery(v) >= 0.3) { halt 'charged' }")
+      ~some:[ "halt(charged)"; "end" ] ~none:[];
     happens "a loop that ends some time" (pick ^ "while (battery(v) > 0.3) { pause 5 }") ~some:[ "pause(5)"; "end" ]
       ~none:[];
     happens "code that waits for a sensor has no end" (pick ^ "execute action { while (battery(v) > 0.3) { } }")
@@ -85,6 +99,8 @@ let beyond =
     unsettled "as a time of a task" (pick ^ "execute during { battery(v) } run idle(1)");
     unsettled "as a divisor" (pick ^ "x = 1 / battery(v)");
     unsettled "in a plan" (pick ^ "p = imcPlan { goTo speed: battery(v) }");
+    unsettled "thirteen comparisons in one step" (say (comparisons 13));
+    unsettled "an argument that is named" (pick ^ "def f(m) { return m.level < 0.3 }\nmessage f(level: battery(v))");
     unsettled "captured" (pick ^ "def f(b) { return { -> b < 0.3 } }\nf(battery(v))");
     unsettled "the greatest" (pick ^ "w = pick { id 'c' }\nx = (v + w).max { battery(it) }") ]
 

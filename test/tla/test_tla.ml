@@ -30,11 +30,17 @@ let texts () =
 
 (* {1 Programs} *)
 
-let translate source =
-  Model.of_program ~environment:Dolphin_explore.Environment.default Pure_run.fleet (Pure_run.compile_exn source)
+let translate ?(world = Pure_run.fleet) source =
+  Model.of_program ~environment:Dolphin_explore.Environment.default world (Pure_run.compile_exn source)
 
-let refused source line part () =
-  match translate source with
+(* Where all vehicles may be anywhere. *)
+let open_world =
+  List.fold_left
+    (fun world (s : World.vehicle_state) -> World.open_position s.id [] world)
+    Pure_run.fleet (World.vehicles Pure_run.fleet)
+
+let refused ?world source line part () =
+  match translate ?world source with
   | Ok _ -> Alcotest.failf "translated, but it has %s" part
   | Error ds ->
     let is_it (d : Dolphin_syntax.Diagnostic.t) =
@@ -51,10 +57,13 @@ let refusals =
     case "code in plans" (refused "p = imcPlan {\nif (1) { speed 2 }\ngoTo() }" 2 "code among its settings");
     case "large numbers" (refused "message 'a'\nmessage 10000000000" 2 "beyond TLC's whole numbers");
     case "trigonometry" (refused "x = 2\ny = Math.sin(x)" 2 "Math.sin");
+    case "coordinates of a vehicle that is in a place" (refused "v = pick { }\nmessage position(v).latitude > 41" 2 "latitude");
+    case "coordinates of what may be no vehicle"
+      (refused ~world:open_world "v = [position: Location.APDL]\nmessage v.position.latitude > 41" 2 "latitude");
     case "methods of strings" (refused "message 'a'.toUpperCase()" 1 "toUpperCase") ]
 
-let translated source () =
-  match translate source with
+let translated ?world source () =
+  match translate ?world source with
   | Ok files ->
     Alcotest.(check (list string)) "files"
       [ "MC.tla"; "MC.cfg"; "Told.cfg"; "Graph.cfg"; "Coverage.cfg"; "Dolphin.tla"; "DolphinMachine.tla"; "DolphinValues.tla" ]
@@ -64,6 +73,8 @@ let translated source () =
 let constants =
   [ case "constant locations" (translated "p = location(41.185, -8.7062) ^ 2.km");
     case "constant trigonometry" (translated "message Math.floor(Math.sin(1))");
+    case "coordinates of a vehicle that may be anywhere"
+      (translated ~world:open_world "v = pick { }\nmessage position(v).latitude > 41 && position(v).bearing(Location.APDL) > 0");
     case "plans by name" (translated "i = 1\np = imcPlan { planName 'p' + i\n loiter radius:100 }") ]
 
 (* {1 Models written by hand} *)
@@ -85,7 +96,7 @@ let rules_have_models () =
 
 let models =
   [ "Paper"; "Platform"; "CodeOfTasks"; "Sequence"; "Parallel"; "Branches"; "Until"; "Time"; "Errors"; "Deeds";
-    "Picking"; "Waiting"; "Executing"; "Ends" ]
+    "Picking"; "Sensors"; "Waiting"; "Executing"; "Ends" ]
 
 (* [f run] where [run arguments] is the status of Java with TLC's classes in a directory with all models, and what it
    says; skipped where there is no Java or no TLC. *)

@@ -56,7 +56,7 @@ let steps_of (o : Outcome.t) =
          Printf.sprintf "%s %s" (Option.value s.action ~default:"-")
            (Option.value (Option.bind (Event.variable "label" s.state) Quoted.unescape) ~default:"-"))
       steps
-  | Holds | Unfinished | Failed _ -> [ "no counter-example" ]
+  | Holds | Unfinished | Gave_up _ | Failed _ -> [ "no counter-example" ]
 
 let violated () =
   let o = file "violated.out" in
@@ -82,6 +82,7 @@ let verdict text =
   match (outcome text).verdict with
   | Holds -> "holds"
   | Unfinished -> "unfinished"
+  | Gave_up why -> "gave up: " ^ why
   | Failed why -> "failed: " ^ String.concat " / " why
   | Violated { violation; repetition; _ } ->
     let what =
@@ -114,6 +115,12 @@ let verdicts () =
   check "failed: The invariant cannot be evaluated."
     (version ^ message_text 2111 1 "The invariant cannot be evaluated."
      ^ message_text 2121 1 "The behavior up to this point is:");
+  let assertion = "The first argument of Assert evaluated to FALSE; the second argument was:\n\"x is \\\"open\\\"\"" in
+  let failure = message_text 2103 1 "The error occurred when TLC was evaluating the nested expressions" in
+  check "gave up: x is \"open\""
+    (version ^ "@!@!@STARTMSG 2111:1 @!@!@\nEvaluating invariant NoDeadlock failed.\n" ^ message_text 2132 0 assertion
+     ^ "\n@!@!@ENDMSG 2111 @!@!@\n" ^ message_text 2121 1 "The behavior up to this point is:" ^ failure);
+  check "gave up: x is \"open\"" (version ^ "@!@!@STARTMSG 1000:1 @!@!@\n" ^ message_text 2132 0 assertion ^ failure);
   check "failed: Parsing or semantic analysis failed."
     (version ^ "Lexical error at line 6, column 164.\n" ^ message_text 3002 1 "Parsing or semantic analysis failed.");
   check "failed: Error: Could not find or load main class tlc2.TLC"
@@ -123,7 +130,7 @@ let older_java () =
   match (file "old_java.out").verdict with
   | Failed lines ->
     Alcotest.(check (option (pair int int))) "needed and found" (Some (11, 8)) (Outcome.java_too_old lines)
-  | Holds | Violated _ | Unfinished -> Alcotest.fail "it did not start"
+  | Holds | Violated _ | Unfinished | Gave_up _ -> Alcotest.fail "it did not start"
 
 (* {1 Printed graphs} *)
 

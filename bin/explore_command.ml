@@ -1,5 +1,6 @@
 open Cmdliner
 module Search = Dolphin_explore.Search
+module Environment = Dolphin_explore.Environment
 module Property = Dolphin_explore.Property
 module Faults = Dolphin_explore.Faults
 module World_of = Dolphin_explore.World_of
@@ -42,6 +43,12 @@ let print_pieces (program : Dolphin_semantics.Core.program) pieces =
        Format.printf "  %a: %s@." Dolphin_syntax.Location.pp program.locations.(piece.site) piece.what)
     pieces
 
+(* The call for which the fleet has no reply, if the run ends with one. *)
+let lacking (run : Search.run) =
+  match List.rev run.steps with
+  | { label = No_reply why; _ } :: { label = Call call; _ } :: _ when why = Environment.no_reply call -> Some call
+  | _ -> None
+
 let print_outcome program s (o : Search.outcome) =
   let with_remark (property, verdict) = (property, verdict, is_remark property && not s.strict) in
   let shown = List.map with_remark o.verdicts in
@@ -67,7 +74,9 @@ let print_outcome program s (o : Search.outcome) =
            (if run.shortest then " shortest" else "")
            (Property.question property);
          Shown_run.print program ~steps:run.steps ~cycle:run.cycle;
-         if property = No_deadlock then Shown_run.print_waiting program run.steps
+         if property = No_deadlock then Shown_run.print_waiting program run.steps;
+         let tell call = Printf.printf "the fleet lacks an entry: reply '%s', and what the supplier may reply\n" call in
+         Option.iter tell (lacking run)
        | Unreached pieces when not remark ->
          Format.printf "@.%s: no run reaches@." (Property.name property);
          print_pieces program pieces

@@ -172,11 +172,12 @@ let drive s record host (Platform ((module P), { platform; more_lines; told; new
       answered = Screen.answered screen;
       refused = (fun why -> Screen.print screen (Log.remark !log ~time:(time ()) ("cannot take this answer: " ^ why))) }
   in
-  let answered = Option.fold s.resumed ~none:[] ~some:(fun (r : Resumed.t) -> Past.answers r.past.moments) in
+  let past what = Option.fold s.resumed ~none:[] ~some:(fun (r : Resumed.t) -> what r.past.moments) in
+  let answered = past Past.answers and called = past Past.calls in
   let run () =
     Driver.run (module P) platform ~always_telemetry:(live || Record.is_wanted s.record)
       ~observer:(Observer.both (Record.observer record) (observe screen log board ~is_stuck))
-      ?host:(Option.map Host.call host)
+      ~host:(match host with Some host -> Host.call host | None -> Replies.call ~called s.scenario)
       ?beginning:(beginning s.resumed news)
       ~console:(Questions.console shown ~answered ~answers:s.answers ~scenario:s.scenario)
       ~interruption:(Interruption.promise interruption) s.program.program

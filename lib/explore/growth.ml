@@ -21,6 +21,7 @@ type t = {
   mutable gathered : (int * Symmetry.permutation option) list;
   symmetries : Symmetries.t option;
   folding : Folding.t;
+  interrupted : (int, int) Hashtbl.t;  (* by number of what is shared *)
   mutable folded : int array;  (* a state's canonical form *)
   reserve : int -> unit;
 }
@@ -197,6 +198,21 @@ let go_to_ends t (s : Shape.t) place step shared i =
   List.iter (fun case -> take_case t s place case shared i) ends;
   List.length ends
 
+let interrupt t s shared i =
+  if not t.options.interruptions then 0
+  else begin
+    let number =
+      match Hashtbl.find_opt t.interrupted shared with
+      | Some number -> number
+      | None ->
+        let number = concluded t s shared (Ends Interrupted) in
+        Hashtbl.add t.interrupted shared number;
+        number
+    in
+    finish t number None i;
+    1
+  end
+
 (* {1 Beginning} *)
 
 let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore) options program world =
@@ -233,6 +249,7 @@ let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore
       gathered = [];
       symmetries;
       folding = Folding.create parts words;
+      interrupted = Hashtbl.create 16;
       folded = [| 0 |];
       reserve;
     }

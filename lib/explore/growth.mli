@@ -23,6 +23,7 @@ type t = {
   mutable gathered : (int * Symmetry.permutation option) list;
   symmetries : Symmetries.t option;
   folding : Folding.t;
+  interrupted : (int, int) Hashtbl.t;  (** by number of what is shared: where an interruption leads *)
   mutable folded : int array;  (** a state's canonical form *)
   reserve : int -> unit;
 }
@@ -65,5 +66,9 @@ val go_by_case : t -> Shape.t -> Shape.place -> Part.step -> int -> int -> int
 
 val go_to_ends : t -> Shape.t -> Shape.place -> Part.step -> int -> int -> int
 (** Likewise, only as far as it ends the run. *)
+
+val interrupt : t -> Shape.t -> int -> int -> int
+(** [interrupt t s n i] is to where an interruption leads, if there are any. Nothing follows it, and it breaks nothing:
+    whatever states are looked at, verdicts are the same with it. The result is how many transitions that makes. *)
 
 val ends_run : Part.case -> bool

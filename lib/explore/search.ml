@@ -282,11 +282,12 @@ let with_shortest_runs options program world started verdicts =
     let is_found property = Space.broken t.space property <> None in
     ignore (explore ~enough:(fun () -> List.for_all is_found sought) program t);
     let shorter (property, verdict) =
-      match List.mem property sought, Space.broken t.space property with
-      | true, Some i ->
+      let found = if List.mem property sought then Space.broken t.space property else None in
+      match found with
+      | Some i ->
         let steps = Replay.between options.environment program world t.space (Replay.shortest t.space i) in
         (property, Violated { steps; cycle = []; shortest = true })
-      | _, _ -> (property, verdict)
+      | None -> (property, verdict)
     in
     List.map shorter verdicts
 

@@ -23,9 +23,9 @@ let expand_whole t i number =
     visit t t.other i
   in
   List.iter go choices;
-  (match c.control, choices with
-   | Ended _, _ | _, _ :: _ -> ()
-   | (Script _ | Waiting _ | Executing _), [] -> note_broken t No_deadlock i);
+  (match c.control with
+   | Ended _ -> ()
+   | Script _ | Waiting _ | Executing _ -> if not (Environment.goes_on choices) then note_broken t No_deadlock i);
   List.length choices
 
 (* {1 All steps} *)
@@ -164,7 +164,7 @@ let expand_executing t i number =
     if Reduction.by_order t.reduction then expand_some t s shared i else expand_all t s shared i
   in
   if taken = 0 then note_broken t No_deadlock i;
-  taken
+  taken + interrupt t s shared i
 
 let rec expand t i =
   match

@@ -91,7 +91,8 @@ let explore ?(tick = ignore) options program world fs =
       in
       let choices = Environment.choices options program world s.outside s.configuration in
       if i >= Array.length !edges then edges := Array.append !edges (Array.make (Array.length !edges) []);
-      !edges.(i) <- (if choices = [] then [ (i, letter (valuation i)) ] else List.map edge choices);
+      let stays = if Environment.goes_on choices then [] else [ (i, letter (valuation i)) ] in
+      !edges.(i) <- stays @ List.map edge choices;
       go (i + 1)
     end
   in

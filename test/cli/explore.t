@@ -281,6 +281,9 @@ Formulas of temporal logic.
   formula F ended: holds
   formula F (done(a) & running(a)): violated after 7 steps: it does not hold
   formula F (done(a) & running(a)): a run in which it does not hold
+  $ explore deadlock.dol --ltl 'F ended' | grep violated
+  no deadlock: violated after 6 steps: nothing can happen any more, and the program has not ended
+  formula F ended: violated after 6 steps: it does not hold
   $ explore again.dol --ltl 'G (strat(a))'
   dolphin: --ltl 'G (strat(a))': there is no proposition 'strat' (did you mean start?)
   [2]

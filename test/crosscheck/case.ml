@@ -102,7 +102,7 @@ let faulty_examples =
   examples_with
     [ (", with losses", { Faults.none with loss = Any_number });
       (", with a latecomer", { Faults.none with join = At_most 1 });
-      (", with all faults once", { fail = At_most 1; loss = At_most 1; join = At_most 1 }) ]
+      (", with all faults once", { Faults.none with fail = At_most 1; loss = At_most 1; join = At_most 1 }) ]
 
 (* {1 Traps} *)
 

@@ -5,12 +5,14 @@ module World_of = Dolphin_explore.World_of
 
 let ( let* ) = Result.bind
 
+let calls (fleet : Fleet_file.t) = List.map (fun (reply : Scenario.reply) -> reply.call) fleet.scenario.replies
+
 let model (program : Program_file.t) (fleet : Fleet_file.t) ~answers ~faults =
   let scenario = fleet.scenario in
   let plans = List.map (fun (plan : Scenario.plan) -> plan.name) scenario.plans in
   let prompts = List.map (fun (answer : Scenario.answer) -> answer.prompt) scenario.answers in
   let environment = World_of.environment ~answers ~faults scenario in
-  Model.of_program ~plans ~prompts ~environment (World_of.still scenario) program.program
+  Model.of_program ~plans ~prompts ~calls:(calls fleet) ~environment (World_of.still scenario) program.program
 
 let load path fleet =
   match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet) with
@@ -35,6 +37,12 @@ let open_sensors (fleet : Fleet_file.t) =
     | _, _ -> None
   in
   List.filter_map refusal fleet.scenario.vehicles
+
+let unfit_replies (program : Program_file.t) (fleet : Fleet_file.t) ~answers ~faults =
+  let named = Scenario.replies_at ~file:(Option.value fleet.path ~default:"") fleet.source in
+  let environment = World_of.environment ~answers ~faults fleet.scenario and world = World_of.still fleet.scenario in
+  let refusal (call, why) = Dolphin_syntax.Diagnostic.error (List.assoc call named) why in
+  List.map refusal (Model.unfit_replies ~environment ~calls:(calls fleet) world program.program)
 
 (* {1 What is done with the model} *)
 
@@ -86,7 +94,7 @@ let run path fleet answers faults directory check compare strict limit jar worke
     let* deed = deed directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverage in
     let* program, fleet = load path fleet in
     let* () =
-      match open_sensors fleet with
+      match open_sensors fleet @ unfit_replies program fleet ~answers ~faults with
       | [] -> Ok ()
       | refusals -> Report.diagnostics ~source:fleet.source refusals; Error Exit_status.Bad_input
     in

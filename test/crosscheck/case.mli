@@ -8,6 +8,7 @@ type t = {
   environment : Dolphin_explore.Environment.options;
   plans : string list;  (** that the environment may treat in a way of their own *)
   prompts : string list;  (** likewise *)
+  calls : string list;  (** likewise *)
 }
 
 val random : seed:int -> int -> t list

@@ -200,7 +200,7 @@ let fleet =
   let* plans = flatten_l [ plan "p"; plan "q" ] in
   let answers = [ { Scenario.prompt = "how many?"; texts = [ "1"; "2" ] } ] in
   let reply call : Scenario.reply = { call; rounds = Calls.replies call } in
-  let replies = List.map reply [ "getSupplier"; "s.level"; "s.ready"; "s.next"; "s.self"; "s.add" ] in
+  let replies = List.map reply Calls.names in
   return { Scenario.vehicles = List.map (fun v -> draining (steadily v)) vehicles; plans; answers; replies }
 
 let random_case =

@@ -253,7 +253,7 @@ let faults =
     "What else may go wrong, separated by commas: $(b,fail), every platform task may fail; $(b,loss), the connection of a \
      vehicle that runs a task may be lost for longer than its timeout; $(b,join), vehicles may be late or missing when \
      the program picks them: those that the fleet lets join, leave or drop, or if there are none, all; $(b,all) of \
-     these. With $(b,=)$(i,N) at most $(i,N) times in one run: $(b,fail=1,loss=2). By default only those plans may \
+     these. $(b,interrupt), which is not among $(b,all): the program may be interrupted at any time, as by Ctrl-C. With $(b,=)$(i,N) at most $(i,N) times in one run: $(b,fail=1,loss=2). By default only those plans may \
      fail of which the fleet says so."
   in
   Arg.(value & opt (conv ~docv:"FAULTS" (parse, Faults.pp)) Faults.none & info [ "faults" ] ~docv:"FAULTS" ~doc)
@@ -340,7 +340,8 @@ let man =
     `P "Noted are also runs that call $(b,halt), tuples left over at the end, and code that no run reaches.";
     `P "What sensors show is open: of a condition such as $(b,battery\\(v\\) < 0.3) both outcomes are possible at each look, \
         or those for the values that the fleet gives; a run says what it assumes. All vehicles of the fleet are in \
-        reach, unless $(b,--faults) says otherwise. Calls of a supplier fail.";
+        reach, unless $(b,--faults) says otherwise. Calls of a supplier get each of the replies that the fleet gives for \
+        them; a call for which it has none fails.";
     `P "A bound that is met, or Ctrl-C, makes the answer inconclusive where no violation was found: it is never said that \
         something holds that was not wholly explored.";
     `S Manpage.s_arguments;

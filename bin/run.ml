@@ -172,14 +172,13 @@ let drive s record host (Platform ((module P), { platform; more_lines; told; new
       answered = Screen.answered screen;
       refused = (fun why -> Screen.print screen (Log.remark !log ~time:(time ()) ("cannot take this answer: " ^ why))) }
   in
-  let past what = Option.fold s.resumed ~none:[] ~some:(fun (r : Resumed.t) -> what r.past.moments) in
-  let answered = past Past.answers and called = past Past.calls in
+  let past = Option.fold s.resumed ~none:[] ~some:(fun (r : Resumed.t) -> r.past.moments) in
   let run () =
     Driver.run (module P) platform ~always_telemetry:(live || Record.is_wanted s.record)
       ~observer:(Observer.both (Record.observer record) (observe screen log board ~is_stuck))
-      ~host:(match host with Some host -> Host.call host | None -> Replies.call ~called s.scenario)
+      ~host:(match host with Some host -> Host.call host | None -> Replies.call ~past s.scenario)
       ?beginning:(beginning s.resumed news)
-      ~console:(Questions.console shown ~answered ~answers:s.answers ~scenario:s.scenario)
+      ~console:(Questions.console shown ~answered:(Past.answers past) ~answers:s.answers ~scenario:s.scenario)
       ~interruption:(Interruption.promise interruption) s.program.program
   in
   let close () =

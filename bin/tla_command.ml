@@ -137,8 +137,8 @@ let man =
     `P "$(b,MC.cfg) checks the properties, $(b,Graph.cfg) prints the state graph. In the directory, with TLC's jar:";
     `Pre "  java -Xss64m -cp tla2tools.jar tlc2.TLC -config MC.cfg MC.tla\n\
          \  java -Xss64m -cp tla2tools.jar tlc2.TLC -workers 1 -config Graph.cfg MC.tla";
-    `P "What has no meaning in TLA+ is refused, with its place in the program: calls of a supplier, and coordinates that the \
-        program computes.";
+    `P "What has no meaning in TLA+ is refused, with its place in the program or in the fleet, such as coordinates that the \
+        program computes, or numbers of a reply that TLC has not.";
     `S "RUNNING TLC";
   ]
   @ Tlc_options.man

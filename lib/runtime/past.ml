@@ -63,30 +63,28 @@ let standing ~announce_period moments =
   in
   List.fold_left add nothing moments
 
-(* The requests, as [request] finds them among effects, with the replies that [reply] finds among events. *)
-let settled request reply moments =
-  let add (open_request, found) { what; time = _ } =
+let answers moments =
+  let add (prompt, found) { what; time = _ } =
     match what with
     | Asked effects ->
-      let latest known effect = match request effect with Some _ as request -> request | None -> known in
-      (List.fold_left latest open_request effects, found)
-    | Happened event -> (
-        match open_request, reply event with
-        | Some request, Some reply -> (open_request, (request, reply) :: found)
-        | _, _ -> (open_request, found))
-    | Saw _ | Noted _ -> (open_request, found)
+      let latest prompt : Effect.t -> _ = function Ask text -> Some text | _ -> prompt in
+      (List.fold_left latest prompt effects, found)
+    | Happened (Answered text) -> (prompt, Option.fold prompt ~none:found ~some:(fun prompt -> (prompt, text) :: found))
+    | Saw _ | Noted _ | Happened _ -> (prompt, found)
   in
   List.rev (snd (List.fold_left add (None, []) moments))
 
-let answers moments =
-  let prompt : Effect.t -> _ = function Ask prompt -> Some prompt | _ -> None in
-  let answer : Transition.event -> _ = function Answered text -> Some text | _ -> None in
-  settled prompt answer moments
-
-let calls moments =
-  let call : Effect.t -> _ = function
-    | Call_host { subject; member; _ } -> Some (Machine.name_of_call ~subject ~member)
-    | _ -> None
+let replies moments =
+  let call found : Effect.t -> _ = function
+    | Call_host { subject; member; _ } -> (Machine.name_of_call ~subject ~member, None) :: found
+    | _ -> found
   in
-  let reply : Transition.event -> _ = function Replied _ -> Some () | _ -> None in
-  List.map fst (settled call reply moments)
+  let reply x = function (call, _) :: found -> (call, Some x) :: found | [] -> [] in
+  let add found { what; time = _ } =
+    match what with
+    | Asked effects -> List.fold_left call found effects
+    | Happened (Replied x) -> reply (Ok x) found
+    | Happened (Host_failed why) -> reply (Error why) found
+    | Saw _ | Noted _ | Happened _ -> found
+  in
+  List.rev (List.fold_left add [] moments)

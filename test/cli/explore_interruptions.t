@@ -55,6 +55,10 @@ What must hold of every state or every run may be broken by it. The run can be f
   formula F (ended & !poll(lock: 1)): violated after 4 steps: it does not hold
   formula F ended: holds
 
+  $ explore lock.dol --faults interrupt --ltl 'F (done(survey) | interrupt)' --ltl 'G (interrupt -> ended & !bound(noptilus-1))' | grep '^formula'
+  formula F (done(survey) | interrupt): holds
+  formula G (interrupt -> ended & !bound(noptilus-1)): holds
+
 Who is stuck is stuck, though a person could interrupt; who goes on for ever does.
 
   $ cat > stuck.dol <<'END'

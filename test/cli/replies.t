@@ -243,6 +243,24 @@ A journal of such a run checks, and is gone on with wherever it breaks off: the 
   >   diff part.steps whole.steps > /dev/null || echo "line $n: another run"
   > done
 
+What a supplier has replied the fleet does not go on with, unless it would have replied the same.
+
+  $ cp supplier.dol real.dol
+  $ sed "s/^reply 'supplier.active'.*/reply 'supplier.active', false/" supplier.fleet > real.fleet
+  $ dolphin exec real.dol --supplier ../../examples/supplier.py --journal real.run | grep starts
+     0:00  x8-02       starts photograph_pier
+     2:00  x8-02       starts look_for_oil
+     3:10  x8-02       starts follow_coast
+  $ head -n 7 real.run > part.run
+  $ dolphin exec real.dol --resume part.run
+  dolphin: part.run: this run has a supplier, which died with its console: name it again with --supplier
+  [2]
+  $ dolphin exec real.dol --resume part.run --supplier ../../examples/supplier.py | tail -1
+    13:10  program     ends
+  $ head -n 4 real.run > part.run
+  $ dolphin exec real.dol --resume part.run | tail -1
+     0:00  program     ends
+
 What is wrong with a reply is told with its place.
 
   $ cat > mission.fleet <<'END'

@@ -124,7 +124,7 @@ let trap ?failures name source =
 
 let two = "a = pick { id 'a' }; b = pick { id 'b' }\n"
 
-let traps =
+let of_tasks =
   trap "at most one failure" ~failures:1 (two ^ "execute watch (task('p')[a] >> task('q')[b]) onError { ignore() }\nexecute task('p')[a]")
   :: List.map
     (fun (name, source) -> trap name source)
@@ -155,6 +155,55 @@ let traps =
       ("not enough for all", "v = pick { id 'a' }\nexecute task('p') | task('q')");
       ("an assertion that no watch sees", two ^ "execute watch (assert({ poll x: 1 }, 'x is there') | action { post x: 1 } | task('p')[a]) onError { ignore() }") ]
 
+let supplied = "s = getSupplier()\n"
+
+(* Calls of the supplier that [Calls] stands in for. *)
+let calls =
+  List.map
+    (fun (name, source) -> trap name (supplied ^ source))
+    [ ("replies that differ from one call to the next", "x = s.level\ny = s.level\nz = s.level\npost k: y");
+      ("a call for which there is no reply", two ^ "x = s.level\ny = s.nothing(x)");
+      ("a reply that fails the second time", two ^ "s.next()\nexecute s.next()");
+      ("replies of two objects", "t = s.self\nx = s.level + t.level\nt = s.self\nx = t.level");
+      ("what a host object is", "t = s.self\nif (s == t) { post same: t } else { post other: t }\nm = [a: s, b: [t]]\n\
+                                 if (s && s in m.b) { message \"${m} ${s}\" }\nconsume other: t\nmessage s[0]");
+      ("what a host object is not", "x = s + 1");
+      ("methods of an object with names of the language", "s.add(1)\nmessage s\ns.ready()\nmessage s.size()");
+      ("calls that differ in their arguments", "x = s.level(ask 'how many?', [s])");
+      ("calls in code of tasks",
+       two
+       ^ "t = watch action { post x: 1; y = s.level } onError { e -> message e; ignore() }\n\
+          execute t >> watch condition { s.ready(1) } onError { e -> message e; ignore() }");
+      ("tasks of a supplier, executed twice",
+       two ^ "t = s.next()\nexecute watch (t[a] | t[b]) onError { ignore() }\nexecute t >> s.self.next()");
+      ("an object in a closure", "f = { s.level }\nx = f() + f()\nexecute watch action { f() } onError { ignore() }");
+      ("asked again and again", "while (s.ready()) { post k: 1 }\nconsume k: _") ]
+
+(* Programs at rest in each way in which they can wait, and at work. *)
+let interruptions =
+  let programs =
+    [ ("interrupted while vehicles run",
+       two ^ "post k: 1\nexecute (task('p')[a] >> task('q')[a]) | task('q')[b] | idle(5.seconds)");
+      ("interrupted while it waits",
+       "v = pick { count _ }\nx = ask 'how many?'\npause 3.seconds\n" ^ supplied ^ "post k: s.level\nrelease v");
+      ("interrupted where it is stuck", "v = pick { id 'a' }\nexecute condition { consume k: 1 }");
+      ("interrupted within an until, and a handler",
+       two
+       ^ "t = until { poll x: 1 } run (task('p')[a] | during 2.seconds run task('q')[b])\n\
+          execute watch t onError { post x: 1; ignore() }");
+      ("interrupted again and again", "while (true) { post k: 1; consume k: 1 }") ]
+  in
+  let kinds = [ ("", interrupted answering); (", with all faults once", interrupted all_once) ] in
+  let one (name, source) (kind, environment) = { (trap (name ^ kind) source) with environment } in
+  List.concat_map (fun program -> List.map (one program) kinds) programs
+
+let questions =
+  let asking name answers source = { (trap name source) with environment = { answering with answers } } in
+  [ asking "a question that nobody answers" (fun _ -> []) "x = ask 'how many?'";
+    asking "answers that are refused" (fun _ -> [ [ "y"; "1 / 0" ]; [ "2"; "post(k: 1)" ] ]) "x = ask 'how many?'" ]
+
+let traps = of_tasks @ questions @ calls @ interruptions
+
 let lost_once = "v = pick { id 'a' }\nt = watch task('p')[v] onError { post failed: 1; ignore() }\nexecute t\n"
 
 (* Each with losses and with vehicles that are late, with and without bounds. *)
@@ -177,40 +226,3 @@ let faulty_traps =
     { (trap (name ^ ", " ^ kind) source) with environment }
   in
   List.concat_map (fun program -> List.map (one program) kinds) programs
-
-let supplied = "s = getSupplier()\n"
-
-(* Calls of the supplier that [Calls] stands in for. *)
-let calls =
-  List.map
-    (fun (name, source) -> trap name (supplied ^ source))
-    [ ("replies that differ from one call to the next", "x = s.level\ny = s.level\nz = s.level\npost k: y");
-      ("a call for which there is no reply", two ^ "x = s.level\ny = s.nothing(x)");
-      ("a reply that fails the second time", two ^ "s.next()\nexecute s.next()");
-      ("replies of two objects", "t = s.self\nx = s.level + t.level\nt = s.self\nx = t.level");
-      ("what a host object is", "t = s.self\nif (s == t) { post same: t } else { post other: t }\nm = [a: s, b: [t]]\n\
-                                 if (s && s in m.b) { message \"${m} ${s}\" }\nconsume other: t\nmessage s[0]");
-      ("what a host object is not", "x = s + 1");
-      ("methods of an object with names of the language", "s.add(1)\nmessage s\ns.ready()\nmessage s.size()");
-      ("calls that differ in their arguments", "x = s.level(ask 'how many?', [s])");
-      ("calls in code of tasks",
-       two ^ "t = watch action { post x: 1; y = s.level } onError { e -> message e; ignore() }\n\
-              execute t >> watch condition { s.ready(1) } onError { e -> message e; ignore() }");
-      ("tasks of a supplier, executed twice", two ^ "t = s.next()\nexecute watch (t[a] | t[b]) onError { ignore() }\nexecute t >> s.self.next()");
-      ("an object in a closure", "f = { s.level }\nx = f() + f()\nexecute watch action { f() } onError { ignore() }");
-      ("asked again and again", "while (s.ready()) { post k: 1 }\nconsume k: _") ]
-
-(* Programs at rest in each way in which they can wait, and at work. *)
-let interruptions =
-  let programs =
-    [ ("interrupted while vehicles run", two ^ "post k: 1\nexecute (task('p')[a] >> task('q')[b]) | task('q')[b] | idle(5.seconds)");
-      ("interrupted while it waits", "v = pick { count _ }\nx = ask 'how many?'\npause 3.seconds\ns = getSupplier()\npost k: s.level\nrelease v");
-      ("interrupted where it is stuck", "v = pick { id 'a' }\nexecute condition { consume k: 1 }");
-      ("interrupted within an until, and a handler", two ^ "execute watch (until { poll x: 1 } run (task('p')[a] | during 2.seconds run task('q')[b])) onError { post x: 1; ignore() }");
-      ("interrupted again and again", "while (true) { post k: 1; consume k: 1 }") ]
-  in
-  let kinds = [ ("", interrupted answering); (", with all faults once", interrupted all_once) ] in
-  let one (name, source) (kind, environment) = { (trap (name ^ kind) source) with environment } in
-  List.concat_map (fun program -> List.map (one program) kinds) programs
-
-let faulty_traps = faulty_traps @ calls @ interruptions

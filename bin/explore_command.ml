@@ -1,6 +1,7 @@
 open Cmdliner
 module Search = Dolphin_explore.Search
 module Environment = Dolphin_explore.Environment
+module Value = Dolphin_semantics.Value
 module Property = Dolphin_explore.Property
 module Faults = Dolphin_explore.Faults
 module World_of = Dolphin_explore.World_of
@@ -75,7 +76,9 @@ let print_outcome program s (o : Search.outcome) =
            (Property.question property);
          Shown_run.print program ~steps:run.steps ~cycle:run.cycle;
          if property = No_deadlock then Shown_run.print_waiting program run.steps;
-         let tell call = Printf.printf "the fleet lacks an entry: reply '%s', and what the supplier may reply\n" call in
+         let tell call =
+           Format.printf "the fleet lacks an entry: reply %a, and what the supplier may reply@." Value.pp (String call)
+         in
          Option.iter tell (lacking run)
        | Unreached pieces when not remark ->
          Format.printf "@.%s: no run reaches@." (Property.name property);
@@ -253,8 +256,9 @@ let faults =
     "What else may go wrong, separated by commas: $(b,fail), every platform task may fail; $(b,loss), the connection of a \
      vehicle that runs a task may be lost for longer than its timeout; $(b,join), vehicles may be late or missing when \
      the program picks them: those that the fleet lets join, leave or drop, or if there are none, all; $(b,all) of \
-     these. $(b,interrupt), which is not among $(b,all): the program may be interrupted at any time, as by Ctrl-C. With $(b,=)$(i,N) at most $(i,N) times in one run: $(b,fail=1,loss=2). By default only those plans may \
-     fail of which the fleet says so."
+     these. $(b,interrupt), which is not among $(b,all): the program may be interrupted at any time, as by Ctrl-C. With \
+     $(b,=)$(i,N) at most $(i,N) times in one run: $(b,fail=1,loss=2). By default only those plans may fail of which the \
+     fleet says so."
   in
   Arg.(value & opt (conv ~docv:"FAULTS" (parse, Faults.pp)) Faults.none & info [ "faults" ] ~docv:"FAULTS" ~doc)
 

@@ -21,7 +21,7 @@ let call ~past scenario =
     | Some reply -> Lwt.return (Result.map (Value.made_at site) reply)
     | None ->
       let why = "there is no host process to call: name one with --supplier, or give the fleet a reply" in
-      Lwt.return (Error (Printf.sprintf "%s '%s'" why call))
+      Lwt.return (Error (Format.asprintf "%s %a" why Value.pp (String call)))
 
 let are_of scenario moments =
   let next = in_turn scenario in

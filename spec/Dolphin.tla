@@ -32,7 +32,8 @@ CONSTANTS
   Answers(_),    \* to a prompt: for the first time it is asked, the second ..., the answers that may be given; the last
                  \* item is for all later times
   Prompts,       \* the prompts whose answers depend on how often they were asked
-  HostReplies(_, _), \* to a call, made at this place: likewise <<"value", y>>, or why it fails, <<"failure", m>>; none: no word
+  HostReplies(_, _), \* to a call, made at this place: likewise what the host may reply, <<"value", y>>, or why it fails,
+                 \* <<"failure", m>>
   Calls,         \* the calls whose replies depend on how often they were made
   Interruptions  \* whether the program may be interrupted
 

@@ -120,7 +120,7 @@ let answered options e prompt : (Transition.event * t) list =
     let e = { e with asked = once_more prompt e.asked rounds } in
     List.map (fun text -> (Transition.Answered text, e)) texts
 
-let no_reply call = Printf.sprintf "the fleet has no reply '%s'" call
+let no_reply call = Format.asprintf "the fleet has no reply %a" Value.pp (String call)
 
 let replied options e site call : (Transition.event * t) list =
   let rounds = options.replies call in

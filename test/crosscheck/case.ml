@@ -177,7 +177,7 @@ let calls =
       ("tasks of a supplier, executed twice",
        two ^ "t = s.next()\nexecute watch (t[a] | t[b]) onError { ignore() }\nexecute t >> s.self.next()");
       ("an object in a closure", "f = { s.level }\nx = f() + f()\nexecute watch action { f() } onError { ignore() }");
-      ("asked again and again", "while (s.ready()) { post k: 1 }\nconsume k: _") ]
+      ("asked again and again", "while (s.ready()) { message 'on' }") ]
 
 (* Programs at rest in each way in which they can wait, and at work. *)
 let interruptions =

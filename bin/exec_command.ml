@@ -56,7 +56,8 @@ let resume how ~changed program path : Exit_status.t =
       match as_before how resumed with
       | Error trouble -> Fleet_file.tell trouble; Bad_input
       | Ok (fleet, _, _) when how.supplier = None && not (Replies.are_of fleet.scenario resumed.past.moments) ->
-        Report.complain (path ^ ": this run has a supplier, which died with its console: name it again with --supplier");
+        Report.complain
+          (path ^ ": this run has a supplier, which died with its console: name it again with --supplier");
         Bad_input
       | Ok (fleet, seed, speed) -> start how ~resumed program fleet ~seed ~speed resumed.past.header)
 
@@ -194,7 +195,8 @@ let man =
     `S Manpage.s_options;
     `S Imc_options.s_network;
     `P "With $(b,--imc) the program runs on real vehicles, or on whatever speaks IMC as they do. The page \
-        $(i,docs/imc.md) tells what it takes. Of a fleet that $(b,--fleet) names, only the answers and replies are used then.";
+        $(i,docs/imc.md) tells what it takes. Of a fleet that $(b,--fleet) names, only the answers and replies are \
+        used then.";
     `S Manpage.s_exit_status;
     `S Manpage.s_files;
     `I ("$(i,PROG) with the ending $(b,.fleet)", "The fleet, unless $(b,--sim) or $(b,--fleet) names another.");

@@ -32,8 +32,8 @@ CONSTANTS
   Answers(_),    \* to a prompt: for the first time it is asked, the second ..., the answers that may be given; the last
                  \* item is for all later times
   Prompts,       \* the prompts whose answers depend on how often they were asked
-  HostReplies(_, _), \* to a call, made at this place: likewise what the host may reply, <<"value", y>>, or why it fails,
-                 \* <<"failure", m>>
+  HostReplies(_, _), \* to a call, made at this place: likewise what the host may reply, <<"value", y>>, or why it
+                 \* fails, <<"failure", m>>
   Calls,         \* the calls whose replies depend on how often they were made
   Interruptions  \* whether the program may be interrupted
 
@@ -709,7 +709,8 @@ TimesCalled(call) == IF call \in Calls THEN outside.called[call] ELSE 0
 
 (* Of rounds, what is answered the first time, the second ..., the one for this time; and how often it was asked then,
    as far as it matters. *)
-ThisTime(rounds, times) == IF rounds = << >> THEN << >> ELSE rounds[IF times < Len(rounds) THEN times + 1 ELSE Len(rounds)]
+ThisTime(rounds, times) ==
+  IF rounds = << >> THEN << >> ELSE rounds[IF times < Len(rounds) THEN times + 1 ELSE Len(rounds)]
 OnceMore(rounds, times) == IF times + 1 < Len(rounds) THEN times + 1 ELSE times
 
 (* An answer is an expression over the program's variables, which may only compute a value. A refused one is asked for

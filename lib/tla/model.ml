@@ -178,7 +178,8 @@ let of_program ?(plans = []) ?(prompts = []) ?(calls = []) ~environment world pr
   match Translation.refusals translation with
   | [] ->
     Ok
-      [ { name = "MC.tla"; text }; { name = "MC.cfg"; text = check environment }; { name = "Graph.cfg"; text = graph environment };
+      [ { name = "MC.tla"; text }; { name = "MC.cfg"; text = check environment };
+        { name = "Graph.cfg"; text = graph environment };
         { name = "Dolphin.tla"; text = Spec.dolphin }; { name = "DolphinMachine.tla"; text = Spec.machine };
         { name = "DolphinValues.tla"; text = Spec.values } ]
   | refusals -> Error refusals

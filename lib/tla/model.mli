@@ -15,9 +15,9 @@ val of_program :
   World.t ->
   Core.program ->
   (file list, Dolphin_syntax.Diagnostic.t list) result
-(** [of_program ~plans ~prompts ~calls ~environment w p] is the model of [p] in [w]: the specification's modules, [MC.tla] with the
-    program and the world as constants, [MC.cfg] to check its properties and [Graph.cfg] to print its graph; all
-    for one directory. Or what cannot be translated, at least one, in the order of the text. [environment] is asked about
+(** [of_program ~plans ~prompts ~calls ~environment w p] is the model of [p] in [w]: the specification's modules,
+    [MC.tla] with the program and the world as constants, [MC.cfg] to check its properties and [Graph.cfg] to print its
+    graph; all for one directory. Or what cannot be translated, at least one, in the order of the text. [environment] is asked about
     the plans, prompts and calls of the host that are listed here; what it says of a name that nobody has holds for all
     others. *)
 

@@ -69,8 +69,8 @@ let rec value ?at t site x =
   | Task task -> (
       match task, at with
       | Platform { name; plan = None; _ }, Some at ->
-        let fields = [ ("op", Tla.String "platform"); ("name", Tla.String name); ("plan", Tla.Integer 0); ("at", at) ] in
-        tagged "task" [ Record fields ]
+        let of_task = [ ("name", Tla.String name); ("plan", Tla.Integer 0); ("at", at) ] in
+        tagged "task" [ Record (("op", String "platform") :: of_task) ]
       | _, _ -> constant_refused t site x)
   | Settings _ | Reading _ -> constant_refused t site x
 

@@ -128,7 +128,8 @@ let seed =
 let answers =
   let doc =
     "Answer a question of the program ($(b,ask)) with $(docv), an expression. May be repeated: the first one answers \
-     the first question. Further questions are answered by the fleet, or else on standard input."
+     the first question. Further questions are answered by the fleet, or else on standard input. What begins with a \
+     minus sign is written $(b,--answer=-1)."
   in
   Arg.(value & opt_all string [] & info [ "answer" ] ~docv:"TEXT" ~doc)
 

@@ -56,9 +56,14 @@ type phase =
       next : order option;
     }
 
-type former = { attempt : attempt; ended : float; watched_until : float }
+type former = {
+  attempt : attempt;
+  ended : float;
+  watched_until : float;
+  given_up : bool;  (** it was not heard to be over: its link, or its stop's confirmation, was waited for in vain *)
+}
 (** The order before, over since [ended] by the vehicle's clock. If it is seen to run again before [watched_until], then
-    because of a late copy of our request. *)
+    because of a late copy of our request, or because it was given up. *)
 
 type t = {
   next_request : int;
@@ -75,6 +80,7 @@ type t = {
 val create : request:int -> t
 val idle : t -> bool
 val owes : t -> bool
+val unsettled : t -> string option
 val due : t -> float
 
 (** {1:ways Ways} *)

@@ -221,6 +221,7 @@ and guarded env at operation construct guard t =
 
 and build env at builder body =
   if builder = Pick then check_place env { (Option.get (Builtins.find "ask")) with result = Vehicles } "pick" at;
+  check_repeated env builder body;
   let slot = Scope.new_slot env.code in
   let start = set_local env at slot (constant env at (Settings [])) in
   let body =
@@ -542,6 +543,7 @@ and statement env (s : Ast.statement) : expression =
     when not (is_hidden env "assert") ->
     assertion env at arguments
   | Expression e ->
+    check_subtraction env e;
     let e = Option.value (regroup env e) ~default:e in
     if Scope.at_top env.code && known_kind env e = Task && Scope.settings env.code = None then
       Scope.report env.program

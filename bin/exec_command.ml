@@ -2,7 +2,8 @@ open Cmdliner
 
 let no_fleet = { Fleet_file.path = None; source = ""; scenario = Fleet_file.nobody }
 
-(* On a network nobody answers for people, unless that is asked for: of a fleet only the answers are used then. *)
+(* On a network nobody answers for people or a supplier, unless that is asked for: of a fleet only the answers and
+   replies are used then. *)
 let fleet_of ~path ~sim ~named = function
   | Some _ when sim <> None || named = None -> Ok no_fleet
   | Some _ -> Fleet_file.load named
@@ -37,8 +38,6 @@ let as_before how (resumed : Resumed.t) =
   let header = resumed.past.header in
   let refuse why = Error (Fleet_file.Unreadable (resumed.path ^ ": " ^ why)) in
   match header.platform, how.network with
-  | _ when how.supplier = None && Resumed.has_supplier resumed ->
-    refuse "this run has a supplier, which died with its console: name it again with --supplier"
   | "sim", Some _ -> refuse "this run was on a simulated fleet: leave out --imc"
   | "sim", None when how.seed <> None -> refuse "a run goes on with the seed that it began with: leave out --seed"
   | "sim", None ->
@@ -56,6 +55,10 @@ let resume how ~changed program path : Exit_status.t =
   | Ok resumed -> (
       match as_before how resumed with
       | Error trouble -> Fleet_file.tell trouble; Bad_input
+      | Ok (fleet, _, _) when how.supplier = None && not (Replies.are_of fleet.scenario resumed.past.moments) ->
+        Report.complain
+          (path ^ ": this run has a supplier, which died with its console: name it again with --supplier");
+        Bad_input
       | Ok (fleet, seed, speed) -> start how ~resumed program fleet ~seed ~speed resumed.past.header)
 
 (* What options do not go together, if so. *)
@@ -133,7 +136,8 @@ let answers =
 
 let supplier =
   let doc =
-    "The command that starts the supplier, the process that $(b,getSupplier()) speaks to. It is given to $(b,/bin/sh)."
+    "The command that starts the supplier, the process that $(b,getSupplier()) speaks to. It is given to $(b,/bin/sh). \
+     Without it, calls get the replies that the fleet gives."
   in
   Arg.(value & opt (some string) None & info [ "supplier" ] ~docv:"CMD" ~doc)
 
@@ -193,7 +197,8 @@ let man =
     `S Manpage.s_options;
     `S Imc_options.s_network;
     `P "With $(b,--imc) the program runs on real vehicles, or on whatever speaks IMC as they do. The page \
-        $(i,docs/imc.md) tells what it takes. Of a fleet that $(b,--fleet) names, only the answers are used then.";
+        $(i,docs/imc.md) tells what it takes. Of a fleet that $(b,--fleet) names, only the answers and replies are \
+        used then.";
     `S Manpage.s_exit_status;
     `S Manpage.s_files;
     `I ("$(i,PROG) with the ending $(b,.fleet)", "The fleet, unless $(b,--sim) or $(b,--fleet) names another.");

@@ -1,5 +1,7 @@
 open Cmdliner
 module Search = Dolphin_explore.Search
+module Environment = Dolphin_explore.Environment
+module Value = Dolphin_semantics.Value
 module Property = Dolphin_explore.Property
 module Faults = Dolphin_explore.Faults
 module World_of = Dolphin_explore.World_of
@@ -42,6 +44,12 @@ let print_pieces (program : Dolphin_semantics.Core.program) pieces =
        Format.printf "  %a: %s@." Dolphin_syntax.Location.pp program.locations.(piece.site) piece.what)
     pieces
 
+(* The call for which the fleet has no reply, if the run ends with one. *)
+let lacking (run : Search.run) =
+  match List.rev run.steps with
+  | { label = No_reply why; _ } :: { label = Call call; _ } :: _ when why = Environment.no_reply call -> Some call
+  | _ -> None
+
 let print_outcome program s (o : Search.outcome) =
   let with_remark (property, verdict) = (property, verdict, is_remark property && not s.strict) in
   let shown = List.map with_remark o.verdicts in
@@ -68,7 +76,11 @@ let print_outcome program s (o : Search.outcome) =
            (if run.shortest then " shortest" else "")
            (Property.question property);
          Shown_run.print program ~steps:run.steps ~cycle:run.cycle;
-         if property = No_deadlock then Shown_run.print_waiting program run.steps
+         if property = No_deadlock then Shown_run.print_waiting program run.steps;
+         let tell call =
+           Format.printf "the fleet lacks an entry: reply %a, and what the supplier may reply@." Value.pp (String call)
+         in
+         Option.iter tell (lacking run)
        | Unreached pieces when not remark ->
          Format.printf "@.%s: no run reaches@." (Property.name property);
          print_pieces program pieces
@@ -245,8 +257,9 @@ let faults =
     "What else may go wrong, separated by commas: $(b,fail), every platform task may fail; $(b,loss), the connection of a \
      vehicle that runs a task may be lost for longer than its timeout; $(b,join), vehicles may be late or missing when \
      the program picks them: those that the fleet lets join, leave or drop, or if there are none, all; $(b,all) of \
-     these. With $(b,=)$(i,N) at most $(i,N) times in one run: $(b,fail=1,loss=2). By default only those plans may \
-     fail of which the fleet says so."
+     these. $(b,interrupt), which is not among $(b,all): the program may be interrupted at any time, as by Ctrl-C. With \
+     $(b,=)$(i,N) at most $(i,N) times in one run: $(b,fail=1,loss=2). By default only those plans may fail of which the \
+     fleet says so."
   in
   Arg.(value & opt (conv ~docv:"FAULTS" (parse, Faults.pp)) Faults.none & info [ "faults" ] ~docv:"FAULTS" ~doc)
 
@@ -333,7 +346,8 @@ let man =
     `P "Noted are also runs that call $(b,halt), tuples left over at the end, and code that no run reaches.";
     `P "What sensors show is open: of a condition such as $(b,battery\\(v\\) < 0.3) both outcomes are possible at each look, \
         or those for the values that the fleet gives; a run says what it assumes. All vehicles of the fleet are in \
-        reach, unless $(b,--faults) says otherwise. Calls of a supplier fail.";
+        reach, unless $(b,--faults) says otherwise. Calls of a supplier get each of the replies that the fleet gives for \
+        them; a call for which it has none fails.";
     `P "A bound that is met, or Ctrl-C, makes the answer inconclusive where no violation was found: it is never said that \
         something holds that was not wholly explored.";
     `S Manpage.s_arguments;

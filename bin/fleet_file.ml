@@ -23,4 +23,4 @@ let tell = function
   | Unreadable why -> Report.complain why
   | Wrong { source; found } -> Report.diagnostics ~source found
 
-let nobody = { Scenario.vehicles = []; plans = []; answers = [] }
+let nobody = { Scenario.vehicles = []; plans = []; answers = []; replies = [] }

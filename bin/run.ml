@@ -82,7 +82,8 @@ let trouble_of_log : Unix.error -> string option = function
 
 (* What a host remembers died with it, and only its people can know what that was. *)
 let start_host s =
-  let calls = match s.resumed with Some r -> Past.calls r.past.moments | None -> 0 in
+  let replies = match s.resumed with Some r -> Past.replies r.past.moments | None -> [] in
+  let calls = List.length (List.filter (fun (_, reply) -> reply <> None) replies) in
   match s.supplier with
   | None -> Ok None
   | Some command ->
@@ -192,13 +193,13 @@ let drive s record host (Platform ((module P), { platform; more_lines; told; new
       answered = Screen.answered screen;
       refused = (fun why -> Screen.print screen (Log.remark !log ~time:(time ()) ("cannot take this answer: " ^ why))) }
   in
-  let answered = Option.fold s.resumed ~none:[] ~some:(fun (r : Resumed.t) -> Past.answers r.past.moments) in
+  let past = Option.fold s.resumed ~none:[] ~some:(fun (r : Resumed.t) -> r.past.moments) in
   let run () =
     Driver.run (module P) platform ~always_telemetry:(live || Record.is_wanted s.record)
       ~observer:(Observer.both (Record.observer record) (observe screen log board ~is_stuck))
-      ?host:(Option.map Host.call host)
+      ~host:(match host with Some host -> Host.call host | None -> Replies.call ~past s.scenario)
       ?beginning:(beginning s.resumed news)
-      ~console:(Questions.console shown ~answered ~answers:s.answers ~scenario:s.scenario)
+      ~console:(Questions.console shown ~answered:(Past.answers past) ~answers:s.answers ~scenario:s.scenario)
       ~interruption:(Interruption.promise interruption) s.program.program
   in
   let close () =

@@ -5,18 +5,26 @@ module World_of = Dolphin_explore.World_of
 
 let ( let* ) = Result.bind
 
+let calls (fleet : Fleet_file.t) = List.map (fun (reply : Scenario.reply) -> reply.call) fleet.scenario.replies
+
 let model (program : Program_file.t) (fleet : Fleet_file.t) ~answers ~faults =
   let scenario = fleet.scenario in
   let plans = List.map (fun (plan : Scenario.plan) -> plan.name) scenario.plans in
   let prompts = List.map (fun (answer : Scenario.answer) -> answer.prompt) scenario.answers in
   let environment = World_of.environment ~answers ~faults scenario in
-  Model.of_program ~plans ~prompts ~environment (World_of.world scenario) program.program
+  Model.of_program ~plans ~prompts ~calls:(calls fleet) ~environment (World_of.world scenario) program.program
 
 let load path fleet =
   match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet) with
   | Error trouble, _ -> Program_file.tell trouble; Error Exit_status.Bad_input
   | Ok _, Error trouble -> Fleet_file.tell trouble; Error Exit_status.Bad_input
   | Ok program, Ok fleet -> Ok (program, fleet)
+
+let unfit_replies (program : Program_file.t) (fleet : Fleet_file.t) ~answers ~faults =
+  let named = Scenario.replies_at ~file:(Option.value fleet.path ~default:"") fleet.source in
+  let environment = World_of.environment ~answers ~faults fleet.scenario and world = World_of.world fleet.scenario in
+  let refusal (call, why) = Dolphin_syntax.Diagnostic.error (List.assoc call named) why in
+  List.map refusal (Model.unfit_replies ~environment ~calls:(calls fleet) world program.program)
 
 (* {1 What is done with the model} *)
 
@@ -67,6 +75,11 @@ let run path fleet answers faults directory check compare strict limit jar worke
   let result =
     let* deed = deed directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverage in
     let* program, fleet = load path fleet in
+    let* () =
+      match unfit_replies program fleet ~answers ~faults with
+      | [] -> Ok ()
+      | refusals -> Report.diagnostics ~source:fleet.source refusals; Error Exit_status.Bad_input
+    in
     match model program fleet ~answers ~faults with
     | Ok files -> perform jar deed program fleet ~answers ~faults files
     | Error refusals -> Report.diagnostics ~source:program.source refusals; Error Exit_status.Bad_input
@@ -110,9 +123,9 @@ let man =
     `Pre "  java -Xss64m -cp tla2tools.jar tlc2.TLC -config MC.cfg MC.tla\n\
          \  java -Xss64m -cp tla2tools.jar tlc2.TLC -workers 1 -config Graph.cfg MC.tla\n\
          \  java -Xss64m -cp tla2tools.jar tlc2.TLC -config Coverage.cfg -coverage 1 MC.tla";
-    `P "What has no meaning in TLA+ is refused, with its place in the program: calls of a supplier, and coordinates that the \
-        program computes. What is known only when TLC gets there ends it, with status 3: numbers that it cannot hold, and more than comparisons that \
-        depends on what a sensor shows.";
+    `P "What has no meaning in TLA+ is refused, with its place in the program or in the fleet, such as coordinates that the \
+        program computes, or numbers of a reply that TLC has not. What is known only when TLC gets there ends it, with status 3: \
+        numbers that it cannot hold, and more than comparisons that depends on what a sensor shows.";
     `S "RUNNING TLC";
   ]
   @ Tlc_options.man

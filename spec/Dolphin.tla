@@ -34,7 +34,9 @@ CONSTANTS
   Answers(_),    \* to a prompt: for the first time it is asked, the second ..., the answers that may be given; the last
                  \* item is for all later times
   Prompts,       \* the prompts whose answers depend on how often they were asked
-  HostReplies,   \* what the host may reply to a call
+  HostReplies(_, _), \* to a call, made at this place: likewise what the host may reply, <<"value", y>>, or why it
+                 \* fails, <<"failure", m>>
+  Calls,         \* the calls whose replies depend on how often they were made
   Interruptions  \* whether the program may be interrupted
 
 (* Known(vars) is Transitions. It is for whoever asks several times, and a constant, for which a configuration puts
@@ -48,6 +50,7 @@ VARIABLES
   B,        \* the bound vehicles, in the order in which they were picked
   N,        \* the tuple space
   outside   \* what the environment remembers: failures and losses so far, who is lost, who was late, how often it was asked
+            \* and called
 
 vars == << control, store, A, B, N, outside >>
 
@@ -604,7 +607,8 @@ Wait(m, S, request) ==
 END(S) == ToEnd(<< "END" >>, "end", Program, Completed, S, << >>)
 HALT(S, m) == ToEnd(<< "HALT" >>, HaltLabel(m), Program, Halted(m), S, << >>)
 FAULT(S, fault) == ToEnd(<< "FAULT" >>, "fault(" \o fault.message \o ")", Program, Failed(fault), S, << >>)
-INTERRUPT == ToEnd(<< "INTERRUPT" >>, "interrupt", << "interruption" >>, Interrupted, Shared, << >>)
+Interruption == << "interruption" >>
+INTERRUPT == ToEnd(<< "INTERRUPT" >>, "interrupt", Interruption, Interrupted, Shared, << >>)
 
 ScriptSteps(M) ==
   LET of(m, S) ==
@@ -736,13 +740,18 @@ ANSWER_ERR(M, prompt, m, cause) ==
 
 RESUME(M) == Transition(<< "RESUME" >>, "resume", << "timer", 0 >>, Script(GoOn(M, Null)), Shared, << >>)
 
-REPLY(M, y) == Transition(<< "REPLY" >>, "reply(" \o Text(y) \o ")", << "host" >>, Script(GoOn(M, y)), Shared, << >>)
-CALL_ERR(M, what, m) ==
-  ToEnd(<< "CALL-ERR" >>, "no-reply(" \o m \o ")", << "host" >>, Failed(Fault(what \o ": " \o m, M.at)), Shared, << >>)
+REPLY(M, y, cause) ==
+  Transition(<< "REPLY" >>, "reply(" \o Text(y) \o ")", cause, Script(GoOn(M, y)), Shared, << >>)
+CALL_ERR(M, call, m, cause) ==
+  ToEnd(<< "CALL-ERR" >>, "no-reply(" \o m \o ")", cause, Failed(Fault(call \o ": " \o m, M.at)), Shared, << >>)
 
 Times(prompt) == IF prompt \in Prompts THEN outside.asked[prompt] ELSE 0
+TimesCalled(call) == IF call \in Calls THEN outside.called[call] ELSE 0
 
-(* How often it was asked then, as far as it matters: rounds is what is answered the first time, the second ... *)
+(* Of rounds, what is answered the first time, the second ..., the one for this time; and how often it was asked then,
+   as far as it matters. *)
+ThisTime(rounds, times) ==
+  IF rounds = << >> THEN << >> ELSE rounds[IF times < Len(rounds) THEN times + 1 ELSE Len(rounds)]
 OnceMore(rounds, times) == IF times + 1 < Len(rounds) THEN times + 1 ELSE times
 
 (* An answer is an expression over the program's variables, which may only compute a value. A refused one is asked for
@@ -750,7 +759,7 @@ OnceMore(rounds, times) == IF times + 1 < Len(rounds) THEN times + 1 ELSE times
 RECURSIVE AnswerSteps(_, _, _)
 AnswerSteps(M, prompt, times) ==
   LET rounds == Answers(prompt)
-      given == IF rounds = << >> THEN << >> ELSE rounds[IF times < Len(rounds) THEN times + 1 ELSE Len(rounds)]
+      given == ThisTime(rounds, times)
       cause == << "answer", prompt, OnceMore(rounds, times) >>
       refused(m) ==
         IF times + 1 < Len(rounds) THEN AnswerSteps(M, prompt, times + 1) ELSE << ANSWER_ERR(M, prompt, m, cause) >>
@@ -766,13 +775,20 @@ AnswerSteps(M, prompt, times) ==
   IN IF given = << >> THEN << ANSWER_ERR(M, prompt, "none is given", << "answer", prompt, times >>) >>
      ELSE Flatten(Each(given, step))
 
+ReplySteps(M, call, times) ==
+  LET rounds == HostReplies(call, M.at)
+      given == ThisTime(rounds, times)
+      cause == << "host", call, OnceMore(rounds, times) >>
+      step(reply) == IF reply[1] = "value" THEN REPLY(M, reply[2], cause) ELSE CALL_ERR(M, call, reply[2], cause)
+  IN IF given = << >>
+     THEN << CALL_ERR(M, call, "the fleet has no reply " \o Quoted(call), << "host", call, times >>) >>
+     ELSE Each(given, step)
+
 WaitSteps(M, request) ==
   CASE request[1] = "pick" -> PickSteps(M, request[2])
     [] request[1] = "ask" -> AnswerSteps(M, request[2], Times(request[2]))
     [] request[1] = "pause" -> << RESUME(M) >>
-    [] request[1] = "call" ->
-         Each(HostReplies, LAMBDA y : REPLY(M, y))
-         \o << CALL_ERR(M, request[2], "a host's procedures are not explored") >>
+    [] request[1] = "call" -> ReplySteps(M, request[2], TimesCalled(request[2]))
 
 (* {2 Executing tasks} *)
 
@@ -813,11 +829,13 @@ ComputedOnce(state) ==
   IN IF last # << >> /\ last[1] = state THEN last[2]
      ELSE CHOOSE ts \in { Transitions } : TLCSet(1, << state, ts >>)
 
-(* The environment counts failures where their number is bounded, and questions as far as their answers depend on it. *)
+(* The environment counts failures where their number is bounded, and questions and calls as far as what comes of them
+   depends on it. *)
 OutsideAfter(cause) ==
   CASE cause[1] = "task" /\ cause[3] = "failed" /\ Failures # -1 /\ Ending(cause[2], A[cause[2]].name) = "may fail" ->
          [ outside EXCEPT !.failed = @ + 1 ]
     [] cause[1] = "answer" /\ cause[2] \in Prompts -> [ outside EXCEPT !.asked[cause[2]] = cause[3] ]
+    [] cause[1] = "host" /\ cause[2] \in Calls -> [ outside EXCEPT !.called[cause[2]] = cause[3] ]
     [] OTHER -> outside
 
 (* Of a vehicle whose task ends otherwise than by a loss something was heard, so it was of one that is picked. What has no   *)
@@ -846,13 +864,15 @@ Init ==
   /\ A = << >>
   /\ B = << >>
   /\ N = NoTuples
-  /\ outside = [ failed |-> 0, losses |-> 0, lost |-> { }, late |-> { }, asked |-> [ prompt \in Prompts |-> 0 ] ]
+  /\ outside = [ failed |-> 0, losses |-> 0, lost |-> { }, late |-> { }, asked |-> [ prompt \in Prompts |-> 0 ],
+                  called |-> [ call \in Calls |-> 0 ] ]
 
 (* A transition for which Which holds of what it answers. *)
 Some(Which(_)) == \E ts \in { Known(vars) } : \E j \in DOMAIN ts : Which(ts[j].cause) /\ Becomes(ts[j])
 Possible(Which(_)) == \E ts \in { Known(vars) } : \E j \in DOMAIN ts : Which(ts[j].cause)
 
 IsAny(cause) == TRUE
+IsOwed(cause) == cause # Interruption
 IsProgram(cause) == cause = Program
 IsTimer(cause) == cause[1] = "timer"
 
@@ -940,13 +960,13 @@ NextByRule ==
 
 (* WF_vars(Some(Which)), where Possible(Which) is the same as ENABLED <<Some(Which)>>_vars, as each transition changes
    something, and is faster. Tasks that run end, timers that run expire, steps of the program that stay possible are
-   taken. *)
+   taken. Nobody need ever interrupt. *)
 Fair(Which(_)) == []<>~Possible(Which) \/ []<><< Some(Which) >>_vars
 
 Identifiers == { Fleet[j].id : j \in DOMAIN Fleet }
 
 Fairness ==
-  /\ Fair(IsAny)
+  /\ Fair(IsOwed)
   /\ Fair(IsProgram)
   /\ Fair(IsTimer)
   /\ \A v \in Identifiers : Fair(LAMBDA cause : cause[1] = "task" /\ cause[2] = v)
@@ -958,7 +978,7 @@ Spec == Init /\ [][Next]_vars /\ Fairness
 
 HasEnded == control.at = "end"
 
-NoDeadlock == HasEnded \/ Known(vars) # << >>
+NoDeadlock == HasEnded \/ Possible(IsOwed)
 
 Termination == <>HasEnded
 
@@ -1043,7 +1063,8 @@ StateText(kappa, S, environment) ==
        Each(InOrder(OrderedKeys), LAMBDA k : S.N.queue[k]),
        Each(InOrder(DOMAIN S.N.bag), LAMBDA pair : << pair, S.N.bag[pair] >>),
        environment.failed, environment.losses, InOrder(environment.lost), InOrder(environment.late),
-       Each(InOrder(Prompts), LAMBDA prompt : environment.asked[prompt]) >> } })
+       Each(InOrder(Prompts), LAMBDA prompt : environment.asked[prompt]),
+       Each(InOrder(Calls), LAMBDA call : environment.called[call]) >> } })
 
 PrintTransition(t) ==
   PrintT("E\t" \o t.label \o "\t" \o StateText(t.control, t.S, Remembered(t)) \o "\t" \o Join(t.rules, ", "))

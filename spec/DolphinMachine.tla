@@ -185,6 +185,10 @@ Request(m, name, request) ==
   IF m.mode = "script" THEN [ m EXCEPT !.focus = Give(Null), !.stop = << "waits", request >> ]
   ELSE Faulty(m, name \o " belongs to the script: code inside of a task cannot wait")
 
+(* A call of the host: a procedure, or of an object a property (no arguments) or a method (one sequence of them). *)
+RequestCall(m, call, arguments) == Request(m, call, << "call", call, arguments >>)
+MemberOf(x, name) == x[2] \o "." \o name
+
 (* {1 Settings} *)
 
 SettingExpected(s, what) ==
@@ -563,7 +567,8 @@ Named(names, xs) ==
 CallMethod(m, name, xs) ==
   LET x == Head(xs)
       more == Tail(xs)
-  IN CASE Is(x, "closure") /\ name = "call" -> EnterClosure(m, x, more)
+  IN CASE Is(x, "host") -> RequestCall(m, MemberOf(x, name), << more >>)
+       [] Is(x, "closure") /\ name = "call" -> EnterClosure(m, x, more)
        [] Is(x, "map") /\ HasKey(x[2], name) /\ Is(Lookup(x[2], name), "closure") ->
             EnterClosure(m, Lookup(x[2], name), more)
        [] IsIteration(x, name, more) ->
@@ -700,8 +705,8 @@ Procedure(m, op, xs) ==
        [] name = "battery" -> Settle(m, OneVehicleValue(x, BatteryOf))
        [] name = "area" -> Settle(m, Around(x, xs[2]))
        [] name = "math" -> Settle(m, Mathematics(op.name, xs))
-       [] name = "isHost" -> Result(m, False)
-       [] name = "getSupplier" -> Request(m, "getSupplier", << "call", "getSupplier" >>)
+       [] name = "isHost" -> Result(m, Boolean(Is(x, "host")))
+       [] name = "getSupplier" -> RequestCall(m, "getSupplier", << << >> >>)
 
 RECURSIVE MapOf(_, _, _)
 MapOf(entries, keys, xs) ==
@@ -748,7 +753,9 @@ Perform(before, n, xs) ==
             IF op.sign = "|" /\ Is(xs[1], "vehicles") /\ Is(xs[2], "closure")
             THEN Walk(m, "findAll", xs[2], xs[1], << >>)
             ELSE Settle(m, Binary(op.sign, xs[1], xs[2]))
-       [] op.op = "property" -> Settle(m, Property(xs[1], op.name))
+       [] op.op = "property" ->
+            IF Is(xs[1], "host") THEN RequestCall(m, MemberOf(xs[1], op.name), << >>)
+            ELSE Settle(m, Property(xs[1], op.name))
        [] op.op = "method" -> CallMethod(m, op.name, Named(<< "" >> \o op.names, xs))
        [] op.op = "call" ->
             IF Is(xs[1], "closure") THEN EnterClosure(m, xs[1], Named(op.names, Tail(xs)))

@@ -14,6 +14,7 @@
 (*   <<"position", i>>        place i of Places                                  *)
 (*   <<"area", i, n, d>>      around place i, with a radius of n/d metres        *)
 (*   <<"task", t>>            <<"closure", lambda, captured values>>             *)
+(*   <<"host", "queue">>      an object of the host, by its name there           *)
 (*   <<"settings", ss>>       the lines of a block of settings, as far as read   *)
 (*   <<"reading", "amount", "battery(x8)">>   what a sensor shows that may show  *)
 (*                            anything, or what is computed from it: an amount,  *)
@@ -267,6 +268,7 @@ Written(x, bare) ==
     [] Is(x, "area") -> AreaText(x)
     [] Is(x, "task") -> TaskText(x[2], 0)
     [] Is(x, "closure") -> "{ " \o LambdaNames[x[2]] \o " }"
+    [] Is(x, "host") -> "host object " \o x[2]
     [] Is(x, "settings") -> "{ ... }"
     [] Is(x, "reading") -> x[3]
 
@@ -288,6 +290,7 @@ Kind(x) ==
     [] Is(x, "vehicles") -> "a vehicle set"
     [] Is(x, "task") -> "a task"
     [] Is(x, "closure") -> "a closure"
+    [] Is(x, "host") -> "a host object"
     [] Is(x, "settings") -> "a block of settings"
     [] Is(x, "reading") ->
          CASE x[2] = "amount" -> "a number"

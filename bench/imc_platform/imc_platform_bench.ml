@@ -18,7 +18,8 @@ let scenario n : Scenario.t =
   let plan name least most : Scenario.plan =
     { name; duration = Some { least; most }; ending = Succeeds; place = None; only = [] }
   in
-  { vehicles = List.init n vehicle; plans = [ plan "short" 0.5 1.5; plan "long" 600. 600. ]; answers = [] }
+  { vehicles = List.init n vehicle; plans = [ plan "short" 0.5 1.5; plan "long" 600. 600. ]; answers = [];
+    replies = [] }
 
 (* {1 The vehicles' process} *)
 

@@ -145,17 +145,12 @@ let plain events : Happening.t list =
   in
   List.filter_map of_event events
 
-let site (c : Configuration.t) =
-  match c.control with
-  | Script m | Waiting (m, _) | Executing (m, _) -> Machine.site m
-  | Ended _ -> Fault.unknown_site
-
 let deliver g world c happening =
   let refused code message =
     let message = match message with None -> [] | Some text -> [ ("message", `String text) ] in
     Ok (Either.Right (`Assoc ([ ("event", `Assoc (Happening.members happening)); ("code", `String code) ] @ message)))
   in
-  match Happening.to_event ~site:(site c) happening with
+  match Happening.to_event ~site:(Configuration.site c) happening with
   | Error why -> Error (Bad_event why)
   | Ok event -> (
       match Transition.accept g.program world c event with

@@ -10,11 +10,13 @@ type options = {
   latecomers : limit;
   may_be_late : Core.vehicle -> bool;
   answers : string -> string list list;
+  replies : string -> (Core.value, string) result list list;
+  interruptions : bool;
 }
 
 let default =
   { endings = (fun _ _ -> Succeeds); failures = None; losses = Never; latecomers = Never;
-    may_be_late = (fun _ -> true); answers = (fun _ -> []) }
+    may_be_late = (fun _ -> true); answers = (fun _ -> []); replies = (fun _ -> []); interruptions = false }
 
 let failing ?failures options =
   let endings v name =
@@ -35,36 +37,37 @@ let may_fail options v name =
 
 (* {1 What the outside remembers} *)
 
-(* Counted is only what has a bound, [asked] only as far as answers depend on it: what makes no difference must not tell
-   states apart. Vehicles are in ascending order. *)
+(* Counted is only what has a bound, [asked] and [called] only as far as answers and replies depend on it: what makes no
+   difference must not tell states apart. Vehicles, prompts and calls are in ascending order. *)
 type t = {
   failed : int;
   losses : int;
   lost : Core.vehicle list;  (* and not heard of since *)
   late : Core.vehicle list;  (* those that were late, or missing, at some time *)
-  asked : (string * int) list;
+  asked : (string * int) list;  (* by prompt *)
+  called : (string * int) list;  (* by name of the call *)
 }
 
-let initial = { failed = 0; losses = 0; lost = []; late = []; asked = [] }
+let initial = { failed = 0; losses = 0; lost = []; late = []; asked = []; called = [] }
 
 let compare a b =
   let both first second = if first <> 0 then first else second () in
   if a == b then 0
   else
-    let compare_asked (prompt, n) (prompt', n') =
-      both (String.compare prompt prompt') (fun () -> Int.compare n n')
-    in
+    let compare_times (name, n) (name', n') = both (String.compare name name') (fun () -> Int.compare n n') in
+    let compare_times = List.compare compare_times in
     let compare_vehicles = List.compare String.compare in
     both (Int.compare a.failed b.failed) (fun () ->
         both (Int.compare a.losses b.losses) (fun () ->
             both (compare_vehicles a.lost b.lost) (fun () ->
-                both (compare_vehicles a.late b.late) (fun () -> List.compare compare_asked a.asked b.asked))))
+                both (compare_vehicles a.late b.late) (fun () ->
+                    both (compare_times a.asked b.asked) (fun () -> compare_times a.called b.called)))))
 
 let hash e =
   let mix h x = (h * 31) + Hashtbl.hash x in
-  List.fold_left mix
-    (List.fold_left mix (List.fold_left (fun h (_, n) -> (h * 31) + n) ((e.failed * 7) + e.losses) e.asked) e.lost)
-    e.late
+  let times h (_, n) = (h * 31) + n in
+  let counted = List.fold_left times (List.fold_left times ((e.failed * 7) + e.losses) e.asked) e.called in
+  List.fold_left mix (List.fold_left mix counted e.lost) e.late
 
 let lost e = e.lost
 
@@ -100,29 +103,47 @@ let task_ends (options : options) e v (p : Core.platform_task) : (Transition.eve
   | At_most most when e.losses < most -> ends @ lost { e with losses = e.losses + 1 }
   | At_most _ | Never -> ends
 
-(* {1 Answers} *)
+(* {1 Answers and replies} *)
 
-let times e prompt = Option.value (List.assoc_opt prompt e.asked) ~default:0
+let times name counted = Option.value (List.assoc_opt name counted) ~default:0
 
-let asked_again options e prompt =
-  let different = List.length (options.answers prompt) in
-  let n = times e prompt + 1 in
-  if n >= different then e
-  else { e with asked = List.sort Stdlib.compare ((prompt, n) :: List.remove_assoc prompt e.asked) }
+(* What may come this time, of [rounds] of which the last is for all later times. *)
+let this_time name counted rounds =
+  match List.length rounds with 0 -> [] | n -> List.nth rounds (min (times name counted) (n - 1))
+
+(* [counted] after one more time, as far as [rounds] tell times apart. *)
+let once_more name counted rounds =
+  let n = times name counted + 1 in
+  if n >= List.length rounds then counted
+  else List.sort Stdlib.compare ((name, n) :: List.remove_assoc name counted)
 
 let answered options e prompt : (Transition.event * t) list =
-  let answers = options.answers prompt in
-  let last = List.length answers - 1 in
-  let texts = if last < 0 then [] else List.nth answers (min (times e prompt) last) in
-  match texts with
+  let rounds = options.answers prompt in
+  match this_time prompt e.asked rounds with
   | [] -> [ (Transition.Nobody_answers "none is given", e) ]
-  | texts -> List.map (fun text -> (Transition.Answered text, asked_again options e prompt)) texts
+  | texts ->
+    let e = { e with asked = once_more prompt e.asked rounds } in
+    List.map (fun text -> (Transition.Answered text, e)) texts
+
+let no_reply call = Format.asprintf "the fleet has no reply %a" Value.pp (String call)
+
+let replied options e site call : (Transition.event * t) list =
+  let rounds = options.replies call in
+  match this_time call e.called rounds with
+  | [] -> [ (Transition.Host_failed (no_reply call), e) ]
+  | replies ->
+    let e = { e with called = once_more call e.called rounds } in
+    let event : _ -> Transition.event = function
+      | Ok x -> Replied (Value.made_at site x)
+      | Error why -> Host_failed why
+    in
+    List.map (fun reply -> (event reply, e)) replies
 
 (* After an answer that was refused the question is asked again, [e] being remembered, and [before] when it was asked
    first. Who has nothing else to say has said nothing. *)
 let after_refusal options ~before e (c : Configuration.t) why : (Transition.event * t) list =
   match c.control with
-  | Waiting (_, Ask prompt) when times before prompt < List.length (options.answers prompt) - 1 ->
+  | Waiting (_, Ask prompt) when times prompt before.asked < List.length (options.answers prompt) - 1 ->
     answered options e prompt
   | Waiting _ | Script _ | Executing _ | Ended _ -> [ (Nobody_answers why, e) ]
 
@@ -135,8 +156,9 @@ let events options e (c : Configuration.t) (event : Transition.event) : (Transit
       | Some p -> task_ends options e v p
       | None -> [])
   | Answered _, Waiting (_, Ask prompt) -> answered options e prompt
-  | Replied _, _ -> [ (Host_failed "a host's procedures are not explored", e) ]
-  | ( ( Answered _ | Vehicle_failed _ | Timer_expired _ | Nobody_answers _ | Host_failed _ | Interruption),
+  | Replied _, Waiting (_, Host_call { subject; member; _ }) ->
+    replied options e (Configuration.site c) (Machine.name_of_call ~subject ~member)
+  | ( (Answered _ | Replied _ | Vehicle_failed _ | Timer_expired _ | Nobody_answers _ | Host_failed _ | Interruption),
       (Script _ | Waiting _ | Executing _ | Ended _) ) -> [ (event, e) ]
 
 let in_world options program world e c =
@@ -238,8 +260,19 @@ let picking (options : options) program world e (c : Configuration.t) (pick : Se
   in
   List.filter is_new (List.concat_map given (attendances options e pick ~lost ~late))
 
+(* {1 All together} *)
+
+let interruption options program world e c =
+  if not options.interruptions then []
+  else match Transition.accept program world c Interruption with Ok t -> [ (t, e) ] | Error _ -> []
+
 let choices options program world e (c : Configuration.t) =
-  match c.control with
-  | Waiting (_, Pick pick) -> picking options program world e c pick
-  | Script _ | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) | Executing _ | Ended _ ->
-    in_world options program world e c
+  let by_itself =
+    match c.control with
+    | Waiting (_, Pick pick) -> picking options program world e c pick
+    | Script _ | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) | Executing _ | Ended _ ->
+      in_world options program world e c
+  in
+  by_itself @ interruption options program world e c
+
+let goes_on choices = List.exists (fun ((t : Transition.t), _) -> not (Label.equal t.label Interrupt)) choices

@@ -21,10 +21,14 @@ type options = {
   answers : string -> string list list;
   (** by prompt, for the first time it is asked, the second and so on: what may be answered then. The last item is for
       all later times. Where there is none, nobody answers. *)
+  replies : string -> (Core.value, string) result list list;
+  (** likewise, by the name of a call ({!Machine.name_of_call}): what the supplier may reply, or why it does not. Tasks
+      come from the place of the call. Where there is none, the call fails ({!no_reply}). *)
+  interruptions : bool;  (** whether the program may be interrupted, at any time *)
 }
 
 val default : options
-(** Tasks succeed, nothing is lost, nobody is late, nobody answers. *)
+(** Tasks succeed, nothing is lost, nobody is late, nobody answers or replies, and nobody interrupts. *)
 
 val failing : ?failures:int -> options -> options
 (** [failing options] is [options] with every task that may succeed failing too, at most [failures] times. *)
@@ -57,6 +61,9 @@ val failure : string
 val loss : string
 (** Why it does where the connection is lost: ["connection lost"]. *)
 
+val no_reply : string -> string
+(** [no_reply call] is why [call] fails where [replies] has nothing for it: what the fleet lacks. *)
+
 val task_ends : options -> t -> Core.vehicle -> Core.platform_task -> (Transition.event * t) list
 (** [task_ends o e v p] is the events that may end [p] on [v]; each of them is among [task_ends o initial v p], perhaps
     with another memory. *)
@@ -66,6 +73,10 @@ val endings_remember : options -> bool
 
 val choices : options -> Core.program -> World.t -> t -> Configuration.t -> (Transition.t * t) list
 (** [choices o p w e c] is every transition of [c]: its own, leftmost first, then those on events, in the order of
-    [Transition.awaited]. A call of the host fails: there is none to explore. What a transition takes for granted, of
-    sensors and of who is there, is among its [assumed].
+    [Transition.awaited], and last the interruption, if there are any. What a transition takes for granted, of sensors
+    and of who is there, is among its [assumed].
     @raise Reading.Unsettled if [w] is open and the outcomes of a step cannot be listed. *)
+
+val goes_on : (Transition.t * 'state) list -> bool
+(** [goes_on choices] is whether there is more among them than an interruption: nobody need ever interrupt, so a program
+    that waits for nothing else is stuck. *)

@@ -1,19 +1,21 @@
-type t = { fail : Environment.limit; loss : Environment.limit; join : Environment.limit }
+type t = { fail : Environment.limit; loss : Environment.limit; join : Environment.limit; interrupt : bool }
 
-let none : t = { fail = Never; loss = Never; join = Never }
-let names = [ "fail"; "loss"; "join"; "all" ]
+let none : t = { fail = Never; loss = Never; join = Never; interrupt = false }
+let names = [ "fail"; "loss"; "join"; "all"; "interrupt" ]
 
+(* To interrupt is a person's decision and no fault: it is not among [all]. *)
 let set faults name limit =
   match name with
   | "fail" -> Ok { faults with fail = limit }
   | "loss" -> Ok { faults with loss = limit }
   | "join" -> Ok { faults with join = limit }
-  | "all" -> Ok { fail = limit; loss = limit; join = limit }
+  | "all" -> Ok { faults with fail = limit; loss = limit; join = limit }
+  | "interrupt" -> Ok { faults with interrupt = limit <> Environment.At_most 0 }
   | other ->
     let hint =
       match Dolphin_syntax.Diagnostic.suggest other names with
       | Some near -> Printf.sprintf "did you mean %s?" near
-      | None -> "there are fail, loss, join and all"
+      | None -> "there are fail, loss, join, all and interrupt"
     in
     Error (Printf.sprintf "there is no fault '%s': %s" other hint)
 
@@ -37,4 +39,5 @@ let pp ppf faults =
     | Any_number -> Some name
   in
   let items = [ ("fail", faults.fail); ("loss", faults.loss); ("join", faults.join) ] in
-  Format.pp_print_string ppf (String.concat "," (List.filter_map item items))
+  let interrupt = if faults.interrupt then [ "interrupt" ] else [] in
+  Format.pp_print_string ppf (String.concat "," (List.filter_map item items @ interrupt))

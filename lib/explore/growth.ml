@@ -27,6 +27,7 @@ type t = {
   mutable shown : int;  (* the first state that shows a violation, or -1 *)
   symmetries : Symmetries.t option;
   folding : Folding.t;
+  interrupted : (int, int * int) Hashtbl.t;  (* by number of what is shared: the end, and the action for the watch *)
   mutable folded : int array;  (* a state's canonical form *)
   roster : Roster.t option;
   reserve : int -> unit;
@@ -95,7 +96,7 @@ let add t key by parent =
   | None -> put t key by 0 parent
   | Some w -> put_watched t w key by parent
 
-let note_stuck t i =
+let note_stays t i =
   let stays w = Dolphin_ltl.Monitor.stays (Watch.monitor w) t.watched (Watch.letter w t.words Letters.nothing t.key) in
   if Option.fold ~none:false ~some:stays t.watch then note_shown t i
 
@@ -114,12 +115,14 @@ let visit t key parent =
 (* {1 Ends of tasks} *)
 
 (* The configuration that a local outcome ends the executing in, by the transition function. *)
-let concluded t (s : Shape.t) shared (outcome : Transition.outcome) =
+let local_end t (s : Shape.t) shared outcome named : Transition.local =
   let shared = Cases.Shareds.value (Cases.shareds t.cases) shared in
   let c = Shared.under (Executing (s.frame.machine, Parallel [])) shared in
-  let local : Transition.local = { after = c; outcome; derivation = []; named = Silent; asked = [] } in
-  let next = Transition.conclude c s.frame.machine local in
-  Words.whole t.words next.rules next.next shared.outside
+  { after = c; outcome; derivation = []; named; asked = [] }
+
+let concluded t (s : Shape.t) shared (local : Transition.local) =
+  let next = Transition.conclude local.after s.frame.machine local in
+  Words.whole t.words next.rules next.next (Cases.Shareds.value (Cases.shareds t.cases) shared).outside
 
 let over t (s : Shape.t) shared =
   let frame = s.frame in
@@ -129,7 +132,7 @@ let over t (s : Shape.t) shared =
     frame.over <- longer
   end;
   if frame.over.(shared) < 0 then begin
-    frame.over.(shared) <- concluded t s shared Over;
+    frame.over.(shared) <- concluded t s shared (local_end t s shared Over Silent);
     Script_graph.follows t.script (-1 - frame.frame) frame.over.(shared)
   end;
   frame.over.(shared)
@@ -208,7 +211,7 @@ let take_case t (s : Shape.t) place (case : case) shared i =
   t.action <- case.action;
   match case.result with
   | Ends ending ->
-    if case.whole < 0 then case.whole <- concluded t s case.shared (Ends ending);
+    if case.whole < 0 then case.whole <- concluded t s case.shared (local_end t s case.shared (Ends ending) Silent);
     finish t case.whole None i
   | (Stays _ | Gone | Becomes _) as target ->
     Words.check_fit t.words;
@@ -229,6 +232,24 @@ let go_to_ends t (s : Shape.t) place step shared i =
   let ends = List.filter ends_run (case :: case.others) in
   List.iter (fun case -> take_case t s place case shared i) ends;
   List.length ends
+
+let interrupt t s shared i =
+  if not t.options.interruptions then 0
+  else begin
+    let number, action =
+      match Hashtbl.find_opt t.interrupted shared with
+      | Some known -> known
+      | None ->
+        let local = local_end t s shared (Ends Interrupted) Interrupt in
+        let action w = Letters.action_of_local (Watch.letters w) local in
+        let found = (concluded t s shared local, Option.fold ~none:Letters.nothing ~some:action t.watch) in
+        Hashtbl.add t.interrupted shared found;
+        found
+    in
+    t.action <- action;
+    finish t number None i;
+    1
+  end
 
 (* {1 Beginning} *)
 
@@ -274,6 +295,7 @@ let create ?(reduction = Reduction.Whole) ?(peers = Peers.none) ?(asked = []) ?(
       shown = -1;
       symmetries;
       folding = Folding.create parts words;
+      interrupted = Hashtbl.create 16;
       folded = [| 0 |];
       roster;
       reserve;

@@ -34,6 +34,7 @@ type t = {
   mutable shown : int;  (** the first state that shows a violation, or -1 *)
   symmetries : Symmetries.t option;
   folding : Folding.t;
+  interrupted : (int, int * int) Hashtbl.t;  (** by number of what is shared: where an interruption leads *)
   mutable folded : int array;  (** a state's canonical form *)
   roster : Roster.t option;
   reserve : int -> unit;
@@ -68,8 +69,8 @@ val visit : t -> int array -> int -> unit
 (** [visit t key i] adds the state [key], to which state [i] leads, or what stands for it; or gathers its number. If a
     watch has nothing to see after it, nothing is done. *)
 
-val note_stuck : t -> int -> unit
-(** [note_stuck t i]: state [i], which is [t.key], has no transitions. *)
+val note_stays : t -> int -> unit
+(** [note_stays t i]: a run may stay in state [i], which is [t.key], for nothing need happen there. *)
 
 (** {1:going Going to other states}
 
@@ -84,5 +85,9 @@ val go_by_case : t -> Shape.t -> Shape.place -> Part.step -> int -> int -> int
 
 val go_to_ends : t -> Shape.t -> Shape.place -> Part.step -> int -> int -> int
 (** Likewise, only as far as it ends the run. *)
+
+val interrupt : t -> Shape.t -> int -> int -> int
+(** [interrupt t s n i] is to where an interruption leads, if there are any. Nothing follows it, and it breaks nothing:
+    whatever states are looked at, verdicts are the same with it. The result is how many transitions that makes. *)
 
 val ends_run : Part.case -> bool

@@ -31,7 +31,7 @@ let names = function
   | Some inner when String.trim inner = "" -> []
   | Some inner -> List.map (fun part -> unquoted (String.trim part)) (String.split_on_char ',' inner)
 
-let simple = [ "timeout"; "execute"; "pick"; "ask"; "answer"; "pause"; "end"; "halt"; "error" ]
+let simple = [ "timeout"; "execute"; "pick"; "ask"; "answer"; "pause"; "end"; "halt"; "error"; "interrupt" ]
 let known = [ "start"; "done"; "fail"; "bind"; "message"; "post"; "consume"; "running"; "bound"; "poll"; "ended" ] @ simple
 
 let literal (e : Ast.expression) : Core.value option =
@@ -138,6 +138,7 @@ let holds_after_action action (t : Transition.t) =
       | Answer _ -> name = "answer"
       | Pause _ -> name = "pause"
       | End -> name = "end"
+      | Interrupt -> name = "interrupt"
       | _ -> false)
 
 let holds_after p t = match p with Action action -> holds_after_action action t | State _ | Ended_now -> false

@@ -111,9 +111,9 @@ let broken g =
   in
   let state i s =
     List.iter (edge g.depths.(i)) g.edges.(i);
-    match s.configuration.control, g.edges.(i) with
-    | Ended _, _ | _, _ :: _ -> ()
-    | (Script _ | Waiting _ | Executing _), [] -> note No_deadlock g.depths.(i)
+    match s.configuration.control with
+    | Ended _ -> ()
+    | Script _ | Waiting _ | Executing _ -> if not (Environment.goes_on g.edges.(i)) then note No_deadlock g.depths.(i)
   in
   Array.iteri state g.states;
   if is_cyclic g then Option.iter (note Termination) (shortest_lasso g);

@@ -34,9 +34,12 @@ let expand_whole t i number =
     visit t t.other i
   in
   List.iter go choices;
-  (match c.control, choices with
-   | Ended _, _ | _, _ :: _ -> ()
-   | (Script _ | Waiting _ | Executing _), [] -> note_broken t No_deadlock i);
+  if not (Environment.goes_on choices) then begin
+    note_stays t i;
+    match c.control with
+    | Ended _ -> ()
+    | Script _ | Waiting _ | Executing _ -> note_broken t No_deadlock i
+  end;
   List.length choices
 
 (* {1 All steps} *)
@@ -182,8 +185,11 @@ let expand_executing t i number =
   let taken =
     if Reduction.by_order t.reduction then expand_some t s shared i else expand_all t s shared i
   in
-  if taken = 0 then note_broken t No_deadlock i;
-  taken
+  if taken = 0 then begin
+    note_stays t i;
+    note_broken t No_deadlock i
+  end;
+  taken + interrupt t s shared i
 
 let rec expand t i =
   match
@@ -193,7 +199,6 @@ let rec expand t i =
     if number = 0 then expand_whole t i (Shapes.shared t.shapes t.key.(0)) else expand_executing t i number
   with
   | taken ->
-    if taken = 0 then note_stuck t i;
     if not t.gathering then t.transitions <- t.transitions + taken
   | exception Shapes.Outgrown ->
     flush t;

@@ -56,8 +56,9 @@ let onwards tick x i =
         let n = List.length taken in
         States.add seen state n;
         match choices x state with
-        | [] -> (n, List.rev taken)
-        | ((t : Transition.t), outside) :: _ -> go (t.next, outside) (t :: taken))
+        | ((t : Transition.t), outside) :: _ as choices when Environment.goes_on choices ->
+          go (t.next, outside) (t :: taken)
+        | _ -> (n, List.rev taken))
   in
   let back, taken = go (Space.state x.space i) [] in
   let before = List.filteri (fun k _ -> k < back) taken and cycle = List.filteri (fun k _ -> k >= back) taken in

@@ -36,7 +36,9 @@ let environment ~answers:given ~(faults : Faults.t) (scenario : Scenario.t) =
       answers = answers given scenario;
       losses = faults.loss;
       latecomers = faults.join;
-      may_be_late = (fun v -> List.mem v late) }
+      may_be_late = (fun v -> List.mem v late);
+      replies = (fun call -> Option.value (Scenario.rounds scenario call) ~default:[]);
+      interruptions = faults.interrupt }
   in
   match faults.fail with
   | Never -> options

@@ -12,4 +12,4 @@ val still : Scenario.t -> Dolphin_semantics.World.t
 val environment : answers:string list -> faults:Faults.t -> Scenario.t -> Environment.options
 (** [environment ~answers ~faults s] is what else may happen. Plans end as [s] says, and as [faults] do. Late may be the
     vehicles that join, leave or drop in [s]; if none does, all. Each question is answered by any of [answers], or if
-    there are none by what [s] answers. *)
+    there are none by what [s] answers; calls of a supplier get what [s] replies. *)

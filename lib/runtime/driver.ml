@@ -70,11 +70,7 @@ module Make (P : Platform.S) = struct
     s.reply <- Some (s.console.ask prompt >|= answer)
 
   let call_host s subject member arguments =
-    let site =
-      match s.configuration.control with
-      | Script m | Waiting (m, _) | Executing (m, _) -> Machine.site m
-      | Ended _ -> Fault.unknown_site
-    in
+    let site = Configuration.site s.configuration in
     let reply = function Ok x -> Event (Replied x) | Error why -> Event (Host_failed why) in
     s.reply <- Some (s.call ~site ~subject ~member ~arguments >|= reply)
 

@@ -74,6 +74,17 @@ let answers moments =
   in
   List.rev (snd (List.fold_left add (None, []) moments))
 
-let calls moments =
-  let is_reply { what; _ } = match what with Happened (Replied _ | Host_failed _) -> true | _ -> false in
-  List.length (List.filter is_reply moments)
+let replies moments =
+  let call found : Effect.t -> _ = function
+    | Call_host { subject; member; _ } -> (Machine.name_of_call ~subject ~member, None) :: found
+    | _ -> found
+  in
+  let reply x = function (call, _) :: found -> (call, Some x) :: found | [] -> [] in
+  let add found { what; time = _ } =
+    match what with
+    | Asked effects -> List.fold_left call found effects
+    | Happened (Replied x) -> reply (Ok x) found
+    | Happened (Host_failed why) -> reply (Error why) found
+    | Saw _ | Noted _ | Happened _ -> found
+  in
+  List.rev (List.fold_left add [] moments)

@@ -35,5 +35,6 @@ val standing : announce_period:float -> moment list -> standing
 val answers : moment list -> (string * string) list
 (** The questions that were answered, with the answers, in order. *)
 
-val calls : moment list -> int
-(** How many calls the host has replied to. *)
+val replies : moment list -> (string * (Core.value, string) result option) list
+(** The calls of the host, by their names ({!Machine.name_of_call}), in order, with the replies; [None] where there was
+    none yet. *)

@@ -31,4 +31,5 @@ type plan = {
 }
 
 type answer = { prompt : string; texts : string list }
-type t = { vehicles : vehicle list; plans : plan list; answers : answer list }
+type reply = { call : string; rounds : Reply.t list list }
+type t = { vehicles : vehicle list; plans : plan list; answers : answer list; replies : reply list }

@@ -102,6 +102,7 @@ type state = {
   vehicles : vehicle named list;
   plans : plan named list;
   answers : answer named list;
+  replies : reply named list;
   unplaced : int;                               (* vehicles without a position *)
   faults : Diagnostic.t list;
 }
@@ -151,12 +152,21 @@ let answer state (prompt : string located) values =
   let texts = List.map (spelling state) values in
   { state with answers = { entry = { prompt = prompt.it; texts }; name_at = prompt.at } :: state.answers }
 
+let reply state (call : string located) values =
+  let add (rounds, faults) e =
+    match Reply.read e with Ok replies -> (replies :: rounds, faults) | Error fault -> (rounds, fault :: faults)
+  in
+  let rounds, faults = List.fold_left add ([], []) values in
+  let entry = { call = call.it; rounds = List.rev rounds } in
+  { (add_faults state faults) with replies = { entry; name_at = call.at } :: state.replies }
+
 let usage = function
   | "vehicle" -> "vehicle takes an id and a block of settings, as in vehicle 'x8-02', { type 'UAV' }"
   | "plan" -> "plan takes a name and a block of settings, as in plan 'survey1', { duration 3.min, 9.min }"
-  | _ -> "answer takes a prompt and a value, as in answer 'Radius of the area? (km)', 2"
+  | "answer" -> "answer takes a prompt and a value, as in answer 'Radius of the area? (km)', 2"
+  | _ -> "reply takes a call of the supplier and a value, as in reply 'queue.await', task('survey1')"
 
-let entries = [ "vehicle"; "plan"; "answer" ]
+let entries = [ "vehicle"; "plan"; "answer"; "reply" ]
 
 let entry state (word : string located) arguments =
   let misused state = add_fault state (Diagnostic.error word.at (usage word.it)) in
@@ -171,12 +181,13 @@ let entry state (word : string located) arguments =
     | "plan", [ { it = String name; at }; { it = Closure { parameters = None; body }; at = _ } ] ->
       plan state { it = name; at } body
     | "answer", { it = String prompt; at } :: (_ :: _ as values) -> answer state { it = prompt; at } values
-    | ("vehicle" | "plan" | "answer"), _ -> misused state
+    | "reply", { it = String call; at } :: (_ :: _ as values) -> reply state { it = call; at } values
+    | ("vehicle" | "plan" | "answer" | "reply"), _ -> misused state
     | other, _ ->
       let hint =
         match Diagnostic.suggest other entries with
         | Some near -> Printf.sprintf "did you mean '%s'?" near
-        | None -> "a fleet consists of vehicle, plan and answer"
+        | None -> "a fleet consists of vehicle, plan, answer and reply"
       in
       add_fault state (Diagnostic.error word.at (Printf.sprintf "there is no '%s' in a fleet" other) ~hint)
 
@@ -187,7 +198,7 @@ let statement state (s : statement) =
   | Expression { it = Variable word; at } -> entry state { it = word; at } []
   | _ ->
     add_fault state
-      (Diagnostic.error s.at "only vehicle, plan and answer may stand in a fleet"
+      (Diagnostic.error s.at "only vehicle, plan, answer and reply may stand in a fleet"
          ~hint:"as in vehicle 'x8-02', { type 'UAV' }")
 
 (* {1 All together} *)
@@ -213,24 +224,30 @@ let rec take n = function
 
 let read ~file source =
   let* program = Parse.program ~file source in
-  let start = { source; vehicles = []; plans = []; answers = []; unplaced = 0; faults = [] } in
+  let start = { source; vehicles = []; plans = []; answers = []; replies = []; unplaced = 0; faults = [] } in
   let state = List.fold_left statement start program in
   let faults =
     repeated "vehicle" (fun (v : vehicle) -> v.id) state.vehicles
     @ repeated "plan" (fun (p : plan) -> p.name) state.plans
     @ repeated "answer" (fun a -> a.prompt) state.answers
+    @ repeated "reply" (fun r -> r.call) state.replies
     @ state.faults in
   let entries named = List.rev_map (fun { entry; name_at = _ } -> entry) named in
   if faults = [] then
-    Ok { Entry.vehicles = entries state.vehicles; plans = entries state.plans; answers = entries state.answers }
+    Ok
+      { Entry.vehicles = entries state.vehicles; plans = entries state.plans; answers = entries state.answers;
+        replies = entries state.replies }
   else Error (take Parse.most_faults (List.sort Diagnostic.compare faults))
 
-let vehicles_at ~file source =
+let names_at word ~file source =
   let at (s : statement) =
     match s.it with
     | Expression
-        { it = Call { callee = { it = Variable "vehicle"; _ }; arguments = Positional { it = String id; at } :: _ }; _ } ->
-      Some (id, at)
+        { it = Call { callee = { it = Variable word'; _ }; arguments = Positional { it = String name; at } :: _ }; _ }
+      when word' = word -> Some (name, at)
     | _ -> None
   in
   match Parse.program ~file source with Ok program -> List.filter_map at program | Error _ -> []
+
+let vehicles_at = names_at "vehicle"
+let replies_at = names_at "reply"

@@ -9,6 +9,9 @@ val read : file:string -> string -> (Entry.t, Diagnostic.t list) result
 val vehicles_at : file:string -> string -> (string * Location.t) list
 (** See {!Scenario.vehicles_at}. *)
 
+val replies_at : file:string -> string -> (string * Location.t) list
+(** See {!Scenario.replies_at}. *)
+
 val vehicle_settings : string list
 val plan_settings : string list
 (** The names of settings, as in {!Scenario}. *)

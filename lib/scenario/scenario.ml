@@ -30,13 +30,18 @@ type plan = Entry.plan = {
 }
 
 type answer = Entry.answer = { prompt : string; texts : string list }
-type t = Entry.t = { vehicles : vehicle list; plans : plan list; answers : answer list }
+type reply = Entry.reply = { call : string; rounds : Reply.t list list }
+type t = Entry.t = { vehicles : vehicle list; plans : plan list; answers : answer list; replies : reply list }
 
 let read = Reader.read
 let vehicles_at = Reader.vehicles_at
+let replies_at = Reader.replies_at
 
-(* Plain data without functions or cycles, and without numbers that are none. *)
-let equal (a : t) (b : t) = a = b
+let equal_reply (a : reply) (b : reply) = a.call = b.call && List.equal (List.equal Reply.equal) a.rounds b.rounds
+
+(* The rest is plain data without functions or cycles, and without numbers that are none. *)
+let equal (a : t) (b : t) =
+  a.vehicles = b.vehicles && a.plans = b.plans && a.answers = b.answers && List.equal equal_reply a.replies b.replies
 
 let beside program = Filename.remove_extension program ^ ".fleet"
 
@@ -48,13 +53,15 @@ let knows (p : plan) (v : vehicle) =
   let kind = String.lowercase_ascii v.kind in
   p.only = [] || List.exists (fun name -> name = v.id || String.lowercase_ascii name = kind) p.only
 
-let answer s prompt n =
-  let rec nth n = function
-    | [] -> None
-    | [ last ] -> Some last
-    | text :: rest -> if n <= 0 then Some text else nth (n - 1) rest
-  in
-  Option.bind (List.find_opt (fun a -> a.prompt = prompt) s.answers) (fun a -> nth n a.texts)
+(* The [n]-th of these, the last for all later ones. *)
+let rec nth n = function
+  | [] -> None
+  | [ last ] -> Some last
+  | x :: rest -> if n <= 0 then Some x else nth (n - 1) rest
+
+let answer s prompt n = Option.bind (List.find_opt (fun a -> a.prompt = prompt) s.answers) (fun a -> nth n a.texts)
+let rounds s call = Option.map (fun r -> r.rounds) (List.find_opt (fun r -> r.call = call) s.replies)
+let reply s call n = Option.map List.hd (Option.bind (rounds s call) (nth n))
 
 let silences v =
   let before = if v.joins > 0. then [ (0., v.joins) ] else [] in
@@ -132,10 +139,13 @@ let pp_plan ppf (p : plan) =
 
 let pp_answer ppf a = Format.fprintf ppf "answer %a, %s@\n" pp_text a.prompt (String.concat ", " a.texts)
 
+let pp_reply ppf r = Format.fprintf ppf "reply %a, %a@\n" pp_text r.call Fmt.(list ~sep:(any ", ") Reply.pp) r.rounds
+
 let pp ppf (s : t) =
   List.iter (pp_vehicle ppf) s.vehicles;
   List.iter (pp_plan ppf) s.plans;
-  List.iter (pp_answer ppf) s.answers
+  List.iter (pp_answer ppf) s.answers;
+  List.iter (pp_reply ppf) s.replies
 
 (* {1 The default} *)
 
@@ -150,4 +160,4 @@ let default =
         underwater "noptilus-2" (at 41.18600 (-8.70720));
         underwater "noptilus-3" (at 41.18400 (-8.70760));
         vehicle "x8-02" "UAV" [ "Camera" ] (at 41.18450 (-8.70500)) 0.4 ];
-    plans = []; answers = [] }
+    plans = []; answers = []; replies = [] }

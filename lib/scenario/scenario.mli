@@ -1,5 +1,5 @@
-(** A world to run programs in: vehicles, what they make of plans, and what people answer. It is the contents of a
-    fleet file, [*.fleet]; {!section:grammar} says how one is written. *)
+(** A world to run programs in: vehicles, what they make of plans, what people answer and a supplier replies. It is the
+    contents of a fleet file, [*.fleet]; {!section:grammar} says how one is written. *)
 
 (** {1:types What there is} *)
 
@@ -45,8 +45,15 @@ type plan = Entry.plan = {
 (** What is typed when a program asks [prompt]: the text of an expression, such as ["2"] or ["'x8-02'"]. *)
 type answer = Entry.answer = { prompt : string; texts : string list  (** one for each asking, at least one *) }
 
-type t = Entry.t = { vehicles : vehicle list; plans : plan list; answers : answer list }
-(** Vehicles, plans and prompts are unique by their names, and in the order of the file. *)
+(** What the supplier replies to [call], named as in labels ({!Dolphin_semantics.Machine.name_of_call}). *)
+type reply = Entry.reply = {
+  call : string;
+  rounds : Reply.t list list;
+  (** for the first call, the second and so on, at least one: what it may reply then, at least one *)
+}
+
+type t = Entry.t = { vehicles : vehicle list; plans : plan list; answers : answer list; replies : reply list }
+(** Vehicles, plans, prompts and calls are unique by their names, and in the order of the file. *)
 
 (** {1:reading Reading and writing} *)
 
@@ -57,6 +64,9 @@ val read : file:string -> string -> (t, Dolphin_syntax.Diagnostic.t list) result
 
 val vehicles_at : file:string -> string -> (string * Dolphin_syntax.Location.t) list
 (** [vehicles_at ~file source] is where [source], which {!read} reads, names each vehicle, by their ids. *)
+
+val replies_at : file:string -> string -> (string * Dolphin_syntax.Location.t) list
+(** Likewise of replies, by the names of their calls. *)
 
 val pp : Format.formatter -> t -> unit
 (** As a fleet file: [read ~file (Fmt.str "%a" pp s)] is [Ok s]. *)
@@ -84,6 +94,13 @@ val answer : t -> string -> int -> string option
 (** [answer s prompt n] is what is typed when [prompt] is asked for the [n]-th time, from 0. The last text answers all
     later ones. [None] if the scenario has nothing for that prompt. *)
 
+val reply : t -> string -> int -> Reply.t option
+(** [reply s call n] is what the supplier replies to [call] the [n]-th time, from 0: the first of what it may reply
+    then, the last time standing for all later ones. [None] if the scenario has nothing for that call. *)
+
+val rounds : t -> string -> Reply.t list list option
+(** [rounds s call] is all that it may reply. *)
+
 val silences : vehicle -> (float * float) list
 (** [silences v] is the spans of time, from and until, in which nothing is heard of [v]: before it joins, while its link
     drops, and after it leaves, until [infinity]. They are in order and apart: none empty, none touches the next. *)
@@ -107,6 +124,7 @@ vehicle 'x8-02', {
 }
 plan 'survey1', { duration 3.min, 9.min; mayFail }
 answer 'Radius of operation area? (km)', 2
+reply 'queue.await', task('survey1'), either(task('survey2'), fails('the queue is closed'))
     v}
 
     [vehicle ID, { ... }]. Settings in any order, each at most once unless said otherwise:
@@ -133,5 +151,9 @@ answer 'Radius of operation area? (km)', 2
 
     [answer PROMPT, EXPRESSION, ...]. What is typed when the program asks PROMPT: the expressions one after another, the
     last for good. Any expression will do here, for it is only kept as text.
+
+    [reply CALL, REPLY, ...]. What the supplier replies where the program calls it, when no supplier is there: the
+    replies one after another, the last for good. CALL is as labels name it: ['getSupplier'], or an object and its method
+    or property, ['queue.await']. REPLY is as {!Reply.read} says.
 
     Times without a unit are seconds. *)

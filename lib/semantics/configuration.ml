@@ -17,6 +17,11 @@ type t = {
   tuples : Tuples.t;
 }
 
+let site c =
+  match c.control with
+  | Script m | Waiting (m, _) | Executing (m, _) -> Machine.site m
+  | Ended _ -> Fault.unknown_site
+
 let initial program =
   {
     control = Script (Machine.call { lambda = program.main; captured = [||] } []);

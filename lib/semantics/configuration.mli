@@ -27,6 +27,9 @@ type t = {
   tuples : Tuples.t;  (** N *)
 }
 
+val site : t -> Core.site
+(** [site c] is the place in the program where its script stands; {!Fault.unknown_site} after the end. *)
+
 val initial : program -> t
 (** [initial p] is where runs of [p] begin. *)
 

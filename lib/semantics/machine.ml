@@ -124,6 +124,9 @@ type request = Code.request =
   | Execute of task
   | Host_call of { subject : string option; member : string; arguments : value list option }
 
+let name_of_call ~subject ~member =
+  match subject with None -> member | Some subject -> subject ^ "." ^ member
+
 let compare_request a b =
   match a, b with
   | Pick a, Pick b -> Settings.compare_pick a b

@@ -98,6 +98,10 @@ type request =
   | Host_call of { subject : string option; member : string; arguments : value list option }
   (** a method of a host object, or with [None] a property; without subject, a procedure of the host itself *)
 
+val name_of_call : subject:string option -> member:string -> string
+(** [name_of_call ~subject ~member] is how labels and journals name a call of the host: ["getSupplier"],
+    ["queue.await"]. *)
+
 val compare_request : request -> request -> int
 (** A total order. *)
 

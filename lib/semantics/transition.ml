@@ -83,9 +83,6 @@ let rule_of_deed : Machine.deed -> Rule.t = function
 
 (* {1 The script} *)
 
-let describe_call subject member =
-  match subject with None -> member | Some subject -> Printf.sprintf "%s.%s" subject member
-
 let waiting c m (request : Machine.request) rule label effects =
   { rules = [ rule ]; label; next = { c with Configuration.control = Waiting (m, request) }; effects; assumed = [] }
 
@@ -111,7 +108,7 @@ let wait world c m (request : Machine.request) =
     waiting c m request Rule.Pause (Label.Pause seconds) [ Set_timer (Effect.script_timer, seconds) ]
   | Host_call { subject; member; arguments } ->
     let effect = Effect.Call_host { subject; member; arguments } in
-    waiting c m request Rule.Call (Label.Call (describe_call subject member)) [ effect ]
+    waiting c m request Rule.Call (Label.Call (Machine.name_of_call ~subject ~member)) [ effect ]
 
 let run_script program world (c : Configuration.t) m =
   let stop, m, context = Machine.run ~fuel:script_fuel (context program world c Script) m in
@@ -446,7 +443,8 @@ let whole_event program world (c : Configuration.t) event =
   | Replied x, Waiting (m, Host_call _) ->
     Ok (resume c (Machine.give x m) Rule.Reply (Label.Reply (Value.to_string x)))
   | Host_failed why, Waiting (m, Host_call { subject; member; _ }) ->
-    failed c m Rule.Call_err (Label.No_reply why) (Printf.sprintf "%s: %s" (describe_call subject member) why)
+    let call = Machine.name_of_call ~subject ~member in
+    failed c m Rule.Call_err (Label.No_reply why) (Printf.sprintf "%s: %s" call why)
   | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _
       | Host_failed _ ),
       (Script _ | Waiting _ | Executing _) ) -> Error Not_awaited

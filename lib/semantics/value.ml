@@ -149,6 +149,14 @@ let equals x y =
   | Vehicles a, Vehicles b -> List.sort String.compare a = List.sort String.compare b
   | x, y -> compare x y = 0
 
+let rec made_at site x =
+  match x with
+  | Task (Platform p) -> Task (Platform { p with task_site = site })
+  | List xs -> List (Array.map (made_at site) xs)
+  | Map entries -> Map (List.map (fun (k, x) -> (k, made_at site x)) entries)
+  | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _
+  | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ -> x
+
 let truth = function
   | Null -> false
   | Boolean b -> b

@@ -41,6 +41,10 @@ val items : t -> t array option
     (each a map with [key] and [value]), characters; [None] if [x] is no such thing, or a range of more than
     {!most_items} numbers. *)
 
+val made_at : Core.site -> t -> t
+(** [made_at site x] is [x] with its platform tasks, those in lists and maps too, from [site]: as a host replies [x] to
+    a call there. *)
+
 val most_items : int
 (** How long lists and strings may become, and a range that is made into a list: one million. A program that doubles a
     list in a loop must end in a fault, not without memory. *)

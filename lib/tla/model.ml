@@ -71,7 +71,18 @@ let late (environment : Environment.options) world =
   let ids = List.map (fun (s : World.vehicle_state) -> s.id) (World.vehicles world) in
   Tla.Set (List.map (fun id -> Tla.String id) (List.filter environment.may_be_late ids))
 
-(* {1 Answers} *)
+(* {1 Answers and replies} *)
+
+(* What [of_name] gives for each of [names], where a definition has the parameter [parameter], and what it does for all
+   others. *)
+let cases parameter names of_name =
+  let clause name = Format.asprintf "%s = %a -> %a" parameter Tla.pp (Tla.String name) Tla.pp (of_name name) in
+  let others = Format.asprintf "%a" Tla.pp (of_name nobody) in
+  match names with
+  | [] -> others
+  | names -> Printf.sprintf "CASE %s\n    [] OTHER -> %s" (String.concat "\n    [] " (List.map clause names)) others
+
+let in_rounds of_one rounds = Tla.Tuple (List.map (fun round -> Tla.Tuple (List.map of_one round)) rounds)
 
 let answer translation program text =
   let lambda, why =
@@ -81,18 +92,21 @@ let answer translation program text =
   in
   Tla.Record [ ("text", String text); ("lambda", Integer lambda); ("why", String why) ]
 
-let rounds translation program texts =
-  Tla.Tuple (List.map (fun round -> Tla.Tuple (List.map (answer translation program) round)) texts)
-
 let answers translation program (environment : Environment.options) prompts =
-  let clause prompt =
-    Format.asprintf "prompt = %a -> %a" Tla.pp (Tla.String prompt) Tla.pp
-      (rounds translation program (environment.answers prompt))
-  in
-  let others = Format.asprintf "%a" Tla.pp (rounds translation program (environment.answers nobody)) in
-  match prompts with
-  | [] -> others
-  | prompts -> Printf.sprintf "CASE %s\n    [] OTHER -> %s" (String.concat "\n    [] " (List.map clause prompts)) others
+  cases "prompt" prompts (fun prompt -> in_rounds (answer translation program) (environment.answers prompt))
+
+(* [at] is a parameter of the definition: where the call is made. *)
+let reply translation = function
+  | Ok x -> Tla.Tuple [ String "value"; Translation.reply translation ~at:(Name "at") x ]
+  | Error why -> Tla.strings [ "failure"; why ]
+
+let replies translation (environment : Environment.options) calls =
+  cases "call" calls (fun call -> in_rounds (reply translation) (environment.replies call))
+
+(* Of those with several rounds it matters how often they came. *)
+let counted names rounds =
+  let several name = List.compare_length_with (rounds name) 1 > 0 in
+  Tla.Set (List.map (fun name -> Tla.String name) (List.filter several names))
 
 (* {1 The module} *)
 
@@ -101,8 +115,8 @@ let answers translation program (environment : Environment.options) prompts =
 let tables = [ "Fleet"; "Code"; "Lambdas"; "LambdaNames"; "Places"; "Distances"; "Plans" ]
 
 let small =
-  [ "Main"; "GlobalNames"; "OrderedKeys"; "Prompts"; "Failures"; "Losses"; "Latecomers"; "MayBeLate"; "HostReplies";
-    "SiteOf"; "Ending"; "Answers" ]
+  [ "Main"; "GlobalNames"; "OrderedKeys"; "Prompts"; "Failures"; "Losses"; "Latecomers"; "MayBeLate"; "Calls";
+    "SiteOf"; "Ending"; "Answers"; "HostReplies" ]
 
 let definition ppf name e = Format.fprintf ppf "%s == %a@.@." name Tla.pp e
 
@@ -121,10 +135,10 @@ let table ppf name rows =
     rows;
   Format.fprintf ppf ">>@.@."
 
-let text program world (environment : Environment.options) plans prompts translation main =
-  let answers = answers translation program environment prompts in
+let text program world (environment : Environment.options) plans prompts calls translation main =
   let fleet = List.map (fun s -> (vehicle translation world s, None)) (World.vehicles world) in
-  let several prompt = List.length (environment.answers prompt) > 1 in
+  let answers = answers translation program environment prompts in
+  let replies = replies translation environment calls in
   let b = Buffer.create 10_000 in
   let ppf = Format.formatter_of_buffer b in
   Format.pp_set_margin ppf 1_000_000;
@@ -142,48 +156,60 @@ let text program world (environment : Environment.options) plans prompts transla
   definition ppf "MCPlaces" (Translation.places translation);
   definition ppf "MCDistances" (Translation.distances translation);
   definition ppf "MCPlans" (Translation.plans translation);
-  definition ppf "MCPrompts" (Tla.Set (List.map (fun p -> Tla.String p) (List.filter several prompts)));
+  definition ppf "MCPrompts" (counted prompts environment.answers);
+  definition ppf "MCCalls" (counted calls environment.replies);
   definition ppf "MCFailures" (Tla.Integer (Option.value environment.failures ~default:(-1)));
   definition ppf "MCLosses" (limit environment.losses);
   definition ppf "MCLatecomers" (limit environment.latecomers);
   definition ppf "MCMayBeLate" (late environment world);
-  definition ppf "MCHostReplies" (Tla.Tuple []);
   Format.fprintf ppf "MCSiteOf(n) ==@.  IF n > 0 THEN %a[n] ELSE %a[-n]@.@." Tla.pp (sites (Translation.code translation))
     Tla.pp (sites (Translation.lambdas translation));
   Format.fprintf ppf "MCEnding(v, p) ==@.  %s@.@." (endings environment world plans);
   Format.fprintf ppf "MCAnswers(prompt) ==@.  %s@.@." answers;
+  Format.fprintf ppf "MCHostReplies(call, at) ==@.  %s@.@." replies;
   List.iter (fun name -> Format.fprintf ppf "The%s == MC%s@." name name) tables;
   Format.fprintf ppf "====@.";
   Buffer.contents b
 
-let constants =
+let constants (environment : Environment.options) =
   let replaced by name = Printf.sprintf "  %s <- %s%s\n" name by name in
   "CONSTANTS\n  Known <- ComputedOnce\n"
   ^ String.concat "" (List.map (replaced "The") tables @ List.map (replaced "MC") small)
-  ^ "  Interruptions = FALSE\n  ScriptFuel = 10000\n  AtomicFuel = 2000000\n  MaximumCalls = 10000\n"
+  ^ Format.asprintf "  Interruptions = %a\n" Tla.pp (Boolean environment.interruptions)
+  ^ "  ScriptFuel = 10000\n  AtomicFuel = 2000000\n  MaximumCalls = 10000\n"
 
 let invariants = [ "TypeOK"; "AllocationWithinBound"; "OneTaskEach"; "EmptyAfterEnd"; "TuplesConserved"; "NoDeadlock" ]
 
-let check =
-  "SPECIFICATION Spec\n" ^ constants ^ "INVARIANTS " ^ String.concat " " invariants
+let check environment =
+  "SPECIFICATION Spec\n" ^ constants environment ^ "INVARIANTS " ^ String.concat " " invariants
   ^ "\nPROPERTY Termination\nCHECK_DEADLOCK FALSE\n"
 
 (* Not every TLC knows the word: the one that [make tlc] fetches does not. *)
-let told = "ALIAS Told\n" ^ check
+let told environment = "ALIAS Told\n" ^ check environment
 
-let coverage = "INIT Init\nNEXT NextByRule\n" ^ constants ^ "CHECK_DEADLOCK FALSE\n"
+let coverage environment = "INIT Init\nNEXT NextByRule\n" ^ constants environment ^ "CHECK_DEADLOCK FALSE\n"
 
-let graph = "INIT Init\nNEXT Next\n" ^ constants ^ "INVARIANT PrintGraph\nCHECK_DEADLOCK FALSE\n"
+let graph environment =
+  "INIT Init\nNEXT Next\n" ^ constants environment ^ "INVARIANT PrintGraph\nCHECK_DEADLOCK FALSE\n"
 
-let of_program ?(plans = []) ?(prompts = []) ~environment world program =
+let unfit_replies ~environment ~calls world program =
+  let why call =
+    let translation = Translation.create program world in
+    ignore (replies translation environment [ call ] : string);
+    List.map (fun (d : Dolphin_syntax.Diagnostic.t) -> (call, d.message)) (Translation.refusals translation)
+  in
+  List.concat_map why calls
+
+let of_program ?(plans = []) ?(prompts = []) ?(calls = []) ~environment world program =
   let translation = Translation.create program world in
   let main = Translation.lambda translation program.Core.main in
-  let text = text program world environment plans prompts translation main in
+  let text = text program world environment plans prompts calls translation main in
   match Translation.refusals translation with
   | [] ->
     Ok
-      [ { name = "MC.tla"; text }; { name = "MC.cfg"; text = check }; { name = "Told.cfg"; text = told };
-        { name = "Graph.cfg"; text = graph }; { name = "Coverage.cfg"; text = coverage };
+      [ { name = "MC.tla"; text }; { name = "MC.cfg"; text = check environment };
+        { name = "Told.cfg"; text = told environment }; { name = "Graph.cfg"; text = graph environment };
+        { name = "Coverage.cfg"; text = coverage environment };
         { name = "Dolphin.tla"; text = Spec.dolphin }; { name = "DolphinMachine.tla"; text = Spec.machine };
         { name = "DolphinValues.tla"; text = Spec.values } ]
   | refusals -> Error refusals

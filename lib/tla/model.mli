@@ -10,12 +10,18 @@ type file = { name : string;  (** without a directory *) text : string }
 val of_program :
   ?plans:string list ->
   ?prompts:string list ->
+  ?calls:string list ->
   environment:Environment.options ->
   World.t ->
   Core.program ->
   (file list, Dolphin_syntax.Diagnostic.t list) result
-(** [of_program ~plans ~prompts ~environment w p] is the model of [p] in [w]: the specification's modules, [MC.tla] with the
+(** [of_program ~plans ~prompts ~calls ~environment w p] is the model of [p] in [w]: the specification's modules, [MC.tla] with the
     program and the world as constants, and configurations, all for one directory: [MC.cfg] checks the properties,
     [Told.cfg] does, and tells runs by an [ALIAS], [Graph.cfg] prints the graph, and [Coverage.cfg] has an action for each
-    rule. Or what cannot be translated, at least one, in the order of the text. [environment] is asked about the plans and
-    prompts that are listed here; what it says of a name that nobody has holds for all others. *)
+    rule. Or what cannot be translated, at least one, in the order of the text. [environment] is asked about the plans,
+    prompts and calls of the host that are listed here; what it says of a name that nobody has holds for all others. *)
+
+val unfit_replies :
+  environment:Environment.options -> calls:string list -> World.t -> Core.program -> (string * string) list
+(** [unfit_replies ~environment ~calls w p] is those of [calls] of which some reply has no words in TLA+, each with why:
+    {!of_program} refuses them, and knows no place for it. *)

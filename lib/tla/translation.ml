@@ -59,7 +59,8 @@ let integer t site i =
     refuse t site "%d is beyond TLC's whole numbers, which have 32 bits" i;
   Tla.Integer i
 
-let rec value t site x =
+(* Platform tasks are those that are made at [at]. *)
+let rec value ?at t site x =
   let both tag (a, b) = tagged tag [ Tla.Integer a; Tla.Integer b ] in
   match x with
   | Null -> tagged "null" []
@@ -69,9 +70,9 @@ let rec value t site x =
   | String s -> tagged "string" [ String s ]
   | Wildcard -> tagged "wildcard" []
   | Symbol s -> tagged "symbol" [ String s ]
-  | List xs -> tagged "list" [ Tuple (List.map (value t site) (Array.to_list xs)) ]
+  | List xs -> tagged "list" [ Tuple (List.map (value ?at t site) (Array.to_list xs)) ]
   | Map entries ->
-    tagged "map" [ Tuple (List.map (fun (k, x) -> Tla.Tuple [ String k; value t site x ]) entries) ]
+    tagged "map" [ Tuple (List.map (fun (k, x) -> Tla.Tuple [ String k; value ?at t site x ]) entries) ]
   | Range (a, b) -> both "range" (a, b)
   | Position p -> tagged "position" [ Integer (place t p) ]
   | Area area ->
@@ -82,9 +83,18 @@ let rec value t site x =
   | Closure { lambda = l; captured } ->
     let captured = List.map (value t site) (Array.to_list captured) in
     tagged "closure" [ Integer (lambda t l); Tuple captured ]
-  | Task _ | Host _ | Settings _ | Reading _ ->
-    refuse t site "%s as a constant" (Value.kind x);
-    tagged "null" []
+  | Host name -> tagged "host" [ String name ]
+  | Task task -> (
+      match task, at with
+      | Platform { name; plan = None; _ }, Some at ->
+        let of_task = [ ("name", Tla.String name); ("plan", Tla.Integer 0); ("at", at) ] in
+        tagged "task" [ Record (("op", String "platform") :: of_task) ]
+      | _, _ -> constant_refused t site x)
+  | Settings _ | Reading _ -> constant_refused t site x
+
+and constant_refused t site x =
+  refuse t site "%s as a constant" (Value.kind x);
+  tagged "null" []
 
 and fraction t site n =
   match Fraction.of_float n with
@@ -188,10 +198,7 @@ and procedure t site builtin : Tla.t =
     refuse t site "a location whose coordinates are not constants"
       ~hint:"the translator computes distances, so it must know the coordinates";
     plain "list"
-  | Get_supplier ->
-    refuse t site "a call of the host"
-      ~hint:"what the procedures of a supplier answer is known only when the program runs";
-    plain "getSupplier"
+  | Get_supplier -> plain "getSupplier"
 
 (* {1 Expressions} *)
 
@@ -345,6 +352,8 @@ and lambda t (l : lambda) =
     in
     t.lambdas <- List.map (fun (l', n', x) -> if n' = n then (l', n, Tla.Record fields) else (l', n', x)) t.lambdas;
     n
+
+let reply t ~at x = value ~at t Fault.unknown_site x
 
 (* {1 The tables} *)
 

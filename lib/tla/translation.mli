@@ -11,6 +11,10 @@ val create : Core.program -> World.t -> t
 val lambda : t -> Core.lambda -> int
 (** [lambda t l] is the number of [l], with all that it contains translated. *)
 
+val reply : t -> at:Tla.t -> Core.value -> Tla.t
+(** [reply t ~at x] is [x] as a host replies it; its tasks are made at the expression whose number [at] is. Refusals
+    have no place. *)
+
 val place : t -> Dolphin_geo.Position.t -> int
 (** [place t p] is the number of the position [p]. *)
 

@@ -25,6 +25,7 @@ let candidates (c : Configuration.t) (t : Transition.t) : Transition.event list 
   | Fail (v, _, why) -> [ Vehicle_failed (v, why) ]
   | Answer text -> [ Answered text ]
   | No_answer -> [ Nobody_answers "none is given" ]
+  | Reply _ -> (match t.next.control with Script { focus = Give x; _ } -> [ Replied x ] | _ -> [])
   | No_reply why -> [ Host_failed why ]
   | Interrupt -> [ Interruption ]
   | _ -> Transition.awaited c
@@ -82,7 +83,7 @@ let take program world (c : Configuration.t) s =
         | Some t -> Ok t
         | None -> Error "the program has no such choice there")
     | Event h -> (
-        match Happening.to_event ~site:Fault.unknown_site h with
+        match Happening.to_event ~site:(Configuration.site c) h with
         | Error why -> Error why
         | Ok event -> (
             match Transition.accept program world c event with

@@ -129,12 +129,7 @@ let label p text =
 
 let event p happening =
   let choose (c : Configuration.t) add =
-    let site =
-      match c.control with
-      | Script m | Waiting (m, _) | Executing (m, _) -> Machine.site m
-      | Ended _ -> Fault.unknown_site
-    in
-    match Happening.to_event ~site happening with
+    match Happening.to_event ~site:(Configuration.site c) happening with
     | Ok event -> Option.iter (fun (t : Transition.t) -> add t.next) (on p c event)
     | Error _ -> ()
   in

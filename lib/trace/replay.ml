@@ -27,13 +27,8 @@ let ending r = r.ending
 let latest r = r.latest
 let was_stuck r = r.stuck
 
-let site r =
-  match r.configuration.control with
-  | Script m | Waiting (m, _) | Executing (m, _) -> Machine.site m
-  | Ended _ -> Fault.unknown_site
-
 let event r =
-  let event happening = Result.to_option (Happening.to_event ~site:(site r) happening) in
+  let event happening = Result.to_option (Happening.to_event ~site:(Configuration.site r.configuration) happening) in
   Option.bind r.event event
 
 (* {1 Mismatches} *)
@@ -159,7 +154,7 @@ let alone r (step : Step.t) =
 
 let caused r (step : Step.t) event =
   let by = Format.asprintf "%a" Happening.pp event in
-  match Happening.to_event ~site:(site r) event with
+  match Happening.to_event ~site:(Configuration.site r.configuration) event with
   | Error why -> mismatch r (Printf.sprintf "%s is no event: %s" by why)
   | Ok e -> (
       match Transition.accept r.program r.world r.configuration e with

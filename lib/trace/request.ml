@@ -37,8 +37,7 @@ let of_effect : Effect.t -> t = function
   | Set_connection_timeout (vehicles, seconds) -> Set_connection_timeout { vehicles; seconds }
   | Say text -> Say text
   | Ask prompt -> Ask prompt
-  | Call_host { subject = None; member; _ } -> Call member
-  | Call_host { subject = Some subject; member; _ } -> Call (subject ^ "." ^ member)
+  | Call_host { subject; member; _ } -> Call (Machine.name_of_call ~subject ~member)
   | End e -> End (ending e)
 
 let ending_members e : members =

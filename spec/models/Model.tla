@@ -119,7 +119,10 @@ ModelFleet ==
 Two_ == [ text |-> "2", lambda |-> 2, why |-> "" ]
 ModelAnswers(prompt) == << << Two_ >>, << Two_ >>, << >> >>
 ModelPrompts == { "how many?" }
-ModelHostReplies == << String("yes") >>
+
+(* The supplier replies, or fails. *)
+ModelHostReplies(call, at) == << << << "value", String("yes") >>, << "failure", "no" >> >> >>
+ModelCalls == { }
 
 (* Plans succeed, but for some. *)
 ModelEnding(v, p) == CASE p = "risky" -> "may fail" [] p = "doomed" -> "fails" [] OTHER -> "succeeds"

@@ -12,5 +12,6 @@ Closures == << >>
 Claim ==
   /\ By_("ANSWER", LAMBDA t : t.control.M.focus = Give(Integer(2)))
   /\ By_("ANSWER-ERR", LAMBDA t : store[1] = << Integer(4) >> /\ Fails_(t))
+  /\ By_("REPLY", LAMBDA t : t.control.M.focus = Give(String("yes")))
   /\ By_("CALL-ERR", Fails_)
 ==============================================================================

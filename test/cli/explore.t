@@ -282,6 +282,9 @@ Formulas of temporal logic.
   formula F (done(a) & running(a)): violated after 7 steps: it does not hold
   15 states, 14 transitions, depth 11; reduced by partial order; 24 states for formulas
   formula F (done(a) & running(a)): a run in which it does not hold
+  $ explore deadlock.dol --ltl 'F ended' | grep violated
+  no deadlock: violated after 6 steps: nothing can happen any more, and the program has not ended
+  formula F ended: violated after 6 steps: it does not hold
 
 Beside a violation that a reduced search has found.
 

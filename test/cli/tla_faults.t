@@ -8,22 +8,31 @@ What `dolphin tla` makes of faults.
   > vehicle 'a', { type 'UUV' }
   > vehicle 'b', { type 'UUV'; joins 30.seconds }
   > END
-  $ faults() { dolphin tla pick.dol -o model "$@" && grep -E '^MC(Failures|Losses|Latecomers|MayBeLate) ==' model/MC.tla; }
+  $ faults() { dolphin tla pick.dol -o model "$@" && grep -E '^MC(Failures|Losses|Latecomers|MayBeLate) ==' model/MC.tla && grep Interr model/MC.cfg; }
   $ faults
   MCFailures == -1
   MCLosses == 0
   MCLatecomers == 0
   MCMayBeLate == { "b" }
+    Interruptions = FALSE
   $ faults --faults fail=2,loss=1,join
   MCFailures == 2
   MCLosses == 1
   MCLatecomers == -1
   MCMayBeLate == { "b" }
+    Interruptions = FALSE
   $ faults --faults all
   MCFailures == -1
   MCLosses == -1
   MCLatecomers == -1
   MCMayBeLate == { "b" }
+    Interruptions = FALSE
+  $ faults --faults all,interrupt
+  MCFailures == -1
+  MCLosses == -1
+  MCLatecomers == -1
+  MCMayBeLate == { "b" }
+    Interruptions = TRUE
   $ faults --faults lose
   dolphin: option '--faults': there is no fault 'lose': did you mean loss?
   Usage: dolphin tla [OPTION]… PROG

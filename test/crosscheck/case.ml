@@ -4,6 +4,7 @@ module Environment = Dolphin_explore.Environment
 module Faults = Dolphin_explore.Faults
 module World_of = Dolphin_explore.World_of
 module Generate = Test_support.Generate
+module Calls = Test_support.Calls
 module Scenario = Dolphin_scenario.Scenario
 
 type t = {
@@ -14,6 +15,7 @@ type t = {
   environment : Environment.options;
   plans : string list;
   prompts : string list;
+  calls : string list;
 }
 
 (* {1 Random programs} *)
@@ -26,13 +28,15 @@ let for_ever (program : Ast.program) =
   let first, rest = List.partition comes_first program in
   first @ [ { it = Ast.While (Generate.expression (Boolean true), rest); at = Location.none } ]
 
-let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]) }
+let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]); replies = Calls.replies }
 
 let with_losses losses = { answering with losses }
 let with_latecomers latecomers = { answering with latecomers }
 
 let all_once =
   { (Environment.failing ~failures:1 answering) with losses = At_most 1; latecomers = At_most 1 }
+
+let interrupted environment : Environment.options = { environment with interruptions = true }
 
 let environments =
   [ ("as planned", answering);
@@ -41,19 +45,24 @@ let environments =
     ("with losses", with_losses Any_number);
     ("with a loss", with_losses (At_most 1));
     ("with latecomers", with_latecomers Any_number);
-    ("with all faults once", all_once) ]
+    ("with all faults once", all_once);
+    ("with interruptions", interrupted answering) ]
 
 let of_generated name world environment ast =
   { name; source = Generate.print ast; program = Generate.compile ast; world; environment; plans = [];
-    prompts = [ "how many?" ] }
+    prompts = [ "how many?" ]; calls = Calls.names }
 
 let generated title programs world ~seed n =
   let rand = Random.State.make [| seed |] in
   let one i =
-    let ast = QCheck2.Gen.generate1 ~rand programs in
+    let calling = i mod 3 = 2 in
+    let ast = QCheck2.Gen.generate1 ~rand (if calling then Calls.within programs else programs) in
     let looped = QCheck2.Gen.(generate1 ~rand (frequencyl [ (3, false); (1, true) ])) in
     let kind, environment = List.nth environments (i mod List.length environments) in
-    let name = Printf.sprintf "%s %d, %s%s" title (i + 1) kind (if looped then ", for ever" else "") in
+    let also is_so what = if is_so then ", " ^ what else "" in
+    let name =
+      Printf.sprintf "%s %d, %s%s%s" title (i + 1) kind (also calling "with calls") (also looped "for ever")
+    in
     of_generated name world environment (if looped then for_ever ast else ast)
   in
   List.init n one
@@ -86,7 +95,8 @@ let in_scenario name source program (scenario : Scenario.t) faults =
   { name; source; program; world = World_of.world scenario;
     environment = World_of.environment ~answers:[] ~faults scenario;
     plans = List.map (fun (p : Scenario.plan) -> p.name) scenario.plans;
-    prompts = List.map (fun (a : Scenario.answer) -> a.prompt) scenario.answers }
+    prompts = List.map (fun (a : Scenario.answer) -> a.prompt) scenario.answers;
+    calls = List.map (fun (r : Scenario.reply) -> r.call) scenario.replies }
 
 let example directory kinds file =
   let path = Filename.concat directory file in
@@ -105,18 +115,21 @@ let faulty_examples =
   examples_with
     [ (", with losses", { Faults.none with loss = Any_number });
       (", with a latecomer", { Faults.none with join = At_most 1 });
-      (", with all faults once", { fail = At_most 1; loss = At_most 1; join = At_most 1 }) ]
+      (", with all faults once", { Faults.none with fail = At_most 1; loss = At_most 1; join = At_most 1 });
+      (", with interruptions", { Faults.none with interrupt = true });
+      (", with a failure and interruptions", { Faults.none with fail = At_most 1; interrupt = true }) ]
 
 (* {1 Traps} *)
 
 let trap ?failures ?(world = Generate.world) name source =
   let name = "trap: " ^ name in
   let environment = Environment.failing ?failures answering in
-  { name; source; program = compiled "trap.dol" source; world; environment; plans = []; prompts = [] }
+  { name; source; program = compiled "trap.dol" source; world; environment; plans = [];
+    prompts = [ "how many?" ]; calls = Calls.names }
 
 let two = "a = pick { id 'a' }; b = pick { id 'b' }\n"
 
-let traps =
+let of_tasks =
   trap "at most one failure" ~failures:1 (two ^ "execute watch (task('p')[a] >> task('q')[b]) onError { ignore() }\nexecute task('p')[a]")
   :: List.map
     (fun (name, source) -> trap name source)
@@ -190,6 +203,55 @@ let sensor_traps =
       { (trap ~world:Generate.open_world "sensors: an answer" "a = pick { id 'a' }\nh = ask 'how many?'\npost x: 1\nif (h < 0.3 && battery(a) >= 0.3) { halt h }\nmessage ask('how many?') < 0.3 && battery(a) < 0.3")
         with prompts = [ "how many?" ];
              environment = { answering with answers = (fun _ -> [ [ "battery(a)" ]; [ "battery(a) < 0.3 ? battery(a) : 1 / 0"; "1 / 0" ] ]) } } ]
+
+let supplied = "s = getSupplier()\n"
+
+(* Calls of the supplier that [Calls] stands in for. *)
+let calls =
+  List.map
+    (fun (name, source) -> trap name (supplied ^ source))
+    [ ("replies that differ from one call to the next", "x = s.level\ny = s.level\nz = s.level\npost k: y");
+      ("a call for which there is no reply", two ^ "x = s.level\ny = s.nothing(x)");
+      ("a reply that fails the second time", two ^ "s.next()\nexecute s.next()");
+      ("replies of two objects", "t = s.self\nx = s.level + t.level\nt = s.self\nx = t.level");
+      ("what a host object is", "t = s.self\nif (s == t) { post same: t } else { post other: t }\nm = [a: s, b: [t]]\n\
+                                 if (s && s in m.b) { message \"${m} ${s}\" }\nconsume other: t\nmessage s[0]");
+      ("what a host object is not", "x = s + 1");
+      ("methods of an object with names of the language", "s.add(1)\nmessage s\ns.ready()\nmessage s.size()");
+      ("calls that differ in their arguments", "x = s.level(ask 'how many?', [s])");
+      ("calls in code of tasks",
+       two
+       ^ "t = watch action { post x: 1; y = s.level } onError { e -> message e; ignore() }\n\
+          execute t >> watch condition { s.ready(1) } onError { e -> message e; ignore() }");
+      ("tasks of a supplier, executed twice",
+       two ^ "t = s.next()\nexecute watch (t[a] | t[b]) onError { ignore() }\nexecute t >> s.self.next()");
+      ("an object in a closure", "f = { s.level }\nx = f() + f()\nexecute watch action { f() } onError { ignore() }");
+      ("asked again and again", "while (s.ready()) { message 'on' }") ]
+
+(* Programs at rest in each way in which they can wait, and at work. *)
+let interruptions =
+  let programs =
+    [ ("interrupted while vehicles run",
+       two ^ "post k: 1\nexecute (task('p')[a] >> task('q')[a]) | task('q')[b] | idle(5.seconds)");
+      ("interrupted while it waits",
+       "v = pick { count _ }\nx = ask 'how many?'\npause 3.seconds\n" ^ supplied ^ "post k: s.level\nrelease v");
+      ("interrupted where it is stuck", "v = pick { id 'a' }\nexecute condition { consume k: 1 }");
+      ("interrupted within an until, and a handler",
+       two
+       ^ "t = until { poll x: 1 } run (task('p')[a] | during 2.seconds run task('q')[b])\n\
+          execute watch t onError { post x: 1; ignore() }");
+      ("interrupted again and again", "while (true) { post k: 1; consume k: 1 }") ]
+  in
+  let kinds = [ ("", interrupted answering); (", with all faults once", interrupted all_once) ] in
+  let one (name, source) (kind, environment) = { (trap (name ^ kind) source) with environment } in
+  List.concat_map (fun program -> List.map (one program) kinds) programs
+
+let questions =
+  let asking name answers source = { (trap name source) with environment = { answering with answers } } in
+  [ asking "a question that nobody answers" (fun _ -> []) "x = ask 'how many?'";
+    asking "answers that are refused" (fun _ -> [ [ "y"; "1 / 0" ]; [ "2"; "post(k: 1)" ] ]) "x = ask 'how many?'" ]
+
+let traps = of_tasks @ questions @ calls @ interruptions @ sensor_traps
 
 let lost_once = "v = pick { id 'a' }\nt = watch task('p')[v] onError { post failed: 1; ignore() }\nexecute t\n"
 

@@ -8,11 +8,13 @@ type t = {
   environment : Dolphin_explore.Environment.options;
   plans : string list;  (** that the environment may treat in a way of their own *)
   prompts : string list;  (** likewise *)
+  calls : string list;  (** likewise *)
 }
 
 val random : seed:int -> int -> t list
 (** [random ~seed n] is [n] programs of [Test_support.Generate]: without faults, with failures, with losses, with
-    vehicles that are late, with and without a bound, by turns; a quarter of them repeat for ever what they do. The same for the same seed. *)
+    vehicles that are late, with and without a bound, with interruptions, by turns; a quarter of them repeat for ever what
+    they do, a third call the supplier of [Test_support.Calls]. The same for the same seed. *)
 
 val sensing : seed:int -> int -> t list
 (** Likewise, programs that look at sensors, in a world where these may show this or that. *)
@@ -22,10 +24,10 @@ val examples : string -> t list
     plans. A program that cannot be compiled is an error of ours, and raises [Failure]. *)
 
 val faulty_examples : string -> t list
-(** Likewise with losses, with a vehicle that is late, and with at most one fault of each kind. *)
+(** Likewise with losses, with a vehicle that is late, with at most one fault of each kind, and with interruptions. *)
 
 val traps : t list
-(** Small programs for what random ones seldom meet. *)
+(** Small programs for what random ones seldom meet, some of which may be interrupted. *)
 
 val sensor_traps : t list
 (** Likewise, in a world that leaves open what sensors show. *)

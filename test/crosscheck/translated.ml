@@ -52,7 +52,7 @@ let text_of files name = (List.find (fun (f : Model.file) -> f.name = name) file
 let model (c : Case.t) =
   let explain = Format.asprintf "%a" (Fmt.list (Dolphin_syntax.Diagnostic.pp ~source:c.source)) in
   Result.map_error explain
-    (Model.of_program ~plans:c.plans ~prompts:c.prompts ~environment:c.environment c.world c.program)
+    (Model.of_program ~plans:c.plans ~prompts:c.prompts ~calls:c.calls ~environment:c.environment c.world c.program)
 
 let of_model files =
   let program = List.filter_map of_paragraph (paragraphs (text_of files "MC.tla")) in

@@ -6,6 +6,7 @@
 open Dolphin_syntax
 open Dolphin_explore
 module Generate = Test_support.Generate
+module Calls = Test_support.Calls
 module Property = Dolphin_explore.Property
 
 let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 2_000
@@ -18,7 +19,7 @@ let for_ever (program : Ast.program) =
   let first, rest = List.partition comes_first program in
   first @ [ { it = Ast.While (Generate.expression (Boolean true), rest); at = Location.none } ]
 
-let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]) }
+let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]); replies = Calls.replies }
 
 let environments =
   [ ("as planned", answering);
@@ -28,7 +29,9 @@ let environments =
     ("with a loss", { answering with losses = At_most 1 });
     ("with latecomers", { answering with latecomers = Any_number; may_be_late = (fun v -> v <> "a") });
     ( "with all of it, once",
-      { (Environment.failing ~failures:1 answering) with losses = At_most 1; latecomers = At_most 1 } )
+      { (Environment.failing ~failures:1 answering) with losses = At_most 1; latecomers = At_most 1 } );
+    ("with interruptions", { answering with interruptions = true });
+    ("with failures and interruptions", { (Environment.failing answering) with interruptions = true })
   ]
 
 let nested ~sensing =
@@ -46,6 +49,7 @@ let case =
   let program =
     frequency
       [ (3, map (fun p -> (p, Generate.world)) Generate.program);
+        (3, map (fun p -> (p, Generate.world)) (Calls.within Generate.program));
         (2, map (fun p -> (p, Generate.world)) (nested ~sensing:false));
         (1, map (fun p -> (p, Generate.open_world)) Generate.sensing_program);
         (1, map (fun p -> (p, Generate.open_world)) (nested ~sensing:true)) ]

@@ -58,6 +58,19 @@ let test_pick () =
   let source = "a = pick { type 'UUV' }\nexecute task('p')[a]" in
   check "choice of pick" source ~vehicles:3 ~states:(2 + (3 * 5)) ~transitions:(1 + 3 + (3 * 4)) ()
 
+(* An interruption of each state but the end. Where it leads is told apart by the store only: [a] has no value while its
+   vehicle is picked, and one while its task is executed. *)
+let test_interrupted () =
+  let environment = { Environment.default with interruptions = true } in
+  check "one task, interrupted" one ~environment ~states:(7 + 2) ~transitions:(6 + 6) ()
+
+(* Initial, called, replied; called again: 1 or 2; each called once more, of which it is known that it is not the first
+   time: 0; the end. *)
+let test_replies () =
+  let source = "s = getSupplier()\nx = s.level\ny = s.level" in
+  let environment = { Environment.default with replies = Calls.replies } in
+  check "replies" source ~environment ~states:(3 + 1 + (2 * 4)) ~transitions:(2 + 1 + (2 * 4)) ()
+
 (* N vehicles that survey, post ready:i and keep station, and one that meets each in any order, one at a time. For each
    i the vehicle has 6 states (survey ready, running; to post; station keeping ready, running; done); before the post,
    3, the meeting is not possible; after it, 3, it is to come or over: 9 together; or under way in 2 states: 6 more, for
@@ -114,6 +127,8 @@ let () =
           case "failures are bounded" test_two_failing_once;
           case "equal actions" test_equal_actions;
           case "a pick has choices" test_pick;
+          case "a task that may be interrupted" test_interrupted;
+          case "replies of a supplier" test_replies;
         ] );
       ("fleets", fleets 5 test_fleet);
       ("fleets under watch", fleets 5 test_watched_fleet);

@@ -35,6 +35,8 @@ let follows ((ast, world), answers) =
   let program = Generate.compile ast in
   let environment =
     { (Environment.failing { Environment.default with answers = (fun _ -> answers) }) with
+      replies = Test_support.Calls.replies;
+      interruptions = true;
       losses = Any_number;
       latecomers = Any_number;
       may_be_late = (fun v -> v = "b") }
@@ -52,7 +54,8 @@ let case =
   let open QCheck2.Gen in
   let closed = map (fun p -> (p, Generate.world)) Generate.program in
   let opened = map (fun p -> (p, Generate.open_world)) Generate.sensing_program in
-  pair (oneof [ closed; opened ])
+  let calling = map (fun p -> (p, Generate.world)) (Test_support.Calls.within Generate.program) in
+  pair (oneof [ closed; opened; calling ])
     (oneofl [ []; [ [ "1"; "2" ] ]; [ [ "nonsense(" ] ]; [ [ "nonsense(" ]; [ "2" ] ] ])
 
 (* {1 What does not fit} *)

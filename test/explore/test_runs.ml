@@ -10,6 +10,7 @@ open Dolphin_explore
 module Scenario = Dolphin_scenario.Scenario
 module Simulator = Dolphin_platform_sim.Simulator
 module Generate = Test_support.Generate
+module Calls = Test_support.Calls
 
 (* {1 Runs} *)
 
@@ -38,7 +39,16 @@ let console scenario =
   in
   { Console.say = ignore; ask; refused = ignore }
 
-let no_host ~site:_ ~subject:_ ~member:_ ~arguments:_ = Lwt.return (Error "a host's procedures are not explored")
+(* What the fleet replies first, the first time, the second ... *)
+let host scenario =
+  let called = Hashtbl.create 4 in
+  fun ~site ~subject ~member ~arguments:_ ->
+    let call = Machine.name_of_call ~subject ~member in
+    let n = Option.value (Hashtbl.find_opt called call) ~default:0 in
+    Hashtbl.replace called call (n + 1);
+    match Scenario.reply scenario call n with
+    | Some reply -> Lwt.return (Result.map (Value.made_at site) reply)
+    | None -> Lwt.return (Error (Environment.no_reply call))
 
 (* So many transitions of a run that does not end are enough. *)
 let most_steps = 400
@@ -55,7 +65,7 @@ let run ~seed scenario program =
   let platform = Platform.create ~seed scenario in
   let observer : Observer.t = { transition; news = (fun ~time:_ _ -> ()) } in
   let whole () =
-    Driver.run (module Platform) platform ~observer ~host:no_host ~console:(console scenario)
+    Driver.run (module Platform) platform ~observer ~host:(host scenario) ~console:(console scenario)
       ~interruption:(fst (Lwt.wait ())) program
   in
   (match Lwt_main.run (whole ()) with Ended _ | Stuck _ -> () | exception Enough -> ());
@@ -130,7 +140,9 @@ let is_unsteady (v : Scenario.vehicle) = v.joins > 0. || v.leaves <> None || v.d
 let environment (scenario : Scenario.t) =
   let is_drained (v : Scenario.vehicle) = v.drain > 1. in
   let where is_so : Environment.limit = if List.exists is_so scenario.vehicles then Any_number else Never in
-  let faults : Faults.t = { fail = where is_drained; loss = where is_unsteady; join = where is_unsteady } in
+  let faults : Faults.t =
+    { Faults.none with fail = where is_drained; loss = where is_unsteady; join = where is_unsteady }
+  in
   World_of.environment ~answers:[] ~faults scenario
 
 let steps = ref 0
@@ -190,10 +202,13 @@ let fleet =
   let* vehicles = flatten_l [ vehicle "a" "UUV" 0.; vehicle "b" "UUV" 100.; vehicle "c" "UAV" 200. ] in
   let* plans = flatten_l [ plan "p"; plan "q" ] in
   let answers = [ { Scenario.prompt = "how many?"; texts = [ "1"; "2" ] } ] in
-  return { Scenario.vehicles = List.map (fun v -> draining (steadily v)) vehicles; plans; answers }
+  let reply call : Scenario.reply = { call; rounds = Calls.replies call } in
+  let replies = List.map reply Calls.names in
+  return { Scenario.vehicles = List.map (fun v -> draining (steadily v)) vehicles; plans; answers; replies }
 
 let random_case =
-  QCheck2.Gen.(triple (oneof [ Generate.program; Generate.sensing_program ]) fleet (int_bound 1_000))
+  QCheck2.Gen.(
+    triple (oneof [ Generate.program; Generate.sensing_program; Calls.within Generate.program ]) fleet (int_bound 1_000))
 
 let print (ast, scenario, seed) =
   Format.asprintf "seed %d@.%a@.%s" seed Scenario.pp scenario (Generate.print ast)

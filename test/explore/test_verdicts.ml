@@ -25,6 +25,8 @@ let check ?options property source expected () =
   Alcotest.(check string) (Property.name property) expected (text (List.assoc property o.verdicts))
 
 let failing = { options with environment = Environment.failing options.environment }
+let interrupted = { options with environment = { options.environment with interruptions = true } }
+let supplied = { options with environment = { options.environment with replies = Calls.replies } }
 let pick = "va = pick { id 'a' }\nvb = pick { id 'b' }\n"
 
 let verdicts : (string * (unit -> unit)) list =
@@ -53,6 +55,21 @@ let verdicts : (string * (unit -> unit)) list =
     ("an answer",
      check ~options:{ options with environment = { options.environment with answers = (fun _ -> [ [ "2" ] ]) } }
        No_error "x = ask 'how many?'" "holds");
+    ("nobody replies", check No_error "s = getSupplier()" "violated in 2");
+    ("a reply", check ~options:supplied No_error "s = getSupplier()" "holds");
+    ("a reply that fails", check ~options:supplied No_error "s = getSupplier()\ns.next()\ns.next()" "violated in 6");
+    ("a supplier that comes to its end",
+     check ~options:supplied Termination "s = getSupplier()\nwhile (s.ready()) { message 'on' }" "holds");
+    ("a supplier that does not",
+     check ~options:supplied Termination "s = getSupplier()\nwhile (s.next()) { }" "for ever 5+2");
+    ("interrupted before it takes what it posted",
+     check ~options:interrupted No_leftover "post x:1\nconsume x:1" "holds");
+    ("interrupted where nothing else can happen",
+     check ~options:interrupted No_deadlock "execute condition { consume x:1 }" "violated in 1");
+    ("interrupted in a script that waits for nobody",
+     check ~options:interrupted No_error "x = ask 'how many?'" "violated in 2");
+    ("a loop that only an interruption ends",
+     check ~options:interrupted Termination "while (true) { execute action { } }" "for ever 1+2");
     ("vehicles that are not there", check Vehicles "v = pick { type 'UAV' }" "violated in 2");
     ("too few vehicles", check Vehicles (pick ^ "execute task('p') | task('q') | task('r')") "violated in 5");
     ("a halt in a handler",

@@ -26,7 +26,7 @@ let shows options program world property (run : Search.run) =
   let start = [ (Configuration.initial program, Environment.initial) ] in
   let there = follow options program world start run.steps in
   let stuck (c, e) =
-    Environment.choices options program world e c = []
+    (not (Environment.goes_on (Environment.choices options program world e c)))
     && match c.Configuration.control with Ended _ -> false | Script _ | Waiting _ | Executing _ -> true
   in
   match (property : Property.t) with
@@ -72,7 +72,8 @@ let outcome (c : Configuration.t) ~stuck outcomes =
 
 let all_outcomes (g : Reference.t) =
   let found = ref Outcomes.empty in
-  let state i (s : Reference.state) = found := outcome s.configuration ~stuck:(g.edges.(i) = []) !found in
+  let is_stuck i = not (Environment.goes_on g.edges.(i)) in
+  let state i (s : Reference.state) = found := outcome s.configuration ~stuck:(is_stuck i) !found in
   Array.iteri state g.states;
   !found
 
@@ -82,9 +83,10 @@ let reduced_outcomes environment program world =
     if i = Space.count space then Space.flush space;
     if i = Space.count space then found
     else begin
+      let interruptions = if environment.Environment.interruptions then 1 else 0 in
       let before = Space.transitions space in
       Space.expand space i;
-      let stuck = Space.transitions space = before in
+      let stuck = Space.transitions space <= before + interruptions in
       from (i + 1) (outcome (fst (Space.state space i)) ~stuck found)
     end
   in

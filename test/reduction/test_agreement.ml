@@ -5,6 +5,7 @@
 open Dolphin_syntax
 open Dolphin_explore
 module Generate = Test_support.Generate
+module Calls = Test_support.Calls
 
 let number name default = match Sys.getenv_opt name with Some n -> int_of_string n | None -> default
 let programs = number "PROGRAMS" 2_000
@@ -58,7 +59,7 @@ let nested ~sensing =
   let nested = if sensing then Generate.sensing_nested else Generate.nested in
   map (Generate.executing ~before) (nested ~vehicles:Generate.vehicles ~depth)
 
-let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]) }
+let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]); replies = Calls.replies }
 
 let failing_vehicle v : Environment.options =
   { answering with endings = (fun v' _ -> if v = v' then Environment.Fails else Succeeds) }
@@ -71,7 +72,9 @@ let environments =
     ("vehicle a fails", failing_vehicle "a");
     ("with losses", { answering with losses = Any_number });
     ("with a failure and a loss", { (Environment.failing ~failures:1 answering) with losses = At_most 1 });
-    ("with latecomers", { answering with latecomers = Any_number; may_be_late = (fun v -> v = "b") }) ]
+    ("with latecomers", { answering with latecomers = Any_number; may_be_late = (fun v -> v = "b") });
+    ("with interruptions", { answering with interruptions = true });
+    ("with a failure and interruptions", { (Environment.failing ~failures:1 answering) with interruptions = true }) ]
 
 let case =
   let open QCheck2.Gen in
@@ -79,6 +82,7 @@ let case =
   pair
     (frequency
        [ (2, closed Generate.program); (2, closed (map for_ever Generate.program));
+         (2, closed (Calls.within Generate.program)); (2, closed (Calls.within (side_by_side ~sensing:false)));
          (3, closed (side_by_side ~sensing:false)); (5, closed (nested ~sensing:false));
          (1, opened Generate.sensing_program); (2, opened (side_by_side ~sensing:true));
          (2, opened (nested ~sensing:true)) ])

@@ -5,12 +5,13 @@
 
 open Dolphin_explore
 module Generate = Test_support.Generate
+module Calls = Test_support.Calls
 
 let number name default = match Sys.getenv_opt name with Some n -> int_of_string n | None -> default
 let programs = number "PROGRAMS" 2_000
 let seed = number "SEED" 20_261_122
 let limit = number "LIMIT" 400
-let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]) }
+let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]); replies = Calls.replies }
 let failing fails : Environment.options = { answering with endings = (fun v p -> if fails v p then May_fail else Succeeds) }
 
 let environments =
@@ -19,9 +20,14 @@ let environments =
     ("with a failure", Environment.failing ~failures:1 answering);
     ("with losses", { answering with losses = Any_number });
     ("vehicle a may fail", failing (fun v _ -> v = "a"));
-    ("plan p3 may fail", failing (fun _ p -> p = "p3")) ]
+    ("plan p3 may fail", failing (fun _ p -> p = "p3"));
+    ("with interruptions", { answering with interruptions = true });
+    ("with failures and interruptions", { (Environment.failing answering) with interruptions = true }) ]
 
-let case = QCheck2.Gen.(pair Generate.replicated (oneofl environments))
+let case =
+  let open QCheck2.Gen in
+  pair (frequency [ (4, Generate.replicated); (1, Calls.within Generate.replicated) ]) (oneofl environments)
+
 let print (program, (name, _)) = Printf.sprintf "%s:\n%s" name (Generate.print program)
 let skipped = ref 0
 let whole = ref 0

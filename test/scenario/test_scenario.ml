@@ -77,6 +77,27 @@ let answers () =
   check (Some "3.km") "many" 2;
   check None "none" 0
 
+let replies () =
+  let s = reads "reply 'one', 2\nreply 'many', true, either(fails('shut'), 3), [1, task('p')]" in
+  let shown reply = Option.map (fun r -> Fmt.str "%a" Reply.pp [ r ]) reply in
+  let check expected call n = Alcotest.(check (option string)) call expected (shown (Scenario.reply s call n)) in
+  check (Some "2") "one" 0;
+  check (Some "2") "one" 7;
+  check (Some "true") "many" 0;
+  check (Some "fails('shut')") "many" 1;
+  check (Some "[1, task('p')]") "many" 2;
+  check (Some "[1, task('p')]") "many" 3;
+  check None "none" 0;
+  let counts call = Option.map (List.map List.length) (Scenario.rounds s call) in
+  Alcotest.(check (option (list int))) "choices" (Some [ 1; 2; 1 ]) (counts "many");
+  Alcotest.(check (option (list int))) "no choices" None (counts "none")
+
+let replies_at () =
+  let lines = List.map (fun (call, at) -> (call, Location.line at)) in
+  Alcotest.(check (list (pair string int)))
+    "places" [ ("a", 1); ("b", 3) ]
+    (lines (Scenario.replies_at ~file:"x" "reply 'a', 1\nanswer 'c', 2\nreply 'b', 1"))
+
 let silences () =
   let spans settings =
     match (reads (Printf.sprintf "vehicle 'a', { type 'UUV'; %s }" settings)).vehicles with
@@ -112,10 +133,44 @@ let units () =
 
 (* {1 Laws} *)
 
-let scenario =
+let name =
   let open QCheck2.Gen in
   let odd = oneofl [ '\''; '\\'; '$'; '\n'; '\t'; '"'; '{' ] in
-  let name = string_size ~gen:(oneof [ char_range 'a' 'z'; odd ]) (int_range 1 8) in
+  string_size ~gen:(oneof [ char_range 'a' 'z'; odd ]) (int_range 1 8)
+
+let one_reply : Reply.t QCheck2.Gen.t =
+  let open QCheck2.Gen in
+  let open Dolphin_semantics.Core in
+  let unknown = Dolphin_semantics.Fault.unknown_site in
+  let position =
+    map2
+      (fun latitude longitude : Dolphin_geo.Position.t -> { latitude; longitude; height = 0. })
+      (float_range (-90.) 90.) (float_range (-180.) 180.)
+  in
+  let simple =
+    oneof
+      [ return Null; map (fun b -> Boolean b) bool; map (fun i -> Integer i) (int_range (-1_000_000) 1_000_000);
+        map (fun n -> Number n) (float_range (-1e9) 1e30); map (fun s -> String s) (oneof [ return ""; name ]);
+        map (fun s -> Host s) name; map (fun name -> Task (Platform { name; plan = None; task_site = unknown })) name;
+        map (fun vs -> Vehicles (List.sort_uniq compare vs)) (list_size (int_bound 3) name);
+        map (fun p -> Position p) position;
+        map2 (fun centre radius -> Area { centre; radius }) position (float_range 0. 1e4) ]
+  in
+  let rec value depth =
+    if depth = 0 then simple
+    else
+      let items = list_size (int_bound 3) (value (depth - 1)) in
+      let entries keys = flatten_l (List.map (fun k -> map (fun x -> (k, x)) (value (depth - 1))) keys) in
+      let key = oneof [ name; oneofl [ "object"; "task"; "map" ] ] in
+      let keys = map (List.sort_uniq compare) (list_size (int_bound 3) key) in
+      frequency
+        [ (3, simple); (1, map (fun xs -> List (Array.of_list xs)) items);
+          (1, map (fun entries -> Map entries) (keys >>= entries)) ]
+  in
+  frequency [ (5, map Result.ok (value 2)); (1, map Result.error name) ]
+
+let scenario =
+  let open QCheck2.Gen in
   let amount = oneof [ float_range 0.001 1e6; map float_of_int (int_range 1 10_000) ] in
   let share = oneof [ float_range 0. 1.; map (fun n -> float_of_int n /. 100.) (int_range 0 100) ] in
   let place =
@@ -147,8 +202,13 @@ let scenario =
   let distinct entry =
     let* names = list_size (int_bound 4) name in
     flatten_l (List.map entry (List.sort_uniq String.compare names)) in
-  let* vehicles = distinct vehicle and* plans = distinct plan and* answers = distinct answer in
-  return { Scenario.vehicles; plans; answers }
+  let reply call =
+    let+ rounds = list_size (int_range 1 3) (list_size (int_range 1 3) one_reply) in
+    { Scenario.call; rounds }
+  in
+  let* vehicles = distinct vehicle and* plans = distinct plan in
+  let* answers = distinct answer and* replies = distinct reply in
+  return { Scenario.vehicles; plans; answers; replies }
 
 let shown_scenario s = Fmt.str "%a" Scenario.pp s
 
@@ -175,6 +235,7 @@ let () =
         ("bad", golden "bad" false);
         ( "entries",
           [ case "defaults" defaults; case "default fleet" default_fleet; case "beside a program" beside;
-            case "answers" answers; case "silences" silences; case "states at the start" states;
+            case "answers" answers; case "replies" replies; case "places of replies" replies_at;
+            case "silences" silences; case "states at the start" states;
             case "who knows a plan" knowing; case "units" units ] );
         ("laws", laws) ]

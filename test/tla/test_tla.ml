@@ -30,8 +30,10 @@ let texts () =
 
 (* {1 Programs} *)
 
-let translate ?(world = Pure_run.fleet) source =
-  Model.of_program ~environment:Dolphin_explore.Environment.default world (Pure_run.compile_exn source)
+module Environment = Dolphin_explore.Environment
+
+let translate ?(world = Pure_run.fleet) ?(environment = Environment.default) ?calls source =
+  Model.of_program ~environment ?calls world (Pure_run.compile_exn source)
 
 (* Where all vehicles may be anywhere. *)
 let open_world =
@@ -50,8 +52,7 @@ let refused ?world source line part () =
     if not (List.exists is_it ds) then Alcotest.failf "refused otherwise:\n%s" (Pure_run.explain source ds)
 
 let refusals =
-  [ case "calls of the host" (refused "x = 1\ny = getSupplier()" 2 "a call of the host");
-    case "locations that the program computes" (refused "x = 41\np = location x, -8" 2 "coordinates are not constants");
+  [ case "locations that the program computes" (refused "x = 41\np = location x, -8" 2 "coordinates are not constants");
     case "plans that it computes"
       (refused "n = 5\np = imcPlan { planName 'p'\n loiter radius:n }" 3 "depends on what the program computes");
     case "code in plans" (refused "p = imcPlan {\nif (1) { speed 2 }\ngoTo() }" 2 "code among its settings");
@@ -76,6 +77,47 @@ let constants =
     case "coordinates of a vehicle that may be anywhere"
       (translated ~world:open_world "v = pick { }\nmessage position(v).latitude > 41 && position(v).bearing(Location.APDL) > 0");
     case "plans by name" (translated "i = 1\np = imcPlan { planName 'p' + i\n loiter radius:100 }") ]
+
+(* {1 Replies} *)
+
+let source = "s = getSupplier()\ns.next()"
+
+let replying rounds : Environment.options =
+  { Environment.default with replies = (function "s.next" -> rounds | _ -> []) }
+
+let definition name rounds =
+  match translate ~environment:(replying rounds) ~calls:[ "s.next" ] source with
+  | Error ds -> Alcotest.failf "refused:\n%s" (Pure_run.explain source ds)
+  | Ok files ->
+    let text = (List.find (fun (file : Model.file) -> file.name = "MC.tla") files).text in
+    let from = Str.search_forward (Str.regexp ("^MC" ^ name)) text 0 in
+    String.sub text from (Str.search_forward (Str.regexp "\n\n") text from - from)
+
+let task name : Core.value = Task (Platform { name; plan = None; task_site = Fault.unknown_site })
+
+let replies () =
+  let check name rounds expected = Alcotest.(check string) name expected (definition name rounds) in
+  check "HostReplies" [] "MCHostReplies(call, at) ==\n  CASE call = \"s.next\" -> << >>\n    [] OTHER -> << >>";
+  check "HostReplies"
+    [ [ Ok (List [| task "p"; Host "q" |]); Error "shut" ] ]
+    {|MCHostReplies(call, at) ==
+  CASE call = "s.next" -> << << << "value", << "list", << << "task", [ op |-> "platform", name |-> "p", plan |-> 0, at |-> at ] >>, << "host", "q" >> >> >> >>, << "failure", "shut" >> >> >>
+    [] OTHER -> << >>|};
+  check "Calls" [ [ Ok Null ] ] "MCCalls == { }";
+  check "Calls" [ [ Ok Null ]; [ Ok (Boolean true) ] ] "MCCalls == { \"s.next\" }"
+
+let unfit_replies () =
+  let program = Pure_run.compile_exn source in
+  let check rounds expected =
+    let environment = replying rounds in
+    Alcotest.(check (list (pair string string)))
+      "unfit" expected
+      (Model.unfit_replies ~environment ~calls:[ "getSupplier"; "s.next" ] Pure_run.fleet program)
+  in
+  check [ [ Ok (Integer 3) ]; [ Ok (Number 0.5) ] ] [];
+  check
+    [ [ Ok (Map [ ("n", Integer 10_000_000_000) ]) ] ]
+    [ ("s.next", "cannot be translated to TLA+: 10000000000 is beyond TLC's whole numbers, which have 32 bits") ]
 
 (* {1 Models written by hand} *)
 
@@ -142,7 +184,6 @@ let models_parse () =
       if status <> 0 || has output "\\(^\\|[^a-z]\\)\\(warning\\|\\*\\*\\* errors\\|could not\\)" then
         Alcotest.failf "SANY says:\n%s" output)
 
-(* [REPLY] is explored nowhere else: the explorer has no host. *)
 let waiting_holds () =
   with_tlc (fun run ->
       let status, output = run "tlc2.TLC -config Model.cfg Waiting.tla" in
@@ -153,6 +194,7 @@ let () =
     [ ("numbers", [ case "are fractions" fractions; case "and texts" texts ]);
       ("refused", refusals);
       ("constants", constants);
+      ("replies", [ case "are a constant" replies; case "that do not fit" unfit_replies ]);
       ( "models",
         [ case "each rule has one" rules_have_models; case "are well formed" models_parse;
           case "waiting" waiting_holds ] ) ]

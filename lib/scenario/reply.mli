@@ -1,0 +1,19 @@
+(** What a supplier replies to the calls of a program, as a fleet file says it: a value as a supplier can send it
+    ({!Dolphin_json.Host_value}), or the reason why there is none. *)
+
+open Dolphin_syntax
+open Dolphin_semantics
+
+type t = (Core.value, string) result
+
+val read : Ast.expression -> (t list, Diagnostic.t) result
+(** [read e] is the replies that [e] leaves the choice of, at least one: a value, [fails], [fails('why')], or
+    [either(...)] of these. Values are literals, numbers with units, lists, maps and places as in programs,
+    [object('queue')], [task('survey')], also spelt [imcPlan], [vehicles('x8-02', ...)]. Tasks are from
+    {!Fault.unknown_site}. *)
+
+val equal : t -> t -> bool
+(** Of replies that {!read} gives. *)
+
+val pp : Format.formatter -> t list -> unit
+(** As {!read} reads it. *)

@@ -15,6 +15,19 @@ let argument =
 
 let path d = d.path
 
+let trouble why = Error ("the picture cannot be written: " ^ why)
+
+let check d =
+  let writable path rights =
+    match Unix.access path rights with
+    | () -> Ok ()
+    | exception Unix.Unix_error (error, _, _) -> trouble (Printf.sprintf "%s: %s" d.path (Unix.error_message error))
+  in
+  match Sys.is_directory d.path with
+  | true -> trouble (d.path ^ ": this is a directory, not a file")
+  | false -> writable d.path [ W_OK ]
+  | exception Sys_error _ -> writable (Filename.dirname d.path) [ W_OK; X_OK ]
+
 let write d story =
   let text = match d.kind with Svg -> Picture.svg story | Html -> Picture.html story in
   let save () =
@@ -25,4 +38,4 @@ let write d story =
          output_string channel text;
          close_out channel)
   in
-  match save () with () -> Ok () | exception Sys_error why -> Error ("the picture cannot be written: " ^ why)
+  match save () with () -> Ok () | exception Sys_error why -> trouble why

@@ -8,5 +8,8 @@ val argument : t Cmdliner.Arg.conv
 val path : t -> string
 (** Where it is written. *)
 
+val check : t -> (unit, string) result
+(** Whether it seems that it can be written; the error says why not. Nothing is written yet. *)
+
 val write : t -> Dolphin_trace.Story.t -> (unit, string) result
 (** The error says why it cannot be written. *)

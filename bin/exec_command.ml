@@ -37,6 +37,8 @@ let as_before how (resumed : Resumed.t) =
   let header = resumed.past.header in
   let refuse why = Error (Fleet_file.Unreadable (resumed.path ^ ": " ^ why)) in
   match header.platform, how.network with
+  | _ when how.supplier = None && Resumed.has_supplier resumed ->
+    refuse "this run has a supplier, which died with its console: name it again with --supplier"
   | "sim", Some _ -> refuse "this run was on a simulated fleet: leave out --imc"
   | "sim", None when how.seed <> None -> refuse "a run goes on with the seed that it began with: leave out --seed"
   | "sim", None ->
@@ -124,7 +126,8 @@ let seed =
 let answers =
   let doc =
     "Answer a question of the program ($(b,ask)) with $(docv), an expression. May be repeated: the first one answers \
-     the first question. Further questions are answered by the fleet, or else on standard input."
+     the first question. Further questions are answered by the fleet, or else on standard input. What begins with a \
+     minus sign is written $(b,--answer=-1)."
   in
   Arg.(value & opt_all string [] & info [ "answer" ] ~docv:"TEXT" ~doc)
 

@@ -97,7 +97,7 @@ let wait interruption seconds = Lwt.pick [ Interruption.promise interruption; Lw
 
 (* A table that changes, on a terminal. *)
 let watch network definition interruption ~until =
-  let screen = Screen.make ~live:true ~on_closed:(fun () -> Interruption.interrupt interruption) Unix.stdout in
+  let screen = Screen.make ~live:true ~on_closed:(fun _ -> Interruption.interrupt interruption) Unix.stdout in
   let head () = Printf.sprintf "%s hears, Ctrl-C ends" (Udp_platform.name_on_network network) in
   Screen.show screen (fun () -> head () :: lines network definition ~json:false);
   let rec go () =

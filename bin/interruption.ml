@@ -8,19 +8,22 @@ let interrupt i =
 
 (* Signals may come at any point of the program: the first one only asks the event loop, which breathes often, to
    interrupt. The second one need not wait for it. *)
-let on_signal i notification =
+let on_signal ?last_words i notification =
   let signals = ref 0 in
   Sys.Signal_handle
     (fun _ ->
        incr signals;
-       if !signals > 1 || i.happened then Unix._exit (Exit_status.code Interrupted)
+       if !signals > 1 || i.happened then begin
+         (try Option.iter Report.complain last_words with Sys_error _ -> ());
+         Unix._exit (Exit_status.code Interrupted)
+       end
        else Lwt_unix.send_notification notification)
 
-let make () =
+let make ?last_words () =
   let promise, wake = Lwt.wait () in
   let i = { promise; wake; happened = false } in
   let notification = Lwt_unix.make_notification ~once:true (fun () -> interrupt i) in
-  let behaviour = on_signal i notification in
+  let behaviour = on_signal ?last_words i notification in
   List.iter (fun signal -> Sys.set_signal signal behaviour) [ Sys.sigint; Sys.sigterm ];
   (match Sys.signal Sys.sighup behaviour with
    | Signal_ignore -> Sys.set_signal Sys.sighup Signal_ignore

@@ -2,9 +2,9 @@
 
 type t
 
-val make : unit -> t
+val make : ?last_words:string -> unit -> t
 (** From now on SIGINT, SIGTERM and SIGHUP interrupt; the second one ends the process with
-    {!Exit_status.Interrupted}. Under nohup SIGHUP stays ignored. *)
+    {!Exit_status.Interrupted}, after it has complained with [last_words]. Under nohup SIGHUP stays ignored. *)
 
 val interrupt : t -> unit
 (** As a first Ctrl-C does. *)

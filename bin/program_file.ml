@@ -17,8 +17,13 @@ let parse path =
   let* source = read path in
   wrong source (Parse.program ~file:path source)
 
+let no_fleet path =
+  if Filename.extension path <> ".fleet" then Ok ()
+  else Error (Unreadable (Printf.sprintf "%s: this is a fleet: name a program, and the fleet by --fleet %s" path path))
+
 let load path =
   let* source = read path in
+  let* () = no_fleet path in
   let* ast = wrong source (Parse.program ~file:path source) in
   let* program, warnings = wrong source (Dolphin_semantics.Elaborate.program ~source_name:path ast) in
   Ok { path; source; program; warnings }

@@ -2,10 +2,10 @@ open Dolphin_runtime
 open Lwt.Infix
 module Scenario = Dolphin_scenario.Scenario
 
-type shown = { ask : string -> unit; answered : string -> unit; refused : string -> unit }
+type shown = { ask : string -> unit; answered : string option -> unit; refused : string -> unit }
 
 (* What is typed at a terminal stands there already. *)
-let echo text = if Unix.isatty Unix.stdin then "" else text
+let echo text = if Unix.isatty Unix.stdin then None else Some text
 
 let console shown ~answered ~answers ~scenario =
   let typed = Console.scripted ~output:ignore ~answers:[] () in
@@ -34,7 +34,7 @@ let console shown ~answered ~answers ~scenario =
     | Some _ | None -> None
   in
   let give text =
-    shown.answered text;
+    shown.answered (Some text);
     Lwt.return (Ok text)
   in
   let ask prompt =

@@ -2,7 +2,7 @@
 
 type shown = {
   ask : string -> unit;  (** shows the prompt *)
-  answered : string -> unit;  (** shows the answer behind it; [""] if it stands there *)
+  answered : string option -> unit;  (** shows the answer behind it; [None]: it stands there *)
   refused : string -> unit;  (** tells why an answer was no good *)
 }
 

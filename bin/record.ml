@@ -75,6 +75,15 @@ let open_file path =
     fd
   | exception Unix.Unix_error (error, _, _) -> raise (Broken (trouble path (Unix.error_message error)))
 
+(* Whoever types a command once more after the console died must not lose what vehicles may still be doing. The channel
+   is never closed: to close any of its file would give the lock away. *)
+let spare_unfinished path fd =
+  if (Unix.fstat fd).st_kind = S_REG && Reader.breaks_off (Unix.in_channel_of_descr fd) then
+    raise
+      (Broken
+         (Printf.sprintf "%s: this is the journal of a run that broke off: go on with it by --resume %s, or remove it"
+            path path))
+
 let channel_of path fd =
   let channel = Unix.out_channel_of_descr fd in
   set_binary_mode_out channel true;
@@ -93,9 +102,10 @@ let with_recorder settings file teller make =
   { settings; file; teller; recorder = (if is_wanted settings then Some (make write) else None) }
 
 let guarded settings make =
-  match would_overwrite settings with
-  | Some path -> Error (path ^ ": the run was to be written over its own program or fleet")
-  | None -> (
+  match would_overwrite settings, Option.fold settings.drawing ~none:(Ok ()) ~some:Drawing_file.check with
+  | Some path, _ -> Error (path ^ ": the run was to be written over its own program or fleet")
+  | None, (Error _ as trouble) -> trouble
+  | None, Ok () -> (
       match make () with
       | r -> Ok r
       | exception Broken why -> Error why
@@ -104,6 +114,7 @@ let guarded settings make =
 let start settings program =
   let begun path =
     let fd = open_file path in
+    spare_unfinished path fd;
     truncate fd 0;
     channel_of path fd
   in
@@ -133,6 +144,7 @@ let continued (run : Resumed.t) path =
   let fd = open_file path in
   if same_file path run.path then truncate fd kept
   else begin
+    spare_unfinished path fd;
     truncate fd 0;
     copy fd
   end;
@@ -148,16 +160,22 @@ let resume settings program ~source (run : Resumed.t) =
       Option.iter (fun recorder -> Recorder.write recorder ~time:(Replay.time replay) line) r.recorder;
       r)
 
-let sync file =
-  match Unix.fsync (Unix.descr_of_out_channel file.channel) with
-  | () -> ()
-  | exception Unix.Unix_error (EINVAL, _, _) -> ()  (* a pipe *)
-  | exception Unix.Unix_error (error, _, _) -> raise (Broken (trouble file.path (Unix.error_message error)))
-
-let note r ~time ~urgent ~vehicle note =
+let note r ~time ~vehicle note =
   let line ~time = Entry.Note { time; vehicle; note } in
-  Option.iter (fun recorder -> Recorder.write recorder ~time line) r.recorder;
-  if urgent then Option.iter sync r.file
+  Option.iter (fun recorder -> Recorder.write recorder ~time line) r.recorder
+
+let sync r =
+  let sync file =
+    let fd = Lwt_unix.of_unix_file_descr ~blocking:true ~set_flags:false (Unix.descr_of_out_channel file.channel) in
+    fun () ->
+      Lwt.catch
+        (fun () -> Lwt_unix.fdatasync fd)
+        (function
+          | Unix.Unix_error (EINVAL, _, _) -> Lwt.return_unit  (* a pipe *)
+          | Unix.Unix_error (error, _, _) -> Lwt.fail (Broken (trouble file.path (Unix.error_message error)))
+          | error -> Lwt.fail error)
+  in
+  Option.map sync r.file
 
 let observer r : Dolphin_runtime.Observer.t =
   match r.recorder with

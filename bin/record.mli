@@ -25,11 +25,13 @@ val start : settings -> Dolphin_semantics.Core.program -> (t, string) result
 val resume : settings -> Dolphin_semantics.Core.program -> source:Header.source -> Resumed.t -> (t, string) result
 (** [resume s program ~source run] goes on with the journal of [run], in its own file, or if [s] names another one, in a
     copy. [source] is the program's file. The error says why that is not possible: another console writes it, perhaps.
-    *)
+*)
 
-val note : t -> time:float -> urgent:bool -> vehicle:string -> Yojson.Safe.t -> unit
-(** Keeps what the platform wants to find again of a vehicle. What is [urgent] is on the disk when this returns, with
-    all before it. It may raise {!Broken}. *)
+val note : t -> time:float -> vehicle:string -> Yojson.Safe.t -> unit
+(** Keeps what the platform wants to find again of a vehicle. It may raise {!Broken}. *)
+
+val sync : t -> (unit -> unit Lwt.t) option
+(** Resolves once all that was kept before is on the disk, and may fail with {!Broken}; [None]: there is no journal. *)
 
 val observer : t -> Dolphin_runtime.Observer.t
 (** To be told of the run before anybody else. It may raise {!Broken}. *)

@@ -1,3 +1,4 @@
+open Dolphin_semantics
 open Dolphin_runtime
 open Dolphin_display
 open Dolphin_trace
@@ -40,6 +41,13 @@ let read ~changed program path =
   match read () with
   | result -> result
   | exception Sys_error why -> Error (if String.length why > 0 && why.[0] = path.[0] then why else path ^ ": " ^ why)
+
+let has_supplier r =
+  let is_call { Past.what; _ } =
+    let is_call : Effect.t -> bool = function Call_host _ -> true | _ -> false in
+    match what with Asked effects -> List.exists is_call effects | Saw _ | Noted _ | Happened _ -> false
+  in
+  List.exists is_call r.past.moments
 
 let fleet r ~named =
   let header = r.past.header in

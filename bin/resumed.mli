@@ -12,5 +12,8 @@ val read : changed:bool -> Program_file.t -> string -> (t, string) result
 (** [read ~changed program path] goes through the journal [path]. With [changed] the program need not be the one that
     ran, if the journal is one of a run of it. The error tells people why there is nothing to go on with. *)
 
+val has_supplier : t -> bool
+(** The run has made calls of a supplier. *)
+
 val fleet : t -> named:string option -> (Fleet_file.t, Fleet_file.trouble) result
 (** The fleet that the run was on: the file that its header names, or [named], with the same text. *)

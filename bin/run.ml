@@ -73,12 +73,24 @@ let in_trouble why : Exit_status.t =
   Report.complain why;
   Platform_trouble
 
+(* That nobody reads the log any more is no trouble: whoever did has gone, as [head] does. *)
+let trouble_of_log : Unix.error -> string option = function
+  | EPIPE | EIO | EBADF -> None
+  | error -> Some (Printf.sprintf "the log cannot be written: %s" (Unix.error_message error))
+
 (* {1 The run} *)
 
+(* What a host remembers died with it, and only its people can know what that was. *)
 let start_host s =
+  let calls = match s.resumed with Some r -> Past.calls r.past.moments | None -> 0 in
   match s.supplier with
   | None -> Ok None
-  | Some command -> Result.map Option.some (Host.start ?timeout:s.supplier_timeout command)
+  | Some command ->
+    if calls > 0 then
+      Report.complain
+        (Printf.sprintf "the supplier is started anew: %s that it has answered in this run %s not made again"
+           (Report.count calls "call") (if calls = 1 then "is" else "are"));
+    Result.map Option.some (Host.start ?timeout:s.supplier_timeout ~calls command)
 
 type 'p fleet = {
   platform : 'p;
@@ -134,13 +146,13 @@ let unheard resumed =
   let world (r : Resumed.t) = List.map lose (World.vehicles (Replay.world r.past.replay)) in
   Option.fold resumed ~none:[] ~some:world
 
-let open_platform s ~keep =
+let open_platform s ~keep ~sync =
   match s.network with
   | None -> simulated s
   | Some options ->
     let told = ref ignore in
     let note vehicle text = !told (Printf.sprintf "%s: %s" vehicle text) in
-    let options = { options with note; keep } in
+    let options = { options with note; keep; sync } in
     let opened =
       match s.resumed with
       | None -> Udp_platform.open_ options
@@ -157,9 +169,17 @@ let beginning resumed news : Driver.beginning option =
   Option.map of_past resumed
 
 let drive s record host (Platform ((module P), { platform; more_lines; told; news })) =
-  let interruption = Interruption.make () in
+  let last_words =
+    Option.map (fun _ -> "interrupted twice: ended at once; vehicles that were not told to stop yet run on") s.network
+  in
+  let interruption = Interruption.make ?last_words () in
   let live = is_live () in
-  let screen = Screen.make ~live ~on_closed:(fun () -> Interruption.interrupt interruption) Unix.stdout in
+  let log_trouble = ref None in
+  let on_closed error =
+    log_trouble := trouble_of_log error;
+    Interruption.interrupt interruption
+  in
+  let screen = Screen.make ~live ~on_closed Unix.stdout in
   let log = ref (match s.resumed with Some r -> r.log | None -> Log.start) in
   let board = ref (match s.resumed with Some r -> r.board | None -> Board.start) in
   (* The driver interrupts stuck programs by itself. *)
@@ -188,12 +208,12 @@ let drive s record host (Platform ((module P), { platform; more_lines; told; new
   let finish outcome =
     let was_stuck = Option.fold s.resumed ~none:false ~some:(fun (r : Resumed.t) -> Replay.was_stuck r.past.replay) in
     let is_stuck = match (outcome : Driver.outcome) with Stuck _ -> true | Ended _ -> was_stuck in
-    match Record.finish record ~time:(time ()) ~stuck:is_stuck with
-    | Ok () -> status s outcome
-    | Error why -> in_trouble why
+    match Record.finish record ~time:(time ()) ~stuck:is_stuck, !log_trouble with
+    | Error why, _ | Ok (), Some why -> in_trouble why
+    | Ok (), None -> status s outcome
   in
   let broken = function
-    | Record.Broken why -> Lwt.return (in_trouble why)
+    | Record.Broken why -> Lwt.return (in_trouble (why ^ "; the run was ended as by Ctrl-C"))
     | Unix.Unix_error (error, call, _) ->
       Lwt.return (in_trouble (Printf.sprintf "trouble of the platform: %s: %s" call (Unix.error_message error)))
     | error -> Lwt.fail error
@@ -213,8 +233,8 @@ let run s =
   match record with
   | Error why -> in_trouble why
   | Ok record -> (
-      let keep ~time ~urgent vehicle memo = Record.note record ~time ~urgent ~vehicle memo in
-      match open_platform s ~keep with
+      let keep ~time vehicle memo = Record.note record ~time ~vehicle memo in
+      match open_platform s ~keep ~sync:(Record.sync record) with
       | Error why -> in_trouble why
       | Ok platform -> (
           match start_host s with

@@ -3,8 +3,8 @@ open Lwt.Infix
 type t = {
   output : Unix.file_descr;
   live : bool;
-  on_closed : unit -> unit;
-  mutable closed : bool;  (* nobody reads *)
+  on_closed : Unix.error -> unit;
+  mutable closed : bool;  (* nothing can be written any more *)
   mutable board : unit -> string list;
   mutable drawn : int;  (* lines of the board on the terminal *)
   mutable asking : bool;  (* the last line is a question, without its end *)
@@ -28,9 +28,9 @@ let rec write_from s text from =
     | exception Unix.Unix_error ((EAGAIN | EWOULDBLOCK), _, _) ->
       ignore (Unix.select [] [ s.output ] [] 1.);
       write_from s text from
-    | exception Unix.Unix_error (_, _, _) ->
+    | exception Unix.Unix_error (error, _, _) ->
       s.closed <- true;
-      s.on_closed ()
+      s.on_closed error
 
 let write s text = write_from s text 0
 
@@ -96,7 +96,7 @@ let ask s prompt =
 
 let answered s text =
   s.asking <- false;
-  if text <> "" then write s (text ^ "\n");
+  Option.iter (fun text -> write s (text ^ "\n")) text;
   changed s
 
 let close s =

@@ -3,9 +3,9 @@
 
 type t
 
-val make : live:bool -> on_closed:(unit -> unit) -> Unix.file_descr -> t
-(** [make ~live ~on_closed output] writes to [output], with a board if [live]. When nobody reads [output] any more,
-    [on_closed] is called, once, and nothing is written from then on. *)
+val make : live:bool -> on_closed:(Unix.error -> unit) -> Unix.file_descr -> t
+(** [make ~live ~on_closed output] writes to [output], with a board if [live]. When [output] cannot be written any more,
+    for nobody reads it or its disk is full, [on_closed] is told why, once, and nothing is written from then on. *)
 
 val print : t -> string -> unit
 (** [print s text] adds the lines of [text] to the log. *)
@@ -19,8 +19,8 @@ val changed : t -> unit
 val ask : t -> string -> unit
 (** [ask s prompt] shows [prompt] at once, the cursor behind it and no board under it, until {!answered}. *)
 
-val answered : t -> string -> unit
-(** [answered s text] ends the line of the question with [text]; [""] after what was typed there, which ended it. *)
+val answered : t -> string option -> unit
+(** [answered s text] ends the line of the question with [text]; [None] after what was typed there, which ended it. *)
 
 val close : t -> unit
 (** [close s] writes what is left, and takes the board away. *)

@@ -4,10 +4,14 @@ let clock seconds =
   if hours > 0 then Printf.sprintf "%d:%02d:%02d" hours minutes (whole mod 60)
   else Printf.sprintf "%d:%02d" minutes (whole mod 60)
 
-let duration seconds =
-  if seconds >= 3600. then Printf.sprintf "%g h" (seconds /. 3600.)
-  else if seconds >= 60. then Printf.sprintf "%g min" (seconds /. 60.)
-  else Printf.sprintf "%g s" seconds
+(* In one unit, if six digits are enough for that: 1.5 min; else in several: 20 min 34.56 s. *)
+let rec duration seconds =
+  let unit, name = if seconds >= 3600. then (3600., "h") else if seconds >= 60. then (60., "min") else (1., "s") in
+  let short = Printf.sprintf "%g" (seconds /. unit) in
+  if unit = 1. || float_of_string short *. unit = seconds || not (Float.is_finite seconds) then short ^ " " ^ name
+  else
+    let whole = Float.floor (seconds /. unit) in
+    Printf.sprintf "%.0f %s %s" whole name (duration (seconds -. (whole *. unit)))
 
 let most_named = 8
 

@@ -4,7 +4,8 @@ val clock : float -> string
 (** [clock seconds] is the time of a stop-watch, in whole seconds: ["0:07"], ["9:00"], ["1:02:03"]. *)
 
 val duration : float -> string
-(** [duration seconds] is a span of time as one says it: ["10 s"], ["2 min"], ["1.5 h"]. *)
+(** [duration seconds] is a span of time as one says it: ["10 s"], ["2 min"], ["1.5 h"],
+    ["1 h 1 min 1 s"]. *)
 
 val vehicles : string list -> string
 (** [vehicles vs] names [vs], the first ones only if there are many: ["a, b, c and 997 more"]. *)

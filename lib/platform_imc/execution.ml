@@ -16,6 +16,7 @@ type input =
   | Abort of string
   | Lost of string
   | Adopt of { order : order; stopped : bool; memos : Memo.t list }
+  | Leaves of float
   | Tick
 
 type output = Phase.output
@@ -30,6 +31,7 @@ let create = Phase.create
 let due = Phase.due
 let idle = Phase.idle
 let owes = Phase.owes
+let unsettled = Phase.unsettled
 
 (* {1 What the vehicle's state means} *)
 
@@ -202,6 +204,15 @@ let vehicle ~sent (state : Message.Vehicle_state.t) x =
     ({ x with error = Some (sent, state.last_error) }, [])
   else (x, [])
 
+let leaves ~at ~clock x =
+  let postpone (a : attempt) =
+    { a with last_sent = at; asked = (if at = infinity then infinity else Vehicle_clock.estimate ~now:at clock) }
+  in
+  match x.phase with
+  | Starting a -> { x with phase = Starting (postpone a) }
+  | Stopping s -> { x with phase = Stopping { s with attempt = postpone s.attempt } }
+  | Idle | Running _ | Ending _ -> x
+
 let stop ~now ~clock x =
   match x.phase with
   | Idle -> (x, [])
@@ -307,7 +318,7 @@ let count input x =
     | Reply { sent; reply } -> Takes.reply ~sent reply x.takes
     | State { sent; state } -> Takes.state ~sent state x.takes
     | Log { sent; entry } -> Takes.log ~sent entry x.takes
-    | Start _ | Stop | Vehicle _ | Abort _ | Lost _ | Adopt _ | Tick -> x.takes
+    | Start _ | Stop | Vehicle _ | Abort _ | Lost _ | Adopt _ | Leaves _ | Tick -> x.takes
   in
   match Takes.twice takes with
   | None -> ({ x with takes }, [])
@@ -326,6 +337,7 @@ let obey ~now ~clock input x =
   | Abort by -> ({ x with abort = Some by }, [])
   | Lost why -> lost ~now ~clock why x
   | Adopt { order; stopped; memos } -> adopt ~now ~clock order ~stopped memos x
+  | Leaves at -> (leaves ~at ~clock x, [])
   | Tick -> tick ~now ~clock x
 
 let step ~now ~clock input x =

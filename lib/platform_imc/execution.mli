@@ -18,6 +18,7 @@
       than SUCCESS; when the vehicle went from INITIALIZING to READY without taking the plan; when it is BLOCKED; when
       it executes another plan, or has executed one. Where the words are missing they are waited for, {!grace} long; an
       error that the vehicle reports stands in for them.
+    - A request whose memo the disk has not got yet waits ([Leaves]). Until it has left nothing follows from silence.
     - A request is {e sent again} only after a look: no reply came within {!patience}, and a state that the vehicle sent
       so long after the request shows that it was without effect. After {!most_copies} the plan has failed.
     - A stop is sent again every {!stop_interval} until a reply or a later state confirms it; if it is not known whether
@@ -55,6 +56,8 @@ type input =
   | Adopt of { order : order; stopped : bool; memos : Memo.t list  (** latest first *) }
   (** A console before this one was told to start [order], and if [stopped] to stop it again, and then died; [memos] is
       what it kept since then. To be given to an execution that has nothing to do, once the vehicle {!is_heard}. *)
+  | Leaves of float
+  (** The last request to start leaves at that time, and not at once; [infinity]: nobody knows yet when. *)
   | Tick  (** Time has passed. *)
 
 type output = Phase.output
@@ -76,6 +79,10 @@ val idle : t -> bool
 
 val owes : t -> bool
 (** [owes x]: [Done] or [Failed] is still to come. *)
+
+val unsettled : t -> string option
+(** The plan that the vehicle may still run though nobody wants it to: its stop is not confirmed, or it was given up and
+    the vehicle has said nothing since. *)
 
 val is_heard : t -> bool
 (** The vehicle has said something of its plan. *)

@@ -50,7 +50,12 @@ type phase =
 
 (* The order before, over since [ended] by the vehicle's clock. If it is seen to run again before [watched_until], then
    because of a late copy of our request. *)
-type former = { attempt : attempt; ended : float; watched_until : float }
+type former = {
+  attempt : attempt;
+  ended : float;
+  watched_until : float;
+  given_up : bool;  (* it was not heard to be over *)
+}
 
 type t = {
   next_request : int;
@@ -74,6 +79,13 @@ let owes x =
   match x.phase with
   | Starting _ | Running _ | Ending _ | Stopping { next = Some _; _ } -> true
   | Idle | Stopping { next = None; _ } -> false
+
+let unsettled x =
+  let unheard_since time = match x.seen with Some s -> s.sent <= time | None -> true in
+  match x.phase, x.former with
+  | Stopping { attempt; next = None; _ }, _ -> Some attempt.order.plan
+  | Idle, Some { attempt; ended; given_up = true; _ } when unheard_since ended -> Some attempt.order.plan
+  | (Idle | Starting _ | Running _ | Ending _ | Stopping _), _ -> None
 
 let due x =
   match x.phase with
@@ -144,8 +156,9 @@ let resend ~now ~clock (a : attempt) x =
 
 (* The order is over. *)
 let close ?(watch = echo) ~now ~ended (attempt : attempt) x =
-  let from = if watch > echo then now else attempt.last_sent in
-  { x with phase = Idle; former = Some { attempt; ended; watched_until = from +. watch } }
+  let given_up = watch > echo in
+  let from = if given_up then now else attempt.last_sent in
+  { x with phase = Idle; former = Some { attempt; ended; watched_until = from +. watch; given_up } }
 
 let fail ?watch ~now ~ended attempt why x = (close ?watch ~now ~ended attempt x, [ Failed why ])
 let succeed ~now ~ended attempt x = (close ~now ~ended attempt x, [ Done ])

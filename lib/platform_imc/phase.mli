@@ -63,9 +63,14 @@ type phase =
       next : order option;
     }
 
-type former = { attempt : attempt; ended : float; watched_until : float }
+type former = {
+  attempt : attempt;
+  ended : float;
+  watched_until : float;
+  given_up : bool;  (** it was not heard to be over: its link, or its stop's confirmation, was waited for in vain *)
+}
 (** The order before, over since [ended] by the vehicle's clock. If it is seen to run again before [watched_until], then
-    because of a late copy of our request. *)
+    because of a late copy of our request, or because it was given up. *)
 
 type t = {
   next_request : int;
@@ -87,6 +92,9 @@ val idle : t -> bool
 
 val owes : t -> bool
 (** As {!Execution.owes}. *)
+
+val unsettled : t -> string option
+(** As {!Execution.unsettled}. *)
 
 val due : t -> float
 (** When the passing of time matters next, in seconds; [infinity] if it does not. *)

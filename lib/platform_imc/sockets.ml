@@ -42,6 +42,12 @@ let speaker host =
     Some fd
   | Error _ -> None
 
+let check_own host =
+  match bound host 0 with
+  | Ok fd -> Unix.close fd
+  | Error _ ->
+    raise (Cannot (Printf.sprintf "no interface of this machine has the address %s" (Unix.string_of_inet_addr host)))
+
 let join fd group ~interfaces =
   let join_by ifname = ignoring (fun () -> Lwt_unix.mcast_add_membership fd ~ifname group) in
   List.iter join_by interfaces

@@ -13,6 +13,9 @@ val listen :
 val speaker : Unix.inet_addr -> Unix.file_descr option
 (** A socket whose multicasts and broadcasts leave by the interface with this address, with a time to live of 15. *)
 
+val check_own : Unix.inet_addr -> unit
+(** Raises {!Cannot} if no interface of this machine has the address. *)
+
 val join : Lwt_unix.file_descr -> Unix.inet_addr -> interfaces:Unix.inet_addr list -> unit
 (** [join socket group ~interfaces] hears the multicasts to [group] that come by [interfaces], as far as that is
     possible. *)

@@ -262,6 +262,12 @@ let stop ~now vehicle s =
   | Some (Nothing | Halt _), _ | None, None -> (s, [])
   | None, Some n -> command ~now Stop n s
 
+let leaves ~now ~at vehicles s =
+  let postpone s vehicle =
+    match find vehicle s with Some n -> fst (command ~now (Leaves at) n s) | None -> s
+  in
+  List.fold_left postpone s vehicles
+
 let stop_all ~now s =
   let s = Names.fold (fun vehicle _ s -> fst (stop ~now vehicle s)) s.expected s in
   Nodes.fold
@@ -294,6 +300,15 @@ let telemetry ~now on s =
 let take s = Option.map (fun (event, outbox) -> (event, { s with outbox })) (Outbox.take s.outbox)
 let waiting s = not (Outbox.is_empty s.outbox)
 let quiet s = (not (owes_stop s)) && Nodes.for_all (fun _ (n : Node.t) -> Execution.idle n.execution) s.nodes
+
+let unsettled s =
+  let of_node _ (n : Node.t) found =
+    match Execution.unsettled n.execution with Some plan -> (n.name, plan) :: found | None -> found
+  in
+  let of_wish name wish found =
+    match wish with Halt { order; _ } -> (name, order.plan) :: found | Nothing | Run _ -> found
+  in
+  List.sort compare (Nodes.fold of_node s.nodes (Names.fold of_wish s.expected []))
 
 type sight = { node : Node.t; state : World.vehicle_state; age : float; linked : bool }
 

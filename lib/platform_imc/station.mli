@@ -52,6 +52,10 @@ val cancel_timer : Residual.timer -> t -> t
 val set_connection_timeout : Core.vehicle list option -> float -> t -> t
 val telemetry : now:float -> bool -> t -> t
 
+val leaves : now:float -> at:float -> Core.vehicle list -> t -> t
+(** [leaves ~now ~at vs s]: the requests to start that were made of [vs] last leave at [at], not when they were made;
+    [infinity]: nobody knows yet when. *)
+
 val stop_all : now:float -> t -> t * output list
 (** Stops what still runs for the program. *)
 
@@ -68,6 +72,10 @@ val owes_stop : t -> bool
 
 val quiet : t -> bool
 (** No plan is ordered, and no stop waits for its confirmation. *)
+
+val unsettled : t -> (Core.vehicle * string) list
+(** Vehicles that may still run a plan though the program does not want it any more: it was stopped or given up, and
+    they have not been heard to have ended it. *)
 
 (** {1:displays For displays} *)
 

@@ -15,7 +15,8 @@ type options = {
   listens : bool;
   close_patience : float;
   note : Core.vehicle -> string -> unit;
-  keep : time:float -> urgent:bool -> Core.vehicle -> Yojson.Safe.t -> unit;
+  keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
+  sync : (unit -> unit Lwt.t) option;
 }
 
 let default =
@@ -23,7 +24,7 @@ let default =
     announce_ports = [ 30100; 30101; 30102; 30103; 30104 ];
     group = Unix.inet_addr_of_string "224.0.75.69";
     payload = []; types = []; type_names = []; listens = false; close_patience = 5.; note = (fun _ _ -> ());
-    keep = (fun ~time:_ ~urgent:_ _ _ -> ()) }
+    keep = (fun ~time:_ _ _ -> ()); sync = None }
 
 type t = {
   options : options;
@@ -35,6 +36,7 @@ type t = {
   port : int;
   buffer : Bytes.t;
   mutable station : Station.t;
+  mutable gate : (Service.address * string) Gate.t option;  (* if requests wait for the disk *)
   mutable armed : float;  (* when the timer rings *)
   mutable rearm : unit Lwt.u option;
   mutable waiting : unit Lwt.u option;  (* [next] *)
@@ -72,11 +74,23 @@ let announce p bytes =
        to_ports socket broadcast)
     p.speakers
 
+let send_to p ((address : Service.address), bytes) =
+  if not p.closed then send p (data_socket p) bytes address.host address.port
+
 let carry_out p : Station.output -> unit = function
-  | Send { address; bytes } -> send p (data_socket p) bytes address.host address.port
+  | Send { address; bytes } -> (
+      match p.gate with
+      | Some gate when Gate.is_shut gate -> Gate.hold gate (address, bytes)
+      | Some _ | None -> send_to p (address, bytes))
   | Announce bytes -> announce p bytes
   | Announce_to (host, bytes) -> List.iter (send p (data_socket p) bytes host) p.options.announce_ports
-  | Keep (vehicle, memo) -> p.options.keep ~time:(now p) ~urgent:(Memo.is_urgent memo) vehicle (Memo.to_json memo)
+  | Keep (vehicle, memo) -> (
+      p.options.keep ~time:(now p) vehicle (Memo.to_json memo);
+      match p.gate with
+      | Some gate when Memo.is_urgent memo ->
+        p.station <- Station.leaves ~now:(now p) ~at:infinity [ vehicle ] p.station;
+        Gate.shut gate vehicle
+      | Some _ | None -> ())
   | Note (vehicle, text) -> p.options.note vehicle text
 
 (* {1 The state and its changes} *)
@@ -116,6 +130,26 @@ let quietly p f = command p (fun s -> (f s, []))
 (* So many datagrams are taken before others have their turn. *)
 let most_at_once = 512
 
+(* Once something cannot be kept any more, the run is over: {!next} fails. The network is served all the same, so that
+   stops are seen through. *)
+let fail p error =
+  if p.failure = None && not p.closed then begin
+    p.failure <- Some error;
+    wake p.waiting;
+    p.waiting <- None
+  end
+
+let gate p sync =
+  let settled vehicles =
+    let time = now p in
+    p.station <- Station.leaves ~now:time ~at:time vehicles p.station
+  in
+  let leave vehicles messages = List.iter (send_to p) messages; settled vehicles in
+  let failed vehicles error = settled vehicles; fail p error in
+  Gate.make ~sync ~leave ~failed
+
+let absorb p changed = try change p changed with error -> fail p error
+
 (* How many were there. *)
 let drain p fd =
   let socket = Lwt_unix.unix_file_descr fd in
@@ -125,7 +159,7 @@ let drain p fd =
       match Unix.recvfrom socket p.buffer 0 (Bytes.length p.buffer) [] with
       | len, ADDR_INET (from, _) ->
         (* Nothing is kept of the buffer. *)
-        change p (Station.datagram ~now:(now p) ~from ~len (Bytes.unsafe_to_string p.buffer) p.station);
+        absorb p (Station.datagram ~now:(now p) ~from ~len (Bytes.unsafe_to_string p.buffer) p.station);
         take (n + 1)
       | _, ADDR_UNIX _ -> take (n + 1)
       | exception Unix.Unix_error ((EAGAIN | EWOULDBLOCK), _, _) -> n
@@ -159,7 +193,7 @@ let rec watch p =
     let time = now p in
     if Station.due p.station <= time then begin
       p.armed <- infinity;
-      change p (Station.tick ~now:time p.station);
+      absorb p (Station.tick ~now:time p.station);
       settle p
     end;
     let due = Station.due p.station in
@@ -181,20 +215,12 @@ let settings options ~port ~hosts ~time : Station.settings =
     first_request = Random.State.int random 0x10000;
     payload = options.payload; types = options.types; type_names = options.type_names; listens = options.listens }
 
-let guard p thread =
-  let fail error =
-    if not p.closed then begin
-      p.failure <- Some error;
-      wake p.waiting;
-      p.waiting <- None
-    end;
-    Lwt.return_unit
-  in
-  Lwt.async (fun () -> Lwt.catch thread fail)
+let guard p thread = Lwt.async (fun () -> Lwt.catch thread (fun error -> fail p error; Lwt.return_unit))
 
 let make ?(time = 0.) ?standing options =
   let loopback = Unix.inet_addr_loopback in
   let host = if options.loopback then loopback else Unix.inet_addr_any in
+  List.iter Sockets.check_own options.interfaces;
   let announcements, data =
     Sockets.listen ~host ~announce_ports:options.announce_ports ~data_port:options.data_port
   in
@@ -213,9 +239,10 @@ let make ?(time = 0.) ?standing options =
   let p =
     { options; settings; clock = Steady_clock.make ~time (); data = Lwt_unix.of_unix_file_descr ~blocking:false data;
       announcements; speakers = List.filter_map Sockets.speaker interfaces; port;
-      buffer = Bytes.create 65536; station; armed = infinity; rearm = None; waiting = None;
+      buffer = Bytes.create 65536; station; gate = None; armed = infinity; rearm = None; waiting = None;
       closing = None; failure = None; closed = false; unsent = 0 }
   in
+  p.gate <- Option.map (gate p) options.sync;
   guard p (fun () -> receive p p.data ~since:0. ~count:0);
   guard p (fun () -> receive p p.announcements ~since:0. ~count:0);
   guard p (fun () -> watch p);
@@ -268,21 +295,36 @@ let release_sockets p =
   Lwt.catch (fun () -> Lwt_unix.close p.data) (fun _ -> Lwt.return_unit) >>= fun () ->
   Lwt.catch (fun () -> Lwt_unix.close p.announcements) (fun _ -> Lwt.return_unit)
 
+(* A stop that is confirmed later than this is worth a word to whoever waits; Execution.patience is usual. *)
+let prompt = 2.
+
+let tell_unsettled p text = List.iter (fun (v, plan) -> p.options.note v (text plan)) (Station.unsettled p.station)
+
+(* All is quiet, or has not become so in time. *)
+let wait_for_stops p =
+  if Station.quiet p.station then Lwt.return_unit
+  else begin
+    let quiet, closing = Lwt.task () in
+    p.closing <- Some closing;
+    let patience = p.options.close_patience in
+    let patience = if Station.owes_stop p.station then Float.max patience longest_silence else patience in
+    let tell () =
+      let never, _ = Lwt.task () in
+      tell_unsettled p (fun plan ->
+          Printf.sprintf "has not confirmed yet that it stopped plan %s; waiting %.0f s more" plan
+            (patience -. prompt));
+      never
+    in
+    Lwt.pick [ quiet; Lwt_unix.sleep patience; (Lwt_unix.sleep prompt >>= tell) ]
+  end
+
 let close p =
   if p.closed then Lwt.return_unit
   else begin
     command p (Station.stop_all ~now:(now p));
-    let all_quiet =
-      if Station.quiet p.station then Lwt.return_unit
-      else begin
-        let promise, closing = Lwt.task () in
-        p.closing <- Some closing;
-        let patience = p.options.close_patience in
-        let patience = if Station.owes_stop p.station then Float.max patience longest_silence else patience in
-        Lwt.pick [ promise; Lwt_unix.sleep patience ]
-      end
-    in
-    all_quiet >>= fun () -> release_sockets p
+    wait_for_stops p >>= fun () ->
+    tell_unsettled p (Printf.sprintf "may still run plan %s: it was not heard to have stopped");
+    release_sockets p
   end
 
 (* {1 Displays} *)

@@ -22,14 +22,16 @@ type options = {
   close_patience : float;  (** So many seconds [close] waits for stops to be confirmed; for vehicles
                                that are not heard again yet, {!announce_period} at least. *)
   note : Core.vehicle -> string -> unit;  (** Is told what is unusual, for people. *)
-  keep : time:float -> urgent:bool -> Core.vehicle -> Yojson.Safe.t -> unit;
-  (** Keeps what a console that takes over has to know ({!Memo}). When it returns, that must survive this process; what
-      is [urgent], this machine: a request that it tells of leaves then. *)
+  keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
+  (** Keeps what a console that takes over has to know ({!Memo}). When it returns, that must survive this process. *)
+  sync : (unit -> unit Lwt.t) option;
+  (** Resolves once all that was kept before survives this machine, too. Requests to start plans wait for that
+      ({!Gate}); with [None] they do not. *)
 }
 
 val default : options
 (** As vehicles with the usual settings expect it: ports 30100 to 30104, the group 224.0.75.69, all interfaces, 5 s;
-    notes are thrown away, and so is what is to be kept; {!heard} is not kept. *)
+    notes are thrown away, and so is what is to be kept, which no request waits for; {!heard} is not kept. *)
 
 include Platform.S
 

@@ -19,10 +19,10 @@ let longest_reply = 1_048_576
 (* How long what a dead host wrote, or the exit of one that closed its output, is waited for. *)
 let aftermath = 1.
 
-let start ?timeout command =
+let start ?timeout ?(calls = 0) command =
   let* child = Child.start ~environment:[ ("DOLPHIN_SUPPLIER_PROTOCOL", version) ] command in
   let replies = Lines.make ~limit:longest_reply (Child.output child) in
-  Ok { child; replies; timeout; last_id = 0; broken = None }
+  Ok { child; replies; timeout; last_id = calls; broken = None }
 
 (* {1 Requests and replies} *)
 

@@ -21,15 +21,19 @@
     reply is at most 1 MiB long. The host writes nothing unasked. It should ignore fields of requests that it does not
     know, and end when its input ends; otherwise it is terminated at the end of the run.
 
+    Requests are numbered from 1. Those of a run that is resumed are numbered on: the host sees that it is not the first
+    one, and a call that no reply is known of is made again with its number.
+
     {1:host Hosts} *)
 
 open Dolphin_semantics
 
 type t
 
-val start : ?timeout:float -> string -> (t, string) result
-(** [start ~timeout command] starts [command], for [/bin/sh], as host process. Each of its replies may take [timeout]
-    seconds; without it, for ever. The error says why there is no process. From then on SIGPIPE is ignored. *)
+val start : ?timeout:float -> ?calls:int -> string -> (t, string) result
+(** [start ~timeout ~calls command] starts [command], for [/bin/sh], as host process of a run in which hosts have
+    replied to [calls] calls before, by default none. Each of its replies may take [timeout] seconds; without it, for
+    ever. The error says why there is no process. From then on SIGPIPE is ignored. *)
 
 val call :
   t ->

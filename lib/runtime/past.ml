@@ -73,3 +73,7 @@ let answers moments =
     | Saw _ | Noted _ | Happened _ -> (prompt, found)
   in
   List.rev (snd (List.fold_left add (None, []) moments))
+
+let calls moments =
+  let is_reply { what; _ } = match what with Happened (Replied _ | Host_failed _) -> true | _ -> false in
+  List.length (List.filter is_reply moments)

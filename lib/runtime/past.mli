@@ -34,3 +34,6 @@ val standing : announce_period:float -> moment list -> standing
 
 val answers : moment list -> (string * string) list
 (** The questions that were answered, with the answers, in order. *)
+
+val calls : moment list -> int
+(** How many calls the host has replied to. *)

@@ -117,6 +117,34 @@ let in_settings env name =
   | Some (builder, slot) when List.mem name (Builtins.settings builder) -> Some slot
   | Some _ | None -> None
 
+(* [lon -8.7] is a subtraction, from the block that [lon] stands in. *)
+let rec check_subtraction env (e : Ast.expression) =
+  match e.it with
+  | Binary (Subtract, { it = Variable name; _ }, _) when in_settings env name <> None && not (is_hidden env name) ->
+    error env No_value e.at "'%s -' is read as a subtraction" name
+      ~hint:(Printf.sprintf "put parentheses around the value: %s(...)" name)
+  | Binary (_, first, _) -> check_subtraction env first
+  | _ -> ()
+
+(* What a [pick] has one of. *)
+let single_settings = [ "id"; "type"; "region"; "count"; "timeout" ]
+
+let check_repeated env (builder : Ast.builder) (body : Ast.statement list) =
+  let setting (s : Ast.statement) : string Ast.located option =
+    match s.it with
+    | Setting (name, _) -> Some name
+    | Expression { it = Call { callee = { it = Variable name; at }; _ }; _ } -> Some { it = name; at }
+    | _ -> None
+  in
+  let check seen (name : string Ast.located) =
+    if List.mem name.it seen then
+      error env Defined_twice name.at "'%s' stands twice" name.it ~hint:"the second one would replace the first";
+    if List.mem name.it single_settings then name.it :: seen else seen
+  in
+  match builder with
+  | Pick -> ignore (List.fold_left check [] (List.filter_map setting body))
+  | Imc_plan | Pos | All_of | One_of -> ()
+
 let builder_name : Ast.builder -> string = function
   | Pick -> "pick"
   | Imc_plan -> "imcPlan"

@@ -88,6 +88,12 @@ val is_hidden : env -> string -> bool
 val in_settings : env -> string -> int option
 (** The slot of the block of settings around, if it has a setting of this name. *)
 
+val check_subtraction : env -> Ast.expression -> unit
+(** Reports a statement such as [lon -8.7] in a block of settings, which subtracts. *)
+
+val check_repeated : env -> Ast.builder -> Ast.statement list -> unit
+(** Reports a second [type], say, among the statements of a [pick], which would replace the first one. *)
+
 val builder_name : Ast.builder -> string
 (** As programs spell it. *)
 

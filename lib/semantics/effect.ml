@@ -21,13 +21,14 @@ let pp ppf e =
   match e with
   | Start (v, p) -> print "start %s on %s" p.name v
   | Stop v -> print "stop %s" v
-  | Set_timer (timer, seconds) -> print "set timer %d to %g s" timer seconds
+  | Set_timer (timer, seconds) -> print "set timer %d to %s s" timer (Value.amount seconds)
   | Cancel_timer timer -> print "cancel timer %d" timer
   | Look_for pick -> print "look for %a" Settings.pp_pick pick
   | Bind vs -> print "bind %s" (String.concat ", " vs)
   | Release vs -> print "release %s" (String.concat ", " vs)
-  | Set_connection_timeout (None, seconds) -> print "connection timeout %g s" seconds
-  | Set_connection_timeout (Some vs, seconds) -> print "connection timeout %g s for %s" seconds (String.concat ", " vs)
+  | Set_connection_timeout (None, seconds) -> print "connection timeout %s s" (Value.amount seconds)
+  | Set_connection_timeout (Some vs, seconds) ->
+    print "connection timeout %s s for %s" (Value.amount seconds) (String.concat ", " vs)
   | Say text -> print "say %s" text
   | Ask prompt -> print "ask %s" prompt
   | Call_host { member; _ } -> print "call %s" member

@@ -14,6 +14,15 @@ let declare_function program ((name : string Ast.located), lambda, _, _, _) =
       ~hint:"choose another name"
   else Scope.add_function program name.it lambda
 
+(* A word that opens a construct is a name where no brace follows it. *)
+let hint_for_unknown name names =
+  let braced inside = Some (Printf.sprintf "write %s { %s }" name inside) in
+  match name with
+  | "pick" -> braced "type 'UUV'"
+  | "pos" -> braced "lat 41.18; lon 8.7.west"
+  | "allOf" | "oneOf" | "choose" -> braced "when { condition } then task"
+  | _ -> Checks.did_you_mean name names
+
 let report_unknown program =
   let names = Scope.visible_names (Scope.code program Scope.Main None) in
   List.iter
@@ -21,7 +30,7 @@ let report_unknown program =
        Scope.report program
          (Diagnostic.error ~code:Unknown_name at
             (Printf.sprintf "unknown name '%s'" name)
-            ?hint:(Checks.did_you_mean name (List.filter (fun other -> other <> name) names))))
+            ?hint:(hint_for_unknown name (List.filter (fun other -> other <> name) names))))
     (Scope.unknown program)
 
 let report_blocking program =

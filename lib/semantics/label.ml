@@ -37,9 +37,9 @@ let pp_deed ppf : Machine.deed -> unit = function
   | Consumed pairs -> Format.fprintf ppf "consume %a" pp_tuples pairs
   | Said text -> Format.fprintf ppf "message %a" Value.pp (String text)
   | Released vs -> Format.fprintf ppf "release %s" (String.concat ", " vs)
-  | Set_connection_timeout (None, seconds) -> Format.fprintf ppf "setConnectionTimeout %g" seconds
+  | Set_connection_timeout (None, seconds) -> Format.fprintf ppf "setConnectionTimeout %s" (Value.amount seconds)
   | Set_connection_timeout (Some vs, seconds) ->
-    Format.fprintf ppf "setConnectionTimeout %s, %g" (String.concat ", " vs) seconds
+    Format.fprintf ppf "setConnectionTimeout %s, %s" (String.concat ", " vs) (Value.amount seconds)
 
 let pp ppf l =
   let deeds name deeds = Format.fprintf ppf "%s(%a)" name Fmt.(list ~sep:(any "; ") pp_deed) deeds in
@@ -55,7 +55,7 @@ let pp ppf l =
   | Cut [] -> Format.pp_print_string ppf "cut"
   | Cut ds -> deeds "cut" ds
   | Time_out -> Format.pp_print_string ppf "timeout"
-  | Set_time seconds -> Format.fprintf ppf "set-time(%g)" seconds
+  | Set_time seconds -> Format.fprintf ppf "set-time(%s)" (Value.amount seconds)
   | Broken why -> text "broken" why
   | Did deed -> pp_deed ppf deed
   | Silent -> Format.pp_print_string ppf "script"
@@ -65,7 +65,7 @@ let pp ppf l =
   | Ask prompt -> text "ask" prompt
   | Answer answer -> text "answer" answer
   | No_answer -> Format.pp_print_string ppf "no-answer"
-  | Pause seconds -> Format.fprintf ppf "pause(%g)" seconds
+  | Pause seconds -> Format.fprintf ppf "pause(%s)" (Value.amount seconds)
   | Resume -> Format.pp_print_string ppf "resume"
   | Call what -> text "call" what
   | Reply what -> text "reply" what

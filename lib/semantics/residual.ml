@@ -90,8 +90,8 @@ let rec pp ppf r =
   | All_of (Some a, bs) -> Format.fprintf ppf "allOf { %a; %a }" pp a (separated ", " pp_branch) bs
   | One_of bs -> Format.fprintf ppf "oneOf { %a }" (separated ", " pp_branch) bs
   | Until (c, a) -> Format.fprintf ppf "until { %s } run %a" c.lambda.label pp a
-  | Idle { seconds; _ } -> Format.fprintf ppf "idle(%g)" seconds
-  | During { duration = Seconds s; body; _ } -> Format.fprintf ppf "during %g run %a" s pp body
+  | Idle { seconds; _ } -> Format.fprintf ppf "idle(%s)" (Value.amount seconds)
+  | During { duration = Seconds s; body; _ } -> Format.fprintf ppf "during %s run %a" (Value.amount s) pp body
   | During { duration = Given_by c; body; _ } ->
     Format.fprintf ppf "during { %s } run %a" c.lambda.label pp body
   | Watch (a, _) -> Format.fprintf ppf "watch %a" pp a

@@ -44,6 +44,7 @@ let setting env at (name : string Ast.located) e =
 
 let build env at builder body =
   if builder = Ast.Pick then check_in_script env "pick" at;
+  check_repeated env builder body;
   let slot = Scope.new_slot env.code in
   let start = set_local env at slot (constant env at (Settings [])) in
   let body =

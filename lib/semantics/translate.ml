@@ -156,6 +156,7 @@ and statement env (s : Ast.statement) : expression =
     when not (is_hidden env "assert") ->
     Calls.assertion env at arguments
   | Expression e ->
+    check_subtraction env e;
     let e = Option.value (regroup env e) ~default:e in
     warn_of_unused_task env e;
     elaborate env e

@@ -227,14 +227,19 @@ let length = function
   | Null | Boolean _ | Integer _ | Number _ | Wildcard | Symbol _ | Position _ | Area _ | Task _ | Closure _
   | Host _ | Settings _ | Reading _ -> None
 
+(* With [digits], or as few more as read back as the same number. *)
+let rec shortest digits n =
+  let text = Printf.sprintf "%.*g" digits n in
+  if digits >= 17 || float_of_string text = n then text else shortest (digits + 1) n
+
+let amount n = shortest 6 n
+
 (* The shortest decimal text that reads back as the same number. *)
 let text_of_number n =
   if Float.is_nan n then "NaN"
   else if n = 0. then "0.0" (* -0.0 is the same number *)
   else if Float.is_integer n && Float.abs n < 1e15 then Printf.sprintf "%.1f" n
-  else
-    let short = Printf.sprintf "%.15g" n in
-    if float_of_string short = n then short else Printf.sprintf "%.17g" n
+  else shortest 15 n
 
 let quoted s =
   let b = Buffer.create (String.length s + 2) in
@@ -305,8 +310,8 @@ and print_task left level ppf t =
     | All_of bs -> print "allOf { %a }" (Format.pp_print_list ~pp_sep:comma branch) bs
     | One_of bs -> print "oneOf { %a }" (Format.pp_print_list ~pp_sep:comma branch) bs
     | Until (_, a) -> prefixed "until { ... }" a
-    | Idle d -> print "idle(%g.seconds)" d
-    | During (Seconds d, a) -> prefixed (Printf.sprintf "during %g.seconds" d) a
+    | Idle d -> print "idle(%s.seconds)" (amount d)
+    | During (Seconds d, a) -> prefixed (Printf.sprintf "during %s.seconds" (amount d)) a
     | During (Given_by _, a) -> prefixed "during { ... }" a
     | Watch (a, _) -> parenthesised 0 (fun ppf -> Format.fprintf ppf "watch %a onError { ... }" (task 1) a)
 

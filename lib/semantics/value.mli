@@ -53,6 +53,10 @@ val length : t -> int option
 val to_string : t -> string
 (** [to_string x] is [x] as [message] shows it: strings bare, [[1, 2]], [[k:v]], vehicle sets as [[a, b]]. *)
 
+val amount : float -> string
+(** A number of seconds as labels have it: six digits at most, as C's [%g] writes them, or as few more as read back as
+    the same number. Whole ones have no point. *)
+
 val pp : Format.formatter -> t -> unit
 (** As a literal: strings in quotes, else as {!to_string}. *)
 

@@ -121,7 +121,8 @@ let rest_of_statement place i =
     | _ -> last (i + 1) depth
   in
   let first = place.tokens.(i).start.Lexing.pos_cnum in
-  let last = place.tokens.(last i 0).stop.Lexing.pos_cnum in
+  let depth = if is_opener (kind place i) then 1 else 0 in
+  let last = place.tokens.(last i depth).stop.Lexing.pos_cnum in
   let text = String.sub place.source first (last - first) in
   if String.length text <= 60 && not (String.contains text '\n') then text else "..."
 
@@ -134,9 +135,25 @@ let is_word = function
   | AFTER_UNTIL | AFTER_DURING | THEN | RUN | ON_ERROR | TRUE | FALSE | NULL -> true
   | _ -> false
 
+(* Whether the place is among the parameters of a function or of a closure. *)
+let is_parameter place =
+  let opener = opener place in
+  let rec arrow i =
+    match kind place i with
+    | ARROW -> true
+    | NAME _ | COMMA | INTEGER _ | NUMBER _ | STRING _ | ASSIGN -> arrow (i + 1)
+    | _ -> false
+  in
+  match kind place opener with
+  | LPAREN -> opener > 1 && kind place (opener - 2) = DEF
+  | LBRACE | TRAILING | BLOCK -> arrow place.index
+  | _ -> false
+
 let assignment place =
   match this place, head place with
   | ASSIGN, (IF | WHILE) -> Some ("'=' does not compare", "write '==' to compare")
+  | ASSIGN, _ when is_parameter place ->
+    Some ("a parameter has no value of its own", "give the value in each call, or test the parameter for null")
   | COMMAND _, FOR -> None
   | _, FOR ->
     Some ("a 'for' runs over the elements of something", "write for (x in xs) { ... }, such as for (i in 1..3)")
@@ -206,6 +223,8 @@ let misplaced_word place =
   | THEN -> Some ("'then' cannot stand here", "'then' follows when { ... } and waitFor { ... }")
   | RUN -> Some ("'run' cannot stand here", "'run' follows until { ... }, waitFor { ... } and during time")
   | ON_ERROR -> Some ("'onError' cannot stand here", "write watch task onError { error -> ... }")
+  | ARROW when (match before place 2, before place 1 with (NAME _ | COMMAND _), NAME _ -> true | _ -> false) ->
+    Some ("a name has no type before it", Printf.sprintf "write only %s" (text_of place (place.index - 1)))
   | ARROW when kind place (opener place) = BLOCK ->
     Some ("'->' cannot stand here",
           "this '{' opens a block; put a closure in parentheses: ({ a -> ... })")
@@ -236,6 +255,20 @@ let negative_argument place =
           Printf.sprintf "write %s(%s)" f (rest_of_statement place (first + 1)))
   | _ -> None
 
+(* [message (1), 2] and [message [1, 2]]: the bracket behind the name belongs to it alone. *)
+let greedy_bracket place =
+  let opener = opener place in
+  let first = statement (if kind place opener = LBRACKET then { place with index = opener } else place) in
+  let call f = Printf.sprintf "write %s(%s)" f (rest_of_statement place (first + 1)) in
+  match this place, kind place first, kind place (first + 1) with
+  | COMMA, NAME f, LPAREN when opener < first ->
+    Some ("unexpected ','", Printf.sprintf "parentheses behind %s hold all its arguments: %s" f (call f))
+  | COMMA, NAME f, LBRACKET when opener = first + 1 ->
+    Some ("unexpected ','", Printf.sprintf "brackets behind %s are for one of its elements: %s" f (call f))
+  | COLON, (NAME "execute" | COMMAND "execute"), _ when before place 1 = RBRACKET || before place 1 = RPAREN ->
+    Some ("unexpected ':'", "before a ':' stands a name: give these vehicles one, or write execute (task)[vehicles]")
+  | _ -> None
+
 let stray place =
   match this place, before place 1 with
   | (LBRACE | TRAILING), (STRING _ | TEMPLATE_CLOSE | INTEGER _ | NUMBER _) ->
@@ -255,7 +288,7 @@ let stray place =
   | _ -> None
 
 let rules = [
-  missing_parenthesis; missing_brace; missing_parameters; negative_argument; assignment; missing_word;
+  missing_parenthesis; missing_brace; missing_parameters; negative_argument; greedy_bracket; assignment; missing_word;
   misplaced_word; command; stray;
 ]
 

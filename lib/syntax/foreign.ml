@@ -8,6 +8,9 @@ let advice = function
   | "new" -> Some "write a map [name: value], or call a function"
   | "throw" -> Some "write halt 'reason'"
   | "do" -> Some "write while (...) { }"
+  | "void" | "final" | "static" | "public" | "private" -> Some "variables and functions begin with def"
+  | "as" -> Some "x.toString(), x.toInteger(), x.toDouble() and xs.toList() convert"
+  | "instanceof" -> Some "values have no types that a program can ask for"
   | _ -> None
 
 let is_word word = advice word <> None
@@ -19,6 +22,8 @@ let is_used word following =
   | "switch", LPAREN -> true
   | ("class" | "interface" | "enum" | "import" | "package" | "new"), (NAME _ | COMMAND _) -> true
   | "throw", (NAME _ | COMMAND _ | STRING _ | TEMPLATE_OPEN) -> true
+  | ("void" | "final" | "static" | "public" | "private"), (NAME _ | COMMAND _ | DEF) -> true
+  | ("as" | "instanceof"), NAME _ -> true
   | _ -> false
 
 let faults (tokens : Token.t array) =

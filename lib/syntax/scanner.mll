@@ -287,6 +287,7 @@ rule code state = parse
   | "-=" { emit state lexbuf (ASSIGN_OPERATOR Ast.Subtract) }
   | "*=" { emit state lexbuf (ASSIGN_OPERATOR Ast.Multiply) }
   | "/=" { emit state lexbuf (ASSIGN_OPERATOR Ast.Divide) }
+  | "%=" { emit state lexbuf (ASSIGN_OPERATOR Ast.Remainder) }
   | "++" { emit state lexbuf (STEP 1) }
   | "--" { emit state lexbuf (STEP (-1)) }
   | ".." { emit state lexbuf RANGE }
@@ -313,6 +314,15 @@ rule code state = parse
   | '!' { emit state lexbuf NOT }
   | "===" { mended state lexbuf EQUAL "there is no operator '==='" ~hint:"write '=='" }
   | "!==" { mended state lexbuf NOT_EQUAL "there is no operator '!=='" ~hint:"write '!='" }
+  | "<=>" { mended state lexbuf LESS "there is no operator '<=>'" ~hint:"sort by a key: xs.sort { x -> x.battery }" }
+  | ("==~" | "=~") as text {
+      mended state lexbuf EQUAL (Printf.sprintf "there is no operator '%s'" text)
+        ~hint:"texts have startsWith(s), endsWith(s) and contains(s)" }
+  | "?=" { mended state lexbuf ASSIGN "there is no operator '?='" ~hint:"write x = x ?: value" }
+  | "*." { mended state lexbuf DOT "there is no operator '*.'" ~hint:"write xs.collect { it.name }" }
+  | "!in" blank { mended state lexbuf IN "there is no operator '!in'" ~hint:"write !(x in xs)" }
+  | '.' digits as text {
+      mended state lexbuf (NUMBER 0.) "a number begins with a digit" ~hint:(Printf.sprintf "write 0%s" text) }
   | "=>" { mended state lexbuf ARROW "there is no '=>'" ~hint:"write '->' after parameters, '>=' to compare" }
   | "\xC2\xA0" { fault state (place state lexbuf) "a no-break space stands here" ~hint:"put an ordinary space" }
   | "\xE2\x80" ['\x90'-'\x95'] | "\xE2\x88\x92" {

@@ -79,3 +79,21 @@ let next r =
     (* What is left of a line never is a whole line of JSON. *)
     let first = "this is no journal, or not even its first line was written to its end" in
     entry text ~otherwise:(fun _ -> if number = 1 then wrong first else Torn number)
+
+let breaks_off channel =
+  let r = of_channel channel in
+  let rec is_begun () =
+    match next r with
+    | Line { entry = Transition _; _ } -> true
+    | Line _ -> is_begun ()
+    | Torn _ | End_of_file | Wrong _ -> false
+  in
+  let rec is_open last =
+    match read r with
+    | Whole text -> is_open text
+    | Unfinished "" -> (match Entry.of_string last with Ok (End _) -> false | Ok _ | Error _ -> true)
+    | Unfinished _ | Too_long -> true
+  in
+  match next r with
+  | Line { entry = Header _; _ } -> is_begun () && is_open ""
+  | Line _ | Torn _ | End_of_file | Wrong _ -> false

@@ -20,5 +20,9 @@ val next : t -> item
 val whole : t -> int
 (** [whole r] is how many bytes the lines have that were read so far and have an end. *)
 
+val breaks_off : in_channel -> bool
+(** [breaks_off channel]: from where it stands the channel has the journal of a run that took a transition at least and
+    has not ended. It is read to its end; what is no journal does not break off. *)
+
 val longest : int
 (** 16 MiB. *)

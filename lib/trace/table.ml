@@ -57,6 +57,8 @@ type state = {
 let add t time cells = if cells <> [] then t.rows <- { time; cells } :: t.rows
 let vehicles vs = String.concat ", " vs
 
+let amount = Dolphin_semantics.Value.amount
+
 let of_request : Request.t -> _ = function
   | Start { vehicle; plan } -> [ (Vehicle vehicle, "┌ " ^ plan) ]
   | Stop v -> [ (Vehicle v, "└ stopped") ]
@@ -67,9 +69,9 @@ let of_request : Request.t -> _ = function
   | Call what -> [ (Program, "calls " ^ what) ]
   | Look_for what -> [ (Program, "looks for " ^ what) ]
   | Set_connection_timeout { vehicles = None; seconds } ->
-    [ (Program, Printf.sprintf "connection timeout %g s" seconds) ]
+    [ (Program, Printf.sprintf "connection timeout %s s" (amount seconds)) ]
   | Set_connection_timeout { vehicles = Some vs; seconds } ->
-    [ (Program, Printf.sprintf "connection timeout %g s for %s" seconds (vehicles vs)) ]
+    [ (Program, Printf.sprintf "connection timeout %s s for %s" (amount seconds) (vehicles vs)) ]
   | End _ | Set_timer _ | Cancel_timer _ -> []
 
 let of_cause : Happening.t option -> _ = function

@@ -40,6 +40,16 @@ Bad answers are asked for again.
      0:00  program     asks: c? 4
      0:00  program     ends
 
+  $ dolphin exec ask.dol --answer '' --answer 0 --answer 0 --answer 0 --answer 0 | sed -n 1,3p
+     0:00  program     asks: b? 
+     0:00  program     cannot take this answer: unexpected end of the text (an expression is expected here)
+     0:00  program     asks: b? 0
+  $ printf '\n1\n' | dolphin exec ask.dol --answer 0 --answer 0 --answer 0 | tail -4
+     0:00  program     asks: c? 
+     0:00  program     cannot take this answer: unexpected end of the text (an expression is expected here)
+     0:00  program     asks: c? 1
+     0:00  program     ends
+
 So are those of the fleet: what comes next is standard input.
 
   $ cat > bad.fleet <<'EOF'

@@ -272,6 +272,13 @@ Usage.
   Try 'dolphin exec --help' or 'dolphin --help' for more information.
   [2]
 
+A fleet in place of a program.
+
+  $ echo "vehicle 'a', { type 'UUV' }" > a.fleet
+  $ dolphin exec a.fleet
+  dolphin: a.fleet: this is a fleet: name a program, and the fleet by --fleet a.fleet
+  [2]
+
 The programs that ran did what the semantics allows.
 
   $ check-journals

@@ -28,6 +28,9 @@ Nor need there be room for it.
   $ dolphin check long.dol > /dev/full
   dolphin: the output cannot be written: No space left on device
   [3]
+  $ dolphin exec long.dol > /dev/full
+  dolphin: the log cannot be written: No space left on device
+  [3]
 
 The programs that ran did what the semantics allows.
 

@@ -89,24 +89,26 @@ One that has vanished, and one that returns.
   $ kill $vehicles; wait $vehicles 2> wait.txt || true
 
 A vehicle that confirms nothing: its process is halted. The first interruption tells it to stop and waits for that to be
-confirmed, for five seconds at most; the second one ends the program at once.
+confirmed, for five seconds at most, and says so; the second one ends the program at once.
 
   $ vehicles 42280
   $ echo "v = pick { type 'UUV'; timeout 20.seconds }; execute imcPlan('long')" > long.dol
-  $ (sh -c 'echo $$ > pid.txt; exec dolphin exec long.dol --imc-loopback --imc-discovery-ports 42280-42284 > log.txt'
+  $ (sh -c 'echo $$ > pid.txt; exec dolphin exec long.dol --imc-loopback --imc-discovery-ports 42280-42284 > log.txt 2> errors.txt'
   >  echo $? > status.txt) &
   $ for i in $(seq 200); do grep -q 'starts long' log.txt 2> grep.txt && break; sleep 0.1; done
   $ kill -STOP $vehicles
-  $ kill -INT $(cat pid.txt); sleep 1; kill -INT $(cat pid.txt)
+  $ kill -INT $(cat pid.txt); sleep 3; kill -INT $(cat pid.txt)
   $ for i in $(seq 20); do [ -s status.txt ] && break; sleep 0.1; done; cat status.txt
   130
-  $ cut -c 10- log.txt | tail -3
+  $ cut -c 10- log.txt | tail -4; cat errors.txt
   noptilus-1  stops long
   program     releases noptilus-1
   program     is interrupted
+  program     noptilus-1: has not confirmed yet that it stopped plan long; waiting 3 s more
+  dolphin: interrupted twice: ended at once; vehicles that were not told to stop yet run on
   $ kill -CONT $vehicles; kill $vehicles; wait $vehicles 2> wait.txt || true
 
-With the first one only, it does wait, and ends.
+With the first one only, it does wait, and ends. What became of the plan nobody knows, and it says that.
 
   $ vehicles 42300
   $ rm status.txt log.txt
@@ -118,6 +120,9 @@ With the first one only, it does wait, and ends.
   waits
   $ for i in $(seq 80); do [ -s status.txt ] && break; sleep 0.1; done; cat status.txt
   130
+  $ cut -c 10- log.txt | tail -2
+  program     noptilus-1: has not confirmed yet that it stopped plan long; waiting 3 s more
+  program     noptilus-1: may still run plan long: it was not heard to have stopped
   $ kill -CONT $vehicles; kill $vehicles; wait $vehicles 2> wait.txt || true
 
 Nobody.
@@ -135,6 +140,9 @@ What does not go together, and what is no option.
   dolphin: option '--imc-payload': 'x8-02' is not like x8-02=Camera,Sidescan
   $ dolphin exec hello.dol --imc-id 1 2>&1 | head -1
   dolphin: option '--imc-id': '1' is not the IMC address of a console, from
+  $ dolphin exec hello.dol --imc-interface 192.0.2.1 --imc-discovery-ports 42240-42244
+  dolphin: no interface of this machine has the address 192.0.2.1
+  [3]
   $ dolphin exec hello.dol --imc-loopback --imc-discovery-ports 42240-42244
      0:00  program     says: hello
      0:00  program     ends

@@ -86,7 +86,8 @@ let case name ?keep ?until ~request commands ~verdict ~asked =
       let run = replay ?keep ?until ~request commands in
       Alcotest.check strings "verdict" verdict (verdicts run);
       Alcotest.check strings "requests" asked (requests run);
-      Alcotest.(check bool) "quiet" true (Station.quiet run.station))
+      Alcotest.(check bool) "quiet" true (Station.quiet run.station);
+      Alcotest.(check (list (pair string string))) "unsettled" [] (Station.unsettled run.station))
 
 (* {1 What may get lost} *)
 
@@ -159,11 +160,32 @@ let courtship =
         [ 0.; 3.; 4.; 5.; 6.; 7.; 8.; 9.; 10.; 11.; 12.; 13.; 14.; 15.; 16.; 17.; 27. ]
         (live 0. (station ~request:1, [])))
 
+(* The vehicle says nothing any more since the console sent the request of this number. *)
+let silent_since request =
+  let is_it line = match control (Recording.message line) with Some c -> c.request_id = request | None -> false in
+  let at = (List.find is_it (Lazy.force Recording.lines)).time in
+  fun (line : Recording.line) -> line.time <= at
+
+let unsettled =
+  Alcotest.test_case "what a silent vehicle may still run" `Quick (fun () ->
+      let check what plans run =
+        let expected = List.map (fun plan -> (Recording.vehicle, plan)) plans in
+        Alcotest.(check (list (pair string string))) what expected (Station.unsettled run.station)
+      in
+      let stopped = replay ~request:101 [ (101, `Start); (102, `Stop) ] ~keep:(silent_since 102) in
+      check "its stop is not confirmed" [ "planA" ] stopped;
+      let lost = replay ~request:109 [ (109, `Start) ] ~keep:(silent_since 109) in
+      check "it runs for the program" [] lost;
+      let lost = after ~now:200. lost (Station.tick ~now:200. lost.station) in
+      Alcotest.check strings "lost" [ "200.000 lauv-noptilus-1 failed: no word from the vehicle for 60 seconds" ]
+        (verdicts lost);
+      check "its link was given up" [ "planB" ] lost)
+
 let failed time why = [ Printf.sprintf "%.3f lauv-noptilus-1 failed: %s" time why ]
 
 let tests =
   ( "lifecycle",
-    [ seen; busy; courtship;
+    [ seen; busy; courtship; unsettled;
       case "start, then stop" ~request:101 [ (101, `Start); (102, `Stop) ] ~verdict:[]
         ~asked:[ "START 101 planA"; "STOP 102 planA" ];
       case "start, then stop, the reply being lost" ~request:101 [ (101, `Start); (102, `Stop) ]

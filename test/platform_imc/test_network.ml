@@ -108,6 +108,82 @@ execute imcPlan('long')
         Lwt.return_unit
       | other -> Alcotest.failf "%a" Driver.pp_outcome other)
 
+exception Disk_full
+
+(* The vehicle's answer to the first START cannot be kept. That is no reason not to see its stop through. *)
+let journal_breaks =
+  in_a_world "what cannot be kept ends the run, and vehicles are stopped" (fun () ->
+      let announce_ports = ports () in
+      let notes = ref [] in
+      let note vehicle text = notes := (vehicle, text) :: !notes in
+      let is_answer memo = match Memo.of_json memo with Some (Taken _ | Runs _) -> true | _ -> false in
+      let keep ~time:_ _ memo = if is_answer memo then raise Disk_full in
+      let platform = open_exn { (options ~note announce_ports) with keep } in
+      let quality = { Network.loss = 0.3; duplication = 0.; delay = 0. } in
+      let fate = fates [ ("long", Vehicle_model.Succeeds 60.) ] in
+      let vehicle id name = Udp_vehicle.start ~quality ~seed:id ~announce_ports ~id ~name ~fate () in
+      let a = vehicle 0x1A "noptilus-1" and b = vehicle 0x1B "noptilus-2" in
+      let run () =
+        run_program ~seconds:20. platform
+          {|
+v = pick { count 2; type 'UUV'; timeout 10.seconds }
+execute imcPlan('long') | imcPlan('long')
+|}
+      in
+      Lwt.catch
+        (fun () -> run () >>= fun outcome -> Alcotest.failf "%a" Driver.pp_outcome outcome)
+        (function Disk_full -> Lwt.return_unit | error -> Lwt.fail error)
+      >>= fun () ->
+      Alcotest.(check (list (pair string string))) "all stops are confirmed" [] !notes;
+      Lwt.join [ Udp_vehicle.stop a; Udp_vehicle.stop b ])
+
+(* A request must not be taken for lost while it waits for the disk: it would come twice. *)
+let slow_disk =
+  in_a_world "a disk that is slow: requests wait for it, together, and each leaves once" (fun () ->
+      let announce_ports = ports () in
+      let began = ref [] in
+      let sync () =
+        began := Unix.gettimeofday () :: !began;
+        Lwt_unix.sleep 2.5
+      in
+      let platform = open_exn { (options announce_ports) with sync = Some sync } in
+      let fate = fates [ ("long", Vehicle_model.Succeeds 0.5) ] in
+      let vehicle i = Udp_vehicle.start ~announce_ports ~id:(100 + i) ~name:(Printf.sprintf "v%d" i) ~fate () in
+      let vehicles = List.init 3 vehicle in
+      run_program ~seconds:20. platform
+        {|
+v = pick { count 3; type 'UUV'; timeout 10.seconds }
+execute imcPlan('long') | imcPlan('long') | imcPlan('long')
+|}
+      >>= fun result ->
+      Alcotest.check outcome "ends" (Driver.Ended Completed) result;
+      Alcotest.(check int) "one turn of the disk" 1 (List.length !began);
+      let starts = List.map Udp_vehicle.starts vehicles in
+      Alcotest.(check (list int)) "each once" [ 1; 1; 1 ] (List.map List.length starts);
+      let since_disk = List.concat_map (List.map (fun (time, _) -> time -. List.hd !began)) starts in
+      Alcotest.(check bool) "not before" true (List.for_all (fun seconds -> seconds >= 2.4) since_disk);
+      Lwt.join (List.map Udp_vehicle.stop vehicles))
+
+let broken_disk =
+  in_a_world "a disk that fails: no request leaves" (fun () ->
+      let announce_ports = ports () in
+      let notes = ref [] in
+      let note vehicle text = notes := (vehicle, text) :: !notes in
+      let sync () = Lwt_unix.sleep 0.2 >>= fun () -> Lwt.fail Disk_full in
+      let platform = open_exn { (options ~note announce_ports) with sync = Some sync } in
+      let fate = fates [ ("long", Vehicle_model.Succeeds 60.) ] in
+      let a = Udp_vehicle.start ~announce_ports ~id:0x1A ~name:"noptilus-1" ~fate () in
+      let run () =
+        run_program ~seconds:20. platform "v = pick { timeout 10.seconds }; execute imcPlan('long')"
+      in
+      Lwt.catch
+        (fun () -> run () >>= fun outcome -> Alcotest.failf "%a" Driver.pp_outcome outcome)
+        (function Disk_full -> Lwt.return_unit | error -> Lwt.fail error)
+      >>= fun () ->
+      Alcotest.(check int) "no start" 0 (List.length (Udp_vehicle.starts a));
+      Alcotest.(check (list (pair string string))) "nothing is left open" [] !notes;
+      Udp_vehicle.stop a)
+
 let nobody =
   in_a_world "nobody is there" (fun () ->
       let platform = open_exn (options (ports ())) in
@@ -151,4 +227,4 @@ execute all
       Printf.printf "end to next start: median %.1f ms, 99%% %.1f ms\n" (1000. *. at 0.5) (1000. *. at 0.99);
       Lwt.join (List.map Udp_vehicle.stop vehicles))
 
-let tests = ("network", [ program; bad_network; vanished; nobody; taken; many ])
+let tests = ("network", [ program; bad_network; vanished; journal_breaks; slow_disk; broken_disk; nobody; taken; many ])

@@ -47,7 +47,8 @@ let console = { Console.say = ignore; ask = (fun _ -> Lwt.return (Ok "2")); refu
 
 let options ~port ~keep =
   { Udp_platform.default with
-    loopback = true; announce_ports = List.init 5 (fun i -> port + i); close_patience = 2.; keep }
+    loopback = true; announce_ports = List.init 5 (fun i -> port + i); close_patience = 2.; keep;
+    sync = Some (fun () -> Lwt_unix.sleep 0.005) }
 
 let drive recorder platform beginning =
   let observer : Observer.t = { transition = Recorder.transition recorder; news = Recorder.news recorder } in
@@ -61,7 +62,7 @@ let drive recorder platform beginning =
   | Ended Completed -> 0
   | Ended _ | Stuck _ -> Format.eprintf "%a@." Driver.pp_outcome outcome; 1
 
-let keep_with recorder ~time ~urgent:_ vehicle note =
+let keep_with recorder ~time vehicle note =
   Recorder.write (Option.get !recorder) ~time (fun ~time -> Note { time; vehicle; note })
 
 let opened = function Ok platform -> platform | Error why -> failwith why

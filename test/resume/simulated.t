@@ -122,3 +122,35 @@ A question that was not answered is asked again; one that was is not, and the fl
      0:00  program     ends
   $ dolphin trace check ask.dol died.run
   died.run: a run, of 6 transitions in 0:00; completed
+
+A supplier is started anew. What it has answered it is not asked again, which it can tell from the numbers of requests.
+
+  $ cat > supplier.py <<'END'
+  > import json, sys
+  > for line in sys.stdin:
+  >     request = json.loads(line)
+  >     value = {"object": "numbers"} if request["call"] == "getSupplier" else request["id"]
+  >     print(json.dumps({"id": request["id"], "value": value}), flush=True)
+  > END
+  $ cat > numbers.dol <<'END'
+  > numbers = getSupplier()
+  > for (i in 1..3) { message numbers.next() }
+  > END
+  $ dolphin exec numbers.dol --supplier 'python3 supplier.py' --journal whole.run | grep -o 'says: .*'
+  says: 2
+  says: 3
+  says: 4
+  $ awk '/"event":"reply"/ && ++n == 3 { exit } { print }' whole.run > died.run
+  $ dolphin exec numbers.dol --resume died.run
+  dolphin: died.run: this run has a supplier, which died with its console: name it again with --supplier
+  [2]
+  $ dolphin exec numbers.dol --resume died.run --supplier 'python3 supplier.py'
+  dolphin: the supplier is started anew: 2 calls that it has answered in this run are not made again
+     0:00  program     is told 3
+     0:00  program     says: 3
+     0:00  program     calls numbers.next
+     0:00  program     is told 4
+     0:00  program     says: 4
+     0:00  program     ends
+  $ dolphin trace check numbers.dol died.run
+  died.run: a run, of 12 transitions in 0:00; completed

@@ -184,7 +184,7 @@ Pictures are whole documents that need nothing else.
   dolphin: option '-o': 'run.png' ends neither in .svg nor in .html
   Usage: dolphin trace draw [--output=FILE] [OPTION]… RUN
 
-A journal that cannot be written stops the run, and the vehicles.
+A journal that cannot be written stops the run, and the vehicles. If that can be seen before, nothing starts.
 
   $ dolphin exec ../../examples/sequence.dol --journal /dev/full
   dolphin: the journal cannot be written: /dev/full: No space left on device
@@ -192,8 +192,13 @@ A journal that cannot be written stops the run, and the vehicles.
   $ dolphin exec ../../examples/sequence.dol --journal missing/x.run
   dolphin: the journal cannot be written: missing/x.run: No such file or directory
   [3]
-  $ dolphin exec ../../examples/sequence.dol --draw missing/x.svg > /dev/null
+  $ dolphin exec ../../examples/sequence.dol --draw missing/x.svg
   dolphin: the picture cannot be written: missing/x.svg: No such file or directory
+  [3]
+
+  $ mkdir folder.svg
+  $ dolphin exec ../../examples/sequence.dol --draw folder.svg
+  dolphin: the picture cannot be written: folder.svg: this is a directory, not a file
   [3]
 
 Nor can it go over the program.
@@ -209,6 +214,24 @@ A console that is killed leaves the beginning of a run; one that is interrupted,
   $ (dolphin exec ../../examples/parallel.dol --speed 20 --journal killed.run > /dev/null & sleep 2; kill -9 $!) 2> /dev/null
   $ dolphin trace check ../../examples/parallel.dol killed.run | sed 's/, of [^;]*//; s/ in the middle of a line//'
   killed.run: the beginning of a run; it breaks off
+
+What it did is not written over: the run can be resumed. One that is over, or did nothing, is.
+
+  $ cp killed.run kept.run
+  $ dolphin exec ../../examples/parallel.dol --journal killed.run
+  dolphin: killed.run: this is the journal of a run that broke off: go on with it by --resume killed.run, or remove it
+  [3]
+  $ cp killed.run other.run
+  $ dolphin exec ../../examples/parallel.dol --resume other.run --journal killed.run
+  dolphin: killed.run: this is the journal of a run that broke off: go on with it by --resume killed.run, or remove it
+  [3]
+  $ cmp killed.run kept.run
+  $ dolphin exec ../../examples/parallel.dol --resume killed.run > /dev/null
+  $ dolphin exec ../../examples/parallel.dol --journal killed.run > /dev/null
+  $ head -1 kept.run > nothing.run
+  $ dolphin exec ../../examples/parallel.dol --journal nothing.run > /dev/null
+  $ dolphin trace check ../../examples/parallel.dol nothing.run | sed 's/, of [^;]*//'
+  nothing.run: a run; completed
   $ timeout --preserve-status -s INT 2 dolphin exec ../../examples/parallel.dol --speed 20 --journal stopped.run > /dev/null
   [130]
   $ dolphin trace check ../../examples/parallel.dol stopped.run | sed 's/, of [^;]*//'

@@ -16,7 +16,8 @@ let clocks () =
 let durations () =
   List.iter
     (fun (seconds, expected) -> text expected expected (Wording.duration seconds))
-    [ (0., "0 s"); (0.5, "0.5 s"); (90., "1.5 min"); (7200., "2 h") ]
+    [ (0., "0 s"); (0.5, "0.5 s"); (90., "1.5 min"); (7200., "2 h"); (3661., "1 h 1 min 1 s");
+      (1234567.5, "342 h 56.125 min") ]
 
 let harmless () =
   text "an escape sequence" "a?[31mb" (Wording.harmless "a\027[31mb");

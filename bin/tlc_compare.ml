@@ -54,7 +54,8 @@ let judge space theirs =
 let print_coverage graph =
   let used = Hashtbl.create 60 in
   let note rule = Hashtbl.replace used rule (1 + Option.value (Hashtbl.find_opt used rule) ~default:0) in
-  Graph.iter graph (fun _ l _ -> List.iter note (Printed_graph.rules (Graph.label graph l)));
+  let note_all l = List.iter note (List.sort_uniq String.compare (Printed_graph.rules (Graph.label graph l))) in
+  Graph.iter graph (fun _ l _ -> note_all l);
   let print rule =
     let name = Dolphin_semantics.Rule.name rule in
     match Hashtbl.find_opt used name with

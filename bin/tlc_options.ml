@@ -47,7 +47,7 @@ let distributed =
   Arg.(value & opt (some (conv (parse, print))) None & info [ "distributed" ] ~docv:"HOST:PORT" ~doc)
 
 let coverage =
-  let doc = "With $(b,--compare): print how often each rule of the semantics is used in TLC's graph." in
+  let doc = "With $(b,--compare): print in how many transitions of TLC's graph each rule of the semantics is used." in
   Arg.(value & flag & info [ "coverage" ] ~doc)
 
 let man =

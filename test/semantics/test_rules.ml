@@ -258,11 +258,15 @@ let are_documented () =
 
 (* An operator of its own in the specification, spelt [SEQ_1], or [ACTION_] where TLA+ has reserved the word. A rule
    with several conclusions has one for each, as [UNTIL_ERR] and [UNTIL_ERR_WHEN]. *)
-let specified () =
-  let operator = Str.regexp "^\\([A-Z][A-Z0-9_]+\\)\\((.*)\\)? ==" in
+let in_specification pattern =
+  let definition = Str.regexp pattern in
   List.filter_map
-    (fun line -> if Str.string_match operator line 0 then Some (Str.matched_group 1 line) else None)
+    (fun line -> if Str.string_match definition line 0 then Some (Str.matched_group 1 line) else None)
     (String.split_on_char '\n' (read "../../spec/Dolphin.tla"))
+
+let specified () = in_specification "^\\([A-Z][A-Z0-9_]+\\)\\((.*)\\)? =="
+let actions () = in_specification "^Take_\\([A-Z0-9_]+ == .*\\)$"
+let disjuncts () = in_specification {r|^  \(\\/ Take_.*\)$|r}
 
 let are_specified () =
   let operators = specified () in
@@ -276,7 +280,12 @@ let are_specified () =
   in
   let unknown = List.filter (fun operator -> not (List.exists (fun name -> is_of name operator) names)) operators in
   Alcotest.(check (list string)) "each rule is an operator of spec/Dolphin.tla" [] missing;
-  Alcotest.(check (list string)) "each operator of this spelling is a rule" [] unknown
+  Alcotest.(check (list string)) "each operator of this spelling is a rule" [] unknown;
+  let action name = Printf.sprintf {|%s == \E j \in Taking("%s") : Take(j)|} (spelt name) name in
+  Alcotest.(check (list string)) "each rule has an action" (List.map action names) (actions ());
+  let words = List.concat_map (String.split_on_char ' ') (disjuncts ()) in
+  let taken = List.filter (fun word -> word <> "" && word <> "\\/") words in
+  Alcotest.(check (list string)) "NextByRule takes each" (List.map (fun name -> "Take_" ^ spelt name) names) taken
 
 let are_tested () =
   let tested = List.sort_uniq String.compare (List.map (fun e -> Rule.name e.rule) examples) in

@@ -57,7 +57,7 @@ let translated source () =
   match translate source with
   | Ok files ->
     Alcotest.(check (list string)) "files"
-      [ "MC.tla"; "MC.cfg"; "Graph.cfg"; "Dolphin.tla"; "DolphinMachine.tla"; "DolphinValues.tla" ]
+      [ "MC.tla"; "MC.cfg"; "Told.cfg"; "Graph.cfg"; "Coverage.cfg"; "Dolphin.tla"; "DolphinMachine.tla"; "DolphinValues.tla" ]
       (List.map (fun (file : Model.file) -> file.name) files)
   | Error ds -> Alcotest.failf "refused:\n%s" (Pure_run.explain source ds)
 

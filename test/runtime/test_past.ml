@@ -71,7 +71,8 @@ let answers () =
   let found =
     Past.answers
       [ asked 1. [ Ask "How many?" ]; at 2. (Happened (Answered "2")); asked 3. [ Ask "Where?" ];
-        at 4. (Happened (Answered "here")); asked 5. [ Ask "When?" ]; at 6. (Happened (Nobody_answers "none is given")) ]
+        at 4. (Happened (Answered "here")); asked 5. [ Ask "When?" ];
+        at 6. (Happened (Nobody_answers "none is given")) ]
   in
   Alcotest.(check (list (pair string string))) "in order" [ ("How many?", "2"); ("Where?", "here") ] found
 

@@ -1,7 +1,7 @@
 open Dolphin_semantics
 open Dolphin_tlc
 
-let excused : Rule.t list = [ Call; Reply; Call_err; Interrupt ]
+let excused : Rule.t list = []
 
 type counted = { rule : Rule.t; taken : int; derivations : int }
 

@@ -15,7 +15,7 @@ mutate: tlc
 	dune build test/crosscheck/crosscheck.exe
 	_build/default/test/crosscheck/crosscheck.exe mutate
 
-# Which rules of the specification the examples use, and which actions TLC took.
+# That the examples use every rule of the specification, by TLC's own -coverage.
 coverage: tlc
 	dune build test/crosscheck/crosscheck.exe
 	_build/default/test/crosscheck/crosscheck.exe coverage

@@ -1,17 +1,10 @@
 open Cmdliner
+open Dolphin_results
 open Dolphin_conformance
 
 let ( let* ) = Result.bind
 
 (* {1 Cases} *)
-
-let all f xs =
-  let add found x =
-    let* found = found in
-    let* more = f x in
-    Ok (found @ more)
-  in
-  List.fold_left add (Ok []) xs
 
 let is_case path = Filename.check_suffix path ".json"
 
@@ -27,15 +20,15 @@ let rec files path =
     in
     let entries = Sys.readdir path in
     Array.sort String.compare entries;
-    all inside (Array.to_list entries)
+    Results.concat_map inside (Array.to_list entries)
 
 let read path =
   let* source = Text_file.read path in
   Result.map_error (fun why -> Printf.sprintf "%s: %s" path why) (Case.of_string ~path source)
 
 let load paths =
-  let* files = all files paths in
-  let* cases = all (fun path -> Result.map (fun case -> [ case ]) (read path)) files in
+  let* files = Results.concat_map files paths in
+  let* cases = Results.map read files in
   if cases = [] then Error (String.concat ", " paths ^ ": there are no cases here") else Ok cases
 
 (* {1 Implementations} *)
@@ -151,9 +144,9 @@ let verbose =
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) judges an implementation of Dolphin's semantics by the cases of a corpus. A case is a small program \
-        with its world, and says what must be so: that the program is rejected, which run it has, which outcomes all of \
-        its runs have, what it may and may not do. Cases in $(i,must-fail/) say what is not so: they pass if that is \
-        noticed.";
+        with its world, and says what must be so: that the program is rejected, which run it has, which outcomes all \
+        of its runs have, what it may and may not do. Cases in $(i,must-fail/) say what is not so: they pass if that \
+        is noticed.";
     `P "For each case that fails it is told what was expected and what was seen; the last line counts. \
         $(i,conformance/INTERPRETING.md) describes cases and the step protocol.";
     `S Manpage.s_examples;
@@ -162,7 +155,8 @@ let man =
   @ Options.see_also
 
 let exits =
-  [ Cmd.Exit.info 0 ~doc:"all cases pass."; Cmd.Exit.info 1 ~doc:"some do not; or with $(b,--matrix), no case is about some rule.";
+  [ Cmd.Exit.info 0 ~doc:"all cases pass.";
+    Cmd.Exit.info 1 ~doc:"some do not; or with $(b,--matrix), no case is about some rule.";
     Cmd.Exit.info 2 ~doc:"a case cannot be read, or the implementation does not speak the step protocol." ]
   @ Options.exits [ Bug; Interrupted ]
 

@@ -6,6 +6,7 @@ val argument : t Cmdliner.Arg.conv
 (** A name that ends in [.svg] or [.html]. *)
 
 val path : t -> string
+(** Where it is written. *)
 
 val check : t -> (unit, string) result
 (** Whether it seems that it can be written; the error says why not. Nothing is written yet. *)

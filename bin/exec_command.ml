@@ -71,7 +71,8 @@ let contradiction how ~sim ~follow ~resumed ~changed =
   else if changed && resumed = None then Some "--force-prefix goes with --resume"
   else None
 
-let run path sim fleet network definition speed seed answers supplier supplier_timeout journal drawing follow resumed changed =
+let run path sim fleet network definition speed seed answers supplier supplier_timeout journal drawing follow resumed
+    changed =
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
   let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
   let how = { network; named; speed; seed; answers; supplier; supplier_timeout; journal; drawing } in
@@ -156,8 +157,8 @@ let drawing =
 
 let follow =
   let doc =
-    "Take the steps of the run in the file $(docv), which $(mname) $(b,explore --trace) has written, and no others. The log has \
-     the numbers of steps where times would be."
+    "Take the steps of the run in the file $(docv), which $(mname) $(b,explore --trace) has written, and no others. \
+     The log has the numbers of steps where times would be."
   in
   Arg.(value & opt (some string) None & info [ "follow" ] ~docv:"FILE" ~doc)
 

@@ -11,6 +11,7 @@ type t =
   | Interrupted
 
 val code : t -> int
+(** The number that a shell sees. *)
 
 val info : t list -> Cmdliner.Cmd.Exit.info list
 (** For manual pages. *)

@@ -57,8 +57,9 @@ let print_outcome program s (o : Search.outcome) =
     | [] -> ""
     | names -> "; reduced by " ^ String.concat ", " names
   in
-  Printf.printf "%d states, %d transitions, depth %d, %.2f s, %d MiB%s\n" o.states o.transitions o.depth o.seconds
-    (mebibytes o.bytes) reduced;
+  let for_formulas = if o.formula_states = 0 then "" else Printf.sprintf "; %d states for formulas" o.formula_states in
+  Printf.printf "%d states, %d transitions, depth %d, %.2f s, %d MiB%s%s\n" o.states o.transitions o.depth o.seconds
+    (mebibytes o.bytes) reduced for_formulas;
   List.iter
     (fun (property, (verdict : Search.verdict), remark) ->
        match verdict with
@@ -111,7 +112,7 @@ let json_of_outcome (program : Dolphin_semantics.Core.program) (o : Search.outco
   in
   `Assoc
     [ ("states", `Int o.states); ("transitions", `Int o.transitions); ("depth", `Int o.depth);
-      ("seconds", `Float o.seconds); ("bytes", `Int o.bytes);
+      ("seconds", `Float o.seconds); ("bytes", `Int o.bytes); ("formula_states", `Int o.formula_states);
       ("reductions", `List (List.map (fun name -> `String name) (Dolphin_explore.Reduction.names o.reduction)));
       ("verdicts", `List (List.map verdict o.verdicts)) ]
 

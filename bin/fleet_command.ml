@@ -159,8 +159,8 @@ let seconds =
     Arg.conv ~docv:"SECONDS" (parse, Format.pp_print_float)
   in
   let doc =
-    "Look for $(docv) seconds. By default until Ctrl-C, and with $(b,--once) for 16: after so long every vehicle with the \
-     usual settings has announced itself and spoken to us."
+    "Look for $(docv) seconds. By default until Ctrl-C, and with $(b,--once) for 16: after so long every vehicle with \
+     the usual settings has announced itself and spoken to us."
   in
   Arg.(value & opt (some positive) None & info [ "seconds" ] ~docv:"SECONDS" ~doc)
 
@@ -169,8 +169,8 @@ let man =
     `P "$(tname) listens for systems that speak IMC over UDP and shows them: their names as programs pick them, types, \
         addresses, positions, modes, batteries, payload, the plan that runs, and for how long nothing was heard of \
         them. Programs can pick those in mode SERVICE.";
-    `P "It introduces itself to vehicles as a console does, for otherwise they would not speak to it. It asks nothing of \
-        them but their lists of entities.";
+    `P "It introduces itself to vehicles as a console does, for otherwise they would not speak to it. It asks nothing \
+        of them but their lists of entities.";
     `P "With $(b,--json) and $(b,--imc-xml) each system has $(b,messages) too: an object for each kind of message that \
         it sends, with its number ($(b,id)), how many came ($(b,count)) and what the last one said.";
     `S Manpage.s_options;

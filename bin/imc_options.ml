@@ -24,8 +24,8 @@ let address =
 
 let interfaces =
   let doc =
-    "Use the network interface that has this address of this machine. May be repeated. By default all are used. Implies \
-     $(b,--imc)."
+    "Use the network interface that has this address of this machine. May be repeated. By default all are used. \
+     Implies $(b,--imc)."
   in
   Arg.(value & opt_all address [] & info [ "imc-interface" ] ~docs:s_network ~docv:"ADDRESS" ~doc)
 
@@ -47,8 +47,8 @@ let port =
 
 let id =
   let doc =
-    "Be the system $(docv) of the network, for example 0x4001. By default one is drawn for each run, as vehicles forget \
-     a console that comes back on another port only when they restart. Implies $(b,--imc)."
+    "Be the system $(docv) of the network, for example 0x4001. By default one is drawn for each run, as vehicles \
+     forget a console that comes back on another port only when they restart. Implies $(b,--imc)."
   in
   let ids = number ~least:0x4000 ~most:0x5FFF "the IMC address of a console" in
   Arg.(value & opt (some ids) None & info [ "imc-id" ] ~docs:s_network ~docv:"ID" ~doc)

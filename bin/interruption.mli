@@ -13,3 +13,4 @@ val promise : t -> unit Lwt.t
 (** Resolves at the first interruption. *)
 
 val happened : t -> bool
+(** Whether there was an interruption so far. *)

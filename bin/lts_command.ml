@@ -124,10 +124,10 @@ let limit =
 
 let man =
   [ `S Manpage.s_description;
-    `P "$(tname) writes the labelled transition system of a program in its world: its states are the configurations, its \
-        transitions carry the labels of $(i,docs/semantics.md). The world is that of $(mname) $(b,explore).";
-    `P "With $(b,--compare) it tells two such graphs apart, by a formula that only one of them fulfils and, where there is \
-        one, a run that only one of them has.";
+    `P "$(tname) writes the labelled transition system of a program in its world: its states are the configurations, \
+        its transitions carry the labels of $(i,docs/semantics.md). The world is that of $(mname) $(b,explore).";
+    `P "With $(b,--compare) it tells two such graphs apart, by a formula that only one of them fulfils and, where \
+        there is one, a run that only one of them has.";
     `S Manpage.s_examples;
     `Pre "  $(mname) $(tname) examples/parallel.dol -o parallel.aut\n\
          \  $(mname) $(tname) examples/parallel.dol --quotient strong --format dot | dot -Tsvg > parallel.svg\n\
@@ -141,5 +141,6 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ graph $ compare_with $ Options.fleet $ Explore_command.answers $ Explore_command.faults $ limit $ format
+      const run $ graph $ compare_with $ Options.fleet $ Explore_command.answers $ Explore_command.faults $ limit
+      $ format
       $ quotient $ output)

@@ -9,6 +9,7 @@ val fleet : string option Term.t
 (** [--fleet FLEET]. *)
 
 val exits : Exit_status.t list -> Cmd.Exit.info list
+(** What each of them means, for a manual page. *)
 
 val see_also : Manpage.block list
 (** The end of every manual page. *)

@@ -64,7 +64,8 @@ let print_named definition name found outcome : Exit_status.t =
   | plans -> (
       match List.filter_map (fun f -> f.plan) plans with
       | [] ->
-        Report.complain (Printf.sprintf "'%s' is a plan that vehicles know by name: the program does not describe it" name);
+        Report.complain
+          (Printf.sprintf "'%s' is a plan that vehicles know by name: the program does not describe it" name);
         Failed
       | plans -> List.iter (show definition) plans; Done)
 
@@ -105,12 +106,12 @@ let answers =
 
 let man =
   [ `S Manpage.s_description;
-    `P "$(tname) prints the inline plan $(i,NAME) of the program $(i,PROG) as IMC vehicles get it: a PlanSpecification, \
-        in JSON. Angles are in radians there, lengths in metres, times in seconds.";
-    `P "What a plan is depends on what the program computes. So the program is run, on simulated vehicles and in no time, \
-        as $(mname) $(b,exec) does without $(b,--imc), and the plans are those that vehicles are given in that run. A \
-        plan that is not started in it is not found: another fleet, seed or answer may lead to it. If vehicles are \
-        given different plans of one name, all are printed.";
+    `P "$(tname) prints the inline plan $(i,NAME) of the program $(i,PROG) as IMC vehicles get it: a \
+        PlanSpecification, in JSON. Angles are in radians there, lengths in metres, times in seconds.";
+    `P "What a plan is depends on what the program computes. So the program is run, on simulated vehicles and in no \
+        time, as $(mname) $(b,exec) does without $(b,--imc), and the plans are those that vehicles are given in that \
+        run. A plan that is not started in it is not found: another fleet, seed or answer may lead to it. If vehicles \
+        are given different plans of one name, all are printed.";
     `S Manpage.s_arguments;
     `S Manpage.s_options;
     `S Imc_options.s_network;

@@ -79,9 +79,9 @@ let lasts =
 
 let man =
   [ `S Manpage.s_description;
-    `P "$(tname) puts the vehicles of a fleet file on the network. Each is a system that speaks IMC over UDP as a vehicle \
-        with DUNE does: it announces itself, sends its state to consoles, takes plans and runs them. What becomes of \
-        plans, when vehicles join, lose their link and leave, is as the fleet file says.";
+    `P "$(tname) puts the vehicles of a fleet file on the network. Each is a system that speaks IMC over UDP as a \
+        vehicle with DUNE does: it announces itself, sends its state to consoles, takes plans and runs them. What \
+        becomes of plans, when vehicles join, lose their link and leave, is as the fleet file says.";
     `P "When all vehicles can be found, a line for each is printed: its name, type, number and port. They go on until \
         Ctrl-C, or for the time given by $(b,--for).";
     `S Manpage.s_arguments;
@@ -93,7 +93,8 @@ let man =
     `S Manpage.s_exit_status;
     `S Manpage.s_examples;
     `P "A fleet whose missions take a tenth of their time, on a bad link:";
-    `Pre "  $(mname) $(tname) examples/rendezvous.fleet --imc --speed 10 --loss 0.3 --duplication 0.1 --reordering 0.2" ]
+    `Pre "  $(mname) $(tname) examples/rendezvous.fleet --imc --speed 10 --loss 0.3 --duplication 0.1 \
+          --reordering 0.2" ]
   @ Options.see_also
 
 let command =

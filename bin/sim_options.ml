@@ -69,9 +69,10 @@ let block =
     | _ -> None
   in
   let parse text =
-    match named text with
-    | name, Some rest when span rest <> None -> Ok (name, Option.get (span rest))
-    | _ -> Error (`Msg (Printf.sprintf "'%s' is not of the form VEHICLE=FROM,LASTING, both in seconds" text))
+    let name, rest = named text in
+    match Option.bind rest span with
+    | Some span -> Ok (name, span)
+    | None -> Error (`Msg (Printf.sprintf "'%s' is not of the form VEHICLE=FROM,LASTING, both in seconds" text))
   in
   let print ppf (name, (from, lasts)) = Format.fprintf ppf "%s=%g,%g" name from lasts in
   Arg.conv ~docv:"VEHICLE=FROM,LASTING" (parse, print)
@@ -85,9 +86,10 @@ let vanishing =
     | _ -> None
   in
   let parse text =
-    match named text with
-    | name, Some rest when span rest <> None -> Ok (name, Option.get (span rest))
-    | _ -> Error (`Msg (Printf.sprintf "'%s' is not of the form VEHICLE=FROM or VEHICLE=FROM,LASTING" text))
+    let name, rest = named text in
+    match Option.bind rest span with
+    | Some span -> Ok (name, span)
+    | None -> Error (`Msg (Printf.sprintf "'%s' is not of the form VEHICLE=FROM or VEHICLE=FROM,LASTING" text))
   in
   let print ppf (name, (from, lasts)) = Format.fprintf ppf "%s=%g,%g" name from lasts in
   Arg.conv ~docv:"VEHICLE=FROM[,LASTING]" (parse, print)

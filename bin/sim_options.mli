@@ -11,4 +11,7 @@ val natural : float Arg.conv
 (** {1:sections Sections of the manual page} *)
 
 val faults_section : string
+(** The section of manual pages that has the options on what goes wrong. *)
+
 val network_section : string
+(** Likewise on what the network does to datagrams. *)

@@ -103,9 +103,13 @@ let man =
         that it extends, of which $(b,Dolphin.tla) is the semantics, rule by rule. The world is that of $(mname) $(b,explore), \
         with the same $(b,--faults), and what sensors show is open in the same way: TLC finds the states and transitions of $(mname) $(b,explore \
         --reduction none).";
-    `P "$(b,MC.cfg) checks the properties, $(b,Graph.cfg) prints the state graph. In the directory, with TLC's jar:";
+    `P "$(b,MC.cfg) checks the properties; $(b,Told.cfg) too, and has TLC show of a run what is seen of each state, and the \
+        label and the rules of each transition (by an $(b,ALIAS), which the TLC that $(b,make tlc) fetches does not know yet); \
+        $(b,Graph.cfg) prints the state graph; $(b,Coverage.cfg) has an action for each rule, for TLC to count. In the \
+        directory, with TLC's jar:";
     `Pre "  java -Xss64m -cp tla2tools.jar tlc2.TLC -config MC.cfg MC.tla\n\
-         \  java -Xss64m -cp tla2tools.jar tlc2.TLC -workers 1 -config Graph.cfg MC.tla";
+         \  java -Xss64m -cp tla2tools.jar tlc2.TLC -workers 1 -config Graph.cfg MC.tla\n\
+         \  java -Xss64m -cp tla2tools.jar tlc2.TLC -config Coverage.cfg -coverage 1 MC.tla";
     `P "What has no meaning in TLA+ is refused, with its place in the program: calls of a supplier, and coordinates that the \
         program computes. What is known only when TLC gets there ends it, with status 3: numbers that it cannot hold, and more than comparisons that \
         depends on what a sensor shows.";

@@ -30,7 +30,8 @@ let graph_of_tlc installation ~directory =
              (outcome.generated - 1) (Printed_graph.states printed) (Printed_graph.transitions printed));
         Error Exit_status.Inconclusive
       | Some problem, _ | None, Error problem ->
-        Report.complain (Format.asprintf "the graph that TLC printed cannot be read: %a" Printed_graph.pp_problem problem);
+        Report.complain
+          (Format.asprintf "the graph that TLC printed cannot be read: %a" Printed_graph.pp_problem problem);
         Error Exit_status.Inconclusive)
 
 (* Beside its transitions a graph has what is seen of each state, as transitions from it to itself. *)
@@ -42,16 +43,19 @@ let judge space theirs =
     Exit_status.Done
   | Error difference ->
     Format.printf
-      "not isomorphic. Left is the explorer's graph, right TLC's; what is seen of a state counts as a transition that stays there, \
-       in parentheses.@.%a@."
+      "not isomorphic. Left is the explorer's graph, right TLC's; what is seen of a state counts as a transition that \
+       stays there, in parentheses.@.%a@."
       Isomorphism.pp_difference difference;
-    (match difference.reason with Undecided -> Inconclusive | _ -> Violated)
+    (match difference.reason with
+     | Undecided -> Inconclusive
+     | Enabled _ | Merged _ | Unmatched _ | No_matching -> Violated)
 
 (* Rules in the order of the semantics. *)
 let print_coverage graph =
   let used = Hashtbl.create 60 in
   let note rule = Hashtbl.replace used rule (1 + Option.value (Hashtbl.find_opt used rule) ~default:0) in
-  Graph.iter graph (fun _ l _ -> List.iter note (Printed_graph.rules (Graph.label graph l)));
+  let note_all l = List.iter note (List.sort_uniq String.compare (Printed_graph.rules (Graph.label graph l))) in
+  Graph.iter graph (fun _ l _ -> note_all l);
   let print rule =
     let name = Dolphin_semantics.Rule.name rule in
     match Hashtbl.find_opt used name with

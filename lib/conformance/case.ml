@@ -1,3 +1,4 @@
+open Dolphin_results
 open Dolphin_trace.Field
 
 type json = Yojson.Safe.t
@@ -67,12 +68,7 @@ let sorted read json = Result.map (List.sort compare) (read json)
 
 let texts_by_name json =
   let* found = members json in
-  let add texts (name, json) =
-    let* texts = texts in
-    let* x = text json in
-    Ok ((name, x) :: texts)
-  in
-  Result.map (List.sort compare) (List.fold_left add (Ok []) found)
+  Result.map (List.sort compare) (Results.map_values text found)
 
 let lines json = Result.map (String.concat "\n") (list text json)
 
@@ -141,22 +137,13 @@ let expectation (name, json) =
 
 let expectations json =
   let* found = members json in
-  let add all one =
-    let* all = all in
-    let* more = expectation one in
-    Ok (all @ more)
-  in
-  let* all = List.fold_left add (Ok []) found in
+  let* all = Results.concat_map expectation found in
   if all = [] then Error "nothing is expected" else Ok all
 
+(* Of answers to one prompt, the last ones hold. *)
 let answers json =
   let* found = members json in
-  let add all (prompt, json) =
-    let* all = all in
-    let* texts = list text json in
-    Ok ((prompt, texts) :: all)
-  in
-  List.fold_left add (Ok []) found
+  Result.map List.rev (Results.map_values (list text) found)
 
 let nothing = { fails = []; may_fail = []; answers = []; replies = []; interruption = false }
 

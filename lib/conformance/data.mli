@@ -13,6 +13,8 @@ type budget
 (** How much may still be written. A task that shares its parts with itself may be small in memory and huge as text. *)
 
 val budget : unit -> budget
+(** What one line may hold. *)
+
 val part : budget -> (unit -> json) -> json
 (** [part budget write] is [write ()], one part of the whole, with its own parts inside.
 
@@ -25,12 +27,17 @@ val tagged : string -> json list -> json
 (** [tagged name parts] is the list of [name] and [parts]. *)
 
 val whole : json -> int
+(** These read a number, a text, a truth value, a list whose elements [read] reads, a list of two.
+    @raise Wrong if it is something else; so do the others. *)
+
 val text : json -> string
 val truth : json -> bool
 val list : (json -> 'a) -> json -> 'a list
 val pair : (json -> 'a) -> (json -> 'b) -> json -> 'a * 'b
 
 val of_list : ('a -> json) -> 'a list -> json
+(** These write what the readers of that name read. *)
+
 val of_pair : ('a -> json) -> ('b -> json) -> 'a * 'b -> json
 val of_option : ('a -> json) -> 'a option -> json
 val option : (json -> 'a) -> json -> 'a option

@@ -42,14 +42,19 @@ val steps : ask -> place -> json list option -> steps
 (** {1:configurations What a configuration shows} *)
 
 val ending : json -> (string * string option) option
+(** How the run ended, and its message; [None] before its end. *)
+
 val running : json -> (string * string) list
 (** A, by vehicle, sorted. *)
 
 val bound : json -> string list
+(** B, in pick order. *)
+
 val pairs : json -> string list
 (** N, sorted. *)
 
 val store : json -> (string * string) list
+(** The variables that have a value, sorted by name. *)
 
 val key : json -> string
 (** Equal for configurations that are equal, in whatever order their members are. *)

@@ -3,6 +3,7 @@
 type t
 
 val empty : t
+(** No cases. *)
 
 val add : name:string -> covers:string list -> taken:string list -> t -> t
 (** [add ~name ~covers ~taken m] is [m] with case [name], which is about the rules [covers] and takes the rules

@@ -1,3 +1,4 @@
+open Dolphin_results
 open Dolphin_semantics
 open Dolphin_trace
 open Dolphin_trace.Field
@@ -104,14 +105,6 @@ let rec bounded n (xs : 'a Seq.t) =
   | Seq.Cons _ when n = 0 -> Error (Too_large (Printf.sprintf "there are more than %d transitions" most_transitions))
   | Seq.Cons (x, rest) -> Result.map (fun xs -> x :: xs) (bounded (n - 1) rest)
 
-let each f xs =
-  let add found x =
-    let* found = found in
-    let* y = f x in
-    Ok (y :: found)
-  in
-  Result.map List.rev (List.fold_left add (Ok []) xs)
-
 let of_transition g c event (t : Transition.t) =
   let* next = configuration g.program t.next in
   let step = Step.members (Step.of_transition g.program c t) in
@@ -172,9 +165,9 @@ let deliver g world c happening =
 
 let step_of g world c events =
   let* internal = bounded most_transitions (Transition.internal g.program world c) in
-  let* internal = each (of_transition g c None) internal in
+  let* internal = Results.map (of_transition g c None) internal in
   let there = awaited g world c in
-  let* delivered = each (deliver g world c) (Option.value events ~default:(plain there)) in
+  let* delivered = Results.map (deliver g world c) (Option.value events ~default:(plain there)) in
   let caused, refused = List.partition_map Fun.id delivered in
   let refused = if refused = [] then [] else [ ("refused", `List refused) ] in
   Ok ([ ("transitions", `List (internal @ caused)); ("awaited", of_awaited c there) ] @ refused)

@@ -8,6 +8,8 @@ val of_value : Data.budget -> Core.value -> Data.json
 (** @raise Data.Too_large as {!Data.part} does; so do the others. *)
 
 val of_closure : Data.budget -> Core.closure -> Data.json
+(** The number of its lambda, and the values that it captured. *)
+
 val of_platform_task : Data.budget -> Core.platform_task -> Data.json
 val of_duration : Data.budget -> Core.duration -> Data.json
 val of_task : Data.budget -> Core.task -> Data.json

@@ -13,6 +13,7 @@ type t
 (** What the log remembers of the run so far. *)
 
 val start : t
+(** Before the first line. *)
 
 val transition : ?stuck:bool -> t -> time:float -> Transition.t -> t * string list
 (** [transition l ~time s] is the lines that tell of [s], in the order in which things happen, and the log after it.

@@ -2,9 +2,9 @@ open Dolphin_semantics
 open Part
 module Shareds = Interner.Make (Shared)
 
-type t = { parts : Parts.t; shareds : Shareds.t }
+type t = { parts : Parts.t; shareds : Shareds.t; observe : (Transition.local -> int) option }
 
-let create parts = { parts; shareds = Shareds.create () }
+let create ?observe parts = { parts; shareds = Shareds.create (); observe }
 let shareds t = t.shareds
 let unknown = -1
 let impossible = -2
@@ -77,19 +77,30 @@ let grown xs length x =
   Array.blit xs 0 longer 0 (Array.length xs);
   longer
 
+let observed t local = match t.observe with None -> 0 | Some observe -> observe local
+
 let guarded t step guard s =
-  if s >= Array.length guard.results then guard.results <- grown guard.results (s + 1) unknown;
+  if s >= Array.length guard.results then begin
+    guard.results <- grown guard.results (s + 1) unknown;
+    if t.observe <> None then guard.actions <- grown guard.actions (s + 1) unknown
+  end;
   if guard.results.(s) = unknown then
     guard.results.(s) <-
       (match taken t step s with
        | [], _ -> impossible
        | [ { local = { named = Check _ | Act _ | Cut _; _ } as local; certain = true; _ } ], outside ->
+         if t.observe <> None then guard.actions.(s) <- observed t local;
          shared_after t local outside
        | _ :: _, _ -> special);
   guard.results.(s)
 
+let action t step s =
+  if step.free_action < 0 then
+    step.free_action <- (match taken t step s with { local; _ } :: _, _ -> observed t local | [], _ -> 0);
+  step.free_action
+
 let no_case =
-  { possible = false; certain = true; shared = -1; level = 0; result = Gone; whole = -1; others = [] }
+  { possible = false; certain = true; shared = -1; action = 0; level = 0; result = Gone; whole = -1; others = [] }
 
 let find t step s =
   let found, outside = taken t step s in
@@ -100,7 +111,8 @@ let find t step s =
       | Over -> Gone
       | Ends ending -> Ends ending
     in
-    { possible = true; certain; shared = shared_after t local outside; level; result; whole = -1; others }
+    let shared = shared_after t local outside and action = observed t local in
+    { possible = true; certain; shared; action; level; result; whole = -1; others }
   in
   match found with
   | [] -> { no_case with possible = false }

@@ -1,10 +1,14 @@
 (** What steps of parts and of nests do when so and so is shared, each worked out once, by the transition function. *)
 
+open Dolphin_semantics
+
 module Shareds : module type of Interner.Make (Shared)
 
 type t
 
-val create : Parts.t -> t
+val create : ?observe:(Transition.local -> int) -> Parts.t -> t
+(** [observe local] is a number for what a step did, kept as the [action] of steps, guards and cases; 0 by default. *)
+
 val shareds : t -> Shareds.t
 
 val unknown : int
@@ -19,6 +23,9 @@ val special : int
 val guarded : t -> Part.step -> Part.guard -> int -> int
 (** [guarded t step guard s] is the result of [guard] for shared number [s]: the number of what is shared after it, or
     one of the above. *)
+
+val action : t -> Part.step -> int -> int
+(** [action t step s] is the number of what [step], which is [Free], does; it is possible when [s] is shared. *)
 
 val case : t -> Part.step -> int -> Part.case
 (** [case t step s] is what [step] does when [s] is shared. *)

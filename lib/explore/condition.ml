@@ -132,4 +132,7 @@ let eval program world t c =
   | _ -> Broken "it depends on what sensors show, which may be this or that in one state"
   | exception Reading.Unsettled fault -> Broken fault.message
 
-let only_shared t = List.for_all (function _, Bound _ -> true | _, Running _ -> false) t.questions
+let running t =
+  List.filter_map (function _, Bound _ -> None | _, Running (plan, v) -> Some (plan, v)) t.questions
+
+let only_shared t = running t = []

@@ -19,5 +19,9 @@ type answer =
 
 val eval : Core.program -> World.t -> t -> Configuration.t -> answer
 
+val running : t -> (string * string option) list
+(** The plans, each perhaps with a vehicle, of which it asks whether they run. Otherwise the answer is a function of the
+    store, B and N. *)
+
 val only_shared : t -> bool
-(** Whether the answer is a function of the store, B and N: [running] is not asked. *)
+(** Whether [running] is not asked. *)

@@ -7,7 +7,7 @@ type lasso = {
   around : int list;  (** from its last one back to it *)
 }
 
-val find : interrupted:(unit -> bool) -> Space.t -> lasso option
-(** [find ~interrupted s] is a cycle of [s], all of whose states have been expanded, with a shortest way to it and the
+val find : tick:(unit -> unit) -> Space.t -> lasso option
+(** [find ~tick s] is a cycle of [s], all of whose states have been expanded, with a shortest way to it and the
     shortest way around. Where [Space.may_cycle] is [false] there is none, and the graph need not be searched.
-    @raise Exit once [interrupted ()]. *)
+    [tick] is called at each state. *)

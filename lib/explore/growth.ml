@@ -1,6 +1,8 @@
 open Dolphin_semantics
 open Part
 
+type arrival = { into : int; by : Symmetry.permutation option; letter : int }
+
 type t = {
   options : Environment.options;
   reduction : Reduction.t;
@@ -18,7 +20,11 @@ type t = {
   script : Script_graph.t;
   mutable fresh : int -> int -> unit;  (* what is done with new states, by number and first word *)
   mutable gathering : bool;
-  mutable gathered : (int * Symmetry.permutation option) list;
+  mutable gathered : arrival list;
+  watch : Watch.t option;
+  mutable watched : int;  (* what the watch knows of the state being expanded *)
+  mutable action : int;  (* of the step being taken, for the watch *)
+  mutable shown : int;  (* the first state that shows a violation, or -1 *)
   symmetries : Symmetries.t option;
   folding : Folding.t;
   mutable folded : int array;  (* a state's canonical form *)
@@ -41,7 +47,8 @@ let load t i =
 
 (* Everything in fields that are wide enough. *)
 let repack t =
-  let rewritten = Words.widened t.words in
+  let watched = match t.watch with None -> 0 | Some w -> Dolphin_ltl.Monitor.count (Watch.monitor w) in
+  let rewritten = Words.widened t.words ~watched in
   let words = Shapes.words t.shapes in
   t.states <- States.rewrite t.states ~words rewritten;
   t.key <- Array.make words 0;
@@ -57,15 +64,39 @@ let broken t property =
   | -1 -> None
   | i -> Some i
 
+let note_shown t i = if t.shown < 0 then t.shown <- i
+
 let fresh t i word =
+  (match t.watch with
+   | Some w when Dolphin_ltl.Monitor.is_certain (Watch.monitor w) (Shapes.watched t.shapes word) -> note_shown t i
+   | Some _ | None -> ());
   if Shapes.number t.shapes word = 0 then
     Option.iter (fun property -> note_broken t property i) (Words.broken t.words (Shapes.shared t.shapes word))
 
 let flush t = States.flush t.states ~fresh:t.fresh
 
-let add t key permutation parent =
-  if t.gathering then t.gathered <- (States.find t.states key, permutation) :: t.gathered
+let put t key by letter parent =
+  if t.gathering then t.gathered <- { into = States.find t.states key; by; letter } :: t.gathered
   else States.push t.states key ~parent ~fresh:t.fresh
+
+let put_watched t w key by parent =
+  let letter = Watch.letter w t.words t.action key in
+  let watched = Dolphin_ltl.Monitor.next (Watch.monitor w) t.watched letter in
+  if watched >= 0 then begin
+    let word = key.(0) in
+    key.(0) <- Shapes.watching t.shapes word watched;
+    put t key by letter parent;
+    key.(0) <- word
+  end
+
+let add t key by parent =
+  match t.watch with
+  | None -> put t key by 0 parent
+  | Some w -> put_watched t w key by parent
+
+let note_stuck t i =
+  let stays w = Dolphin_ltl.Monitor.stays (Watch.monitor w) t.watched (Watch.letter w t.words Letters.nothing t.key) in
+  if Option.fold ~none:false ~some:stays t.watch then note_shown t i
 
 let visit t key parent =
   match Shapes.number t.shapes key.(0) with
@@ -173,6 +204,7 @@ let go_to t (s : Shape.t) (place : Shape.place) target shared shared' i =
 let ends_run (case : case) = match case.result with Ends _ -> true | Stays _ | Gone | Becomes _ -> false
 
 let take_case t (s : Shape.t) place (case : case) shared i =
+  t.action <- case.action;
   match case.result with
   | Ends ending ->
     if case.whole < 0 then case.whole <- concluded t s case.shared (Ends ending);
@@ -199,10 +231,11 @@ let go_to_ends t (s : Shape.t) place step shared i =
 
 (* {1 Beginning} *)
 
-let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore) options program world =
+let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore) ?watch options program world =
   let foreseen = if Reduction.by_order reduction then Some 0 else None in
   let parts = Parts.create ?foreseen options program world in
-  let cases = Cases.create parts in
+  let observe = Option.map (fun w -> Letters.action_of_local (Watch.letters w)) watch in
+  let cases = Cases.create ?observe parts in
   let shareds = Cases.shareds cases in
   let symmetries =
     (* Where the outside remembers vehicles, they are not alike. *)
@@ -211,7 +244,8 @@ let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore
       Some (Symmetries.create options program { number; value })
     else None
   in
-  let words = Words.create ?find_symmetry:(Option.map Symmetries.find symmetries) parts cases in
+  let find_symmetry = Option.map Symmetries.find symmetries in
+  let words = Words.create ?find_symmetry ?watched:(Option.map (fun _ -> 1) watch) parts cases in
   let t =
     {
       options;
@@ -231,6 +265,10 @@ let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore
       fresh = (fun _ _ -> ());
       gathering = false;
       gathered = [];
+      watch;
+      watched = Dolphin_ltl.Monitor.start;
+      action = Letters.nothing;
+      shown = -1;
       symmetries;
       folding = Folding.create parts words;
       folded = [| 0 |];

@@ -3,6 +3,13 @@
 
 open Dolphin_semantics
 
+(** A state that a transition leads to. *)
+type arrival = {
+  into : int;
+  by : Symmetry.permutation option;  (** that led there from what the transition leads to *)
+  letter : int;  (** of the watch, or 0 *)
+}
+
 type t = {
   options : Environment.options;
   reduction : Reduction.t;
@@ -20,7 +27,11 @@ type t = {
   script : Script_graph.t;
   mutable fresh : int -> int -> unit;  (** what is done with new states, by number and first word *)
   mutable gathering : bool;
-  mutable gathered : (int * Symmetry.permutation option) list;
+  mutable gathered : arrival list;
+  watch : Watch.t option;
+  mutable watched : int;  (** what the watch knows of the state being expanded *)
+  mutable action : int;  (** of the step being taken, for the watch *)
+  mutable shown : int;  (** the first state that shows a violation, or -1 *)
   symmetries : Symmetries.t option;
   folding : Folding.t;
   mutable folded : int array;  (** a state's canonical form *)
@@ -31,6 +42,7 @@ val create :
   ?reduction:Reduction.t ->
   ?compress:bool ->
   ?reserve:(int -> unit) ->
+  ?watch:Watch.t ->
   Environment.options ->
   Core.program ->
   World.t ->
@@ -50,7 +62,11 @@ val note_broken : t -> Property.t -> int -> unit
 val broken : t -> Property.t -> int option
 
 val visit : t -> int array -> int -> unit
-(** [visit t key i] adds the state [key], to which state [i] leads, or what stands for it; or gathers its number. *)
+(** [visit t key i] adds the state [key], to which state [i] leads, or what stands for it; or gathers its number. If a
+    watch has nothing to see after it, nothing is done. *)
+
+val note_stuck : t -> int -> unit
+(** [note_stuck t i]: state [i], which is [t.key], has no transitions. *)
 
 (** {1:going Going to other states}
 

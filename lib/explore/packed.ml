@@ -7,7 +7,9 @@ type t = {
   mutable chunks : words_of_chunk array;
   parents : Parents.t;
   mutable count : int;
-  mutable table : words_of_chunk;  (* 0: free; else a tag above 32 bits of a state's number plus 1 *)
+  mutable bare : bool;  (* whether the table has states, which are of one word, and not their numbers *)
+  mutable table : words_of_chunk;
+  (* 0: free; else if it is bare, the state plus 1; otherwise a tag above 32 bits of a state's number plus 1 *)
   mutable mask : int;
   mutable most : int;  (* states before the table has to grow *)
   waiting : waiting;
@@ -43,7 +45,7 @@ let create ~words =
   let slots = 4096 in
   let table = fresh_table slots and waiting = nothing_waits words in
   let parents = Parents.create () in
-  { words; chunks = [||]; parents; count = 0; table; mask = slots - 1; most = most_of slots; waiting }
+  { words; chunks = [||]; parents; count = 0; bare = words = 1; table; mask = slots - 1; most = most_of slots; waiting }
 
 let words t = t.words
 let count t = t.count
@@ -90,6 +92,11 @@ let rec probe t (table : words_of_chunk) keys at tag slot =
   end
   else probe t table keys at tag ((slot + 1) land t.mask)
 
+(* Likewise in a bare table. *)
+let rec probe_bare (table : words_of_chunk) mask entry slot =
+  let there = Array1.unsafe_get table slot in
+  if there = entry || there = 0 then slot else probe_bare table mask entry ((slot + 1) land mask)
+
 let rec free (table : words_of_chunk) mask slot =
   if Array1.unsafe_get table slot = 0 then slot else free table mask ((slot + 1) land mask)
 
@@ -98,8 +105,17 @@ let fill t =
   for i = 0 to t.count - 1 do
     load t i key;
     let h = hash t key in
-    Array1.unsafe_set t.table (free t.table t.mask (h land t.mask)) (tag_of h lor (i + 1))
+    let entry = if t.bare then key.(0) + 1 else tag_of h lor (i + 1) in
+    Array1.unsafe_set t.table (free t.table t.mask (h land t.mask)) entry
   done
+
+(* From now on the table has numbers. *)
+let number_all t =
+  if t.bare then begin
+    t.bare <- false;
+    Array1.fill t.table 0;
+    fill t
+  end
 
 let large = 1 lsl 20
 
@@ -145,13 +161,26 @@ let add_at t keys at h ~parent =
     -1 - i
   end
 
-let add t key ~parent = add_at t key 0 (hash t key) ~parent
+let add t key ~parent =
+  number_all t;
+  add_at t key 0 (hash t key) ~parent
+
+let add_bare t keys at h ~parent ~fresh =
+  let word = Array.unsafe_get keys at in
+  let slot = probe_bare t.table t.mask (word + 1) (h land t.mask) in
+  if Array1.unsafe_get t.table slot = 0 then begin
+    let i = t.count in
+    append t keys at ~parent;
+    Array1.unsafe_set t.table slot (word + 1);
+    if t.count > t.most then resize t (2 * (t.mask + 1));
+    fresh i word
+  end
 
 (* {1 Many at a time}
 
    Looking for a state costs two reads of memory, of the table and of the state found there, and little else. A processor
    waits for many reads at once if they do not depend on each other: so the table is read for all that wait, then the
-   states, and only then are they added, from the caches. *)
+   states, and only then are they added, from the caches. A bare table has the states, and there is only one read. *)
 
 let read_tables t =
   let waiting = t.waiting and table : words_of_chunk = t.table and mask = t.mask in
@@ -173,12 +202,15 @@ let read_states t =
 let flush t ~fresh =
   let waiting = t.waiting in
   read_tables t;
-  read_states t;
+  if not t.bare then read_states t;
   for k = 0 to waiting.length - 1 do
     let at = k * t.words in
-    let parent = Array.unsafe_get waiting.from k in
-    let i = add_at t waiting.keys at (Array.unsafe_get waiting.hashes k) ~parent in
-    if i < 0 then fresh (-1 - i) (Array.unsafe_get waiting.keys at)
+    let parent = Array.unsafe_get waiting.from k and h = Array.unsafe_get waiting.hashes k in
+    if t.bare then add_bare t waiting.keys at h ~parent ~fresh
+    else begin
+      let i = add_at t waiting.keys at h ~parent in
+      if i < 0 then fresh (-1 - i) (Array.unsafe_get waiting.keys at)
+    end
   done;
   waiting.length <- 0
 
@@ -195,6 +227,7 @@ let push t (key : int array) ~parent ~fresh =
   if k + 1 = most_waiting then flush t ~fresh
 
 let find t key =
+  number_all t;
   let h = hash t key in
   let slot = probe t t.table key 0 (tag_of h) (h land t.mask) in
   (t.table.{slot} land number_mask) - 1
@@ -227,7 +260,7 @@ let rewrite t ~words f =
     t.chunks.(c) <- renewed
   in
   Array.iteri renewed t.chunks;
-  let t = { t with words; waiting = nothing_waits words } in
+  let t = { t with words; waiting = nothing_waits words; bare = t.bare && words = 1 } in
   Array1.fill t.table 0;
   fill t;
   t

@@ -1,6 +1,7 @@
 (** A set of states as {!States} has it, each state as it is: 8 bytes a word, a quarter of a byte for where it came
-    from, and 11 to 23
-    in the table that finds it. *)
+    from, and 11 to 23 in the table that finds it. As long as nobody asks for the number of a state of one word, the
+    table has the states themselves, which is faster than their numbers; it is laid out anew at the first such
+    question. *)
 
 type t
 

@@ -39,6 +39,7 @@ and part = {
   local : int;  (* its number in its family, from 0 *)
   mutable steps : step array;  (* once it is reached *)
   mutable worked_out : step array option;
+  mutable runs : int;  (* for the use of {!Watch}: what it runs, or -1 *)
   mutable alone : target option;  (* of the nest, if this part is all that is left inside *)
   mutable components : Components.t option;
 }
@@ -56,13 +57,17 @@ and dependence =
   | Guarded of guard  (* it runs code, with the same target whenever the code goes well *)
   | By_case  (* in any way *)
 
-and guard = { mutable results : int array }  (* see {!Cases.guarded} *)
+and guard = {
+  mutable results : int array;  (* see {!Cases.guarded} *)
+  mutable actions : int array;  (* where something observes: the number of what was done *)
+}
 
 (* A step as it is when so and so is shared. *)
 and case = {
   possible : bool;
   certain : bool;  (* whatever sensors show, where they may show this or that *)
   shared : int;  (* after the step *)
+  action : int;  (* the number of what was done *)
   level : int;  (* of what [result] is said: of what the step belongs to (0), the nest around it (1), ... *)
   result : target;
   mutable whole : int;  (* for the use of {!Space}: the number of the configuration that it ends in, or -1 *)
@@ -78,6 +83,7 @@ and step = {
   dependence : dependence;
   target : target;  (* if it goes well *)
   stays : int;  (* [n] if [target] is [Stays n], else -1 *)
+  mutable free_action : int;  (* the number of what is done if it is [Free], or -1 as long as nobody asked *)
   mutable cases : case array;  (* by shared number *)
 }
 

@@ -102,7 +102,8 @@ let none_outgrown t = t.outgrown <- false
 
 let member t path family residual =
   let p =
-    { residual; path; family; local = family.size; steps = [||]; worked_out = None; alone = None; components = None }
+    { residual; path; family; local = family.size; steps = [||]; worked_out = None; runs = -1; alone = None;
+      components = None }
   in
   if family.size = Array.length family.members then begin
     let longer = Array.make (max 8 (2 * family.size)) p in
@@ -123,7 +124,7 @@ let guard t check closure =
   match Guards.find_opt t.guards (check, closure) with
   | Some guard -> guard
   | None ->
-    let guard = { results = [||] } in
+    let guard = { results = [||]; actions = [||] } in
     Guards.add t.guards (check, closure) guard;
     guard
 
@@ -165,7 +166,7 @@ and target_of t path family residual =
 (* Steps that go on in one way, whatever is shared, are settled here; the others case by case. *)
 and compile t home kin index (source : Residual.step) =
   let by_case event =
-    { index; source; event; home; kin; dependence = By_case; target = Gone; stays = -1; cases = [||] }
+    { index; source; event; home; kin; dependence = By_case; target = Gone; stays = -1; free_action = -1; cases = [||] }
   in
   let certain event dependence =
     let settled target =

@@ -12,6 +12,7 @@ type action =
 type t = Action of action | State of Condition.t | Ended_now
 
 let needs_action = function Action _ -> true | State _ | Ended_now -> false
+let running = function Action _ | Ended_now -> [] | State condition -> Condition.running condition
 
 (* {1 Reading} *)
 

@@ -14,6 +14,9 @@ val of_string : Core.program -> string -> (t, string) result
 val needs_action : t -> bool
 (** Whether it is of transitions: then it is false in the first state, and after the end. *)
 
+val running : t -> (string * string option) list
+(** As {!Condition.running}. *)
+
 val holds_after : t -> Transition.t -> bool
 (** [holds_after p t], for [p] of transitions. *)
 

@@ -67,6 +67,7 @@ type outcome = {
   transitions : int;
   expanded : int;
   depth : int;
+  formula_states : int;
   bytes : int;
   seconds : float;
   stopped : bound option;
@@ -79,6 +80,7 @@ type t = {
   options : options;
   space : Space.t;
   invariants : Invariant.t list;
+  phase : string;
   started : float;
   mutable reported : float;
   mutable weighed : float;  (* when memory was looked at *)
@@ -142,6 +144,13 @@ let look_around t phase =
       }
   end
 
+(* To be called at each state. *)
+let looking t phase =
+  let ticks = ref 0 in
+  fun () ->
+    incr ticks;
+    if !ticks land 0xFF = 0 then look_around t phase
+
 let expand_all enough t =
   let space = t.space in
   let next_look = ref 0 in
@@ -161,7 +170,7 @@ let expand_all enough t =
     end;
     if t.next + Space.count space >= !next_look then begin
       next_look := t.next + Space.count space + stride;
-      look_around t "exploring"
+      look_around t t.phase
     end;
     List.iter (fun invariant -> Invariant.check invariant space t.next) t.invariants;
     Space.expand space t.next;
@@ -179,33 +188,6 @@ let explore ?(enough = fun () -> false) program t =
   | exception Reading.Unsettled fault -> settled (Some (unsettled program fault))
   | exception Out_of_memory -> no_memory ()
 
-(* {1 Formulas} *)
-
-(* The verdict of each formula, on a state graph of their own. *)
-let formulas t world program =
-  let ticks = ref 0 in
-  let look phase =
-    incr ticks;
-    if !ticks land 0xFF = 0 then look_around t phase
-  in
-  let tick n =
-    if exceeds t.options.max_states n then raise (Stop States);
-    look "exploring for formulas"
-  in
-  let inconclusive bound = List.map (fun _ -> Inconclusive bound) t.options.formulas in
-  let check graph formula =
-    match Temporal.violation ~tick:(fun () -> look "checking formulas") graph formula with
-    | None -> Holds
-    | Some { steps; cycle } -> Violated { steps; cycle; shortest = false }
-    | exception Stop bound -> Inconclusive bound
-  in
-  match Temporal.explore ~tick t.options.environment program world t.options.formulas with
-  | graph -> List.map (check graph) t.options.formulas
-  | exception Stop bound -> inconclusive bound
-  | exception Temporal.Broken why -> inconclusive (Broken_condition why)
-  | exception Reading.Unsettled fault -> inconclusive (unsettled program fault)
-  | exception Out_of_memory -> inconclusive No_memory
-
 (* {1 Verdicts} *)
 
 let verdicts t program world stopped =
@@ -213,12 +195,8 @@ let verdicts t program world stopped =
   let shortest = not (Reduction.by_order t.options.reduction) in
   let run_to i = { steps = transitions (Replay.shortest t.space i); cycle = []; shortest } in
   let unless_stopped otherwise = match stopped with Some bound -> Inconclusive bound | None -> otherwise () in
-  let interrupted () =
-    look_around t "looking for cycles";
-    false
-  in
   let termination () =
-    match Cycle.find ~interrupted t.space with
+    match Cycle.find ~tick:(looking t "looking for cycles") t.space with
     | None -> Holds
     | Some { stem; around } -> Violated { steps = transitions stem; cycle = transitions around; shortest }
     | exception Stop bound -> Inconclusive bound
@@ -244,26 +222,21 @@ let verdicts t program world stopped =
           match Coverage.unreached (Space.coverage t.space) program with [] -> Holds | pieces -> Unreached pieces)
     | Invariant _ | Formula _ -> invalid_arg "Search.verdicts"
   in
-  let named f = Property.Formula (Temporal.to_string f) in
   let given i = (Property.Invariant (Condition.to_string (Invariant.condition i)), invariant i) in
   List.map (fun property -> (property, verdict property)) Property.all @ List.map given t.invariants
-  @
-  match t.options.formulas, stopped with
-  | [], _ -> []
-  | fs, Some bound -> List.map (fun f -> (named f, Inconclusive bound)) fs
-  | fs, None -> List.combine (List.map named fs) (formulas t world program)
 
-let start (options : options) program world started =
+let start ?watch ?(phase = "exploring") (options : options) program world started =
   let reserve = ref ignore in
   let space =
     Space.create ~reduction:options.reduction ~compress:options.compress
       ~reserve:(fun bytes -> !reserve bytes)
+      ?watch
       options.environment program world
   in
   let invariants = List.map (Invariant.create program world) options.invariants in
   let t =
-    { options; space; invariants; started; reported = started; weighed = Float.neg_infinity; next = 0; depth = -1;
-      level_end = 0 }
+    { options; space; invariants; phase; started; reported = started; weighed = Float.neg_infinity; next = 0;
+      depth = -1; level_end = 0 }
   in
   reserve := weigh t;
   t
@@ -282,13 +255,41 @@ let with_shortest_runs options program world started verdicts =
     let is_found property = Space.broken t.space property <> None in
     ignore (explore ~enough:(fun () -> List.for_all is_found sought) program t);
     let shorter (property, verdict) =
-      match List.mem property sought, Space.broken t.space property with
-      | true, Some i ->
+      match if List.mem property sought then Space.broken t.space property else None with
+      | Some i ->
         let steps = Replay.between options.environment program world t.space (Replay.shortest t.space i) in
         (property, Violated { steps; cycle = []; shortest = true })
-      | _, _ -> (property, verdict)
+      | None -> (property, verdict)
     in
     List.map shorter verdicts
+
+(* {1 Formulas} *)
+
+(* The verdict on a formula: states are explored anew under its watch, until a violation shows. *)
+let formula started (options : options) program world f =
+  let watch = Watch.create program world f in
+  let options = { options with reduction = Whole; invariants = [] } in
+  let judge t =
+    let tick = looking t "checking formulas" in
+    match explore ~enough:(fun () -> Space.shown t.space <> None) program t with
+    | Some bound when Space.shown t.space = None -> Inconclusive bound
+    | None | Some _ -> (
+        match Violation.find ~tick options.environment program world t.space watch with
+        | None -> Holds
+        | Some { steps; cycle } -> Violated { steps; cycle; shortest = false }
+        | exception Stop bound -> Inconclusive bound
+        | exception Out_of_memory -> Inconclusive No_memory)
+  in
+  match
+    let t = start ~watch ~phase:"exploring for formulas" options program world started in
+    let verdict = judge t in
+    (verdict, Space.count t.space, memory t)
+  with
+  | found -> found
+  | exception Letters.Broken why -> (Inconclusive (Broken_condition why), 0, 0)
+  | exception Reading.Unsettled fault -> (Inconclusive (unsettled program fault), 0, 0)
+
+(* {1 Outcomes} *)
 
 let rec run_from started (options : options) program world =
   let t = start options program world started in
@@ -299,18 +300,36 @@ let rec run_from started (options : options) program world =
 
 and outcome t program world stopped =
   let space = t.space and options = t.options and started = t.started in
+  let without_symmetry = Reduction.without_symmetry options.reduction in
   let verdicts = with_shortest_runs options program world started (verdicts t program world stopped) in
-  {
-    states = Space.count space;
-    transitions = Space.transitions space;
-    expanded = t.next;
-    depth = t.depth;
-    bytes = memory t;
-    seconds = options.clock () -. started;
-    stopped;
-    reduction = (if Space.used_symmetry space then options.reduction else Reduction.without_symmetry options.reduction);
-    verdicts;
-  }
+  let found =
+    {
+      states = Space.count space;
+      transitions = Space.transitions space;
+      expanded = t.next;
+      depth = t.depth;
+      formula_states = 0;
+      bytes = memory t;
+      seconds = options.clock () -. started;
+      stopped;
+      reduction = (if Space.used_symmetry space then options.reduction else without_symmetry);
+      verdicts;
+    }
+  in
+  with_formulas started options program world found
+
+(* No other states are needed any more: there is to be room for those of the formulas. *)
+and with_formulas started (options : options) program world found =
+  let add found f =
+    Gc.full_major ();
+    let verdict, states, bytes = formula started options program world f in
+    { found with
+      verdicts = found.verdicts @ [ (Property.Formula (Temporal.to_string f), verdict) ];
+      formula_states = found.formula_states + states;
+      bytes = max found.bytes bytes;
+      seconds = options.clock () -. started }
+  in
+  List.fold_left add found options.formulas
 
 let run (options : options) program world =
   (* What is asked of every state cannot be judged by some of them. *)

@@ -22,7 +22,7 @@ type options = {
   timeout : float option;  (** in seconds of [clock] *)
   clock : unit -> float;  (** seconds, from any start *)
   invariants : Condition.t list;
-  formulas : Temporal.t list;  (** checked on a state graph of their own, that is kept in OCaml's heap *)
+  formulas : Temporal.t list;  (** for each, states are explored anew, after all others are forgotten *)
   interrupted : unit -> bool;  (** asked often: whether to stop *)
   progress : progress -> unit;  (** called about once a second *)
 }
@@ -72,7 +72,8 @@ type outcome = {
   transitions : int;
   expanded : int;  (** states whose transitions were followed: all, if no bound was met *)
   depth : int;  (** most transitions of a shortest run to a state *)
-  bytes : int;  (** of memory, as [max_memory] counts it *)
+  formula_states : int;  (** states that were explored for formulas, in all: see {!Watch} *)
+  bytes : int;  (** of memory, as [max_memory] counts it: the most, if there are formulas *)
   seconds : float;
   stopped : bound option;
   reduction : Reduction.t;  (** the one that was used: less than was asked for where something stands against it *)

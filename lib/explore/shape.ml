@@ -95,9 +95,10 @@ let rec residual s place part =
 
 (* {1 Words} *)
 
-let bits_of_word = 63
+(* So that no word is negative. *)
+let bits_of_word = 62
 
-type widths = { shape : int; shared : int }
+type widths = { shape : int; watched : int; shared : int }
 
 let lay_out widths s =
   let n = Array.length s.families in
@@ -112,7 +113,7 @@ let lay_out widths s =
     (word, bit + family.width)
   in
   let rec from i at = if i = n then at else from (i + 1) (place at i s.families.(i)) in
-  fst (from 0 (0, widths.shape + widths.shared)) + 1
+  fst (from 0 (0, widths.shape + widths.watched + widths.shared)) + 1
 
 let local s key i = (key.(s.word.(i)) lsr s.shift.(i)) land s.mask.(i)
 let put s key i n = key.(s.word.(i)) <- key.(s.word.(i)) lor (n lsl s.shift.(i))

@@ -55,11 +55,11 @@ val residual : t -> place -> (int -> Residual.t) -> Residual.t
 
 (** {1:words Words}
 
-    The first word starts with the shape's number, lowest bits first, then has the number of what is shared; the parts
-    follow, none across the end of a word. Shape 0 stands for all other configurations, each with its own number above
-    it. *)
+    The first word starts with the shape's number, lowest bits first, then has what a {!Watch} knows, if there is one,
+    and the number of what is shared; the parts follow, none across the end of a word. Shape 0 stands for all other
+    configurations, each with its own number above these. *)
 
-type widths = { shape : int; shared : int }
+type widths = { shape : int; watched : int; shared : int }
 
 val lay_out : widths -> t -> int
 (** [lay_out widths s] lays [s] out anew, in the present widths of its families; the result is how many words it

@@ -14,6 +14,8 @@ type t = {
   mutable count : int;  (* and one *)
   mutable widths : Shape.widths;
   mutable shape_mask : int;
+  mutable watched_mask : int;
+  mutable shared_shift : int;
   mutable shared_mask : int;
   mutable words : int;
 }
@@ -21,12 +23,17 @@ type t = {
 let set_widths t (widths : Shape.widths) =
   t.widths <- widths;
   t.shape_mask <- (1 lsl widths.shape) - 1;
+  t.watched_mask <- (1 lsl widths.watched) - 1;
+  t.shared_shift <- widths.shape + widths.watched;
   t.shared_mask <- (1 lsl widths.shared) - 1
 
-let create parts =
-  let widths : Shape.widths = { shape = 4; shared = 4 } in
+let create ?(watched = 0) parts =
+  let widths : Shape.widths = { shape = 4; watched; shared = 4 } in
   let by_key = Keys.create 64 in
-  let t = { parts; by_key; shapes = [||]; count = 1; widths; shape_mask = 0; shared_mask = 0; words = 1 } in
+  let t =
+    { parts; by_key; shapes = [||]; count = 1; widths; shape_mask = 0; watched_mask = 0; shared_shift = 0;
+      shared_mask = 0; words = 1 }
+  in
   set_widths t widths;
   t
 
@@ -37,8 +44,14 @@ let widths t = t.widths
 (* {1 First words} *)
 
 let number t word = word land t.shape_mask
-let shared t word = if number t word = 0 then word lsr t.widths.shape else (word lsr t.widths.shape) land t.shared_mask
-let first t number shared = number lor (shared lsl t.widths.shape)
+let shared t word = if number t word = 0 then word lsr t.shared_shift else (word lsr t.shared_shift) land t.shared_mask
+let first t number shared = number lor (shared lsl t.shared_shift)
+let watched t word = (word lsr t.widths.shape) land t.watched_mask
+
+let watching t word n =
+  if n > t.watched_mask then raise Outgrown;
+  word land lnot (t.watched_mask lsl t.widths.shape) lor (n lsl t.widths.shape)
+
 let shape t number = Array.unsafe_get t.shapes number
 
 (* {1 Shapes} *)
@@ -95,18 +108,24 @@ let bits_for n =
   let rec from bits = if 1 lsl bits >= n then bits else from (bits + 1) in
   from 1
 
+let shared_of = shared
+let watched_of = watched
+
 (* What a state is made of is read in the old layout and written in the new one. *)
-let widened t ~shared:most =
+let widened t ~watched ~shared =
   let before = { t with shapes = Array.map (fun (s : Shape.t) -> { s with number = s.number }) t.shapes } in
   let shapes = if t.count = 1 then [||] else Array.sub t.shapes 1 (t.count - 1) in
   Array.iter (fun (s : Shape.t) -> Array.iter Parts.lay_out s.families) shapes;
   Parts.none_outgrown t.parts;
-  set_widths t { shape = max t.widths.shape (bits_for t.count); shared = max t.widths.shared (bits_for most) };
+  let at_least width n = if n = 0 then width else max width (bits_for n) in
+  set_widths t
+    { shape = at_least t.widths.shape t.count; watched = at_least t.widths.watched watched;
+      shared = at_least t.widths.shared shared };
   let lay_out words s = max words (Shape.lay_out t.widths s) in
   t.words <- Array.fold_left lay_out t.words shapes;
   fun old fresh ->
     let number = number before old.(0) in
-    fresh.(0) <- first t number (shared before old.(0));
+    fresh.(0) <- watching t (first t number (shared_of before old.(0))) (watched_of before old.(0));
     if number > 0 then begin
       let was = before.shapes.(number) and s = t.shapes.(number) in
       for i = 0 to Array.length s.families - 1 do

@@ -6,7 +6,9 @@ exception Outgrown
 
 type t
 
-val create : Parts.t -> t
+val create : ?watched:int -> Parts.t -> t
+(** With so many bits for what a {!Watch} knows: none by default. *)
+
 val count : t -> int
 
 val words : t -> int
@@ -24,6 +26,13 @@ val shared : t -> int -> int
 
 val first : t -> int -> int -> int
 (** [first t number shared] is the word that starts with these. *)
+
+val watched : t -> int -> int
+(** [watched t w] is what a {!Watch} knows. *)
+
+val watching : t -> int -> int -> int
+(** [watching t w n] is [w] with [n] for that.
+    @raise Outgrown *)
 
 val shape : t -> int -> Shape.t
 (** [shape t n] is the shape with number [n], from 1. *)
@@ -48,6 +57,6 @@ val with_children : t -> Shape.t -> Shape.place -> Part.part Part.tree list -> S
 val fits : t -> shared:int -> bool
 (** [fits t ~shared] is whether all numbers fit their fields, those of what is shared being below [shared]. *)
 
-val widened : t -> shared:int -> int array -> int array -> unit
-(** [widened t ~shared] makes all fields as wide as they need be; [widened t ~shared old fresh] then puts the state that
-    was [old] into [fresh], which is all 0. *)
+val widened : t -> watched:int -> shared:int -> int array -> int array -> unit
+(** [widened t ~watched ~shared] makes all fields as wide as they need be, for numbers below [watched] and [shared];
+    [widened t ~watched ~shared old fresh] then puts the state that was [old] into [fresh], which is all 0. *)

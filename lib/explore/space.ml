@@ -20,6 +20,7 @@ let expand_whole t i number =
   let go ((next : Transition.t), outside) =
     Coverage.transition (Parts.coverage t.parts) c next;
     Script_graph.follows t.script number (Words.write t.words t.other next.rules next.next outside);
+    Option.iter (fun w -> t.action <- Letters.action (Watch.letters w) next) t.watch;
     visit t t.other i
   in
   List.iter go choices;
@@ -34,8 +35,15 @@ let expand_whole t i number =
 let unknown = Cases.unknown
 let special = Cases.special
 
+(* For the watch: [step] is possible, and not [special]. *)
+let note_action t step shared =
+  match step.dependence with
+  | Guarded guard -> t.action <- guard.actions.(shared)
+  | Free -> t.action <- (if step.free_action >= 0 then step.free_action else Cases.action t.cases step shared)
+  | By_case -> ()
+
 let take_all t (s : Shape.t) place steps shared i =
-  let taken = ref 0 in
+  let taken = ref 0 and is_watched = Option.is_some t.watch in
   for k = 0 to Array.length steps - 1 do
     let step = Array.unsafe_get steps k in
     let shared' =
@@ -53,6 +61,7 @@ let take_all t (s : Shape.t) place steps shared i =
     in
     if shared' >= 0 then begin
       incr taken;
+      if is_watched then note_action t step shared;
       go_to t s place step.target shared shared' i
     end
     else if shared' = special then taken := !taken + go_by_case t s place step shared i
@@ -170,9 +179,12 @@ let rec expand t i =
   match
     States.load t.states i t.key;
     let number = Shapes.number t.shapes t.key.(0) in
+    if Option.is_some t.watch then t.watched <- Shapes.watched t.shapes t.key.(0);
     if number = 0 then expand_whole t i (Shapes.shared t.shapes t.key.(0)) else expand_executing t i number
   with
-  | taken -> if not t.gathering then t.transitions <- t.transitions + taken
+  | taken ->
+    if taken = 0 then note_stuck t i;
+    if not t.gathering then t.transitions <- t.transitions + taken
   | exception Shapes.Outgrown ->
     flush t;
     (* Once this has begun it must not fail. *)
@@ -180,14 +192,16 @@ let rec expand t i =
     repack t;
     expand t i
 
-let steps t i =
+let gather t i =
   t.gathering <- true;
   t.gathered <- [];
   expand t i;
   t.gathering <- false;
-  List.rev t.gathered
+  t.gathered
 
-let successors t i = List.map fst (steps t i)
+let steps t i = List.rev_map (fun arrival -> (arrival.into, arrival.by)) (gather t i)
+let arrivals t i = List.rev_map (fun arrival -> (arrival.into, arrival.letter)) (gather t i)
+let successors t i = List.rev_map (fun arrival -> arrival.into) (gather t i)
 
 type view = Exact of Configuration.t * Environment.t | Up_to of Symmetry.t * Symmetry.state
 
@@ -235,6 +249,9 @@ let coverage t =
 let bytes t = States.bytes t.states
 let bytes_to_grow t ~by = States.bytes_to_grow t.states ~by
 let forget_waiting t = States.forget_waiting t.states
+let shown t = if t.shown < 0 then None else Some t.shown
+let watched t i = Shapes.watched t.shapes (load t i).(0)
+let executes t i = Shapes.number t.shapes (load t i).(0) > 0
 let words t = States.words t.states
 let may_cycle t = Script_graph.may_cycle t.script
 

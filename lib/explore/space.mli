@@ -10,9 +10,13 @@ type t
 
 val create :
   ?reduction:Reduction.t -> ?compress:bool -> ?reserve:(int -> unit) ->
+  ?watch:Watch.t ->
   Environment.options -> Core.program -> World.t -> t
 (** With the initial state, number 0. [compress] is as for {!States.create}, [false] by default. [reserve n] is called
-    before [n] bytes are taken at once to lay states out anew; it may raise. *)
+    before [n] bytes are taken at once to lay states out anew; it may raise.
+
+    With a [watch] each state is kept once for each thing that the watch may know there, and [reduction] must be none:
+    see {!section:watched}. Then there may be no state at all. *)
 
 val expand : t -> int -> unit
 (** [expand t i] adds the states that transitions of state [i] lead to, at the latest when {!flush} is called. *)
@@ -51,6 +55,21 @@ val shared : t -> int -> int
 
 val parent : t -> int -> int
 (** [parent t i] is the state from which [i] was reached first; 0 is its own. *)
+
+(** {1:watched Under a watch} *)
+
+val watched : t -> int -> int
+(** [watched t i] is what the watch knows in state [i]. *)
+
+val arrivals : t -> int -> (int * int) list
+(** [arrivals t i] is {!successors}, each with the letter of the transition and the state. *)
+
+val executes : t -> int -> bool
+(** [executes t i] is whether a task executes in state [i]. *)
+
+val shown : t -> int option
+(** The first state found from which every run violates the formula, or which has no transitions and where a run that
+    stays violates it. *)
 
 (** {1:findings What was found on the way} *)
 

@@ -6,7 +6,7 @@
 type t
 
 val create : compress:bool -> words:int -> t
-(** [create ~compress ~words] is an empty set of vectors of so many words. *)
+(** [create ~compress ~words] is an empty set of vectors of so many words. The word [-1] may not be among them. *)
 
 val words : t -> int
 val count : t -> int

@@ -25,12 +25,12 @@ type t = {
   mutable breaks : Property.t option array;  (* by number of such a configuration: what reaching it breaks *)
 }
 
-let create ?(find_symmetry = fun _ _ -> None) parts cases =
+let create ?(find_symmetry = fun _ _ -> None) ?watched parts cases =
   {
     parts;
     find_symmetry;
     shareds = Cases.shareds cases;
-    shapes = Shapes.create parts;
+    shapes = Shapes.create ?watched parts;
     machines = Machines.create ();
     frames = Hashtbl.create 16;
     wholes = Wholes.create ();
@@ -39,7 +39,7 @@ let create ?(find_symmetry = fun _ _ -> None) parts cases =
 
 let shapes t = t.shapes
 let check_fit t = if not (Shapes.fits t.shapes ~shared:(Cases.Shareds.count t.shareds)) then raise Shapes.Outgrown
-let widened t = Shapes.widened t.shapes ~shared:(Cases.Shareds.count t.shareds)
+let widened t ~watched = Shapes.widened t.shapes ~watched ~shared:(Cases.Shareds.count t.shareds)
 
 (* {1 Configurations that execute nothing} *)
 

@@ -4,16 +4,17 @@ open Dolphin_semantics
 
 type t
 
-val create : ?find_symmetry:(Residual.t -> Shared.t -> Symmetry.t option) -> Parts.t -> Cases.t -> t
+val create :
+  ?find_symmetry:(Residual.t -> Shared.t -> Symmetry.t option) -> ?watched:int -> Parts.t -> Cases.t -> t
 (** [find_symmetry r s] is what can change places in [r], which is about to be executed where [s] is shared: nothing by
-    default. *)
+    default. [watched] is as for {!Shapes.create}. *)
 
 val shapes : t -> Shapes.t
 
 val check_fit : t -> unit
 (** @raise Shapes.Outgrown if some number does not fit its field. *)
 
-val widened : t -> int array -> int array -> unit
+val widened : t -> watched:int -> int array -> int array -> unit
 (** See {!Shapes.widened}. *)
 
 val write : t -> int array -> Rule.t list -> Configuration.t -> Environment.t -> int

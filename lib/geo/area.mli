@@ -14,6 +14,7 @@ val contains : t -> Position.t -> bool
     accuracy of distances: the rim belongs to the area. Heights do not matter. *)
 
 val equal : t -> t -> bool
+(** Whether centre and radius are the same. *)
 
 val compare : t -> t -> int
 (** [compare] orders by centre, then by radius. *)

@@ -1,6 +1,8 @@
 (* Names follow T. Vincenty, "Direct and inverse solutions of geodesics on the ellipsoid with application of nested
    equations", Survey Review 176, 1975. A reduced latitude is that of the auxiliary sphere. *)
 
+open Angle
+
 let semi_major_axis = 6_378_137.
 
 let flattening = 1. /. 298.257223563
@@ -10,10 +12,6 @@ let semi_minor_axis = semi_major_axis *. (1. -. flattening)
 let mean_radius = ((2. *. semi_major_axis) +. semi_minor_axis) /. 3.
 
 let pi = Float.pi
-
-let radians degrees = degrees *. pi /. 180.
-
-let degrees radians = radians *. 180. /. pi
 
 let square x = x *. x
 

@@ -45,6 +45,7 @@ type cartesian
 (** A position in the Earth-centred frame. *)
 
 val cartesian : Position.t -> cartesian
+(** A position with its height above the ellipsoid, for {!straight}. *)
 
 val straight : cartesian -> cartesian -> float
 (** [straight a b] is the length in metres of the straight line from [a] to [b], heights included. On the ground it is

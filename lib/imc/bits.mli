@@ -5,7 +5,11 @@ module type S = sig
   (** The union of some bits, of those without a name too. *)
 
   val none : t
+  (** No bit. *)
+
   val of_int : int -> t
+  (** The bits that are 1 in a number. *)
+
   val to_int : t -> int
 
   val mem : t -> t -> bool

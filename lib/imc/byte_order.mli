@@ -5,3 +5,4 @@ type t =
   | Big_endian  (** A packet that begins [FE 54]. *)
 
 val pp : Format.formatter -> t -> unit
+(** ["little-endian"] or ["big-endian"]. *)

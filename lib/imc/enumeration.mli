@@ -6,6 +6,7 @@ module type S = sig
       value that a later version added is kept. [Other n] is only for such [n]. *)
 
   val of_int : int -> t
+  (** The value that has this number, or [Other]. *)
 
   val to_int : t -> int
   (** [to_int (of_int n) = n]. *)

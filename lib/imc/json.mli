@@ -3,7 +3,10 @@
 type t = Yojson.Safe.t
 
 val int : int -> t
+(** A number. *)
+
 val int64 : int64 -> t
+(** A number. *)
 
 val float : float -> t
 (** A number; what JSON has no number for is a string: ["NaN"], ["Infinity"], ["-Infinity"]. *)
@@ -18,6 +21,7 @@ val inline : ('a -> t) -> 'a option -> t
 (** [null] for [None]. *)
 
 val list : ('a -> t) -> 'a list -> t
+(** A list, element by element. *)
 
 val message : string -> (string * t) list -> t
 (** [message name fields] is the object with ["abbrev": name] and [fields]. *)

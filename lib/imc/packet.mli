@@ -67,3 +67,4 @@ val pp : Format.formatter -> t -> unit
 (** {!to_json}, printed. *)
 
 val equal : t -> t -> bool
+(** Whether header and content are the same, numbers that are NaN included. *)

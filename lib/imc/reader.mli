@@ -17,6 +17,8 @@ val finish : t -> unit
 (** {1:numbers Numbers} [uN], [iN]: unsigned, signed of [N] bits. *)
 
 val u8 : t -> int
+(** From 0 to 255. *)
+
 val u16 : t -> int
 val u32 : t -> int
 val i8 : t -> int
@@ -28,6 +30,7 @@ val f32 : t -> float
 (** Exact, as every [f32] is an [f64]; only a signalling NaN becomes a quiet one. *)
 
 val f64 : t -> float
+(** Bit by bit as it was sent. *)
 
 val text : t -> string
 (** A [u16] length, and that many bytes. *)

@@ -5,6 +5,7 @@
 type t
 
 exception Fault of Error.encode
+(** What cannot be written, and in which field. *)
 
 val make : Byte_order.t -> Buffer.t -> t
 (** [make order b] appends to [b]. *)
@@ -26,6 +27,7 @@ val f32 : t -> float -> unit
 (** Rounds to the nearest [f32]; beyond the greatest one, to infinity. *)
 
 val f64 : t -> float -> unit
+(** Bit by bit. *)
 
 val text : t -> string -> string -> unit
 (** [text w field s] is the length of [s] in a [u16], and its bytes.

@@ -14,3 +14,4 @@ val write : Buffer.t -> Yojson.Safe.t -> unit
     not finite, which JSON does not have, is [inf] or [nan]. Strings are taken for UTF-8. *)
 
 val to_string : Yojson.Safe.t -> string
+(** On one line, the members in their order. *)

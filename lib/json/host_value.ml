@@ -1,3 +1,4 @@
+open Dolphin_results
 open Dolphin_semantics
 open Dolphin_geo
 
@@ -6,15 +7,6 @@ let ( let* ) = Result.bind
 let deepest = 100
 let longest_range = 100_000
 let too_deep = Printf.sprintf "it is nested more than %d deep" deepest
-
-(* [each f xs] is the results of [f] on [xs], or the first error. *)
-let each f xs =
-  let add results x =
-    let* results = results in
-    let* y = f x in
-    Ok (y :: results)
-  in
-  Result.map List.rev (List.fold_left add (Ok []) xs)
 
 (* Whether a map with these keys would be taken for something else. *)
 let is_reserved fields =
@@ -52,10 +44,9 @@ let rec to_json_within depth (x : Core.value) : (Yojson.Safe.t, string) result =
     | Integer i -> Ok (`Int i)
     | Number x -> of_float x
     | String text | Symbol text -> Ok (`String text)
-    | List xs -> Result.map (fun xs -> `List xs) (each (to_json_within (depth + 1)) (Array.to_list xs))
+    | List xs -> Result.map (fun xs -> `List xs) (Results.map (to_json_within (depth + 1)) (Array.to_list xs))
     | Map entries ->
-      let entry (k, x) = Result.map (fun json -> (k, json)) (to_json_within (depth + 1) x) in
-      let* fields = each entry entries in
+      let* fields = Results.map_values (to_json_within (depth + 1)) entries in
       Ok (if is_reserved fields then `Assoc [ ("map", `Assoc fields) ] else `Assoc fields)
     | Range (first, last) -> of_range first last
     | Position p -> of_position p
@@ -115,7 +106,7 @@ let to_area centre radius =
   match Area.make centre metres with Some area -> Ok area | None -> expected "a radius of 0 metres or more" radius
 
 let to_vehicles names =
-  let* vs = each (to_name "the id of a vehicle") names in
+  let* vs = Results.map (to_name "the id of a vehicle") names in
   let add set v = if List.mem v set then set else v :: set in
   Ok (Core.Vehicles (List.rev (List.fold_left add [] vs)))
 
@@ -129,7 +120,7 @@ let rec of_json_within depth ~site (json : Yojson.Safe.t) : (Core.value, string)
     | `Intlit _ | `Float _ -> Result.map (fun x -> Core.Number x) (to_float "a finite number" json)
     | `String text -> Ok (String text)
     | `List items ->
-      let* xs = each (of_json_within (depth + 1) ~site) items in
+      let* xs = Results.map (of_json_within (depth + 1) ~site) items in
       Ok (Core.List (Array.of_list xs))
     | `Assoc fields -> of_object depth ~site fields
     | `Tuple _ | `Variant _ -> expected "JSON without extensions" json
@@ -157,8 +148,8 @@ and of_map depth ~site fields =
   match repeated (List.sort String.compare (List.map fst fields)) with
   | Some k -> Error (Printf.sprintf "the key %S is there twice" k)
   | None ->
-    let entry (k, json) = Result.map (fun x -> (k, x)) (of_json_within (depth + 1) ~site json) in
-    Result.map (fun entries -> Core.Map entries) (each entry fields)
+    let* entries = Results.map_values (of_json_within (depth + 1) ~site) fields in
+    Ok (Core.Map entries)
 
 let of_json ~site json = of_json_within 0 ~site json
 

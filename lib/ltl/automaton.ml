@@ -61,6 +61,7 @@ type 'p t = {
   initial : int list;
   successors : int list array;
   sets : bool array array;  (* by state, then by acceptance set *)
+  is_open : bool array;
 }
 
 (* A way in which formulas can hold at a position: the literals that hold there, what must hold from the next position
@@ -162,11 +163,13 @@ let of_formula f =
     initial;
     successors;
     sets = Array.map (fun way -> Array.of_list way.inside) states;
+    is_open = Array.map (fun way -> way.later = []) states;
   }
 
 let states a = Array.length a.literals
 let initial a = a.initial
 let successors a q = a.successors.(q)
 let admits a q letter = List.for_all (fun (positive, p) -> letter p = positive) a.literals.(q)
+let is_open a q = a.is_open.(q)
 let acceptance_sets a = if states a = 0 then 0 else Array.length a.sets.(0)
 let is_in a q i = a.sets.(q).(i)

@@ -15,6 +15,9 @@ val successors : 'p t -> int -> int list
 val admits : 'p t -> int -> ('p -> bool) -> bool
 (** [admits a q letter] is whether [a] may be in [q] where [letter] is read. *)
 
+val is_open : 'p t -> int -> bool
+(** [is_open a q] is whether nothing is left to be shown in [q]: every word that goes on from there is accepted. *)
+
 val acceptance_sets : 'p t -> int
 val is_in : 'p t -> int -> int -> bool
 (** [is_in a q i] is whether [q] is in acceptance set [i], from 0. *)

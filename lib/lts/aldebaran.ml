@@ -174,8 +174,6 @@ let of_string text =
         Some (String.sub text start (finish - start))
       end)
 
-let of_channel channel = read (fun () -> try Some (input_line channel) with End_of_file -> None)
-
 let pp_problem ppf = function
   | Not_a_header text -> Fmt.pf ppf "expected \"des (initial state, transitions, states)\", not %S" text
   | Not_a_transition text -> Fmt.pf ppf "expected (state,\"label\",state), not %S" text

@@ -16,6 +16,7 @@ val write : (string -> unit) -> Graph.t -> unit
     states are left out. *)
 
 val to_string : Graph.t -> string
+(** The text that {!write} writes. *)
 
 (** {1:read To read} *)
 
@@ -32,13 +33,10 @@ type problem =
 type error = { line : int; problem : problem }
 (** [line] counts from 1; of {!Wrong_count} it is the header's. *)
 
-val read : (unit -> string option) -> (Graph.t, error) result
-(** [read line] is the graph whose lines, without line feed, [line ()] gives one by one. Blanks around words, carriage
-    returns and empty lines do not matter. A label may also stand without quotes, and a quoted one may contain quotes,
-    commas, parentheses and UTF-8: it ends at the last quote of the line. Escapes, as above, are undone. *)
-
 val of_string : string -> (Graph.t, error) result
-(** [of_string (to_string g)] equals [g], but for the texts of states. *)
+(** [of_string (to_string g)] equals [g], but for the texts of states. Blanks around words, carriage returns and empty
+    lines do not matter. A label may also stand without quotes, and a quoted one may contain quotes, commas, parentheses
+    and UTF-8: it ends at the last quote of the line. Escapes, as above, are undone. *)
 
-val of_channel : in_channel -> (Graph.t, error) result
 val pp_error : Format.formatter -> error -> unit
+(** What is wrong in which line, without a full stop. *)

@@ -14,7 +14,7 @@ let quotient g r =
   done;
   Graph.Builder.finish ~states:(Refinement.blocks r) b
 
-let strong_within ~effort left right =
+let strong left right =
   let left = Reachability.trim left and right = Reachability.trim right in
   let both = Graph.union left right in
   let r = Refinement.create both in
@@ -32,7 +32,6 @@ let strong_within ~effort left right =
     in
     Error { formula = Distinction.formula both r block_left block_right; traces }
 
-let strong left right = strong_within ~effort left right
 let isomorphic = Isomorphism.check
 let pp_side ppf side = Fmt.string ppf (match side with Left -> "left" | Right -> "right")
 

@@ -22,9 +22,6 @@ val effort : int
 val strong : Graph.t -> Graph.t -> (unit, difference) result
 (** [strong left right] is [Ok ()] exactly if the initial states are strongly bisimilar. *)
 
-val strong_within : effort:int -> Graph.t -> Graph.t -> (unit, difference) result
-(** [strong left right] is [strong_within ~effort left right]. *)
-
 val isomorphic : Graph.t -> Graph.t -> (unit, Isomorphism.difference) result
 (** {!Isomorphism.check}: whether they are the same but for the numbers of states. *)
 

@@ -28,11 +28,6 @@ let fold_from g s f start =
   let rec go e accumulated = if e = last then accumulated else go (e + 1) (f accumulated (label_of g e) (target g e)) in
   go (first g s) start
 
-let exists_from g s f =
-  let last = first g (s + 1) in
-  let rec go e = e < last && (f (label_of g e) (target g e) || go (e + 1)) in
-  go (first g s)
-
 let iter g f =
   for s = 0 to states g - 1 do
     iter_from g s (f s)

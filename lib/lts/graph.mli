@@ -13,6 +13,7 @@ module Builder : sig
   type t
 
   val create : unit -> t
+  (** No states and no transitions. *)
 
   val label : t -> string -> int
   (** [label b text] is the number of the label [text]: that of the first call with [text]. *)
@@ -50,6 +51,7 @@ val reverse : t -> t
 (** {1:read To read} *)
 
 val initial : t -> int
+(** The state where runs begin. *)
 
 val states : t -> int
 (** The number of states, at least 1. *)
@@ -83,8 +85,6 @@ val iter_from : t -> int -> (int -> int -> unit) -> unit
 
 val fold_from : t -> int -> ('a -> int -> int -> 'a) -> 'a -> 'a
 (** [fold_from g s f a] is [f (... (f a l s') ...) l s'] over the transitions of [s], in order. *)
-
-val exists_from : t -> int -> (int -> int -> bool) -> bool
 
 val iter : t -> (int -> int -> int -> unit) -> unit
 (** [iter g f] is [f s l s'] for every transition of [g], in ascending order. *)

@@ -6,3 +6,4 @@ val write : ?name:string -> (string -> unit) -> Graph.t -> unit
     [name] is that of the drawing, ["lts"] unless given. *)
 
 val to_string : ?name:string -> Graph.t -> string
+(** The text that {!write} writes. *)

@@ -34,3 +34,4 @@ val check : Graph.t -> Graph.t -> (unit, difference) result
     left is broken by trial. *)
 
 val pp_difference : Format.formatter -> difference -> unit
+(** How many states and transitions each has, and what tells them apart; several lines. *)

@@ -29,3 +29,4 @@ val of_string : string -> (Graph.t, error) result
 (** [of_string (to_string g)] equals [g], and describes states alike. *)
 
 val pp_error : Format.formatter -> error -> unit
+(** What is wrong and where, without a full stop. *)

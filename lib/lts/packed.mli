@@ -10,7 +10,11 @@ val make : int -> t
 (** [make n] has [n] elements, all 0. *)
 
 val length : t -> int
+
 val get : t -> int -> int
+(** [get v i] is the element [i], from 0.
+    @raise Invalid_argument if there is none. *)
+
 val set : t -> int -> int -> unit
 
 val order_by : (int -> int) -> keys:int -> t -> t
@@ -24,7 +28,9 @@ module Growing : sig
 
   val create : unit -> t
   val length : t -> int
+
   val add : t -> int -> unit
+  (** Puts an element at the end. *)
 
   val contents : t -> vector
   (** The elements so far. They may be shared with the growing vector: add nothing afterwards. *)

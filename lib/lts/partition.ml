@@ -2,7 +2,6 @@ type t = { block : int array; representative : int array }
 
 let blocks p = Array.length p.representative
 let block p s = p.block.(s)
-let representative p b = p.representative.(b)
 
 let strong g =
   let refinement = Refinement.create g in

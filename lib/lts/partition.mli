@@ -12,13 +12,10 @@ val blocks : t -> int
 val block : t -> int -> int
 (** [block p s] is the block of state [s]. States have the same block exactly if they are strongly bisimilar. *)
 
-val representative : t -> int -> int
-(** [representative p b] is the least state in block [b]. *)
-
 val quotient : Graph.t -> t -> Graph.t
 (** [quotient g (strong g)] has the blocks as states, and a transition between two blocks where there is one between
     states of theirs. It is strongly bisimilar to [g], and no two of its states are strongly bisimilar. A state's text
-    is that of the representative. *)
+    is that of the least state in the block. *)
 
 val minimal : Graph.t -> Graph.t
 (** [minimal g] is the smallest graph that is strongly bisimilar to [g], without the states that cannot be reached,

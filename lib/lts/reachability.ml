@@ -12,7 +12,7 @@ let unseen = -2
 let root = -1
 
 (* [search g p] is the states found, and the first of them for which [p] holds, where the search stops. *)
-let search ~from ~keep g p =
+let search ~from g p =
   let states = Graph.states g in
   let search =
     { order = Array.make states 0; found = 0; came_from = Array.make states unseen; came_by = Array.make states 0 }
@@ -32,12 +32,11 @@ let search ~from ~keep g p =
   while !goal = None && !next < search.found do
     let s = search.order.(!next) in
     incr next;
-    Graph.iter_from g s (fun l s' -> if keep s l s' then find ~came_from:s ~came_by:l s')
+    Graph.iter_from g s (fun l -> find ~came_from:s ~came_by:l)
   done;
   (search, !goal)
 
-let always _ _ _ = true
-let explore g = fst (search ~from:(Graph.initial g) ~keep:always g (fun _ -> false))
+let explore g = fst (search ~from:(Graph.initial g) g (fun _ -> false))
 let reachable g = Array.map (fun s -> s <> unseen) (explore g).came_from
 
 let trim g =
@@ -54,16 +53,9 @@ let trim g =
   let text = Option.map (fun text i -> text order.(i)) (Graph.text g) in
   Graph.Builder.finish ~states:found ?text b
 
-let deadlocks g =
-  let { order; found; _ } = explore g in
-  let rec collect i dead =
-    if i < 0 then dead else collect (i - 1) (if Graph.degree g order.(i) = 0 then order.(i) :: dead else dead)
-  in
-  collect (found - 1) []
-
-let shortest ?from ?(keep = always) g p =
+let shortest ?from g p =
   let start = Option.value from ~default:(Graph.initial g) in
-  let search, goal = search ~from:start ~keep g p in
+  let search, goal = search ~from:start g p in
   let rec back s steps =
     let previous = search.came_from.(s) in
     if previous = root then steps

@@ -17,9 +17,5 @@ val reachable : Graph.t -> bool array
 val trim : Graph.t -> Graph.t
 (** [trim g] is the part of [g] that can be reached, numbered breadth first: the initial state is 0. *)
 
-val deadlocks : Graph.t -> int list
-(** [deadlocks g] is the states that can be reached and that no transition leaves, the nearest first. *)
-
-val shortest : ?from:int -> ?keep:(int -> int -> int -> bool) -> Graph.t -> (int -> bool) -> run option
-(** [shortest g p] is a shortest run from the initial state, or from [from], to a state where [p] holds. If [keep] is
-    given, only transitions for which [keep s l s'] holds are taken. *)
+val shortest : ?from:int -> Graph.t -> (int -> bool) -> run option
+(** [shortest g p] is a shortest run from the initial state, or from [from], to a state where [p] holds. *)

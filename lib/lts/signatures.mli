@@ -3,6 +3,7 @@
 type t
 
 val create : unit -> t
+(** An empty table. *)
 
 val clear : t -> unit
 (** Forgets all signatures, in time proportional to how many there are. *)

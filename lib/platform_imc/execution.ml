@@ -3,7 +3,7 @@ open Phase
 module Control = Message.Plan_control
 module Control_state = Message.Plan_control_state
 
-type order = Phase.order = { plan : string; specification : Message.t Message.Plan_specification.t option }
+type order = Phase.order
 type t = Phase.t
 
 type input =
@@ -19,7 +19,7 @@ type input =
   | Leaves of float
   | Tick
 
-type output = Phase.output = Keep of Memo.t | Send of Message.t | Done | Failed of string | Note of string
+type output = Phase.output
 
 let most_copies = 10
 let most_copies_while_blocked = 3
@@ -141,7 +141,8 @@ let judge ~now ~clock (s : sighting) x =
   | Ending _ -> (x, [])
   | Stopping p ->
     let took_effect = p.took_effect || (is p.attempt.order.plan s && s.state.state = Executing && s.sent > p.after) in
-    if confirms_stop ~now p.attempt ~took_effect ~after:p.after s then stopped ~now ~clock ~ended:s.sent p.attempt p.next x
+    if confirms_stop ~now p.attempt ~took_effect ~after:p.after s then
+      stopped ~now ~clock ~ended:s.sent p.attempt p.next x
     else ({ x with phase = Stopping { p with took_effect } }, [])
 
 (* {1 Inputs} *)
@@ -354,7 +355,8 @@ let progress x =
   match x.phase, x.seen with
   | Idle, _ -> None
   | Starting a, _ -> plain a Starting
-  | (Running { attempt; _ } | Ending { attempt; _ }), Some s when s.state.state = Executing && is attempt.order.plan s ->
+  | (Running { attempt; _ } | Ending { attempt; _ }), Some s
+    when s.state.state = Executing && is attempt.order.plan s ->
     let share = s.state.plan_progress in
     let known = share >= 0. && share <= 100. in
     Some

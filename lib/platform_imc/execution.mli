@@ -12,11 +12,11 @@
 
     - The plan {e runs} once EXECUTING is seen with its name, sent after our request. If the vehicle ran a plan of the
       same name before, a sign of our request is needed too: a reply to it, or INITIALIZING.
-    - It is {e done} when READY with its name and outcome SUCCESS was sent after EXECUTING was, or after a positive reply
-      to our request, or, both being lost, where the vehicle had another plan's name before.
+    - It is {e done} when READY with its name and outcome SUCCESS was sent after EXECUTING was, or after a positive
+      reply to our request, or, both being lost, where the vehicle had another plan's name before.
     - It {e failed} when a FAILURE replies to our request, in the words of that reply; when READY has another outcome
-      than SUCCESS; when the vehicle went from INITIALIZING to READY without taking the plan; when it is BLOCKED; when it
-      executes another plan, or has executed one. Where the words are missing they are waited for, {!grace} long; an
+      than SUCCESS; when the vehicle went from INITIALIZING to READY without taking the plan; when it is BLOCKED; when
+      it executes another plan, or has executed one. Where the words are missing they are waited for, {!grace} long; an
       error that the vehicle reports stands in for them.
     - A request whose memo the disk has not got yet waits ([Leaves]). Until it has left nothing follows from silence.
     - A request is {e sent again} only after a look: no reply came within {!patience}, and a state that the vehicle sent
@@ -39,10 +39,8 @@ open Dolphin_imc
 
 type t
 
-type order = {
-  plan : string;
-  specification : Message.t Message.Plan_specification.t option;  (** [None]: the vehicle knows the plan by name *)
-}
+type order = Phase.order
+(** A plan to run: see {!Phase.order}. *)
 
 (** Times [sent] are by the vehicle's clock as {!Vehicle_clock.observe} returns them. Only messages of this vehicle, and
     only replies to this console, are given. *)
@@ -62,12 +60,8 @@ type input =
   (** The last request to start leaves at that time, and not at once; [infinity]: nobody knows yet when. *)
   | Tick  (** Time has passed. *)
 
-type output =
-  | Keep of Memo.t  (** In case that we die: before what follows is sent. *)
-  | Send of Message.t  (** To the vehicle. *)
-  | Done
-  | Failed of string  (** Without a full stop. *)
-  | Note of string  (** For people: a request sent again that may have an effect twice, a stop given up. *)
+type output = Phase.output
+(** What is to be sent, kept and told: see {!Phase.output}. *)
 
 val create : request:int -> t
 (** Nothing to do; requests are numbered from [request], modulo 65536. *)

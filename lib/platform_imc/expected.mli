@@ -7,6 +7,7 @@ val resume : now:float -> Dolphin_runtime.Past.standing -> t -> t
 (** As {!Station.resume}. *)
 
 val order_of : Core.platform_task -> Execution.order
+(** The order that the task is to a vehicle: an inline plan goes along, others are known by name. *)
 
 val expect : Core.vehicle -> wish -> t -> t
 (** [expect v wish s]: [wish] is to be done with [v] when it has said what it runs. *)

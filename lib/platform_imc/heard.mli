@@ -12,6 +12,7 @@ type entry = {
 }
 
 val nothing : t
+(** Nobody was heard. *)
 
 val add : Header.t -> string -> t -> t
 (** [add h bytes x] is [x] after the packet [bytes] with the header [h]. Of one system {!most_kinds} different messages

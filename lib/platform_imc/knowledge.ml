@@ -61,8 +61,8 @@ let telemetry_interval = 0.95
 let create settings =
   { settings; nodes = Nodes.empty; ids = Names.empty; bound = Names.empty; telemetry = false; timeouts = Names.empty;
     timeout = 60.; timers = Timers.none; told = Names.empty; expected = Names.empty; outbox = Outbox.empty;
-    next_announce = 0.; last_announce = neg_infinity; next_heartbeat = 0.; next_eager = infinity; dropped = Names.empty; skipped = 0;
-    accepted = 0; heard = Heard.nothing }
+    next_announce = 0.; last_announce = neg_infinity; next_heartbeat = 0.; next_eager = infinity;
+    dropped = Names.empty; skipped = 0; accepted = 0; heard = Heard.nothing }
 
 let timeout_of name s = Option.value (Names.find_opt name s.timeouts) ~default:s.timeout
 let find name s = Option.bind (Names.find_opt name s.ids) (fun id -> Nodes.find_opt id s.nodes)

@@ -5,17 +5,16 @@ open Dolphin_runtime
 module Nodes : Map.S with type key = int
 module Names : Map.S with type key = string
 
-(** Both as {!Station} has them. *)
 type settings = {
   id : int;  (** The console's IMC address, from 0x4000 to 0x5FFF, other than those of other consoles. *)
   name : string;  (** As other systems see it. *)
   addresses : Service.address list;  (** Where vehicles can send to, announced to them. *)
-  epoch : float;  (** Seconds from 1970-01-01 00:00 UTC to time 0 of [now]. *)
+  epoch : float;  (** Seconds from 1970-01-01 00:00 UTC to time 0 of our clock. *)
   first_request : int;  (** Where requests are numbered from. *)
   payload : (Core.vehicle * string list) list;  (** Devices of vehicles, in place of their entity lists. *)
   types : (Core.vehicle * string) list;  (** Types of vehicles, in place of what they announce. *)
   type_names : (int * string) list;  (** Of types for which IMC 5.4 has no names. *)
-  listens : bool;  (** Whether {!heard} is kept. *)
+  listens : bool;  (** Whether {!Station.heard} is kept. *)
 }
 
 type output =
@@ -63,8 +62,13 @@ type t = {
 }
 
 val create : settings -> t
+(** As {!Station.create}. *)
+
 val timeout_of : Core.vehicle -> t -> float
+(** The connection timeout of a vehicle, in seconds. *)
+
 val find : Core.vehicle -> t -> Node.t option
+(** The system of that name, if it has announced itself. *)
 
 val put : Node.t -> t -> t
 (** [put n s] is [s] with [n] in place of what was known of it. *)
@@ -75,6 +79,7 @@ val state_of : now:float -> Node.t -> t -> World.vehicle_state
 (** {1:sending Sending} *)
 
 val encode : now:float -> dst:int -> Dolphin_imc.Message.t -> t -> (string, Dolphin_imc.Error.encode) result
+(** The bytes of a packet of ours to the system [dst], stamped with the time [now]. *)
 
 val to_node : now:float -> Node.t -> Dolphin_imc.Message.t -> t -> output list
 (** Nothing if it has no address. *)
@@ -85,6 +90,7 @@ val announcement : now:float -> t -> string
 (** {1:telling Telling the program} *)
 
 val push : Platform.event -> t -> t
+(** Puts an event into the outbox. *)
 
 val tell : ?urgent:bool -> now:float -> Node.t -> t -> t
 (** [tell ~urgent ~now n s] tells what is new of [n]: what changes at once if it changed, or [urgent]; positions and

@@ -13,6 +13,7 @@ val is_urgent : t -> bool
 (** Whether something is sent next that must not be forgotten: of [Asked]. *)
 
 val to_json : t -> Yojson.Safe.t
+(** An object, as journals keep it. *)
 
 val of_json : Yojson.Safe.t -> t option
 (** [of_json (to_json m)] is [Some m]; [None] for what is no memo. *)

@@ -1,5 +1,6 @@
 open Dolphin_semantics
 open Dolphin_imc
+open Dolphin_geo.Angle
 module Position = Dolphin_geo.Position
 
 type t = {
@@ -31,7 +32,7 @@ let last_sign n = Float.max n.last_announced n.last_heard
 
 let placed ~lat ~lon ~height =
   Result.to_option
-    (Position.make ~latitude:(Plan_message.degrees lat) ~longitude:(Plan_message.degrees lon) ~height)
+    (Position.make ~latitude:(degrees lat) ~longitude:(degrees lon) ~height)
 
 (* Where the system can be reached: 0.0.0.0 stands for where the announcement came from. *)
 let addresses ~from services =
@@ -135,8 +136,8 @@ let queried n = { n with queries = n.queries + 1 }
 
 (* {1 As programs see it} *)
 
-(* The last word of the vehicle is that it could be given a plan: VehicleState in mode SERVICE, or PlanControlState READY,
-   whichever was sent later. *)
+(* The last word of the vehicle is that it could be given a plan: VehicleState in mode SERVICE, or PlanControlState
+   READY, whichever was sent later. *)
 let in_service n =
   let by_mode = Option.map (fun (sent, mode) -> (sent, mode = Message.Vehicle_state.Op_mode.Service)) n.mode in
   match by_mode, Execution.readiness n.execution with

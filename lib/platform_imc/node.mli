@@ -1,4 +1,5 @@
-(** A system on the network as this console knows it: who it is, where it can be reached, what it last said of itself. *)
+(** A system on the network as this console knows it: who it is, where it can be reached, what it last said of
+    itself. *)
 
 open Dolphin_semantics
 open Dolphin_imc
@@ -42,8 +43,8 @@ val absence : float
 (** {1:telemetry What it says} *)
 
 val hear : now:float -> own:int -> Packet.t -> t -> t * Execution.output list
-(** [hear ~now ~own p n] is [n] after its packet [p] came, and what follows for its plan. Replies of PlanControl count if
-    they are for the console [own]; values that are no numbers, or out of range, are left out.
+(** [hear ~now ~own p n] is [n] after its packet [p] came, and what follows for its plan. Replies of PlanControl count
+    if they are for the console [own]; values that are no numbers, or out of range, are left out.
 
     The position is EstimatedState's reference point, moved [x] metres north and [y] metres east over the ground, [z]
     metres down. The battery is FuelLevel's percentage, as a share. *)
@@ -57,6 +58,7 @@ val queried : t -> t
 (** {1:state As programs see it} *)
 
 val is_vehicle : t -> bool
+(** Whether its type is one that runs plans. *)
 
 val silent : now:float -> timeout:float -> t -> bool
 (** [silent ~now ~timeout n] is whether nothing but announcements was heard of [n] for [timeout] seconds. *)

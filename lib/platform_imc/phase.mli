@@ -3,10 +3,17 @@
 
 open Dolphin_imc
 
-(** Both as {!Execution} has them. *)
-type order = { plan : string; specification : Message.t Message.Plan_specification.t option }
+type order = {
+  plan : string;
+  specification : Message.t Message.Plan_specification.t option;  (** [None]: the vehicle knows the plan by name *)
+}
 
-type output = Keep of Memo.t | Send of Message.t | Done | Failed of string | Note of string
+type output =
+  | Keep of Memo.t  (** In case that we die: before what follows is sent. *)
+  | Send of Message.t  (** To the vehicle. *)
+  | Done
+  | Failed of string  (** Without a full stop. *)
+  | Note of string  (** For people: a request sent again that may have an effect twice, a stop given up. *)
 
 (** {1:sightings Sightings} *)
 
@@ -78,10 +85,19 @@ type t = {
 }
 
 val create : request:int -> t
+(** Nothing to do; requests are numbered from [request]. *)
+
 val idle : t -> bool
+(** No order, and none to be undone. *)
+
 val owes : t -> bool
+(** As {!Execution.owes}. *)
+
 val unsettled : t -> string option
+(** As {!Execution.unsettled}. *)
+
 val due : t -> float
+(** When the passing of time matters next, in seconds; [infinity] if it does not. *)
 
 (** {1:ways Ways} *)
 
@@ -120,7 +136,11 @@ val effect_of : attempt -> float
 (** When, by the vehicle's clock, the order took effect, as far as is known. *)
 
 val hit_by_late_stop : t -> since:float -> bool
+(** Whether the vehicle answered a stop that was for an order before, after the plan ran at [since]: it may have
+    stopped the wrong one. *)
+
 val late_stop : string
+(** What is told of it. *)
 
 val words : t -> since:float -> why:string -> string
 (** Why it failed, in the vehicle's words if there are any; in ours, [why]. *)
@@ -128,8 +148,13 @@ val words : t -> since:float -> why:string -> string
 (** {1:constants Constants} Seconds. *)
 
 val grace : float
+(** As {!Execution.grace}. *)
+
 val stop_interval : float
+(** As {!Execution.stop_interval}. *)
+
 val stop_patience : float
+(** As {!Execution.stop_patience}. *)
 
 val echo : float
 (** 10 s: for so long after it was sent last, a datagram of ours may still arrive. *)

@@ -1,10 +1,9 @@
 open Dolphin_semantics
 open Dolphin_imc
+open Dolphin_geo.Angle
 
 let timeout = 65535
 let pop_up_radius = 20.
-let radians degrees = degrees *. Float.pi /. 180.
-let degrees radians = radians *. 180. /. Float.pi
 let whole x = int_of_float (Float.round x)
 
 let speed_units : Plan.speed_unit -> Message.Speed_units.t = function

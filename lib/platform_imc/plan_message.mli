@@ -22,9 +22,3 @@ val timeout : int
 
 val pop_up_radius : float
 (** 20 m, the default radius of [skeeping]. *)
-
-val radians : float -> float
-(** [radians degrees] is [degrees * pi / 180]. *)
-
-val degrees : float -> float
-(** [degrees radians] is [radians * 180 / pi]. *)

@@ -21,4 +21,7 @@ val join : Lwt_unix.file_descr -> Unix.inet_addr -> interfaces:Unix.inet_addr li
     possible. *)
 
 val port_of : Unix.file_descr -> int
+(** The port that it is bound to. *)
+
 val close_quietly : Unix.file_descr -> unit
+(** Closes it; that it was closed before does not matter. *)

@@ -3,25 +3,8 @@ open Dolphin_imc
 open Knowledge
 
 type t = Knowledge.t
-
-type settings = Knowledge.settings = {
-  id : int;
-  name : string;
-  addresses : Service.address list;
-  epoch : float;
-  first_request : int;
-  payload : (Core.vehicle * string list) list;
-  types : (Core.vehicle * string) list;
-  type_names : (int * string) list;
-  listens : bool;
-}
-
-type output = Knowledge.output =
-  | Send of { address : Service.address; bytes : string }
-  | Announce of string
-  | Announce_to of Unix.inet_addr * string
-  | Keep of Core.vehicle * Memo.t
-  | Note of Core.vehicle * string
+type settings = Knowledge.settings
+type output = Knowledge.output
 
 let announce_interval = 10.
 let eager_announce_interval = 1.

@@ -8,38 +8,24 @@ open Dolphin_runtime
 
 type t
 
-type settings = {
-  id : int;  (** The console's IMC address, from 0x4000 to 0x5FFF, other than those of other consoles. *)
-  name : string;  (** As other systems see it. *)
-  addresses : Service.address list;  (** Where vehicles can send to, announced to them. *)
-  epoch : float;  (** Seconds from 1970-01-01 00:00 UTC to time 0 of [now]. *)
-  first_request : int;  (** Where requests are numbered from. *)
-  payload : (Core.vehicle * string list) list;  (** Devices of vehicles, in place of their entity lists. *)
-  types : (Core.vehicle * string) list;  (** Types of vehicles, in place of what they announce. *)
-  type_names : (int * string) list;  (** Of types for which IMC 5.4 has no names. *)
-  listens : bool;  (** Whether {!heard} is kept. *)
-}
+type settings = Knowledge.settings
+(** What is settled before it starts: see {!Knowledge.settings}. *)
 
 val create : settings -> t
 (** Nobody is known; an announcement is due. *)
 
 val resume : now:float -> Dolphin_runtime.Past.standing -> t -> t
 (** [resume ~now standing s] is [s], as {!create} made it, taking over at [now] from a console that died. Vehicles that
-    it held, and those that it had asked for something, are expected: what they were asked is settled when they have said
-    what they run ({!Execution}), and they may be commanded before they are heard. One that is not heard within its
+    it held, and those that it had asked for something, are expected: what they were asked is settled when they have
+    said what they run ({!Execution}), and they may be commanded before they are heard. One that is not heard within its
     connection timeout, though a task of it has not ended, has failed it. Timers go on. *)
 
 (** {1:time Input}
 
     [now] is in seconds on a clock of ours that is never set back; it starts at 0. *)
 
-type output =
-  | Send of { address : Service.address; bytes : string }  (** From the data port. *)
-  | Announce of string
-  (** To the announcement ports at 224.0.75.69, the broadcast address and 127.0.0.1. *)
-  | Announce_to of Unix.inet_addr * string  (** To the announcement ports there. *)
-  | Keep of Core.vehicle * Memo.t  (** In case that we die: before what follows is sent. *)
-  | Note of Core.vehicle * string  (** For people: something unusual that is not the end of a task. *)
+type output = Knowledge.output
+(** What is to be sent, kept and told: see {!Knowledge.output}. *)
 
 val datagram : now:float -> from:Unix.inet_addr -> ?len:int -> string -> t -> t * output list
 (** [datagram ~now ~from ~len bytes s] is [s] after the first [len] bytes (all) of [bytes] came as one datagram. Nothing
@@ -117,6 +103,7 @@ val skipped : t -> int
 (** Datagrams of no interest. *)
 
 val accepted : t -> int
+(** Datagrams that were neither dropped nor skipped. *)
 
 (** {1:constants Constants} Seconds, but for the last. *)
 

@@ -7,3 +7,4 @@ val make : ?time:float -> unit -> t
 (** It shows [time] now, by default 0. *)
 
 val now : t -> float
+(** Seconds; it is never set back. *)

@@ -22,8 +22,13 @@ val request : plan:string -> number:int -> after:float -> busy:bool -> t
     order. *)
 
 val reply : sent:float -> Message.t Message.Plan_control.t -> t -> t
+(** A reply to a request of ours. *)
+
 val state : sent:float -> Message.Plan_control_state.t -> t -> t
+(** What it says of its plan. *)
+
 val log : sent:float -> Message.Log_book_entry.t -> t -> t
+(** An entry of its log book. *)
 
 (** {1:verdict Verdict} *)
 

@@ -5,6 +5,7 @@ open Dolphin_semantics
 type t
 
 val none : t
+(** Nothing is to ring. *)
 
 val of_list : (Residual.timer * float) list -> t
 (** Timers and when they ring. *)
@@ -13,6 +14,7 @@ val set : Residual.timer -> float -> t -> t
 (** [set timer time x] rings [timer] at [time], after others at that time; no more when it was to ring before. *)
 
 val cancel : Residual.timer -> t -> t
+(** It does not ring any more. *)
 
 val first : t -> float
 (** When the next one rings; [infinity] if none does. *)

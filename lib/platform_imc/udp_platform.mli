@@ -51,8 +51,13 @@ val gathering : float
 (** {1:displays For displays} *)
 
 val id : t -> int
+(** The console's IMC address. *)
+
 val name_on_network : t -> string
+(** As other systems see it. *)
+
 val data_port : t -> int
+(** The port of its data socket. *)
 
 val sights : t -> Station.sight list
 (** All systems that have announced, by name. *)
@@ -72,3 +77,4 @@ type traffic = {
 }
 
 val traffic : t -> traffic
+(** What came and went since it was opened. *)

@@ -6,6 +6,7 @@
 type t
 
 val unknown : t
+(** Nothing came of the vehicle so far. *)
 
 val observe : now:float -> sent:float -> t -> t * float
 (** [observe ~now ~sent c] is what is known after a datagram that is stamped [sent] came at our time [now] (s), and the

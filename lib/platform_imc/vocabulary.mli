@@ -7,8 +7,8 @@ open Dolphin_imc
 
 val differences : Definition.t -> string list
 (** [differences d] is why vehicles that speak by [d] and Dolphin would misunderstand each other, in words: a line for
-    each message that Dolphin reads or writes and that [d] lacks or lays out otherwise. Maneuvers may be missing: a vehicle
-    refuses a plan with a maneuver that it has not got. *)
+    each message that Dolphin reads or writes and that [d] lacks or lays out otherwise. Maneuvers may be missing: a
+    vehicle refuses a plan with a maneuver that it has not got. *)
 
 val types : Definition.t -> (int * string) list
 (** [types d] is the names of [d] for the types of systems (SystemType). *)

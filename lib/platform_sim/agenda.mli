@@ -6,6 +6,7 @@ type key
 type 'a t
 
 val empty : 'a t
+(** Nothing is to happen. *)
 
 val add : float -> 'a -> 'a t -> key * 'a t
 (** [add time x a] is [a] with [x] at [time], after all that [a] has had at that time. O(log n), like the others. *)

@@ -1,3 +1,4 @@
+open Dolphin_results
 open Dolphin_runtime
 open Dolphin_semantics
 
@@ -53,20 +54,18 @@ let same (event : Transition.event) (told : Platform.event) =
       (Vehicle _ | Task_done _ | Task_failed _ | Timer _ | Quiet) ) -> false
 
 let happen time (event : Transition.event) s =
+  let comes what =
+    if List.exists (same event) s.untold then
+      Ok { s with untold = List.filter (fun told -> not (same event told)) s.untold }
+    else
+      match until ~last:(time +. tolerance) (same event) s with
+      | Some s -> Ok s
+      | None -> Error (Printf.sprintf "%s at %g s did not happen with this fleet and this seed" what time)
+  in
   match event with
+  | Vehicle_done v | Vehicle_failed (v, _) -> comes ("the end of a task of " ^ v)
+  | Timer_expired _ -> comes "the end of a timer"
   | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Interruption -> Ok s
-  | Vehicle_done _ | Vehicle_failed _ | Timer_expired _ -> (
-      if List.exists (same event) s.untold then
-        Ok { s with untold = List.filter (fun told -> not (same event told)) s.untold }
-      else
-        match until ~last:(time +. tolerance) (same event) s with
-        | Some s -> Ok s
-        | None ->
-          let what : Transition.event -> string = function
-            | Vehicle_done v | Vehicle_failed (v, _) -> Printf.sprintf "the end of a task of %s" v
-            | _ -> "the end of a timer"
-          in
-          Error (Printf.sprintf "%s at %g s did not happen with this fleet and this seed" (what event) time))
 
 let command ~announce_period s : Effect.t -> state = function
   | Start (v, task) -> { s with f = Fleet.start v task s.f }
@@ -94,6 +93,5 @@ let moment ~announce_period s { Past.time; what } =
 
 let make ~seed ~announce_period scenario moments =
   let start = { f = Fleet.telemetry true (Fleet.create ~seed scenario); untold = []; unsaid = [] } in
-  let add s m = Result.bind s (fun s -> moment ~announce_period s m) in
   let finish s = { fleet = s.f; early = List.rev s.untold; news = List.rev s.unsaid } in
-  Result.map finish (List.fold_left add (Ok start) moments)
+  Result.map finish (Results.fold (moment ~announce_period) start moments)

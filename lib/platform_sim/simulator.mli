@@ -98,12 +98,13 @@ module Virtual : sig
   include S
 
   val create : seed:int -> Scenario.t -> t
+  (** [create ~seed s] is the fleet of [s] at time 0. *)
 
   val create_again :
     seed:int -> Scenario.t -> Past.moment list -> (t * World.vehicle_state list, string) result
-    (** [create_again ~seed s moments] is the platform of a run whose console died after [moments], with what was told of
-        vehicles since the journal's last lines on them: see {!Recreation}. No time has passed since. The error says why
-        [moments] are not those of this fleet. *)
+    (** [create_again ~seed s moments] is the platform of a run whose console died after [moments], with what was told
+        of vehicles since the journal's last lines on them: see {!Recreation}. No time has passed since. The error says
+        why [moments] are not those of this fleet. *)
 end
 
 (** Time passes by itself, perhaps faster than outside. *)

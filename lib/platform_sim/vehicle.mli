@@ -9,6 +9,7 @@ val make : Scenario.vehicle -> t
 (** At its place and at rest, at time 0. *)
 
 val scenario : t -> Scenario.vehicle
+(** What the scenario says of it. *)
 
 val set_out : t -> at:float -> Track.t -> t
 (** [set_out v ~at way] is [v] leaving at time [at] to go [way]. *)
@@ -21,6 +22,7 @@ val rest : t -> at:float -> t
     At a time not before the last command. *)
 
 val position : t -> at:float -> Dolphin_geo.Position.t
+(** Where it is. *)
 
 val battery : t -> at:float -> float
 (** From 0 to 1: under way it falls by [drain] each hour; at rest it rises by [charge], or if that is 0 falls by a

@@ -19,6 +19,7 @@ let signal pid number =
 let kill_group pid = try Unix.kill (-pid) Sys.sigkill with Unix.Unix_error _ -> ()
 
 let with_environment added =
+  (* What is split has one part at least. *)
   let name binding = List.hd (String.split_on_char '=' binding) in
   let kept = List.filter (fun b -> not (List.mem_assoc (name b) added)) (Array.to_list (Unix.environment ())) in
   Array.of_list (kept @ List.map (fun (name, x) -> name ^ "=" ^ x) added)
@@ -31,7 +32,9 @@ let become command environment standard_input standard_output =
      Unix.dup2 ~cloexec:false standard_input Unix.stdin;
      Unix.dup2 ~cloexec:false standard_output Unix.stdout;
      Unix.execve "/bin/sh" [| "/bin/sh"; "-c"; command |] environment
-   with _ -> ());
+   with _ ->
+     (* Whatever it is: an exception would go on as a second copy of the console. *)
+     ());
   Unix._exit 127
 
 let reaped pid =

@@ -11,6 +11,7 @@ type t = {
 (** [time] is the platform's. An exception that an observer raises ends the run: see {!Driver.run}. *)
 
 val nobody : t
+(** Looks at nothing. *)
 
 val both : t -> t -> t
 (** [both a b] tells [a], then [b]. *)

@@ -31,12 +31,16 @@ type place =
 type t = { arguments : arguments; place : place; result : kind; reads_sensors : bool }
 
 val find : string -> t option
+(** The procedure of that name. *)
+
 val names : string list
+(** Of all procedures. *)
 
 val constant : string -> Core.value option
 (** [constant "Location.APDL"]: constants by their full name. *)
 
 val constants : string list
+(** The full names of all constants. *)
 
 val owners : string list
 (** The first names of constants and of [Math]'s functions: [Location], [Speed], [Z], [Math]. *)
@@ -45,6 +49,7 @@ val math : string -> bool
 (** Whether [Math] has a function of this name. *)
 
 val math_names : string list
+(** The functions of [Math]. *)
 
 val settings : Dolphin_syntax.Ast.builder -> string list
 (** The settings that a block may have. *)

@@ -3,9 +3,16 @@ module Location = Dolphin_syntax.Location
 module Diagnostic = Dolphin_syntax.Diagnostic
 open Core
 
-(* What elaboration needs at hand: the program's tables, and the piece of code it is in. *)
-type env = { program : Scope.program; code : Scope.code; answer : bool }
+type env = {
+  program : Scope.program;
+  code : Scope.code;
+  answer : bool;
+  of_expression : env -> Ast.expression -> expression;
+  of_statements : env -> Location.t -> Ast.statement list -> expression;
+}
 
+let elaborate env e = env.of_expression env e
+let statements env at body = env.of_statements env at body
 let expression env at node = { node; site = Scope.site env.program at }
 let constant env at x = expression env at (Constant x)
 let apply env at operation arguments = expression env at (Apply (operation, arguments))
@@ -17,6 +24,13 @@ let error env ?hint code at format =
   Printf.ksprintf (fun message -> Scope.report env.program (Diagnostic.error ?hint ~code at message)) format
 
 let null env at = constant env at Null
+
+let unless_null env at subject f =
+  let slot = Scope.new_slot env.code in
+  let first = set_local env at slot subject in
+  let is_null = apply env at (Binary Equal) [ local env at slot; null env at ] in
+  let rest = f (local env at slot) in
+  block env at [ first; expression env at (If (is_null, null env at, rest)) ]
 
 let did_you_mean name names =
   Option.map (Printf.sprintf "did you mean '%s'?") (Diagnostic.suggest name names)
@@ -138,19 +152,21 @@ let builder_name : Ast.builder -> string = function
   | All_of -> "allOf"
   | One_of -> "oneOf"
 
+let check_in_script env name at =
+  if env.answer then error env Deed_in_answer at "%s may not stand in an answer" name;
+  Scope.note_blocking env.code name;
+  match Scope.in_task env.code with
+  | Some construct ->
+    error env Waits_in_task at "%s belongs to the script: the code of %s is part of a task and cannot wait" name
+      construct
+      ~hint:"do it before execute, or split the task"
+  | None -> ()
+
 let check_place env (builtin : Builtins.t) name at =
   if builtin.reads_sensors then Scope.note_sensor env.program;
   match builtin.place with
   | Anywhere -> ()
-  | Script_only -> (
-      if env.answer then error env Deed_in_answer at "%s may not stand in an answer" name;
-      Scope.note_blocking env.code name;
-      match Scope.in_task env.code with
-      | Some construct ->
-        error env Waits_in_task at "%s belongs to the script: the code of %s is part of a task and cannot wait" name
-          construct
-          ~hint:"do it before execute, or split the task"
-      | None -> ())
+  | Script_only -> check_in_script env name at
   | Handler_only -> (
       match Scope.purpose env.code with
       | Handler | Named_function _ | Plain -> ()

@@ -6,8 +6,22 @@ module Location = Dolphin_syntax.Location
 module Diagnostic = Dolphin_syntax.Diagnostic
 open Core
 
-(** The program's tables, the piece of code that is being translated, and whether it is an answer to [ask]. *)
-type env = { program : Scope.program; code : Scope.code; answer : bool }
+type env = {
+  program : Scope.program;  (** its tables *)
+  code : Scope.code;  (** the piece that is being translated *)
+  answer : bool;  (** whether that is an answer to [ask] *)
+  of_expression : env -> Ast.expression -> expression;
+  of_statements : env -> Location.t -> Ast.statement list -> expression;
+}
+(** What stands inside of a construct may be anything. So the modules of single constructs come before {!Translate},
+    and it gives itself to them here. *)
+
+val elaborate : env -> Ast.expression -> expression
+(** [elaborate env e] is [e] in the core. *)
+
+val statements : env -> Location.t -> Ast.statement list -> expression
+(** [statements env at body] is [body], which stands at [at], as one expression: its value is that of the last
+    statement. *)
 
 (** {1:make Core expressions} *)
 
@@ -15,16 +29,27 @@ val expression : env -> Location.t -> node -> expression
 (** [expression env at node] is [node] with a site of its own. *)
 
 val constant : env -> Location.t -> value -> expression
+(** [constant env at x], like those below, makes an expression that stands at [at]. *)
+
 val apply : env -> Location.t -> operation -> expression list -> expression
+
 val block : env -> Location.t -> expression list -> expression
+(** One expression is itself. *)
+
 val local : env -> Location.t -> int -> expression
 val set_local : env -> Location.t -> int -> expression -> expression
 val null : env -> Location.t -> expression
 
+val unless_null : env -> Location.t -> expression -> (expression -> expression) -> expression
+(** [unless_null env at e f] is [null] if [e] is, otherwise [f x] of the local [x] that keeps the value of [e]. *)
+
 (** {1:report Reports} *)
 
 val error : env -> ?hint:string -> Diagnostic.code -> Location.t -> ('a, unit, string, unit) format4 -> 'a
+(** [error env ~hint code at format ...] reports that text; translation goes on, to find other faults. *)
+
 val did_you_mean : string -> string list -> string option
+(** The hint that one of the names may be meant, if one is near. *)
 
 (** {1:kinds Kinds} *)
 
@@ -46,7 +71,10 @@ val check_operator : env -> Ast.binary -> Ast.expression -> Ast.expression -> un
 (** {1:names Names} *)
 
 val keys_of : Ast.argument list -> string option list
+(** The names of arguments, [None] for those without. *)
+
 val value_of : Ast.argument -> Ast.expression
+(** An argument without its name. *)
 
 val dotted : Ast.expression -> string option
 (** ["Speed.Units.RPM"] of the members that spell it. *)
@@ -67,6 +95,10 @@ val check_repeated : env -> Ast.builder -> Ast.statement list -> unit
 (** Reports a second [type], say, among the statements of a [pick], which would replace the first one. *)
 
 val builder_name : Ast.builder -> string
+(** As programs spell it. *)
+
+val check_in_script : env -> string -> Location.t -> unit
+(** Reports what belongs to the script if it stands in code of a task or in an answer. *)
 
 val check_place : env -> Builtins.t -> string -> Location.t -> unit
 (** Reports a procedure that may not stand here, and notes what the program uses. *)

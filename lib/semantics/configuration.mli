@@ -11,6 +11,7 @@ type ending =
   | Interrupted  (** from outside, by Ctrl-C for example *)
 
 val compare_ending : ending -> ending -> int
+(** An order; faults are compared with their sites. *)
 
 type control =
   | Script of Machine.t
@@ -30,8 +31,13 @@ val initial : program -> t
 (** [initial p] is where runs of [p] begin. *)
 
 val compare : t -> t -> int
+(** A total order, of which {!equal} is the equality. Of one program, those are equal that have the same control, store,
+    A, B and N. *)
+
 val equal : t -> t -> bool
+
 val hash : t -> int
+(** Equal configurations have equal hashes. *)
 
 val pp : program -> Format.formatter -> t -> unit
 (** The configuration in a canonical text: equal configurations print alike. *)

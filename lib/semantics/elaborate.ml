@@ -58,7 +58,7 @@ let shell program at label parameters =
 let fill (env : Checks.env) (lambda : lambda) purpose parameters at body =
   let code = Scope.code env.program purpose None in
   List.iter (fun (x : string Ast.located) -> ignore (Scope.define code x.it)) parameters;
-  lambda.code <- Translate.statements { env with Checks.code } at body;
+  lambda.code <- Checks.statements { env with code } at body;
   lambda.slots <- Scope.slots code
 
 let is_error (d : Diagnostic.t) = match d.severity with Error -> true | Warning -> false
@@ -77,7 +77,7 @@ let program ~source_name (ast : Ast.program) =
   List.iter (declare_function program) defined;
   let at = match ast with first :: _ -> first.at | [] -> Location.none in
   let main = shell program at "the program" 0 in
-  let env = { Checks.program; code = Scope.code program Main None; answer = false } in
+  let env = Translate.env program (Scope.code program Main None) ~answer:false in
   fill env main Main [] at ast;
   List.iter
     (fun ((name : string Ast.located), lambda, parameters, body, at) ->
@@ -112,7 +112,7 @@ let expression (p : Core.program) ~globals (e : Ast.expression) =
   let globals = Array.to_list p.global_names @ globals in
   let program = Scope.create ~first_site ~functions:p.functions ~globals () in
   let lambda = shell program e.at "answer" 0 in
-  let env = { Checks.program; code = Scope.code program Main None; answer = true } in
+  let env = Translate.env program (Scope.code program Main None) ~answer:true in
   fill env lambda Main [] e.at [ { Ast.it = Expression e; at = e.at } ];
   report_unknown program;
   match List.filter is_error (Scope.reports program) with

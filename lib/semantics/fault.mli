@@ -11,10 +11,16 @@ type t = {
 }
 
 val unknown_site : Core.site
+(** The site of what has no place in the program. *)
 
 val make : Core.site -> string -> t
+(** [make site message] is an error of the mission. *)
+
 val assertion : Core.site -> string -> t
+(** [assertion site message] is an assertion that does not hold: no handler sees it. *)
+
 val is_assertion : t -> bool
+(** Whether it was made by {!assertion}. *)
 
 val location : Core.program -> t -> Dolphin_syntax.Location.t option
 (** [location p f] is where in [p]'s text [f] happened. *)

@@ -1,3 +1,4 @@
+open Dolphin_results
 open Core
 open Code
 
@@ -62,9 +63,7 @@ let conclude iteration subject items gathered =
   | Any -> Ok (Boolean false)
   | Every -> Ok (Boolean true)
   | Count -> Ok (Integer (List.length (List.filter Value.truth results)))
-  | Sum ->
-    let add total x = Result.bind total (fun total -> Operators.binary Add total x) in
-    List.fold_left add (Ok (Integer 0)) results
+  | Sum -> Results.fold (Operators.binary Add) (Integer 0) results
   | Inject -> Ok (match gathered with x :: _ -> x | [] -> Null)
   | Sort -> Ok (same_kind subject (List.map fst (by_result items results)))
   | Greatest -> Ok (match List.rev (by_result items results) with (x, _) :: _ -> x | [] -> Null)

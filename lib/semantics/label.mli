@@ -33,9 +33,10 @@ type t =
   | Interrupt
 
 val compare : t -> t -> int
+(** A total order; values of tuples are compared by their texts. *)
+
 val equal : t -> t -> bool
 
 val pp : Format.formatter -> t -> unit
 (** ["start(noptilus-1, survey1)"], ["check(consume ready:1)"]. *)
 
-val pp_deed : Format.formatter -> Machine.deed -> unit

@@ -275,11 +275,9 @@ and begin_loop context fuel x slot body locals stack calls at =
   | x -> (
       match Value.items x with
       | Some items -> start (Items (items, 0))
-      | None -> (
-          let m = machine (Give x) locals stack calls at in
-          match Operators.expected "a list, range, map, string or vehicle set to loop over" x with
-          | Ok () -> assert false
-          | Error message -> fault context m at message))
+      | None ->
+        let m = machine (Give x) locals stack calls at in
+        fault context m at (Operators.instead_of "a list, range, map, string or vehicle set to loop over" x))
 
 and next_item context fuel slot items body locals stack calls at =
   let go x items =

@@ -68,7 +68,10 @@ type t = { focus : focus; locals : value array; stack : frame list; calls : int;
     that do not belong together may see {!run} raise [Invalid_argument]. *)
 
 val compare : t -> t -> int
+(** A total order: of machines of one program, those are equal that go on alike. *)
+
 val hash : t -> int
+(** Equal machines have equal hashes. *)
 
 val site : t -> site
 (** [site m] is the place in the program where [m] stands. *)
@@ -96,6 +99,7 @@ type request =
   (** a method of a host object, or with [None] a property; without subject, a procedure of the host itself *)
 
 val compare_request : request -> request -> int
+(** A total order. *)
 
 type stop =
   | Exhausted  (** the fuel ran out; the machine can go on *)

@@ -1,3 +1,4 @@
+open Dolphin_results
 open Core
 module Suggest = Dolphin_syntax.Diagnostic
 
@@ -14,18 +15,14 @@ let strings names = List (Array.of_list (List.map (fun name -> String name) name
 
 let number_text x = match Value.to_number x with Some n -> n | None -> 0.
 
-let sum items =
-  Array.fold_left (fun total x -> let* total = total in Operators.binary Add total x) (Ok (Integer 0)) items
+let sum items = Results.fold (Operators.binary Add) (Integer 0) (Array.to_list items)
 
 let extreme better items =
-  if items = [||] then Ok Null
-  else
-    Array.fold_left
-      (fun best x ->
-         let* best = best in
-         let* replace = Operators.binary better x best in
-         Ok (if Value.truth replace then x else best))
-      (Ok items.(0)) items
+  let choose best x =
+    let* replace = Operators.binary better x best in
+    Ok (if Value.truth replace then x else best)
+  in
+  match Array.to_list items with [] -> Ok Null | first :: _ as items -> Results.fold choose first items
 
 let distinct items =
   Array.fold_left
@@ -135,9 +132,12 @@ let near name names =
 
 let property world x name =
   match x, getter world x name with
-  | Map entries, _ when List.mem_assoc name entries -> Ok (List.assoc name entries)
+  | Map entries, inherent -> (
+      match List.assoc_opt name entries, inherent with
+      | Some x, _ -> Ok x
+      | None, Some result -> result
+      | None, None -> Ok Null)
   | _, Some result -> result
-  | Map _, None -> Ok Null
   | (Integer _ | Number _), None when Operators.unit_factor name <> None -> Operators.in_unit x name
   | (Integer _ | Number _), None ->
     Error (Printf.sprintf "a number has no unit '%s'%s" name (near name Operators.unit_names))

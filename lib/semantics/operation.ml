@@ -55,18 +55,21 @@ let host_call context subject member arguments =
     (Printf.sprintf "%s.%s" subject member)
     (Host_call { subject = Some subject; member; arguments })
 
+(* Code that a map has under the name of the method. *)
+let own_method subject name =
+  match subject with
+  | Map entries -> (match List.assoc_opt name entries with Some (Closure c) -> Some c | Some _ | None -> None)
+  | _ -> None
+
 let call_method context name names arguments =
   match with_named names arguments with
   | Host subject :: arguments -> host_call context subject name (Some arguments)
   | Closure c :: arguments when name = "call" -> Enter (c, arguments)
-  | Map entries :: arguments when (match List.assoc_opt name entries with Some (Closure _) -> true | _ -> false) -> (
-      match List.assoc name entries with
-      | Closure c -> Enter (c, arguments)
-      | x -> expected "a closure" x)
   | subject :: arguments -> (
-      match Iteration.find subject name arguments with
-      | Some (iteration, closure, initial) -> Walk (iteration, closure, subject, initial)
-      | None -> of_result (Methods.call context.world subject name arguments))
+      match own_method subject name, Iteration.find subject name arguments with
+      | Some closure, _ -> Enter (closure, arguments)
+      | None, Some (iteration, closure, initial) -> Walk (iteration, closure, subject, initial)
+      | None, None -> of_result (Methods.call context.world subject name arguments))
   | [] -> Wrong "a method needs something to be called on"
 
 let apply_settled context at operation arguments =

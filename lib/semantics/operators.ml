@@ -1,7 +1,7 @@
 open Core
 module Ast = Dolphin_syntax.Ast
 
-let expected what x =
+let instead_of what x =
   let text = Value.to_string x in
   let found =
     match x with
@@ -10,7 +10,9 @@ let expected what x =
     | Area _ | Vehicles _ | Task _ | Host _ ->
       if String.length text > 60 then Value.kind x else Format.asprintf "%s, %a" (Value.kind x) Value.pp x
   in
-  Error (Printf.sprintf "expected %s, found %s" what found)
+  Printf.sprintf "expected %s, found %s" what found
+
+let expected what x = Error (instead_of what x)
 
 let symbol : Ast.binary -> string = function
   | Divide -> "/" | Multiply -> "*" | Remainder -> "%" | Power -> "**" | Add -> "+" | Subtract -> "-"

@@ -4,6 +4,7 @@
 open Core
 
 val unary : Dolphin_syntax.Ast.unary -> value -> (value, string) result
+(** [unary op x] is [op x], or why it has no value. *)
 
 val binary : Dolphin_syntax.Ast.binary -> value -> value -> (value, string) result
 (** [binary op x y] is [x op y]. Whole numbers stay whole where the result is; [/] is exact, so that [7 / 2] is 3.5;
@@ -17,15 +18,20 @@ val replace_element : value -> value -> value -> (value, string) result
 (** [replace_element x i y] is [x] after [x[i] = y]. *)
 
 val range : inclusive:bool -> value -> value -> (value, string) result
+(** [range ~inclusive first last] is [first..last], or with [~inclusive:false] [first..<last]. *)
 
 val unit_factor : string -> float option
 (** [unit_factor name] is what a number is multiplied with by [n.name], as in [2.km]: results are in metres, degrees,
     seconds, or shares of 1. *)
 
 val unit_names : string list
+(** All names that {!unit_factor} knows. *)
 
 val in_unit : value -> string -> (value, string) result
 (** [in_unit n name] is [n.name]. *)
 
+val instead_of : string -> value -> string
+(** [instead_of what x] is "expected [what], found [kind and text of x]". *)
+
 val expected : string -> value -> ('any, string) result
-(** [expected what x] is the error "expected [what], found [kind and text of x]". *)
+(** [expected what x] is the error {!instead_of}[ what x]. *)

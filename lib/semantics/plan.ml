@@ -55,8 +55,6 @@ let reference p =
 
 type leg = { maneuver : string; waypoints : Dolphin_geo.Position.t list; dwell : float }
 
-let radians degrees = degrees *. Float.pi /. 180.
-
 (* How the rows run: metres ahead of the start (along the bearing) and metres to the right of it. The first point lies
    [offset] before the start, so that the vehicle is on course when it gets there; each row runs on for [offset] too.
    At the far end a vehicle shifts sideways by [share] steps, at the near end by [2 - share], so that two shifts are
@@ -103,8 +101,8 @@ let leg (m : maneuver) =
     let step = r.horizontal_step in
     let curves = if step > 0. then int_of_float (r.width /. step) else 0 in
     offsets_of_rows ~length:r.length ~offset:r.curve_offset ~step ~share:(r.alternation /. 100.) ~curves
-      ~cross_angle:(radians r.cross_angle) ~square:r.square_curve ~right:r.first_curve_right
-    |> List.rev_map (turned (radians r.bearing))
+      ~cross_angle:(Dolphin_geo.Angle.radians r.cross_angle) ~square:r.square_curve ~right:r.first_curve_right
+    |> List.rev_map (turned (Dolphin_geo.Angle.radians r.bearing))
     |> List.rev |> through
 
 let path p = List.map leg p.maneuvers

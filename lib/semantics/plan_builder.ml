@@ -1,3 +1,4 @@
+open Dolphin_results
 open Core
 open Plan_values
 module Position = Dolphin_geo.Position
@@ -117,7 +118,7 @@ let point s origin = function
   | Map entries -> point_of_map s entries
   | Position p ->
     let* metres = within 0. longest " m" s "the distance of a point" (Number (Wgs84.distance origin p)) in
-    let course = Wgs84.bearing origin p *. Float.pi /. 180. in
+    let course = Dolphin_geo.Angle.radians (Wgs84.bearing origin p) in
     Ok (metres *. cos course, metres *. sin course, 0.)
   | x -> wrong s no_point x
 
@@ -125,7 +126,7 @@ let follow_path s (m : Plan.maneuver) =
   match List.assoc_opt "points" s.named with
   | None | Some (List [||]) -> fault s "followPath lacks its points, as in points:[[0, 0], [100, 50]]"
   | Some (List points) ->
-    let* points = each (point s m.location) (Array.to_list points) in
+    let* points = Results.map (point s m.location) (Array.to_list points) in
     Ok { m with kind = Follow_path points }
   | Some x -> wrong s no_point x
 
@@ -260,7 +261,7 @@ let vehicles s draft =
     | Vehicles vs -> Ok vs
     | List xs -> all (Array.to_list xs)
     | x -> wrong s "names of vehicles, as in vehicles 'lauv-noptilus-1', 'lauv-noptilus-2'" x
-  and all xs = Result.map List.concat (each name xs) in
+  and all xs = Results.concat_map name xs in
   let once names name = if List.mem name names then names else name :: names in
   let* names = all s.positional in
   if names = [] then fault s "vehicles lacks the names of vehicles"
@@ -299,7 +300,6 @@ let vocabulary =
   @ List.map (fun (name, (_, own, _)) -> (name, own @ common)) maneuvers
 
 let add draft s =
-  let* draft = draft in
   match List.assoc_opt s.setting settings, List.assoc_opt s.setting maneuvers with
   | Some set, _ ->
     let* () = check_named s [] in
@@ -316,7 +316,7 @@ let given_id s =
 
 let build ~name site settings =
   let reserved = List.filter_map given_id settings in
-  let* draft = List.fold_left add (Ok (empty name reserved)) settings in
+  let* draft = Results.fold add (empty name reserved) settings in
   match List.rev draft.latest_first with
   | [] -> Error (Fault.make site (Printf.sprintf "plan '%s' has no maneuver, such as goTo or loiter" draft.name))
   | maneuvers ->

@@ -1,3 +1,4 @@
+open Dolphin_results
 open Core
 module Position = Dolphin_geo.Position
 
@@ -8,7 +9,7 @@ let ( let* ) = Result.bind
 (* {1 Faults} *)
 
 let fault s format = Format.kasprintf (fun message -> Error (Fault.make s.setting_site message)) format
-let wrong s what x = Result.map_error (Fault.make s.setting_site) (Operators.expected what x)
+let wrong s what x = Error (Fault.make s.setting_site (Operators.instead_of what x))
 let listed = String.concat ", "
 
 let instead x xs ~otherwise =
@@ -78,13 +79,6 @@ let position s what = function
   | List [| latitude; longitude |] -> coordinates s latitude longitude
   | x -> wrong s (Printf.sprintf "a position %s" what) x
 
-let rec each read = function
-  | [] -> Ok []
-  | x :: xs ->
-    let* y = read x in
-    let* ys = each read xs in
-    Ok (y :: ys)
-
 (* {1 Quantities with a unit: speeds and z} *)
 
 let speed_units : (string * Plan.speed_unit) list =
@@ -97,6 +91,9 @@ let z_units : (string * Plan.z_unit) list =
     ("Z.Units.NONE", Unspecified) ]
 
 let units = List.map fst speed_units @ List.map fst z_units
+
+(* The first of the units is the example; no table of them is empty. *)
+let example known = fst (List.hd known)
 
 (* A unit may go by its last names, and as a string in any case: 'rpm'. *)
 let unit_of known s what x =
@@ -112,7 +109,7 @@ let unit_of known s what x =
       | Some (_, unit) -> Ok unit
       | None ->
         fault s "'%s' is no unit of %s: %s" text what (instead text (List.map fst known) ~otherwise:"units are"))
-  | x -> wrong s (Printf.sprintf "a unit of %s, as in %s" what (fst (List.hd known))) x
+  | x -> wrong s (Printf.sprintf "a unit of %s, as in %s" what (example known)) x
 
 (* [quantity known default s what xs] is the number and the unit that [xs] are, spread out or as a list. *)
 let quantity known default s what xs =
@@ -124,7 +121,7 @@ let quantity known default s what xs =
     let* unit = unit_of known s what unit in
     let* n = number s what n in
     Ok (n, unit)
-  | [] | _ :: _ -> fault s "%s is a number and a unit, as in %s 1, %s" what what (fst (List.hd known))
+  | [] | _ :: _ -> fault s "%s is a number and a unit, as in %s 1, %s" what what (example known)
 
 let fastest = 100.
 
@@ -176,14 +173,14 @@ let device s what = function
       | None -> fault s "%s lacks its name, as in [name:'Camera']" what
       | Some name ->
         let* name = string s ("name in " ^ what) name in
-        let* parameters = each (parameter s name) (List.remove_assoc "name" entries) in
+        let* parameters = Results.map (parameter s name) (List.remove_assoc "name" entries) in
         let active, others = List.partition (fun (k, _) -> k = "Active") parameters in
         let active = if active = [] then [ ("Active", "true") ] else active in
         Ok { Plan.name = capitalised name; parameters = active @ others })
   | x -> wrong s (Printf.sprintf "devices as %s, as in [[name:'Camera', Frequency:50]]" what) x
 
 let devices s what = function
-  | List xs -> each (device s what) (Array.to_list xs)
+  | List xs -> Results.map (device s what) (Array.to_list xs)
   | x ->
     let* payload = device s what x in
     Ok [ payload ]

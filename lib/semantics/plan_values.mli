@@ -21,9 +21,6 @@ type 'a reader = setting -> string -> value -> ('a, Fault.t) result
 (** [read s what x] is what [x] says, or why it is not what it should be. [s] is the setting that [x] belongs to, and
     [what] is what [x] is there, such as ["radius of loiter"]. *)
 
-val each : ('a -> ('b, 'e) result) -> 'a list -> ('b list, 'e) result
-(** [each read xs] is [read x] of each of [xs], or the first error. *)
-
 val string : string reader
 (** Not empty. *)
 

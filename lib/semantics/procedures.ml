@@ -124,8 +124,8 @@ let mathematics name arguments =
       | "asin" -> result (Float.asin a)
       | "acos" -> result (Float.acos a)
       | "atan" -> result (Float.atan a)
-      | "toRadians" -> result (a *. Float.pi /. 180.)
-      | "toDegrees" -> result (a *. 180. /. Float.pi)
+      | "toRadians" -> result (Dolphin_geo.Angle.radians a)
+      | "toDegrees" -> result (Dolphin_geo.Angle.degrees a)
       | "signum" -> result (if a > 0. then 1. else if a < 0. then -1. else 0.)
       | _ -> Wrong (Printf.sprintf "Math.%s does not take one number" name))
   | _, _, Some [ a; b ] -> (

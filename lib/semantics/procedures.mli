@@ -11,3 +11,4 @@ val blocking : Code.context -> string -> Code.request -> Code.outcome
     stand. *)
 
 val of_result : (value, string) result -> Code.outcome
+(** The value, or the text of the fault. *)

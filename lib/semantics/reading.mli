@@ -9,9 +9,13 @@ exception Unsettled of Fault.t
     comparison alone. The fault says where, and what to do. *)
 
 val battery : World.t -> World.vehicle_state -> value
+(** What the battery shows, or in a world where that is open, a reading that spells it. *)
+
 val position : World.t -> World.vehicle_state -> value
+(** Likewise where it is seen. *)
 
 val is_reading : value -> bool
+(** Whether its value is open. *)
 
 val keep : program -> Store.t -> Store.t
 (** [keep p s] is [s], in which each reading is known by the variable that holds it. In the next step the sensor may

@@ -29,9 +29,13 @@ type t =
 and branch = { guard : closure; body : t }
 
 val compare : t -> t -> int
+(** A total order, with {!equal} and {!hash}; code is compared by its place in the program and by what it captured. *)
+
 val equal : t -> t -> bool
 val hash : t -> int
+
 val pp : Format.formatter -> t -> unit
+(** A short text in the language's syntax. *)
 
 (** {1:normal Normal forms} *)
 
@@ -42,6 +46,8 @@ val parallel : t list -> t
 (** [parallel rs] is the residuals [rs], at least one, side by side. *)
 
 val all_of : t option -> branch list -> t
+(** [all_of running remaining] is the [allOf] whose branch [running] has begun; [remaining] are those to come. There
+    is one at least. *)
 
 val activate : t -> t * (timer * float) list
 (** [activate r] is [r] about to run, and the timers that start with it, with their seconds. A [during] whose time is

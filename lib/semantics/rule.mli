@@ -30,4 +30,7 @@ val name : t -> string
 (** [name r] is [r] as the documentation spells it: ["PAR-ERR"]. *)
 
 val of_name : string -> t option
+(** The rule that {!name} spells so. *)
+
 val pp : Format.formatter -> t -> unit
+(** {!name}. *)

@@ -16,12 +16,25 @@ val site : program -> Location.t -> Core.site
 (** A new site there. *)
 
 val fresh_lambda_id : program -> int
+(** A number that no other piece of code of the program has. *)
+
 val report : program -> Dolphin_syntax.Diagnostic.t -> unit
+(** Adds a diagnostic. *)
+
 val reports : program -> Dolphin_syntax.Diagnostic.t list
+(** All diagnostics, in the order of the text. *)
+
 val locations : program -> Location.t array
+(** The place of each site. *)
+
 val globals : program -> string array
+(** The names of globals, by index. *)
+
 val add_function : program -> string -> Core.lambda -> unit
+(** Defines a function of the program. *)
+
 val find_function : program -> string -> Core.lambda option
+(** The function of that name. *)
 
 val assigned_global : program -> string -> int
 (** The index of a global that something assigns. *)
@@ -33,8 +46,14 @@ val unknown : program -> (string * Location.t) list
 (** Names that are read but that nothing assigns, with each place. *)
 
 val note_ordered_key : program -> string -> unit
+(** [consume k: _] takes the oldest pair of this key: its order must be kept. *)
+
 val ordered_keys : program -> string list
+(** Those that were noted. *)
+
 val note_sensor : program -> unit
+(** Something looks at a position or a battery. *)
+
 val reads_sensors : program -> bool
 
 (** {1:code One piece of code} *)
@@ -53,12 +72,16 @@ val code : program -> purpose -> code option -> code
 (** [code p purpose outer] is a new piece inside of [outer]. *)
 
 val purpose : code -> purpose
+(** What it is for. *)
 
 val in_task : code -> string option
 (** The task construct that the piece is in, directly or not. *)
 
 val new_slot : code -> int
+(** A slot for a value that has no name. *)
+
 val slots : code -> int
+(** How many slots it needs. *)
 
 val define : code -> string -> int
 (** A new local of this name, visible until the end of the block. *)
@@ -80,8 +103,13 @@ val captures : code -> (int * int) list
 (** {1:loops Loops and settings} *)
 
 val in_loop : code -> bool
+(** Whether [break] and [continue] have a loop to leave. *)
+
 val inside_loop : code -> (unit -> 'a) -> 'a
+(** [inside_loop c f] is [f ()], in the body of a loop. *)
+
 val settings : code -> (Ast.builder * int) option
+(** The block of settings around, and the slot where they gather. *)
 
 val inside_settings : code -> (Ast.builder * int) option -> (unit -> 'a) -> 'a
 (** Inside of a block of settings, kept in that slot, names of settings have their meaning; loops around it cannot be

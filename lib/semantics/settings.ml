@@ -1,3 +1,4 @@
+open Dolphin_results
 open Core
 
 type filter = {
@@ -36,10 +37,7 @@ let fault (s : setting) message = Error (Fault.make s.setting_site message)
 
 let wrong s what =
   match s.positional with
-  | [ x ] -> (
-      match Operators.expected (Printf.sprintf "%s after '%s'" what s.setting) x with
-      | Ok () -> assert false
-      | Error message -> fault s message)
+  | [ x ] -> fault s (Operators.instead_of (Printf.sprintf "%s after '%s'" what s.setting) x)
   | [] | _ :: _ -> fault s (Printf.sprintf "'%s' takes %s" s.setting what)
 
 let number s = match s.positional with [ x ] -> Value.to_number x | _ -> None
@@ -62,7 +60,6 @@ let unescape id =
   Buffer.contents b
 
 let add_to_pick pick s =
-  let* pick = pick in
   let filter = pick.filter in
   match s.setting, s.positional with
   | "id", [ String id ] -> Ok { pick with filter = { filter with id = Some (unescape id) } }
@@ -70,16 +67,14 @@ let add_to_pick pick s =
   | "type", [ String kind ] -> Ok { pick with filter = { filter with kind = Some kind } }
   | "type", _ -> wrong s "a string, as in type 'UUV'"
   | "payload", (_ :: _ as names) ->
-    let add names x =
-      let* names = names in
-      match x with
-      | String name -> Ok (name :: names)
+    let devices = function
+      | String name -> Ok [ name ]
       | List xs when Array.for_all (function String _ -> true | _ -> false) xs ->
-        Ok (List.rev_append (List.map Value.to_string (Array.to_list xs)) names)
-      | _ -> wrong { s with positional = [ x ] } "names of devices"
+        Ok (List.map Value.to_string (Array.to_list xs))
+      | x -> wrong { s with positional = [ x ] } "names of devices"
     in
-    let* names = List.fold_left add (Ok []) names in
-    Ok { pick with filter = { filter with payload = filter.payload @ List.rev names } }
+    let* names = Results.concat_map devices names in
+    Ok { pick with filter = { filter with payload = filter.payload @ names } }
   | "payload", [] -> wrong s "names of devices, as in payload 'DVL', 'Sidescan'"
   | "region", [ Area area ] -> Ok { pick with filter = { filter with region = Some area } }
   | "region", [ Position centre; radius ] -> (
@@ -104,7 +99,7 @@ let add_to_pick pick s =
 
 let pick settings =
   let all = { id = None; kind = None; payload = []; region = None } in
-  List.fold_left add_to_pick (Ok { filter = all; count = Exactly 1; timeout = None }) settings
+  Results.fold add_to_pick { filter = all; count = Exactly 1; timeout = None } settings
 
 let position site settings =
   let read (latitude, longitude, height) s =
@@ -115,13 +110,7 @@ let position site settings =
     | ("lat" | "latitude" | "lon" | "longitude" | "height" | "hae"), None -> wrong s "a number"
     | other, _ -> fault s (Printf.sprintf "pos has no setting '%s': it has lat, lon and height" other)
   in
-  let* coordinates =
-    List.fold_left
-      (fun coordinates s ->
-         let* coordinates = coordinates in
-         read coordinates s)
-      (Ok (None, None, 0.)) settings
-  in
+  let* coordinates = Results.fold read (None, None, 0.) settings in
   match coordinates with
   | Some latitude, Some longitude, height -> (
       match Dolphin_geo.Position.make ~latitude ~longitude ~height with
@@ -131,16 +120,12 @@ let position site settings =
   | Some _, None, _ -> Error (Fault.make site "pos lacks its longitude: lon DEGREES")
 
 let branches site settings =
-  let read branches s =
-    let* branches = branches in
+  let read s =
     match s.setting, s.positional with
-    | "when", [ Closure guard; Task body ] -> Ok ({ guard; body } :: branches)
-    | "when", [ Closure _; x ] -> (
-        match Operators.expected "a task after then" x with
-        | Ok () -> assert false
-        | Error message -> fault s message)
+    | "when", [ Closure guard; Task body ] -> Ok { guard; body }
+    | "when", [ Closure _; x ] -> fault s (Operators.instead_of "a task after then" x)
     | _, _ -> fault s "only when { ... } then TASK may stand here"
   in
-  let* branches = List.fold_left read (Ok []) settings in
+  let* branches = Results.map read settings in
   if branches = [] then Error (Fault.make site "no when { ... } then TASK: there is nothing to choose from")
-  else Ok (List.rev branches)
+  else Ok branches

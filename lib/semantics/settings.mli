@@ -22,9 +22,14 @@ val pp_pick : Format.formatter -> pick -> unit
 (** What was asked for: ["3 of type 'UUV' with DVL"]. *)
 
 val compare_pick : pick -> pick -> int
+(** A total order. *)
+
 val pick : setting list -> (pick, Fault.t) result
 (** [pick settings] is the pick that [settings] (first one first) ask for: one vehicle, unless they say otherwise. An id
     is compared as plain text, after its backslashes are taken as escapes. *)
 
 val position : site -> setting list -> (value, Fault.t) result
+(** [position site settings] is the position that [pos { ... }] at [site] makes of its settings. *)
+
 val branches : site -> setting list -> (branch list, Fault.t) result
+(** [branches site settings] is the branches of an [allOf] or [oneOf] at [site], in the order of the text. *)

@@ -461,6 +461,7 @@ let accept_all program world (c : Configuration.t) event =
       | [] -> [ snd (List.hd (World.cases world (fun world -> whole_event program world c event))) ]
       | ts -> List.map Result.ok ts)
 
+(* There is always one, if only a refusal. *)
 let accept program world c event = List.hd (accept_all program world c event)
 
 let awaited (c : Configuration.t) =

@@ -188,7 +188,6 @@ let to_number = function
   | Null | Boolean _ | String _ | Wildcard | Symbol _ | List _ | Map _ | Range _ | Position _ | Area _ | Vehicles _
   | Task _ | Closure _ | Host _ | Settings _ | Reading _ -> None
 
-let of_number n = Number n
 
 let range_length first last = abs (last - first) + 1
 let range_item first last i = if first <= last then first + i else first - i

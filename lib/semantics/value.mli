@@ -9,8 +9,13 @@ val compare : t -> t -> int
     the piece of program they come from and by what they captured. *)
 
 val compare_task : Core.task -> Core.task -> int
+(** As {!compare}; so is {!compare_closure}. *)
+
 val compare_closure : Core.closure -> Core.closure -> int
+
 val hash : t -> int
+(** Equal values have equal hashes. *)
+
 val hash_closure : Core.closure -> int
 
 (** {1:language As the language has it} *)
@@ -30,9 +35,6 @@ val kind : t -> string
 
 val to_number : t -> float option
 (** [to_number x] is [Some] for integers and numbers. *)
-
-val of_number : float -> t
-(** [of_number n] is [Number n]. *)
 
 val items : t -> t array option
 (** [items x] is what a loop over [x] goes through: elements, numbers of a range, single vehicles, entries of a map
@@ -57,9 +59,6 @@ val amount : float -> string
 
 val pp : Format.formatter -> t -> unit
 (** As a literal: strings in quotes, else as {!to_string}. *)
-
-val pp_task : Format.formatter -> Core.task -> unit
-(** A short text of a task, in the language's syntax. *)
 
 val pp_tuple : Format.formatter -> string * t -> unit
 (** ["k:x"]. *)

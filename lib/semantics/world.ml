@@ -18,6 +18,7 @@ type assumption =
   | Placed of Core.vehicle * Position.t
   | Claim of string * bool
 
+(* Vehicles by their rank in the order of first hearing; [states] has each rank that [ranks] has. *)
 type t = {
   ranks : int String_map.t;
   states : vehicle_state Int_map.t;

@@ -13,12 +13,14 @@ type vehicle_state = {
 type t
 
 val empty : t
+(** Nothing is known of any vehicle. *)
 
 val add : vehicle_state -> t -> t
 (** [add s w] is [w] in which vehicle [s.id] has state [s]. A vehicle keeps its place in the order in which vehicles
     were first heard of. *)
 
 val find : Core.vehicle -> t -> vehicle_state option
+(** What is known of it, if anything. *)
 
 val vehicles : t -> vehicle_state list
 (** All vehicles ever heard of, in the order of first hearing. *)
@@ -51,6 +53,7 @@ val open_position : Core.vehicle -> Dolphin_geo.Position.t list -> t -> t
 (** Likewise where [v] is seen. *)
 
 val is_open : t -> bool
+(** Whether some sensor may show several values. *)
 
 val suppose : assumption list -> t -> t
 (** [suppose assumed w] is [w] if that is so. Of what is assumed, nothing is open any more. *)
@@ -72,6 +75,7 @@ val battery : t -> vehicle_state -> float option
 (** [battery w s] is what the battery of [s] shows; [None] if that may be anything. *)
 
 val position : t -> vehicle_state -> Dolphin_geo.Position.t option
+(** [position w s] is where [s] is seen; [None] if that may be anywhere. *)
 
 val place : t -> vehicle_state -> Dolphin_geo.Position.t
 (** [place w s] is [position w s], or if that may be anything, [s.position]: for picking and allocating. *)

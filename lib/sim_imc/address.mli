@@ -15,6 +15,3 @@ val of_services : string -> t list
 
 val to_service : t -> string
 (** [to_service a] is ["imc+udp://HOST:PORT/"]. *)
-
-val pp : Format.formatter -> t -> unit
-(** ["HOST:PORT"]. *)

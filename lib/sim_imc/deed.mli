@@ -15,7 +15,8 @@ type t =
       the same. *)
   | Refused of { request : request; why : string; instead : string option }
   (** It was told to start a plan and does not; [instead] is the plan that it was running and is not any more. *)
-  | Stopped of { request : request; plan : string option }  (** Told to stop, it ended [plan]; [None]: there was none. *)
+  | Stopped of { request : request; plan : string option }
+  (** Told to stop, it ended [plan]; [None]: there was none. *)
   | Ignored of { request : request; why : string }  (** A request that has no answer, or not one of its own. *)
   | Completed of request  (** The plan that was so requested has ended well. *)
   | Failed of { request : request; why : string }

@@ -237,7 +237,8 @@ let start ~at ~by ~(request : Deed.request) (c : Message.t Message.Plan_control.
           Flight.make ~draw (scenario_plan e name) e.settings.vehicle (position ~at e) ~name specification
         in
         let calibrate = Message.Plan_control.Flags.(mem calibrate c.flags) in
-        accepted ~at ~calibrate { plan = name; request = c.request_id; by; sent = request.sent; inline; instead; flight } e)
+        let run = { plan = name; request = c.request_id; by; sent = request.sent; inline; instead; flight } in
+        accepted ~at ~calibrate run e)
 
 (* {1 STOP, Abort, others} *)
 

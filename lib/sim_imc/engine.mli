@@ -10,13 +10,13 @@
     - A plan that comes with a START is kept, and known by its name from then on.
     - With the flag CALIBRATE the plan begins 3 s later; until then the state is INITIALIZING.
     - STOP: a SUCCESS reply, READY, outcome FAILURE; without a plan a FAILURE reply.
-    - Abort: a FAILURE reply to the START of the plan that was running, VehicleState ERROR, BLOCKED; after 0.9 s SERVICE and
-      READY.
+    - Abort: a FAILURE reply to the START of the plan that was running, VehicleState ERROR, BLOCKED; after 0.9 s SERVICE
+      and READY.
     - The last outcome stays until the next. The statistics in a reply are those of the last plan that was loaded.
     - A START of the plan [dislodge] is ignored.
 
-    Assumed, not measured: while BLOCKED a START is answered by FAILURE ["vehicle is blocked"] and changes nothing; other
-    requests than START and STOP are answered by FAILURE.
+    Assumed, not measured: while BLOCKED a START is answered by FAILURE ["vehicle is blocked"] and changes nothing;
+    other requests than START and STOP are answered by FAILURE.
 
     All times are seconds of the mission since its start, whatever clock the outside has. *)
 
@@ -69,9 +69,16 @@ val abort : at:float -> by:party -> name:string -> t -> outcome
 (** {1:state Its state} *)
 
 val plan_control_state : at:float -> t -> Message.Plan_control_state.t
+(** What it says of its plan. *)
+
 val vehicle_state : t -> Message.Vehicle_state.t
+(** What it says of itself. *)
+
 val position : at:float -> t -> Dolphin_geo.Position.t
+(** Where it is. *)
+
 val battery : at:float -> t -> float
+(** The charge, as a share of 1. *)
 
 val is_under_way : t -> bool
 (** Whether a plan moves the vehicle. *)

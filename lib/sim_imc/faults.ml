@@ -5,8 +5,8 @@ type t = { loss : float; duplication : float; reordering : float; delay : float 
 let none = { loss = 0.; duplication = 0.; reordering = 0.; delay = 0., 0. }
 let held_back = 0.01, 0.1
 
-(* The draws of a vehicle's tasks have names of their own; for datagrams the four of them stand for other things, and the
-   draws of a copy are those of a link of another name. *)
+(* The draws of a vehicle's tasks have names of their own; for datagrams the four of them stand for other things, and
+   the draws of a copy are those of a link of another name. *)
 let delay draw f =
   let least, most = f.delay in
   let delay = if most > least then Draw.between least most (draw Draw.Moment) else least in

@@ -9,10 +9,11 @@ type t = {
 }
 
 val none : t
+(** Every datagram arrives once, at once. *)
 
 val held_back : float * float
 (** 10 ms to 100 ms. *)
 
 val delays : seed:int -> link:string -> number:int -> t -> float list
-(** [delays ~seed ~link ~number f] is the delay of each copy of the [number]-th datagram on [link] that arrives: of none, if
-    it is lost. Nothing else decides about it; so a datagram's luck is the same in each run. *)
+(** [delays ~seed ~link ~number f] is the delay of each copy of the [number]-th datagram on [link] that arrives: of
+    none, if it is lost. Nothing else decides about it; so a datagram's luck is the same in each run. *)

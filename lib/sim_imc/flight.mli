@@ -1,5 +1,5 @@
-(** A plan as it is going to be flown: when it ends and how, and which maneuver it is at when. Times are seconds since its
-    start. *)
+(** A plan as it is going to be flown: when it ends and how, and which maneuver it is at when. Times are seconds since
+    its start. *)
 
 open Dolphin_scenario
 

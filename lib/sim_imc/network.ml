@@ -26,7 +26,13 @@ let default scenario =
 
 (* A socket that never blocks, seen by Lwt and without it. *)
 type socket = { port : int; unix : Unix.file_descr; lwt : Lwt_unix.file_descr }
-type craft = { vehicle : Scenario.vehicle; id : int; socket : socket; mutable radio : Radio.t option; mutable told : int }
+type craft = {
+  vehicle : Scenario.vehicle;
+  id : int;
+  socket : socket;
+  mutable radio : Radio.t option;
+  mutable told : int;
+}
 
 type t = {
   settings : settings;

@@ -1,7 +1,7 @@
 (** Simulated vehicles on the network: sockets and a clock around {!Radio}.
 
-    Every vehicle has a data port of its own, and all share one discovery port, on which they hear consoles. Real vehicles
-    have one discovery port each, of which a host has five. *)
+    Every vehicle has a data port of its own, and all share one discovery port, on which they hear consoles. Real
+    vehicles have one discovery port each, of which a host has five. *)
 
 open Dolphin_scenario
 
@@ -44,3 +44,4 @@ val run : log:(Yojson.Safe.t -> unit) -> until:unit Lwt.t -> t -> unit Lwt.t
 (** [run ~log ~until n] lets the vehicles live until [until] is resolved; [log] takes {!Deed}s. To be called once. *)
 
 val close : t -> unit
+(** Closes the sockets. *)

@@ -5,8 +5,11 @@ open Dolphin_imc
 type t
 
 val create : ?faults:Faults.t -> seed:int -> Vehicle_node.settings -> t
+(** The vehicle's node behind a network with those faults, by default {!Faults.none}; [seed] decides which datagrams
+    they hit. *)
 
 val node : t -> Vehicle_node.t
+(** The vehicle's node. *)
 
 type destination =
   | Discovery  (** whoever listens for announcements *)
@@ -18,7 +21,10 @@ type outcome = datagram list * Deed.t list * t
 (** As in {!Vehicle_node.outcome}. *)
 
 val due : t -> float option
+(** When something happens by itself: seconds, [None] if nothing does. *)
+
 val advance : at:float -> t -> outcome
+(** What has happened by itself up to that time. *)
 
 val receive : at:float -> Vehicle_node.channel -> host:string -> string -> t -> outcome
 (** [receive ~at channel ~host bytes r]. What is not an IMC packet is dropped, and counted. *)

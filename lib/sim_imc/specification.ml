@@ -1,11 +1,11 @@
 open Dolphin_imc
 open Dolphin_semantics
+open Dolphin_geo.Angle
 
 type t = { plan : Plan.t; kinds : int list }
 
 let deepest = 100.
 let ( let* ) = Result.bind
-let degrees radians = radians *. 180. /. Float.pi
 let fault id why = Error (Printf.sprintf "parse error: %s: %s" id why)
 
 (* {1 One maneuver} *)

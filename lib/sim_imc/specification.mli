@@ -10,12 +10,12 @@ type t = {
 }
 
 val read : Message.t Message.Plan_specification.t -> (t, string) result
-(** [read s] is the maneuvers of [s] in the order in which a vehicle carries them out: from the initial one, always along
-    the first of the transitions out of it, whatever its condition says, up to [_done_] or where none is left.
+(** [read s] is the maneuvers of [s] in the order in which a vehicle carries them out: from the initial one, always
+    along the first of the transitions out of it, whatever its condition says, up to [_done_] or where none is left.
 
     The error is in a vehicle's own words, ["parse error: 1: maneuver is not supported"]: for maneuvers that
-    {!Dolphin_semantics.Plan} does not have, for numbers that make no sense, for depths beyond {!deepest}, for a maneuver
-    that no transition leads to. *)
+    {!Dolphin_semantics.Plan} does not have, for numbers that make no sense, for depths beyond {!deepest}, for a
+    maneuver that no transition leads to. *)
 
 val of_maneuver : plan:string -> Message.Maneuver.t -> Message.t Message.Plan_specification.t
 (** [of_maneuver ~plan m] is the plan named [plan] of [m] only. *)

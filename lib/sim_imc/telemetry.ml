@@ -1,5 +1,6 @@
 open Dolphin_imc
 open Dolphin_geo
+open Angle
 
 let system_type kind : Message.System_type.t =
   match String.uppercase_ascii kind with
@@ -14,7 +15,6 @@ let system_type kind : Message.System_type.t =
   | "WSN" -> Wsn
   | _ -> Mobilesensor
 
-let radians degrees = degrees *. Float.pi /. 180.
 
 let services ~id addresses =
   let of_address (a : Address.t) = [ Address.to_service a ] in

@@ -7,8 +7,8 @@
     - PlanControlState comes every 0.35 s and on change, VehicleState and EstimatedState every 0.5 s, Heartbeat and
       FuelLevel every second. (Of FuelLevel the rate is assumed.)
     - Heartbeats and PlanControl that come in are sent on to all systems in contact, their senders included.
-    - Requests must be for the vehicle's own number or {!Dolphin_imc.Header.broadcast}; they need not come from a system in
-      contact, but then nobody hears the reply. What is for others, or not for a vehicle, is ignored.
+    - Requests must be for the vehicle's own number or {!Dolphin_imc.Header.broadcast}; they need not come from a system
+      in contact, but then nobody hears the reply. What is for others, or not for a vehicle, is ignored.
     - Plans are run by {!Engine}.
 
     While its link is silent, as the scenario has it, nothing comes in or goes out; the plan goes on.
@@ -32,7 +32,10 @@ val create : settings -> t
 (** At time 0, when the engine's [epoch] is. *)
 
 val id : t -> int
+(** Its IMC address. *)
+
 val name : t -> string
+(** As other systems see it. *)
 
 (** {1:packets Packets} *)
 
@@ -64,6 +67,8 @@ val tell : at:float -> src_ent:int -> content:Packet.content -> t -> output list
 
 (** {1:state Its state} *)
 
-val is_silent : at:float -> t -> bool
 val listeners : at:float -> t -> Address.t list
+(** The data addresses of the systems in contact. *)
+
 val position : at:float -> t -> Dolphin_geo.Position.t
+(** Where it is. *)

@@ -28,6 +28,7 @@ val codes : (code * string) list
 (** Every code with its name, which does not change: ["unknown-name"]. *)
 
 val code_name : code -> string
+(** Its name in {!codes}. *)
 
 type t = {
   at : Location.t;

@@ -40,12 +40,11 @@ let spelt place i =
   | TEMPLATE_CLOSE -> "end of the string"
   | _ -> quoted (text_of place i)
 
-let listed = function
+let listed names =
+  match List.rev names with
   | [] -> None
   | [ one ] -> Some one
-  | several ->
-    let reversed = List.rev several in
-    Some (String.concat ", " (List.rev (List.tl reversed)) ^ " or " ^ List.hd reversed)
+  | last :: others -> Some (String.concat ", " (List.rev others) ^ " or " ^ last)
 
 (* What could stand here instead. *)
 let expected place =

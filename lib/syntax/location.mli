@@ -8,11 +8,10 @@ val none : t
 (** The location of what no source text stands for. *)
 
 val make : Lexing.position * Lexing.position -> t
-
-val span : t -> t -> t
-(** [span a b] is from the start of [a] to the stop of [b]. *)
+(** From the start to the stop. *)
 
 val file : t -> string
+(** The file's name. *)
 
 val line : t -> int
 (** The line of the start, from 1. *)

@@ -15,6 +15,7 @@ val of_program :
   Core.program ->
   (file list, Dolphin_syntax.Diagnostic.t list) result
 (** [of_program ~plans ~prompts ~environment w p] is the model of [p] in [w]: the specification's modules, [MC.tla] with the
-    program and the world as constants, [MC.cfg] to check its properties and [Graph.cfg] to print its graph; all
-    for one directory. Or what cannot be translated, at least one, in the order of the text. [environment] is asked about
-    the plans and prompts that are listed here; what it says of a name that nobody has holds for all others. *)
+    program and the world as constants, and configurations, all for one directory: [MC.cfg] checks the properties,
+    [Told.cfg] does, and tells runs by an [ALIAS], [Graph.cfg] prints the graph, and [Coverage.cfg] has an action for each
+    rule. Or what cannot be translated, at least one, in the order of the text. [environment] is asked about the plans and
+    prompts that are listed here; what it says of a name that nobody has holds for all others. *)

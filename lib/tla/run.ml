@@ -37,7 +37,7 @@ PrintGraphOf(number) ==
   LET here == ToString(number) \o ": "
   IN /\ PrintT("S\t" \o here \o StateText(control, Shared, outside) \o "\t" \o ToString(number))
      /\ PrintMarks
-     /\ \A ts \in { Transitions } : \A j \in DOMAIN ts :
+     /\ \A ts \in { Known(vars) } : \A j \in DOMAIN ts :
           PrintT("E\t" \o ts[j].label \o "\t" \o here \o StateText(ts[j].control, ts[j].S, Remembered(ts[j]))
                  \o "\t" \o Join(ts[j].rules, ", "))
 |}
@@ -50,7 +50,7 @@ EXTENDS MC
 VARIABLE label
 
 RunInit == Init /\ label = ""
-RunNext == \E ts \in { Transitions } : \E j \in DOMAIN ts : Becomes(ts[j]) /\ label' = ts[j].label
+RunNext == \E ts \in { Known(vars) } : \E j \in DOMAIN ts : Becomes(ts[j]) /\ label' = ts[j].label
 RunSpec == RunInit /\ [][RunNext]_<< vars, label >> /\ Fairness
 
 |}

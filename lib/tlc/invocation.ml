@@ -19,10 +19,11 @@ let of_mode (i : Installation.t) = function
 
 (* [-deadlock] says not to look for deadlocks: an end has no successor either, so models have an invariant for that. The
    server does not heed what the configuration says of it. *)
-let command ?(short = false) i mode ~directory ~main ~configuration =
+let command ?(short = false) ?(coverage = false) i mode ~directory ~main ~configuration =
   java i ~short
   @ [ "-Djava.io.tmpdir=" ^ directory ]
   @ of_mode i mode
+  @ (if coverage then [ "-coverage"; "1" ] else [])
   @ [ "-tool"; "-deadlock"; "-metadir"; directory / "states"; "-config"; configuration; main ^ ".tla" ]
 
 let worker i ~host ~port =

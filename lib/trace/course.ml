@@ -1,3 +1,4 @@
+open Dolphin_results
 open Dolphin_semantics
 open Field
 
@@ -151,12 +152,6 @@ let assumption_of_json json : (World.assumption, string) result =
     Ok (World.Claim (claimed, holds))
   | _ -> Error "what is assumed is late, missing, battery, position or claim"
 
-let rec all_assumptions = function
-  | [] -> Ok []
-  | json :: rest ->
-    let* a = assumption_of_json json in
-    Result.map (fun all -> a :: all) (all_assumptions rest)
-
 let json_of_step s : Yojson.Safe.t =
   let cause = match s.cause with Choice i -> [ ("choice", `Int i) ] | Event h -> Happening.members h in
   let assumed = unless_empty "assumed" (fun all -> `List (List.map json_of_assumption all)) s.assumed in
@@ -166,7 +161,7 @@ let step_of_json json =
   let* found = members json in
   let* label = get text "label" found in
   let* items = optional (list any) ~default:[] "assumed" found in
-  let* assumed = all_assumptions items in
+  let* assumed = Results.map assumption_of_json items in
   if List.mem_assoc "choice" found then
     let* i = get whole "choice" found in
     if i < 0 then Error "a choice is a number from 0" else Ok { cause = Choice i; assumed; label }
@@ -213,15 +208,11 @@ let of_lines lines =
   | first :: rest ->
     let* json = parsed 1 first in
     let* course, n, m = of_header json in
-    let add found (number, line) =
-      let* found = found in
+    let step (number, line) =
       let* json = parsed number line in
-      let* s = Result.map_error (Printf.sprintf "line %d: %s" number) (step_of_json json) in
-      Ok (s :: found)
+      Result.map_error (Printf.sprintf "line %d: %s" number) (step_of_json json)
     in
-    let numbered = List.mapi (fun i line -> (i + 2, line)) rest in
-    let* found = List.fold_left add (Ok []) numbered in
-    let all = List.rev found in
+    let* all = Results.map step (List.mapi (fun i line -> (i + 2, line)) rest) in
     if n < 0 || m < 0 || List.length all <> n + m then
       Error (Printf.sprintf "%d steps are announced, and %d are there" (n + m) (List.length all))
     else Ok { course with steps = List.filteri (fun i _ -> i < n) all; cycle = List.filteri (fun i _ -> i >= n) all }

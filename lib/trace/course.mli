@@ -24,6 +24,7 @@ type t = {
 }
 
 val version : int
+(** Of the format. *)
 
 val steps : Core.program -> World.t -> Configuration.t -> Transition.t list -> step list
 (** [steps p w c run] is the transitions [run], one after the other from [c].
@@ -36,4 +37,7 @@ val follow : Core.program -> World.t -> t -> (Transition.t list * Transition.t l
     transitions up to the first step that [p] cannot take there, or that has another label. *)
 
 val to_lines : t -> string list
+(** A header, then a line for each step, without line feeds. *)
+
 val of_lines : string list -> (t, string) result
+(** [of_lines (to_lines c)] is [c]; or what is wrong in which line. *)

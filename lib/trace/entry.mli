@@ -35,3 +35,4 @@ val of_state : World.vehicle_state -> Field.members
 (** The members of a [vehicle] line that say what is known. *)
 
 val to_state : Field.members -> (World.vehicle_state, string) result
+(** What {!of_state} writes. *)

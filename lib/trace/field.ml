@@ -1,3 +1,5 @@
+open Dolphin_results
+
 type members = (string * Yojson.Safe.t) list
 
 let ( let* ) = Result.bind
@@ -29,13 +31,7 @@ let truth : Yojson.Safe.t -> _ = function `Bool b -> Ok b | json -> wrong json "
 let members : Yojson.Safe.t -> _ = function `Assoc members -> Ok members | json -> wrong json "an object"
 
 let list read : Yojson.Safe.t -> _ = function
-  | `List items ->
-    let add found item =
-      let* found = found in
-      let* x = read item in
-      Ok (x :: found)
-    in
-    Result.map List.rev (List.fold_left add (Ok []) items)
+  | `List items -> Results.map read items
   | json -> wrong json "a list"
 
 let nullable read : Yojson.Safe.t -> _ = function `Null -> Ok None | json -> Result.map Option.some (read json)

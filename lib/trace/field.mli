@@ -3,6 +3,7 @@
 type members = (string * Yojson.Safe.t) list
 
 val ( let* ) : ('a, 'e) result -> ('a -> ('b, 'e) result) -> ('b, 'e) result
+(** [Result.bind], for those who open this module. *)
 
 val get : (Yojson.Safe.t -> ('a, string) result) -> string -> members -> ('a, string) result
 (** [get read name members] is what [read] makes of member [name], which must be there. *)

@@ -19,7 +19,10 @@ val source : path:string -> string -> source
 (** [source ~path text] is the file [path] whose contents are [text]. *)
 
 val of_source : source -> Yojson.Safe.t
+(** Its path and its hash. *)
+
 val to_source : Yojson.Safe.t -> (source, string) result
+(** What {!of_source} writes. *)
 
 val of_utc : string -> float option
 (** [of_utc "2026-03-01T12:00:00Z"] is that time in seconds since the beginning of 1970; [None] for what is none. *)
@@ -34,5 +37,7 @@ val check_format : Yojson.Safe.t -> (unit, string) result
 (** Refuses what is no journal, and journals of other versions. *)
 
 val to_json : t -> Yojson.Safe.t
+(** The first line of a journal. *)
+
 val of_json : Yojson.Safe.t -> (t, string) result
 (** Refuses what {!check_format} refuses. *)

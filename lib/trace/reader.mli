@@ -6,6 +6,7 @@ val of_channel : in_channel -> t
 (** The channel is in binary mode, and read by nobody else. Reading may raise [Sys_error]. *)
 
 val of_string : string -> t
+(** Reads the journal that the text is. *)
 
 type item =
   | Line of { number : int;  (** from 1 *) entry : Entry.t }

@@ -2,8 +2,8 @@
 
     What is told of vehicles becomes a line at once if it is new or the link came or went. The rest, positions and
     batteries, becomes one every few seconds or every ten metres of a vehicle; but before a transition that may depend
-    on it, all of it does. So whoever reads the journal knows of vehicles, at each transition, all that the program could
-    know. *)
+    on it, all of it does. So whoever reads the journal knows of vehicles, at each transition, all that the program
+    could know. *)
 
 open Dolphin_semantics
 
@@ -23,7 +23,11 @@ val write : t -> time:float -> (time:float -> Entry.t) -> unit
 (** [write r ~time line] writes [line ~time], at [time] or, if that is later, the time of the line before. *)
 
 val transition : t -> time:float -> cause:Transition.event option -> Transition.t -> unit
+(** [transition r ~time ~cause t] writes the line of [t], and before it that of the event that caused it, and of
+    vehicles what [t] may depend on. *)
+
 val news : t -> time:float -> World.vehicle_state -> unit
+(** [news r ~time state] writes what is known of a vehicle now, or keeps it to be written later. *)
 
 val finish : t -> time:float -> stuck:bool -> unit
 (** The run is over. With [~stuck:true] its interruption was nobody's wish, but the end of a program that was stuck.

@@ -7,8 +7,8 @@ open Dolphin_semantics
 type t
 
 val start : hash:string -> Core.program -> t
-(** [start ~hash program] is before the first line; [hash] is that of the program's text, as in {!Header.source}. Where a
-    journal's header, or the line of its latest resumption, has another one, it does not matter where transitions are
+(** [start ~hash program] is before the first line; [hash] is that of the program's text, as in {!Header.source}. Where
+    a journal's header, or the line of its latest resumption, has another one, it does not matter where transitions are
     said to be in the program: after it was changed, they are elsewhere. *)
 
 (** Why a line is none of a run. *)
@@ -30,6 +30,8 @@ val event : t -> Transition.event option
 (** What the latest line told of, if the transition that it causes is still to come. *)
 
 val configuration : t -> Configuration.t
+(** After the latest transition. *)
+
 val world : t -> World.t
 (** What was known of vehicles. *)
 

@@ -20,13 +20,21 @@ type t =
   | End of ending
 
 val of_effect : Effect.t -> t
+(** What an effect asks of the outside. *)
+
 val ending : Configuration.ending -> ending
+(** How a run ended, in words. *)
 
 val how : string list
 (** How runs end: ["completed"], ["halted"], ["failed"], ["interrupted"], and, of whole runs but not of their last
     effects, ["stuck"]. *)
 
 val to_json : t -> Yojson.Safe.t
+(** An object, as {!of_json} reads it. *)
+
 val of_json : Yojson.Safe.t -> (t, string) result
+
 val ending_members : ending -> Field.members
+(** As {!ending_of_members} reads them. *)
+
 val ending_of_members : Field.members -> (ending, string) result

@@ -1,3 +1,4 @@
+open Dolphin_results
 open Dolphin_semantics
 open Field
 module Vehicle_map = Configuration.Vehicle_map
@@ -98,9 +99,10 @@ let tuple_changes (before : Configuration.t) (t : Transition.t) =
       | Rule.Watch_ignore | Watch_propagate | Watch_halt -> true
       | _ -> false
     in
+    let is_handled = List.exists is_handling t.rules in
     match t.label with
-    | (Did _ | Check _ | Act _ | Cut _) when not (List.exists is_handling t.rules) ->
-      of_deeds (match t.label with Did deed -> [ deed ] | Check ds | Act ds | Cut ds -> ds | _ -> [])
+    | Did deed when not is_handled -> of_deeds [ deed ]
+    | (Check deeds | Act deeds | Cut deeds) when not is_handled -> of_deeds deeds
     | _ -> balance (all t.next.tuples) (all before.tuples)
 
 let of_transition program (before : Configuration.t) (t : Transition.t) =
@@ -132,12 +134,7 @@ let of_allocated changes : Yojson.Safe.t =
 
 let to_allocated json =
   let* changes = members json in
-  let add found (v, json) =
-    let* found = found in
-    let* name = nullable text json in
-    Ok ((v, name) :: found)
-  in
-  Result.map List.rev (List.fold_left add (Ok []) changes)
+  Results.map_values (nullable text) changes
 
 (* What came to B or N, and what went. *)
 let of_difference name ~come:(come, xs) ~gone:(gone, ys) : members =

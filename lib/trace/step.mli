@@ -31,4 +31,7 @@ val difference : places:bool -> t -> t -> string option
     stop. *)
 
 val members : t -> Field.members
+(** As journals have it. *)
+
 val of_members : Field.members -> (t, string) result
+(** What {!members} writes, or why it is none. *)

@@ -44,8 +44,10 @@ type t = {
 type teller
 
 val start : unit -> teller
-val tell : teller -> Entry.t -> unit
-val finish : teller -> t
+(** Nothing is told so far. *)
 
-val errors : Step.t -> Happening.t option -> string list
-(** [errors s cause] is the errors of tasks that [s], caused by [cause], has: what failed, and why. *)
+val tell : teller -> Entry.t -> unit
+(** One line more, in order. *)
+
+val finish : teller -> t
+(** All that was told. *)

@@ -18,9 +18,16 @@ val rect : ?name:string -> ?round:float -> ?tip:string -> x:float -> y:float -> 
 (** [rect ~name ~tip ...] is a rectangle of class [name]; [tip] is shown where the pointer rests on it. *)
 
 val line : ?name:string -> float * float -> float * float -> t
+(** From one point to the other. *)
+
 val polyline : ?name:string -> (float * float) list -> t
+(** Through the points. *)
+
 val circle : ?name:string -> ?tip:string -> float * float -> float -> t
+(** [circle centre radius]. *)
+
 val path : ?name:string -> ?tip:string -> string -> t
+(** A path, by its commands. *)
 
 val text_only : string -> t
 (** Text for an element of another kind. *)
@@ -37,3 +44,4 @@ val fit : ?size:float -> float -> string -> string
 (** [fit ~size width text] is [text], cut to [width] with an ellipsis if it is wider; [""] if nothing of it fits. *)
 
 val to_string : t -> string
+(** The text of the element and of what is inside. *)

@@ -125,6 +125,9 @@ let places v =
   in
   walk None v.samples v.tasks []
 
+(* Of a list that is not empty. *)
+let last xs = List.nth xs (List.length xs - 1)
+
 let way m i v =
   let colour = Style.vehicle i in
   let point s = project m s.position in
@@ -132,7 +135,7 @@ let way m i v =
   let seen run = Svg.polyline ~name:("track " ^ colour) (thin (List.map point run)) in
   let rec jumps = function
     | run :: (next :: _ as others) ->
-      let from = point (List.nth run (List.length run - 1)) and until = point (List.hd next) in
+      let from = point (last run) and until = point (List.hd next) in
       Svg.line ~name:("track unseen " ^ colour) from until :: jumps others
     | [ _ ] | [] -> []
   in
@@ -146,10 +149,9 @@ let way m i v =
   let ends =
     match v.samples with
     | [] -> []
-    | first :: _ ->
-      let last = List.nth v.samples (List.length v.samples - 1) in
+    | first :: _ as samples ->
       [ Svg.circle ~name:("first " ^ colour) ~tip:(v.id ^ " at first") (point first) 4.;
-        Svg.circle ~name:("last " ^ colour) ~tip:(v.id ^ " at last") (point last) 4.5 ]
+        Svg.circle ~name:("last " ^ colour) ~tip:(v.id ^ " at last") (point (last samples)) 4.5 ]
   in
   List.map seen runs @ jumps runs @ starts @ ends
 

@@ -18,14 +18,16 @@ type t =
   | Unreadable of { number : int; why : string }  (** this line is no line of a journal *)
 
 val check : ?world:World.t -> ?most:int -> Core.program -> hash:string -> Reader.t -> Header.t option * t
-(** [check ~world ~most program ~hash reader] reads the journal to its end, or to what is wrong with it; [hash] is that of the
-    program's text, as in {!Header.source}. Where transitions are in the program only matters if the program is that of
-    the journal. Of a partial trace, [world] is what is known of vehicles from the beginning (by default nothing), and at
-    most [most] configurations, by default {!most}, are looked at between two lines: see {!Partial}. *)
+(** [check ~world ~most program ~hash reader] reads the journal to its end, or to what is wrong with it; [hash] is that
+    of the program's text, as in {!Header.source}. Where transitions are in the program only matters if the program is
+    that of the journal. Of a partial trace, [world] is what is known of vehicles from the beginning (by default
+    nothing), and at most [most] configurations, by default {!most}, are looked at between two lines: see {!Partial}. *)
 
 val most : int
 (** 100,000. *)
 
 val is_legal : t -> bool
+(** Whether the journal is one of a run of the program, as far as it goes. *)
+
 val pp : Format.formatter -> t -> unit
 (** A sentence without a full stop, and for what is no run, further lines, for a vertical box. *)

@@ -20,7 +20,4 @@ Claim ==
   /\ By_("ALLOF-WHEN", LAMBDA t : A = << >>)
   /\ By_("ALLOF-2", LAMBDA t : t.S.A = << >> /\ t.control.at = "exec")
   /\ By_("ONEOF-ERR", LAMBDA t : t.S.N = N)
-
-ModelCode == CodeOfModel(Body, Closures)
-ModelLambdas == LambdasOfModel(Body, Closures)
 ==============================================================================

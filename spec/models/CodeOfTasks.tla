@@ -18,7 +18,4 @@ Claim ==
   /\ By_("CONDITION", LAMBDA t : HasPair(N, "k", Integer(1)) /\ ~HasPair(t.S.N, "k", Integer(1)))
   /\ By_("ASSERT-ERR", LAMBDA t : ~HasPair(N, "k", Integer(1)) /\ Fails_(t))
   /\ By_("ACTION-ERR", LAMBDA t : t.S.N = N /\ "WATCH-IGNORE" \in Rules(t))
-
-ModelCode == CodeOfModel(Body, Closures)
-ModelLambdas == LambdasOfModel(Body, Closures)
 ==============================================================================

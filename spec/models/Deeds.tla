@@ -17,7 +17,4 @@ Claim ==
   /\ By_("CONSUME", LAMBDA t : t.S.N.queue["oldest"] = Tail(N.queue["oldest"]))
   /\ By_("RELEASE", LAMBDA t : B = << "u1" >> /\ t.S.B = << >>)
   /\ By_("SCRIPT", LAMBDA t : t.deeds = << >> /\ t.S.N = N)
-
-ModelCode == CodeOfModel(Body, Closures)
-ModelLambdas == LambdasOfModel(Body, Closures)
 ==============================================================================

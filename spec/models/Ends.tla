@@ -17,7 +17,4 @@ Closures ==
 Ending_(t) == t.control.at = "end" /\ t.S.A = << >> /\ t.S.B = << >>
 
 Claim == \A rule \in { "END", "HALT", "FAULT", "INTERRUPT" } : By_(rule, Ending_)
-
-ModelCode == CodeOfModel(Body, Closures)
-ModelLambdas == LambdasOfModel(Body, Closures)
 ==============================================================================

@@ -16,7 +16,4 @@ Claim ==
   /\ By_("WATCH-PROPAGATE", LAMBDA t : "WATCH-IGNORE" \in Rules(t) /\ Len(PairsOf(t.deeds, "post")) = 2)
   /\ By_("WATCH-IGNORE", LAMBDA t : t.S.A = << >> /\ t.control.at = "exec")
   /\ By_("WATCH-HALT", LAMBDA t : t.control.ending = Halted("enough"))
-
-ModelCode == CodeOfModel(Body, Closures)
-ModelLambdas == LambdasOfModel(Body, Closures)
 ==============================================================================

@@ -15,7 +15,4 @@ Claim ==
   /\ "two" \in RunsOf(Shared) => DOMAIN A = { B[1] }
   /\ By_("ALLOC-ERR", LAMBDA t : A = << >> /\ Fails_(t))
   /\ By_("EXECUTE-ERR", Fails_)
-
-ModelCode == CodeOfModel(Body, Closures)
-ModelLambdas == LambdasOfModel(Body, Closures)
 ==============================================================================

@@ -4,6 +4,10 @@
    (Claim). Model.cfg has the rest in common. *)
 EXTENDS Dolphin
 
+CONSTANTS
+  ScriptOfModel,   \* Body
+  ClosuresOfModel  \* Closures
+
 (* {1 Expressions, as tables: a node, then those of its parts; the parts by how far on they are} *)
 
 (* Recursive functions rather than operators, here: what is defined by those TLC computes anew whenever it is used. *)
@@ -93,6 +97,14 @@ LambdasOfModel(body, closures) ==
   << >> \o [ j \in DOMAIN Pieces(body, closures) |->
               LambdaAt(1 + Len(All(SubSeq(Pieces(body, closures), 1, j - 1))), "code", IF j < 3 THEN 0 ELSE 1) ]
 
+(* What a configuration puts in the place of a constant TLC computes anew whenever it is used, other definitions once: so a
+   name of one of these is put there. *)
+CodeTable == CodeOfModel(ScriptOfModel, ClosuresOfModel)
+LambdaTable == LambdasOfModel(ScriptOfModel, ClosuresOfModel)
+
+ModelCode == CodeTable
+ModelLambdas == LambdaTable
+
 (* {1 A world} *)
 
 VehicleNamed(v, type) ==
@@ -130,11 +142,8 @@ W == Variable(2)
 
 Rules(t) == Range(t.rules)
 
-(* P holds of each transition that is possible. *)
-Every(P(_)) == \A ts \in { Transitions } : \A j \in DOMAIN ts : P(ts[j])
-
 (* Wherever this rule is used, P holds of the transition. *)
-By_(rule, P(_)) == Every(LAMBDA t : rule \in Rules(t) => P(t))
+By_(rule, P(_)) == \A ts \in { Known(vars) } : \A j \in DOMAIN ts : rule \in Rules(ts[j]) => P(ts[j])
 
 Fails_(t) == t.control.at = "end" /\ t.control.ending.how = "failed"
 RunsOf(S) == { S.A[v].name : v \in DOMAIN S.A }

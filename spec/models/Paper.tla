@@ -24,7 +24,4 @@ Closures == [ j \in 1 .. 6 |-> IF j <= 3 THEN DoPosting("ready", NumberOf(j)) EL
 
 (* Nobody is met before its survey has ended. *)
 Claim == \A i \in 1 .. 3 : ~({ Meetings[i], Surveys[i] } \subseteq RunsOf(Shared))
-
-ModelCode == CodeOfModel(Body, Closures)
-ModelLambdas == LambdasOfModel(Body, Closures)
 ==============================================================================

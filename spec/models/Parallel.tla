@@ -12,7 +12,4 @@ Closures == << Ignore >>
 Claim ==
   /\ By_("PAR-ERR", LAMBDA t : t.S.A = << >> /\ t.control.at = "script")
   /\ By_("PAR-2", LAMBDA t : t.control.at = "exec")
-
-ModelCode == CodeOfModel(Body, Closures)
-ModelLambdas == LambdasOfModel(Body, Closures)
 ==============================================================================

@@ -13,7 +13,4 @@ Claim ==
   /\ Cardinality(Range(B)) = Len(B)
   /\ By_("PICK-BIND", LAMBDA t : Len(t.S.B) \in { 2, 4 })
   /\ By_("PICK-ERR", LAMBDA t : Len(B) = 4 /\ Fails_(t))
-
-ModelCode == CodeOfModel(Body, Closures)
-ModelLambdas == LambdasOfModel(Body, Closures)
 ==============================================================================

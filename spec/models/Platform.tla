@@ -11,7 +11,4 @@ Claim ==
   /\ By_("START", LAMBDA t : A = << >> /\ t.S.A["u1"].name = "risky")
   /\ By_("DONE", LAMBDA t : t.S.A = << >>)
   /\ By_("FAIL", LAMBDA t : t.S.A = << >> /\ Fails_(t))
-
-ModelCode == CodeOfModel(Body, Closures)
-ModelLambdas == LambdasOfModel(Body, Closures)
 ==============================================================================

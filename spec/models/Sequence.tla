@@ -10,7 +10,4 @@ Claim ==
   /\ By_("SEQ-ERR", Fails_)
   /\ By_("SEQ-2", LAMBDA t : t.S.A = << >>)
   /\ "last" \in RunsOf(Shared) => control.r.op = "running"
-
-ModelCode == CodeOfModel(Body, Closures)
-ModelLambdas == LambdasOfModel(Body, Closures)
 ==============================================================================

@@ -14,7 +14,4 @@ Claim ==
   /\ "never" \notin RunsOf(Shared)
   /\ By_("DURING-CUT", LAMBDA t : t.S.A = << >> /\ t.control.at = "script")
   /\ By_("DURING-SET", LAMBDA t : t.control.r.time = Integer(10) /\ t.control.r.started)
-
-ModelCode == CodeOfModel(Body, Closures)
-ModelLambdas == LambdasOfModel(Body, Closures)
 ==============================================================================

@@ -15,7 +15,4 @@ Closures ==
 Claim ==
   /\ By_("UNTIL-CUT", LAMBDA t : HasPair(N, "k", Integer(1)) /\ t.S.N = NoTuples /\ t.S.A = << >>)
   /\ By_("UNTIL-ERR", LAMBDA t : t.S.A = << >>)
-
-ModelCode == CodeOfModel(Body, Closures)
-ModelLambdas == LambdasOfModel(Body, Closures)
 ==============================================================================

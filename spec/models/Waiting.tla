@@ -13,7 +13,4 @@ Claim ==
   /\ By_("ANSWER", LAMBDA t : t.control.M.focus = Give(Integer(2)))
   /\ By_("ANSWER-ERR", LAMBDA t : store[1] = << Integer(4) >> /\ Fails_(t))
   /\ By_("CALL-ERR", Fails_)
-
-ModelCode == CodeOfModel(Body, Closures)
-ModelLambdas == LambdasOfModel(Body, Closures)
 ==============================================================================

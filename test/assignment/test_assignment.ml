@@ -239,9 +239,7 @@ let is_honest (tree, effort) vehicles =
   | Error (Conflict { leaves; _ }), None -> conflict_is_real tree leaves
   | Error (No_candidate _), _ | Ok _, None | Error (Conflict _), Some _ -> false
 
-let law_of generator print property ~count name =
-  let cell = QCheck2.Test.make_cell ~count ~name ~print generator property in
-  case name (fun () -> QCheck2.Test.check_cell_exn ~rand:(Random.State.make [| 2016 |]) cell)
+let law_of generator print property ~count name = Test_support.Property.case ~count name ~print generator property
 
 let print_tree = Fmt.str "%a" pp_tree
 

@@ -232,7 +232,7 @@ Formulas of temporal logic.
   formula G (start(survey1) -> F done(survey1)): holds
   formula F ended: holds
   formula !start(survey1) W bind(x8-02): holds
-  36 states, 35 transitions, depth 35; reduced by partial order, symmetry
+  36 states, 35 transitions, depth 35; reduced by partial order, symmetry; 4589 states for formulas
   $ cat > again.dol <<'END'
   > v = pick { id 'noptilus-1' }
   > n = 0
@@ -251,7 +251,7 @@ Formulas of temporal logic.
   formula G F {n == 1}: violated: after 3 steps, 4 steps that can repeat for ever
   formula message("done") R !end: holds
   formula G (fail -> X consume(failed: 1)): holds
-  10 states, 10 transitions, depth 7; reduced by partial order
+  10 states, 10 transitions, depth 7; reduced by partial order; 38 states for formulas
   
   termination: a run in which the program can go on for ever
       program                               where
@@ -280,7 +280,35 @@ Formulas of temporal logic.
   $ explore again.dol --faults fail=1 --ltl 'F ended' --ltl 'F (done(a) & running(a))' | grep formula
   formula F ended: holds
   formula F (done(a) & running(a)): violated after 7 steps: it does not hold
+  15 states, 14 transitions, depth 11; reduced by partial order; 24 states for formulas
   formula F (done(a) & running(a)): a run in which it does not hold
+
+Beside a violation that a reduced search has found.
+
+  $ explore ../../examples/rendezvous.dol --faults fail --ltl 'F ended' --ltl 'G !error' | grep -e '^[a-z ]*: ' -e '^formula.*: [hv]'
+  no deadlock: holds
+  termination: holds
+  no unhandled error: violated after 10 steps: an error that nobody handles ends the program
+  assertions: holds
+  vehicles for all tasks: holds
+  formula F ended: holds
+  formula G !error: violated after 10 steps: it does not hold
+  no unhandled error: a shortest run in which an error that nobody handles ends the program
+
+What has been violated stays so: not all states need be seen. What nobody can list is not followed where it cannot matter.
+
+  $ explore again.dol --faults fail --ltl 'G !start(a)' --ltl 'X X X X running(a)' | grep -e '^formula.*violated' -e 'for formulas'
+  formula G !start(a): violated after 7 steps: it does not hold
+  10 states, 10 transitions, depth 7; reduced by partial order; 11 states for formulas
+  $ cat > unlisted.dol <<'END'
+  > v = pick { id 'noptilus-1' }
+  > message 'go'
+  > post b: battery(v)
+  > END
+  $ explore unlisted.dol --ltl 'G !message' --ltl '!bind W pick' | grep formula
+  formula G !message: inconclusive, unlisted.dol:3:1: what battery(noptilus-1) is, is open, and more than a comparison depends on it: the fleet can give the values it may have
+  formula !bind W pick: holds
+  4 states, 3 transitions, depth 3; reduced by partial order; 1 states for formulas
   $ explore again.dol --ltl 'G (strat(a))'
   dolphin: --ltl 'G (strat(a))': there is no proposition 'strat' (did you mean start?)
   [2]
@@ -443,6 +471,7 @@ For machines.
 
   $ dolphin explore --json round.dol | tr ',' '\n' | grep -E 'states|verdict'
   {"states":5
+  "formula_states":0
   "verdicts":[{"property":"no deadlock"
   "verdict":"holds"}
   "verdict":"violated"

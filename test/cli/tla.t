@@ -7,12 +7,14 @@
   > END
   $ dolphin tla mission.dol -o out/model
   $ ls out/model
+  Coverage.cfg
   Dolphin.tla
   DolphinMachine.tla
   DolphinValues.tla
   Graph.cfg
   MC.cfg
   MC.tla
+  Told.cfg
   $ head -3 out/model/MC.tla
   ---- MODULE MC ----
   \* mission.dol in its world. Made by dolphin tla: make it anew rather than change it.
@@ -31,16 +33,17 @@
   INIT Init
   NEXT Next
   CONSTANTS
-    Fleet <- MCFleet
-    Code <- MCCode
-    Lambdas <- MCLambdas
-    LambdaNames <- MCLambdaNames
+    Known <- ComputedOnce
+    Fleet <- TheFleet
+    Code <- TheCode
+    Lambdas <- TheLambdas
+    LambdaNames <- TheLambdaNames
+    Places <- ThePlaces
+    Distances <- TheDistances
+    Plans <- ThePlans
     Main <- MCMain
     GlobalNames <- MCGlobalNames
     OrderedKeys <- MCOrderedKeys
-    Places <- MCPlaces
-    Distances <- MCDistances
-    Plans <- MCPlans
     Prompts <- MCPrompts
     Failures <- MCFailures
     Losses <- MCLosses

@@ -1,1 +1,2 @@
-(** Tests of {!Dolphin_conformance.Oracle}: configurations written down and read again, hostile requests. No value of its own. *)
+(** Tests of {!Dolphin_conformance.Oracle}: configurations written down and read again, hostile requests. No value of
+    its own. *)

@@ -9,6 +9,7 @@ type t = {
   results : result list;
   warnings : string list;
   used : (string * int) list;
+  counted : Coverage.count list;
 }
 
 type prepared = { case : Case.t; graph : Graph.t; transitions : int; constants : Family.constant list }
@@ -46,14 +47,18 @@ let in_directory files f =
   Fun.protect ~finally:(fun () -> remove directory) (fun () -> List.iter write files; f directory)
 
 type reading = { mutable messages : Message.reader; mutable outcome : Outcome.reader; mutable problem : string option;
-                 mutable warnings : string list; printed : Printed_graph.t }
+                 mutable warnings : string list; printed : Printed_graph.t;
+                 mutable counted : Coverage.count list }
 
 (* SANY's warnings are lines of its own. *)
 let is_warning text = Event.number_after "*** Warnings: " text <> None
 
+let others (c : Coverage.count) = List.filter (fun (c' : Coverage.count) -> c'.action <> c.action)
+
 let take r message =
   let event = Event.of_message message in
   r.outcome <- Outcome.event r.outcome event;
+  Option.iter (fun (c : Coverage.count) -> r.counted <- c :: others c r.counted) (Coverage.of_message message);
   match event with
   | Warning text -> r.warnings <- text :: r.warnings
   | Printed text when is_warning text -> r.warnings <- text :: r.warnings
@@ -68,14 +73,14 @@ let line r text =
   r.messages <- messages;
   List.iter (take r) complete
 
-let explore installation directory =
+let explore installation ~coverage directory =
   let r =
     { messages = Message.start; outcome = Outcome.start; problem = None; warnings = [];
-      printed = Printed_graph.create () }
+      printed = Printed_graph.create (); counted = [] }
   in
   let command =
-    Invocation.command ~short:true installation (Local (Workers 1)) ~directory ~main:"MC"
-      ~configuration:Family.configuration
+    Invocation.command ~short:true ~coverage installation (Local (Workers 1)) ~directory ~main:"MC"
+      ~configuration:(if coverage then Family.by_rule else Family.configuration)
   in
   ignore (Process.run ~directory ~interrupted:(fun () -> false) (line r) command : Process.ending);
   List.iter (take r) (Message.finish r.messages);
@@ -83,10 +88,11 @@ let explore installation directory =
 
 (* {1 Judging} *)
 
+(* In how many transitions each rule was used. *)
 let rules_of graphs =
   let used = Hashtbl.create 60 in
   let note rule = Hashtbl.replace used rule (1 + Option.value (Hashtbl.find_opt used rule) ~default:0) in
-  List.iter (fun (_, g) -> Graph.iter g (fun _ l _ -> List.iter note (Printed_graph.rules (Graph.label g l)))) graphs;
+  List.iter (fun (_, g) -> Graph.iter g (fun _ l _ -> List.iter note (List.sort_uniq compare (Printed_graph.rules (Graph.label g l))))) graphs;
   List.sort compare (Hashtbl.fold (fun rule n all -> (rule, n) :: all) used [])
 
 let judge graphs i p =
@@ -98,7 +104,8 @@ let judge graphs i p =
   in
   { case = p.case; states = Graph.states p.graph; transitions = p.transitions; verdict }
 
-let conclude prepared r =
+(* With an action for each rule a transition is taken by several. *)
+let conclude prepared ~coverage r =
   let o = Outcome.finish r.outcome in
   let states = Printed_graph.states r.printed and transitions = Printed_graph.transitions r.printed in
   match r.problem, o.verdict, Printed_graph.graphs r.printed with
@@ -107,7 +114,8 @@ let conclude prepared r =
   | None, Gave_up why, _ -> Error why
   | None, (Violated _ | Unfinished), _ -> Error "TLC did not come to its end"
   | None, Holds, Error problem -> Error (Format.asprintf "%a" Printed_graph.pp_problem problem)
-  | None, Holds, Ok _ when o.distinct <> states || o.generated <> transitions + List.length prepared ->
+  | None, Holds, Ok _
+    when o.distinct <> states || ((not coverage) && o.generated <> transitions + List.length prepared) ->
     Error
       (Printf.sprintf "TLC counts %d states and %d transitions, but %d and %d were printed" o.distinct
          (o.generated - List.length prepared) states transitions)
@@ -117,8 +125,8 @@ let conclude prepared r =
     (* Transitions with one label between two states are one in a graph. *)
     if ours <> transitions && List.for_all (fun (r : result) -> r.verdict = Agrees) results then
       Error (Printf.sprintf "the explorer counts %d transitions, and TLC %d" ours transitions)
-    else Ok { results; warnings = List.rev r.warnings; used = rules_of graphs }
+    else Ok { results; warnings = List.rev r.warnings; used = rules_of graphs; counted = r.counted }
 
-let run installation ~specification prepared =
+let run ?(coverage = false) installation ~specification prepared =
   Result.bind (Family.files ~specification (List.map (fun p -> p.constants) prepared)) (fun files ->
-      in_directory files (fun directory -> conclude prepared (explore installation directory)))
+      in_directory files (fun directory -> conclude prepared ~coverage (explore installation ~coverage directory)))

@@ -12,7 +12,8 @@ type result = { case : Case.t; states : int; transitions : int; verdict : verdic
 type t = {
   results : result list;
   warnings : string list;  (** what SANY and TLC warn of *)
-  used : (string * int) list;  (** the rules in the derivations of TLC's transitions, by name, with how often *)
+  used : (string * int) list;  (** the rules in the derivations of TLC's transitions, by name, with in how many *)
+  counted : Coverage.count list;  (** by TLC itself, if it was to *)
 }
 
 type prepared
@@ -28,9 +29,10 @@ val prepare : limit:int -> Case.t -> (prepared, unfit) Stdlib.result
 
 val case : prepared -> Case.t
 
-val run : Installation.t -> specification:(string * string) list -> prepared list -> (t, string) Stdlib.result
+val run :
+  ?coverage:bool -> Installation.t -> specification:(string * string) list -> prepared list -> (t, string) Stdlib.result
 (** [run i ~specification ps] is what comes out, or what TLC says went wrong. Counts of TLC that are not those of
-    what it printed are wrong too. *)
+    what it printed are wrong too. With [coverage], TLC takes an action for each rule, and counts them. *)
 
 val in_directory : (string * string) list -> (string -> 'a) -> 'a
 (** [in_directory files f] is [f d] where [d] is a directory with these files, which is gone afterwards. *)

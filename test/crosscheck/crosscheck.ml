@@ -1,9 +1,10 @@
 (* TLC and the explorer, each with its own statement of the semantics, on the same programs: as many states, isomorphic
    graphs, equal labels, derivations and ends.
 
-   crosscheck.exe [quick | all | mutate | coverage]. In the environment: PROGRAMS, how many random programs; SEED;
-   LIMIT, the most states of one; BATCH, how many are given to TLC at once; VERDICTS, of how many random programs TLC's
-   own verdict is asked, which takes a start of TLC for each; ONLY, a part of the names of the mistakes that are made. *)
+   crosscheck.exe [quick | all | mutate | coverage | counts]. In the environment: PROGRAMS, how many random programs;
+   SEED; LIMIT, the most states of one; BATCH, how many are given to TLC at once; VERDICTS, of how many random programs
+   TLC's own verdict is asked, which takes a start of TLC for each; ONLY, a part of the names of the mistakes that are
+   made. *)
 
 open Dolphin_tlc
 
@@ -193,29 +194,54 @@ let mutate installation =
   Printf.printf "%d of %d mutants were noticed\n" count (List.length noticed);
   count = List.length noticed
 
+let print_count (c : Covered.counted) =
+  Printf.printf "%-16s %10s %12s\n" (Dolphin_semantics.Rule.name c.rule) (thousands c.taken) (thousands c.derivations)
+
+let names rules = String.concat ", " (List.map Dolphin_semantics.Rule.name rules)
+
+let print_counts counts =
+  Printf.printf "%-16s %10s %12s\n" "rule" "taken" "derivations";
+  List.iter print_count counts
+
+(* TLC's -coverage comes to an end, and counts what there is to count. *)
+let counts installation =
+  match Covered.count installation (prepare (tally ()) ~limit:150 Case.traps) with
+  | Error why -> prerr_endline why; false
+  | Ok (counts, _) ->
+    let wrong = Covered.miscounted counts in
+    if wrong <> [] then begin
+      print_endline "TLC -coverage counts these rules otherwise than derivations do:";
+      print_counts wrong
+    end;
+    wrong = [] && List.exists (fun (c : Covered.counted) -> c.derivations > 0) counts
+
 let coverage installation =
-  let t = compare_all "examples" installation ~limit:20_000 ~batch:10 (Case.examples examples_directory) in
-  let all = compare_all "traps" installation ~limit:2_000 ~batch:50 Case.traps in
-  let count used rule = Option.value (List.assoc_opt (Dolphin_semantics.Rule.name rule) used) ~default:0 in
-  let missing = ref [] in
-  List.iter
-    (fun rule ->
-       let name = Dolphin_semantics.Rule.name rule in
-       let examples = count t.used rule and traps = count all.used rule in
-       if examples + traps = 0 then missing := name :: !missing;
-       Printf.printf "%-16s %8s %8s\n" name (thousands examples) (thousands traps))
-    Dolphin_semantics.Rule.all;
-  Printf.printf "in no example and no trap: %s\n"
-    (match !missing with [] -> "none" | names -> String.concat ", " (List.rev names));
-  t.failures = 0
+  let start = Unix.gettimeofday () in
+  let t = tally () in
+  let cases =
+    prepare t ~limit:20_000 (Case.examples examples_directory)
+    @ prepare t ~limit:4_000 (Case.faulty_examples examples_directory)
+  in
+  match Covered.count installation cases with
+  | Error why -> prerr_endline why; false
+  | Ok (counts, batch) ->
+    Printf.printf "%d programs, in one run of TLC with -coverage: %.0f s\n" (List.length cases)
+      (Unix.gettimeofday () -. start);
+    print_counts counts;
+    let missing = Covered.missing counts and no_longer = Covered.no_longer_excused counts in
+    Printf.printf "used by no example, and known to be: %s\n" (names Covered.excused);
+    if missing <> [] then Printf.printf "USED BY NO EXAMPLE: %s\n" (names missing);
+    if no_longer <> [] then Printf.printf "used, though Covered.excused says they cannot be: %s\n" (names no_longer);
+    List.iter (note t) batch.results;
+    missing = [] && no_longer = [] && t.failures = 0
 
 let () =
   let command = if Array.length Sys.argv > 1 then Sys.argv.(1) else "all" in
   let run f =
     match Installation.find Sys.getenv_opt with
     | Ok installation -> exit (if f installation then 0 else 1)
-    | Error trouble when command = "quick" ->
-      Format.printf "skipped, not one program was compared: %a@." Installation.pp_trouble trouble
+    | Error trouble when command = "quick" || command = "counts" ->
+      Format.printf "skipped, not one program was given to TLC: %a@." Installation.pp_trouble trouble
     | Error trouble -> Format.eprintf "%a@." Installation.pp_trouble trouble; exit 2
   in
   match command with
@@ -223,4 +249,5 @@ let () =
   | "quick" -> run quick
   | "mutate" -> run mutate
   | "coverage" -> run coverage
-  | other -> Printf.eprintf "%s: not one of all, quick, mutate, coverage\n" other; exit 2
+  | "counts" -> run counts
+  | other -> Printf.eprintf "%s: not one of all, quick, mutate, coverage, counts\n" other; exit 2

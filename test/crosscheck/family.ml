@@ -1,6 +1,7 @@
 type constant = { name : string; parameters : string list; definition : string }
 
 let configuration = "Family.cfg"
+let by_rule = "FamilyByRule.cfg"
 
 (* {1 The constants as definitions} *)
 
@@ -32,42 +33,51 @@ let begins prefix line =
   String.length line >= String.length prefix && String.sub line 0 (String.length prefix) = prefix
 
 (* [CONSTANTS] and the lines that follow, up to an empty one, are gone. *)
-let without_constants text =
+let without_constants lines =
   let rec outside = function
-    | line :: rest when begins "CONSTANT" line -> inside rest
+    | "CONSTANTS" :: rest -> inside rest
     | line :: rest -> line :: outside rest
     | [] -> []
   and inside = function "" :: rest -> "" :: outside rest | _ :: rest -> inside rest | [] -> [] in
-  String.concat "\n" (outside (String.split_on_char '\n' text))
+  outside lines
+
+(* A state is of one program, and stays of it. *)
+let of_one_program line =
+  let variables = "vars == << " in
+  if begins variables line then
+    variables ^ "which, " ^ String.sub line (String.length variables) (String.length line - String.length variables)
+  else if line = "Becomes(t) ==" then line ^ "\n  /\\ which' = which"
+  else line
 
 (* The lowest module of the specification extends nothing but standard ones: it extends the programs too. *)
 let lowest = "DolphinValues.tla"
 
-let extending_programs text =
-  let extend line = if begins "EXTENDS " line then line ^ ", Programs" else line in
-  String.concat "\n" (List.map extend (String.split_on_char '\n' text))
+let extending_programs line = if begins "EXTENDS " line then line ^ ", Programs" else line
 
 let model_module count =
   Printf.sprintf
     {|---- MODULE MC ----
 EXTENDS Dolphin
 FamilyInit == which \in 1 .. %d /\ Init
-FamilyNext == which' = which /\ Next
 %s
 PrintFamily == PrintGraphOf(which)
 ====
 |}
     count Dolphin_tla.Run.printing
 
+let taking next =
+  Printf.sprintf
+    "INIT FamilyInit\nNEXT %s\nCONSTANT Known <- ComputedOnce\nINVARIANT PrintFamily\nCHECK_DEADLOCK FALSE\n" next
+
 let files ~specification programs =
   if not (List.mem_assoc lowest specification) then Error ("there is no " ^ lowest ^ " in the specification")
   else
     let changed (name, text) =
-      let text = without_constants text in
-      (name, if name = lowest then extending_programs text else text)
+      let lines = List.map of_one_program (without_constants (String.split_on_char '\n' text)) in
+      (name, String.concat "\n" (if name = lowest then List.map extending_programs lines else lines))
     in
     Ok
       ([ ("Programs.tla", programs_module programs);
          ("MC.tla", model_module (List.length programs));
-         (configuration, "INIT FamilyInit\nNEXT FamilyNext\nINVARIANT PrintFamily\nCHECK_DEADLOCK FALSE\n") ]
+         (configuration, taking "Next"); (by_rule, taking "NextByRule") ]
        @ List.map changed specification)

@@ -2,12 +2,16 @@
     states have nothing in common, by a variable that says which program they are of.
 
     The specification is for one program, which is its constants. Here its [CONSTANTS] are definitions instead, that
-    look up what the constant is for the program at hand; nothing else of its text is changed. *)
+    look up what the constant is for the program at hand; beside that, its text is changed only so that the variable is
+    one of [vars], and each transition leaves it as it is. [Known], a [CONSTANT] by itself, stays one. *)
 
 type constant = { name : string; parameters : string list; definition : string }
 
 val configuration : string
 (** The name of the file with TLC's configuration. *)
+
+val by_rule : string
+(** Of one in which there is an action for each rule. *)
 
 val files : specification:(string * string) list -> constant list list -> ((string * string) list, string) result
 (** [files ~specification programs] is the model's files, names and texts: each program is given by its constants, and has

@@ -1,6 +1,7 @@
 (* On random programs, the packed search finds what the plain search over configurations finds: as many states and
    transitions, the same depth, the same properties broken, each by as short a run; and each run that it shows is one of
-   the semantics. Of every other program the states are compressed. PROGRAMS in the environment is how many programs are tried, 2,000 by default. *)
+   the semantics. Of every other program the states are compressed. PROGRAMS in the environment is how many programs are
+   tried, 2,000 by default. *)
 
 open Dolphin_syntax
 open Dolphin_explore
@@ -26,7 +27,8 @@ let environments =
     ("with losses", { answering with losses = Any_number });
     ("with a loss", { answering with losses = At_most 1 });
     ("with latecomers", { answering with latecomers = Any_number; may_be_late = (fun v -> v <> "a") });
-    ("with all of it, once", { (Environment.failing ~failures:1 answering) with losses = At_most 1; latecomers = At_most 1 })
+    ( "with all of it, once",
+      { (Environment.failing ~failures:1 answering) with losses = At_most 1; latecomers = At_most 1 } )
   ]
 
 let nested ~sensing =

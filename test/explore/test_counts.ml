@@ -59,9 +59,9 @@ let test_pick () =
   check "choice of pick" source ~vehicles:3 ~states:(2 + (3 * 5)) ~transitions:(1 + 3 + (3 * 4)) ()
 
 (* N vehicles that survey, post ready:i and keep station, and one that meets each in any order, one at a time. For each
-   i the vehicle has 6 states (survey ready, running; to post; station keeping ready, running; done); before the post, 3,
-   the meeting is not possible; after it, 3, it is to come or over: 9 together; or under way in 2 states: 6 more, for at
-   most one i. So 9^N + N * 6 * 9^(N-1) = 9^(N-1) * (9 + 6 N), among them the state in which all is done, which is
+   i the vehicle has 6 states (survey ready, running; to post; station keeping ready, running; done); before the post,
+   3, the meeting is not possible; after it, 3, it is to come or over: 9 together; or under way in 2 states: 6 more, for
+   at most one i. So 9^N + N * 6 * 9^(N-1) = 9^(N-1) * (9 + 6 N), among them the state in which all is done, which is
    the script's; before there are initial, waiting, bound, waiting, bound, and after it the end: 6. *)
 let fleet ?(around = Fun.id) n =
   let each format = List.init n (fun i -> Printf.sprintf format (i + 1)) in

@@ -1,5 +1,5 @@
-(* Counter-examples of random programs, with what they assume of the world, are written, read, and followed to where they
-   lead; what does not fit is refused. *)
+(* Counter-examples of random programs, with what they assume of the world, are written, read, and followed to where
+   they lead; what does not fit is refused. *)
 
 open Dolphin_explore
 module Generate = Test_support.Generate

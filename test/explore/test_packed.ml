@@ -75,7 +75,9 @@ let () =
       case "two into three" (test_rewrite ~from:2 ~into:3 ~compress);
     ]
   in
-  let numbers ~compress = List.map (fun n -> case (Printf.sprintf "%d words" n) (test_numbers ~compress n)) [ 1; 2; 3 ] in
+  let numbers ~compress =
+    List.map (fun n -> case (Printf.sprintf "%d words" n) (test_numbers ~compress n)) [ 1; 2; 3 ]
+  in
   Alcotest.run "sets of states"
     [
       ("numbers", numbers ~compress:false);

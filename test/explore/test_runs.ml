@@ -17,7 +17,8 @@ module Generate = Test_support.Generate
 module Platform = struct
   include Simulator.Virtual
 
-  let begins prefix text = String.length text >= String.length prefix && String.sub text 0 (String.length prefix) = prefix
+  let begins prefix text =
+    String.length text >= String.length prefix && String.sub text 0 (String.length prefix) = prefix
 
   let next p =
     let translate : Dolphin_runtime.Platform.event -> Dolphin_runtime.Platform.event = function
@@ -100,7 +101,8 @@ let follow options program world taken =
   let senses = program.Core.reads_sensors in
   let step (number, states) (t : Transition.t) =
     let leads ((t' : Transition.t), e) =
-      if same_label ~senses t'.label t.label && same_configuration ~senses t'.next t.next then Some (t'.next, e) else None
+      if same_label ~senses t'.label t.label && same_configuration ~senses t'.next t.next then Some (t'.next, e)
+      else None
     in
     let after (c, e) = List.filter_map leads (Environment.choices options program world e c) in
     let distinct found (c, e) =
@@ -165,7 +167,8 @@ let fleet =
   let open QCheck2.Gen in
   let time = map float_of_int (int_range 1 200) in
   let vehicle id kind north =
-    let* joins = frequency [ (3, return 0.); (1, time) ] and* stay = frequency [ (4, return None); (1, map Option.some time) ] in
+    let* joins = frequency [ (3, return 0.); (1, time) ]
+    and* stay = frequency [ (4, return None); (1, map Option.some time) ] in
     let* drops = frequency [ (3, return []); (1, map2 (fun from lasts -> [ { Scenario.from; lasts } ]) time time) ] in
     let* batteries = frequencyl [ (1, []); (1, [ 1.; 0.2 ]) ] in
     let first = List.hd Scenario.default.vehicles in

@@ -1,9 +1,16 @@
-(* Formulas say of random programs what the built-in properties say; and runs that are shown are runs. *)
+(* On random programs and random formulas, the verdict is that of the formula on the plain state graph; a run that is
+   shown is a run, and violates the formula by its definition. And some formulas say what the built-in properties say.
+   PROGRAMS in the environment is how many programs are tried, each with three formulas, 400 by default. *)
 
 open Dolphin_syntax
+open Dolphin_semantics
 open Dolphin_explore
 module Generate = Test_support.Generate
+module Linear = Test_support.Linear
 module Property = Dolphin_explore.Property
+module Formula = Dolphin_ltl.Formula
+
+let number name default = match Sys.getenv_opt name with Some n -> int_of_string n | None -> default
 
 let for_ever (program : Ast.program) =
   let comes_first (s : Ast.statement) =
@@ -12,11 +19,157 @@ let for_ever (program : Ast.program) =
   let first, rest = List.partition comes_first program in
   first @ [ { it = Ast.While (Generate.expression (Boolean true), rest); at = Location.none } ]
 
+let is_violated (o : Search.outcome) property =
+  match List.assoc property o.verdicts with Search.Violated _ -> true | Holds | Unreached _ | Inconclusive _ -> false
+
+(* The states that a run may be in, after its steps and after its cycle: each transition leads on from where the one
+   before led to. *)
+let after program world options steps from =
+  let step states (t : Transition.t) =
+    let leads ((t' : Transition.t), e) =
+      if Label.equal t'.label t.label && Configuration.equal t'.next t.next then Some (t'.next, e) else None
+    in
+    let continued (c, e) = List.filter_map leads (Environment.choices options program world e c) in
+    List.concat_map continued states
+  in
+  List.fold_left step from steps
+
+let same (c, e) (c', e') = Configuration.equal c c' && Environment.compare e e' = 0
+
+(* A run that has no cycle must have come to where nothing happens. *)
+let is_run program world options (run : Search.run) =
+  let there = after program world options run.steps [ (Configuration.initial program, Environment.initial) ] in
+  if run.cycle = [] then List.exists (fun (c, e) -> Environment.choices options program world e c = []) there
+  else
+    let comes_back state = List.exists (same state) (after program world options run.cycle [ state ]) in
+    List.exists comes_back there
+
+(* {1 Random formulas} *)
+
+let propositions =
+  [ "start"; "done"; "fail"; "start(p)"; "done(p)"; "start(q, a)"; "done(q)"; "bind"; "bind(b)"; "message"; "post";
+    "post(x)"; "post(x: 1)"; "consume"; "consume(y)"; "timeout"; "execute"; "pick"; "end"; "halt"; "error"; "ended";
+    "running(p)"; "running(p, a)"; "running(q)"; "running(q, b)"; "bound(a)"; "bound(c)"; "poll(x: _)"; "poll(x: 1)";
+    "poll(y: 2)"; "{running('p') && running('q')}"; "{running('p', 'a') || poll(z: _)}" ]
+
+(* What repeats is asked for again and again, and runs seldom are long. *)
+let formula =
+  let open QCheck2.Gen in
+  let f = Linear.formula (oneofl propositions) in
+  let often f : string Formula.t = Globally (Finally f) in
+  let response f g : string Formula.t = Globally (Implies (f, Finally g)) in
+  frequency
+    [ (5, f); (1, map often f); (2, map2 response f f);
+      (2, map2 (fun f g : string Formula.t -> Implies (often f, often g)) f f);
+      (1, map2 (fun f g : string Formula.t -> And (response f g, often g)) f f) ]
+
+let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]) }
+
+let environments =
+  [ ("as planned", answering); ("with failures", Environment.failing answering);
+    ("with a failure", Environment.failing ~failures:1 answering);
+    ("with losses", { answering with losses = Any_number });
+    ("with latecomers", { answering with latecomers = Any_number; may_be_late = (fun v -> v <> "a") });
+    ( "with all of it, once",
+      { (Environment.failing ~failures:1 answering) with losses = At_most 1; latecomers = At_most 1 } ) ]
+
 let case =
+  let open QCheck2.Gen in
+  let nested =
+    let* depth = int_range 0 2 in
+    map (fun task -> Generate.executing task) (Generate.nested ~vehicles:Generate.vehicles ~depth)
+  in
+  let program =
+    frequency
+      [ (4, map (fun p -> (p, Generate.world)) Generate.program); (2, map (fun p -> (p, Generate.world)) nested);
+        (1, map (fun p -> (p, Generate.open_world)) Generate.sensing_program) ]
+  in
+  quad program bool (oneofl environments) (list_repeat 3 formula)
+
+let shown f = Format.asprintf "%a" (Formula.pp Format.pp_print_string) f
+
+let print ((program, _), looped, (name, _), formulas) =
+  Printf.sprintf "%s, %s:\n%s\n%s" name (if looped then "for ever" else "once") (Generate.print program)
+    (String.concat "\n" (List.map shown formulas))
+
+(* What a position of a run is to formulas: the transition that led there, if any, and the state. *)
+let at program world =
+  let known = Hashtbl.create 8 in
+  let proposition text =
+    match Hashtbl.find_opt known text with
+    | Some p -> p
+    | None ->
+      let p = match Proposition.of_string program text with Ok p -> p | Error why -> failwith why in
+      Hashtbl.add known text p;
+      p
+  in
+  fun (transition, c) text ->
+    let p = proposition text in
+    if Proposition.needs_action p then Option.fold ~none:false ~some:(Proposition.holds_after p) transition
+    else Result.get_ok (Proposition.holds_in program world p c)
+
+let graph_of program (g : Reference.t) : _ Dolphin_ltl.Search.graph =
+  let configuration i = g.states.(i).configuration in
+  let successors i =
+    match g.edges.(i) with
+    | [] -> [ (i, (None, configuration i)) ]
+    | edges -> List.map (fun ((t : Transition.t), j) -> (j, (Some t, t.next))) edges
+  in
+  { start = (0, (None, Configuration.initial program)); successors }
+
+let word_of program (run : Search.run) : _ Linear.word =
+  let position (t : Transition.t) = (Some t, t.next) in
+  let steps = (None, Configuration.initial program) :: List.map position run.steps in
+  let stays = (None, snd (List.nth steps (List.length steps - 1))) in
+  let cycle = if run.cycle = [] then [ stays ] else List.map position run.cycle in
+  { letters = Array.of_list (steps @ cycle); back = List.length steps }
+
+let limit = 800
+let judged = Hashtbl.create 7
+let note what = Hashtbl.replace judged what (1 + Option.value (Hashtbl.find_opt judged what) ~default:0)
+
+let agrees_on program world environment at plain (f, verdict) =
+  let expected = Dolphin_ltl.Search.satisfying ~holds:at plain (Not f) = None in
+  match (verdict : Search.verdict) with
+  | Holds -> note "hold"; expected
+  | Violated run ->
+    note (if run.cycle = [] then "are violated by a run that ends" else "are violated by a run without end");
+    (not expected) && is_run program world environment run && not (Linear.holds at (word_of program run) f)
+  | Unreached _ | Inconclusive _ -> false
+
+let agrees ((ast, world), looped, (_, environment), formulas) =
+  let program = Generate.compile (if looped then for_ever ast else ast) in
+  match Reference.explore ~limit environment program world with
+  | None | (exception Reading.Unsettled _) -> note "are skipped"; true
+  | Some reference ->
+    let plain = graph_of program reference and at = at program world in
+    let read f = match Temporal.of_string program (shown f) with Ok f -> f | Error why -> failwith why in
+    let compress = Hashtbl.hash (Generate.print ast) land 1 = 0 in
+    let o = Search.run { Search.default with environment; compress; formulas = List.map read formulas } program world in
+    let judge f =
+      agrees_on program world environment at plain (f, List.assoc (Property.Formula (shown f)) o.verdicts)
+      || QCheck2.Test.fail_reportf "%s" (shown f)
+    in
+    List.for_all judge formulas
+
+let test_agreement () =
+  let seed = number "SEED" 20_261_122 and programs = number "PROGRAMS" 400 in
+  Printf.printf "SEED=%d PROGRAMS=%d\n" seed programs;
+  let test = QCheck2.Test.make ~count:programs ~print ~name:"verdicts agree with the plain graph" case agrees in
+  QCheck2.Test.check_exn ~rand:(Random.State.make [| seed |]) test;
+  Hashtbl.iter (fun what n -> Printf.printf "%d %s\n" n what) judged
+
+let test_variety () =
+  let enough what = if not (Hashtbl.mem judged what) then Alcotest.failf "none %s" what in
+  List.iter enough [ "hold"; "are violated by a run that ends"; "are violated by a run without end" ]
+
+(* {1 Properties} *)
+
+let properties_case =
   let open QCheck2.Gen in
   triple Generate.program (frequencyl [ (2, false); (1, true) ]) bool
 
-let print (program, looped, failing) =
+let print_properties_case (program, looped, failing) =
   Printf.sprintf "%s, %s:\n%s" (if failing then "failing" else "as planned") (if looped then "for ever" else "once")
     (Generate.print program)
 
@@ -31,40 +184,29 @@ let agreements : (string * Property.t list) list =
     ("G (start -> !{running('p') && running('q')} | running(p))", []);
     ("!done W start", []); ("!done(p) W start(p)", []); ("!(start | done) W bind", []) ]
 
-let is_violated (o : Search.outcome) property =
-  match List.assoc property o.verdicts with Search.Violated _ -> true | Holds | Unreached _ | Inconclusive _ -> false
-
-(* Each transition leads on from where the one before led to. *)
-let is_connected program options (run : Search.run) =
-  let step states (t : Dolphin_semantics.Transition.t) =
-    let leads ((t' : Dolphin_semantics.Transition.t), e) =
-      if Dolphin_semantics.Configuration.equal t'.next t.next then Some (t'.next, e) else None
-    in
-    List.concat_map
-      (fun (c, e) -> List.filter_map leads (Environment.choices options program Generate.world e c))
-      states
-  in
-  let start = [ (Dolphin_semantics.Configuration.initial program, Environment.initial) ] in
-  let there = List.fold_left step start run.steps in
-  let back = List.fold_left step there run.cycle in
-  let same (c, _) (c', _) = Dolphin_semantics.Configuration.equal c c' in
-  there <> [] && List.exists (fun s -> List.exists (same s) back) there
-
-let agrees (ast, looped, failing) =
+let agrees_with_properties (ast, looped, failing) =
   let program = Generate.compile (if looped then for_ever ast else ast) in
   let environment = if failing then Environment.failing Environment.default else Environment.default in
   let read text = match Temporal.of_string program text with Ok f -> f | Error why -> failwith why in
   let options = { Search.default with environment; max_states = Some 3_000 } in
-  let o = Search.run { options with formulas = List.map (fun (text, _) -> read text) agreements } program Generate.world in
+  let formulas = List.map (fun (text, _) -> read text) agreements in
+  let o = Search.run { options with formulas } program Generate.world in
   let agree (text, properties) =
     match List.assoc (Property.Formula text) o.verdicts with
-    | Inconclusive _ -> true
+    | Inconclusive _ -> o.stopped <> None || o.states > 500
     | Holds -> not (List.exists (is_violated o) properties)
-    | Violated run -> List.exists (is_violated o) properties && is_connected program environment run
+    | Violated run ->
+      (List.exists (is_violated o) properties || o.stopped <> None) && is_run program Generate.world environment run
     | Unreached _ -> false
   in
   List.for_all (fun a -> agree a || QCheck2.Test.fail_reportf "%s" (fst a)) agreements
 
 let () =
+  let properties =
+    Test_support.Property.case "formulas and properties agree" ~count:150 properties_case ~print:print_properties_case
+      agrees_with_properties
+  in
   Alcotest.run "temporal"
-    [ ("random programs", [ Test_support.Property.case "formulas and properties agree" ~count:300 case ~print agrees ]) ]
+    [ ( "random programs",
+        [ Alcotest.test_case "verdicts agree with the plain graph" `Quick test_agreement;
+          Alcotest.test_case "there are verdicts of every kind" `Quick test_variety; properties ] ) ]

@@ -44,7 +44,8 @@ let sensors =
   [ either "less" "battery(v) < 0.3"; either "at least, behind arithmetic" "10 <= battery(v) * 100 - 5";
     either "equal" "battery(v) == 1"; either "by property" "v.battery > 0.5";
     either "rounded" "(battery(v) * 100).round() > Math.floor(20.5)";
-    either "two of them" "battery(v) < battery(pick { id 'c' })"; either "in an area" "position(v) in (Location.APDL ^ 2.km)";
+    either "two of them" "battery(v) < battery(pick { id 'c' })";
+    either "in an area" "position(v) in (Location.APDL ^ 2.km)";
     either "an area around it" "Location.APDL in (position(v) ^ 2.km)";
     either "a coordinate" "position(v).latitude > 41"; either "a distance" "position(v).distance(Location.APDL) < 100";
     either "one of several" "(v + pick { id 'c' }).any { battery(it) < 0.2 }";
@@ -61,7 +62,8 @@ let sensors =
     happens "a local of a function"
       (pick ^ "def f(b) { post x: 1; return b < 0.3 && battery(v) >= 0.3 }\nif (f(battery(v))) { halt 'charged' }")
       ~some:[ "halt(charged)"; "end" ] ~none:[];
-    happens "a message with what a sensor shows" (say "\"at ${battery(v)}\"") ~some:[ "message 'at battery(a)'" ] ~none:[];
+    happens "a message with what a sensor shows" (say "\"at ${battery(v)}\"") ~some:[ "message 'at battery(a)'" ]
+      ~none:[];
     happens "told of, behind words" (say "'at ' + battery(v)") ~some:[ "message 'at battery(a)'" ] ~none:[];
     happens "twelve comparisons in one step" (say (comparisons 12)) ~some:both ~none:[];
     happens "what one handler keeps is not what another one kept"
@@ -89,11 +91,14 @@ let unsettled name source =
 (* Of these nobody could list the outcomes. *)
 let beyond =
   [ unsettled "as a truth value" (pick ^ "if (battery(v)) { halt 'h' }");
-    unsettled "posted" (pick ^ "post level: battery(v)"); unsettled "polled" (pick ^ "if (poll(level: battery(v))) { halt 'h' }");
-    unsettled "as an index" (pick ^ "xs = [1, 2]\nmessage xs[battery(v)]"); unsettled "in a list" (pick ^ "xs = [battery(v)]");
+    unsettled "posted" (pick ^ "post level: battery(v)");
+    unsettled "polled" (pick ^ "if (poll(level: battery(v))) { halt 'h' }");
+    unsettled "as an index" (pick ^ "xs = [1, 2]\nmessage xs[battery(v)]");
+    unsettled "in a list" (pick ^ "xs = [battery(v)]");
     unsettled "as a time" (pick ^ "pause battery(v)");
     unsettled "as a time of a task" (pick ^ "execute during { battery(v) } run idle(1)");
-    unsettled "as a divisor" (pick ^ "x = 1 / battery(v)"); unsettled "in a plan" (pick ^ "p = imcPlan { goTo speed: battery(v) }");
+    unsettled "as a divisor" (pick ^ "x = 1 / battery(v)");
+    unsettled "in a plan" (pick ^ "p = imcPlan { goTo speed: battery(v) }");
     unsettled "thirteen comparisons in one step" (say (comparisons 13));
     unsettled "an argument that is named" (pick ^ "def f(m) { return m.level < 0.3 }\nmessage f(level: battery(v))");
     unsettled "captured" (pick ^ "def f(b) { return { -> b < 0.3 } }\nf(battery(v))");
@@ -101,7 +106,8 @@ let beyond =
 
 (* {1 Vehicles} *)
 
-let missing_a = "no-vehicles(could not pick 1 vehicle with id 'a': b has another id; c has another id; a is not connected)"
+let missing_a =
+  "no-vehicles(could not pick 1 vehicle with id 'a': b has another id; c has another id; a is not connected)"
 let late limit = { Environment.default with latecomers = limit; may_be_late = (fun v -> v <> "a") }
 let lossy limit = { Environment.default with losses = limit }
 let everybody = "v = pick { count _ }"
@@ -125,10 +131,12 @@ let vehicles =
       "v = pick { count _; type 'UUV' }\nif (v.size() == 1) { w = pick { id 'c' } }"
       ~some:[ "bind(a)"; "bind(a, b)"; "bind(c)" ]
       ~none:
-        [ "no-vehicles(could not pick 1 vehicle with id 'c': a is already bound; b has another id; c is not connected)" ];
+        [ "no-vehicles(could not pick 1 vehicle with id 'c': a is already bound; b has another id; c is not \
+           connected)" ];
     happens "a loss fails the task" ~environment:(lossy Any_number) ~world:closed (pick ^ "execute task('p')[v]")
       ~some:[ "done(a, p)"; "fail(a, p, connection lost)" ] ~none:[ "fail(a, p, failure)" ];
-    happens "a lost vehicle is still bound, may come back, and then fail no more" ~environment:(lossy (At_most 1)) ~world:closed
+    happens "a lost vehicle is still bound, may come back, and then fail no more" ~environment:(lossy (At_most 1))
+      ~world:closed
       (pick
        ^ "t = watch task('p')[v] onError { post failed: 1; ignore() }\nexecute t\nexecute t\n\
           if (consume(failed: 1) && !poll(failed: 1)) { execute watch task('q')[v] onError { halt 'again' } }")

@@ -4,9 +4,7 @@ let at ?(height = 0.) latitude longitude : Position.t = { latitude; longitude; h
 
 let case name run = Alcotest.test_case name `Quick run
 
-let law ?(count = 1000) name generator ~print property =
-  let cell = QCheck2.Test.make_cell ~count ~name ~print generator property in
-  case name (fun () -> QCheck2.Test.check_cell_exn ~rand:(Random.State.make [| 2016 |]) cell)
+let law ?(count = 1000) name = Test_support.Property.case ~count name
 
 let position = Alcotest.testable Position.pp Position.equal
 
@@ -29,6 +27,11 @@ let make_checks_ranges () =
     (rejected ~latitude:0. ~longitude:(-181.) ~height:0.);
   check "height" "height inf is not a finite number of metres"
     (rejected ~latitude:0. ~longitude:0. ~height:Float.infinity)
+
+let angles () =
+  let check = Alcotest.(check (float 1e-15)) in
+  check "half a turn" Float.pi (Angle.radians 180.);
+  check "an eighth, the other way" (-45.) (Angle.degrees (-.Float.pi /. 4.))
 
 let printing () =
   let check expected position = Alcotest.(check string) expected expected (Fmt.str "%a" Position.pp position) in
@@ -172,7 +175,7 @@ let () =
   let law name property = law name moved ~print:print_moved property in
   Alcotest.run "geo"
     [
-      ("position", [ case "ranges" make_checks_ranges; case "printing" printing ]);
+      ("position", [ case "ranges" make_checks_ranges; case "printing" printing; case "angles" angles ]);
       ( "known values",
         [
           case "degrees of arc" degrees_of_arc;

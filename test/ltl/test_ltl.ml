@@ -1,78 +1,21 @@
 open Dolphin_ltl
 module Gen = QCheck2.Gen
-
-(* {1 By the definitions} *)
-
-(* A word without end: its positions, of which the last is followed by the one at [back]. A letter is the propositions, by
-   number, that hold. *)
-type word = { letters : int list array; back : int }
-
-(* Whether the formula holds, by position. Until is the least solution of its equation, release the greatest. *)
-let rec truth word (f : int Formula.t) =
-  let n = Array.length word.letters in
-  let next i = if i = n - 1 then word.back else i + 1 in
-  let each on = Array.init n on in
-  let of_two f g on =
-    let f = truth word f and g = truth word g in
-    each (fun i -> on f.(i) g.(i))
-  in
-  let solution start f g step =
-    let f = truth word f and g = truth word g in
-    let rec go x =
-      let x' = each (fun i -> step f.(i) g.(i) x.(next i)) in
-      if x = x' then x else go x'
-    in
-    go (Array.make n start)
-  in
-  match f with
-  | True -> each (fun _ -> true)
-  | False -> each (fun _ -> false)
-  | Proposition p -> each (fun i -> List.mem p word.letters.(i))
-  | Not f -> Array.map not (truth word f)
-  | And (f, g) -> of_two f g ( && )
-  | Or (f, g) -> of_two f g ( || )
-  | Implies (f, g) -> of_two f g (fun f g -> (not f) || g)
-  | Equivalent (f, g) -> of_two f g ( = )
-  | Next f ->
-    let f = truth word f in
-    each (fun i -> f.(next i))
-  | Finally f -> truth word (Until (True, f))
-  | Globally f -> truth word (Not (Finally (Not f)))
-  | Until (f, g) -> solution false f g (fun f g x -> g || (f && x))
-  | Release (f, g) -> solution true f g (fun f g x -> g && (f || x))
-  | Weak_until (f, g) -> solution true f g (fun f g x -> g || (f && x))
-
-let holds_of word f = (truth word f).(0)
+module Linear = Test_support.Linear
 
 (* {1 Random formulas and graphs} *)
 
 let propositions = 3
 
-let formula : int Formula.t Gen.t =
-  let open Gen in
-  let leaf =
-    frequency
-      [ (1, return Formula.True); (1, return Formula.False);
-        (8, map (fun p -> Formula.Proposition p) (int_bound (propositions - 1))) ]
-  in
-  let node self n : int Formula.t Gen.t =
-    let unary build = map build (self (n - 1)) and binary build = map2 build (self (n / 2)) (self (n / 2)) in
-    oneof
-      [ unary (fun f -> Formula.Not f); unary (fun f -> Formula.Next f); unary (fun f -> Formula.Finally f);
-        unary (fun f -> Formula.Globally f); binary (fun f g -> Formula.And (f, g));
-        binary (fun f g -> Formula.Or (f, g)); binary (fun f g -> Formula.Implies (f, g));
-        binary (fun f g -> Formula.Equivalent (f, g)); binary (fun f g -> Formula.Until (f, g));
-        binary (fun f g -> Formula.Release (f, g)); binary (fun f g -> Formula.Weak_until (f, g)) ]
-  in
-  sized_size (int_bound 6) (fix (fun self n -> if n <= 0 then leaf else node self n))
-
+let formula = Linear.formula Gen.(int_bound (propositions - 1))
 let letter = Gen.(map (List.filter_map Fun.id) (flatten_l (List.init propositions (fun p -> opt (return p)))))
+
+let holds_of = Linear.holds (fun letter p -> List.mem p letter)
 
 let word =
   let open Gen in
   let* n = int_range 1 6 in
   let* letters = array_size (return n) letter in
-  map (fun back -> { letters; back }) (int_bound (n - 1))
+  map (fun back : int list Linear.word -> { letters; back }) (int_bound (n - 1))
 
 (* Letters are on arrivals, as in state graphs with labels. *)
 type graph = { first : int list; edges : (int * int list) list array }
@@ -88,7 +31,7 @@ let search (g : graph) f =
   let holds letter p = List.mem p letter in
   Search.satisfying ~holds { start = (0, g.first); successors = (fun s -> g.edges.(s)) } f
 
-let graph_of_word { letters; back } =
+let graph_of_word ({ letters; back } : int list Linear.word) =
   let n = Array.length letters in
   let edge i =
     let j = if i = n - 1 then back else i + 1 in
@@ -96,7 +39,7 @@ let graph_of_word { letters; back } =
   in
   { first = letters.(0); edges = Array.init n edge }
 
-let word_of_lasso ({ stem; cycle } : int list Search.lasso) =
+let word_of_lasso ({ stem; cycle } : int list Search.lasso) : int list Linear.word =
   let stem = List.map snd stem and cycle = List.map snd cycle in
   { letters = Array.of_list (stem @ cycle); back = List.length stem }
 
@@ -141,6 +84,19 @@ let no_run_is_missed (g, f, choices) =
       List.for_all Fun.id (List.mapi around states) && walk target trail rest
   in
   walk 0 [ (0, g.first) ] choices
+
+(* A word that repeats its last letter, as the monitor sees it: letters are numbers, with a bit for each proposition. *)
+let monitor_agrees (letters, f) =
+  let number letter = List.fold_left (fun n p -> n lor (1 lsl p)) 0 letter in
+  let holds letter p = letter land (1 lsl p) <> 0 in
+  let monitor = Monitor.create ~holds (Automaton.of_formula f) in
+  let read set letter = if set < 0 then set else Monitor.next monitor set (number letter) in
+  let sets = List.fold_left (fun sets l -> read (List.hd sets) l :: sets) [ Monitor.start ] letters in
+  let last = List.hd sets in
+  let expected = holds_of { letters = Array.of_list letters; back = List.length letters - 1 } f in
+  let is_certain set = set >= 0 && Monitor.is_certain monitor set in
+  let stays = last >= 0 && Monitor.stays monitor last (number (List.nth letters (List.length letters - 1))) in
+  stays = expected && ((not (List.exists is_certain sets)) || expected)
 
 (* All words over the propositions. *)
 let every_word =
@@ -207,6 +163,9 @@ let () =
           property "a word satisfies what the definitions say" ~count:3_000 (Gen.pair word formula) ~print:print_pair one_word;
           property "a run that is found is one, and satisfies" ~count:3_000 (Gen.pair graph formula) ~print:print_pair
             found_runs_satisfy;
+          property "a monitor knows what can become of a word" ~count:3_000
+            Gen.(pair (list_size (int_range 1 5) letter) formula)
+            ~print:print_pair monitor_agrees;
           property "no run is missed" ~count:2_000
             (Gen.triple graph formula Gen.(list_size (return 8) (int_bound 5)))
             ~print:print_triple no_run_is_missed ] ) ]

@@ -86,6 +86,4 @@ let isomorphic g h =
 
 let case name run = Alcotest.test_case name `Quick run
 
-let law name ?(count = 1000) ~print gen holds =
-  let cell = QCheck2.Test.make_cell ~name ~count ~print gen holds in
-  case name (fun () -> QCheck2.Test.check_cell_exn ~rand:(Random.State.make [| 7 |]) cell)
+let law name ?(count = 1000) ~print gen holds = Test_support.Property.case ~count name ~print gen holds

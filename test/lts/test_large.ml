@@ -99,15 +99,6 @@ let comparisons () =
   | Enabled { trace; _ } -> check "the last step" (million - 2) (List.length trace)
   | Merged _ | Unmatched _ | No_matching | Undecided -> Alcotest.fail "not by what is enabled"
 
-let components () =
-  let lasso name g =
-    timed ("components of " ^ name) (fun () -> Fairness.lasso (Fairness.components g) (fun _ -> true))
-  in
-  Alcotest.(check bool) "a chain has no cycle" true (lasso "chain" (chain million) = None);
-  match lasso "ring" (ring million) with
-  | Some { cycle; _ } -> check "the ring" million (List.length cycle.steps)
-  | None -> Alcotest.fail "no ring"
-
 let formats () =
   let g = grid 1000 in
   let text = timed "write Aldebaran's text" (fun () -> Aldebaran.to_string g) in
@@ -125,7 +116,6 @@ let () =
         [
           case "partitions" partitions;
           case "comparisons" comparisons;
-          case "components" components;
           case "formats" formats;
         ] );
     ]

@@ -1,4 +1,4 @@
-(* Partition, Compare, Isomorphism, Reachability, Fairness: on examples of the books, and against the simplest
+(* Partition, Compare, Isomorphism, Reachability: on examples of the books, and against the simplest
    implementation on random graphs. *)
 
 open Dolphin_lts
@@ -109,35 +109,11 @@ let reachability () =
   let g = Graph.of_list ~initial:3 [ (3, "a", 1); (1, "b", 0); (3, "c", 2); (2, "d", 3); (5, "e", 4) ] in
   Alcotest.(check (list bool)) "reachable" [ true; true; true; true; false; false ]
     (Array.to_list (Reachability.reachable g));
-  Alcotest.(check (list int)) "deadlocks" [ 0 ] (Reachability.deadlocks g);
   Alcotest.(check (option strings)) "shortest run" (Some [ "a"; "b" ])
     (Option.map Reachability.trace (Reachability.shortest g (Int.equal 0)));
   Alcotest.(check (option strings)) "none" None (Option.map Reachability.trace (Reachability.shortest g (Int.equal 4)));
   Alcotest.(check int) "trimmed" 4 (Graph.states (Reachability.trim g));
   Alcotest.(check bool) "trimmed, but the same" true (Compare.strong g (Reachability.trim g) = Ok ())
-
-let fairness () =
-  (* Two cycles, the first can be left; a state without transitions. *)
-  let g =
-    Graph.of_list [ (0, "try", 1); (1, "lose", 0); (1, "send", 2); (2, "work", 3); (3, "rest", 2); (3, "stop", 4) ]
-  in
-  let c = Fairness.components g in
-  let of_state s = Option.get (Fairness.component c s) in
-  Alcotest.(check int) "three components" 3 (Fairness.count c);
-  Alcotest.(check bool) "transitions lead down" true (of_state 0 > of_state 2 && of_state 2 > of_state 4);
-  Alcotest.(check (list bool)) "cyclic" [ false; true; true ] (List.init 3 (Fairness.cyclic c));
-  Alcotest.(check (list bool)) "closed" [ true; false; false ] (List.init 3 (Fairness.closed c));
-  let lasso ?through p = Option.map (Fmt.str "@[<h>%a@]" Fairness.pp_lasso) (Fairness.lasso ?through c p) in
-  Alcotest.(check (option string)) "any" (Some "(try lose) for ever") (lasso (fun _ -> true));
-  Alcotest.(check (option string)) "the second" (Some "try send (work rest) for ever") (lasso (Int.equal (of_state 2)));
-  Alcotest.(check (option string)) "none stays in a deadlock" None (lasso (Int.equal (of_state 4)));
-  let double = Graph.of_list [ (0, "a", 1); (1, "b", 0); (1, "c", 2); (2, "d", 0) ] in
-  let through _ l _ = List.mem (Graph.label double l) [ "b"; "d" ] in
-  let lasso = Option.get (Fairness.lasso ~through (Fairness.components double) (fun _ -> true)) in
-  Alcotest.(check strings) "through both" [ "a"; "a"; "b"; "c"; "d" ]
-    (List.sort compare (Reachability.trace lasso.cycle));
-  let without_d = Fairness.components ~keep:(fun _ l _ -> Graph.label double l <> "d") double in
-  Alcotest.(check int) "components of what is kept" 2 (Fairness.count without_d)
 
 (* {1 Laws} *)
 
@@ -244,43 +220,6 @@ let isomorphism_is_by_permutation (g, h) =
   | Ok () -> isomorphic g h
   | Error difference -> (not (isomorphic g h)) && difference_is_so g h difference
 
-let components_are_mutual_reachability g =
-  let c = Fairness.components g in
-  let reaches s t = Reachability.shortest ~from:s g (Int.equal t) <> None in
-  let states = List.init (Graph.states g) Fun.id in
-  let same s t =
-    match (Fairness.component c s, Fairness.component c t) with
-    | Some i, Some j -> i = j = (reaches s t && reaches t s)
-    | None, _ -> not (reaches (Graph.initial g) s)
-    | _, None -> not (reaches (Graph.initial g) t)
-  in
-  List.for_all (fun s -> List.for_all (same s) states) states
-
-let runs g (run : Reachability.run) =
-  List.fold_left
-    (fun at (step : Reachability.step) ->
-       match at with
-       | Some s when List.mem (step.label, step.target) (successors g s) -> Some step.target
-       | Some _ | None -> None)
-    (Some run.start) run.steps
-
-let lasso_is_a_run g =
-  let c = Fairness.components g in
-  let through _ l _ = Graph.label g l = "a" in
-  match Fairness.lasso ~through c (fun _ -> true) with
-  | None -> not (List.exists (Fairness.cyclic c) (List.init (Fairness.count c) Fun.id))
-  | Some { prefix; cycle } ->
-    let i = Option.get (Fairness.component c cycle.start) in
-    let wanted = ref [] in
-    Fairness.iter_inside c i (fun s l s' -> if through s l s' then wanted := (s, s') :: !wanted);
-    let add (s, taken) (step : Reachability.step) = (step.target, (step.label, s, step.target) :: taken) in
-    let _, taken = List.fold_left add (cycle.start, []) cycle.steps in
-    prefix.start = Graph.initial g
-    && runs g prefix = Some cycle.start
-    && runs g cycle = Some cycle.start
-    && cycle.steps <> []
-    && List.for_all (fun (s, s') -> List.mem ("a", s, s') taken) !wanted
-
 let () =
   Alcotest.run "lts"
     [
@@ -293,7 +232,6 @@ let () =
           case "isomorphism" isomorphism;
           case "symmetric graphs" symmetric;
           case "reachability" reachability;
-          case "components and lassos" fairness;
         ] );
       ( "laws",
         [
@@ -309,7 +247,5 @@ let () =
               Compare.isomorphic g h = Ok ());
           law "isomorphic exactly if some permutation does it" ~print:print_pair tiny_near
             isomorphism_is_by_permutation;
-          law "components are the classes of mutual reachability" ~print sparse components_are_mutual_reachability;
-          law "a lasso is a run through what was asked" ~print sparse lasso_is_a_run;
         ] );
     ]

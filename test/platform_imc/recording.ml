@@ -5,7 +5,8 @@ type line = { time : float; inward : bool; bytes : string }
 let console = 0x4ABC
 let vehicle = "lauv-noptilus-1"
 
-let of_hex text = String.init (String.length text / 2) (fun i -> Char.chr (int_of_string ("0x" ^ String.sub text (2 * i) 2)))
+let of_hex text =
+  String.init (String.length text / 2) (fun i -> Char.chr (int_of_string ("0x" ^ String.sub text (2 * i) 2)))
 
 let line json =
   let open Yojson.Safe.Util in

@@ -77,7 +77,8 @@ let say (s : script) w messages =
 let advance (s : script) w =
   w.now <- w.now +. instant;
   let answered =
-    List.concat_map (fun (copy, c) -> Vehicle_model.request ~now:w.now ~copy c w.vehicle) (Network.arrived ~now:w.now w.out)
+    List.concat_map (fun (copy, c) -> Vehicle_model.request ~now:w.now ~copy c w.vehicle)
+      (Network.arrived ~now:w.now w.out)
   in
   say s w (answered @ Vehicle_model.tick ~now:w.now w.vehicle);
   List.iter (hear w) (Network.arrived ~now:w.now w.back);
@@ -135,7 +136,8 @@ let generate ~outward ~inward ~fates =
     oneof
       ([ map (fun t -> Vehicle_model.Succeeds t) (float_range 0.05 6.) ]
        @ if fates then
-         [ map (fun t -> Vehicle_model.Fails t) (float_range 0.05 4.); return (Vehicle_model.Is_refused "undefined plan") ]
+         [ map (fun t -> Vehicle_model.Fails t) (float_range 0.05 4.);
+           return (Vehicle_model.Is_refused "undefined plan") ]
        else [])
   in
   let before =
@@ -224,7 +226,8 @@ let ran_once_or_says_so (l : log) =
 (* Copies that the network makes count here. The words may come when the order is over. *)
 let each_anew_is_told logs (w : world) =
   let anew = List.filter (fun (l : log) -> List.length l.executions > 1) logs in
-  List.length anew <= List.length w.told || complain "%d begun anew, notes: %s" (List.length anew) (String.concat "; " w.told)
+  List.length anew <= List.length w.told
+  || complain "%d begun anew, notes: %s" (List.length anew) (String.concat "; " w.told)
 
 (* No request whose copy had arrived was sent again. *)
 let never_resent_in_vain (l : log) =
@@ -250,14 +253,18 @@ let tests =
   ( "execution",
     [ property "a perfect network: the vehicle's own verdict, each plan once" ~outward:perfect ~inward:perfect
         (fun s logs w ->
-           List.for_all (fun l -> verdict_is_fate s l && is_sound l && ran_once_or_says_so l && l.notes = []) logs && is_over w);
+           List.for_all (fun l -> verdict_is_fate s l && is_sound l && ran_once_or_says_so l && l.notes = []) logs
+           && is_over w);
       property "reordering: the same" ~outward:reordering ~inward:reordering (fun s logs w ->
-          List.for_all (fun l -> verdict_is_fate s l && is_sound l && never_resent_in_vain l && ran_once_or_says_so l) logs && is_over w);
+          List.for_all (fun l -> verdict_is_fate s l && is_sound l && never_resent_in_vain l) logs
+          && List.for_all ran_once_or_says_so logs && is_over w);
       property "requests get lost: each plan once" ~outward:losing ~inward:reordering (fun s logs w ->
-          List.for_all (fun l -> verdict_is_fate s l && is_sound l && never_resent_in_vain l && ran_once_or_says_so l) logs && is_over w);
+          List.for_all (fun l -> verdict_is_fate s l && is_sound l && never_resent_in_vain l) logs
+          && List.for_all ran_once_or_says_so logs && is_over w);
       property "requests are doubled: no plan begins anew without a word" ~count:1000 ~outward:doubling ~inward:perfect
         (fun _ logs w -> List.for_all is_complete logs && each_anew_is_told logs w && is_over w);
-      property "what the vehicle says gets lost: no plan twice without a word" ~count:1000 ~outward:losing ~inward:losing
+      property "what the vehicle says gets lost: no plan twice without a word" ~count:1000 ~outward:losing
+        ~inward:losing
         (fun _ logs w ->
            List.for_all (fun l -> is_sound l && is_complete l && ran_once_or_says_so l) logs && is_over w);
       property "loss, duplication and reordering both ways" ~count:1000 ~outward:bad ~inward:bad (fun _ logs w ->

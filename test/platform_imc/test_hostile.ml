@@ -111,12 +111,15 @@ let spoofed =
   Alcotest.test_case "datagrams from an address that is not the vehicle's" `Quick (fun () ->
       let s = Lazy.force informed in
       let known = knowledge s in
-      let s' = List.fold_left (fun s (l : Recording.line) -> hear ~from:elsewhere ~now:70. l.bytes s) s (Lazy.force inward) in
+      let s' =
+        List.fold_left (fun s (l : Recording.line) -> hear ~from:elsewhere ~now:70. l.bytes s) s (Lazy.force inward)
+      in
       Alcotest.(check bool) "nothing changed" true (knowledge s' = known);
       Alcotest.(check (option int)) "counted"
         (Some (List.length (List.filter (fun (l : Recording.line) ->
              match Recording.message l with
-             | Announce _ | Heartbeat | Estimated_state _ | Vehicle_state _ | Plan_control_state _ | Fuel_level _ | Entity_list _
+             | Announce _ | Heartbeat | Estimated_state _ | Vehicle_state _ | Plan_control_state _ | Fuel_level _
+             | Entity_list _
              | Log_book_entry _ -> true
              | Plan_control c -> c.type_ <> Request
              | _ -> false) (Lazy.force inward))))
@@ -144,7 +147,8 @@ let unknown =
   Alcotest.test_case "systems that have not announced" `Quick (fun () ->
       let mute (l : Recording.line) = match Recording.message l with Announce _ -> false | _ -> true in
       let s =
-        List.fold_left (fun s (l : Recording.line) -> hear l.bytes s) (station ()) (List.filter mute (Lazy.force inward))
+        List.fold_left (fun s (l : Recording.line) -> hear l.bytes s) (station ())
+          (List.filter mute (Lazy.force inward))
       in
       Alcotest.(check int) "known" 0 (List.length (knowledge s)))
 

@@ -146,7 +146,11 @@ let courtship =
         if now > 30. then List.rev announced
         else
           let s, outputs = Station.tick ~now s in
-          let speaks = List.exists (function Station.Announce _ -> true | _ -> false) outputs in
+          let is_announcement : Station.output -> bool = function
+            | Announce _ -> true
+            | Announce_to _ | Send _ | Keep _ | Note _ -> false
+          in
+          let speaks = List.exists is_announcement outputs in
           let announced = if speaks then Float.round now :: announced else announced in
           let s = if Float.rem now 10. = 2. then fst (Station.datagram ~now ~from:loopback bytes s) else s in
           live (now +. 0.25) (s, announced)

@@ -3,9 +3,7 @@ open Dolphin_scenario
 
 let case name run = Alcotest.test_case name `Quick run
 
-let law ?(count = 300) name generator ~print property =
-  let cell = QCheck2.Test.make_cell ~count ~name ~print generator property in
-  case name (fun () -> QCheck2.Test.check_cell_exn ~rand:(Random.State.make [| 2016 |]) cell)
+let law ?(count = 300) name = Test_support.Property.case ~count name
 
 let scenario source =
   match Scenario.read ~file:"test.fleet" source with

@@ -5,7 +5,7 @@ open Dolphin_semantics
 val case : string -> (unit -> unit) -> unit Alcotest.test_case
 
 val law :
-  ?count:int -> string -> 'a QCheck2.Gen.t -> print:('a -> string) -> ('a -> bool) -> unit Alcotest.test_case
+  ?count:int -> string -> print:('a -> string) -> 'a QCheck2.Gen.t -> ('a -> bool) -> unit Alcotest.test_case
 
 val scenario : string -> Dolphin_scenario.Scenario.t
 (** From the text of a fleet. *)

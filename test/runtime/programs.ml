@@ -23,7 +23,8 @@ let method_of subject name arguments =
 let property subject name = apply (Property name) [ subject ]
 
 let lambda label parameters code =
-  { id = fresh (); label; parameters; implicit = false; captures = [||]; slots = parameters; code; lambda_site = fresh () }
+  { id = fresh (); label; parameters; implicit = false; captures = [||]; slots = parameters; code;
+    lambda_site = fresh () }
 
 let code e = expression (Make_closure (lambda "code" 0 e, []))
 let handler e = expression (Make_closure (lambda "handler" 1 e, []))

@@ -1,3 +1,3 @@
 let () =
   Alcotest.run "runtime"
-    [ ("driver", Test_driver.tests); ("console", Test_console.tests); ("host", Test_host.tests) ]
+    [ ("driver", Test_driver.tests); ("console", Test_console.tests); ("host", Test_host.tests); ("past", Test_past.tests) ]

@@ -133,7 +133,8 @@ let scenario =
     let* batteries = several battery share and* places = several position place in
     let leaves = Option.map (fun stay -> joins +. stay) stay in
     return
-      { Scenario.id; kind; payload; position; speed; battery; drain; charge; joins; leaves; drops; batteries; places } in
+      { Scenario.id; kind; payload; position; speed; battery; drain; charge; joins; leaves; drops; batteries; places }
+  in
   let plan name_of_it =
     let* least = amount and* more = oneof [ return 0.; amount ] and* timed = bool in
     let duration = if timed then Some { Scenario.least; most = least +. more } else None in

@@ -42,7 +42,8 @@ let b_changes_only_so _ (s : Walk.step) =
   || has bound_by s.transition
   || fail "%s changed B" (shown s)
 
-let pairs n = List.concat_map (fun (k, xs) -> List.map (fun x -> Format.asprintf "%a" Value.pp_tuple (k, x)) xs) (Tuples.bindings n)
+let pairs n =
+  List.concat_map (fun (k, xs) -> List.map (fun x -> Format.asprintf "%a" Value.pp_tuple (k, x)) xs) (Tuples.bindings n)
 
 let deeds_of (l : Label.t) : Machine.deed list =
   match l with
@@ -177,7 +178,9 @@ let sign n = Int.compare n 0
 (* Of two walks through one program, all configurations with each other. *)
 let is_coherent (program, (choices, choices')) =
   let program = Generate.compile program in
-  let through choices = List.map (fun (s : Walk.step) -> s.transition.next) (Walk.run ~choices program Generate.world) in
+  let through choices =
+    List.map (fun (s : Walk.step) -> s.transition.next) (Walk.run ~choices program Generate.world)
+  in
   let all = through choices @ through choices' in
   let text = Format.asprintf "%a" (Configuration.pp program) in
   let described = List.map (fun c -> (c, Configuration.hash c, text c)) all in

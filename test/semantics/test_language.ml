@@ -192,7 +192,8 @@ let moments =
         | _ -> Alcotest.fail "did not fail");
     case "a handler's verdict is of this error only" (fun () ->
         let source =
-          "n = 0\ndef t() { watch action { 1 / 0 } onError { n = n + 1; if (n == 1) { ignore() } } }\nexecute(t() >> t())"
+          "n = 0\ndef t() { watch action { 1 / 0 } onError { n = n + 1; if (n == 1) { ignore() } } }\n\
+           execute(t() >> t())"
         in
         Alcotest.(check string) "the second propagates" "failed: division by zero" (Pure_run.ending (run source)));
     case "a host call waits, and goes on with the reply" (fun () ->

@@ -64,7 +64,8 @@ let ( <|> ) = binary Parallel
 let until g t = expression (Until (g, t))
 let during n t = expression (During (expression (Integer n), t))
 let watch t h = expression (Watch (t, code h))
-let branches builder bs = expression (Builder (builder, List.map (fun (g, t) -> statement (expression (When (g, t)))) bs))
+let branches builder bs =
+  expression (Builder (builder, List.map (fun (g, t) -> statement (expression (When (g, t)))) bs))
 
 (* The union of at least one vehicle; one twice, for the static check that knows what does not fit on one vehicle. *)
 let set vs = List.fold_left (binary Add) (variable (List.hd vs)) (List.map variable vs)
@@ -82,8 +83,10 @@ let laws =
       (fun x -> during 3 x.a);
     law "watch T onError { propagate() } is T" (fun x -> watch x.a propagate) (fun x -> x.a);
     law "watch T onError { } is T" (fun x -> watch x.a []) (fun x -> x.a);
-    law "oneOf with one branch is waitFor" (fun x -> branches One_of [ (x.g, x.a) ]) (fun x -> expression (Wait_for (x.g, x.a)));
-    law "allOf with one branch is waitFor" (fun x -> branches All_of [ (x.g, x.a) ]) (fun x -> expression (Wait_for (x.g, x.a)));
+    law "oneOf with one branch is waitFor" (fun x -> branches One_of [ (x.g, x.a) ])
+      (fun x -> expression (Wait_for (x.g, x.a)));
+    law "allOf with one branch is waitFor" (fun x -> branches All_of [ (x.g, x.a) ])
+      (fun x -> expression (Wait_for (x.g, x.a)));
     law "until { false } run T is T" (fun x -> until never x.a) (fun x -> x.a);
     law ">> goes into oneOf from the right"
       (fun x -> branches One_of [ (x.g, x.a); (never, x.b) ] >> x.c)
@@ -138,7 +141,8 @@ let allocation_laws =
       (fun a _ vs ws -> expression (Index (a, binary Intersect (set vs) (set ws))));
     allocation_law "[V] goes into >>" (fun a b vs _ -> on (a >> b) vs) (fun a b vs _ -> on a vs >> on b vs);
     allocation_law "[V] goes into |" (fun a b vs _ -> on (a <|> b) vs) (fun a b vs _ -> on a vs <|> on b vs);
-    allocation_law ">> is associative without vehicles" (fun a b vs _ -> (a >> b) >> on a vs) (fun a b vs _ -> a >> (b >> on a vs));
+    allocation_law ">> is associative without vehicles" (fun a b vs _ -> (a >> b) >> on a vs)
+      (fun a b vs _ -> a >> (b >> on a vs));
     allocation_law "| is associative without vehicles"
       (fun a b vs _ -> (a <|> b) <|> on a vs)
       (fun a b vs _ -> a <|> (b <|> on a vs)) ]
@@ -169,8 +173,10 @@ let no_laws =
     differ "| is not idempotent" "task('p') | task('p')" "task('p')";
     differ "| is not commutative where allocation chooses" "task('p') | task('q')" "task('q') | task('p')";
     differ ">> is not commutative" (p ^ " >> " ^ q) (q ^ " >> " ^ p);
-    differ ">> does not go into |" (p ^ " >> (idle(1) | idle(2))") (Printf.sprintf "(%s >> idle(1)) | (task('p')[vb] >> idle(2))" p);
-    differ "what follows | waits for both" (Printf.sprintf "(%s | idle(1)) >> %s" p q) (Printf.sprintf "%s | (idle(1) >> %s)" p q);
+    differ ">> does not go into |" (p ^ " >> (idle(1) | idle(2))")
+      (Printf.sprintf "(%s >> idle(1)) | (task('p')[vb] >> idle(2))" p);
+    differ "what follows | waits for both" (Printf.sprintf "(%s | idle(1)) >> %s" p q)
+      (Printf.sprintf "%s | (idle(1) >> %s)" p q);
     differ ">> does not go into oneOf from the left" (p ^ " >> oneOf { when { consume x: 1 } then idle(1) }")
       (Printf.sprintf "oneOf { when { consume x: 1 } then %s >> idle(1) }" p);
     differ "watch does not go into >>" (Printf.sprintf "watch (%s >> %s) onError { ignore() }" p q)
@@ -205,9 +211,12 @@ let branching_time () =
   let graph text = Option.get (Graph.explore (Pure_run.compile_exn text) Generate.world) in
   let branch g k = Printf.sprintf "when { %s } then condition { consume %s: 1 }" g k in
   let late =
-    "post b: 1, c: 1\nexecute oneOf { when { true } then oneOf { when { consume b: 1 } then idle(1)\nwhen { consume c: 1 } then idle(1) } }"
+    "post b: 1, c: 1\nexecute oneOf { when { true } then oneOf { when { consume b: 1 } then idle(1)\n\
+     when { consume c: 1 } then idle(1) } }"
   in
-  let early = Printf.sprintf "post b: 1, c: 1\nexecute(oneOf { %s\n%s } >> idle(1))" (branch "true" "b") (branch "true" "c") in
+  let early =
+    Printf.sprintf "post b: 1, c: 1\nexecute(oneOf { %s\n%s } >> idle(1))" (branch "true" "b") (branch "true" "c")
+  in
   let labels g =
     List.sort_uniq String.compare
       (List.concat_map

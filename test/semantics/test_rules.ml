@@ -50,7 +50,8 @@ let tasks : example list =
       "(p[noptilus-1]... >> idle(1))" [ "start p on noptilus-1" ];
     example Seq_2 "the first part ends, the next is active" (task "%p >> idle(1)") "done(noptilus-1, p)" "DONE, SEQ-2"
       "idle(1)" [ "set timer 1 to 1 s" ];
-    example Seq_err "what follows a failure never starts" (task "(watch (%p >> idle(1)) onError { ignore() }) >> idle(2)")
+    example Seq_err "what follows a failure never starts"
+      (task "(watch (%p >> idle(1)) onError { ignore() }) >> idle(2)")
       "fail(noptilus-1, p, broken)" "FAIL, SEQ-ERR, WATCH-IGNORE, SEQ-2" "idle(2)" [ "set timer 2 to 2 s" ];
     example Par_1 "the left goes on" (task "%p | %q") "start(noptilus-1, p)" "START, PAR-1"
       "(p[noptilus-1]... | q[noptilus-2])" [ "start p on noptilus-1" ];
@@ -66,18 +67,21 @@ let tasks : example list =
       (task "watch (during 60 run (%p | %q)) onError { ignore() }")
       "fail(noptilus-1, p, broken)" "FAIL, PAR-ERR, DURING-ERR, WATCH-IGNORE, EXECUTE-DONE" "script"
       [ "stop noptilus-2"; "cancel timer 1" ];
-    example Allof_when "any ready branch" (task "allOf { when { poll(a: _) } then idle(1)\nwhen { true } then idle(2) }")
+    example Allof_when "any ready branch"
+      (task "allOf { when { poll(a: _) } then idle(1)\nwhen { true } then idle(2) }")
       "check" "ALLOF-WHEN" "allOf { idle(2); when { when } then idle(1) }" [ "set timer 2 to 2 s" ];
     example Allof_1 "the branch goes on" (task "allOf { when { false } then idle(1)\nwhen { true } then %p }")
       "start(noptilus-1, p)" "START, ALLOF-1" "allOf { p[noptilus-1]...; when { when } then idle(1) }"
       [ "start p on noptilus-1" ];
-    example Allof_2 "the branch ends, the others are left" (task "allOf { when { false } then idle(1)\nwhen { true } then %p }")
+    example Allof_2 "the branch ends, the others are left"
+      (task "allOf { when { false } then idle(1)\nwhen { true } then %p }")
       "done(noptilus-1, p)" "DONE, ALLOF-2" "oneOf { when { when } then idle(1) }" [];
     example Allof_err "the branch fails, the others never start"
       (task "watch (allOf { when { false } then idle(1)\nwhen { true } then %p }) onError { ignore() }")
       "fail(noptilus-1, p, broken)" "FAIL, ALLOF-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [];
     example Allof_err "a guard breaks" (task "allOf { when { 1 / 0 } then idle(1)\nwhen { true } then %p }")
-      "broken(division by zero)" "ALLOF-ERR, EXECUTE-ERR" "failed: division by zero" [ released; "end: division by zero" ];
+      "broken(division by zero)" "ALLOF-ERR, EXECUTE-ERR" "failed: division by zero"
+      [ released; "end: division by zero" ];
     example Oneof_when "the guard's deeds are part of the step"
       ("post a: 1\n" ^ task "oneOf { when { consume a: 1 } then idle(1)\nwhen { true } then idle(2) }")
       "check(consume a:1)" "ONEOF-WHEN" "idle(1)" [ "set timer 1 to 1 s" ];
@@ -85,10 +89,13 @@ let tasks : example list =
       ("post a: 1\n" ^ task "oneOf { when { consume a: 1 } then idle(1)\nwhen { true } then idle(2) }")
       "check" "ONEOF-WHEN" "idle(2)" [ "set timer 2 to 2 s" ];
     example Oneof_err "a guard breaks" (task "oneOf { when { 1 / 0 } then idle(1)\nwhen { true } then idle(2) }")
-      "broken(division by zero)" "ONEOF-ERR, EXECUTE-ERR" "failed: division by zero" [ released; "end: division by zero" ];
-    example Until_cut "what runs is stopped" (task "(until { consume a: 1 } run during 5 run %p) | action { post a: 1 }")
+      "broken(division by zero)" "ONEOF-ERR, EXECUTE-ERR" "failed: division by zero"
+      [ released; "end: division by zero" ];
+    example Until_cut "what runs is stopped"
+      (task "(until { consume a: 1 } run during 5 run %p) | action { post a: 1 }")
       "cut(consume a:1)" "UNTIL-CUT, EXECUTE-DONE" "script" [ "cancel timer 1"; "stop noptilus-1" ];
-    example Until_cut "before anything started" (task "until { true } run %p") "cut" "UNTIL-CUT, EXECUTE-DONE" "script" [];
+    example Until_cut "before anything started" (task "until { true } run %p") "cut"
+      "UNTIL-CUT, EXECUTE-DONE" "script" [];
     example Until_1 "the task goes on" (task "until { false } run %p") "start(noptilus-1, p)" "START, UNTIL-1"
       "until { until } run p[noptilus-1]..." [ "start p on noptilus-1" ];
     example Until_2 "the task ends by itself" (task "until { false } run %p") "done(noptilus-1, p)"
@@ -96,7 +103,8 @@ let tasks : example list =
     example Until_err "the task fails" (task "until { false } run %p") "fail(noptilus-1, p, broken)"
       "FAIL, UNTIL-ERR, EXECUTE-ERR" "failed: p failed on noptilus-1: broken"
       [ released; "end: p failed on noptilus-1: broken" ];
-    example Until_err "the condition breaks, the task is stopped" (task "watch (until { 1 / 0 } run %p) onError { ignore() }")
+    example Until_err "the condition breaks, the task is stopped"
+      (task "watch (until { 1 / 0 } run %p) onError { ignore() }")
       "broken(division by zero)" "UNTIL-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [ "stop noptilus-1" ];
     example Idle_end "the time is up" (task "idle(5) >> idle(1)") "timeout" "IDLE-END, SEQ-2" "idle(1)"
       [ "set timer 2 to 1 s" ];
@@ -118,7 +126,8 @@ let tasks : example list =
       "DURING-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [];
     example Watch_1 "the task goes on" (task "watch %p onError { }") "start(noptilus-1, p)" "START, WATCH-1"
       "watch p[noptilus-1]..." [ "start p on noptilus-1" ];
-    example Watch_2 "the task ends well" (task "watch %p onError { }") "done(noptilus-1, p)" "DONE, WATCH-2, EXECUTE-DONE"
+    example Watch_2 "the task ends well" (task "watch %p onError { }")
+      "done(noptilus-1, p)" "DONE, WATCH-2, EXECUTE-DONE"
       "script" [];
     example Watch_ignore "siblings inside stop, the handler runs, what follows starts: in one step"
       (task "(watch (%p | %q) onError { message it; ignore() }) >> idle(1)")
@@ -126,7 +135,8 @@ let tasks : example list =
       [ "stop noptilus-2"; "say p failed on noptilus-1: broken"; "set timer 1 to 1 s" ];
     example Watch_propagate "the error climbs to the next watch"
       (task "watch (watch %p onError { message 'in' }) onError { message 'out'; ignore() }")
-      "fail(noptilus-1, p, broken)" "FAIL, WATCH-PROPAGATE, WATCH-IGNORE, EXECUTE-DONE" "script" [ "say in"; "say out" ];
+      "fail(noptilus-1, p, broken)" "FAIL, WATCH-PROPAGATE, WATCH-IGNORE, EXECUTE-DONE" "script"
+      [ "say in"; "say out" ];
     example Watch_propagate "a handler that breaks is an error itself, and leaves no effect"
       (task "watch (watch %p onError { message 'in'; ignore(); 1 / 0 }) onError { message it; ignore() }")
       "fail(noptilus-1, p, broken)" "FAIL, WATCH-PROPAGATE, WATCH-IGNORE, EXECUTE-DONE" "script"
@@ -135,8 +145,9 @@ let tasks : example list =
       "fail(noptilus-1, p, broken)" "FAIL, DURING-ERR, WATCH-HALT" "halted: enough"
       [ "cancel timer 1"; "say m"; "stop noptilus-2"; released; "end: halted enough" ] ]
 
-let nothing_there = "could not pick 1 vehicle of type 'ROV': noptilus-1 is a UUV; noptilus-2 is a UUV; noptilus-3 is a UUV; \
-                     x8-02 is a UAV"
+let nothing_there =
+  "could not pick 1 vehicle of type 'ROV': noptilus-1 is a UUV; noptilus-2 is a UUV; noptilus-3 is a UUV; \
+   x8-02 is a UAV"
 
 let too_few = "tasks 'p', 'q' run side by side and need different vehicles, but there is only noptilus-1"
 
@@ -184,7 +195,8 @@ let script : example list =
     example Halt "by code inside of a task, whatever runs" (task "%p | action { message 'm'; halt 'enough' }")
       "halt(enough)" "HALT" "halted: enough"
       [ "say m"; "stop noptilus-1"; released; "end: halted enough" ];
-    example Fault "the script breaks" (pick_v ^ "x = 1 / 0") "fault(division by zero)" "FAULT" "failed: division by zero"
+    example Fault "the script breaks" (pick_v ^ "x = 1 / 0") "fault(division by zero)" "FAULT"
+      "failed: division by zero"
       [ "release noptilus-1"; "end: division by zero" ];
     example Interrupt "at any moment" (task "during 5 run %p") "interrupt" "INTERRUPT" "interrupted"
       [ "cancel timer 1"; "stop noptilus-1"; released; "end: interrupted" ] ]
@@ -244,13 +256,17 @@ let sorted = List.sort String.compare
 let are_documented () =
   Alcotest.(check (list string)) "each rule once in docs/semantics.md" (sorted names) (sorted (documented ()))
 
-(* An operator of its own in the specification, spelt [SEQ_1], or [ACTION_] where TLA+ has reserved the word. A rule with
-   several conclusions has one for each, as [UNTIL_ERR] and [UNTIL_ERR_WHEN]. *)
-let specified () =
-  let operator = Str.regexp "^\\([A-Z][A-Z0-9_]+\\)\\((.*)\\)? ==" in
+(* An operator of its own in the specification, spelt [SEQ_1], or [ACTION_] where TLA+ has reserved the word. A rule
+   with several conclusions has one for each, as [UNTIL_ERR] and [UNTIL_ERR_WHEN]. *)
+let in_specification pattern =
+  let definition = Str.regexp pattern in
   List.filter_map
-    (fun line -> if Str.string_match operator line 0 then Some (Str.matched_group 1 line) else None)
+    (fun line -> if Str.string_match definition line 0 then Some (Str.matched_group 1 line) else None)
     (String.split_on_char '\n' (read "../../spec/Dolphin.tla"))
+
+let specified () = in_specification "^\\([A-Z][A-Z0-9_]+\\)\\((.*)\\)? =="
+let actions () = in_specification "^Take_\\([A-Z0-9_]+ == .*\\)$"
+let disjuncts () = in_specification {r|^  \(\\/ Take_.*\)$|r}
 
 let are_specified () =
   let operators = specified () in
@@ -259,10 +275,17 @@ let are_specified () =
     operator = spelt name || String.length operator > String.length name
                              && String.sub operator 0 (String.length name + 1) = spelt name ^ "_"
   in
-  let missing = List.filter (fun name -> not (List.mem (spelt name) operators || List.mem (spelt name ^ "_") operators)) names in
+  let missing =
+    List.filter (fun name -> not (List.mem (spelt name) operators || List.mem (spelt name ^ "_") operators)) names
+  in
   let unknown = List.filter (fun operator -> not (List.exists (fun name -> is_of name operator) names)) operators in
   Alcotest.(check (list string)) "each rule is an operator of spec/Dolphin.tla" [] missing;
-  Alcotest.(check (list string)) "each operator of this spelling is a rule" [] unknown
+  Alcotest.(check (list string)) "each operator of this spelling is a rule" [] unknown;
+  let action name = Printf.sprintf {|%s == \E j \in Taking("%s") : Take(j)|} (spelt name) name in
+  Alcotest.(check (list string)) "each rule has an action" (List.map action names) (actions ());
+  let words = List.concat_map (String.split_on_char ' ') (disjuncts ()) in
+  let taken = List.filter (fun word -> word <> "" && word <> "\\/") words in
+  Alcotest.(check (list string)) "NextByRule takes each" (List.map (fun name -> "Take_" ^ spelt name) names) taken
 
 let are_tested () =
   let tested = List.sort_uniq String.compare (List.map (fun e -> Rule.name e.rule) examples) in
@@ -279,6 +302,7 @@ let rule_case e = case (Printf.sprintf "%s: %s" (Rule.name e.rule) e.shows) (hol
 let () =
   Alcotest.run "rules"
     [ ( "names",
-        [ case "are spelt once" are_spelt; case "are documented" are_documented; case "are specified" are_specified; case "are tested" are_tested ] );
+        [ case "are spelt once" are_spelt; case "are documented" are_documented; case "are specified" are_specified;
+          case "are tested" are_tested ] );
       ("tasks", List.map rule_case tasks);
       ("script", List.map rule_case script) ]

@@ -31,7 +31,8 @@ val epoch : float
 val now : t -> float
 
 val until : t -> float -> unit
-(** [until s time] lets time pass; a vehicle to which nothing happens any more without any time passing fails the test. *)
+(** [until s time] lets time pass; a vehicle to which nothing happens any more without any time passing fails the
+    test. *)
 
 (** {1:console What the console does} *)
 

@@ -16,7 +16,8 @@ let announces () =
   let s = Scene.make (Scene.settings source) in
   Scene.until s 25.;
   match Scene.heard s with
-  | [ { time = 0.; _ }; { time = 10.; _ }; { time = 20.; packet = { content = Message (Announce a); dst; src; _ }; _ } ] ->
+  | [ { time = 0.; _ }; { time = 10.; _ };
+      { time = 20.; packet = { content = Message (Announce a); dst; src; _ }; _ } ] ->
     Alcotest.(check string) "name" "a" a.sys_name;
     Alcotest.(check string) "type" "UUV" (Message.System_type.name a.sys_type);
     Alcotest.(check (pair int int)) "from and to" (Scene.vehicle, 0) (src, dst);
@@ -52,7 +53,8 @@ let within_five_seconds () =
     | None -> Alcotest.fail "nothing came"
   in
   let waits = List.init 20 first in
-  Alcotest.(check bool) "sooner or later" true (List.exists (fun t -> t < 2.) waits && List.exists (fun t -> t > 3.) waits)
+  Alcotest.(check bool) "sooner or later" true
+    (List.exists (fun t -> t < 2.) waits && List.exists (fun t -> t > 3.) waits)
 
 let rates () =
   let s = Scene.make (Scene.settings source) in
@@ -148,8 +150,6 @@ let battery () =
   in
   Alcotest.(check (list (float 1e-3))) "percent" [ 80. ] (List.filter_map level (Scene.heard s))
 
-let degrees radians = radians *. 180. /. Float.pi
-
 (* EstimatedState is a place and a displacement: both together are where the vehicle is. *)
 let moves () =
   let s = Scene.make (Scene.settings ~speed:10. (source ^ "\nplan 'p', { duration 10.min }")) in
@@ -160,7 +160,7 @@ let moves () =
     match h.packet.content with
     | Message (Estimated_state e) ->
       let position latitude longitude : Dolphin_geo.Position.t = { latitude; longitude; height = 0. } in
-      let reference = position (degrees e.lat) (degrees e.lon) in
+      let reference = position (Dolphin_geo.Angle.degrees e.lat) (Dolphin_geo.Angle.degrees e.lon) in
       let there = Dolphin_geo.Wgs84.displace reference ~north:e.x ~east:e.y in
       let truth = Vehicle_node.position ~at:h.time (Scene.node s) in
       if Dolphin_geo.Wgs84.distance there truth > 0.1 then Alcotest.failf "not there at %g" h.time;

@@ -98,7 +98,8 @@ let with_world settings run =
   in
   Fun.protect ~finally:(fun () -> Network.close network) (fun () -> Lwt_main.run (body ()))
 
-let rec wait_for w condition = if condition w then Lwt.return_unit else Lwt_unix.sleep 0.01 >>= fun () -> wait_for w condition
+let rec wait_for w condition =
+  if condition w then Lwt.return_unit else Lwt_unix.sleep 0.01 >>= fun () -> wait_for w condition
 
 let request w (v : Network.vehicle) ?(op = Message.Plan_control.Op.Start) number plan_id =
   send w.console w.console.data v.port ~dst:v.id
@@ -110,7 +111,8 @@ let hears_from (v : Network.vehicle) w =
 let did w (v : Network.vehicle) =
   let open Yojson.Safe.Util in
   List.rev (List.filter_map
-              (fun json -> if to_string (member "vehicle" json) = v.name then Some (to_string (member "did" json)) else None)
+              (fun json ->
+                 if to_string (member "vehicle" json) = v.name then Some (to_string (member "did" json)) else None)
               w.log)
 
 let source =

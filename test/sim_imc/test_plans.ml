@@ -26,7 +26,8 @@ let replies s =
     (fun line -> if String.length line > 6 && String.sub line 0 6 = "reply " then Some line else None)
     (Scene.story s)
 
-let did s = List.map (fun d -> Yojson.Safe.Util.(to_string (member "did" (Deed.to_json ~time:0. ~vehicle:"a" d)))) (Scene.deeds s)
+let did s =
+  List.map (fun d -> Yojson.Safe.Util.(to_string (member "did" (Deed.to_json ~time:0. ~vehicle:"a" d)))) (Scene.deeds s)
 
 let by_name () =
   let s = scene "plan 'p', { duration 60 }" in
@@ -38,7 +39,8 @@ let by_name () =
   in
   story begun (Scene.story s);
   keep_alive s 61.;
-  story (begun @ [ "reply SUCCESS START 7 'p' plan completed"; "state READY 'p' - SUCCESS"; "vehicle SERVICE" ]) (Scene.story s)
+  story (begun @ [ "reply SUCCESS START 7 'p' plan completed"; "state READY 'p' - SUCCESS"; "vehicle SERVICE" ])
+    (Scene.story s)
 
 let multiplied () =
   let s = scene ~speed:20. "plan 'p', { duration 60 }" in
@@ -114,7 +116,8 @@ let calibrates () =
   let s = scene "plan 'p', { duration 10 }" in
   Scene.start ~flags:Message.Plan_control.Flags.calibrate s 7 "p";
   Scene.until s 2.9;
-  story [ "state INITIALIZING '' - NONE"; "reply SUCCESS START 7 'p' plan loaded"; "vehicle CALIBRATION" ] (Scene.story s);
+  story [ "state INITIALIZING '' - NONE"; "reply SUCCESS START 7 'p' plan loaded"; "vehicle CALIBRATION" ]
+    (Scene.story s);
   Scene.until s 12.9;
   Alcotest.(check (list string)) "not done" [ "started" ] (did s);
   Scene.until s 13.1;
@@ -144,11 +147,10 @@ let aborted_at_rest () =
 
 (* {1 Inline plans} *)
 
-let radians degrees = degrees *. Float.pi /. 180.
-
 let go_to north : Message.Maneuver.t =
   let p = Dolphin_geo.Wgs84.displace { latitude = 41.1850; longitude = -8.7060; height = 0. } ~north ~east:0. in
-  Goto { Message.Goto.default with lat = radians p.latitude; lon = radians p.longitude; speed = 2.; speed_units = Meters_ps }
+  let lat = Dolphin_geo.Angle.radians p.latitude and lon = Dolphin_geo.Angle.radians p.longitude in
+  Goto { Message.Goto.default with lat; lon; speed = 2.; speed_units = Meters_ps }
 
 let maneuver id data = { Message.Plan_maneuver.default with maneuver_id = id; data = Some data }
 let transition source_man dest_man = { Message.Plan_transition.default with source_man; dest_man }
@@ -158,7 +160,9 @@ let specification ?(start = "1") maneuvers transitions =
 
 let inline () =
   let s = scene "" in
-  let plan = specification [ maneuver "1" (go_to 20.); maneuver "2" (go_to 60.) ] [ transition "1" "2"; transition "2" "_done_" ] in
+  let plan =
+    specification [ maneuver "1" (go_to 20.); maneuver "2" (go_to 60.) ] [ transition "1" "2"; transition "2" "_done_" ]
+  in
   Scene.start ~arg:(Plan_specification plan) s 7 "p";
   Scene.until s 15.;
   let states = List.filter (fun l -> String.sub l 0 5 = "state") (Scene.story s) in

@@ -42,7 +42,9 @@ let refine nodes =
     let signature i n =
       (classes.(i), List.sort_uniq compare (List.map (fun (l, target) -> (l, classes.(target))) n.edges))
     in
-    let finer, count' = numbering (Array.mapi (fun i n -> Digest.string (Marshal.to_string (signature i n) [ No_sharing ])) nodes) in
+    let finer, count' =
+      numbering (Array.mapi (fun i n -> Digest.string (Marshal.to_string (signature i n) [ No_sharing ])) nodes)
+    in
     if count' = count then (classes, count) else again (finer, count')
   in
   again (numbering (Array.map (fun n -> n.seen) nodes))

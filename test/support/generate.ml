@@ -72,7 +72,8 @@ let comparison =
       binary Greater (binary Multiply battery (integer 100)) (integer 50); binary Less (variable "h") (share 0.3);
       binary Less (call "battery" [ Positional (variable "va") ]) (call "battery" [ Positional (variable "vb") ]);
       (* It has been charged since. *)
-      binary And (binary Less (variable "h") (share 0.3)) (binary Greater_equal (call "battery" [ Positional (variable "va") ]) (share 0.3));
+      binary And (binary Less (variable "h") (share 0.3))
+        (binary Greater_equal (call "battery" [ Positional (variable "va") ]) (share 0.3));
       binary Member_of position near ]
 
 let sensing_guard =
@@ -324,7 +325,8 @@ let sensing_program = programs ~sensing:true
 
 (* {1 Copies}
 
-   A piece of program is copied as text: pairs with 1 become the copy's own, those with 2 stay; likewise its plans and its vehicle. *)
+   A piece of program is copied as text: pairs with 1 become the copy's own, those with 2 stay; likewise its plans and
+   its vehicle. *)
 
 let replace ~by pattern text =
   let n = String.length pattern in
@@ -397,11 +399,13 @@ let replicated =
   let each format = String.concat "\n" (List.map (Printf.sprintf format) own) in
   let* before =
     frequencyl
-      [ (3, ""); (2, each "post x: %d"); (1, each "post x: %d" ^ "\n" ^ each "post y: %d"); (1, "post x: 3"); (1, "post x: 2, y: 2") ]
+      [ (3, ""); (2, each "post x: %d"); (1, each "post x: %d" ^ "\n" ^ each "post y: %d"); (1, "post x: 3");
+        (1, "post x: 2, y: 2") ]
   in
   let* after =
     frequencyl
-      [ (3, ""); (1, "if (poll(x: 4)) { halt 'four' }"); (1, "consume x: 3"); (1, "consume y: _"); (1, each "consume x: %d");
+      [ (3, ""); (1, "if (poll(x: 4)) { halt 'four' }"); (1, "consume x: 3"); (1, "consume y: _");
+        (1, each "consume x: %d");
         (1, "if (poll(y: 3)) { post x: 1 } else { consume x: _ }") ]
   in
   let* loop = frequencyl [ (4, false); (1, true) ] in

@@ -10,8 +10,8 @@ type t = {
 
 val outcomes :
   ?failures:bool -> ?interruption:bool -> Core.program -> World.t -> Configuration.t -> Transition.t list
-(** [outcomes p w c] is all that may happen in [c]: its own steps, the events it awaits, with [failures] also failures of
-    vehicles and of those who should answer (by default there are some), with [interruption] also Ctrl-C (by default
+(** [outcomes p w c] is all that may happen in [c]: its own steps, the events it awaits, with [failures] also failures
+    of vehicles and of those who should answer (by default there are some), with [interruption] also Ctrl-C (by default
     not). An [ask] is answered {!Generate.answer}. *)
 
 val explore : ?limit:int -> ?failures:bool -> Core.program -> World.t -> t option

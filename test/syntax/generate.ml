@@ -6,7 +6,8 @@ open QCheck2.Gen
 
 let bare it = { it; at = Location.none }
 
-let names = [ "a"; "b"; "v1"; "task"; "pick"; "imcPlan"; "pos"; "allOf"; "type"; "execute"; "count"; "é"; "x_1"; "choose" ]
+let names =
+  [ "a"; "b"; "v1"; "task"; "pick"; "imcPlan"; "pos"; "allOf"; "type"; "execute"; "count"; "é"; "x_1"; "choose" ]
 let variable_name = oneofl names
 let key_name = oneofl ([ "run"; "if"; "else"; "in"; "_"; "true"; "a b"; "it's"; ""; "when" ] @ names)
 let setting_name = oneofl ([ "run"; "if"; "else"; "then"; "in"; "onError" ] @ names)
@@ -14,7 +15,8 @@ let member_name = oneofl ([ "run"; "if"; "km"; "then"; "true"; "e3"; "size"; "un
 
 let text =
   oneof
-    [ oneofl [ ""; "x"; "it's"; "\\"; "$x"; "${"; "\""; "\n\t\r\000\127"; "\xC3\xA9\xF0\x9F\x90\xAC"; "'''"; "a.b"; ".x" ];
+    [ oneofl [ ""; "x"; "it's"; "\\"; "$x"; "${"; "\""; "\n\t\r\000\127"; "\xC3\xA9\xF0\x9F\x90\xAC"; "'''"; "a.b";
+               ".x" ];
       string_size ~gen:(char_range ' ' '~') (int_bound 8) ]
 
 let binary =

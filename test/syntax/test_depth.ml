@@ -57,7 +57,8 @@ let strange =
     accepted "a byte order mark" "\xEF\xBB\xBFx = 1";
     accepted "carriage returns" "x = [\r\n1,\r\n2]\r\nif (x) {\r\n  y\r\n}\r\nelse z\r\n" ]
 
-let unit_of_text = "if (a) {\n  x = f(1, 'two', [k: 3.5]) + \"t $a\" // c\n  execute v: t1 >> t2 | { it }\n}\nmessage x\n"
+let unit_of_text =
+  "if (a) {\n  x = f(1, 'two', [k: 3.5]) + \"t $a\" // c\n  execute v: t1 >> t2 | { it }\n}\nmessage x\n"
 
 let large =
   [ within 0.5 "20,000 lines" (repeat 4_000 unit_of_text);
@@ -81,12 +82,13 @@ let told_in_bounds source =
 
 let words =
   [| "a"; "b"; "task"; "pick"; "allOf"; "if"; "else"; "while"; "for"; "in"; "def"; "return"; "when"; "watch"; "waitFor";
-     "until"; "during"; "then"; "run"; "onError"; "("; ")"; "["; "]"; "{"; "}"; "\n"; ";"; ","; ":"; "->"; "."; "?."; "?";
-     "?:"; "="; "+="; "++"; ".."; "-"; "+"; "*"; "!"; ">>"; "|"; "'x'"; "\"$a ${"; "\""; "'"; "1"; "2.5"; "_"; "true"; "/*";
-     "*/"; "//" |]
+     "until"; "during"; "then"; "run"; "onError"; "("; ")"; "["; "]"; "{"; "}"; "\n"; ";"; ","; ":"; "->"; "."; "?.";
+     "?"; "?:"; "="; "+="; "++"; ".."; "-"; "+"; "*"; "!"; ">>"; "|"; "'x'"; "\"$a ${"; "\""; "'"; "1"; "2.5"; "_";
+     "true"; "/*"; "*/"; "//" |]
 
 let shuffled =
-  QCheck2.Gen.(map (String.concat " ") (list_size (int_bound 40) (map (Array.get words) (int_bound (Array.length words - 1)))))
+  let open QCheck2.Gen in
+  map (String.concat " ") (list_size (int_bound 40) (map (Array.get words) (int_bound (Array.length words - 1))))
 
 let arbitrary =
   [ Support.property "bytes" QCheck2.Gen.(string_size (int_bound 60)) ~print:String.escaped

@@ -13,10 +13,14 @@ let shown name ~source ~first ~last expected =
 let long = String.make 200 'a' ^ "!!" ^ String.make 200 'b'
 
 let pp =
-  [ shown "plain" ~source:"x = 1\ny = ab\n" ~first:10 ~last:12 "f.dol:2:5: error: wrong\n  2 | y = ab\n    |     ^^\n    hint: right";
-    shown "tabs" ~source:"\tx = 1" ~first:1 ~last:2 "f.dol:1:2: error: wrong\n  1 |     x = 1\n    |     ^\n    hint: right";
-    shown "UTF-8" ~source:"'é€' + b" ~first:10 ~last:11 "f.dol:1:8: error: wrong\n  1 | 'é€' + b\n    |        ^\n    hint: right";
-    shown "several lines" ~source:"ab\ncd" ~first:1 ~last:4 "f.dol:1:2: error: wrong\n  1 | ab\n    |  ^\n    hint: right";
+  [ shown "plain" ~source:"x = 1\ny = ab\n" ~first:10 ~last:12
+      "f.dol:2:5: error: wrong\n  2 | y = ab\n    |     ^^\n    hint: right";
+    shown "tabs" ~source:"\tx = 1" ~first:1 ~last:2
+      "f.dol:1:2: error: wrong\n  1 |     x = 1\n    |     ^\n    hint: right";
+    shown "UTF-8" ~source:"'é€' + b" ~first:10 ~last:11
+      "f.dol:1:8: error: wrong\n  1 | 'é€' + b\n    |        ^\n    hint: right";
+    shown "several lines" ~source:"ab\ncd" ~first:1 ~last:4
+      "f.dol:1:2: error: wrong\n  1 | ab\n    |  ^\n    hint: right";
     shown "the end" ~source:"ab" ~first:2 ~last:2 "f.dol:1:3: error: wrong\n  1 | ab\n    |   ^\n    hint: right";
     shown "an empty text" ~source:"" ~first:0 ~last:0 "f.dol:1:1: error: wrong\n  1 | \n    | ^\n    hint: right";
     shown "a long line" ~source:long ~first:200 ~last:202
@@ -25,7 +29,8 @@ let pp =
 
 let placeless =
   Alcotest.test_case "without a place" `Quick (fun () ->
-      let text = Format.asprintf "@[<v>%a@]" (Diagnostic.pp ~source:"") (Diagnostic.warning Unused_task Location.none "wrong" ~hint:"right") in
+      let warning = Diagnostic.warning Unused_task Location.none "wrong" ~hint:"right" in
+      let text = Format.asprintf "@[<v>%a@]" (Diagnostic.pp ~source:"") warning in
       Alcotest.(check string) "text" "warning: wrong\n  hint: right" text)
 
 let suggested x xs expected =
@@ -33,8 +38,10 @@ let suggested x xs expected =
       Alcotest.(check (option string)) x expected (Diagnostic.suggest x xs))
 
 let suggest =
-  [ suggested "mesage" [ "post"; "message"; "pause" ] (Some "message"); suggested "pasue" [ "post"; "pause" ] (Some "pause");
+  [ suggested "mesage" [ "post"; "message"; "pause" ] (Some "message");
+    suggested "pasue" [ "post"; "pause" ] (Some "pause");
     suggested "uuvs" [ "UAV"; "UUVs" ] (Some "UUVs"); suggested "x" [ "y"; "z" ] None; suggested "abc" [ "xyz" ] None;
-    suggested "execute" [ "exeucte"; "execte" ] (Some "exeucte"); suggested "a" [] None; suggested (String.make 10_000 'a') [ "a" ] None ]
+    suggested "execute" [ "exeucte"; "execte" ] (Some "exeucte"); suggested "a" [] None;
+    suggested (String.make 10_000 'a') [ "a" ] None ]
 
 let suite = pp @ [ placeless ] @ suggest

@@ -37,16 +37,23 @@ let precedence =
 let newlines =
   all "newlines"
     [ "a\nb", "a; b"; "a\n+b", "a; +b"; "a +\nb", "a + b"; "a\n\n// c\n>> b", "a >> b"; "a\n| b\n| c", "a | b | c";
-      "a\n.b()\n?.c", "a.b()?.c"; "a\n-b", "a; -b"; "f(a\n, b\n-c)", "f(a, b - c)"; "[a,\n b,\n]", "[a, b]"; "a\n[b]", "a; ([b])";
-      "a\n(b)", "a; (b)"; "x =\n 1", "x = 1"; "x = a ?\n b\n : c", "x = (a ? b : c)"; "f a,\n b", "f(a, b)"; "f k:\n 1", "f(k: 1)";
+      "a\n.b()\n?.c", "a.b()?.c"; "a\n-b", "a; -b"; "f(a\n, b\n-c)", "f(a, b - c)"; "[a,\n b,\n]", "[a, b]";
+      "a\n[b]", "a; ([b])";
+      "a\n(b)", "a; (b)"; "x =\n 1", "x = 1"; "x = a ?\n b\n : c", "x = (a ? b : c)"; "f a,\n b", "f(a, b)";
+      "f k:\n 1", "f(k: 1)";
       "f\n{ a }", "f; { a }"; "pick\n{ a }", "pick { a }"; "if (a)\n{ b }\n\nelse\n{ c }", "if (a) { b } else { c }";
-      "if (a)\n b\nelse if (c)\n d\nelse\n e", "if (a) { b } else { if (c) { d } else { e } }"; "while (a)\n b", "while (a) { b }";
-      "for (i in a)\n{ b }", "for (i in a) { b }"; "def f(a,\n b)\n{\n}", "def f(a, b) { }"; "if (a) { b } c", "if (a) { b }; c";
-      "when { a }\n\n then b", "when { a } then b"; "waitFor\n{ a }\n// c\n run b", "waitFor { a } then b"; "watch\n(a)\nonError\n{ b }", "watch a onError { b }";
-      "until { a }\nrun\nb", "until { a } run b"; "x++\ny", "x++; y"; "++x\n--y", "++x; --y"; "return\na", "return; a"; ";;a;;b;;", "a; b";
-      "a /* c\n */ b", "a; b"; "a /* c */ + b", "a + b"; "xs.each { v ->\n a\n b\n}", "xs.each({ v -> a; b })"; "{ a }\n{ b }", "{ a }; { b }";
-      "if (a) b; else c", "if (a) { b } else { c }"; "x = t\nuntil { a } run b", "x = t; until { a } run b"; "x = (t\nuntil { a })", "x = until { a } run t";
-      "a\r\nb\r\n", "a; b" ]
+      "if (a)\n b\nelse if (c)\n d\nelse\n e", "if (a) { b } else { if (c) { d } else { e } }";
+      "while (a)\n b", "while (a) { b }";
+      "for (i in a)\n{ b }", "for (i in a) { b }"; "def f(a,\n b)\n{\n}", "def f(a, b) { }";
+      "if (a) { b } c", "if (a) { b }; c";
+      "when { a }\n\n then b", "when { a } then b"; "waitFor\n{ a }\n// c\n run b", "waitFor { a } then b";
+      "watch\n(a)\nonError\n{ b }", "watch a onError { b }";
+      "until { a }\nrun\nb", "until { a } run b"; "x++\ny", "x++; y"; "++x\n--y", "++x; --y"; "return\na", "return; a";
+      ";;a;;b;;", "a; b";
+      "a /* c\n */ b", "a; b"; "a /* c */ + b", "a + b"; "xs.each { v ->\n a\n b\n}", "xs.each({ v -> a; b })";
+      "{ a }\n{ b }", "{ a }; { b }";
+      "if (a) b; else c", "if (a) { b } else { c }"; "x = t\nuntil { a } run b", "x = t; until { a } run b";
+      "x = (t\nuntil { a })", "x = until { a } run t"; "a\r\nb\r\n", "a; b" ]
 
 (* A brace at the start of a statement opens a closure if it has parameters, and a block otherwise. *)
 let closures =
@@ -58,36 +65,56 @@ let closures =
 
 let commands =
   all "commands"
-    [ "message 'x'", "message('x')"; "pause 12.seconds", "pause(12.seconds)"; "post again: i", "post(again: i)"; "move 200,0", "move(200, 0)";
-      "goTo payload:[[name:'Sidescan', Range: 50]]", "goTo(payload: [[name: 'Sidescan', Range: 50]])"; "region APDL, 2.km", "region(APDL, 2.km)";
-      "q.add x", "q.add(x)"; "a?.b.c x, y", "a?.b.c(x, y)"; "location 41.18500, -8.70620", "location(41.185, -8.7062)"; "message (v1+v2)", "message(v1 + v2)";
-      "move (-30,-50)", "move(-30, -50)"; "f (x) + y", "(f(x)) + y"; "f [x]", "(f)[x]"; "f -1", "f - 1"; "f { a }", "f({ a })"; "f(x) { a }", "f(x, { a })";
-      "f x, { a }", "f(x, { a })"; "f x { a }", "f(x({ a }))"; "xs.each { v -> a }", "xs.each({ v -> a })"; "count _", "count(_)"; "consume k:_", "consume(k: _)";
-      "poll _: 1", "poll(_: 1)"; "f 'k': 1", "f(k: 1)"; "execute v1: task 'a', v2: task 'b'", "execute(v1: task('a'), v2: task('b'))";
-      "message ask 'b?'", "message(ask('b?'))"; "t = task 'a'", "t = task('a')"; "def t = task 'a', 2", "def t = task('a', 2)"; "return task 'a', 2", "return task('a', 2)";
-      "x = (location 1, -2) ^ r.km", "x = location(1, -2) ^ r.km"; "f a ? b : c", "f(a ? b : c)"; "f !a", "f(!a)"; "f null", "f(null)"; "f \"$a\"", "f(\"${a}\")";
-      "f watch a onError { b }", "f(watch a onError { b })"; "f until { a } run b", "f(until { a } run b)"; "f during 1.min run b", "f(during 1.min run b)";
-      "f pick { a }", "f(pick { a })"; "f(g 1, 2)", "f(g(1), 2)"; "[g 1, 2]", "([g(1), 2])"; "when { poll a: 1 } then task 'b'", "when { poll(a: 1) } then task('b')";
-      "f run: 1, if: 2", "f('run': 1, 'if': 2)"; "imcPlan 'x'", "imcPlan('x')"; "f a.b { c }", "f(a.b({ c }))"; "f x - 1", "f(x - 1)" ]
+    [ "message 'x'", "message('x')"; "pause 12.seconds", "pause(12.seconds)"; "post again: i", "post(again: i)";
+      "move 200,0", "move(200, 0)";
+      "goTo payload:[[name:'Sidescan', Range: 50]]", "goTo(payload: [[name: 'Sidescan', Range: 50]])";
+      "region APDL, 2.km", "region(APDL, 2.km)";
+      "q.add x", "q.add(x)"; "a?.b.c x, y", "a?.b.c(x, y)"; "location 41.18500, -8.70620", "location(41.185, -8.7062)";
+      "message (v1+v2)", "message(v1 + v2)";
+      "move (-30,-50)", "move(-30, -50)"; "f (x) + y", "(f(x)) + y"; "f [x]", "(f)[x]"; "f -1", "f - 1";
+      "f { a }", "f({ a })"; "f(x) { a }", "f(x, { a })";
+      "f x, { a }", "f(x, { a })"; "f x { a }", "f(x({ a }))"; "xs.each { v -> a }", "xs.each({ v -> a })";
+      "count _", "count(_)"; "consume k:_", "consume(k: _)"; "poll _: 1", "poll(_: 1)"; "f 'k': 1", "f(k: 1)";
+      "execute v1: task 'a', v2: task 'b'", "execute(v1: task('a'), v2: task('b'))";
+      "message ask 'b?'", "message(ask('b?'))"; "t = task 'a'", "t = task('a')";
+      "def t = task 'a', 2", "def t = task('a', 2)"; "return task 'a', 2", "return task('a', 2)";
+      "x = (location 1, -2) ^ r.km", "x = location(1, -2) ^ r.km"; "f a ? b : c", "f(a ? b : c)"; "f !a", "f(!a)";
+      "f null", "f(null)"; "f \"$a\"", "f(\"${a}\")";
+      "f watch a onError { b }", "f(watch a onError { b })"; "f until { a } run b", "f(until { a } run b)";
+      "f during 1.min run b", "f(during 1.min run b)";
+      "f pick { a }", "f(pick { a })"; "f(g 1, 2)", "f(g(1), 2)"; "[g 1, 2]", "([g(1), 2])";
+      "when { poll a: 1 } then task 'b'", "when { poll(a: 1) } then task('b')";
+      "f run: 1, if: 2", "f('run': 1, 'if': 2)"; "imcPlan 'x'", "imcPlan('x')"; "f a.b { c }", "f(a.b({ c }))";
+      "f x - 1", "f(x - 1)" ]
 
 let tasks =
   all "tasks"
-    [ "t1 = task 't1' during 2.seconds", "t1 = during 2.seconds run task('t1')"; "execute t until { c }", "execute(until { c } run t)";
-      "execute v: a until { c }, w: b during 2", "execute(v: until { c } run a, w: during 2 run b)"; "a >> b until { c }", "until { c } run (a >> b)";
-      "a during 1 during 2", "during 2 run (during 1 run a)"; "a >> waitFor { c } then b | d", "a >> (waitFor { c } then (b | d))";
-      "waitFor { c } then a until { d }", "waitFor { c } then (until { d } run a)"; "waitFor { c } run a", "waitFor { c } then a";
-      "during { d } run a >> b", "during { d } run (a >> b)"; "watch a >> b onError { c } | d", "(watch (a >> b) onError { c }) | d";
+    [ "t1 = task 't1' during 2.seconds", "t1 = during 2.seconds run task('t1')";
+      "execute t until { c }", "execute(until { c } run t)";
+      "execute v: a until { c }, w: b during 2", "execute(v: until { c } run a, w: during 2 run b)";
+      "a >> b until { c }", "until { c } run (a >> b)"; "a during 1 during 2", "during 2 run (during 1 run a)";
+      "a >> waitFor { c } then b | d", "a >> (waitFor { c } then (b | d))";
+      "waitFor { c } then a until { d }", "waitFor { c } then (until { d } run a)";
+      "waitFor { c } run a", "waitFor { c } then a"; "during { d } run a >> b", "during { d } run (a >> b)";
+      "watch a >> b onError { c } | d", "(watch (a >> b) onError { c }) | d";
       "execute ( idle(5.seconds)  until {  ++x == 100 } )", "execute(until { ++x == 100 } run idle(5.seconds))";
-      "T[a] >> T[b]", "(T[a]) >> (T[b])"; "execute task('t')[v1] | t2", "execute((task('t')[v1]) | t2)"; "choose { a }", "oneOf { a }";
+      "T[a] >> T[b]", "(T[a]) >> (T[b])"; "execute task('t')[v1] | t2", "execute((task('t')[v1]) | t2)";
+      "choose { a }", "oneOf { a }";
       "pick { type: 'UAV' }", "pick {\n type: 'UAV'\n}"; "pick { run: 1; then: 2 }", "pick {\nrun: 1\nthen: 2\n}" ]
 
 let words =
   all "words and numbers"
-    [ "x.run.then.if", "x\n.run\n.then\n.if"; "pick = 1; pick + pos", "(pick) = 1; (pick) + (pos)"; "2.km + 10.percent", "(2).km + (10).percent"; "1..3", "1 .. 3";
-      "0..<n", "0 ..< n"; "1.5e3.m", "(1500.0).m"; "5L + 5G + 2d + 1.5f", "5 + 5 + 2.0 + 1.5"; "1_000", "1000"; "0x1F", "31"; "'a\\u00e9\\n'", "'''aé\n'''"; "'\\ud83d\\udc2c'", "'🐬'";
-      "\"a $b.c d ${e + \"f$g\"}\"", "\"a ${b.c} d ${e + \"f${g}\"}\""; "\"$5 $. $\"", "'$5 $. $'"; "'a $b ${c}'", "'a $b ${c}'"; "\"\"\"a \"b\" ${c}\"\"\"", "\"a \\\"b\\\" ${c}\"";
-      "\"${xs.collect {\n it }}\"", "\"${xs.collect { it }}\""; "[:]", "[ : ]"; "[(a): 1, 'b': 2, 3: 4]", "[(a): 1, b: 2, (3): 4]"; "[a ? b : c]", "[(a ? b : c)]"; "x = { -> a }()", "x = ({ -> a })()";
-      "f({ a })", "f { a }"; "f { a } { b }", "f({ a }, { b })"; "f(a: 1,)", "f(a: 1)"; "#!/usr/bin/env dolphin\na", "a" ]
+    [ "x.run.then.if", "x\n.run\n.then\n.if"; "pick = 1; pick + pos", "(pick) = 1; (pick) + (pos)";
+      "2.km + 10.percent", "(2).km + (10).percent"; "1..3", "1 .. 3";
+      "0..<n", "0 ..< n"; "1.5e3.m", "(1500.0).m"; "5L + 5G + 2d + 1.5f", "5 + 5 + 2.0 + 1.5"; "1_000", "1000";
+      "0x1F", "31"; "'a\\u00e9\\n'", "'''aé\n'''"; "'\\ud83d\\udc2c'", "'🐬'";
+      "\"a $b.c d ${e + \"f$g\"}\"", "\"a ${b.c} d ${e + \"f${g}\"}\""; "\"$5 $. $\"", "'$5 $. $'";
+      "'a $b ${c}'", "'a $b ${c}'"; "\"\"\"a \"b\" ${c}\"\"\"", "\"a \\\"b\\\" ${c}\"";
+      "\"${xs.collect {\n it }}\"", "\"${xs.collect { it }}\""; "[:]", "[ : ]";
+      "[(a): 1, 'b': 2, 3: 4]", "[(a): 1, b: 2, (3): 4]"; "[a ? b : c]", "[(a ? b : c)]";
+      "x = { -> a }()", "x = ({ -> a })()";
+      "f({ a })", "f { a }"; "f { a } { b }", "f({ a }, { b })"; "f(a: 1,)", "f(a: 1)";
+      "#!/usr/bin/env dolphin\na", "a" ]
 
 let good path =
   Alcotest.test_case path `Quick (fun () ->

@@ -66,7 +66,7 @@ let translated ?world source () =
   match translate ?world source with
   | Ok files ->
     Alcotest.(check (list string)) "files"
-      [ "MC.tla"; "MC.cfg"; "Graph.cfg"; "Dolphin.tla"; "DolphinMachine.tla"; "DolphinValues.tla" ]
+      [ "MC.tla"; "MC.cfg"; "Told.cfg"; "Graph.cfg"; "Coverage.cfg"; "Dolphin.tla"; "DolphinMachine.tla"; "DolphinValues.tla" ]
       (List.map (fun (file : Model.file) -> file.name) files)
   | Error ds -> Alcotest.failf "refused:\n%s" (Pure_run.explain source ds)
 
@@ -154,4 +154,5 @@ let () =
       ("refused", refusals);
       ("constants", constants);
       ( "models",
-        [ case "each rule has one" rules_have_models; case "are well formed" models_parse; case "waiting" waiting_holds ] ) ]
+        [ case "each rule has one" rules_have_models; case "are well formed" models_parse;
+          case "waiting" waiting_holds ] ) ]

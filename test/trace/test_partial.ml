@@ -91,7 +91,9 @@ let failures () =
 let unknown () =
   let branches = String.concat " | " (List.init 9 (fun i -> Printf.sprintf "(idle(1) >> action { post x%d: 1 })" i)) in
   let r = Runs.of_text (Printf.sprintf "execute %s\nmessage 'over'" branches) in
-  let text = Runs.text [ {|{"format":"dolphin-journal","version":1,"observed":["message"]}|}; label "message 'over'" ] in
+  let text =
+    Runs.text [ {|{"format":"dolphin-journal","version":1,"observed":["message"]}|}; label "message 'over'" ]
+  in
   let check most = snd (Verdict.check ~most r.program ~hash:r.hash (Reader.of_string text)) in
   (match check 1000 with Unknown { number = 2; most = 1000 } -> () | verdict -> Alcotest.fail (show verdict));
   match check 100_000 with Possible _ -> () | verdict -> Alcotest.fail (show verdict)

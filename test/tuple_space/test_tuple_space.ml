@@ -139,9 +139,7 @@ let equal_as_the_model (first, second) =
 
 let case name run = Alcotest.test_case name `Quick run
 
-let law name generator ~print property =
-  let cell = QCheck2.Test.make_cell ~count:2000 ~name ~print generator property in
-  case name (fun () -> QCheck2.Test.check_cell_exn ~rand:(Random.State.make [| 2016 |]) cell)
+let law name = Test_support.Property.case ~count:2000 name
 
 let () =
   let print = Fmt.str "%a" Fmt.(list ~sep:semi pp_operation) in

@@ -68,12 +68,16 @@ val bits : t -> (string * named list) list
 (** The shared sets of bits. *)
 
 val groups : t -> group list
+(** In the order of definition. *)
+
 val messages : t -> message list
+(** In the order of definition. *)
 
 val find : t -> int -> message option
 (** [find d id] is the message with the number [id]. *)
 
 val find_name : t -> string -> message option
+(** The message of this abbreviation. *)
 
 val admits : t -> string -> message -> bool
 (** [admits d name m]: [name] is that of [m], or of a group with [m] in it. *)

@@ -15,6 +15,7 @@ let find definition name =
   match find_name definition name with
   | Some m -> Message m
   | None ->
+    (* Names in a definition are of messages or of groups: Definition has checked it. *)
     let g = List.find (fun (g : group) -> String.equal g.name name) (groups definition) in
     let members = List.filter_map (find_name definition) g.members in
     Group (g, List.sort (fun (m : message) (n : message) -> compare m.id n.id) members)

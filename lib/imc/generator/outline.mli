@@ -16,6 +16,7 @@ val make : Definition.t -> t
 (** @raise Unsupported *)
 
 val definition : t -> Definition.t
+(** What it was made from. *)
 
 val items : t -> item list
 (** Each item after those it refers to by name. *)
@@ -24,12 +25,14 @@ val item : t -> string -> item
 (** [item o name] is what [name] stands for. *)
 
 val name : item -> string
+(** Its name in the definition. *)
 
 val is_open : t -> item -> bool
 (** [is_open o i]: [i] can contain any message, so that its type has the type of all messages as a
     parameter. That type comes last, and ties the knot. *)
 
 val all_groups : t -> item list
+(** The groups, as items. *)
 
 val loose : t -> Definition.message list
 (** The messages of no group. *)

@@ -22,9 +22,6 @@ val constant : named -> bool
 val parameter : Outline.t -> Outline.item -> string
 (** ["'message "] for an open item, otherwise empty. *)
 
-val field_type : Outline.t -> field -> string
-(** [field_type o f] is the OCaml type of [f]: ["Z_units.t"], ["'message list"]. *)
-
 val record : Outline.t -> message -> comment:(field -> string) -> Code.t list
 (** The record type of a message with fields, with [comment f] after each field. *)
 

@@ -79,7 +79,8 @@ let log_of_deeds () =
     (told [ (0., transition ~effects:[ Say "two\nlines" ] (Act deeds)) ])
 
 let state ?(connected = true) id : World.vehicle_state =
-  { id; kind = "UUV"; payload = []; position = { latitude = 41.; longitude = -8.; height = 0. }; battery = 0.5; connected }
+  { id; kind = "UUV"; payload = []; position = { latitude = 41.; longitude = -8.; height = 0. }; battery = 0.5;
+    connected }
 
 let log_of_links () =
   let log, _ = Log.transition Log.start ~time:0. (transition ~bound:[ "v" ] (Bind [ "v" ])) in

@@ -1,0 +1,69 @@
+open Dolphin_semantics
+
+exception Broken of string
+
+(* By place of the propositions. *)
+module Valuations = Interner.Make (struct
+    type t = bool array
+
+    let equal = ( = )
+    let hash = Array.fold_left (fun h b -> ((2 * h) + Bool.to_int b) land max_int) 1
+  end)
+
+type t = {
+  program : Core.program;
+  world : World.t;
+  propositions : Proposition.t array;
+  asks_states : bool;
+  actions : Valuations.t;
+  states : Valuations.t;
+  letters : Valuations.t;
+  mutable pairs : int array array;  (* by action, then state: the letter, or -1 *)
+}
+
+let nothing = 0
+
+let create program world propositions =
+  let valuations () =
+    let valuations = Valuations.create () in
+    ignore (Valuations.number valuations (Array.map (fun _ -> false) propositions));
+    valuations
+  in
+  let asks_states = Array.exists (fun p -> not (Proposition.needs_action p)) propositions in
+  { program; world; propositions; asks_states; actions = valuations (); states = valuations ();
+    letters = Valuations.create (); pairs = [||] }
+
+let asks_states t = t.asks_states
+
+let action t (transition : Transition.t) =
+  let holds p = Proposition.needs_action p && Proposition.holds_after p transition in
+  Valuations.number t.actions (Array.map holds t.propositions)
+
+(* What is done when a run ends is the same whatever waits for the task. *)
+let action_of_local t ({ after; outcome; named; asked; _ } : Transition.local) =
+  let control = match outcome with Ends ending -> Configuration.Ended ending | Goes_on _ | Over -> after.control in
+  action t { rules = []; label = named; next = { after with control }; effects = asked; assumed = [] }
+
+let state t c =
+  if not t.asks_states then 0
+  else
+    let holds p = match Proposition.holds_in t.program t.world p c with Ok b -> b | Error why -> raise (Broken why) in
+    Valuations.number t.states (Array.map holds t.propositions)
+
+let find t action state =
+  let a = Valuations.value t.actions action and s = Valuations.value t.states state in
+  Valuations.number t.letters (Array.map2 ( || ) a s)
+
+let grown xs length x = Array.append xs (Array.make (max (length - Array.length xs) (Array.length xs)) x)
+
+let letter t action state =
+  if action >= Array.length t.pairs then t.pairs <- grown t.pairs (action + 1) [||];
+  let row = t.pairs.(action) in
+  if state < Array.length row && row.(state) >= 0 then row.(state)
+  else begin
+    if state >= Array.length row then t.pairs.(action) <- grown row (state + 1) (-1);
+    t.pairs.(action).(state) <- find t action state;
+    t.pairs.(action).(state)
+  end
+
+let holds t letter place = (Valuations.value t.letters letter).(place)

@@ -1,0 +1,40 @@
+(** What is known of a word after each of its letters: the set of states in which runs of an automaton over it can be.
+    Sets have numbers, in order of first sight, and so have letters. *)
+
+type t
+
+val create : holds:(int -> 'p -> bool) -> 'p Automaton.t -> t
+(** [holds l p] is whether [p] holds where letter [l] stands. *)
+
+val start : int
+(** Before the first letter. *)
+
+val next : t -> int -> int -> int
+(** [next m s l] is the set after [s] and letter [l], or [-1] if it is empty: however the word goes on, it is not
+    accepted. *)
+
+val count : t -> int
+(** Sets so far. *)
+
+val is_certain : t -> int -> bool
+(** [is_certain m s] is whether a word in [s] is accepted however it goes on. (It may be so in other sets too.) *)
+
+val stays : t -> int -> int -> bool
+(** [stays m s l] is whether a word in [s] is accepted if it goes on with the letter [l] for ever. *)
+
+(** {1:runs Runs of the automaton} *)
+
+val automaton_states : t -> int
+val members : t -> int -> int list
+(** [members m s] is the states in [s]. *)
+
+val after : t -> int -> int -> int list
+(** [after m q l] is the states after [q] and letter [l]. *)
+
+val acceptance_sets : t -> int
+val is_in : t -> int -> int -> bool
+(** As in {!Automaton}. *)
+
+val component : t -> int -> int
+(** States [q] and [q'] can be on one accepting cycle only if [component m q] and [component m q'] are equal and not
+    [-1]. *)

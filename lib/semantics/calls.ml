@@ -1,0 +1,198 @@
+open Core
+open Checks
+open Closures
+
+let values env = List.map (fun a -> elaborate env (value_of a))
+
+(* [if (!C()) ...]: the text is computed only if the condition does not hold. *)
+let assertion env at arguments =
+  let not_code at =
+    error env Wrong_kind at "assert takes code { ... } that says what holds" ~hint:"write assert { CONDITION }, 'TEXT'"
+  in
+  let failing text = apply env at (Builtin Assert) text in
+  let holds (c : Ast.closure) closure_at =
+    let closure = task_code env closure_at "assert" c in
+    apply env closure_at (Call []) [ closure ]
+  in
+  match arguments with
+  | [ Ast.Positional { it = Closure c; at = closure_at } ] ->
+    expression env at (If (holds c closure_at, null env at, failing []))
+  | [ Ast.Positional { it = Closure c; at = closure_at }; Ast.Positional text ] ->
+    let test = holds c closure_at in
+    expression env at (If (test, null env at, failing [ elaborate env text ]))
+  | Ast.Positional first :: _ :: _ :: _ ->
+    error env Wrong_arity first.at "assert takes code and a text, not %d arguments" (List.length arguments);
+    null env at
+  | [ _; Ast.Named (k, _) ] -> error env Unknown_argument k.at "assert takes no argument by name"; null env at
+  | (Ast.Positional { at = first; _ } | Ast.Named (_, { at = first; _ })) :: _ -> not_code first; null env at
+  | [] -> not_code at; null env at
+
+(* As an operand, an assertion is a task: [action { assert { C }, TEXT }]. *)
+let assertion_task env at arguments =
+  let body env at = assertion env at arguments in
+  let lambda, captured = make_lambda env at (Scope.Task_code "assert") "assert" ~parameters:[] ~implicit:false body in
+  apply env at (Builtin Make_action) [ expression env at (Make_closure (lambda, captured)) ]
+
+let number_of_arguments least most =
+  match least, most with
+  | 0, 0 -> "no arguments"
+  | 1, 1 -> "1 argument"
+  | least, most when least = most -> Printf.sprintf "%d arguments" least
+  | least, most -> Printf.sprintf "%d to %d arguments" least most
+
+let pairs env at name operation arguments =
+  let value = function
+    | Ast.Named (k, { it = Wildcard; at }) when name <> "post" ->
+      if name = "consume" then Scope.note_ordered_key env.program k.Ast.it;
+      constant env at Wildcard
+    | Ast.Named (_, e) -> elaborate env e
+    | Ast.Positional e ->
+      error env No_pairs e.at "%s takes pairs of key and value" name
+        ~hint:(Printf.sprintf "write %s key: value" name);
+      elaborate env e
+  in
+  let keys = List.filter_map (function Ast.Named (k, _) -> Some k.Ast.it | Ast.Positional _ -> None) arguments in
+  if arguments = [] then
+    error env No_pairs at "%s takes pairs of key and value" name ~hint:(Printf.sprintf "write %s key: value" name);
+  apply env at (Builtin (operation keys)) (List.map value arguments)
+
+let execute env at arguments =
+  match arguments with
+  | [ Ast.Positional e ] ->
+    check_kind env "execute" Task e;
+    apply env at (Builtin Execute) [ elaborate env e ]
+  | _ :: _ when List.for_all (function Ast.Named _ -> true | Ast.Positional _ -> false) arguments ->
+    let part = function
+      | Ast.Named ({ it = "_"; _ }, e) -> [ elaborate env e ]
+      | Ast.Named (k, e) ->
+        check_kind env "execute" Task e;
+        let vehicles = Names.elaborate env k.it k.at in
+        [ vehicles; elaborate env e ]
+      | Ast.Positional e -> [ elaborate env e ]
+    in
+    let names = List.filter_map (function Ast.Named (k, _) -> Some k.Ast.it | Ast.Positional _ -> None) arguments in
+    apply env at (Builtin (Execute_for names)) (List.concat_map part arguments)
+  | _ ->
+    error env Wrong_arity at "execute takes one task, or tasks by the vehicles that run them"
+      ~hint:"write execute T, or execute v1: T1, v2: T2";
+    null env at
+
+let set_connection_timeout env at arguments =
+  match arguments with
+  | [ Ast.Positional e ] ->
+    check_kind env "setConnectionTimeout" Number e;
+    apply env at (Builtin Set_connection_timeout) [ elaborate env e ]
+  | [ Ast.Positional v; Ast.Positional e ] ->
+    check_kind env "setConnectionTimeout" Vehicles v;
+    check_kind env "setConnectionTimeout" Number e;
+    let v = elaborate env v in
+    apply env at (Builtin Set_connection_timeout) [ v; elaborate env e ]
+  | _ :: _ when List.for_all (function Ast.Named _ -> true | Ast.Positional _ -> false) arguments ->
+    let one = function
+      | Ast.Named (k, e) ->
+        check_kind env "setConnectionTimeout" Number e;
+        let v = Names.elaborate env k.it k.at in
+        apply env at (Builtin Set_connection_timeout) [ v; elaborate env e ]
+      | Ast.Positional e -> elaborate env e
+    in
+    block env at (List.map one arguments)
+  | _ ->
+    error env Wrong_arity at "setConnectionTimeout takes a time, or vehicles and a time"
+      ~hint:"write setConnectionTimeout v1, 2.min";
+    null env at
+
+let to_builtin env at name (builtin : Builtins.t) arguments =
+  match builtin.arguments with
+  | These { required; optional; operation } ->
+    let count = List.length arguments and least = List.length required in
+    let most = least + List.length optional in
+    if count < least || count > most then
+      error env Wrong_arity at "%s takes %s, not %d" name (number_of_arguments least most) count;
+    let kinds = required @ optional in
+    let argument i a =
+      (match a with
+       | Ast.Named (k, _) -> error env Unknown_argument k.Ast.at "%s takes no argument by name" name
+       | Ast.Positional e -> if i < most then check_kind env name (List.nth kinds i) e);
+      match value_of a with
+      | { it = Closure c; at } when operation = Make_action || operation = Make_condition -> task_code env at name c
+      | e -> elaborate env e
+    in
+    apply env at (Builtin operation) (List.mapi argument arguments)
+  | Pairs operation -> pairs env at name operation arguments
+  | Pairs_or_key operation -> (
+      match arguments with
+      | [ Ast.Positional e ] ->
+        check_kind env name String e;
+        apply env at (Builtin (operation [])) [ elaborate env e ]
+      | arguments -> pairs env at name operation arguments)
+  | Execute -> execute env at arguments
+  | Set_connection_timeout -> set_connection_timeout env at arguments
+  | Assert -> assertion_task env at arguments
+
+let by_name env at name (callee : Ast.expression) arguments =
+  let called_value () =
+    let callee = Names.variable env name callee.at in
+    apply env at (Call (keys_of arguments)) (callee :: values env arguments)
+  in
+  match Scope.find_local env.code name, Scope.find_function env.program name, Builtins.find name with
+  | Some _, _, _ -> called_value ()
+  | None, Some lambda, _ ->
+    let positional = List.filter (function Ast.Positional _ -> true | Ast.Named _ -> false) arguments in
+    let n = List.length positional + if List.length positional < List.length arguments then 1 else 0 in
+    if n <> lambda.parameters then
+      error env Wrong_arity at "%s takes %d argument%s, not %d" name lambda.parameters
+        (if lambda.parameters = 1 then "" else "s")
+        n;
+    Scope.note_call env.code name callee.at;
+    called_value ()
+  | None, None, Some builtin ->
+    check_place env builtin name callee.at;
+    to_builtin env at name builtin arguments
+  | None, None, None ->
+    (match Scope.settings env.code with
+     | Some (((Pick | Imc_plan | Pos) as builder), _) ->
+       error env Unknown_setting callee.at "%s has no setting '%s'" (builder_name builder) name
+         ?hint:(did_you_mean name (Builtins.settings builder))
+     | Some ((All_of | One_of), _) | None -> ());
+    if Scope.settings env.code = None then called_value ()
+    else apply env at Make_list (values env arguments)
+
+let to_method env at subject name safe arguments =
+  if List.mem name.Ast.it sensor_members then Scope.note_sensor env.program;
+  let keys = keys_of arguments in
+  let on e = apply env at (Method (name.it, keys)) (e :: values env arguments) in
+  if safe then unless_null env at (elaborate env subject) on
+  else if Methods.updates name.it && Targets.is_path subject then begin
+    (* An update assigns the new value to what it was called on, unless that is an object of the host. *)
+    let keep e =
+      let slot = Scope.new_slot env.code in
+      (set_local env at slot e, slot)
+    in
+    let first, receiver = keep (elaborate env subject) in
+    let rest = List.map keep (values env arguments) in
+    let again () =
+      let arguments = List.map (fun (_, slot) -> local env at slot) rest in
+      apply env at (Method (name.it, keys)) (local env at receiver :: arguments)
+    in
+    let is_host = apply env at (Builtin Is_host) [ local env at receiver ] in
+    let on_host = again () in
+    let updated = Targets.assign env at subject (again ()) in
+    block env at ((first :: List.map fst rest) @ [ expression env at (If (is_host, on_host, updated)) ])
+  end
+  else on (elaborate env subject)
+
+let call env at (callee : Ast.expression) arguments =
+  match callee.it with
+  | Variable name -> (
+      match in_settings env name with
+      | Some slot when Scope.find_local env.code name = None -> Setting_blocks.add env at slot name arguments
+      | Some _ | None -> by_name env at name callee arguments)
+  | Member { subject = { it = Variable "Math"; _ }; name; _ } when not (is_hidden env "Math") ->
+    if not (Builtins.math name.it) then
+      error env Unknown_name name.at "Math has no function '%s'" name.it
+        ?hint:(did_you_mean name.it Builtins.math_names);
+    apply env at (Builtin (Math name.it)) (values env arguments)
+  | Member { subject; name; safe } -> to_method env at subject name safe arguments
+  | _ ->
+    let callee = elaborate env callee in
+    apply env at (Call (keys_of arguments)) (callee :: values env arguments)

@@ -1,0 +1,38 @@
+open Core
+open Checks
+
+let make_lambda env at purpose label ~parameters ~implicit body =
+  let code = Scope.code env.program purpose (Some env.code) in
+  let inside = { env with code } in
+  List.iter (fun (x : string Ast.located) -> ignore (Scope.define code x.it)) parameters;
+  let lambda =
+    {
+      id = Scope.fresh_lambda_id env.program;
+      label;
+      parameters = List.length parameters;
+      implicit;
+      captures = [||];
+      slots = 0;
+      code = null env at;
+      lambda_site = Scope.site env.program at;
+    }
+  in
+  lambda.code <- body inside at;
+  lambda.captures <- Array.of_list (List.map snd (Scope.captures code));
+  lambda.slots <- Scope.slots code;
+  (lambda, List.map fst (Scope.captures code))
+
+let closure env at purpose label (c : Ast.closure) =
+  let implicit = c.parameters = None in
+  let parameters =
+    match c.parameters with Some parameters -> parameters | None -> [ { Ast.it = "it"; at } ]
+  in
+  let body env at = statements env at c.body in
+  let lambda, captured = make_lambda env at purpose label ~parameters ~implicit body in
+  expression env at (Make_closure (lambda, captured))
+
+let task_code env at construct (c : Ast.closure) =
+  (match c.parameters with
+   | Some (first :: _) -> error env Wrong_parameters first.Ast.at "the code of %s takes no parameters" construct
+   | Some [] | None -> ());
+  closure env at (Scope.Task_code construct) construct c

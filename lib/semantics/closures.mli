@@ -1,0 +1,22 @@
+(** Code between braces in the core: a lambda, and what it captures. *)
+
+open Checks
+open Core
+
+val make_lambda :
+  env ->
+  Location.t ->
+  Scope.purpose ->
+  string ->
+  parameters:string Ast.located list ->
+  implicit:bool ->
+  (env -> Location.t -> expression) ->
+  lambda * int list
+(** [make_lambda env at purpose label ~parameters ~implicit body] is a lambda whose code [body] makes, in a piece of its
+    own, and the slots around it that it captures. [implicit] is whether it may be called without its argument. *)
+
+val closure : env -> Location.t -> Scope.purpose -> string -> Ast.closure -> expression
+(** [closure env at purpose label c] makes the closure [c]; one that names no parameters has [it]. *)
+
+val task_code : env -> Location.t -> string -> Ast.closure -> expression
+(** [task_code env at construct c] is {!closure} for code of a task, which takes no parameters. *)

@@ -1,0 +1,16 @@
+(** Blocks of settings: [pick], [pos], inline plans, [allOf] and [oneOf]. The settings gather in a local. *)
+
+open Checks
+open Core
+
+val build : env -> Location.t -> Ast.builder -> Ast.statement list -> expression
+(** [build env at builder body] is what [builder] makes of the settings in [body]. *)
+
+val add : env -> Location.t -> int -> string -> Ast.argument list -> expression
+(** [add env at slot name arguments] adds setting [name] to those in [slot]. *)
+
+val setting : env -> Location.t -> string Ast.located -> Ast.expression -> expression
+(** [setting env at name e] is the statement [name: e]. *)
+
+val when_then : env -> Location.t -> Ast.closure -> Ast.expression -> expression
+(** [when_then env at guard t] adds a branch to the [allOf] or [oneOf] around. *)

@@ -1,0 +1,59 @@
+open Core
+open Checks
+
+(* What an assignment may name: a variable, or an element or member of what may be assigned. *)
+let rec is_path (e : Ast.expression) =
+  match e.it with
+  | Variable _ -> true
+  | Index (e, _) | Member { subject = e; safe = false; _ } -> is_path e
+  | _ -> false
+
+let assign_variable env at name name_at e =
+  match Scope.find_local env.code name with
+  | Some (Own slot) -> set_local env at slot e
+  | Some (Captured _) ->
+    error env Captured_local name_at
+      "'%s' is a local of the code around: a closure has a copy of it and cannot assign it" name
+      ~hint:"make it a global variable, without def";
+    e
+  | None ->
+    if Scope.find_function env.program name <> None then
+      error env Not_assignable name_at "'%s' is a function and cannot be assigned" name
+    else if Builtins.find name <> None || List.mem name Builtins.owners then
+      error env Not_assignable name_at "'%s' is a name of the language and cannot be assigned" name
+        ~hint:"choose another name";
+    expression env at (Set_global (Scope.assigned_global env.program name, e))
+
+let rec assign env at (target : Ast.expression) e =
+  match target.it with
+  | Variable name -> assign_variable env at name target.at e
+  | Index (subject, index) ->
+    let slot = Scope.new_slot env.code in
+    let keep = set_local env at slot e in
+    let current = elaborate env subject in
+    let index = elaborate env index in
+    let replaced = apply env at Replace_element [ current; index; local env at slot ] in
+    block env at [ keep; assign env at subject replaced; local env at slot ]
+  | Member { subject; name; _ } ->
+    let slot = Scope.new_slot env.code in
+    let keep = set_local env at slot e in
+    let current = elaborate env subject in
+    let replaced = apply env at (Replace_member name.it) [ current; local env at slot ] in
+    block env at [ keep; assign env at subject replaced; local env at slot ]
+  | _ ->
+    error env Not_assignable target.at "this cannot be assigned to"
+      ~hint:"assign to a variable, an element or a member";
+    e
+
+let update env at target f = assign env at target (f (elaborate env target))
+
+let increment env at target by prefix =
+  let one = constant env at (Integer (abs by)) in
+  let op : Ast.binary = if by > 0 then Add else Subtract in
+  if prefix then update env at target (fun current -> apply env at (Binary op) [ current; one ])
+  else begin
+    let slot = Scope.new_slot env.code in
+    let keep = set_local env at slot (elaborate env target) in
+    let added = apply env at (Binary op) [ local env at slot; one ] in
+    block env at [ keep; assign env at target added; local env at slot ]
+  end

@@ -1,0 +1,21 @@
+(** Assignments. Values are immutable, so to assign to an element or a member is to assign a new whole to the
+    variable. *)
+
+open Checks
+open Core
+
+val is_path : Ast.expression -> bool
+(** Whether it may be assigned to: a variable, or an element or member of what may be. *)
+
+val assign : env -> Location.t -> Ast.expression -> expression -> expression
+(** [assign env at target e] gives [target] the value of [e]. *)
+
+val assign_variable : env -> Location.t -> string -> Location.t -> expression -> expression
+(** [assign_variable env at name name_at e] is the same for the variable [name], which stands at [name_at]. *)
+
+val update : env -> Location.t -> Ast.expression -> (expression -> expression) -> expression
+(** [update env at target f] gives [target] the value of [f e], [e] being what it was. *)
+
+val increment : env -> Location.t -> Ast.expression -> int -> bool -> expression
+(** [increment env at target by prefix] adds [by], 1 or -1, to [target]. Its value is the new one with [prefix],
+    otherwise the old one. *)

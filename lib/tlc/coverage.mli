@@ -1,0 +1,11 @@
+(** What TLC's option [-coverage] says of the actions of a specification. *)
+
+type count = {
+  action : string;  (** the name of its definition *)
+  found : int;  (** how many states TLC found first by it *)
+  taken : int;  (** how often it took the action, to whatever state *)
+}
+
+val of_message : Message.t -> count option
+(** [of_message m] is what [m] counts, if it counts an action. TLC tells once a minute and at its end what it has counted
+    so far: the last one of an action has it all. *)

@@ -1,0 +1,1 @@
+(** Going through lists with functions that may fail. *)

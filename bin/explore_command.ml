@@ -53,7 +53,7 @@ let print_outcome program s (o : Search.outcome) =
          Format.printf "%s%a@." (if remark then "note: " else "") (Search.pp_verdict program) (property, verdict))
     shown;
   let reduced =
-    match Dolphin_explore.Reduction.names o.reduction with
+    match Search.reductions o with
     | [] -> ""
     | names -> "; reduced by " ^ String.concat ", " names
   in
@@ -113,7 +113,7 @@ let json_of_outcome (program : Dolphin_semantics.Core.program) (o : Search.outco
   `Assoc
     [ ("states", `Int o.states); ("transitions", `Int o.transitions); ("depth", `Int o.depth);
       ("seconds", `Float o.seconds); ("bytes", `Int o.bytes); ("formula_states", `Int o.formula_states);
-      ("reductions", `List (List.map (fun name -> `String name) (Dolphin_explore.Reduction.names o.reduction)));
+       ("reductions", `List (List.map (fun name -> `String name) (Search.reductions o)));
       ("verdicts", `List (List.map verdict o.verdicts)) ]
 
 (* The first of the runs that are shown. *)
@@ -301,8 +301,9 @@ let reduction =
   in
   let doc =
     "How much is looked at: $(b,none) for every state; $(b,por) for one of the orders that make no difference (partial \
-     order reduction); $(b,symmetry) for one of those that differ by exchanging vehicles, plans and tuples that are alike; $(b,all) \
-     for both. The verdicts are the same. None is used beside an $(b,--invariant). The number of states printed is that of \
+     order reduction); $(b,symmetry) for one of those that differ by exchanging vehicles, plans and tuples that are \
+     alike, in tasks and in what $(b,pick) gives; $(b,all) for both. The verdicts are the same. Beside an $(b,--invariant) only vehicles are \
+     exchanged. The number of states printed is that of \
      the states looked at, and which reductions were used is said behind it."
   in
   Arg.(value & opt (enum kinds) All & info [ "reduction" ] ~docv:"KIND" ~doc)

@@ -101,8 +101,8 @@ let man =
     `P "$(tname) writes a model of a program in its world in TLA+, for the model checker TLC: $(b,MC.tla), which is the \
         program as a table of expressions and the world as constants, and the modules of the specification of the language \
         that it extends, of which $(b,Dolphin.tla) is the semantics, rule by rule. The world is that of $(mname) $(b,explore), \
-        with the same $(b,--faults), and what sensors show is open in the same way: TLC finds the states and transitions of $(mname) $(b,explore \
-        --reduction none).";
+        with the same $(b,--faults), and what sensors show is open in the same way: TLC finds the states and transitions of \
+        $(mname) $(b,explore --reduction none).";
     `P "$(b,MC.cfg) checks the properties; $(b,Told.cfg) too, and has TLC show of a run what is seen of each state, and the \
         label and the rules of each transition (by an $(b,ALIAS), which the TLC that $(b,make tlc) fetches does not know yet); \
         $(b,Graph.cfg) prints the state graph; $(b,Coverage.cfg) has an action for each rule, for TLC to count. In the \

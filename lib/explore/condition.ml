@@ -13,6 +13,11 @@ type t = {
 type answer = Holds | Fails | Not_yet | Broken of string
 
 let to_string c = c.text
+let closure c = c.closure
+
+let vehicles c =
+  let vehicle = function _, (Bound v | Running (_, Some v)) -> Some v | _, Running (_, None) -> None in
+  List.filter_map vehicle c.questions
 
 (* {1 Reading} *)
 

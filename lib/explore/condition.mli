@@ -9,6 +9,12 @@ type t
 val of_string : Core.program -> string -> (t, string) result
 (** [of_string p text] is the condition that [text] spells, or what is wrong with it in one sentence. *)
 
+val closure : t -> Core.closure
+(** Its code. Beyond the program's global variables are some that stand for what it asks of A and B. *)
+
+val vehicles : t -> Core.vehicle list
+(** Those that it asks for by name. *)
+
 val to_string : t -> string
 
 type answer =

@@ -67,6 +67,11 @@ let hash e =
     e.late
 
 let lost e = e.lost
+
+let renamed f e =
+  let all vs = List.sort String.compare (List.map f vs) in
+  { e with lost = all e.lost; late = all e.late }
+
 let add v vs = List.sort_uniq String.compare (v :: vs)
 let less v vs = List.filter (fun v' -> not (String.equal v v')) vs
 

@@ -46,6 +46,9 @@ val hash : t -> int
 val lost : t -> Core.vehicle list
 (** The vehicles whose connection was lost and of which nothing was heard since, in ascending order. *)
 
+val renamed : (Core.vehicle -> Core.vehicle) -> t -> t
+(** [renamed f e] is [e] with each vehicle [v] in it as [f v]; [f] is injective. *)
+
 (** {1:happens What may happen} *)
 
 val failure : string

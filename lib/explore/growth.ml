@@ -28,6 +28,7 @@ type t = {
   symmetries : Symmetries.t option;
   folding : Folding.t;
   mutable folded : int array;  (* a state's canonical form *)
+  roster : Roster.t option;
   reserve : int -> unit;
 }
 
@@ -231,7 +232,8 @@ let go_to_ends t (s : Shape.t) place step shared i =
 
 (* {1 Beginning} *)
 
-let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore) ?watch options program world =
+let create ?(reduction = Reduction.Whole) ?(peers = Peers.none) ?(asked = []) ?(compress = false) ?(reserve = ignore)
+    ?watch options program world =
   let foreseen = if Reduction.by_order reduction then Some 0 else None in
   let parts = Parts.create ?foreseen options program world in
   let observe = Option.map (fun w -> Letters.action_of_local (Watch.letters w)) watch in
@@ -244,8 +246,9 @@ let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore
       Some (Symmetries.create options program { number; value })
     else None
   in
-  let find_symmetry = Option.map Symmetries.find symmetries in
-  let words = Words.create ?find_symmetry ?watched:(Option.map (fun _ -> 1) watch) parts cases in
+  let roster = if Peers.is_none peers then None else Some (Roster.create options program ~asked world peers) in
+  let find_symmetry = Option.map Symmetries.find symmetries and canonical = Option.map Roster.canonical roster in
+  let words = Words.create ?find_symmetry ?canonical ?watched:(Option.map (fun _ -> 1) watch) parts cases in
   let t =
     {
       options;
@@ -272,6 +275,7 @@ let create ?(reduction = Reduction.Whole) ?(compress = false) ?(reserve = ignore
       symmetries;
       folding = Folding.create parts words;
       folded = [| 0 |];
+      roster;
       reserve;
     }
   in

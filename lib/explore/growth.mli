@@ -35,11 +35,14 @@ type t = {
   symmetries : Symmetries.t option;
   folding : Folding.t;
   mutable folded : int array;  (** a state's canonical form *)
+  roster : Roster.t option;
   reserve : int -> unit;
 }
 
 val create :
   ?reduction:Reduction.t ->
+  ?peers:Peers.t ->
+  ?asked:Condition.t list ->
   ?compress:bool ->
   ?reserve:(int -> unit) ->
   ?watch:Watch.t ->

@@ -72,6 +72,7 @@ type outcome = {
   seconds : float;
   stopped : bound option;
   reduction : Reduction.t;
+  peers : bool;
   verdicts : (Property.t * verdict) list;
 }
 
@@ -190,15 +191,17 @@ let explore ?(enough = fun () -> false) program t =
 
 (* {1 Verdicts} *)
 
-let verdicts t program world stopped =
-  let transitions = Replay.between t.options.environment program world t.space in
+let verdicts t program stopped =
   let shortest = not (Reduction.by_order t.options.reduction) in
-  let run_to i = { steps = transitions (Replay.shortest t.space i); cycle = []; shortest } in
+  let run_to i = { steps = Replay.through t.space (Replay.shortest t.space i); cycle = []; shortest } in
   let unless_stopped otherwise = match stopped with Some bound -> Inconclusive bound | None -> otherwise () in
   let termination () =
     match Cycle.find ~tick:(looking t "looking for cycles") t.space with
     | None -> Holds
-    | Some { stem; around } -> Violated { steps = transitions stem; cycle = transitions around; shortest }
+    | Some { stem; around } ->
+      let steps, cycle = Replay.around t.space ~stem around in
+      let is_as_short = List.compare_lengths stem steps > 0 && List.compare_lengths around cycle > 0 in
+      Violated { steps; cycle; shortest = shortest && is_as_short }
     | exception Stop bound -> Inconclusive bound
     | exception Out_of_memory -> Inconclusive No_memory
   in
@@ -225,10 +228,10 @@ let verdicts t program world stopped =
   let given i = (Property.Invariant (Condition.to_string (Invariant.condition i)), invariant i) in
   List.map (fun property -> (property, verdict property)) Property.all @ List.map given t.invariants
 
-let start ?watch ?(phase = "exploring") (options : options) program world started =
+let start ?watch ?(phase = "exploring") (options : options) ~peers program world started =
   let reserve = ref ignore in
   let space =
-    Space.create ~reduction:options.reduction ~compress:options.compress
+    Space.create ~reduction:options.reduction ~peers ~asked:options.invariants ~compress:options.compress
       ~reserve:(fun bytes -> !reserve bytes)
       ?watch
       options.environment program world
@@ -242,7 +245,7 @@ let start ?watch ?(phase = "exploring") (options : options) program world starte
   t
 
 (* What a reduced search finds broken, the first of all states may show by a shortest run. *)
-let with_shortest_runs options program world started verdicts =
+let with_shortest_runs options ~peers program world started verdicts =
   let is_sought = function
     | (Property.Termination | Invariant _ | Formula _), _ | _, (Holds | Unreached _ | Inconclusive _) -> false
     | _, Violated { shortest; _ } -> not shortest
@@ -251,13 +254,14 @@ let with_shortest_runs options program world started verdicts =
   | [] -> verdicts
   | sought ->
     let most = Option.fold ~none:options.search_again ~some:(min options.search_again) options.max_states in
-    let t = start { options with reduction = Whole; invariants = []; max_states = Some most } program world started in
+    let options = { options with reduction = Whole; invariants = []; max_states = Some most } in
+    let t = start options ~peers program world started in
     let is_found property = Space.broken t.space property <> None in
     ignore (explore ~enough:(fun () -> List.for_all is_found sought) program t);
     let shorter (property, verdict) =
       match if List.mem property sought then Space.broken t.space property else None with
       | Some i ->
-        let steps = Replay.between options.environment program world t.space (Replay.shortest t.space i) in
+        let steps = Replay.through t.space (Replay.shortest t.space i) in
         (property, Violated { steps; cycle = []; shortest = true })
       | None -> (property, verdict)
     in
@@ -281,7 +285,7 @@ let formula started (options : options) program world f =
         | exception Out_of_memory -> Inconclusive No_memory)
   in
   match
-    let t = start ~watch ~phase:"exploring for formulas" options program world started in
+    let t = start ~watch ~phase:"exploring for formulas" options ~peers:Peers.none program world started in
     let verdict = judge t in
     (verdict, Space.count t.space, memory t)
   with
@@ -291,17 +295,22 @@ let formula started (options : options) program world f =
 
 (* {1 Outcomes} *)
 
-let rec run_from started (options : options) program world =
-  let t = start options program world started in
-  match explore program t with
-  | stopped -> outcome t program world stopped
+(* Begun anew with less where something turns out to stand against what states stand for. *)
+let rec run_from started (options : options) ~peers program world =
+  match
+    let t = start options ~peers program world started in
+    outcome t ~peers program world (explore program t)
+  with
+  | outcome -> outcome
   | exception Symmetries.Unclear ->
-    run_from started { options with reduction = Reduction.without_symmetry options.reduction } program world
+    let reduction = Reduction.without_symmetry options.reduction in
+    run_from started { options with reduction } ~peers program world
+  | exception Roster.Told_apart peers -> run_from started options ~peers program world
 
-and outcome t program world stopped =
+and outcome t ~peers program world stopped =
   let space = t.space and options = t.options and started = t.started in
   let without_symmetry = Reduction.without_symmetry options.reduction in
-  let verdicts = with_shortest_runs options program world started (verdicts t program world stopped) in
+  let verdicts = with_shortest_runs options ~peers program world started (verdicts t program stopped) in
   let found =
     {
       states = Space.count space;
@@ -313,6 +322,7 @@ and outcome t program world stopped =
       seconds = options.clock () -. started;
       stopped;
       reduction = (if Space.used_symmetry space then options.reduction else without_symmetry);
+      peers = Space.used_peers space;
       verdicts;
     }
   in
@@ -332,16 +342,18 @@ and with_formulas started (options : options) program world found =
   List.fold_left add found options.formulas
 
 let run (options : options) program world =
-  (* What is asked of every state cannot be judged by some of them. *)
-  let options = if options.invariants = [] then options else { options with reduction = Whole } in
-  (* States that are alike by symmetry may differ in who is lost. *)
-  let remembers = Environment.endings_remember options.environment in
-  let options =
-    if remembers then { options with reduction = Reduction.without_symmetry options.reduction } else options
+  let peers =
+    if Reduction.by_symmetry options.reduction then
+      Peers.find options.environment program ~asked:options.invariants world
+    else Peers.none
   in
-  run_from (options.clock ()) options program world
+  (* What is asked of every state cannot be judged by some of those of a task. *)
+  let options = if options.invariants = [] then options else { options with reduction = Whole } in
+  run_from (options.clock ()) options ~peers program world
 
 (* {1 Text} *)
+
+let reductions o = Reduction.names o.reduction @ if o.peers then [ "symmetry of vehicles" ] else []
 
 let pp_bound ppf bound =
   Format.pp_print_string ppf

@@ -8,8 +8,8 @@ open Dolphin_semantics
 type options = {
   environment : Environment.options;
   reduction : Reduction.t;
-  (** none is used where there are invariants; no symmetry where connections may be lost: states that are alike by it may
-      differ in which vehicle is lost *)
+  (** where there are invariants, only that of what is the same up to names of vehicles; no symmetry of tasks where
+      connections may be lost: states that are alike by it may differ in which vehicle is lost *)
   compress : bool;  (** keep states in less memory, in more time *)
   search_again : int;
   (** so many of all states are visited for a shortest run, if a reduced search found a violation *)
@@ -76,13 +76,18 @@ type outcome = {
   bytes : int;  (** of memory, as [max_memory] counts it: the most, if there are formulas *)
   seconds : float;
   stopped : bound option;
-  reduction : Reduction.t;  (** the one that was used: less than was asked for where something stands against it *)
+  reduction : Reduction.t;
+  (** the one that was used in tasks: less than was asked for where something stands against it *)
+  peers : bool;  (** whether of states of the script that differ in which of {!Peers} are where one was looked at *)
   verdicts : (Property.t * verdict) list;  (** for each of {!Property.all}, then for each invariant and formula *)
 }
 
 val run : options -> Core.program -> World.t -> outcome
 (** [run o p w] explores [p] in [w]. A property is said to hold only if all states were visited; a violation found
     before a bound was met is one. *)
+
+val reductions : outcome -> string list
+(** Those that were used: {!Reduction.names}, and ["symmetry of vehicles"] for [peers]. *)
 
 val pp_bound : Format.formatter -> bound -> unit
 

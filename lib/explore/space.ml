@@ -12,11 +12,21 @@ let shared t i =
   let first = (load t i).(0) in
   if Shapes.number t.shapes first = 0 then -1 else Shapes.shared t.shapes first
 
+let choices t outside c =
+  match t.roster with
+  | Some roster -> Roster.choices roster outside c
+  | None -> Environment.choices t.options t.program t.world outside c
+
+let canonical t c outside =
+  match t.roster with Some roster -> Roster.canonical roster c outside | None -> (c, outside)
+
+let has_peers t = t.roster <> None
+
 (* {1 Where nothing executes} *)
 
 let expand_whole t i number =
   let c, outside = Words.value t.words number in
-  let choices = Environment.choices t.options t.program t.world outside c in
+  let choices = choices t outside c in
   let go ((next : Transition.t), outside) =
     Coverage.transition (Parts.coverage t.parts) c next;
     Script_graph.follows t.script number (Words.write t.words t.other next.rules next.next outside);
@@ -237,6 +247,7 @@ let count t = States.count t.states
 let transitions t = t.transitions
 let parent t i = States.parent t.states i
 let used_symmetry t = Option.fold ~none:false ~some:Symmetries.is_used t.symmetries
+let used_peers t = Option.fold ~none:false ~some:Roster.is_used t.roster
 
 (* Handlers of errors are noted when they have run, in whatever task: see [Symmetries.Unclear]. *)
 let coverage t =

@@ -9,14 +9,16 @@ open Dolphin_semantics
 type t
 
 val create :
-  ?reduction:Reduction.t -> ?compress:bool -> ?reserve:(int -> unit) ->
-  ?watch:Watch.t ->
-  Environment.options -> Core.program -> World.t -> t
-(** With the initial state, number 0. [compress] is as for {!States.create}, [false] by default. [reserve n] is called
-    before [n] bytes are taken at once to lay states out anew; it may raise.
+  ?reduction:Reduction.t -> ?peers:Peers.t -> ?asked:Condition.t list -> ?compress:bool ->
+  ?reserve:(int -> unit) -> ?watch:Watch.t -> Environment.options -> Core.program -> World.t -> t
+(** With the initial state, number 0. States of the script are those up to the names of [peers], by default
+    {!Peers.none}; what visits states then raises [Roster.Told_apart] if they are told apart. Conditions that are
+    [asked] have the same answer in all that a state stands for; none by default. [compress] is as for
+    {!States.create}, [false] by default. [reserve n] is called before [n] bytes are taken at once to lay states out
+    anew; it may raise.
 
-    With a [watch] each state is kept once for each thing that the watch may know there, and [reduction] must be none:
-    see {!section:watched}. Then there may be no state at all. *)
+    With a [watch] each state is kept once for each thing that the watch may know there, and [reduction] and [peers] must
+    be none: see {!section:watched}. Then there may be no state at all. *)
 
 val expand : t -> int -> unit
 (** [expand t i] adds the states that transitions of state [i] lead to, at the latest when {!flush} is called. *)
@@ -71,6 +73,15 @@ val shown : t -> int option
 (** The first state found from which every run violates the formula, or which has no transitions and where a run that
     stays violates it. *)
 
+val choices : t -> Environment.t -> Configuration.t -> (Transition.t * Environment.t) list
+(** [choices t e c] is the transitions of [c] with [e], of those that lead to the same up to names one at least. *)
+
+val canonical : t -> Configuration.t -> Environment.t -> Configuration.t * Environment.t
+(** [canonical t c e] is the same for all that is [c] with [e] up to names. *)
+
+val has_peers : t -> bool
+(** Whether there are any, so that states of the script stand for others. *)
+
 (** {1:findings What was found on the way} *)
 
 val count : t -> int
@@ -84,7 +95,10 @@ val may_cycle : t -> bool
     certain. *)
 
 val used_symmetry : t -> bool
-(** Whether some states stand for others. *)
+(** Whether some states of tasks stand for others. *)
+
+val used_peers : t -> bool
+(** Whether some states stand for others in which peers have changed places. *)
 
 val coverage : t -> Coverage.t
 

@@ -20,15 +20,17 @@ type t = {
   shapes : Shapes.t;
   machines : Machines.t;
   find_symmetry : Residual.t -> Shared.t -> Symmetry.t option;
+  canonical : Configuration.t -> Environment.t -> Configuration.t * Environment.t;
   frames : (int * int, Shape.frame) Hashtbl.t;  (* by numbers of the machine and of the symmetry, 0 for none *)
   wholes : Wholes.t;
   mutable breaks : Property.t option array;  (* by number of such a configuration: what reaching it breaks *)
 }
 
-let create ?(find_symmetry = fun _ _ -> None) ?watched parts cases =
+let create ?(find_symmetry = fun _ _ -> None) ?(canonical = fun c outside -> (c, outside)) ?watched parts cases =
   {
     parts;
     find_symmetry;
+    canonical;
     shareds = Cases.shareds cases;
     shapes = Shapes.create ?watched parts;
     machines = Machines.create ();
@@ -49,7 +51,7 @@ let count_wholes t = Wholes.count t.wholes
 
 let whole t rules c outside =
   let known = Wholes.count t.wholes in
-  let number = Wholes.number t.wholes (c, outside) in
+  let number = Wholes.number t.wholes (t.canonical c outside) in
   if number = known then begin
     if number = Array.length t.breaks then t.breaks <- Array.append t.breaks (Array.make (max 8 number) None);
     t.breaks.(number) <- Property.broken_by_end rules c

@@ -5,9 +5,12 @@ open Dolphin_semantics
 type t
 
 val create :
-  ?find_symmetry:(Residual.t -> Shared.t -> Symmetry.t option) -> ?watched:int -> Parts.t -> Cases.t -> t
+  ?find_symmetry:(Residual.t -> Shared.t -> Symmetry.t option) ->
+  ?canonical:(Configuration.t -> Environment.t -> Configuration.t * Environment.t) ->
+  ?watched:int -> Parts.t -> Cases.t -> t
 (** [find_symmetry r s] is what can change places in [r], which is about to be executed where [s] is shared: nothing by
-    default. [watched] is as for {!Shapes.create}. *)
+    default. [canonical c e] is the form in which [c] with [e] is kept, if it executes nothing: by default itself.
+    [watched] is as for {!Shapes.create}. *)
 
 val shapes : t -> Shapes.t
 

@@ -55,7 +55,7 @@ A program that may wait for ever.
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: holds
-  17 states, 16 transitions, depth 6; reduced by partial order
+  7 states, 6 transitions, depth 6; reduced by partial order, symmetry of vehicles
   
   no deadlock: a shortest run in which nothing can happen any more, and the program has not ended
       program                        noptilus-1  where
@@ -145,7 +145,7 @@ An assertion that some run breaks.
   assertions: violated after 5 steps: assertion.dol:4:5: assertion failed
   vehicles for all tasks: holds
   note: all code reached: violated: no run reaches onError at assertion.dol:3:9
-  32 states, 31 transitions, depth 9; reduced by partial order
+  12 states, 11 transitions, depth 9; reduced by partial order, symmetry of vehicles
   
   assertions: a shortest run in which an assertion fails
       program                        where
@@ -174,7 +174,7 @@ Invariants.
   invariant !(running('a') && n > 0): violated after 5 steps: it does not hold
   invariant !poll(done: 2): violated after 7 steps: it does not hold
   invariant !running('a', 'x8-02'): holds
-  38 states, 46 transitions, depth 9
+  14 states, 16 transitions, depth 9; reduced by symmetry of vehicles
   
   invariant !(running('a') && n > 0): a shortest run in which it does not hold
       program                        noptilus-1  where
@@ -202,7 +202,7 @@ Invariants.
   vehicles for all tasks: holds
   invariant 1 / n > 0: inconclusive, the condition cannot be told: division by zero
   invariant bound("noptilus-1") || n == 0: violated after 4 steps: it does not hold
-  38 states, 46 transitions, depth 9
+  26 states, 31 transitions, depth 9; reduced by symmetry of vehicles
   
   invariant bound("noptilus-1") || n == 0: a shortest run in which it does not hold
       program                        where
@@ -387,7 +387,7 @@ Where states stand for others that are alike, runs have the names that the progr
   > END
   $ explore alike.dol --reduction symmetry --trace alike.run | tail -n 20
   note: no leftover tuples: violated after 16 steps: tuples are left when the program completes
-  106 states, 231 transitions, depth 16; reduced by symmetry
+  106 states, 231 transitions, depth 16; reduced by symmetry, symmetry of vehicles
   
   no deadlock: a shortest run in which nothing can happen any more, and the program has not ended
        program                                   noptilus-1  noptilus-2  noptilus-3  where
@@ -453,6 +453,53 @@ A bound that is met leaves the answer open.
   vehicles for all tasks: inconclusive, the bound on states was met
   137 states, 266 transitions, depth 14
   [3]
+
+Of vehicles that are alike it does not matter which are picked. A run that is shown names vehicles of the fleet.
+
+  $ for i in 1 2 3 4 5 6 7 8 9; do for j in 1 2 3 4 5; do echo "vehicle 'uuv-$i$j', { type 'UUV'; at 41.$i$j, -8.70 }"; done; done > teams.fleet
+  $ cat > teams.dol << 'END'
+  > for (i in 1..2) {
+  >   a = pick { count 3; type 'UUV' }
+  >   b = pick { count 3; type 'UUV' }
+  >   execute (task('p')[a] | task('q')[a] | task('r')[a]) | task('s')[b]
+  >   release a
+  >   message "${b} go home"
+  >   release b
+  > }
+  > END
+  $ explore teams.dol
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  34 states, 33 transitions, depth 33; reduced by partial order, symmetry, symmetry of vehicles
+  $ explore teams.dol --faults fail=1,loss --trace teams.run | grep -E 'violated|states|fails'
+  no unhandled error: violated after 7 steps: an error that nobody handles ends the program
+  42 states, 49 transitions, depth 33; reduced by partial order, symmetry of vehicles
+  7                                   fails in p: failure  teams.dol:4
+  $ dolphin exec teams.dol --follow teams.run | tail -n 4
+  teams.dol:4:12: error: p failed on uuv-11: failure
+    4 |   execute (task('p')[a] | task('q')[a] | task('r')[a]) | task('s')[b]
+      |            ^^^^^^^^^
+     6  uuv-11      starts p
+     7  uuv-11      fails in p: failure
+     7  program     releases uuv-11, uuv-12, uuv-13, uuv-14, uuv-15, uuv-21
+     7  program     fails: p failed on uuv-11: failure
+  $ explore teams.dol --invariant "!poll('x')" --invariant "!bound('uuv-95')" | grep -E 'invariant|states|uuv-95'
+  invariant !poll('x'): holds
+  invariant !bound('uuv-95'): violated after 2 steps: it does not hold
+  514 states, 1341 transitions, depth 33; reduced by symmetry of vehicles
+  invariant !bound('uuv-95'): a shortest run in which it does not hold
+  2   picks uuv-11, uuv-12, uuv-95    teams.dol:2
+  $ (cat teams.dol; echo 'if (a[0].id == b[0].id) { post x: 1 }') > named.dol
+  $ explore named.dol --fleet teams.fleet --max-states 100 | grep states
+  no deadlock: inconclusive, the bound on states was met
+  termination: inconclusive, the bound on states was met
+  no unhandled error: inconclusive, the bound on states was met
+  assertions: inconclusive, the bound on states was met
+  vehicles for all tasks: inconclusive, the bound on states was met
+  14192 states, 14191 transitions, depth 1; reduced by partial order
 
 When the process can have no more memory, it says so.
 

@@ -129,7 +129,7 @@ Vehicles may be late or missing: those that join, leave or drop, or if the fleet
   no halt: holds
   no leftover tuples: holds
   all code reached: holds
-  4 states, 3 transitions, depth 3; reduced by partial order
+  4 states, 3 transitions, depth 3; reduced by partial order, symmetry of vehicles
   $ explore late.dol --strict --faults join --trace late.run
   no deadlock: holds
   termination: holds

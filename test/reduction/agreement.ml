@@ -112,36 +112,127 @@ let agrees options program world reference unreached (property, verdict) =
   | Unreached _, _ -> wrong "other pieces are reached"
   | Inconclusive _, _ -> wrong "inconclusive"
 
-let check ?limit ?(reductions = [ Reduction.Partial_order; Symmetry; All ]) environment program world =
+let check_graph ~reductions environment program world graph =
+  let reference = Reference.broken graph in
+  let search reduction = Search.run { Search.default with environment; reduction; search_again = 0 } program world in
+  let whole = search Whole in
+  let unreached =
+    match List.assoc Property.All_reached whole.verdicts with
+    | Unreached pieces -> pieces
+    | Holds | Violated _ | Inconclusive _ -> []
+  in
+  let is_as_short (property, verdict) =
+    match (verdict : Search.verdict), List.assoc_opt property reference with
+    | Violated { shortest = true; steps; cycle = [] }, Some length -> List.length steps = length
+    | _, _ -> true
+  in
+  let compare found reduction =
+    let* _ = found in
+    let named what = Error (String.concat ", " (Reduction.names reduction) ^ ": " ^ what) in
+    let reduced = search reduction in
+    let each found verdict =
+      let* () = found in
+      if is_as_short verdict then agrees environment program world reference unreached verdict
+      else Error "there is a shorter run"
+    in
+    match List.fold_left each (Ok ()) reduced.verdicts with
+    | Error what -> named what
+    | Ok () -> if reduced.states > whole.states then named "more states than there are" else Ok reduced.states
+  in
+  let* reduced = List.fold_left compare (Ok 0) reductions in
+  Ok { whole = whole.states; reduced; broken = List.map fst reference }
+
+let explored ?limit environment program world =
   match Reference.explore ?limit environment program world with
-  | None | (exception Reading.Unsettled _) -> Ok None
+  | graph -> graph
+  | exception Reading.Unsettled _ -> None
+
+let check ?limit ?(reductions = [ Reduction.Partial_order; Symmetry; All ]) environment program world =
+  match explored ?limit environment program world with
+  | None -> Ok None
   | Some graph ->
-    let reference = Reference.broken graph in
-    let search reduction = Search.run { Search.default with environment; reduction; search_again = 0 } program world in
-    let whole = search Whole in
-    let unreached =
-      match List.assoc Property.All_reached whole.verdicts with
-      | Unreached pieces -> pieces
-      | Holds | Violated _ | Inconclusive _ -> []
-    in
-    let is_as_short (property, verdict) =
-      match (verdict : Search.verdict), List.assoc_opt property reference with
-      | Violated { shortest = true; steps; cycle = [] }, Some length -> List.length steps = length
-      | _, _ -> true
-    in
-    let compare found reduction =
-      let* _ = found in
-      let named what = Error (String.concat ", " (Reduction.names reduction) ^ ": " ^ what) in
-      let reduced = search reduction in
-      let each found verdict =
-        let* () = found in
-        if is_as_short verdict then agrees environment program world reference unreached verdict
-        else Error "there is a shorter run"
-      in
-      match List.fold_left each (Ok ()) reduced.verdicts with
-      | Error what -> named what
-      | Ok () -> if reduced.states > whole.states then named "more states than there are" else Ok reduced.states
-    in
-    let* reduced = List.fold_left compare (Ok 0) reductions in
+    let* found = check_graph ~reductions environment program world graph in
     let* () = same_outcomes program environment world graph in
-    Ok (Some { whole = whole.states; reduced; broken = List.map fst reference })
+    Ok (Some found)
+
+(* {1 Up to the names of vehicles} *)
+
+(* Texts of ends may name vehicles, and of what is left in N only matters whether there is anything. *)
+let without_text (c : Configuration.t) =
+  let ended ending =
+    let none = Tuples.empty No_key in
+    let tuples = if Tuples.is_empty c.tuples then none else Tuples.post "left" Core.Null none in
+    { c with control = Ended ending; tuples }
+  in
+  match c.control with
+  | Ended (Halted _) -> ended (Halted "")
+  | Ended (Failed fault) -> ended (Failed { fault with message = "" })
+  | Ended ((Completed | Interrupted) as ending) -> ended ending
+  | Script _ | Waiting _ | Executing _ -> c
+
+module Script = Set.Make (struct
+    type t = Configuration.t * Environment.t
+
+    let compare (c, e) (c', e') =
+      match Configuration.compare c c' with 0 -> Environment.compare e e' | order -> order
+  end)
+
+let is_of_script (c : Configuration.t) =
+  match c.control with Script _ | Waiting _ | Ended _ -> true | Executing _ -> false
+
+let rec space_of_peers environment program world peers =
+  let space = Space.create ~peers environment program world in
+  let rec from i =
+    if i = Space.count space then Space.flush space;
+    if i < Space.count space then (Space.expand space i; from (i + 1))
+  in
+  match from 0 with () -> space | exception Roster.Told_apart peers -> space_of_peers environment program world peers
+
+let same_script program environment world (graph : Reference.t) =
+  let space = space_of_peers environment program world (Peers.find environment program ~asked:[] world) in
+  let state (s : Reference.state) found =
+    if is_of_script s.configuration then
+      let c, e = Space.canonical space s.configuration s.outside in
+      Script.add (without_text c, e) found
+    else found
+  in
+  let expected = Array.fold_right state graph.states Script.empty in
+  let found = List.map (Space.state space) (List.init (Space.count space) Fun.id) in
+  let found = List.filter (fun (c, _) -> is_of_script c) found in
+  let found = Script.of_list (List.map (fun (c, e) -> (without_text c, e)) found) in
+  let tell what (c, _) = Error (Format.asprintf "%s %a" what (Configuration.pp program) c) in
+  match Script.choose_opt (Script.diff expected found), Script.choose_opt (Script.diff found expected) with
+  | Some missing, _ -> tell "the script never comes to" missing
+  | None, Some other -> tell "the script cannot come to" other
+  | None, None -> Ok (Space.used_peers space)
+
+(* Whether a condition is the same in all that is looked at as in all that there is. *)
+let same_invariant program environment world condition =
+  let search reduction =
+    let options = { Search.default with environment; reduction; invariants = [ condition ]; search_again = 0 } in
+    snd (List.find (fun (p, _) -> match p with Property.Invariant _ -> true | _ -> false)
+        (Search.run options program world).verdicts)
+  in
+  let wrong what = Error (Printf.sprintf "invariant %s: %s" (Condition.to_string condition) what) in
+  let is_broken (c, _) = Condition.eval program world condition c = Fails in
+  match search Whole, search All with
+  | Holds, Holds | Inconclusive _, Inconclusive _ -> Ok ()
+  | Violated run, Violated run' ->
+    let start = [ (Configuration.initial program, Environment.initial) ] in
+    if List.compare_lengths run.steps run'.steps <> 0 then wrong "another length"
+    else if List.exists is_broken (follow environment program world start run'.steps) then Ok ()
+    else wrong "this is no such run"
+  | (Holds | Violated _ | Inconclusive _ | Unreached _), _ -> wrong "another verdict"
+
+let check_peers ?limit ?(invariants = []) environment program world =
+  match explored ?limit environment program world with
+  | None -> Ok None
+  | Some graph ->
+    let* found = check_graph ~reductions:[ All; Symmetry ] environment program world graph in
+    let* used = same_script program environment world graph in
+    let check found condition =
+      let* () = found in
+      same_invariant program environment world condition
+    in
+    let* () = List.fold_left check (Ok ()) invariants in
+    Ok (Some (found, used))

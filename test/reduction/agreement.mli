@@ -21,3 +21,14 @@ val check :
     reduced one shows is one of the semantics that ends as it should; and unless with [Partial_order] executing tasks come
     to the same as without: to the same configurations of the script, the same deadlocks, the same halts and failures.
     [None] if the program has more than [limit] states. *)
+
+val check_peers :
+  ?limit:int ->
+  ?invariants:Condition.t list ->
+  Environment.options ->
+  Core.program ->
+  World.t ->
+  ((t * bool) option, string) result
+(** [check_peers o p w] is likewise with [All] and [Symmetry], and is an error unless the script comes to the same
+    configurations as without, up to what [Peers.find] says is alike, and each of the invariants holds as without. The
+    truth value is whether some of that was exchanged. *)

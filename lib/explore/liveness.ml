@@ -1,0 +1,168 @@
+open Dolphin_semantics
+open Core
+
+(* Variables of the program by index, and locals of one call by slot. *)
+module Variables = Set.Make (struct
+    type t = [ `Global of int | `Local of int ]
+
+    let compare = Stdlib.compare
+  end)
+
+type t = {
+  called : Variables.t;  (* what code that is called, or executed, may read *)
+  asked : Variables.t;  (* what conditions may read at any time *)
+}
+
+(* {1 Code that others call} *)
+
+(* The variables that code reads, and what it calls; of the script's own, only the latter. *)
+let read_by ?main lambdas =
+  let read = ref Variables.empty and seen = ref [] in
+  let rec expression ~main e =
+    let go = expression ~main in
+    match e.node with
+    | Global i -> if not main then read := Variables.add (`Global i) !read
+    | Constant (Closure c) -> lambda c.lambda
+    | Make_closure (l, _) -> lambda l
+    | Constant _ | Local _ | Break | Continue -> ()
+    | Set_local (_, e) | Set_global (_, e) | Return e -> go e
+    | Apply (_, es) | Block es -> List.iter go es
+    | If (a, b, c) -> List.iter go [ a; b; c ]
+    | While (a, b) | For (_, a, b) -> go a; go b
+  and lambda l =
+    if not (List.memq l !seen) then begin
+      seen := l :: !seen;
+      expression ~main:false l.code
+    end
+  in
+  Option.iter (fun (l : lambda) -> expression ~main:true l.code) main;
+  List.iter lambda lambdas;
+  !read
+
+let of_program (program : program) ~asked =
+  let called = read_by ~main:program.main (List.map snd program.functions) in
+  let own = read_by (List.map (fun (c : closure) -> c.lambda) asked) in
+  { called; asked = (if asked = [] then Variables.empty else Variables.union called own) }
+
+let may_call = function
+  | Call _ | Method _ | Binary Parallel | Builtin (Execute | Execute_for _) -> true
+  | Unary _ | Binary _ | Make_list | Make_map _ | Make_range _ | Concatenate | Element | Replace_element
+  | Replace_member _ | Property _ | Builtin _ | Add_setting _ | Build _ | Make_branch -> false
+
+(* {1 What is read}
+
+   Before what may come next: the value of an expression being used, or a jump. *)
+
+type exits = { next : Variables.t; break : Variables.t; continue : Variables.t; return : Variables.t }
+
+let over = { next = Variables.empty; break = Variables.empty; continue = Variables.empty; return = Variables.empty }
+
+let rec fixpoint f live =
+  let more = Variables.union live (f live) in
+  if Variables.equal more live then live else fixpoint f more
+
+(* What may be read from the beginning of [e] on. *)
+let rec before called e exits =
+  let before = before called in
+  match e.node with
+  | Constant _ -> exits.next
+  | Local slot -> Variables.add (`Local slot) exits.next
+  | Global i -> Variables.add (`Global i) exits.next
+  | Set_local (slot, e) -> before e { exits with next = Variables.remove (`Local slot) exits.next }
+  | Set_global (i, e) -> before e { exits with next = Variables.remove (`Global i) exits.next }
+  | Make_closure (_, slots) -> List.fold_left (fun live slot -> Variables.add (`Local slot) live) exits.next slots
+  | Apply (operation, es) -> all called es { exits with next = applied called operation exits.next }
+  | If (test, yes, no) -> before test { exits with next = Variables.union (before yes exits) (before no exits) }
+  | Block es -> all called es exits
+  | While (test, body) -> loop called test body exits
+  | For (slot, range, body) -> before range { exits with next = items called slot body exits }
+  | Return e -> before e { exits with next = exits.return }
+  | Break -> exits.break
+  | Continue -> exits.continue
+
+and all called es exits =
+  List.fold_right (fun e live -> before called e { exits with next = live }) es exits.next
+
+and applied called operation live = if may_call operation then Variables.union called live else live
+
+and inside exits again = { exits with next = again; continue = again; break = exits.next }
+
+(* Where the test is about to be looked at. *)
+and loop called test body exits =
+  let again live =
+    before called test { exits with next = Variables.union exits.next (before called body (inside exits live)) }
+  in
+  fixpoint again Variables.empty
+
+(* Where the next item is about to be taken. *)
+and items called slot body exits =
+  let again live = Variables.remove (`Local slot) (before called body (inside exits live)) in
+  fixpoint again exits.next
+
+(* {1 Machines} *)
+
+let locals_of live locals is_sought =
+  let clear slot x = if is_sought x && not (Variables.mem (`Local slot) live) then Null else x in
+  Array.mapi clear locals
+
+let globals = Variables.filter (function `Global _ -> true | `Local _ -> false)
+
+(* The stack, and what may be read once it has the value it waits for, and by jumps. *)
+let rec stack called is_sought : Machine.frame list -> Machine.frame list * exits = function
+  | [] -> ([], over)
+  | frame :: below ->
+    let below, exits = stack called is_sought below in
+    let frame : Machine.frame =
+      match frame with
+      | Leave locals -> Leave (locals_of exits.next locals is_sought)
+      | Next_item (slot, Items (xs, i), body) ->
+        let gone j x = if j < i && is_sought x then Null else x in
+        Next_item (slot, Items (Array.mapi gone xs, i), body)
+      | Arguments _ | Assign_local _ | Assign_global _ | Choose _ | Rest _ | Loop_test _ | Loop_body _
+      | Next_item (_, Counting _, _) | Iterate _ -> frame
+    in
+    (frame :: below, waiting called frame exits)
+
+and waiting called (frame : Machine.frame) exits =
+  let next live = { exits with next = live } in
+  match frame with
+  | Arguments { operation; remaining; _ } ->
+    next (all called remaining (next (applied called operation exits.next)))
+  | Assign_local slot -> next (Variables.remove (`Local slot) exits.next)
+  | Assign_global i -> next (Variables.remove (`Global i) exits.next)
+  | Choose (yes, no) -> next (Variables.union (before called yes exits) (before called no exits))
+  | Rest es -> next (all called es exits)
+  | Loop_test (test, body) ->
+    let again = loop called test body exits in
+    next (Variables.union exits.next (before called body (inside exits again)))
+  | Loop_body (test, body) -> inside exits (loop called test body exits)
+  | Next_item (slot, _, body) -> inside exits (items called slot body exits)
+  | Leave _ ->
+    let live = globals exits.next in
+    { over with next = live; return = live }
+  | Iterate _ -> next (Variables.union called exits.next)
+
+let machine called is_sought (m : Machine.t) : Machine.t * Variables.t =
+  let stack, exits = stack called is_sought m.stack in
+  let live = match m.focus with Evaluate e -> before called e exits | Give _ -> exits.next in
+  ({ m with locals = locals_of live m.locals is_sought; stack }, live)
+
+let forget { called; asked } is_sought (c : Configuration.t) =
+  let control, live =
+    match c.control with
+    | Script m ->
+      let m, live = machine called is_sought m in
+      (Configuration.Script m, live)
+    | Waiting (m, request) ->
+      let m, live = machine called is_sought m in
+      (Waiting (m, request), live)
+    | Executing (m, r) ->
+      let m, live = machine called is_sought m in
+      (Executing (m, r), Variables.union called live)
+    | Ended ending -> (Ended ending, Variables.empty)
+  in
+  let clear store (i, x) =
+    let is_read = Variables.mem (`Global i) live || Variables.mem (`Global i) asked in
+    if is_sought x && not is_read then Store.set i Null store else store
+  in
+  { c with control; store = List.fold_left clear c.store (Store.bindings c.store) }

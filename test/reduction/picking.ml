@@ -1,0 +1,141 @@
+open Dolphin_semantics
+module Gen = QCheck2.Gen
+open Gen
+module Pure_run = Test_support.Pure_run
+
+type t = { text : string; world : string * World.t; invariant : string }
+
+(* {1 Worlds} *)
+
+let uav = Pure_run.vehicle ~kind:"UAV"
+
+let worlds =
+  let world = Pure_run.world in
+  let uuv = Pure_run.vehicle in
+  let alike = world [ uuv "a"; uuv "b"; uuv "c"; uuv "d"; uav "e" ] in
+  let places v = (Pure_run.vehicle ~north:200. v).position in
+  [ ("alike", alike);
+    ("five alike", world [ uuv "a"; uuv "b"; uuv "c"; uuv "d"; uuv "e" ]);
+    ("at different places",
+     world [ uuv "a" ~north:300.; uuv "b"; uuv "c"; uuv "d" ~north:5_000.; uuv "e" ~north:5_000. ]);
+    ("two and two", world [ uuv "a"; uuv "b"; uav "c"; uav "d" ]);
+    ("in turns", world [ uuv "a"; uav "b"; uuv "c"; uav "d"; uuv "e" ]);
+    ("one between", world [ uuv "a"; uuv "d"; uav "e"; uuv "b"; uuv "c" ]);
+    ("other batteries", world [ uuv "a"; uuv "b" ~battery:0.2; uuv "c"; uuv "d" ~battery:0.2 ]);
+    ("other payload", world [ uuv "a"; uuv "b" ~payload:[ "DVL" ]; uuv "c" ~payload:[ "DVL" ]; uuv "d" ]);
+    ("open batteries",
+     alike |> World.open_battery "a" [] |> World.open_battery "b" [] |> World.open_battery "c" [ 1.; 0.2 ]);
+    ("open alike",
+     let far = (uuv "a" ~north:5_000.).position in
+     let opened w v = World.open_battery v [ 1.; 0.2 ] (World.open_position v [ places v; far ] w) in
+     List.fold_left opened alike [ "a"; "b"; "c"; "d" ]);
+    ("open places", alike |> World.open_position "a" [ places "a"; places "d" ] |> World.open_position "b" []) ]
+
+(* {1 Programs} *)
+
+let f = Printf.sprintf
+let variable = oneofl [ "p"; "q"; "r" ]
+let plan = oneofl [ "s"; "t" ]
+
+let vehicles =
+  let* v = variable and* w = variable in
+  frequencyl [ (6, v); (2, f "(%s + %s)" v w); (2, f "%s[0]" v); (1, f "(%s - %s)" v w); (1, f "(%s & %s)" v w);
+               (1, f "(%s | { v -> v != %s })" v w) ]
+
+(* Conditions that do not tell apart what is alike, and some that may. *)
+let condition =
+  let* v = vehicles and* w = vehicles and* k = oneofl [ "x"; "y" ] in
+  frequency
+    [ (3, oneofl [ f "poll(%s: %s)" k v; f "poll %s: 1" k; f "consume(%s: %s)" k v; f "consume(%s: 1)" k;
+                   f "consume(%s: _)" k ]);
+      (3, oneofl [ f "%s == %s" v w; f "%s in %s" v w; f "%s.size() > 1" v; f "%s[0] == %s[-1]" v w;
+                   f "%s.any { u -> u == %s[0] }" v w; f "%s.contains(%s)" v w; f "g > 1" ]);
+      (1, oneofl [ f "%s[0].getId() == 'b'" v; f "\"${%s[0]}\" == 'b'" v; f "%s[0].id < %s[0].id" v w;
+                   f "%s.toString() == 'b'" v; f "('' + %s) == 'b'" v; f "%s.ids.contains('c')" v;
+                   f "[%s[0], %s[0]].sort()[0] == %s[0]" v w v; f "battery(%s[0]) < 0.5" v;
+                   f "%s[0].getBattery() < battery(%s[0])" v w;
+                   f "position(%s[0]) in area(location(41.18521, -8.7048), 1.km)" v;
+                   f "[(%s): 1].containsKey('b')" v ]) ]
+
+let action =
+  let* v = vehicles and* w = vehicles and* k = oneofl [ "x"; "y" ] and* c = condition in
+  frequencyl
+    [ (3, f "post %s: %s" k v); (2, f "post %s: 1" k); (1, f "consume %s: _" k); (1, f "g = g + 1");
+      (2, f "message \"at ${%s}\"" v); (1, f "p = %s" w); (1, f "if (%s) { post %s: 2 }" c k);
+      (1, f "if (%s) { halt \"here ${%s}\" }" c v) ]
+
+let rec task depth =
+  let leaf =
+    let* p = plan and* v = vehicles and* a = action and* c = condition in
+    frequencyl
+      [ (5, f "task('%s')[%s]" p v); (1, f "task('%s')" p); (3, f "action { %s }" a); (1, f "condition { %s }" c);
+        (1, "idle(1.seconds)"); (1, f "assert({ !(%s) }, 'a')" c);
+        (1, f "imcPlan { planName 'i'; locate 41.1852, -8.7048; goTo speed:1.0 }[%s]" v) ]
+  in
+  if depth = 0 then leaf
+  else
+    let part = task (depth - 1) in
+    let* t = part and* t' = part and* a = action and* c = condition and* v = vehicles in
+    frequencyl
+      [ (3, f "(%s | %s)" t t'); (2, f "(%s >> %s)" t t'); (1, f "(%s)[%s + p]" t v);
+        (1, f "(watch (%s) onError { %s ; ignore() })" t a);
+        (1, f "(watch (%s) onError { if (it == 's failed on b: failure') { post x: 1 } ; ignore() })" t);
+        (1, f "(until { %s } run (%s))" c t); (1, f "(waitFor { %s } then %s)" c t) ]
+
+let pick =
+  frequencyl
+    [ (4, "count 2"); (5, "count 1"); (3, "count 2; type 'UUV'"); (5, "type 'UUV'"); (1, "payload 'DVL'");
+      (1, "type 'UAV'; timeout 1.seconds"); (1, "id 'b'"); (1, "id 'ab'.substring(1)");
+      (1, "count _; timeout 1.seconds");
+      (1, "count _; type 'UUV'; timeout 1.seconds"); (1, "count 2; region location(41.18521, -8.7048), 1.km") ]
+
+let rec statement depth =
+  let* v = variable and* w = vehicles and* k = pick and* a = action and* c = condition and* t = task 1 in
+  let simple =
+    [ (3, f "%s = pick { %s }" v k); (3, f "release %s\n%s = pick { %s }" v v k); (3, f "release %s" w); (2, f "%s = %s" v w);
+      (2, a); (4, f "execute %s" t);
+      (1, f "post x: %s" w); (1, f "consume x: %s" w); (1, "consume y: _"); (1, f "fly(%s)" w);
+      (1, "g = g + 1"); (1, f "m = [:]\nm[%s] = g\nif (m['b'] == g) { post y: 3 }" w); (1, f "%s = null" v);
+      (1, "p = ask('which')") ]
+  in
+  if depth = 0 then frequencyl simple
+  else
+    let* inner = statements (depth - 1) and* other = statements (depth - 1) in
+    frequencyl
+      (simple
+       @ [ (2, f "for (u in %s) { execute task('s')[u]\n%s }" w a); (1, f "if (%s) { %s } else { %s }" c inner other);
+           (2, f "for (i in 1..2) { %s }" inner); (1, f "while (g < 2) { g = g + 1\n%s }" inner);
+           (1, f "while (g < 3) { %s }" inner);
+           (1, f "if (%s) { %s }" c inner) ])
+
+and statements depth =
+  let* n = int_range 1 3 in
+  map (String.concat "\n") (list_repeat n (statement depth))
+
+(* A function with a variable of its own. *)
+let functions =
+  frequencyl
+    [ (3, "def fly(t) { execute task('s')[t] }");
+      (1, "def fly(t) { def u = pick { type 'UUV' }\nexecute task('s')[u]\nrelease u }");
+      (1, "def fly(t) { def u = pick { count 2 }\nfor (v in u) { message \"${v}\" }\n\
+           execute task('s')[u]\nrelease u + t }");
+      (1, "def fly(t) { for (v in t) { release v }\nreturn t }") ]
+
+let invariant =
+  let* v = vehicles and* w = vehicles in
+  oneofl
+    [ "g < 2"; f "%s.size() < 2" v; "!bound('b')"; "!running('s')"; "!running('t', 'c')"; f "%s != %s" v w;
+      f "%s[0].getId() != 'c'" v; f "!poll(x: %s)" v; f "battery(%s[0]) > 0.5" v; f "!(bound('d') && %s == %s)" v w ]
+
+let gen =
+  let first = frequencyl [ (3, "count 1"); (3, "count 2"); (1, "type 'UUV'"); (1, "count 2; type 'UUV'") ] in
+  let* k = first and* k' = first and* body = map2 (fun a b -> a ^ "\n" ^ b) (statements 1) (statements 1) in
+  let* functions = functions and* world = oneofl worlds in
+  let text =
+    String.concat "\n"
+      [ functions; "g = 0"; f "p = pick { %s }" k; f "q = pick { %s }" k'; "r = p"; body; "" ]
+  in
+  let* invariant = invariant in
+  return { text; world; invariant }
+
+let print p = f "in the world '%s', with the invariant %s:\n%s" (fst p.world) p.invariant p.text

@@ -1,0 +1,10 @@
+(** Random programs that pick vehicles, give them tasks and release them, in worlds with vehicles that are alike. *)
+
+open Dolphin_semantics
+
+type t = { text : string; world : string * World.t; invariant : string  (** a condition to check *) }
+
+val gen : t QCheck2.Gen.t
+(** Few of them tell vehicles apart that are alike: by name, order, place or battery. *)
+
+val print : t -> string

@@ -1,0 +1,90 @@
+(* On random programs that pick vehicles of which some are alike, every verdict of a search that exchanges those is that
+   of the plain one, every run that it shows is one of the semantics, and it comes to the same configurations of the
+   script, up to the names of vehicles. PROGRAMS in the environment is how many programs are tried, 2,000 by default;
+   SEED is where they start. *)
+
+open Dolphin_explore
+module Pure_run = Test_support.Pure_run
+
+let number name default = match Sys.getenv_opt name with Some n -> int_of_string n | None -> default
+let programs = number "PROGRAMS" 2_000
+let seed = number "SEED" 20_261_122
+let limit = number "LIMIT" 300
+let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "null" ] ]) }
+let reading = { Environment.default with answers = (fun _ -> [ [ "p"; "q[0].id == 'b'" ] ]) }
+
+let failing fails : Environment.options =
+  { answering with endings = (fun v p -> if fails v p then May_fail else Succeeds) }
+
+let environments =
+  [ ("as planned", answering);
+    ("with answers that read variables", reading);
+    ("with failures", Environment.failing answering);
+    ("with a failure", Environment.failing ~failures:1 answering);
+    ("with losses", { answering with losses = Any_number });
+    ("with a loss", { answering with losses = At_most 1 });
+    ("with a latecomer", { answering with latecomers = At_most 1 });
+    ("vehicle b may fail", failing (fun v _ -> v = "b"));
+    ("plan t may fail", failing (fun _ p -> p = "t"));
+    ("plan t may fail on vehicle b", failing (fun v p -> v = "b" && p = "t")) ]
+
+let case = QCheck2.Gen.(pair Picking.gen (oneofl environments))
+let print (program, (name, _)) = Printf.sprintf "%s, %s" name (Picking.print program)
+let invalid = ref 0
+let skipped = ref 0
+let whole = ref 0
+let reduced = ref 0
+let smaller = ref 0
+let exchanged = ref 0
+let broken = Hashtbl.create 7
+
+let agrees ((p : Picking.t), (_, environment)) =
+  match Pure_run.compile p.text with
+  | Error _ ->
+    incr invalid;
+    true
+  | Ok program -> (
+      let world = snd p.world in
+      let invariants = Option.to_list (Result.to_option (Condition.of_string program p.invariant)) in
+      match Agreement.check_peers ~limit ~invariants environment program world with
+      | Error what -> QCheck2.Test.fail_report what
+      | Ok None ->
+        incr skipped;
+        true
+      | Ok (Some (found, used)) ->
+        whole := !whole + found.whole;
+        reduced := !reduced + found.reduced;
+        if found.reduced < found.whole then incr smaller;
+        if used then incr exchanged;
+        let note p = Hashtbl.replace broken p (1 + Option.value (Hashtbl.find_opt broken p) ~default:0) in
+        List.iter note found.broken;
+        true)
+
+let test_agreement () =
+  Printf.printf "SEED=%d PROGRAMS=%d\n%!" seed programs;
+  let test = QCheck2.Test.make ~count:programs ~print ~name:"search with peers and plain search agree" case agrees in
+  QCheck2.Test.check_exn ~rand:(Random.State.make [| seed |]) test;
+  Printf.printf
+    "%d no programs, %d skipped, of more than %d states; %d of %d states by exchanging peers alone, fewer for %d \
+     programs; peers exchanged in %d\n"
+    !invalid !skipped limit !reduced !whole !smaller !exchanged;
+  Hashtbl.iter (fun p n -> Printf.printf "%s: broken by %d\n" (Property.name p) n) broken
+
+(* Where nothing is broken, or nothing reduced, agreement says little. *)
+let test_variety () =
+  let enough property =
+    if not (property = Property.All_reached || Hashtbl.mem broken property) then
+      Alcotest.failf "no program breaks: %s" (Property.name property)
+  in
+  List.iter enough Property.all;
+  if 4 * !smaller < programs - !skipped - !invalid then Alcotest.fail "few programs have less states"
+
+let () =
+  Alcotest.run "picks"
+    [
+      ( "random programs",
+        [
+          Alcotest.test_case "search with peers and plain search agree" `Quick test_agreement;
+          Alcotest.test_case "properties are broken by some, and states are saved" `Quick test_variety;
+        ] );
+    ]

@@ -1,0 +1,233 @@
+(* Programs that tell apart vehicles that are alike, each in another way, and find something only with one that is not
+   picked first; and programs that do not, which must be explored with few states however large the fleet is. *)
+
+open Dolphin_semantics
+open Dolphin_explore
+module Pure_run = Test_support.Pure_run
+
+let uuv = Pure_run.vehicle
+let uav = Pure_run.vehicle ~kind:"UAV"
+let three = Pure_run.world [ uuv "a"; uuv "b"; uuv "c" ]
+let plain = Environment.default
+let property = Alcotest.testable Property.pp ( = )
+
+let finds name ?(environment = plain) ?(world = three) ~exchanged expected text () =
+  match Agreement.check_peers ~limit:5_000 environment (Pure_run.compile_exn text) world with
+  | Error what -> Alcotest.fail what
+  | Ok None -> Alcotest.fail "too large"
+  | Ok (Some (found, used)) ->
+    Alcotest.(check (list property)) name expected found.broken;
+    Alcotest.(check bool) "some are exchanged" exchanged used
+
+let tells name ?environment ?world expected text =
+  Alcotest.test_case name `Quick (finds name ?environment ?world ~exchanged:false expected text)
+
+(* Some vehicles are told apart, and others not; or in what they do, but not in who they are. *)
+let keeps name ?environment ?world expected text =
+  Alcotest.test_case name `Quick (finds name ?environment ?world ~exchanged:true expected text)
+
+let one = "v = pick { type 'UUV' }\n"
+let answering answers = { plain with answers }
+
+let by_name =
+  [
+    tells "an id" [ No_halt ] (one ^ "if (v.getId() == 'C'.toLowerCase()) { halt 'h' }");
+    tells "a property" [ No_halt ] (one ^ "if (v.id == 'C'.toLowerCase()) { halt 'h' }");
+    tells "a text" [ No_halt ] (one ^ {|if ("${v}" == 'C'.toLowerCase()) { halt 'h' }|});
+    tells "a text by +" [ No_halt ] (one ^ {|if (('' + v) == 'C'.toLowerCase()) { halt 'h' }|});
+    tells "a text of a list" [ No_halt ] (one ^ {|if ([v].join('') == 'C'.toLowerCase()) { halt 'h' }|});
+    tells "a text of a task" [ No_halt ]
+      (one ^ {|if ("${task('p')[v]}".contains('C'.toLowerCase())) { halt 'h' }|});
+    tells "a text in a function" [ No_halt ]
+      ("def name(x) { return \"${x}\" }\n" ^ one ^ {|if (name(v) == 'C'.toLowerCase()) { halt 'h' }|});
+    tells "a text in a closure" [ No_halt ]
+      (one ^ {|if (v.any { u -> u.toString() == 'C'.toLowerCase() }) { halt 'h' }|});
+    tells "a text in an action" [ No_halt ]
+      (one ^ {|execute action { if ("${v}" == 'C'.toLowerCase()) { halt 'h' } }|});
+    tells "a key of a map" [ No_halt ] (one ^ "m = [:]\nm[v] = 1\nif (m.containsKey('c')) { halt 'h' }");
+    tells "a key of a map that is written down" [ No_halt ]
+      (one ^ "m = [(v): 1]\nif (m['C'.toLowerCase()] == 1) { halt 'h' }");
+    tells "a key to look for" [ No_halt ] (one ^ "if (['ab', 'c'].contains(v.id)) { halt 'h' }");
+    tells "a key that a map has" [ No_halt ] (one ^ "m = [c: 1]\nif (v in m) { halt 'h' }");
+    tells "an element of a map" [ No_halt ] (one ^ "m = [c: 1]\nif (m[v] == 1) { halt 'h' }");
+    tells "an element of a map, by get" [ No_halt ] (one ^ "m = [c: 1]\nif (m.get(v) == 1) { halt 'h' }");
+    tells "the order of names" [ No_halt ]
+      (one ^ "w = pick { type 'UUV' }\nif ([v, w].sort()[0] == w) { halt 'h' }");
+    tells "the order of names, in a closure" [ No_halt ]
+      (one ^ "w = pick { type 'UUV' }\nif ([v, w].max { u -> u } == v) { halt 'h' }");
+    tells "a question" [ No_halt ]
+      ~environment:(answering (fun prompt -> [ [ (if prompt = "who is c" then "1" else "0") ] ]))
+      (one ^ {|if (ask("who is ${v}") == 1) { halt 'h' }|});
+    tells "an answer" [ No_halt ] ~environment:(answering (fun _ -> [ [ "v.id == 'c'" ] ]))
+      (one ^ "if (ask('h')) { halt 'h' }");
+    tells "an error's text" [ No_error; No_halt ]
+      ~environment:(Environment.failing plain)
+      (one
+       ^ "execute watch task('p')[v] onError { if (it == 'p failed on C: failure'.replace('C', 'c')) { halt 'h' } }");
+    tells "an error's text, later" [ No_error; No_halt ]
+      ~environment:(Environment.failing plain)
+      (one
+       ^ "e = ''\nexecute watch (watch task('p')[v] onError { e = it }) onError {\nif (e.contains('C'.toLowerCase() + ':')) { halt 'h' } }");
+    keeps "a name in the program" [ Vehicles ] (one ^ "w = pick { id 'c'; timeout 1.seconds }");
+    keeps "a name that is computed" [ Vehicles ] (one ^ "w = pick { id 'C'.toLowerCase(); timeout 1.seconds }");
+    keeps "a plan for a vehicle" [ Vehicles ]
+      (one ^ "execute imcPlan { planName 'i'; vehicles 'c'; locate 41.1852, -8.7048; goTo speed:1.0 }");
+    tells "a plan for a vehicle that is computed" [ Vehicles ]
+      (one ^ "execute imcPlan { planName 'i'; vehicles 'C'.toLowerCase(); locate 41.1852, -8.7048; goTo speed:1.0 }");
+    tells "a plan for a vehicle that was picked" [ ]
+      (one ^ "execute imcPlan { planName 'i'; vehicles v; locate 41.1852, -8.7048; goTo speed:1.0 }");
+  ]
+
+let near_and_far = Pure_run.world [ uuv "a" ~north:5_000.; uuv "b"; uuv "c"; uuv "d" ]
+let open_alike = World.open_battery "c" [] (World.open_battery "b" [] three)
+let weak = Pure_run.world [ uuv "a"; uuv "b"; uuv "c" ~battery:0.2 ]
+
+let by_what_they_are =
+  [
+    keeps "a battery" ~world:weak [ No_halt ] (one ^ "if (battery(v) < 0.5) { halt 'h' }");
+    keeps "a battery, by a method" ~world:weak [ No_halt ] (one ^ "if (v.getBattery() < 0.5) { halt 'h' }");
+    keeps "a battery that is open" ~world:(World.open_battery "c" [ 0.2; 1. ] three) [ No_halt ]
+      (one ^ "if (battery(v) < 0.5) { halt 'h' }");
+    keeps "batteries that are open alike" ~world:open_alike [ No_halt ]
+      (one ^ "w = pick { type 'UUV' }\nif (battery(v) < 0.5 && battery(w) > 0.5) { halt 'h' }");
+    tells "batteries that are open alike, put into a text" ~world:open_alike []
+      (one ^ {|x = "${battery(v)}"|});
+    keeps "batteries that nobody looks at" ~world:weak [] (one ^ "execute task('p')[v]");
+    keeps "places that nobody looks at" ~world:near_and_far [] (one ^ "execute task('p')[v]");
+    keeps "a place" ~world:near_and_far [ No_halt ]
+      (one ^ "if (position(v) in area(location(41.1851, -8.7048), 10.km)) { } else { halt 'h' }\n\
+              if (v.getPosition().distance(position(v)) > 0) { halt 'h' }\n\
+              if (position(v).latitude > 41.2) { halt 'far' }");
+    keeps "a region" ~world:near_and_far [ Vehicles ]
+      ("w = pick { count 3; type 'UUV' }\nv = pick { region location(41.1851, -8.7048), 1.km; timeout 1.seconds }");
+    keeps "a distance" ~world:near_and_far ~environment:{ plain with losses = At_most 1 } [ Vehicles ]
+      {|team = pick { count 2; type 'UUV' }
+        w = pick { count 2; type 'UUV' }
+        execute watch imcPlan { planName 'i'; locate 41.1851, -8.7048; goTo speed:1.0 }[team] onError { ignore() }
+        release team[0]
+        v = pick { type 'UUV'; timeout 1.seconds }|};
+    keeps "payload" ~world:(Pure_run.world [ uuv "a"; uuv "b"; uuv "c" ~payload:[ "Multibeam" ] ]) [ Vehicles ]
+      (one ^ "w = pick { payload 'Multibeam'; timeout 1.seconds }");
+    keeps "type" ~world:(Pure_run.world [ uuv "a"; uuv "b"; uav "c" ]) [ No_halt ]
+      "v = pick { count 1 }\nif (v.getType() == 'UAV') { halt 'h' }";
+    keeps "a plan that fails on one"
+      ~environment:{ plain with endings = (fun v _ -> if v = "c" then Fails else Succeeds) }
+      [ No_error ] (one ^ "execute task('p')[v]");
+    keeps "a plan that fails on one, with a name that is computed"
+      ~environment:{ plain with endings = (fun v p -> if v = "c" && p = "p" then Fails else Succeeds) }
+      [ No_error ] (one ^ "execute task('P'.toLowerCase())[v]");
+    tells "one that may be late" ~environment:{ plain with latecomers = At_most 1; may_be_late = (fun v -> v = "c") }
+      [ Vehicles ] (one ^ "w = pick { count 2; type 'UUV'; timeout 1.seconds }");
+  ]
+
+let turns = Pure_run.world [ uuv "a"; uav "b"; uuv "c" ]
+
+let by_order =
+  [
+    tells "who was there before, picked among others" [ No_halt ]
+      (one ^ "release v\nw = pick { count 2; type 'UUV' }\nif (w[1] == v) { halt 'h' }");
+    tells "who was there before, all picked" [ No_halt ]
+      (one ^ "release v\nw = pick { count _; type 'UUV'; timeout 1.seconds }\nif (w[1] == v) { halt 'h' }");
+    tells "who was there before, for code of a task" [ No_halt ]
+      (one ^ "release v\nw = pick { count 2; type 'UUV' }\nexecute action { if (w[1] == v) { halt 'h' } }");
+    tells "who was there before, in a closure" [ No_halt ]
+      (one ^ "same = { w -> w == v }\nrelease v\nw = pick { count 2; type 'UUV' }\nif (same.call(w[1])) { halt 'h' }");
+    tells "who was there before, in N" [ No_halt; No_leftover ]
+      (one ^ "post at: v\nrelease v\nv = null\nw = pick { count 2; type 'UUV' }\nif (poll(at: w[1])) { halt 'h' }");
+    tells "who was lost before" ~environment:{ plain with losses = At_most 1 } [ No_error; Vehicles ]
+      (one
+       ^ "w = pick { type 'UUV' }\nexecute watch (task('p')[v]) onError { ignore() }\n\
+          execute task('q')[w]\nrelease v\nrelease w\nv = null\nw = null\n\
+          x = pick { count 3; type 'UUV' }");
+    tells "others between them" ~world:turns [ No_halt ]
+      (one ^ "w = pick { count 2 }\nif (w[0].getType() == 'UUV') { halt 'h' }");
+    keeps "others between them, of another pick" ~world:turns [] (one ^ "w = pick { type 'UUV' }");
+    keeps "who was there before, picked again alone" [ No_halt ]
+      (one ^ "release v\nw = pick { type 'UUV' }\nif (w == v) { halt 'h' }");
+    keeps "who was posted" [ No_halt; No_leftover ]
+      (one ^ "post at: v\nw = pick { type 'UUV' }\nrelease v\nu = pick { type 'UUV' }\nif (poll(at: u)) { halt 'h' }");
+    keeps "who was posted first" [ No_halt ]
+      (one ^ "w = pick { type 'UUV' }\npost at: w\npost at: v\nconsume at: _\nif (poll(at: v)) { halt 'h' }");
+    keeps "who was there before, and is forgotten" []
+      (one ^ "release v\nv = pick { count 2; type 'UUV' }\nrelease v\nv = pick { count 2; type 'UUV' }");
+    keeps "who was there before, in loops and functions" []
+      {|def fly(n) { def team = pick { count n; type 'UUV' }
+                     for (v in team) { message "with ${v}" }
+                     release team }
+        for (i in 1..2) { fly(2) ; w = pick { count 2; type 'UUV' } ; release w }|};
+    keeps "a function that reads what is assigned after it" [ No_halt ]
+      {|def first() { return v[0] }
+        v = pick { count 1; type 'UUV' }
+        release v
+        w = pick { count 1; type 'UUV' }
+        if (first() == w) { halt 'h' }|};
+    keeps "around, with another one each time" [ Termination ]
+      (one ^ "while (true) { w = pick { type 'UUV' }\nrelease v\nv = w }");
+  ]
+
+(* {1 Large fleets} *)
+
+let large n = Pure_run.world (List.init n (fun i -> uuv (Printf.sprintf "uuv-%d" i) ~north:(float i *. 100.)))
+
+let explored ?(environment = plain) world text =
+  let program = Pure_run.compile_exn text in
+  (program, Search.run { Search.default with environment; reduction = All; max_states = Some 10_000 } program world)
+
+let small name ?environment ?(n = 100) most text =
+  let test () =
+    let _, outcome = explored ?environment (large n) text in
+    if outcome.stopped <> None || outcome.states > most then
+      Alcotest.failf "%d states, at most %d expected" outcome.states most;
+    Alcotest.(check bool) "vehicles are exchanged" true outcome.peers
+  in
+  Alcotest.test_case name `Quick test
+
+let three_teams =
+  {|a = pick { count 3; type 'UUV' }
+    b = pick { count 3; type 'UUV' }
+    c = pick { count 3; type 'UUV' }
+    def fly(team, name) { return task(name + '1')[team] | task(name + '2')[team] | task(name + '3')[team] }
+    execute fly(a, 'p') | fly(b, 'q') | fly(c, 'r')
+    release a + b + c|}
+
+let each_in_turn =
+  {|for (i in 1..4) {
+      team = pick { count 3; type 'UUV' }
+      execute task('p')[team[0]] | task('q')[team[1]] | task('r')[team[2]]
+      for (v in team) { message "${v} is back" }
+      release team
+    }|}
+
+(* The run that shows it, in names of the fleet: each transition is one of the semantics. *)
+let test_run () =
+  let world = large 12 and environment = Environment.failing plain in
+  let text = each_in_turn ^ "\nv = pick { count 2 }\nrelease v[0]\nhalt 'h'" in
+  let program, outcome = explored ~environment world text in
+  match List.assoc Property.No_halt outcome.verdicts with
+  | Violated { steps; _ } ->
+    let step (c, e) (t : Transition.t) =
+      let is_it ((t' : Transition.t), _) = Label.equal t'.label t.label && Configuration.equal t'.next t.next in
+      match List.find_opt is_it (Environment.choices environment program world e c) with
+      | Some (t, e) -> (t.next, e)
+      | None -> Alcotest.failf "there is no %s" (Format.asprintf "%a" Label.pp t.label)
+    in
+    ignore (List.fold_left step (Configuration.initial program, Environment.initial) steps)
+  | Holds | Unreached _ | Inconclusive _ -> Alcotest.fail "it halts"
+
+let large_fleets =
+  [
+    small "three teams" 30 three_teams;
+    small "three teams, with failures" ~environment:(Environment.failing plain) 35 three_teams;
+    small "three teams, with losses" ~environment:{ plain with losses = Any_number } 60 three_teams;
+    small "teams in turn" 60 each_in_turn;
+    small "one by one" 400
+      "vs = pick { type 'UUV' }\nfor (i in 1..40) { vs = vs + pick { type 'UUV' } }\n\
+       for (v in vs) { execute task('p')[v] }";
+    small "all" ~n:50 20 "vs = pick { count _; timeout 1.seconds }\nexecute task('p')[vs[3]] | task('q')[vs]";
+    Alcotest.test_case "a run that is shown" `Quick test_run;
+  ]
+
+let () =
+  Alcotest.run "vehicles told apart"
+    [ ("by name", by_name); ("by what they are", by_what_they_are); ("by order", by_order);
+      ("large fleets", large_fleets) ]

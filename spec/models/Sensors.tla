@@ -34,7 +34,4 @@ SensorFleet ==
      [ ModelFleet[2] EXCEPT !.places = << 1, 2 >>, !.position = << Sighted(1), Sighted(2) >> ] >>
 SensorPlaces == << "(41.185000, -8.706200)", "(41.195000, -8.706200)" >>
 SensorDistances == << << 0, 1110671 >>, << 1110671, 0 >> >>
-
-ModelCode == CodeOfModel(Body, Closures)
-ModelLambdas == LambdasOfModel(Body, Closures)
 ==============================================================================

@@ -30,14 +30,19 @@ module Platform = struct
     Lwt.map translate (next p)
 end
 
+(* Whose answer was refused has nothing else to say, but for answers that are still to come. *)
 let console scenario =
-  let asked = Hashtbl.create 4 in
+  let asked = Hashtbl.create 4 and refused = Hashtbl.create 4 and latest = ref ("", "") in
   let ask prompt =
     let n = Option.value (Hashtbl.find_opt asked prompt) ~default:0 in
     Hashtbl.replace asked prompt (n + 1);
-    Lwt.return (Option.to_result ~none:"none is given" (Scenario.answer scenario prompt n))
+    Lwt.return
+      (match Scenario.answer scenario prompt n with
+       | None -> Error "none is given"
+       | Some text when Hashtbl.mem refused (prompt, text) -> Error "it was refused"
+       | Some text -> latest := (prompt, text); Ok text)
   in
-  { Console.say = ignore; ask; refused = ignore }
+  { Console.say = ignore; ask; refused = (fun _ -> Hashtbl.replace refused !latest ()) }
 
 (* What the fleet replies first, the first time, the second ... *)
 let host scenario =

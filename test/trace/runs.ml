@@ -36,17 +36,21 @@ let compile name source =
   | Ok (program, _) -> program
   | Error ds -> explain source ds
 
+(* An answer that was refused is not given again. *)
 let console ?(answered = []) scenario =
-  let asked = Hashtbl.create 4 in
+  let asked = Hashtbl.create 4 and refused = Hashtbl.create 4 and latest = ref ("", "") in
   let next prompt = Option.value (Hashtbl.find_opt asked prompt) ~default:0 in
   let count prompt = Hashtbl.replace asked prompt (next prompt + 1) in
   List.iter (fun (prompt, _) -> count prompt) answered;
   let ask prompt =
     let n = next prompt in
     count prompt;
-    Lwt.return (Option.to_result ~none:"nobody is there" (Scenario.answer scenario prompt n))
+    Lwt.return
+      (match Scenario.answer scenario prompt n with
+       | Some text when not (Hashtbl.mem refused (prompt, text)) -> latest := (prompt, text); Ok text
+       | Some _ | None -> Error "nobody is there")
   in
-  { Console.say = ignore; ask; refused = ignore }
+  { Console.say = ignore; ask; refused = (fun _ -> Hashtbl.replace refused !latest ()) }
 
 let host path =
   if Sys.file_exists path then

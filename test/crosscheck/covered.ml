@@ -20,6 +20,6 @@ let count installation prepared =
   Result.map counted (Batch.run ~coverage:true installation ~specification:Translated.specification prepared)
 
 let rules_where f counts = List.filter_map (fun c -> if f c then Some c.rule else None) counts
-let miscounted = List.filter (fun c -> c.taken <> c.derivations)
+let miscounted = List.filter (fun c -> c.taken < c.derivations || (c.taken > 0 && c.derivations = 0))
 let missing = rules_where (fun c -> c.taken = 0 && not (List.mem c.rule excused))
 let no_longer_excused = rules_where (fun c -> c.taken > 0 && List.mem c.rule excused)

@@ -17,7 +17,8 @@ val count :
 (** [count i ps] is the counts for all of [ps] together, in one run of TLC. *)
 
 val miscounted : counted list -> counted list
-(** Those of which the two counts are not the same. *)
+(** Those of which TLC took fewer transitions than it printed, or some where it printed none. It may take more: those with
+    one label between two states are printed as one. *)
 
 val missing : counted list -> Rule.t list
 (** Those that were not taken, and are not {!excused}. *)

@@ -265,8 +265,8 @@ let in_specification pattern =
     (String.split_on_char '\n' (read "../../spec/Dolphin.tla"))
 
 let specified () = in_specification "^\\([A-Z][A-Z0-9_]+\\)\\((.*)\\)? =="
-let actions () = in_specification "^Take_\\([A-Z0-9_]+ == .*\\)$"
-let disjuncts () = in_specification {r|^  \(\\/ Take_.*\)$|r}
+let actions () = in_specification "^Take_\\([A-Z0-9_]+(ts) == .*\\)$"
+let disjuncts () = in_specification {r|^     \(\\/ Take_.*\)$|r}
 
 let are_specified () =
   let operators = specified () in
@@ -281,11 +281,11 @@ let are_specified () =
   let unknown = List.filter (fun operator -> not (List.exists (fun name -> is_of name operator) names)) operators in
   Alcotest.(check (list string)) "each rule is an operator of spec/Dolphin.tla" [] missing;
   Alcotest.(check (list string)) "each operator of this spelling is a rule" [] unknown;
-  let action name = Printf.sprintf {|%s == \E j \in Taking("%s") : Take(j)|} (spelt name) name in
+  let action name = Printf.sprintf {|%s(ts) == \E j \in Taking("%s", ts) : Becomes(ts[j])|} (spelt name) name in
   Alcotest.(check (list string)) "each rule has an action" (List.map action names) (actions ());
   let words = List.concat_map (String.split_on_char ' ') (disjuncts ()) in
   let taken = List.filter (fun word -> word <> "" && word <> "\\/") words in
-  Alcotest.(check (list string)) "NextByRule takes each" (List.map (fun name -> "Take_" ^ spelt name) names) taken
+  Alcotest.(check (list string)) "NextByRule takes each" (List.map (fun name -> "Take_" ^ spelt name ^ "(ts)") names) taken
 
 let are_tested () =
   let tested = List.sort_uniq String.compare (List.map (fun e -> Rule.name e.rule) examples) in

@@ -111,13 +111,21 @@ let examples_with kinds directory =
 let examples =
   examples_with [ ("", Faults.none); (", with failures", { Faults.none with fail = Any_number }) ]
 
-let faulty_examples =
-  examples_with
+(* Of a supplier whose every call may fail. *)
+let unreliably_supplied c =
+  let replies call = List.map (fun round -> round @ [ Error "nobody is there" ]) (c.environment.replies call) in
+  if c.calls = [] then None
+  else Some { c with name = c.name ^ ", with calls that fail"; environment = { c.environment with replies } }
+
+let faulty_examples directory =
+  List.filter_map unreliably_supplied (examples_with [ ("", Faults.none) ] directory)
+  @ examples_with
     [ (", with losses", { Faults.none with loss = Any_number });
       (", with a latecomer", { Faults.none with join = At_most 1 });
       (", with all faults once", { Faults.none with fail = At_most 1; loss = At_most 1; join = At_most 1 });
       (", with interruptions", { Faults.none with interrupt = true });
       (", with a failure and interruptions", { Faults.none with fail = At_most 1; interrupt = true }) ]
+    directory
 
 (* {1 Traps} *)
 

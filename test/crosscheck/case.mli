@@ -24,7 +24,8 @@ val examples : string -> t list
     plans. A program that cannot be compiled is an error of ours, and raises [Failure]. *)
 
 val faulty_examples : string -> t list
-(** Likewise with losses, with a vehicle that is late, with at most one fault of each kind, and with interruptions. *)
+(** Likewise with losses, with a vehicle that is late, with at most one fault of each kind, with interruptions, and with
+    calls of a supplier that fail. *)
 
 val traps : t list
 (** Small programs for what random ones seldom meet, some of which may be interrupted. *)

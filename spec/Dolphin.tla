@@ -944,7 +944,8 @@ Take_HALT(ts) == \E j \in Taking("HALT", ts) : Becomes(ts[j])
 Take_FAULT(ts) == \E j \in Taking("FAULT", ts) : Becomes(ts[j])
 Take_INTERRUPT(ts) == \E j \in Taking("INTERRUPT", ts) : Becomes(ts[j])
 
-(* The same as Next. A transition is counted under each rule of its derivation: TLC -coverage shows which rules were used. *)
+(* The same as Next. A transition is counted under each rule of its derivation: TLC -coverage shows which rules were used.
+   TLC looks through all that a definition without parameters applies before it starts, but once through what a LET names. *)
 NextByRule ==
   LET ts == Known(vars) IN
      \/ Take_START(ts) \/ Take_DONE(ts) \/ Take_FAIL(ts) \/ Take_ACTION(ts) \/ Take_ACTION_ERR(ts)

@@ -53,14 +53,14 @@ The explorer takes all of them.
   no halt: holds
   no leftover tuples: holds
   all code reached: holds
-  86 states, 101 transitions, depth 38; reduced by partial order
+  46 states, 51 transitions, depth 38; reduced by partial order, symmetry of vehicles
   $ for reduction in none por symmetry all; do explore ../../examples/supplier.dol --reduction $reduction | tail -1; done
   86 states, 101 transitions, depth 38
   86 states, 101 transitions, depth 38; reduced by partial order
-  86 states, 101 transitions, depth 38
-  86 states, 101 transitions, depth 38; reduced by partial order
+  46 states, 51 transitions, depth 38; reduced by symmetry of vehicles
+  46 states, 51 transitions, depth 38; reduced by partial order, symmetry of vehicles
   $ explore ../../examples/supplier.dol --compress | tail -1
-  86 states, 101 transitions, depth 38; reduced by partial order
+  46 states, 51 transitions, depth 38; reduced by partial order, symmetry of vehicles
   $ dolphin lts ../../examples/supplier.dol | head -12
   des (0, 101, 86)
   (0,"call(getSupplier)",1)
@@ -256,6 +256,7 @@ What a supplier has replied the fleet does not go on with, unless it would have 
   dolphin: part.run: this run has a supplier, which died with its console: name it again with --supplier
   [2]
   $ dolphin exec real.dol --resume part.run --supplier ../../examples/supplier.py | tail -1
+  dolphin: the supplier is started anew: 2 calls that it has answered in this run are not made again
     13:10  program     ends
   $ head -n 4 real.run > part.run
   $ dolphin exec real.dol --resume part.run | tail -1

@@ -38,14 +38,16 @@ let nobody () = raise (Told_apart Peers.none)
 
 (* {1 Canonical forms} *)
 
-let names_vehicles r x =
-  let found = ref false in
+let named r x =
+  let found = ref [] in
   let look v =
-    if has_peers r v then found := true;
+    if has_peers r v then found := v :: !found;
     v
   in
   ignore (Renaming.value look x);
   !found
+
+let names_vehicles r x = named r x <> []
 
 let forget r c = Liveness.forget r.liveness (names_vehicles r) c
 
@@ -187,6 +189,11 @@ let check_answers r prompt =
     Hashtbl.add r.prompts prompt ()
   end
 
+(* Whoever a supplier names is known by name. *)
+let check_replies r call =
+  let names = function Ok x -> named r x | Error _ -> [] in
+  match List.concat_map names (List.concat (r.options.replies call)) with [] -> () | vs -> alone r vs
+
 let check_plan r (p : Core.platform_task) =
   if not (Hashtbl.mem r.plans p.name) then begin
     let ending v = r.options.endings v p.name in
@@ -213,7 +220,10 @@ let choices r outside (c : Configuration.t) =
     match c.control with
     | Waiting (_, Pick pick) -> picking r outside c pick
     | Waiting (_, Ask prompt) -> check_answers r prompt; r.world
-    | Script _ | Waiting (_, (Pause _ | Execute _ | Host_call _)) | Executing _ | Ended _ -> r.world
+    | Waiting (_, Host_call { subject; member; _ }) ->
+      check_replies r (Machine.name_of_call ~subject ~member);
+      r.world
+    | Script _ | Waiting (_, (Pause _ | Execute _)) | Executing _ | Ended _ -> r.world
   in
   let found = Environment.choices r.options r.program world outside c in
   let check ((t : Transition.t), _) =

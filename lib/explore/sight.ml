@@ -23,6 +23,9 @@ let nothing = 0
 let has kind k = k land kind <> 0
 let all = List.fold_left ( lor ) nothing
 
+(* Of what a supplier replies. Vehicles that it names are none of those that are alike: see [Roster]. *)
+let replies = text lor map
+
 let rec of_value = function
   | String _ -> text
   | Vehicles _ -> vehicles
@@ -32,7 +35,8 @@ let rec of_value = function
   | Task _ -> vehicles
   | Closure _ -> code
   | Settings _ -> vehicles lor text lor map lor code
-  | Null | Boolean _ | Integer _ | Number _ | Wildcard | Symbol _ | Range _ | Position _ | Area _ | Host _ -> nothing
+  | Host _ -> replies
+  | Null | Boolean _ | Integer _ | Number _ | Wildcard | Symbol _ | Range _ | Position _ | Area _ -> nothing
 
 (* {1 What is known so far} *)
 
@@ -187,6 +191,7 @@ and applied w lambda at operation arguments =
   | Builtin (Message | Halt | Assert), [ e ] -> said w lambda e; nothing
   | Concatenate, es -> put_into_text w at (values es); text
   | Builtin Ask, es -> put_into_text w at (values es); text lor map
+  | Builtin Get_supplier, _ -> replies
   | Binary Add, [ a; b ] ->
     let k = value_of a in
     let k' = value_of b in

@@ -120,6 +120,33 @@ let by_what_they_are =
       [ Vehicles ] (one ^ "w = pick { count 2; type 'UUV'; timeout 1.seconds }");
   ]
 
+(* A supplier [s], which replies this. *)
+let supplied known =
+  let known = ("getSupplier", [ [ Ok (Core.Host "s") ] ]) :: known in
+  let replies call = Option.value (List.assoc_opt call known) ~default:[] in
+  { plain with replies }
+
+let supplier = one ^ "s = getSupplier()\n"
+
+let by_replies =
+  [
+    keeps "a vehicle of a reply" ~environment:(supplied [ ("s.mine", [ [ Ok (Core.Vehicles [ "c" ]) ] ]) ]) [ No_halt ]
+      (supplier ^ "if (v == s.mine) { halt 'h' }");
+    tells "a vehicle within the second reply"
+      ~environment:(supplied [ ("s.mine", [ [ Ok Null ]; [ Ok (List [||]); Ok (List [| Vehicles [ "c" ] |]) ] ]) ]) [ No_halt ]
+      (supplier ^ "s.mine\nif (v in s.mine) { halt 'h' }");
+    keeps "the id of a reply" ~environment:(supplied [ ("s.name", [ [ Ok (String "c") ] ]) ]) [ Vehicles ]
+      (supplier ^ "w = pick { id s.name; timeout 1.seconds }");
+    tells "a key of a map of a reply" ~environment:(supplied [ ("s.book", [ [ Ok (Map []) ] ]) ]) [ No_halt ]
+      (supplier ^ "m = s.book\nm[v] = 1\nif (m.containsKey('C'.toLowerCase())) { halt 'h' }");
+    tells "keys of a map of a reply, one by one" ~environment:(supplied [ ("s.book", [ [ Ok (Map []) ] ]) ]) [ No_halt ]
+      (supplier ^ "m = s.book\nm[v] = 1\nfor (x in m) { if (x.key == 'C'.toLowerCase()) { halt 'h' } }");
+    tells "a name given to a supplier" ~environment:(supplied [ ("s.take", [ [ Ok (Boolean true) ] ]) ]) []
+      (supplier ^ "s.take(\"${v}\")");
+    keeps "replies that name no vehicle" ~environment:(supplied [ ("s.ready", [ [ Ok (Boolean true) ] ]) ]) []
+      (supplier ^ "if (s.ready) { execute task('p')[v] }");
+  ]
+
 let turns = Pure_run.world [ uuv "a"; uav "b"; uuv "c" ]
 
 let by_order =
@@ -229,5 +256,5 @@ let large_fleets =
 
 let () =
   Alcotest.run "vehicles told apart"
-    [ ("by name", by_name); ("by what they are", by_what_they_are); ("by order", by_order);
+    [ ("by name", by_name); ("by what they are", by_what_they_are); ("by replies", by_replies); ("by order", by_order);
       ("large fleets", large_fleets) ]

@@ -36,10 +36,11 @@ let after program world options steps from =
 
 let same (c, e) (c', e') = Configuration.equal c c' && Environment.compare e e' = 0
 
-(* A run that has no cycle must have come to where nothing happens. *)
+(* A run that has no cycle must have come to where nothing need happen. *)
 let is_run program world options (run : Search.run) =
   let there = after program world options run.steps [ (Configuration.initial program, Environment.initial) ] in
-  if run.cycle = [] then List.exists (fun (c, e) -> Environment.choices options program world e c = []) there
+  if run.cycle = [] then 
+    List.exists (fun (c, e) -> not (Environment.goes_on (Environment.choices options program world e c))) there
   else
     let comes_back state = List.exists (same state) (after program world options run.cycle [ state ]) in
     List.exists comes_back there
@@ -48,7 +49,7 @@ let is_run program world options (run : Search.run) =
 
 let propositions =
   [ "start"; "done"; "fail"; "start(p)"; "done(p)"; "start(q, a)"; "done(q)"; "bind"; "bind(b)"; "message"; "post";
-    "post(x)"; "post(x: 1)"; "consume"; "consume(y)"; "timeout"; "execute"; "pick"; "end"; "halt"; "error"; "ended";
+    "post(x)"; "post(x: 1)"; "consume"; "consume(y)"; "timeout"; "execute"; "pick"; "end"; "halt"; "error"; "interrupt"; "ended";
     "running(p)"; "running(p, a)"; "running(q)"; "running(q, b)"; "bound(a)"; "bound(c)"; "poll(x: _)"; "poll(x: 1)";
     "poll(y: 2)"; "{running('p') && running('q')}"; "{running('p', 'a') || poll(z: _)}" ]
 
@@ -71,7 +72,9 @@ let environments =
     ("with losses", { answering with losses = Any_number });
     ("with latecomers", { answering with latecomers = Any_number; may_be_late = (fun v -> v <> "a") });
     ( "with all of it, once",
-      { (Environment.failing ~failures:1 answering) with losses = At_most 1; latecomers = At_most 1 } ) ]
+      { (Environment.failing ~failures:1 answering) with losses = At_most 1; latecomers = At_most 1 } );
+    ("with interruptions", { answering with interruptions = true });
+    ("with failures and interruptions", { (Environment.failing answering) with interruptions = true }) ]
 
 let case =
   let open QCheck2.Gen in
@@ -111,9 +114,8 @@ let at program world =
 let graph_of program (g : Reference.t) : _ Dolphin_ltl.Search.graph =
   let configuration i = g.states.(i).configuration in
   let successors i =
-    match g.edges.(i) with
-    | [] -> [ (i, (None, configuration i)) ]
-    | edges -> List.map (fun ((t : Transition.t), j) -> (j, (Some t, t.next))) edges
+    let stays = if Environment.goes_on g.edges.(i) then [] else [ (i, (None, configuration i)) ] in
+    stays @ List.map (fun ((t : Transition.t), j) -> (j, (Some t, t.next))) g.edges.(i)
   in
   { start = (0, (None, Configuration.initial program)); successors }
 

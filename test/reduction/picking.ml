@@ -121,6 +121,30 @@ let functions =
            execute task('s')[u]\nrelease u + t }");
       (1, "def fly(t) { for (v in t) { release v }\nreturn t }") ]
 
+(* What a supplier says, which may name vehicles. *)
+let supplied =
+  let* v = vehicles and* v' = variable and* a = action in
+  let+ calls =
+    list_size (int_range 1 2)
+      (frequencyl
+         [ (3, f "if (%s == s.mine) { %s } else { g = g + 1 }" v a); (2, f "%s = s.mine" v');
+           (1, f "execute task('t')[%s & s.mine]" v); (2, f "%s = pick { id s.name }" v');
+           (1, f "m = s.book\nm[%s] = g\nfor (x in m) { if (x.key == 'b') { post y: 4 } }" v);
+           (3, "execute s.next()"); (1, f "if (s.ready(%s)) { post x: %s }" v v) ])
+  in
+  String.concat "\n" ("s = getSupplier()" :: calls)
+
+let replies call : (Core.value, string) result list list =
+  let task name = Ok (Core.Task (Platform { name; plan = None; task_site = Fault.unknown_site })) in
+  match call with
+  | "getSupplier" -> [ [ Ok (Host "s") ] ]
+  | "s.mine" -> [ [ Ok (Vehicles [ "b" ]) ]; [ Ok (Vehicles [ "c" ]); Ok (Vehicles [ "b" ]) ] ]
+  | "s.name" -> [ [ Ok (String "b"); Ok (String "c") ] ]
+  | "s.book" -> [ [ Ok (Map []) ] ]
+  | "s.next" -> [ [ task "s"; task "t" ] ]
+  | "s.ready" -> [ [ Ok (Boolean true); Error "closed" ] ]
+  | _ -> []
+
 let invariant =
   let* v = vehicles and* w = vehicles in
   oneofl
@@ -129,7 +153,9 @@ let invariant =
 
 let gen =
   let first = frequencyl [ (3, "count 1"); (3, "count 2"); (1, "type 'UUV'"); (1, "count 2; type 'UUV'") ] in
-  let* k = first and* k' = first and* body = map2 (fun a b -> a ^ "\n" ^ b) (statements 1) (statements 1) in
+  let between = frequency [ (2, return "\n"); (1, map (fun calls -> "\n" ^ calls ^ "\n") supplied) ] in
+  let body = map3 (fun first calls then_ -> first ^ calls ^ then_) (statements 1) between (statements 1) in
+  let* k = first and* k' = first and* body = body in
   let* functions = functions and* world = oneofl worlds in
   let text =
     String.concat "\n"

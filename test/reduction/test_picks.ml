@@ -10,8 +10,9 @@ let number name default = match Sys.getenv_opt name with Some n -> int_of_string
 let programs = number "PROGRAMS" 2_000
 let seed = number "SEED" 20_261_122
 let limit = number "LIMIT" 300
-let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "null" ] ]) }
-let reading = { Environment.default with answers = (fun _ -> [ [ "p"; "q[0].id == 'b'" ] ]) }
+let supplied = { Environment.default with replies = Picking.replies }
+let answering = { supplied with answers = (fun _ -> [ [ "1"; "null" ] ]) }
+let reading = { supplied with answers = (fun _ -> [ [ "p"; "q[0].id == 'b'" ] ]) }
 
 let failing fails : Environment.options =
   { answering with endings = (fun v p -> if fails v p then May_fail else Succeeds) }
@@ -24,6 +25,7 @@ let environments =
     ("with losses", { answering with losses = Any_number });
     ("with a loss", { answering with losses = At_most 1 });
     ("with a latecomer", { answering with latecomers = At_most 1 });
+    ("with interruptions", { answering with interruptions = true });
     ("vehicle b may fail", failing (fun v _ -> v = "b"));
     ("plan t may fail", failing (fun _ p -> p = "t"));
     ("plan t may fail on vehicle b", failing (fun v p -> v = "b" && p = "t")) ]

@@ -23,7 +23,7 @@ let graph_of_tlc installation ~directory =
   | Ok (Interrupted _) -> Report.complain "interrupted before TLC was done"; Error Exit_status.Inconclusive
   | Ok (Ended outcome) -> (
       match !problem, Printed_graph.graphs printed with
-      | None, Ok [ (_, graph) ] when is_complete printed outcome -> Ok graph
+      | None, Ok [ (_, graph) ] when is_complete printed outcome -> Ok (graph, Printed_graph.used printed)
       | None, Ok _ ->
         Report.complain
           (Printf.sprintf "TLC counts %d states and %d transitions, but its model printed %d and %d" outcome.distinct
@@ -51,16 +51,10 @@ let judge space theirs =
      | Enabled _ | Merged _ | Unmatched _ | No_matching -> Violated)
 
 (* Rules in the order of the semantics. *)
-let print_coverage graph =
-  let used = Hashtbl.create 60 in
-  let note rule = Hashtbl.replace used rule (1 + Option.value (Hashtbl.find_opt used rule) ~default:0) in
-  let note_all l = List.iter note (List.sort_uniq String.compare (Printed_graph.rules (Graph.label graph l))) in
-  Graph.iter graph (fun _ l _ -> note_all l);
+let print_coverage used =
   let print rule =
     let name = Dolphin_semantics.Rule.name rule in
-    match Hashtbl.find_opt used name with
-    | Some n -> Printf.printf "%-16s %d\n" name n
-    | None -> ()
+    if used name > 0 then Printf.printf "%-16s %d\n" name (used name)
   in
   List.iter print Dolphin_semantics.Rule.all
 
@@ -77,7 +71,7 @@ let run installation ~directory ~limit ~coverage model options (program : Progra
       Tlc_session.in_directory directory files @@ fun directory ->
       match graph_of_tlc installation ~directory with
       | Error status -> status
-      | Ok theirs ->
+      | Ok (theirs, used) ->
         let status = judge space theirs in
-        if coverage then print_coverage theirs;
+        if coverage then print_coverage used;
         status)

@@ -12,6 +12,7 @@ type t = {
   sources : Growing.t;
   edge_labels : Growing.t;
   targets : Growing.t;
+  derivations : (string, int) Hashtbl.t;  (* how many transitions have this one *)
   mutable current : int option;
   mutable transitions : int;
 }
@@ -26,22 +27,15 @@ type problem =
 
 let create () =
   { numbers = Hashtbl.create 1000; programs = Hashtbl.create 1000; initial = Hashtbl.create 10; labels = Hashtbl.create 100;
-    names = []; sources = Growing.create (); edge_labels = Growing.create (); targets = Growing.create (); current = None;
-    transitions = 0 }
+    names = []; sources = Growing.create (); edge_labels = Growing.create (); targets = Growing.create ();
+    derivations = Hashtbl.create 100; current = None; transitions = 0 }
 
 let mark text = "(" ^ text ^ ")"
-let by = " by "
-let label ~rules text = if rules = "" then text else text ^ by ^ rules
-
-(* Rules have no blanks in their names, but after a comma. *)
-let rules label =
-  let n = String.length label and width = String.length by in
-  let rec last i = if i < 0 then None else if String.sub label i width = by then Some (i + width) else last (i - 1) in
-  match last (n - width) with
-  | None -> []
-  | Some i -> List.map String.trim (String.split_on_char ',' (String.sub label i (n - i)))
+let label ~rules text = if rules = "" then text else text ^ " by " ^ rules
 
 (* {1 Reading} *)
+
+let count table key n = Hashtbl.replace table key (n + Option.value (Hashtbl.find_opt table key) ~default:0)
 
 let number table key =
   match Hashtbl.find_opt table key with
@@ -83,6 +77,7 @@ let transition g text ~rules target =
   | None -> Error No_state_yet
   | Some source ->
     add g source (label ~rules text) (state_number g target);
+    count g.derivations rules 1;
     g.transitions <- g.transitions + 1;
     Ok true
 
@@ -112,6 +107,15 @@ let line g line =
 
 let states g = Hashtbl.length g.programs
 let transitions g = g.transitions
+
+let used g =
+  let used = Hashtbl.create 60 in
+  let add derivation n =
+    let rules = List.map String.trim (String.split_on_char ',' derivation) in
+    List.iter (fun rule -> count used rule n) (List.sort_uniq String.compare rules)
+  in
+  Hashtbl.iter add g.derivations;
+  fun rule -> Option.value (Hashtbl.find_opt used rule) ~default:0
 
 (* For each program a builder, and for each state its number in its program's graph: the initial one is the first. *)
 let numbered g =

@@ -38,12 +38,12 @@ val label : rules:string -> string -> string
 (** [label ~rules l] is the label of a transition with the label [l] and that derivation: both, so that what is compared
     is both. *)
 
-val rules : string -> string list
-(** [rules (label ~rules l)] is [rules], one by one. *)
-
 val states : t -> int
 val transitions : t -> int
 (** Lines of each so far; marks are no transitions. *)
+
+val used : t -> string -> int
+(** [used g rule] is how many transitions so far have the rule of this name in their derivation. *)
 
 val graphs : t -> ((int * Graph.t) list, problem) result
 (** [graphs g], when all lines were read, is the graphs by program, in ascending order. *)

@@ -8,7 +8,7 @@ type result = { case : Case.t; states : int; transitions : int; verdict : verdic
 type t = {
   results : result list;
   warnings : string list;
-  used : (string * int) list;
+  used : string -> int;
   counted : Coverage.count list;
 }
 
@@ -88,13 +88,6 @@ let explore installation ~coverage directory =
 
 (* {1 Judging} *)
 
-(* In how many transitions each rule was used. *)
-let rules_of graphs =
-  let used = Hashtbl.create 60 in
-  let note rule = Hashtbl.replace used rule (1 + Option.value (Hashtbl.find_opt used rule) ~default:0) in
-  List.iter (fun (_, g) -> Graph.iter g (fun _ l _ -> List.iter note (List.sort_uniq compare (Printed_graph.rules (Graph.label g l))))) graphs;
-  List.sort compare (Hashtbl.fold (fun rule n all -> (rule, n) :: all) used [])
-
 let judge graphs i p =
   let verdict =
     match List.assoc_opt (i + 1) graphs with
@@ -125,7 +118,7 @@ let conclude prepared ~coverage r =
     (* Transitions with one label between two states are one in a graph. *)
     if ours <> transitions && List.for_all (fun (r : result) -> r.verdict = Agrees) results then
       Error (Printf.sprintf "the explorer counts %d transitions, and TLC %d" ours transitions)
-    else Ok { results; warnings = List.rev r.warnings; used = rules_of graphs; counted = r.counted }
+    else Ok { results; warnings = List.rev r.warnings; used = Printed_graph.used r.printed; counted = r.counted }
 
 let run ?(coverage = false) installation ~specification prepared =
   Result.bind (Family.files ~specification (List.map (fun p -> p.constants) prepared)) (fun files ->

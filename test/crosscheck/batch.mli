@@ -12,7 +12,7 @@ type result = { case : Case.t; states : int; transitions : int; verdict : verdic
 type t = {
   results : result list;
   warnings : string list;  (** what SANY and TLC warn of *)
-  used : (string * int) list;  (** the rules in the derivations of TLC's transitions, by name, with in how many *)
+  used : string -> int;  (** in how many of TLC's transitions the rule of this name stands in the derivation *)
   counted : Coverage.count list;  (** by TLC itself, if it was to *)
 }
 

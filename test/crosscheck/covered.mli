@@ -3,9 +3,6 @@
 
 open Dolphin_semantics
 
-val excused : Rule.t list
-(** Rules that no example can use in the worlds of [Case.examples] and [Case.faulty_examples]. *)
-
 type counted = {
   rule : Rule.t;
   taken : int;  (** how often TLC took its action *)
@@ -17,11 +14,7 @@ val count :
 (** [count i ps] is the counts for all of [ps] together, in one run of TLC. *)
 
 val miscounted : counted list -> counted list
-(** Those of which TLC took fewer transitions than it printed, or some where it printed none. It may take more: those with
-    one label between two states are printed as one. *)
+(** Those of which the two counts are not the same. *)
 
 val missing : counted list -> Rule.t list
-(** Those that were not taken, and are not {!excused}. *)
-
-val no_longer_excused : counted list -> Rule.t list
-(** The {!excused} ones that were taken. *)
+(** Those that were not taken. *)

@@ -4,8 +4,8 @@
    ignore, during, until or then) says what stands around the task that is executed; plain has nothing. LTL is a formula
    to be checked as well: a second line says how many states that took, and what comes of it. *)
 
-open Dolphin_semantics
 open Dolphin_explore
+module Pure_run = Test_support.Pure_run
 
 let program n =
   let each format = List.init n (fun i -> Printf.sprintf format (i + 1)) in
@@ -30,13 +30,6 @@ execute %s
     n
     (around (Printf.sprintf "(%s)[UUVs] | (allOf {\n%s\n})[UAV]" uuvs branches))
 
-let compile source =
-  let explain ds = failwith (Format.asprintf "%a" (Fmt.list (Dolphin_syntax.Diagnostic.pp ~source)) ds) in
-  match Dolphin_syntax.Parse.program ~file:"fleet.dol" source with
-  | Error ds -> explain ds
-  | Ok ast -> (
-      match Elaborate.program ~source_name:"fleet.dol" ast with Error ds -> explain ds | Ok (program, _) -> program)
-
 let formulas program =
   let formula text =
     match Temporal.of_string program text with Ok f -> f | Error why -> failwith (text ^ ": " ^ why)
@@ -44,10 +37,8 @@ let formulas program =
   List.map formula (Option.to_list (Sys.getenv_opt "LTL"))
 
 let world n =
-  let position = Dolphin_geo.Place.apdl in
-  let vehicle kind id = { World.id; kind; payload = []; position; battery = 1.; connected = true } in
-  let uuvs = List.init n (fun i -> vehicle "UUV" (Printf.sprintf "uuv-%d" (i + 1))) in
-  List.fold_left (fun w v -> World.add v w) World.empty (uuvs @ [ vehicle "UAV" "uav" ])
+  let uuvs = List.init n (fun i -> Pure_run.vehicle ~payload:[] (Printf.sprintf "uuv-%d" (i + 1))) in
+  Pure_run.world (uuvs @ [ Pure_run.vehicle ~kind:"UAV" ~payload:[] "uav" ])
 
 let () =
   let argument i = if i < Array.length Sys.argv then Some (int_of_string Sys.argv.(i)) else None in
@@ -68,7 +59,7 @@ let () =
     | Some _ | None -> Whole
   in
   let compress = Sys.getenv_opt "COMPRESS" <> None in
-  let program = compile (program n) in
+  let program = Pure_run.compile_exn (program n) in
   let formulas = formulas program in
   let options = { Search.default with environment; reduction; compress; max_states = argument 3; progress; formulas } in
   let o = Search.run options program (world n) in

@@ -3,8 +3,8 @@
    takes them. PROGRAM in the environment is which program: teams (three teams of three, side by side) or turns (a team
    of three, four times, one after the other). REDUCTION is none, por, symmetry or all, the default. *)
 
-open Dolphin_semantics
 open Dolphin_explore
+module Pure_run = Test_support.Pure_run
 
 let teams =
   {|a = pick { count 3; type 'UUV' }
@@ -24,30 +24,15 @@ let turns =
 }
 |}
 
-let compile source =
-  let explain ds = failwith (Format.asprintf "%a" (Fmt.list (Dolphin_syntax.Diagnostic.pp ~source)) ds) in
-  match Dolphin_syntax.Parse.program ~file:"picks.dol" source with
-  | Error ds -> explain ds
-  | Ok ast -> (
-      match Elaborate.program ~source_name:"picks.dol" ast with Error ds -> explain ds | Ok (program, _) -> program)
-
 (* Each at a place of its own. *)
 let world n =
-  let vehicle i =
-    let position = Dolphin_geo.Wgs84.displace Dolphin_geo.Place.apdl ~north:(float i *. 50.) ~east:0. in
-    { World.id = Printf.sprintf "uuv-%d" (i + 1); kind = "UUV"; payload = []; position; battery = 1.; connected = true }
-  in
-  List.fold_left (fun w v -> World.add v w) World.empty (List.init n vehicle)
+  let vehicle i = Pure_run.vehicle ~payload:[] ~north:(float i *. 50.) (Printf.sprintf "uuv-%d" (i + 1)) in
+  Pure_run.world (List.init n vehicle)
 
 let environment text =
   match if text = "none" then Ok Faults.none else Faults.of_string text with
   | Error why -> failwith why
-  | Ok { fail; loss; join } ->
-    let options = { Environment.default with losses = loss; latecomers = join } in
-    (match fail with
-     | Never -> options
-     | Any_number -> Environment.failing options
-     | At_most failures -> Environment.failing ~failures options)
+  | Ok faults -> Faults.add_to Environment.default faults
 
 let () =
   let n = int_of_string Sys.argv.(1) and environment = environment Sys.argv.(2) in
@@ -60,6 +45,6 @@ let () =
     | Some "symmetry" -> Symmetry
     | Some _ | None -> All
   in
-  let o = Search.run { Search.default with environment; reduction; max_states } (compile program) (world n) in
+  let o = Search.run { Search.default with environment; reduction; max_states } (Pure_run.compile_exn program) (world n) in
   Printf.printf "%d states, %d transitions, depth %d, %.2f s%s\n" o.states o.transitions o.depth (Sys.time ())
     (match o.stopped with None -> "" | Some bound -> Format.asprintf ", %a" Search.pp_bound bound)

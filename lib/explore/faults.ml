@@ -31,6 +31,13 @@ let add faults item =
 
 let of_string text = List.fold_left add (Ok none) (String.split_on_char ',' text)
 
+let add_to (options : Environment.options) faults =
+  let options = { options with losses = faults.loss; latecomers = faults.join; interruptions = faults.interrupt } in
+  match faults.fail with
+  | Never -> options
+  | Any_number -> Environment.failing options
+  | At_most n -> Environment.failing ~failures:n options
+
 let pp ppf faults =
   let item (name, (limit : Environment.limit)) =
     match limit with

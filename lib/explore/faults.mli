@@ -12,5 +12,9 @@ val none : t
 val of_string : string -> (t, string) result
 (** [of_string text] is what [text] spells: ["fail"], ["fail=1,loss=2"], ["all,interrupt"]; or what is wrong with it. *)
 
+val add_to : Environment.options -> t -> Environment.options
+(** [add_to o faults] is [o], with these faults instead of its losses, latecomers and interruptions, and with failures of
+    every task that may succeed, if there are to be any ({!Environment.failing}). *)
+
 val pp : Format.formatter -> t -> unit
 (** As {!of_string} reads it. *)

@@ -27,20 +27,13 @@ let answers given (scenario : Scenario.t) prompt =
 
 let is_unsteady (v : Scenario.vehicle) = v.joins > 0. || v.leaves <> None || v.drops <> []
 
-let environment ~answers:given ~(faults : Faults.t) (scenario : Scenario.t) =
+let environment ~answers:given ~faults (scenario : Scenario.t) =
   let unsteady = List.filter is_unsteady scenario.vehicles in
   let late = List.map (fun (v : Scenario.vehicle) -> v.id) (if unsteady = [] then scenario.vehicles else unsteady) in
-  let options =
+  Faults.add_to
     { Environment.default with
       endings = ending scenario;
       answers = answers given scenario;
-      losses = faults.loss;
-      latecomers = faults.join;
       may_be_late = (fun v -> List.mem v late);
-      replies = (fun call -> Option.value (Scenario.rounds scenario call) ~default:[]);
-      interruptions = faults.interrupt }
-  in
-  match faults.fail with
-  | Never -> options
-  | Any_number -> Environment.failing options
-  | At_most n -> Environment.failing ~failures:n options
+      replies = (fun call -> Option.value (Scenario.rounds scenario call) ~default:[]) }
+    faults

@@ -1,10 +1,10 @@
 open Cmdliner
 module Search = Dolphin_explore.Search
-module Environment = Dolphin_explore.Environment
+module Environment = Dolphin_environment.Environment
 module Value = Dolphin_semantics.Value
 module Property = Dolphin_explore.Property
-module Faults = Dolphin_explore.Faults
-module World_of = Dolphin_explore.World_of
+module Faults = Dolphin_environment.Faults
+module Scenario_world = Dolphin_environment.Scenario_world
 module Course = Dolphin_trace.Course
 
 type settings = {
@@ -183,7 +183,7 @@ let explore (program : Program_file.t) (fleet : Fleet_file.t) s invariants formu
   Sys.set_signal Sys.sigint (Signal_handle (fun _ -> interrupted := true));
   let live = Unix.isatty Unix.stderr && not s.json in
   let options : Search.options =
-    { environment = World_of.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
+    { environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
       reduction = s.reduction; compress = s.compress;
       search_again = Search.default.search_again;
       max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; memory_left = Memory.left;
@@ -193,9 +193,9 @@ let explore (program : Program_file.t) (fleet : Fleet_file.t) s invariants formu
       interrupted = (fun () -> !interrupted);
       progress = (if live then show_progress else ignore) }
   in
-  let outcome = Search.run options program.program (World_of.world fleet.scenario) in
+  let outcome = Search.run options program.program (Scenario_world.world fleet.scenario) in
   if live then clear_progress ();
-  let world = World_of.world fleet.scenario in
+  let world = Scenario_world.world fleet.scenario in
   let trouble =
     match s.trace, counter_example s.strict outcome with
     | Some path, Some found -> write_trace program fleet world path found

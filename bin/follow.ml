@@ -1,7 +1,7 @@
 open Dolphin_semantics
 module Course = Dolphin_trace.Course
 module Log = Dolphin_display.Log
-module World_of = Dolphin_explore.World_of
+module Scenario_world = Dolphin_environment.Scenario_world
 
 (* The columns of the time, which there is none of. *)
 let time_columns = 9
@@ -43,7 +43,7 @@ let run (program : Program_file.t) scenario path : Exit_status.t =
       match Course.of_lines lines with
       | Error why -> refuse why
       | Ok course -> (
-          match Course.follow program.program (World_of.world scenario) course with
+          match Course.follow program.program (Scenario_world.world scenario) course with
           | Error (taken, misfit) ->
             ignore (print_log 1 Log.start taken);
             refuse (Printf.sprintf "%s does not fit, at step %d: %s" program.path misfit.number misfit.why)

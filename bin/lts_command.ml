@@ -1,7 +1,7 @@
 open Cmdliner
 open Dolphin_lts
 module Reference = Dolphin_explore.Reference
-module World_of = Dolphin_explore.World_of
+module Scenario_world = Dolphin_environment.Scenario_world
 
 type format = Aut | Dot | Json
 
@@ -14,8 +14,8 @@ let graph_of_program path fleet ~answers ~faults ~limit =
   | Error trouble, _ -> Program_file.tell trouble; Error Exit_status.Bad_input
   | Ok _, Error trouble -> Fleet_file.tell trouble; Error Exit_status.Bad_input
   | Ok program, Ok fleet -> (
-      let environment = World_of.environment ~answers ~faults fleet.scenario in
-      match Reference.explore ~limit environment program.program (World_of.world fleet.scenario) with
+      let environment = Scenario_world.environment ~answers ~faults fleet.scenario in
+      match Reference.explore ~limit environment program.program (Scenario_world.world fleet.scenario) with
       | None ->
         Report.complain (Printf.sprintf "%s has more than %d states: see --max-states" path limit);
         Error Exit_status.Inconclusive

@@ -1,7 +1,7 @@
 open Cmdliner
 module Model = Dolphin_tla.Model
 module Scenario = Dolphin_scenario.Scenario
-module World_of = Dolphin_explore.World_of
+module Scenario_world = Dolphin_environment.Scenario_world
 
 let ( let* ) = Result.bind
 
@@ -11,8 +11,8 @@ let model (program : Program_file.t) (fleet : Fleet_file.t) ~answers ~faults =
   let scenario = fleet.scenario in
   let plans = List.map (fun (plan : Scenario.plan) -> plan.name) scenario.plans in
   let prompts = List.map (fun (answer : Scenario.answer) -> answer.prompt) scenario.answers in
-  let environment = World_of.environment ~answers ~faults scenario in
-  Model.of_program ~plans ~prompts ~calls:(calls fleet) ~environment (World_of.world scenario) program.program
+  let environment = Scenario_world.environment ~answers ~faults scenario in
+  Model.of_program ~plans ~prompts ~calls:(calls fleet) ~environment (Scenario_world.world scenario) program.program
 
 let load path fleet =
   match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet) with
@@ -22,7 +22,7 @@ let load path fleet =
 
 let unfit_replies (program : Program_file.t) (fleet : Fleet_file.t) ~answers ~faults =
   let named = Scenario.replies_at ~file:(Option.value fleet.path ~default:"") fleet.source in
-  let environment = World_of.environment ~answers ~faults fleet.scenario and world = World_of.world fleet.scenario in
+  let environment = Scenario_world.environment ~answers ~faults fleet.scenario and world = Scenario_world.world fleet.scenario in
   let refusal (call, why) = Dolphin_syntax.Diagnostic.error (List.assoc call named) why in
   List.map refusal (Model.unfit_replies ~environment ~calls:(calls fleet) world program.program)
 
@@ -61,7 +61,7 @@ let deed directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverag
     wrong "what is to be done with the model? -o DIR writes it, --run has TLC check it, --compare compares state graphs"
 
 let perform jar deed (program : Program_file.t) (fleet : Fleet_file.t) ~answers ~faults files =
-  let environment = World_of.environment ~answers ~faults fleet.scenario and world = World_of.world fleet.scenario in
+  let environment = Scenario_world.environment ~answers ~faults fleet.scenario and world = Scenario_world.world fleet.scenario in
   match deed with
   | Write directory -> Ok (write directory files)
   | Check settings ->

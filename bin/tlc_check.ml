@@ -1,7 +1,7 @@
 open Dolphin_tlc
 open Dolphin_semantics
 module Property = Dolphin_explore.Property
-module Environment = Dolphin_explore.Environment
+module Environment = Dolphin_environment.Environment
 
 module Run = Dolphin_tla.Run
 

@@ -9,7 +9,7 @@ type settings = {
 }
 
 val run :
-  Installation.t -> settings -> Dolphin_tla.Model.file list -> Dolphin_explore.Environment.options -> Program_file.t ->
+  Installation.t -> settings -> Dolphin_tla.Model.file list -> Dolphin_environment.Environment.options -> Program_file.t ->
   Dolphin_semantics.World.t -> Exit_status.t
 (** Runs TLC on the model of this program in this world, and prints what it found: whether each property holds; of the
     first that is violated a run, in columns, recovered by its labels. *)

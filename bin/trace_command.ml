@@ -43,7 +43,7 @@ let each_line path f =
 let world_of = function
   | None -> Ok Dolphin_semantics.World.empty
   | Some _ as named ->
-    let world (f : Fleet_file.t) = Dolphin_explore.World_of.still f.scenario in
+    let world (f : Fleet_file.t) = Dolphin_environment.Scenario_world.still f.scenario in
     Result.map world (Fleet_file.load named)
 
 let check program_path path fleet most =

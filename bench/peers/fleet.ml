@@ -4,6 +4,7 @@
    ignore, during, until or then) says what stands around the task that is executed; plain has nothing. LTL is a formula
    to be checked as well: a second line says how many states that took, and what comes of it. *)
 
+open Dolphin_environment
 open Dolphin_explore
 module Pure_run = Test_support.Pure_run
 

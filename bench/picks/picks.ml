@@ -3,6 +3,7 @@
    takes them. PROGRAM in the environment is which program: teams (three teams of three, side by side) or turns (a team
    of three, four times, one after the other). REDUCTION is none, por, symmetry or all, the default. *)
 
+open Dolphin_environment
 open Dolphin_explore
 module Pure_run = Test_support.Pure_run
 

@@ -1,5 +1,5 @@
 open Dolphin_semantics
-module Environment = Dolphin_explore.Environment
+module Environment = Dolphin_environment.Environment
 module Location = Dolphin_syntax.Location
 
 type file = { name : string; text : string }

@@ -3,7 +3,7 @@
     here, but for geometry. *)
 
 open Dolphin_semantics
-module Environment = Dolphin_explore.Environment
+module Environment = Dolphin_environment.Environment
 
 type file = { name : string;  (** without a directory *) text : string }
 

@@ -1,7 +1,7 @@
 (** Counter-examples of TLC as runs of the semantics, by their labels. *)
 
 open Dolphin_semantics
-module Environment := Dolphin_explore.Environment
+module Environment := Dolphin_environment.Environment
 
 type run = {
   steps : Transition.t list;

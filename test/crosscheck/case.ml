@@ -1,8 +1,8 @@
 open Dolphin_syntax
 open Dolphin_semantics
-module Environment = Dolphin_explore.Environment
-module Faults = Dolphin_explore.Faults
-module World_of = Dolphin_explore.World_of
+module Environment = Dolphin_environment.Environment
+module Faults = Dolphin_environment.Faults
+module Scenario_world = Dolphin_environment.Scenario_world
 module Generate = Test_support.Generate
 module Calls = Test_support.Calls
 module Scenario = Dolphin_scenario.Scenario
@@ -92,8 +92,8 @@ let scenario_beside path =
     | Error ds -> failwith (Format.asprintf "%a" (Fmt.list (Diagnostic.pp ~source:(read fleet))) ds)
 
 let in_scenario name source program (scenario : Scenario.t) faults =
-  { name; source; program; world = World_of.world scenario;
-    environment = World_of.environment ~answers:[] ~faults scenario;
+  { name; source; program; world = Scenario_world.world scenario;
+    environment = Scenario_world.environment ~answers:[] ~faults scenario;
     plans = List.map (fun (p : Scenario.plan) -> p.name) scenario.plans;
     prompts = List.map (fun (a : Scenario.answer) -> a.prompt) scenario.answers;
     calls = List.map (fun (r : Scenario.reply) -> r.call) scenario.replies }

@@ -5,7 +5,7 @@ type t = {
   source : string;
   program : Dolphin_semantics.Core.program;
   world : Dolphin_semantics.World.t;
-  environment : Dolphin_explore.Environment.options;
+  environment : Dolphin_environment.Environment.options;
   plans : string list;  (** that the environment may treat in a way of their own *)
   prompts : string list;  (** likewise *)
   calls : string list;  (** likewise *)

@@ -4,6 +4,7 @@
    tried, 2,000 by default. *)
 
 open Dolphin_syntax
+open Dolphin_environment
 open Dolphin_explore
 module Generate = Test_support.Generate
 module Calls = Test_support.Calls

@@ -2,6 +2,7 @@
    [pick]; two for each pick (it waits, and the script goes on, or the next pick waits: see each); one after [execute];
    and the end. *)
 
+open Dolphin_environment
 open Dolphin_explore
 open Test_support
 

@@ -1,6 +1,7 @@
 (* Counter-examples of random programs, with what they assume of the world, are written, read, and followed to where
    they lead; what does not fit is refused. *)
 
+open Dolphin_environment
 open Dolphin_explore
 module Generate = Test_support.Generate
 module Course = Dolphin_trace.Course

@@ -6,7 +6,7 @@
 
 open Dolphin_semantics
 open Dolphin_runtime
-open Dolphin_explore
+open Dolphin_environment
 module Scenario = Dolphin_scenario.Scenario
 module Simulator = Dolphin_platform_sim.Simulator
 module Generate = Test_support.Generate
@@ -148,13 +148,13 @@ let environment (scenario : Scenario.t) =
   let faults : Faults.t =
     { Faults.none with fail = where is_drained; loss = where is_unsteady; join = where is_unsteady }
   in
-  World_of.environment ~answers:[] ~faults scenario
+  Scenario_world.environment ~answers:[] ~faults scenario
 
 let steps = ref 0
 
 let is_explored ~seed scenario program =
   let taken = run ~seed scenario program in
-  steps := !steps + follow (environment scenario) program (World_of.world scenario) taken
+  steps := !steps + follow (environment scenario) program (Scenario_world.world scenario) taken
 
 (* {1 Examples} *)
 

@@ -4,6 +4,7 @@
 
 open Dolphin_syntax
 open Dolphin_semantics
+open Dolphin_environment
 open Dolphin_explore
 module Generate = Test_support.Generate
 module Linear = Test_support.Linear

@@ -1,6 +1,7 @@
 (* Each property, kept and broken by a small program, with the length of the shortest run that shows it; and what bounds
    do to verdicts. *)
 
+open Dolphin_environment
 open Dolphin_explore
 open Test_support
 module Property = Dolphin_explore.Property

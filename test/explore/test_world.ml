@@ -2,6 +2,7 @@
    lost ones. Each case says what happens in some run, and what in none. *)
 
 open Dolphin_semantics
+open Dolphin_environment
 open Dolphin_explore
 module Generate = Test_support.Generate
 module Pure_run = Test_support.Pure_run

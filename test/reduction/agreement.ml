@@ -1,4 +1,5 @@
 open Dolphin_semantics
+open Dolphin_environment
 open Dolphin_explore
 
 type t = { whole : int; reduced : int; broken : Property.t list }
@@ -188,10 +189,10 @@ let rec space_of_peers environment program world peers =
     if i = Space.count space then Space.flush space;
     if i < Space.count space then (Space.expand space i; from (i + 1))
   in
-  match from 0 with () -> space | exception Roster.Told_apart peers -> space_of_peers environment program world peers
+  match from 0 with () -> space | exception Canonical_vehicles.Told_apart peers -> space_of_peers environment program world peers
 
 let same_script program environment world (graph : Reference.t) =
-  let space = space_of_peers environment program world (Peers.find environment program ~asked:[] world) in
+  let space = space_of_peers environment program world (Vehicle_orbits.find environment program ~asked:[] world) in
   let state (s : Reference.state) found =
     if is_of_script s.configuration then
       let c, e = Space.canonical space s.configuration s.outside in

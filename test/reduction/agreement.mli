@@ -1,6 +1,7 @@
 (** Whether a reduced search finds what the plain one finds. *)
 
 open Dolphin_semantics
+open Dolphin_environment
 open Dolphin_explore
 
 type t = {
@@ -30,5 +31,5 @@ val check_peers :
   World.t ->
   ((t * bool) option, string) result
 (** [check_peers o p w] is likewise with [All] and [Symmetry], and is an error unless the script comes to the same
-    configurations as without, up to what [Peers.find] says is alike, and each of the invariants holds as without. The
+    configurations as without, up to what [Vehicle_orbits.find] says is alike, and each of the invariants holds as without. The
     truth value is whether some of that was exchanged. *)

@@ -3,6 +3,7 @@
    default; SEED is where they start. *)
 
 open Dolphin_syntax
+open Dolphin_environment
 open Dolphin_explore
 module Generate = Test_support.Generate
 module Calls = Test_support.Calls

@@ -3,6 +3,7 @@
    script, up to the names of vehicles. PROGRAMS in the environment is how many programs are tried, 2,000 by default;
    SEED is where they start. *)
 
+open Dolphin_environment
 open Dolphin_explore
 module Pure_run = Test_support.Pure_run
 

@@ -3,6 +3,7 @@
    order, is that of the plain one, and every run that it shows is one of the semantics. PROGRAMS in the environment is
    how many programs are tried, 2,000 by default; SEED is where they start. *)
 
+open Dolphin_environment
 open Dolphin_explore
 module Generate = Test_support.Generate
 module Calls = Test_support.Calls

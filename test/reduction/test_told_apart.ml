@@ -2,6 +2,7 @@
    picked first; and programs that do not, which must be explored with few states however large the fleet is. *)
 
 open Dolphin_semantics
+open Dolphin_environment
 open Dolphin_explore
 module Pure_run = Test_support.Pure_run
 

@@ -1,6 +1,6 @@
 (* Programs that a reduction too bold would get wrong, each with what it must find; and programs that it must reduce. *)
 
-open Dolphin_explore
+open Dolphin_environment
 module Pure_run = Test_support.Pure_run
 
 let world = Test_support.Generate.world

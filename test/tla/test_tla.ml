@@ -30,7 +30,7 @@ let texts () =
 
 (* {1 Programs} *)
 
-module Environment = Dolphin_explore.Environment
+module Environment = Dolphin_environment.Environment
 
 let translate ?(world = Pure_run.fleet) ?(environment = Environment.default) ?calls source =
   Model.of_program ~environment ?calls world (Pure_run.compile_exn source)

@@ -1,0 +1,282 @@
+open Dolphin_semantics
+open Dolphin_environment
+open Component
+
+(* A guard is known by its code, and by whether the code's value matters. *)
+module Guards = Hashtbl.Make (struct
+    type t = bool * Core.closure
+
+    let equal (check, c) (check', c') = check = check' && Value.compare_closure c c' = 0
+    let hash (check, c) = (2 * Value.hash_closure c) + Bool.to_int check
+  end)
+
+type t = {
+  options : Environment.options;
+  program : Core.program;
+  world : World.t;
+  root : path;
+  guards : guard Guards.t;
+  coverage : Coverage.t;
+  context : Step_footprints.context;
+  foreseen : int;
+  mutable paths : int;
+  mutable families : int;
+  mutable serial : int;
+  mutable outgrown : bool;
+}
+
+(* Stands for the inside where contexts are compared. *)
+let hole = Residual.Idle { timer = 0; seconds = 0. }
+
+let new_path id contexts outer body =
+  let parts = Residuals.create 16 and inner = Residuals.create 1 in
+  { id; contexts; outer; body; parts; inner; cuts = None; cuts_components = None }
+
+let create ?(foreseen = 2_048) options program world =
+  {
+    options;
+    program;
+    world;
+    root = new_path 0 [] None hole;
+    guards = Guards.create 64;
+    coverage = Coverage.create ();
+    context = Step_footprints.context options program;
+    foreseen;
+    paths = 1;
+    families = 0;
+    serial = 0;
+    outgrown = false;
+  }
+
+let options t = t.options
+let program t = t.program
+let world t = t.world
+let coverage t = t.coverage
+let root t = t.root
+
+(* {1 Trees} *)
+
+let plug contexts r = List.fold_left (fun r context -> Residual.within context r) r contexts
+let around path r = plug path.contexts r
+
+let outside path =
+  match path.outer with Some outer -> outer | None -> invalid_arg "Components.outside: the root"
+
+let inner t path contexts body =
+  let key = plug contexts hole in
+  match Residuals.find_opt path.inner key with
+  | Some inside -> inside
+  | None ->
+    let inside = new_path t.paths contexts (Some path) body in
+    t.paths <- t.paths + 1;
+    Residuals.add path.inner key inside;
+    inside
+
+(* Contexts, the innermost first, and what is in them. *)
+let opened r =
+  let rec from contexts r =
+    match Residual.opened r with
+    | Some (context, body) -> from (context :: contexts) body
+    | None -> (contexts, r)
+  in
+  from [] r
+
+let rec child t path r =
+  match opened r with
+  | (_ :: _ as contexts), (Residual.Parallel rs as body) ->
+    let inside = inner t path contexts body in
+    Nest (inside, List.map (child t inside) rs)
+  | _, _ -> Leaf r
+
+let tree t path (r : Residual.t) =
+  match r with Parallel rs -> List.map (child t path) rs | r -> [ child t path r ]
+
+(* {1 Families} *)
+
+let bits_for size =
+  let rec from bits = if 1 lsl bits >= size then bits else from (bits + 1) in
+  from 1
+
+let lay_out family = family.width <- bits_for family.size
+let outgrown t = t.outgrown
+let none_outgrown t = t.outgrown <- false
+
+let member t path family residual =
+  let p =
+    { residual; path; family; local = family.size; steps = [||]; worked_out = None; runs = -1; alone = None;
+      components = None }
+  in
+  if family.size = Array.length family.members then begin
+    let longer = Array.make (max 8 (2 * family.size)) p in
+    Array.blit family.members 0 longer 0 family.size;
+    family.members <- longer
+  end;
+  family.members.(family.size) <- p;
+  family.size <- family.size + 1;
+  if family.width > 0 && family.size > 1 lsl family.width then t.outgrown <- true;
+  Residuals.add path.parts residual p;
+  p
+
+let new_family t =
+  t.families <- t.families + 1;
+  { number = t.families - 1; members = [||]; size = 0; width = 0 }
+
+let guard t check closure =
+  match Guards.find_opt t.guards (check, closure) with
+  | Some guard -> guard
+  | None ->
+    let guard = { results = [||]; actions = [||] } in
+    Guards.add t.guards (check, closure) guard;
+    guard
+
+(* {1 Steps} *)
+
+let rec part t path residual =
+  match Residuals.find_opt path.parts residual with
+  | Some p -> p
+  | None ->
+    let family = new_family t in
+    let p = member t path family residual in
+    let rec foresee i =
+      if i < family.size && i < t.foreseen then begin
+        ignore (work_out t family.members.(i));
+        foresee (i + 1)
+      end
+    in
+    foresee 0;
+    p
+
+and grown t path = function
+  | Leaf r -> Leaf (part t path r)
+  | Nest (inside, children) -> Nest (inside, List.map (grown t inside) children)
+
+and becomes t path tree =
+  let children = List.map (grown t path) tree in
+  t.serial <- t.serial + 1;
+  Becomes { serial = t.serial; children; parts = Array.of_list (List.concat_map leaves children) }
+
+and target_of t path family residual =
+  match tree t path residual, family with
+  | [ Leaf r ], Some family -> (
+      match Residuals.find_opt path.parts r with
+      | Some p when p.family == family -> Stays p.local
+      | Some _ -> becomes t path [ Leaf r ]
+      | None -> Stays (member t path family r).local)
+  | tree, _ -> becomes t path tree
+
+(* Steps that go on in one way, whatever is shared, are settled here; the others case by case. *)
+and compile t home kin index (source : Residual.step) =
+  let by_case event =
+    { index; source; event; home; kin; dependence = By_case; target = Gone; stays = -1; free_action = -1; cases = [||] }
+  in
+  let certain event dependence =
+    let settled target =
+      let stays = match target with Stays n -> n | Gone | Becomes _ | Ends _ -> -1 in
+      { (by_case event) with dependence; target; stays }
+    in
+    match (source.continue Went).outcome with
+    | Next r -> settled (target_of t home kin r)
+    | Finished -> settled Gone
+    | Failed _ | Handling _ -> by_case event
+  in
+  match source.offer with
+  | Start _ -> [ certain None Free ]
+  | Perform closure -> [ certain None (Guarded (guard t false closure)) ]
+  | Check closure -> [ certain None (Guarded (guard t true closure)) ]
+  | Measure _ -> [ by_case None ]
+  | Expiry_of timer -> [ certain (Some (Timer_expired timer)) Free ]
+  | End_of (task, v) ->
+    let on_event (event, _) =
+      match event with
+      | Transition.Vehicle_done _ when not (Environment.endings_remember t.options) -> certain (Some event) Free
+      | event -> by_case (Some event)
+    in
+    List.map on_event (Environment.task_ends t.options Environment.initial v task)
+
+and work_out t p =
+  match p.worked_out with
+  | Some steps -> steps
+  | None ->
+    let compiled = List.mapi (compile t p.path (Some p.family)) (List.of_seq (Residual.steps p.residual)) in
+    let steps = Array.of_list (List.concat compiled) in
+    p.worked_out <- Some steps;
+    steps
+
+let children t path r = List.map (grown t path) (tree t path r)
+
+(* Code of a part that is reached is run, whatever comes of it. *)
+let cover t steps =
+  let step step =
+    match step.source.Residual.offer with
+    | Start (task, _) -> Coverage.start t.coverage task
+    | Perform c | Check c | Measure c -> Coverage.run t.coverage c
+    | End_of _ | Expiry_of _ -> ()
+  in
+  Array.iter step steps
+
+let reach t p =
+  let steps = work_out t p in
+  cover t steps;
+  p.steps <- steps
+
+(* {1 Components} *)
+
+let component_step step : Step_footprints.step =
+  { index = step.index; source = fst (Error_path.lifted step); event = step.event }
+
+let rec nests path = match path.outer with Some outer -> path.contexts :: nests outer | None -> []
+
+let components t p =
+  match p.components with
+  | Some components -> components
+  | None ->
+    let steps = Array.map component_step (work_out t p) in
+    let components = Step_footprints.of_part t.context (nests p.path) p.residual steps in
+    p.components <- Some components;
+    components
+
+(* {1 Nests} *)
+
+let cuts t path =
+  match path.cuts with
+  | Some cuts -> cuts
+  | None ->
+    let further contexts (step : Residual.step) =
+      let change reply =
+        List.fold_left (fun change context -> Residual.change_within context change) (step.continue reply) contexts
+      in
+      { step with continue = change }
+    in
+    let rec from body = function
+      | [] -> []
+      | context :: contexts ->
+        let cut = Option.map (further contexts) (Residual.cut context body) in
+        Option.to_list cut @ from (Residual.within context body) contexts
+    in
+    let compiled = List.mapi (compile t (outside path) None) (from path.body path.contexts) in
+    let cuts = Array.of_list (List.concat compiled) in
+    cover t cuts;
+    path.cuts <- Some cuts;
+    cuts
+
+let cuts_components t path =
+  match path.cuts_components with
+  | Some components -> components
+  | None ->
+    let components = Step_footprints.of_cuts t.context (nests path) (Array.map component_step (cuts t path)) in
+    path.cuts_components <- Some components;
+    components
+
+let alone t p =
+  match p.alone with
+  | Some target -> target
+  | None ->
+    let home = outside p.path in
+    let target = becomes t home (tree t home (around p.path p.residual)) in
+    p.alone <- Some target;
+    target
+
+let landed t step level r =
+  let rec up path n = if n = 0 then path else up (outside path) (n - 1) in
+  let home = up step.home level in
+  target_of t home (if level = 0 then step.kin else None) r

@@ -1,0 +1,59 @@
+(** The parts of executing tasks ({!Component}), each known by a small number, with their local steps worked out once. *)
+
+open Dolphin_semantics
+open Dolphin_environment
+
+type t
+
+val create : ?foreseen:int -> Environment.options -> Core.program -> World.t -> t
+(** So many members of a new family are worked out in advance: layouts are then seldom outgrown. *)
+
+val options : t -> Environment.options
+val program : t -> Core.program
+val world : t -> World.t
+val coverage : t -> Coverage.t
+
+(** {1:parts Parts} *)
+
+val children : t -> Component.path -> Residual.t -> Component.part Component.tree list
+(** [children t p r] is what [r], at [p], is made of. *)
+
+val root : t -> Component.path
+
+val reach : t -> Component.part -> unit
+(** [reach t p] works out the steps of [p], which some run reaches. *)
+
+val components : t -> Component.part -> Step_footprints.t
+(** [components t p] is of the steps of [p], in their order. *)
+
+(** {1:nests Nests} *)
+
+val cuts : t -> Component.path -> Component.step array
+(** [cuts t p] is the steps of the contexts of nests whose inside is at [p], which some run reaches. *)
+
+val cuts_components : t -> Component.path -> Step_footprints.t
+(** [cuts_components t p] is of these steps, in their order. *)
+
+val alone : t -> Component.part -> Component.target
+(** [alone t p] is what becomes of the nest around [p] when nothing else is left in it. *)
+
+val around : Component.path -> Residual.t -> Residual.t
+(** [around p r] is [r] in the contexts of the nest whose inside is at [p], which is not the root. *)
+
+val outside : Component.path -> Component.path
+(** [outside p] is where that nest stands. *)
+
+val landed : t -> Component.step -> int -> Residual.t -> Component.target
+(** [landed t s n r] is what becomes of the nest that is [n] levels above what [s] belongs to (0: of that itself) when
+    [r] takes its place. *)
+
+(** {1:families Widths of families} *)
+
+val lay_out : Component.family -> unit
+(** [lay_out f] makes [f] as wide as its members need. *)
+
+val outgrown : t -> bool
+(** Whether a family has outgrown its width since it was laid out. *)
+
+val none_outgrown : t -> unit
+(** All families have been laid out again. *)

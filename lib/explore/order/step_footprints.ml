@@ -1,0 +1,163 @@
+open Dolphin_semantics
+open Dolphin_environment
+open Core
+
+type t = {
+  footprints : Footprint.t array;
+  ends : bool array;
+  futures : Footprint.t array;
+  kills : bool array;
+  alone : Footprint.t option array;
+}
+
+type step = { index : int; source : Residual.step; event : Transition.event option }
+type context = { options : Environment.options; code : Footprint.code }
+
+let context options program = { options; code = Footprint.code program }
+let union = Footprint.union
+let all = List.fold_left union Footprint.empty
+let breaking = { Footprint.empty with breaks = true }
+
+(* {1 Futures} *)
+
+let ending c (p : platform_task) v =
+  let remembered = Environment.endings_remember c.options in
+  { Footprint.empty with remembered; breaks = Environment.may_fail c.options v p.name }
+
+(* Of a task whose errors this handler gets. *)
+let handled c (f : Footprint.t) handler = if f.breaks then union f (Footprint.of_code c.code handler) else f
+
+let rec future c (r : Residual.t) =
+  match r with
+  | Ready (p, v) | Running (p, v) -> ending c p v
+  | Action a -> Footprint.of_code c.code a
+  | Condition g -> Footprint.of_guard c.code g
+  | Sequence (r, rest) -> all (List.map (future c) (r :: rest))
+  | Parallel rs -> all (List.map (future c) rs)
+  | All_of (running, bs) -> all (Option.to_list (Option.map (future c) running) @ List.map (of_branch c) bs)
+  | One_of bs -> all (List.map (of_branch c) bs)
+  | Until (g, r) -> union (Footprint.of_guard c.code g) (future c r)
+  | Idle _ -> Footprint.empty
+  | During { duration = Seconds _; body; _ } -> future c body
+  | During { duration = Given_by d; body; _ } -> all [ breaking; Footprint.of_code c.code d; future c body ]
+  | Watch (r, handler) -> handled c (future c r) handler
+
+and of_branch c (b : Residual.branch) = union (Footprint.of_guard c.code b.guard) (future c b.body)
+
+(* {1 Steps} *)
+
+let handlers (source : Residual.step) =
+  let error = Fault.make Fault.unknown_site "" in
+  let rec of_change (change : Residual.change) =
+    match change.outcome with
+    | Handling { handler; propagated; _ } -> handler :: of_change (propagated error)
+    | Next _ | Finished | Failed _ -> []
+  in
+  of_change (source.continue (Broke error))
+
+let footprint c step =
+  let f =
+    match step.source.offer, step.event with
+    | End_of (p, v), Some (Vehicle_failed _) -> ending c p v
+    | End_of (p, v), _ -> { (ending c p v) with breaks = false }
+    | (Start _ | Expiry_of _), _ -> Footprint.empty
+    | Perform a, _ -> Footprint.of_code c.code a
+    | Check g, _ -> Footprint.of_guard c.code g
+    | Measure d, _ -> union breaking (Footprint.of_code c.code d)
+  in
+  if f.breaks then List.fold_left (handled c) f (handlers step.source) else f
+
+(* {1 Branches that may run first} *)
+
+(* A body whose steps are always possible, touch nothing, and can end it. *)
+let rec is_settled c (r : Residual.t) =
+  match r with
+  | Ready (p, v) | Running (p, v) -> Environment.may_succeed c.options v p.name
+  | Action a ->
+    let f = Footprint.of_code c.code a in
+    Footprint.is_free f && (not f.breaks) && not f.halts
+  | Idle _ -> true
+  | Sequence (r, rest) -> List.for_all (is_settled c) (r :: rest)
+  | Parallel rs -> List.for_all (is_settled c) rs
+  | Condition _ | All_of _ | One_of _ | Until _ | During _ | Watch _ -> false
+
+let only_takes (f : Footprint.t) =
+  Footprint.(Pairs.is_empty f.posts && Pairs.is_empty f.tests && Globals.is_empty f.writes && not f.anything)
+
+(* By branch: its footprint, if it may run first. [around] is what handlers of its errors touch. *)
+let branches_alone c around (bs : Residual.branch list) =
+  let whole = List.map (of_branch c) bs in
+  let rec each before (whole : Footprint.t list) (bs : Residual.branch list) =
+    match whole, bs with
+    | f :: after, b :: bs ->
+      let g = Footprint.of_guard c.code b.guard in
+      let f' = if f.breaks then union f around else f in
+      let clash = List.exists (Footprint.conflict ~possible:true f') in
+      let may =
+        is_settled c b.body && only_takes f' && (not g.breaks) && (not g.halts) && not (clash before || clash after)
+      in
+      (if may then Some f' else None) :: each (f :: before) after bs
+    | _, _ -> []
+  in
+  each [] whole bs
+
+(* Those of an [allOf] that waits, where errors cannot be ignored; [around] as above. *)
+let rec alone c around (r : Residual.t) =
+  match r with
+  | Sequence (r, _) | All_of (Some r, _) -> alone c around r
+  | Watch (r, handler) when not ((Footprint.of_code c.code handler).ignores && (future c r).breaks) ->
+    alone c (union around (Footprint.of_code c.code handler)) r
+  | All_of (None, bs) -> branches_alone c around bs
+  | Parallel _ | Ready _ | Running _ | Action _ | Condition _ | One_of _ | Until _ | Idle _ | During _ | Watch _ -> []
+
+(* {1 Components} *)
+
+(* What handlers among the contexts touch, and what starts when all in them is over. *)
+let handlers_of c contexts =
+  let handler = function
+    | Residual.Watched_by handler -> Some (Footprint.of_code c.code handler)
+    | Before _ | Branch_of _ | Body_until _ | Body_during _ -> None
+  in
+  List.filter_map handler contexts
+
+let following c contexts =
+  let following = function
+    | Residual.Before rest -> all (List.map (future c) rest)
+    | Branch_of bs -> all (List.map (of_branch c) bs)
+    | Body_until _ | Body_during _ | Watched_by _ -> Footprint.empty
+  in
+  all (List.map following contexts)
+
+(* [first] is what the component itself may do. An error may reach any handler around. *)
+let analyse c nests first alone steps =
+  let around = all (List.concat_map (handlers_of c) nests) in
+  let with_handlers (f : Footprint.t) = if f.breaks then union f around else f in
+  let further futures contexts =
+    match futures with
+    | f :: _ -> with_handlers (union f (following c contexts)) :: futures
+    | [] -> [ with_handlers first ]
+  in
+  let futures = Array.of_list (List.rev (List.fold_left further (further [] []) nests)) in
+  let ignores (f : Footprint.t) = f.ignores in
+  let kill level contexts = futures.(level).breaks && List.exists ignores (handlers_of c contexts) in
+  let footprints = Array.map (footprint c) steps in
+  let may_end (f : Footprint.t) = f.breaks || f.halts in
+  {
+    footprints;
+    ends = Array.map may_end footprints;
+    futures;
+    kills = Array.of_list (false :: List.mapi kill nests);
+    alone = Array.map (fun step -> Option.join (List.nth_opt alone step.index)) steps;
+  }
+
+let of_part c nests r steps =
+  let around = all (List.concat_map (handlers_of c) nests) in
+  analyse c nests (future c r) (alone c around r) steps
+
+let of_cuts c nests steps =
+  match nests with
+  | [] -> invalid_arg "Step_footprints.of_cuts: no nest"
+  | contexts :: nests ->
+    let f = all (following c contexts :: Array.to_list (Array.map (footprint c) steps)) in
+    let first = if f.breaks then all (f :: handlers_of c contexts) else f in
+    analyse c nests first [] steps

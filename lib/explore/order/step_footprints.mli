@@ -1,0 +1,34 @@
+(** What the components of an executing task may do: its parts, and nests with the steps of their contexts, the cuts.
+    What stands around a component is given as the contexts of its nests, the innermost nest first, and in each the
+    innermost context first. *)
+
+open Dolphin_semantics
+open Dolphin_environment
+
+type t = {
+  footprints : Footprint.t array;  (** of each step *)
+  ends : bool array;  (** by step: whether it may end the run *)
+  futures : Footprint.t array;
+  (** by level: all that the component may do until it is over, with what follows it inside of so many nests *)
+  kills : bool array;
+  (** by level, from 1: whether an error of all that may be ignored by the nest so far above, so that the nest goes *)
+  alone : Footprint.t option array;
+  (** by step: that of a whole branch of an [allOf] that the step starts, if it may as well run first. Its guard takes
+      and needs what no other branch touches; its body has steps that are always possible, touch nothing, and can end
+      it. *)
+}
+
+(** A step of a residual or nest, by its number in [Residual.steps], on one of the events it awaits, as a step of the
+    whole task ({!Error_path}). *)
+type step = { index : int; source : Residual.step; event : Transition.event option }
+
+type context
+
+val context : Environment.options -> Core.program -> context
+
+val of_part : context -> Residual.context list list -> Residual.t -> step array -> t
+(** [of_part c nests r steps] is for [steps], all the steps of [r]. *)
+
+val of_cuts : context -> Residual.context list list -> step array -> t
+(** [of_cuts c nests steps] is for [steps], all the cuts of the first of [nests]; the component's level 0 is around that
+    nest. *)

@@ -1,0 +1,125 @@
+open Dolphin_semantics
+open Dolphin_environment
+open Component
+module Shareds = Interner.Make (Shared)
+
+type t = { parts : Components.t; shareds : Shareds.t; observe : (Transition.local -> int) option }
+
+let create ?observe parts = { parts; shareds = Shareds.create (); observe }
+let shareds t = t.shareds
+let unknown = -1
+let impossible = -2
+let special = -3
+let configuration shared = Shared.under (Ended Interrupted) shared
+
+(* The handlers that ran: one for each rule of a handler in the derivation, the innermost first. *)
+let note_handlers t step (local : Transition.local) =
+  let of_handler = function Rule.Watch_ignore | Watch_propagate | Watch_halt | Assert_err -> true | _ -> false in
+  let settled = match local.derivation with Rule.Assert_err :: _ -> [] | rules -> List.filter of_handler rules in
+  let rec note n (change : Residual.change) =
+    match change.outcome with
+    | Handling { handler; fault; propagated; _ } when n > 0 ->
+      Coverage.run (Components.coverage t.parts) handler;
+      note (n - 1) (propagated fault)
+    | Handling _ | Next _ | Finished | Failed _ -> ()
+  in
+  note (List.length settled) ((fst (Error_path.lifted step)).continue (Broke (Fault.make Fault.unknown_site "")))
+
+let program t = Components.program t.parts
+let world t = Components.world t.parts
+
+let internal t world source shared = Transition.local_internal (program t) world (configuration shared) source
+
+let on_event t world (source : Residual.step) event shared =
+  Transition.local_event (program t) world (configuration shared) source event
+
+(* What the outside remembers after the event, if it can happen. *)
+let outside_after t (source : Residual.step) event (shared : Shared.t) =
+  match source.offer with
+  | End_of (task, v) ->
+    List.assoc_opt event (Environment.task_ends (Components.options t.parts) shared.outside v task)
+  | Start _ | Perform _ | Check _ | Measure _ | Expiry_of _ -> Some shared.outside
+
+type taken = { local : Transition.local; level : int; certain : bool }
+
+(* What [step] does, and at which level: several things, if it depends on sensors that may show this or that. *)
+let taken t step s =
+  let shared = Shareds.value t.shareds s in
+  let take world =
+    let source, level = Error_path.lifted step in
+    let local =
+      match step.event with
+      | None -> internal t world source shared
+      | Some event -> on_event t world source event shared
+    in
+    Option.map (fun local -> (local, !level)) local
+  in
+  let equal (local, level) (local', level') = Int.equal level level' && Transition.equal_local local local' in
+  let outside =
+    match step.event with
+    | None -> Some shared.outside
+    | Some event -> outside_after t step.source event shared
+  in
+  match outside with
+  | None -> ([], shared.outside)
+  | Some outside ->
+    let one (assumed, (local, level)) = { local; level; certain = assumed = [] } in
+    let found = List.map one (World.outcomes ~equal (world t) take) in
+    (match step.source.offer with
+     | Perform _ | Check _ | Measure _ | End_of _ -> List.iter (fun { local; _ } -> note_handlers t step local) found
+     | Start _ | Expiry_of _ -> ());
+    (found, outside)
+
+let shared_after t (local : Transition.local) outside =
+  Shareds.number t.shareds (Shared.of_configuration local.after outside)
+
+let grown xs length x =
+  let longer = Array.make (max length (2 * Array.length xs)) x in
+  Array.blit xs 0 longer 0 (Array.length xs);
+  longer
+
+let observed t local = match t.observe with None -> 0 | Some observe -> observe local
+
+let guarded t step guard s =
+  if s >= Array.length guard.results then begin
+    guard.results <- grown guard.results (s + 1) unknown;
+    if t.observe <> None then guard.actions <- grown guard.actions (s + 1) unknown
+  end;
+  if guard.results.(s) = unknown then
+    guard.results.(s) <-
+      (match taken t step s with
+       | [], _ -> impossible
+       | [ { local = { named = Check _ | Act _ | Cut _; _ } as local; certain = true; _ } ], outside ->
+         if t.observe <> None then guard.actions.(s) <- observed t local;
+         shared_after t local outside
+       | _ :: _, _ -> special);
+  guard.results.(s)
+
+let action t step s =
+  if step.free_action < 0 then
+    step.free_action <- (match taken t step s with { local; _ } :: _, _ -> observed t local | [], _ -> 0);
+  step.free_action
+
+let no_case =
+  { possible = false; certain = true; shared = -1; action = 0; level = 0; result = Gone; whole = -1; others = [] }
+
+let find t step s =
+  let found, outside = taken t step s in
+  let case others { local; level; certain } =
+    let result =
+      match local.outcome with
+      | Goes_on r -> Components.landed t.parts step level r
+      | Over -> Gone
+      | Ends ending -> Ends ending
+    in
+    let shared = shared_after t local outside and action = observed t local in
+    { possible = true; certain; shared; action; level; result; whole = -1; others }
+  in
+  match found with
+  | [] -> { no_case with possible = false }
+  | first :: rest -> case (List.map (case []) rest) first
+
+let case t step s =
+  if s >= Array.length step.cases then step.cases <- grown step.cases (s + 1) no_case;
+  if step.cases.(s) == no_case then step.cases.(s) <- find t step s;
+  step.cases.(s)

@@ -1,0 +1,316 @@
+open Dolphin_semantics
+open Core
+
+type t = {
+  named : site option;
+  spelled : site option;
+  places : bool;
+  batteries : bool;
+  picks : bool;
+  texts : string list;
+}
+
+(* {1 Kinds}
+
+   What may be somewhere in a value: a set of these. Of tasks, only vehicles matter. *)
+
+let vehicles = 1
+let text = 2
+let map = 4
+let reading = 8
+let code = 16
+let nothing = 0
+let has kind k = k land kind <> 0
+let all = List.fold_left ( lor ) nothing
+
+(* Of what a supplier replies. Vehicles that it names are none of those that are alike: see [Canonical_vehicles]. *)
+let replies = text lor map
+
+let rec of_value = function
+  | String _ -> text
+  | Vehicles _ -> vehicles
+  | List xs -> Array.fold_left (fun k x -> k lor of_value x) nothing xs
+  | Map entries -> List.fold_left (fun k (_, x) -> k lor of_value x) map entries
+  | Reading _ -> reading
+  | Task _ -> vehicles
+  | Closure _ -> code
+  | Settings _ -> vehicles lor text lor map lor code
+  | Host _ -> replies
+  | Null | Boolean _ | Integer _ | Number _ | Wildcard | Symbol _ | Range _ | Position _ | Area _ -> nothing
+
+(* {1 What is known so far} *)
+
+type place = Variable of int | Slot of int * int  (** of a lambda *) | Result of int
+
+type knowledge = {
+  kinds : (place, int) Hashtbl.t;
+  lambdas : (int, lambda) Hashtbl.t;
+  handlers : (int, unit) Hashtbl.t;
+  mutable grown : bool;
+  mutable found : t;
+}
+
+let kind w place = Option.value (Hashtbl.find_opt w.kinds place) ~default:nothing
+
+let add w place k =
+  let before = kind w place in
+  if before lor k <> before then begin
+    w.grown <- true;
+    Hashtbl.replace w.kinds place (before lor k)
+  end
+
+let note w (lambda : lambda) =
+  if not (Hashtbl.mem w.lambdas lambda.id) then begin
+    w.grown <- true;
+    Hashtbl.add w.lambdas lambda.id lambda
+  end
+
+let tells w at = if w.found.named = None then w.found <- { w.found with named = Some at }
+let spells w at = if w.found.spelled = None then w.found <- { w.found with spelled = Some at }
+let sees_places w = w.found <- { w.found with places = true }
+let sees_batteries w = w.found <- { w.found with batteries = true }
+
+let note_text w s =
+  if not (List.mem s w.found.texts) then w.found <- { w.found with texts = s :: w.found.texts }
+
+(* A value of this kind becomes part of a text. *)
+let put_into_text w at k =
+  if has vehicles k then tells w at;
+  if has reading k then spells w at
+
+(* What it gives to call this with the arguments that [given] knows, by parameter. *)
+let call w (lambda : lambda) given =
+  for slot = 0 to lambda.parameters - 1 do add w (Slot (lambda.id, slot)) (given slot) done;
+  kind w (Result lambda.id)
+
+let call_any w given = Hashtbl.fold (fun _ lambda results -> results lor call w lambda given) w.lambdas nothing
+
+(* What it gives to call what [e] is, which holds [k], if it is code. *)
+let call_value w e k given =
+  match e.node with
+  | Make_closure (lambda, _) | Constant (Closure { lambda; _ }) -> call w lambda given
+  | _ -> if has code k then call_any w given else nothing
+
+(* {1 Methods} *)
+
+(* Of a set of vehicles, or of things with vehicles in them: these do the same for vehicles of other names. *)
+let of_numbers = [ "size"; "length"; "isEmpty"; "empty"; "contains"; "equals"; "indexOf" ]
+let of_texts = [ "getType"; "type"; "getPayload"; "payload" ]
+let of_elements =
+  [ "first"; "last"; "head"; "tail"; "get"; "add"; "push"; "leftShift"; "addAll"; "remove"; "removeAt"; "removeElement";
+    "clear"; "reverse"; "unique"; "take"; "drop"; "toList" ]
+
+let calling =
+  [ "each"; "eachWithIndex"; "collect"; "collectWithIndex"; "findAll"; "filter"; "find"; "inject"; "any"; "every";
+    "count"; "times" ]
+
+let of_places = [ "getPosition"; "position" ]
+let of_batteries = [ "getBattery"; "battery" ]
+
+(* [k] is what the subject and the arguments hold; [calls given] calls what code there is among them with that. *)
+let called_method w at name k calls =
+  (* Places and batteries of vehicles hold none. *)
+  let shown = if has map k then k lor reading else reading in
+  let is_one_of = List.mem name in
+  let sees_place = is_one_of of_places and sees_battery = is_one_of of_batteries in
+  if sees_place then sees_places w;
+  if sees_battery then sees_batteries w;
+  let given = if has map k then k lor text else k in
+  (* A map's own code goes by any name. *)
+  let results = if name = "call" || is_one_of calling || has map k then calls given else nothing in
+  (* [inject] hands results on. *)
+  let results = if name = "inject" then calls (given lor results) else results in
+  if sees_place || sees_battery then shown lor results
+  else if has map k && has vehicles k && is_one_of [ "get"; "contains"; "remove" ] then (tells w at; k)
+  else if is_one_of of_numbers then results
+  else if is_one_of of_texts then text lor results
+  else if is_one_of of_elements then k lor results
+  else if is_one_of calling then given lor results
+  else if name = "call" then results
+  else begin
+    let results = calls given in
+    if has vehicles (k lor results) then tells w at;
+    k lor text lor map lor results
+  end
+
+(* {1 Code} *)
+
+let named_arguments names = if List.exists Option.is_some names then map else nothing
+
+let rec constants e =
+  match e.node with
+  | Constant (String _) -> true
+  | Apply (Make_list, es) -> List.for_all constants es
+  | _ -> false
+
+let rec value w (lambda : lambda) e =
+  let value_of = value w lambda in
+  let values es = all (List.map value_of es) in
+  match e.node with
+  | Constant x ->
+    (match x with String s -> note_text w s | Closure c -> note w c.lambda | _ -> ());
+    of_value x
+  | Local 0 when Hashtbl.mem w.handlers lambda.id && lambda.parameters > 0 -> tells w e.site; text
+  | Local slot -> kind w (Slot (lambda.id, slot))
+  | Global i -> kind w (Variable i)
+  | Set_local (slot, e) ->
+    let k = value_of e in
+    add w (Slot (lambda.id, slot)) k;
+    k
+  | Set_global (i, e) ->
+    let k = value_of e in
+    add w (Variable i) k;
+    k
+  | Make_closure (inner, slots) ->
+    note w inner;
+    let capture slot outer =
+      if outer = 0 && Hashtbl.mem w.handlers lambda.id && lambda.parameters > 0 then tells w e.site;
+      add w (Slot (inner.id, slot)) (kind w (Slot (lambda.id, outer)))
+    in
+    List.iter2 capture (Array.to_list inner.captures) slots;
+    code
+  | If (test, yes, no) ->
+    ignore (value_of test);
+    let k = value_of yes in
+    k lor value_of no
+  | Block es -> List.fold_left (fun _ e -> value_of e) nothing es
+  | While (test, body) -> ignore (values [ test; body ]); nothing
+  | For (slot, range, body) ->
+    let k = value_of range in
+    add w (Slot (lambda.id, slot)) (if has map k then k lor text else k);
+    ignore (value_of body);
+    nothing
+  | Return e -> add w (Result lambda.id) (value_of e); nothing
+  | Break | Continue -> nothing
+  | Apply (operation, arguments) -> applied w lambda e.site operation arguments
+
+and applied w lambda at operation arguments =
+  let value_of = value w lambda in
+  let values es = all (List.map value_of es) in
+  match operation, arguments with
+  | Builtin (Message | Halt | Assert), [ e ] -> said w lambda e; nothing
+  | Concatenate, es -> put_into_text w at (values es); text
+  | Builtin Ask, es -> put_into_text w at (values es); text lor map
+  | Builtin Get_supplier, _ -> replies
+  | Binary Add, [ a; b ] ->
+    let k = value_of a in
+    let k' = value_of b in
+    if has text (k lor k') then put_into_text w at (k lor k');
+    k lor k'
+  | Binary (Equal | Not_equal), es ->
+    let k = values es in
+    if has vehicles k then if has reading k then spells w at;
+    nothing
+  | Binary Member_of, [ x; xs ] ->
+    let k = value_of x in
+    if has map (value_of xs) && has vehicles k then tells w at;
+    nothing
+  | Binary Parallel, [ x; y ] ->
+    let k = value_of x in
+    let k' = value_of y in
+    ignore (call_value w y k' (fun _ -> k));
+    k lor k'
+  | Binary Divide, es -> values es land lnot code
+  | Binary (Less | Less_equal | Greater | Greater_equal), es -> ignore (values es); nothing
+  | (Element | Replace_element), x :: i :: rest ->
+    let k = value_of x in
+    let k' = value_of i in
+    if has map k && has vehicles k' then tells w at;
+    k lor k' lor values rest
+  | Replace_member _, es -> map lor values es
+  | Make_map keys, es ->
+    let k = values es in
+    if List.mem None keys && has vehicles k then tells w at;
+    map lor k
+  | Property ("id" | "ids"), [ x ] ->
+    let k = value_of x in
+    if has vehicles k then tells w at;
+    k lor text
+  | Property name, [ x ] ->
+    let k = value_of x in
+    let shown = if has map k then k lor reading else reading in
+    if List.mem name of_places then (sees_places w; shown)
+    else if List.mem name of_batteries then (sees_batteries w; shown)
+    else k lor text
+  | Method (name, names), es ->
+    let ks = List.map value_of es in
+    let calls given = all (List.map2 (fun e k -> call_value w e k (fun _ -> given)) es ks) in
+    called_method w at name (all ks lor named_arguments names) calls
+  | Call names, callee :: es ->
+    let k = value_of callee in
+    let ks = List.map value_of es in
+    let given =
+      if List.for_all Option.is_none names then fun slot -> Option.value (List.nth_opt ks slot) ~default:nothing
+      else fun _ -> all ks lor map
+    in
+    call_value w callee k given
+  | Builtin Make_watch, [ t; { node = Make_closure (handler, _); _ } as code ] ->
+    if not (Hashtbl.mem w.handlers handler.id) then begin
+      w.grown <- true;
+      Hashtbl.add w.handlers handler.id ()
+    end;
+    values [ t; code ] land vehicles
+  | ( ( Builtin (Platform_task | Make_action | Make_condition | Make_wait_for | Make_until | Make_idle | Make_during
+                | Make_watch)
+      | Make_branch ),
+      es ) -> values es land vehicles
+  | Builtin Position_of, es -> ignore (values es); sees_places w; reading
+  | Builtin Battery_of, es -> ignore (values es); sees_batteries w; reading
+  | Add_setting (name, _), so_far :: es ->
+    let k = value_of so_far in
+    let given = values es in
+    if name = "region" then sees_places w;
+    if name = "vehicles" then (if not (List.for_all constants es) then tells w at)
+    else if has vehicles given then tells w at;
+    k
+  | Build (builder, _), es -> built w builder (values es)
+  | Unary Not, es -> ignore (values es); nothing
+  | ( ( Unary _ | Binary _ | Make_list | Make_range _ | Element | Replace_element | Property _ | Call _ | Builtin _
+      | Add_setting _ ),
+      es ) -> values es
+
+and built w builder k =
+  match (builder : Dolphin_syntax.Ast.builder) with
+  | Pick ->
+    w.found <- { w.found with picks = true };
+    vehicles
+  | Imc_plan -> sees_places w; nothing
+  | Pos -> nothing
+  | All_of | One_of -> k land vehicles
+
+(* What is said, for people: who reads it may read names. *)
+and said w lambda e =
+  let say = said w lambda in
+  match e.node with
+  | Local 0 when Hashtbl.mem w.handlers lambda.id -> ()
+  | Apply ((Concatenate | Binary Add), es) -> List.iter say es
+  | Apply ((Method (("getId" | "getIds" | "toString" | "join"), _) | Property ("id" | "ids")), es) -> List.iter say es
+  | If (test, yes, no) ->
+    ignore (value w lambda test);
+    say yes;
+    say no
+  | _ -> ignore (value w lambda e)
+
+let of_program (program : program) ~asked =
+  let found = { named = None; spelled = None; places = false; batteries = false; picks = false; texts = [] } in
+  let w =
+    { kinds = Hashtbl.create 64; lambdas = Hashtbl.create 16; handlers = Hashtbl.create 8; grown = true; found }
+  in
+  List.iter (note w) (program.main :: List.map snd program.functions);
+  (* Their code has no closures; it is numbered apart from that of the program. *)
+  List.iteri (fun i (c : closure) -> note w { c.lambda with id = -1 - i }) asked;
+  let walk id (lambda : lambda) = add w (Result id) (value w lambda lambda.code) in
+  while w.grown do
+    w.grown <- false;
+    Hashtbl.iter walk (Hashtbl.copy w.lambdas)
+  done;
+  w.found
+
+let rec computes e =
+  match e.node with
+  | Constant (Null | Boolean _ | Integer _ | Number _ | String _ | Symbol _) -> true
+  | Apply ((Unary _ | Binary _ | Make_list | Make_map _ | Make_range _ | Concatenate), es) ->
+    List.for_all computes es
+  | Block es -> List.for_all computes es
+  | If (a, b, c) -> List.for_all computes [ a; b; c ]
+  | _ -> false

@@ -1,0 +1,143 @@
+open Dolphin_semantics
+open Dolphin_environment
+open Core
+
+type context = { options : Environment.options; patterns : Skeleton.context }
+
+let context options program = { options; patterns = Skeleton.context program }
+let patterns c = c.patterns
+
+type label = Task of site | Code of int
+
+(* {1 What is in a residual} *)
+
+type leaf = Of_task of platform_task | Of_code of bool * closure
+
+let rec fold f acc (r : Residual.t) =
+  match r with
+  | Ready (p, _) | Running (p, _) -> f acc (Of_task p)
+  | Action c | Condition c -> f acc (Of_code (false, c))
+  | Sequence (a, rest) -> List.fold_left (fold f) (fold f acc a) rest
+  | Parallel rs -> List.fold_left (fold f) acc rs
+  | All_of (a, bs) -> List.fold_left (fold_branch f) (Option.fold ~none:acc ~some:(fold f acc) a) bs
+  | One_of bs -> List.fold_left (fold_branch f) acc bs
+  | Until (c, a) -> fold f (f acc (Of_code (false, c))) a
+  | Idle _ -> acc
+  | During { duration = Seconds _; body; _ } -> fold f acc body
+  | During { duration = Given_by c; body; _ } -> fold f (f acc (Of_code (false, c))) body
+  | Watch (a, c) -> fold f (f acc (Of_code (true, c))) a
+
+and fold_branch f acc (b : Residual.branch) = fold f (f acc (Of_code (false, b.guard))) b.body
+
+let label = function Of_task p -> Task p.task_site | Of_code (_, c) -> Code c.lambda.id
+let collected f r = List.rev (fold (fun found leaf -> List.rev_append (f leaf) found) [] r)
+let labels = collected (fun leaf -> [ label leaf ])
+let closures = collected (function Of_task _ -> [] | Of_code (handler, c) -> [ (handler, c) ])
+
+let pairs c r =
+  let of_closure (handler, code) = Array.to_list (Skeleton.of_code c.patterns ~handler code).pairs in
+  Array.of_list (List.concat_map of_closure (closures r))
+
+(* {1 Keys} *)
+
+type spelling = { context : context; sorted : bool; pair : int -> string; name : label -> string }
+
+let ending s (p : platform_task) v =
+  match s.context.options.endings v p.name with
+  | Environment.Succeeds -> "s"
+  | May_fail -> "m"
+  | Fails -> "f"
+
+let code s ~handler c =
+  let p = Skeleton.of_code s.context.patterns ~handler c in
+  let pairs = String.concat "," (List.map s.pair (Array.to_list p.pairs)) in
+  Printf.sprintf "%s:%d{%s}" (s.name (Code c.lambda.id)) p.skeleton pairs
+
+let beside s keys = String.concat "|" (if s.sorted then List.sort String.compare keys else keys)
+
+let rec spell s (r : Residual.t) =
+  match r with
+  | Ready (p, v) -> Printf.sprintf "t%s%s" (ending s p v) (s.name (Task p.task_site))
+  | Running (p, v) -> Printf.sprintf "T%s%s" (ending s p v) (s.name (Task p.task_site))
+  | Action c -> "a" ^ code s ~handler:false c
+  | Condition c -> "c" ^ code s ~handler:false c
+  | Sequence (a, rest) -> "(" ^ String.concat ">" (List.map (spell s) (a :: rest)) ^ ")"
+  | Parallel rs -> "[" ^ beside s (List.map (spell s) rs) ^ "]"
+  | All_of (a, bs) ->
+    let running = match a with Some a -> spell s a | None -> "" in
+    "all(" ^ running ^ "!" ^ beside s (List.map (spell_branch s) bs) ^ ")"
+  | One_of bs -> "one(" ^ beside s (List.map (spell_branch s) bs) ^ ")"
+  | Until (c, a) -> "until(" ^ code s ~handler:false c ^ "," ^ spell s a ^ ")"
+  | Idle { seconds; _ } -> Printf.sprintf "idle%h" seconds
+  | During { duration; started; body; _ } ->
+    let time = match duration with Seconds x -> Printf.sprintf "%h" x | Given_by c -> code s ~handler:false c in
+    Printf.sprintf "during(%b,%s,%s)" started time (spell s body)
+  | Watch (a, c) -> "watch(" ^ code s ~handler:true c ^ "," ^ spell s a ^ ")"
+
+and spell_branch s (b : Residual.branch) = code s ~handler:false b.guard ^ "?" ^ spell s b.body
+
+let key context ~sorted ~pair ~label r = spell { context; sorted; pair; name = label } r
+
+(* {1 Matching} *)
+
+exception Different
+
+let matched context ~rename r r' =
+  let spelling pair = { context; sorted = true; pair = (fun n -> string_of_int (pair n)); name = (fun _ -> "") } in
+  let before = spelling rename and after = spelling Fun.id in
+  let found = ref [] in
+  let note l l' = found := (l, l') :: !found in
+  let same_code ~handler c c' =
+    if code before ~handler c <> code after ~handler c' then raise_notrace Different;
+    note (Code c.lambda.id) (Code c'.lambda.id)
+  in
+  (* Children with equal keys may stand for each other: the first that is left does. *)
+  let children spell each xs xs' =
+    if List.compare_lengths xs xs' <> 0 then raise_notrace Different;
+    let left = Hashtbl.create 16 in
+    List.iter (fun x' -> Hashtbl.add left (spell after x') x') (List.rev xs');
+    let find x =
+      let key = spell before x in
+      match Hashtbl.find_opt left key with
+      | None -> raise_notrace Different
+      | Some x' ->
+        Hashtbl.remove left key;
+        each x x'
+    in
+    List.iter find xs
+  in
+  let rec go (r : Residual.t) (r' : Residual.t) =
+    match r, r' with
+    | Ready (p, v), Ready (p', v') | Running (p, v), Running (p', v') ->
+      if ending before p v <> ending after p' v' then raise_notrace Different;
+      note (Task p.task_site) (Task p'.task_site)
+    | Action c, Action c' | Condition c, Condition c' -> same_code ~handler:false c c'
+    | Sequence (a, rest), Sequence (a', rest') ->
+      if List.compare_lengths rest rest' <> 0 then raise_notrace Different;
+      List.iter2 go (a :: rest) (a' :: rest')
+    | Parallel rs, Parallel rs' -> children spell go rs rs'
+    | All_of (None, bs), All_of (None, bs') | One_of bs, One_of bs' -> children spell_branch branch bs bs'
+    | All_of (Some a, bs), All_of (Some a', bs') ->
+      go a a';
+      children spell_branch branch bs bs'
+    | Until (c, a), Until (c', a') ->
+      same_code ~handler:false c c';
+      go a a'
+    | Watch (a, c), Watch (a', c') ->
+      same_code ~handler:true c c';
+      go a a'
+    | Idle { seconds; _ }, Idle { seconds = seconds'; _ } when seconds = seconds' -> ()
+    | During ({ duration = Seconds s; _ } as d), During ({ duration = Seconds s'; _ } as d')
+      when s = s' && d.started = d'.started -> go d.body d'.body
+    | During ({ duration = Given_by c; _ } as d), During ({ duration = Given_by c'; _ } as d')
+      when d.started = d'.started ->
+      same_code ~handler:false c c';
+      go d.body d'.body
+    | ( ( Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _
+        | Idle _ | During _ | Watch _ ),
+        _ ) -> raise_notrace Different
+  and branch (b : Residual.branch) (b' : Residual.branch) =
+    same_code ~handler:false b.guard b'.guard;
+    go b.body b'.body
+  in
+  match go r r' with () -> Some !found | exception Different -> None

@@ -1,0 +1,23 @@
+(** The state graph by the book: breadth first over configurations in a hash table. Slow, and plain enough to be read;
+    {!Search} must agree with it. *)
+
+open Dolphin_semantics
+open Dolphin_environment
+
+type state = { configuration : Configuration.t; outside : Environment.t }
+
+type t = {
+  states : state array;  (** breadth first; the initial one is number 0 *)
+  edges : (Transition.t * int) list array;  (** by state: its transitions, in order, with the state each leads to *)
+  depths : int array;  (** by state: the fewest transitions that lead there *)
+}
+
+val explore : ?limit:int -> Environment.options -> Core.program -> World.t -> t option
+(** [explore o p w] is the whole graph, or [None] if it has more than [limit] states, 100,000 by default. *)
+
+val transitions : t -> int
+val depth : t -> int
+
+val broken : t -> (Property.t * int) list
+(** The properties of {!Property.all} that are broken, but for [All_reached]: each with the fewest transitions after
+    which this shows; for [Termination], until the first state is met again. *)

@@ -72,6 +72,8 @@ let contradiction how ~sim ~follow ~resumed ~changed =
         || resumed <> None)
   then Some "a recorded run (--follow) goes with its program and a fleet, and with no other options"
   else if changed && resumed = None then Some "--force-prefix goes with --resume"
+  else if journal = Some "-" then
+    Some "standard output has the log, and no journal beside it: name a file (./- for one that is called so)"
   else None
 
 let run path sim fleet network definition speed seed answers supplier supplier_timeout journal drawing follow resumed

@@ -4,6 +4,7 @@ module Reference = Dolphin_explore.Reference
 module Scenario_world = Dolphin_environment.Scenario_world
 
 type format = Aut | Dot | Json
+type equivalence = Strong
 
 let ( let* ) = Result.bind
 
@@ -84,7 +85,7 @@ let run path other fleet answers faults limit format quotient output =
     | Some other ->
       let* other = graph_of_file other ~of_program in
       Ok (compare_graphs graph other)
-    | None -> Ok (write format output (if quotient then Partition.minimal graph else graph))
+    | None -> Ok (write format output (match quotient with Some Strong -> Partition.minimal graph | None -> graph))
   in
   match result with Ok status | Error status -> status
 
@@ -111,8 +112,8 @@ let format =
 
 let quotient =
   let doc = "Write the smallest graph that is bisimilar: $(b,strong)." in
-  let kinds = [ ("strong", true) ] in
-  Arg.(value & opt (enum kinds) false & info [ "quotient" ] ~docv:"KIND" ~doc)
+  let kinds = [ ("strong", Strong) ] in
+  Arg.(value & opt (some (enum kinds)) None & info [ "quotient" ] ~docv:"KIND" ~doc)
 
 let output =
   let doc = "Write to $(docv) instead of standard output." in

@@ -117,7 +117,7 @@ let man =
     `S Imc_options.s_network;
     `S Manpage.s_exit_status;
     `S Manpage.s_examples;
-    `Pre "  $(mname) $(tname) examples/inline_plan.dol\n  $(mname) $(tname) examples/inline_plan.dol P" ]
+    `Pre "  $(mname) $(tname) examples/water_survey.dol\n  $(mname) $(tname) examples/water_survey.dol waterSurvey" ]
   @ Options.see_also
 
 let command =

@@ -67,9 +67,17 @@ let lock path fd =
     raise (Broken (path ^ ": another console is writing this journal"))
   | exception Unix.Unix_error _ -> ()
 
+(* A regular file is read before anything of it is overwritten. Of a pipe we must not hold the reading end: we would
+   never be told that its reader has gone. *)
+let open_mode path : Unix.open_flag =
+  match (Unix.stat path).st_kind with
+  | S_REG -> O_RDWR
+  | S_DIR | S_CHR | S_BLK | S_LNK | S_FIFO | S_SOCK -> O_WRONLY
+  | exception Unix.Unix_error _ -> O_RDWR
+
 (* Nothing of the file is lost before it is ours. *)
 let open_file path =
-  match Unix.openfile path [ O_RDWR; O_CREAT; O_CLOEXEC ] 0o666 with
+  match Unix.openfile path [ open_mode path; O_CREAT; O_CLOEXEC ] 0o666 with
   | fd ->
     lock path fd;
     fd

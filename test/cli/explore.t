@@ -542,3 +542,9 @@ What cannot be explored.
   Usage: dolphin explore [OPTION]… PROG
   Try 'dolphin explore --help' or 'dolphin --help' for more information.
   [2]
+  $ dolphin explore round.dol --trace round.svg
+  dolphin: option '--trace': 'round.svg' is the name of a picture, and what is
+           written is JSON
+  Usage: dolphin explore [OPTION]… PROG
+  Try 'dolphin explore --help' or 'dolphin --help' for more information.
+  [2]

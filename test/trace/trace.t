@@ -247,3 +247,20 @@ A program that is stuck.
   [1]
   $ dolphin trace check stuck.dol stuck.run
   stuck.run: a run, of 4 transitions in 0:00; stuck
+
+A reader of the journal that goes away ends the run.
+
+  $ echo 'for(i in 1..2000) { post a: i; consume a:_ }' > long.dol
+  $ (timeout 20 dolphin exec long.dol --journal /dev/stdout 2> trouble; echo "status $?" >> trouble) | head -c 20; echo
+  {"format":"dolphin-j
+  $ cat trouble
+  dolphin: the journal cannot be written: /dev/stdout: Broken pipe; the run was ended as by Ctrl-C
+  status 3
+
+Standard output has the log, and no journal beside it.
+
+  $ dolphin exec long.dol --journal -
+  dolphin: standard output has the log, and no journal beside it: name a file (./- for one that is called so)
+  [2]
+  $ test -e ./-
+  [1]

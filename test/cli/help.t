@@ -1,0 +1,12 @@
+Every command has a manual page.
+
+  $ for command in "" check conform exec explore fleet lts parse plan sim step tla trace "trace check" "trace show" "trace draw"; do
+  >   dolphin $command --help=plain > page || echo "dolphin $command --help: status $?"
+  >   grep -q '^NAME' page || echo "dolphin $command --help: no page"
+  > done
+
+The files that manual pages name as examples are there.
+
+  $ for command in "" check conform exec explore fleet lts parse plan sim step tla trace; do
+  >   dolphin $command --help=plain | grep -o 'examples/[a-z_]*\.[a-z]*'
+  > done | grep -v '\.aut$' | sort -u | while read -r file; do test -e "../../$file" || echo "$file: no such file"; done

@@ -15,6 +15,9 @@ type t = {
 
 let period = 0.1
 
+(* Seconds that nobody sets: when the system's time is set, the board is redrawn all the same. *)
+let now () = Int64.to_float (Mtime_clock.elapsed_ns ()) *. 1e-9
+
 let make ~live ~on_closed output =
   { output; live; on_closed; closed = false; board = (fun () -> []); drawn = 0; asking = false;
     pending = Buffer.create 256; due = false; last = neg_infinity }
@@ -51,11 +54,11 @@ let draw s ~board =
   let lines = if board then s.board () else [] in
   s.drawn <- List.length lines;
   let below = if lines = [] then "" else "\027[?7l" ^ String.concat "\n" lines ^ "\n\027[?7h" in
-  s.last <- Unix.gettimeofday ();
+  s.last <- now ();
   write s (erased ^ text ^ below)
 
 let redraw s =
-  let wait = s.last +. period -. Unix.gettimeofday () in
+  let wait = s.last +. period -. now () in
   if s.asking || s.due then ()
   else if wait <= 0. then draw s ~board:true
   else begin

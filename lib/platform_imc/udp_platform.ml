@@ -1,4 +1,5 @@
 open Dolphin_semantics
+open Dolphin_runtime
 open Lwt.Infix
 
 type options = {
@@ -17,6 +18,7 @@ type options = {
   note : Core.vehicle -> string -> unit;
   keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
   sync : (unit -> unit Lwt.t) option;
+  clock : Clock.t;
 }
 
 let default =
@@ -24,12 +26,12 @@ let default =
     announce_ports = [ 30100; 30101; 30102; 30103; 30104 ];
     group = Unix.inet_addr_of_string "224.0.75.69";
     payload = []; types = []; type_names = []; listens = false; close_patience = 5.; note = (fun _ _ -> ());
-    keep = (fun ~time:_ _ _ -> ()); sync = None }
+    keep = (fun ~time:_ _ _ -> ()); sync = None; clock = Clock.system }
 
 type t = {
   options : options;
   settings : Station.settings;
-  clock : Steady_clock.t;
+  now : unit -> float;
   data : Lwt_unix.file_descr;
   announcements : Lwt_unix.file_descr;
   speakers : Unix.file_descr list;  (* one for each interface that announcements leave by *)
@@ -53,7 +55,7 @@ let virtual_time = false
 let longest_silence = 16.
 let announce_period _ = longest_silence
 let gathering = 0.002
-let now p = Steady_clock.now p.clock
+let now p = p.now ()
 
 (* {1 Sending} *)
 
@@ -211,7 +213,7 @@ let settings options ~port ~hosts ~time : Station.settings =
   { id;
     name = Option.value options.name ~default:(Printf.sprintf "ccu-dolphin-%04x" id);
     addresses = List.map (fun host -> { Service.host; port }) hosts;
-    epoch = Unix.gettimeofday () -. time;
+    epoch = options.clock.date () -. time;
     first_request = Random.State.int random 0x10000;
     payload = options.payload; types = options.types; type_names = options.type_names; listens = options.listens }
 
@@ -237,7 +239,7 @@ let make ?(time = 0.) ?standing options =
   let announcements = Lwt_unix.of_unix_file_descr ~blocking:false announcements in
   Sockets.join announcements options.group ~interfaces;
   let p =
-    { options; settings; clock = Steady_clock.make ~time (); data = Lwt_unix.of_unix_file_descr ~blocking:false data;
+    { options; settings; now = Clock.stopwatch ~at:time options.clock; data = Lwt_unix.of_unix_file_descr ~blocking:false data;
       announcements; speakers = List.filter_map Sockets.speaker interfaces; port;
       buffer = Bytes.create 65536; station; gate = None; armed = infinity; rearm = None; waiting = None;
       closing = None; failure = None; closed = false; unsent = 0 }
@@ -258,7 +260,7 @@ let opened make =
 let open_ options = opened (fun () -> make options)
 
 let open_again options ~time moments =
-  let standing = Dolphin_runtime.Past.standing ~announce_period:longest_silence moments in
+  let standing = Past.standing ~announce_period:longest_silence moments in
   opened (fun () -> make ~time ~standing options)
 
 (* {1 Commands} *)

@@ -27,11 +27,13 @@ type options = {
   sync : (unit -> unit Lwt.t) option;
   (** Resolves once all that was kept before survives this machine, too. Requests to start plans wait for that
       ({!Gate}); with [None] they do not. *)
+  clock : Clock.t;  (** Only the dates in the headers of IMC packets begin with its [date]. *)
 }
 
 val default : options
 (** As vehicles with the usual settings expect it: ports 30100 to 30104, the group 224.0.75.69, all interfaces, 5 s;
-    notes are thrown away, and so is what is to be kept, which no request waits for; {!heard} is not kept. *)
+    notes are thrown away, and so is what is to be kept, which no request waits for; {!heard} is not kept; the clock is
+    {!Clock.system}. *)
 
 include Platform.S
 

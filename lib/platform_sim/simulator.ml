@@ -10,7 +10,7 @@ module type S = sig
 end
 
 (* How time passes while nobody looks. *)
-module type Clock = sig
+module type Time = sig
   type t
 
   val virtual_time : bool
@@ -23,16 +23,16 @@ module type Clock = sig
 end
 
 (* The shell: one state, and a pending [next] that looks at it again when a command has changed it. *)
-module Make (Clock : Clock) = struct
+module Make (Time : Time) = struct
   type t = {
-    clock : Clock.t;
+    clock : Time.t;
     mutable fleet : Fleet.t;
     mutable changed : unit Lwt.u option;
     mutable early : Platform.event list;  (* to be told before anything else: see {!Recreation} *)
   }
 
   let name = "sim"
-  let virtual_time = Clock.virtual_time
+  let virtual_time = Time.virtual_time
   let announce_period = 10.
   let make clock ~seed scenario = { clock; fleet = Fleet.create ~seed scenario; changed = None; early = [] }
 
@@ -42,7 +42,7 @@ module Make (Clock : Clock) = struct
     in
     Result.map again (Recreation.make ~seed ~announce_period scenario moments)
 
-  let catch_up p = p.fleet <- Fleet.advance p.fleet (Clock.elapsed p.clock)
+  let catch_up p = p.fleet <- Fleet.advance p.fleet (Time.elapsed p.clock)
 
   let now p =
     catch_up p;
@@ -97,10 +97,10 @@ module Make (Clock : Clock) = struct
 
   and next_due p due =
     match due with
-    | None when Clock.virtual_time -> Lwt.return Platform.Quiet
+    | None when Time.virtual_time -> Lwt.return Platform.Quiet
     | None -> Lwt.bind (change p) (fun () -> next p)
-    | Some time when Clock.virtual_time || time <= Clock.elapsed p.clock -> take p
-    | Some time -> Lwt.bind (Lwt.pick [ change p; Clock.until p.clock time ]) (fun () -> next p)
+    | Some time when Time.virtual_time || time <= Time.elapsed p.clock -> take p
+    | Some time -> Lwt.bind (Lwt.pick [ change p; Time.until p.clock time ]) (fun () -> next p)
 
   (* An event is taken and handed out in one go: it cannot be lost in between. *)
   and take p =
@@ -135,24 +135,26 @@ module Virtual = struct
 end
 
 module Pace = struct
-  type t = { origin : float; speed : float }
+  type t = { now : unit -> float; speed : float }
 
   let virtual_time = false
-  let elapsed clock = (Unix.gettimeofday () -. clock.origin) *. clock.speed
+  let elapsed clock = clock.now () *. clock.speed
 
   (* A sleep of days is none that a system takes for granted. *)
   let longest_sleep = 3600.
-  let until clock time = 
+  let until clock time =
     Lwt_unix.sleep (Float.max 0. (Float.min longest_sleep ((time -. elapsed clock) /. clock.speed)))
 end
 
 module Paced = struct
   include Make (Pace)
 
-  let clock speed time =
+  let clock clock speed time =
     if not (Float.is_finite speed && speed > 0.) then Fmt.invalid_arg "Simulator.Paced.create: speed %g" speed;
-    { Pace.origin = Unix.gettimeofday () -. (time /. speed); speed }
+    { Pace.now = Clock.stopwatch ~at:(time /. speed) clock; speed }
 
-  let create ?(speed = 1.) ~seed scenario = make (clock speed 0.) ~seed scenario
-  let create_again ?(speed = 1.) ~seed scenario moments = make_again (clock speed) ~seed scenario moments
+  let create ?clock:(source = Clock.system) ?(speed = 1.) ~seed scenario = make (clock source speed 0.) ~seed scenario
+
+  let create_again ?clock:(source = Clock.system) ?(speed = 1.) ~seed scenario moments =
+    make_again (clock source speed) ~seed scenario moments
 end

@@ -111,11 +111,17 @@ end
 module Paced : sig
   include S
 
-  val create : ?speed:float -> seed:int -> Scenario.t -> t
-  (** [create ~speed ~seed s] starts now; [speed] seconds pass in a second (by default 1).
+  val create : ?clock:Clock.t -> ?speed:float -> seed:int -> Scenario.t -> t
+  (** [create ~clock ~speed ~seed s] starts now; [speed] seconds (by default 1) pass in a second of [clock] (by default
+      {!Clock.system}).
       @raise Invalid_argument if [speed] is not finite, or not more than 0. *)
 
   val create_again :
-    ?speed:float -> seed:int -> Scenario.t -> Past.moment list -> (t * World.vehicle_state list, string) result
+    ?clock:Clock.t ->
+    ?speed:float ->
+    seed:int ->
+    Scenario.t ->
+    Past.moment list ->
+    (t * World.vehicle_state list, string) result
     (** As that of {!Virtual}: the fleet stood still while there was no console. *)
 end

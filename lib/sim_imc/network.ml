@@ -1,4 +1,5 @@
 open Dolphin_scenario
+open Dolphin_runtime
 open Lwt.Infix
 
 type settings = {
@@ -36,10 +37,11 @@ type craft = {
 
 type t = {
   settings : settings;
+  clock : Clock.t;
   discovery : socket;
   crafts : craft list;
   buffer : Bytes.t;
-  mutable origin : float;
+  mutable now : unit -> float;                  (* time starts in [run] *)
   mutable changed : unit Lwt.u option;          (* who waits for what is due to change *)
 }
 
@@ -102,7 +104,7 @@ let rec open_all host port = function
 (* Beyond are the numbers that stand for no system of its own. *)
 let last_id = 0xFFEF
 
-let create s =
+let create ?(clock = Clock.system) s =
   let first, last = s.discovery_ports in
   let numbered = List.mapi (fun i v -> s.first_id + i, v) s.scenario.vehicles in
   let host = if s.address = None then Unix.inet_addr_loopback else Unix.inet_addr_any in
@@ -118,9 +120,9 @@ let create s =
         match open_all host s.first_port numbered with
         | Error _ as error -> close_socket discovery; error
         | Ok crafts ->
-          Ok { settings = s; discovery; crafts; buffer = Bytes.create 65536; origin = 0.; changed = None })
+          Ok { settings = s; clock; discovery; crafts; buffer = Bytes.create 65536; now = (fun () -> 0.); changed = None })
 
-let radio n (c : craft) =
+let radio n ~epoch (c : craft) =
   let s = n.settings in
   let address host : Address.t = { host; port = c.socket.port } in
   let others = match s.address with Some host -> [ address host ] | None -> [] in
@@ -129,14 +131,14 @@ let radio n (c : craft) =
   let vehicle = { c.vehicle with drops = c.vehicle.drops @ drops } in
   Radio.create ~faults:s.faults ~seed:s.seed
     { engine =
-        { vehicle; plans = s.scenario.plans; seed = s.seed; epoch = n.origin; strict = s.strict;
+        { vehicle; plans = s.scenario.plans; seed = s.seed; epoch; strict = s.strict;
           refuses = List.assoc_opt c.vehicle.id s.refuses; blocks = List.filter_map own s.blocks };
       id = c.id; addresses = address loopback :: others; speed = s.speed; announce_period = s.announce_period;
       contact_period = s.contact_period }
 
 (* {1 Life} *)
 
-let now n = Unix.gettimeofday () -. n.origin
+let now n = n.now ()
 
 let send_discovery n bytes =
   let first, last = n.settings.discovery_ports in
@@ -240,8 +242,9 @@ let rec flood n ~log ~since =
   flood n ~log ~since:(since +. (float_of_int number /. rate))
 
 let run ~log ~until n =
-  n.origin <- Unix.gettimeofday ();
-  List.iter (fun c -> c.radio <- Some (radio n c)) n.crafts;
+  n.now <- Clock.stopwatch n.clock;
+  let epoch = n.clock.date () in
+  List.iter (fun c -> c.radio <- Some (radio n ~epoch c)) n.crafts;
   let to_all bytes host = List.iter (fun c -> receive n ~log Announcements c bytes host) n.crafts in
   let data c = listen n c.socket (receive n ~log Data c) in
   let further = if n.settings.flood > 0. then [ flood n ~log ~since:0. ] else [] in

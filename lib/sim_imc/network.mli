@@ -32,8 +32,9 @@ val default : Scenario.t -> settings
 
 type t
 
-val create : settings -> (t, string) result
-(** [create s] has all sockets that it needs; the error is one sentence. Time starts in {!run}. *)
+val create : ?clock:Dolphin_runtime.Clock.t -> settings -> (t, string) result
+(** [create ~clock s] has all sockets that it needs; the error is one sentence. Time starts in {!run}, by [clock] (by
+    default {!Dolphin_runtime.Clock.system}); packets are stamped with the date then, and the time since. *)
 
 type vehicle = { name : string; kind : string; id : int; port : int }
 

@@ -28,11 +28,11 @@ let said = ref []
 let console =
   { Console.say = (fun text -> said := text :: !said); ask = (fun _ -> Lwt.return (Error "nobody")); refused = ignore }
 
-let run_program ~seconds platform source =
+let run_program ?observer ~seconds platform source =
   said := [];
   let program = Test_support.Pure_run.compile_exn source in
   let never, _ = Lwt.wait () in
-  limited seconds (Driver.run (module Udp_platform) platform ~console ~interruption:never program)
+  limited seconds (Driver.run (module Udp_platform) platform ?observer ~console ~interruption:never program)
 
 let outcome =
   let text = Format.asprintf "%a" Driver.pp_outcome in
@@ -143,7 +143,7 @@ let slow_disk =
       let announce_ports = ports () in
       let began = ref [] in
       let sync () =
-        began := Unix.gettimeofday () :: !began;
+        began := Clock.system.elapsed () :: !began;
         Lwt_unix.sleep 2.5
       in
       let platform = open_exn { (options announce_ports) with sync = Some sync } in
@@ -182,6 +182,45 @@ let broken_disk =
       >>= fun () ->
       Alcotest.(check int) "no start" 0 (List.length (Udp_vehicle.starts a));
       Alcotest.(check (list (pair string string))) "nothing is left open" [] !notes;
+      Udp_vehicle.stop a)
+
+(* An NTP step on the machine of the console and the vehicles: the time of day jumps an hour forward, and later back. *)
+let time_is_set =
+  in_a_world "the time of day jumps an hour forward and back: no vehicle is lost, no timer fires early" (fun () ->
+      let announce_ports = ports () in
+      let start = Clock.system.elapsed () in
+      let jump () =
+        let seconds = Clock.system.elapsed () -. start in
+        if seconds < 2. then 0. else if seconds < 4. then 3600. else if seconds < 5. then -3600. else 0.
+      in
+      let clock = { Clock.system with date = (fun () -> Unix.gettimeofday () +. jump ()) } in
+      let notes = ref [] in
+      let note vehicle text = notes := (vehicle, text) :: !notes in
+      let platform = open_exn { (options ~note announce_ports) with clock } in
+      let fate = fates [ ("survey", Vehicle_model.Succeeds 0.3); ("long", Succeeds 60.); ("patrol", Succeeds 1.5) ] in
+      let a = Udp_vehicle.start ~date:clock.date ~announce_ports ~id:0x1A ~name:"noptilus-1" ~fate () in
+      let links = ref [] in
+      let news ~time:_ (state : Dolphin_semantics.World.vehicle_state) =
+        if !links = [] || List.hd !links <> state.connected then links := state.connected :: !links
+      in
+      run_program ~observer:{ Observer.nobody with news } ~seconds:20. platform
+        {|
+v = pick { type 'UUV'; timeout 10.seconds }
+setConnectionTimeout 5
+execute imcPlan('patrol') >> imcPlan('survey') >> imcPlan('patrol')
+execute during 3.seconds run imcPlan('long')
+execute imcPlan('survey')
+|}
+      >>= fun result ->
+      Alcotest.check outcome "ends" (Driver.Ended Completed) result;
+      Alcotest.(check bool) "all jumps were lived through" true (Clock.system.elapsed () -. start > 5.5);
+      Alcotest.(check (list bool)) "the link comes, and stays" [ false; true ] (List.rev !links);
+      Alcotest.(check (list (pair string string))) "nothing to remark" [] !notes;
+      let starts = List.rev (Udp_vehicle.starts a) in
+      Alcotest.(check (list string)) "each once" [ "patrol"; "survey"; "patrol"; "long"; "survey" ] (List.map snd starts);
+      let time i = fst (List.nth starts i) in
+      let during = time 4 -. time 3 in
+      Alcotest.(check bool) "three seconds are three seconds" true (during >= 2.9 && during < 4.5);
       Udp_vehicle.stop a)
 
 let nobody =
@@ -227,4 +266,4 @@ execute all
       Printf.printf "end to next start: median %.1f ms, 99%% %.1f ms\n" (1000. *. at 0.5) (1000. *. at 0.99);
       Lwt.join (List.map Udp_vehicle.stop vehicles))
 
-let tests = ("network", [ program; bad_network; vanished; journal_breaks; slow_disk; broken_disk; nobody; taken; many ])
+let tests = ("network", [ program; bad_network; vanished; journal_breaks; slow_disk; broken_disk; time_is_set; nobody; taken; many ])

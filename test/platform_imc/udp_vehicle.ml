@@ -11,6 +11,7 @@ type t = {
   inbound : (Unix.sockaddr * string) Network.t;
   outbound : (Unix.sockaddr * string) Network.t;
   multiplier : float;
+  date : unit -> float;
   buffer : Bytes.t;
   mutable peers : (int * Unix.sockaddr) list;
   mutable next_announce : float;
@@ -24,11 +25,11 @@ type t = {
 let model v = v.model
 let ends v = v.ends
 let starts v = v.starts
-let now () = Unix.gettimeofday ()
+let now = Dolphin_runtime.Clock.system.elapsed
 let loopback port = Unix.ADDR_INET (Unix.inet_addr_loopback, port)
 
 let encode v ?(dst = Header.nobody) message =
-  Result.get_ok (Packet.encode (Packet.make ~src:v.id ~dst ~timestamp:(now ()) message))
+  Result.get_ok (Packet.encode (Packet.make ~src:v.id ~dst ~timestamp:(v.date ()) message))
 
 let transmit v (address, bytes) =
   let fd = Lwt_unix.unix_file_descr v.socket in
@@ -110,7 +111,7 @@ let rec live v =
 
 let perfect = { Network.loss = 0.; duplication = 0.; delay = 0. }
 
-let start ?(quality = perfect) ?(seed = 0) ?(multiplier = 1.) ~announce_ports ~id ~name ~fate () =
+let start ?(quality = perfect) ?(seed = 0) ?(multiplier = 1.) ?(date = Unix.gettimeofday) ~announce_ports ~id ~name ~fate () =
   let fd = Unix.socket ~cloexec:true PF_INET SOCK_DGRAM 0 in
   Unix.bind fd (loopback 0);
   Unix.set_nonblock fd;
@@ -120,7 +121,7 @@ let start ?(quality = perfect) ?(seed = 0) ?(multiplier = 1.) ~announce_ports ~i
   let v =
     { id; name; announce_ports; socket = Lwt_unix.of_unix_file_descr ~blocking:false fd; port;
       model = Vehicle_model.create ~fate ~before;
-      inbound = Network.create random quality; outbound = Network.create random quality; multiplier;
+      inbound = Network.create random quality; outbound = Network.create random quality; multiplier; date;
       buffer = Bytes.create 65536; peers = []; next_announce = 0.; next_position = 0.; copies = 0;
       ends = []; starts = []; stopped = false }
   in

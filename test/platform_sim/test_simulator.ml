@@ -4,6 +4,8 @@ open Lwt.Infix
 module Virtual = Simulator.Virtual
 module Paced = Simulator.Paced
 
+let elapsed = Dolphin_runtime.Clock.system.elapsed
+
 let pair = "vehicle 'a', { type 'UUV' }; vehicle 'b', { type 'UUV' }\nplan 'p', { duration 90 }"
 let check = Alcotest.(check (list string))
 
@@ -56,9 +58,9 @@ let load () =
        | Vehicle _ | Task_failed _ | Timer _ | Quiet -> ());
       go (events + 1)
   in
-  let began = Unix.gettimeofday () in
+  let began = elapsed () in
   let events = Lwt_main.run (go 0) in
-  let seconds = Unix.gettimeofday () -. began in
+  let seconds = elapsed () -. began in
   Alcotest.(check int) "events" (vehicles * ((2 * tasks) + 1)) events;
   Printf.printf "%d events in %.3f s\n" events seconds;
   Alcotest.(check bool) "within a second" true (seconds < 1.)
@@ -68,11 +70,11 @@ let load () =
 let paced () =
   let p = Paced.create ~speed:100. ~seed:1 (scenario pair) in
   let next () = Paced.next p in
-  let began = Unix.gettimeofday () in
+  let began = elapsed () in
   check "announced" [ "a seen"; "b seen" ] (Lwt_main.run (take next 2));
   Paced.set_timer p 0 10.;
   check "timer" [ "timer 0" ] (Lwt_main.run (take next 1));
-  let seconds = Unix.gettimeofday () -. began in
+  let seconds = elapsed () -. began in
   Alcotest.(check bool) "a tenth of a second" true (seconds >= 0.09 && seconds < 1.);
   Alcotest.(check bool) "now" true (Paced.now p >= 10.)
 
@@ -99,6 +101,18 @@ let late () =
   Unix.sleepf 0.05;
   check "in order" [ "timer 0"; "timer 1" ] (Lwt_main.run (take (fun () -> Paced.next p) 2))
 
+(* The time of day jumps with each look at it: it is not what passes. *)
+let time_is_set () =
+  let looks = ref 0 in
+  let date () = incr looks; if !looks mod 2 = 0 then 0. else 7200. in
+  let p = Paced.create ~clock:{ Dolphin_runtime.Clock.system with date } ~speed:100. ~seed:1 (scenario pair) in
+  let began = elapsed () in
+  ignore (Lwt_main.run (take (fun () -> Paced.next p) 2));
+  Paced.set_timer p 0 20.;
+  check "timer" [ "timer 0" ] (Lwt_main.run (take (fun () -> Paced.next p) 1));
+  Alcotest.(check bool) "not early" true (elapsed () -. began >= 0.19);
+  Alcotest.(check bool) "now" true (Paced.now p < 1000.)
+
 let speeds () =
   let refused speed =
     match Paced.create ~speed ~seed:1 (scenario pair) with _ -> false | exception Invalid_argument _ -> true in
@@ -107,4 +121,4 @@ let speeds () =
 let () =
   Alcotest.run "simulator"
     [ ("virtual time", [ case "whole task" whole_task; case "idle" idle; case "load" load ]);
-      ("real time", [ case "paced" paced; case "sooner" sooner; case "late" late; case "speeds" speeds ]) ]
+      ("real time", [ case "paced" paced; case "sooner" sooner; case "late" late; case "the time is set" time_is_set; case "speeds" speeds ]) ]

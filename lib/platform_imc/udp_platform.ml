@@ -61,8 +61,10 @@ let now p = p.now ()
 
 let send p socket bytes host port =
   match Unix.sendto_substring socket bytes 0 (String.length bytes) [] (ADDR_INET (host, port)) with
-  | _ -> ()
-  | exception Unix.Unix_error _ -> p.unsent <- p.unsent + 1
+  | _ -> Network_log.sent ~now:(now p) host port bytes
+  | exception Unix.Unix_error (error, _, _) ->
+    Network_log.unsent ~now:(now p) host port error;
+    p.unsent <- p.unsent + 1
 
 let data_socket p = Lwt_unix.unix_file_descr p.data
 let broadcast = Unix.inet_addr_of_string "255.255.255.255"
@@ -100,6 +102,7 @@ let carry_out p : Station.output -> unit = function
 let wake waiting = Option.iter (fun u -> Lwt.wakeup_later u ()) waiting
 
 let change p (station, outputs) =
+  Network_log.changed ~now:(now p) p.station station;
   p.station <- station;
   List.iter (carry_out p) outputs
 
@@ -160,8 +163,10 @@ let drain p fd =
     else
       match Unix.recvfrom socket p.buffer 0 (Bytes.length p.buffer) [] with
       | len, ADDR_INET (from, _) ->
+        let now = now p in
+        Network_log.received ~now ~from ~len p.buffer;
         (* Nothing is kept of the buffer. *)
-        absorb p (Station.datagram ~now:(now p) ~from ~len (Bytes.unsafe_to_string p.buffer) p.station);
+        absorb p (Station.datagram ~now ~from ~len (Bytes.unsafe_to_string p.buffer) p.station);
         take (n + 1)
       | _, ADDR_UNIX _ -> take (n + 1)
       | exception Unix.Unix_error ((EAGAIN | EWOULDBLOCK), _, _) -> n
@@ -265,8 +270,14 @@ let open_again options ~time moments =
 
 (* {1 Commands} *)
 
-let set_timer p timer seconds = quietly p (Station.set_timer ~now:(now p) timer seconds)
-let cancel_timer p timer = quietly p (Station.cancel_timer timer)
+let set_timer p timer seconds =
+  Network_log.timer_set ~now:(now p) timer seconds;
+  quietly p (Station.set_timer ~now:(now p) timer seconds)
+
+let cancel_timer p timer =
+  Network_log.timer_cancelled ~now:(now p) timer;
+  quietly p (Station.cancel_timer timer)
+
 let bind p vehicles = quietly p (Station.bind vehicles)
 let release p vehicles = quietly p (Station.release vehicles)
 let start p vehicle task = command p (Station.start ~now:(now p) vehicle task)
@@ -280,6 +291,7 @@ let rec next p =
   match p.failure, Station.take p.station with
   | _, Some (event, station) ->
     p.station <- station;
+    Network_log.event ~now:(now p) event;
     Lwt.return event
   | Some error, None -> Lwt.fail error
   | None, None ->

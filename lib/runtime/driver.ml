@@ -105,20 +105,27 @@ module Make (P : Platform.S) = struct
 
   let take s ~cause (t : Transition.t) =
     s.unbroken <- (match t.label with Silent -> breath | _ -> s.unbroken + 1);
-    s.observer.transition ~time:(P.now s.platform) ~cause t;
+    let time = P.now s.platform in
+    Log.transition ~time ~cause t;
+    s.observer.transition ~time ~cause t;
     s.configuration <- t.next;
     carry_out_all s t.effects
 
   let see s state =
     s.unbroken <- s.unbroken + 1;
     s.world <- World.add state s.world;
-    s.observer.news ~time:(P.now s.platform) state
+    let time = P.now s.platform in
+    Log.vehicle ~time state;
+    s.observer.news ~time state
 
   (* [deliver s e] is whether [e] changed the configuration. *)
   let deliver s event =
     match Transition.accept s.program s.world s.configuration event with
     | Ok t -> take s ~cause:(Some event) t; true
-    | Error Not_awaited -> s.unbroken <- s.unbroken + 1; false
+    | Error Not_awaited ->
+      Log.not_awaited ~time:(P.now s.platform) event;
+      s.unbroken <- s.unbroken + 1;
+      false
     | Error (Bad_answer why) ->
       s.console.refused why;
       (match s.configuration.control with

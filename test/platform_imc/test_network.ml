@@ -223,6 +223,36 @@ execute imcPlan('survey')
       Alcotest.(check bool) "three seconds are three seconds" true (during >= 2.9 && during < 4.5);
       Udp_vehicle.stop a)
 
+(* [f ()], and what the source [name] logs meanwhile at the level Debug, in order. *)
+let logged name f =
+  let source = List.find (fun s -> Logs.Src.name s = name) (Logs.Src.list ()) in
+  let lines = ref [] and reporter = Logs.reporter () in
+  let report src _ ~over k message =
+    let keep text = if Logs.Src.equal src source then lines := text :: !lines; over (); k () in
+    message (fun ?header:_ ?tags:_ format -> Format.kasprintf keep format)
+  in
+  Logs.set_reporter { Logs.report };
+  Logs.Src.set_level source (Some Debug);
+  Lwt.finalize f (fun () -> Logs.set_reporter reporter; Logs.Src.set_level source None; Lwt.return_unit) >|= fun result ->
+  (result, List.rev !lines)
+
+let debug_log =
+  in_a_world "the debug log tells datagrams, changes of vehicles, timers" (fun () ->
+      let announce_ports = ports () in
+      let fate = fates [ ("survey", quick) ] in
+      let platform = open_exn (options announce_ports) in
+      let a = Udp_vehicle.start ~announce_ports ~id:0x1A ~name:"noptilus-1" ~fate () in
+      logged "dolphin.imc" (fun () ->
+          run_program ~seconds:20. platform "v = pick { timeout 10.seconds }; execute imcPlan('survey')")
+      >>= fun (result, lines) ->
+      Alcotest.check outcome "ends" (Driver.Ended Completed) result;
+      let is_told part = Alcotest.(check bool) part true (List.exists (fun line -> contains line part) lines) in
+      List.iter is_told
+        [ "in from 127.0.0.1: Announce from 0x001a"; "in from 127.0.0.1: PlanControlState from 0x001a";
+          ": PlanControl from 0x"; "timer 0 set: 10 s"; "noptilus-1: link, mode -, connected, running plan survey";
+          "noptilus-1 is done" ];
+      Udp_vehicle.stop a)
+
 let nobody =
   in_a_world "nobody is there" (fun () ->
       let platform = open_exn (options (ports ())) in
@@ -266,4 +296,4 @@ execute all
       Printf.printf "end to next start: median %.1f ms, 99%% %.1f ms\n" (1000. *. at 0.5) (1000. *. at 0.99);
       Lwt.join (List.map Udp_vehicle.stop vehicles))
 
-let tests = ("network", [ program; bad_network; vanished; journal_breaks; slow_disk; broken_disk; time_is_set; nobody; taken; many ])
+let tests = ("network", [ program; bad_network; vanished; journal_breaks; slow_disk; broken_disk; time_is_set; debug_log; nobody; taken; many ])

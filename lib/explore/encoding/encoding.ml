@@ -1,14 +1,14 @@
 open Dolphin_semantics
 open Dolphin_environment
 
-module Machines = Interner.Make (struct
+module Machines = Dolphin_checker.Interner.Make (struct
     type t = Machine.t
 
     let equal a b = Machine.compare a b = 0
     let hash m = Machine.hash m land max_int
   end)
 
-module Wholes = Interner.Make (struct
+module Wholes = Dolphin_checker.Interner.Make (struct
     type t = Configuration.t * Environment.t
 
     let equal (c, e) (c', e') = Environment.compare e e' = 0 && Configuration.equal c c'

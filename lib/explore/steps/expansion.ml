@@ -13,7 +13,7 @@ type t = {
   cases : Memoised_steps.t;
   words : Encoding.t;
   shapes : Layouts.t;
-  mutable states : States.t;
+  mutable states : Dolphin_checker.States.t;
   mutable key : int array;  (* the state being expanded, changed in place for its successors and changed back *)
   mutable other : int array;  (* successors of another shape *)
   mutable transitions : int;
@@ -44,8 +44,8 @@ let rank property =
 (* {1 States} *)
 
 let load t i =
-  let key = Array.make (States.words t.states) 0 in
-  States.load t.states i key;
+  let key = Array.make (Dolphin_checker.States.words t.states) 0 in
+  Dolphin_checker.States.load t.states i key;
   key
 
 (* Everything in fields that are wide enough. *)
@@ -53,7 +53,7 @@ let repack t =
   let watched = match t.watch with None -> 0 | Some w -> Dolphin_ltl.Monitor.count (Product.monitor w) in
   let rewritten = Encoding.widened t.words ~watched in
   let words = Layouts.words t.shapes in
-  t.states <- States.rewrite t.states ~words rewritten;
+  t.states <- Dolphin_checker.States.rewrite t.states ~words rewritten;
   t.key <- Array.make words 0;
   t.other <- Array.make words 0;
   t.folded <- Array.make words 0
@@ -76,11 +76,11 @@ let fresh t i word =
   if Layouts.number t.shapes word = 0 then
     Option.iter (fun property -> note_broken t property i) (Encoding.broken t.words (Layouts.shared t.shapes word))
 
-let flush t = States.flush t.states ~fresh:t.fresh
+let flush t = Dolphin_checker.States.flush t.states ~fresh:t.fresh
 
 let put t key by letter parent =
-  if t.gathering then t.gathered <- { into = States.find t.states key; by; letter } :: t.gathered
-  else States.push t.states key ~parent ~fresh:t.fresh
+  if t.gathering then t.gathered <- { into = Dolphin_checker.States.find t.states key; by; letter } :: t.gathered
+  else Dolphin_checker.States.push t.states key ~parent ~fresh:t.fresh
 
 let put_watched t w key by parent =
   let letter = Product.letter w t.words t.action key in
@@ -281,7 +281,7 @@ let create ?(reduction = Reduction.Whole) ?(peers = Vehicle_orbits.none) ?(asked
       cases;
       words;
       shapes = Encoding.shapes words;
-      states = States.create ~compress ~words:1;
+      states = Dolphin_checker.States.create ~compress ~words:1;
       key = [| 0 |];
       other = [| 0 |];
       transitions = 0;

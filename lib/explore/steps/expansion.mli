@@ -20,7 +20,7 @@ type t = {
   cases : Memoised_steps.t;
   words : Encoding.t;
   shapes : Layouts.t;
-  mutable states : States.t;
+  mutable states : Dolphin_checker.States.t;
   mutable key : int array;  (** the state being expanded, changed in place for its successors and changed back *)
   mutable other : int array;  (** successors of another shape *)
   mutable transitions : int;

@@ -1,7 +1,7 @@
 open Dolphin_semantics
 open Dolphin_environment
 open Component
-module Shareds = Interner.Make (Shared)
+module Shareds = Dolphin_checker.Interner.Make (Shared)
 
 type t = { parts : Components.t; shareds : Shareds.t; observe : (Transition.local -> int) option }
 

@@ -2,7 +2,7 @@
 
 open Dolphin_semantics
 
-module Shareds : module type of Interner.Make (Shared)
+module Shareds : module type of Dolphin_checker.Interner.Make (Shared)
 
 type t
 

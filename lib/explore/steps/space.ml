@@ -194,7 +194,7 @@ let expand_executing t i number =
 
 let rec expand t i =
   match
-    States.load t.states i t.key;
+    Dolphin_checker.States.load t.states i t.key;
     let number = Layouts.number t.shapes t.key.(0) in
     if Option.is_some t.watch then t.watched <- Layouts.watched t.shapes t.key.(0);
     if number = 0 then expand_whole t i (Layouts.shared t.shapes t.key.(0)) else expand_executing t i number
@@ -204,7 +204,7 @@ let rec expand t i =
   | exception Layouts.Outgrown ->
     flush t;
     (* Once this has begun it must not fail. *)
-    t.reserve (States.bytes_to_rewrite t.states ~words:(States.words t.states + 1));
+    t.reserve (Dolphin_checker.States.bytes_to_rewrite t.states ~words:(Dolphin_checker.States.words t.states + 1));
     repack t;
     expand t i
 
@@ -249,9 +249,9 @@ let breaks t i =
 
 (* {1 Findings} *)
 
-let count t = States.count t.states
+let count t = Dolphin_checker.States.count t.states
 let transitions t = t.transitions
-let parent t i = States.parent t.states i
+let parent t i = Dolphin_checker.States.parent t.states i
 let used_symmetry t = Option.fold ~none:false ~some:Symmetry_groups.is_used t.symmetries
 let used_peers t = Option.fold ~none:false ~some:Canonical_vehicles.is_used t.roster
 
@@ -263,13 +263,13 @@ let coverage t =
   Option.iter (fun symmetries -> Symmetry_groups.handlers_alike symmetries alike) t.symmetries;
   coverage
 
-let bytes t = States.bytes t.states
-let bytes_to_grow t ~by = States.bytes_to_grow t.states ~by
-let forget_waiting t = States.forget_waiting t.states
+let bytes t = Dolphin_checker.States.bytes t.states
+let bytes_to_grow t ~by = Dolphin_checker.States.bytes_to_grow t.states ~by
+let forget_waiting t = Dolphin_checker.States.forget_waiting t.states
 let shown t = if t.shown < 0 then None else Some t.shown
 let watched t i = Layouts.watched t.shapes (load t i).(0)
 let executes t i = Layouts.number t.shapes (load t i).(0) > 0
-let words t = States.words t.states
+let words t = Dolphin_checker.States.words t.states
 let may_cycle t = Script_graph.may_cycle t.script
 
 let create = Expansion.create

@@ -15,7 +15,7 @@ val create :
 (** With the initial state, number 0. States of the script are those up to the names of [peers], by default
     {!Vehicle_orbits.none}; what visits states then raises [Canonical_vehicles.Told_apart] if they are told apart. Conditions that are
     [asked] have the same answer in all that a state stands for; none by default. [compress] is as for
-    {!States.create}, [false] by default. [reserve n] is called before [n] bytes are taken at once to lay states out
+    {!Dolphin_checker.States.create}, [false] by default. [reserve n] is called before [n] bytes are taken at once to lay states out
     anew; it may raise.
 
     With a [watch] each state is kept once for each thing that the watch may know there, and [reduction] and [peers] must

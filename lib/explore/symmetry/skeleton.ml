@@ -2,14 +2,14 @@ open Dolphin_semantics
 open Core
 module Pairs = Footprint.Pairs
 
-module Names = Interner.Make (struct
+module Names = Dolphin_checker.Interner.Make (struct
     type t = string
 
     let equal = String.equal
     let hash = Hashtbl.hash
   end)
 
-module Pair_numbers = Interner.Make (struct
+module Pair_numbers = Dolphin_checker.Interner.Make (struct
     type t = string * value
 
     let equal (k, x) (k', x') = String.equal k k' && Value.compare x x' = 0

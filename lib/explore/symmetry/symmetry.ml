@@ -2,7 +2,7 @@ open Dolphin_semantics
 
 type shareds = { number : Shared.t -> int; value : int -> Shared.t }
 
-module Keys = Interner.Make (struct
+module Keys = Dolphin_checker.Interner.Make (struct
     type t = string
 
     let equal = String.equal

@@ -3,7 +3,7 @@ open Dolphin_semantics
 exception Broken of string
 
 (* By place of the propositions. *)
-module Valuations = Interner.Make (struct
+module Valuations = Dolphin_checker.Interner.Make (struct
     type t = bool array
 
     let equal = ( = )

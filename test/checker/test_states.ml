@@ -1,7 +1,7 @@
 (* The two sets of states: each numbers vectors in the order in which they come, knows those that it has, and keeps all
    this when it grows and when it is rewritten. *)
 
-open Dolphin_explore
+open Dolphin_checker
 
 let states = 150_000
 

@@ -1,8 +1,7 @@
-(** A set of states as {!Packed} is one, in less memory and more time: tree compression. Of a state's words, each
-    different one
-    is kept once, and so is each different pair of numbers of words, of such pairs, and so on; a state is the pair at
-    the
-    top. States differ from their neighbours in few words, so that the set is little more than the tops. *)
+(** A set of states as {!States} describes it, in less memory and more time: tree compression. Each distinct word is
+    kept once, by its place in the state, and so is each distinct pair of the numbers of two words, each distinct pair
+    of the numbers of two pairs, and so on; a state is the pair at the top. States differ from their neighbours in few
+    words, so the set takes little more than the pairs at the top. *)
 
 type t
 

@@ -161,10 +161,6 @@ let add_at t keys at h ~parent =
     -1 - i
   end
 
-let add t key ~parent =
-  number_all t;
-  add_at t key 0 (hash t key) ~parent
-
 let add_bare t keys at h ~parent ~fresh =
   let word = Array.unsafe_get keys at in
   let slot = probe_bare t.table t.mask (word + 1) (h land t.mask) in

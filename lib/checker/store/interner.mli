@@ -1,4 +1,4 @@
-(** Numbers for values: equal values have the same number, from 0 in order of first sight. *)
+(** Hash-consing by numbers: equal values have the same number, from 0 in order of first sight. *)
 
 module Make (Key : Hashtbl.HashedType) : sig
   type t
@@ -9,6 +9,10 @@ module Make (Key : Hashtbl.HashedType) : sig
   (** [number t x] is the number of [x], a new one if [x] is new. *)
 
   val find : t -> Key.t -> int option
+  (** [find t x] is the number of [x], if it has one. *)
+
   val value : t -> int -> Key.t
+  (** [value t n] is the value with number [n]. *)
+
   val count : t -> int
 end

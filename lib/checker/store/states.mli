@@ -1,0 +1,46 @@
+(** A set of states, each a vector of a fixed number of words, that only grows. States are numbered from 0 in order of
+    insertion, so the set is also the queue of a breadth-first search; each state knows its parent, the state that it
+    was first reached from. All of it lives outside of OCaml's heap: uncompressed ({!Packed}), or in less memory and
+    more time ({!Tree}). *)
+
+type t
+
+val create : compress:bool -> words:int -> t
+(** [create ~compress ~words] is an empty set of vectors of [words] words. No word may be [-1]. *)
+
+val words : t -> int
+val count : t -> int
+
+val push : t -> int array -> parent:int -> fresh:(int -> int -> unit) -> unit
+(** [push t key ~parent ~fresh] adds the state in the first words of [key] unless it is a member: now, or at a later
+    {!push} or {!flush}, in the order of pushes. [parent] is the state that it was found from, and never less than at
+    the push before. When a new state is added, [fresh] is given its number and its first word. *)
+
+val flush : t -> fresh:(int -> int -> unit) -> unit
+(** [flush t ~fresh] adds all that has been pushed. *)
+
+val find : t -> int array -> int
+(** [find t key] is the number of state [key], or [-1]. *)
+
+val load : t -> int -> int array -> unit
+(** [load t i key] puts the words of state [i] into [key]. *)
+
+val parent : t -> int -> int
+(** [parent t i] is the [parent] that state [i] was added with. *)
+
+val bytes : t -> int
+(** Memory in use outside of OCaml's heap. *)
+
+val bytes_to_grow : t -> by:int -> int
+(** [bytes_to_grow t ~by:n] is the most memory that adding [n] states may take at once. *)
+
+val bytes_to_rewrite : t -> words:int -> int
+(** [bytes_to_rewrite t ~words] is the most memory that {!rewrite} may take beside what is in use. *)
+
+val forget_waiting : t -> unit
+(** Drops what has been pushed and not been added: for when there is no memory. *)
+
+val rewrite : t -> words:int -> (int array -> int array -> unit) -> t
+(** [rewrite t ~words f] is the states of [t] in a new encoding, with the same numbers and parents: [f old fresh] puts
+    the new words of [old] into [fresh], which is all 0. [f] must be injective, and nothing may wait to be added. [t]
+    is used up. *)

@@ -55,7 +55,7 @@ let resume how ~changed program path : Exit_status.t =
   | Ok resumed -> (
       match as_before how resumed with
       | Error trouble -> Fleet_file.tell trouble; Bad_input
-      | Ok (fleet, _, _) when how.supplier = None && not (Replies.are_of fleet.scenario resumed.past.moments) ->
+      | Ok (fleet, _, _) when how.supplier = None && not (Replies.are_of fleet.scenario resumed.past.history) ->
         Report.complain
           (path ^ ": this run has a supplier, which died with its console: name it again with --supplier");
         Bad_input

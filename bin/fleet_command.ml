@@ -13,11 +13,11 @@ let plan_of network (s : Station.sight) =
   | Some { plan; _ } -> Some plan
   | None -> Execution.executing s.node.execution
 
-let mode definition n = Node.mode ~names:(Option.fold definition ~none:[] ~some:Vocabulary.modes) n
+let mode definition n = Node.mode ~names:(Option.fold definition ~none:[] ~some:Compatibility.modes) n
 
 (* What it sends, if there is a definition to read it by: the last of each kind, and how often it came. *)
 let messages network (n : Node.t) definition =
-  let shown (id, (e : Heard.entry)) : Yojson.Safe.t =
+  let shown (id, (e : Received.entry)) : Yojson.Safe.t =
     let last =
       match Dolphin_imc.Dynamic.decode definition e.order ~id e.payload with
       | Ok message -> Dolphin_imc.Dynamic.to_json message

@@ -37,6 +37,6 @@ let load = function
           match Imc_xml.parse source with
           | Error error -> tell path source error; Error Exit_status.Bad_input
           | Ok definition -> (
-              match Dolphin_platform_imc.Vocabulary.differences definition with
+              match Dolphin_platform_imc.Compatibility.differences definition with
               | [] -> Ok (Some definition)
               | differences -> disagree path differences; Error Exit_status.Bad_input)))

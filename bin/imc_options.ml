@@ -126,4 +126,4 @@ let chosen =
 let with_names definition options =
   match definition with
   | None -> options
-  | Some d -> { options with Udp_platform.type_names = Vocabulary.types d }
+  | Some d -> { options with Udp_platform.type_names = Compatibility.types d }

@@ -14,7 +14,7 @@ let in_turn scenario =
 let call ~past scenario =
   let next = in_turn scenario in
   let count = function call, Some _ -> ignore (next call : Reply.t option) | _, None -> () in
-  List.iter count (Past.replies past);
+  List.iter count (History.replies past);
   fun ~site ~subject ~member ~arguments:_ ->
     let call = Machine.name_of_call ~subject ~member in
     match next call with
@@ -23,7 +23,7 @@ let call ~past scenario =
       let why = "there is no host process to call: name one with --supplier, or give the fleet a reply" in
       Lwt.return (Error (Format.asprintf "%s %a" why Value.pp (String call)))
 
-let are_of scenario moments =
+let are_of scenario history =
   let next = in_turn scenario in
   let is_of (call, reply) =
     match next call, reply with
@@ -31,4 +31,4 @@ let are_of scenario moments =
     | Some _, None -> true
     | Some known, Some given -> Reply.equal known (Result.map (Value.made_at Fault.unknown_site) given)
   in
-  List.for_all is_of (Past.replies moments)
+  List.for_all is_of (History.replies history)

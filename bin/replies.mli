@@ -3,10 +3,10 @@
 open Dolphin_runtime
 module Scenario := Dolphin_scenario.Scenario
 
-val call : past:Past.moment list -> Scenario.t -> Driver.call
+val call : past:History.t -> Scenario.t -> Driver.call
 (** [call ~past scenario] replies to each call what [scenario] has for it the first time, the second and so on, those of
     [past] included; of several replies, the first. The error says what there might be. *)
 
-val are_of : Scenario.t -> Past.moment list -> bool
+val are_of : Scenario.t -> History.t -> bool
 (** [are_of scenario past] is whether the replies of [past] are those of [scenario], which has one for each call that is
     open, too. *)

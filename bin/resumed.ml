@@ -6,7 +6,7 @@ type t = {
   path : string;
   past : Resumption.t;
   log : Log.t;
-  board : Board.t;
+  board : Status.t;
   teller : Story.teller;
 }
 
@@ -15,14 +15,14 @@ let remember log board (entry : Entry.t) replay =
   match entry, Replay.latest replay with
   | Vehicle { time; state }, _ ->
     log := fst (Log.news !log ~time state);
-    board := Board.news !board ~time state
+    board := Status.news !board ~time state
   | Transition { time; _ }, Some (_, t) ->
     log := fst (Log.transition !log ~time t);
-    board := Board.transition !board ~time t
+    board := Status.transition !board ~time t
   | (Header _ | Partial _ | Label _ | Event _ | Transition _ | Note _ | Resumed _ | End _), _ -> ()
 
 let read_channel ~changed (program : Program_file.t) path channel =
-  let log = ref Log.start and board = ref Board.start and teller = Story.start () in
+  let log = ref Log.start and board = ref Status.start and teller = Story.start () in
   let tell entry replay =
     Story.tell teller entry;
     remember log board entry replay

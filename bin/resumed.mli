@@ -4,7 +4,7 @@ type t = {
   path : string;  (** of the journal *)
   past : Dolphin_runtime.Resumption.t;
   log : Dolphin_display.Log.t;  (** as they were, like what follows *)
-  board : Dolphin_display.Board.t;
+  board : Dolphin_display.Status.t;
   teller : Dolphin_trace.Story.teller;
 }
 

@@ -32,13 +32,13 @@ let is_live () =
 let observe screen log board ~is_stuck : Observer.t =
   let print lines = List.iter (Screen.print screen) lines in
   let transition ~time ~cause:_ s =
-    board := Board.transition !board ~time s;
+    board := Status.transition !board ~time s;
     let next, lines = Log.transition ~stuck:(is_stuck ()) !log ~time s in
     log := next;
     print lines
   in
   let news ~time state =
-    board := Board.news !board ~time state;
+    board := Status.news !board ~time state;
     let next, lines = Log.news !log ~time state in
     log := next;
     print lines;
@@ -82,7 +82,7 @@ let trouble_of_log : Unix.error -> string option = function
 
 (* What a host remembers died with it, and only its people can know what that was. *)
 let start_host s =
-  let replies = match s.resumed with Some r -> Past.replies r.past.moments | None -> [] in
+  let replies = match s.resumed with Some r -> History.replies r.past.history | None -> [] in
   let calls = List.length (List.filter (fun (_, reply) -> reply <> None) replies) in
   match s.supplier with
   | None -> Ok None
@@ -116,11 +116,11 @@ let simulated s =
   | None, Some { past; _ } ->
     Result.map
       (fun made -> Platform ((module Simulator.Virtual), again made))
-      (Simulator.Virtual.create_again ~seed scenario past.moments)
+      (Simulator.Virtual.create_again ~seed scenario past.history)
   | Some speed, Some { past; _ } ->
     Result.map
       (fun made -> Platform ((module Simulator.Paced), again made))
-      (Simulator.Paced.create_again ~speed ~seed scenario past.moments)
+      (Simulator.Paced.create_again ~speed ~seed scenario past.history)
 
 (* How far vehicles are with their plans, by their own estimate. *)
 let estimates network () =
@@ -157,7 +157,7 @@ let open_platform s ~keep ~sync =
     let opened =
       match s.resumed with
       | None -> Udp_platform.open_ options
-      | Some r -> Udp_platform.open_again options ~time:(time_of_run r) r.past.moments
+      | Some r -> Udp_platform.open_again options ~time:(time_of_run r) r.past.history
     in
     let fleet network = { platform = network; more_lines = estimates network; told; news = unheard s.resumed } in
     Result.map (fun network -> Platform ((module Udp_platform), fleet network)) opened
@@ -182,24 +182,24 @@ let drive s record host (Platform ((module P), { platform; more_lines; told; new
   in
   let screen = Screen.make ~live ~on_closed Unix.stdout in
   let log = ref (match s.resumed with Some r -> r.log | None -> Log.start) in
-  let board = ref (match s.resumed with Some r -> r.board | None -> Board.start) in
+  let board = ref (match s.resumed with Some r -> r.board | None -> Status.start) in
   (* The driver interrupts stuck programs by itself. *)
   let is_stuck () = not (Interruption.happened interruption) in
   let time () = P.now platform in
   told := (fun text -> Screen.print screen (Log.remark !log ~time:(time ()) text));
-  Screen.show screen (fun () -> match Board.lines !board with [] -> [] | lines -> lines @ more_lines ());
+  Screen.show screen (fun () -> match Status.lines !board with [] -> [] | lines -> lines @ more_lines ());
   let shown : Questions.shown =
     { ask = (fun prompt -> Screen.ask screen (Log.question !log ~time:(time ()) prompt));
       answered = Screen.answered screen;
       refused = (fun why -> Screen.print screen (Log.remark !log ~time:(time ()) ("cannot take this answer: " ^ why))) }
   in
-  let past = Option.fold s.resumed ~none:[] ~some:(fun (r : Resumed.t) -> r.past.moments) in
+  let past = Option.fold s.resumed ~none:[] ~some:(fun (r : Resumed.t) -> r.past.history) in
   let run () =
     Driver.run (module P) platform ~always_telemetry:(live || Record.is_wanted s.record)
       ~observer:(Observer.both (Record.observer record) (observe screen log board ~is_stuck))
       ~host:(match host with Some host -> Host.call host | None -> Replies.call ~past s.scenario)
       ?beginning:(beginning s.resumed news)
-      ~console:(Questions.console shown ~answered:(Past.answers past) ~answers:s.answers ~scenario:s.scenario)
+      ~console:(Questions.console shown ~answered:(History.answers past) ~answers:s.answers ~scenario:s.scenario)
       ~interruption:(Interruption.promise interruption) s.program.program
   in
   let close () =

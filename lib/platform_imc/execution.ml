@@ -15,7 +15,7 @@ type input =
   | Log of { sent : float; entry : Message.Log_book_entry.t }
   | Abort of string
   | Lost of string
-  | Adopt of { order : order; stopped : bool; memos : Memo.t list }
+  | Adopt of { order : order; stopped : bool; memos : Durable_note.t list }
   | Leaves of float
   | Tick
 
@@ -241,7 +241,7 @@ let remembered (plan_id, busy) =
   { sent = 0.; state = { Control_state.default with state; plan_id } }
 
 (* Whatever the vehicle says now, it says after all that the other console did. *)
-let adopted_attempt ~now ~clock order (k : Memo.knowledge) =
+let adopted_attempt ~now ~clock order (k : Durable_note.knowledge) =
   { order; request = k.request; copies = 1; last_sent = now;
     asked = Vehicle_clock.estimate ~now clock;
     before = Option.map remembered k.before;
@@ -252,7 +252,7 @@ let adopted_attempt ~now ~clock order (k : Memo.knowledge) =
 let is_at_work plan (s : sighting) = busy s && is plan s
 
 let adopt ~now ~clock (order : order) ~stopped memos x =
-  match Memo.knowledge ~plan:order.plan memos, x.seen with
+  match Durable_note.knowledge ~plan:order.plan memos, x.seen with
   | None, _ -> if stopped then (x, []) else begin_attempt ~now ~clock order x
   | Some { over = true; _ }, _ when stopped -> (x, [])
   | Some k, Some s when stopped ->
@@ -275,17 +275,17 @@ let memos x y =
     | Stopping { attempt; _ } -> Some (attempt, `Stopping)
   in
   let is_other (a : attempt) = function Some ((b : attempt), _) -> a.request <> b.request | None -> true in
-  let asked (a : attempt) : Memo.t =
+  let asked (a : attempt) : Durable_note.t =
     Asked
       { plan = a.order.plan; request = a.request;
         before = Option.map (fun (s : sighting) -> (s.state.plan_id, busy s)) a.before }
   in
-  let over : Memo.t list =
+  let over : Durable_note.t list =
     match attempt x, attempt y with
     | Some (a, `Stopping), after when is_other a after -> [ Over { request = a.request } ]
     | _, _ -> []
   in
-  let rest : Memo.t list =
+  let rest : Durable_note.t list =
     match attempt x, attempt y with
     | before, Some (a, _) when is_other a before && not a.adopted -> [ asked a ]
     | Some (b, `Starting), Some (a, `Starting) when b.accepted = None && a.accepted <> None ->
@@ -315,12 +315,12 @@ let tick ~now ~clock x =
 let count input x =
   let takes =
     match input with
-    | Reply { sent; reply } -> Takes.reply ~sent reply x.takes
-    | State { sent; state } -> Takes.state ~sent state x.takes
-    | Log { sent; entry } -> Takes.log ~sent entry x.takes
+    | Reply { sent; reply } -> Duplicates.reply ~sent reply x.takes
+    | State { sent; state } -> Duplicates.state ~sent state x.takes
+    | Log { sent; entry } -> Duplicates.log ~sent entry x.takes
     | Start _ | Stop | Vehicle _ | Abort _ | Lost _ | Adopt _ | Leaves _ | Tick -> x.takes
   in
-  match Takes.twice takes with
+  match Duplicates.twice takes with
   | None -> ({ x with takes }, [])
   | Some (takes, plan) ->
     let why = "the request for it came twice, or another console made one" in

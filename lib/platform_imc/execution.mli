@@ -26,7 +26,7 @@
       start sent. After {!stop_patience} the stop is given up.
     - Late copies of our own datagrams are recognised by their replies: a stop that hits the next plan makes it start
       again; a start that comes after its plan was over is stopped; one that comes while the plan runs makes the vehicle
-      begin it anew, which nobody can prevent ({!Takes} finds out). All this is told as a [Note].
+      begin it anew, which nobody can prevent ({!Duplicates} finds out). All this is told as a [Note].
 
     {1:adoption What another console began}
 
@@ -53,7 +53,7 @@ type input =
   | Log of { sent : float; entry : Message.Log_book_entry.t }
   | Abort of string  (** The console of this name told the vehicle to abort. *)
   | Lost of string  (** The link is given up; why. *)
-  | Adopt of { order : order; stopped : bool; memos : Memo.t list  (** latest first *) }
+  | Adopt of { order : order; stopped : bool; memos : Durable_note.t list  (** latest first *) }
   (** A console before this one was told to start [order], and if [stopped] to stop it again, and then died; [memos] is
       what it kept since then. To be given to an execution that has nothing to do, once the vehicle {!is_heard}. *)
   | Leaves of float

@@ -11,29 +11,29 @@ let deadline ~now name s = now +. timeout_of name s
 
 (* What is known to be over, or was never asked for, need not be halted. *)
 let halt name begun s =
-  match Memo.knowledge ~plan:begun.order.plan begun.memos with
+  match Durable_note.knowledge ~plan:begun.order.plan begun.memos with
   | None | Some { over = true; _ } -> expect name Nothing s
   | Some _ -> expect name (Halt begun) s
 
-let resume ~now (standing : Dolphin_runtime.Past.standing) s =
-  let timeouts = List.fold_left (fun map (v, seconds) -> Names.add v seconds map) s.timeouts standing.timeouts in
-  let s = { s with timeouts; timeout = Option.value standing.timeout ~default:s.timeout } in
-  let s = List.fold_left (fun s v -> expect v Nothing { s with bound = Names.add v () s.bound }) s standing.bound in
-  let begun (errand : Dolphin_runtime.Past.errand) =
-    { order = order_of errand.task; memos = List.filter_map Memo.of_json errand.notes }
+let resume ~now (outstanding : Dolphin_runtime.History.outstanding) s =
+  let timeouts = List.fold_left (fun map (v, seconds) -> Names.add v seconds map) s.timeouts outstanding.timeouts in
+  let s = { s with timeouts; timeout = Option.value outstanding.timeout ~default:s.timeout } in
+  let s = List.fold_left (fun s v -> expect v Nothing { s with bound = Names.add v () s.bound }) s outstanding.bound in
+  let begun (errand : Dolphin_runtime.History.commanded) =
+    { order = order_of errand.task; memos = List.filter_map Durable_note.of_json errand.notes }
   in
   (* The end of the errand before may have been noted during this one. *)
-  let before (errand : Dolphin_runtime.Past.errand) =
-    let is_over = function Memo.Over _ -> true | Asked _ | Taken _ | Runs _ -> false in
+  let before (errand : Dolphin_runtime.History.commanded) =
+    let is_over = function Durable_note.Over _ -> true | Asked _ | Taken _ | Runs _ -> false in
     let with_ends b = { b with memos = List.filter is_over (begun errand).memos @ b.memos } in
     Option.map with_ends (Option.map begun errand.before)
   in
-  let wish (v, (errand : Dolphin_runtime.Past.errand)) s =
+  let wish (v, (errand : Dolphin_runtime.History.commanded)) s =
     if errand.is_stopped then halt v (begun errand) s
     else expect v (Run { begun = begun errand; before = before errand; deadline = deadline ~now v s }) s
   in
-  let s = List.fold_left (fun s errand -> wish errand s) s standing.errands in
-  { s with timers = Timers.of_list standing.timers }
+  let s = List.fold_left (fun s errand -> wish errand s) s outstanding.tasks in
+  { s with timers = Timers.of_list outstanding.timers }
 
 let adopt ~now ~stopped { order; memos } = command ~now (Adopt { order; stopped; memos })
 

@@ -3,7 +3,7 @@
 open Dolphin_semantics
 open Knowledge
 
-val resume : now:float -> Dolphin_runtime.Past.standing -> t -> t
+val resume : now:float -> Dolphin_runtime.History.outstanding -> t -> t
 (** As {!Station.resume}. *)
 
 val order_of : Core.platform_task -> Execution.order

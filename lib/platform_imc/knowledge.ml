@@ -22,7 +22,7 @@ type wish =
   | Halt of begun
 
 (* What a console that died was told to have a vehicle do, and what it kept of that; nothing, if it did not ask yet. *)
-and begun = { order : Execution.order; memos : Memo.t list }
+and begun = { order : Execution.order; memos : Durable_note.t list }
 
 (* What the program was told of a vehicle, and when. *)
 type told = { state : World.vehicle_state; at : float }
@@ -46,14 +46,14 @@ type t = {
   dropped : int Names.t;
   skipped : int;
   accepted : int;
-  heard : Heard.t;
+  heard : Received.t;
 }
 
 type output =
   | Send of { address : Service.address; bytes : string }
   | Announce of string
   | Announce_to of Unix.inet_addr * string
-  | Keep of Core.vehicle * Memo.t
+  | Keep of Core.vehicle * Durable_note.t
   | Note of Core.vehicle * string
 
 let telemetry_interval = 0.95
@@ -62,7 +62,7 @@ let create settings =
   { settings; nodes = Nodes.empty; ids = Names.empty; bound = Names.empty; telemetry = false; timeouts = Names.empty;
     timeout = 60.; timers = Timers.none; told = Names.empty; expected = Names.empty; outbox = Outbox.empty;
     next_announce = 0.; last_announce = neg_infinity; next_heartbeat = 0.; next_eager = infinity;
-    dropped = Names.empty; skipped = 0; accepted = 0; heard = Heard.nothing }
+    dropped = Names.empty; skipped = 0; accepted = 0; heard = Received.nothing }
 
 let timeout_of name s = Option.value (Names.find_opt name s.timeouts) ~default:s.timeout
 let find name s = Option.bind (Names.find_opt name s.ids) (fun id -> Nodes.find_opt id s.nodes)

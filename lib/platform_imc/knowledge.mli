@@ -22,7 +22,7 @@ type output =
   | Announce of string
   (** To the announcement ports at 224.0.75.69, the broadcast address and 127.0.0.1. *)
   | Announce_to of Unix.inet_addr * string  (** To the announcement ports there. *)
-  | Keep of Core.vehicle * Memo.t  (** In case that we die: before what follows is sent. *)
+  | Keep of Core.vehicle * Durable_note.t  (** In case that we die: before what follows is sent. *)
   | Note of Core.vehicle * string  (** For people: something unusual that is not the end of a task. *)
 
 (** {1:state State} *)
@@ -34,7 +34,7 @@ type wish =
   | Halt of begun
 
 (** What a console that died was told to have a vehicle do, and what it kept of that; nothing, if it did not ask yet. *)
-and begun = { order : Execution.order; memos : Memo.t list }
+and begun = { order : Execution.order; memos : Durable_note.t list }
 
 (** What the program was told of a vehicle, and when. *)
 type told = { state : World.vehicle_state; at : float }
@@ -58,7 +58,7 @@ type t = {
   dropped : int Names.t;
   skipped : int;
   accepted : int;
-  heard : Heard.t;
+  heard : Received.t;
 }
 
 val create : settings -> t

@@ -3,7 +3,7 @@ module Control = Message.Plan_control
 module Control_state = Message.Plan_control_state
 
 type order = { plan : string; specification : Message.t Message.Plan_specification.t option }
-type output = Keep of Memo.t | Send of Message.t | Done | Failed of string | Note of string
+type output = Keep of Durable_note.t | Send of Message.t | Done | Failed of string | Note of string
 
 let grace = 1.
 let stop_interval = 0.5
@@ -65,13 +65,13 @@ type t = {
   last_stop : int option;
   stop_echo : float;  (* when the vehicle last answered a stop of ours *)
   former : former option;
-  takes : Takes.t;  (* of the last request *)
+  takes : Duplicates.t;  (* of the last request *)
   phase : phase;
 }
 
 let create ~request =
   { next_request = request land 0xFFFF; seen = None; error = None; abort = None; last_stop = None;
-    stop_echo = neg_infinity; former = None; takes = Takes.nothing; phase = Idle }
+    stop_echo = neg_infinity; former = None; takes = Duplicates.nothing; phase = Idle }
 
 let idle x = match x.phase with Idle -> true | Starting _ | Running _ | Ending _ | Stopping _ -> false
 
@@ -135,7 +135,7 @@ let begin_attempt ~now ~clock order x =
       accepted = None; adopted = false; initialised = false }
   in
   let busy = match x.seen with Some s -> busy s && is order.plan s | None -> false in
-  let takes = Takes.request ~plan:order.plan ~number:request ~after:attempt.after ~busy in
+  let takes = Duplicates.request ~plan:order.plan ~number:request ~after:attempt.after ~busy in
   ({ x with phase = Starting attempt; abort = None; takes }, [ start_message attempt ])
 
 let begin_stop ~now ~clock ~took_effect ?next attempt x =

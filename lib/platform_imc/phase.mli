@@ -9,7 +9,7 @@ type order = {
 }
 
 type output =
-  | Keep of Memo.t  (** In case that we die: before what follows is sent. *)
+  | Keep of Durable_note.t  (** In case that we die: before what follows is sent. *)
   | Send of Message.t  (** To the vehicle. *)
   | Done
   | Failed of string  (** Without a full stop. *)
@@ -80,7 +80,7 @@ type t = {
   last_stop : int option;
   stop_echo : float;  (** when the vehicle last answered a stop of ours *)
   former : former option;
-  takes : Takes.t;  (** of the last request *)
+  takes : Duplicates.t;  (** of the last request *)
   phase : phase;
 }
 

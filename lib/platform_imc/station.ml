@@ -119,7 +119,7 @@ let packet ~now ~from (p : Packet.t) s =
 let listen ~from (h : Header.t) bytes s =
   match Nodes.find_opt h.src s.nodes with
   | Some n when s.settings.listens && Node.belongs from n && Header.check h bytes = Ok () ->
-    { s with heard = Heard.add h bytes s.heard }
+    { s with heard = Received.add h bytes s.heard }
   | Some _ | None -> s
 
 let datagram ~now ~from ?len bytes s =
@@ -320,7 +320,7 @@ let sights ~now s =
   List.map (fun (_, n) -> sight n) (Nodes.bindings s.nodes)
   |> List.sort (fun a b -> compare (a.node.name, a.node.id) (b.node.name, b.node.id))
 
-let heard id s = Heard.of_system id s.heard
+let heard id s = Received.of_system id s.heard
 let plan vehicle s = Option.bind (find vehicle s) (fun n -> Execution.progress n.execution)
 let dropped s = Names.bindings s.dropped
 let skipped s = s.skipped

@@ -14,8 +14,8 @@ type settings = Knowledge.settings
 val create : settings -> t
 (** Nobody is known; an announcement is due. *)
 
-val resume : now:float -> Dolphin_runtime.Past.standing -> t -> t
-(** [resume ~now standing s] is [s], as {!create} made it, taking over at [now] from a console that died. Vehicles that
+val resume : now:float -> Dolphin_runtime.History.outstanding -> t -> t
+(** [resume ~now outstanding s] is [s], as {!create} made it, taking over at [now] from a console that died. Vehicles that
     it held, and those that it had asked for something, are expected: what they were asked is settled when they have
     said what they run ({!Execution}), and they may be commanded before they are heard. One that is not heard within its
     connection timeout, though a task of it has not ended, has failed it. Timers go on. *)
@@ -90,7 +90,7 @@ type sight = {
 val sights : now:float -> t -> sight list
 (** All systems that have announced, by name. *)
 
-val heard : int -> t -> (int * Heard.entry) list
+val heard : int -> t -> (int * Received.entry) list
 (** [heard id s] is what the system [id] sent, read or not, if the settings say that this is kept. *)
 
 val plan : Core.vehicle -> t -> Execution.progress option

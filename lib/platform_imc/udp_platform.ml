@@ -38,7 +38,7 @@ type t = {
   port : int;
   buffer : Bytes.t;
   mutable station : Station.t;
-  mutable gate : (Service.address * string) Gate.t option;  (* if requests wait for the disk *)
+  mutable gate : (Service.address * string) Write_ahead.t option;  (* if requests wait for the disk *)
   mutable armed : float;  (* when the timer rings *)
   mutable rearm : unit Lwt.u option;
   mutable waiting : unit Lwt.u option;  (* [next] *)
@@ -84,16 +84,16 @@ let send_to p ((address : Service.address), bytes) =
 let carry_out p : Station.output -> unit = function
   | Send { address; bytes } -> (
       match p.gate with
-      | Some gate when Gate.is_shut gate -> Gate.hold gate (address, bytes)
+      | Some gate when Write_ahead.is_shut gate -> Write_ahead.hold gate (address, bytes)
       | Some _ | None -> send_to p (address, bytes))
   | Announce bytes -> announce p bytes
   | Announce_to (host, bytes) -> List.iter (send p (data_socket p) bytes host) p.options.announce_ports
   | Keep (vehicle, memo) -> (
-      p.options.keep ~time:(now p) vehicle (Memo.to_json memo);
+      p.options.keep ~time:(now p) vehicle (Durable_note.to_json memo);
       match p.gate with
-      | Some gate when Memo.is_urgent memo ->
+      | Some gate when Durable_note.is_urgent memo ->
         p.station <- Station.leaves ~now:(now p) ~at:infinity [ vehicle ] p.station;
-        Gate.shut gate vehicle
+        Write_ahead.shut gate vehicle
       | Some _ | None -> ())
   | Note (vehicle, text) -> p.options.note vehicle text
 
@@ -151,7 +151,7 @@ let gate p sync =
   in
   let leave vehicles messages = List.iter (send_to p) messages; settled vehicles in
   let failed vehicles error = settled vehicles; fail p error in
-  Gate.make ~sync ~leave ~failed
+  Write_ahead.make ~sync ~leave ~failed
 
 let absorb p changed = try change p changed with error -> fail p error
 
@@ -224,7 +224,7 @@ let settings options ~port ~hosts ~time : Station.settings =
 
 let guard p thread = Lwt.async (fun () -> Lwt.catch thread (fun error -> fail p error; Lwt.return_unit))
 
-let make ?(time = 0.) ?standing options =
+let make ?(time = 0.) ?outstanding options =
   let loopback = Unix.inet_addr_loopback in
   let host = if options.loopback then loopback else Unix.inet_addr_any in
   List.iter Sockets.check_own options.interfaces;
@@ -240,7 +240,7 @@ let make ?(time = 0.) ?standing options =
   let port = Sockets.port_of data in
   let settings = settings options ~port ~hosts ~time in
   let station = Station.create settings in
-  let station = Option.fold standing ~none:station ~some:(fun past -> Station.resume ~now:time past station) in
+  let station = Option.fold outstanding ~none:station ~some:(fun past -> Station.resume ~now:time past station) in
   let announcements = Lwt_unix.of_unix_file_descr ~blocking:false announcements in
   Sockets.join announcements options.group ~interfaces;
   let p =
@@ -264,9 +264,9 @@ let opened make =
 
 let open_ options = opened (fun () -> make options)
 
-let open_again options ~time moments =
-  let standing = Past.standing ~announce_period:longest_silence moments in
-  opened (fun () -> make ~time ~standing options)
+let open_again options ~time history =
+  let outstanding = History.outstanding ~announce_period:longest_silence history in
+  opened (fun () -> make ~time ~outstanding options)
 
 (* {1 Commands} *)
 

@@ -23,10 +23,10 @@ type options = {
                                that are not heard again yet, {!announce_period} at least. *)
   note : Core.vehicle -> string -> unit;  (** Is told what is unusual, for people. *)
   keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
-  (** Keeps what a console that takes over has to know ({!Memo}). When it returns, that must survive this process. *)
+  (** Keeps what a console that takes over has to know ({!Durable_note}). When it returns, that must survive this process. *)
   sync : (unit -> unit Lwt.t) option;
   (** Resolves once all that was kept before survives this machine, too. Requests to start plans wait for that
-      ({!Gate}); with [None] they do not. *)
+      ({!Write_ahead}); with [None] they do not. *)
   clock : Clock.t;  (** Only the dates in the headers of IMC packets begin with its [date]. *)
 }
 
@@ -40,8 +40,8 @@ include Platform.S
 val open_ : options -> (t, string) result
 (** [open_ options] listens and announces itself from now on. The error says which port cannot be had. *)
 
-val open_again : options -> time:float -> Past.moment list -> (t, string) result
-(** [open_again options ~time moments] takes over, at [time], from a console that died after [moments]; see
+val open_again : options -> time:float -> History.t -> (t, string) result
+(** [open_again options ~time history] takes over, at [time], from a console that died after [history]; see
     {!Station.resume}. *)
 
 val now : t -> float
@@ -64,7 +64,7 @@ val data_port : t -> int
 val sights : t -> Station.sight list
 (** All systems that have announced, by name. *)
 
-val heard : t -> int -> (int * Heard.entry) list
+val heard : t -> int -> (int * Received.entry) list
 (** What the system with this IMC address sent, by the number of the message, if the options say that this is kept. *)
 
 val progress : t -> Core.vehicle -> Execution.progress option

@@ -1,13 +1,13 @@
-(** Chance that can be had again: numbers drawn from what they are drawn for, and from nothing else. So one vehicle's
-    luck does not depend on how many draws others made before, and a run is the same on every version of the compiler
-    (whose own generator changed with OCaml 5). *)
+(** Reproducible chance: numbers that depend only on what they are drawn for. So the luck of one vehicle does not depend
+    on how many draws others made before, and a run is the same with every version of the compiler (whose own generator
+    changed with OCaml 5). *)
 
-(** What is decided. *)
-type question = Length | Failure | Moment  (** of the failure *) | Course
+(** What is decided: how long a task takes, whether it fails, when, and where the vehicle goes. *)
+type question = Length | Failure | Moment | Course
 
 val share : seed:int -> vehicle:string -> start:int -> question -> float
-(** [share ~seed ~vehicle ~start q] is a number from 0 up to but without 1, evenly spread over seeds, over vehicles,
-    over [start] (the how manieth task of the vehicle it is), and over questions. *)
+(** [share ~seed ~vehicle ~start q] is a number in the interval \[0, 1), uniformly distributed over seeds, vehicles,
+    [start] (the task's ordinal on that vehicle) and questions. *)
 
 val between : float -> float -> float -> float
-(** [between least most share] is the number that lies at [share] from [least] to [most]. *)
+(** [between least most share] is [least +. share *. (most -. least)]. *)

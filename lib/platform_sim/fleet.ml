@@ -18,11 +18,11 @@ type occurrence =
 type activity =
   | Free
   | Ordered of Core.platform_task               (* the order waits for the link *)
-  | Under_way of { task : Core.platform_task; outcome : (unit, string) result; ending : Agenda.key option }
-  | Over of { task : Core.platform_task; outcome : (unit, string) result; report : Agenda.key option }
+  | Under_way of { task : Core.platform_task; outcome : (unit, string) result; ending : Event_queue.key option }
+  | Over of { task : Core.platform_task; outcome : (unit, string) result; report : Event_queue.key option }
   (* Ended; the report waits for its turn, or if there is none for the link. *)
 
-type silence = { since : float; loss : Agenda.key }
+type silence = { since : float; loss : Event_queue.key }
 
 type craft = {
   body : Vehicle.t;
@@ -40,13 +40,13 @@ type t = {
   plans : Scenario.plan String_map.t;
   order : Core.vehicle list;                    (* the scenario's vehicles *)
   now : float;
-  agenda : occurrence Agenda.t;
+  queue : occurrence Event_queue.t;
   crafts : craft String_map.t;
   bound : String_set.t;
-  timers : Agenda.key Int_map.t;
+  timers : Event_queue.key Int_map.t;
   timeout : float;
   telemetry : bool;
-  beat : Agenda.key option;
+  beat : Event_queue.key option;
 }
 
 let default_timeout = 60.
@@ -55,10 +55,10 @@ let telemetry_period = 1.
 (* {1 Parts} *)
 
 let schedule time occurrence f =
-  let key, agenda = Agenda.add time occurrence f.agenda in
-  key, { f with agenda }
+  let key, queue = Event_queue.add time occurrence f.queue in
+  key, { f with queue }
 
-let cancel key f = match key with Some key -> { f with agenda = Agenda.remove key f.agenda } | None -> f
+let cancel key f = match key with Some key -> { f with queue = Event_queue.remove key f.queue } | None -> f
 let put id craft f = { f with crafts = String_map.add id craft f.crafts }
 
 let make_craft (v : Scenario.vehicle) ~connected ~changes =
@@ -135,10 +135,10 @@ let begin_task id craft task f =
   let v = Vehicle.scenario craft.body in
   let draw = Draw.share ~seed:f.seed ~vehicle:id ~start:craft.starts in
   let plan = String_map.find_opt task.Core.name f.plans in
-  let errand = Errand.make ~draw plan v (Vehicle.position craft.body ~at:f.now) task in
-  let body = Vehicle.set_out craft.body ~at:f.now errand.way in
-  let ends = f.now +. errand.lasts and empty = Float.max f.now (Vehicle.empty_from body) in
-  let time, outcome = if empty < ends then empty, Error "battery empty" else ends, errand.outcome in
+  let execution = Execution.make ~draw plan v (Vehicle.position craft.body ~at:f.now) task in
+  let body = Vehicle.set_out craft.body ~at:f.now execution.track in
+  let ends = f.now +. execution.duration and empty = Float.max f.now (Vehicle.empty_from body) in
+  let time, outcome = if empty < ends then empty, Error "battery empty" else ends, execution.outcome in
   let ending, f =
     if time = infinity then None, f
     else
@@ -245,22 +245,22 @@ let happen f = function
 (* {1 Time} *)
 
 let now f = f.now
-let due f = Option.map (fun (time, _) -> Float.max f.now time) (Agenda.first f.agenda)
+let due f = Option.map (fun (time, _) -> Float.max f.now time) (Event_queue.first f.queue)
 
 let advance f time =
   let time = match due f with Some due -> Float.min due time | None -> time in
   { f with now = Float.max f.now time }
 
 let step f =
-  match Agenda.first f.agenda with
+  match Event_queue.first f.queue with
   | None -> None
   | Some (time, occurrence) ->
-    let f = { f with now = Float.max f.now time; agenda = Agenda.rest f.agenda } in
+    let f = { f with now = Float.max f.now time; queue = Event_queue.rest f.queue } in
     Some (happen f occurrence)
 
 (* What lies in the future is there because an event comes of it, at once or in the end. *)
 let rec quiet f =
-  match Agenda.first f.agenda with
+  match Event_queue.first f.queue with
   | None -> true
   | Some (time, _) when time > f.now -> false
   | Some _ -> ( match step f with Some (None, f) -> quiet f | Some (Some _, _) -> false | None -> true)
@@ -299,7 +299,7 @@ let create ~seed (s : Scenario.t) =
   let add_plan plans (p : Scenario.plan) = String_map.add p.name p plans in
   let plans = List.fold_left add_plan String_map.empty s.plans in
   let empty =
-    { seed; plans; order = List.map (fun (v : Scenario.vehicle) -> v.id) s.vehicles; now = 0.; agenda = Agenda.empty;
+    { seed; plans; order = List.map (fun (v : Scenario.vehicle) -> v.id) s.vehicles; now = 0.; queue = Event_queue.empty;
       crafts = String_map.empty; bound = String_set.empty; timers = Int_map.empty; timeout = default_timeout;
       telemetry = false; beat = None } in
   let add f (v : Scenario.vehicle) =

@@ -28,7 +28,7 @@ module Make (Time : Time) = struct
     clock : Time.t;
     mutable fleet : Fleet.t;
     mutable changed : unit Lwt.u option;
-    mutable early : Platform.event list;  (* to be told before anything else: see {!Recreation} *)
+    mutable early : Platform.event list;  (* to be told before anything else: see {!Reconstruction} *)
   }
 
   let name = "sim"
@@ -36,11 +36,11 @@ module Make (Time : Time) = struct
   let announce_period = 10.
   let make clock ~seed scenario = { clock; fleet = Fleet.create ~seed scenario; changed = None; early = [] }
 
-  let make_again clock ~seed scenario moments =
-    let again { Recreation.fleet; early; news } =
+  let make_again clock ~seed scenario history =
+    let again { Reconstruction.fleet; early; news } =
       ({ clock = clock (Fleet.now fleet); fleet; changed = None; early }, news)
     in
-    Result.map again (Recreation.make ~seed ~announce_period scenario moments)
+    Result.map again (Reconstruction.make ~seed ~announce_period scenario history)
 
   let catch_up p = p.fleet <- Fleet.advance p.fleet (Time.elapsed p.clock)
 
@@ -131,7 +131,7 @@ module Virtual = struct
     end)
 
   let create ~seed scenario = make () ~seed scenario
-  let create_again ~seed scenario moments = make_again ignore ~seed scenario moments
+  let create_again ~seed scenario history = make_again ignore ~seed scenario history
 end
 
 module Pace = struct
@@ -155,6 +155,6 @@ module Paced = struct
 
   let create ?clock:(source = Clock.system) ?(speed = 1.) ~seed scenario = make (clock source speed 0.) ~seed scenario
 
-  let create_again ?clock:(source = Clock.system) ?(speed = 1.) ~seed scenario moments =
-    make_again (clock source speed) ~seed scenario moments
+  let create_again ?clock:(source = Clock.system) ?(speed = 1.) ~seed scenario history =
+    make_again (clock source speed) ~seed scenario history
 end

@@ -68,7 +68,7 @@
     {1:simulation What is simulated}
 
     Vehicles have a position, a battery, and a link that comes and goes as the scenario says. How tasks go is
-    {!Errand}'s, how batteries go is {!Vehicle}'s. A seed and a scenario determine everything: the same commands at the
+    {!Execution}'s, how batteries go is {!Vehicle}'s. A seed and a scenario determine everything: the same commands at the
     same times see the same events. What a vehicle's task comes to depends on the seed, the vehicle, how many tasks it
     has begun before and the task's entry in the scenario, on nothing else. *)
 
@@ -101,10 +101,10 @@ module Virtual : sig
   (** [create ~seed s] is the fleet of [s] at time 0. *)
 
   val create_again :
-    seed:int -> Scenario.t -> Past.moment list -> (t * World.vehicle_state list, string) result
-    (** [create_again ~seed s moments] is the platform of a run whose console died after [moments], with what was told
-        of vehicles since the journal's last lines on them: see {!Recreation}. No time has passed since. The error says
-        why [moments] are not those of this fleet. *)
+    seed:int -> Scenario.t -> History.t -> (t * World.vehicle_state list, string) result
+    (** [create_again ~seed s history] is the platform of a run whose console died after [history], with what was told
+        of vehicles since the journal's last lines on them: see {!Reconstruction}. No time has passed since. The error says
+        why [history] are not those of this fleet. *)
 end
 
 (** Time passes by itself, perhaps faster than outside. *)
@@ -121,7 +121,7 @@ module Paced : sig
     ?speed:float ->
     seed:int ->
     Scenario.t ->
-    Past.moment list ->
+    History.t ->
     (t * World.vehicle_state list, string) result
     (** As that of {!Virtual}: the fleet stood still while there was no console. *)
 end

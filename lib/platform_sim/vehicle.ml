@@ -2,7 +2,7 @@ open Dolphin_scenario
 
 type t = {
   scenario : Scenario.vehicle;
-  way : Track.t;
+  track : Track.t;
   since : float;                                (* when it set out on it *)
   battery : float;                              (* then *)
   rate : float;                                 (* what it gains a second *)
@@ -19,7 +19,7 @@ let resting (scenario : Scenario.vehicle) =
   if scenario.charge > 0. then scenario.charge /. hour else at_rest *. working scenario
 
 let make (scenario : Scenario.vehicle) =
-  { scenario; way = Track.stay scenario.position; since = 0.; battery = scenario.battery; rate = resting scenario }
+  { scenario; track = Track.stay scenario.position; since = 0.; battery = scenario.battery; rate = resting scenario }
 
 let scenario v = v.scenario
 
@@ -35,7 +35,7 @@ let battery v ~at =
   else if at >= full_from v then 1.
   else Float.max 0. (Float.min 1. (v.battery +. (v.rate *. (at -. v.since))))
 
-let position v ~at = Track.position v.way (at -. v.since)
+let position v ~at = Track.position v.track (at -. v.since)
 
 (* The nearest of [xs] to [x], the first of several; [x] if there are none. *)
 let nearest distance x = function
@@ -45,9 +45,9 @@ let nearest distance x = function
 let seen_at v ~at = nearest Dolphin_geo.Wgs84.distance (position v ~at) v.scenario.places
 let shown_battery v ~at = nearest (fun a b -> Float.abs (a -. b)) (battery v ~at) v.scenario.batteries
 
-let go v ~at way rate = { v with way; since = at; battery = battery v ~at; rate }
-let set_out v ~at way = go v ~at way (working v.scenario)
+let go v ~at track rate = { v with track; since = at; battery = battery v ~at; rate }
+let set_out v ~at track = go v ~at track (working v.scenario)
 let rest v ~at = go v ~at (Track.stay (position v ~at)) (resting v.scenario)
 
 let is_steady v ~at =
-  at -. v.since >= Track.still_from v.way && (v.rate = 0. || at >= empty_from v || at >= full_from v)
+  at -. v.since >= Track.still_from v.track && (v.rate = 0. || at >= empty_from v || at >= full_from v)

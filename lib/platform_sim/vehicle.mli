@@ -12,7 +12,7 @@ val scenario : t -> Scenario.vehicle
 (** What the scenario says of it. *)
 
 val set_out : t -> at:float -> Track.t -> t
-(** [set_out v ~at way] is [v] leaving at time [at] to go [way]. *)
+(** [set_out v ~at track] is [v] that leaves at time [at] and follows [track]. *)
 
 val rest : t -> at:float -> t
 (** [rest v ~at] is [v] staying where it is at time [at]. *)

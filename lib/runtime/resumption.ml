@@ -5,7 +5,7 @@ module Names = Map.Make (String)
 type t = {
   header : Header.t;
   replay : Replay.t;
-  moments : Past.moment list;
+  history : History.t;
   pending : Transition.event option;
   clock : float * string;
   kept : int;
@@ -17,25 +17,25 @@ type trouble = Over of Request.ending | Changed | No_run of Verdict.t
 type reading = {
   its_header : Header.t;
   after : Replay.t;  (* all lines *)
-  reversed : Past.moment list;
+  reversed : History.t;
   held : (Entry.t * Replay.t) option;  (* the latest line, if that is an event, and what was before it *)
   its_clock : float * string;
   ran : string;  (* the hash of the program that ran last *)
   whole : int;  (* bytes, without [held] *)
 }
 
-(* What a line adds to the moments, which are latest first. *)
-let remember (entry : Entry.t) replay moments =
-  let add what = { Past.time = Entry.time entry; what } :: moments in
+(* What a line adds to the history, which are latest first. *)
+let remember (entry : Entry.t) replay history =
+  let add what = { History.time = Entry.time entry; what } :: history in
   match entry with
-  | Header _ | Partial _ | Label _ | Resumed _ | End _ -> moments
+  | Header _ | Partial _ | Label _ | Resumed _ | End _ -> history
   | Vehicle { state; _ } -> add (Saw state)
   | Note { vehicle; note; _ } -> add (Noted (vehicle, note))
-  | Event _ -> Option.fold (Replay.event replay) ~none:moments ~some:(fun event -> add (Happened event))
+  | Event _ -> Option.fold (Replay.event replay) ~none:history ~some:(fun event -> add (Happened event))
   | Transition _ -> (
       match Replay.latest replay with
       | Some (_, t) when t.effects <> [] -> add (Asked t.effects)
-      | Some _ | None -> moments)
+      | Some _ | None -> history)
 
 (* An event is told of with its transition: without, it is not gone on with. *)
 let take tell reader r (entry : Entry.t) after =
@@ -57,7 +57,7 @@ let finish r =
     Ok
       { header = r.its_header;
         replay = (match r.held with Some (_, before) -> before | None -> r.after);
-        moments = List.rev r.reversed;
+        history = List.rev r.reversed;
         pending = Replay.event r.after;
         clock = r.its_clock;
         kept = r.whole }
@@ -92,12 +92,12 @@ let read ?(tell = fun _ _ -> ()) ?(changed = false) program ~hash reader =
   | Wrong { number; why } -> Error (No_run (Unreadable { number; why }))
 
 let seen r =
-  let add found { Past.time; what } =
+  let add found { History.time; what } =
     match what with
     | Saw state -> Names.add state.World.id (time, state) found
     | Noted _ | Happened _ | Asked _ -> found
   in
-  List.map snd (Names.bindings (List.fold_left add Names.empty r.moments))
+  List.map snd (Names.bindings (List.fold_left add Names.empty r.history))
 
 let pp_trouble ppf = function
   | Over ending ->

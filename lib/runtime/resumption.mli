@@ -6,7 +6,7 @@ open Dolphin_trace
 type t = {
   header : Header.t;
   replay : Replay.t;  (** after the last line that is gone on with *)
-  moments : Past.moment list;  (** up to there, in order; and [pending] *)
+  history : History.t;  (** up to there, in order; and [pending] *)
   pending : Transition.event option;
   (** The journal tells of this, and not of the transition that it causes: the event is to be dealt with again, and its
       line is none of those that are gone on with. *)

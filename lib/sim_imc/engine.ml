@@ -45,7 +45,7 @@ type t = {
   starts : int;
 }
 
-type outcome = said list * Deed.t list * t
+type outcome = said list * Activity.t list * t
 
 let entity = 55
 let supervisor = 75
@@ -80,7 +80,7 @@ let plan_control_state ~at e : Message.Plan_control_state.t =
   | Blocked _ -> idle Blocked
   | Calibrating _ -> idle Initializing
   | Executing { run; since; part; ends = _; outcome = _ } ->
-    let elapsed = at -. since and total = run.flight.errand.lasts in
+    let elapsed = at -. since and total = run.flight.execution.duration in
     let known = elapsed > 0. && total > 0. && total < infinity in
     { (idle Executing) with
       plan_id = run.plan; man_id = part.id; man_type = part.kind;
@@ -140,7 +140,7 @@ let log_request ~at e plan = log ~at e (Printf.sprintf "request -- Start Plan (%
 let log_beginning ~at e plan = log ~at e (Printf.sprintf "plan initializing: %s" plan)
 let log_answer ~at e ?type_ plan info = log ~at e ?type_ (Printf.sprintf "reply -- Start Plan (%s) -- %s" plan info)
 let reply_to_start e (r : run) type_ info = reply e ~by:r.by ~op:Start ~request:r.request ~plan:r.plan type_ info
-let deed_request (r : run) : Deed.request = { plan = r.plan; number = r.request; by = r.by.system; sent = r.sent }
+let requested (r : run) : Activity.request = { plan = r.plan; number = r.request; by = r.by.system; sent = r.sent }
 
 (* {1 Plans begin and end} *)
 
@@ -152,17 +152,17 @@ let running e =
 let rest ~at mode e = { e with mode; body = Vehicle.rest e.body ~at }
 
 let take_off ~at (run : run) e =
-  let body = Vehicle.set_out e.body ~at run.flight.errand.way in
-  let ends = at +. run.flight.errand.lasts and empty = Float.max at (Vehicle.empty_from body) in
-  let ends, outcome = if empty < ends then empty, Error "battery empty" else ends, run.flight.errand.outcome in
+  let body = Vehicle.set_out e.body ~at run.flight.execution.track in
+  let ends = at +. run.flight.execution.duration and empty = Float.max at (Vehicle.empty_from body) in
+  let ends, outcome = if empty < ends then empty, Error "battery empty" else ends, run.flight.execution.outcome in
   let part = Flight.part run.flight 0. in
   let e = { e with body; loaded = run.plan; mode = Executing { run; since = at; part; ends; outcome } } in
   let executing = Printf.sprintf "%s: executing maneuver" part.id in
   ( [ say_vehicle e; say_control ~at e; reply_to_start e run Success executing; log_answer ~at e run.plan executing ],
-    [ Deed.Started { request = deed_request run; inline = run.inline; instead = run.instead } ],
+    [ Activity.Started { request = requested run; inline = run.inline; instead = run.instead } ],
     e )
 
-let refused ~at ~(request : Deed.request) ~by ~instead e why =
+let refused ~at ~(request : Activity.request) ~by ~instead e why =
   let was_running = running e <> None in
   let initializing = say_initializing ~at e in
   let e = { (rest ~at Ready e) with last_outcome = Failure } in
@@ -170,7 +170,7 @@ let refused ~at ~(request : Deed.request) ~by ~instead e why =
   let states = say_control ~at e :: (if was_running then [ say_vehicle e ] else []) in
   let before = [ log_request ~at e request.plan; initializing; log_beginning ~at e request.plan ] in
   let answer = log_answer ~at e ~type_:Error request.plan why in
-  before @ (failure :: answer :: states), [ Deed.Refused { request; why; instead } ], e
+  before @ (failure :: answer :: states), [ Activity.Refused { request; why; instead } ], e
 
 (* [e] is still as before the START. *)
 let accepted ~at ~calibrate (run : run) e =
@@ -183,8 +183,8 @@ let accepted ~at ~calibrate (run : run) e =
     let e = rest ~at (Calibrating { run; until = at +. calibration }) e in
     before @ [ loaded; say_vehicle e ], [], e
   else
-    let said, deeds, e = take_off ~at run e in
-    before @ (loaded :: said), deeds, e
+    let said, activities, e = take_off ~at run e in
+    before @ (loaded :: said), activities, e
 
 (* {1 START} *)
 
@@ -215,14 +215,14 @@ let remember name s e =
   let is_room = String_map.mem name e.known || String_map.cardinal e.known < most_known in
   if is_room then { e with known = String_map.add name s e.known } else e
 
-let start ~at ~by ~(request : Deed.request) (c : Message.t Message.Plan_control.t) e =
+let start ~at ~by ~(request : Activity.request) (c : Message.t Message.Plan_control.t) e =
   let name = c.plan_id in
   let instead = Option.map (fun (run : run) -> run.plan) (running e) in
   match e.mode with
   | Blocked _ ->
     let why = "vehicle is blocked" in
     [ reply e ~by ~op:Start ~request:c.request_id ~plan:name Failure why ],
-    [ Deed.Refused { request; why; instead = None } ], e
+    [ Activity.Refused { request; why; instead = None } ], e
   | Ready | Calibrating _ | Executing _ -> (
       match find e c with
       | Error why -> refused ~at ~request ~by ~instead e why
@@ -246,21 +246,21 @@ let stop ~at ~by ~request (c : Message.t Message.Plan_control.t) e =
   let answer type_ info = reply e ~by ~op:Stop ~request:c.request_id ~plan:c.plan_id type_ info in
   match running e with
   | None ->
-    [ answer Failure "no plan is running, request ignored" ], [ Deed.Stopped { request; plan = None } ], e
+    [ answer Failure "no plan is running, request ignored" ], [ Activity.Stopped { request; plan = None } ], e
   | Some run ->
     let e = { (rest ~at Ready e) with last_outcome = Failure } in
     [ answer Success "OK"; say_vehicle e; say_control ~at e ],
-    [ Deed.Stopped { request; plan = Some run.plan } ], e
+    [ Activity.Stopped { request; plan = Some run.plan } ], e
 
 let request ~at ~sent ~by (c : Message.t Message.Plan_control.t) e =
-  let request : Deed.request = { plan = c.plan_id; number = c.request_id; by = by.system; sent } in
+  let request : Activity.request = { plan = c.plan_id; number = c.request_id; by = by.system; sent } in
   match c.type_, c.op with
-  | Request, Start when c.plan_id = "dislodge" -> [], [ Deed.Ignored { request; why = "plan dislodge" } ], e
+  | Request, Start when c.plan_id = "dislodge" -> [], [ Activity.Ignored { request; why = "plan dislodge" } ], e
   | Request, Start -> start ~at ~by ~request c e
   | Request, Stop -> stop ~at ~by ~request c e
   | Request, ((Load | Get | Other _) as op) ->
     let why = "operation is not supported" in
-    [ reply e ~by ~op ~request:c.request_id ~plan:c.plan_id Failure why ], [ Deed.Ignored { request; why } ], e
+    [ reply e ~by ~op ~request:c.request_id ~plan:c.plan_id Failure why ], [ Activity.Ignored { request; why } ], e
   | (Success | Failure | In_progress | Other _), _ -> [], [], e
 
 (* The plan that is running has failed for [why]; [mode] comes after it. *)
@@ -281,7 +281,7 @@ let abort ~at ~by ~name e =
     | Ready | Blocked _ | Calibrating _ | Executing _ -> Blocked { until = at +. recovery; operation = Error }
   in
   let said, run, e = give_up ~at ~why mode e in
-  said, [ Deed.Aborted { by = by.system; plan = Option.map (fun (r : run) -> r.plan) run } ], e
+  said, [ Activity.Aborted { by = by.system; plan = Option.map (fun (r : run) -> r.plan) run } ], e
 
 (* {1 What happens by itself} *)
 
@@ -305,7 +305,7 @@ let block ~at e =
   | (from, lasts) :: blocks ->
     let why = "vehicle is under external control" in
     let said, run, e = give_up ~at ~why (Blocked { until = from +. lasts; operation = External }) { e with blocks } in
-    said, [ Deed.Blocked { plan = Option.map (fun (r : run) -> r.plan) run } ], e
+    said, [ Activity.Blocked { plan = Option.map (fun (r : run) -> r.plan) run } ], e
 
 let ended ~at (run : run) outcome e =
   match outcome with
@@ -313,17 +313,17 @@ let ended ~at (run : run) outcome e =
     let is_done = say_done e in
     let e = { (rest ~at Ready e) with last_outcome = Success } in
     ( [ is_done; reply_to_start e run Success "plan completed"; say_control ~at e; say_vehicle e ],
-      [ Deed.Completed (deed_request run) ], e )
+      [ Activity.Completed (requested run) ], e )
   | Error why ->
     let said, _, e = give_up ~at ~why Ready e in
-    said, [ Deed.Failed { request = deed_request run; why } ], e
+    said, [ Activity.Failed { request = requested run; why } ], e
 
 let mode_changes ~at e =
   match e.mode with
   | Ready -> [], [], e
   | Blocked _ ->
     let e = { e with mode = Ready } in
-    [ say_vehicle e; say_control ~at e ], [ Deed.Unblocked ], e
+    [ say_vehicle e; say_control ~at e ], [ Activity.Unblocked ], e
   | Calibrating { run; until = _ } -> take_off ~at run e
   | Executing x when x.ends <= at -> ended ~at x.run x.outcome e
   | Executing x ->
@@ -337,6 +337,6 @@ let rec advance ~at e =
   | None -> [], [], e
   | Some time when time > at -> [], [], e
   | Some time ->
-    let said, deeds, e = if block_due e <= mode_due e then block ~at:time e else mode_changes ~at:time e in
-    let more_said, more_deeds, e = advance ~at e in
-    said @ more_said, deeds @ more_deeds, e
+    let said, activities, e = if block_due e <= mode_due e then block ~at:time e else mode_changes ~at:time e in
+    let more_said, more_activities, e = advance ~at e in
+    said @ more_said, activities @ more_activities, e

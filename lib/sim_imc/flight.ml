@@ -2,28 +2,28 @@ open Dolphin_platform_sim
 open Dolphin_semantics
 
 type part = { id : string; kind : int; ends : float }
-type t = { errand : Errand.t; parts : part list }
+type t = { execution : Execution.t; parts : part list }
 
 let task name plan : Core.platform_task = { name; plan; task_site = 0 }
 
-(* Each maneuver as an errand of its own, from where the one before ends. *)
+(* Each maneuver as an execution of its own, from where the one before ends. *)
 let parts ~draw vehicle position (s : Specification.t) =
   let add (position, time, parts) (m : Plan.maneuver) kind =
     let one = task s.plan.name (Some { s.plan with maneuvers = [ m ] }) in
-    let errand = Errand.make ~draw None vehicle position one in
-    let ends = time +. errand.lasts in
-    Track.position errand.way errand.lasts, ends, { id = m.id; kind; ends } :: parts
+    let execution = Execution.make ~draw None vehicle position one in
+    let ends = time +. execution.duration in
+    Track.position execution.track execution.duration, ends, { id = m.id; kind; ends } :: parts
   in
   let _, _, parts = List.fold_left2 add (position, 0., []) s.plan.maneuvers s.kinds in
   List.rev parts
 
 let make ~draw plan vehicle position ~name (specification : Specification.t option) =
   match specification with
-  | Some s -> { errand = Errand.make ~draw plan vehicle position (task name (Some s.plan));
+  | Some s -> { execution = Execution.make ~draw plan vehicle position (task name (Some s.plan));
                 parts = parts ~draw vehicle position s }
   | None ->
-    let errand = Errand.make ~draw plan vehicle position (task name None) in
-    { errand; parts = [ { id = "1"; kind = Dolphin_imc.Message.Goto.id; ends = errand.lasts } ] }
+    let execution = Execution.make ~draw plan vehicle position (task name None) in
+    { execution; parts = [ { id = "1"; kind = Dolphin_imc.Message.Goto.id; ends = execution.duration } ] }
 
 let rec at time = function
   | [ last ] -> last

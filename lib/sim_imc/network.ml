@@ -165,10 +165,10 @@ let update n ~log ~at c step =
   match c.radio with
   | None -> ()
   | Some radio ->
-    let datagrams, deeds, radio = step radio in
+    let datagrams, activities, radio = step radio in
     c.radio <- Some radio;
     List.iter (send_datagram n c) datagrams;
-    List.iter (fun deed -> log (Deed.to_json ~time:at ~vehicle:c.vehicle.id deed)) deeds
+    List.iter (fun activity -> log (Activity.to_json ~time:at ~vehicle:c.vehicle.id activity)) activities
 
 let due n =
   let earliest time c =

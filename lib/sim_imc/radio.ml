@@ -13,16 +13,16 @@ type t = {
   faults : Faults.t;
   seed : int;
   node : Vehicle_node.t;
-  agenda : passage Agenda.t;
+  queue : passage Event_queue.t;
   sent : int;
   received : int;
   broken : int;
 }
 
-type outcome = datagram list * Deed.t list * t
+type outcome = datagram list * Activity.t list * t
 
 let create ?(faults = Faults.none) ~seed settings =
-  { faults; seed; node = Vehicle_node.create settings; agenda = Agenda.empty; sent = 0; received = 0; broken = 0 }
+  { faults; seed; node = Vehicle_node.create settings; queue = Event_queue.empty; sent = 0; received = 0; broken = 0 }
 
 let node r = r.node
 let broken r = r.broken
@@ -32,8 +32,8 @@ let broken r = r.broken
 let link r direction = Vehicle_node.name r.node ^ direction
 
 let schedule ~at passage r delays =
-  let add agenda delay = snd (Agenda.add (at +. delay) passage agenda) in
-  { r with agenda = List.fold_left add r.agenda delays }
+  let add queue delay = snd (Event_queue.add (at +. delay) passage queue) in
+  { r with queue = List.fold_left add r.queue delays }
 
 let transmit ~at r datagram =
   let delays = Faults.delays ~seed:r.seed ~link:(link r " sends") ~number:r.sent r.faults in
@@ -56,9 +56,9 @@ let transmit_all ~at r outputs =
   let sent, r = List.fold_left one ([], r) (List.concat_map datagrams outputs) in
   List.rev sent, r
 
-let after_node ~at r (outputs, deeds, node) =
+let after_node ~at r (outputs, activities, node) =
   let sent, r = transmit_all ~at { r with node } outputs in
-  sent, deeds, r
+  sent, activities, r
 
 let tell ~at ~src_ent ~content r =
   let outputs, node = Vehicle_node.tell ~at ~src_ent ~content r.node in
@@ -71,9 +71,9 @@ let arrive ~at channel ~host bytes r =
   | Ok packet -> after_node ~at r (Vehicle_node.receive ~at channel ~host packet r.node)
   | Error _ -> [], [], { r with broken = r.broken + 1 }
 
-let both (sent, deeds, r) step =
-  let more_sent, more_deeds, r = step r in
-  sent @ more_sent, deeds @ more_deeds, r
+let both (sent, activities, r) step =
+  let more_sent, more_activities, r = step r in
+  sent @ more_sent, activities @ more_activities, r
 
 let pass ~at passage r =
   match passage with
@@ -81,9 +81,9 @@ let pass ~at passage r =
   | Inward { channel; host; bytes } -> arrive ~at channel ~host bytes r
 
 let rec deliver ~at r =
-  match Agenda.first r.agenda with
+  match Event_queue.first r.queue with
   | Some (time, passage) when time <= at ->
-    both (pass ~at passage { r with agenda = Agenda.rest r.agenda }) (deliver ~at)
+    both (pass ~at passage { r with queue = Event_queue.rest r.queue }) (deliver ~at)
   | Some _ | None -> [], [], r
 
 let advance ~at r = both (deliver ~at r) (fun r -> after_node ~at r (Vehicle_node.advance ~at r.node))
@@ -97,7 +97,7 @@ let receive ~at channel ~host bytes r =
       | delays -> [], [], schedule ~at (Inward { channel; host; bytes }) r delays)
 
 let due r =
-  match Agenda.first r.agenda, Vehicle_node.due r.node with
+  match Event_queue.first r.queue, Vehicle_node.due r.node with
   | Some (time, _), Some time' -> Some (Float.min time time')
   | Some (time, _), None -> Some time
   | None, due -> due

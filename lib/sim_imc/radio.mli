@@ -17,7 +17,7 @@ type destination =
 
 type datagram = { destination : destination; bytes : string }
 
-type outcome = datagram list * Deed.t list * t
+type outcome = datagram list * Activity.t list * t
 (** As in {!Vehicle_node.outcome}. *)
 
 val due : t -> float option

@@ -25,7 +25,7 @@ type t = {
 
 type destination = Discovery | Systems of Address.t list
 type output = { destination : destination; packet : Packet.t }
-type outcome = output list * Deed.t list * t
+type outcome = output list * Activity.t list * t
 type channel = Announcements | Data
 
 let vehicle v = v.settings.engine.vehicle
@@ -92,9 +92,9 @@ let say_all ~at v said =
   let v, outputs = List.fold_left_map (say ~at) v said in
   List.concat outputs, v
 
-let after_engine ~at v (said, deeds, engine) =
+let after_engine ~at v (said, activities, engine) =
   let outputs, v = say_all ~at { v with engine } said in
-  outputs, deeds, v
+  outputs, activities, v
 
 (* {1 What happens by itself} *)
 
@@ -165,9 +165,9 @@ let due v =
   in
   if time = infinity then None else Some time
 
-let both (outputs, deeds, v) step =
-  let more_outputs, more_deeds, v = step v in
-  outputs @ more_outputs, deeds @ more_deeds, v
+let both (outputs, activities, v) step =
+  let more_outputs, more_activities, v = step v in
+  outputs @ more_outputs, activities @ more_activities, v
 
 let advance ~at v =
   let announce_if_due v = if v.next_announce <= at then announce ~at v else [], [], v in

@@ -45,7 +45,7 @@ type destination =
 
 type output = { destination : destination; packet : Packet.t }
 
-type outcome = output list * Deed.t list * t
+type outcome = output list * Activity.t list * t
 (** What is sent, in order, each packet with a later time stamp than the one before; what is to be logged; the vehicle
     afterwards. *)
 

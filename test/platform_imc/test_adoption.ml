@@ -47,10 +47,10 @@ let case name ?stopped memos first rest expected =
       let found = List.map show (outputs ?stopped memos first rest) in
       Alcotest.(check (list string)) name expected found)
 
-let asked ?before () : Memo.t = Asked { plan = "p"; request = 7; before }
-let taken : Memo.t = Taken { request = 7 }
-let runs : Memo.t = Runs { request = 7 }
-let over : Memo.t = Over { request = 7 }
+let asked ?before () : Durable_note.t = Asked { plan = "p"; request = 7; before }
+let taken : Durable_note.t = Taken { request = 7 }
+let runs : Durable_note.t = Runs { request = 7 }
+let over : Durable_note.t = Over { request = 7 }
 let another = ("q", false)
 
 let nobody_knows =

@@ -7,7 +7,7 @@ type t = {
   mutable node : Vehicle_node.t;
   mutable now : float;
   mutable heard : heard list;                   (* latest first *)
-  mutable deeds : Deed.t list;                  (* latest first *)
+  mutable activities : Activity.t list;                  (* latest first *)
 }
 
 let console = 0x4ABC
@@ -25,16 +25,16 @@ let settings ?(speed = 1.) ?(contact_period = 0.) ?(strict = false) ?refuses ?(b
   { engine = { vehicle = List.hd vehicles; plans; seed; epoch; strict; refuses; blocks };
     id = vehicle; addresses = [ { host = "127.0.0.1"; port = 6002 } ]; speed; announce_period = 10.; contact_period }
 
-let make settings = { node = Vehicle_node.create settings; now = 0.; heard = []; deeds = [] }
+let make settings = { node = Vehicle_node.create settings; now = 0.; heard = []; activities = [] }
 let now s = s.now
 let node s = s.node
 
-let take s (outputs, deeds, node) =
+let take s (outputs, activities, node) =
   let hear { Vehicle_node.destination; packet } =
     { time = s.now; announced = (destination = Vehicle_node.Discovery); packet } in
   s.node <- node;
   s.heard <- List.rev_append (List.map hear outputs) s.heard;
-  s.deeds <- List.rev_append deeds s.deeds
+  s.activities <- List.rev_append activities s.activities
 
 let until s time =
   let rec go stuck =
@@ -73,8 +73,8 @@ let stop s number =
   send s (Plan_control { Message.Plan_control.default with type_ = Request; op = Stop; request_id = number })
 
 let heard s = List.rev s.heard
-let forget s = s.heard <- []; s.deeds <- []
-let deeds s = List.rev s.deeds
+let forget s = s.heard <- []; s.activities <- []
+let activities s = List.rev s.activities
 
 let count s message =
   List.length (List.filter (fun h -> Packet.id h.packet = Message.id message) s.heard)

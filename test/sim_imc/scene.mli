@@ -57,7 +57,7 @@ val heard : t -> heard list
 
 val forget : t -> unit
 val node : t -> Vehicle_node.t
-val deeds : t -> Deed.t list
+val activities : t -> Activity.t list
 
 val count : t -> Message.t -> int
 (** [count s m] is how many messages with the number of [m] are in {!heard}. *)

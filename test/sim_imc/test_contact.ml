@@ -121,7 +121,7 @@ let addressed () =
   let starts dst =
     Scene.forget s;
     Scene.start ~dst s 1 "p";
-    List.length (Scene.deeds s)
+    List.length (Scene.activities s)
   in
   Alcotest.(check (list int)) "own, broadcast, another, nobody" [ 1; 1; 0; 0 ]
     (List.map starts [ Scene.vehicle; Header.broadcast; 0x1B; Header.nobody ])

@@ -50,12 +50,12 @@ let exchange ?faults ~seed datagrams =
     | (at, input) :: later as all -> (
         match Radio.due r with
         | Some due when due <= at && due <= 10. ->
-          let sent, deeds, r = Radio.advance ~at:due r in
+          let sent, activities, r = Radio.advance ~at:due r in
           let got = List.rev_append (List.map (fun d -> due, d.Radio.bytes) sent) got in
-          go r got (List.rev_append deeds did) all
+          go r got (List.rev_append activities did) all
         | Some _ | None ->
-          let sent, deeds, r = input ~at r in
-          go r (List.rev_append (List.map (fun d -> at, d.Radio.bytes) sent) got) (List.rev_append deeds did) later)
+          let sent, activities, r = input ~at r in
+          go r (List.rev_append (List.map (fun d -> at, d.Radio.bytes) sent) got) (List.rev_append activities did) later)
   in
   let receive channel bytes ~at r = Radio.receive ~at channel ~host:"127.0.0.1" bytes r in
   let end_ = 10., fun ~at:_ r -> [], [], r in
@@ -116,8 +116,8 @@ let mutated =
 
 let hostile datagrams =
   let timed = List.mapi (fun i bytes -> float_of_int i *. 0.01, Vehicle_node.Data, bytes) datagrams in
-  let _, deeds = exchange ~seed:1 timed in
-  deeds = []
+  let _, activities = exchange ~seed:1 timed in
+  activities = []
 
 (* {1 Any requests} *)
 
@@ -169,7 +169,7 @@ let fleet =
    plan 'q', { duration 20; mayFail 50.percent }\nplan 'r', { only 'UAV' }"
 
 (* Whatever is started ends once, or is running. *)
-let rec is_well_formed running : Deed.t list -> bool = function
+let rec is_well_formed running : Activity.t list -> bool = function
   | [] -> true
   | Started { instead; request; _ } :: rest -> instead = running && is_well_formed (Some request.plan) rest
   | Refused { instead; _ } :: rest ->
@@ -183,7 +183,7 @@ let any_requests (speed, actions) =
   let s = Scene.make (Scene.settings ~speed ~blocks:[ 30., 10.; 200., 5. ] fleet) in
   Scene.join s;
   List.iteri (act s) actions;
-  is_well_formed None (Scene.deeds s)
+  is_well_formed None (Scene.activities s)
 
 let tests =
   [ case "loses, doubles and holds back so many" shares;

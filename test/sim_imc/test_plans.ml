@@ -27,7 +27,7 @@ let replies s =
     (Scene.story s)
 
 let did s =
-  List.map (fun d -> Yojson.Safe.Util.(to_string (member "did" (Deed.to_json ~time:0. ~vehicle:"a" d)))) (Scene.deeds s)
+  List.map (fun d -> Yojson.Safe.Util.(to_string (member "did" (Activity.to_json ~time:0. ~vehicle:"a" d)))) (Scene.activities s)
 
 let by_name () =
   let s = scene "plan 'p', { duration 60 }" in
@@ -70,7 +70,7 @@ let twice () =
   Scene.start s 7 "p";
   Scene.until s 6.;
   Alcotest.(check (list string)) "starts again" [ "started"; "started" ] (did s);
-  match List.rev (Scene.deeds s) with
+  match List.rev (Scene.activities s) with
   | Started { instead = Some "p"; _ } :: _ -> ()
   | _ -> Alcotest.fail "not instead of itself"
 
@@ -83,7 +83,7 @@ let fails () =
       "reply FAILURE START 7 'p' plan failed" ]
     (replies s);
   Alcotest.(check bool) "outcome" true (List.mem "state READY 'p' - FAILURE" (Scene.story s));
-  Alcotest.(check (list string)) "deeds" [ "started"; "failed" ] (did s)
+  Alcotest.(check (list string)) "activities" [ "started"; "failed" ] (did s)
 
 let refusals () =
   let refusal ?strict ?refuses plans plan =
@@ -135,7 +135,7 @@ let blocked () =
     [ "reply FAILURE START 7 'p' vehicle is under external control"; "state BLOCKED 'p' - FAILURE"; "vehicle EXTERNAL";
       "reply FAILURE START 8 'p' vehicle is blocked"; "vehicle SERVICE"; "state READY 'p' - FAILURE" ]
     (from_block (Scene.story s));
-  Alcotest.(check (list string)) "deeds" [ "started"; "blocked"; "refused"; "unblocked" ] (did s)
+  Alcotest.(check (list string)) "activities" [ "started"; "blocked"; "refused"; "unblocked" ] (did s)
 
 let aborted_at_rest () =
   let s = scene "" in

@@ -91,7 +91,7 @@ let resume r text =
   match Resumption.read r.program ~hash:r.hash (Reader.of_string text) with
   | Error trouble -> refuse trouble
   | Ok past -> (
-      match Simulator.Virtual.create_again ~seed:r.seed r.scenario past.moments with
+      match Simulator.Virtual.create_again ~seed:r.seed r.scenario past.history with
       | Error why -> Error why
       | Ok (platform, news) ->
         let journal = Buffer.create 65536 in
@@ -106,7 +106,7 @@ let resume r text =
           { configuration = Replay.configuration past.replay; world = Replay.world past.replay; news;
             pending = past.pending }
         in
-        drive r recorder platform ~beginning ~answered:(Past.answers past.moments) r.host;
+        drive r recorder platform ~beginning ~answered:(History.answers past.history) r.host;
         Ok (Buffer.contents journal))
 
 let run ?(seed = 0) ?period name =

@@ -95,23 +95,23 @@ let log_of_links () =
 
 let board () =
   let bound = [ "v"; "w" ] and p = task "dive" in
-  let b = Board.transition Board.start ~time:0. (transition ~bound ~effects:[ Bind bound ] (Bind bound)) in
+  let b = Status.transition Status.start ~time:0. (transition ~bound ~effects:[ Bind bound ] (Bind bound)) in
   let b =
-    Board.transition b ~time:10.
+    Status.transition b ~time:10.
       (transition ~bound ~running:[ ("v", p) ] ~effects:[ Start ("v", p) ] (Start ("v", "dive")))
   in
-  let b = Board.news b ~time:75. (state "v") in
-  let b = Board.news b ~time:75. (state ~connected:false "w") in
+  let b = Status.news b ~time:75. (state "v") in
+  let b = Status.news b ~time:75. (state ~connected:false "w") in
   lines "a line for each vehicle"
     [ "   1:15  2 vehicles, 1 busy"; "         v  dive  1:05  41.00000, -8.00000  50%    ";
       "         w  -           41.00000, -8.00000  no link" ]
-    (Board.lines b);
-  lines "no vehicle, no line" [] (Board.lines Board.start)
+    (Status.lines b);
+  lines "no vehicle, no line" [] (Status.lines Status.start)
 
 let large_board () =
   let bound = List.init 1000 (Printf.sprintf "v%d") in
-  let b = Board.transition Board.start ~time:0. (transition ~bound (Bind bound)) in
-  Alcotest.(check int) "fits a screen" (Board.most_lines + 2) (List.length (Board.lines b))
+  let b = Status.transition Status.start ~time:0. (transition ~bound (Bind bound)) in
+  Alcotest.(check int) "fits a screen" (Status.most_lines + 2) (List.length (Status.lines b))
 
 let () =
   Alcotest.run "display"

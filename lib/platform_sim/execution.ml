@@ -1,13 +1,13 @@
 open Dolphin_semantics
 open Dolphin_scenario
 
-type t = { way : Track.t; lasts : float; outcome : (unit, string) result }
+type t = { track : Track.t; duration : float; outcome : (unit, string) result }
 
-let duration : Scenario.duration = { least = 60.; most = 180. }
-let refuse position why = { way = Track.stay position; lasts = 0.; outcome = Error why }
+let default_duration : Scenario.duration = { least = 60.; most = 180. }
+let refuse position why = { track = Track.stay position; duration = 0.; outcome = Error why }
 
 let drawn_duration draw (plan : Scenario.plan option) =
-  let { Scenario.least; most } = Option.value (Option.bind plan (fun p -> p.duration)) ~default:duration in
+  let { Scenario.least; most } = Option.value (Option.bind plan (fun p -> p.duration)) ~default:default_duration in
   Draw.between least most (draw Draw.Length)
 
 let by_name draw (plan : Scenario.plan option) (vehicle : Scenario.vehicle) position =
@@ -24,8 +24,8 @@ let inline (p : Plan.t) (vehicle : Scenario.vehicle) position =
   let leg maneuver ({ waypoints; dwell; _ } : Plan.leg) : Track.leg =
     let speed = Plan.metres_per_second maneuver ~default:vehicle.speed in
     { waypoints; dwell; speed = (if speed > 0. then speed else vehicle.speed) } in
-  let way = Track.through position (List.rev (List.rev_map2 leg p.maneuvers (Plan.path p))) in
-  way, Track.duration way
+  let track = Track.through position (List.rev (List.rev_map2 leg p.maneuvers (Plan.path p))) in
+  track, Track.duration track
 
 let fails draw (plan : Scenario.plan option) =
   match plan with
@@ -43,12 +43,12 @@ let make ~draw plan (vehicle : Scenario.vehicle) position (task : Core.platform_
   if not known then refuse position (Printf.sprintf "unknown plan '%s'" task.name)
   else if not allowed then refuse position (Printf.sprintf "plan '%s' is not for this vehicle" task.name)
   else
-    let way, lasts =
+    let track, duration =
       match task.plan with
       | Some p -> inline p vehicle position
       | None -> by_name draw plan vehicle position
     in
     if fails draw plan then
-      let lasts = if lasts < infinity then lasts else drawn_duration draw plan in
-      { way; lasts = draw Moment *. lasts; outcome = Error "plan failed" }
-    else { way; lasts; outcome = Ok () }
+      let duration = if duration < infinity then duration else drawn_duration draw plan in
+      { track; duration = draw Moment *. duration; outcome = Error "plan failed" }
+    else { track; duration; outcome = Ok () }

@@ -3,7 +3,7 @@ open Dolphin_runtime
 
 let case name test = Alcotest.test_case name `Quick test
 let task name : Core.platform_task = { name; plan = None; task_site = 0 }
-let at time what : Past.moment = { time; what }
+let at time what : History.entry = { time; what }
 let asked time effects = at time (Asked effects)
 let note text : Yojson.Safe.t = `String text
 
@@ -11,13 +11,13 @@ let look_for timeout : Effect.t =
   let filter : Settings.filter = { id = None; kind = None; payload = []; region = None } in
   Look_for { filter; count = Exactly 1; timeout }
 
-let standing = Past.standing ~announce_period:10.
-let names errands = List.map (fun (v, (e : Past.errand)) -> (v, e.task.name)) errands
-let name_of = Option.map (fun (e : Past.errand) -> e.task.name)
+let outstanding = History.outstanding ~announce_period:10.
+let names tasks = List.map (fun (v, (e : History.commanded)) -> (v, e.task.name)) tasks
+let name_of = Option.map (fun (e : History.commanded) -> e.task.name)
 
 let vehicles_and_tasks () =
   let s =
-    standing
+    outstanding
       [ asked 0. [ Bind [ "a"; "b" ] ];
         asked 1. [ Start ("a", task "p"); Start ("b", task "p") ];
         at 2. (Noted ("a", note "first"));
@@ -26,8 +26,8 @@ let vehicles_and_tasks () =
         asked 5. [ Stop "a"; Release [ "b" ] ] ]
   in
   Alcotest.(check (list string)) "bound" [ "a" ] s.bound;
-  Alcotest.(check (list (pair string string))) "under way" [ ("a", "p") ] (names s.errands);
-  let a = List.assoc "a" s.errands in
+  Alcotest.(check (list (pair string string))) "under way" [ ("a", "p") ] (names s.tasks);
+  let a = List.assoc "a" s.tasks in
   Alcotest.(check bool) "told to stop" true a.is_stopped;
   Alcotest.(check (list string)) "notes, latest first" [ "second"; "first" ]
     (List.map Yojson.Safe.Util.to_string a.notes)
@@ -35,21 +35,21 @@ let vehicles_and_tasks () =
 (* Of the tasks before, only the last may still have to be stopped. *)
 let one_task_after_another () =
   let start name : Effect.t = Start ("a", task name) in
-  let s = standing [ asked 1. [ start "p" ]; asked 2. [ Stop "a"; start "q" ]; asked 3. [ Stop "a"; start "r" ] ] in
-  let r = List.assoc "a" s.errands in
+  let s = outstanding [ asked 1. [ start "p" ]; asked 2. [ Stop "a"; start "q" ]; asked 3. [ Stop "a"; start "r" ] ] in
+  let r = List.assoc "a" s.tasks in
   Alcotest.(check string) "the last" "r" r.task.name;
   Alcotest.(check bool) "not stopped" false r.is_stopped;
   Alcotest.(check (option string)) "the one before" (Some "q") (name_of r.before);
   Alcotest.(check (option string)) "and no other" None (name_of (Option.bind r.before (fun q -> q.before)))
 
 let timers () =
-  let ring timeout = (standing [ asked 5. [ look_for timeout ] ]).timers in
+  let ring timeout = (outstanding [ asked 5. [ look_for timeout ] ]).timers in
   let timers = Alcotest.(list (pair int (float 0.))) in
   Alcotest.check timers "as long as the pick says" [ (Effect.script_timer, 7.) ] (ring (Some 2.));
   Alcotest.check timers "or an announce period" [ (Effect.script_timer, 15.) ] (ring None);
   let set timer seconds : Effect.t = Set_timer (timer, seconds) in
   let s =
-    standing
+    outstanding
       [ asked 0. [ set 1 10.; set 2 20.; set 3 infinity; set 4 (-1.) ];
         at 4. (Happened (Timer_expired 4)); asked 5. [ Cancel_timer 1 ]; asked 6. [ set 2 30. ] ]
   in
@@ -58,8 +58,8 @@ let timers () =
 let timeouts () =
   let single : Effect.t = Set_connection_timeout (Some [ "a" ], 30.) in
   let all : Effect.t = Set_connection_timeout (None, 90.) in
-  let check name (timeout, timeouts) moments =
-    let s = standing moments in
+  let check name (timeout, timeouts) history =
+    let s = outstanding history in
     Alcotest.(check (option (float 0.))) name timeout s.timeout;
     Alcotest.(check (list (pair string (float 0.)))) name timeouts s.timeouts
   in
@@ -69,7 +69,7 @@ let timeouts () =
 
 let answers () =
   let found =
-    Past.answers
+    History.answers
       [ asked 1. [ Ask "How many?" ]; at 2. (Happened (Answered "2")); asked 3. [ Ask "Where?" ];
         at 4. (Happened (Answered "here")); asked 5. [ Ask "When?" ];
         at 6. (Happened (Nobody_answers "none is given")) ]

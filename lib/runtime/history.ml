@@ -6,40 +6,41 @@ type what =
   | Happened of Transition.event
   | Asked of Effect.t list
 
-type moment = { time : float; what : what }
+type entry = { time : float; what : what }
+type t = entry list
 
-type errand = {
+type commanded = {
   task : Core.platform_task;
   is_stopped : bool;
   notes : Yojson.Safe.t list;
-  before : errand option;
+  before : commanded option;
 }
 
-type standing = {
+type outstanding = {
   bound : Core.vehicle list;
-  errands : (Core.vehicle * errand) list;
+  tasks : (Core.vehicle * commanded) list;
   timers : (Residual.timer * float) list;
   timeout : float option;
   timeouts : (Core.vehicle * float) list;
 }
 
-let nothing = { bound = []; errands = []; timers = []; timeout = None; timeouts = [] }
+let nothing = { bound = []; tasks = []; timers = []; timeout = None; timeouts = [] }
 let put key x pairs = (key, x) :: List.remove_assoc key pairs
 
-let of_errand v change s =
-  match List.assoc_opt v s.errands with
-  | Some errand -> { s with errands = put v (change errand) s.errands }
+let with_task v change s =
+  match List.assoc_opt v s.tasks with
+  | Some c -> { s with tasks = put v (change c) s.tasks }
   | None -> s
 
 let set_timer time timer seconds s =
   let others = List.remove_assoc timer s.timers in
   { s with timers = (if seconds = infinity then others else (timer, time +. Float.max 0. seconds) :: others) }
 
-let ask ~announce_period time s : Effect.t -> standing = function
+let ask ~announce_period time s : Effect.t -> outstanding = function
   | Start (v, task) ->
-    let before = Option.map (fun errand -> { errand with before = None }) (List.assoc_opt v s.errands) in
-    { s with errands = put v { task; is_stopped = false; notes = []; before } s.errands }
-  | Stop v -> of_errand v (fun errand -> { errand with is_stopped = true }) s
+    let before = Option.map (fun c -> { c with before = None }) (List.assoc_opt v s.tasks) in
+    { s with tasks = put v { task; is_stopped = false; notes = []; before } s.tasks }
+  | Stop v -> with_task v (fun c -> { c with is_stopped = true }) s
   | Set_timer (timer, seconds) -> set_timer time timer seconds s
   | Look_for { timeout; _ } ->
     set_timer time Effect.script_timer (Option.value timeout ~default:announce_period) s
@@ -51,19 +52,19 @@ let ask ~announce_period time s : Effect.t -> standing = function
     { s with timeouts = List.fold_left (fun timeouts v -> put v seconds timeouts) s.timeouts vs }
   | Say _ | Ask _ | Call_host _ | End _ -> s
 
-let standing ~announce_period moments =
+let outstanding ~announce_period history =
   let add s { time; what } =
     match what with
     | Saw _ -> s
-    | Noted (v, note) -> of_errand v (fun errand -> { errand with notes = note :: errand.notes }) s
-    | Happened (Vehicle_done v | Vehicle_failed (v, _)) -> { s with errands = List.remove_assoc v s.errands }
+    | Noted (v, note) -> with_task v (fun c -> { c with notes = note :: c.notes }) s
+    | Happened (Vehicle_done v | Vehicle_failed (v, _)) -> { s with tasks = List.remove_assoc v s.tasks }
     | Happened (Timer_expired timer) -> { s with timers = List.remove_assoc timer s.timers }
     | Happened (Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Interruption) -> s
     | Asked effects -> List.fold_left (ask ~announce_period time) s effects
   in
-  List.fold_left add nothing moments
+  List.fold_left add nothing history
 
-let answers moments =
+let answers history =
   let add (prompt, found) { what; time = _ } =
     match what with
     | Asked effects ->
@@ -72,9 +73,9 @@ let answers moments =
     | Happened (Answered text) -> (prompt, Option.fold prompt ~none:found ~some:(fun prompt -> (prompt, text) :: found))
     | Saw _ | Noted _ | Happened _ -> (prompt, found)
   in
-  List.rev (snd (List.fold_left add (None, []) moments))
+  List.rev (snd (List.fold_left add (None, []) history))
 
-let replies moments =
+let replies history =
   let call found : Effect.t -> _ = function
     | Call_host { subject; member; _ } -> (Machine.name_of_call ~subject ~member, None) :: found
     | _ -> found
@@ -87,4 +88,4 @@ let replies moments =
     | Happened (Host_failed why) -> reply (Error why) found
     | Saw _ | Noted _ | Happened _ -> found
   in
-  List.rev (List.fold_left add [] moments)
+  List.rev (List.fold_left add [] history)

@@ -12,8 +12,8 @@ type t = {
   news : World.vehicle_state list;  (** what it told of vehicles since the journal's last line on each *)
 }
 
-val make : seed:int -> announce_period:float -> Scenario.t -> Past.moment list -> (t, string) result
-(** [make ~seed ~announce_period s moments] is the fleet of [s] and [seed] after [moments], of a run with a journal. The
+val make : seed:int -> announce_period:float -> Scenario.t -> History.t -> (t, string) result
+(** [make ~seed ~announce_period s history] is the fleet of [s] and [seed] after [history], of a run with a journal. The
     error says what cannot have happened to this fleet.
 
     In virtual time it is the same as before in every respect. In paced time commands came a little later than the

@@ -82,7 +82,7 @@ let command ~announce_period s : Effect.t -> state = function
   | Set_connection_timeout (vs, seconds) -> { s with f = Fleet.set_connection_timeout vs seconds s.f }
   | Say _ | Ask _ | Call_host _ | End _ -> s
 
-let moment ~announce_period s { Past.time; what } =
+let moment ~announce_period s { History.time; what } =
   match what with
   | Saw state -> Ok (see time state s)
   | Noted _ -> Ok s
@@ -91,7 +91,7 @@ let moment ~announce_period s { Past.time; what } =
     let s = pass time s in
     Ok (List.fold_left (command ~announce_period) { s with f = Fleet.advance s.f time } effects)
 
-let make ~seed ~announce_period scenario moments =
+let make ~seed ~announce_period scenario history =
   let start = { f = Fleet.telemetry true (Fleet.create ~seed scenario); untold = []; unsaid = [] } in
   let finish s = { fleet = s.f; early = List.rev s.untold; news = List.rev s.unsaid } in
-  Result.map finish (Results.fold (moment ~announce_period) start moments)
+  Result.map finish (Results.fold (moment ~announce_period) start history)

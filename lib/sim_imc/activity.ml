@@ -29,7 +29,7 @@ let fields = function
   | Blocked { plan } -> "blocked", maybe "plan" plan
   | Unblocked -> "unblocked", []
 
-let to_json ~time ~vehicle d =
-  let did, fields = fields d in
+let to_json ~time ~vehicle a =
+  let did, fields = fields a in
   let time = Float.round (time *. 1e6) /. 1e6 in
   `Assoc (("time", `Float time) :: ("vehicle", text vehicle) :: ("did", text did) :: fields)

@@ -1,3 +1,0 @@
-(** {!Dolphin_runtime.Past}: what stands when a console has died. *)
-
-val tests : unit Alcotest.test_case list

@@ -11,5 +11,5 @@ val path : t -> string
 val check : t -> (unit, string) result
 (** Whether it seems that it can be written; the error says why not. Nothing is written yet. *)
 
-val write : t -> Dolphin_trace.Story.t -> (unit, string) result
+val write : t -> Dolphin_trace.Summary.t -> (unit, string) result
 (** The error says why it cannot be written. *)

@@ -5,7 +5,7 @@ module Value = Dolphin_semantics.Value
 module Property = Dolphin_explore.Property
 module Faults = Dolphin_environment.Faults
 module Scenario_world = Dolphin_environment.Scenario_world
-module Course = Dolphin_trace.Course
+module Witness = Dolphin_trace.Witness
 
 type settings = {
   answers : string list;
@@ -139,10 +139,10 @@ let counter_example strict (o : Search.outcome) =
 
 let as_course (program : Program_file.t) (fleet : Fleet_file.t) world property (run : Search.run) =
   let source path text = Dolphin_trace.Header.source ~path text in
-  let steps = Course.steps program.program world in
+  let steps = Witness.steps program.program world in
   let initial = Dolphin_semantics.Configuration.initial program.program in
   let last (_ : Dolphin_semantics.Configuration.t) (t : Dolphin_semantics.Transition.t) = t.next in
-  Course.to_lines
+  Witness.to_lines
     { program = source program.path program.source;
       fleet = Option.map (fun path -> source path fleet.source) fleet.path;
       property = Property.name property;

@@ -1,5 +1,5 @@
 open Dolphin_semantics
-module Course = Dolphin_trace.Course
+module Witness = Dolphin_trace.Witness
 module Log = Dolphin_display.Log
 module Scenario_world = Dolphin_environment.Scenario_world
 
@@ -40,15 +40,15 @@ let run (program : Program_file.t) scenario path : Exit_status.t =
   | Error why -> Report.complain why; Bad_input
   | Ok text -> (
       let lines = List.filter (fun line -> line <> "") (String.split_on_char '\n' text) in
-      match Course.of_lines lines with
+      match Witness.of_lines lines with
       | Error why -> refuse why
-      | Ok course -> (
-          match Course.follow program.program (Scenario_world.world scenario) course with
+      | Ok witness -> (
+          match Witness.follow program.program (Scenario_world.world scenario) witness with
           | Error (taken, misfit) ->
             ignore (print_log 1 Log.start taken);
             refuse (Printf.sprintf "%s does not fit, at step %d: %s" program.path misfit.number misfit.why)
           | Ok (steps, cycle) ->
-            Printf.printf "breaks: %s\n" course.property;
+            Printf.printf "breaks: %s\n" witness.property;
             let number, log = print_log 1 Log.start steps in
             if cycle = [] then ending program steps
             else begin

@@ -26,7 +26,7 @@ type file = { path : string; channel : out_channel }
 type t = {
   settings : settings;
   file : file option;
-  teller : Story.teller;
+  builder : Summary.builder;
   recorder : Recorder.t option;  (* if anything is to be kept *)
 }
 
@@ -86,7 +86,7 @@ let open_file path =
 (* Whoever types a command once more after the console died must not lose what vehicles may still be doing. The channel
    is never closed: to close any of its file would give the lock away. *)
 let spare_unfinished path fd =
-  if (Unix.fstat fd).st_kind = S_REG && Reader.breaks_off (Unix.in_channel_of_descr fd) then
+  if (Unix.fstat fd).st_kind = S_REG && Journal.breaks_off (Unix.in_channel_of_descr fd) then
     raise
       (Broken
          (Printf.sprintf "%s: this is the journal of a run that broke off: go on with it by --resume %s, or remove it"
@@ -102,12 +102,12 @@ let truncate fd length =
   | () -> ignore (Unix.lseek fd length SEEK_SET)
   | exception Unix.Unix_error _ -> ()  (* pipes and devices have no length *)
 
-let with_recorder settings file teller make =
+let with_recorder settings file builder make =
   let write entry =
     Option.iter (fun file -> write_line file entry) file;
-    if settings.drawing <> None then Story.tell teller entry
+    if settings.drawing <> None then Summary.add builder entry
   in
-  { settings; file; teller; recorder = (if is_wanted settings then Some (make write) else None) }
+  { settings; file; builder; recorder = (if is_wanted settings then Some (make write) else None) }
 
 let guarded settings make =
   match would_overwrite settings, Option.fold settings.drawing ~none:(Ok ()) ~some:Drawing_file.check with
@@ -128,7 +128,7 @@ let start settings program =
   in
   guarded settings (fun () ->
       let file = Option.map begun settings.journal in
-      with_recorder settings file (Story.start ()) (Recorder.make program settings.header))
+      with_recorder settings file (Summary.create ()) (Recorder.make program settings.header))
 
 let same_file a b =
   match Unix.stat a, Unix.stat b with
@@ -163,7 +163,7 @@ let resume settings program ~source (run : Resumed.t) =
   guarded settings (fun () ->
       let file = Option.map (continued run) settings.journal in
       let seen = Resumption.seen run.past and replay = run.past.replay in
-      let r = with_recorder settings file run.teller (Recorder.resume program replay ~seen) in
+      let r = with_recorder settings file run.builder (Recorder.resume program replay ~seen) in
       let line ~time = Entry.Resumed { time; program = source; at = now () } in
       Option.iter (fun recorder -> Recorder.write recorder ~time:(Replay.time replay) line) r.recorder;
       r)
@@ -200,4 +200,4 @@ let finish r ~time ~stuck =
   | () -> (
       match r.settings.drawing with
       | None -> Ok ()
-      | Some drawing -> Drawing_file.write drawing (Story.finish r.teller))
+      | Some drawing -> Drawing_file.write drawing (Summary.finish r.builder))

@@ -7,7 +7,7 @@ type t = {
   past : Resumption.t;
   log : Log.t;
   board : Status.t;
-  teller : Story.teller;
+  builder : Summary.builder;
 }
 
 (* The log and the board as they were when the console died; nothing is printed again. *)
@@ -22,14 +22,14 @@ let remember log board (entry : Entry.t) replay =
   | (Header _ | Partial _ | Label _ | Event _ | Transition _ | Note _ | Resumed _ | End _), _ -> ()
 
 let read_channel ~changed (program : Program_file.t) path channel =
-  let log = ref Log.start and board = ref Status.start and teller = Story.start () in
+  let log = ref Log.start and board = ref Status.start and builder = Summary.create () in
   let tell entry replay =
-    Story.tell teller entry;
+    Summary.add builder entry;
     remember log board entry replay
   in
   let { Header.hash; path = _ } = Header.source ~path:program.path program.source in
-  match Resumption.read ~tell ~changed program.program ~hash (Reader.of_channel channel) with
-  | Ok past -> Ok { path; past; log = !log; board = !board; teller }
+  match Resumption.read ~tell ~changed program.program ~hash (Journal.of_channel channel) with
+  | Ok past -> Ok { path; past; log = !log; board = !board; builder }
   | Error trouble -> Error (Format.asprintf "@[<v 2>%s: %a@]" path Resumption.pp_trouble trouble)
 
 let read ~changed program path =

@@ -5,7 +5,7 @@ type t = {
   past : Dolphin_runtime.Resumption.t;
   log : Dolphin_display.Log.t;  (** as they were, like what follows *)
   board : Dolphin_display.Status.t;
-  teller : Dolphin_trace.Story.teller;
+  builder : Dolphin_trace.Summary.builder;
 }
 
 val read : changed:bool -> Program_file.t -> string -> (t, string) result

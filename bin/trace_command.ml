@@ -16,11 +16,11 @@ let with_journal path f =
   let read () =
     if path = "-" then begin
       set_binary_mode_in stdin true;
-      f (Reader.of_channel stdin)
+      f (Journal.of_channel stdin)
     end
     else
       let channel = open_in_bin path in
-      Fun.protect ~finally:(fun () -> close_in_noerr channel) (fun () -> f (Reader.of_channel channel))
+      Fun.protect ~finally:(fun () -> close_in_noerr channel) (fun () -> f (Journal.of_channel channel))
   in
   match read () with
   | status -> status
@@ -30,7 +30,7 @@ let with_journal path f =
 let each_line path f =
   with_journal path (fun reader ->
       let rec go () =
-        match Reader.next reader with
+        match Journal.next reader with
         | Line { entry; _ } -> f entry; go ()
         | Torn _ | End_of_file -> Exit_status.Done
         | Wrong { number; why } -> bad (Printf.sprintf "%s:%d: %s" path number why)
@@ -141,10 +141,10 @@ let show_command =
 (* {1 Draw} *)
 
 let draw path drawing =
-  let teller = Story.start () in
-  match each_line path (Story.tell teller) with
+  let builder = Summary.create () in
+  match each_line path (Summary.add builder) with
   | Done -> (
-      match Drawing_file.write drawing (Story.finish teller) with
+      match Drawing_file.write drawing (Summary.finish builder) with
       | Ok () -> Exit_status.Done
       | Error why -> bad why)
   | (Failed | Violated | Bad_input | Platform_trouble | Inconclusive | Bug | Interrupted) as status -> status

@@ -1,5 +1,5 @@
 open Dolphin_results
-open Dolphin_trace.Field
+open Dolphin_json.Field
 
 type json = Yojson.Safe.t
 

@@ -1,4 +1,4 @@
-open Dolphin_trace.Field
+open Dolphin_json.Field
 
 type json = Yojson.Safe.t
 

@@ -1,7 +1,7 @@
 open Dolphin_results
 open Dolphin_semantics
 open Dolphin_trace
-open Dolphin_trace.Field
+open Dolphin_json.Field
 module Diagnostic = Dolphin_syntax.Diagnostic
 module Location = Dolphin_syntax.Location
 module Scenario = Dolphin_scenario.Scenario
@@ -108,7 +108,7 @@ let rec bounded n (xs : 'a Seq.t) =
 let of_transition g c event (t : Transition.t) =
   let* next = configuration g.program t.next in
   let step = Step.members (Step.of_transition g.program c t) in
-  let event = match event with None -> [] | Some h -> [ ("event", `Assoc (Happening.members h)) ] in
+  let event = match event with None -> [] | Some h -> [ ("event", `Assoc (Event.members h)) ] in
   Ok (`Assoc (event @ step @ [ ("next", next) ]))
 
 (* What is awaited, less what an event of the kind has to say. *)
@@ -138,23 +138,23 @@ let of_awaited c events : json =
   `List (List.map (fun members -> `Assoc members) all)
 
 (* Those that are what they are, and so need nobody to say more. *)
-let plain events : Happening.t list =
-  let of_event : Transition.event -> Happening.t option = function
-    | (Vehicle_done _ | Timer_expired _) as event -> Some (Happening.of_event event)
+let plain events : Event.t list =
+  let of_event : Transition.event -> Event.t option = function
+    | (Vehicle_done _ | Timer_expired _) as event -> Some (Event.of_event event)
     | Vehicle_failed _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Interruption -> None
   in
   List.filter_map of_event events
 
-let deliver g world c happening =
+let deliver g world c event =
   let refused code message =
     let message = match message with None -> [] | Some text -> [ ("message", `String text) ] in
-    Ok (Either.Right (`Assoc ([ ("event", `Assoc (Happening.members happening)); ("code", `String code) ] @ message)))
+    Ok (Either.Right (`Assoc ([ ("event", `Assoc (Event.members event)); ("code", `String code) ] @ message)))
   in
-  match Happening.to_event ~site:(Configuration.site c) happening with
+  match Event.to_event ~site:(Configuration.site c) event with
   | Error why -> Error (Bad_event why)
-  | Ok event -> (
-      match Transition.accept g.program world c event with
-      | Ok t -> Result.map (fun t -> Either.Left t) (of_transition g c (Some happening) t)
+  | Ok cause -> (
+      match Transition.accept g.program world c cause with
+      | Ok t -> Result.map (fun t -> Either.Left t) (of_transition g c (Some event) t)
       | Error Not_awaited -> refused "not-awaited" None
       | Error (Bad_answer why) -> refused "bad-answer" (Some why))
 
@@ -172,7 +172,7 @@ let step g found =
   let* json = bad (get any "configuration" found) in
   let* c = error (fun why -> Bad_configuration why) (Snapshot.of_json g.nodes g.program json) in
   let* world = match List.assoc_opt "world" found with None | Some `Null -> Ok g.world | Some json -> to_world json in
-  let to_event json = Result.bind (members json) Happening.of_members in
+  let to_event json = Result.bind (members json) Event.of_members in
   let* events =
     match List.assoc_opt "events" found with
     | None | Some `Null -> Ok None

@@ -32,7 +32,7 @@ let rec until ask place label rules n =
   | _ when n = 0 -> Error (Printf.sprintf "there is no %s in %d steps" label longest_walk)
   | t :: _ ->
     let rules = taking t rules and place = { place with configuration = t.next } in
-    if Likeness.label label t.label then Ok (place, rules) else until ask place label rules (n - 1)
+    if Match.label label t.label then Ok (place, rules) else until ask place label rules (n - 1)
 
 let trace ask place steps =
   let rec go i place rules = function
@@ -49,7 +49,7 @@ let trace ask place steps =
         match there with
         | [] -> (at_step i "%s" (nothing s steps), rules)
         | t :: _ -> (
-            match Likeness.difference s t with
+            match Match.difference s t with
             | Some why -> (at_step i "%s" why, rules)
             | None -> go (i + 1) { place with configuration = t.next } (taking t rules) rest))
   in
@@ -69,7 +69,7 @@ let distinct places =
 let follow ask places (s : Case.seen) =
   let from place =
     let place, steps, there = candidates ask place s in
-    let fits, others = List.partition (fun t -> Likeness.difference s t = None) there in
+    let fits, others = List.partition (fun t -> Match.difference s t = None) there in
     (List.map (fun t -> ({ place with configuration = t.next }, t)) fits, (steps, others))
   in
   let found, missed = List.split (List.map from places) in
@@ -79,8 +79,8 @@ let follow ask places (s : Case.seen) =
 
 let why_none (s : Case.seen) missed =
   let others = List.concat_map snd missed in
-  let nearest = List.find_opt (fun (t : transition) -> Likeness.label s.label t.label) others in
-  match Option.bind nearest (Likeness.difference s), others, missed with
+  let nearest = List.find_opt (fun (t : transition) -> Match.label s.label t.label) others in
+  match Option.bind nearest (Match.difference s), others, missed with
   | Some why, _, _ -> Printf.sprintf "%s: %s" s.label why
   | None, [], (steps, _) :: _ -> nothing s steps
   | None, others, _ -> Printf.sprintf "%s is not possible; possible are %s" s.label (labels others)

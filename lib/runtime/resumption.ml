@@ -45,7 +45,7 @@ let take tell reader r (entry : Entry.t) after =
   | Header _ | Partial _ | Label _ | Vehicle _ | Transition _ | Note _ | Resumed _ | End _ ->
     Option.iter (fun (event, _) -> tell event r.after) r.held;
     tell entry after;
-    let r' = { r' with held = None; whole = Reader.whole reader } in
+    let r' = { r' with held = None; whole = Journal.whole reader } in
     (match entry with
      | Resumed { time; at; program } -> { r' with its_clock = (time, at); ran = program.hash }
      | Header _ | Partial _ | Label _ | Vehicle _ | Event _ | Transition _ | Note _ | End _ -> r')
@@ -66,10 +66,10 @@ let read ?(tell = fun _ _ -> ()) ?(changed = false) program ~hash reader =
   (* That the program is another one explains whatever does not fit. *)
   let judge r result = if changed || r.ran = hash then result () else Error Changed in
   let rec go r =
-    let before = Reader.whole reader in
-    match Reader.next reader with
+    let before = Journal.whole reader in
+    match Journal.next reader with
     (* A last line without its end may look whole: but what it tells of was not done yet. *)
-    | Line _ when Reader.whole reader = before -> judge r (fun () -> finish r)
+    | Line _ when Journal.whole reader = before -> judge r (fun () -> finish r)
     | Torn _ | End_of_file -> judge r (fun () -> finish r)
     | Wrong { number; why } -> Error (No_run (Unreadable { number; why }))
     | Line { number; entry } -> (
@@ -80,13 +80,13 @@ let read ?(tell = fun _ _ -> ()) ?(changed = false) program ~hash reader =
               Error (No_run (No_run { number; entry; transitions = Replay.transitions r.after; mismatch }))))
   in
   let start = Replay.start ~hash program in
-  match Reader.next reader with
-  | Line { entry = Header header as entry; _ } when Reader.whole reader > 0 ->
+  match Journal.next reader with
+  | Line { entry = Header header as entry; _ } when Journal.whole reader > 0 ->
     let after = Result.value (Replay.feed start entry) ~default:start in
     tell entry after;
     go
       { its_header = header; after; reversed = []; held = None; its_clock = (0., header.started);
-        ran = header.program.hash; whole = Reader.whole reader }
+        ran = header.program.hash; whole = Journal.whole reader }
   | Line { number; _ } | Torn number -> Error (No_run (Unreadable { number; why = "not even its first line is whole" }))
   | End_of_file -> Error (No_run (Unreadable { number = 1; why = "the journal is empty" }))
   | Wrong { number; why } -> Error (No_run (Unreadable { number; why }))

@@ -21,7 +21,7 @@ type trouble =
   | No_run of Verdict.t  (** the journal is none of a run of the program, or none at all *)
 
 val read :
-  ?tell:(Entry.t -> Replay.t -> unit) -> ?changed:bool -> Core.program -> hash:string -> Reader.t -> (t, trouble) result
+  ?tell:(Entry.t -> Replay.t -> unit) -> ?changed:bool -> Core.program -> hash:string -> Journal.t -> (t, trouble) result
 (** [read ~tell ~changed program ~hash reader] goes through the journal with the transition function; [hash] is that of
     the program's text. [tell] is told of each line that is gone on with, in order, with what it led to. With
     [~changed:true] (by default false) it is enough that the journal is one of a run of [program]. *)

@@ -33,9 +33,9 @@ type answer = Entry.answer = { prompt : string; texts : string list }
 type reply = Entry.reply = { call : string; rounds : Reply.t list list }
 type t = Entry.t = { vehicles : vehicle list; plans : plan list; answers : answer list; replies : reply list }
 
-let read = Reader.read
-let vehicles_at = Reader.vehicles_at
-let replies_at = Reader.replies_at
+let read = Fleet_parser.read
+let vehicles_at = Fleet_parser.vehicles_at
+let replies_at = Fleet_parser.replies_at
 
 let equal_reply (a : reply) (b : reply) = a.call = b.call && List.equal (List.equal Reply.equal) a.rounds b.rounds
 

@@ -93,7 +93,7 @@ let statement_faults ~source tokens index acceptable =
     | _ when count >= most_faults -> faults
     | (first, stop) :: rest ->
       match run Incremental.program tokens first stop with
-      | Accepted program -> go (List.rev_append (Shape.program program) faults) count rest
+      | Accepted program -> go (List.rev_append (Well_formed.program program) faults) count rest
       | Stuck { index; before } ->
         let acceptable token = Machine.acceptable before token tokens.(index).start in
         let fault = Explain.fault ~source ~tokens ~index ~acceptable in
@@ -144,8 +144,8 @@ let read ~file source start shape faults_from =
         let acceptable token = Machine.acceptable before token tokens.(index).start in
         Result.Error (select ~scanned ~structure ~parsed:(faults_from ~source tokens index acceptable))
 
-let program ~file source = read ~file source Incremental.program Shape.program statement_faults
+let program ~file source = read ~file source Incremental.program Well_formed.program statement_faults
 
 let expression ~file source =
   let fault ~source tokens index acceptable = [ Explain.fault ~source ~tokens ~index ~acceptable ] in
-  read ~file source Incremental.answer Shape.expression fault
+  read ~file source Incremental.answer Well_formed.expression fault

@@ -13,10 +13,10 @@ let is_short body =
   let rec within budget = function
     | [] -> true
     | _ when budget = 0 -> false
-    | Shape.Statement_node s :: _ when not (simple s) -> false
-    | node :: rest -> within (budget - 1) (List.rev_append (Shape.children node) rest)
+    | Well_formed.Statement_node s :: _ when not (simple s) -> false
+    | node :: rest -> within (budget - 1) (List.rev_append (Well_formed.children node) rest)
   in
-  List.compare_length_with body 4 < 0 && within 24 (List.map (fun s -> Shape.Statement_node s) body)
+  List.compare_length_with body 4 < 0 && within 24 (List.map (fun s -> Well_formed.Statement_node s) body)
 
 let width = 100
 let tab = 4

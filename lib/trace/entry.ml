@@ -8,7 +8,7 @@ type t =
   | Partial of { observed : string list }
   | Label of { time : float; label : string }
   | Vehicle of { time : float; state : World.vehicle_state }
-  | Event of { time : float; happening : Happening.t }
+  | Event of { time : float; event : Event.t }
   | Transition of { time : float; index : int; step : Step.t }
   | Note of { time : float; vehicle : Core.vehicle; note : Yojson.Safe.t }
   | Resumed of { time : float; program : Header.source; at : string }
@@ -40,7 +40,7 @@ let to_json entry : Yojson.Safe.t =
     `Assoc (Header.format_members @ [ ("observed", all) ])
   | Label { time; label } -> line "label" time [ ("label", `String label) ]
   | Vehicle { time; state } -> line "vehicle" time (of_state state)
-  | Event { time; happening } -> line "event" time (Happening.members happening)
+  | Event { time; event } -> line "event" time (Event.members event)
   | Transition { time; index; step } -> line "transition" time (("i", `Int index) :: Step.members step)
   | Note { time; vehicle; note } -> line "platform" time [ ("vehicle", `String vehicle); ("note", note) ]
   | Resumed { time; program; at } ->
@@ -73,7 +73,7 @@ let of_members found =
   match kind with
   | "label" -> Result.map (fun label -> Label { time; label }) (get text "label" found)
   | "vehicle" -> Result.map (fun state -> Vehicle { time; state }) (to_state found)
-  | "event" -> Result.map (fun happening -> Event { time; happening }) (Happening.of_members found)
+  | "event" -> Result.map (fun event -> Event { time; event }) (Event.of_members found)
   | "transition" ->
     let* index = get whole "i" found in
     let* step = Step.of_members found in

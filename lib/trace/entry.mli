@@ -8,7 +8,7 @@ type t =
   (** the first line of a trace that has only labels, of these kinds; [[]]: of all *)
   | Label of { time : float; label : string }  (** in such a trace, in place of a transition *)
   | Vehicle of { time : float; state : World.vehicle_state }  (** what is known of a vehicle *)
-  | Event of { time : float; happening : Happening.t }  (** what the transition that follows is caused by *)
+  | Event of { time : float; event : Event.t }  (** what the transition that follows is caused by *)
   | Transition of { time : float; index : int;  (** from 0 *) step : Step.t }
   | Note of { time : float; vehicle : Core.vehicle; note : Yojson.Safe.t }
   (** What the platform wants to find again of a vehicle when the run is resumed: an object. It means nothing to the
@@ -31,8 +31,8 @@ val first_of_string : string -> (t, string) result
 
 (** {1:states What is known of vehicles} *)
 
-val of_state : World.vehicle_state -> Field.members
+val of_state : World.vehicle_state -> Dolphin_json.Field.members
 (** The members of a [vehicle] line that say what is known. *)
 
-val to_state : Field.members -> (World.vehicle_state, string) result
+val to_state : Dolphin_json.Field.members -> (World.vehicle_state, string) result
 (** What {!of_state} writes. *)

@@ -1,4 +1,4 @@
-open Field
+open Dolphin_json.Field
 
 type source = { path : string; hash : string }
 

@@ -30,7 +30,7 @@ val of_utc : string -> float option
 val version : int
 (** Of the format: 1. *)
 
-val format_members : Field.members
+val format_members : Dolphin_json.Field.members
 (** What first lines begin with. *)
 
 val check_format : Yojson.Safe.t -> (unit, string) result

@@ -127,13 +127,13 @@ let label p text =
     Error (Impossible { reason; possible = [] })
   else after p choose text
 
-let event p happening =
+let cause p event =
   let choose (c : Configuration.t) add =
-    match Happening.to_event ~site:(Configuration.site c) happening with
-    | Ok event -> Option.iter (fun (t : Transition.t) -> add t.next) (on p c event)
+    match Event.to_event ~site:(Configuration.site c) event with
+    | Ok cause -> Option.iter (fun (t : Transition.t) -> add t.next) (on p c cause)
     | Error _ -> ()
   in
-  after p choose (Format.asprintf "%a" Happening.pp happening)
+  after p choose (Format.asprintf "%a" Event.pp event)
 
 let finish p (ending : Request.ending) =
   (* The words of a failure that is hidden are not known. *)
@@ -163,7 +163,7 @@ let feed p (entry : Entry.t) =
     match entry with
     | Vehicle { state; _ } -> see p state
     | Label { label = text; _ } -> label p text
-    | Event { happening; _ } -> event p happening
+    | Event { event; _ } -> cause p event
     | End { ending; _ } -> finish p ending
     | Header _ | Partial _ | Note _ | Resumed _ -> Ok p
     | Transition _ -> Error (Impossible { reason = "transitions are lines of whole journals"; possible = [] })

@@ -86,7 +86,7 @@ let may_depend_on_vehicles r (t : Transition.t) =
 let transition r ~time ~cause (t : Transition.t) =
   pass r time;
   if r.behind <> [] && may_depend_on_vehicles r t then catch_up r;
-  let event event = r.write (Event { time = r.time; happening = Happening.of_event event }) in
+  let event event = r.write (Event { time = r.time; event = Event.of_event event }) in
   Option.iter event cause;
   let step = Step.of_transition r.program r.configuration t in
   r.write (Transition { time = r.time; index = r.transitions; step });

@@ -9,7 +9,7 @@ type t = {
   world : World.t;
   transitions : int;
   time : float;
-  event : Happening.t option;  (* whose transition comes next *)
+  event : Event.t option;  (* whose transition comes next *)
   stuck : bool;  (* the run was interrupted when nothing was left to do *)
   latest : (Transition.event option * Transition.t) option;  (* of the latest line, if that was a transition *)
   ending : Request.ending option;
@@ -28,7 +28,7 @@ let latest r = r.latest
 let was_stuck r = r.stuck
 
 let event r =
-  let event happening = Result.to_option (Happening.to_event ~site:(Configuration.site r.configuration) happening) in
+  let event event = Result.to_option (Event.to_event ~site:(Configuration.site r.configuration) event) in
   Option.bind r.event event
 
 (* {1 Mismatches} *)
@@ -53,7 +53,7 @@ let enabled r =
   if List.length labels > most_shown then List.filteri (fun i _ -> i < most_shown) labels @ [ "and more" ] else labels
 
 let awaited r =
-  let show event = Format.asprintf "%a" Happening.pp (Happening.of_event event) in
+  let show event = Format.asprintf "%a" Event.pp (Event.of_event event) in
   match r.configuration.control with
   | Waiting (_, Ask _) -> [ "an answer" ]
   | Waiting (_, Host_call _) -> [ "a reply of the host" ]
@@ -153,8 +153,8 @@ let alone r (step : Step.t) =
   | None -> no_transition r step
 
 let caused r (step : Step.t) event =
-  let by = Format.asprintf "%a" Happening.pp event in
-  match Happening.to_event ~site:(Configuration.site r.configuration) event with
+  let by = Format.asprintf "%a" Event.pp event in
+  match Event.to_event ~site:(Configuration.site r.configuration) event with
   | Error why -> mismatch r (Printf.sprintf "%s is no event: %s" by why)
   | Ok e -> (
       match Transition.accept r.program r.world r.configuration e with
@@ -192,11 +192,11 @@ let feed r (entry : Entry.t) =
     match entry, r.event with
     | (Partial _ | Label _), _ -> mismatch r "such lines are those of a partial trace"
     | (Header _ | Vehicle _ | Event _ | Note _ | Resumed _ | End _), Some event ->
-      mismatch r (Format.asprintf "the transition on %a is missing" Happening.pp event)
+      mismatch r (Format.asprintf "the transition on %a is missing" Event.pp event)
     | Header { program; _ }, None | Resumed { program; _ }, None -> Ok { r with places = program.hash = r.hash }
     | Note _, None -> Ok r
     | Vehicle { state; _ }, None -> Ok { r with world = World.add state r.world }
-    | Event { happening; _ }, None -> Ok { r with event = Some happening }
+    | Event { event; _ }, None -> Ok { r with event = Some event }
     | Transition { index; step; _ }, event ->
       if index <> r.transitions then
         mismatch r (Printf.sprintf "transition %d is expected, not %d" r.transitions index)

@@ -34,7 +34,7 @@ val to_json : t -> Yojson.Safe.t
 
 val of_json : Yojson.Safe.t -> (t, string) result
 
-val ending_members : ending -> Field.members
+val ending_members : ending -> Dolphin_json.Field.members
 (** As {!ending_of_members} reads them. *)
 
-val ending_of_members : Field.members -> (ending, string) result
+val ending_of_members : Dolphin_json.Field.members -> (ending, string) result

@@ -1,6 +1,6 @@
 open Dolphin_results
 open Dolphin_semantics
-open Field
+open Dolphin_json.Field
 module Vehicle_map = Configuration.Vehicle_map
 module Location = Dolphin_syntax.Location
 module String_set = Set.Make (String)
@@ -143,7 +143,7 @@ let of_difference name ~come:(come, xs) ~gone:(gone, ys) : members =
   | differences -> [ (name, `Assoc differences) ]
 
 let to_difference ~come ~gone json =
-  let* found = Field.members json in
+  let* found = Dolphin_json.Field.members json in
   let* come = optional (list text) ~default:[] come found in
   let* gone = optional (list text) ~default:[] gone found in
   Ok (come, gone)

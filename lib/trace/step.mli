@@ -30,8 +30,8 @@ val difference : places:bool -> t -> t -> string option
 (** [difference ~places expected found] is in what [found] is not {!same} as [expected], in a sentence without a full
     stop. *)
 
-val members : t -> Field.members
+val members : t -> Dolphin_json.Field.members
 (** As journals have it. *)
 
-val of_members : Field.members -> (t, string) result
+val of_members : Dolphin_json.Field.members -> (t, string) result
 (** What {!members} writes, or why it is none. *)

@@ -48,7 +48,7 @@ let wrap n text =
 (* {1 Rows} *)
 
 type state = {
-  mutable cause : Happening.t option;
+  mutable cause : Event.t option;
   silent : (string, unit) Hashtbl.t;
   mutable picked : string list;  (* latest first *)
   mutable rows : row list;  (* latest first *)
@@ -74,7 +74,7 @@ let of_request : Request.t -> _ = function
     [ (Program, Printf.sprintf "connection timeout %s s for %s" (amount seconds) (vehicles vs)) ]
   | End _ | Set_timer _ | Cancel_timer _ -> []
 
-let of_cause : Happening.t option -> _ = function
+let of_cause : Event.t option -> _ = function
   | Some (Done v) -> [ (Vehicle v, "└ done") ]
   | Some (Failed { vehicle; why }) -> [ (Vehicle vehicle, "✗ " ^ why) ]
   | Some (Answer text) -> [ (Program, "is answered: " ^ text) ]
@@ -124,7 +124,7 @@ let of_entry t (entry : Entry.t) =
   match entry with
   | Header _ | Partial _ -> ()
   | Label { time; label } -> add t time [ (Program, label) ]
-  | Event { happening; _ } -> t.cause <- Some happening
+  | Event { event; _ } -> t.cause <- Some event
   | Transition { time; step; _ } -> of_step t time step
   | Vehicle { time; state } ->
     let was_silent = Hashtbl.mem t.silent state.id in

@@ -18,7 +18,7 @@ let over replay ~torn =
   | Some _ | None -> Prefix { transitions; time; torn }
 
 let rec go reader replay =
-  match Reader.next reader with
+  match Journal.next reader with
   | Line { number; entry } -> (
       match Replay.feed replay entry with
       | Ok replay -> go reader replay
@@ -28,7 +28,7 @@ let rec go reader replay =
   | Wrong { number; why } -> Unreadable { number; why }
 
 let rec search ~most reader partial =
-  match Reader.next reader with
+  match Journal.next reader with
   | Line { number; entry } -> (
       match Partial.feed partial entry with
       | Ok partial -> search ~most reader partial
@@ -38,7 +38,7 @@ let rec search ~most reader partial =
   | Wrong { number; why } -> Unreadable { number; why }
 
 let check ?(world = World.empty) ?(most = most) program ~hash reader =
-  match Reader.next reader with
+  match Journal.next reader with
   | Line { entry = Partial { observed }; _ } ->
     (None, search ~most reader (Partial.start ~observed ~most world program))
   | Line { entry = Header header; _ } ->
@@ -62,7 +62,7 @@ let describe (entry : Entry.t) =
   | Header _ | Partial _ -> "a header"
   | Label { label; _ } -> label
   | Vehicle { state; _ } -> "what is known of " ^ state.id
-  | Event { happening; _ } -> Format.asprintf "%a" Happening.pp happening
+  | Event { event; _ } -> Format.asprintf "%a" Event.pp event
   | Transition { index; step; _ } ->
     let at = match step.at with Some (line, column) -> Printf.sprintf ", at %d:%d" line column | None -> "" in
     Printf.sprintf "transition %d%s: %s" index at step.label

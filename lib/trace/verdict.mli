@@ -17,7 +17,7 @@ type t =
   (** a partial trace: up to this line there are more ways than could be gone through *)
   | Unreadable of { number : int; why : string }  (** this line is no line of a journal *)
 
-val check : ?world:World.t -> ?most:int -> Core.program -> hash:string -> Reader.t -> Header.t option * t
+val check : ?world:World.t -> ?most:int -> Core.program -> hash:string -> Journal.t -> Header.t option * t
 (** [check ~world ~most program ~hash reader] reads the journal to its end, or to what is wrong with it; [hash] is that
     of the program's text, as in {!Header.source}. Where transitions are in the program only matters if the program is
     that of the journal. Of a partial trace, [world] is what is known of vehicles from the beginning (by default

@@ -31,7 +31,7 @@ let unreadable =
       case_with {|"expect": {"trace": [{"rule": []}]}|} ) ]
 
 let labels () =
-  let like expected seen = Likeness.label expected seen in
+  let like expected seen = Match.label expected seen in
   Alcotest.(check bool) "wording may be left out" true (like "broken" "broken(division by zero)");
   Alcotest.(check bool) "or be there" true (like "broken(why)" "broken(why)");
   Alcotest.(check bool) "and then counts" false (like "broken(why)" "broken(other)");
@@ -46,7 +46,7 @@ let differs expected found =
   let seen : Case.seen =
     { label = "end"; event = None; world = None; rule = None; effects = Some expected; running = None; bound = None;
       pairs = None; store = None; ending = None } in
-  Likeness.difference seen (transition found) <> None
+  Match.difference seen (transition found) <> None
 
 let effects () =
   let json = Yojson.Safe.from_string in

@@ -1,1 +1,1 @@
-(** Tests of {!Dolphin_conformance.Case} and {!Dolphin_conformance.Likeness}. No value of its own. *)
+(** Tests of {!Dolphin_conformance.Case} and {!Dolphin_conformance.Match}. No value of its own. *)

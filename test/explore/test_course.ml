@@ -4,16 +4,16 @@
 open Dolphin_environment
 open Dolphin_explore
 module Generate = Test_support.Generate
-module Course = Dolphin_trace.Course
+module Witness = Dolphin_trace.Witness
 module Configuration = Dolphin_semantics.Configuration
 module Transition = Dolphin_semantics.Transition
 
 let source path : Dolphin_trace.Header.source = Dolphin_trace.Header.source ~path ""
 
-let course_of program world property (run : Search.run) : Course.t =
+let course_of program world property (run : Search.run) : Witness.t =
   let initial = Configuration.initial program in
   let after = List.fold_left (fun _ (t : Transition.t) -> t.next) initial run.steps in
-  let steps = Course.steps program world in
+  let steps = Witness.steps program world in
   { program = source "random.dol"; fleet = None; property = Property.name property; steps = steps initial run.steps;
     cycle = steps after run.cycle }
 
@@ -23,12 +23,12 @@ let same ts ts' =
 
 let comes_back program world (property, (run : Search.run)) =
   let course = course_of program world property run in
-  match Course.of_lines (Course.to_lines course) with
+  match Witness.of_lines (Witness.to_lines course) with
   | Error why -> QCheck2.Test.fail_reportf "not read: %s" why
   | Ok read -> (
       read = course
       &&
-      match Course.follow program world read with
+      match Witness.follow program world read with
       | Ok (steps, cycle) -> same steps run.steps && same cycle run.cycle
       | Error (_, { number; why }) -> QCheck2.Test.fail_reportf "step %d: %s" number why)
 
@@ -80,7 +80,7 @@ let refused =
 
 let refused_case (lines, expected) =
   let check () =
-    match Course.of_lines lines with
+    match Witness.of_lines lines with
     | Ok _ -> Alcotest.fail "it is read"
     | Error why -> Alcotest.(check string) "why" expected why
   in

@@ -78,7 +78,7 @@ let go_on ~port ~journal fd death =
   let channel = open_in_bin journal in
   let counted = ref 0 in
   let tell (entry : Entry.t) _ = match entry with Vehicle _ -> () | _ -> incr counted in
-  match Resumption.read ~tell program ~hash (Reader.of_channel channel) with
+  match Resumption.read ~tell program ~hash (Journal.of_channel channel) with
   | Error (No_run (Unreadable { number = 1; _ })) ->
     (* Not even the header is whole: nothing was done. *)
     Unix.ftruncate fd 0;

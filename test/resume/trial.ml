@@ -25,7 +25,7 @@ let port number =
 
 let check_journal path =
   let channel = open_in_bin path in
-  let verdict = snd (Verdict.check Console.program ~hash:Console.hash (Reader.of_channel channel)) in
+  let verdict = snd (Verdict.check Console.program ~hash:Console.hash (Journal.of_channel channel)) in
   close_in channel;
   match verdict with
   | Run { ending = { how = "completed"; _ }; _ } -> Ok ()

@@ -81,17 +81,17 @@ let alter random lines =
 
 (* Whatever can be read of a journal, however strange, can be told and drawn. *)
 let show_all text =
-  let reader = Reader.of_string text and teller = Story.start () in
+  let reader = Journal.of_string text and builder = Summary.create () in
   let rec entries found =
-    match Reader.next reader with
-    | Line { entry; _ } -> Story.tell teller entry; entries (entry :: found)
+    match Journal.next reader with
+    | Line { entry; _ } -> Summary.add builder entry; entries (entry :: found)
     | Torn _ | End_of_file | Wrong _ -> List.rev found
   in
   let found = entries [] in
   let ppf = Format.formatter_of_buffer (Buffer.create 4096) in
   Table.print ppf found;
   List.iter (Table.print_transitions ppf) found;
-  ignore (Picture.html (Story.finish teller))
+  ignore (Picture.html (Summary.finish builder))
 
 (* {1 The trial} *)
 

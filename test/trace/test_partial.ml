@@ -11,7 +11,7 @@ let partial ~observed journal =
   let line text =
     match entry text with
     | Header _ -> [ Entry.Partial { observed } ]
-    | Event { happening = Answer _ | No_answer _ | Reply _ | No_reply _ | Interruption; _ } as event ->
+    | Event { event = Answer _ | No_answer _ | Reply _ | No_reply _ | Interruption; _ } as event ->
       cause := Some event;
       []
     | Transition { step; time; _ } ->
@@ -94,7 +94,7 @@ let unknown () =
   let text =
     Runs.text [ {|{"format":"dolphin-journal","version":1,"observed":["message"]}|}; label "message 'over'" ]
   in
-  let check most = snd (Verdict.check ~most r.program ~hash:r.hash (Reader.of_string text)) in
+  let check most = snd (Verdict.check ~most r.program ~hash:r.hash (Journal.of_string text)) in
   (match check 1000 with Unknown { number = 2; most = 1000 } -> () | verdict -> Alcotest.fail (show verdict));
   match check 100_000 with Possible _ -> () | verdict -> Alcotest.fail (show verdict)
 

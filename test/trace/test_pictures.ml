@@ -3,10 +3,10 @@ open Dolphin_trace
 let case name test = Alcotest.test_case name `Quick test
 
 let story journal =
-  let teller = Story.start () in
-  let tell line = match Entry.of_string line with Ok entry -> Story.tell teller entry | Error why -> failwith why in
+  let builder = Summary.create () in
+  let tell line = match Entry.of_string line with Ok entry -> Summary.add builder entry | Error why -> failwith why in
   List.iter tell (Runs.lines journal);
-  Story.finish teller
+  Summary.finish builder
 
 let contains part whole =
   match Str.search_forward (Str.regexp_string part) whole 0 with _ -> true | exception Not_found -> false
@@ -15,13 +15,13 @@ let contains part whole =
 
 let tasks_of_vehicles () =
   let s = story (Runs.run "watch").journal in
-  let show (t : Story.task) =
+  let show (t : Summary.task) =
     let ending =
       match t.ending with Done -> "done" | Failed why -> why | Stopped -> "stopped" | Unfinished -> "not ended"
     in
     Printf.sprintf "%s %s-%s %s" t.plan (Clock.text t.from) (Clock.text t.until) ending
   in
-  let of_vehicle (v : Story.vehicle) = (v.id, List.map show v.tasks) in
+  let of_vehicle (v : Summary.vehicle) = (v.id, List.map show v.tasks) in
   Alcotest.(check (list (pair string (list string))))
     "tasks"
     [ ("noptilus-1", [ "deep_dive 0:00-2:30 plan failed"; "deep_dive 10:00-13:40 plan failed" ]);
@@ -31,26 +31,26 @@ let tasks_of_vehicles () =
 let broken_off () =
   let lines = Runs.lines (Runs.run "rendezvous").journal in
   let s = story (Runs.text (List.filteri (fun i _ -> i < 40) lines)) in
-  let unfinished (v : Story.vehicle) = List.exists (fun (t : Story.task) -> t.ending = Unfinished) v.tasks in
+  let unfinished (v : Summary.vehicle) = List.exists (fun (t : Summary.task) -> t.ending = Unfinished) v.tasks in
   Alcotest.(check bool) "tasks that did not end" true (List.exists unfinished s.vehicles);
   Alcotest.(check bool) "it says so" true (contains "the journal breaks off" (Picture.svg s))
 
 (* A run of a day has no more samples than can be seen. *)
 let few_samples () =
-  let teller = Story.start () in
+  let builder = Summary.create () in
   let position : Dolphin_geo.Position.t = { latitude = 41.; longitude = -8.; height = 0. } in
   for i = 0 to 99_999 do
     let state : Dolphin_semantics.World.vehicle_state =
       { id = "v"; kind = "UUV"; payload = []; position; battery = 1. -. (float_of_int i /. 1e5); connected = true }
     in
-    Story.tell teller (Vehicle { time = float_of_int i; state })
+    Summary.add builder (Vehicle { time = float_of_int i; state })
   done;
   let step : Step.t =
     { rules = []; label = "bind(v)"; at = None; choice = 0; allocated = []; bound = [ "v" ]; released = []; posted = [];
       consumed = []; requests = [ Bind [ "v" ] ] }
   in
-  Story.tell teller (Transition { time = 1e5; index = 0; step });
-  match (Story.finish teller).vehicles with
+  Summary.add builder (Transition { time = 1e5; index = 0; step });
+  match (Summary.finish builder).vehicles with
   | [ v ] ->
     let n = List.length v.samples in
     if n < 1000 || n > 4097 then Alcotest.failf "%d samples" n;
@@ -79,7 +79,7 @@ let escaped () =
   Alcotest.(check bool) "escaped" false (contains "<script" (Picture.html s));
   Alcotest.(check bool) "there" true (contains "&lt;script&gt;" (Picture.svg s))
 
-let nothing_at_all () = ignore (Picture.svg (Story.finish (Story.start ())))
+let nothing_at_all () = ignore (Picture.svg (Summary.finish (Summary.create ())))
 
 (* {1 Scales} *)
 

@@ -61,7 +61,7 @@ let at_each_byte () =
   let header = 1 + String.index r.journal '\n' in
   let read length =
     let cut = String.sub r.journal 0 length in
-    match Dolphin_runtime.Resumption.read r.program ~hash:r.hash (Reader.of_string cut) with
+    match Dolphin_runtime.Resumption.read r.program ~hash:r.hash (Journal.of_string cut) with
     | Ok past ->
       if past.kept > length || r.journal.[past.kept - 1] <> '\n' then
         Alcotest.failf "cut at %d, it goes on at %d" length past.kept

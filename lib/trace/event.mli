@@ -18,10 +18,10 @@ val of_event : Transition.event -> t
 val to_event : site:Core.site -> t -> (Transition.event, string) result
 (** [to_event ~site h] is the event; tasks in a reply come from [site]. The error says why the reply is no value. *)
 
-val members : t -> Field.members
+val members : t -> Dolphin_json.Field.members
 (** As journals and the step protocol have it. *)
 
-val of_members : Field.members -> (t, string) result
+val of_members : Dolphin_json.Field.members -> (t, string) result
 (** What {!members} writes, or why it is none. *)
 
 val pp : Format.formatter -> t -> unit

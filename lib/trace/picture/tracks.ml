@@ -1,4 +1,4 @@
-open Story
+open Summary
 open Dolphin_geo
 
 (* {1 The map} *)
@@ -174,16 +174,16 @@ let names m vehicles ~x ~width ~y ~height =
   if List.length wanted > 24 then []
   else List.map label (Scale.spread ~least:13. ~from:(y +. 12.) ~until:(y +. height -. 4.) wanted)
 
-let draw story ~x ~y ~width ~height =
-  let positions = List.concat_map (fun v -> List.map (fun s -> s.position) v.samples) story.vehicles in
+let draw summary ~x ~y ~width ~height =
+  let positions = List.concat_map (fun v -> List.map (fun s -> s.position) v.samples) summary.vehicles in
   let frame = Svg.rect ~name:"frame" ~x ~y ~width ~height () in
   let parts =
     match fit positions ~x ~y ~width ~height with
     | None -> [ Svg.text ~name:"small" ~anchor:Middle (x +. (width /. 2.), y +. (height /. 2.)) "no positions" ]
     | Some m ->
       grid m ~x ~y ~width ~height
-      @ List.concat (List.mapi (way m) story.vehicles)
-      @ names m story.vehicles ~x ~width ~y ~height
+      @ List.concat (List.mapi (way m) summary.vehicles)
+      @ names m summary.vehicles ~x ~width ~y ~height
       @ scale m ~x ~y ~width ~height
   in
   Svg.group ~name:"tracks" (parts @ [ frame ])

@@ -14,7 +14,7 @@ type vehicle = {
   samples : sample list;
 }
 
-type deed =
+type activity =
   | Posted of string
   | Consumed of string
   | Said of string
@@ -25,12 +25,12 @@ type t = {
   header : Header.t option;
   duration : float;
   vehicles : vehicle list;
-  deeds : (float * deed) list;
+  activities : (float * activity) list;
   ending : Request.ending option;
 }
 
-(* A vehicle while the story is told; lists are latest first. *)
-type actor = {
+(* A vehicle, as far as the journal has been read; lists are latest first. *)
+type vehicle_so_far = {
   mutable its_kind : string;
   mutable ended : task list;
   mutable running : (string * float) option;  (* with the time of its start *)
@@ -43,53 +43,53 @@ type actor = {
   mutable apart : float;  (* seconds between samples, at least *)
 }
 
-type teller = {
-  actors : (string, actor) Hashtbl.t;
+type builder = {
+  by_id : (string, vehicle_so_far) Hashtbl.t;
   mutable picked : string list;  (* latest first *)
   mutable its_header : Header.t option;
   mutable now : float;
-  mutable cause : Happening.t option;  (* of the next transition *)
-  mutable done_so_far : (float * deed) list;
+  mutable cause : Event.t option;  (* of the next transition *)
+  mutable activities_so_far : (float * activity) list;
   mutable its_ending : Request.ending option;
 }
 
-let start () =
-  { actors = Hashtbl.create 16; picked = []; its_header = None; now = 0.; cause = None; done_so_far = [];
+let create () =
+  { by_id = Hashtbl.create 16; picked = []; its_header = None; now = 0.; cause = None; activities_so_far = [];
     its_ending = None }
 
-let actor t v =
-  match Hashtbl.find_opt t.actors v with
+let vehicle b v =
+  match Hashtbl.find_opt b.by_id v with
   | Some a -> a
   | None ->
     let a =
       { its_kind = ""; ended = []; running = None; spans_held = []; held_from = None; spans_silent = [];
         silent_from = None; seen = []; kept = 0; apart = 0. }
     in
-    Hashtbl.replace t.actors v a;
+    Hashtbl.replace b.by_id v a;
     a
 
 (* {1 What happens to vehicles} *)
 
-let end_task t v ending =
-  let a = actor t v in
+let end_task b v ending =
+  let a = vehicle b v in
   match a.running with
   | None -> ()
   | Some (plan, from) ->
     a.running <- None;
-    a.ended <- { plan; from; until = t.now; ending } :: a.ended
+    a.ended <- { plan; from; until = b.now; ending } :: a.ended
 
-let start_task t v plan =
-  end_task t v Stopped;
-  (actor t v).running <- Some (plan, t.now)
+let start_task b v plan =
+  end_task b v Stopped;
+  (vehicle b v).running <- Some (plan, b.now)
 
-let hold t v =
-  let a = actor t v in
-  if not (List.mem v t.picked) then t.picked <- v :: t.picked;
-  if a.held_from = None then a.held_from <- Some t.now
+let hold b v =
+  let a = vehicle b v in
+  if not (List.mem v b.picked) then b.picked <- v :: b.picked;
+  if a.held_from = None then a.held_from <- Some b.now
 
-let let_go t v =
-  let a = actor t v in
-  Option.iter (fun from -> a.spans_held <- { from; until = t.now } :: a.spans_held) a.held_from;
+let let_go b v =
+  let a = vehicle b v in
+  Option.iter (fun from -> a.spans_held <- { from; until = b.now } :: a.spans_held) a.held_from;
   a.held_from <- None
 
 (* No picture shows more samples than that: of a long run, only some are kept, evenly. *)
@@ -116,64 +116,64 @@ let thin_out a =
     | _, _ -> ()
   end
 
-let see t (s : World.vehicle_state) =
-  let a = actor t s.id in
+let see b (s : World.vehicle_state) =
+  let a = vehicle b s.id in
   a.its_kind <- s.kind;
   if s.connected then begin
-    Option.iter (fun from -> a.spans_silent <- { from; until = t.now } :: a.spans_silent) a.silent_from;
+    Option.iter (fun from -> a.spans_silent <- { from; until = b.now } :: a.spans_silent) a.silent_from;
     a.silent_from <- None;
-    keep a { time = t.now; position = s.position; battery = s.battery };
+    keep a { time = b.now; position = s.position; battery = s.battery };
     thin_out a
   end
-  else if a.silent_from = None then a.silent_from <- Some t.now
+  else if a.silent_from = None then a.silent_from <- Some b.now
 
 (* {1 What the program does} *)
 
-let errors (s : Step.t) (cause : Happening.t option) =
+let errors (s : Step.t) (cause : Event.t option) =
   match cause with
   | Some (Failed { vehicle; why }) -> [ Printf.sprintf "%s: %s" vehicle why ]
   | Some (Done _ | Timer _ | Answer _ | No_answer _ | Reply _ | No_reply _ | Interruption) | None ->
     let is_broken = String.length s.label > 7 && String.sub s.label 0 7 = "broken(" in
     if is_broken then [ String.sub s.label 7 (String.length s.label - 8) ] else []
 
-let take t (s : Step.t) =
-  let note deed = t.done_so_far <- (t.now, deed) :: t.done_so_far in
-  (match t.cause with
-   | Some (Done v) -> end_task t v Done
-   | Some (Failed { vehicle; why }) -> end_task t vehicle (Failed why)
+let take b (s : Step.t) =
+  let note activity = b.activities_so_far <- (b.now, activity) :: b.activities_so_far in
+  (match b.cause with
+   | Some (Done v) -> end_task b v Done
+   | Some (Failed { vehicle; why }) -> end_task b vehicle (Failed why)
    | Some (Timer _ | Answer _ | No_answer _ | Reply _ | No_reply _ | Interruption) | None -> ());
-  List.iter (fun text -> note (Erred text)) (errors s t.cause);
-  t.cause <- None;
+  List.iter (fun text -> note (Erred text)) (errors s b.cause);
+  b.cause <- None;
   List.iter (fun pair -> note (Consumed pair)) s.consumed;
   List.iter (fun pair -> note (Posted pair)) s.posted;
   let request : Request.t -> unit = function
-    | Start { vehicle; plan } -> start_task t vehicle plan
-    | Stop v -> end_task t v Stopped
-    | Bind vs -> List.iter (hold t) vs
-    | Release vs -> List.iter (let_go t) vs
+    | Start { vehicle; plan } -> start_task b vehicle plan
+    | Stop v -> end_task b v Stopped
+    | Bind vs -> List.iter (hold b) vs
+    | Release vs -> List.iter (let_go b) vs
     | Say text -> note (Said text)
     | Ask prompt -> note (Asked prompt)
     | Set_timer _ | Cancel_timer _ | Look_for _ | Set_connection_timeout _ | Call _ | End _ -> ()
   in
   List.iter request s.requests
 
-let tell t (entry : Entry.t) =
-  t.now <- Float.max t.now (Entry.time entry);
+let add b (entry : Entry.t) =
+  b.now <- Float.max b.now (Entry.time entry);
   match entry with
-  | Header header -> t.its_header <- Some header
-  | Vehicle { state; _ } -> see t state
-  | Event { happening; _ } -> t.cause <- Some happening
-  | Transition { step; _ } -> take t step
+  | Header header -> b.its_header <- Some header
+  | Vehicle { state; _ } -> see b state
+  | Event { event; _ } -> b.cause <- Some event
+  | Transition { step; _ } -> take b step
   | Partial _ | Label _ | Note _ | Resumed _ -> ()
-  | End { ending; _ } -> t.its_ending <- Some ending
+  | End { ending; _ } -> b.its_ending <- Some ending
 
 (* {1 The end} *)
 
-let finish t =
-  let until = t.now in
+let finish b =
+  let until = b.now in
   let spans ended from = List.rev (Option.fold ~none:ended ~some:(fun from -> { from; until } :: ended) from) in
-  let vehicle v =
-    let a = actor t v in
+  let finished v =
+    let a = vehicle b v in
     let last = Option.map (fun (plan, from) -> { plan; from; until; ending = Unfinished }) a.running in
     { id = v;
       kind = a.its_kind;
@@ -182,8 +182,8 @@ let finish t =
       silent = spans a.spans_silent a.silent_from;
       samples = List.rev a.seen }
   in
-  { header = t.its_header;
+  { header = b.its_header;
     duration = until;
-    vehicles = List.rev_map vehicle t.picked;
-    deeds = List.rev t.done_so_far;
-    ending = t.its_ending }
+    vehicles = List.rev_map finished b.picked;
+    activities = List.rev b.activities_so_far;
+    ending = b.its_ending }

@@ -7,7 +7,7 @@ type cause =
   | Choice of int
   (** the transition that the program took by itself: its place in {!Transition.internal}, in the world with what is
       assumed *)
-  | Event of Happening.t
+  | Event of Event.t
 
 type step = {
   cause : cause;
@@ -33,7 +33,7 @@ val steps : Core.program -> World.t -> Configuration.t -> Transition.t list -> s
 type misfit = { number : int;  (** of the step, from 1 *) why : string }
 
 val follow : Core.program -> World.t -> t -> (Transition.t list * Transition.t list, Transition.t list * misfit) result
-(** [follow p w course] is the transitions of its steps, and those of its cycle, once around. The error has the
+(** [follow p w witness] is the transitions of its steps, and those of its cycle, once around. The error has the
     transitions up to the first step that [p] cannot take there, or that has another label. *)
 
 val to_lines : t -> string list

@@ -21,7 +21,7 @@ let of_event : Transition.event -> t = function
   | Replied x -> (
       match Host_value.to_json x with
       | Ok json -> Reply json
-      | Error why -> invalid_arg ("Happening.of_event: " ^ why))
+      | Error why -> invalid_arg ("Event.of_event: " ^ why))
   | Host_failed why -> No_reply why
   | Interruption -> Interruption
 

@@ -1,4 +1,4 @@
-open Story
+open Summary
 
 (* Everything is placed on this. *)
 type frame = { left : float; right : float; seconds : float }
@@ -8,9 +8,9 @@ let char_height = 13.
 
 (* {1 The program's row} *)
 
-let shape deed (x, y) tip =
+let shape activity (x, y) tip =
   let n = Svg.number in
-  match deed with
+  match activity with
   | Posted _ ->
     Svg.path ~name:"post" ~tip (Printf.sprintf "M%s,%s l4.5,8 h-9 z" (n x) (n (y -. 4.)))
   | Consumed _ -> Svg.path ~name:"consume" ~tip (Printf.sprintf "M%s,%s l4.5,-8 h-9 z" (n x) (n (y +. 4.)))
@@ -38,28 +38,28 @@ let longest_label = 330.
 
 (* Marks with labels that do not overlap: each on the lowest level on which there is room for it. Marks whose labels
    have no room stand below these, without. *)
-let place f deeds =
+let place f activities =
   let free = Array.make most_levels neg_infinity in
   let levels = ref 1 in
-  let mark (time, deed) =
+  let mark (time, activity) =
     let x = at f time in
-    let text = Svg.fit ~size:10. longest_label (label deed) in
-    let size = match deed with Erred _ -> 11.2 | Posted _ | Consumed _ | Said _ | Asked _ -> 10. in
+    let text = Svg.fit ~size:10. longest_label (label activity) in
+    let size = match activity with Erred _ -> 11.2 | Posted _ | Consumed _ | Said _ | Asked _ -> 10. in
     let width = Svg.width ~size text +. 18. in
     let from = if x +. width > f.right +. 8. then x -. width else x -. 6. in
     let until = if x +. width > f.right +. 8. then x +. 8. else x +. width in
     let rec level i = if i >= most_levels then None else if free.(i) <= from then Some i else level (i + 1) in
     match level 0 with
-    | None -> (x, 0, from < x -. 6., deed, "", time)
+    | None -> (x, 0, from < x -. 6., activity, "", time)
     | Some i ->
       free.(i) <- until;
       levels := max !levels (i + 1);
-      (x, i, from < x -. 6., deed, text, time)
+      (x, i, from < x -. 6., activity, text, time)
   in
   (* Where there are too many for labels, one mark stands for those that it would cover. *)
   let covered = Hashtbl.create 8 in
-  let add marks ((x, _, _, deed, text, _) as mark) =
-    let kind = sort deed in
+  let add marks ((x, _, _, activity, text, _) as mark) =
+    let kind = sort activity in
     let is_covered = match Hashtbl.find_opt covered kind with Some x' -> x -. x' < 4. | None -> false in
     if text = "" && is_covered then marks
     else begin
@@ -67,22 +67,22 @@ let place f deeds =
       mark :: marks
     end
   in
-  let marks = List.rev (List.fold_left (fun marks deed -> add marks (mark deed)) [] deeds) in
+  let marks = List.rev (List.fold_left (fun marks activity -> add marks (mark activity)) [] activities) in
   if Hashtbl.length covered = 0 then (marks, !levels)
   else
-    let raise_labelled (x, i, leftwards, deed, text, time) =
-      (x, (if text = "" then i else i + 1), leftwards, deed, text, time)
+    let raise_labelled (x, i, leftwards, activity, text, time) =
+      (x, (if text = "" then i else i + 1), leftwards, activity, text, time)
     in
     (List.map raise_labelled marks, !levels + 1)
 
 let level_height = 15.
 
-let draw_mark base (x, level, leftwards, deed, text, time) =
+let draw_mark base (x, level, leftwards, activity, text, time) =
   let y = base -. (float_of_int level *. level_height) in
-  let tip = Printf.sprintf "%s  %s" (Clock.text time) (words deed) in
+  let tip = Printf.sprintf "%s  %s" (Clock.text time) (words activity) in
   let anchor, dx = if leftwards then (Svg.End, -8.) else (Svg.Start, 8.) in
-  let name = match deed with Erred _ -> "axis bad" | Posted _ | Consumed _ | Said _ | Asked _ -> "axis" in
-  shape deed (x, y) tip :: (if text = "" then [] else [ Svg.text ~name ~anchor ~tip (x +. dx, y +. 3.5) text ])
+  let name = match activity with Erred _ -> "axis bad" | Posted _ | Consumed _ | Said _ | Asked _ -> "axis" in
+  shape activity (x, y) tip :: (if text = "" then [] else [ Svg.text ~name ~anchor ~tip (x +. dx, y +. 3.5) text ])
 
 (* {1 Rows of vehicles} *)
 
@@ -147,27 +147,27 @@ let draw_row f i v ~y ~row =
 
 (* {1 The legend} *)
 
-let exists_deed p story = List.exists (fun (_, deed) -> p deed) story.deeds
-let exists_task p story = List.exists (fun v -> List.exists (fun (t : task) -> p t.ending) v.tasks) story.vehicles
+let has_activity p summary = List.exists (fun (_, activity) -> p activity) summary.activities
+let exists_task p summary = List.exists (fun v -> List.exists (fun (t : task) -> p t.ending) v.tasks) summary.vehicles
 
-let exists_failure story =
-  exists_deed (function Erred _ -> true | _ -> false) story
-  || exists_task (function Failed _ -> true | _ -> false) story
+let exists_failure summary =
+  has_activity (function Erred _ -> true | _ -> false) summary
+  || exists_task (function Failed _ -> true | _ -> false) summary
 
-let legend story ~x ~y =
-  let deed p sample text = if exists_deed p story then [ ((fun x -> shape sample (x, y -. 3.5) text), text) ] else [] in
+let legend summary ~x ~y =
+  let activity p sample text = if has_activity p summary then [ ((fun x -> shape sample (x, y -. 3.5) text), text) ] else [] in
   let n = Svg.number in
   let cross x = Svg.path ~name:"end-failed" (Printf.sprintf "M%s,%s l8,8 m0,-8 l-8,8" (n (x -. 4.)) (n (y -. 8.))) in
   let block x = Svg.rect ~name:"end-stopped" ~x:(x -. 1.5) ~y:(y -. 11.) ~width:3. ~height:14. () in
   let strip x = Svg.rect ~name:"silent" ~x:(x -. 6.) ~y:(y -. 5.) ~width:12. ~height:3. () in
   let items =
-    deed (function Posted _ -> true | _ -> false) (Posted "") "posts"
-    @ deed (function Consumed _ -> true | _ -> false) (Consumed "") "consumes"
-    @ deed (function Asked _ -> true | _ -> false) (Asked "") "asks"
-    @ deed (function Said _ -> true | _ -> false) (Said "") "says"
-    @ (if exists_failure story then [ (cross, "fails") ] else [])
-    @ (if exists_task (function Stopped -> true | _ -> false) story then [ (block, "is stopped") ] else [])
-    @ if List.exists (fun v -> v.silent <> []) story.vehicles then [ (strip, "no link") ] else []
+    activity (function Posted _ -> true | _ -> false) (Posted "") "posts"
+    @ activity (function Consumed _ -> true | _ -> false) (Consumed "") "consumes"
+    @ activity (function Asked _ -> true | _ -> false) (Asked "") "asks"
+    @ activity (function Said _ -> true | _ -> false) (Said "") "says"
+    @ (if exists_failure summary then [ (cross, "fails") ] else [])
+    @ (if exists_task (function Stopped -> true | _ -> false) summary then [ (block, "is stopped") ] else [])
+    @ if List.exists (fun v -> v.silent <> []) summary.vehicles then [ (strip, "no link") ] else []
   in
   let add (x, drawn) (shape, text) =
     (x +. 28. +. Svg.width ~size:10. text, drawn @ [ shape x; Svg.text ~name:"axis" (x +. 9., y) text ])
@@ -179,16 +179,16 @@ let legend story ~x ~y =
 (* More lines than that would be a curtain. *)
 let most_guides = 40
 
-let gutter story =
-  let widest = List.fold_left (fun w v -> Float.max w (Svg.width ~size:12. v.id)) 46. story.vehicles in
+let gutter summary =
+  let widest = List.fold_left (fun w v -> Float.max w (Svg.width ~size:12. v.id)) 46. summary.vehicles in
   Float.min 165. widest +. 16.
 
-let draw story ~x ~y ~width =
-  let seconds = if story.duration > 0. then story.duration else 1. in
-  let f = { left = x +. gutter story; right = x +. width -. 14.; seconds } in
-  let marks, levels = place f story.deeds in
+let draw summary ~x ~y ~width =
+  let seconds = if summary.duration > 0. then summary.duration else 1. in
+  let f = { left = x +. gutter summary; right = x +. width -. 14.; seconds } in
+  let marks, levels = place f summary.activities in
   let base = y +. (float_of_int levels *. level_height) +. 2. in
-  let count = List.length story.vehicles in
+  let count = List.length summary.vehicles in
   let row = if count <= 24 then 34. else if count <= 80 then 22. else 14. in
   let rows_top = base +. 14. in
   let bottom = rows_top +. (float_of_int count *. row) +. 4. in
@@ -198,9 +198,9 @@ let draw story ~x ~y ~width =
     [ Svg.line ~name:"grid" (x, y) (x, bottom);
       Svg.text ~name:"axis" ~anchor:Middle (x, bottom +. char_height) (Clock.text time) ]
   in
-  let guide (x, level, _, deed, _, _) =
+  let guide (x, level, _, activity, _, _) =
     let top = base -. (float_of_int level *. level_height) +. 5. in
-    match deed with
+    match activity with
     | Posted _ | Consumed _ | Erred _ -> [ Svg.line ~name:"guide" (x, top) (x, bottom) ]
     | Said _ | Asked _ -> []
   in
@@ -209,11 +209,11 @@ let draw story ~x ~y ~width =
     Svg.text ~name:"small" ~anchor:End (f.left -. 10., base +. 4.) "program"
     :: List.concat_map (draw_mark base) marks
   in
-  let rows = List.mapi (fun i v -> draw_row f i v ~y:(rows_top +. (float_of_int i *. row)) ~row) story.vehicles in
+  let rows = List.mapi (fun i v -> draw_row f i v ~y:(rows_top +. (float_of_int i *. row)) ~row) summary.vehicles in
   let parts =
     List.concat_map tick (Scale.multiples step ~from:0. ~until:seconds)
     @ [ Svg.line ~name:"frame" (f.left, bottom) (f.right, bottom) ]
     @ List.concat rows @ guides @ program
-    @ legend story ~x:f.left ~y:(bottom +. 34.)
+    @ legend summary ~x:f.left ~y:(bottom +. 34.)
   in
   (Svg.group ~name:"timeline" parts, bottom +. 40. -. y)

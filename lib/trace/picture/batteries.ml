@@ -1,8 +1,8 @@
-open Story
+open Summary
 
 (* From and until which share, in whole steps. *)
-let range story =
-  let batteries = List.concat_map (fun v -> List.map (fun s -> s.battery) v.samples) story.vehicles in
+let range summary =
+  let batteries = List.concat_map (fun v -> List.map (fun s -> s.battery) v.samples) summary.vehicles in
   let least = List.fold_left Float.min 1. batteries and most = List.fold_left Float.max 0. batteries in
   let least = Float.max 0. least and most = Float.min 1. (Float.max least most) in
   let span = Float.max 0.05 (most -. least) in
@@ -11,11 +11,11 @@ let range story =
   let bottom = Float.max 0. (step *. Float.floor ((Float.min least (top -. 0.05) /. step) +. 1e-9)) in
   (bottom, top, step)
 
-let draw story ~x ~y ~width ~height =
-  let seconds = if story.duration > 0. then story.duration else 1. in
-  let bottom, top, step = range story in
+let draw summary ~x ~y ~width ~height =
+  let seconds = if summary.duration > 0. then summary.duration else 1. in
+  let bottom, top, step = range summary in
   let labels_width =
-    List.fold_left (fun w v -> Float.max w (Svg.width ~size:12. (Svg.fit 120. v.id))) 0. story.vehicles +. 14.
+    List.fold_left (fun w v -> Float.max w (Svg.width ~size:12. (Svg.fit 120. v.id))) 0. summary.vehicles +. 14.
   in
   let right = x +. width -. labels_width in
   let across time = x +. ((right -. x) *. time /. seconds) in
@@ -39,7 +39,7 @@ let draw story ~x ~y ~width ~height =
     | [] -> None
     | last :: _ -> Some (down last.battery +. 4., (i, v, across last.time))
   in
-  let wanted = List.filter_map Fun.id (List.mapi wanted story.vehicles) in
+  let wanted = List.filter_map Fun.id (List.mapi wanted summary.vehicles) in
   let label (at, (i, v, _)) = Svg.text ~name:("name " ^ Style.vehicle i) (right +. 8., at) (Svg.fit 120. v.id) in
   let names =
     if List.length wanted > 24 then []
@@ -50,4 +50,4 @@ let draw story ~x ~y ~width ~height =
     (List.concat_map level (Scale.multiples step ~from:bottom ~until:top)
      @ List.concat_map tick (Scale.multiples time_step ~from:0. ~until:seconds)
      @ [ Svg.rect ~name:"frame" ~x ~y ~width:(right -. x) ~height () ]
-     @ List.mapi curve story.vehicles @ names)
+     @ List.mapi curve summary.vehicles @ names)

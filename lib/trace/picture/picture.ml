@@ -1,22 +1,22 @@
-open Story
+open Summary
 
 let width = 1100.
 let margin = 28.
 
 (* {1 The head} *)
 
-let outcome story =
-  match story.ending with
+let outcome summary =
+  match summary.ending with
   | None -> ("the journal breaks off", true)
   | Some { how; message = None | Some "" } -> (how, how <> "completed")
   | Some { how; message = Some message } -> (how ^ ": " ^ message, how <> "completed")
 
 let count n what = Printf.sprintf "%d %s%s" n what (if n = 1 then "" else "s")
 
-let title story =
-  match story.header with Some h -> Filename.basename h.program.path | None -> "A run"
+let title summary =
+  match summary.header with Some h -> Filename.basename h.program.path | None -> "A run"
 
-let circumstances story =
+let circumstances summary =
   let of_header (h : Header.t) =
     let fleet =
       match h.fleet with
@@ -27,22 +27,22 @@ let circumstances story =
     [ fleet; Printf.sprintf "seed %d" h.seed ] @ speed @ [ h.started ]
   in
   String.concat "  ·  "
-    ([ count (List.length story.vehicles) "vehicle"; Clock.text story.duration ]
-     @ Option.fold ~none:[] ~some:of_header story.header)
+    ([ count (List.length summary.vehicles) "vehicle"; Clock.text summary.duration ]
+     @ Option.fold ~none:[] ~some:of_header summary.header)
 
-let head story =
-  let text, is_bad = outcome story in
-  [ Svg.text ~name:"title" (margin, margin +. 16.) (title story);
-    Svg.text ~name:"small" (margin, margin +. 36.) (circumstances story);
+let head summary =
+  let text, is_bad = outcome summary in
+  [ Svg.text ~name:"title" (margin, margin +. 16.) (title summary);
+    Svg.text ~name:"small" (margin, margin +. 36.) (circumstances summary);
     Svg.text ~name:(if is_bad then "bad" else "small") ~anchor:End ~tip:text
       (width -. margin, margin +. 16.) (Svg.fit 520. text) ]
 
 (* {1 The whole} *)
 
-let has_samples story = List.exists (fun v -> v.samples <> []) story.vehicles
+let has_samples summary = List.exists (fun v -> v.samples <> []) summary.vehicles
 
-let panels story ~y =
-  if not (has_samples story) then ([], y)
+let panels summary ~y =
+  if not (has_samples summary) then ([], y)
   else
     let height = 330. in
     let left = margin +. 62. in
@@ -58,15 +58,15 @@ let panels story ~y =
         meaning (key +. 44.) "last";
         Svg.circle ~name:"key" (key +. 86., y -. 13.5) 2.;
         meaning (key +. 86.) "a task starts";
-        Tracks.draw story ~x:left ~y ~width:map_width ~height;
+        Tracks.draw summary ~x:left ~y ~width:map_width ~height;
         heading right "Batteries";
-        Batteries.draw story ~x:right ~y ~width:(width -. margin -. right) ~height ],
+        Batteries.draw summary ~x:right ~y ~width:(width -. margin -. right) ~height ],
       y +. height +. 22. )
 
-let document ~alone story =
+let document ~alone summary =
   let top = margin +. 60. in
-  let timeline, height = Timeline.draw story ~x:margin ~y:top ~width:(width -. (2. *. margin)) in
-  let below, bottom = panels story ~y:(top +. height +. 34.) in
+  let timeline, height = Timeline.draw summary ~x:margin ~y:top ~width:(width -. (2. *. margin)) in
+  let below, bottom = panels summary ~y:(top +. height +. 34.) in
   let total = bottom +. margin in
   let size = [ ("viewBox", Printf.sprintf "0 0 %s %s" (Svg.number width) (Svg.number total)) ] in
   let fixed = [ ("width", Svg.number width); ("height", Svg.number total) ] in
@@ -75,9 +75,9 @@ let document ~alone story =
     ([ Svg.element "title" [] [ Svg.raw "A run of a Dolphin program" ];
        Svg.element "style" [] [ Svg.raw ("\n" ^ Style.sheet) ];
        Svg.rect ~name:"paper" ~x:0. ~y:0. ~width ~height:total () ]
-     @ head story @ [ timeline ] @ below)
+     @ head summary @ [ timeline ] @ below)
 
-let svg story = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" ^ Svg.to_string (document ~alone:true story)
+let svg summary = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" ^ Svg.to_string (document ~alone:true summary)
 
 (* {1 A page} *)
 
@@ -94,7 +94,7 @@ th, td { border-color: #272d35; }
 }
 |}
 
-let table story =
+let table summary =
   let cell name text = Svg.element name [] [ Svg.text_only text ] in
   let row name texts = Svg.element "tr" [] (List.map (cell name) texts) in
   let of_task v (t : task) =
@@ -107,16 +107,16 @@ let table story =
     in
     (t.from, row "td" [ Clock.text t.from; Clock.text t.until; v.id; t.plan; how ])
   in
-  let tasks = List.concat_map (fun v -> List.map (of_task v) v.tasks) story.vehicles in
+  let tasks = List.concat_map (fun v -> List.map (of_task v) v.tasks) summary.vehicles in
   let in_time = List.stable_sort (fun (a, _) (b, _) -> Float.compare a b) tasks in
   Svg.element "table" [] (row "th" [ "from"; "to"; "vehicle"; "task"; "" ] :: List.map snd in_time)
 
-let html story =
+let html summary =
   let head =
     Svg.element "head" []
       [ Svg.raw "<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n";
-        Svg.element "title" [] [ Svg.text_only (title story) ];
+        Svg.element "title" [] [ Svg.text_only (title summary) ];
         Svg.element "style" [] [ Svg.raw page_style ] ]
   in
-  let body = Svg.element "body" [] [ document ~alone:false story; table story ] in
+  let body = Svg.element "body" [] [ document ~alone:false summary; table summary ] in
   "<!DOCTYPE html>\n" ^ Svg.to_string (Svg.element "html" [ ("lang", "en") ] [ head; body ])

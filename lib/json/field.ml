@@ -15,7 +15,7 @@ let optional read ~default name members =
   match List.assoc_opt name members with Some json -> within name read json | None -> Ok default
 
 let shortened json =
-  let text = Dolphin_json.Canonical.to_string json in
+  let text = Canonical.to_string json in
   if String.length text <= 40 then text else String.sub text 0 40 ^ "..."
 
 let wrong json what = Error (Printf.sprintf "%s, not %s" (shortened json) what)

@@ -1,5 +1,5 @@
-(** What a journal tells, gathered for pictures: who ran what from when to when, what the program did, where vehicles
-    were. *)
+(** A run as pictures show it: which vehicle ran which task from when to when, what the program did, where the vehicles
+    were. A summary is made from the lines of a journal. *)
 
 type ending =
   | Done
@@ -23,31 +23,33 @@ type vehicle = {
   samples : sample list;
 }
 
-(** What the program did. *)
-type deed =
+(** What the program did that a picture shows. *)
+type activity =
   | Posted of string
   | Consumed of string
   | Said of string
   | Asked of string
-  | Erred of string  (** a task of it failed *)
+  | Erred of string  (** a task failed; why *)
 
 type t = {
   header : Header.t option;
   duration : float;  (** until the last line *)
   vehicles : vehicle list;  (** those that the program held, in the order in which it picked them *)
-  deeds : (float * deed) list;
+  activities : (float * activity) list;
   ending : Request.ending option;  (** [None]: the journal breaks off *)
 }
 
 (** {1:making Making} *)
 
-type teller
+type builder
+(** A summary in the making. It is mutable. *)
 
-val start : unit -> teller
-(** Nothing is told so far. *)
+val create : unit -> builder
+(** [create ()] has no lines yet. *)
 
-val tell : teller -> Entry.t -> unit
-(** One line more, in order. *)
+val add : builder -> Entry.t -> unit
+(** [add b line] adds the next line of the journal. Memory is bounded: of each vehicle a few thousand samples are kept,
+    evenly spread. *)
 
-val finish : teller -> t
-(** All that was told. *)
+val finish : builder -> t
+(** [finish b] is the summary of the lines added so far. *)

@@ -1,8 +1,8 @@
 open Dolphin_results
 open Dolphin_semantics
-open Field
+open Dolphin_json.Field
 
-type cause = Choice of int | Event of Happening.t
+type cause = Choice of int | Event of Event.t
 type step = { cause : cause; assumed : World.assumption list; label : string }
 
 type t = {
@@ -45,7 +45,7 @@ let step program world c (t : Transition.t) =
     | Some cause -> cause
     | None -> (
         match t.label, List.find_opt event (candidates c t) with
-        | _, Some e -> Event (Happening.of_event e)
+        | _, Some e -> Event (Event.of_event e)
         | No_answer, None ->
           (* Nobody answered for another reason: an answer that was refused. *)
           let why = match t.next.control with Ended (Failed fault) -> fault.message | _ -> "" in
@@ -55,7 +55,7 @@ let step program world c (t : Transition.t) =
           let n = String.length prompt in
           let why = if String.length why > n then String.sub why n (String.length why - n) else why in
           Event (No_answer why)
-        | _, None -> invalid_arg ("Course.step: no transition " ^ text_of_label t.label))
+        | _, None -> invalid_arg ("Witness.step: no transition " ^ text_of_label t.label))
   in
   { cause; assumed = t.assumed; label = text_of_label t.label }
 
@@ -83,12 +83,12 @@ let take program world (c : Configuration.t) s =
         | Some t -> Ok t
         | None -> Error "the program has no such choice there")
     | Event h -> (
-        match Happening.to_event ~site:(Configuration.site c) h with
+        match Event.to_event ~site:(Configuration.site c) h with
         | Error why -> Error why
         | Ok event -> (
             match Transition.accept program world c event with
             | Ok t -> Ok t
-            | Error Not_awaited -> Error (Format.asprintf "the program does not wait for %a there" Happening.pp h)
+            | Error Not_awaited -> Error (Format.asprintf "the program does not wait for %a there" Event.pp h)
             | Error (Bad_answer why) -> Error why))
   in
   match found () with
@@ -97,7 +97,7 @@ let take program world (c : Configuration.t) s =
   | Ok t -> Error (Printf.sprintf "the program does %s there, and not %s" (text_of_label t.label) s.label)
   | Error why -> Error (Printf.sprintf "%s (%s)" why s.label)
 
-let follow program world course =
+let follow program world witness =
   let rec go number (c : Configuration.t) taken = function
     | [] -> Ok (List.rev taken)
     | s :: rest -> (
@@ -105,9 +105,9 @@ let follow program world course =
         | Ok t -> go (number + 1) t.next (t :: taken) rest
         | Error why -> Error (List.rev taken, { number; why }))
   in
-  let start = Configuration.initial program and first = List.length course.steps in
+  let start = Configuration.initial program and first = List.length witness.steps in
   let split ts = (List.filteri (fun i _ -> i < first) ts, List.filteri (fun i _ -> i >= first) ts) in
-  Result.map split (go 1 start [] (course.steps @ course.cycle))
+  Result.map split (go 1 start [] (witness.steps @ witness.cycle))
 
 (* {1 Lines} *)
 
@@ -154,7 +154,7 @@ let assumption_of_json json : (World.assumption, string) result =
   | _ -> Error "what is assumed is late, missing, battery, position or claim"
 
 let json_of_step s : Yojson.Safe.t =
-  let cause = match s.cause with Choice i -> [ ("choice", `Int i) ] | Event h -> Happening.members h in
+  let cause = match s.cause with Choice i -> [ ("choice", `Int i) ] | Event h -> Event.members h in
   let assumed = unless_empty "assumed" (fun all -> `List (List.map json_of_assumption all)) s.assumed in
   `Assoc ((("label", `String s.label) :: cause) @ assumed)
 
@@ -167,21 +167,21 @@ let step_of_json json =
     let* i = get whole "choice" found in
     if i < 0 then Error "a choice is a number from 0" else Ok { cause = Choice i; assumed; label }
   else
-    let* h = Happening.of_members found in
+    let* h = Event.of_members found in
     Ok { cause = Event h; assumed; label }
 
-let to_lines course =
+let to_lines witness =
   let header : Yojson.Safe.t =
     `Assoc
       [ ("format", `String format);
         ("version", `Int version);
-        ("program", of_source course.program);
-        ("fleet", of_option of_source course.fleet);
-        ("property", `String course.property);
-        ("steps", `Int (List.length course.steps));
-        ("cycle", `Int (List.length course.cycle)) ]
+        ("program", of_source witness.program);
+        ("fleet", of_option of_source witness.fleet);
+        ("property", `String witness.property);
+        ("steps", `Int (List.length witness.steps));
+        ("cycle", `Int (List.length witness.cycle)) ]
   in
-  List.map (fun json -> Yojson.Safe.to_string json) (header :: List.map json_of_step (course.steps @ course.cycle))
+  List.map (fun json -> Yojson.Safe.to_string json) (header :: List.map json_of_step (witness.steps @ witness.cycle))
 
 let of_header json =
   match json with
@@ -208,7 +208,7 @@ let of_lines lines =
   | [] -> Error "this is no run to follow: it is empty"
   | first :: rest ->
     let* json = parsed 1 first in
-    let* course, n, m = of_header json in
+    let* witness, n, m = of_header json in
     let step (number, line) =
       let* json = parsed number line in
       Result.map_error (Printf.sprintf "line %d: %s" number) (step_of_json json)
@@ -216,4 +216,4 @@ let of_lines lines =
     let* all = Results.map step (List.mapi (fun i line -> (i + 2, line)) rest) in
     if n < 0 || m < 0 || List.length all <> n + m then
       Error (Printf.sprintf "%d steps are announced, and %d are there" (n + m) (List.length all))
-    else Ok { course with steps = List.filteri (fun i _ -> i < n) all; cycle = List.filteri (fun i _ -> i >= n) all }
+    else Ok { witness with steps = List.filteri (fun i _ -> i < n) all; cycle = List.filteri (fun i _ -> i >= n) all }

@@ -236,7 +236,7 @@ let () =
     match Installation.find Sys.getenv_opt with
     | Ok installation -> exit (if f installation then 0 else 1)
     | Error trouble when command = "quick" || command = "counts" ->
-      Format.printf "skipped, not one program was given to TLC: %a@." Installation.pp_trouble trouble
+      Format.printf "skipped: crosscheck %s: %a@." command Installation.pp_trouble trouble
     | Error trouble -> Format.eprintf "%a@." Installation.pp_trouble trouble; exit 2
   in
   match command with

@@ -141,53 +141,53 @@ let models =
     "Picking"; "Sensors"; "Waiting"; "Executing"; "Ends" ]
 
 (* [f run] where [run arguments] is the status of Java with TLC's classes in a directory with all models, and what it
-   says; skipped where there is no Java or no TLC. *)
-let with_tlc f =
-  match Dolphin_tlc.Installation.find Sys.getenv_opt with
-  | Error trouble ->
-    Format.printf "skipped, no model was looked at: %a@." Dolphin_tlc.Installation.pp_trouble trouble
-  | Ok { java; jar } ->
-    let directory = Filename.temp_file "dolphin" ".tla" in
-    Sys.remove directory;
-    Unix.mkdir directory 0o700;
-    let path = Filename.concat directory in
-    let write name text =
-      let channel = open_out_bin (path name) in
-      output_string channel text;
-      close_out channel
+   says. *)
+let with_tlc f ({ java; jar } : Dolphin_tlc.Installation.t) =
+  let directory = Filename.temp_file "dolphin" ".tla" in
+  Sys.remove directory;
+  Unix.mkdir directory 0o700;
+  let path = Filename.concat directory in
+  let write name text =
+    let channel = open_out_bin (path name) in
+    output_string channel text;
+    close_out channel
+  in
+  let copy name = write name (read ("../../spec/models/" ^ name)) in
+  List.iter copy [ "Model.tla"; "Model.cfg" ];
+  List.iter (fun name -> copy (name ^ ".tla")) models;
+  write "Dolphin.tla" Spec.dolphin;
+  write "DolphinMachine.tla" Spec.machine;
+  write "DolphinValues.tla" Spec.values;
+  let run arguments =
+    let command =
+      Printf.sprintf "cd %s && %s -Xss64m -XX:+UseSerialGC -cp %s %s > output 2>&1" (Filename.quote directory)
+        (Filename.quote java) (Filename.quote jar) arguments
     in
-    let copy name = write name (read ("../../spec/models/" ^ name)) in
-    List.iter copy [ "Model.tla"; "Model.cfg" ];
-    List.iter (fun name -> copy (name ^ ".tla")) models;
-    write "Dolphin.tla" Spec.dolphin;
-    write "DolphinMachine.tla" Spec.machine;
-    write "DolphinValues.tla" Spec.values;
-    let run arguments =
-      let command =
-        Printf.sprintf "cd %s && %s -Xss64m -XX:+UseSerialGC -cp %s %s > output 2>&1" (Filename.quote directory)
-          (Filename.quote java) (Filename.quote jar) arguments
-      in
-      let status = Sys.command command in
-      (status, read (path "output"))
-    in
-    let remove () = ignore (Sys.command (Printf.sprintf "rm -r %s" (Filename.quote directory))) in
-    Fun.protect ~finally:remove (fun () -> f run)
+    let status = Sys.command command in
+    (status, read (path "output"))
+  in
+  let remove () = ignore (Sys.command (Printf.sprintf "rm -r %s" (Filename.quote directory))) in
+  Fun.protect ~finally:remove (fun () -> f run)
 
 let has text part =
   match Str.search_forward (Str.regexp_case_fold part) text 0 with _ -> true | exception Not_found -> false
 
 (* Without a warning. *)
-let models_parse () =
+let models_parse =
   with_tlc (fun run ->
       let arguments = String.concat " " (List.map (fun name -> name ^ ".tla") models) in
       let status, output = run ("tla2sany.SANY " ^ arguments) in
       if status <> 0 || has output "\\(^\\|[^a-z]\\)\\(warning\\|\\*\\*\\* errors\\|could not\\)" then
         Alcotest.failf "SANY says:\n%s" output)
 
-let waiting_holds () =
+let waiting_holds =
   with_tlc (fun run ->
       let status, output = run "tlc2.TLC -config Model.cfg Waiting.tla" in
       if status <> 0 || not (has output "12 distinct states found") then Alcotest.failf "TLC says:\n%s" output)
+
+let tlc =
+  Result.map_error (Format.asprintf "%a" Dolphin_tlc.Installation.pp_trouble)
+    (Dolphin_tlc.Installation.find Sys.getenv_opt)
 
 let () =
   Alcotest.run "tla"
@@ -196,5 +196,5 @@ let () =
       ("constants", constants);
       ("replies", [ case "are a constant" replies; case "that do not fit" unfit_replies ]);
       ( "models",
-        [ case "each rule has one" rules_have_models; case "are well formed" models_parse;
-          case "waiting" waiting_holds ] ) ]
+        case "each rule has one" rules_have_models
+        :: Test_support.Requiring.cases tlc [ ("are well formed", models_parse); ("waiting", waiting_holds) ] ) ]

@@ -183,16 +183,20 @@ module Script = Set.Make (struct
 let is_of_script (c : Configuration.t) =
   match c.control with Script _ | Waiting _ | Ended _ -> true | Executing _ -> false
 
-let rec space_of_peers environment program world peers =
-  let space = Space.create ~peers environment program world in
+let rec explored_up_to symmetry environment program world =
+  let space = Space.create ~symmetry environment program world in
   let rec from i =
     if i = Space.count space then Space.flush space;
     if i < Space.count space then (Space.expand space i; from (i + 1))
   in
-  match from 0 with () -> space | exception Canonical_vehicles.Told_apart peers -> space_of_peers environment program world peers
+  match from 0 with
+  | () -> space
+  | exception Symmetry.Broken symmetry -> explored_up_to symmetry environment program world
 
 let same_script program environment world (graph : Reference.t) =
-  let space = space_of_peers environment program world (Vehicle_orbits.find environment program ~asked:[] world) in
+  let space = 
+    explored_up_to (Symmetry.without_tasks (Symmetry.find environment program ~asked:[] world)) environment program world
+  in
   let state (s : Reference.state) found =
     if is_of_script s.configuration then
       let c, e = Space.canonical space s.configuration s.outside in
@@ -207,7 +211,7 @@ let same_script program environment world (graph : Reference.t) =
   match Script.choose_opt (Script.diff expected found), Script.choose_opt (Script.diff found expected) with
   | Some missing, _ -> tell "the script never comes to" missing
   | None, Some other -> tell "the script cannot come to" other
-  | None, None -> Ok (Space.used_peers space)
+  | None, None -> Ok (Space.used_vehicle_symmetry space)
 
 (* Whether a condition is the same in all that is looked at as in all that there is. *)
 let same_invariant program environment world condition =

@@ -366,4 +366,52 @@ let savings =
     saves "parts of a sequence" 15 "execute (task('p')[a] | task('q')[b]) >> task('r')[c]";
   ]
 
-let () = Alcotest.run "reduction by hand" [ ("traps", traps); ("copies", copies); ("savings", savings) ]
+(* Each of these begins an execution with several N, of which some break a symmetry of the task. The group of an
+   execution must fix them all: otherwise a configuration is kept once for each group. *)
+let one_group =
+  let most name text =
+    let test () =
+      let states reduction =
+        let program = Pure_run.compile_exn (picks ^ text) in
+        (Dolphin_explore.Search.(run { default with reduction }) program world).states
+      in
+      Alcotest.(check bool) "no more than without symmetry" true (states Symmetry <= states Whole);
+      Alcotest.(check bool) "no more than by partial order" true (states All <= states Partial_order)
+    in
+    Alcotest.test_case name `Quick test
+  in
+  [
+    most "what is left in N breaks the symmetry at the next turn"
+      {|g = 0
+        while (g < 2) {
+          g = g + 1
+          execute (during 1 run action { post z: 3 }) | (during 1 run action { post z: 4 })
+        }|};
+    most "at three more turns"
+      {|g = 0
+        while (g < 4) {
+          g = g + 1
+          execute (during 1 run action { post z: 3 }) | (during 1 run action { post z: 4 })
+        }|};
+    most "at more turns than have a group of their own"
+      {|g = 0
+        while (g < 8) {
+          g = g + 1
+          execute (during 1 run action { post z: 3 }) | (during 1 run action { post z: 4 })
+          if (g % 2 == 0) { consume z: 3 ; consume z: 4 }
+        }|};
+    most "an ordered key beside"
+      {|g = 0
+        while (g < 2) {
+          g = g + 1
+          post x: 3
+          post x: 4
+          execute ((watch action { post x: 3 } onError { ignore() }) | (during 1 run action { post z: 3 })) |
+            ((watch action { post x: 4 } onError { ignore() }) | (during 1 run action { post z: 4 }))
+          if (poll(y: 3)) { post x: 1 } else { consume x: _ }
+        }|};
+  ]
+
+let () =
+  Alcotest.run "reduction by hand"
+    [ ("traps", traps); ("copies", copies); ("savings", savings); ("one group", one_group) ]

@@ -20,7 +20,7 @@ type t = {
   shareds : Memoised_steps.Shareds.t;
   shapes : Layouts.t;
   machines : Machines.t;
-  find_symmetry : Residual.t -> Shared.t -> Symmetry.t option;
+  find_symmetry : Residual.t -> Shared.t -> Task_group.t option;
   canonical : Configuration.t -> Environment.t -> Configuration.t * Environment.t;
   frames : (int * int, Layout.frame) Hashtbl.t;  (* by numbers of the machine and of the symmetry, 0 for none *)
   wholes : Wholes.t;
@@ -68,7 +68,7 @@ let write_whole t key number =
 (* {1 Words} *)
 
 let frame t machine symmetry =
-  let key = (Machines.number t.machines machine, Option.fold ~none:0 ~some:Symmetry.number symmetry) in
+  let key = (Machines.number t.machines machine, Option.fold ~none:0 ~some:Task_group.number symmetry) in
   match Hashtbl.find_opt t.frames key with
   | Some frame -> frame
   | None ->

@@ -1,6 +1,6 @@
 open Dolphin_semantics
 
-type frame = { frame : int; machine : Machine.t; symmetry : Symmetry.t option; mutable over : int array }
+type frame = { frame : int; machine : Machine.t; symmetry : Task_group.t option; mutable over : int array }
 
 type place = {
   index : int;

@@ -8,7 +8,7 @@ open Dolphin_semantics
 type frame = {
   frame : int;
   machine : Machine.t;
-  symmetry : Symmetry.t option;  (** if states are kept only up to what can change places *)
+  symmetry : Task_group.t option;  (** if states are kept only up to what can change places *)
   mutable over : int array;
   (** by shared number, for the use of {!Space}: the number of the configuration that follows the end of the task *)
 }

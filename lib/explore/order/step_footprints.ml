@@ -44,6 +44,8 @@ let rec future c (r : Residual.t) =
 
 and of_branch c (b : Residual.branch) = union (Footprint.of_guard c.code b.guard) (future c b.body)
 
+let of_residual = future
+
 (* {1 Steps} *)
 
 let handlers (source : Residual.step) =

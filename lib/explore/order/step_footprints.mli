@@ -26,6 +26,9 @@ type context
 
 val context : Environment.options -> Core.program -> context
 
+val of_residual : context -> Residual.t -> Footprint.t
+(** [of_residual c r] is of all that steps of [r] and of what becomes of it may do. *)
+
 val of_part : context -> Residual.context list list -> Residual.t -> step array -> t
 (** [of_part c nests r steps] is for [steps], all the steps of [r]. *)
 

@@ -2,7 +2,7 @@ open Dolphin_semantics
 open Dolphin_environment
 open Component
 
-type arrival = { into : int; by : Symmetry.permutation option; letter : int }
+type arrival = { into : int; by : Task_group.permutation option; letter : int }
 
 type t = {
   options : Environment.options;
@@ -26,11 +26,11 @@ type t = {
   mutable watched : int;  (* what the watch knows of the state being expanded *)
   mutable action : int;  (* of the step being taken, for the watch *)
   mutable shown : int;  (* the first state that shows a violation, or -1 *)
-  symmetries : Symmetry_groups.t option;
-  folding : Quotient.t;
+  task_groups : Task_groups.t option;
+  quotient : Quotient.t;
   interrupted : (int, int * int) Hashtbl.t;  (* by number of what is shared: the end, and the action for the watch *)
-  mutable folded : int array;  (* a state's canonical form *)
-  roster : Canonical_vehicles.t option;
+  mutable canonical : int array;  (* a state's canonical form *)
+  vehicles : Canonical_vehicles.t option;
   reserve : int -> unit;
 }
 
@@ -56,7 +56,7 @@ let repack t =
   t.states <- Dolphin_checker.States.rewrite t.states ~words rewritten;
   t.key <- Array.make words 0;
   t.other <- Array.make words 0;
-  t.folded <- Array.make words 0
+  t.canonical <- Array.make words 0
 
 let note_broken t property i =
   let rank = rank property in
@@ -110,8 +110,8 @@ let visit t key parent =
       | None -> add t key None parent
       | Some g ->
         let shared = Layouts.shared t.shapes key.(0) in
-        let permutation = Quotient.canonical t.folding g s key shared ~into:t.folded in
-        add t t.folded (Some permutation) parent)
+        let permutation = Quotient.canonical t.quotient g s key shared ~into:t.canonical in
+        add t t.canonical (Some permutation) parent)
 
 (* {1 Ends of tasks} *)
 
@@ -170,7 +170,7 @@ let all_over t (s : Layout.t) shared i =
   | None -> finish t (over t s shared) None i
   | Some g ->
     let image (shared, permutation) = finish t (over t s shared) (Some permutation) i in
-    List.iter image (Symmetry.images g shared)
+    List.iter image (Task_group.orbit_of_shared g shared)
 
 let rec go t (s : Layout.t) (place : Layout.place) target shared i =
   match target, place.around with
@@ -254,22 +254,21 @@ let interrupt t s shared i =
 
 (* {1 Beginning} *)
 
-let create ?(reduction = Reduction.Whole) ?(peers = Vehicle_orbits.none) ?(asked = []) ?(compress = false) ?(reserve = ignore)
-    ?watch options program world =
+let create ?(reduction = Reduction.Whole) ?(symmetry = Symmetry.none) ?(asked = []) ?(compress = false)
+    ?(reserve = ignore) ?watch options program world =
   let foreseen = if Reduction.by_order reduction then Some 0 else None in
   let parts = Components.create ?foreseen options program world in
   let observe = Option.map (fun w -> Valuation.action_of_local (Product.letters w)) watch in
   let cases = Memoised_steps.create ?observe parts in
   let shareds = Memoised_steps.shareds cases in
-  let symmetries =
-    (* Where the outside remembers vehicles, they are not alike. *)
-    if Reduction.by_symmetry reduction && not (Environment.endings_remember options) then
-      let number = Memoised_steps.Shareds.number shareds and value = Memoised_steps.Shareds.value shareds in
-      Some (Symmetry_groups.create options program { number; value })
-    else None
+  let number = Memoised_steps.Shareds.number shareds and value = Memoised_steps.Shareds.value shareds in
+  let task_groups = Task_groups.create options program symmetry { number; value } in
+  let vehicles =
+    if Vehicle_orbits.is_none symmetry.vehicles then None
+    else Some (Canonical_vehicles.create options program ~asked world symmetry)
   in
-  let roster = if Vehicle_orbits.is_none peers then None else Some (Canonical_vehicles.create options program ~asked world peers) in
-  let find_symmetry = Option.map Symmetry_groups.find symmetries and canonical = Option.map Canonical_vehicles.canonical roster in
+  let find_symmetry = Option.map Task_groups.find task_groups
+  and canonical = Option.map Canonical_vehicles.canonical vehicles in
   let words = Encoding.create ?find_symmetry ?canonical ?watched:(Option.map (fun _ -> 1) watch) parts cases in
   let t =
     {
@@ -294,11 +293,11 @@ let create ?(reduction = Reduction.Whole) ?(peers = Vehicle_orbits.none) ?(asked
       watched = Dolphin_ltl.Monitor.start;
       action = Valuation.nothing;
       shown = -1;
-      symmetries;
-      folding = Quotient.create parts words;
+      task_groups;
+      quotient = Quotient.create parts words;
       interrupted = Hashtbl.create 16;
-      folded = [| 0 |];
-      roster;
+      canonical = [| 0 |];
+      vehicles;
       reserve;
     }
   in

@@ -7,7 +7,7 @@ open Dolphin_environment
 (** A state that a transition leads to. *)
 type arrival = {
   into : int;
-  by : Symmetry.permutation option;  (** that led there from what the transition leads to *)
+  by : Task_group.permutation option;  (** that led there from what the transition leads to *)
   letter : int;  (** of the watch, or 0 *)
 }
 
@@ -33,17 +33,17 @@ type t = {
   mutable watched : int;  (** what the watch knows of the state being expanded *)
   mutable action : int;  (** of the step being taken, for the watch *)
   mutable shown : int;  (** the first state that shows a violation, or -1 *)
-  symmetries : Symmetry_groups.t option;
-  folding : Quotient.t;
+  task_groups : Task_groups.t option;
+  quotient : Quotient.t;
   interrupted : (int, int * int) Hashtbl.t;  (** by number of what is shared: where an interruption leads *)
-  mutable folded : int array;  (** a state's canonical form *)
-  roster : Canonical_vehicles.t option;
+  mutable canonical : int array;  (** a state's canonical form *)
+  vehicles : Canonical_vehicles.t option;
   reserve : int -> unit;
 }
 
 val create :
   ?reduction:Reduction.t ->
-  ?peers:Vehicle_orbits.t ->
+  ?symmetry:Symmetry.t ->
   ?asked:Condition.t list ->
   ?compress:bool ->
   ?reserve:(int -> unit) ->

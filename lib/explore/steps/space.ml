@@ -14,14 +14,14 @@ let shared t i =
   if Layouts.number t.shapes first = 0 then -1 else Layouts.shared t.shapes first
 
 let choices t outside c =
-  match t.roster with
-  | Some roster -> Canonical_vehicles.choices roster outside c
+  match t.vehicles with
+  | Some vehicles -> Canonical_vehicles.choices vehicles outside c
   | None -> Environment.choices t.options t.program t.world outside c
 
 let canonical t c outside =
-  match t.roster with Some roster -> Canonical_vehicles.canonical roster c outside | None -> (c, outside)
+  match t.vehicles with Some vehicles -> Canonical_vehicles.canonical vehicles c outside | None -> (c, outside)
 
-let has_peers t = t.roster <> None
+let has_vehicle_symmetry t = t.vehicles <> None
 
 (* {1 Where nothing executes} *)
 
@@ -219,7 +219,7 @@ let steps t i = List.rev_map (fun arrival -> (arrival.into, arrival.by)) (gather
 let arrivals t i = List.rev_map (fun arrival -> (arrival.into, arrival.letter)) (gather t i)
 let successors t i = List.rev_map (fun arrival -> arrival.into) (gather t i)
 
-type view = Exact of Configuration.t * Environment.t | Up_to of Symmetry.t * Symmetry.state
+type view = Exact of Configuration.t * Environment.t | Up_to of Task_group.t * Task_group.state
 
 let view t i =
   let key = load t i in
@@ -233,14 +233,14 @@ let view t i =
     let s = Layouts.shape t.shapes number in
     match s.frame.symmetry with
     | None -> exact ()
-    | Some g -> Up_to (g, Quotient.state t.folding g s key (Layouts.shared t.shapes key.(0)))
+    | Some g -> Up_to (g, Quotient.state t.quotient g s key (Layouts.shared t.shapes key.(0)))
 
-let folded t g (c : Configuration.t) outside : Symmetry.state option =
+let quotient_state t g (c : Configuration.t) outside : Task_group.state option =
   match c.control with
   | Executing (_, r) ->
     let rs = match r with Parallel rs -> rs | r -> [ r ] in
     let shared = Memoised_steps.Shareds.number (Memoised_steps.shareds t.cases) (Shared.of_configuration c outside) in
-    Some (Symmetry.state g rs shared)
+    Some (Task_group.state g rs shared)
   | Script _ | Waiting _ | Ended _ -> None
 
 let breaks t i =
@@ -252,15 +252,15 @@ let breaks t i =
 let count t = Dolphin_checker.States.count t.states
 let transitions t = t.transitions
 let parent t i = Dolphin_checker.States.parent t.states i
-let used_symmetry t = Option.fold ~none:false ~some:Symmetry_groups.is_used t.symmetries
-let used_peers t = Option.fold ~none:false ~some:Canonical_vehicles.is_used t.roster
+let used_task_symmetry t = Option.fold ~none:false ~some:Task_groups.is_used t.task_groups
+let used_vehicle_symmetry t = Option.fold ~none:false ~some:Canonical_vehicles.is_used t.vehicles
 
-(* Handlers of errors are noted when they have run, in whatever task: see [Symmetry_groups.Unclear]. *)
+(* If an error handler has run in some task, so have those of its orbit, in other runs. *)
 let coverage t =
   let coverage = Components.coverage t.parts in
   let is_run = function Task_isomorphism.Task _ -> false | Code id -> Coverage.is_run coverage id in
-  let alike labels = if List.exists is_run labels then List.iter (Quotient.cover coverage) labels in
-  Option.iter (fun symmetries -> Symmetry_groups.handlers_alike symmetries alike) t.symmetries;
+  let cover labels = if List.exists is_run labels then List.iter (Quotient.cover coverage) labels in
+  Option.iter (fun groups -> Task_groups.equivalent_handlers groups cover) t.task_groups;
   coverage
 
 let bytes t = Dolphin_checker.States.bytes t.states

@@ -10,15 +10,15 @@ open Dolphin_environment
 type t
 
 val create :
-  ?reduction:Reduction.t -> ?peers:Vehicle_orbits.t -> ?asked:Condition.t list -> ?compress:bool ->
+  ?reduction:Reduction.t -> ?symmetry:Symmetry.t -> ?asked:Condition.t list -> ?compress:bool ->
   ?reserve:(int -> unit) -> ?watch:Product.t -> Environment.options -> Core.program -> World.t -> t
-(** With the initial state, number 0. States of the script are those up to the names of [peers], by default
-    {!Vehicle_orbits.none}; what visits states then raises [Canonical_vehicles.Told_apart] if they are told apart. Conditions that are
+(** With the initial state, number 0. States are those up to [symmetry], by default
+    {!Symmetry.none}; what visits states raises [Symmetry.Broken] if one of them breaks it. Conditions that are
     [asked] have the same answer in all that a state stands for; none by default. [compress] is as for
     {!Dolphin_checker.States.create}, [false] by default. [reserve n] is called before [n] bytes are taken at once to lay states out
     anew; it may raise.
 
-    With a [watch] each state is kept once for each thing that the watch may know there, and [reduction] and [peers] must
+    With a [watch] each state is kept once for each thing that the watch may know there, and [reduction] and [symmetry] must
     be none: see {!section:watched}. Then there may be no state at all. *)
 
 val expand : t -> int -> unit
@@ -32,7 +32,7 @@ val forget_waiting : t -> unit
 val successors : t -> int -> int list
 (** [successors t i] is the states that transitions of [i] lead to, which have all been added before. *)
 
-val steps : t -> int -> (int * Symmetry.permutation option) list
+val steps : t -> int -> (int * Task_group.permutation option) list
 (** [steps t i] is {!successors}, each with the permutation that led there from what the transition leads to: of state
     [i] of the task, or, when the task is over, of what was shared before. [None] where nothing was permuted. *)
 
@@ -42,12 +42,12 @@ val state : t -> int -> Configuration.t * Environment.t
 (** What a state stands for. *)
 type view =
   | Exact of Configuration.t * Environment.t  (** itself *)
-  | Up_to of Symmetry.t * Symmetry.state  (** all that is alike *)
+  | Up_to of Task_group.t * Task_group.state  (** the orbit of this one *)
 
 val view : t -> int -> view
 
-val folded : t -> Symmetry.t -> Configuration.t -> Environment.t -> Symmetry.state option
-(** [folded t g c e] is [c] with [e], if it executes a task of [g]. *)
+val quotient_state : t -> Task_group.t -> Configuration.t -> Environment.t -> Task_group.state option
+(** [quotient_state t g c e] is [c] with [e], if it executes a task of [g]. *)
 
 val breaks : t -> int -> Property.t option
 (** [breaks t i] is what reaching state [i] breaks, if it is an end. *)
@@ -80,8 +80,8 @@ val choices : t -> Environment.t -> Configuration.t -> (Transition.t * Environme
 val canonical : t -> Configuration.t -> Environment.t -> Configuration.t * Environment.t
 (** [canonical t c e] is the same for all that is [c] with [e] up to names. *)
 
-val has_peers : t -> bool
-(** Whether there are any, so that states of the script stand for others. *)
+val has_vehicle_symmetry : t -> bool
+(** Whether vehicles are exchanged in states of the script. *)
 
 (** {1:findings What was found on the way} *)
 
@@ -95,11 +95,11 @@ val may_cycle : t -> bool
 (** Whether a run can come back to where it was, as far as can be seen from the places of the script alone: [false] is
     certain. *)
 
-val used_symmetry : t -> bool
+val used_task_symmetry : t -> bool
 (** Whether some states of tasks stand for others. *)
 
-val used_peers : t -> bool
-(** Whether some states stand for others in which peers have changed places. *)
+val used_vehicle_symmetry : t -> bool
+(** Whether vehicle symmetry merged states of the script. *)
 
 val coverage : t -> Coverage.t
 

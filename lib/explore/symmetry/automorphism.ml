@@ -1,18 +1,24 @@
 open Dolphin_semantics
 
-type ring = int array array
-type t = { rings : ring list; labels : (Task_isomorphism.label * Task_isomorphism.label) list }
+type exchange = (int, int) Hashtbl.t
+type orbit = int array array
 
-(* {1 Pairs that may be renamed} *)
+type t = {
+  orbits : orbit list;
+  labels : (Task_isomorphism.label * Task_isomorphism.label) list;
+  exchanges : exchange list;
+}
 
-(* Pairs within one key only: what looks at any pair of a key sees the same. *)
-let renamed patterns rename tuples =
+(* {1 Renaming pairs} *)
+
+(* Only pairs of one key are exchanged: what asks for any pair of a key sees the same. *)
+let renamed skeletons rename tuples =
   let again before (k, xs) =
     List.fold_left
       (fun (before, same) x ->
-         let n = Skeleton.pair patterns k x in
+         let n = Skeleton.pair skeletons k x in
          let n' = rename n in
-         (Tuples.post k (Skeleton.value_of patterns n') before, same && n = n'))
+         (Tuples.post k (Skeleton.value_of skeletons n') before, same && n = n'))
       before xs
   in
   let without =
@@ -24,46 +30,64 @@ let renamed patterns rename tuples =
   let again, same = List.fold_left again (without, true) (Tuples.bindings tuples) in
   if same then tuples else again
 
+let apply exchange n = Option.value (Hashtbl.find_opt exchange n) ~default:n
+let is_fixed skeletons exchange tuples = Tuples.equal tuples (renamed skeletons (apply exchange) tuples)
+let fixes skeletons found tuples = List.for_all (fun exchange -> is_fixed skeletons exchange tuples) found.exchanges
+
 let movable context r =
-  let patterns = Task_isomorphism.patterns context in
-  let of_code (handler, code) = (Skeleton.of_code patterns ~handler code).fixed in
+  let skeletons = Task_isomorphism.skeletons context in
+  let of_code (handler, code) = (Skeleton.of_code skeletons ~handler code).fixed in
   let add fixed code = Footprint.Pairs.union fixed (of_code code) in
   let fixed = List.fold_left add Footprint.Pairs.empty (Task_isomorphism.closures r) in
   fun n ->
-    let pair = (Skeleton.key_of patterns n, Some (Skeleton.value_of patterns n)) in
+    let pair = (Skeleton.key_of skeletons n, Some (Skeleton.value_of skeletons n)) in
     not (Footprint.Pairs.meet (Footprint.Pairs.singleton pair) fixed)
 
 let is_clear context r =
-  let clear (handler, code) = not (Skeleton.of_code (Task_isomorphism.patterns context) ~handler code).unclear in
+  let clear (handler, code) = not (Skeleton.of_code (Task_isomorphism.skeletons context) ~handler code).unclear in
   List.for_all clear (Task_isomorphism.closures r)
 
-(* {1 What stands side by side} *)
+(* {1 Subtasks that stand side by side} *)
 
-type thing = { pairs : int array; labels : Task_isomorphism.label list; likeness : string }
+(* Those with the same [key] may be isomorphic. *)
+type subtask = { pairs : int array; labels : Task_isomorphism.label list; key : string }
 
-let things context r =
-  let patterns = Task_isomorphism.patterns context in
-  let pair n = Skeleton.key_of patterns n and label _ = "" in
-  let plain r =
-    let likeness = Task_isomorphism.key context ~sorted:false ~pair ~label r in
-    { pairs = Task_isomorphism.pairs context r; labels = Task_isomorphism.labels r; likeness }
+let subtasks context r =
+  let skeletons = Task_isomorphism.skeletons context in
+  let pair n = Skeleton.key_of skeletons n and label _ = "" in
+  let subtask r =
+    let key = Task_isomorphism.key context ~sorted:false ~pair ~label r in
+    { pairs = Task_isomorphism.pairs context r; labels = Task_isomorphism.labels r; key }
   in
-  let of_branch b = plain (Residual.One_of [ b ]) in
+  let of_branch b = subtask (Residual.One_of [ b ]) in
   let rec lists (r : Residual.t) =
     match r with
     | Ready _ | Running _ | Action _ | Condition _ | Idle _ -> []
     | Sequence (a, rest) -> List.concat_map lists (a :: rest)
-    | Parallel rs -> List.map plain rs :: List.concat_map lists rs
+    | Parallel rs -> List.map subtask rs :: List.concat_map lists rs
     | All_of (a, bs) -> (List.map of_branch bs :: List.concat_map lists (Option.to_list a)) @ bodies bs
     | One_of bs -> List.map of_branch bs :: bodies bs
     | Until (_, a) | Watch (a, _) | During { body = a; _ } -> lists a
   and bodies bs = List.concat_map (fun (b : Residual.branch) -> lists b.body) bs in
   lists r
 
-(* {1 Automorphisms} *)
+let by_key subtasks =
+  let groups = Hashtbl.create 16 in
+  let add order subtask =
+    match Hashtbl.find_opt groups subtask.key with
+    | Some same -> same := subtask :: !same; order
+    | None ->
+      let same = ref [ subtask ] in
+      Hashtbl.add groups subtask.key same;
+      same :: order
+  in
+  let order = List.rev (List.fold_left add [] subtasks) in
+  List.map (fun same -> List.rev !same) order
 
-(* The renaming that makes the one thing the other, and back. *)
-let exchange is_movable a b =
+(* {1 Exchanges} *)
+
+(* The renaming that makes each of [a] and [b] the other. *)
+let exchange is_movable a b : exchange option =
   let map = Hashtbl.create 8 in
   let rec from i =
     if i = Array.length a then Some map
@@ -79,23 +103,38 @@ let exchange is_movable a b =
   in
   from 0
 
-let rename map n = Option.value (Hashtbl.find_opt map n) ~default:n
-
-(* If the whole is the same after the exchange, there is an automorphism that puts [a] in the place of [b], and the
-   other things where they fit. *)
-let checked context is_movable r tuples a b =
+(* If the task is the same after the exchange, there is an automorphism that makes [a] and [b] each other, and maps the
+   other subtasks as [matched] says. *)
+let checked context is_movable r ns a b =
+  let fixes map = List.for_all (is_fixed (Task_isomorphism.skeletons context) map) ns in
   match exchange is_movable a.pairs b.pairs with
-  | None -> None
-  | Some map ->
-    let rename = rename map in
-    if Tuples.equal tuples (renamed (Task_isomorphism.patterns context) rename tuples) then
-      Option.map (List.rev_append (List.combine a.labels b.labels)) (Task_isomorphism.matched context ~rename r r)
-    else None
+  | Some map when fixes map ->
+    let with_labels matched = (map, List.rev_append (List.combine a.labels b.labels) matched) in
+    Option.map with_labels (Task_isomorphism.matched context ~rename:(apply map) r r)
+  | Some _ | None -> None
 
-(* {1 Rings} *)
+(* {1 Orbits} *)
 
-(* Where the things differ, once for each pair of theirs. *)
-let own_pairs members =
+(* Subtasks with one key in classes: the first of a class can be exchanged with each other one. To compare all with all
+   would take too long where nothing fits. *)
+let exchangeable check subtasks =
+  let most_classes = 4 in
+  let into (classes, found) subtask =
+    let rec join before = function
+      | [] -> (List.rev ([ subtask ] :: before), found)
+      | members :: after when List.length before < most_classes -> (
+          match check (List.hd members) subtask with
+          | Some exchange -> (List.rev_append before ((subtask :: members) :: after), exchange :: found)
+          | None -> join (members :: before) after)
+      | classes -> (List.rev_append before ([ subtask ] :: classes), found)
+    in
+    join [] classes
+  in
+  let classes, found = List.fold_left into ([], []) subtasks in
+  (List.filter (fun members -> List.compare_length_with members 1 > 0) (List.map List.rev classes), found)
+
+(* By subtask, the pairs in which they differ, each once. *)
+let orbit members : orbit =
   let first = List.hd members in
   let at p = List.map (fun pairs -> pairs.(p)) members in
   let differs p = List.exists (fun n -> n <> first.(p)) (at p) in
@@ -104,61 +143,34 @@ let own_pairs members =
   let places = List.rev (List.fold_left add [] places) in
   Array.of_list (List.map (fun pairs -> Array.of_list (List.map (fun p -> pairs.(p)) places)) members)
 
-let is_disjoint (ring : ring) =
-  let all = List.concat_map Array.to_list (Array.to_list ring) in
+let is_disjoint (orbit : orbit) =
+  let all = List.concat_map Array.to_list (Array.to_list orbit) in
   List.length (List.sort_uniq Int.compare all) = List.length all
 
-let overlaps (ring : ring) (ring' : ring) =
-  let all = Array.concat (Array.to_list ring') in
-  Array.exists (Array.exists (fun n -> Array.mem n all)) ring
+let overlaps (orbit : orbit) (orbit' : orbit) =
+  let all = Array.concat (Array.to_list orbit') in
+  Array.exists (Array.exists (fun n -> Array.mem n all)) orbit
 
-(* Things of one likeness in rows, within which each can change places with the next. To compare all with all would take
-   too long if nothing fits. *)
-let rows check things =
-  let most_rows = 4 in
-  let into (rows, labels) thing =
-    let rec join before = function
-      | [] -> (List.rev ([ thing ] :: before), labels)
-      | row :: after when List.length before < most_rows -> (
-          match check (List.hd row) thing with
-          | Some found -> (List.rev_append before ((thing :: row) :: after), List.rev_append found labels)
-          | None -> join (row :: before) after)
-      | rows -> (List.rev_append before ([ thing ] :: rows), labels)
-    in
-    join [] rows
+let none = { orbits = []; labels = []; exchanges = [] }
+
+let add_all check found subtasks =
+  let classes, exchanges = exchangeable check subtasks in
+  let add orbits members =
+    let orbit = orbit (List.map (fun subtask -> subtask.pairs) members) in
+    if Array.length orbit.(0) = 0 || (not (is_disjoint orbit)) || List.exists (overlaps orbit) orbits then orbits
+    else orbit :: orbits
   in
-  let rows, labels = List.fold_left into ([], []) things in
-  (List.filter (fun row -> List.compare_length_with row 1 > 0) (List.map List.rev rows), labels)
+  {
+    orbits = List.fold_left add found.orbits classes;
+    labels = List.concat_map snd exchanges @ found.labels;
+    exchanges = List.map fst exchanges @ found.exchanges;
+  }
 
-let by_likeness things =
-  let groups = Hashtbl.create 16 in
-  let add order thing =
-    match Hashtbl.find_opt groups thing.likeness with
-    | Some same -> same := thing :: !same; order
-    | None ->
-      let same = ref [ thing ] in
-      Hashtbl.add groups thing.likeness same;
-      same :: order
-  in
-  let order = List.rev (List.fold_left add [] things) in
-  List.map (fun same -> List.rev !same) order
-
-let find context r tuples =
+let find context r ns =
   if not (is_clear context r) then None
-  else begin
-    let is_movable = movable context r in
-    let check = checked context is_movable r tuples in
-    let groups = List.concat_map by_likeness (things context r) in
-    let groups = List.filter (fun group -> List.compare_length_with group 1 > 0) groups in
-    let group found things =
-      let rows, labels = rows check things in
-      let ring found members =
-        let ring = own_pairs (List.map (fun thing -> thing.pairs) members) in
-        if Array.length ring.(0) = 0 || (not (is_disjoint ring)) || List.exists (overlaps ring) found then found
-        else ring :: found
-      in
-      { rings = List.fold_left ring found.rings rows; labels = labels @ found.labels }
-    in
-    let found = List.fold_left group { rings = []; labels = [] } groups in
-    if found.labels = [] then None else Some { found with rings = List.rev found.rings }
-  end
+  else
+    let check = checked context (movable context r) r ns in
+    let several subtasks = List.compare_length_with subtasks 1 > 0 in
+    let candidates = List.filter several (List.concat_map by_key (subtasks context r)) in
+    let found = List.fold_left (add_all check) none candidates in
+    if found.labels = [] then None else Some { found with orbits = List.rev found.orbits }

@@ -1,19 +1,27 @@
-(** What can change places in a task that is about to be executed: an automorphism is looked for between each two
-    things that
-    stand side by side and are alike, and is used only once it has been checked on the whole task and on N. *)
+(** Automorphisms of a task that is about to be executed. A candidate exchanges two isomorphic subtasks that stand side
+    by side; it is used only once it has been checked on the whole task and on N. *)
 
 open Dolphin_semantics
 
-(** Things that can change places in any way, each known by the pairs of N that are its own. *)
-type ring = int array array  (** by thing: its pairs, by {!Skeleton.pair}, in an order that is the same for all; disjoint *)
+type exchange
+(** A renaming of pairs of N, its own inverse. *)
+
+(** An orbit of blocks: by block, its pairs ({!Skeleton.pair}), in an order that is the same for all blocks. The pairs
+    of an orbit are distinct. Any permutation of its blocks is an automorphism. *)
+type orbit = int array array
 
 type t = {
-  rings : ring list;  (** disjoint *)
-  labels : (Task_isomorphism.label * Task_isomorphism.label) list;  (** what becomes what under some checked automorphism *)
+  orbits : orbit list;  (** disjoint *)
+  labels : (Task_isomorphism.label * Task_isomorphism.label) list;
+  (** each with its image under some automorphism that was checked *)
+  exchanges : exchange list;  (** all that were checked *)
 }
 
-val find : Task_isomorphism.context -> Residual.t -> Tuples.t -> t option
-(** [find c r n] is for [r] with [n] in N; [None] if nothing can change places. *)
+val find : Task_isomorphism.context -> Residual.t -> Tuples.t list -> t option
+(** [find c r ns] is the automorphisms of [r] that fix each of [ns]; [None] if there is none but the identity. *)
+
+val fixes : Skeleton.context -> t -> Tuples.t -> bool
+(** [fixes c a n] is whether each of [a.exchanges] leaves [n] as it is. *)
 
 val renamed : Skeleton.context -> (int -> int) -> Tuples.t -> Tuples.t
-(** [renamed c f n] is [n] with each pair that is known to [c] renamed by [f], which keeps keys. *)
+(** [renamed c f n] is [n] with each of its pairs renamed by [f], which keeps keys. *)

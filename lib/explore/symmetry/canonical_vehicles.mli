@@ -1,26 +1,25 @@
-(** Configurations up to the names of peers: vehicles that are alike are called in the order in which a configuration
-    names them, and at a [pick] only as many of them report as could be wanted. docs/explorer.md says why that is
-    enough. *)
+(** Configurations of the script up to a permutation of vehicles within their orbits. The canonical form calls the
+    vehicles of an orbit by its names in the order in which the configuration names them, and at a [pick] only as many
+    of them report as can be wanted. docs/explorer.md proves that this is enough. *)
 
 open Dolphin_semantics
 open Dolphin_environment
 
 type t
 
-exception Told_apart of Vehicle_orbits.t
-(** It turned out that the program tells peers apart: these remain. Nothing that was found before counts. *)
-
-val create : Environment.options -> Core.program -> asked:Condition.t list -> World.t -> Vehicle_orbits.t -> t
-(** [create o p ~asked w peers] is for [peers] of what [Vehicle_orbits.find o p ~asked w] is. *)
+val create : Environment.options -> Core.program -> asked:Condition.t list -> World.t -> Symmetry.t -> t
+(** [create o p ~asked w s] is for the orbits [s.vehicles], which are those of {!Symmetry.find}[ o p ~asked w], or finer
+    ones. *)
 
 val canonical : t -> Configuration.t -> Environment.t -> Configuration.t * Environment.t
-(** [canonical r c e] is the same for configurations that differ in which of peers they name, and in what variables hold
-    that nothing reads any more; and it is one of these. The conditions that are asked have the same answer in all.
-    @raise Told_apart *)
+(** [canonical r c e] is one of the configurations that differ from [c] in which vehicles of an orbit they name, and in
+    what variables hold that nothing reads any more; mostly the same one for all of these. The conditions that are asked
+    have the same answer in all.
+    @raise Symmetry.Broken *)
 
 val choices : t -> Environment.t -> Configuration.t -> (Transition.t * Environment.t) list
-(** [choices r e c] is some of [Environment.choices]: of those that lead to one {!canonical} form, one at least.
-    @raise Told_apart *)
+(** [choices r e c] is some of [Environment.choices]: of those that lead to one {!canonical} form, at least one.
+    @raise Symmetry.Broken *)
 
 val is_used : t -> bool
-(** Whether something was left out, or is seen as something else. *)
+(** Whether some canonical form differed from the configuration, or some transition was left out. *)

@@ -2,17 +2,17 @@ open Dolphin_semantics
 open Core
 
 type t = {
-  named : site option;
-  spelled : site option;
+  names : site option;
+  readings : site option;
   places : bool;
   batteries : bool;
   picks : bool;
   texts : string list;
 }
 
-(* {1 Kinds}
+(* {1 Contents}
 
-   What may be somewhere in a value: a set of these. Of tasks, only vehicles matter. *)
+   What a value may contain: a set of these, as bits. Of tasks, only vehicles count. *)
 
 let vehicles = 1
 let text = 2
@@ -20,10 +20,10 @@ let map = 4
 let reading = 8
 let code = 16
 let nothing = 0
-let has kind k = k land kind <> 0
+let has content k = k land content <> 0
 let all = List.fold_left ( lor ) nothing
 
-(* Of what a supplier replies. Vehicles that it names are none of those that are alike: see [Canonical_vehicles]. *)
+(* A supplier may name vehicles too, but these are fixed then: see [Canonical_vehicles.check_replies]. *)
 let replies = text lor map
 
 let rec of_value = function
@@ -43,20 +43,20 @@ let rec of_value = function
 type place = Variable of int | Slot of int * int  (** of a lambda *) | Result of int
 
 type knowledge = {
-  kinds : (place, int) Hashtbl.t;
+  contents : (place, int) Hashtbl.t;
   lambdas : (int, lambda) Hashtbl.t;
   handlers : (int, unit) Hashtbl.t;
   mutable grown : bool;
   mutable found : t;
 }
 
-let kind w place = Option.value (Hashtbl.find_opt w.kinds place) ~default:nothing
+let content w place = Option.value (Hashtbl.find_opt w.contents place) ~default:nothing
 
 let add w place k =
-  let before = kind w place in
+  let before = content w place in
   if before lor k <> before then begin
     w.grown <- true;
-    Hashtbl.replace w.kinds place (before lor k)
+    Hashtbl.replace w.contents place (before lor k)
   end
 
 let note w (lambda : lambda) =
@@ -65,27 +65,27 @@ let note w (lambda : lambda) =
     Hashtbl.add w.lambdas lambda.id lambda
   end
 
-let tells w at = if w.found.named = None then w.found <- { w.found with named = Some at }
-let spells w at = if w.found.spelled = None then w.found <- { w.found with spelled = Some at }
-let sees_places w = w.found <- { w.found with places = true }
-let sees_batteries w = w.found <- { w.found with batteries = true }
+let uses_name w at = if w.found.names = None then w.found <- { w.found with names = Some at }
+let uses_reading w at = if w.found.readings = None then w.found <- { w.found with readings = Some at }
+let reads_places w = w.found <- { w.found with places = true }
+let reads_batteries w = w.found <- { w.found with batteries = true }
 
 let note_text w s =
   if not (List.mem s w.found.texts) then w.found <- { w.found with texts = s :: w.found.texts }
 
-(* A value of this kind becomes part of a text. *)
+(* A value with this content becomes part of a text. *)
 let put_into_text w at k =
-  if has vehicles k then tells w at;
-  if has reading k then spells w at
+  if has vehicles k then uses_name w at;
+  if has reading k then uses_reading w at
 
-(* What it gives to call this with the arguments that [given] knows, by parameter. *)
+(* The content of what a call returns, [given slot] being that of the argument for [slot]. *)
 let call w (lambda : lambda) given =
   for slot = 0 to lambda.parameters - 1 do add w (Slot (lambda.id, slot)) (given slot) done;
-  kind w (Result lambda.id)
+  content w (Result lambda.id)
 
 let call_any w given = Hashtbl.fold (fun _ lambda results -> results lor call w lambda given) w.lambdas nothing
 
-(* What it gives to call what [e] is, which holds [k], if it is code. *)
+(* Likewise for a call of the value of [e], with content [k], if it may be code. *)
 let call_value w e k given =
   match e.node with
   | Make_closure (lambda, _) | Constant (Closure { lambda; _ }) -> call w lambda given
@@ -93,7 +93,7 @@ let call_value w e k given =
 
 (* {1 Methods} *)
 
-(* Of a set of vehicles, or of things with vehicles in them: these do the same for vehicles of other names. *)
+(* Methods of sets of vehicles, and of values that contain vehicles, whose result does not depend on their names. *)
 let of_numbers = [ "size"; "length"; "isEmpty"; "empty"; "contains"; "equals"; "indexOf" ]
 let of_texts = [ "getType"; "type"; "getPayload"; "payload" ]
 let of_elements =
@@ -107,21 +107,21 @@ let calling =
 let of_places = [ "getPosition"; "position" ]
 let of_batteries = [ "getBattery"; "battery" ]
 
-(* [k] is what the subject and the arguments hold; [calls given] calls what code there is among them with that. *)
+(* [k] is the content of the subject and the arguments; [calls given] calls the code among them with [given]. *)
 let called_method w at name k calls =
-  (* Places and batteries of vehicles hold none. *)
+  (* Places and batteries contain no vehicles. *)
   let shown = if has map k then k lor reading else reading in
   let is_one_of = List.mem name in
-  let sees_place = is_one_of of_places and sees_battery = is_one_of of_batteries in
-  if sees_place then sees_places w;
-  if sees_battery then sees_batteries w;
+  let reads_place = is_one_of of_places and reads_battery = is_one_of of_batteries in
+  if reads_place then reads_places w;
+  if reads_battery then reads_batteries w;
   let given = if has map k then k lor text else k in
-  (* A map's own code goes by any name. *)
+  (* The code in a map may be called by any name. *)
   let results = if name = "call" || is_one_of calling || has map k then calls given else nothing in
-  (* [inject] hands results on. *)
+  (* [inject] passes results on. *)
   let results = if name = "inject" then calls (given lor results) else results in
-  if sees_place || sees_battery then shown lor results
-  else if has map k && has vehicles k && is_one_of [ "get"; "contains"; "remove" ] then (tells w at; k)
+  if reads_place || reads_battery then shown lor results
+  else if has map k && has vehicles k && is_one_of [ "get"; "contains"; "remove" ] then (uses_name w at; k)
   else if is_one_of of_numbers then results
   else if is_one_of of_texts then text lor results
   else if is_one_of of_elements then k lor results
@@ -129,7 +129,7 @@ let called_method w at name k calls =
   else if name = "call" then results
   else begin
     let results = calls given in
-    if has vehicles (k lor results) then tells w at;
+    if has vehicles (k lor results) then uses_name w at;
     k lor text lor map lor results
   end
 
@@ -150,9 +150,9 @@ let rec value w (lambda : lambda) e =
   | Constant x ->
     (match x with String s -> note_text w s | Closure c -> note w c.lambda | _ -> ());
     of_value x
-  | Local 0 when Hashtbl.mem w.handlers lambda.id && lambda.parameters > 0 -> tells w e.site; text
-  | Local slot -> kind w (Slot (lambda.id, slot))
-  | Global i -> kind w (Variable i)
+  | Local 0 when Hashtbl.mem w.handlers lambda.id && lambda.parameters > 0 -> uses_name w e.site; text
+  | Local slot -> content w (Slot (lambda.id, slot))
+  | Global i -> content w (Variable i)
   | Set_local (slot, e) ->
     let k = value_of e in
     add w (Slot (lambda.id, slot)) k;
@@ -164,8 +164,8 @@ let rec value w (lambda : lambda) e =
   | Make_closure (inner, slots) ->
     note w inner;
     let capture slot outer =
-      if outer = 0 && Hashtbl.mem w.handlers lambda.id && lambda.parameters > 0 then tells w e.site;
-      add w (Slot (inner.id, slot)) (kind w (Slot (lambda.id, outer)))
+      if outer = 0 && Hashtbl.mem w.handlers lambda.id && lambda.parameters > 0 then uses_name w e.site;
+      add w (Slot (inner.id, slot)) (content w (Slot (lambda.id, outer)))
     in
     List.iter2 capture (Array.to_list inner.captures) slots;
     code
@@ -199,11 +199,11 @@ and applied w lambda at operation arguments =
     k lor k'
   | Binary (Equal | Not_equal), es ->
     let k = values es in
-    if has vehicles k then if has reading k then spells w at;
+    if has vehicles k then if has reading k then uses_reading w at;
     nothing
   | Binary Member_of, [ x; xs ] ->
     let k = value_of x in
-    if has map (value_of xs) && has vehicles k then tells w at;
+    if has map (value_of xs) && has vehicles k then uses_name w at;
     nothing
   | Binary Parallel, [ x; y ] ->
     let k = value_of x in
@@ -215,22 +215,22 @@ and applied w lambda at operation arguments =
   | (Element | Replace_element), x :: i :: rest ->
     let k = value_of x in
     let k' = value_of i in
-    if has map k && has vehicles k' then tells w at;
+    if has map k && has vehicles k' then uses_name w at;
     k lor k' lor values rest
   | Replace_member _, es -> map lor values es
   | Make_map keys, es ->
     let k = values es in
-    if List.mem None keys && has vehicles k then tells w at;
+    if List.mem None keys && has vehicles k then uses_name w at;
     map lor k
   | Property ("id" | "ids"), [ x ] ->
     let k = value_of x in
-    if has vehicles k then tells w at;
+    if has vehicles k then uses_name w at;
     k lor text
   | Property name, [ x ] ->
     let k = value_of x in
     let shown = if has map k then k lor reading else reading in
-    if List.mem name of_places then (sees_places w; shown)
-    else if List.mem name of_batteries then (sees_batteries w; shown)
+    if List.mem name of_places then (reads_places w; shown)
+    else if List.mem name of_batteries then (reads_batteries w; shown)
     else k lor text
   | Method (name, names), es ->
     let ks = List.map value_of es in
@@ -254,14 +254,14 @@ and applied w lambda at operation arguments =
                 | Make_watch)
       | Make_branch ),
       es ) -> values es land vehicles
-  | Builtin Position_of, es -> ignore (values es); sees_places w; reading
-  | Builtin Battery_of, es -> ignore (values es); sees_batteries w; reading
+  | Builtin Position_of, es -> ignore (values es); reads_places w; reading
+  | Builtin Battery_of, es -> ignore (values es); reads_batteries w; reading
   | Add_setting (name, _), so_far :: es ->
     let k = value_of so_far in
     let given = values es in
-    if name = "region" then sees_places w;
-    if name = "vehicles" then (if not (List.for_all constants es) then tells w at)
-    else if has vehicles given then tells w at;
+    if name = "region" then reads_places w;
+    if name = "vehicles" then (if not (List.for_all constants es) then uses_name w at)
+    else if has vehicles given then uses_name w at;
     k
   | Build (builder, _), es -> built w builder (values es)
   | Unary Not, es -> ignore (values es); nothing
@@ -274,11 +274,11 @@ and built w builder k =
   | Pick ->
     w.found <- { w.found with picks = true };
     vehicles
-  | Imc_plan -> sees_places w; nothing
+  | Imc_plan -> reads_places w; nothing
   | Pos -> nothing
   | All_of | One_of -> k land vehicles
 
-(* What is said, for people: who reads it may read names. *)
+(* Texts for people may say names. *)
 and said w lambda e =
   let say = said w lambda in
   match e.node with
@@ -292,12 +292,12 @@ and said w lambda e =
   | _ -> ignore (value w lambda e)
 
 let of_program (program : program) ~asked =
-  let found = { named = None; spelled = None; places = false; batteries = false; picks = false; texts = [] } in
+  let found = { names = None; readings = None; places = false; batteries = false; picks = false; texts = [] } in
   let w =
-    { kinds = Hashtbl.create 64; lambdas = Hashtbl.create 16; handlers = Hashtbl.create 8; grown = true; found }
+    { contents = Hashtbl.create 64; lambdas = Hashtbl.create 16; handlers = Hashtbl.create 8; grown = true; found }
   in
   List.iter (note w) (program.main :: List.map snd program.functions);
-  (* Their code has no closures; it is numbered apart from that of the program. *)
+  (* Conditions have no closures; they get numbers that no code of the program has. *)
   List.iteri (fun i (c : closure) -> note w { c.lambda with id = -1 - i }) asked;
   let walk id (lambda : lambda) = add w (Result id) (value w lambda lambda.code) in
   while w.grown do

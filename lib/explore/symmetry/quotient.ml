@@ -11,19 +11,19 @@ module Numbered = Hashtbl.Make (struct
 type t = {
   parts : Components.t;
   words : Encoding.t;
-  kinds : int Numbered.t;  (* of parts, by symmetry, family and place there *)
-  children : part tree list Numbered.t;  (* by symmetry and kind *)
+  classes : int Numbered.t;  (* of parts, by group and family, and number in the family *)
+  children : part tree list Numbered.t;  (* by group and class *)
 }
 
-let create parts words = { parts; words; kinds = Numbered.create 64; children = Numbered.create 64 }
+let create parts words = { parts; words; classes = Numbered.create 64; children = Numbered.create 64 }
 
 let cover coverage = function
   | Task_isomorphism.Task site -> Coverage.reach coverage site
   | Code id -> Coverage.reach_code coverage id
 
-(* What [r] begins in a state, those that the state stands for begin as well. *)
-let reach_alike t g r =
-  let reach label = List.iter (cover (Components.coverage t.parts)) (Symmetry.together g label) in
+(* What [r] starts in a state, its images start in others of the orbit. *)
+let reach_orbit t g r =
+  let reach label = List.iter (cover (Components.coverage t.parts)) (Task_group.equivalent g label) in
   let step (step : Residual.step) =
     match step.offer with
     | Start (p, _) -> reach (Task_isomorphism.Task p.task_site)
@@ -32,39 +32,39 @@ let reach_alike t g r =
   in
   Seq.iter step (Residual.steps r)
 
-(* What stands side by side at the top has a kind, be it a part or a nest. *)
-let kind t g (s : Layout.t) key (place : Layout.place) =
+(* Of a part or a nest at the top. *)
+let class_at t g (s : Layout.t) key (place : Layout.place) =
   match place.inside with
-  | Some _ -> Symmetry.kind g (Encoding.residual s key place)
+  | Some _ -> Task_group.class_of g (Encoding.residual s key place)
   | None -> (
       let part = Encoding.part s key place.from in
-      let known = ((Symmetry.number g lsl 31) lor part.family.number, part.local) in
-      match Numbered.find_opt t.kinds known with
-      | Some kind -> kind
+      let known = ((Task_group.number g lsl 31) lor part.family.number, part.local) in
+      match Numbered.find_opt t.classes known with
+      | Some found -> found
       | None ->
-        let kind = Symmetry.kind g part.residual in
-        Numbered.add t.kinds known kind;
-        kind)
+        let found = Task_group.class_of g part.residual in
+        Numbered.add t.classes known found;
+        found)
 
-let children t g kind =
-  let known = (Symmetry.number g, kind) in
+let classes t g (s : Layout.t) key = Array.of_list (List.map (class_at t g s key) s.top)
+
+let state t g s key shared : Task_group.state =
+  let classes = classes t g s key in
+  Array.sort Int.compare classes;
+  { classes; shared }
+
+let children t g found =
+  let known = (Task_group.number g, found) in
   match Numbered.find_opt t.children known with
   | Some children -> children
   | None ->
-    let r = Symmetry.residual g kind in
+    let r = Task_group.representative g found in
     let children = Components.children t.parts (Components.root t.parts) r in
-    reach_alike t g r;
+    reach_orbit t g r;
     Numbered.add t.children known children;
     children
 
-let kinds t g (s : Layout.t) key = Array.of_list (List.map (kind t g s key) s.top)
-
-let state t g s key shared : Symmetry.state =
-  let kinds = kinds t g s key in
-  Array.sort Int.compare kinds;
-  { kinds; shared }
-
-(* Few shapes are enough if what stands side by side is in an order of families. *)
+(* In the order of families there are fewer layouts. *)
 let by_family tree tree' =
   let both (p : part) (p' : part) order =
     if order <> 0 then order
@@ -77,7 +77,7 @@ let by_family tree tree' =
   | order -> order
 
 let canonical t g (s : Layout.t) key shared ~into =
-  let state, permutation = Symmetry.canonical g (kinds t g s key) shared in
-  let trees = List.concat_map (children t g) (Array.to_list state.kinds) in
+  let state, permutation = Task_group.canonical g (classes t g s key) shared in
+  let trees = List.concat_map (children t g) (Array.to_list state.classes) in
   Encoding.write_parts t.words into s.frame (List.stable_sort by_family trees) state.shared;
   permutation

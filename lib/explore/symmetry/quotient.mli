@@ -1,15 +1,15 @@
-(** States that stand for all that are alike ({!Symmetry}), as words. *)
+(** States of an executing task up to its automorphisms ({!Task_group}), as words. *)
 
 type t
 
 val create : Components.t -> Encoding.t -> t
 
-val state : t -> Symmetry.t -> Layout.t -> int array -> int -> Symmetry.state
-(** [state t g s key n] is the state [key] of shape [s], with shared [n], as [g] sees it. *)
+val state : t -> Task_group.t -> Layout.t -> int array -> int -> Task_group.state
+(** [state t g s key n] is the state [key] of layout [s], with shared [n], for [g]. *)
 
-val canonical : t -> Symmetry.t -> Layout.t -> int array -> int -> into:int array -> Symmetry.permutation
-(** [canonical t g s key n ~into] puts a state that is alike, mostly the same one for all that are, into [into]; the
-    result leads there.
+val canonical : t -> Task_group.t -> Layout.t -> int array -> int -> into:int array -> Task_group.permutation
+(** [canonical t g s key n ~into] puts the canonical form of that state ({!Task_group.canonical}) into [into]. The result
+    leads there.
     @raise Layouts.Outgrown *)
 
 val cover : Coverage.t -> Task_isomorphism.label -> unit

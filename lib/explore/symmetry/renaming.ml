@@ -136,9 +136,9 @@ let control f : Configuration.control -> Configuration.control =
     Executing (m, residual r t)
   | Ended _ as ended -> ended
 
-let tuples (program : program) f ~in_no_order n =
+let tuples (program : program) f ~unordered n =
   let queues, others = List.partition (fun (k, _) -> Tuples.is_ordered k n) (Tuples.bindings n) in
   let rename n (k, xs) = List.fold_left (fun n x -> Tuples.post k (value f x) n) n xs in
   let renamed = List.fold_left rename (Tuples.empty (Keys program.ordered_keys)) queues in
-  in_no_order ();
+  unordered ();
   List.fold_left rename renamed others

@@ -1,19 +1,20 @@
-(** Vehicles by other names, in configurations. *)
+(** Configurations with their vehicles renamed. *)
 
 open Dolphin_semantics
 
 exception Too_large
-(** A task or another value has too many parts to go through. *)
+(** A value has too many parts to go through: tasks may share parts, so that they are much larger than their memory. *)
 
 val value : (Core.vehicle -> Core.vehicle) -> Core.value -> Core.value
-(** [value f x] is [x] with each vehicle [v] in it as [f v]. [f] is called in an order in which names play no part.
+(** [value f x] is [x] with each vehicle [v] in it as [f v]. [f] meets the vehicles in an order that does not depend on
+    their names.
     @raise Too_large *)
 
 val control : (Core.vehicle -> Core.vehicle) -> Configuration.control -> Configuration.control
 (** Likewise.
     @raise Too_large *)
 
-val tuples : Core.program -> (Core.vehicle -> Core.vehicle) -> in_no_order:(unit -> unit) -> Tuples.t -> Tuples.t
-(** [tuples p f ~in_no_order n] is likewise for pairs of ordered keys; then [in_no_order ()] is called, and then [f] for
-    other pairs, in an order in which names do play a part.
+val tuples : Core.program -> (Core.vehicle -> Core.vehicle) -> unordered:(unit -> unit) -> Tuples.t -> Tuples.t
+(** [tuples p f ~unordered n] is likewise for the pairs of ordered keys; then [unordered ()] is called, and then [f] for
+    the other pairs, in an order that depends on names.
     @raise Too_large *)

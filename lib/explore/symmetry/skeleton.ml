@@ -23,14 +23,14 @@ module Closures = Hashtbl.Make (struct
     let hash (handler, c) = (2 * Value.hash_closure c) + Bool.to_int handler
   end)
 
-type t = { skeleton : int; pairs : int array; fixed : Pairs.t; unclear : bool }
+type t = { number : int; pairs : int array; fixed : Pairs.t; unclear : bool }
 
-type context = { code : Footprint.code; skeletons : Names.t; numbers : Pair_numbers.t; known : t Closures.t }
+type context = { code : Footprint.code; texts : Names.t; numbers : Pair_numbers.t; known : t Closures.t }
 
 let context program =
   {
     code = Footprint.code program;
-    skeletons = Names.create ();
+    texts = Names.create ();
     numbers = Pair_numbers.create ();
     known = Closures.create 64;
   }
@@ -39,11 +39,11 @@ let pair c k x = Pair_numbers.number c.numbers (k, Value.canonical x)
 let key_of c i = fst (Pair_numbers.value c.numbers i)
 let value_of c i = snd (Pair_numbers.value c.numbers i)
 
-(* {1 Code that is seen through} *)
+(* {1 Transparent code} *)
 
-exception Opaque  (* it is like no other *)
+exception Opaque
 
-(* Longer texts could make a longer one that is too long, and so a fault. *)
+(* A text made of longer ones could be too long, which is a fault. *)
 let longest_text = 1_000
 
 let is_scalar = function
@@ -52,7 +52,7 @@ let is_scalar = function
   | Wildcard | List _ | Map _ | Range _ | Position _ | Area _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ ->
     false
 
-(* What is being written down of one piece of code. *)
+(* A skeleton being written. *)
 type writing = {
   context : context;
   captured : (int * value) list;
@@ -65,7 +65,7 @@ type writing = {
 
 let print w format = Printf.bprintf w.text format
 
-(* Plain data without sharing is the same bytes if and only if it is the same. *)
+(* Without sharing, plain data is equal if and only if its bytes are. *)
 let plain w x = print w "%S" (Marshal.to_string x [ Marshal.No_sharing ])
 
 let known w e =
@@ -153,7 +153,7 @@ and named w k e =
     w.touched := Pairs.add (k, None) !(w.touched);
     expression w e
 
-(* What is said, for people: what it says does not matter, only that it can be said. *)
+(* A text for people: no step depends on it, but it must not be a fault. *)
 and text w e =
   match known w e, e.node with
   | Some x, _ when is_scalar x -> print w "T%s" (Value.kind x)
@@ -165,7 +165,7 @@ and text w e =
     print w ")"
   | _, _ -> expression w e
 
-let seen_through context handler (c : closure) =
+let transparent context handler (c : closure) =
   let captured = List.mapi (fun i slot -> (slot, c.captured.(i))) (Array.to_list c.lambda.captures) in
   let w =
     { context; captured; handler; text = Buffer.create 64; named = ref []; touched = ref Pairs.empty;
@@ -174,7 +174,7 @@ let seen_through context handler (c : closure) =
   print w "%d:" c.lambda.parameters;
   expression w c.lambda.code;
   {
-    skeleton = Names.number context.skeletons (Buffer.contents w.text);
+    number = Names.number context.texts (Buffer.contents w.text);
     pairs = Array.of_list (List.rev !(w.named));
     fixed = !(w.touched);
     unclear = !(w.reads_error);
@@ -182,12 +182,12 @@ let seen_through context handler (c : closure) =
 
 (* {1 Any code} *)
 
-(* Its own skeleton: the place of the closure among those that are known. *)
-let like_no_other context handler c =
+(* A skeleton that no other code has. *)
+let opaque context handler c =
   let f = Footprint.of_code context.code c in
   let name = Printf.sprintf "own %d" (Closures.length context.known) in
   {
-    skeleton = Names.number context.skeletons name;
+    number = Names.number context.texts name;
     pairs = [||];
     fixed = List.fold_left Pairs.union f.posts [ f.takes; f.needs; f.tests ];
     unclear = handler || f.anything;
@@ -195,8 +195,8 @@ let like_no_other context handler c =
 
 let of_code context ~handler c =
   match Closures.find_opt context.known (handler, c) with
-  | Some pattern -> pattern
+  | Some skeleton -> skeleton
   | None ->
-    let pattern = try seen_through context handler c with Opaque -> like_no_other context handler c in
-    Closures.add context.known (handler, c) pattern;
-    pattern
+    let skeleton = try transparent context handler c with Opaque -> opaque context handler c in
+    Closures.add context.known (handler, c) skeleton;
+    skeleton

@@ -1,6 +1,5 @@
-(** Code up to names: what two pieces of code have in common that differ only in the pairs of N they name one by one,
-    and in
-    texts for people. Found in the code, with what it has captured, without running it. *)
+(** Skeletons of code: code without the pairs of N that it names one by one, and without texts for people. Found in the
+    code, with what it has captured, without running it. *)
 
 open Dolphin_semantics
 
@@ -16,17 +15,15 @@ val pair : context -> string -> Core.value -> int
 val key_of : context -> int -> string
 val value_of : context -> int -> Core.value
 
-(** {1:patterns Patterns} *)
+(** {1:skeletons Skeletons} *)
 
 type t = {
-  skeleton : int;
-  (** all of the code but its pairs and texts: where it is the same, and the pairs are, the code does the same *)
-  pairs : int array;  (** that the code names, in the order of its text *)
-  fixed : Footprint.Pairs.t;  (** pairs that it may touch in other ways *)
-  unclear : bool;  (** it may do anything, or depend on what an error says *)
+  number : int;  (** code with the same number and the same pairs does the same *)
+  pairs : int array;  (** those that the code names, in the order of its text *)
+  fixed : Footprint.Pairs.t;  (** those that it may touch in other ways: they cannot be renamed *)
+  unclear : bool;  (** it may do anything, or depend on an error's text *)
 }
 
 val of_code : context -> handler:bool -> Core.closure -> t
-(** [of_code c ~handler f] is the pattern of [f], which gets an error if it is a [handler]. Code that calls other code,
-    or reads
-    sensors, is like no other. *)
+(** [of_code c ~handler f] is the skeleton of [f], which gets an error if it is a [handler]. Code that calls other code,
+    or reads sensors, is opaque: no other code has its number. *)

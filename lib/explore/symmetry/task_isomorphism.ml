@@ -2,10 +2,10 @@ open Dolphin_semantics
 open Dolphin_environment
 open Core
 
-type context = { options : Environment.options; patterns : Skeleton.context }
+type context = { options : Environment.options; skeletons : Skeleton.context }
 
-let context options program = { options; patterns = Skeleton.context program }
-let patterns c = c.patterns
+let context options program = { options; skeletons = Skeleton.context program }
+let skeletons c = c.skeletons
 
 type label = Task of site | Code of int
 
@@ -35,7 +35,7 @@ let labels = collected (fun leaf -> [ label leaf ])
 let closures = collected (function Of_task _ -> [] | Of_code (handler, c) -> [ (handler, c) ])
 
 let pairs c r =
-  let of_closure (handler, code) = Array.to_list (Skeleton.of_code c.patterns ~handler code).pairs in
+  let of_closure (handler, code) = Array.to_list (Skeleton.of_code c.skeletons ~handler code).pairs in
   Array.of_list (List.concat_map of_closure (closures r))
 
 (* {1 Keys} *)
@@ -49,9 +49,9 @@ let ending s (p : platform_task) v =
   | Fails -> "f"
 
 let code s ~handler c =
-  let p = Skeleton.of_code s.context.patterns ~handler c in
-  let pairs = String.concat "," (List.map s.pair (Array.to_list p.pairs)) in
-  Printf.sprintf "%s:%d{%s}" (s.name (Code c.lambda.id)) p.skeleton pairs
+  let skeleton = Skeleton.of_code s.context.skeletons ~handler c in
+  let pairs = String.concat "," (List.map s.pair (Array.to_list skeleton.pairs)) in
+  Printf.sprintf "%s:%d{%s}" (s.name (Code c.lambda.id)) skeleton.number pairs
 
 let beside s keys = String.concat "|" (if s.sorted then List.sort String.compare keys else keys)
 
@@ -91,7 +91,7 @@ let matched context ~rename r r' =
     if code before ~handler c <> code after ~handler c' then raise_notrace Different;
     note (Code c.lambda.id) (Code c'.lambda.id)
   in
-  (* Children with equal keys may stand for each other: the first that is left does. *)
+  (* Children with equal keys are isomorphic: the first that is left is taken. *)
   let children spell each xs xs' =
     if List.compare_lengths xs xs' <> 0 then raise_notrace Different;
     let left = Hashtbl.create 16 in

@@ -1,6 +1,6 @@
-(** Residuals up to names: of vehicles, plans, timers, places in the text, texts for people, and of the order of what
-    stands
-    side by side. Whether two are alike is decided by comparing keys, which say all that can matter to a run. *)
+(** Isomorphism of residuals: equality up to names on which no step depends (of vehicles, plans, timers, places in the
+    text, texts for people), up to the order of what stands side by side, and up to a renaming of pairs of N. It is
+    decided by comparing keys, which spell out all the rest. *)
 
 open Dolphin_semantics
 open Dolphin_environment
@@ -8,30 +8,28 @@ open Dolphin_environment
 type context
 
 val context : Environment.options -> Core.program -> context
-val patterns : context -> Skeleton.context
+val skeletons : context -> Skeleton.context
 
 (** {1:labels Labels} *)
 
-(** Names that do not matter, but for which code a run reaches. *)
+(** A name on which no step depends; it only tells which code a run reaches. *)
 type label = Task of Core.site | Code of int  (** by the number of its lambda *)
 
 val labels : Residual.t -> label list
 (** In the order of the text. *)
 
 val closures : Residual.t -> (bool * Core.closure) list
-(** All code of the residual, each with whether it is a handler. *)
+(** All code of the residual, each with whether it is an error handler. *)
 
 val pairs : context -> Residual.t -> int array
-(** The pairs that its code names, by {!Skeleton.pair}, in the order of the text. *)
+(** The pairs that its code names ({!Skeleton.pair}), in the order of the text. *)
 
 (** {1:keys Keys} *)
 
 val key : context -> sorted:bool -> pair:(int -> string) -> label:(label -> string) -> Residual.t -> string
-(** [key c ~sorted ~pair ~label r] is the same for residuals that are alike if pairs with the same [pair] and labels
-    with the same
-    [label] are. If it is [sorted], the order of what stands side by side does not matter. *)
+(** [key c ~sorted ~pair ~label r] is the same for residuals that are equal but for names, if pairs count as equal when
+    [pair] is, and labels when [label] is. If it is [sorted], the order of what stands side by side does not count. *)
 
 val matched : context -> rename:(int -> int) -> Residual.t -> Residual.t -> (label * label) list option
-(** [matched c ~rename r r'] is which label of [r] becomes which of [r'], if [r] becomes [r'] by renaming its pairs,
-    its names, and
-    by changing the order of what stands side by side; [None] if it does not. *)
+(** [matched c ~rename r r'] is an isomorphism from [r] to [r'] that renames pairs by [rename], given by what it maps the
+    labels of [r] to; [None] if there is none. *)

@@ -2,60 +2,86 @@ open Dolphin_semantics
 open Dolphin_environment
 module Vehicle_map = Configuration.Vehicle_map
 
-(* Of vehicles that are not alone. *)
+(* The orbit of each vehicle that is not alone in its. *)
 type t = Core.vehicle array Vehicle_map.t
 
 let none = Vehicle_map.empty
 let is_none = Vehicle_map.is_empty
 let of_vehicle p v = Option.value (Vehicle_map.find_opt v p) ~default:[||]
 
-(* [vehicles] by what [key] says, in their order. *)
-let grouped key vehicles =
-  let classes = Hashtbl.create 16 in
+(* {1 Naming} *)
+
+type naming = {
+  orbits : t;
+  names : (Core.vehicle, Core.vehicle) Hashtbl.t;
+  used : (Core.vehicle, int) Hashtbl.t;  (* by first of the orbit: how many of its names are given *)
+}
+
+let naming orbits = { orbits; names = Hashtbl.create 16; used = Hashtbl.create 16 }
+
+let name n v =
+  match of_vehicle n.orbits v, Hashtbl.find_opt n.names v with
+  | [||], _ -> v
+  | _, Some name -> name
+  | orbit, None ->
+    let next = Option.value (Hashtbl.find_opt n.used orbit.(0)) ~default:0 in
+    Hashtbl.replace n.used orbit.(0) (next + 1);
+    Hashtbl.add n.names v orbit.(next);
+    orbit.(next)
+
+let name_of n v = match of_vehicle n.orbits v with [||] -> Some v | _ -> Hashtbl.find_opt n.names v
+let is_identity n = Hashtbl.fold (fun v name same -> same && String.equal v name) n.names true
+
+(* {1 Finding orbits} *)
+
+(* Vehicles with the same key are an orbit, in the order of [vehicles]. *)
+let by_key key vehicles =
+  let orbits = Hashtbl.create 16 in
   let add v =
     let k = key v in
-    Hashtbl.replace classes k (v :: Option.value (Hashtbl.find_opt classes k) ~default:[])
+    Hashtbl.replace orbits k (v :: Option.value (Hashtbl.find_opt orbits k) ~default:[])
   in
   List.iter add (List.rev vehicles);
   let member members p v = Vehicle_map.add v members p in
   let add _ members p =
     if List.compare_length_with members 1 > 0 then List.fold_left (member (Array.of_list members)) p members else p
   in
-  Hashtbl.fold add classes none
+  Hashtbl.fold add orbits none
 
 let split f p =
   let is_first v (members : Core.vehicle array) = String.equal members.(0) v in
-  let classes = Vehicle_map.filter is_first p in
+  let orbits = Vehicle_map.filter is_first p in
   let union _ members _ = Some members in
   Vehicle_map.fold
-    (fun _ members found -> Vehicle_map.union union (grouped f (Array.to_list members)) found)
-    classes none
+    (fun _ members found -> Vehicle_map.union union (by_key f (Array.to_list members)) found)
+    orbits none
 
-(* What [look] may show of a vehicle. *)
-let shown look world state = List.map snd (World.cases world (fun world -> look world state))
+(* What [sensor] may show of a vehicle. *)
+let readings sensor world state = List.map snd (World.cases world (fun world -> sensor world state))
 
-(* Letters that readings of sensors are not spelled with: what is read of different vehicles is never the same text. *)
+(* An open sensor's reading is a text that names the vehicle and starts with another character: readings of different
+   vehicles differ. *)
 let is_plain id =
   String.for_all (function 'a' .. 'z' | 'A' .. 'Z' | '0' .. '9' | '-' | '_' | '.' -> true | _ -> false) id
 
-(* What can be known of a vehicle, to be compared. *)
-let known (options : Environment.options) world (sight : Name_flow.t) (s : World.vehicle_state) =
-  let looks_at seen f = if seen then Some (f ()) else None in
-  let place = looks_at sight.places (fun () -> (s.position, shown World.position world s)) in
-  let battery = looks_at sight.batteries (fun () -> shown World.battery world s) in
-  let endings = List.map (options.endings s.id) sight.texts in
-  let is_odd = World.is_open world && (sight.places || sight.batteries) && not (is_plain s.id) in
-  let alone = if is_odd || List.mem s.id sight.texts then Some s.id else None in
+(* All that a step may depend on but the name. *)
+let key (options : Environment.options) world (flow : Name_flow.t) (s : World.vehicle_state) =
+  let if_read is_read f = if is_read then Some (f ()) else None in
+  let place = if_read flow.places (fun () -> (s.position, readings World.position world s)) in
+  let battery = if_read flow.batteries (fun () -> readings World.battery world s) in
+  let endings = List.map (options.endings s.id) flow.texts in
+  let is_odd = World.is_open world && (flow.places || flow.batteries) && not (is_plain s.id) in
+  let alone = if is_odd || List.mem s.id flow.texts then Some s.id else None in
   ((s.kind, s.payload, s.connected), place, battery, endings, alone)
 
 let find (options : Environment.options) program ~asked world =
-  let sight = Name_flow.of_program program ~asked:(List.map Condition.closure asked) in
-  let sight = { sight with texts = List.concat_map Condition.vehicles asked @ sight.texts } in
+  let flow = Name_flow.of_program program ~asked:(List.map Condition.closure asked) in
+  let flow = { flow with texts = List.concat_map Condition.vehicles asked @ flow.texts } in
   let nobody_is_late = match options.latecomers with Never | At_most 0 -> true | At_most _ | Any_number -> false in
-  let is_blind = sight.named = None && not (World.is_open world && sight.spelled <> None) in
-  if not (nobody_is_late && is_blind && sight.picks) then none
+  let is_independent = flow.names = None && not (World.is_open world && flow.readings <> None) in
+  if not (nobody_is_late && is_independent && flow.picks) then none
   else
     let states = World.vehicles world in
-    let known_of = Hashtbl.create 16 in
-    List.iter (fun (s : World.vehicle_state) -> Hashtbl.add known_of s.id (known options world sight s)) states;
-    grouped (Hashtbl.find known_of) (List.map (fun (s : World.vehicle_state) -> s.id) states)
+    let keys = Hashtbl.create 16 in
+    List.iter (fun (s : World.vehicle_state) -> Hashtbl.add keys s.id (key options world flow s)) states;
+    by_key (Hashtbl.find keys) (List.map (fun (s : World.vehicle_state) -> s.id) states)

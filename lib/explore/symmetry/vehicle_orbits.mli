@@ -1,4 +1,5 @@
-(** Vehicles that a program, in a world, cannot tell from each other: peers. A partition of vehicles into classes. *)
+(** The orbits of vehicles under the permutations that no step of a program, in a world, depends on. A partition of the
+    vehicles; the group is the product of the symmetric groups on its classes. *)
 
 open Dolphin_semantics
 open Dolphin_environment
@@ -9,16 +10,32 @@ val none : t
 (** Each vehicle alone. *)
 
 val find : Environment.options -> Core.program -> asked:Condition.t list -> World.t -> t
-(** [find o p ~asked w] is the vehicles of [w] that have the same type and payload, stand at the same place and show the
-    same battery as far as code of [p] looks at either, end the plans that [p] names in the same way, and are not named
-    in [p]; nor in conditions that are [asked], whose code counts as code of [p]. It is {!none} if [p] makes something
-    of names of vehicles ({!Name_flow}), or if vehicles may be late. It may still turn out that [p] tells some of them
-    apart: see {!Canonical_vehicles}. *)
+(** [find o p ~asked w] puts two vehicles of [w] into one orbit if they have the same type and payload, the same place
+    and battery as far as code of [p] reads these, and the same endings of the plans that [p] names, and if no text in
+    [p] is the name of either. Conditions that are [asked] count as code of [p]. It is {!none} if a step may depend on a
+    vehicle's name ({!Name_flow}), or if vehicles may be late. States may show later that a symmetry is broken after all
+    ({!Canonical_vehicles}). *)
 
 val is_none : t -> bool
 
 val of_vehicle : t -> Core.vehicle -> Core.vehicle array
-(** [of_vehicle p v] is the class of [v], in the order of the world, if there are others in it; otherwise [[||]]. *)
+(** [of_vehicle p v] is the orbit of [v], in the order of the world, if there are others in it; otherwise [[||]]. *)
 
 val split : (Core.vehicle -> 'a) -> t -> t
-(** [split f p] is the classes of [p], each split up by [f], whose results are compared as data. *)
+(** [split f p] is the orbits of [p], each split up by [f], whose results are compared as data. *)
+
+(** {1:naming Naming} *)
+
+type naming
+(** A permutation that is being made: it names the vehicles of each orbit in the order in which they are met. *)
+
+val naming : t -> naming
+
+val name : naming -> Core.vehicle -> Core.vehicle
+(** [name n v] is the name that [v] has, or else the first of its orbit that no vehicle has yet, which is now its. *)
+
+val name_of : naming -> Core.vehicle -> Core.vehicle option
+(** [name_of n v] is the name that [v] has, if it has one. *)
+
+val is_identity : naming -> bool
+(** Whether each vehicle that has a name has its own. *)

@@ -26,7 +26,7 @@ let rec permutations space last = function
   | [ i ] -> [ (i, last) ]
   | i :: (j :: _ as rest) -> (
       match permutations space last rest, permutation space i j with
-      | ((_, p) :: _ as found), Some q -> (i, Symmetry.compose p q) :: found
+      | ((_, p) :: _ as found), Some q -> (i, Task_group.compose p q) :: found
       | _, _ -> Fmt.invalid_arg "Replay.permutations: state %d" i)
 
 (* The states of [states] in the task that the first one is of, with the symmetry, and those after. *)
@@ -44,12 +44,12 @@ let follow space g start ~from states after =
   let final = List.nth numbers (List.length numbers - 1) in
   let last =
     match after with
-    | w :: _ -> Option.value (permutation space final w) ~default:(Symmetry.identity g)
-    | [] -> Symmetry.identity g
+    | w :: _ -> Option.value (permutation space final w) ~default:(Task_group.identity g)
+    | [] -> Task_group.identity g
   in
-  let step (state, from, found) ((i, folded), (_, p)) =
-    let wanted = Symmetry.apply g p folded in
-    let leads ((t : Transition.t), e) = Space.folded space g t.next e = Some wanted in
+  let step (state, from, found) ((i, representative), (_, p)) =
+    let wanted = Task_group.apply g p representative in
+    let leads ((t : Transition.t), e) = Space.quotient_state space g t.next e = Some wanted in
     let (t, e) = take space state leads ~from ~into:i in
     ((t.next, e), i, (t, e) :: found)
   in
@@ -64,14 +64,14 @@ let is_end (c : Configuration.t) =
   match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false
 
 (* An end by an error may have another text than that of the state that stands for it. *)
-let ends_alike property ((t : Transition.t), _) = Property.broken_by_end t.rules t.next = property && is_end t.next
+let ends_in_same_way property ((t : Transition.t), _) = Property.broken_by_end t.rules t.next = property && is_end t.next
 
 let leads_to space i state =
   let is_it ((t : Transition.t), e) = equal (t.next, e) state || equal (Space.canonical space t.next e) state in
   fun found ->
     match List.find_opt is_it found with
     | Some choice -> Some choice
-    | None -> List.find_opt (ends_alike (Space.breaks space i)) found
+    | None -> List.find_opt (ends_in_same_way (Space.breaks space i)) found
 
 (* Transitions from state to state, each from where the one before led to, or from what stands for that. The result is
    latest first. *)
@@ -104,7 +104,7 @@ let in_names_of space states =
 let real space state images =
   let step (state, found) (((image : Transition.t), e) as choice) =
     let t, e =
-      if not (Space.has_peers space) then choice
+      if not (Space.has_vehicle_symmetry space) then choice
       else
         let wanted = Space.canonical space image.next e in
         let is_it ((t : Transition.t), e) = equal (Space.canonical space t.next e) wanted in
@@ -112,9 +112,9 @@ let real space state images =
         match List.find_opt is_it offered with
         | Some choice -> choice
         | None -> (
-            match List.find_opt (ends_alike (Property.broken_by_end image.rules image.next)) offered with
+            match List.find_opt (ends_in_same_way (Property.broken_by_end image.rules image.next)) offered with
             | Some choice when is_end image.next -> choice
-            | Some _ | None -> invalid_arg "Replay: what is alike has no such transition")
+            | Some _ | None -> invalid_arg "Replay: a configuration of the orbit has no such transition")
     in
     ((t.next, e), t :: found)
   in

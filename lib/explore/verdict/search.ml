@@ -73,7 +73,7 @@ type outcome = {
   seconds : float;
   stopped : bound option;
   reduction : Reduction.t;
-  peers : bool;
+  vehicle_symmetry : bool;
   verdicts : (Property.t * verdict) list;
 }
 
@@ -229,10 +229,10 @@ let verdicts t program stopped =
   let given i = (Property.Invariant (Condition.to_string (Invariant.condition i)), invariant i) in
   List.map (fun property -> (property, verdict property)) Property.all @ List.map given t.invariants
 
-let start ?watch ?(phase = "exploring") (options : options) ~peers program world started =
+let start ?watch ?(phase = "exploring") (options : options) ~symmetry program world started =
   let reserve = ref ignore in
   let space =
-    Space.create ~reduction:options.reduction ~peers ~asked:options.invariants ~compress:options.compress
+    Space.create ~reduction:options.reduction ~symmetry ~asked:options.invariants ~compress:options.compress
       ~reserve:(fun bytes -> !reserve bytes)
       ?watch
       options.environment program world
@@ -246,7 +246,7 @@ let start ?watch ?(phase = "exploring") (options : options) ~peers program world
   t
 
 (* What a reduced search finds broken, the first of all states may show by a shortest run. *)
-let with_shortest_runs options ~peers program world started verdicts =
+let with_shortest_runs options ~symmetry program world started verdicts =
   let is_sought = function
     | (Property.Termination | Invariant _ | Formula _), _ | _, (Holds | Unreached _ | Inconclusive _) -> false
     | _, Violated { shortest; _ } -> not shortest
@@ -256,7 +256,7 @@ let with_shortest_runs options ~peers program world started verdicts =
   | sought ->
     let most = Option.fold ~none:options.search_again ~some:(min options.search_again) options.max_states in
     let options = { options with reduction = Whole; invariants = []; max_states = Some most } in
-    let t = start options ~peers program world started in
+    let t = start options ~symmetry:(Symmetry.without_tasks symmetry) program world started in
     let is_found property = Space.broken t.space property <> None in
     ignore (explore ~enough:(fun () -> List.for_all is_found sought) program t);
     let shorter (property, verdict) =
@@ -286,7 +286,7 @@ let formula started (options : options) program world f =
         | exception Out_of_memory -> Inconclusive No_memory)
   in
   match
-    let t = start ~watch ~phase:"exploring for formulas" options ~peers:Vehicle_orbits.none program world started in
+    let t = start ~watch ~phase:"exploring for formulas" options ~symmetry:Symmetry.none program world started in
     let verdict = judge t in
     (verdict, Space.count t.space, memory t)
   with
@@ -296,22 +296,19 @@ let formula started (options : options) program world f =
 
 (* {1 Outcomes} *)
 
-(* Begun anew with less where something turns out to stand against what states stand for. *)
-let rec run_from started (options : options) ~peers program world =
+(* Begun anew with less where a state breaks the symmetry. *)
+let rec run_from started (options : options) ~symmetry program world =
   match
-    let t = start options ~peers program world started in
-    outcome t ~peers program world (explore program t)
+    let t = start options ~symmetry program world started in
+    outcome t ~symmetry program world (explore program t)
   with
   | outcome -> outcome
-  | exception Symmetry_groups.Unclear ->
-    let reduction = Reduction.without_symmetry options.reduction in
-    run_from started { options with reduction } ~peers program world
-  | exception Canonical_vehicles.Told_apart peers -> run_from started options ~peers program world
+  | exception Symmetry.Broken symmetry -> run_from started options ~symmetry program world
 
-and outcome t ~peers program world stopped =
+and outcome t ~symmetry program world stopped =
   let space = t.space and options = t.options and started = t.started in
   let without_symmetry = Reduction.without_symmetry options.reduction in
-  let verdicts = with_shortest_runs options ~peers program world started (verdicts t program stopped) in
+  let verdicts = with_shortest_runs options ~symmetry program world started (verdicts t program stopped) in
   let found =
     {
       states = Space.count space;
@@ -322,8 +319,8 @@ and outcome t ~peers program world stopped =
       bytes = memory t;
       seconds = options.clock () -. started;
       stopped;
-      reduction = (if Space.used_symmetry space then options.reduction else without_symmetry);
-      peers = Space.used_peers space;
+      reduction = (if Space.used_task_symmetry space then options.reduction else without_symmetry);
+      vehicle_symmetry = Space.used_vehicle_symmetry space;
       verdicts;
     }
   in
@@ -343,18 +340,21 @@ and with_formulas started (options : options) program world found =
   List.fold_left add found options.formulas
 
 let run (options : options) program world =
-  let peers =
+  let symmetry =
     if Reduction.by_symmetry options.reduction then
-      Vehicle_orbits.find options.environment program ~asked:options.invariants world
-    else Vehicle_orbits.none
+      Symmetry.find options.environment program ~asked:options.invariants world
+    else Symmetry.none
   in
   (* What is asked of every state cannot be judged by some of those of a task. *)
-  let options = if options.invariants = [] then options else { options with reduction = Whole } in
-  run_from (options.clock ()) options ~peers program world
+  let options, symmetry =
+    if options.invariants = [] then (options, symmetry)
+    else ({ options with reduction = Whole }, Symmetry.without_tasks symmetry)
+  in
+  run_from (options.clock ()) options ~symmetry program world
 
 (* {1 Text} *)
 
-let reductions o = Reduction.names o.reduction @ if o.peers then [ "symmetry of vehicles" ] else []
+let reductions o = Reduction.names o.reduction @ if o.vehicle_symmetry then [ "symmetry of vehicles" ] else []
 
 let pp_bound ppf bound =
   Format.pp_print_string ppf

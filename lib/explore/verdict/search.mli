@@ -79,7 +79,7 @@ type outcome = {
   stopped : bound option;
   reduction : Reduction.t;
   (** the one that was used in tasks: less than was asked for where something stands against it *)
-  peers : bool;  (** whether of states of the script that differ in which of {!Vehicle_orbits} are where one was looked at *)
+  vehicle_symmetry : bool;  (** whether vehicle symmetry merged states of the script *)
   verdicts : (Property.t * verdict) list;  (** for each of {!Property.all}, then for each invariant and formula *)
 }
 
@@ -88,7 +88,7 @@ val run : options -> Core.program -> World.t -> outcome
     before a bound was met is one. *)
 
 val reductions : outcome -> string list
-(** Those that were used: {!Reduction.names}, and ["symmetry of vehicles"] for [peers]. *)
+(** Those that were used: {!Reduction.names}, and ["symmetry of vehicles"] for [vehicle_symmetry]. *)
 
 val pp_bound : Format.formatter -> bound -> unit
 

@@ -1,6 +1,5 @@
 open Dolphin_semantics
 open Data
-module Vehicle_map = Configuration.Vehicle_map
 module Request = Dolphin_trace.Request
 
 let of_text x : json = `String x
@@ -17,11 +16,11 @@ let control (c : Configuration.t) =
 
 let pairs (c : Configuration.t) =
   let of_key (k, xs) = List.map (fun x -> Format.asprintf "%a" Value.pp_tuple (k, x)) xs in
-  List.concat_map of_key (Tuples.bindings c.tuples)
+  List.concat_map of_key (Tuples.bindings c.shared.tuples)
 
 let variables (p : Core.program) (c : Configuration.t) =
   let variable (i, x) = (p.global_names.(i), of_text (Format.asprintf "%a" Value.pp x)) in
-  List.map variable (Store.bindings c.store)
+  List.map variable (Store.bindings c.shared.store)
 
 (* {1 The whole} *)
 
@@ -30,20 +29,20 @@ let of_state (c : Configuration.t) : json =
   let each = Value_data.of_value budget in
   `List
     [ Control_data.of_control budget c.control;
-      of_list (of_pair (fun i -> `Int i) each) (Store.bindings c.store);
-      of_list (of_pair of_text (Value_data.of_platform_task budget)) (Vehicle_map.bindings c.allocation);
-      of_list of_text c.bound;
-      of_list (of_pair of_text (of_list each)) (Tuples.bindings c.tuples) ]
+      of_list (of_pair (fun i -> `Int i) each) (Store.bindings c.shared.store);
+      of_list (of_pair of_text (Value_data.of_platform_task budget)) (Vehicle_map.bindings c.shared.allocation);
+      of_list of_text c.shared.bound;
+      of_list (of_pair of_text (of_list each)) (Tuples.bindings c.shared.tuples) ]
 
 let to_json p (c : Configuration.t) =
   match of_state c with
   | exception Too_large -> Error "the configuration is too large to be written down"
   | state ->
     let task (v, (p : Core.platform_task)) = (v, of_text p.name) in
-    let tasks = List.map task (Vehicle_map.bindings c.allocation) in
+    let tasks = List.map task (Vehicle_map.bindings c.shared.allocation) in
     Ok
       (`Assoc
-         [ ("control", `String (control c)); ("end", ending c); ("A", `Assoc tasks); ("B", of_list of_text c.bound);
+         [ ("control", `String (control c)); ("end", ending c); ("A", `Assoc tasks); ("B", of_list of_text c.shared.bound);
            ("N", of_list of_text (pairs c)); ("store", `Assoc (variables p c)); ("state", state) ])
 
 let post tuples (k, xs) = List.fold_left (fun tuples x -> Tuples.post k x tuples) tuples xs
@@ -58,12 +57,15 @@ let state nodes (p : Core.program) (json : json) : Configuration.t =
     let add store (i, x) = Store.set i x store in
     let run map (v, p) = Vehicle_map.add v p map in
     let none = Tuples.empty (Keys p.ordered_keys) in
-    { control = Control_data.control nodes control;
-      store = List.fold_left add Store.empty (list variable store);
-      allocation =
-        List.fold_left run Vehicle_map.empty (list (pair text (Value_data.platform_task nodes)) allocation);
-      bound = list text bound;
-      tuples = List.fold_left post none (list (pair text (list (Value_data.value nodes))) tuples) }
+    let control = Control_data.control nodes control in
+    let shared : Shared.t =
+      { store = List.fold_left add Store.empty (list variable store);
+        allocation =
+          List.fold_left run Vehicle_map.empty (list (pair text (Value_data.platform_task nodes)) allocation);
+        bound = list text bound;
+        tuples = List.fold_left post none (list (pair text (list (Value_data.value nodes))) tuples) }
+    in
+    { control; shared }
   | json -> wrong "the state of a configuration" json
 
 let of_json nodes p : json -> _ = function

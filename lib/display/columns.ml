@@ -8,12 +8,12 @@ let widest = 40
 type row = { actor : string; text : string; at : Location.t option; assumed : World.assumption list }
 
 let site_of (label : Label.t) (t : Transition.t) before =
-  let task v = Option.map (fun (p : Core.platform_task) -> p.task_site) (Configuration.Vehicle_map.find_opt v before) in
+  let task v = Option.map (fun (p : Core.platform_task) -> p.task_site) (Vehicle_map.find_opt v before) in
   match label, t.next.control with
   | Start (v, _), _ ->
     Option.map
       (fun (p : Core.platform_task) -> p.task_site)
-      (Configuration.Vehicle_map.find_opt v t.next.allocation)
+      (Vehicle_map.find_opt v t.next.shared.allocation)
   | (Done (v, _) | Fail (v, _, _)), _ -> task v
   | _, (Script m | Waiting (m, _) | Executing (m, _)) -> Some (Machine.site m)
   | _, Ended (Failed fault) -> Some fault.site
@@ -38,9 +38,9 @@ let rows program run =
   let add (before, rows) (t : Transition.t) =
     let is_shown = match t.label with Silent -> t.assumed <> [] | _ -> true in
     let rows = if is_shown then row program before t :: rows else rows in
-    (t.next.allocation, rows)
+    (t.next.shared.allocation, rows)
   in
-  List.rev (snd (List.fold_left add (Configuration.Vehicle_map.empty, []) run))
+  List.rev (snd (List.fold_left add (Vehicle_map.empty, []) run))
 
 let shortened text =
   if Wording.width text <= widest then text

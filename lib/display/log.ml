@@ -1,5 +1,4 @@
 open Dolphin_semantics
-module Vehicle_map = Configuration.Vehicle_map
 
 type t = {
   before : Core.platform_task Vehicle_map.t;  (* A before the transition: what a vehicle that is stopped was doing *)
@@ -91,14 +90,14 @@ let of_effect ~stuck l : Effect.t -> (string * string) list = function
   | Set_timer _ | Cancel_timer _ | Look_for _ | Ask _ | Call_host _ -> []
 
 let transition ?(stuck = false) l ~time (s : Transition.t) =
-  let bound = s.next.bound in
+  let bound = s.next.shared.bound in
   let wider column v = max column (min widest (Wording.width v)) in
   let column = if bound == l.bound then l.column else List.fold_left wider l.column bound in
   let l = { l with column } in
   let further = List.filteri (fun i _ -> i >= told_by_label s.label) s.effects in
   let happenings = of_label s @ List.concat_map (of_effect ~stuck l) further in
   let lines = List.map (fun (actor, text) -> line l ~time actor text) happenings in
-  ({ l with before = s.next.allocation; bound }, lines)
+  ({ l with before = s.next.shared.allocation; bound }, lines)
 
 let news l ~time (state : World.vehicle_state) =
   let was_heard = not (List.mem state.id l.unheard) in

@@ -1,5 +1,4 @@
 open Dolphin_semantics
-module Vehicle_map = Configuration.Vehicle_map
 
 type t = {
   now : float;
@@ -13,7 +12,7 @@ let most_lines = 12
 
 let transition b ~time (s : Transition.t) =
   (* Only what a transition starts or ends is looked at: a board of a thousand vehicles changes often. *)
-  let ended running v = if Vehicle_map.mem v s.next.allocation then running else Vehicle_map.remove v running in
+  let ended running v = if Vehicle_map.mem v s.next.shared.allocation then running else Vehicle_map.remove v running in
   let of_effect running : Effect.t -> _ = function
     | Start (v, p) -> Vehicle_map.add v (p, time) running
     | Stop v -> Vehicle_map.remove v running
@@ -21,7 +20,7 @@ let transition b ~time (s : Transition.t) =
     | Call_host _ | End _ -> running
   in
   let running = match s.label with Done (v, _) | Fail (v, _, _) -> ended b.running v | _ -> b.running in
-  { b with now = time; bound = s.next.bound; running = List.fold_left of_effect running s.effects }
+  { b with now = time; bound = s.next.shared.bound; running = List.fold_left of_effect running s.effects }
 
 let news b ~time (state : World.vehicle_state) = { b with now = time; seen = Vehicle_map.add state.id state b.seen }
 

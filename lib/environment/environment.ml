@@ -152,7 +152,7 @@ let after_refusal options ~before e (c : Configuration.t) why : (Transition.even
 let events options e (c : Configuration.t) (event : Transition.event) : (Transition.event * t) list =
   match event, c.control with
   | Vehicle_done v, _ -> (
-      match Configuration.Vehicle_map.find_opt v c.allocation with
+      match Vehicle_map.find_opt v c.shared.allocation with
       | Some p -> task_ends options e v p
       | None -> [])
   | Answered _, Waiting (_, Ask prompt) -> answered options e prompt
@@ -197,7 +197,7 @@ let rec arrangements most xs =
 let uncertain (options : options) world e (c : Configuration.t) (pick : Settings.pick) =
   let may_miss v = List.mem v e.lost || (is_possible options.latecomers && options.may_be_late v) in
   let is_wanted (s : World.vehicle_state) =
-    Settings.accepts { pick.filter with region = None } s && (not (List.mem s.id c.bound)) && may_miss s.id
+    Settings.accepts { pick.filter with region = None } s && (not (List.mem s.id c.shared.bound)) && may_miss s.id
   in
   List.map (fun (s : World.vehicle_state) -> s.id) (List.filter is_wanted (World.vehicles world))
 
@@ -239,7 +239,7 @@ let attendances (options : options) e (pick : Settings.pick) ~lost ~late =
 let picking (options : options) program world e (c : Configuration.t) (pick : Settings.pick) =
   let lost, late = List.partition (fun v -> List.mem v e.lost) (uncertain options world e c pick) in
   let remember a ((t : Transition.t), e) =
-    let is_picked v = List.mem v t.next.bound && not (List.mem v c.bound) in
+    let is_picked v = List.mem v t.next.shared.bound && not (List.mem v c.shared.bound) in
     let lost = List.filter (fun v -> not (is_picked v)) e.lost in
     let noted = List.filter (fun v -> List.mem v late) (a.coming @ a.missing) in
     let noted = match options.latecomers with At_most _ -> noted | Never | Any_number -> [] in

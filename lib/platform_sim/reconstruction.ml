@@ -74,7 +74,7 @@ let command ~announce_period s : Effect.t -> state = function
     { s with f = Fleet.stop v s.f; untold = List.filter others s.untold }
   | Set_timer (timer, seconds) -> { s with f = Fleet.set_timer timer seconds s.f }
   | Look_for { timeout; _ } ->
-    { s with f = Fleet.set_timer Effect.script_timer (Option.value timeout ~default:announce_period) s.f }
+    { s with f = Fleet.set_timer Residual.script_timer (Option.value timeout ~default:announce_period) s.f }
   | Cancel_timer timer ->
     { s with f = Fleet.cancel_timer timer s.f; untold = List.filter (( <> ) (Platform.Timer timer)) s.untold }
   | Bind vs -> { s with f = Fleet.bind vs s.f }

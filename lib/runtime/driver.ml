@@ -4,12 +4,12 @@ open Lwt.Infix
 type outcome = Ended of Configuration.ending | Stuck of Residual.t
 
 let guards r =
-  let guard (step : Residual.step) =
-    match step.offer with
+  let guard (Task_rules.Step { offer; _ }) =
+    match offer with
     | Check closure -> Some closure
     | Start _ | Perform _ | Measure _ | End_of _ | Expiry_of _ -> None
   in
-  List.of_seq (Seq.filter_map guard (Residual.steps r))
+  List.of_seq (Seq.filter_map guard (Task_rules.steps r))
 
 let pp_outcome ppf = function
   | Ended ending -> Effect.pp ppf (End ending)
@@ -81,7 +81,7 @@ module Make (P : Platform.S) = struct
     | Cancel_timer timer -> P.cancel_timer s.platform timer
     | Look_for pick ->
       let seconds = Option.value pick.timeout ~default:(P.announce_period s.platform) in
-      P.set_timer s.platform Effect.script_timer seconds
+      P.set_timer s.platform Residual.script_timer seconds
     | Bind vs -> P.bind s.platform vs
     | Release vs -> P.release s.platform vs
     | Set_connection_timeout (vs, seconds) -> P.set_connection_timeout s.platform vs seconds
@@ -220,7 +220,7 @@ module Make (P : Platform.S) = struct
     let sensitive = Transition.depends_on_sensors s.program c in
     match c.control with
     | Executing (_, r)
-      when (not sensitive) && Configuration.Vehicle_map.is_empty c.allocation && Transition.awaited c = [] ->
+      when (not sensitive) && Vehicle_map.is_empty c.shared.allocation && Transition.awaited c = [] ->
       interrupt s;
       Lwt.return (Stuck r)
     | Script _ | Waiting _ | Executing _ | Ended _ ->

@@ -43,7 +43,7 @@ let ask ~announce_period time s : Effect.t -> outstanding = function
   | Stop v -> with_task v (fun c -> { c with is_stopped = true }) s
   | Set_timer (timer, seconds) -> set_timer time timer seconds s
   | Look_for { timeout; _ } ->
-    set_timer time Effect.script_timer (Option.value timeout ~default:announce_period) s
+    set_timer time Residual.script_timer (Option.value timeout ~default:announce_period) s
   | Cancel_timer timer -> { s with timers = List.remove_assoc timer s.timers }
   | Bind vs -> { s with bound = s.bound @ vs }
   | Release vs -> { s with bound = List.filter (fun v -> not (List.mem v vs)) s.bound }

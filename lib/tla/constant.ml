@@ -47,4 +47,4 @@ let value program world e =
   match Machine.run ~fuel context (Machine.call { lambda; captured = [||] } []) with
   | Finished x, _, _ -> Ok x
   | Faulted fault, _, _ -> Error fault
-  | (Exhausted | Did | Waits _ | Halted _), _, _ -> Error (Fault.make e.site "this has no value")
+  | (Exhausted | Did _ | Waits _ | Halted _), _, _ -> Error (Fault.make e.site "this has no value")

@@ -4,7 +4,7 @@ module Reference = Dolphin_explore.Reference
 
 let ending (c : Configuration.t) =
   match c.control with
-  | Ended Completed -> if Tuples.is_empty c.tuples then "completed" else "completed, with tuples left"
+  | Ended Completed -> if Tuples.is_empty c.shared.tuples then "completed" else "completed, with tuples left"
   | Ended (Halted message) -> "halted: " ^ message
   | Ended (Failed fault) -> "failed: " ^ fault.message
   | Ended Interrupted -> "interrupted"
@@ -17,7 +17,7 @@ let label (t : Transition.t) =
 (* Of a key whose order matters one mark for all its pairs, of others one for each pair. *)
 let marks_of_key (c : Configuration.t) (k, values) =
   let pair x = Format.asprintf "%a" Value.pp_tuple (k, x) in
-  if Tuples.is_ordered k c.tuples then [ Printf.sprintf "N %s in order" (String.concat ", " (List.map pair values)) ]
+  if Tuples.is_ordered k c.shared.tuples then [ Printf.sprintf "N %s in order" (String.concat ", " (List.map pair values)) ]
   else
     let rec runs = function
       | [] -> []
@@ -30,11 +30,11 @@ let marks_of_key (c : Configuration.t) (k, values) =
 
 let marks (c : Configuration.t) =
   let ended = match ending c with "" -> [] | how -> [ "ended: " ^ how ] in
-  let bound = if c.bound = [] then [] else [ "B " ^ String.concat ", " c.bound ] in
+  let bound = if c.shared.bound = [] then [] else [ "B " ^ String.concat ", " c.shared.bound ] in
   let runs (v, (p : Core.platform_task)) = Printf.sprintf "A %s: %s" v p.name in
   ended @ bound
-  @ List.map runs (Configuration.Vehicle_map.bindings c.allocation)
-  @ List.concat_map (marks_of_key c) (Tuples.bindings c.tuples)
+  @ List.map runs (Vehicle_map.bindings c.shared.allocation)
+  @ List.concat_map (marks_of_key c) (Tuples.bindings c.shared.tuples)
 
 let graph (space : Reference.t) =
   let b = Graph.Builder.create () in

@@ -34,14 +34,14 @@ let control program (c : Configuration.t) : Yojson.Safe.t =
   | Ended (Failed fault) -> state "failed" (place fault @ [ ("message", text fault.message) ])
 
 let variables program (c : Configuration.t) =
-  let running = Configuration.Vehicle_map.bindings c.allocation in
+  let running = Vehicle_map.bindings c.shared.allocation in
   let pairs (k, xs) = (k, `List (List.map value xs)) in
   let variable (i, x) = (program.global_names.(i), value x) in
   [ ("control", control program c);
     ("A", map (List.map (fun (v, (p : platform_task)) -> (v, text p.name)) running));
-    ("B", `List (List.map text c.bound));
-    ("N", map (List.map pairs (Tuples.bindings c.tuples)));
-    ("store", map (List.map variable (Store.bindings c.store))) ]
+    ("B", `List (List.map text c.shared.bound));
+    ("N", map (List.map pairs (Tuples.bindings c.shared.tuples)));
+    ("store", map (List.map variable (Store.bindings c.shared.store))) ]
 
 let way (t : Transition.t) =
   let rule r = text (Rule.name r) in

@@ -1,5 +1,4 @@
 open Dolphin_semantics
-module Vehicle_map = Configuration.Vehicle_map
 module Seen = Hashtbl.Make (Configuration)
 
 type t = {
@@ -40,7 +39,7 @@ let inside prefix label =
 (* The events that may make a transition of [c] with this label; without, those that may have been hidden. *)
 let events p (c : Configuration.t) label =
   let ends v =
-    let name = match Vehicle_map.find_opt v c.allocation with Some task -> task.name | None -> "" in
+    let name = match Vehicle_map.find_opt v c.shared.allocation with Some task -> task.name | None -> "" in
     match label with
     | None when is_hidden p "fail" -> [ Transition.Vehicle_done v; Vehicle_failed (v, "failed") ]
     | None -> [ Vehicle_done v ]

@@ -70,14 +70,14 @@ let false_guards r =
     let located (c : Core.closure) =
       Option.map (fun at -> (at, c.lambda.label)) (Fault.location r.program (Fault.make c.lambda.lambda_site ""))
     in
-    let is_false (step : Residual.step) =
-      match step.offer with
+    let is_false (Task_rules.Step { offer; _ }) =
+      match offer with
       | Check c ->
         let alone = { r.configuration with control = Executing (m, Condition c) } in
         if Transition.internal r.program r.world alone () = Seq.Nil then located c else None
       | Start _ | Perform _ | Measure _ | End_of _ | Expiry_of _ -> None
     in
-    first most_shown (Seq.filter_map is_false (Residual.internal_steps residual))
+    first most_shown (Seq.filter_map is_false (Task_rules.internal_steps residual))
 
 let mismatch r reason =
   Error { reason; false_guards = false_guards r; enabled = enabled r; awaited = awaited r }

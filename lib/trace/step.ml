@@ -1,7 +1,6 @@
 open Dolphin_results
 open Dolphin_semantics
 open Dolphin_json.Field
-module Vehicle_map = Configuration.Vehicle_map
 module Location = Dolphin_syntax.Location
 module String_set = Set.Make (String)
 
@@ -28,7 +27,7 @@ let site_of_control : Configuration.control -> Core.site option = function
 (* Tasks are at home where they are made; other steps of an executing task, where it is executed. *)
 let site (before : Configuration.t) (t : Transition.t) =
   let of_task v (c : Configuration.t) =
-    Option.map (fun (p : Core.platform_task) -> p.task_site) (Vehicle_map.find_opt v c.allocation)
+    Option.map (fun (p : Core.platform_task) -> p.task_site) (Vehicle_map.find_opt v c.shared.allocation)
   in
   let of_label =
     match t.label with
@@ -47,7 +46,7 @@ let place program before t =
   | Some _ | None -> None
 
 let allocation_changes (before : Configuration.t) (after : Configuration.t) =
-  if before.allocation == after.allocation then []
+  if before.shared.allocation == after.shared.allocation then []
   else
     let change _ (p : Core.platform_task option) (p' : Core.platform_task option) =
       match p, p' with
@@ -55,7 +54,7 @@ let allocation_changes (before : Configuration.t) (after : Configuration.t) =
       | None, None -> None
       | (Some _ | None), p' -> Some (Option.map (fun (p : Core.platform_task) -> p.name) p')
     in
-    Vehicle_map.bindings (Vehicle_map.merge change before.allocation after.allocation)
+    Vehicle_map.bindings (Vehicle_map.merge change before.shared.allocation after.shared.allocation)
 
 (* [without vs vs'] is [vs] less [vs'], in order. *)
 let without vs vs' =
@@ -87,7 +86,7 @@ let tuple_changes (before : Configuration.t) (t : Transition.t) =
     let posted = List.map show_pair posted and consumed = List.map show_pair consumed in
     (less posted consumed, less consumed posted)
   in
-  if before.tuples == t.next.tuples then ([], [])
+  if before.shared.tuples == t.next.shared.tuples then ([], [])
   else
     let all tuples = List.concat_map (fun (k, xs) -> List.map (fun x -> (k, x)) xs) (Tuples.bindings tuples) in
     let of_deeds deeds =
@@ -103,7 +102,7 @@ let tuple_changes (before : Configuration.t) (t : Transition.t) =
     match t.label with
     | Did deed when not is_handled -> of_deeds [ deed ]
     | (Check deeds | Act deeds | Cut deeds) when not is_handled -> of_deeds deeds
-    | _ -> balance (all t.next.tuples) (all before.tuples)
+    | _ -> balance (all t.next.shared.tuples) (all before.shared.tuples)
 
 let of_transition program (before : Configuration.t) (t : Transition.t) =
   let posted, consumed = tuple_changes before t in
@@ -112,8 +111,8 @@ let of_transition program (before : Configuration.t) (t : Transition.t) =
     at = place program before t;
     choice = 0;
     allocated = allocation_changes before t.next;
-    bound = without t.next.bound before.bound;
-    released = without before.bound t.next.bound;
+    bound = without t.next.shared.bound before.shared.bound;
+    released = without before.shared.bound t.next.shared.bound;
     posted;
     consumed;
     requests = List.map Request.of_effect t.effects }

@@ -100,10 +100,10 @@ let same_control ~senses (found : Configuration.control) (control : Configuratio
 
 let same_configuration ~senses (found : Configuration.t) (c : Configuration.t) =
   same_control ~senses found.control c.control
-  && same_store found.store c.store
-  && Configuration.Vehicle_map.equal (fun (p : Core.platform_task) p' -> p.name = p'.name) found.allocation c.allocation
-  && found.bound = c.bound
-  && Tuples.compare found.tuples c.tuples = 0
+  && same_store found.shared.store c.shared.store
+  && Vehicle_map.equal (fun (p : Core.platform_task) p' -> p.name = p'.name) found.shared.allocation c.shared.allocation
+  && found.shared.bound = c.shared.bound
+  && Tuples.compare found.shared.tuples c.shared.tuples = 0
 
 let same_label ~senses (found : Label.t) (label : Label.t) =
   match found, label with

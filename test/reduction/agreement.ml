@@ -164,8 +164,8 @@ let check ?limit ?(reductions = [ Reduction.Partial_order; Symmetry; All ]) envi
 let without_text (c : Configuration.t) =
   let ended ending =
     let none = Tuples.empty No_key in
-    let tuples = if Tuples.is_empty c.tuples then none else Tuples.post "left" Core.Null none in
-    { c with control = Ended ending; tuples }
+    let tuples = if Tuples.is_empty c.shared.tuples then none else Tuples.post "left" Core.Null none in
+    { Configuration.control = Ended ending; shared = { c.shared with tuples } }
   in
   match c.control with
   | Ended (Halted _) -> ended (Halted "")

@@ -45,8 +45,8 @@ let one_task_after_another () =
 let timers () =
   let ring timeout = (outstanding [ asked 5. [ look_for timeout ] ]).timers in
   let timers = Alcotest.(list (pair int (float 0.))) in
-  Alcotest.check timers "as long as the pick says" [ (Effect.script_timer, 7.) ] (ring (Some 2.));
-  Alcotest.check timers "or an announce period" [ (Effect.script_timer, 15.) ] (ring None);
+  Alcotest.check timers "as long as the pick says" [ (Residual.script_timer, 7.) ] (ring (Some 2.));
+  Alcotest.check timers "or an announce period" [ (Residual.script_timer, 15.) ] (ring None);
   let set timer seconds : Effect.t = Set_timer (timer, seconds) in
   let s =
     outstanding

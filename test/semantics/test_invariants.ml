@@ -38,7 +38,7 @@ let bound_by = [ Rule.Pick_bind; Release; End; Halt; Fault; Interrupt; Pick_err;
                  Alloc_err; Watch_halt; Assert_err ]
 
 let b_changes_only_so _ (s : Walk.step) =
-  s.before.bound = s.transition.next.bound
+  s.before.shared.bound = s.transition.next.shared.bound
   || has bound_by s.transition
   || fail "%s changed B" (shown s)
 
@@ -69,10 +69,10 @@ let tuples_are_conserved _ (s : Walk.step) =
   in
   let sorted = List.sort String.compare in
   has unseen s.transition
-  || sorted (pairs s.before.tuples @ posted) = sorted (pairs s.transition.next.tuples @ consumed)
+  || sorted (pairs s.before.shared.tuples @ posted) = sorted (pairs s.transition.next.shared.tuples @ consumed)
   || fail "%s: N was {%s}, is {%s}" (shown s)
-    (String.concat ", " (pairs s.before.tuples))
-    (String.concat ", " (pairs s.transition.next.tuples))
+    (String.concat ", " (pairs s.before.shared.tuples))
+    (String.concat ", " (pairs s.transition.next.shared.tuples))
 
 (* The end is the end: nothing is bound, nothing runs, nothing can follow; and the last effect says so. *)
 let ends_well program (s : Walk.step) =
@@ -85,19 +85,19 @@ let ends_well program (s : Walk.step) =
   in
   if is_ended next then
     (says_so || fail "%s: no effect End" (shown s))
-    && (next.bound = [] && Configuration.Vehicle_map.is_empty next.allocation
+    && (next.shared.bound = [] && Vehicle_map.is_empty next.shared.allocation
         || fail "%s: vehicles are left" (shown s))
-    && (s.before.bound = [] || List.mem (Effect.Release s.before.bound) effects
+    && (s.before.shared.bound = [] || List.mem (Effect.Release s.before.shared.bound) effects
         || fail "%s: not released" (shown s))
     && (Graph.outcomes ~interruption:true program Generate.world next = [] || fail "%s: goes on" (shown s))
   else not says_so || fail "%s: ends and goes on" (shown s)
 
-let vehicles_of map = List.map fst (Configuration.Vehicle_map.bindings map)
+let vehicles_of map = List.map fst (Vehicle_map.bindings map)
 
 (* Starts and stops, applied to what ran before, give what runs after; nobody starts twice, and who stops ran. *)
 let starts_and_stops_balance _ (s : Walk.step) =
   let ended = match s.transition.label with Done (v, _) | Fail (v, _, _) -> [ v ] | _ -> [] in
-  let running = List.filter (fun v -> not (List.mem v ended)) (vehicles_of s.before.allocation) in
+  let running = List.filter (fun v -> not (List.mem v ended)) (vehicles_of s.before.shared.allocation) in
   let carry running (e : Effect.t) =
     match e with
     | Start (v, _) -> if List.mem v running then fail "%s: %s starts twice" (shown s) v else v :: running
@@ -107,13 +107,13 @@ let starts_and_stops_balance _ (s : Walk.step) =
     | Call_host _ | End _ -> running
   in
   let running = List.fold_left carry running s.transition.effects in
-  List.sort String.compare running = vehicles_of s.transition.next.allocation
+  List.sort String.compare running = vehicles_of s.transition.next.shared.allocation
   || fail "%s: A differs from what was started and stopped" (shown s)
 
 let timers_of (c : Configuration.t) =
   match c.control with
   | Executing (_, r) -> Residual.timers r
-  | Waiting (_, (Pick _ | Pause _)) -> [ Effect.script_timer ]
+  | Waiting (_, (Pick _ | Pause _)) -> [ Residual.script_timer ]
   | Waiting (_, (Ask _ | Execute _ | Host_call _)) | Script _ | Ended _ -> []
 
 let expires (l : Label.t) = match l with Time_out | Resume | Bind _ | No_vehicles _ -> true | _ -> false
@@ -126,7 +126,7 @@ let timers_balance _ (s : Walk.step) =
   let carry pending (e : Effect.t) =
     match e with
     | Set_timer (timer, _) -> start timer pending
-    | Look_for _ -> start Effect.script_timer pending
+    | Look_for _ -> start Residual.script_timer pending
     | Cancel_timer timer ->
       if List.mem timer pending then List.filter (( <> ) timer) pending
       else fail "%s: timer %d does not run" (shown s) timer
@@ -205,8 +205,8 @@ let refused guard () =
   let program = Pure_run.compile_exn (Printf.sprintf "g = 0\npost a: 1\nexecute condition { %s }" guard) in
   let c = Option.get (Pure_run.last (Pure_run.run program)) in
   Alcotest.(check int) "no step" 0 (List.length (Graph.outcomes program Pure_run.fleet c));
-  Alcotest.(check (list string)) "N" [ "a:1" ] (pairs c.tuples);
-  Alcotest.(check (list string)) "store" [ "0" ] (List.map (fun (_, x) -> Value.to_string x) (Store.bindings c.store))
+  Alcotest.(check (list string)) "N" [ "a:1" ] (pairs c.shared.tuples);
+  Alcotest.(check (list string)) "store" [ "0" ] (List.map (fun (_, x) -> Value.to_string x) (Store.bindings c.shared.store))
 
 (* A branch that is not taken leaves nothing to the one that is. *)
 let refused_then_taken () =
@@ -219,7 +219,7 @@ let refused_then_taken () =
   in
   let run = Pure_run.run (Pure_run.compile_exn source) in
   Alcotest.(check (list string)) "said" [ "third 0" ] (Pure_run.said run);
-  Alcotest.(check (list string)) "N" [] (pairs (Option.get (Pure_run.last run)).tuples)
+  Alcotest.(check (list string)) "N" [] (pairs (Option.get (Pure_run.last run)).shared.tuples)
 
 let case name f = Alcotest.test_case name `Quick f
 

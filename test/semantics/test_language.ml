@@ -29,7 +29,7 @@ let after ?(world = Pure_run.fleet) program c events =
 
 let variable program c name =
   let is_it (i, _) = program.Core.global_names.(i) = name in
-  match List.find_opt is_it (Store.bindings c.Configuration.store) with
+  match List.find_opt is_it (Store.bindings c.Configuration.shared.store) with
   | Some (_, x) -> Value.to_string x
   | None -> "nothing"
 
@@ -97,7 +97,7 @@ let answers =
 (* {1 Picks} *)
 
 let times_out program c =
-  match Transition.accept program Pure_run.fleet c (Timer_expired Effect.script_timer) with
+  match Transition.accept program Pure_run.fleet c (Timer_expired Residual.script_timer) with
   | Ok t -> Format.asprintf "%a" Label.pp t.label
   | Error Not_awaited -> "not awaited"
   | Error (Bad_answer why) -> why
@@ -136,10 +136,10 @@ let picks =
 
 (* {1 Tuples} *)
 
-let tuples_of source = Tuples.bindings (last (run source)).tuples
+let tuples_of source = Tuples.bindings (last (run source)).shared.tuples
 
 let same source source' =
-  let n source = (snd (waiting (source ^ "\npause 1"))).Configuration.tuples in
+  let n source = (snd (waiting (source ^ "\npause 1"))).Configuration.shared.tuples in
   Tuples.equal (n source) (n source')
 
 let tuples =

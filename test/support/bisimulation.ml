@@ -14,8 +14,8 @@ let ended (c : Configuration.t) =
 let shared (c : Configuration.t) =
   let variable ppf (i, x) = Format.fprintf ppf "%d=%a" i Value.pp x in
   let running ppf (v, (p : Core.platform_task)) = Format.fprintf ppf "%s->%s" v p.name in
-  Format.asprintf "%a; %a; %a; %a" (Fmt.list variable) (Store.bindings c.store) (Fmt.list running)
-    (Configuration.Vehicle_map.bindings c.allocation) (Fmt.list Fmt.string) c.bound Tuples.pp c.tuples
+  Format.asprintf "%a; %a; %a; %a" (Fmt.list variable) (Store.bindings c.shared.store) (Fmt.list running)
+    (Vehicle_map.bindings c.shared.allocation) (Fmt.list Fmt.string) c.shared.bound Tuples.pp c.shared.tuples
 
 let nodes observed offset (g : Graph.t) =
   let edge ((t : Transition.t), target) = (Format.asprintf "%a" Label.pp t.label, offset + target) in

@@ -75,8 +75,8 @@ and case = {
 }
 
 and step = {
-  index : int;  (* in [Residual.steps], or among the cuts *)
-  source : Residual.step;  (* of the part, or of the nest *)
+  index : int;  (* in [Task_rules.steps], or among the cuts *)
+  source : Task_rules.step;  (* of the part, or of the nest *)
   event : Transition.event option;  (* the one that it takes *)
   home : path;  (* where that stands *)
   kin : family option;  (* of the part *)

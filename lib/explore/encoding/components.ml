@@ -56,14 +56,13 @@ let root t = t.root
 
 (* {1 Trees} *)
 
-let plug contexts r = List.fold_left (fun r context -> Residual.within context r) r contexts
-let around path r = plug path.contexts r
+let around path r = Residual.plug path.contexts r
 
 let outside path =
   match path.outer with Some outer -> outer | None -> invalid_arg "Components.outside: the root"
 
 let inner t path contexts body =
-  let key = plug contexts hole in
+  let key = Residual.plug contexts hole in
   match Residuals.find_opt path.inner key with
   | Some inside -> inside
   | None ->
@@ -72,17 +71,8 @@ let inner t path contexts body =
     Residuals.add path.inner key inside;
     inside
 
-(* Contexts, the innermost first, and what is in them. *)
-let opened r =
-  let rec from contexts r =
-    match Residual.opened r with
-    | Some (context, body) -> from (context :: contexts) body
-    | None -> (contexts, r)
-  in
-  from [] r
-
 let rec child t path r =
-  match opened r with
+  match Residual.decompose r with
   | (_ :: _ as contexts), (Residual.Parallel rs as body) ->
     let inside = inner t path contexts body in
     Nest (inside, List.map (child t inside) rs)
@@ -165,30 +155,31 @@ and target_of t path family residual =
   | tree, _ -> becomes t path tree
 
 (* Steps that go on in one way, whatever is shared, are settled here; the others case by case. *)
-and compile t home kin index (source : Residual.step) =
+and compile t home kin index (Step { offer; continue } as source : Task_rules.step) =
   let by_case event =
     { index; source; event; home; kin; dependence = By_case; target = Gone; stays = -1; free_action = -1; cases = [||] }
   in
-  let certain event dependence =
+  let certain event dependence change =
     let settled target =
       let stays = match target with Stays n -> n | Gone | Becomes _ | Ends _ -> -1 in
       { (by_case event) with dependence; target; stays }
     in
-    match (source.continue Went).outcome with
+    match (change : Task_rules.change).outcome with
     | Next r -> settled (target_of t home kin r)
     | Finished -> settled Gone
     | Failed _ | Handling _ -> by_case event
   in
-  match source.offer with
-  | Start _ -> [ certain None Free ]
-  | Perform closure -> [ certain None (Guarded (guard t false closure)) ]
-  | Check closure -> [ certain None (Guarded (guard t true closure)) ]
+  match offer with
+  | Start _ -> [ certain None Free (continue ()) ]
+  | Perform closure -> [ certain None (Guarded (guard t false closure)) (continue (Ok [])) ]
+  | Check closure -> [ certain None (Guarded (guard t true closure)) (continue (Ok [])) ]
   | Measure _ -> [ by_case None ]
-  | Expiry_of timer -> [ certain (Some (Timer_expired timer)) Free ]
+  | Expiry_of timer -> [ certain (Some (Timer_expired timer)) Free (continue ()) ]
   | End_of (task, v) ->
     let on_event (event, _) =
       match event with
-      | Transition.Vehicle_done _ when not (Environment.endings_remember t.options) -> certain (Some event) Free
+      | Transition.Vehicle_done _ when not (Environment.endings_remember t.options) ->
+        certain (Some event) Free (continue (Ok ()))
       | event -> by_case (Some event)
     in
     List.map on_event (Environment.task_ends t.options Environment.initial v task)
@@ -197,7 +188,7 @@ and work_out t p =
   match p.worked_out with
   | Some steps -> steps
   | None ->
-    let compiled = List.mapi (compile t p.path (Some p.family)) (List.of_seq (Residual.steps p.residual)) in
+    let compiled = List.mapi (compile t p.path (Some p.family)) (List.of_seq (Task_rules.steps p.residual)) in
     let steps = Array.of_list (List.concat compiled) in
     p.worked_out <- Some steps;
     steps
@@ -206,10 +197,12 @@ let children t path r = List.map (grown t path) (tree t path r)
 
 (* Code of a part that is reached is run, whatever comes of it. *)
 let cover t steps =
-  let step step =
-    match step.source.Residual.offer with
+  let step { source = Step { offer; _ }; _ } =
+    match offer with
     | Start (task, _) -> Coverage.start t.coverage task
-    | Perform c | Check c | Measure c -> Coverage.run t.coverage c
+    | Perform c -> Coverage.run t.coverage c
+    | Check c -> Coverage.run t.coverage c
+    | Measure c -> Coverage.run t.coverage c
     | End_of _ | Expiry_of _ -> ()
   in
   Array.iter step steps
@@ -221,10 +214,11 @@ let reach t p =
 
 (* {1 Components} *)
 
-let component_step step : Step_footprints.step =
-  { index = step.index; source = fst (Error_path.lifted step); event = step.event }
-
 let rec nests path = match path.outer with Some outer -> path.contexts :: nests outer | None -> []
+let escaping step = Task_rules.escaping (nests step.home) step.source
+
+let component_step step : Step_footprints.step =
+  { index = step.index; source = escaping step; event = step.event }
 
 let components t p =
   match p.components with
@@ -241,19 +235,7 @@ let cuts t path =
   match path.cuts with
   | Some cuts -> cuts
   | None ->
-    let further contexts (step : Residual.step) =
-      let change reply =
-        List.fold_left (fun change context -> Residual.change_within context change) (step.continue reply) contexts
-      in
-      { step with continue = change }
-    in
-    let rec from body = function
-      | [] -> []
-      | context :: contexts ->
-        let cut = Option.map (further contexts) (Residual.cut context body) in
-        Option.to_list cut @ from (Residual.within context body) contexts
-    in
-    let compiled = List.mapi (compile t (outside path) None) (from path.body path.contexts) in
+    let compiled = List.mapi (compile t (outside path) None) (Task_rules.cuts path.contexts path.body) in
     let cuts = Array.of_list (List.concat compiled) in
     cover t cuts;
     path.cuts <- Some cuts;

@@ -34,6 +34,9 @@ val cuts : t -> Component.path -> Component.step array
 val cuts_components : t -> Component.path -> Step_footprints.t
 (** [cuts_components t p] is of these steps, in their order. *)
 
+val escaping : Component.step -> Task_rules.step
+(** [escaping s] is [s] as a step of the whole task, as far as errors go ({!Task_rules.escaping}). *)
+
 val alone : t -> Component.part -> Component.target
 (** [alone t p] is what becomes of the nest around [p] when nothing else is left in it. *)
 

@@ -20,7 +20,7 @@ type t = {
   shareds : Memoised_steps.Shareds.t;
   shapes : Layouts.t;
   machines : Machines.t;
-  find_symmetry : Residual.t -> Shared.t -> Task_group.t option;
+  find_symmetry : Residual.t -> Surroundings.t -> Task_group.t option;
   canonical : Configuration.t -> Environment.t -> Configuration.t * Environment.t;
   frames : (int * int, Layout.frame) Hashtbl.t;  (* by numbers of the machine and of the symmetry, 0 for none *)
   wholes : Wholes.t;
@@ -92,10 +92,10 @@ let write t key rules (c : Configuration.t) outside =
     write_whole t key number;
     number
   | Executing (m, r) ->
-    let shared = Shared.of_configuration c outside in
-    let frame = frame t m (t.find_symmetry r shared) in
+    let surroundings = Surroundings.make c.shared outside in
+    let frame = frame t m (t.find_symmetry r surroundings) in
     let children = Components.children t.parts (Components.root t.parts) r in
-    write_parts t key frame children (Memoised_steps.Shareds.number t.shareds shared);
+    write_parts t key frame children (Memoised_steps.Shareds.number t.shareds surroundings);
     -1 - frame.frame
 
 let part (s : Layout.t) key i =
@@ -104,23 +104,23 @@ let part (s : Layout.t) key i =
 
 let residual s key place = Layout.residual s place (fun i -> (part s key i).residual)
 
-let executing (s : Layout.t) key : Residual.t * Core.platform_task Configuration.Vehicle_map.t =
+let executing (s : Layout.t) key : Residual.t * Core.platform_task Vehicle_map.t =
   let rs = List.map (residual s key) s.top in
-  let runs allocation (step : Residual.step) =
-    match step.offer with
-    | End_of (p, v) -> Configuration.Vehicle_map.add v p allocation
+  let runs allocation (Task_rules.Step { offer; _ }) =
+    match offer with
+    | End_of (p, v) -> Vehicle_map.add v p allocation
     | Start _ | Perform _ | Check _ | Measure _ | Expiry_of _ -> allocation
   in
-  let of_position allocation i = Seq.fold_left runs allocation (Residual.steps (part s key i).residual) in
+  let of_position allocation i = Seq.fold_left runs allocation (Task_rules.steps (part s key i).residual) in
   let positions = List.init (Array.length s.families) Fun.id in
-  (Residual.parallel rs, List.fold_left of_position Configuration.Vehicle_map.empty positions)
+  (Residual.parallel rs, List.fold_left of_position Vehicle_map.empty positions)
 
 let read t key =
   let number = Layouts.number t.shapes key.(0) and above = Layouts.shared t.shapes key.(0) in
   if number = 0 then Wholes.value t.wholes above
   else begin
     let s = Layouts.shape t.shapes number in
-    let shared = Memoised_steps.Shareds.value t.shareds above in
+    let { Surroundings.shared; outside } = Memoised_steps.Shareds.value t.shareds above in
     let r, allocation = executing s key in
-    ({ (Shared.under (Executing (s.frame.machine, r)) shared) with allocation }, shared.outside)
+    ({ control = Executing (s.frame.machine, r); shared = { shared with allocation } }, outside)
   end

@@ -6,7 +6,7 @@ open Dolphin_environment
 type t
 
 val create :
-  ?find_symmetry:(Residual.t -> Shared.t -> Task_group.t option) ->
+  ?find_symmetry:(Residual.t -> Surroundings.t -> Task_group.t option) ->
   ?canonical:(Configuration.t -> Environment.t -> Configuration.t * Environment.t) ->
   ?watched:int -> Components.t -> Memoised_steps.t -> t
 (** [find_symmetry r s] is what can change places in [r], which is about to be executed where [s] is shared: nothing by

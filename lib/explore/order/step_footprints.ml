@@ -10,7 +10,7 @@ type t = {
   alone : Footprint.t option array;
 }
 
-type step = { index : int; source : Residual.step; event : Transition.event option }
+type step = { index : int; source : Task_rules.step; event : Transition.event option }
 type context = { options : Environment.options; code : Footprint.code }
 
 let context options program = { options; code = Footprint.code program }
@@ -48,18 +48,18 @@ let of_residual = future
 
 (* {1 Steps} *)
 
-let handlers (source : Residual.step) =
+let handlers source =
   let error = Fault.make Fault.unknown_site "" in
-  let rec of_change (change : Residual.change) =
+  let rec of_change (change : Task_rules.change) =
     match change.outcome with
     | Handling { handler; propagated; _ } -> handler :: of_change (propagated error)
     | Next _ | Finished | Failed _ -> []
   in
-  of_change (source.continue (Broke error))
+  Option.fold ~none:[] ~some:of_change (Task_rules.broken source error)
 
-let footprint c step =
+let footprint c { source = Step { offer; _ } as source; event; _ } =
   let f =
-    match step.source.offer, step.event with
+    match offer, event with
     | End_of (p, v), Some (Vehicle_failed _) -> ending c p v
     | End_of (p, v), _ -> { (ending c p v) with breaks = false }
     | (Start _ | Expiry_of _), _ -> Footprint.empty
@@ -67,7 +67,7 @@ let footprint c step =
     | Check g, _ -> Footprint.of_guard c.code g
     | Measure d, _ -> union breaking (Footprint.of_code c.code d)
   in
-  if f.breaks then List.fold_left (handled c) f (handlers step.source) else f
+  if f.breaks then List.fold_left (handled c) f (handlers source) else f
 
 (* {1 Branches that may run first} *)
 

@@ -18,9 +18,9 @@ type t = {
       it. *)
 }
 
-(** A step of a residual or nest, by its number in [Residual.steps], on one of the events it awaits, as a step of the
+(** A step of a residual or nest, by its number in [Task_rules.steps], on one of the events it awaits, as a step of the
     whole task ({!Error_path}). *)
-type step = { index : int; source : Residual.step; event : Transition.event option }
+type step = { index : int; source : Task_rules.step; event : Transition.event option }
 
 type context
 

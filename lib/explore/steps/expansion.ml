@@ -115,15 +115,10 @@ let visit t key parent =
 
 (* {1 Ends of tasks} *)
 
-(* The configuration that a local outcome ends the executing in, by the transition function. *)
-let local_end t (s : Layout.t) shared outcome named : Transition.local =
-  let shared = Memoised_steps.Shareds.value (Memoised_steps.shareds t.cases) shared in
-  let c = Shared.under (Executing (s.frame.machine, Parallel [])) shared in
-  { after = c; outcome; derivation = []; named; asked = [] }
-
-let concluded t (s : Layout.t) shared (local : Transition.local) =
-  let next = Transition.conclude local.after s.frame.machine local in
-  Encoding.whole t.words next.rules next.next (Memoised_steps.Shareds.value (Memoised_steps.shareds t.cases) shared).outside
+(* The number of the configuration that an outcome ends the executing in. *)
+let concluded t (s : Layout.t) shared outcome =
+  let { Surroundings.shared; outside } = Memoised_steps.Shareds.value (Memoised_steps.shareds t.cases) shared in
+  Encoding.whole t.words [] (Local_step.next s.frame.machine outcome shared) outside
 
 let over t (s : Layout.t) shared =
   let frame = s.frame in
@@ -133,7 +128,7 @@ let over t (s : Layout.t) shared =
     frame.over <- longer
   end;
   if frame.over.(shared) < 0 then begin
-    frame.over.(shared) <- concluded t s shared (local_end t s shared Over Silent);
+    frame.over.(shared) <- concluded t s shared Over;
     Script_graph.follows t.script (-1 - frame.frame) frame.over.(shared)
   end;
   frame.over.(shared)
@@ -212,7 +207,7 @@ let take_case t (s : Layout.t) place (case : case) shared i =
   t.action <- case.action;
   match case.result with
   | Ends ending ->
-    if case.whole < 0 then case.whole <- concluded t s case.shared (local_end t s case.shared (Ends ending) Silent);
+    if case.whole < 0 then case.whole <- concluded t s case.shared (Ends ending);
     finish t case.whole None i
   | (Stays _ | Gone | Becomes _) as target ->
     Encoding.check_fit t.words;
@@ -241,9 +236,9 @@ let interrupt t s shared i =
       match Hashtbl.find_opt t.interrupted shared with
       | Some known -> known
       | None ->
-        let local = local_end t s shared (Ends Interrupted) Interrupt in
-        let action w = Valuation.action_of_local (Product.letters w) local in
-        let found = (concluded t s shared local, Option.fold ~none:Valuation.nothing ~some:action t.watch) in
+        let observed : Proposition.observed = { label = Interrupt; effects = []; ending = Some Interrupted } in
+        let action w = Valuation.action_observed (Product.letters w) observed in
+        let found = (concluded t s shared (Ends Interrupted), Option.fold ~none:Valuation.nothing ~some:action t.watch) in
         Hashtbl.add t.interrupted shared found;
         found
     in

@@ -1,77 +1,70 @@
 open Dolphin_semantics
 open Dolphin_environment
 open Component
-module Shareds = Dolphin_checker.Interner.Make (Shared)
+module Shareds = Dolphin_checker.Interner.Make (Surroundings)
 
-type t = { parts : Components.t; shareds : Shareds.t; observe : (Transition.local -> int) option }
+type t = { parts : Components.t; shareds : Shareds.t; observe : (Local_step.t -> int) option }
 
 let create ?observe parts = { parts; shareds = Shareds.create (); observe }
 let shareds t = t.shareds
 let unknown = -1
 let impossible = -2
 let special = -3
-let configuration shared = Shared.under (Ended Interrupted) shared
 
 (* The handlers that ran: one for each rule of a handler in the derivation, the innermost first. *)
-let note_handlers t step (local : Transition.local) =
+let note_handlers t step (local : Local_step.t) =
   let of_handler = function Rule.Watch_ignore | Watch_propagate | Watch_halt | Assert_err -> true | _ -> false in
   let settled = match local.derivation with Rule.Assert_err :: _ -> [] | rules -> List.filter of_handler rules in
-  let rec note n (change : Residual.change) =
+  let rec note n (change : Task_rules.change) =
     match change.outcome with
     | Handling { handler; fault; propagated; _ } when n > 0 ->
       Coverage.run (Components.coverage t.parts) handler;
       note (n - 1) (propagated fault)
     | Handling _ | Next _ | Finished | Failed _ -> ()
   in
-  note (List.length settled) ((fst (Error_path.lifted step)).continue (Broke (Fault.make Fault.unknown_site "")))
+  let change = Task_rules.broken (Components.escaping step) (Fault.make Fault.unknown_site "") in
+  Option.iter (note (List.length settled)) change
+
+(* The level at which the change stopped: an error leaves one nest after the other, each by PAR-ERR. *)
+let level (local : Local_step.t) = List.length (List.filter (( = ) Rule.Par_err) local.derivation)
 
 let program t = Components.program t.parts
 let world t = Components.world t.parts
 
-let internal t world source shared = Transition.local_internal (program t) world (configuration shared) source
-
-let on_event t world (source : Residual.step) event shared =
-  Transition.local_event (program t) world (configuration shared) source event
-
 (* What the outside remembers after the event, if it can happen. *)
-let outside_after t (source : Residual.step) event (shared : Shared.t) =
-  match source.offer with
+let outside_after t (Task_rules.Step { offer; _ }) event outside =
+  match offer with
   | End_of (task, v) ->
-    List.assoc_opt event (Environment.task_ends (Components.options t.parts) shared.outside v task)
-  | Start _ | Perform _ | Check _ | Measure _ | Expiry_of _ -> Some shared.outside
+    List.assoc_opt event (Environment.task_ends (Components.options t.parts) outside v task)
+  | Start _ | Perform _ | Check _ | Measure _ | Expiry_of _ -> Some outside
 
-type taken = { local : Transition.local; level : int; certain : bool }
+type taken = { local : Local_step.t; level : int; certain : bool }
 
 (* What [step] does, and at which level: several things, if it depends on sensors that may show this or that. *)
 let taken t step s =
-  let shared = Shareds.value t.shareds s in
+  let { Surroundings.shared; outside } = Shareds.value t.shareds s in
+  let source = Components.escaping step in
   let take world =
-    let source, level = Error_path.lifted step in
-    let local =
-      match step.event with
-      | None -> internal t world source shared
-      | Some event -> on_event t world source event shared
-    in
-    Option.map (fun local -> (local, !level)) local
-  in
-  let equal (local, level) (local', level') = Int.equal level level' && Transition.equal_local local local' in
-  let outside =
     match step.event with
-    | None -> Some shared.outside
-    | Some event -> outside_after t step.source event shared
+    | None -> Local_step.internal (program t) world shared source
+    | Some event -> Local_step.on_event (program t) world shared source event
   in
-  match outside with
-  | None -> ([], shared.outside)
-  | Some outside ->
-    let one (assumed, (local, level)) = { local; level; certain = assumed = [] } in
+  let after =
+    match step.event with
+    | None -> Some outside
+    | Some event -> outside_after t step.source event outside
+  in
+  match after with
+  | None -> ([], outside)
+  | Some after ->
+    let equal local local' = Int.equal (level local) (level local') && Local_step.equal local local' in
+    let one (assumed, local) = { local; level = level local; certain = assumed = [] } in
     let found = List.map one (World.outcomes ~equal (world t) take) in
-    (match step.source.offer with
-     | Perform _ | Check _ | Measure _ | End_of _ -> List.iter (fun { local; _ } -> note_handlers t step local) found
-     | Start _ | Expiry_of _ -> ());
-    (found, outside)
+    List.iter (fun { local; _ } -> note_handlers t step local) found;
+    (found, after)
 
-let shared_after t (local : Transition.local) outside =
-  Shareds.number t.shareds (Shared.of_configuration local.after outside)
+let shared_after t (local : Local_step.t) outside =
+  Shareds.number t.shareds (Surroundings.make local.after outside)
 
 let grown xs length x =
   let longer = Array.make (max length (2 * Array.length xs)) x in

@@ -2,11 +2,11 @@
 
 open Dolphin_semantics
 
-module Shareds : module type of Dolphin_checker.Interner.Make (Shared)
+module Shareds : module type of Dolphin_checker.Interner.Make (Surroundings)
 
 type t
 
-val create : ?observe:(Transition.local -> int) -> Components.t -> t
+val create : ?observe:(Local_step.t -> int) -> Components.t -> t
 (** [observe local] is a number for what a step did, kept as the [action] of steps, guards and cases; 0 by default. *)
 
 val shareds : t -> Shareds.t

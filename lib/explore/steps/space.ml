@@ -239,7 +239,7 @@ let quotient_state t g (c : Configuration.t) outside : Task_group.state option =
   match c.control with
   | Executing (_, r) ->
     let rs = match r with Parallel rs -> rs | r -> [ r ] in
-    let shared = Memoised_steps.Shareds.number (Memoised_steps.shareds t.cases) (Shared.of_configuration c outside) in
+    let shared = Memoised_steps.Shareds.number (Memoised_steps.shareds t.cases) (Surroundings.make c.shared outside) in
     Some (Task_group.state g rs shared)
   | Script _ | Waiting _ | Ended _ -> None
 

@@ -55,16 +55,16 @@ let forget r c = Liveness.forget r.liveness (names_vehicles r) c
 (* [c] and [outside] with each vehicle [v] as [f v]. [f] meets the vehicles in an order that does not depend on their
    names; after [unordered ()] in one that does. *)
 let renamed r f ~unordered (c : Configuration.t) outside =
-  let bound = List.map f c.bound in
+  let bound = List.map f c.shared.bound in
   let control = Renaming.control f c.control in
   let set store (i, x) = Store.set i (Renaming.value f x) store in
-  let store = List.fold_left set Store.empty (Store.bindings c.store) in
-  let tuples = Renaming.tuples r.program f ~unordered c.tuples in
-  let put v p allocation = Configuration.Vehicle_map.add (f v) p allocation in
-  let allocation = Configuration.Vehicle_map.fold put c.allocation Configuration.Vehicle_map.empty in
+  let store = List.fold_left set Store.empty (Store.bindings c.shared.store) in
+  let tuples = Renaming.tuples r.program f ~unordered c.shared.tuples in
+  let put v p allocation = Vehicle_map.add (f v) p allocation in
+  let allocation = Vehicle_map.fold put c.shared.allocation Vehicle_map.empty in
   (* Lost vehicles that are named nowhere else can be exchanged. *)
   let outside = Environment.renamed f outside in
-  ({ Configuration.control; store; allocation; bound; tuples }, outside)
+  ({ Configuration.control; shared = { store; allocation; bound; tuples } }, outside)
 
 (* What pairs of N with unordered keys say of each vehicle that has no name yet: the pairs with vehicles by their new
    names, itself without one. Two such vehicles in one pair break the symmetry. *)
@@ -81,8 +81,8 @@ let sayings r name (c : Configuration.t) =
       Hashtbl.replace said v ((k, x) :: Option.value (Hashtbl.find_opt said v) ~default:[])
     | vs -> fix r (List.concat_map (all_of_orbit r) vs)
   in
-  let add_all (k, xs) = if not (Tuples.is_ordered k c.tuples) then List.iter (add k) xs in
-  List.iter add_all (Tuples.bindings c.tuples);
+  let add_all (k, xs) = if not (Tuples.is_ordered k c.shared.tuples) then List.iter (add k) xs in
+  List.iter add_all (Tuples.bindings c.shared.tuples);
   said
 
 (* The vehicles that only such pairs name, sorted by what these say: an order that does not depend on names. Those of
@@ -157,7 +157,7 @@ let picking r outside (c : Configuration.t) (pick : Settings.pick) =
     | known -> fun v -> Vehicles.mem v known
     | exception Renaming.Too_large -> fix_all r
   in
-  let free = List.filter (fun v -> not (List.mem v c.bound)) accepted in
+  let free = List.filter (fun v -> not (List.mem v c.shared.bound)) accepted in
   if pick.count <> Exactly 1 then begin
     check_order r accepted;
     let check = function

@@ -165,4 +165,5 @@ let forget { called; asked } is_sought (c : Configuration.t) =
     let is_read = Variables.mem (`Global i) live || Variables.mem (`Global i) asked in
     if is_sought x && not is_read then Store.set i Null store else store
   in
-  { c with control; store = List.fold_left clear c.store (Store.bindings c.store) }
+  let store = List.fold_left clear c.shared.store (Store.bindings c.shared.store) in
+  { Configuration.control; shared = { c.shared with store } }

@@ -24,13 +24,15 @@ let cover coverage = function
 (* What [r] starts in a state, its images start in others of the orbit. *)
 let reach_orbit t g r =
   let reach label = List.iter (cover (Components.coverage t.parts)) (Task_group.equivalent g label) in
-  let step (step : Residual.step) =
-    match step.offer with
+  let step (Task_rules.Step { offer; _ }) =
+    match offer with
     | Start (p, _) -> reach (Task_isomorphism.Task p.task_site)
-    | Perform c | Check c | Measure c -> reach (Task_isomorphism.Code c.lambda.id)
+    | Perform c -> reach (Task_isomorphism.Code c.lambda.id)
+    | Check c -> reach (Task_isomorphism.Code c.lambda.id)
+    | Measure c -> reach (Task_isomorphism.Code c.lambda.id)
     | End_of _ | Expiry_of _ -> ()
   in
-  Seq.iter step (Residual.steps r)
+  Seq.iter step (Task_rules.steps r)
 
 (* Of a part or a nest at the top. *)
 let class_at t g (s : Layout.t) key (place : Layout.place) =

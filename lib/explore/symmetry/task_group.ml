@@ -1,6 +1,6 @@
 open Dolphin_semantics
 
-type shareds = { number : Shared.t -> int; value : int -> Shared.t }
+type shareds = { number : Surroundings.t -> int; value : int -> Surroundings.t }
 
 module Keys = Dolphin_checker.Interner.Make (struct
     type t = string
@@ -135,7 +135,7 @@ let shared_signature g s =
   match Hashtbl.find_opt g.shared_signatures s with
   | Some signature -> signature
   | None ->
-    let signature = signature_of_tuples g (g.shareds.value s).tuples in
+    let signature = signature_of_tuples g (g.shareds.value s).shared.tuples in
     Hashtbl.add g.shared_signatures s signature;
     signature
 
@@ -190,8 +190,9 @@ let image_of_class g p k =
 
 let image_of_shared g p s =
   image g.shared_images s (shared_signature g s).blocks p (fun () ->
-      let shared = g.shareds.value s in
-      g.shareds.number { shared with tuples = Automorphism.renamed (skeletons g) (rename g p) shared.tuples })
+      let { Surroundings.shared; outside } = g.shareds.value s in
+      let tuples = Automorphism.renamed (skeletons g) (rename g p) shared.tuples in
+      g.shareds.number { shared = { shared with tuples }; outside })
 
 let sorted classes =
   Array.sort Int.compare classes;

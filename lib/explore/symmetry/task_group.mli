@@ -11,7 +11,7 @@ open Dolphin_semantics
 type t
 
 (** The numbers of what is shared. *)
-type shareds = { number : Shared.t -> int; value : int -> Shared.t }
+type shareds = { number : Surroundings.t -> int; value : int -> Surroundings.t }
 
 val create :
   Task_isomorphism.context ->

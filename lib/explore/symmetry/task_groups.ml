@@ -118,8 +118,7 @@ let task f r =
 
 (* What no step with footprint [g] can change of [s]. *)
 let constant (g : Footprint.t) (s : Shared.t) : Shared.t =
-  let outside = Dolphin_environment.Environment.initial in
-  if g.anything then { s with store = Store.empty; tuples = Tuples.empty No_key; outside }
+  if g.anything then { s with store = Store.empty; tuples = Tuples.empty No_key }
   else
     let forget i store = Store.set i Core.Null store in
     let touched = Footprint.Pairs.union g.posts g.takes in
@@ -130,7 +129,7 @@ let constant (g : Footprint.t) (s : Shared.t) : Shared.t =
     in
     let remove_all n (k, xs) = List.fold_left (remove k) n xs in
     let tuples = List.fold_left remove_all s.tuples (Tuples.bindings s.tuples) in
-    { s with store = Footprint.Globals.fold forget g.writes s.store; tuples; outside }
+    { s with store = Footprint.Globals.fold forget g.writes s.store; tuples }
 
 (* A task whose symmetry is broken in more executions has one group for all. *)
 let most_executions = 4
@@ -175,7 +174,7 @@ let check_fixed f e group tuples =
     Spaces.add group.fixed tuples ()
   end
 
-let find f r (shared : Shared.t) =
+let find f r ({ shared; _ } : Surroundings.t) =
   let { number; footprint } = task f r in
   let of_execution footprint =
     let e = { Symmetry.task = r; constant = constant footprint shared } in

@@ -10,7 +10,7 @@ type t
 val create : Environment.options -> Core.program -> Symmetry.t -> Task_group.shareds -> t option
 (** [create o p s n] is [None] if [s] exchanges no subtasks. *)
 
-val find : t -> Residual.t -> Shared.t -> Task_group.t option
+val find : t -> Residual.t -> Surroundings.t -> Task_group.t option
 (** [find f r s] is the group of [r], about to be executed with shared [s]; [None] if it is trivial. Groups are numbered
     from 1; equal ones have the same number.
     @raise Symmetry.Broken if it is not what it was for the same execution before, or if an error handler is exchanged

@@ -1,6 +1,5 @@
 open Dolphin_semantics
 open Dolphin_environment
-module Vehicle_map = Configuration.Vehicle_map
 
 (* The orbit of each vehicle that is not alone in its. *)
 type t = Core.vehicle array Vehicle_map.t

@@ -103,23 +103,23 @@ let of_string (program : Core.program) text =
 (* {1 Asking} *)
 
 let answer_to (c : Configuration.t) = function
-  | Bound v -> List.mem v c.bound
+  | Bound v -> List.mem v c.shared.bound
   | Running (plan, Some v) -> (
-      match Configuration.Vehicle_map.find_opt v c.allocation with
+      match Vehicle_map.find_opt v c.shared.allocation with
       | Some p -> String.equal p.name plan
       | None -> false)
   | Running (plan, None) ->
-    Configuration.Vehicle_map.exists (fun _ (p : Core.platform_task) -> String.equal p.name plan) c.allocation
+    Vehicle_map.exists (fun _ (p : Core.platform_task) -> String.equal p.name plan) c.shared.allocation
 
 let fuel = 100_000
 
 let eval_in program world t (c : Configuration.t) =
-  if List.exists (fun i -> Store.find i c.store = None) t.names then Not_yet
+  if List.exists (fun i -> Store.find i c.shared.store = None) t.names then Not_yet
   else
     let set store (i, question) = Store.set i (Core.Boolean (answer_to c question)) store in
-    let store = List.fold_left set c.store t.questions in
+    let store = List.fold_left set c.shared.store t.questions in
     let context : Machine.context =
-      { program; world; bound = c.bound; store; tuples = c.tuples; mode = Task_code; deeds = [] }
+      { program; world; bound = c.shared.bound; store; tuples = c.shared.tuples; mode = Task_code; deeds = [] }
     in
     let stop, _, after = Machine.run ~fuel context (Machine.call t.closure []) in
     match stop with
@@ -129,7 +129,7 @@ let eval_in program world t (c : Configuration.t) =
     | Faulted fault -> Broken fault.message
     | Halted _ -> Broken "a condition may not halt the program"
     | Exhausted -> Broken "it does not come to an end"
-    | Did | Waits _ -> Broken "a condition cannot wait"
+    | Did _ | Waits _ -> Broken "a condition cannot wait"
 
 let eval program world t c =
   match World.cases world (fun world -> eval_in program world t c) with

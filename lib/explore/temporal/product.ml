@@ -47,14 +47,14 @@ let runs t (p : Component.part) =
   let is_asked (task : Core.platform_task) v (plan, vehicle) =
     String.equal task.name plan && Option.fold ~none:true ~some:(String.equal v) vehicle
   in
-  let answer bits (step : Residual.step) =
-    match step.offer with
+  let answer bits (Task_rules.Step { offer; _ }) =
+    match offer with
     | End_of (task, v) ->
       let bit i question = if is_asked task v question then 1 lsl i else 0 in
       List.fold_left ( lor ) bits (List.mapi bit t.questions)
     | Start _ | Perform _ | Check _ | Measure _ | Expiry_of _ -> bits
   in
-  Seq.fold_left answer 0 (Residual.steps p.residual)
+  Seq.fold_left answer 0 (Task_rules.steps p.residual)
 
 let running t (s : Layout.t) key =
   if t.questions = [] then 0

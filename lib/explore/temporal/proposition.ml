@@ -105,7 +105,15 @@ let of_string program text =
 
 let is wanted found = match wanted with None -> true | Some wanted -> String.equal wanted found
 
-let deeds (t : Transition.t) =
+type observed = { label : Label.t; effects : Effect.t list; ending : Configuration.ending option }
+
+let observed (t : Transition.t) =
+  let ending =
+    match t.next.control with Ended ending -> Some ending | Script _ | Waiting _ | Executing _ -> None
+  in
+  { label = t.label; effects = t.effects; ending }
+
+let deeds t =
   match t.label with
   | Did deed -> [ deed ]
   | Check deeds | Act deeds | Cut deeds -> deeds
@@ -115,7 +123,7 @@ let exists_pair key x pairs =
   let same (k, x') = is key k && match x with None -> true | Some x -> Value.compare x x' = 0 in
   List.exists same pairs
 
-let holds_after_action action (t : Transition.t) =
+let holds_after_action action t =
   let task plan vehicle v name = is vehicle v && is plan name in
   match action, t.label with
   | Of_task (`Start, plan, vehicle), Start (v, name) -> task plan vehicle v name
@@ -127,8 +135,8 @@ let holds_after_action action (t : Transition.t) =
   | Says text, _ -> List.exists (function Effect.Say said -> is text said | _ -> false) t.effects
   | Posts (key, x), _ -> List.exists (function Machine.Posted ps -> exists_pair key x ps | _ -> false) (deeds t)
   | Consumes (key, x), _ -> List.exists (function Machine.Consumed ps -> exists_pair key x ps | _ -> false) (deeds t)
-  | Simple "error", _ -> (match t.next.control with Ended (Failed _) -> true | _ -> false)
-  | Simple "halt", _ -> (match t.next.control with Ended (Halted _) -> true | _ -> false)
+  | Simple "error", _ -> (match t.ending with Some (Failed _) -> true | Some _ | None -> false)
+  | Simple "halt", _ -> (match t.ending with Some (Halted _) -> true | Some _ | None -> false)
   | Simple name, label -> (
       match label with
       | Time_out -> name = "timeout"

@@ -17,8 +17,13 @@ val needs_action : t -> bool
 val running : t -> (string * string option) list
 (** As {!Condition.running}. *)
 
-val holds_after : t -> Transition.t -> bool
-(** [holds_after p t], for [p] of transitions. *)
+(** What propositions see of a transition. *)
+type observed = { label : Label.t; effects : Effect.t list; ending : Configuration.ending option  (** if it ends the run *) }
+
+val observed : Transition.t -> observed
+
+val holds_after : t -> observed -> bool
+(** [holds_after p (observed t)] is whether [p], which is of transitions, holds of [t]. *)
 
 val holds_in : Core.program -> World.t -> t -> Configuration.t -> (bool, string) result
 (** [holds_in p w q c], for [q] of states; false while a variable has no value. The error is that of the condition's

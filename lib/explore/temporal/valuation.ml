@@ -35,14 +35,16 @@ let create program world propositions =
 
 let asks_states t = t.asks_states
 
-let action t (transition : Transition.t) =
-  let holds p = Proposition.needs_action p && Proposition.holds_after p transition in
+let action_observed t observed =
+  let holds p = Proposition.needs_action p && Proposition.holds_after p observed in
   Valuations.number t.actions (Array.map holds t.propositions)
 
+let action t transition = action_observed t (Proposition.observed transition)
+
 (* What is done when a run ends is the same whatever waits for the task. *)
-let action_of_local t ({ after; outcome; named; asked; _ } : Transition.local) =
-  let control = match outcome with Ends ending -> Configuration.Ended ending | Goes_on _ | Over -> after.control in
-  action t { rules = []; label = named; next = { after with control }; effects = asked; assumed = [] }
+let action_of_local t ({ outcome; named; asked; _ } : Local_step.t) =
+  let ending = match outcome with Ends ending -> Some ending | Goes_on _ | Over -> None in
+  action_observed t { label = named; effects = asked; ending }
 
 let state t c =
   if not t.asks_states then 0

@@ -14,8 +14,12 @@ val nothing : int
 (** The action where there is no transition, or none of the propositions holds of it. *)
 
 val action : t -> Transition.t -> int
-val action_of_local : t -> Transition.local -> int
-(** That of the transitions that the local step makes ({!Transition.conclude}). *)
+
+val action_observed : t -> Proposition.observed -> int
+(** That of what was observed. *)
+
+val action_of_local : t -> Local_step.t -> int
+(** That of the transitions that the local step makes ({!Local_step.conclude}). *)
 
 val state : t -> Configuration.t -> int
 (** @raise Broken *)

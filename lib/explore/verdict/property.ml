@@ -39,5 +39,5 @@ let broken_by_end rules (c : Configuration.t) =
     let of_vehicles = function Rule.Alloc_err | Pick_err -> true | _ -> false in
     Some (if List.exists of_vehicles rules then Vehicles else No_error)
   | Ended (Halted _) -> Some No_halt
-  | Ended Completed when not (Tuples.is_empty c.tuples) -> Some No_leftover
+  | Ended Completed when not (Tuples.is_empty c.shared.tuples) -> Some No_leftover
   | Ended (Completed | Interrupted) | Script _ | Waiting _ | Executing _ -> None

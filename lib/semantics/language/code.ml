@@ -44,7 +44,8 @@ type iteration =
 (** The result of an operation whose arguments are values. *)
 type outcome =
   | Value of value
-  | Done of context * value  (* with deeds, or a verdict *)
+  | Done of deed * context * value  (* the deed, which is not among those of the context yet *)
+  | Judged of verdict  (* a handler's *)
   | Enter of closure * value list
   | Walk of iteration * closure * value * value list  (* subject; initial results *)
   | Wait of request

@@ -50,14 +50,12 @@ let site m = match m.focus with Evaluate e -> e.site | Give _ -> m.at
 
 (* Order. An expression is known by its site, which elaboration makes unique. *)
 
-let both first second = if first <> 0 then first else second ()
-
 let compare_expression (e : expression) (e' : expression) = Int.compare e.site e'.site
 
 let compare_items a b =
   match a, b with
-  | Items (xs, i), Items (ys, j) -> both (Int.compare i j) (fun () -> Value.compare (List xs) (List ys))
-  | Counting (i, n), Counting (j, m) -> both (Int.compare i j) (fun () -> Int.compare n m)
+  | Items (xs, i), Items (ys, j) -> Order.both (Int.compare i j) (fun () -> Value.compare (List xs) (List ys))
+  | Counting (i, n), Counting (j, m) -> Order.both (Int.compare i j) (fun () -> Int.compare n m)
   | Items _, Counting _ -> -1
   | Counting _, Items _ -> 1
 
@@ -70,22 +68,22 @@ let values xs = List (Array.of_list xs)
 let compare_frame a b =
   match a, b with
   | Arguments a, Arguments b ->
-    both (Int.compare a.at b.at) (fun () ->
-        both (List.compare_lengths a.remaining b.remaining) (fun () ->
+    Order.both (Int.compare a.at b.at) (fun () ->
+        Order.both (List.compare_lengths a.remaining b.remaining) (fun () ->
             Value.compare (values a.evaluated) (values b.evaluated)))
   | Assign_local i, Assign_local j | Assign_global i, Assign_global j -> Int.compare i j
   | Choose (e, _), Choose (e', _) | Loop_test (e, _), Loop_test (e', _) | Loop_body (e, _), Loop_body (e', _) ->
     compare_expression e e'
   | Rest es, Rest es' -> List.compare compare_expression es es'
   | Next_item (i, items, e), Next_item (j, items', e') ->
-    both (Int.compare i j) (fun () ->
-        both (compare_expression e e') (fun () -> compare_items items items'))
+    Order.both (Int.compare i j) (fun () ->
+        Order.both (compare_expression e e') (fun () -> compare_items items items'))
   | Leave xs, Leave ys -> Value.compare (List xs) (List ys)
   | Iterate a, Iterate b ->
-    both (Int.compare a.at b.at) (fun () ->
-        both (Int.compare a.index b.index) (fun () ->
-            both (Value.compare_closure a.closure b.closure) (fun () ->
-                both (Value.compare (List a.items) (List b.items)) (fun () ->
+    Order.both (Int.compare a.at b.at) (fun () ->
+        Order.both (Int.compare a.index b.index) (fun () ->
+            Order.both (Value.compare_closure a.closure b.closure) (fun () ->
+                Order.both (Value.compare (List a.items) (List b.items)) (fun () ->
                     Value.compare (values a.gathered) (values b.gathered)))))
   | ( ( Arguments _ | Assign_local _ | Assign_global _ | Choose _ | Rest _ | Loop_test _ | Loop_body _ | Next_item _
       | Leave _ | Iterate _ ),
@@ -101,9 +99,9 @@ let compare_focus a b =
 let compare m m' =
   if m == m' then 0
   else
-    both (compare_focus m.focus m'.focus) (fun () ->
-        both (Int.compare m.at m'.at) (fun () ->
-            both (Value.compare (List m.locals) (List m'.locals)) (fun () ->
+    Order.both (compare_focus m.focus m'.focus) (fun () ->
+        Order.both (Int.compare m.at m'.at) (fun () ->
+            Order.both (Value.compare (List m.locals) (List m'.locals)) (fun () ->
                 List.compare compare_frame m.stack m'.stack)))
 
 let hash m =
@@ -135,8 +133,8 @@ let compare_request a b =
   | Execute a, Execute b -> Value.compare_task a b
   | Host_call a, Host_call b ->
     let arguments = Option.compare (fun xs ys -> Value.compare (values xs) (values ys)) in
-    both (Option.compare String.compare a.subject b.subject) (fun () ->
-        both (String.compare a.member b.member) (fun () -> arguments a.arguments b.arguments))
+    Order.both (Option.compare String.compare a.subject b.subject) (fun () ->
+        Order.both (String.compare a.member b.member) (fun () -> arguments a.arguments b.arguments))
   | (Pick _ | Ask _ | Pause _ | Execute _ | Host_call _), _ ->
     let rank = function Pick _ -> 0 | Ask _ -> 1 | Pause _ -> 2 | Execute _ -> 3 | Host_call _ -> 4 in
     Int.compare (rank a) (rank b)
@@ -144,7 +142,7 @@ let compare_request a b =
 type stop =
   | Exhausted
   | Finished of value
-  | Did
+  | Did of deed
   | Waits of request
   | Halted of string
   | Faulted of Fault.t
@@ -326,10 +324,12 @@ and settle_outcome context fuel (outcome : Code.outcome) at locals stack calls =
   let stopped focus = machine focus locals stack calls at in
   match outcome with
   | Value x -> proceed context fuel x locals stack calls at
-  | Done (context, x) -> (
+  | Done (deed, context, x) -> (
+      let context = { context with deeds = deed :: context.deeds } in
       match context.mode with
-      | Script -> (Did, stopped (Give x), context)
+      | Script -> (Did deed, stopped (Give x), context)
       | Task_code | Handler _ -> proceed context fuel x locals stack calls at)
+  | Judged verdict -> proceed { context with mode = Handler verdict } fuel Null locals stack calls at
   | Enter (closure, arguments) -> enter context fuel closure arguments at locals stack calls
   | Walk (iteration, closure, subject, gathered) ->
     let items = Iteration.items subject in

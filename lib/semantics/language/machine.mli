@@ -108,7 +108,7 @@ val compare_request : request -> request -> int
 type stop =
   | Exhausted  (** the fuel ran out; the machine can go on *)
   | Finished of value
-  | Did  (** in script mode: something that others see, the latest of [deeds]; the machine can go on *)
+  | Did of deed  (** in script mode: something that others see, the latest of [deeds]; the machine can go on *)
   | Waits of request  (** in script mode; go on with {!give} *)
   | Halted of string  (** the code called [halt] *)
   | Faulted of Fault.t

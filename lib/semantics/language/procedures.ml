@@ -5,8 +5,6 @@ let of_result = function Ok x -> Value x | Error message -> Wrong message
 
 let expected what x = of_result (Operators.expected what x)
 
-let did context deed = { context with deeds = deed :: context.deeds }
-
 let make_task = function
   | Platform_task, [ String "" ] -> Wrong "a plan's name may not be empty"
   | Platform_task, [ x ] -> expected "the name of a plan, a string" x
@@ -66,7 +64,7 @@ let consume context pairs =
   in
   match List.fold_left take (Some (context.tuples, [])) pairs with
   | None -> Value (Boolean false)
-  | Some (tuples, taken) -> Done (did { context with tuples } (Consumed (List.rev taken)), Boolean true)
+  | Some (tuples, taken) -> Done (Consumed (List.rev taken), { context with tuples }, Boolean true)
 
 let poll context pairs =
   let there (k, x) =
@@ -93,7 +91,7 @@ let set_connection_timeout context vehicles x =
   | None -> expected "a time, as in 2.min" x
   | Some seconds when seconds < minimum_connection_timeout || seconds > maximum_connection_timeout ->
     Wrong (Printf.sprintf "a connection timeout is from 5 seconds to 1 hour, not %g seconds" seconds)
-  | Some seconds -> Done (did context (Set_connection_timeout (vehicles, seconds)), Null)
+  | Some seconds -> Done (Set_connection_timeout (vehicles, seconds), context, Null)
 
 let numbers arguments =
   let numbers = List.filter_map Value.to_number arguments in
@@ -138,7 +136,7 @@ let mathematics name arguments =
 
 let settle context verdict =
   match context.mode with
-  | Handler _ -> Done ({ context with mode = Handler verdict }, Null)
+  | Handler _ -> Judged verdict
   | Script | Task_code -> Wrong "ignore() and propagate() belong in onError { ... }"
 
 let apply context at operation arguments =
@@ -159,7 +157,7 @@ let apply context at operation arguments =
       | Script -> (
           match Operators.binary Intersect (Vehicles vs) (Vehicles context.bound) with
           | Ok (Vehicles []) -> Value Null
-          | Ok (Vehicles bound) -> Done (did context (Released bound), Null)
+          | Ok (Vehicles bound) -> Done (Released bound, context, Null)
           | Ok x -> expected "a vehicle set" x
           | Error message -> Wrong message)
       | Task_code | Handler _ -> Wrong "release belongs to the script, not to code inside of a task")
@@ -168,7 +166,7 @@ let apply context at operation arguments =
   | Set_connection_timeout, [ Vehicles vs; x ] -> set_connection_timeout context (Some vs) x
   | Set_connection_timeout, [ x; _ ] -> expected "a vehicle set" x
   | Ask, [ prompt ] -> blocking context "ask" (Ask (Value.to_string prompt))
-  | Message, [ x ] -> Done (did context (Said (Value.to_string x)), Null)
+  | Message, [ x ] -> Done (Said (Value.to_string x), context, Null)
   | Pause, [ x ] -> (
       match Value.to_number x with
       | Some seconds when seconds >= 0. && seconds < infinity -> blocking context "pause" (Pause seconds)
@@ -182,7 +180,7 @@ let apply context at operation arguments =
       Wrong "only consume and poll take the wildcard _"
     else
       let tuples = List.fold_left (fun n (k, x) -> Tuples.post k x n) context.tuples pairs in
-      Done (did { context with tuples } (Posted pairs), Null)
+      Done (Posted pairs, { context with tuples }, Null)
   | Consume keys, arguments -> consume context (pair keys arguments)
   | Poll [], [ String k ] -> poll context [ (k, Wildcard) ]
   | Poll [], [ x ] -> expected "a key, as in poll 'ready', or pairs, as in poll(ready: 1)" x

@@ -1,5 +1,4 @@
 open Core
-module Vehicle_map = Map.Make (String)
 
 type ending = Completed | Halted of string | Failed of Fault.t | Interrupted
 
@@ -9,36 +8,28 @@ type control =
   | Executing of Machine.t * Residual.t
   | Ended of ending
 
-type t = {
-  control : control;
-  store : Store.t;
-  allocation : platform_task Vehicle_map.t;
-  bound : vehicle list;
-  tuples : Tuples.t;
-}
+type t = { control : control; shared : Shared.t }
 
 let site c =
   match c.control with
   | Script m | Waiting (m, _) | Executing (m, _) -> Machine.site m
   | Ended _ -> Fault.unknown_site
 
-let initial program =
-  {
-    control = Script (Machine.call { lambda = program.main; captured = [||] } []);
-    store = Store.empty;
-    allocation = Vehicle_map.empty;
-    bound = [];
-    tuples = Tuples.empty (Keys program.ordered_keys);
-  }
+let timers c =
+  match c.control with
+  | Executing (_, r) -> Residual.timers r
+  | Waiting (_, (Pick _ | Pause _)) -> [ Residual.script_timer ]
+  | Waiting (_, (Ask _ | Execute _ | Host_call _)) | Script _ | Ended _ -> []
 
-let both first second = if first <> 0 then first else second ()
+let initial program =
+  { control = Script (Machine.call { lambda = program.main; captured = [||] } []); shared = Shared.initial program }
 
 let rank = function Script _ -> 0 | Waiting _ -> 1 | Executing _ -> 2 | Ended _ -> 3
 
 let compare_ending a b =
   match a, b with
   | Halted m, Halted m' -> String.compare m m'
-  | Failed f, Failed f' -> both (String.compare f.message f'.message) (fun () -> Int.compare f.site f'.site)
+  | Failed f, Failed f' -> Order.both (String.compare f.message f'.message) (fun () -> Int.compare f.site f'.site)
   | (Completed | Halted _ | Failed _ | Interrupted), _ ->
     let rank = function Completed -> 0 | Halted _ -> 1 | Failed _ -> 2 | Interrupted -> 3 in
     Int.compare (rank a) (rank b)
@@ -47,34 +38,26 @@ let compare_control a b =
   match a, b with
   | Script m, Script m' -> Machine.compare m m'
   | Waiting (m, r), Waiting (m', r') ->
-    both (Machine.compare_request r r') (fun () -> Machine.compare m m')
-  | Executing (m, r), Executing (m', r') -> both (Residual.compare r r') (fun () -> Machine.compare m m')
+    Order.both (Machine.compare_request r r') (fun () -> Machine.compare m m')
+  | Executing (m, r), Executing (m', r') -> Order.both (Residual.compare r r') (fun () -> Machine.compare m m')
   | Ended e, Ended e' -> compare_ending e e'
   | (Script _ | Waiting _ | Executing _ | Ended _), _ -> Int.compare (rank a) (rank b)
 
-let compare_platform_task p p' = Value.compare_task (Platform p) (Platform p')
-
 let compare c c' =
   if c == c' then 0
-  else
-    both (compare_control c.control c'.control) (fun () ->
-        both (Tuples.compare c.tuples c'.tuples) (fun () ->
-            both (Store.compare c.store c'.store) (fun () ->
-                both (List.compare String.compare c.bound c'.bound) (fun () ->
-                    Vehicle_map.compare compare_platform_task c.allocation c'.allocation))))
+  else Order.both (compare_control c.control c'.control) (fun () -> Shared.compare c.shared c'.shared)
 
 let equal c c' = compare c c' = 0
-let mix h k = (h * 65599) + k
 
 let hash c =
   let control =
     match c.control with
-    | Script m -> mix 1 (Machine.hash m)
-    | Waiting (m, _) -> mix 2 (Machine.hash m)
-    | Executing (m, r) -> mix (mix 3 (Machine.hash m)) (Residual.hash r)
+    | Script m -> Order.mix 1 (Machine.hash m)
+    | Waiting (m, _) -> Order.mix 2 (Machine.hash m)
+    | Executing (m, r) -> Order.mix (Order.mix 3 (Machine.hash m)) (Residual.hash r)
     | Ended _ -> 4
   in
-  mix (mix (mix control (Tuples.hash c.tuples)) (Store.hash c.store)) (Hashtbl.hash c.bound) land max_int
+  Order.mix control (Shared.hash c.shared) land max_int
 
 let pp_ending program ppf = function
   | Completed -> Format.pp_print_string ppf "completed"
@@ -90,26 +73,20 @@ let pp program ppf c =
     | Some at -> Format.asprintf "%a" Dolphin_syntax.Location.pp at
     | None -> "?"
   in
-  let comma = Fmt.any ", " in
   (match c.control with
    | Script m -> Format.fprintf ppf "script at %s" (at m)
    | Waiting (m, _) -> Format.fprintf ppf "waiting at %s" (at m)
    | Executing (m, r) -> Format.fprintf ppf "executing at %s: %a" (at m) Residual.pp r
    | Ended e -> pp_ending program ppf e);
-  let variable ppf (i, x) = Format.fprintf ppf "%s = %a" program.global_names.(i) Value.pp x in
-  let running ppf (v, p) = Format.fprintf ppf "%s -> %s" v p.name in
-  Format.fprintf ppf "; store {%a}; A {%a}; B {%a}; N %a"
-    (Fmt.list ~sep:comma variable) (Store.bindings c.store)
-    (Fmt.list ~sep:comma running) (Vehicle_map.bindings c.allocation)
-    (Fmt.list ~sep:comma Fmt.string) c.bound Tuples.pp c.tuples
+  Format.fprintf ppf "; %a" (Shared.pp program) c.shared
 
 let invariant c =
   let running = match c.control with Executing (_, r) -> Residual.running r | Script _ | Waiting _ | Ended _ -> [] in
-  let allocated = List.map fst (Vehicle_map.bindings c.allocation) in
+  let allocated = List.map fst (Vehicle_map.bindings c.shared.allocation) in
   let ended = match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false in
-  if List.exists (fun v -> not (List.mem v c.bound)) allocated then Error "A has a vehicle that is not in B"
+  if List.exists (fun v -> not (List.mem v c.shared.bound)) allocated then Error "A has a vehicle that is not in B"
   else if List.length (List.sort_uniq String.compare running) <> List.length running then
     Error "a vehicle runs two tasks"
   else if List.sort String.compare running <> allocated then Error "A is not what the control runs"
-  else if ended && c.bound <> [] then Error "B is not empty after the end"
+  else if ended && c.shared.bound <> [] then Error "B is not empty after the end"
   else Ok ()

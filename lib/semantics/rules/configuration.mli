@@ -1,7 +1,6 @@
 (** Configurations: <control, store, A, B, N>. *)
 
 open Core
-module Vehicle_map : Map.S with type key = vehicle
 
 (** How a run ended. *)
 type ending =
@@ -11,7 +10,7 @@ type ending =
   | Interrupted  (** from outside, by Ctrl-C for example *)
 
 val compare_ending : ending -> ending -> int
-(** An order; faults are compared with their sites. *)
+(** A total order; faults are compared with their sites. *)
 
 type control =
   | Script of Machine.t
@@ -19,19 +18,16 @@ type control =
   | Executing of Machine.t * Residual.t  (** the script waits for the task *)
   | Ended of ending
 
-type t = {
-  control : control;
-  store : Store.t;
-  allocation : platform_task Vehicle_map.t;  (** A: the task that each vehicle runs; the others of B run none *)
-  bound : vehicle list;  (** B, in pick order *)
-  tuples : Tuples.t;  (** N *)
-}
-
-val site : t -> Core.site
-(** [site c] is the place in the program where its script stands; {!Fault.unknown_site} after the end. *)
+type t = { control : control; shared : Shared.t }
 
 val initial : program -> t
 (** [initial p] is where runs of [p] begin. *)
+
+val site : t -> site
+(** [site c] is the place in the program where its script stands; {!Fault.unknown_site} after the end. *)
+
+val timers : t -> Residual.timer list
+(** [timers c] is the timers that run in [c]: those of its residual, or the script's. *)
 
 val compare : t -> t -> int
 (** A total order, of which {!equal} is the equality. Of one program, those are equal that have the same control, store,

@@ -14,8 +14,6 @@ type t =
   | Call_host of { subject : string option; member : string; arguments : value list option }
   | End of Configuration.ending
 
-let script_timer = 0
-
 let pp ppf e =
   let print format = Format.fprintf ppf format in
   match e with

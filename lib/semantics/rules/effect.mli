@@ -18,7 +18,5 @@ type t =
   | Call_host of { subject : string option; member : string; arguments : value list option }
   | End of Configuration.ending  (** the last effect of a run *)
 
-val script_timer : Residual.timer
-(** The timer of [pick] and [pause]: 0. *)
-
 val pp : Format.formatter -> t -> unit
+(** ["start survey on noptilus-1"], ["set timer 2 to 10 s"]. *)

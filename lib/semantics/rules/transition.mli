@@ -1,10 +1,11 @@
 (** The transition function: the whole semantics of Dolphin in one place, pure. The runtime, the explorer and the
-    checker of traces call it and nothing else. docs/semantics.md gives the rules. *)
+    checker of traces call it and nothing else. docs/semantics.md gives the rules; {!Task_rules} and {!Local_step},
+    {!Script_rules} and {!Pick_rules} have them. *)
 
 open Core
 
 (** What happens outside. *)
-type event =
+type event = Local_step.event =
   | Vehicle_done of vehicle  (** the vehicle ended its task *)
   | Vehicle_failed of vehicle * string
   (** it failed, refused the task, or its connection was lost for longer than its timeout: why *)
@@ -15,7 +16,7 @@ type event =
   | Host_failed of string  (** why *)
   | Interruption
 
-type t = {
+type t = Conclusion.t = {
   rules : Rule.t list;  (** the derivation, from the axiom outwards *)
   label : Label.t;
   next : Configuration.t;
@@ -49,37 +50,3 @@ val awaited : Configuration.t -> event list
 val depends_on_sensors : program -> Configuration.t -> bool
 (** [depends_on_sensors p c] is whether the positions and batteries of the world may matter to [c] or to what follows:
     a driver then keeps them up to date. *)
-
-(** {1:local Local steps}
-
-    The transitions of a configuration that executes a residual are those of the residual's steps: {!internal} is
-    {!local_internal} of each step, and {!accept} is {!local_event}, both completed by {!conclude}. Whoever explores
-    many configurations computes what a step does once for all the residuals that contain it: a step of one of the
-    parts of a [Residual.Parallel] goes on as the part does, is gone from it when the part is over, and ends with it. *)
-
-(** What becomes of the residual. *)
-type outcome =
-  | Goes_on of Residual.t
-  | Over
-  | Ends of Configuration.ending  (** and so does the whole program *)
-
-type local = {
-  after : Configuration.t;  (** with the store, A and N after the step; its control says nothing *)
-  outcome : outcome;
-  derivation : Rule.t list;
-  named : Label.t;
-  asked : Effect.t list;
-}
-
-val local_internal : program -> World.t -> Configuration.t -> Residual.step -> local option
-(** [local_internal p w c s] is what step [s] does with the store, A, B and N of [c], if it is enabled by itself. The
-    control of [c] is not looked at. In an open world this may be called inside of {!World.cases} only. *)
-
-val local_event : program -> World.t -> Configuration.t -> Residual.step -> event -> local option
-(** [local_event p w c s e] is what [s] does on [e], if that is what it awaits. Likewise. *)
-
-val equal_local : local -> local -> bool
-(** Whether two steps of one residual have the same label, and the same result. *)
-
-val conclude : Configuration.t -> Machine.t -> local -> t
-(** [conclude c m l] is the transition of [c], in which [m] waits for the residual whose step did [l]. *)

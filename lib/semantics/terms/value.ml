@@ -15,21 +15,6 @@ let rank_task = function
   | Platform _ -> 0 | Action _ -> 1 | Condition _ -> 2 | Sequence _ -> 3 | Parallel _ -> 4 | Allocated _ -> 5
   | All_of _ -> 6 | One_of _ -> 7 | Until _ -> 8 | Idle _ -> 9 | During _ -> 10 | Watch _ -> 11
 
-let both first second = if first <> 0 then first else second ()
-
-let rec compare_list compare xs ys =
-  match xs, ys with
-  | [], [] -> 0
-  | [], _ :: _ -> -1
-  | _ :: _, [] -> 1
-  | x :: xs, y :: ys -> both (compare x y) (fun () -> compare_list compare xs ys)
-
-let compare_array compare xs ys =
-  let rec from i =
-    if i = Array.length xs then 0 else both (compare xs.(i) ys.(i)) (fun () -> from (i + 1))
-  in
-  both (Int.compare (Array.length xs) (Array.length ys)) (fun () -> from 0)
-
 let rec compare x y =
   if x == y then 0
   else
@@ -38,53 +23,53 @@ let rec compare x y =
     | Integer a, Integer b -> Int.compare a b
     | Number a, Number b -> Float.compare a b
     | String a, String b | Symbol a, Symbol b | Host a, Host b -> String.compare a b
-    | List a, List b -> compare_array compare a b
-    | Map a, Map b -> compare_list compare_entry a b
-    | Range (a, b), Range (a', b') -> both (Int.compare a a') (fun () -> Int.compare b b')
+    | List a, List b -> Order.array compare a b
+    | Map a, Map b -> List.compare compare_entry a b
+    | Range (a, b), Range (a', b') -> Order.both (Int.compare a a') (fun () -> Int.compare b b')
     | Position a, Position b -> Position.compare a b
     | Area a, Area b -> Area.compare a b
-    | Vehicles a, Vehicles b -> compare_list String.compare a b
+    | Vehicles a, Vehicles b -> List.compare String.compare a b
     | Task a, Task b -> compare_task a b
     | Closure a, Closure b -> compare_closure a b
-    | Settings a, Settings b -> compare_list compare_setting a b
-    | Reading a, Reading b -> both (Stdlib.compare a.quantity b.quantity) (fun () -> String.compare a.text b.text)
+    | Settings a, Settings b -> List.compare compare_setting a b
+    | Reading a, Reading b -> Order.both (Stdlib.compare a.quantity b.quantity) (fun () -> String.compare a.text b.text)
     | ( ( Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | List _ | Map _ | Range _
         | Position _ | Area _ | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ ),
         _ ) -> Int.compare (rank x) (rank y)
 
-and compare_entry (k, x) (k', x') = both (String.compare k k') (fun () -> compare x x')
+and compare_entry (k, x) (k', x') = Order.both (String.compare k k') (fun () -> compare x x')
 
 and compare_setting s s' =
-  both (Int.compare s.setting_site s'.setting_site) (fun () ->
-      both (compare_list compare s.positional s'.positional) (fun () ->
-          compare_list compare_entry s.named s'.named))
+  Order.both (Int.compare s.setting_site s'.setting_site) (fun () ->
+      Order.both (List.compare compare s.positional s'.positional) (fun () ->
+          List.compare compare_entry s.named s'.named))
 
 and compare_closure c c' =
-  both (Int.compare c.lambda.id c'.lambda.id) (fun () -> compare_array compare c.captured c'.captured)
+  Order.both (Int.compare c.lambda.id c'.lambda.id) (fun () -> Order.array compare c.captured c'.captured)
 
 and compare_task t t' =
   if t == t' then 0
   else
     match t, t' with
     | Platform p, Platform p' ->
-      both (String.compare p.name p'.name) (fun () ->
-          both (Int.compare p.task_site p'.task_site) (fun () -> Option.compare Plan.compare p.plan p'.plan))
+      Order.both (String.compare p.name p'.name) (fun () ->
+          Order.both (Int.compare p.task_site p'.task_site) (fun () -> Option.compare Plan.compare p.plan p'.plan))
     | Action c, Action c' | Condition c, Condition c' -> compare_closure c c'
     | Sequence (a, b), Sequence (a', b') | Parallel (a, b), Parallel (a', b') ->
-      both (compare_task a a') (fun () -> compare_task b b')
+      Order.both (compare_task a a') (fun () -> compare_task b b')
     | Allocated (a, vs), Allocated (a', vs') ->
-      both (compare_list String.compare vs vs') (fun () -> compare_task a a')
-    | All_of bs, All_of bs' | One_of bs, One_of bs' -> compare_list compare_branch bs bs'
+      Order.both (List.compare String.compare vs vs') (fun () -> compare_task a a')
+    | All_of bs, All_of bs' | One_of bs, One_of bs' -> List.compare compare_branch bs bs'
     | Until (c, a), Until (c', a') | Watch (a, c), Watch (a', c') ->
-      both (compare_closure c c') (fun () -> compare_task a a')
+      Order.both (compare_closure c c') (fun () -> compare_task a a')
     | Idle d, Idle d' -> Float.compare d d'
-    | During (d, a), During (d', a') -> both (compare_duration d d') (fun () -> compare_task a a')
+    | During (d, a), During (d', a') -> Order.both (compare_duration d d') (fun () -> compare_task a a')
     | ( ( Platform _ | Action _ | Condition _ | Sequence _ | Parallel _ | Allocated _ | All_of _ | One_of _
         | Until _ | Idle _ | During _ | Watch _ ),
         _ ) -> Int.compare (rank_task t) (rank_task t')
 
 and compare_branch b b' =
-  both (compare_closure b.guard b'.guard) (fun () -> compare_task b.body b'.body)
+  Order.both (compare_closure b.guard b'.guard) (fun () -> compare_task b.body b'.body)
 
 and compare_duration d d' =
   match d, d' with
@@ -93,29 +78,27 @@ and compare_duration d d' =
   | Seconds _, Given_by _ -> -1
   | Given_by _, Seconds _ -> 1
 
-let mix h k = (h * 65599) + k
-
 let hashed_depth = 6
 
 let rec hash x =
   match x with
   | Null | Wildcard -> rank x
-  | Boolean b -> mix 1 (Bool.to_int b)
-  | Integer i -> mix 2 i
-  | Number n -> mix 3 (Hashtbl.hash n)
-  | String s | Symbol s | Host s -> mix (rank x) (Hashtbl.hash s)
-  | List xs -> Array.fold_left (fun h x -> mix h (hash x)) 7 xs
-  | Map entries -> List.fold_left (fun h (k, x) -> mix (mix h (Hashtbl.hash k)) (hash x)) 8 entries
-  | Range (a, b) -> mix (mix 9 a) b
-  | Position p -> mix 10 (Hashtbl.hash p)
-  | Area a -> mix 11 (Hashtbl.hash a)
-  | Vehicles vs -> List.fold_left (fun h v -> mix h (Hashtbl.hash v)) 12 vs
-  | Task t -> mix 13 (hash_task hashed_depth t)
-  | Closure c -> mix 14 (hash_closure c)
-  | Settings settings -> mix 16 (List.length settings)
-  | Reading r -> mix 17 (Hashtbl.hash r.text)
+  | Boolean b -> Order.mix 1 (Bool.to_int b)
+  | Integer i -> Order.mix 2 i
+  | Number n -> Order.mix 3 (Hashtbl.hash n)
+  | String s | Symbol s | Host s -> Order.mix (rank x) (Hashtbl.hash s)
+  | List xs -> Array.fold_left (fun h x -> Order.mix h (hash x)) 7 xs
+  | Map entries -> List.fold_left (fun h (k, x) -> Order.mix (Order.mix h (Hashtbl.hash k)) (hash x)) 8 entries
+  | Range (a, b) -> Order.mix (Order.mix 9 a) b
+  | Position p -> Order.mix 10 (Hashtbl.hash p)
+  | Area a -> Order.mix 11 (Hashtbl.hash a)
+  | Vehicles vs -> List.fold_left (fun h v -> Order.mix h (Hashtbl.hash v)) 12 vs
+  | Task t -> Order.mix 13 (hash_task hashed_depth t)
+  | Closure c -> Order.mix 14 (hash_closure c)
+  | Settings settings -> Order.mix 16 (List.length settings)
+  | Reading r -> Order.mix 17 (Hashtbl.hash r.text)
 
-and hash_closure c = Array.fold_left (fun h x -> mix h (hash x)) c.lambda.id c.captured
+and hash_closure c = Array.fold_left (fun h x -> Order.mix h (hash x)) c.lambda.id c.captured
 
 (* Of a deep task, which may share its parts with itself many times over, the upper levels are enough. *)
 and hash_task depth t =
@@ -124,14 +107,14 @@ and hash_task depth t =
   else
     match t with
     | Platform p -> Hashtbl.hash p.name
-    | Action c | Condition c -> mix (rank_task t) (hash_closure c)
-    | Sequence (a, b) | Parallel (a, b) -> mix (mix (rank_task t) (part a)) (part b)
-    | Allocated (a, vs) -> mix (part a) (Hashtbl.hash vs)
+    | Action c | Condition c -> Order.mix (rank_task t) (hash_closure c)
+    | Sequence (a, b) | Parallel (a, b) -> Order.mix (Order.mix (rank_task t) (part a)) (part b)
+    | Allocated (a, vs) -> Order.mix (part a) (Hashtbl.hash vs)
     | All_of bs | One_of bs ->
-      List.fold_left (fun h b -> mix (mix h (hash_closure b.guard)) (part b.body)) (rank_task t) bs
-    | Until (c, a) | Watch (a, c) -> mix (mix (rank_task t) (hash_closure c)) (part a)
-    | Idle d -> mix 9 (Hashtbl.hash d)
-    | During (_, a) -> mix 10 (part a)
+      List.fold_left (fun h b -> Order.mix (Order.mix h (hash_closure b.guard)) (part b.body)) (rank_task t) bs
+    | Until (c, a) | Watch (a, c) -> Order.mix (Order.mix (rank_task t) (hash_closure c)) (part a)
+    | Idle d -> Order.mix 9 (Hashtbl.hash d)
+    | During (_, a) -> Order.mix 10 (part a)
 
 let rec canonical x =
   match x with
@@ -145,7 +128,7 @@ let sorted_entries entries = List.sort compare_entry entries
 
 let equals x y =
   match canonical x, canonical y with
-  | Map a, Map b -> compare_list compare_entry (sorted_entries a) (sorted_entries b) = 0
+  | Map a, Map b -> List.compare compare_entry (sorted_entries a) (sorted_entries b) = 0
   | Vehicles a, Vehicles b -> List.sort String.compare a = List.sort String.compare b
   | x, y -> compare x y = 0
 

@@ -1,6 +1,5 @@
 open Dolphin_semantics
 open Dolphin_display
-module Vehicle_map = Configuration.Vehicle_map
 
 let case name f = Alcotest.test_case name `Quick f
 let text = Alcotest.(check string)
@@ -37,10 +36,13 @@ let task name : Core.platform_task = { name; plan = None; task_site = 0 }
 let configuration bound running : Configuration.t =
   {
     control = Ended Completed;
-    store = Store.empty;
-    allocation = Vehicle_map.of_seq (List.to_seq running);
-    bound;
-    tuples = Tuples.empty (Keys []);
+    shared =
+      {
+        store = Store.empty;
+        allocation = Vehicle_map.of_seq (List.to_seq running);
+        bound;
+        tuples = Tuples.empty (Keys []);
+      };
   }
 
 let transition ?(rules = []) ?(effects = []) ?(running = []) ?(bound = []) label : Transition.t =

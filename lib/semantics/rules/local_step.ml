@@ -1,0 +1,147 @@
+open Core
+
+type event =
+  | Vehicle_done of vehicle
+  | Vehicle_failed of vehicle * string
+  | Timer_expired of Residual.timer
+  | Answered of string
+  | Nobody_answers of string
+  | Replied of value
+  | Host_failed of string
+  | Interruption
+
+type outcome = Goes_on of Residual.t | Over | Ends of Configuration.ending
+
+type t = {
+  after : Shared.t;
+  outcome : outcome;
+  derivation : Rule.t list;
+  named : Label.t;
+  asked : Effect.t list;
+}
+
+let equal_outcome a b =
+  match a, b with
+  | Goes_on r, Goes_on r' -> Residual.equal r r'
+  | Over, Over -> true
+  | Ends e, Ends e' -> Configuration.compare_ending e e' = 0
+  | (Goes_on _ | Over | Ends _), _ -> false
+
+let equal a b = Label.equal a.named b.named && equal_outcome a.outcome b.outcome && Shared.equal a.after b.after
+
+(* {1 Changes} *)
+
+let without_tasks vs (s : Shared.t) =
+  { s with allocation = List.fold_left (fun a v -> Vehicle_map.remove v a) s.allocation vs }
+
+(* The vehicles that stop, and the effects: cut(r). *)
+let undo : Task_rules.undoing -> vehicle list * Effect.t list = function
+  | Cancel timer -> ([], [ Cancel_timer timer ])
+  | Cut cut ->
+    let cancelled = List.map (fun timer -> Effect.Cancel_timer timer) (List.concat_map Residual.timers cut) in
+    let stopped = List.concat_map Residual.running cut in
+    (stopped, cancelled @ List.map (fun v -> Effect.Stop v) stopped)
+
+(* [settle s derivation asked change] carries a change of the residual over to the shared part [s], handlers of errors
+   included. [asked] are the effects so far. *)
+let rec settle program world s derivation asked (change : Task_rules.change) =
+  let stopped, undone = List.split (List.map undo change.undone) in
+  let derivation = derivation @ change.rules in
+  let s = without_tasks (List.concat stopped) s in
+  let asked = asked @ List.concat undone @ Conclusion.timers_started change.timers in
+  let come_to outcome = { after = s; outcome; derivation; named = change.label; asked } in
+  match change.outcome with
+  | Next r -> come_to (Goes_on r)
+  | Finished -> come_to Over
+  | Failed fault -> come_to (Ends (Failed fault))
+  | Handling { handler; fault; ignored; propagated } -> (
+      let { Run_code.result; verdict } = Run_code.handler program world s handler fault in
+      match result, verdict with
+      | Halts (message, s, deeds), _ ->
+        let derivation = derivation @ [ Rule.Watch_halt ] and asked = asked @ Run_code.effects deeds in
+        { after = s; outcome = Ends (Halted message); derivation; named = change.label; asked }
+      | Faulty fault, _ when Fault.is_assertion fault ->
+        { (come_to (Ends (Failed fault))) with derivation = derivation @ [ Rule.Assert_err ] }
+      | Faulty fault, _ -> settle program world s derivation asked (propagated fault)
+      | Gives (_, s, deeds), Ignored ->
+        settle program world s derivation (asked @ Run_code.effects deeds) (ignored ())
+      | Gives (_, s, deeds), Propagated ->
+        settle program world s derivation (asked @ Run_code.effects deeds) (propagated fault))
+
+(* {1 Steps} *)
+
+let kept program world local = { local with after = Run_code.kept program world local.after }
+
+(* [seconds_of code x] is the time that the value [x] of a [during]'s code is. *)
+let seconds_of (code : closure) x =
+  match Value.to_number (Reading.settled code.lambda.lambda_site x) with
+  | Some seconds when seconds >= 0. && seconds < infinity -> Ok seconds
+  | Some _ | None ->
+    let message = "during takes a time of 0 seconds or more, this code gives " ^ Value.to_string x in
+    Error (Fault.make code.lambda.lambda_site message)
+
+let internal program world s (Task_rules.Step { offer; continue }) =
+  let go ?(asked = []) s change = Some (kept program world (settle program world s [] asked change)) in
+  let ends rule label outcome s asked =
+    Some (kept program world { after = s; outcome = Ends outcome; derivation = [ rule ]; named = label; asked })
+  in
+  (* Rules HALT and ASSERT-ERR are for code of every step. *)
+  let coded code ~fails ~gives =
+    match Run_code.atomic program world s code with
+    | Faulty fault when Fault.is_assertion fault -> ends Assert_err (Broken fault.message) (Failed fault) s []
+    | Faulty fault -> go s (fails fault)
+    | Halts (message, s, deeds) -> ends Halt (Halt message) (Halted message) s (Run_code.effects deeds)
+    | Gives (x, s, deeds) -> gives x s deeds
+  in
+  match offer with
+  | End_of _ | Expiry_of _ -> None
+  | Start (p, v) ->
+    go ~asked:[ Start (v, p) ] { s with allocation = Vehicle_map.add v p s.allocation } (continue ())
+  | Perform code ->
+    let gives _ s deeds = go ~asked:(Run_code.effects deeds) s (continue (Ok deeds)) in
+    coded code ~fails:(fun fault -> continue (Error fault)) ~gives
+  | Check guard ->
+    let gives x s deeds =
+      if Value.truth (Reading.settled guard.lambda.lambda_site x) then
+        go ~asked:(Run_code.effects deeds) s (continue (Ok deeds))
+      else None
+    in
+    coded guard ~fails:(fun fault -> continue (Error fault)) ~gives
+  | Measure code ->
+    let gives x after deeds =
+      match seconds_of code x with
+      | Ok seconds -> go ~asked:(Run_code.effects deeds) after (continue (Ok seconds))
+      | Error fault -> go s (continue (Error fault))
+    in
+    coded code ~fails:(fun fault -> continue (Error fault)) ~gives
+
+let on_event program world s (Task_rules.Step { offer; continue }) (event : event) =
+  let go s change = Some (kept program world (settle program world s [] [] change)) in
+  match event, offer with
+  | Vehicle_done v, End_of (_, v') when v = v' -> go (without_tasks [ v ] s) (continue (Ok ()))
+  | Vehicle_failed (v, why), End_of (_, v') when v = v' -> go (without_tasks [ v ] s) (continue (Error why))
+  | Timer_expired timer, Expiry_of timer' when timer = timer' -> go s (continue ())
+  | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _
+      | Host_failed _ | Interruption ),
+      (Start _ | Perform _ | Check _ | Measure _ | End_of _ | Expiry_of _) ) -> None
+
+(* {1 In configurations} *)
+
+let next m outcome shared : Configuration.t =
+  match outcome with
+  | Goes_on r -> { control = Executing (m, r); shared }
+  | Over -> { control = Script (Machine.give Null m); shared }
+  | Ends ending -> Conclusion.ended shared ending
+
+let conclude m r { after; outcome; derivation; named; asked } : Conclusion.t =
+  let go_on rules : Conclusion.t =
+    { rules; label = named; next = next m outcome after; effects = asked; assumed = [] }
+  in
+  match outcome with
+  | Goes_on _ -> go_on derivation
+  | Over -> go_on (derivation @ [ Rule.Execute_done ])
+  | Ends (Failed fault as ending) when not (Fault.is_assertion fault) ->
+    (* The failure has cut off all that ran. *)
+    Conclusion.ending ~before:asked (derivation @ [ Rule.Execute_err ]) named after ending
+  | Ends ((Completed | Halted _ | Failed _ | Interrupted) as ending) ->
+    Conclusion.ending ~timers:(Residual.timers r) ~before:asked derivation named after ending

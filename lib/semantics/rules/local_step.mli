@@ -1,0 +1,52 @@
+(** Steps of a residual in a shared part: [S, r --l--> S', o ! E]. {!Task_rules} says what a step needs; here it gets that
+    from the shared part, the world or an event.
+
+    The transitions of a configuration that executes a residual are those of the residual's steps: [Transition.internal]
+    is {!internal} of each step, and [Transition.accept] is {!on_event}, both completed by {!conclude}. Whoever explores
+    many configurations computes what a step does once for all the residuals that contain it. *)
+
+open Core
+
+(** What happens outside. *)
+type event =
+  | Vehicle_done of vehicle  (** the vehicle ended its task *)
+  | Vehicle_failed of vehicle * string
+  (** it failed, refused the task, or its connection was lost for longer than its timeout: why *)
+  | Timer_expired of Residual.timer
+  | Answered of string  (** to [ask], as typed *)
+  | Nobody_answers of string  (** why *)
+  | Replied of value  (** by the host *)
+  | Host_failed of string  (** why *)
+  | Interruption
+
+(** What becomes of the residual. *)
+type outcome =
+  | Goes_on of Residual.t
+  | Over
+  | Ends of Configuration.ending  (** and so does the whole program *)
+
+type t = {
+  after : Shared.t;
+  outcome : outcome;
+  derivation : Rule.t list;
+  named : Label.t;
+  asked : Effect.t list;
+}
+
+val internal : program -> World.t -> Shared.t -> Task_rules.step -> t option
+(** [internal p w s step] is what [step] does by itself with shared part [s], if it is enabled. In an open world this
+    may be called inside of {!World.cases} only. *)
+
+val on_event : program -> World.t -> Shared.t -> Task_rules.step -> event -> t option
+(** [on_event p w s step e] is what [step] does on [e], if that is what it awaits. Likewise. *)
+
+val equal : t -> t -> bool
+(** Whether two steps of one residual have the same label, and the same result. *)
+
+val next : Machine.t -> outcome -> Shared.t -> Configuration.t
+(** [next m o s] is the configuration after a step with outcome [o] of the residual that [m] waits for; [s] is what is
+    shared then. *)
+
+val conclude : Machine.t -> Residual.t -> t -> Conclusion.t
+(** [conclude m r l] is the transition of a configuration in which [m] waits for [r], by a step of [r] that does [l]:
+    EXECUTE-DONE, EXECUTE-ERR, or no further rule. *)

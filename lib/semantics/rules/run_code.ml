@@ -1,0 +1,48 @@
+open Core
+
+type result =
+  | Gives of value * Shared.t * Machine.deed list
+  | Faulty of Fault.t
+  | Halts of string * Shared.t * Machine.deed list
+
+type handled = { result : result; verdict : Machine.verdict }
+
+(* Atomic code that takes more expressions counts as endless. *)
+let fuel = 2_000_000
+
+let context program world (s : Shared.t) mode : Machine.context =
+  { program; world; bound = s.bound; store = s.store; tuples = s.tuples; mode; deeds = [] }
+
+let after (context : Machine.context) (s : Shared.t) = { s with store = context.store; tuples = context.tuples }
+
+let kept program world (s : Shared.t) =
+  if World.is_open world then { s with store = Reading.keep program s.store } else s
+
+let action_of : Machine.deed -> Effect.t option = function
+  | Posted _ | Consumed _ -> None
+  | Said text -> Some (Say text)
+  | Released vs -> Some (Release vs)
+  | Set_connection_timeout (vs, seconds) -> Some (Set_connection_timeout (vs, seconds))
+
+let effects deeds = List.filter_map action_of deeds
+
+let run program world s mode closure arguments =
+  let stop, _, context = Machine.run ~fuel (context program world s mode) (Machine.call closure arguments) in
+  let deeds = List.rev context.deeds in
+  let result =
+    match stop with
+    | Finished x -> Gives (x, after context s, deeds)
+    | Halted message -> Halts (message, after context s, deeds)
+    | Faulted fault -> Faulty fault
+    | Exhausted ->
+      let message = "this code does not come to an end, and code inside of a task is atomic" in
+      Faulty (Fault.make closure.lambda.lambda_site message)
+    | Did _ | Waits _ -> invalid_arg "Run_code.run: atomic code stopped"
+  in
+  (result, context.mode)
+
+let atomic program world s closure = fst (run program world s Task_code closure [])
+
+let handler program world s closure (fault : Fault.t) =
+  let result, mode = run program world s (Handler Propagated) closure [ String fault.message ] in
+  { result; verdict = (match mode with Handler verdict -> verdict | Script | Task_code -> Propagated) }

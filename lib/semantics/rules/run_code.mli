@@ -1,0 +1,30 @@
+(** Code of tasks and of the script in a shared part: the judgement [S ⊢ code ⇓ ...] of docs/semantics.md. *)
+
+open Core
+
+type result =
+  | Gives of value * Shared.t * Machine.deed list  (** what the code did, first deed first *)
+  | Faulty of Fault.t
+  | Halts of string * Shared.t * Machine.deed list
+
+val atomic : program -> World.t -> Shared.t -> closure -> result
+(** [atomic p w s code] runs [code] of a task, which takes no arguments, to its end. *)
+
+(** What a handler makes of an error. *)
+type handled = { result : result; verdict : Machine.verdict }
+
+val handler : program -> World.t -> Shared.t -> closure -> Fault.t -> handled
+(** [handler p w s code fault] runs the [onError] code [code] for [fault]. *)
+
+val context : program -> World.t -> Shared.t -> Machine.mode -> Machine.context
+(** What the machine sees of a shared part. *)
+
+val after : Machine.context -> Shared.t -> Shared.t
+(** [after x s] is [s] with the store and N that [x] holds. *)
+
+val kept : program -> World.t -> Shared.t -> Shared.t
+(** [kept p w s] is [s] once the step is over that ran the code: in an open world, what sensors showed is from now on
+    what they have shown ({!Reading.keep}). *)
+
+val effects : Machine.deed list -> Effect.t list
+(** What these deeds ask of the outside. *)

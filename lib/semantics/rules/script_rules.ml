@@ -1,0 +1,61 @@
+(* The script runs so many expressions in one silent transition, then lets others see it. *)
+let fuel = 10_000
+
+let rule_of_deed : Machine.deed -> Rule.t = function
+  | Posted _ -> Post
+  | Consumed _ -> Consume
+  | Said _ -> Message
+  | Released _ -> Release
+  | Set_connection_timeout _ -> Set_timeout
+
+let release vs (s : Shared.t) =
+  let bound = List.filter (fun v -> not (List.mem v vs)) s.bound in
+  { s with bound; allocation = Vehicle_map.filter (fun v _ -> not (List.mem v vs)) s.allocation }
+
+(* No task runs while the script does, so to release a vehicle stops none. *)
+let do_deed (deed : Machine.deed) s m =
+  let s = match deed with Released vs -> release vs s | Posted _ | Consumed _ | Said _ | Set_connection_timeout _ -> s in
+  Conclusion.make ~effects:(Run_code.effects [ deed ]) (rule_of_deed deed) (Did deed) (Script m) s
+
+let execute world (s : Shared.t) m t =
+  match Allocation.allocate world s.bound t with
+  | Error fault ->
+    let fault = if fault.site = Fault.unknown_site then { fault with site = Machine.site m } else fault in
+    Conclusion.ending [ Alloc_err ] (Cannot_execute fault.message) s (Failed fault)
+  | Ok r ->
+    let r, timers = Residual.activate r in
+    Conclusion.make ~effects:(Conclusion.timers_started timers) Execute Execute (Executing (m, r)) s
+
+let wait world s m (request : Machine.request) =
+  let waiting rule label action = Conclusion.make ~effects:[ action ] rule label (Waiting (m, request)) s in
+  match request with
+  | Execute t -> execute world s m t
+  | Pick pick -> waiting Pick (Pick (Format.asprintf "%a" Settings.pp_pick pick)) (Look_for pick)
+  | Ask prompt -> waiting Ask (Ask prompt) (Ask prompt)
+  | Pause seconds -> waiting Pause (Pause seconds) (Set_timer (Residual.script_timer, seconds))
+  | Host_call { subject; member; arguments } ->
+    waiting Call (Call (Machine.name_of_call ~subject ~member)) (Call_host { subject; member; arguments })
+
+let keep_in_machine world m = if World.is_open world then Machine.keep_readings m else m
+
+let step program world s m =
+  let stop, m, context = Machine.run ~fuel (Run_code.context program world s Script) m in
+  let m = keep_in_machine world m and s = Run_code.kept program world (Run_code.after context s) in
+  match stop with
+  | Exhausted -> Conclusion.make Script Silent (Script m) s
+  | Did deed -> do_deed deed s m
+  | Waits request -> wait world s m request
+  | Finished _ -> Conclusion.ending [ End ] End s Completed
+  | Halted message -> Conclusion.ending [ Halt ] (Halt message) s (Halted message)
+  | Faulted fault -> Conclusion.ending [ Fault ] (Fault fault.message) s (Failed fault)
+
+let go_on rule label x s m = Conclusion.make rule label (Script (Machine.give x m)) s
+
+let fail rule label why s m = Conclusion.ending [ rule ] label s (Failed (Fault.make (Machine.site m) why))
+
+let answer program world (s : Shared.t) m ~text code =
+  match Run_code.atomic program world s code with
+  | Gives (x, after, []) when Store.compare after.store s.store = 0 ->
+    Ok (Conclusion.make Answer (Answer text) (Script (keep_in_machine world (Machine.give x m))) s)
+  | Gives _ | Halts _ -> Error "an answer may only compute a value"
+  | Faulty fault -> Error fault.message

@@ -1,0 +1,25 @@
+(** The shared part of a configuration: S = <store, A, B, N>. The rules of tasks take one and give one; the control is
+    none of their business. *)
+
+open Core
+
+type t = {
+  store : Store.t;  (** the values of global variables *)
+  allocation : platform_task Vehicle_map.t;  (** A: the task that each vehicle runs; the others of B run none *)
+  bound : vehicle list;  (** B, in pick order *)
+  tuples : Tuples.t;  (** N *)
+}
+
+val initial : program -> t
+(** [initial p] is that of a run of [p] that begins: empty. *)
+
+val compare : t -> t -> int
+(** A total order, of which {!equal} is the equality. *)
+
+val equal : t -> t -> bool
+
+val hash : t -> int
+(** Equal shared parts have equal hashes. *)
+
+val pp : program -> Format.formatter -> t -> unit
+(** In a canonical text: equal shared parts print alike. *)

@@ -1,0 +1,282 @@
+open Core
+open Residual
+
+(* {1 Steps} *)
+
+type _ offer =
+  | Start : platform_task * vehicle -> unit offer
+  | Perform : closure -> (Machine.deed list, Fault.t) result offer
+  | Check : closure -> (Machine.deed list, Fault.t) result offer
+  | Measure : closure -> (float, Fault.t) result offer
+  | End_of : platform_task * vehicle -> (unit, string) result offer
+  | Expiry_of : timer -> unit offer
+
+type undoing = Cancel of timer | Cut of t list
+
+type outcome =
+  | Next of t
+  | Finished
+  | Failed of Fault.t
+  | Handling of {
+      handler : closure;
+      fault : Fault.t;
+      ignored : unit -> change;
+      propagated : Fault.t -> change;
+    }
+
+and change = {
+  label : Label.t;
+  outcome : outcome;
+  rules : Rule.t list;
+  timers : (timer * float) list;
+  undone : undoing list;
+}
+
+type step = Step : { offer : 'reply offer; continue : 'reply -> change } -> step
+
+(* An axiom. *)
+let change label rule outcome = { label; outcome; rules = [ rule ]; timers = []; undone = [] }
+
+(* [enter label rule around r] is the change to [r], which begins now. *)
+let enter label rule around r =
+  let r, timers = activate r in
+  { (change label rule (Next (around r))) with timers }
+
+let broke rule (fault : Fault.t) = change (Broken fault.message) rule (Failed fault)
+let undoing undone change = { change with undone = change.undone @ [ undone ] }
+
+(* {1 Composition} *)
+
+(* What a change of a part is for the whole around it. *)
+type around = {
+  on_next : t -> change -> change;
+  on_finished : change -> change;
+  on_failed : Fault.t -> change -> change;
+}
+
+let add rule outcome change = { change with outcome; rules = change.rules @ [ rule ] }
+
+(* [after_handling f c] is [c] with [f] done to what comes of its handler, if there is one. *)
+let after_handling f change =
+  match change.outcome with
+  | Next _ | Finished | Failed _ -> change
+  | Handling h ->
+    let ignored () = f (h.ignored ()) and propagated fault = f (h.propagated fault) in
+    { change with outcome = Handling { h with ignored; propagated } }
+
+let rec lift around change =
+  match change.outcome with
+  | Next r -> around.on_next r change
+  | Finished -> around.on_finished change
+  | Failed fault -> around.on_failed fault change
+  | Handling _ -> after_handling (lift around) change
+
+let with_change f (Step step) = Step { step with continue = (fun reply -> f (step.continue reply)) }
+
+(* The usual whole: [next] rebuilds it, and it ends as its part ends. *)
+let around ~next (step, finished, failed) =
+  {
+    on_next = (fun r c -> add step (Next (next r)) c);
+    on_finished = (fun c -> add finished Finished c);
+    on_failed = (fun fault c -> add failed (Failed fault) c);
+  }
+
+(* {2 One after the other} *)
+
+let around_sequence rest =
+  let on_finished c =
+    let next = match rest with [ r ] -> r | r :: rest -> Sequence (r, rest) | [] -> invalid_arg "Task_rules: no part" in
+    let next, timers = activate next in
+    { (add Rule.Seq_2 (Next next) c) with timers = c.timers @ timers }
+  in
+  { (around ~next:(within (Before rest)) (Rule.Seq_1, Rule.Seq_2, Rule.Seq_err)) with on_finished }
+
+(* {2 Side by side} *)
+
+let leave_parallel fault c = add Rule.Par_err (Failed fault) c
+
+(* [before] is reversed. *)
+let around_parallel before after =
+  let rebuild = function
+    | Parallel rs -> Parallel (List.rev_append before (rs @ after))
+    | r -> Parallel (List.rev_append before (r :: after))
+  in
+  {
+    on_next = (fun r c -> add Rule.Par_1 (Next (rebuild r)) c);
+    on_finished = (fun c -> add Rule.Par_2 (Next (parallel (List.rev_append before after))) c);
+    on_failed = (fun fault c -> undoing (Cut (List.rev_append before after)) (leave_parallel fault c));
+  }
+
+(* {2 Branches with guards, until, during, watch} *)
+
+let around_branch remaining =
+  {
+    (around ~next:(within (Branch_of remaining)) (Rule.Allof_1, Rule.Allof_2, Rule.Allof_err)) with
+    on_finished = (fun c -> add Rule.Allof_2 (Next (all_of None remaining)) c);
+  }
+
+let around_until condition =
+  around ~next:(within (Body_until condition)) (Rule.Until_1, Rule.Until_2, Rule.Until_err)
+
+let around_during timer duration =
+  let plain = around ~next:(within (Body_during (timer, duration))) (Rule.During_1, Rule.During_2, Rule.During_err) in
+  {
+    plain with
+    on_finished = (fun c -> undoing (Cancel timer) (plain.on_finished c));
+    on_failed = (fun fault c -> undoing (Cancel timer) (plain.on_failed fault c));
+  }
+
+let around_watch handler =
+  let on_failed fault c =
+    let ignored () = change c.label Rule.Watch_ignore Finished in
+    let propagated fault = change c.label Rule.Watch_propagate (Failed fault) in
+    { c with outcome = Handling { handler; fault; ignored; propagated } }
+  in
+  { (around ~next:(within (Watched_by handler)) (Rule.Watch_1, Rule.Watch_2, Rule.Watch_propagate)) with on_failed }
+
+let around_context = function
+  | Before rest -> around_sequence rest
+  | Branch_of remaining -> around_branch remaining
+  | Body_until condition -> around_until condition
+  | Body_during (timer, duration) -> around_during timer duration
+  | Watched_by handler -> around_watch handler
+
+let change_within context change = lift (around_context context) change
+let change_within_all contexts change = List.fold_left (fun c context -> change_within context c) change contexts
+
+let rec escape nests change =
+  match change.outcome, nests with
+  | (Next _ | Finished), _ | Failed _, [] -> change
+  | Failed fault, contexts :: outer -> escape outer (change_within_all contexts (leave_parallel fault change))
+  | Handling _, _ -> after_handling (escape nests) change
+
+let escaping nests step = with_change (escape nests) step
+
+(* What a context can do to its body. *)
+let cut context body =
+  let cut change = undoing (Cut [ body ]) change in
+  match context with
+  | Before _ | Branch_of _ | Watched_by _ -> None
+  | Body_until condition ->
+    let continue = function
+      | Ok deeds -> cut (change (Label.Cut deeds) Rule.Until_cut Finished)
+      | Error fault -> cut (broke Rule.Until_err fault)
+    in
+    Some (Step { offer = Check condition; continue })
+  | Body_during (timer, _) ->
+    let continue () = cut (change Label.Time_out Rule.During_cut Finished) in
+    Some (Step { offer = Expiry_of timer; continue })
+
+let rec cuts contexts body =
+  match contexts with
+  | [] -> []
+  | context :: outer ->
+    let further = with_change (change_within_all outer) in
+    Option.to_list (Option.map further (cut context body)) @ cuts outer (within context body)
+
+(* {1 Steps of each operator} *)
+
+let start p v =
+  Step { offer = Start (p, v); continue = (fun () -> change (Start (v, p.name)) Rule.Start (Next (Running (p, v)))) }
+
+let await_end p v =
+  let continue = function
+    | Ok () -> change (Label.Done (v, p.name)) Rule.Done Finished
+    | Error why ->
+      let fault = Fault.make p.task_site (Printf.sprintf "%s failed on %s: %s" p.name v why) in
+      change (Fail (v, p.name, why)) Rule.Fail (Failed fault)
+  in
+  Step { offer = End_of (p, v); continue }
+
+let perform code =
+  let continue = function
+    | Ok deeds -> change (Label.Act deeds) Rule.Action Finished
+    | Error fault -> broke Rule.Action_err fault
+  in
+  Step { offer = Perform code; continue }
+
+(* A guard that lets go on as [holds] says. *)
+let check guard ~holds ~error =
+  let continue = function
+    | Ok deeds -> holds (Label.Check deeds)
+    | Error fault -> broke error fault
+  in
+  Step { offer = Check guard; continue }
+
+let wait_for guard =
+  check guard ~holds:(fun label -> change label Rule.Condition Finished) ~error:Rule.Condition_err
+
+let choose_of_all before b after =
+  let remaining = List.rev_append before after in
+  let holds label = enter label Rule.Allof_when (fun r -> all_of (Some r) remaining) b.body in
+  check b.guard ~holds ~error:Rule.Allof_err
+
+let choose_one b = check b.guard ~holds:(fun label -> enter label Rule.Oneof_when Fun.id b.body) ~error:Rule.Oneof_err
+
+let idle_end timer =
+  Step { offer = Expiry_of timer; continue = (fun () -> change Label.Time_out Rule.Idle_end Finished) }
+
+let set_during timer code body =
+  let continue = function
+    | Error fault -> broke Rule.During_err fault
+    | Ok seconds ->
+      let body, timers = activate body in
+      let next = During { timer; duration = Seconds seconds; started = true; body } in
+      { (change (Set_time seconds) Rule.During_set (Next next)) with timers = (timer, seconds) :: timers }
+  in
+  Step { offer = Measure code; continue }
+
+(* [each ~relevant f xs] is [f before x after] for each relevant [x] of [xs]; [before] is reversed. *)
+let each ~relevant f xs =
+  let rec from before xs () =
+    match xs with
+    | [] -> Seq.Nil
+    | x :: after ->
+      let rest = from (x :: before) after in
+      if relevant x then Seq.append (f before x after) rest () else rest ()
+  in
+  from [] xs
+
+let every f xs = each ~relevant:(fun _ -> true) (fun before x after -> Seq.return (f before x after)) xs
+
+(* The branches of a [|] in which no active node is [relevant] are passed over: there may be thousands. *)
+let rec steps_at relevant r : step Seq.t =
+  match r with
+  | Ready (p, v) -> Seq.return (start p v)
+  | Running (p, v) -> Seq.return (await_end p v)
+  | Action code -> Seq.return (perform code)
+  | Condition guard -> Seq.return (wait_for guard)
+  | Parallel rs ->
+    let branch before r after = Seq.map (with_change (lift (around_parallel before after))) (steps_at relevant r) in
+    each ~relevant:(exists_active relevant) branch rs
+  | All_of (None, branches) -> every choose_of_all branches
+  | One_of branches -> every (fun _ b _ -> choose_one b) branches
+  | Idle { timer; _ } -> Seq.return (idle_end timer)
+  | During { duration = Given_by code; started = false; timer; body } -> Seq.return (set_during timer code body)
+  | Sequence _ | All_of (Some _, _) | Until _ | During _ | Watch _ -> (
+      match opened r with
+      | None -> Seq.empty
+      | Some (context, body) -> (
+          let inside = Seq.map (with_change (change_within context)) (steps_at relevant body) in
+          match cut context body with
+          | None -> inside
+          | Some cut -> fun () -> Seq.Cons (cut, inside)))
+
+let steps = steps_at (fun _ -> true)
+
+let may_step_alone = function
+  | Running _ | Idle _ | During { duration = Seconds _; _ } | Sequence _ | Parallel _ | All_of (Some _, _) | Watch _ ->
+    false
+  | Ready _ | Action _ | Condition _ | All_of (None, _) | One_of _ | Until _ | During { duration = Given_by _; _ } ->
+    true
+
+let internal_steps = steps_at may_step_alone
+let steps_of_vehicle v = steps_at (function Running (_, v') -> String.equal v v' | _ -> false)
+
+let broken (Step { offer; continue }) (fault : Fault.t) : change option =
+  match offer with
+  | Start _ | Expiry_of _ -> None
+  | Perform _ -> Some (continue (Error fault))
+  | Check _ -> Some (continue (Error fault))
+  | Measure _ -> Some (continue (Error fault))
+  | End_of _ -> Some (continue (Error fault.message))

@@ -1,0 +1,77 @@
+(** The rules of tasks, from docs/semantics.md: what a residual can do. Steps are data: what a step needs of the shared
+    part and of the world (an {!type-offer}), and once it has that, the rules' conclusion (a {!type-change}).
+    {!Local_step} makes steps of the shared part from these. *)
+
+open Core
+open Residual
+
+(** {1:steps Steps} *)
+
+(** What a step needs, and with what it goes on then. An error is what went wrong: the code is faulty, or the vehicle
+    failed and said why. *)
+type _ offer =
+  | Start : platform_task * vehicle -> unit offer  (** nothing; A(v) becomes the task *)
+  | Perform : closure -> (Machine.deed list, Fault.t) result offer  (** to run this action: what it did *)
+  | Check : closure -> (Machine.deed list, Fault.t) result offer  (** that this guard is true: what it did *)
+  | Measure : closure -> (float, Fault.t) result offer  (** the seconds that this code gives *)
+  | End_of : platform_task * vehicle -> (unit, string) result offer  (** that the vehicle reports the end *)
+  | Expiry_of : timer -> unit offer  (** that the timer expires *)
+
+(** What no longer runs. *)
+type undoing =
+  | Cancel of timer
+  | Cut of t list  (** residuals that were cut off: their timers are cancelled, then their vehicles stop *)
+
+type outcome =
+  | Next of t
+  | Finished
+  | Failed of Fault.t
+  | Handling of {
+      handler : closure;
+      fault : Fault.t;
+      ignored : unit -> change;  (** after [ignore()] *)
+      propagated : Fault.t -> change;  (** after [propagate()], or if the handler itself breaks *)
+    }
+
+(** What a step makes of a residual. *)
+and change = {
+  label : Label.t;
+  outcome : outcome;
+  rules : Rule.t list;  (** the derivation, innermost rule first; after a handler, what follows it *)
+  timers : (timer * float) list;  (** that start *)
+  undone : undoing list;  (** in the order of the derivation, innermost rule first *)
+}
+
+type step = Step : { offer : 'reply offer; continue : 'reply -> change } -> step
+
+val steps : t -> step Seq.t
+(** [steps r] is all that [r] can do, leftmost first, computed on demand. *)
+
+val internal_steps : t -> step Seq.t
+(** [internal_steps r] is [steps r], less some of those that wait for an end or an expiry. *)
+
+val steps_of_vehicle : vehicle -> t -> step Seq.t
+(** [steps_of_vehicle v r] is [steps r], less some that do not wait for the end of a task of [v]. *)
+
+val broken : step -> Fault.t -> change option
+(** [broken s fault] is the change by [s] if what it needs goes wrong, with [fault] if it runs code; [None] if nothing
+    can. *)
+
+(** {1:contexts Composition}
+
+    The steps of a whole are those of its parts, with their changes composed by the rules of what is around the parts.
+    [steps] is made so, and who explores parts by themselves composes their changes by the same functions. *)
+
+val change_within : context -> change -> change
+(** [change_within k c] is the change of [within k r] by a step of [r] that changes [r] by [c]: SEQ, ALLOF, UNTIL,
+    DURING, WATCH. *)
+
+val cuts : context list -> t -> step list
+(** [cuts ks r] is the steps of [plug ks r] that are none of [r]: UNTIL-CUT and DURING-CUT of each of [ks], the innermost
+    first. *)
+
+val escaping : context list list -> step -> step
+(** [escaping nests s] is [s], a step of a branch of a [|] that stands in the contexts at the head of [nests], as a branch
+    of a [|] in those that come next, and so on; as far as errors go. What goes on or is over leaves all around the
+    branch as it is. An error leaves the [|] by PAR-ERR, passes through the contexts, and climbs on unless it is handled
+    there; what stood beside is not known here, and so is not in [undone]. *)

@@ -1,0 +1,10 @@
+(** Orders and hashes, put together from those of parts. *)
+
+val both : int -> (unit -> int) -> int
+(** [both a b] is the order by [a], the result of a comparison, and of what is equal there by [b ()]. *)
+
+val array : ('a -> 'a -> int) -> 'a array -> 'a array -> int
+(** [array compare xs ys] orders arrays, shorter ones first, those of one length by their elements. *)
+
+val mix : int -> int -> int
+(** [mix h h'] is the hash of what has hash [h] followed by what has hash [h']. *)

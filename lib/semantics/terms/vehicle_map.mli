@@ -1,0 +1,3 @@
+(** Finite maps from vehicles. *)
+
+include Map.S with type key = Core.vehicle

@@ -8,7 +8,7 @@ open Lwt.Infix
 let address (n : Node.t) =
   match n.address with Some a -> Format.asprintf "%a" Service.pp_address a | None -> "-"
 
-let plan_of network (s : Station.sight) =
+let plan_of network (s : Station.system) =
   match Udp_platform.progress network s.state.id with
   | Some { plan; _ } -> Some plan
   | None -> Execution.executing s.node.execution
@@ -25,11 +25,11 @@ let messages network (n : Node.t) definition =
     in
     `Assoc [ ("id", `Int id); ("count", `Int e.count); ("last", last) ]
   in
-  List.map shown (Udp_platform.heard network n.id)
+  List.map shown (Udp_platform.received network n.id)
 
-let is_placed (s : Station.sight) = s.node.position <> None || s.node.announced_position <> None
+let is_placed (s : Station.system) = s.node.position <> None || s.node.announced_position <> None
 
-let json network definition (s : Station.sight) : Yojson.Safe.t =
+let json network definition (s : Station.system) : Yojson.Safe.t =
   let n = s.node and state = s.state in
   let optional make = function Some x -> make x | None -> `Null in
   let number x = if Float.is_finite x then `Float x else `Null in
@@ -55,7 +55,7 @@ let payload devices =
   | n when n <= 4 -> String.concat ", " devices
   | n -> Printf.sprintf "%d entities" n
 
-let row network definition (s : Station.sight) =
+let row network definition (s : Station.system) =
   let n = s.node and state = s.state in
   [ state.id; state.kind; Printf.sprintf "%04x" n.id; address n;
     (if is_placed s then Printf.sprintf "%.5f, %.5f" state.position.latitude state.position.longitude else "-");
@@ -80,7 +80,7 @@ let table network definition sights =
 (* {1 The command} *)
 
 let lines network definition ~json:as_json =
-  match Udp_platform.sights network with
+  match Udp_platform.systems network with
   | sights when as_json -> [ Yojson.Safe.to_string (`List (List.map (json network definition) sights)) ]
   | [] -> [ "no system was heard of" ]
   | sights -> table network definition sights
@@ -138,7 +138,7 @@ let run options definition as_json once seconds =
   match Imc_definition.load definition with
   | Error status -> status
   | Ok definition ->
-    let options = { (Imc_options.with_names definition options) with listens = definition <> None && as_json } in
+    let options = { (Imc_options.with_names definition options) with records = definition <> None && as_json } in
     listen options definition ~as_json ~once ~seconds
 
 let as_json =

@@ -124,15 +124,15 @@ let simulated s =
 
 (* How far vehicles are with their plans, by their own estimate. *)
 let estimates network () =
-  let line (sight : Dolphin_platform_imc.Station.sight) =
-    match Udp_platform.progress network sight.state.id with
+  let line (system : Dolphin_platform_imc.Station.system) =
+    match Udp_platform.progress network system.state.id with
     | Some { plan; share = Some share; remaining; _ } ->
       let left = match remaining with Some t -> Printf.sprintf ", %s left" (Wording.clock t) | None -> "" in
-      let name = Wording.harmless sight.state.id and plan = Wording.harmless plan in
+      let name = Wording.harmless system.state.id and plan = Wording.harmless plan in
       Some (Printf.sprintf "         %s: %.0f%% of %s%s" name (100. *. share) plan left)
     | Some { share = None; _ } | None -> None
   in
-  List.filter_map line (Udp_platform.sights network)
+  List.filter_map line (Udp_platform.systems network)
 
 (* What the time of a run is now whose console died: it went on. Clocks may have been set meanwhile, but runs never go
    back. *)

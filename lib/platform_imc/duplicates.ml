@@ -6,7 +6,7 @@ type t = {
   after : float;
   busy : bool;
   begun : bool;  (* the vehicle has begun the plan at least once *)
-  words : (string * float) list;  (* what is said once each time, and when it was said first *)
+  signs : (string * float) list;  (* what is said once for each start, and when it was said first *)
   doubled : bool;  (* one of these was said twice *)
   beginning : float;  (* when it was last said that the plan begins *)
   initializing : float;  (* when it was last said that some plan does *)
@@ -16,7 +16,7 @@ type t = {
 }
 
 let request ~plan ~number ~after ~busy =
-  { plan; number; after; busy; begun = false; words = []; doubled = false; beginning = neg_infinity;
+  { plan; number; after; busy; begun = false; signs = []; doubled = false; beginning = neg_infinity;
     initializing = neg_infinity; first_executing = infinity; last_executing = neg_infinity; told = false }
 
 let nothing = request ~plan:"" ~number:(-1) ~after:infinity ~busy:false
@@ -24,13 +24,13 @@ let nothing = request ~plan:"" ~number:(-1) ~after:infinity ~busy:false
 (* {1 Signs} *)
 
 (* A vehicle that says more different things at each start need not be believed in all of them. *)
-let most_words = 16
+let most_signs = 16
 
-let once ~sent word x =
-  match List.assoc_opt word x.words with
+let once ~sent sign x =
+  match List.assoc_opt sign x.signs with
   | Some at when at <> sent -> { x with doubled = true }
   | Some _ -> x
-  | None -> if List.length x.words < most_words then { x with words = (word, sent) :: x.words } else x
+  | None -> if List.length x.signs < most_signs then { x with signs = (sign, sent) :: x.signs } else x
 
 let begins ~sent x = { x with beginning = Float.max sent x.beginning }
 
@@ -78,11 +78,11 @@ let log ~sent (entry : Message.Log_book_entry.t) x =
     once ~sent text x
   else x
 
-(* {1 Verdict} *)
+(* {1 Detection} *)
 
 (* What another plan's request makes a vehicle say looks the same at first: until it executes this one again. *)
 let resumed x = x.first_executing < x.initializing && x.initializing < x.last_executing
 
-let twice x =
+let detected x =
   if x.told || not (x.begun && (x.doubled || x.beginning > x.first_executing || resumed x)) then None
   else Some ({ x with told = true }, x.plan)

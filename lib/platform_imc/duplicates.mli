@@ -1,25 +1,24 @@
 (** Whether a vehicle took one request to start a plan more than once, by its own words.
 
-    A network may double a request on its way, and a vehicle begins the plan anew with each copy that arrives. Nothing
-    that a vehicle repeats tells of it; but each time that it takes a request it says so several times, each with a time
-    stamp of its own, and it is enough to hear one of these words twice, or one of the beginning after one that the plan
-    executes. Stamps tell the words themselves from copies of them that the network made. The words are measured with
-    DUNE 2026.01: replies, PlanControlState, and the entries of its log book. *)
+    A network may duplicate a request on its way, and the vehicle begins the plan anew with each copy that arrives. What
+    the vehicle repeats tells nothing of that. But each time that it takes a request it says so in several ways, each
+    with a time stamp of its own: it is enough to hear one of these signs twice, or a sign of the beginning after one
+    that the plan executes. By their stamps the signs themselves are told from copies of them that the network made.
+    They are measured with DUNE 2026.01: replies, PlanControlState, and the entries of its log book. *)
 
 open Dolphin_imc
 
 type t
 
 val nothing : t
-(** No request was sent: nothing is heard. *)
+(** No request was sent. *)
 
 val request : plan:string -> number:int -> after:float -> busy:bool -> t
 (** [request ~plan ~number ~after ~busy] is what is known of the request [number] to start [plan] when it is sent. What
-    the vehicle had said by [after], by its clock, is of before. [busy]: it was at that plan already, so that it proves
-    nothing that it executes it. *)
+    the vehicle sent until [after], by its clock (s), does not count. [busy]: it was at that plan already, so that
+    EXECUTING proves nothing. *)
 
-(** {1:words What the vehicle says} Sent at [sent] by its clock, as {!Vehicle_clock.observe} returns it; in any
-    order. *)
+(** {1:signs Signs} Sent at [sent] by the vehicle's clock, as {!Vehicle_clock.observe} returns it; in any order. *)
 
 val reply : sent:float -> Message.t Message.Plan_control.t -> t -> t
 (** A reply to a request of ours. *)
@@ -30,8 +29,8 @@ val state : sent:float -> Message.Plan_control_state.t -> t -> t
 val log : sent:float -> Message.Log_book_entry.t -> t -> t
 (** An entry of its log book. *)
 
-(** {1:verdict Verdict} *)
+(** {1:detection Detection} *)
 
-val twice : t -> (t * string) option
-(** [twice x] is [Some (x', plan)] once what was heard proves that [plan] was begun more than once for one request, or
-    for another console's besides; [x'] does not tell it again. *)
+val detected : t -> (t * string) option
+(** [detected x] is [Some (x', plan)] once the signs prove that [plan] was begun more than once for one request, or for
+    another console's besides; [x'] does not tell it again. *)

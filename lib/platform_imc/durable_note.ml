@@ -4,10 +4,10 @@ type t =
   | Runs of { request : int }
   | Over of { request : int }
 
-let is_urgent = function Asked _ -> true | Taken _ | Runs _ | Over _ -> false
+let is_write_ahead = function Asked _ -> true | Taken _ | Runs _ | Over _ -> false
 
-let to_json m : Yojson.Safe.t =
-  match m with
+let to_json n : Yojson.Safe.t =
+  match n with
   | Asked { plan; request; before } ->
     let before =
       match before with
@@ -48,4 +48,4 @@ let add ~plan known = function
   | Runs { request } -> Option.map (fun k -> if k.request = request then { k with runs = true } else k) known
   | Over { request } -> Option.map (fun k -> if k.request = request then { k with over = true } else k) known
 
-let knowledge ~plan memos = List.fold_left (add ~plan) None (List.rev memos)
+let knowledge ~plan notes = List.fold_left (add ~plan) None (List.rev notes)

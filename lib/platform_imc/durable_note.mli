@@ -1,24 +1,24 @@
 (** What is known of a plan's execution that the vehicle itself does not tell, and that a console which takes over from
-    one that died has to know: what journals keep of {!Execution}. *)
+    one that died has to know: the notes of {!Execution} that journals keep. *)
 
 type t =
   | Asked of { plan : string; request : int; before : (string * bool) option }
   (** A request to start [plan] is about to be sent. [before]: the plan that the vehicle named last, and whether it was
       busy with it; [None] if it had named none. *)
   | Taken of { request : int }  (** The vehicle answered that it takes the plan. *)
-  | Runs of { request : int }  (** It was seen to execute it. *)
-  | Over of { request : int }  (** It was stopped, and confirmed that. *)
+  | Runs of { request : int }  (** The vehicle was seen to execute it. *)
+  | Over of { request : int }  (** It was stopped, and the vehicle confirmed that. *)
 
-val is_urgent : t -> bool
-(** Whether something is sent next that must not be forgotten: of [Asked]. *)
+val is_write_ahead : t -> bool
+(** Whether the note must be durable before what follows is sent: of [Asked]. *)
 
 val to_json : t -> Yojson.Safe.t
 (** An object, as journals keep it. *)
 
 val of_json : Yojson.Safe.t -> t option
-(** [of_json (to_json m)] is [Some m]; [None] for what is no memo. *)
+(** [of_json (to_json n)] is [Some n]; [None] for what is no such note. *)
 
-(** What memos come to. *)
+(** What the notes on one request say together. *)
 type knowledge = {
   request : int;
   before : (string * bool) option;
@@ -28,5 +28,5 @@ type knowledge = {
 }
 
 val knowledge : plan:string -> t list -> knowledge option
-(** [knowledge ~plan memos] is what [memos], latest first, say of the latest request for [plan]; [None]: none was ever
+(** [knowledge ~plan notes] is what [notes], latest first, say of the latest request for [plan]; [None]: none was ever
     sent. *)

@@ -1,44 +1,145 @@
 open Dolphin_imc
-open Phase
 module Control = Message.Plan_control
 module Control_state = Message.Plan_control_state
 
-type order = Phase.order
-type t = Phase.t
+type order = Attempt.order = { plan : string; specification : Message.t Message.Plan_specification.t option }
 
 type input =
   | Start of order
   | Stop
-  | Reply of { sent : float; reply : Message.t Message.Plan_control.t }
-  | State of { sent : float; state : Message.Plan_control_state.t }
+  | Reply of { sent : float; reply : Message.t Control.t }
+  | State of { sent : float; state : Control_state.t }
   | Vehicle of { sent : float; state : Message.Vehicle_state.t }
   | Log of { sent : float; entry : Message.Log_book_entry.t }
   | Abort of string
   | Lost of string
-  | Adopt of { order : order; stopped : bool; memos : Durable_note.t list }
+  | Adopt of { order : order; stopped : bool; notes : Durable_note.t list }
   | Leaves of float
   | Tick
 
-type output = Phase.output
+type output = Keep of Durable_note.t | Send of Message.t | Done | Failed of string | Remark of string
 
 let most_copies = 10
 let most_copies_while_blocked = 3
-let patience = 1.
-let grace = Phase.grace
-let stop_interval = Phase.stop_interval
-let stop_patience = Phase.stop_patience
-let create = Phase.create
-let due = Phase.due
-let idle = Phase.idle
-let owes = Phase.owes
-let unsettled = Phase.unsettled
+let patience = Attempt.patience
+let grace = 1.
+let stop_interval = 0.5
+let stop_patience = 60.
 
-(* {1 What the vehicle's state means} *)
+(* For so long after it was sent last, a datagram of ours may arrive after all. *)
+let late_copies = 10.
 
-let ended_badly = "the plan ended without success, and the vehicle gave no reason"
-let refused = "the plan was refused, and the vehicle gave no reason"
-let blocked = "the vehicle is blocked: it cannot run plans now"
-let forgotten = "the vehicle knows of no plan any more: it was restarted"
+(* For so long a plan that we gave up is stopped when the vehicle is heard again. *)
+let given_up_watch = 600.
+
+type phase =
+  | Idle
+  | Starting of Attempt.t
+  | Running of { attempt : Attempt.t; since : float }
+  | Ending of { attempt : Attempt.t; since : float; why : string; deadline : float }
+  (* It failed; the vehicle's words are awaited. *)
+  | Stopping of {
+      attempt : Attempt.t;
+      took_effect : bool;  (* the plan was seen to be taken *)
+      stop : int;
+      after : float;
+      first_sent : float;
+      last_sent : float;
+      next : order option;
+    }
+
+(* The attempt before, over since [ended] by the vehicle's clock. If the plan is seen to run again before
+   [watched_until], then because of a late copy of our request, or because it was given up. *)
+type former = {
+  attempt : Attempt.t;
+  ended : float;
+  watched_until : float;
+  given_up : bool;  (* it was not heard to be over: its link, or its stop's confirmation, was waited for in vain *)
+}
+
+type t = {
+  next_request : int;
+  latest : Plan_report.t option;
+  error : (float * string) option;  (* the last error that the vehicle reported, and when *)
+  abort : string option;
+  last_stop : int option;
+  stop_echo : float;  (* when the vehicle last answered a stop of ours *)
+  former : former option;
+  duplicates : Duplicates.t;  (* of the last request *)
+  phase : phase;
+}
+
+let create ~request =
+  { next_request = request land 0xFFFF; latest = None; error = None; abort = None; last_stop = None;
+    stop_echo = neg_infinity; former = None; duplicates = Duplicates.nothing; phase = Idle }
+
+(* The request that is not over yet, and how far it has come. *)
+let attempt x : (Attempt.t * Attempt.stage) option =
+  match x.phase with
+  | Idle -> None
+  | Starting attempt -> Some (attempt, Starting)
+  | Running { attempt; _ } | Ending { attempt; _ } -> Some (attempt, Running)
+  | Stopping { attempt; _ } -> Some (attempt, Stopping)
+
+(* {1 From phase to phase} *)
+
+let number x = (x.next_request, { x with next_request = (x.next_request + 1) land 0xFFFF })
+
+let begin_attempt ~now ~clock (order : order) x =
+  let request, x = number x in
+  let attempt = Attempt.make ~now ~clock ~request ~before:x.latest order in
+  let duplicates =
+    Duplicates.request ~plan:order.plan ~number:request ~after:attempt.after
+      ~busy:(Attempt.was_busy_with order.plan attempt)
+  in
+  ({ x with phase = Starting attempt; abort = None; duplicates }, [ Send (Attempt.start attempt) ])
+
+let send_again ~now ~clock attempt x =
+  let attempt = Attempt.send_again ~now ~clock attempt in
+  ({ x with phase = Starting attempt }, [ Send (Attempt.start attempt) ])
+
+let begin_stop ~now ~clock ~took_effect ?next attempt x =
+  let stop, x = number x in
+  let after = Vehicle_clock.latest clock in
+  let phase = Stopping { attempt; took_effect; stop; after; first_sent = now; last_sent = now; next } in
+  ({ x with phase; last_stop = Some stop }, [ Send (Attempt.stop ~request:stop attempt) ])
+
+(* The attempt is over. The vehicle is watched for late copies of the request, or [watch] from now. *)
+let close ?(watch = late_copies) ~now ~ended (attempt : Attempt.t) x =
+  let given_up = watch > late_copies in
+  let from = if given_up then now else attempt.last_sent in
+  { x with phase = Idle; former = Some { attempt; ended; watched_until = from +. watch; given_up } }
+
+let fail ?watch ~now ~ended attempt why x = (close ?watch ~now ~ended attempt x, [ Failed why ])
+let succeed ~now ~ended attempt x = (close ~now ~ended attempt x, [ Done ])
+
+(* A stop of an earlier plan that arrived late ended this one. *)
+let hit_by_late_stop x ~since = x.stop_echo > since
+let late_stop = "a stop of the plan before arrived late"
+
+let start_again ~now ~clock (a : Attempt.t) why x =
+  let x, outputs = begin_attempt ~now ~clock a.order x in
+  (x, Remark (Printf.sprintf "%s; plan %s is started again" why a.order.plan) :: outputs)
+
+let await_words ~now ~clock attempt ~since why x =
+  if hit_by_late_stop x ~since then start_again ~now ~clock attempt late_stop x
+  else ({ x with phase = Ending { attempt; since; why; deadline = now +. grace } }, [])
+
+(* The vehicle executes, or has executed, plan [other]. *)
+let replaced ~now ~clock ~ended attempt other x =
+  match x.former with
+  | Some f when f.attempt.order.plan = other && now < f.watched_until ->
+    start_again ~now ~clock attempt (Printf.sprintf "the request for plan %s arrived late" other) x
+  | Some _ | None -> fail ~now ~ended attempt (Printf.sprintf "replaced by plan %s" other) x
+
+(* Why it failed, in the vehicle's words if there are any. *)
+let words x ~since ~why =
+  match x.error, x.abort with
+  | Some (at, error), _ when at > since -> error
+  | (Some _ | None), Some by -> Printf.sprintf "aborted by %s" by
+  | (Some _ | None), None -> why
+
+(* {1 What the vehicle's report means} *)
 
 let unknown plan =
   Printf.sprintf
@@ -47,68 +148,41 @@ let unknown plan =
     plan
 
 (* The request seems to be without effect: if that is sure, it is sent again. *)
-let look ~now ~clock (a : attempt) (s : sighting) x =
-  if a.accepted <> None || now < a.last_sent +. patience || s.sent < a.asked +. patience then (x, [])
+let look ~now ~clock (a : Attempt.t) (r : Plan_report.t) x =
+  if a.accepted <> None || not (Attempt.is_past ~now r a) then (x, [])
   else
-    let is_blocked = s.state.state = Blocked in
-    (* It may be that the plan ran and was over between two states, all signs of it being lost. *)
-    let doubtful = is a.order.plan s in
+    let is_blocked = r.state.state = Blocked in
+    (* It may be that the plan ran and was over between two reports, all signs of it being lost. *)
+    let doubtful = Plan_report.names a.order.plan r in
     if a.copies >= most_copies || (is_blocked && a.copies >= most_copies_while_blocked) then
       let why =
-        if is_blocked then words x ~since:a.after ~why:blocked
+        if is_blocked then words x ~since:a.after ~why:Verdict.blocked
         else Printf.sprintf "no answer to %d requests to start the plan" a.copies
       in
-      fail ~now ~ended:s.sent a why x
-    else if a.adopted && doubtful then fail ~now ~ended:s.sent a (unknown a.order.plan) x
+      fail ~now ~ended:r.sent a why x
+    else if a.adopted && doubtful then fail ~now ~ended:r.sent a (unknown a.order.plan) x
     else
-      let x, outputs = resend ~now ~clock a x in
-      let note = Printf.sprintf "plan %s is requested again; it cannot be excluded that it has run" a.order.plan in
-      (x, if doubtful then Note note :: outputs else outputs)
+      let x, outputs = send_again ~now ~clock a x in
+      let remark = Printf.sprintf "plan %s is requested again; it cannot be excluded that it has run" a.order.plan in
+      (x, if doubtful then Remark remark :: outputs else outputs)
 
-let accepted_before (a : attempt) (s : sighting) =
-  match a.accepted with
-  | Some at -> s.sent > at
-  | None -> false
+(* What follows from [verdict] on the report [r]; the plan took effect at [since] at the earliest. *)
+let conclude ~now ~clock ~since (a : Attempt.t) (r : Plan_report.t) (verdict : Verdict.t) x =
+  match verdict with
+  | Nothing_new -> (x, [])
+  | Initialises -> ({ x with phase = Starting { a with initialised = true } }, [])
+  | No_sign -> look ~now ~clock a r x
+  | Runs -> ({ x with phase = Running { attempt = a; since = r.sent } }, [])
+  | Succeeded -> succeed ~now ~ended:r.sent a x
+  | Ended why -> await_words ~now ~clock a ~since why x
+  | Replaced other -> replaced ~now ~clock ~ended:r.sent a other x
 
-(* [s] is the last that the vehicle said. *)
-let judge_start ~now ~clock (a : attempt) (s : sighting) x =
-  let own = is a.order.plan s and accepted = accepted_before a s in
-  let was_busy_with plan = match a.before with Some b -> busy b && is plan b | None -> false in
-  if s.sent <= a.after then (x, [])
-  else
-    match s.state.state with
-    | Initializing -> ({ x with phase = Starting { a with initialised = true } }, [])
-    | Executing when own ->
-      if was_busy_with a.order.plan && not (accepted || a.initialised) then look ~now ~clock a s x
-      else ({ x with phase = Running { attempt = a; since = s.sent } }, [])
-    | Executing ->
-      let other = s.state.plan_id in
-      if (not accepted) && (a.before = None || was_busy_with other) then look ~now ~clock a s x
-      else replaced ~now ~clock ~ended:s.sent a other x
-    | Ready when own ->
-      (* Unless the plan that had its name there was ours, and over after that was said. *)
-      let over = match x.former with Some f when f.attempt.order.plan = a.order.plan -> f.ended | _ -> neg_infinity in
-      let had_another = match a.before with Some b -> b.sent > over && not (is a.order.plan b) | None -> false in
-      if not (accepted || a.initialised || had_another) then look ~now ~clock a s x
-      else if succeeded s then succeed ~now ~ended:s.sent a x
-      else expect_words ~now ~clock a ~since:(effect_of a) (if accepted then ended_badly else refused) x
-    | Ready when accepted || (a.initialised && failed s) -> expect_words ~now ~clock a ~since:(effect_of a) refused x
-    | Blocked when accepted -> expect_words ~now ~clock a ~since:(effect_of a) blocked x
-    | Ready | Blocked -> look ~now ~clock a s x
-    | Other _ -> (x, [])
-
-let judge_run ~now ~clock (a : attempt) ~since (s : sighting) x =
-  let own = is a.order.plan s in
-  if s.sent <= since then (x, [])
-  else
-    match s.state.state with
-    | Executing when own -> (x, [])
-    | Ready when own ->
-      if succeeded s then succeed ~now ~ended:s.sent a x else expect_words ~now ~clock a ~since ended_badly x
-    | Ready when s.state.plan_id = "" -> expect_words ~now ~clock a ~since forgotten x
-    | Executing | Ready -> replaced ~now ~clock ~ended:s.sent a s.state.plan_id x
-    | Blocked -> expect_words ~now ~clock a ~since blocked x
-    | Initializing | Other _ -> (x, [])
+(* [r] is the latest report. *)
+let judge_start ~now ~clock (a : Attempt.t) r x =
+  let former_ended =
+    match x.former with Some f when f.attempt.order.plan = a.order.plan -> f.ended | Some _ | None -> neg_infinity
+  in
+  conclude ~now ~clock ~since:(Attempt.effect_time a) a r (Verdict.of_start ~former_ended a r) x
 
 let stopped ~now ~clock ~ended attempt next x =
   let x = close ~now ~ended attempt x in
@@ -116,38 +190,43 @@ let stopped ~now ~clock ~ended attempt next x =
   | Some order -> begin_attempt ~now ~clock order x
   | None -> (x, [])
 
-(* Whether [s] shows that the plan of [a] does not run and, if the request may still be on its way, will not. *)
-let confirms_stop ~now (a : attempt) ~took_effect ~after (s : sighting) =
+(* Whether [r] shows that the plan of [a] does not run and, if the request may still be on its way, will not. *)
+let confirms_stop ~now (a : Attempt.t) ~took_effect ~after (r : Plan_report.t) =
   let over =
-    match s.state.state with
+    match r.state.state with
     | Ready | Blocked -> true
-    | Executing -> not (is a.order.plan s)
+    | Executing -> not (Plan_report.names a.order.plan r)
     | Initializing | Other _ -> false
   in
-  over && s.sent > after
-  && (took_effect || (now >= a.last_sent +. patience && s.sent >= a.asked +. patience))
+  over && r.sent > after && (took_effect || Attempt.is_past ~now r a)
 
-let judge ~now ~clock (s : sighting) x =
+(* A plan that is over runs again. *)
+let judge_idle ~now ~clock (r : Plan_report.t) x =
+  match x.former with
+  | Some f
+    when r.state.state = Executing
+      && Plan_report.names f.attempt.order.plan r
+      && r.sent > f.ended && now < f.watched_until ->
+    let x, outputs = begin_stop ~now ~clock ~took_effect:true f.attempt x in
+    (x, Remark (Printf.sprintf "plan %s runs though it was over; it is stopped" f.attempt.order.plan) :: outputs)
+  | Some _ | None -> (x, [])
+
+let judge ~now ~clock (r : Plan_report.t) x =
   match x.phase with
-  | Idle -> (
-      match x.former with
-      | Some f
-        when s.state.state = Executing && is f.attempt.order.plan s && s.sent > f.ended && now < f.watched_until ->
-        let x, outputs = begin_stop ~now ~clock ~took_effect:true f.attempt x in
-        (x, Note (Printf.sprintf "plan %s runs though it was over; it is stopped" f.attempt.order.plan) :: outputs)
-      | Some _ | None -> (x, []))
-  | Starting a -> judge_start ~now ~clock a s x
-  | Running { attempt; since } -> judge_run ~now ~clock attempt ~since s x
+  | Idle -> judge_idle ~now ~clock r x
+  | Starting a -> judge_start ~now ~clock a r x
+  | Running { attempt; since } -> conclude ~now ~clock ~since attempt r (Verdict.of_run ~since attempt r) x
   | Ending _ -> (x, [])
   | Stopping p ->
-    let took_effect = p.took_effect || (is p.attempt.order.plan s && s.state.state = Executing && s.sent > p.after) in
-    if confirms_stop ~now p.attempt ~took_effect ~after:p.after s then
-      stopped ~now ~clock ~ended:s.sent p.attempt p.next x
+    let runs = Plan_report.names p.attempt.order.plan r && r.state.state = Executing && r.sent > p.after in
+    let took_effect = p.took_effect || runs in
+    if confirms_stop ~now p.attempt ~took_effect ~after:p.after r then
+      stopped ~now ~clock ~ended:r.sent p.attempt p.next x
     else ({ x with phase = Stopping { p with took_effect } }, [])
 
 (* {1 Inputs} *)
 
-let in_words info = if String.trim info = "" then refused else info
+let in_words info = if String.trim info = "" then Verdict.refused else info
 
 let start_reply ~now ~clock ~sent (reply : Message.t Control.t) x =
   match x.phase, reply.type_ with
@@ -155,7 +234,7 @@ let start_reply ~now ~clock ~sent (reply : Message.t Control.t) x =
     let accepted = Option.fold a.accepted ~none:sent ~some:(Float.min sent) in
     let a = { a with accepted = Some accepted } in
     let x = { x with phase = Starting a } in
-    (match x.seen with Some s -> judge_start ~now ~clock a s x | None -> (x, []))
+    (match x.latest with Some r -> judge_start ~now ~clock a r x | None -> (x, []))
   | Starting a, Failure when reply.request_id = a.request ->
     (* Unless a copy of the request was refused before another was accepted. *)
     if Option.fold a.accepted ~none:true ~some:(fun at -> sent >= at) then
@@ -170,12 +249,10 @@ let start_reply ~now ~clock ~sent (reply : Message.t Control.t) x =
   | (Idle | Starting _ | Running _ | Ending _ | Stopping _), (Request | Success | Failure | In_progress | Other _) ->
     (x, [])
 
-(* The request that is to be undone by a stop may come after it. *)
-let may_arrive ~now (a : attempt) ~took_effect = (not took_effect) && now < a.last_sent +. patience
-
 let stop_reply ~now ~clock ~sent (reply : Message.t Control.t) x =
   match x.phase with
-  | Stopping s when reply.request_id = s.stop && not (may_arrive ~now s.attempt ~took_effect:s.took_effect) ->
+  (* The request that is to be undone by a stop may come after it. *)
+  | Stopping s when reply.request_id = s.stop && (s.took_effect || not (Attempt.may_arrive ~now s.attempt)) ->
     stopped ~now ~clock ~ended:sent s.attempt s.next x
   | Idle | Starting _ | Running _ | Ending _ | Stopping _ -> (
       if x.last_stop <> Some reply.request_id then (x, [])
@@ -192,11 +269,11 @@ let reply ~now ~clock ~sent (r : Message.t Control.t) x =
   | Stop, (Request | In_progress | Other _) | (Load | Get | Other _), _ -> (x, [])
 
 let state ~now ~clock sent state x =
-  match x.seen with
-  | Some s when sent <= s.sent -> (x, [])
+  match x.latest with
+  | Some r when sent <= r.sent -> (x, [])
   | Some _ | None ->
-    let s = { sent; state } in
-    judge ~now ~clock s { x with seen = Some s }
+    let r = { Plan_report.sent; state } in
+    judge ~now ~clock r { x with latest = Some r }
 
 let vehicle ~sent (state : Message.Vehicle_state.t) x =
   let newer = match x.error with Some (at, _) -> sent > at | None -> true in
@@ -205,12 +282,9 @@ let vehicle ~sent (state : Message.Vehicle_state.t) x =
   else (x, [])
 
 let leaves ~at ~clock x =
-  let postpone (a : attempt) =
-    { a with last_sent = at; asked = (if at = infinity then infinity else Vehicle_clock.estimate ~now:at clock) }
-  in
   match x.phase with
-  | Starting a -> { x with phase = Starting (postpone a) }
-  | Stopping s -> { x with phase = Stopping { s with attempt = postpone s.attempt } }
+  | Starting a -> { x with phase = Starting (Attempt.leaves ~at ~clock a) }
+  | Stopping s -> { x with phase = Stopping { s with attempt = Attempt.leaves ~at ~clock s.attempt } }
   | Idle | Running _ | Ending _ -> x
 
 let stop ~now ~clock x =
@@ -230,103 +304,60 @@ let lost ~now ~clock why x =
   match x.phase with
   | Idle | Stopping { next = None; _ } -> (x, [])
   | Starting attempt | Running { attempt; _ } | Ending { attempt; _ } ->
-    fail ~watch:remembrance ~now ~ended:(Vehicle_clock.latest clock) attempt why x
+    fail ~watch:given_up_watch ~now ~ended:(Vehicle_clock.latest clock) attempt why x
   | Stopping s -> ({ x with phase = Stopping { s with next = None } }, [ Failed why ])
-
-(* {1 What a console before this one has begun} *)
-
-(* A sighting of which no more is kept than what was judged by it. *)
-let remembered (plan_id, busy) =
-  let state : Control_state.State.t = if busy then Executing else Ready in
-  { sent = 0.; state = { Control_state.default with state; plan_id } }
-
-(* Whatever the vehicle says now, it says after all that the other console did. *)
-let adopted_attempt ~now ~clock order (k : Durable_note.knowledge) =
-  { order; request = k.request; copies = 1; last_sent = now;
-    asked = Vehicle_clock.estimate ~now clock;
-    before = Option.map remembered k.before;
-    after = neg_infinity;
-    accepted = (if k.taken || k.runs then Some neg_infinity else None);
-    adopted = true; initialised = false }
-
-let is_at_work plan (s : sighting) = busy s && is plan s
-
-let adopt ~now ~clock (order : order) ~stopped memos x =
-  match Durable_note.knowledge ~plan:order.plan memos, x.seen with
-  | None, _ -> if stopped then (x, []) else begin_attempt ~now ~clock order x
-  | Some { over = true; _ }, _ when stopped -> (x, [])
-  | Some k, Some s when stopped ->
-    let attempt = adopted_attempt ~now ~clock order k in
-    if is_at_work order.plan s then begin_stop ~now ~clock ~took_effect:true attempt x
-    else (close ~now ~ended:s.sent attempt x, [ Keep (Over { request = k.request }) ])
-  | Some k, seen ->
-    let attempt = adopted_attempt ~now ~clock order k in
-    let phase = if k.runs then Running { attempt; since = neg_infinity } else Starting attempt in
-    let x = { x with phase; abort = None; next_request = (k.request + 1) land 0xFFFF } in
-    (match seen with Some s -> judge ~now ~clock s x | None -> (x, []))
-
-(* What is to be kept of a step from [x] to [y]. A request is kept before it is sent. *)
-let memos x y =
-  let attempt z : (attempt * [ `Starting | `Running | `Stopping ]) option =
-    match z.phase with
-    | Idle -> None
-    | Starting attempt -> Some (attempt, `Starting)
-    | Running { attempt; _ } | Ending { attempt; _ } -> Some (attempt, `Running)
-    | Stopping { attempt; _ } -> Some (attempt, `Stopping)
-  in
-  let is_other (a : attempt) = function Some ((b : attempt), _) -> a.request <> b.request | None -> true in
-  let asked (a : attempt) : Durable_note.t =
-    Asked
-      { plan = a.order.plan; request = a.request;
-        before = Option.map (fun (s : sighting) -> (s.state.plan_id, busy s)) a.before }
-  in
-  let over : Durable_note.t list =
-    match attempt x, attempt y with
-    | Some (a, `Stopping), after when is_other a after -> [ Over { request = a.request } ]
-    | _, _ -> []
-  in
-  let rest : Durable_note.t list =
-    match attempt x, attempt y with
-    | before, Some (a, _) when is_other a before && not a.adopted -> [ asked a ]
-    | Some (b, `Starting), Some (a, `Starting) when b.accepted = None && a.accepted <> None ->
-      [ Taken { request = a.request } ]
-    | (None | Some (_, `Starting)), Some (a, `Running) -> [ Runs { request = a.request } ]
-    | (Some _ | None), (Some _ | None) -> []
-  in
-  List.map (fun m -> Keep m) (over @ rest)
 
 let tick ~now ~clock x =
   match x.phase with
   | Ending e when now >= e.deadline ->
     fail ~now ~ended:(Vehicle_clock.latest clock) e.attempt (words x ~since:e.since ~why:e.why) x
   | Stopping s when now >= s.first_sent +. stop_patience ->
-    let x = close ~watch:remembrance ~now ~ended:(Vehicle_clock.latest clock) s.attempt x in
-    let note = Note (Printf.sprintf "the stop of plan %s was not confirmed" s.attempt.order.plan) in
+    let x = close ~watch:given_up_watch ~now ~ended:(Vehicle_clock.latest clock) s.attempt x in
+    let remark = Remark (Printf.sprintf "the stop of plan %s was not confirmed" s.attempt.order.plan) in
     (match s.next with
      | Some order ->
        let x, outputs = begin_attempt ~now ~clock order x in
-       (x, note :: outputs)
-     | None -> (x, [ note ]))
+       (x, remark :: outputs)
+     | None -> (x, [ remark ]))
   | Stopping s when now >= s.last_sent +. stop_interval ->
-    ({ x with phase = Stopping { s with last_sent = now } }, [ request Stop s.stop s.attempt.order None ])
+    ({ x with phase = Stopping { s with last_sent = now } }, [ Send (Attempt.stop ~request:s.stop s.attempt) ])
   | Idle | Starting _ | Running _ | Ending _ | Stopping _ -> (x, [])
 
-(* What the vehicle says is a sign of how often it took the request, whatever else it means. *)
-let count input x =
-  let takes =
-    match input with
-    | Reply { sent; reply } -> Duplicates.reply ~sent reply x.takes
-    | State { sent; state } -> Duplicates.state ~sent state x.takes
-    | Log { sent; entry } -> Duplicates.log ~sent entry x.takes
-    | Start _ | Stop | Vehicle _ | Abort _ | Lost _ | Adopt _ | Leaves _ | Tick -> x.takes
-  in
-  match Duplicates.twice takes with
-  | None -> ({ x with takes }, [])
-  | Some (takes, plan) ->
-    let why = "the request for it came twice, or another console made one" in
-    ({ x with takes }, [ Note (Printf.sprintf "plan %s begins anew: %s" plan why) ])
+(* {1 What a console before this one has begun} *)
 
-let obey ~now ~clock input x =
+let adopt ~now ~clock (order : order) ~stopped notes x =
+  let is_at_work (r : Plan_report.t) = Plan_report.is_busy r && Plan_report.names order.plan r in
+  match Durable_note.knowledge ~plan:order.plan notes, x.latest with
+  | None, _ -> if stopped then (x, []) else begin_attempt ~now ~clock order x
+  | Some { over = true; _ }, _ when stopped -> (x, [])
+  | Some k, Some r when stopped ->
+    let attempt = Attempt.adopted ~now ~clock order k in
+    if is_at_work r then begin_stop ~now ~clock ~took_effect:true attempt x
+    else (close ~now ~ended:r.sent attempt x, [ Keep (Over { request = k.request }) ])
+  | Some k, latest ->
+    let attempt = Attempt.adopted ~now ~clock order k in
+    let phase = if k.runs then Running { attempt; since = neg_infinity } else Starting attempt in
+    let x = { x with phase; abort = None; next_request = (k.request + 1) land 0xFFFF } in
+    (match latest with Some r -> judge ~now ~clock r x | None -> (x, []))
+
+(* {1 Steps} *)
+
+(* What the vehicle says is a sign of how often it took the request, whatever else it means. *)
+let detect_duplicates input x =
+  let duplicates =
+    match input with
+    | Reply { sent; reply } -> Duplicates.reply ~sent reply x.duplicates
+    | State { sent; state } -> Duplicates.state ~sent state x.duplicates
+    | Log { sent; entry } -> Duplicates.log ~sent entry x.duplicates
+    | Start _ | Stop | Vehicle _ | Abort _ | Lost _ | Adopt _ | Leaves _ | Tick -> x.duplicates
+  in
+  match Duplicates.detected duplicates with
+  | None -> ({ x with duplicates }, [])
+  | Some (duplicates, plan) ->
+    let why = "the request for it came twice, or another console made one" in
+    ({ x with duplicates }, [ Remark (Printf.sprintf "plan %s begins anew: %s" plan why) ])
+
+let handle ~now ~clock input x =
   match input with
   | Start order -> start ~now ~clock order x
   | Stop -> stop ~now ~clock x
@@ -336,45 +367,66 @@ let obey ~now ~clock input x =
   | Log _ -> (x, [])
   | Abort by -> ({ x with abort = Some by }, [])
   | Lost why -> lost ~now ~clock why x
-  | Adopt { order; stopped; memos } -> adopt ~now ~clock order ~stopped memos x
+  | Adopt { order; stopped; notes } -> adopt ~now ~clock order ~stopped notes x
   | Leaves at -> (leaves ~at ~clock x, [])
   | Tick -> tick ~now ~clock x
 
 let step ~now ~clock input x =
-  let x, notes = count input x in
-  let y, outputs = obey ~now ~clock input x in
-  (y, notes @ memos x y @ outputs)
+  let x, remarks = detect_duplicates input x in
+  let y, outputs = handle ~now ~clock input x in
+  (* A request is kept before it is sent. *)
+  let notes = Attempt.notes ~before:(attempt x) ~after:(attempt y) in
+  (y, remarks @ List.map (fun note -> Keep note) notes @ outputs)
+
+(* {1 What stands} *)
+
+let due x =
+  match x.phase with
+  | Idle | Starting _ | Running _ -> infinity
+  | Ending e -> e.deadline
+  | Stopping s -> Float.min (s.last_sent +. stop_interval) (s.first_sent +. stop_patience)
+
+let idle x = match x.phase with Idle -> true | Starting _ | Running _ | Ending _ | Stopping _ -> false
+
+let owes x =
+  match x.phase with
+  | Starting _ | Running _ | Ending _ | Stopping { next = Some _; _ } -> true
+  | Idle | Stopping { next = None; _ } -> false
+
+let unsettled x =
+  let unheard_since time = match x.latest with Some r -> r.sent <= time | None -> true in
+  match x.phase, x.former with
+  | Stopping { attempt; next = None; _ }, _ -> Some attempt.order.plan
+  | Idle, Some { attempt; ended; given_up = true; _ } when unheard_since ended -> Some attempt.order.plan
+  | (Idle | Starting _ | Running _ | Ending _ | Stopping _), _ -> None
+
+let is_heard x = x.latest <> None
 
 (* {1 Displays} *)
 
-type stage = Starting | Running | Stopping
+type stage = Attempt.stage = Starting | Running | Stopping
 type progress = { plan : string; stage : stage; share : float option; remaining : float option }
 
 let progress x =
-  let plain (a : attempt) stage = Some { plan = a.order.plan; stage; share = None; remaining = None } in
-  match x.phase, x.seen with
-  | Idle, _ -> None
-  | Starting a, _ -> plain a Starting
-  | (Running { attempt; _ } | Ending { attempt; _ }), Some s
-    when s.state.state = Executing && is attempt.order.plan s ->
-    let share = s.state.plan_progress in
-    let known = share >= 0. && share <= 100. in
-    Some
-      { plan = attempt.order.plan; stage = Running;
+  let of_attempt ((a : Attempt.t), stage) =
+    match stage, x.latest with
+    | Running, Some r when r.state.state = Executing && Plan_report.names a.order.plan r ->
+      let share = r.state.plan_progress in
+      let known = share >= 0. && share <= 100. in
+      { plan = a.order.plan; stage;
         share = (if known then Some (share /. 100.) else None);
-        remaining = (if known && s.state.plan_eta >= 0 then Some (float_of_int s.state.plan_eta) else None) }
-  | (Running { attempt; _ } | Ending { attempt; _ }), _ -> plain attempt Running
-  | Stopping { attempt; _ }, _ -> plain attempt Stopping
+        remaining = (if known && r.state.plan_eta >= 0 then Some (float_of_int r.state.plan_eta) else None) }
+    | (Starting | Running | Stopping), _ -> { plan = a.order.plan; stage; share = None; remaining = None }
+  in
+  Option.map of_attempt (attempt x)
 
 let executing x =
-  match x.seen with
+  match x.latest with
   | Some { state = { state = Executing; plan_id; _ }; _ } -> Some plan_id
   | Some _ | None -> None
 
-let is_heard x = x.seen <> None
-
 let readiness x =
-  match x.seen with
+  match x.latest with
   | None | Some { state = { state = Initializing | Other _; _ }; _ } -> None
   | Some { sent; state = { state = Ready; _ } } -> Some (sent, true)
   | Some { sent; state = { state = Executing | Blocked; _ } } -> Some (sent, false)

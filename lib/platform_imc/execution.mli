@@ -18,7 +18,7 @@
       than SUCCESS; when the vehicle went from INITIALIZING to READY without taking the plan; when it is BLOCKED; when
       it executes another plan, or has executed one. Where the words are missing they are waited for, {!grace} long; an
       error that the vehicle reports stands in for them.
-    - A request whose memo the disk has not got yet waits ([Leaves]). Until it has left nothing follows from silence.
+    - A request waits until its note is durable ([Leaves]). Until it has left, nothing follows from silence.
     - A request is {e sent again} only after a look: no reply came within {!patience}, and a state that the vehicle sent
       so long after the request shows that it was without effect. After {!most_copies} the plan has failed.
     - A stop is sent again every {!stop_interval} until a reply or a later state confirms it; if it is not known whether
@@ -26,7 +26,7 @@
       start sent. After {!stop_patience} the stop is given up.
     - Late copies of our own datagrams are recognised by their replies: a stop that hits the next plan makes it start
       again; a start that comes after its plan was over is stopped; one that comes while the plan runs makes the vehicle
-      begin it anew, which nobody can prevent ({!Duplicates} finds out). All this is told as a [Note].
+      begin it anew, which nobody can prevent ({!Duplicates} finds out). All this is told as a [Remark].
 
     {1:adoption What another console began}
 
@@ -39,8 +39,11 @@ open Dolphin_imc
 
 type t
 
-type order = Phase.order
-(** A plan to run: see {!Phase.order}. *)
+(** A plan to run. *)
+type order = Attempt.order = {
+  plan : string;
+  specification : Message.t Message.Plan_specification.t option;  (** [None]: the vehicle knows the plan by name *)
+}
 
 (** Times [sent] are by the vehicle's clock as {!Vehicle_clock.observe} returns them. Only messages of this vehicle, and
     only replies to this console, are given. *)
@@ -53,15 +56,20 @@ type input =
   | Log of { sent : float; entry : Message.Log_book_entry.t }
   | Abort of string  (** The console of this name told the vehicle to abort. *)
   | Lost of string  (** The link is given up; why. *)
-  | Adopt of { order : order; stopped : bool; memos : Durable_note.t list  (** latest first *) }
-  (** A console before this one was told to start [order], and if [stopped] to stop it again, and then died; [memos] is
+  | Adopt of { order : order; stopped : bool; notes : Durable_note.t list  (** latest first *) }
+  (** A console before this one was told to start [order], and if [stopped] to stop it again, and then died; [notes] is
       what it kept since then. To be given to an execution that has nothing to do, once the vehicle {!is_heard}. *)
   | Leaves of float
   (** The last request to start leaves at that time, and not at once; [infinity]: nobody knows yet when. *)
   | Tick  (** Time has passed. *)
 
-type output = Phase.output
-(** What is to be sent, kept and told: see {!Phase.output}. *)
+(** What is to be sent, kept and told, in order. *)
+type output =
+  | Keep of Durable_note.t  (** In case that the console dies: before what follows is sent. *)
+  | Send of Message.t  (** To the vehicle. *)
+  | Done
+  | Failed of string  (** Why; without a full stop. *)
+  | Remark of string  (** For people: a request that may take effect twice, a stop given up. *)
 
 val create : request:int -> t
 (** Nothing to do; requests are numbered from [request], modulo 65536. *)
@@ -89,7 +97,7 @@ val is_heard : t -> bool
 
 (** {1:displays For displays} *)
 
-type stage = Starting | Running | Stopping
+type stage = Attempt.stage = Starting | Running | Stopping
 
 type progress = {
   plan : string;

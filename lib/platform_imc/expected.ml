@@ -1,71 +1,90 @@
 open Dolphin_semantics
-open Knowledge
+open Dolphin_runtime
+module Names = Map.Make (String)
 
-let expect name wish s = { s with expected = Names.add name wish s.expected }
+(* What a vehicle was asked for, and what was kept of that; no notes, if it was not asked yet. *)
+type request = { order : Execution.order; notes : Durable_note.t list }
 
-(* An order of the console that died, or one that came before the vehicle was heard. *)
+(* What is to be done with a vehicle when it is heard of. *)
+type intent =
+  | Nothing
+  | Run of { request : request; before : request option;  (* is to be halted first *) deadline : float }
+  | Halt of request
+
+type t = intent Names.t
+
+let none = Names.empty
+let mem = Names.mem
+
 let order_of (task : Core.platform_task) : Execution.order =
   { plan = task.name; specification = Option.map Plan_message.of_plan task.plan }
 
-let deadline ~now name s = now +. timeout_of name s
-
 (* What is known to be over, or was never asked for, need not be halted. *)
-let halt name begun s =
-  match Durable_note.knowledge ~plan:begun.order.plan begun.memos with
-  | None | Some { over = true; _ } -> expect name Nothing s
-  | Some _ -> expect name (Halt begun) s
+let halt v request x =
+  match Durable_note.knowledge ~plan:request.order.plan request.notes with
+  | None | Some { over = true; _ } -> Names.add v Nothing x
+  | Some _ -> Names.add v (Halt request) x
 
-let resume ~now (outstanding : Dolphin_runtime.History.outstanding) s =
-  let timeouts = List.fold_left (fun map (v, seconds) -> Names.add v seconds map) s.timeouts outstanding.timeouts in
-  let s = { s with timeouts; timeout = Option.value outstanding.timeout ~default:s.timeout } in
-  let s = List.fold_left (fun s v -> expect v Nothing { s with bound = Names.add v () s.bound }) s outstanding.bound in
-  let begun (errand : Dolphin_runtime.History.commanded) =
-    { order = order_of errand.task; memos = List.filter_map Durable_note.of_json errand.notes }
+let resume ~deadline (outstanding : History.outstanding) =
+  let request (c : History.commanded) =
+    { order = order_of c.task; notes = List.filter_map Durable_note.of_json c.notes }
   in
-  (* The end of the errand before may have been noted during this one. *)
-  let before (errand : Dolphin_runtime.History.commanded) =
+  (* The end of the request before may have been noted during this one. *)
+  let before (c : History.commanded) =
     let is_over = function Durable_note.Over _ -> true | Asked _ | Taken _ | Runs _ -> false in
-    let with_ends b = { b with memos = List.filter is_over (begun errand).memos @ b.memos } in
-    Option.map with_ends (Option.map begun errand.before)
+    let with_ends r = { r with notes = List.filter is_over (request c).notes @ r.notes } in
+    Option.map with_ends (Option.map request c.before)
   in
-  let wish (v, (errand : Dolphin_runtime.History.commanded)) s =
-    if errand.is_stopped then halt v (begun errand) s
-    else expect v (Run { begun = begun errand; before = before errand; deadline = deadline ~now v s }) s
+  let expect x (v, (c : History.commanded)) =
+    if c.is_stopped then halt v (request c) x
+    else Names.add v (Run { request = request c; before = before c; deadline = deadline v }) x
   in
-  let s = List.fold_left (fun s errand -> wish errand s) s outstanding.tasks in
-  { s with timers = Timers.of_list outstanding.timers }
+  let bound = List.fold_left (fun x v -> Names.add v Nothing x) none outstanding.bound in
+  List.fold_left expect bound outstanding.tasks
 
-let adopt ~now ~stopped { order; memos } = command ~now (Adopt { order; stopped; memos })
-
-(* What was wished of [n] is done once it has said what it runs. *)
-let receive ~now (n : Node.t) s =
-  match Names.find_opt n.name s.expected with
-  | Some wish when Execution.is_heard n.execution -> (
-      let s = { s with expected = Names.remove n.name s.expected } in
-      match wish with
-      | Nothing -> (s, [])
-      | Halt begun -> adopt ~now ~stopped:true begun n s
-      | Run { begun; before = Some before; _ } when begun.memos = [] ->
-        let s, sent = adopt ~now ~stopped:true before n s in
-        let s, more = command ~now (Start begun.order) (Nodes.find n.id s.nodes) s in
-        (s, sent @ more)
-      | Run { begun; _ } -> adopt ~now ~stopped:false begun n s)
-  | Some _ | None -> (s, [])
-
-let plural seconds = if seconds = 1. then "1 second" else Printf.sprintf "%.0f seconds" seconds
-
-let give_up ~now s =
-  let give_up_one name wish s =
-    match wish with
-    | Run { begun; deadline; _ } when deadline <= now ->
-      let why = Printf.sprintf "no word from the vehicle for %s" (plural (timeout_of name s)) in
-      halt name begun (push (Task_failed (name, why)) s)
-    | Run _ | Nothing | Halt _ -> s
+let start ~deadline v order x =
+  let before =
+    match Names.find_opt v x with
+    | None | Some Nothing -> None
+    | Some (Halt request) -> Some request
+    | Some (Run { request; before; _ }) -> if request.notes = [] then before else Some request
   in
-  Names.fold give_up_one s.expected s
+  Names.add v (Run { request = { order; notes = [] }; before; deadline }) x
 
-let due s =
-  let earlier _ wish time = match wish with Run { deadline; _ } -> Float.min deadline time | Nothing | Halt _ -> time in
-  Names.fold earlier s.expected infinity
+let stop v x =
+  match Names.find_opt v x with
+  | Some (Run { request = { notes = []; _ }; before = Some before; _ }) -> halt v before x
+  | Some (Run { request; _ }) -> halt v request x
+  | Some (Nothing | Halt _) | None -> x
 
-let owes_stop s = Names.exists (fun _ wish -> match wish with Halt _ -> true | Nothing | Run _ -> false) s.expected
+let stop_all x = Names.fold (fun v _ x -> stop v x) x x
+
+let heard v x =
+  let adopt ~stopped { order; notes } = Execution.Adopt { order; stopped; notes } in
+  let inputs : Execution.input list =
+    match Names.find_opt v x with
+    | None | Some Nothing -> []
+    | Some (Halt request) -> [ adopt ~stopped:true request ]
+    | Some (Run { request = { order; notes = [] }; before = Some before; _ }) ->
+      [ adopt ~stopped:true before; Start order ]
+    | Some (Run { request; _ }) -> [ adopt ~stopped:false request ]
+  in
+  (inputs, Names.remove v x)
+
+let give_up ~now x =
+  let is_late = function Run { deadline; _ } -> deadline <= now | Nothing | Halt _ -> false in
+  let late = Names.filter (fun _ intent -> is_late intent) x in
+  let halt_late v intent x = match intent with Run { request; _ } -> halt v request x | Nothing | Halt _ -> x in
+  (List.map fst (Names.bindings late), Names.fold halt_late late x)
+
+let due x =
+  let earlier _ intent time =
+    match intent with Run { deadline; _ } -> Float.min deadline time | Nothing | Halt _ -> time
+  in
+  Names.fold earlier x infinity
+
+let halts x =
+  let add v intent found =
+    match intent with Halt { order; _ } -> (v, order.plan) :: found | Nothing | Run _ -> found
+  in
+  Names.fold add x []

@@ -1,34 +1,40 @@
-(** Vehicles of a console that died and is taken over from, until they have said what they run. *)
+(** Vehicles of a console that died and is taken over from, until they have said what they run: what is to be done with
+    them then. *)
 
 open Dolphin_semantics
-open Knowledge
+open Dolphin_runtime
 
-val resume : now:float -> Dolphin_runtime.History.outstanding -> t -> t
-(** As {!Station.resume}. *)
+type t
+
+val none : t
+
+val resume : deadline:(Core.vehicle -> float) -> History.outstanding -> t
+(** [resume ~deadline outstanding] expects the vehicles that were bound, or commanded: what was asked of them is gone on
+    with, or halted if it was stopped. A task of a vehicle [v] that is not heard by [deadline v] (s) has failed. *)
+
+val mem : Core.vehicle -> t -> bool
+(** Whether the vehicle is expected. *)
 
 val order_of : Core.platform_task -> Execution.order
 (** The order that the task is to a vehicle: an inline plan goes along, others are known by name. *)
 
-val expect : Core.vehicle -> wish -> t -> t
-(** [expect v wish s]: [wish] is to be done with [v] when it has said what it runs. *)
+val start : deadline:float -> Core.vehicle -> Execution.order -> t -> t
+(** [start ~deadline v order x]: [v], which is expected or will be, is to run [order], once what it runs is stopped. *)
 
-val halt : Core.vehicle -> begun -> t -> t
-(** [halt v b s] expects [v] in order to halt [b], unless that is over, or was never asked for. *)
+val stop : Core.vehicle -> t -> t
+(** [stop v x]: what the vehicle was asked for is to be halted, unless that is over, or was never asked for. *)
 
-val deadline : now:float -> Core.vehicle -> t -> float
-(** When a vehicle that was not heard till then has failed its task. *)
+val stop_all : t -> t
+(** {!stop} of each vehicle that is expected. *)
 
-val receive : now:float -> Node.t -> t -> t * output list
-(** [receive ~now n s] does what was wished of [n] if it has said what it runs. *)
+val heard : Core.vehicle -> t -> Execution.input list * t
+(** [heard v x] is what the execution on [v] is to be given, in order, as [v] has said what it runs. *)
 
-val give_up : now:float -> t -> t
-(** Tasks of vehicles that were not heard in time have failed. *)
+val give_up : now:float -> t -> Core.vehicle list * t
+(** [give_up ~now x] is the vehicles that were not heard in time: their tasks have failed, and are to be halted. *)
 
 val due : t -> float
 (** When {!give_up} has something to do; [infinity] if never. *)
 
-val owes_stop : t -> bool
-(** Some vehicle is yet to be halted. *)
-
-val plural : float -> string
-(** ["1 second"], ["60 seconds"]. *)
+val halts : t -> (Core.vehicle * string) list
+(** The vehicles that are yet to be halted, with the plans. *)

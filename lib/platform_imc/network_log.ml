@@ -38,7 +38,7 @@ let stage : Execution.stage -> string = function
   | Running -> "running"
   | Stopping -> "stopping"
 
-let describe (s : Station.sight) =
+let describe (s : Station.system) =
   let execution = s.node.execution in
   let ours =
     match Execution.progress execution with
@@ -54,7 +54,7 @@ let describe (s : Station.sight) =
 
 let changed ~now before after =
   if is_on () then begin
-    let described station = List.map (fun (s : Station.sight) -> (s.node.name, describe s)) (Station.sights ~now station) in
+    let described station = List.map (fun (s : Station.system) -> (s.node.name, describe s)) (Station.systems ~now station) in
     let known = described before in
     let tell (name, text) =
       if List.assoc_opt name known <> Some text then Log.debug (fun m -> m "%.3f %s: %s" now name text)

@@ -1,10 +1,16 @@
+open Dolphin_semantics
 open Dolphin_runtime
+module Names = Map.Make (String)
+
+(* What the program was told of a vehicle, and when. *)
+type told = { state : World.vehicle_state; at : float }
 
 (* Few events ever wait: a list, first one first. *)
-type t = Platform.event list
+type t = { events : Platform.event list; last : told Names.t }
 
-let empty = []
-let is_empty b = b = []
+let telemetry_interval = 0.95
+let empty = { events = []; last = Names.empty }
+let is_empty b = b.events = []
 
 (* The ends of tasks keep their place behind the news that came before them. *)
 let add (event : Platform.event) b =
@@ -15,19 +21,35 @@ let add (event : Platform.event) b =
       | (Platform.Vehicle _ as other) :: rest -> other :: without rest
       | rest -> rest
     in
-    List.rev (Platform.Vehicle state :: without (List.rev b))
-  | Task_done _ | Task_failed _ | Timer _ | Quiet -> b @ [ event ]
+    { b with events = List.rev (event :: without (List.rev b.events)) }
+  | Task_done _ | Task_failed _ | Timer _ | Quiet -> { b with events = b.events @ [ event ] }
 
-let take = function
+let told v b = Option.map (fun t -> t.state) (Names.find_opt v b.last)
+
+let vehicle ~now ~urgent ~periodic (state : World.vehicle_state) b =
+  let is_news =
+    match Names.find_opt state.id b.last with
+    | None -> true
+    | Some { state = before; at } ->
+      before <> state
+      && (before.connected <> state.connected || before.kind <> state.kind || before.payload <> state.payload || urgent
+          || (periodic && now -. at >= telemetry_interval))
+  in
+  if is_news then add (Vehicle state) { b with last = Names.add state.id { state; at = now } b.last } else b
+
+let take b =
+  match b.events with
   | [] -> None
-  | event :: rest -> Some (event, rest)
+  | event :: events -> Some (event, { b with events })
+
+let keep p b = { b with events = List.filter p b.events }
 
 let without_task v =
-  List.filter (function
+  keep (function
       | Platform.Task_done w | Task_failed (w, _) -> w <> v
       | Vehicle _ | Timer _ | Quiet -> true)
 
 let without_timer timer =
-  List.filter (function
+  keep (function
       | Platform.Timer other -> other <> timer
       | Vehicle _ | Task_done _ | Task_failed _ | Quiet -> true)

@@ -1,4 +1,5 @@
-(** Events that wait to be handed out, first in first out. *)
+(** What the program is told: events that wait to be handed out, first in first out, and what was told of vehicles
+    last. *)
 
 open Dolphin_semantics
 open Dolphin_runtime
@@ -6,19 +7,27 @@ open Dolphin_runtime
 type t
 
 val empty : t
-(** Nothing waits. *)
+(** Nothing waits, nothing was told. *)
 
 val add : Platform.event -> t -> t
-(** [add e b] is [b] with [e] at the end. News of a vehicle takes the place of news of it that still waits at the end:
-    news do not pile up while nobody takes them. *)
+(** [add e b] is [b] with [e] at the end. News of a vehicle replaces news of it that still waits at the end: news do not
+    pile up while nobody takes them. *)
+
+val vehicle : now:float -> urgent:bool -> periodic:bool -> World.vehicle_state -> t -> t
+(** [vehicle ~now ~urgent ~periodic state b] tells [state] if it differs from what was told of the vehicle last: at once
+    if link, type or payload differ, or if [urgent]; positions and batteries, if [periodic], about once a second. *)
+
+val told : Core.vehicle -> t -> World.vehicle_state option
+(** What was told of the vehicle last. *)
 
 val take : t -> (Platform.event * t) option
 (** The first event, and the others. *)
 
 val is_empty : t -> bool
+(** Whether no event waits. *)
 
 val without_task : Core.vehicle -> t -> t
 (** [without_task v b] is [b] without the end of a task of [v]. *)
 
 val without_timer : Residual.timer -> t -> t
-(** Without the event that this timer rang. *)
+(** [without_timer t b] is [b] without the event that [t] expired. *)

@@ -1,30 +1,147 @@
 open Dolphin_semantics
+open Dolphin_runtime
 open Dolphin_imc
-open Knowledge
+module Names = Map.Make (String)
+module Name_set = Set.Make (String)
 
-type t = Knowledge.t
-type settings = Knowledge.settings
-type output = Knowledge.output
+type settings = {
+  id : int;
+  name : string;
+  addresses : Service.address list;
+  epoch : float;
+  first_request : int;
+  payload : (Core.vehicle * string list) list;
+  types : (Core.vehicle * string) list;
+  type_names : (int * string) list;
+  records : bool;
+}
 
-let announce_interval = 10.
-let eager_announce_interval = 1.
-let heartbeat_interval = 1.
-let eager_heartbeat_interval = 0.2
+type t = {
+  settings : settings;
+  systems : Systems.t;
+  bound : Name_set.t;
+  telemetry : bool;
+  timeouts : float Names.t;
+  timeout : float;  (* of vehicles that are not in [timeouts] *)
+  timers : Timers.t;
+  expected : Expected.t;
+  outbox : Outbox.t;
+  presence : Presence.t;
+  dropped : int Names.t;
+  skipped : int;
+  accepted : int;
+  received : Received.t;
+}
+
+type output =
+  | Send of { address : Service.address; bytes : string }
+  | Announce of string
+  | Announce_to of Unix.inet_addr * string
+  | Keep of Core.vehicle * Durable_note.t
+  | Remark of Core.vehicle * string
+
+let announce_interval = Presence.announce_interval
+let eager_announce_interval = Presence.eager_announce_interval
+let heartbeat_interval = Presence.heartbeat_interval
+let eager_heartbeat_interval = Presence.eager_heartbeat_interval
 let most_nodes = 2000
 
-(* New systems make us announce at once, but not more often than this. *)
-let least_announce_interval = 0.25
-
-(* A system that never spoke to us is courted for so long after its first announcement; one that fell silent gets
-   heartbeats for so long. *)
-let courtship = 15.
-let patience = 300.
+(* So long after its first announcement a vehicle that never spoke to us gets eager heartbeats; so long after its last
+   sign of life one that fell silent gets heartbeats. *)
+let contact_patience = 15.
+let silence_patience = 300.
 let most_queries = 50
 let longest_name = 200
 
-let create = Knowledge.create
-let resume = Expected.resume
-let owes_stop = Expected.owes_stop
+let create settings =
+  { settings; systems = Systems.none; bound = Name_set.empty; telemetry = false; timeouts = Names.empty; timeout = 60.;
+    timers = Timers.none; expected = Expected.none; outbox = Outbox.empty; presence = Presence.start;
+    dropped = Names.empty; skipped = 0; accepted = 0; received = Received.nothing }
+
+let timeout_of name s = Option.value (Names.find_opt name s.timeouts) ~default:s.timeout
+let add_timeouts pairs s = { s with timeouts = List.fold_left (fun map (v, x) -> Names.add v x map) s.timeouts pairs }
+let bind vehicles s = { s with bound = List.fold_left (fun bound v -> Name_set.add v bound) s.bound vehicles }
+let release vehicles s = { s with bound = List.fold_left (fun bound v -> Name_set.remove v bound) s.bound vehicles }
+let find name s = Systems.find name s.systems
+let update n s = { s with systems = Systems.update n s.systems }
+
+let resume ~now (outstanding : History.outstanding) s =
+  let s = { s with timeout = Option.value outstanding.timeout ~default:s.timeout } in
+  let s = bind outstanding.bound (add_timeouts outstanding.timeouts s) in
+  let deadline v = now +. timeout_of v s in
+  { s with expected = Expected.resume ~deadline outstanding; timers = Timers.of_list outstanding.timers }
+
+let state_of ~now (n : Node.t) s =
+  let kind =
+    match List.assoc_opt n.name s.settings.types with
+    | Some kind -> kind
+    | None -> Service.kind ~names:s.settings.type_names n.kind
+  in
+  let payload = List.assoc_opt n.name s.settings.payload in
+  Node.state ~now ~timeout:(timeout_of n.name s) ~kind ~payload n
+
+(* {1 Sending} *)
+
+let encode ~now ~dst message s =
+  Packet.encode (Packet.make ~src:s.settings.id ~dst ~timestamp:(s.settings.epoch +. now) message)
+
+(* What cannot be encoded was refused when it was ordered. *)
+let to_node ~now (n : Node.t) message s =
+  match n.address, encode ~now ~dst:n.id message s with
+  | Some address, Ok bytes -> [ Send { address; bytes } ]
+  | Some _, Error _ | None, _ -> []
+
+let announcement ~now s =
+  let message =
+    Message.Announce
+      { Message.Announce.default with
+        sys_name = s.settings.name; sys_type = Ccu; owner = Header.nobody;
+        services = Service.announced s.settings.addresses }
+  in
+  Result.value (encode ~now ~dst:0 message s) ~default:""
+
+let query ~now (n : Node.t) s =
+  let n = Node.queried n in
+  let query = Message.Entity_list { Message.Entity_list.default with op = Query } in
+  (update n s, to_node ~now n query s)
+
+(* {1 Telling the program} *)
+
+let push event s = { s with outbox = Outbox.add event s.outbox }
+
+let tell ?(urgent = false) ~now (n : Node.t) s =
+  if not (Node.is_vehicle n) then s
+  else
+    let periodic = s.telemetry && Name_set.mem n.name s.bound in
+    { s with outbox = Outbox.vehicle ~now ~urgent ~periodic (state_of ~now n s) s.outbox }
+
+(* What follows from the execution on [n]; [n] is in [s]. *)
+let carry_out ~now (n : Node.t) outputs s =
+  let carry (s, sent) : Execution.output -> t * output list = function
+    | Send message -> (s, List.rev_append (to_node ~now n message s) sent)
+    | Done -> (push (Task_done n.name) (tell ~urgent:true ~now n s), sent)
+    | Failed why -> (push (Task_failed (n.name, why)) (tell ~urgent:true ~now n s), sent)
+    | Keep note -> (s, Keep (n.name, note) :: sent)
+    | Remark text -> (s, Remark (n.name, text) :: sent)
+  in
+  let s, sent = List.fold_left carry (s, []) outputs in
+  (tell ~now n s, List.rev sent)
+
+(* [command ~now input n s] gives [input] to the execution on [n]. *)
+let command ~now input (n : Node.t) s =
+  let n, outputs = Node.command ~now input n in
+  carry_out ~now n outputs (update n s)
+
+(* [n] as it is in [s]. *)
+let again (n : Node.t) s = Option.value (Systems.find_id n.id s.systems) ~default:n
+
+(* One input after another. *)
+let command_all ~now inputs n s =
+  let one (s, sent) input =
+    let s, more = command ~now input (again n s) s in
+    (s, sent @ more)
+  in
+  List.fold_left one (s, []) inputs
 
 (* {1 Datagrams} *)
 
@@ -44,70 +161,65 @@ let is_wanted id =
 let request_of ~id s = (s.settings.first_request + (id * 257)) land 0xFFFF
 
 (* A new system: it is told of us at once. *)
-let greet ~now (n : Node.t) s =
-  let s = { s with next_eager = Float.min s.next_eager now } in
+let introduce ~now (n : Node.t) s =
   let directly =
     if n.hosts = [ Unix.inet_addr_loopback ] then []
     else List.map (fun host -> Announce_to (host, announcement ~now s)) n.hosts
   in
-  if now -. s.last_announce < least_announce_interval then
-    ({ s with next_announce = Float.min s.next_announce (s.last_announce +. least_announce_interval) }, directly)
-  else
-    ( { s with last_announce = now; next_announce = now +. eager_announce_interval },
-      Announce (announcement ~now s) :: directly )
-
-let rename (before : Node.t option) (n : Node.t) s =
-  let ids = match before with Some b when b.name <> n.name -> Names.remove b.name s.ids | Some _ | None -> s.ids in
-  { s with ids = Names.add n.name n.id ids }
-
-let is_taken ~now id name s =
-  match find name s with
-  | Some other -> other.id <> id && now -. Node.last_sign other <= Node.absence
-  | None -> false
+  let presence, is_due = Presence.met ~now s.presence in
+  ({ s with presence }, if is_due then Announce (announcement ~now s) :: directly else directly)
 
 let announced ~now ~from (p : Packet.t) (a : Message.Announce.t) s =
+  let accept n s =
+    tell ~now n { s with systems = Systems.announced n s.systems; accepted = s.accepted + 1 }
+  in
   if String.length a.sys_name > longest_name then drop "announcement too long" s
-  else if is_taken ~now p.src a.sys_name s then drop "name of another" s
+  else if Systems.is_taken ~now ~id:p.src a.sys_name s.systems then drop "name of another" s
   else
-    match Nodes.find_opt p.src s.nodes with
-    | None when Nodes.cardinal s.nodes >= most_nodes -> drop "too many systems" s
+    match Systems.find_id p.src s.systems with
+    | None when Systems.cardinal s.systems >= most_nodes -> drop "too many systems" s
     | None ->
       let n = Node.make ~now ~from ~request:(request_of ~id:p.src s) p a in
-      let s = tell ~now n (rename None n (put n { s with accepted = s.accepted + 1 })) in
-      if n.address = None then (s, []) else greet ~now n s
+      if n.address = None then (accept n s, []) else introduce ~now n (accept n s)
     | Some before -> (
         match Node.announce ~now ~from p a before with
         | None -> drop "foreign address" s
         | Some n ->
-          let s = tell ~now n (rename (Some before) n (put n { s with accepted = s.accepted + 1 })) in
-          if n.address <> before.address && n.address <> None then greet ~now n s else (s, []))
+          let is_elsewhere = n.address <> before.address && n.address <> None in
+          if is_elsewhere then introduce ~now n (accept n s) else (accept n s, []))
 
 let aborted ~now (p : Packet.t) s =
   let by =
-    match Nodes.find_opt p.src s.nodes with Some n -> n.name | None -> Printf.sprintf "system 0x%04x" p.src
+    match Systems.find_id p.src s.systems with Some n -> n.name | None -> Printf.sprintf "system 0x%04x" p.src
   in
-  match Nodes.find_opt p.dst s.nodes with
+  match Systems.find_id p.dst s.systems with
   | Some n -> command ~now (Abort by) n s
   | None -> (s, [])
+
+(* What was intended for an expected vehicle is done once it has said what it runs. *)
+let take_over ~now (n : Node.t) s =
+  if not (Execution.is_heard n.execution) then (s, [])
+  else
+    let inputs, expected = Expected.heard n.name s.expected in
+    command_all ~now inputs n { s with expected }
 
 let heard ~now (p : Packet.t) (n : Node.t) s =
   let first = n.last_heard = neg_infinity in
   let n, outputs = Node.hear ~now ~own:s.settings.id p n in
-  let s, sent = carry_out ~now n outputs (put n { s with accepted = s.accepted + 1 }) in
-  let s, more = Expected.receive ~now n s in
-  let sent = sent @ more and n = Nodes.find n.id s.nodes in
+  let s, sent = carry_out ~now n outputs (update n { s with accepted = s.accepted + 1 }) in
+  let s, more = take_over ~now n s in
+  let n = again n s in
   if first && Node.is_vehicle n && not (List.mem_assoc n.name s.settings.payload) then
-    let n = Node.queried n in
-    let query = Message.Entity_list { Message.Entity_list.default with op = Query } in
-    let s = { s with next_eager = Float.min s.next_eager (now +. eager_heartbeat_interval) } in
-    (put n s, sent @ to_node ~now n query s)
-  else (s, sent)
+    let at = now +. Presence.eager_heartbeat_interval in
+    let s, queried = query ~now n { s with presence = Presence.hasten ~at s.presence } in
+    (s, sent @ more @ queried)
+  else (s, sent @ more)
 
 let packet ~now ~from (p : Packet.t) s =
   match p.content with
   | Message (Announce a) -> announced ~now ~from p a s
   | Message _ | Unknown _ -> (
-      match Nodes.find_opt p.src s.nodes with
+      match Systems.find_id p.src s.systems with
       | None -> drop "unknown sender" s
       | Some n when not (Node.belongs from n) -> drop "foreign address" s
       | Some n -> (
@@ -116,15 +228,15 @@ let packet ~now ~from (p : Packet.t) s =
           | Message _ | Unknown _ -> heard ~now p n s))
 
 (* Of systems that have announced, from where they are. *)
-let listen ~from (h : Header.t) bytes s =
-  match Nodes.find_opt h.src s.nodes with
-  | Some n when s.settings.listens && Node.belongs from n && Header.check h bytes = Ok () ->
-    { s with heard = Received.add h bytes s.heard }
+let record ~from (h : Header.t) bytes s =
+  match Systems.find_id h.src s.systems with
+  | Some n when s.settings.records && Node.belongs from n && Header.check h bytes = Ok () ->
+    { s with received = Received.add h bytes s.received }
   | Some _ | None -> s
 
 let datagram ~now ~from ?len bytes s =
   let header = Header.read ?len bytes in
-  let s = match header with Ok h -> listen ~from h bytes s | Error _ -> s in
+  let s = match header with Ok h -> record ~from h bytes s | Error _ -> s in
   match header with
   | Error why -> drop (Error.label why) s
   | Ok h when not (is_wanted h.id) -> skip s
@@ -137,87 +249,89 @@ let datagram ~now ~from ?len bytes s =
 
 (* {1 Time} *)
 
-let is_courted ~now (n : Node.t) =
-  Node.is_vehicle n && n.last_heard = neg_infinity && n.address <> None && now -. n.first_announced < courtship
+(* It has announced itself and not spoken to us: it may have missed our announcement. *)
+let is_awaited ~now (n : Node.t) =
+  Node.is_vehicle n && n.last_heard = neg_infinity && n.address <> None && now -. n.first_announced < contact_patience
 
 let is_kept ~now (n : Node.t) =
-  Node.is_vehicle n && n.address <> None && (now -. Node.last_sign n < patience || not (Execution.idle n.execution))
-
-let heartbeats ~now which s =
-  Nodes.fold (fun _ n sent -> if which n then to_node ~now n Heartbeat s @ sent else sent) s.nodes []
+  Node.is_vehicle n && n.address <> None
+  && (now -. Node.last_sign n < silence_patience || not (Execution.idle n.execution))
 
 (* Entity lists that did not come are asked for again: programs pick vehicles by what they carry. *)
 let lacks_entities ~now (n : Node.t) =
   n.entities = None && n.last_heard > neg_infinity && n.queries > 0 && n.queries < most_queries
   && not (Node.silent ~now ~timeout:5. n)
 
-let next_eager ~now s =
-  let waits _ n = is_courted ~now n || lacks_entities ~now n in
-  if Nodes.exists waits s.nodes then now +. eager_heartbeat_interval else infinity
+(* [(s, [])] with [f] carried out for each system in turn. *)
+let for_each f s =
+  let one (s, sent) n =
+    let s, more = f (again n s) s in
+    (s, more @ sent)
+  in
+  List.fold_left one (s, []) (Systems.to_list s.systems)
 
 let beat ~now s =
-  let next_eager = next_eager ~now s in
-  if now >= s.next_heartbeat then
-    ({ s with next_heartbeat = now +. heartbeat_interval; next_eager }, heartbeats ~now (is_kept ~now) s)
-  else if now >= s.next_eager then ({ s with next_eager }, heartbeats ~now (is_courted ~now) s)
-  else (s, [])
-
-let query ~now s =
-  let ask _ (n : Node.t) (s, sent) =
-    if not (lacks_entities ~now n) then (s, sent)
-    else
-      let n = Node.queried n in
-      let query = Message.Entity_list { Message.Entity_list.default with op = Query } in
-      (put n s, to_node ~now n query s @ sent)
+  let awaited = Systems.exists (fun n -> is_awaited ~now n || lacks_entities ~now n) s.systems in
+  let presence, heartbeats = Presence.beat ~now ~awaited s.presence in
+  let is_due =
+    match heartbeats with
+    | All -> is_kept ~now
+    | Awaited -> is_awaited ~now
+    | Nobody -> fun _ -> false
   in
-  Nodes.fold ask s.nodes (s, [])
-
-(* A system that does not speak to us may have missed our announcement. *)
-let announce ~now s =
-  if now < s.next_announce then (s, [])
+  let s, beaten =
+    for_each (fun n s -> (s, if is_due n then to_node ~now n Heartbeat s else [])) { s with presence }
+  in
+  if heartbeats = Nobody then (s, [])
   else
-    let courting = Nodes.exists (fun _ n -> is_courted ~now n) s.nodes in
-    let interval = if courting then eager_announce_interval else announce_interval in
-    ({ s with next_announce = now +. interval; last_announce = now }, [ Announce (announcement ~now s) ])
+    let s, queried = for_each (fun n s -> if lacks_entities ~now n then query ~now n s else (s, [])) s in
+    (s, beaten @ queried)
+
+let announce ~now s =
+  let presence, is_due = Presence.announce ~now ~awaited:(Systems.exists (is_awaited ~now) s.systems) s.presence in
+  ({ s with presence }, if is_due then [ Announce (announcement ~now s) ] else [])
 
 let expire ~now s =
   let rung, timers = Timers.rung ~now s.timers in
   List.fold_left (fun s timer -> push (Timer timer) s) { s with timers } rung
 
 let was_connected (n : Node.t) s =
-  match Names.find_opt n.name s.told with Some told -> told.state.connected | None -> false
+  match Outbox.told n.name s.outbox with Some state -> state.connected | None -> false
+
+let seconds x = if x = 1. then "1 second" else Printf.sprintf "%.0f seconds" x
+let no_word name s = Printf.sprintf "no word from the vehicle for %s" (seconds (timeout_of name s))
 
 (* When the silence of [n] will have lasted too long, if that matters. *)
 let end_of_link (n : Node.t) s =
   if was_connected n s || Execution.owes n.execution then n.last_heard +. timeout_of n.name s else infinity
 
-let check ~now _ (n : Node.t) (s, sent) =
+let check ~now (n : Node.t) s =
   let timeout = timeout_of n.name s in
   let s, more = if Execution.due n.execution <= now then command ~now Tick n s else (s, []) in
-  let n = Nodes.find n.id s.nodes in
+  let n = again n s in
   let s, lost =
     if not (Execution.owes n.execution && Node.silent ~now ~timeout n) then (s, [])
-    else command ~now (Lost (Printf.sprintf "no word from the vehicle for %s" (Expected.plural timeout))) n s
+    else command ~now (Lost (no_word n.name s)) n s
   in
-  let n = Nodes.find n.id s.nodes in
+  let n = again n s in
   let s = if was_connected n s && Node.silent ~now ~timeout n then tell ~now n s else s in
-  (s, lost @ more @ sent)
+  (s, lost @ more)
+
+let give_up ~now s =
+  let late, expected = Expected.give_up ~now s.expected in
+  let fail s v = push (Task_failed (v, no_word v s)) s in
+  List.fold_left fail { s with expected } late
 
 let tick ~now s =
   let s, announced = announce ~now s in
-  let beats = now >= Float.min s.next_heartbeat s.next_eager in
   let s, beaten = beat ~now s in
-  let s, queried = if beats then query ~now s else (s, []) in
-  let s, checked = Nodes.fold (check ~now) s.nodes (s, []) in
-  (expire ~now (Expected.give_up ~now s), announced @ beaten @ queried @ checked)
+  let s, checked = for_each (check ~now) s in
+  (expire ~now (give_up ~now s), announced @ beaten @ checked)
 
 let due s =
-  let of_node _ (n : Node.t) time =
-    Float.min time (Float.min (Execution.due n.execution) (end_of_link n s))
-  in
-  let timer = Timers.first s.timers in
-  Float.min s.next_announce (Float.min s.next_heartbeat (Float.min s.next_eager (Float.min timer (Expected.due s))))
-  |> Nodes.fold of_node s.nodes
+  let of_node time (n : Node.t) = Float.min time (Float.min (Execution.due n.execution) (end_of_link n s)) in
+  let own = Float.min (Presence.due s.presence) (Float.min (Timers.first s.timers) (Expected.due s.expected)) in
+  List.fold_left of_node own (Systems.to_list s.systems)
 
 (* {1 Commands} *)
 
@@ -236,31 +350,22 @@ let check_order ~now (n : Node.t) (order : Execution.order) s =
 
 let start ~now vehicle task s =
   let s = { s with outbox = Outbox.without_task vehicle s.outbox } in
+  let order = Expected.order_of task in
   match find vehicle s with
-  | None | Some _ when Names.mem vehicle s.expected ->
-    let before =
-      match Names.find vehicle s.expected with
-      | Nothing -> None
-      | Halt begun -> Some begun
-      | Run { begun; before; _ } -> if begun.memos = [] then before else Some begun
-    in
-    let begun = { order = Expected.order_of task; memos = [] } in
-    (Expected.expect vehicle (Run { begun; before; deadline = Expected.deadline ~now vehicle s }) s, [])
+  | None | Some _ when Expected.mem vehicle s.expected ->
+    ({ s with expected = Expected.start ~deadline:(now +. timeout_of vehicle s) vehicle order s.expected }, [])
   | None -> (push (Task_failed (vehicle, "no such vehicle was heard of")) s, [])
   | Some n -> (
-      let order = Expected.order_of task in
       match check_order ~now n order s with
       | Ok () -> command ~now (Start order) n s
       | Error why -> (push (Task_failed (vehicle, why)) s, []))
 
 let stop ~now vehicle s =
   let s = { s with outbox = Outbox.without_task vehicle s.outbox } in
-  match Names.find_opt vehicle s.expected, find vehicle s with
-  | Some (Run { begun; before; _ }), _ ->
-    let which = match before with Some before when begun.memos = [] -> before | Some _ | None -> begun in
-    (Expected.halt vehicle which s, [])
-  | Some (Nothing | Halt _), _ | None, None -> (s, [])
-  | None, Some n -> command ~now Stop n s
+  match find vehicle s with
+  | None | Some _ when Expected.mem vehicle s.expected -> ({ s with expected = Expected.stop vehicle s.expected }, [])
+  | None -> (s, [])
+  | Some n -> command ~now Stop n s
 
 let leaves ~now ~at vehicles s =
   let postpone s vehicle =
@@ -269,15 +374,8 @@ let leaves ~now ~at vehicles s =
   List.fold_left postpone s vehicles
 
 let stop_all ~now s =
-  let s = Names.fold (fun vehicle _ s -> fst (stop ~now vehicle s)) s.expected s in
-  Nodes.fold
-    (fun _ (n : Node.t) (s, sent) ->
-       let s, more = stop ~now n.name s in
-       (s, more @ sent))
-    s.nodes (s, [])
-
-let bind vehicles s = { s with bound = List.fold_left (fun bound v -> Names.add v () bound) s.bound vehicles }
-let release vehicles s = { s with bound = List.fold_left (fun bound v -> Names.remove v bound) s.bound vehicles }
+  let s = { s with expected = Expected.stop_all s.expected } in
+  for_each (fun n s -> stop ~now n.name s) s
 
 let cancel_timer timer s =
   { s with timers = Timers.cancel timer s.timers; outbox = Outbox.without_timer timer s.outbox }
@@ -289,38 +387,35 @@ let set_timer ~now timer seconds s =
 let set_connection_timeout vehicles seconds s =
   match vehicles with
   | None -> { s with timeout = seconds; timeouts = Names.empty }
-  | Some vs -> { s with timeouts = List.fold_left (fun map v -> Names.add v seconds map) s.timeouts vs }
+  | Some vs -> add_timeouts (List.map (fun v -> (v, seconds)) vs) s
 
 let telemetry ~now on s =
   let s = { s with telemetry = on } in
-  if on then Nodes.fold (fun _ (n : Node.t) s -> if Names.mem n.name s.bound then tell ~now n s else s) s.nodes s else s
+  let tell s (n : Node.t) = if Name_set.mem n.name s.bound then tell ~now n s else s in
+  if on then List.fold_left tell s (Systems.to_list s.systems) else s
 
 (* {1 Events and displays} *)
 
 let take s = Option.map (fun (event, outbox) -> (event, { s with outbox })) (Outbox.take s.outbox)
 let waiting s = not (Outbox.is_empty s.outbox)
-let quiet s = (not (owes_stop s)) && Nodes.for_all (fun _ (n : Node.t) -> Execution.idle n.execution) s.nodes
+let owes_stop s = Expected.halts s.expected <> []
+let quiet s = (not (owes_stop s)) && not (Systems.exists (fun n -> not (Execution.idle n.execution)) s.systems)
 
 let unsettled s =
-  let of_node _ (n : Node.t) found =
-    match Execution.unsettled n.execution with Some plan -> (n.name, plan) :: found | None -> found
-  in
-  let of_wish name wish found =
-    match wish with Halt { order; _ } -> (name, order.plan) :: found | Nothing | Run _ -> found
-  in
-  List.sort compare (Nodes.fold of_node s.nodes (Names.fold of_wish s.expected []))
+  let of_node (n : Node.t) = Option.map (fun plan -> (n.name, plan)) (Execution.unsettled n.execution) in
+  List.sort compare (List.filter_map of_node (Systems.to_list s.systems) @ Expected.halts s.expected)
 
-type sight = { node : Node.t; state : World.vehicle_state; age : float; linked : bool }
+type system = { node : Node.t; state : World.vehicle_state; age : float; linked : bool }
 
-let sights ~now s =
-  let sight (n : Node.t) =
+let systems ~now s =
+  let system (n : Node.t) =
     { node = n; state = state_of ~now n s; age = now -. Node.last_sign n;
       linked = not (Node.silent ~now ~timeout:(timeout_of n.name s) n) }
   in
-  List.map (fun (_, n) -> sight n) (Nodes.bindings s.nodes)
-  |> List.sort (fun a b -> compare (a.node.name, a.node.id) (b.node.name, b.node.id))
+  let by_name a b = compare (a.node.name, a.node.id) (b.node.name, b.node.id) in
+  List.sort by_name (List.map system (Systems.to_list s.systems))
 
-let heard id s = Received.of_system id s.heard
+let received id s = Received.of_system id s.received
 let plan vehicle s = Option.bind (find vehicle s) (fun n -> Execution.progress n.execution)
 let dropped s = Names.bindings s.dropped
 let skipped s = s.skipped

@@ -8,8 +8,18 @@ open Dolphin_runtime
 
 type t
 
-type settings = Knowledge.settings
-(** What is settled before it starts: see {!Knowledge.settings}. *)
+(** What is settled before it starts. *)
+type settings = {
+  id : int;  (** The console's IMC address, from 0x4000 to 0x5FFF, other than those of other consoles. *)
+  name : string;  (** As other systems see it. *)
+  addresses : Service.address list;  (** Where vehicles can send to, announced to them. *)
+  epoch : float;  (** The date of time 0 of our clock: seconds since 1970-01-01 00:00 UTC. *)
+  first_request : int;  (** Where requests are numbered from. *)
+  payload : (Core.vehicle * string list) list;  (** Devices of vehicles, in place of their entity lists. *)
+  types : (Core.vehicle * string) list;  (** Types of vehicles, in place of what they announce. *)
+  type_names : (int * string) list;  (** Of types for which IMC 5.4 has no names. *)
+  records : bool;  (** Whether {!received} is kept. *)
+}
 
 val create : settings -> t
 (** Nobody is known; an announcement is due. *)
@@ -24,8 +34,14 @@ val resume : now:float -> Dolphin_runtime.History.outstanding -> t -> t
 
     [now] is in seconds on a clock of ours that is never set back; it starts at 0. *)
 
-type output = Knowledge.output
-(** What is to be sent, kept and told: see {!Knowledge.output}. *)
+(** What is to be sent, kept and told, in order. *)
+type output =
+  | Send of { address : Service.address; bytes : string }  (** From the data port. *)
+  | Announce of string
+  (** To the announcement ports at 224.0.75.69, the broadcast address and 127.0.0.1. *)
+  | Announce_to of Unix.inet_addr * string  (** To the announcement ports there. *)
+  | Keep of Core.vehicle * Durable_note.t  (** In case that the console dies: before what follows is sent. *)
+  | Remark of Core.vehicle * string  (** For people: something unusual that is not the end of a task. *)
 
 val datagram : now:float -> from:Unix.inet_addr -> ?len:int -> string -> t -> t * output list
 (** [datagram ~now ~from ~len bytes s] is [s] after the first [len] bytes (all) of [bytes] came as one datagram. Nothing
@@ -80,18 +96,18 @@ val unsettled : t -> (Core.vehicle * string) list
 (** {1:displays For displays} *)
 
 (** A system as [dolphin fleet] shows it. *)
-type sight = {
+type system = {
   node : Node.t;
   state : World.vehicle_state;
   age : float;  (** seconds since it was heard of *)
   linked : bool;  (** telemetry comes *)
 }
 
-val sights : now:float -> t -> sight list
+val systems : now:float -> t -> system list
 (** All systems that have announced, by name. *)
 
-val heard : int -> t -> (int * Received.entry) list
-(** [heard id s] is what the system [id] sent, read or not, if the settings say that this is kept. *)
+val received : int -> t -> (int * Received.entry) list
+(** [received id s] is what the system [id] sent, read or not, if the settings say that this is kept. *)
 
 val plan : Core.vehicle -> t -> Execution.progress option
 (** What the vehicle runs for the program. *)

@@ -13,7 +13,7 @@ type options = {
   payload : (Core.vehicle * string list) list;
   types : (Core.vehicle * string) list;
   type_names : (int * string) list;
-  listens : bool;
+  records : bool;
   close_patience : float;
   note : Core.vehicle -> string -> unit;
   keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
@@ -25,7 +25,7 @@ let default =
   { id = None; name = None; loopback = false; interfaces = []; data_port = 0;
     announce_ports = [ 30100; 30101; 30102; 30103; 30104 ];
     group = Unix.inet_addr_of_string "224.0.75.69";
-    payload = []; types = []; type_names = []; listens = false; close_patience = 5.; note = (fun _ _ -> ());
+    payload = []; types = []; type_names = []; records = false; close_patience = 5.; note = (fun _ _ -> ());
     keep = (fun ~time:_ _ _ -> ()); sync = None; clock = Clock.system }
 
 type t = {
@@ -38,7 +38,7 @@ type t = {
   port : int;
   buffer : Bytes.t;
   mutable station : Station.t;
-  mutable gate : (Service.address * string) Write_ahead.t option;  (* if requests wait for the disk *)
+  mutable write_ahead : (Service.address * string) Write_ahead.t option;  (* if requests wait for the disk *)
   mutable armed : float;  (* when the timer rings *)
   mutable rearm : unit Lwt.u option;
   mutable waiting : unit Lwt.u option;  (* [next] *)
@@ -83,19 +83,19 @@ let send_to p ((address : Service.address), bytes) =
 
 let carry_out p : Station.output -> unit = function
   | Send { address; bytes } -> (
-      match p.gate with
-      | Some gate when Write_ahead.is_shut gate -> Write_ahead.hold gate (address, bytes)
+      match p.write_ahead with
+      | Some w when Write_ahead.is_waiting w -> Write_ahead.enqueue w (address, bytes)
       | Some _ | None -> send_to p (address, bytes))
   | Announce bytes -> announce p bytes
   | Announce_to (host, bytes) -> List.iter (send p (data_socket p) bytes host) p.options.announce_ports
-  | Keep (vehicle, memo) -> (
-      p.options.keep ~time:(now p) vehicle (Durable_note.to_json memo);
-      match p.gate with
-      | Some gate when Durable_note.is_urgent memo ->
+  | Keep (vehicle, note) -> (
+      p.options.keep ~time:(now p) vehicle (Durable_note.to_json note);
+      match p.write_ahead with
+      | Some w when Durable_note.is_write_ahead note ->
         p.station <- Station.leaves ~now:(now p) ~at:infinity [ vehicle ] p.station;
-        Write_ahead.shut gate vehicle
+        Write_ahead.require w vehicle
       | Some _ | None -> ())
-  | Note (vehicle, text) -> p.options.note vehicle text
+  | Remark (vehicle, text) -> p.options.note vehicle text
 
 (* {1 The state and its changes} *)
 
@@ -144,7 +144,7 @@ let fail p error =
     p.waiting <- None
   end
 
-let gate p sync =
+let write_ahead p sync =
   let settled vehicles =
     let time = now p in
     p.station <- Station.leaves ~now:time ~at:time vehicles p.station
@@ -220,7 +220,7 @@ let settings options ~port ~hosts ~time : Station.settings =
     addresses = List.map (fun host -> { Service.host; port }) hosts;
     epoch = options.clock.date () -. time;
     first_request = Random.State.int random 0x10000;
-    payload = options.payload; types = options.types; type_names = options.type_names; listens = options.listens }
+    payload = options.payload; types = options.types; type_names = options.type_names; records = options.records }
 
 let guard p thread = Lwt.async (fun () -> Lwt.catch thread (fun error -> fail p error; Lwt.return_unit))
 
@@ -246,10 +246,10 @@ let make ?(time = 0.) ?outstanding options =
   let p =
     { options; settings; now = Clock.stopwatch ~at:time options.clock; data = Lwt_unix.of_unix_file_descr ~blocking:false data;
       announcements; speakers = List.filter_map Sockets.speaker interfaces; port;
-      buffer = Bytes.create 65536; station; gate = None; armed = infinity; rearm = None; waiting = None;
+      buffer = Bytes.create 65536; station; write_ahead = None; armed = infinity; rearm = None; waiting = None;
       closing = None; failure = None; closed = false; unsent = 0 }
   in
-  p.gate <- Option.map (gate p) options.sync;
+  p.write_ahead <- Option.map (write_ahead p) options.sync;
   guard p (fun () -> receive p p.data ~since:0. ~count:0);
   guard p (fun () -> receive p p.announcements ~since:0. ~count:0);
   guard p (fun () -> watch p);
@@ -346,8 +346,8 @@ let close p =
 let id p = p.settings.id
 let name_on_network p = p.settings.name
 let data_port p = p.port
-let sights p = Station.sights ~now:(now p) p.station
-let heard p id = Station.heard id p.station
+let systems p = Station.systems ~now:(now p) p.station
+let received p id = Station.received id p.station
 let progress p vehicle = Station.plan vehicle p.station
 
 type traffic = { accepted : int; skipped : int; dropped : (string * int) list; unsent : int }

@@ -18,7 +18,7 @@ type options = {
   payload : (Core.vehicle * string list) list;  (** Devices of vehicles, in place of their entity lists. *)
   types : (Core.vehicle * string) list;  (** Types of vehicles, in place of what they announce. *)
   type_names : (int * string) list;  (** Of types for which IMC 5.4 has no names. *)
-  listens : bool;  (** Whether {!heard} is kept. *)
+  records : bool;  (** Whether {!received} is kept. *)
   close_patience : float;  (** So many seconds [close] waits for stops to be confirmed; for vehicles
                                that are not heard again yet, {!announce_period} at least. *)
   note : Core.vehicle -> string -> unit;  (** Is told what is unusual, for people. *)
@@ -32,7 +32,7 @@ type options = {
 
 val default : options
 (** As vehicles with the usual settings expect it: ports 30100 to 30104, the group 224.0.75.69, all interfaces, 5 s;
-    notes are thrown away, and so is what is to be kept, which no request waits for; {!heard} is not kept; the clock is
+    notes are thrown away, and so is what is to be kept, which no request waits for; {!received} is not kept; the clock is
     {!Clock.system}. *)
 
 include Platform.S
@@ -61,10 +61,10 @@ val name_on_network : t -> string
 val data_port : t -> int
 (** The port of its data socket. *)
 
-val sights : t -> Station.sight list
+val systems : t -> Station.system list
 (** All systems that have announced, by name. *)
 
-val heard : t -> int -> (int * Received.entry) list
+val received : t -> int -> (int * Received.entry) list
 (** What the system with this IMC address sent, by the number of the message, if the options say that this is kept. *)
 
 val progress : t -> Core.vehicle -> Execution.progress option

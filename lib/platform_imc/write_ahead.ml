@@ -4,40 +4,40 @@ type 'a t = {
   sync : unit -> unit Lwt.t;
   leave : string list -> 'a list -> unit;
   failed : string list -> exn -> unit;
-  mutable shut : bool;
-  mutable vehicles : string list;  (* whose requests wait for the next turn of the disk, latest first *)
-  mutable waiting : 'a list;  (* latest first *)
+  mutable is_waiting : bool;
+  mutable vehicles : string list;  (* whose notes wait for the next sync, latest first *)
+  mutable messages : 'a list;  (* latest first *)
 }
 
-let make ~sync ~leave ~failed = { sync; leave; failed; shut = false; vehicles = []; waiting = [] }
-let is_shut g = g.shut
-let hold g message = g.waiting <- message :: g.waiting
+let make ~sync ~leave ~failed = { sync; leave; failed; is_waiting = false; vehicles = []; messages = [] }
+let is_waiting w = w.is_waiting
+let enqueue w message = w.messages <- message :: w.messages
 
 (* All that waits now. *)
-let take g =
-  let vehicles = List.rev g.vehicles and messages = List.rev g.waiting in
-  g.vehicles <- [];
-  g.waiting <- [];
+let take w =
+  let vehicles = List.rev w.vehicles and messages = List.rev w.messages in
+  w.vehicles <- [];
+  w.messages <- [];
   (vehicles, messages)
 
-let rec turn g =
-  let vehicles, messages = take g in
-  Lwt.try_bind g.sync
-    (fun () -> g.leave vehicles messages; Lwt.return_unit)
-    (fun error -> g.failed vehicles error; Lwt.return_unit)
+let rec sync w =
+  let vehicles, messages = take w in
+  Lwt.try_bind w.sync
+    (fun () -> w.leave vehicles messages; Lwt.return_unit)
+    (fun error -> w.failed vehicles error; Lwt.return_unit)
   >>= fun () ->
-  if g.vehicles <> [] then turn g
+  if w.vehicles <> [] then sync w
   else begin
-    g.shut <- false;
-    let _, messages = take g in
-    g.leave [] messages;
+    w.is_waiting <- false;
+    let _, messages = take w in
+    w.leave [] messages;
     Lwt.return_unit
   end
 
-(* What is kept before others have their turn goes to the disk with it. *)
-let shut g vehicle =
-  g.vehicles <- vehicle :: g.vehicles;
-  if not g.shut then begin
-    g.shut <- true;
-    Lwt.async (fun () -> Lwt.pause () >>= fun () -> turn g)
+(* Notes that are kept before others have their turn share its sync. *)
+let require w vehicle =
+  w.vehicles <- vehicle :: w.vehicles;
+  if not w.is_waiting then begin
+    w.is_waiting <- true;
+    Lwt.async (fun () -> Lwt.pause () >>= fun () -> sync w)
   end

@@ -1,18 +1,19 @@
-(** A gate before the network that is shut until the disk has what was kept: of what is to be sent, nothing leaves
-    before, and all leaves in order. Requests that come while the disk is at work wait for its next turn together. *)
+(** Write-ahead: requests leave only once the disk has the notes that were kept before them. While the disk is at work,
+    all messages wait, and then leave in order; notes that are kept meanwhile share the next sync (group commit). *)
 
 type 'a t
 
 val make :
   sync:(unit -> unit Lwt.t) -> leave:(string list -> 'a list -> unit) -> failed:(string list -> exn -> unit) -> 'a t
-(** [make ~sync ~leave ~failed] is an open gate. [sync ()] resolves once the disk has all that was kept before. Then
-    [leave vehicles messages] is to send these messages, in this order; for [vehicles] the gate was shut. If [sync]
-    fails, [failed] is told instead, and the messages are dropped. *)
+(** [make ~sync ~leave ~failed] waits for nothing. [sync ()] resolves once the disk has all that was kept before. Then
+    [leave vehicles messages] is to send these messages, in this order; [vehicles] are those of the notes that are now
+    durable. If [sync] fails, [failed] is told instead, and the messages are dropped. *)
 
-val shut : 'a t -> string -> unit
-(** [shut g vehicle]: something was kept that the disk must have before a request to [vehicle] leaves. *)
+val require : 'a t -> string -> unit
+(** [require w vehicle]: a note was kept that must be durable before a request to [vehicle] leaves. *)
 
-val is_shut : 'a t -> bool
+val is_waiting : 'a t -> bool
+(** Whether messages wait for the disk now. *)
 
-val hold : 'a t -> 'a -> unit
-(** [hold g message] has it wait, behind those that wait already. To be used while {!is_shut}. *)
+val enqueue : 'a t -> 'a -> unit
+(** [enqueue w message] has it wait, behind those that wait already. To be used while {!is_waiting}. *)

@@ -78,7 +78,7 @@ let vehicle = "lauv-noptilus-1"
 
 let settings : Station.settings =
   { id = 0x4ABC; name = "ccu-dolphin"; addresses = [ { host = loopback; port = 6001 } ]; epoch = 1.79e9;
-    first_request = 101; payload = []; types = []; type_names = []; listens = true }
+    first_request = 101; payload = []; types = []; type_names = []; records = true }
 
 let hear ~now bytes s = fst (Station.datagram ~now ~from:loopback bytes s)
 
@@ -87,7 +87,7 @@ let console lifecycle =
   let s = List.fold_left (fun s bytes -> hear ~now:1. bytes s) (Station.create settings) lifecycle in
   fst (Station.start ~now:2. vehicle { name = "planB"; plan = None; task_site = 0 } s)
 
-let knowledge s = List.map (fun (x : Station.sight) -> x.node) (Station.sights ~now:0. s)
+let knowledge s = List.map (fun (x : Station.system) -> x.node) (Station.systems ~now:0. s)
 
 let rec drained s = match Station.take s with Some (_, s) -> drained s | None -> s
 

@@ -9,8 +9,8 @@ let says state ?(outcome = State.Last_outcome.None) plan_id =
 
 let ready = says Ready and executing = says Executing
 
-(* A vehicle that says [first] and later [rest], half a second apart, to a console that has nothing yet but memos. *)
-let outputs ?(stopped = false) memos first rest =
+(* A vehicle that says [first] and later [rest], half a second apart, to a console that has nothing yet but notes. *)
+let outputs ?(stopped = false) notes first rest =
   let time = ref 0. and clock = ref Vehicle_clock.unknown in
   let x = ref (Execution.create ~request:500) in
   let input i =
@@ -25,7 +25,7 @@ let outputs ?(stopped = false) memos first rest =
     input (Execution.State { sent; state })
   in
   let heard = hear first in
-  let adopted = input (Adopt { order; stopped; memos = List.rev memos }) in
+  let adopted = input (Adopt { order; stopped; notes = List.rev notes }) in
   let later = List.concat_map hear rest in
   time := !time +. 5.;
   heard @ adopted @ later @ input Tick
@@ -40,11 +40,11 @@ let show : Execution.output -> string = function
   | Send _ -> "something else"
   | Done -> "done"
   | Failed why -> "failed: " ^ why
-  | Note text -> "note: " ^ text
+  | Remark text -> "note: " ^ text
 
-let case name ?stopped memos first rest expected =
+let case name ?stopped notes first rest expected =
   Alcotest.test_case name `Quick (fun () ->
-      let found = List.map show (outputs ?stopped memos first rest) in
+      let found = List.map show (outputs ?stopped notes first rest) in
       Alcotest.(check (list string)) name expected found)
 
 let asked ?before () : Durable_note.t = Asked { plan = "p"; request = 7; before }

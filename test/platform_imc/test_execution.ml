@@ -43,7 +43,7 @@ let instant = 0.01
 let carry_out w : Execution.output -> unit = function
   | Done -> w.verdicts <- Done :: w.verdicts
   | Failed why -> w.verdicts <- Failed why :: w.verdicts
-  | Note text ->
+  | Remark text ->
     w.notes <- text :: w.notes;
     w.told <- text :: w.told
   | Send (Plan_control c) ->

@@ -6,14 +6,14 @@ let elsewhere = Unix.inet_addr_of_string "203.0.113.9"
 
 let settings : Station.settings =
   { id = Recording.console; name = "ccu-test"; addresses = [ { host = loopback; port = 6001 } ]; epoch = 1.79e9;
-    first_request = 0; payload = []; types = []; type_names = []; listens = false }
+    first_request = 0; payload = []; types = []; type_names = []; records = false }
 
 let station () = Station.create settings
 
 let hear ?(from = loopback) ?(now = 0.) bytes s = fst (Station.datagram ~now ~from bytes s)
 
 (* All that is known, counters and events apart. *)
-let knowledge s = List.map (fun (x : Station.sight) -> x.node) (Station.sights ~now:0. s)
+let knowledge s = List.map (fun (x : Station.system) -> x.node) (Station.systems ~now:0. s)
 
 let inward = lazy (List.filter (fun (l : Recording.line) -> l.inward) (Lazy.force Recording.lines))
 
@@ -99,7 +99,7 @@ let strange_numbers =
           s packets
       in
       let s = List.fold_left hear_odd s odd in
-      match Station.sights ~now:100. s with
+      match Station.systems ~now:100. s with
       | [ { state; _ } ] ->
         Alcotest.(check bool) "battery" true (state.battery >= 0. && state.battery <= 1.);
         Alcotest.(check bool) "position" true (Float.is_finite state.position.latitude)
@@ -132,8 +132,8 @@ let announcement ?(services = "imc+udp://203.0.113.9:6002/") ?(sys_type = Messag
 
 let addresses s =
   List.map
-    (fun (x : Station.sight) -> Option.map (Format.asprintf "%a" Service.pp_address) x.node.address)
-    (Station.sights ~now:0. s)
+    (fun (x : Station.system) -> Option.map (Format.asprintf "%a" Service.pp_address) x.node.address)
+    (Station.systems ~now:0. s)
 
 let moved =
   Alcotest.test_case "a vehicle moves only after it has been absent" `Quick (fun () ->
@@ -156,8 +156,8 @@ let types =
   Alcotest.test_case "types that IMC does not know" `Quick (fun () ->
       let kind ?(types = []) ?(type_names = []) sys_type =
         let s = Station.create { settings with types; type_names } in
-        List.map (fun (x : Station.sight) -> x.state.kind)
-          (Station.sights ~now:0. (hear (announcement ~sys_type "seacon-1") s))
+        List.map (fun (x : Station.system) -> x.state.kind)
+          (Station.systems ~now:0. (hear (announcement ~sys_type "seacon-1") s))
       in
       let check what expected kind = Alcotest.(check (list string)) what [ expected ] kind in
       check "its number" "9" (kind (Other 9));

@@ -11,7 +11,7 @@ let first_request request = (request - (0x1A * 257)) land 0xFFFF
 let station ~request =
   Station.create
     { id = Recording.console; name = "ccu-test"; addresses = [ { host = loopback; port = 6001 } ]; epoch = 1.79e9;
-      first_request = first_request request; payload = []; types = []; type_names = []; listens = false }
+      first_request = first_request request; payload = []; types = []; type_names = []; records = false }
 
 type run = { station : Station.t; events : (float * Platform.event) list; sent : (float * Message.t) list }
 
@@ -26,7 +26,7 @@ let sent_by outputs =
         match Packet.decode bytes with
         | Ok { content = Message m; _ } -> Some m
         | Ok { content = Unknown _; _ } | Error _ -> Alcotest.fail "sent something broken")
-    | Announce _ | Announce_to _ | Keep _ | Note _ -> None
+    | Announce _ | Announce_to _ | Keep _ | Remark _ -> None
   in
   List.filter_map message outputs
 
@@ -114,7 +114,7 @@ let last_state ?(before = infinity) run =
 let seen =
   Alcotest.test_case "the vehicle as programs see it" `Quick (fun () ->
       let run = replay ~request:1 [] ~until:20. in
-      (match Station.sights ~now:20. run.station with
+      (match Station.systems ~now:20. run.station with
        | [ { state = s; linked; node; _ } ] ->
          Alcotest.(check string) "id" Recording.vehicle s.id;
          Alcotest.(check string) "kind" "UUV" s.kind;
@@ -148,7 +148,7 @@ let courtship =
           let s, outputs = Station.tick ~now s in
           let is_announcement : Station.output -> bool = function
             | Announce _ -> true
-            | Announce_to _ | Send _ | Keep _ | Note _ -> false
+            | Announce_to _ | Send _ | Keep _ | Remark _ -> false
           in
           let speaks = List.exists is_announcement outputs in
           let announced = if speaks then Float.round now :: announced else announced in

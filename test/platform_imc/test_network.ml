@@ -116,8 +116,8 @@ let journal_breaks =
       let announce_ports = ports () in
       let notes = ref [] in
       let note vehicle text = notes := (vehicle, text) :: !notes in
-      let is_answer memo = match Durable_note.of_json memo with Some (Taken _ | Runs _) -> true | _ -> false in
-      let keep ~time:_ _ memo = if is_answer memo then raise Disk_full in
+      let is_answer note = match Durable_note.of_json note with Some (Taken _ | Runs _) -> true | _ -> false in
+      let keep ~time:_ _ note = if is_answer note then raise Disk_full in
       let platform = open_exn { (options ~note announce_ports) with keep } in
       let quality = { Network.loss = 0.3; duplication = 0.; delay = 0. } in
       let fate = fates [ ("long", Vehicle_model.Succeeds 60.) ] in

@@ -1,0 +1,54 @@
+type t =
+  | Nothing_new
+  | Initialises
+  | No_sign
+  | Runs
+  | Succeeded
+  | Ended of string
+  | Replaced of string
+
+let ended_badly = "the plan ended without success, and the vehicle gave no reason"
+let refused = "the plan was refused, and the vehicle gave no reason"
+let blocked = "the vehicle is blocked: it cannot run plans now"
+let forgotten = "the vehicle knows of no plan any more: it was restarted"
+
+(* READY with the plan's own name. *)
+let of_ready ~former_ended ~accepted (a : Attempt.t) r =
+  (* Unless the plan that had its name there was ours, and ended after that was said. *)
+  let had_another =
+    match a.before with
+    | Some b -> b.sent > former_ended && not (Plan_report.names a.order.plan b)
+    | None -> false
+  in
+  if not (accepted || a.initialised || had_another) then No_sign
+  else if Plan_report.succeeded r then Succeeded
+  else Ended (if accepted then ended_badly else refused)
+
+let of_start ~former_ended (a : Attempt.t) (r : Plan_report.t) =
+  let own = Plan_report.names a.order.plan r and accepted = Attempt.accepted_before r a in
+  if r.sent <= a.after then Nothing_new
+  else
+    match r.state.state with
+    | Initializing -> Initialises
+    | Executing when own ->
+      if Attempt.was_busy_with a.order.plan a && not (accepted || a.initialised) then No_sign else Runs
+    | Executing ->
+      let other = r.state.plan_id in
+      if (not accepted) && (a.before = None || Attempt.was_busy_with other a) then No_sign else Replaced other
+    | Ready when own -> of_ready ~former_ended ~accepted a r
+    | Ready when accepted || (a.initialised && Plan_report.failed r) -> Ended refused
+    | Blocked when accepted -> Ended blocked
+    | Ready | Blocked -> No_sign
+    | Other _ -> Nothing_new
+
+let of_run ~since (a : Attempt.t) (r : Plan_report.t) =
+  let own = Plan_report.names a.order.plan r in
+  if r.sent <= since then Nothing_new
+  else
+    match r.state.state with
+    | Executing when own -> Nothing_new
+    | Ready when own -> if Plan_report.succeeded r then Succeeded else Ended ended_badly
+    | Ready when r.state.plan_id = "" -> Ended forgotten
+    | Executing | Ready -> Replaced r.state.plan_id
+    | Blocked -> Ended blocked
+    | Initializing | Other _ -> Nothing_new

@@ -1,0 +1,24 @@
+(** What a vehicle's report on its plan means for a request of ours: the rules of {!Execution}, as functions of what is
+    known. *)
+
+type t =
+  | Nothing_new
+  | Initialises  (** The vehicle is about to begin a plan, perhaps ours. *)
+  | No_sign  (** Nothing shows that the request took effect. *)
+  | Runs
+  | Succeeded
+  | Ended of string  (** It did not succeed, for that reason, unless the vehicle gives a better one. *)
+  | Replaced of string  (** The vehicle executes, or has executed, that plan. *)
+
+val of_start : former_ended:float -> Attempt.t -> Plan_report.t -> t
+(** [of_start ~former_ended a r] is what [r], the latest report, means while it is open whether the vehicle has taken
+    the request [a]. [former_ended] is when, by the vehicle's clock (s), our last plan of the same name ended;
+    [neg_infinity] if there was none. *)
+
+val of_run : since:float -> Attempt.t -> Plan_report.t -> t
+(** [of_run ~since a r] is what [r] means after the vehicle was seen to run the plan of [a] at [since] by its clock
+    (s). *)
+
+val refused : string
+val blocked : string
+(** Reasons where the vehicle gives none. *)

@@ -1,5 +1,5 @@
 # What takes more than building and testing. The rest: dune build, dune test.
-.PHONY: tlc crosscheck mutate coverage
+.PHONY: tlc crosscheck mutate mutate-code coverage
 
 # TLC, where `dolphin tla --run` finds it.
 tlc:
@@ -14,6 +14,11 @@ crosscheck: tlc
 mutate: tlc
 	dune build test/crosscheck/crosscheck.exe
 	_build/default/test/crosscheck/crosscheck.exe mutate
+
+# Mistakes in lib/, each of which a test must notice. MISTAKES="words of their names" makes some of them only.
+mutate-code:
+	dune build test/mutants/mutants.exe
+	_build/default/test/mutants/mutants.exe $(MISTAKES)
 
 # That the examples use every rule of the specification, by TLC's own -coverage.
 coverage: tlc

@@ -171,6 +171,10 @@ let traps =
       {|post x: 1, y: 1
         execute watch (allOf { when { consume x: 1 } then task('p')[a]
                                when { consume y: 1 } then task('q')[a] } | action { post z: 1 }) onError { ignore() }|};
+    breaks "a duration that cannot be computed, which is ignored" [ No_deadlock; No_leftover ]
+      {|execute (watch (during { true } run idle(1)) onError { post x: 1 ; ignore() }) |
+          action { if (poll(x: 1)) { post y: 1 } }
+        execute condition { consume y: 1 }|};
     breaks "a failure that is ignored, between two posts" ~environment:failing [ No_leftover ]
       {|execute watch (task('p')[a] | action { post x: 1 } | action { post y: 1 }) onError { ignore() }|};
     breaks "a failure that is ignored, between two that take" ~environment:failing [ No_leftover ]
@@ -211,6 +215,13 @@ let traps =
       {|f = { post x: 1 }
         execute action { f.call() } | (task('p')[a] >> action { if (poll(x: 1)) { halt 'h' } }) | task('q')[b]
         consume x: 1|};
+    breaks "code behind a variable, called by its name" [ No_halt ]
+      {|f = { post x: 1 }
+        execute action { f() } | (task('p')[a] >> action { if (poll(x: 1)) { halt 'h' } }) | task('q')[b]
+        consume x: 1|};
+    breaks "a guard that looks for what another part takes" [ No_deadlock ]
+      {|post x: 1
+        execute condition { poll x: 1 } | condition { consume x: 1 }|};
     breaks "a function that looks" [ No_halt ]
       {|def look() { if (poll(x: 1)) { halt 'h' } }
         execute (task('p')[a] >> action { look() }) | (task('q')[b] >> action { post x: 1 })

@@ -1,0 +1,288 @@
+type t = { name : string; file : string; find : string; replace : string; noticed_by : string }
+
+(* The mistakes in [file] that [noticed_by] must notice, each with what it replaces by what. *)
+let in_file file ~noticed_by mistakes =
+  List.map (fun (name, find, replace) -> { name; file; find; replace; noticed_by }) mistakes
+
+let footprint =
+  in_file "lib/explore/order/footprint.ml" ~noticed_by:"reduction/test_traps"
+    [
+      ( "posts do not conflict with tests",
+        {|
+      || Pairs.meet f.posts f'.tests|},
+        {||} );
+      ( "tests do not conflict with posts",
+        {|
+      || Pairs.meet f.tests f'.posts|},
+        {||} );
+      ( "takes do not conflict with needs",
+        {|
+      || Pairs.meet f.takes f'.needs|},
+        {||} );
+      ( "takes do not conflict with tests",
+        {|
+      || Pairs.meet f.takes f'.tests|},
+        {||} );
+      ( "needs do not conflict with takes",
+        {|
+      || Pairs.meet f.needs f'.takes|},
+        {||} );
+      ( "tests do not conflict with takes",
+        {|
+      || Pairs.meet f.tests f'.takes|},
+        {||} );
+      ( "a post frees no guard",
+        {|(not possible) && Pairs.meet f.needs f'.posts|},
+        {|(not possible) && false && Pairs.meet f.needs f'.posts|} );
+      ( "the order of pairs never matters",
+        {|
+      || Pairs.meet f.queues f'.queues|},
+        {||} );
+      ( "reads do not conflict with writes",
+        {|share f.reads f'.writes || |},
+        {||} );
+      ( "writes do not conflict with reads",
+        {|share f.writes f'.reads || |},
+        {||} );
+      ( "writes do not conflict with writes",
+        {| || share f.writes f'.writes|},
+        {||} );
+      ( "the code in a variable touches nothing",
+        {|      | Make_closure _, _ | _, Some (Closure _) -> breaking
+      | _, _ -> anything)
+  | (Method _|},
+        {|      | Make_closure _, _ | _, Some (Closure _) -> breaking
+      | _, _ -> breaking)
+  | (Method _|} );
+      ( "a consume is no test",
+        {|{ empty with takes = pairs keys; tests = pairs keys }|},
+        {|{ empty with takes = pairs keys; needs = pairs keys }|} );
+      ( "functions that are called touch nothing",
+        {|union breaking (expression code [] seen lambda.code)|},
+        {|ignore (expression code [] seen lambda.code); breaking|} );
+    ]
+
+let step_footprints =
+  in_file "lib/explore/order/step_footprints.ml" ~noticed_by:"reduction/test_traps"
+    [
+      ( "a computed duration is never faulty",
+        {|| Measure d, _ -> union breaking (Footprint.of_code c.code d)|},
+        {|| Measure d, _ -> Footprint.of_code c.code d|} );
+      ( "handlers touch nothing",
+        {|let handled c (f : Footprint.t) handler = if f.breaks then|},
+        {|let handled c (f : Footprint.t) handler = if f.breaks && f.halts then|} );
+      ( "ends of tasks leave no trace outside",
+        {|let remembered = Environment.endings_remember c.options in|},
+        {|let remembered = false && Environment.endings_remember c.options in|} );
+      ( "branches beside the one that runs first do not matter",
+        {| && not (clash before || clash after)|},
+        {| && (ignore (clash before || clash after); true)|} );
+      ( "the body of a branch that runs first may do anything",
+        {|is_settled c b.body && only_takes f'|},
+        {|(is_settled c b.body || true) && only_takes f'|} );
+      ( "nothing follows a nest",
+        {|with_handlers (union f (following c contexts)) :: futures|},
+        {|with_handlers f :: (ignore (following c contexts); futures)|} );
+      ( "no error cuts off a nest",
+        {|futures.(level).breaks && List.exists ignores (handlers_of c contexts)|},
+        {|futures.(level).breaks && futures.(level).halts && List.exists ignores (handlers_of c contexts)|} );
+    ]
+
+let stubborn =
+  in_file "lib/explore/order/stubborn.ml" ~noticed_by:"reduction/test_traps"
+    [
+      ( "nothing becomes possible later",
+        {|Footprint.conflict ~possible:(surely_moves t x k) own f|},
+        {|Footprint.conflict ~possible:(surely_moves t x k || true) own f|} );
+      ( "what is cut off need not be taken along",
+        {|exists_step t x cut && not (Footprint.is_traceless (future t y x))|},
+        {|exists_step t x cut && false && not (Footprint.is_traceless (future t y x))|} );
+      ( "a key may cut off others",
+        {|List.exists (is_cut_off own.place other.place) landings
+  |||},
+        {|(List.exists (is_cut_off own.place other.place) landings && false)
+  |||} );
+      ( "a key may be cut off",
+        {||| ((not (Footprint.is_traceless f)) && may_cut_off t y x)|},
+        {||| ((not (Footprint.is_traceless f)) && may_cut_off t y x && false)|} );
+      ( "a key may end a nest",
+        {||| (List.exists ends_nest landings &&|},
+        {||| (List.exists ends_nest landings && false &&|} );
+      ( "an end of the run depends on nothing",
+        {|ends.(k) && (not (Footprint.is_blind footprints.(k))) && may_end t x k|},
+        {|ends.(k) && (not (Footprint.is_blind footprints.(k))) && may_end t x k && false|} );
+      ( "a branch that runs first may be cut off",
+        {| && not (may_cut_off t y x))
+  in|},
+        {| && not (may_cut_off t y x && false))
+  in|} );
+      ( "what stands beside a branch that runs first does not matter",
+        {|(not (Footprint.conflict ~possible:true f (future t y x))) && not|},
+        {|(not (Footprint.conflict ~possible:true f (future t y x)) || true) && not|} );
+    ]
+
+let automorphism =
+  in_file "lib/explore/symmetry/automorphism.ml" ~noticed_by:"reduction/test_traps"
+    [
+      ( "an automorphism need not fix N",
+        {|| Some map when fixes map ->|},
+        {|| Some map when fixes map || true ->|} );
+      ( "computed pairs may be renamed",
+        {|not (Footprint.Pairs.meet (Footprint.Pairs.singleton pair) fixed)|},
+        {|not (Footprint.Pairs.meet (Footprint.Pairs.singleton pair) fixed) || true|} );
+      ( "handlers that read the error may be exchanged",
+        {|not (Skeleton.of_code (Task_isomorphism.skeletons context) ~handler code).unclear|},
+        {|not (Skeleton.of_code (Task_isomorphism.skeletons context) ~handler code).unclear || true|} );
+    ]
+
+let task_isomorphism =
+  in_file "lib/explore/symmetry/task_isomorphism.ml" ~noticed_by:"reduction/test_traps"
+    [
+      ( "how a plan ends does not matter",
+        {|| Environment.Succeeds -> "s"
+  | May_fail -> "m"
+  | Fails -> "f"|},
+        {|| Environment.Succeeds | May_fail | Fails -> "s"|} );
+    ]
+
+let task_groups =
+  in_file "lib/explore/symmetry/task_groups.ml" ~noticed_by:"reduction/test_traps"
+    [
+      ( "the group of an execution need not fix its N",
+        {|if not (Option.fold ~none:true ~some:fixes group.group) then|},
+        {|if not (Option.fold ~none:true ~some:fixes group.group || true) then|} );
+      ( "each N has a group of its own",
+        {|let e = { Symmetry.task = r; constant = constant footprint shared } in|},
+        {|ignore (constant footprint);
+    let e = { Symmetry.task = r; constant = shared } in|} );
+      ( "handlers have other orbits in other tasks",
+        {|known = members | None -> true|},
+        {|known = members || true | None -> true|} );
+    ]
+
+let quotient =
+  in_file "lib/explore/symmetry/quotient.ml" ~noticed_by:"reduction/test_traps"
+    [
+      ( "what images start is not reached",
+        {|    reach_orbit t g r;
+|},
+        {|    if false then reach_orbit t g r;
+|} );
+    ]
+
+let expansion =
+  in_file "lib/explore/steps/expansion.ml" ~noticed_by:"reduction/test_traps"
+    [
+      ( "the script goes on from one image only",
+        {|List.iter image (Task_group.orbit_of_shared g shared)|},
+        {|image (List.hd (Task_group.orbit_of_shared g shared))|} );
+    ]
+
+let vehicle_orbits =
+  in_file "lib/explore/symmetry/vehicle_orbits.ml" ~noticed_by:"reduction/test_told_apart"
+    [
+      ( "places do not matter",
+        {|if_read flow.places|},
+        {|if_read (flow.places && flow.batteries && flow.names <> None)|} );
+      ( "batteries do not matter",
+        {|if_read flow.batteries|},
+        {|if_read (flow.places && flow.batteries && flow.names <> None)|} );
+      ( "vehicles named in texts are exchanged",
+        {|if is_odd || List.mem s.id flow.texts then|},
+        {|if is_odd then|} );
+      ( "payloads do not matter",
+        {|((s.kind, s.payload, s.connected),|},
+        {|((s.kind, s.connected),|} );
+    ]
+
+let canonical_vehicles =
+  in_file "lib/explore/symmetry/canonical_vehicles.ml" ~noticed_by:"reduction/test_told_apart"
+    [
+      ( "others between those of an orbit do not matter",
+        {|if last > List.length (by_orbit r accepted) then|},
+        {|if last > List.length (by_orbit r accepted) && false then|} );
+      ( "known vehicles are as free ones",
+        {|| v :: _ :: _ as vs when is_movable r v && List.exists is_known vs ->|},
+        {|| v :: _ :: _ as vs when is_movable r v && List.exists is_known vs && false ->|} );
+      ( "a computed id breaks nothing",
+        {|if is_movable r id then fix r [ id ]|},
+        {|if is_movable r id && false then fix r [ id ]|} );
+      ( "answers may read variables",
+        {|if not (List.for_all is_harmless|},
+        {|if false && not (List.for_all is_harmless|} );
+      ( "a supplier may name vehicles of an orbit",
+        {|with [] -> () | vs -> fix r vs|},
+        {|with [] -> () | vs -> if false then fix r vs|} );
+      ( "computed plans end in the same way",
+        {|then split r ending;|},
+        {|then (if false then split r ending);|} );
+    ]
+
+let name_flow =
+  in_file "lib/explore/symmetry/name_flow.ml" ~noticed_by:"reduction/test_told_apart"
+    [
+      ( "names may be put into texts",
+        {|  if has vehicles k then uses_name w at;
+  if has reading k|},
+        {|  if has vehicles k && has map k && has code k then uses_name w at;
+  if has reading k|} );
+      ( "the property id is no name",
+        {|    let k = value_of x in
+    if has vehicles k then uses_name w at;
+    k lor text
+|},
+        {|    let k = value_of x in
+    if has vehicles k && has map k && has code k then uses_name w at;
+    k lor text
+|} );
+      ( "vehicles may be keys of maps",
+        {|if List.mem None keys && has vehicles k then uses_name w at;|},
+        {|if List.mem None keys && has vehicles k && has code k then uses_name w at;|} );
+      ( "methods that sort see no names",
+        {|if has vehicles (k lor results) then uses_name w at;|},
+        {|if has vehicles (k lor results) && has code k then uses_name w at;|} );
+      ( "handlers may read the error",
+        {|lambda.parameters > 0 -> uses_name w e.site; text|},
+        {|lambda.parameters > 0 -> text|} );
+    ]
+
+let liveness =
+  in_file "lib/explore/symmetry/liveness.ml" ~noticed_by:"reduction/test_told_apart"
+    [
+      ( "code that is called reads no variables",
+        {|if may_call operation then Variables.union called live else live|},
+        {|if may_call operation && false then Variables.union called live else live|} );
+    ]
+
+let environment =
+  in_file "lib/environment/environment.ml" ~noticed_by:"environment/test_environment"
+    [
+      ( "late vehicles are remembered for join=1 only",
+        {|match options.latecomers with At_most _ -> noted | Never | Any_number -> [] in|},
+        {|match options.latecomers with At_most 1 -> noted | At_most _ | Never | Any_number -> [] in|} );
+      ( "failures are not counted",
+        {|failed { heard with failed = e.failed + 1 }|},
+        {|failed { heard with failed = e.failed }|} );
+      ( "losses are not counted",
+        {|ends @ lost { e with losses = e.losses + 1 }|},
+        {|ends @ lost { e with losses = e.losses }|} );
+      ( "who is heard of stays lost",
+        {|let heard = if is_lost then { e with lost = less v e.lost } else e in|},
+        {|let heard = if is_lost then { e with lost = add v e.lost } else e in|} );
+      ( "a loss of a lost vehicle is counted",
+        {|| _ when is_lost -> ends @ lost e|},
+        {|| _ when is_lost && options.losses = Any_number -> ends @ lost e|} );
+      ( "a question gets its first answers only",
+        {|min (times name counted) (n - 1)|},
+        {|min 0 (n - 1)|} );
+      ( "no answer is refused twice",
+        {|times prompt before.asked < List.length (options.answers prompt) - 1|},
+        {|times prompt before.asked < List.length (options.answers prompt) - 2|} );
+      ( "lost vehicles are always there",
+        {|let may_miss v = List.mem v e.lost || |},
+        {|let may_miss v = |} );
+    ]
+
+let all =
+  List.concat
+    [ footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups; quotient; expansion; vehicle_orbits; canonical_vehicles; name_flow; liveness; environment ]

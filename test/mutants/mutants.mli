@@ -1,0 +1,1 @@
+(** Makes mistakes in lib/, one at a time, in a copy of the tree, and tells whether the tests notice them. *)

@@ -1,26 +1,22 @@
 open Cmdliner
+open Dolphin_app
 
 let verdict path found = Format.printf "%s: %s@." path (Report.counts found)
 
-let check_program path =
-  match Program_file.load path with
-  | Ok p -> Some p
-  | Error trouble ->
-    Program_file.tell trouble;
-    (match trouble with Wrong { found; _ } -> verdict path found | Unreadable _ -> ());
-    None
-
-let check_fleet path =
-  match Fleet_file.load path with
-  | Ok fleet -> Some fleet
-  | Error trouble ->
-    Fleet_file.tell trouble;
-    (match trouble, path with Wrong { found; _ }, Some path -> verdict path found | _, _ -> ());
+(* Tells what is wrong with the file [path], if it can be read at all. *)
+let checked path = function
+  | Ok x -> Some x
+  | Error e ->
+    Report.tell e;
+    (match path, Error.diagnostics e with
+     | Some path, (_ :: _ as found) -> verdict path found
+     | Some _, [] | None, _ -> ());
     None
 
 let run path fleet =
-  let program = check_program path in
-  let fleet = check_fleet (Fleet_file.choose ~program:path fleet) in
+  let program = checked (Some path) (Program_file.load path) in
+  let chosen = Fleet_file.choose ~program:path fleet in
+  let fleet = checked chosen (Fleet_file.load chosen) in
   let of_plans = match program, fleet with
     | Some p, Some f -> Plan_names.misspelt p.program f.scenario
     | _, _ -> []

@@ -1,59 +1,10 @@
 open Cmdliner
-open Dolphin_results
+open Dolphin_app
 open Dolphin_conformance
-
-let ( let* ) = Result.bind
-
-(* {1 Cases} *)
-
-let is_case path = Filename.check_suffix path ".json"
-
-(* Files as they are; of directories all cases inside, but for schemas. *)
-let rec files path =
-  if not (Sys.file_exists path) then Error (path ^ ": there is no such file or directory")
-  else if not (Sys.is_directory path) then Ok [ path ]
-  else
-    let inside name =
-      let path = Filename.concat path name in
-      if Sys.is_directory path then if name = "schema" then Ok [] else files path
-      else Ok (if is_case path then [ path ] else [])
-    in
-    let entries = Sys.readdir path in
-    Array.sort String.compare entries;
-    Results.concat_map inside (Array.to_list entries)
-
-let read path =
-  let* source = Text_file.read path in
-  Result.map_error (fun why -> Printf.sprintf "%s: %s" path why) (Case.of_string ~path source)
-
-let load paths =
-  let* files = Results.concat_map files paths in
-  let* cases = Results.map read files in
-  if cases = [] then Error (String.concat ", " paths ^ ": there are no cases here") else Ok cases
-
-(* {1 Implementations} *)
-
-(* This very one, spoken to as others are but for the text. *)
-let ourselves () : Dialogue.ask =
-  let oracle = ref (Oracle.start ~name:("dolphin " ^ Version.number)) in
-  fun request ->
-    let after, reply = Oracle.answer !oracle request in
-    oracle := after;
-    Ok reply
-
-let with_implementation command timeout f =
-  match command with
-  | None -> f (ourselves ())
-  | Some command ->
-    let implementation = Implementation.make ~timeout command in
-    let finally () = Implementation.close implementation in
-    (* It leads a session of its own, so Ctrl-C is for us alone, and we end it. *)
-    List.iter (fun s -> Sys.set_signal s (Signal_handle (fun _ -> raise Sys.Break))) [ Sys.sigint; Sys.sigterm ];
-    Fun.protect ~finally (fun () -> f (Implementation.ask implementation))
 
 (* {1 The report} *)
 
-let report verbose (case : Case.t) (verdict : Judge.verdict) passed =
+let report verbose ({ case; verdict; passed } : Corpus.judged) =
   let kinds = List.sort_uniq compare (List.map (fun (f : Judge.failure) -> f.kind) verdict.failures) in
   let suffix = match kinds with [] -> "" | kinds -> ": " ^ String.concat ", " kinds in
   if passed then (if verbose then Printf.printf "passed %s%s\n" case.path suffix)
@@ -66,22 +17,7 @@ let report verbose (case : Case.t) (verdict : Judge.verdict) passed =
   end;
   flush stdout
 
-let judge_all verbose ask cases =
-  let judge (passed, failed, matrix) (case : Case.t) =
-    let verdict = Judge.judge ask case in
-    let fine = Judge.passes case verdict in
-    report verbose case verdict fine;
-    let matrix =
-      if case.fails <> [] then matrix
-      else
-        let name = Filename.(concat (basename (dirname case.path)) (remove_extension (basename case.path))) in
-        Matrix.add ~name ~covers:case.covers ~taken:verdict.rules matrix
-    in
-    if fine then (passed + 1, failed, matrix) else (passed, failed + 1, matrix)
-  in
-  List.fold_left judge (0, 0, Matrix.empty) cases
-
-let tell_matrix wanted matrix =
+let report_matrix wanted matrix =
   if not wanted then true
   else begin
     Format.printf "%a@." Matrix.pp matrix;
@@ -90,28 +26,26 @@ let tell_matrix wanted matrix =
     | rules -> Format.printf "no case is about %s@." (String.concat ", " rules); false
   end
 
-let bad why =
-  Report.complain why;
-  Exit_status.Bad_input
-
-let judge_with ask ~named ~with_matrix ~verbose cases =
+let judge_with ask ~named ~with_matrix ~verbose cases : (Exit_status.t, Error.t) result =
   match Dialogue.hello ask with
-  | exception Dialogue.Trouble why -> bad ("the implementation does not speak the step protocol: " ^ why)
+  | exception Dialogue.Trouble why ->
+    Error (Error.Bad_input ("the implementation does not speak the step protocol: " ^ why))
   | name ->
     if named then Printf.printf "%s\n%!" name;
-    let passed, failed, matrix = judge_all verbose ask cases in
-    let complete = tell_matrix with_matrix matrix in
-    Printf.printf "%d passed, %d failed\n" passed failed;
-    if failed = 0 && complete then Exit_status.Done else Exit_status.Violated
+    let judged, matrix = Corpus.judge ask (report verbose) cases in
+    let complete = report_matrix with_matrix matrix in
+    let passed, failed = List.partition (fun (j : Corpus.judged) -> j.passed) judged in
+    Printf.printf "%d passed, %d failed\n" (List.length passed) (List.length failed);
+    Ok (if failed = [] && complete then Done else Violated)
 
 let run paths command timeout with_matrix verbose =
-  match load paths with
-  | Error why -> bad why
-  | Ok cases -> (
-      let judge ask = judge_with ask ~named:(command <> None) ~with_matrix ~verbose cases in
-      match with_implementation command timeout judge with
-      | status -> status
-      | exception Sys.Break -> Exit_status.Interrupted)
+  let judge cases =
+    Corpus.with_implementation ~name:("dolphin " ^ Version.number) ~timeout command (fun ask ->
+        judge_with ask ~named:(command <> None) ~with_matrix ~verbose cases)
+  in
+  match Report.result (Result.bind (Corpus.load paths) judge) with
+  | status -> status
+  | exception Sys.Break -> Exit_status.Interrupted
 
 (* {1 The command} *)
 

@@ -1,105 +1,82 @@
 open Cmdliner
-
-let no_fleet = { Fleet_file.path = None; source = ""; scenario = Fleet_file.nobody }
+open Dolphin_app
 
 (* On a network nobody answers for people or a supplier, unless that is asked for: of a fleet only the answers and
    replies are used then. *)
 let fleet_of ~path ~sim ~named = function
-  | Some _ when sim <> None || named = None -> Ok no_fleet
+  | Some _ when sim <> None || named = None -> Ok Fleet_file.nobody
   | Some _ -> Fleet_file.load named
-  | None -> Fleet_file.load (Fleet_file.choose ~program:path named)
-
-(* What the command line says of how to run a program. *)
-type how = {
-  network : Dolphin_platform_imc.Udp_platform.options option;
-  named : string option;  (* a fleet *)
-  speed : float option;
-  seed : int option;
-  answers : string list;
-  supplier : string option;
-  supplier_timeout : float option;
-  journal : string option;
-  drawing : Drawing_file.t option;
-}
-
-let start how ?resumed program (fleet : Fleet_file.t) ~seed ~speed header =
-  let { network; answers; supplier; supplier_timeout; journal; drawing; _ } = how in
-  Run.run
-    { program; scenario = fleet.scenario; network; speed; seed; answers; supplier; supplier_timeout; resumed;
-      record = { journal; drawing; header } }
-
-let begin_run how program fleet =
-  let seed = Option.value how.seed ~default:0 and speed = how.speed in
-  let platform = if how.network = None then "sim" else "imc" in
-  start how program fleet ~seed ~speed { (Record.header program fleet ~seed ~speed) with platform }
-
-(* The fleet, the seed and the speed with which a run goes on: they are those of its journal. *)
-let as_before how (resumed : Resumed.t) =
-  let header = resumed.past.header in
-  let refuse why = Error (Fleet_file.Unreadable (resumed.path ^ ": " ^ why)) in
-  match header.platform, how.network with
-  | "sim", Some _ -> refuse "this run was on a simulated fleet: leave out --imc"
-  | "sim", None when how.seed <> None -> refuse "a run goes on with the seed that it began with: leave out --seed"
-  | "sim", None ->
-    let speed = if how.speed = None then header.speed else how.speed in
-    Result.map (fun fleet -> (fleet, header.seed, speed)) (Resumed.fleet resumed ~named:how.named)
-  | _, Some _ ->
-    let fleet = if how.named = None then Ok no_fleet else Fleet_file.load how.named in
-    Result.map (fun fleet -> (fleet, header.seed, None)) fleet
-  | platform, None ->
-    refuse (Printf.sprintf "this run was on vehicles of a network, which will move again: say --%s" platform)
-
-let resume how ~changed program path : Exit_status.t =
-  match Resumed.read ~changed program path with
-  | Error why -> Report.complain why; Bad_input
-  | Ok resumed -> (
-      match as_before how resumed with
-      | Error trouble -> Fleet_file.tell trouble; Bad_input
-      | Ok (fleet, _, _) when how.supplier = None && not (Replies.are_of fleet.scenario resumed.past.history) ->
-        Report.complain
-          (path ^ ": this run has a supplier, which died with its console: name it again with --supplier");
-        Bad_input
-      | Ok (fleet, seed, speed) -> start how ~resumed program fleet ~seed ~speed resumed.past.header)
+  | None -> Fleet_file.load_for ~program:path named
 
 (* What options do not go together, if so. *)
-let contradiction how ~sim ~follow ~resumed ~changed =
-  let { network; speed; answers; supplier; journal; drawing; _ } = how in
-  if network <> None && (sim <> None || speed <> None) then
+let contradiction (s : Run.settings) ~sim ~follow ~resumed ~changed =
+  let { Recording.journal; drawing; follower = _ } = s.recording in
+  if s.network <> None && (sim <> None || s.speed <> None) then
     Some "vehicles of a network (--imc) are not simulated: --sim and --speed do not go with them"
   else if
     follow <> None
-    && (network <> None || speed <> None || answers <> [] || supplier <> None || journal <> None || drawing <> None
-        || resumed <> None)
+    && (s.network <> None || s.speed <> None || s.answers <> [] || s.supplier <> None || journal <> None
+        || drawing <> None || resumed <> None)
   then Some "a recorded run (--follow) goes with its program and a fleet, and with no other options"
   else if changed && resumed = None then Some "--force-prefix goes with --resume"
   else if journal = Some "-" then
     Some "standard output has the log, and no journal beside it: name a file (./- for one that is called so)"
   else None
 
-let run path sim fleet network definition speed seed answers supplier supplier_timeout journal drawing follow resumed
+let last_words = "interrupted twice: ended at once; vehicles that were not told to stop yet run on"
+
+let on_terminal (s : Run.settings) program run : Exit_status.t =
+  let again () =
+    (try if s.network <> None then Report.complain last_words with Sys_error _ -> ());
+    Exit_status.exit_interrupted ()
+  in
+  match Terminal_run.run ~notice:Report.complain ~again run with
+  | Error e -> Report.error e
+  | Ok outcome -> (
+      Option.iter Report.tell (Run.explain program outcome);
+      match outcome with
+      | Ended Completed -> Done
+      | Ended Interrupted -> Interrupted
+      | Ended (Halted _ | Failed _) | Stuck _ -> Failed)
+
+let follow (program : Program_file.t) (fleet : Fleet_file.t) path =
+  let status : Dolphin_semantics.Configuration.ending option -> Exit_status.t = function
+    | Some (Failed fault) ->
+      Report.diagnostics ~source:program.source [ Program_file.diagnostic program fault ];
+      Failed
+    | Some (Halted _) -> Failed
+    | Some Interrupted -> Interrupted
+    | Some Completed | None -> Done
+  in
+  Result.map status (Witness_run.print program fleet.scenario path)
+
+let ( let* ) = Result.bind
+
+let run path sim fleet network definition speed seed answers supplier supplier_timeout journal drawing recorded resumed
     changed =
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
   let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
-  let how = { network; named; speed; seed; answers; supplier; supplier_timeout; journal; drawing } in
-  let fleet () = if resumed = None then fleet_of ~path ~sim ~named network else Ok no_fleet in
-  match Program_file.load path, fleet () with
-  | Error trouble, _ ->
-    Program_file.tell trouble;
-    Exit_status.Bad_input
-  | Ok _, Error trouble ->
-    Fleet_file.tell trouble;
-    Bad_input
-  | Ok program, Ok fleet -> (
-      match contradiction how ~sim ~follow ~resumed ~changed, Imc_definition.load definition with
-      | Some why, _ -> Report.complain why; Bad_input
-      | None, Error status -> status
-      | None, Ok definition ->
-        let how = { how with network = Option.map (Imc_options.with_names definition) how.network } in
-        Report.diagnostics ~source:program.source program.warnings;
-        (match follow, resumed with
-         | Some recorded, _ -> Follow.run program fleet.scenario recorded
-         | None, Some run -> resume how ~changed program run
-         | None, None -> begin_run how program fleet))
+  let settings : Run.settings =
+    { network; speed; seed; answers; supplier; supplier_timeout; recording = { journal; drawing; follower = None } } in
+  Report.result
+    (let* program = Program_file.load path in
+     let* fleet = if resumed = None then fleet_of ~path ~sim ~named network else Ok Fleet_file.nobody in
+     let* () =
+       match contradiction settings ~sim ~follow:recorded ~resumed ~changed with
+       | Some why -> Error (Error.Bad_input why)
+       | None -> Ok ()
+     in
+     let* definition = Definition_file.load definition in
+     let settings = { settings with network = Option.map (Imc_options.with_names definition) network } in
+     Report.diagnostics ~source:program.source program.warnings;
+     match recorded, resumed with
+     | Some recorded, _ -> follow program fleet recorded
+     | None, Some run ->
+       let run front ~interruption = Run.resume front ~interruption settings ~changed ~fleet:named program run in
+       Ok (on_terminal settings program run)
+     | None, None ->
+       let run front ~interruption = Run.start front ~interruption settings program fleet in
+       Ok (on_terminal settings program run))
 
 let positive =
   let parse text =
@@ -159,7 +136,7 @@ let drawing =
     "Draw the run in the file $(docv), $(i,*.svg) or $(i,*.html), when it is over: who did what when, the ways of the \
      vehicles, their batteries."
   in
-  Arg.(value & opt (some Drawing_file.argument) None & info [ "draw" ] ~docv:"FILE" ~doc)
+  Arg.(value & opt (some Options.drawing) None & info [ "draw" ] ~docv:"FILE" ~doc)
 
 let follow =
   let doc =
@@ -224,5 +201,5 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ sim $ fleet $ Imc_options.chosen $ Imc_definition.file $ speed $ seed $ answers
+      const run $ Options.program $ sim $ fleet $ Imc_options.chosen $ Imc_options.definition $ speed $ seed $ answers
       $ supplier $ supplier_timeout $ journal $ drawing $ follow $ resumed $ changed)

@@ -1,5 +1,10 @@
 type t = Done | Failed | Violated | Bad_input | Platform_trouble | Inconclusive | Bug | Interrupted
 
+let of_verdict : Dolphin_app.Exploration.verdict -> t = function
+  | Holds -> Done
+  | Violated -> Violated
+  | Inconclusive -> Inconclusive
+
 let code = function
   | Done -> 0
   | Failed | Violated -> 1
@@ -7,6 +12,8 @@ let code = function
   | Platform_trouble | Inconclusive -> 3
   | Bug -> 125
   | Interrupted -> 130
+
+let exit_interrupted () = Unix._exit (code Interrupted)
 
 let meaning = function
   | Done -> "all is well."

@@ -10,8 +10,13 @@ type t =
   | Bug  (** a fault of [dolphin] itself *)
   | Interrupted
 
+val of_verdict : Dolphin_app.Exploration.verdict -> t
+
 val code : t -> int
 (** The number that a shell sees. *)
+
+val exit_interrupted : unit -> unit
+(** Ends the process at once, with the status {!Interrupted}: for handlers of signals. *)
 
 val info : t list -> Cmdliner.Cmd.Exit.info list
 (** For manual pages. *)

@@ -1,235 +1,48 @@
 open Cmdliner
-module Search = Dolphin_explore.Search
-module Environment = Dolphin_environment.Environment
-module Value = Dolphin_semantics.Value
-module Property = Dolphin_explore.Property
+open Dolphin_app
 module Faults = Dolphin_environment.Faults
-module Scenario_world = Dolphin_environment.Scenario_world
-module Witness = Dolphin_trace.Witness
-
-type settings = {
-  answers : string list;
-  faults : Faults.t;
-  strict : bool;
-  json : bool;
-  trace : string option;
-  reduction : Dolphin_explore.Reduction.t;
-  compress : bool;
-  max_states : int option;
-  max_depth : int option;
-  max_memory : int option;
-  timeout : float option;
-}
-
-(* Without [--strict] these are worth knowing, but a program may mean them. *)
-let is_remark : Property.t -> bool = function
-  | No_halt | No_leftover | All_reached -> true
-  | No_deadlock | Termination | No_error | Assertions | Vehicles | Invariant _ | Formula _ -> false
 
 (* {1 Progress} *)
 
-let mebibytes bytes = bytes / 1024 / 1024
-
-let show_progress (p : Search.progress) =
+let show_progress (p : Dolphin_explore.Search.progress) =
   Printf.eprintf "\r%s: %d states, %.0f/s, frontier %d, depth %d, %d MiB, %.0f s\027[K%!" p.phase p.states p.rate
-    p.frontier p.depth (mebibytes p.memory) p.elapsed
+    p.frontier p.depth (Exploration_report.mebibytes p.memory) p.elapsed
 
 let clear_progress () = Printf.eprintf "\r\027[K%!"
 
-(* {1 Results} *)
-
-let print_pieces (program : Dolphin_semantics.Core.program) pieces =
-  List.iter
-    (fun (piece : Dolphin_explore.Coverage.piece) ->
-       Format.printf "  %a: %s@." Dolphin_syntax.Location.pp program.locations.(piece.site) piece.what)
-    pieces
-
-(* The call for which the fleet has no reply, if the run ends with one. *)
-let lacking (run : Search.run) =
-  match List.rev run.steps with
-  | { label = No_reply why; _ } :: { label = Call call; _ } :: _ when why = Environment.no_reply call -> Some call
-  | _ -> None
-
-let print_outcome program s (o : Search.outcome) =
-  let with_remark (property, verdict) = (property, verdict, is_remark property && not s.strict) in
-  let shown = List.map with_remark o.verdicts in
-  List.iter
-    (fun (property, (verdict : Search.verdict), remark) ->
-       match verdict with
-       | (Holds | Inconclusive _) when remark -> ()
-       | Holds | Violated _ | Unreached _ | Inconclusive _ ->
-         Format.printf "%s%a@." (if remark then "note: " else "") (Search.pp_verdict program) (property, verdict))
-    shown;
-  let reduced =
-    match Search.reductions o with
-    | [] -> ""
-    | names -> "; reduced by " ^ String.concat ", " names
-  in
-  let for_formulas = if o.formula_states = 0 then "" else Printf.sprintf "; %d states for formulas" o.formula_states in
-  Printf.printf "%d states, %d transitions, depth %d, %.2f s, %d MiB%s%s\n" o.states o.transitions o.depth o.seconds
-    (mebibytes o.bytes) reduced for_formulas;
-  List.iter
-    (fun (property, (verdict : Search.verdict), remark) ->
-       match verdict with
-       | Violated run when not remark ->
-         Format.printf "@.%s: a%s run in which %s@." (Property.name property)
-           (if run.shortest then " shortest" else "")
-           (Property.question property);
-         Shown_run.print program ~steps:run.steps ~cycle:run.cycle;
-         if property = No_deadlock then Shown_run.print_waiting program run.steps;
-         let tell call =
-           Format.printf "the fleet lacks an entry: reply %a, and what the supplier may reply@." Value.pp (String call)
-         in
-         Option.iter tell (lacking run)
-       | Unreached pieces when not remark ->
-         Format.printf "@.%s: no run reaches@." (Property.name property);
-         print_pieces program pieces
-       | Holds | Inconclusive _ | Violated _ | Unreached _ -> ())
-    shown
-
-let json_of_run (run : Search.run) =
-  let labels steps =
-    `List
-      (List.map
-         (fun (t : Dolphin_semantics.Transition.t) ->
-            `String (Format.asprintf "%a" Dolphin_semantics.Label.pp t.label))
-         steps)
-  in
-  let assumed i (t : Dolphin_semantics.Transition.t) =
-    let what a = `String (Format.asprintf "%a" Dolphin_semantics.World.pp_assumption a) in
-    if t.assumed = [] then None
-    else Some (`Assoc [ ("step", `Int (i + 1)); ("assumed", `List (List.map what t.assumed)) ])
-  in
-  let assumptions = List.filter_map Fun.id (List.mapi assumed (run.steps @ run.cycle)) in
-  [ ("shortest", `Bool run.shortest); ("run", labels run.steps); ("cycle", labels run.cycle) ]
-  @ if assumptions = [] then [] else [ ("assumptions", `List assumptions) ]
-
-let json_of_outcome (program : Dolphin_semantics.Core.program) (o : Search.outcome) : Yojson.Safe.t =
-  let verdict (property, verdict) =
-    let name = `String (Property.name property) in
-    let result, more =
-      match (verdict : Search.verdict) with
-      | Holds -> ("holds", [])
-      | Violated run -> ("violated", json_of_run run)
-      | Unreached pieces ->
-        let piece (p : Dolphin_explore.Coverage.piece) =
-          let at = Format.asprintf "%a" Dolphin_syntax.Location.pp program.locations.(p.site) in
-          `Assoc [ ("at", `String at); ("what", `String p.what) ]
-        in
-        ("violated", [ ("unreached", `List (List.map piece pieces)) ])
-      | Inconclusive bound ->
-        ("inconclusive", [ ("bound", `String (Format.asprintf "%a" Search.pp_bound bound)) ])
-    in
-    `Assoc ([ ("property", name); ("verdict", `String result) ] @ more)
-  in
-  `Assoc
-    [ ("states", `Int o.states); ("transitions", `Int o.transitions); ("depth", `Int o.depth);
-      ("seconds", `Float o.seconds); ("bytes", `Int o.bytes); ("formula_states", `Int o.formula_states);
-       ("reductions", `List (List.map (fun name -> `String name) (Search.reductions o)));
-      ("verdicts", `List (List.map verdict o.verdicts)) ]
-
-(* The first of the runs that are shown. *)
-let counter_example strict (o : Search.outcome) =
-  List.find_map
-    (fun (property, verdict) ->
-       match (verdict : Search.verdict) with
-       | Violated run when strict || not (is_remark property) -> Some (property, run)
-       | Violated _ | Holds | Unreached _ | Inconclusive _ -> None)
-    o.verdicts
-
-let as_course (program : Program_file.t) (fleet : Fleet_file.t) world property (run : Search.run) =
-  let source path text = Dolphin_trace.Header.source ~path text in
-  let steps = Witness.steps program.program world in
-  let initial = Dolphin_semantics.Configuration.initial program.program in
-  let last (_ : Dolphin_semantics.Configuration.t) (t : Dolphin_semantics.Transition.t) = t.next in
-  Witness.to_lines
-    { program = source program.path program.source;
-      fleet = Option.map (fun path -> source path fleet.source) fleet.path;
-      property = Property.name property;
-      steps = steps initial run.steps;
-      cycle = steps (List.fold_left last initial run.steps) run.cycle }
-
-let as_itf (program : Program_file.t) property (run : Search.run) =
-  let description = Printf.sprintf "%s: %s" (Property.name property) (Property.question property) in
-  let initial = Dolphin_semantics.Configuration.initial program.program in
-  let trace = Dolphin_trace.Itf.trace program.program ~description initial run.steps ~cycle:run.cycle in
-  [ Yojson.Safe.to_string trace ]
-
-let write_trace program fleet world path (property, run) =
-  match open_out_bin path with
-  | exception Sys_error why -> Report.complain why; Some Exit_status.Platform_trouble
-  | channel ->
-    let write () =
-      let lines =
-        if Filename.check_suffix path ".itf.json" then as_itf program property run
-        else as_course program fleet world property run
-      in
-      List.iter (fun line -> output_string channel (line ^ "\n")) lines
-    in
-    Fun.protect ~finally:(fun () -> close_out channel) write;
-    None
-
-let status strict (o : Search.outcome) : Exit_status.t =
-  let matters (property, _) = strict || not (is_remark property) in
-  let verdicts = List.map snd (List.filter matters o.verdicts) in
-  let is_violated = function Search.Violated _ | Unreached _ -> true | Holds | Inconclusive _ -> false in
-  let is_open = function Search.Inconclusive _ -> true | Holds | Violated _ | Unreached _ -> false in
-  if List.exists is_violated verdicts then Violated else if List.exists is_open verdicts then Inconclusive else Done
-
 (* {1 The command} *)
 
-let explore (program : Program_file.t) (fleet : Fleet_file.t) s invariants formulas =
+let ( let* ) = Result.bind
+
+let explore settings program fleet ~live =
   let interrupted = ref false in
   Sys.set_signal Sys.sigint (Signal_handle (fun _ -> interrupted := true));
-  let live = Unix.isatty Unix.stderr && not s.json in
-  let options : Search.options =
-    { environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
-      reduction = s.reduction; compress = s.compress;
-      search_again = Search.default.search_again;
-      max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; memory_left = Memory.left;
-      timeout = s.timeout;
-      clock = Unix.gettimeofday;
-      invariants; formulas;
-      interrupted = (fun () -> !interrupted);
-      progress = (if live then show_progress else ignore) }
-  in
-  let outcome = Search.run options program.program (Scenario_world.world fleet.scenario) in
+  let progress = if live then show_progress else ignore in
+  let outcome =
+    Exploration.explore ~interrupted:(fun () -> !interrupted) ~progress settings program fleet in
   if live then clear_progress ();
-  let world = Scenario_world.world fleet.scenario in
-  let trouble =
-    match s.trace, counter_example s.strict outcome with
-    | Some path, Some found -> write_trace program fleet world path found
-    | Some _, None | None, _ -> None
-  in
-  if s.json then print_endline (Yojson.Safe.to_string (json_of_outcome program.program outcome))
-  else print_outcome program.program s outcome;
-  Option.value trouble ~default:(status s.strict outcome)
-
-(* Each of [texts] read by [of_string], or the first that is wrong. *)
-let read_all option of_string texts =
-  let read result text =
-    match result, of_string text with
-    | Error _, _ -> result
-    | Ok _, Error why -> Error (Printf.sprintf "%s '%s': %s" option text why)
-    | Ok found, Ok x -> Ok (x :: found)
-  in
-  Result.map List.rev (List.fold_left read (Ok []) texts)
+  outcome
 
 let run path fleet answers faults strict json trace reduction compress invariants formulas max_states max_depth max_memory
     timeout =
-  match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet) with
-  | Error trouble, _ -> Program_file.tell trouble; Exit_status.Bad_input
-  | Ok _, Error trouble -> Fleet_file.tell trouble; Exit_status.Bad_input
-  | Ok program, Ok fleet ->
-    Report.diagnostics ~source:program.source program.warnings;
-    let settings =
-      { answers; faults; strict; json; trace; reduction; compress; max_states; max_depth; max_memory; timeout }
-    in
-    let program' = program.program in
-    (match read_all "--invariant" (Dolphin_explore.Condition.of_string program') invariants,
-           read_all "--ltl" (Dolphin_explore.Temporal.of_string program') formulas with
-    | Error why, _ | _, Error why -> Report.complain why; Bad_input
-    | Ok invariants, Ok formulas -> explore program fleet settings invariants formulas)
+  let settings : Exploration.settings =
+    { answers; faults; reduction; compress; max_states; max_depth; max_memory; timeout; invariants; formulas } in
+  Report.result
+    (let* program = Program_file.load path in
+     let* fleet = Fleet_file.load_for ~program:path fleet in
+     Report.diagnostics ~source:program.source program.warnings;
+     let* outcome = explore settings program fleet ~live:(Unix.isatty Unix.stderr && not json) in
+     let written =
+       match trace, Exploration.counterexample ~strict outcome with
+       | Some path, Some found -> Exploration.write_witness program fleet path found
+       | Some _, None | None, _ -> Ok ()
+     in
+     Result.iter_error Report.tell written;
+     if json then print_endline (Yojson.Safe.to_string (Exploration_report.to_json program.program outcome))
+     else Exploration_report.print ~strict program.program outcome;
+     match written with
+     | Ok () -> Ok (Exit_status.of_verdict (Exploration.verdict ~strict outcome))
+     | Error _ -> Ok Exit_status.Platform_trouble)
 
 (* A number of bytes, as in 512M or 8G. *)
 let size =

@@ -10,6 +10,13 @@ let imc =
   in
   Arg.(value & flag & info [ "imc" ] ~docs:s_network ~doc)
 
+let definition =
+  let doc =
+    "Take names that Dolphin has not got, and messages that it does not know, from the definition of IMC in $(docv), \
+     as vehicles come with it: $(i,IMC.xml). It is an error if Dolphin's messages differ from it."
+  in
+  Arg.(value & opt (some string) None & info [ "imc-xml" ] ~docs:s_network ~docv:"FILE" ~doc)
+
 let loopback =
   let doc = "Speak only to vehicles on this machine, over 127.0.0.1. Implies $(b,--imc)." in
   Arg.(value & flag & info [ "imc-loopback" ] ~docs:s_network ~doc)
@@ -121,7 +128,7 @@ let chosen =
     if imc || implied then Some (make loopback interfaces port discovery id payload types) else None
   in
   Term.(
-    const choose $ imc $ Imc_definition.file $ loopback $ interfaces $ port $ discovery_ports $ id $ payload $ types)
+    const choose $ imc $ definition $ loopback $ interfaces $ port $ discovery_ports $ id $ payload $ types)
 
 let with_names definition options =
   match definition with

@@ -6,6 +6,9 @@ open Dolphin_platform_imc
 val s_network : string
 (** The section of manual pages that has these options. *)
 
+val definition : string option Term.t
+(** [--imc-xml FILE]: the user's own definition of IMC. *)
+
 val options : Udp_platform.options Term.t
 (** [--imc-loopback], [--imc-interface], [--imc-port], [--imc-discovery-ports], [--imc-id], [--imc-payload],
     [--imc-type]. *)

@@ -1,74 +1,17 @@
 open Cmdliner
+open Dolphin_app
 open Dolphin_lts
-module Reference = Dolphin_explore.Reference
-module Scenario_world = Dolphin_environment.Scenario_world
 
-type format = Aut | Dot | Json
 type equivalence = Strong
 
 let ( let* ) = Result.bind
 
-(* {1 Graphs} *)
-
-let graph_of_program path fleet ~answers ~faults ~limit =
-  match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet) with
-  | Error trouble, _ -> Program_file.tell trouble; Error Exit_status.Bad_input
-  | Ok _, Error trouble -> Fleet_file.tell trouble; Error Exit_status.Bad_input
-  | Ok program, Ok fleet -> (
-      let environment = Scenario_world.environment ~answers ~faults fleet.scenario in
-      match Reference.explore ~limit environment program.program (Scenario_world.world fleet.scenario) with
-      | None ->
-        Report.complain (Printf.sprintf "%s has more than %d states: see --max-states" path limit);
-        Error Exit_status.Inconclusive
-      | exception Dolphin_semantics.Reading.Unsettled fault ->
-        Program_file.tell_fault program fault;
-        Error Exit_status.Inconclusive
-      | Some space ->
-        let builder = Graph.Builder.create () in
-        let add from (t, target) =
-          let label = Format.asprintf "%a" Dolphin_semantics.Label.pp t.Dolphin_semantics.Transition.label in
-          Graph.Builder.add builder from label target
-        in
-        Array.iteri (fun from edges -> List.iter (add from) edges) space.edges;
-        let text s =
-          Format.asprintf "%a" (Dolphin_semantics.Configuration.pp program.program) space.states.(s).configuration
-        in
-        Ok (Graph.Builder.finish ~states:(Array.length space.states) ~text builder))
-
-let wrong path why =
-  Report.complain (Printf.sprintf "%s: %s" path why);
-  Error Exit_status.Bad_input
-
-let graph_of_file path ~of_program =
-  let parsed pp = function Ok graph -> Ok graph | Error e -> wrong path (Format.asprintf "%a" pp e) in
-  let text read =
-    match Text_file.read path with
-    | Ok text -> read text
-    | Error why -> Report.complain why; Error Exit_status.Bad_input
-  in
-  match Filename.extension path with
-  | ".aut" -> text (fun text -> parsed Aldebaran.pp_error (Aldebaran.of_string text))
-  | ".json" -> text (fun text -> parsed Json.pp_error (Json.of_string text))
-  | _ -> of_program path
-
-(* {1 Results} *)
-
 let write format output graph =
-  let to_channel channel =
-    let sink = output_string channel in
-    match format with
-    | Aut -> Aldebaran.write sink graph
-    | Dot -> Graphviz.write sink graph
-    | Json -> Dolphin_lts.Json.write sink graph
-  in
   match output with
-  | None -> to_channel stdout; Exit_status.Done
-  | Some path -> (
-      match open_out_bin path with
-      | exception Sys_error why -> Report.complain why; Exit_status.Platform_trouble
-      | channel ->
-        Fun.protect ~finally:(fun () -> close_out channel) (fun () -> to_channel channel);
-        Exit_status.Done)
+  | None -> State_graph.write format stdout graph; Ok Exit_status.Done
+  | Some path ->
+    let* () = Text_file.write path (fun channel -> State_graph.write format channel graph) in
+    Ok Exit_status.Done
 
 let compare_graphs left right =
   match Compare.strong left right with
@@ -78,16 +21,13 @@ let compare_graphs left right =
     Exit_status.Violated
 
 let run path other fleet answers faults limit format quotient output =
-  let of_program path = graph_of_program path fleet ~answers ~faults ~limit in
-  let result =
-    let* graph = graph_of_file path ~of_program in
-    match other with
-    | Some other ->
-      let* other = graph_of_file other ~of_program in
-      Ok (compare_graphs graph other)
-    | None -> Ok (write format output (match quotient with Some Strong -> Partition.minimal graph | None -> graph))
-  in
-  match result with Ok status | Error status -> status
+  let world : State_graph.world = { fleet; answers; faults; limit } in
+  Report.result
+    (let* graph = State_graph.load world path in
+     match other, quotient with
+     | Some other, _ -> Result.map (compare_graphs graph) (State_graph.load world other)
+     | None, Some Strong -> write format output (Partition.minimal graph)
+     | None, None -> write format output graph)
 
 (* {1 The command} *)
 
@@ -103,12 +43,12 @@ let compare_with =
   Arg.(value & opt (some string) None & info [ "compare" ] ~docv:"OTHER" ~doc)
 
 let format =
-  let formats = [ ("aut", Aut); ("dot", Dot); ("json", Json) ] in
+  let formats = [ ("aut", State_graph.Aut); ("dot", Dot); ("json", Json) ] in
   let doc =
     "How to write the graph: $(b,aut), the Aldebaran format of CADP, mCRL2 and LTSmin; $(b,dot), for Graphviz; or \
      $(b,json)."
   in
-  Arg.(value & opt (enum formats) Aut & info [ "format" ] ~docv:"FORMAT" ~doc)
+  Arg.(value & opt (enum formats) State_graph.Aut & info [ "format" ] ~docv:"FORMAT" ~doc)
 
 let quotient =
   let doc = "Write the smallest graph that is bisimilar: $(b,strong)." in

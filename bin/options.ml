@@ -8,6 +8,10 @@ let fleet =
   let doc = "The fleet, a file such as $(i,mission.fleet). By default the file beside $(i,PROG) with that ending." in
   Arg.(value & opt (some string) None & info [ "fleet" ] ~docv:"FLEET" ~doc)
 
+let drawing =
+  let parse path = Result.map_error (fun why -> `Msg why) (Dolphin_app.Drawing.of_path path) in
+  Arg.conv ~docv:"FILE" (parse, fun ppf d -> Format.pp_print_string ppf (Dolphin_app.Drawing.path d))
+
 let exits = Exit_status.info
 
 let see_also =

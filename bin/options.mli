@@ -8,6 +8,9 @@ val program : string Term.t
 val fleet : string option Term.t
 (** [--fleet FLEET]. *)
 
+val drawing : Dolphin_app.Drawing.t Arg.conv
+(** The name of a picture. *)
+
 val exits : Exit_status.t list -> Cmd.Exit.info list
 (** What each of them means, for a manual page. *)
 

@@ -1,10 +1,9 @@
 open Cmdliner
+open Dolphin_app
 
 let run path =
   match Program_file.parse path with
-  | Error trouble ->
-    Program_file.tell trouble;
-    Exit_status.Bad_input
+  | Error e -> Report.error e
   | Ok program ->
     Format.printf "%a@?" Dolphin_syntax.Print.program program;
     Exit_status.Done

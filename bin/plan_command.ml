@@ -1,50 +1,13 @@
 open Cmdliner
-open Dolphin_semantics
+open Dolphin_app
 open Dolphin_runtime
-module Simulator = Dolphin_platform_sim.Simulator
 
-(* The plans that vehicles were given in a run, first one first; a name without a plan is one that vehicles know. *)
-type found = { name : string; plan : Plan.t option }
+let ( let* ) = Result.bind
 
-(* A run in virtual time is over at once, unless it never is. *)
-let most_transitions = 200_000
+let names found =
+  String.concat ", " (List.sort_uniq compare (List.map (fun (f : Inline_plans.found) -> f.name) found))
 
-let plans_of (program : Program_file.t) (fleet : Fleet_file.t) ~seed ~answers =
-  let found = ref [] and count = ref 0 in
-  let enough, stop = Lwt.wait () in
-  let effect : Effect.t -> unit = function
-    | Start (_, { name; plan; _ }) -> if not (List.mem { name; plan } !found) then found := { name; plan } :: !found
-    | Stop _ | Set_timer _ | Cancel_timer _ | Look_for _ | Bind _ | Release _ | Set_connection_timeout _ | Say _ | Ask _
-    | Call_host _ | End _ -> ()
-  in
-  let transition ~time:_ ~cause:_ (t : Transition.t) =
-    List.iter effect t.effects;
-    incr count;
-    if !count = most_transitions then Lwt.wakeup_later stop ()
-  in
-  let shown = { Questions.ask = ignore; answered = ignore; refused = ignore } in
-  let run =
-    Driver.run
-      (module Simulator.Virtual)
-      (Simulator.Virtual.create ~seed fleet.scenario)
-      ~observer:{ Observer.nobody with transition }
-      ~console:(Questions.console shown ~answered:[] ~answers ~scenario:fleet.scenario)
-      ~interruption:enough program.program
-  in
-  let outcome = Lwt_main.run run in
-  (List.rev !found, outcome)
-
-let names found = String.concat ", " (List.sort_uniq compare (List.map (fun f -> f.name) found))
-
-(* By the user's definition, if there is one. *)
-let show definition (plan : Plan.t) =
-  let message = Dolphin_imc.Message.Plan_specification (Dolphin_platform_imc.Plan_message.of_plan plan) in
-  let json =
-    match definition with
-    | None -> Dolphin_imc.Message.to_json message
-    | Some d -> Dolphin_imc.Dynamic.message_to_json d message
-  in
-  print_endline (Yojson.Safe.pretty_to_string json)
+let show definition plan = print_endline (Yojson.Safe.pretty_to_string (Inline_plans.to_json definition plan))
 
 let tell_end : Driver.outcome -> unit = function
   | Ended Completed -> ()
@@ -53,8 +16,8 @@ let tell_end : Driver.outcome -> unit = function
     Report.complain ("the run that the plans are taken from did not complete: " ^ why)
 
 let print_named definition name found outcome : Exit_status.t =
-  let inline = List.filter (fun f -> f.plan <> None) found in
-  match List.filter (fun f -> f.name = name) found with
+  let inline = List.filter (fun (f : Inline_plans.found) -> f.plan <> None) found in
+  match List.filter (fun (f : Inline_plans.found) -> f.name = name) found with
   | [] ->
     tell_end outcome;
     Report.complain
@@ -62,7 +25,7 @@ let print_named definition name found outcome : Exit_status.t =
          (if inline = [] then "none gets an inline plan" else "inline plans are " ^ names inline));
     Failed
   | plans -> (
-      match List.filter_map (fun f -> f.plan) plans with
+      match List.filter_map (fun (f : Inline_plans.found) -> f.plan) plans with
       | [] ->
         Report.complain
           (Printf.sprintf "'%s' is a plan that vehicles know by name: the program does not describe it" name);
@@ -71,26 +34,24 @@ let print_named definition name found outcome : Exit_status.t =
 
 let print_all found outcome : Exit_status.t =
   tell_end outcome;
-  List.iter
-    (fun f ->
-       let what = match f.plan with Some plan -> Format.asprintf "%a" Plan.pp plan | None -> f.name ^ " (by name)" in
-       print_endline what)
-    found;
+  let line (f : Inline_plans.found) =
+    match f.plan with
+    | Some plan -> Format.asprintf "%a" Dolphin_semantics.Plan.pp plan
+    | None -> f.name ^ " (by name)"
+  in
+  List.iter (fun f -> print_endline (line f)) found;
   Done
 
 let run path name fleet seed answers definition =
-  match
-    Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet), Imc_definition.load definition
-  with
-  | Error trouble, _, _ -> Program_file.tell trouble; Exit_status.Bad_input
-  | Ok _, Error trouble, _ -> Fleet_file.tell trouble; Exit_status.Bad_input
-  | Ok _, Ok _, Error status -> status
-  | Ok program, Ok fleet, Ok definition -> (
-      Report.diagnostics ~source:program.source program.warnings;
-      let found, outcome = plans_of program fleet ~seed ~answers in
-      match name with
-      | Some name -> print_named definition name found outcome
-      | None -> print_all found outcome)
+  Report.result
+    (let* program = Program_file.load path in
+     let* fleet = Fleet_file.load_for ~program:path fleet in
+     let* definition = Definition_file.load definition in
+     Report.diagnostics ~source:program.source program.warnings;
+     let found, outcome = Inline_plans.of_run program fleet ~seed ~answers in
+     match name with
+     | Some name -> Ok (print_named definition name found outcome)
+     | None -> Ok (print_all found outcome))
 
 let plan_name =
   let doc = "The plan's name, as $(b,planName) gives it. Without it, the plans that vehicles are given are listed." in
@@ -125,4 +86,4 @@ let command =
     Cmd.info "plan" ~doc:"print an inline plan as IMC vehicles get it" ~man
       ~exits:(Options.exits [ Done; Failed; Bad_input; Bug ])
   in
-  Cmd.v info Term.(const run $ Options.program $ plan_name $ Options.fleet $ seed $ answers $ Imc_definition.file)
+  Cmd.v info Term.(const run $ Options.program $ plan_name $ Options.fleet $ seed $ answers $ Imc_options.definition)

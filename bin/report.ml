@@ -1,15 +1,27 @@
+open Dolphin_app
 module Diagnostic = Dolphin_syntax.Diagnostic
 
 let complain sentence = Format.eprintf "dolphin: %s@." sentence
 
-let diagnostics ~source ds =
-  let ordered = List.stable_sort Diagnostic.compare ds in
-  List.iter (fun d -> Format.eprintf "%a@." (Diagnostic.pp ~source) d) ordered
+let diagnostics ~source found =
+  if found <> [] then Format.eprintf "%a@." Error.pp (Error.Bad_text { source; found })
 
-let count n what = Printf.sprintf "%d %s%s" n what (if n = 1 then "" else "s")
+let tell e =
+  match Error.sentences e with
+  | [] -> Format.eprintf "%a@." Error.pp e
+  | sentences -> List.iter complain sentences
+
+let error (e : Error.t) : Exit_status.t =
+  tell e;
+  match e with
+  | Bad_input _ | Bad_text _ | Incompatible _ -> Bad_input
+  | Unavailable _ -> Platform_trouble
+  | Inconclusive _ | Unsettled _ -> Inconclusive
+
+let result = function Ok status -> status | Error e -> error e
 
 let counts ds =
   let is_error (d : Diagnostic.t) = match d.severity with Error -> true | Warning -> false in
   let errors, warnings = List.partition is_error ds in
-  let first = if errors = [] then "no errors" else count (List.length errors) "error" in
-  if warnings = [] then first else first ^ ", " ^ count (List.length warnings) "warning"
+  let first = if errors = [] then "no errors" else Phrase.count (List.length errors) "error" in
+  if warnings = [] then first else first ^ ", " ^ Phrase.count (List.length warnings) "warning"

@@ -1,63 +1,25 @@
 open Cmdliner
+open Dolphin_app
 module Network = Dolphin_sim_imc.Network
 module Scenario = Dolphin_scenario.Scenario
-
-(* {1 Running} *)
-
-let open_log = function
-  | None -> Ok (ignore, ignore)
-  | Some path -> (
-      match open_out path with
-      | channel ->
-        let write json =
-          output_string channel (Yojson.Safe.to_string json ^ "\n");
-          flush channel
-        in
-        Ok (write, fun () -> close_out_noerr channel)
-      | exception Sys_error why -> Error why)
 
 let tell_vehicle ({ name; kind; id; port } : Network.vehicle) =
   Format.printf "%s (%s): IMC system 0x%04X, UDP port %d@." name kind id port
 
-let live interruption network ~log lasts =
-  let over = Option.fold ~none:(fst (Lwt.wait ())) ~some:Lwt_unix.sleep lasts in
-  let until = Lwt.pick [ Interruption.promise interruption; over ] in
-  Lwt_main.run (Network.run ~log ~until network);
-  if Interruption.happened interruption then Exit_status.Interrupted else Done
+let serve (settings : Scenario.t -> Network.settings) ~log lasts (fleet : Fleet_file.t) =
+  let interruption = Interruption.make () in
+  Interruption.on_signals ~again:Exit_status.exit_interrupted interruption;
+  let status () : Exit_status.t = if Interruption.happened interruption then Interrupted else Done in
+  Result.map status
+    (Simulated_network.run (settings fleet.scenario) interruption ~log ~lasts ~started:tell_vehicle)
 
-let serve settings ~log_file lasts : Exit_status.t =
-  match open_log log_file with
-  | Error why -> Report.complain why; Bad_input
-  | Ok (log, close_log) ->
-    let interruption = Interruption.make () in
-    Fun.protect ~finally:close_log (fun () ->
-        match Network.create settings with
-        | Error why -> Report.complain why; Exit_status.Platform_trouble
-        | Ok network ->
-          List.iter tell_vehicle (Network.vehicles network);
-          Fun.protect ~finally:(fun () -> Network.close network) (fun () ->
-              live interruption network ~log lasts))
+let run fleet imc log lasts settings =
+  if not imc then
+    Report.error
+      (Error.Bad_input "say --imc: IMC is the only protocol that simulated vehicles speak on a network")
+  else Report.result (Result.bind (Fleet_file.load fleet) (serve settings ~log lasts))
 
 (* {1 The command line} *)
-
-let no_such_vehicle (scenario : Scenario.t) names =
-  let exists name = List.exists (fun (v : Scenario.vehicle) -> v.id = name) scenario.vehicles in
-  List.find_opt (fun name -> not (exists name)) names
-
-let run fleet imc log_file lasts (settings : Scenario.t -> Network.settings) : Exit_status.t =
-  if not imc then begin
-    Report.complain "say --imc: IMC is the only protocol that simulated vehicles speak on a network";
-    Bad_input
-  end
-  else
-    match Fleet_file.load fleet with
-    | Error trouble -> Fleet_file.tell trouble; Bad_input
-    | Ok { scenario; path = _ } -> (
-        let settings = settings scenario in
-        let named = List.map fst settings.refuses @ List.map fst (settings.blocks @ settings.vanishes) in
-        match no_such_vehicle scenario named with
-        | Some name -> Report.complain (Printf.sprintf "the fleet has no vehicle '%s'" name); Bad_input
-        | None -> serve settings ~log_file lasts)
 
 let fleet =
   let doc = "The fleet, a file such as $(i,mission.fleet). The default is the built-in fleet." in

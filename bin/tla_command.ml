@@ -1,44 +1,22 @@
 open Cmdliner
-module Model = Dolphin_tla.Model
-module Scenario = Dolphin_scenario.Scenario
-module Scenario_world = Dolphin_environment.Scenario_world
+open Dolphin_app
 
 let ( let* ) = Result.bind
 
-let calls (fleet : Fleet_file.t) = List.map (fun (reply : Scenario.reply) -> reply.call) fleet.scenario.replies
-
-let model (program : Program_file.t) (fleet : Fleet_file.t) ~answers ~faults =
-  let scenario = fleet.scenario in
-  let plans = List.map (fun (plan : Scenario.plan) -> plan.name) scenario.plans in
-  let prompts = List.map (fun (answer : Scenario.answer) -> answer.prompt) scenario.answers in
-  let environment = Scenario_world.environment ~answers ~faults scenario in
-  Model.of_program ~plans ~prompts ~calls:(calls fleet) ~environment (Scenario_world.world scenario) program.program
-
-let load path fleet =
-  match Program_file.load path, Fleet_file.load (Fleet_file.choose ~program:path fleet) with
-  | Error trouble, _ -> Program_file.tell trouble; Error Exit_status.Bad_input
-  | Ok _, Error trouble -> Fleet_file.tell trouble; Error Exit_status.Bad_input
-  | Ok program, Ok fleet -> Ok (program, fleet)
-
-let unfit_replies (program : Program_file.t) (fleet : Fleet_file.t) ~answers ~faults =
-  let named = Scenario.replies_at ~file:(Option.value fleet.path ~default:"") fleet.source in
-  let environment = Scenario_world.environment ~answers ~faults fleet.scenario and world = Scenario_world.world fleet.scenario in
-  let refusal (call, why) = Dolphin_syntax.Diagnostic.error (List.assoc call named) why in
-  List.map refusal (Model.unfit_replies ~environment ~calls:(calls fleet) world program.program)
-
 (* {1 What is done with the model} *)
 
-type deed =
+type task =
   | Write of string  (** into this directory *)
   | Check of Tlc_check.settings
   | Compare of { directory : string option; limit : int; coverage : bool }
 
 let write directory files =
-  let files = List.map (fun (f : Model.file) -> (f.name, f.text)) files in
-  match Tlc_session.write ~directory files with Ok () -> Exit_status.Done | Error status -> status
+  let files = List.map (fun (f : Dolphin_tla.Model.file) -> (f.name, f.text)) files in
+  Result.map (fun () -> Exit_status.Done) (Tlc_session.write ~directory files)
 
-let deed directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverage =
-  let wrong why = Report.complain why; Error Exit_status.Bad_input in
+let task directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverage =
+  let wrong why = Error (Error.Bad_input why) in
+  let check_by mode = Ok (Check { mode; directory; strict; notice = prerr_endline }) in
   let only_with_run =
     List.filter_map
       (fun (given, option) -> if given then Some option else None)
@@ -51,40 +29,32 @@ let deed directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverag
   | true, false, _, _, Some _, Some _ ->
     wrong "--workers is not for --distributed: each worker says itself how many threads it has"
   | true, false, _, _, Some (host, port), None ->
-    Ok (Check { mode = Server { host; port }; directory; strict })
+    check_by (Server { host; port })
   | true, false, _, _, None, _ ->
-    let workers = Option.value workers ~default:Dolphin_tlc.Invocation.Automatic in
-    Ok (Check { mode = Local workers; directory; strict })
+    check_by (Local (Option.value workers ~default:Dolphin_tlc.Invocation.Automatic))
   | false, true, [], _, _, _ -> Ok (Compare { directory; limit; coverage })
   | false, false, [], Some directory, _, _ -> Ok (Write directory)
   | false, false, [], None, _, _ ->
     wrong "what is to be done with the model? -o DIR writes it, --run has TLC check it, --compare compares state graphs"
 
-let perform jar deed (program : Program_file.t) (fleet : Fleet_file.t) ~answers ~faults files =
-  let environment = Scenario_world.environment ~answers ~faults fleet.scenario and world = Scenario_world.world fleet.scenario in
-  match deed with
-  | Write directory -> Ok (write directory files)
+let perform jar task program ({ files; environment; world } : Tla_model.t) =
+  match task with
+  | Write directory -> write directory files
   | Check settings ->
     let* installation = Tlc_session.installation jar in
-    Ok (Tlc_check.run installation settings files environment program world)
+    Result.map Exit_status.of_verdict (Tlc_check.run installation settings files environment program world)
   | Compare { directory; limit; coverage } ->
     let* installation = Tlc_session.installation jar in
-    Ok (Tlc_compare.run installation ~directory ~limit ~coverage files environment program world)
+    Result.map Exit_status.of_verdict
+      (Tlc_compare.run installation ~directory ~limit ~coverage files environment program world)
 
 let run path fleet answers faults directory check compare strict limit jar workers distributed coverage =
-  let result =
-    let* deed = deed directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverage in
-    let* program, fleet = load path fleet in
-    let* () =
-      match unfit_replies program fleet ~answers ~faults with
-      | [] -> Ok ()
-      | refusals -> Report.diagnostics ~source:fleet.source refusals; Error Exit_status.Bad_input
-    in
-    match model program fleet ~answers ~faults with
-    | Ok files -> perform jar deed program fleet ~answers ~faults files
-    | Error refusals -> Report.diagnostics ~source:program.source refusals; Error Exit_status.Bad_input
-  in
-  match result with Ok status | Error status -> status
+  Report.result
+    (let* task = task directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverage in
+     let* program = Program_file.load path in
+     let* fleet = Fleet_file.load_for ~program:path fleet in
+     let* model = Tla_model.make ~answers ~faults program fleet in
+     perform jar task program model)
 
 (* {1 The command} *)
 

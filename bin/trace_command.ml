@@ -1,4 +1,5 @@
 open Cmdliner
+open Dolphin_app
 open Dolphin_trace
 
 (* {1 Files} *)
@@ -7,35 +8,7 @@ let journal position =
   let doc = "The journal of a run, as $(mname) $(b,exec --journal) $(docv) writes it." in
   Arg.(required & pos position (some string) None & info [] ~docv:"RUN" ~doc)
 
-let bad why =
-  Report.complain why;
-  Exit_status.Bad_input
-
-(* Opens [path] for [f]; [-] is standard input. *)
-let with_journal path f =
-  let read () =
-    if path = "-" then begin
-      set_binary_mode_in stdin true;
-      f (Journal.of_channel stdin)
-    end
-    else
-      let channel = open_in_bin path in
-      Fun.protect ~finally:(fun () -> close_in_noerr channel) (fun () -> f (Journal.of_channel channel))
-  in
-  match read () with
-  | status -> status
-  | exception Sys_error why -> bad (if String.length why > 0 && why.[0] = path.[0] then why else path ^ ": " ^ why)
-
-(* [fold path f] gives each line to [f], and is [Done] if all of them are lines of a journal. *)
-let each_line path f =
-  with_journal path (fun reader ->
-      let rec go () =
-        match Journal.next reader with
-        | Line { entry; _ } -> f entry; go ()
-        | Torn _ | End_of_file -> Exit_status.Done
-        | Wrong { number; why } -> bad (Printf.sprintf "%s:%d: %s" path number why)
-      in
-      go ())
+let ( let* ) = Result.bind
 
 (* {1 Check} *)
 
@@ -46,28 +19,28 @@ let world_of = function
     let world (f : Fleet_file.t) = Dolphin_environment.Scenario_world.still f.scenario in
     Result.map world (Fleet_file.load named)
 
+let tell_change path (program : Program_file.t) (header : Header.t) =
+  if header.program.hash <> (Program_file.header program).hash then
+    Report.complain
+      (Printf.sprintf "%s is not the text that this run was of, or has changed since: places are not compared" path)
+
+let status path : Verdict.t -> (Exit_status.t, Error.t) result = function
+  | Run _ | Prefix _ | Possible _ -> Ok Done
+  | No_run _ | Impossible _ -> Ok Failed
+  | Unknown _ -> Ok Inconclusive
+  | Unreadable { number; why } -> Error (Journal_file.wrong path ~number why)
+
 let check program_path path fleet most =
-  match Program_file.load program_path, world_of fleet with
-  | Error trouble, _ ->
-    Program_file.tell trouble;
-    Exit_status.Bad_input
-  | Ok _, Error trouble ->
-    Fleet_file.tell trouble;
-    Exit_status.Bad_input
-  | Ok p, Ok world ->
-    with_journal path (fun reader ->
-        let hash = (Header.source ~path:program_path p.source).hash in
-        let header, verdict = Verdict.check ~world ~most p.program ~hash reader in
-        let is_other (h : Header.t) = h.program.hash <> hash in
-        if Option.fold ~none:false ~some:is_other header then
-          Report.complain
-            (Printf.sprintf "%s is not the text that this run was of, or has changed since: places are not compared"
-               program_path);
-        match verdict with
-        | Run _ | Prefix _ | Possible _ -> Format.printf "@[<v 2>%s: %a@]@." path Verdict.pp verdict; Exit_status.Done
-        | No_run _ | Impossible _ -> Format.printf "@[<v 2>%s: %a@]@." path Verdict.pp verdict; Exit_status.Failed
-        | Unknown _ -> Format.printf "@[<v 2>%s: %a@]@." path Verdict.pp verdict; Exit_status.Inconclusive
-        | Unreadable { number; why } -> bad (Printf.sprintf "%s:%d: %s" path number why))
+  Report.result
+    (let* p = Program_file.load program_path in
+     let* world = world_of fleet in
+     Journal_file.with_reader path (fun reader ->
+         let hash = (Program_file.header p).hash in
+         let header, verdict = Verdict.check ~world ~most p.program ~hash reader in
+         Option.iter (tell_change program_path p) header;
+         let status = status path verdict in
+         if Result.is_ok status then Format.printf "@[<v 2>%s: %a@]@." path Verdict.pp verdict;
+         status))
 
 let check_exits =
   [ Cmd.Exit.info 0 ~doc:"the journal is one of a run of the program, or of the beginning of one.";
@@ -101,27 +74,31 @@ let check_command =
 
 (* {1 Show} *)
 
+(* Samples are many, and not shown. *)
+let worth_showing () =
+  let silent = Hashtbl.create 16 in
+  fun (entry : Entry.t) ->
+    match entry with
+    | Vehicle { state; _ } ->
+      let was_silent = Option.value (Hashtbl.find_opt silent state.id) ~default:false in
+      Hashtbl.replace silent state.id (not state.connected);
+      was_silent = state.connected
+    | Note _ -> false
+    | Header _ | Partial _ | Label _ | Event _ | Transition _ | Resumed _ | End _ -> true
+
 let show transitions path =
-  if transitions then each_line path (Table.print_transitions Format.std_formatter)
-  else
-    let entries = ref [] in
-    (* Samples are many, and not shown. *)
-    let silent = Hashtbl.create 16 in
-    let keep (entry : Entry.t) =
-      match entry with
-      | Vehicle { state; _ } ->
-        let was_silent = Option.value (Hashtbl.find_opt silent state.id) ~default:false in
-        if was_silent = state.connected then begin
-          Hashtbl.replace silent state.id (not state.connected);
-          entries := entry :: !entries
-        end
-      | Note _ -> ()
-      | Header _ | Partial _ | Label _ | Event _ | Transition _ | Resumed _ | End _ -> entries := entry :: !entries
-    in
-    let status = each_line path keep in
-    if !entries <> [] then Table.print Format.std_formatter (List.rev !entries);
-    Format.printf "%!";
-    status
+  let read () =
+    if transitions then Journal_file.iter (Table.print_transitions Format.std_formatter) path
+    else
+      let entries = ref [] and is_shown = worth_showing () in
+      let keep entry = if is_shown entry then entries := entry :: !entries in
+      let result = Journal_file.iter keep path in
+      if !entries <> [] then Table.print Format.std_formatter (List.rev !entries);
+      result
+  in
+  let result = read () in
+  Format.printf "%!";
+  Report.result (Result.map (fun () -> Exit_status.Done) result)
 
 let show_command =
   let transitions =
@@ -141,18 +118,17 @@ let show_command =
 (* {1 Draw} *)
 
 let draw path drawing =
-  let builder = Summary.create () in
-  match each_line path (Summary.add builder) with
-  | Done -> (
-      match Drawing_file.write drawing (Summary.finish builder) with
-      | Ok () -> Exit_status.Done
-      | Error why -> bad why)
-  | (Failed | Violated | Bad_input | Platform_trouble | Inconclusive | Bug | Interrupted) as status -> status
+  let summary = Summary.create () in
+  Report.result
+    (let* () = Journal_file.iter (Summary.add summary) path in
+     match Drawing.write drawing (Summary.finish summary) with
+     | Ok () -> Ok Exit_status.Done
+     | Error e -> Report.tell e; Ok Exit_status.Bad_input)
 
 let draw_command =
   let drawing =
     let doc = "The file to draw in: $(i,*.svg) or $(i,*.html)." in
-    Arg.(required & opt (some Drawing_file.argument) None & info [ "o"; "output" ] ~docv:"FILE" ~doc)
+    Arg.(required & opt (some Options.drawing) None & info [ "o"; "output" ] ~docv:"FILE" ~doc)
   in
   let man =
     [ `S Manpage.s_description;

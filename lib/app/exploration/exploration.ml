@@ -1,0 +1,95 @@
+module Search = Dolphin_explore.Search
+module Property = Dolphin_explore.Property
+module Scenario_world = Dolphin_environment.Scenario_world
+module Witness = Dolphin_trace.Witness
+
+type settings = {
+  answers : string list;
+  faults : Dolphin_environment.Faults.t;
+  reduction : Dolphin_explore.Reduction.t;
+  compress : bool;
+  max_states : int option;
+  max_depth : int option;
+  max_memory : int option;
+  timeout : float option;
+  invariants : string list;
+  formulas : string list;
+}
+
+let ( let* ) = Result.bind
+
+(* {1 Exploring} *)
+
+(* Each of [texts] read by [of_string], or the first that is wrong. *)
+let read_all option of_string texts =
+  let read text =
+    Result.map_error
+      (fun why -> Error.Bad_input (Printf.sprintf "%s '%s': %s" option text why))
+      (of_string text)
+  in
+  Dolphin_results.Results.map read texts
+
+let explore ~interrupted ~progress s (program : Program_file.t) (fleet : Fleet_file.t) =
+  let core = program.program in
+  let* invariants = read_all "--invariant" (Dolphin_explore.Condition.of_string core) s.invariants in
+  let* formulas = read_all "--ltl" (Dolphin_explore.Temporal.of_string core) s.formulas in
+  let options : Search.options =
+    { environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
+      reduction = s.reduction; compress = s.compress;
+      search_again = Search.default.search_again;
+      max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; memory_left = Memory.left;
+      timeout = s.timeout;
+      clock = Unix.gettimeofday;
+      invariants; formulas; interrupted; progress }
+  in
+  Ok (Search.run options core (Scenario_world.world fleet.scenario))
+
+(* {1 Verdicts} *)
+
+let is_remark : Property.t -> bool = function
+  | No_halt | No_leftover | All_reached -> true
+  | No_deadlock | Termination | No_error | Assertions | Vehicles | Invariant _ | Formula _ -> false
+
+type verdict = Holds | Violated | Inconclusive
+
+let verdict ~strict (o : Search.outcome) =
+  let matters (property, _) = strict || not (is_remark property) in
+  let verdicts = List.map snd (List.filter matters o.verdicts) in
+  let is_violated = function Search.Violated _ | Unreached _ -> true | Holds | Inconclusive _ -> false in
+  let is_open = function Search.Inconclusive _ -> true | Holds | Violated _ | Unreached _ -> false in
+  if List.exists is_violated verdicts then Violated else if List.exists is_open verdicts then Inconclusive else Holds
+
+let counterexample ~strict (o : Search.outcome) =
+  List.find_map
+    (fun (property, verdict) ->
+       match (verdict : Search.verdict) with
+       | Violated run when strict || not (is_remark property) -> Some (property, run)
+       | Violated _ | Holds | Unreached _ | Inconclusive _ -> None)
+    o.verdicts
+
+(* {1 Witnesses} *)
+
+let witness (program : Program_file.t) (fleet : Fleet_file.t) property (run : Search.run) =
+  let steps = Witness.steps program.program (Scenario_world.world fleet.scenario) in
+  let initial = Dolphin_semantics.Configuration.initial program.program in
+  let last (_ : Dolphin_semantics.Configuration.t) (t : Dolphin_semantics.Transition.t) = t.next in
+  Witness.to_lines
+    { program = Program_file.header program;
+      fleet = Fleet_file.header fleet;
+      property = Property.name property;
+      steps = steps initial run.steps;
+      cycle = steps (List.fold_left last initial run.steps) run.cycle }
+
+let informal_trace (program : Program_file.t) property (run : Search.run) =
+  let description = Printf.sprintf "%s: %s" (Property.name property) (Property.question property) in
+  let initial = Dolphin_semantics.Configuration.initial program.program in
+  let trace = Dolphin_trace.Itf.trace program.program ~description initial run.steps ~cycle:run.cycle in
+  [ Yojson.Safe.to_string trace ]
+
+let write_witness program fleet path (property, run) =
+  Text_file.write path (fun channel ->
+      let lines =
+        if Filename.check_suffix path ".itf.json" then informal_trace program property run
+        else witness program fleet property run
+      in
+      List.iter (fun line -> output_string channel (line ^ "\n")) lines)

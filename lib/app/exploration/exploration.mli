@@ -1,0 +1,45 @@
+(** All runs of a program in its world, explored. *)
+
+module Search := Dolphin_explore.Search
+module Property := Dolphin_explore.Property
+
+(** What is explored, and how far. [None] is no bound. *)
+type settings = {
+  answers : string list;  (** what may be answered; [[]]: what the fleet answers *)
+  faults : Dolphin_environment.Faults.t;
+  reduction : Dolphin_explore.Reduction.t;
+  compress : bool;  (** less memory, more time *)
+  max_states : int option;
+  max_depth : int option;  (** transitions *)
+  max_memory : int option;  (** bytes; [None]: nine tenths of what is left to the process *)
+  timeout : float option;  (** seconds *)
+  invariants : string list;  (** expressions ({!Dolphin_explore.Condition}) *)
+  formulas : string list;  (** of linear temporal logic ({!Dolphin_explore.Temporal}) *)
+}
+
+val explore :
+  interrupted:(unit -> bool) -> progress:(Search.progress -> unit) -> settings -> Program_file.t -> Fleet_file.t ->
+  (Search.outcome, Error.t) result
+(** [explore ~interrupted ~progress s program fleet] is what is found out about the runs of [program] in the world of
+    [fleet]. It ends early, as at a bound, once [interrupted ()]; [progress] is told now and then how far it is. The
+    error, {!Error.Bad_input}, is a wrong invariant or formula. *)
+
+(** {1:verdicts Verdicts} *)
+
+val is_remark : Property.t -> bool
+(** Whether a violation of it is only worth a note unless the check is strict: a program may mean to halt, or to leave
+    tuples. *)
+
+type verdict = Holds | Violated | Inconclusive
+
+val verdict : strict:bool -> Search.outcome -> verdict
+(** [verdict ~strict o] is [Violated] if some property is, and else [Inconclusive] if a bound was met; remarks count
+    only if [strict]. *)
+
+val counterexample : strict:bool -> Search.outcome -> (Property.t * Search.run) option
+(** The first counterexample that {!Exploration_report} shows. *)
+
+val write_witness : Program_file.t -> Fleet_file.t -> string -> Property.t * Search.run -> (unit, Error.t) result
+(** [write_witness program fleet path (property, run)] writes the counterexample [run] into the file [path], in the
+    Informal Trace Format if its name ends in [.itf.json], and else as {!Dolphin_trace.Witness}, which {!Witness_run}
+    takes again. *)

@@ -1,0 +1,103 @@
+open Dolphin_semantics
+module Search = Dolphin_explore.Search
+module Property = Dolphin_explore.Property
+
+let mebibytes bytes = bytes / 1024 / 1024
+
+(* {1 For people} *)
+
+let print_verdict program (property, (verdict : Search.verdict), remark) =
+  match verdict with
+  | (Holds | Inconclusive _) when remark -> ()
+  | Holds | Violated _ | Unreached _ | Inconclusive _ ->
+    Format.printf "%s%a@." (if remark then "note: " else "") (Search.pp_verdict program) (property, verdict)
+
+let print_counts (o : Search.outcome) =
+  let reduced =
+    match Search.reductions o with
+    | [] -> ""
+    | names -> "; reduced by " ^ String.concat ", " names
+  in
+  let for_formulas = if o.formula_states = 0 then "" else Printf.sprintf "; %d states for formulas" o.formula_states in
+  Printf.printf "%d states, %d transitions, depth %d, %.2f s, %d MiB%s%s\n" o.states o.transitions o.depth o.seconds
+    (mebibytes o.bytes) reduced for_formulas
+
+(* The call for which the fleet has no reply, if the run ends with one. *)
+let unanswered (run : Search.run) =
+  match List.rev run.steps with
+  | { label = No_reply why; _ } :: { label = Call call; _ } :: _
+    when why = Dolphin_environment.Environment.no_reply call -> Some call
+  | _ -> None
+
+let print_run program property (run : Search.run) =
+  Format.printf "@.%s: a%s run in which %s@." (Property.name property)
+    (if run.shortest then " shortest" else "")
+    (Property.question property);
+  Run_columns.print program ~steps:run.steps ~cycle:run.cycle;
+  if property = Property.No_deadlock then Run_columns.print_waiting program run.steps;
+  let tell call =
+    Format.printf "the fleet lacks an entry: reply %a, and what the supplier may reply@." Value.pp (String call) in
+  Option.iter tell (unanswered run)
+
+let print_unreached (program : Core.program) property pieces =
+  Format.printf "@.%s: no run reaches@." (Property.name property);
+  List.iter
+    (fun (piece : Dolphin_explore.Coverage.piece) ->
+       Format.printf "  %a: %s@." Dolphin_syntax.Location.pp program.locations.(piece.site) piece.what)
+    pieces
+
+let print_violation program (property, (verdict : Search.verdict), remark) =
+  match verdict with
+  | Violated run when not remark -> print_run program property run
+  | Unreached pieces when not remark -> print_unreached program property pieces
+  | Holds | Inconclusive _ | Violated _ | Unreached _ -> ()
+
+let print ~strict program (o : Search.outcome) =
+  let with_remark (property, verdict) = (property, verdict, Exploration.is_remark property && not strict) in
+  let verdicts = List.map with_remark o.verdicts in
+  List.iter (print_verdict program) verdicts;
+  print_counts o;
+  List.iter (print_violation program) verdicts
+
+(* {1 For programs} *)
+
+let json_of_run (run : Search.run) =
+  let labels steps =
+    `List
+      (List.map
+         (fun (t : Transition.t) ->
+            `String (Format.asprintf "%a" Label.pp t.label))
+         steps)
+  in
+  let assumed i (t : Transition.t) =
+    let what a = `String (Format.asprintf "%a" World.pp_assumption a) in
+    if t.assumed = [] then None
+    else Some (`Assoc [ ("step", `Int (i + 1)); ("assumed", `List (List.map what t.assumed)) ])
+  in
+  let assumptions = List.filter_map Fun.id (List.mapi assumed (run.steps @ run.cycle)) in
+  [ ("shortest", `Bool run.shortest); ("run", labels run.steps); ("cycle", labels run.cycle) ]
+  @ if assumptions = [] then [] else [ ("assumptions", `List assumptions) ]
+
+let to_json (program : Core.program) (o : Search.outcome) : Yojson.Safe.t =
+  let verdict (property, verdict) =
+    let name = `String (Property.name property) in
+    let result, more =
+      match (verdict : Search.verdict) with
+      | Holds -> ("holds", [])
+      | Violated run -> ("violated", json_of_run run)
+      | Unreached pieces ->
+        let piece (p : Dolphin_explore.Coverage.piece) =
+          let at = Format.asprintf "%a" Dolphin_syntax.Location.pp program.locations.(p.site) in
+          `Assoc [ ("at", `String at); ("what", `String p.what) ]
+        in
+        ("violated", [ ("unreached", `List (List.map piece pieces)) ])
+      | Inconclusive bound ->
+        ("inconclusive", [ ("bound", `String (Format.asprintf "%a" Search.pp_bound bound)) ])
+    in
+    `Assoc ([ ("property", name); ("verdict", `String result) ] @ more)
+  in
+  `Assoc
+    [ ("states", `Int o.states); ("transitions", `Int o.transitions); ("depth", `Int o.depth);
+      ("seconds", `Float o.seconds); ("bytes", `Int o.bytes); ("formula_states", `Int o.formula_states);
+      ("reductions", `List (List.map (fun name -> `String name) (Search.reductions o)));
+      ("verdicts", `List (List.map verdict o.verdicts)) ]

@@ -1,0 +1,14 @@
+(** What an exploration found, for people and for programs. *)
+
+open Dolphin_semantics
+module Search := Dolphin_explore.Search
+
+val print : strict:bool -> Core.program -> Search.outcome -> unit
+(** [print ~strict program o] prints [o] on standard output: a verdict for each property, the counts, and a
+    counterexample of each violation, in columns. Unless [strict], remarks ({!Exploration.is_remark}) are notes. *)
+
+val to_json : Core.program -> Search.outcome -> Yojson.Safe.t
+(** [to_json program o] is [o] as one object. *)
+
+val mebibytes : int -> int
+(** [mebibytes bytes] is [bytes] in MiB, rounded down. *)

@@ -1,0 +1,25 @@
+(** State graphs of programs, for other tools, and graphs compared. *)
+
+type world = {
+  fleet : string option;  (** the file; [None]: the one beside the program, or the built-in one *)
+  answers : string list;  (** what may be answered; [[]]: what the fleet answers *)
+  faults : Dolphin_environment.Faults.t;
+  limit : int;  (** states *)
+}
+
+val load : world -> string -> (Dolphin_lts.Graph.t, Error.t) result
+(** [load w path] is the graph in the file [path], if its name ends in [.aut] or [.json], and else the labelled
+    transition system of the program in it: its states are configurations, its labels those of [docs/semantics.md]. The
+    error is {!Error.Inconclusive} if it has more than [w.limit] states. *)
+
+type format = Aut | Dot | Json
+
+val write : format -> out_channel -> Dolphin_lts.Graph.t -> unit
+(** [write f channel g] writes [g] in format [f]. *)
+
+(** {1:exploring Exploring} *)
+
+val explored :
+  limit:int -> Dolphin_environment.Environment.options -> Program_file.t -> Dolphin_semantics.World.t ->
+  (Dolphin_explore.Reference.t, Error.t) result
+(** [explored ~limit o program world] is all states of [program], at most [limit], without reduction. *)

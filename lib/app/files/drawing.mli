@@ -1,0 +1,15 @@
+(** The files that runs are drawn in. *)
+
+type t
+
+val of_path : string -> (t, string) result
+(** [of_path path] is the picture in the file [path], whose name ends in [.svg] or [.html]. The error says that it does
+    not. *)
+
+val path : t -> string
+
+val check : t -> (unit, Error.t) result
+(** [check d] fails if it is clear already that [d] cannot be written. It writes nothing. *)
+
+val write : t -> Dolphin_trace.Summary.t -> (unit, Error.t) result
+(** [write d run] draws [run]. *)

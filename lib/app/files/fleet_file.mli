@@ -1,0 +1,23 @@
+(** Fleets: which one a program is run with, and what is in it. *)
+
+type t = {
+  path : string option;  (** [None]: the built-in fleet *)
+  source : string;  (** its text; [""] for the built-in fleet *)
+  scenario : Dolphin_scenario.Scenario.t;
+}
+
+val choose : program:string -> string option -> string option
+(** [choose ~program named] is the file of the fleet to use: [named] if there is one, else the file beside [program], if
+    there is one. *)
+
+val load : string option -> (t, Error.t) result
+(** [load path] is the fleet in the file [path], or with [None] the built-in one. *)
+
+val load_for : program:string -> string option -> (t, Error.t) result
+(** [load_for ~program named] is [load (choose ~program named)]. *)
+
+val nobody : t
+(** A fleet without vehicles, plans, answers and replies. *)
+
+val header : t -> Dolphin_trace.Header.source option
+(** The fleet as journals name it: by its path and the digest of its text. *)

@@ -1,0 +1,37 @@
+open Dolphin_syntax
+
+type t = {
+  path : string;
+  source : string;
+  program : Dolphin_semantics.Core.program;
+  warnings : Diagnostic.t list;
+}
+
+let ( let* ) = Result.bind
+let wrong source result = Result.map_error (fun found -> Error.Bad_text { source; found }) result
+
+let parse path =
+  let* source = Text_file.read path in
+  wrong source (Parse.program ~file:path source)
+
+let no_fleet path =
+  if Filename.extension path <> ".fleet" then Ok ()
+  else
+    Error
+      (Error.Bad_input
+         (Printf.sprintf "%s: this is a fleet: name a program, and the fleet by --fleet %s" path path))
+
+let load path =
+  let* source = Text_file.read path in
+  let* () = no_fleet path in
+  let* ast = wrong source (Parse.program ~file:path source) in
+  let* program, warnings = wrong source (Dolphin_semantics.Elaborate.program ~source_name:path ast) in
+  Ok { path; source; program; warnings }
+
+let header p = Dolphin_trace.Header.source ~path:p.path p.source
+
+let diagnostic p (fault : Dolphin_semantics.Fault.t) =
+  let at = Option.value (Dolphin_semantics.Fault.location p.program fault) ~default:Location.none in
+  Diagnostic.error at fault.message
+
+let unsettled p fault = Error.Unsettled { source = p.source; fault = diagnostic p fault }

@@ -1,0 +1,39 @@
+(* "x.dol: No such file or directory" if opening fails, "Is a directory" if reading does. *)
+let named path why =
+  let n = String.length path in
+  if String.length why > n && String.sub why 0 n = path then why else path ^ ": " ^ why
+
+let bad path why = Error (Error.Bad_input (named path why))
+
+(* No program or fleet is larger: what is, was named by mistake. *)
+let most_bytes = 64 * 1024 * 1024
+
+let read_all path channel =
+  let contents = Buffer.create 65536 and chunk = Bytes.create 65536 in
+  let rec go () =
+    let n = input channel chunk 0 (Bytes.length chunk) in
+    Buffer.add_subbytes contents chunk 0 n;
+    if Buffer.length contents > most_bytes then bad path "the file is larger than 64 MB"
+    else if n = 0 then Ok (Buffer.contents contents)
+    else go ()
+  in
+  go ()
+
+let with_channel path f =
+  let read () =
+    let channel = open_in_bin path in
+    Fun.protect ~finally:(fun () -> close_in_noerr channel) (fun () -> f channel)
+  in
+  match read () with result -> result | exception Sys_error why -> bad path why
+
+let read path =
+  if path = "" then Error (Error.Bad_input "the name of the file is empty")
+  else if Sys.file_exists path && Sys.is_directory path then bad path "this is a directory, not a file"
+  else with_channel path (read_all path)
+
+let write path f =
+  let save () =
+    let channel = open_out_bin path in
+    Fun.protect ~finally:(fun () -> close_out_noerr channel) (fun () -> f channel; close_out channel)
+  in
+  match save () with () -> Ok () | exception Sys_error why -> Error (Error.Unavailable (named path why))

@@ -1,0 +1,15 @@
+(** Text files. *)
+
+val read : string -> (string, Error.t) result
+(** [read path] is the contents of the file [path], at most 64 MB. The error, {!Error.Bad_input}, names the file. *)
+
+val named : string -> string -> string
+(** [named path why] is the reason [why] of a [Sys_error], with the name of the file, [path], before it if it lacks it:
+    some have it. *)
+
+val with_channel : string -> (in_channel -> ('a, Error.t) result) -> ('a, Error.t) result
+(** [with_channel path f] is [f] of the file [path], open for reading, in binary. A [Sys_error] of [f] is an error, as
+    not to be able to open the file is: {!Error.Bad_input}. *)
+
+val write : string -> (out_channel -> unit) -> (unit, Error.t) result
+(** [write path f] makes the file [path] anew with what [f] writes. The error is {!Error.Unavailable}. *)

@@ -1,0 +1,15 @@
+(** The plans that a program gives to vehicles, inline ones and those that vehicles know by name. *)
+
+open Dolphin_semantics
+
+type found = { name : string; plan : Plan.t option  (** [None]: vehicles know it by name *) }
+
+val of_run :
+  Program_file.t -> Fleet_file.t -> seed:int -> answers:string list -> found list * Dolphin_runtime.Driver.outcome
+(** [of_run program fleet ~seed ~answers] is the plans that vehicles are given in a run on the simulated [fleet], each
+    once, the first one first; and how that run ends. It takes no longer than it takes to compute, and is interrupted
+    after 200,000 transitions. *)
+
+val to_json : Dolphin_imc.Definition.t option -> Plan.t -> Yojson.Safe.t
+(** [to_json definition plan] is the PlanSpecification that IMC vehicles get, by the user's definition of IMC if there is
+    one. *)

@@ -1,0 +1,131 @@
+open Dolphin_display
+open Dolphin_platform_imc
+open Lwt.Infix
+
+(* {1 One system} *)
+
+let address (n : Node.t) =
+  match n.address with Some a -> Format.asprintf "%a" Service.pp_address a | None -> "-"
+
+let plan_of network (s : Station.system) =
+  match Udp_platform.progress network s.state.id with
+  | Some { plan; _ } -> Some plan
+  | None -> Execution.executing s.node.execution
+
+let mode definition n = Node.mode ~names:(Option.fold definition ~none:[] ~some:Compatibility.modes) n
+
+(* What it sends, if there is a definition to read it by: the last of each kind, and how often it came. *)
+let messages network (n : Node.t) definition =
+  let shown (id, (e : Received.entry)) : Yojson.Safe.t =
+    let last =
+      match Dolphin_imc.Dynamic.decode definition e.order ~id e.payload with
+      | Ok message -> Dolphin_imc.Dynamic.to_json message
+      | Error why -> `String (Format.asprintf "%a" Dolphin_imc.Error.pp_decode why)
+    in
+    `Assoc [ ("id", `Int id); ("count", `Int e.count); ("last", last) ]
+  in
+  List.map shown (Udp_platform.received network n.id)
+
+let is_placed (s : Station.system) = s.node.position <> None || s.node.announced_position <> None
+
+let json network definition (s : Station.system) : Yojson.Safe.t =
+  let n = s.node and state = s.state in
+  let optional make = function Some x -> make x | None -> `Null in
+  let number x = if Float.is_finite x then `Float x else `Null in
+  let said = Option.fold definition ~none:[] ~some:(fun d -> [ ("messages", `List (messages network n d)) ]) in
+  `Assoc
+    ([ ("id", `String state.id); ("imc_id", `Int n.id); ("type", `String state.kind);
+       ("address", optional (fun a -> `String (Format.asprintf "%a" Service.pp_address a)) n.address);
+       ("latitude", if is_placed s then number state.position.latitude else `Null);
+       ("longitude", if is_placed s then number state.position.longitude else `Null);
+       ("height", if is_placed s then number state.position.height else `Null);
+       ("mode", if n.mode = None then `Null else `String (mode definition n));
+       ("error", if n.error = "" then `Null else `String n.error);
+       ("battery", optional (fun (_, share) -> number share) n.battery);
+       ("payload", `List (List.map (fun d -> `String d) state.payload));
+       ("plan", optional (fun p -> `String p) (plan_of network s));
+       ("linked", `Bool s.linked); ("available", `Bool state.connected); ("age", number s.age) ]
+     @ said)
+
+(* Entity lists name every task on board: only short ones fit a table. *)
+let payload devices =
+  match List.length devices with
+  | 0 -> "-"
+  | n when n <= 4 -> String.concat ", " devices
+  | n -> Printf.sprintf "%d entities" n
+
+let row network definition (s : Station.system) =
+  let n = s.node and state = s.state in
+  [ state.id; state.kind; Printf.sprintf "%04x" n.id; address n;
+    (if is_placed s then Printf.sprintf "%.5f, %.5f" state.position.latitude state.position.longitude else "-");
+    mode definition n;
+    (match n.battery with Some (_, share) -> Printf.sprintf "%.0f%%" (100. *. share) | None -> "-");
+    payload state.payload;
+    Option.value (plan_of network s) ~default:"-";
+    (if s.linked then Printf.sprintf "%.1f s" s.age else Printf.sprintf "no link, %.0f s" s.age) ]
+
+let heads = [ "VEHICLE"; "TYPE"; "IMC"; "ADDRESS"; "POSITION"; "MODE"; "BATTERY"; "PAYLOAD"; "PLAN"; "HEARD" ]
+
+let table network definition sights =
+  let rows = heads :: List.map (fun s -> List.map Wording.harmless (row network definition s)) sights in
+  let wider = List.map2 (fun width cell -> max width (Wording.width cell)) in
+  let widths = List.fold_left wider (List.map (fun _ -> 0) heads) rows in
+  let rec trimmed text =
+    let n = String.length text in
+    if n > 0 && text.[n - 1] = ' ' then trimmed (String.sub text 0 (n - 1)) else text
+  in
+  List.map (fun cells -> trimmed (String.concat "  " (List.map2 Wording.pad widths cells))) rows
+
+(* {1 Printing} *)
+
+let lines network definition ~json:as_json =
+  match Udp_platform.systems network with
+  | sights when as_json -> [ Yojson.Safe.to_string (`List (List.map (json network definition) sights)) ]
+  | [] -> [ "no system was heard of" ]
+  | sights -> table network definition sights
+
+let print lines =
+  List.iter print_endline lines;
+  flush stdout
+
+let wait interruption seconds = Lwt.pick [ Interruption.promise interruption; Lwt_unix.sleep seconds ]
+
+let is_over network interruption ~until = Interruption.happened interruption || Udp_platform.now network >= until
+
+(* A table that changes, on a terminal. *)
+let watch network definition interruption ~until =
+  let screen = Screen.make ~live:true ~on_closed:(fun _ -> Interruption.interrupt interruption) Unix.stdout in
+  let head () = Printf.sprintf "%s hears, Ctrl-C ends" (Udp_platform.name_on_network network) in
+  Screen.show screen (fun () -> head () :: lines network definition ~json:false);
+  let rec go () =
+    if is_over network interruption ~until then Lwt.return_unit
+    else begin
+      Screen.changed screen;
+      wait interruption 1. >>= go
+    end
+  in
+  go () >|= fun () -> Screen.close screen
+
+(* A line of JSON each second. *)
+let rec report network definition interruption ~until =
+  if is_over network interruption ~until then Lwt.return_unit
+  else
+    wait interruption 1. >>= fun () ->
+    print (lines network definition ~json:true);
+    report network definition interruption ~until
+
+let show network definition interruption ~as_json ~once ~seconds =
+  let until = Option.value seconds ~default:infinity in
+  if once || not (as_json || Terminal_run.is_live ()) then
+    let patience = Option.value seconds ~default:(Udp_platform.announce_period network) in
+    wait interruption patience >|= fun () -> print (lines network definition ~json:as_json)
+  else if as_json then report network definition interruption ~until
+  else watch network definition interruption ~until >|= fun () -> print (lines network definition ~json:false)
+
+let run options definition interruption ~as_json ~once ~seconds =
+  match Udp_platform.open_ { options with Udp_platform.records = definition <> None && as_json } with
+  | Error why -> Error (Error.Unavailable why)
+  | Ok network ->
+    Lwt_main.run
+      (show network definition interruption ~as_json ~once ~seconds >>= fun () -> Udp_platform.close network);
+    Ok ()

@@ -1,0 +1,40 @@
+module Network = Dolphin_sim_imc.Network
+module Scenario = Dolphin_scenario.Scenario
+
+let ( let* ) = Result.bind
+
+let open_log = function
+  | None -> Ok (ignore, ignore)
+  | Some path -> (
+      match open_out path with
+      | channel ->
+        let write json =
+          output_string channel (Yojson.Safe.to_string json ^ "\n");
+          flush channel
+        in
+        Ok (write, fun () -> close_out_noerr channel)
+      | exception Sys_error why -> Error (Error.Bad_input why))
+
+let missing (s : Network.settings) =
+  let exists name = List.exists (fun (v : Scenario.vehicle) -> v.id = name) s.scenario.vehicles in
+  let named = List.map fst s.refuses @ List.map fst (s.blocks @ s.vanishes) in
+  List.find_opt (fun name -> not (exists name)) named
+
+let live network interruption ~log lasts =
+  let over = Option.fold ~none:(fst (Lwt.wait ())) ~some:Lwt_unix.sleep lasts in
+  Lwt_main.run (Network.run ~log ~until:(Lwt.pick [ Interruption.promise interruption; over ]) network)
+
+let run settings interruption ~log ~lasts ~started =
+  let* () =
+    match missing settings with
+    | Some name -> Error (Error.Bad_input (Printf.sprintf "the fleet has no vehicle '%s'" name))
+    | None -> Ok ()
+  in
+  let* log, close_log = open_log log in
+  Fun.protect ~finally:close_log (fun () ->
+      match Network.create settings with
+      | Error why -> Error (Error.Unavailable why)
+      | Ok network ->
+        List.iter started (Network.vehicles network);
+        Fun.protect ~finally:(fun () -> Network.close network) (fun () -> live network interruption ~log lasts);
+        Ok ())

@@ -1,0 +1,19 @@
+(** What ends a run before its time: Ctrl-C, a button of a console, or whatever else asks it to. *)
+
+type t
+
+val make : unit -> t
+(** [make ()] has not happened. *)
+
+val interrupt : t -> unit
+(** [interrupt i] makes [i] happen. Once it has, this does nothing. *)
+
+val promise : t -> unit Lwt.t
+(** [promise i] resolves when [i] happens. *)
+
+val happened : t -> bool
+(** Whether it has happened. *)
+
+val on_signals : ?again:(unit -> 'a) -> t -> unit
+(** From now on SIGINT, SIGTERM and SIGHUP make it happen. If it has happened already, they call [again], which need not
+    return, straight from the signal's handler; by default nothing. Under nohup SIGHUP stays ignored. *)

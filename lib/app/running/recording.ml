@@ -1,0 +1,192 @@
+open Dolphin_runtime
+open Dolphin_trace
+
+type settings = {
+  journal : string option;
+  drawing : Drawing.t option;
+  follower : (Entry.t -> unit) option;
+}
+
+exception Broken of string
+
+let nothing = { journal = None; drawing = None; follower = None }
+let utc_now () =
+  let t = Unix.gmtime (Unix.time ()) in
+  Printf.sprintf "%04d-%02d-%02dT%02d:%02d:%02dZ" (t.tm_year + 1900) (t.tm_mon + 1) t.tm_mday t.tm_hour t.tm_min
+    t.tm_sec
+
+let is_wanted s = s.journal <> None || s.drawing <> None || s.follower <> None
+
+(* What a journal is written to. *)
+type file = { path : string; channel : out_channel }
+
+type t = {
+  settings : settings;
+  file : file option;
+  summary : Summary.builder;
+  recorder : Recorder.t option;  (* if anything is to be kept *)
+}
+
+let trouble path why = Printf.sprintf "the journal cannot be written: %s: %s" path why
+
+let protected path f =
+  try f () with Sys_error why -> raise (Broken ("the journal cannot be written: " ^ Text_file.named path why))
+
+(* Each line is out before what it tells of happens. *)
+let write_line file entry =
+  protected file.path (fun () ->
+      output_string file.channel (Entry.to_string entry);
+      output_char file.channel '\n';
+      flush file.channel)
+
+let same_file a b =
+  match Unix.stat a, Unix.stat b with
+  | a, b -> a.st_dev = b.st_dev && a.st_ino = b.st_ino
+  | exception Unix.Unix_error _ -> false
+
+(* A slip of the pen must not cost anybody a program. *)
+let would_overwrite settings (header : Header.t) =
+  let fleet = Option.map (fun (s : Header.source) -> s.path) header.fleet in
+  let sources = header.program.path :: Option.to_list fleet in
+  let outputs = Option.to_list settings.journal @ Option.to_list (Option.map Drawing.path settings.drawing) in
+  List.find_opt (fun output -> List.exists (same_file output) sources) outputs
+
+(* The lock lasts as long as the console lives, and tells others that it does. Not all files can be locked. *)
+let lock path fd =
+  match Unix.lockf fd F_TLOCK 0 with
+  | () -> ()
+  | exception Unix.Unix_error ((EAGAIN | EACCES), _, _) ->
+    raise (Broken (path ^ ": another console is writing this journal"))
+  | exception Unix.Unix_error _ -> ()
+
+(* A regular file is read before anything of it is overwritten. Of a pipe we must not hold the reading end: we would
+   never be told that its reader has gone. *)
+let open_mode path : Unix.open_flag =
+  match (Unix.stat path).st_kind with
+  | S_REG -> O_RDWR
+  | S_DIR | S_CHR | S_BLK | S_LNK | S_FIFO | S_SOCK -> O_WRONLY
+  | exception Unix.Unix_error _ -> O_RDWR
+
+(* Nothing of the file is lost before it is ours. *)
+let open_file path =
+  match Unix.openfile path [ open_mode path; O_CREAT; O_CLOEXEC ] 0o666 with
+  | fd ->
+    lock path fd;
+    fd
+  | exception Unix.Unix_error (error, _, _) -> raise (Broken (trouble path (Unix.error_message error)))
+
+(* Whoever types a command once more after the console died must not lose what vehicles may still be doing. The channel
+   is never closed: to close any of its file would give the lock away. *)
+let spare_unfinished path fd =
+  if (Unix.fstat fd).st_kind = S_REG && Journal.breaks_off (Unix.in_channel_of_descr fd) then
+    raise
+      (Broken
+         (Printf.sprintf "%s: this is the journal of a run that broke off: go on with it by --resume %s, or remove it"
+            path path))
+
+let channel_of path fd =
+  let channel = Unix.out_channel_of_descr fd in
+  set_binary_mode_out channel true;
+  { path; channel }
+
+let truncate fd length =
+  match Unix.ftruncate fd length with
+  | () -> ignore (Unix.lseek fd length SEEK_SET)
+  | exception Unix.Unix_error _ -> ()  (* pipes and devices have no length *)
+
+let with_recorder settings file summary make =
+  let write entry =
+    Option.iter (fun file -> write_line file entry) file;
+    if settings.drawing <> None then Summary.add summary entry;
+    Option.iter (fun follow -> follow entry) settings.follower
+  in
+  { settings; file; summary; recorder = (if is_wanted settings then Some (make write) else None) }
+
+let guarded settings header make =
+  match would_overwrite settings header, Option.fold settings.drawing ~none:(Ok ()) ~some:Drawing.check with
+  | Some path, _ -> Error (Error.Unavailable (path ^ ": the run was to be written over its own program or fleet"))
+  | None, (Error _ as trouble) -> trouble
+  | None, Ok () -> (
+      match make () with
+      | r -> Ok r
+      | exception (Broken why | Sys_error why) -> Error (Error.Unavailable why))
+
+let start settings header program =
+  let begun path =
+    let fd = open_file path in
+    spare_unfinished path fd;
+    truncate fd 0;
+    channel_of path fd
+  in
+  guarded settings header (fun () ->
+      let file = Option.map begun settings.journal in
+      with_recorder settings file (Summary.create ()) (Recorder.make program header))
+
+(* Opens [path], with the lines of [run] that are resumed in it. *)
+let continued (run : Resumed.t) path =
+  let kept = run.past.kept in
+  let copy fd =
+    let text = Bytes.create 65536 in
+    let input = open_in_bin run.path in
+    let rec go left =
+      if left > 0 then
+        match Stdlib.input input text 0 (min left (Bytes.length text)) with
+        | 0 -> ()
+        | n -> ignore (Unix.write fd text 0 n); go (left - n)
+    in
+    Fun.protect ~finally:(fun () -> close_in_noerr input) (fun () -> go kept)
+  in
+  let fd = open_file path in
+  if same_file path run.path then truncate fd kept
+  else begin
+    spare_unfinished path fd;
+    truncate fd 0;
+    copy fd
+  end;
+  channel_of path fd
+
+let resume settings program ~source (run : Resumed.t) =
+  let settings = { settings with journal = Some (Option.value settings.journal ~default:run.path) } in
+  guarded settings run.past.header (fun () ->
+      let file = Option.map (continued run) settings.journal in
+      let seen = Resumption.seen run.past and replay = run.past.replay in
+      let r = with_recorder settings file run.summary (Recorder.resume program replay ~seen) in
+      let line ~time = Entry.Resumed { time; program = source; at = utc_now () } in
+      Option.iter (fun recorder -> Recorder.write recorder ~time:(Replay.time replay) line) r.recorder;
+      r)
+
+let note r ~time ~vehicle note =
+  let line ~time = Entry.Note { time; vehicle; note } in
+  Option.iter (fun recorder -> Recorder.write recorder ~time line) r.recorder
+
+let sync r =
+  let sync file =
+    let fd = Lwt_unix.of_unix_file_descr ~blocking:true ~set_flags:false (Unix.descr_of_out_channel file.channel) in
+    fun () ->
+      Lwt.catch
+        (fun () -> Lwt_unix.fdatasync fd)
+        (function
+          | Unix.Unix_error (EINVAL, _, _) -> Lwt.return_unit  (* a pipe *)
+          | Unix.Unix_error (error, _, _) -> Lwt.fail (Broken (trouble file.path (Unix.error_message error)))
+          | error -> Lwt.fail error)
+  in
+  Option.map sync r.file
+
+let observer r : Dolphin_runtime.Observer.t =
+  match r.recorder with
+  | None -> Dolphin_runtime.Observer.nobody
+  | Some recorder -> { transition = Recorder.transition recorder; news = Recorder.news recorder }
+
+let close r = Option.iter (fun file -> close_out_noerr file.channel) r.file
+
+let finish r ~time ~stuck =
+  let close () =
+    Option.iter (fun recorder -> Recorder.finish recorder ~time ~stuck) r.recorder;
+    Option.iter (fun file -> protected file.path (fun () -> close_out file.channel)) r.file
+  in
+  match close () with
+  | exception Broken why -> Error (Error.Unavailable why)
+  | () -> (
+      match r.settings.drawing with
+      | None -> Ok ()
+      | Some drawing -> Drawing.write drawing (Summary.finish r.summary))

@@ -1,0 +1,47 @@
+(** What is kept of a run while it lasts: its journal, its picture, and whatever else follows it line by line. *)
+
+open Dolphin_trace
+
+type settings = {
+  journal : string option;  (** a file *)
+  drawing : Drawing.t option;
+  follower : (Entry.t -> unit) option;  (** is given each line of the journal, once it is written *)
+}
+
+val nothing : settings
+(** Nothing is kept. *)
+
+val is_wanted : settings -> bool
+(** Whether anything is kept. *)
+
+val utc_now : unit -> string
+(** The time now, as headers and resumptions have it: ["2026-03-01T12:00:00Z"]. *)
+
+type t
+
+exception Broken of string
+(** The journal cannot be written any more: why, in a sentence without a full stop. *)
+
+val start : settings -> Header.t -> Dolphin_semantics.Core.program -> (t, Error.t) result
+(** [start s header program] begins the journal. The error says why that is not possible: it would overwrite the program
+    or the fleet, or the journal of a run that broke off, or another console writes it. *)
+
+val resume : settings -> Dolphin_semantics.Core.program -> source:Header.source -> Resumed.t -> (t, Error.t) result
+(** [resume s program ~source run] continues the journal of [run], in its own file, or if [s] names another one, in a
+    copy. [source] is the program's file. It fails as {!start} does. *)
+
+val note : t -> time:float -> vehicle:string -> Yojson.Safe.t -> unit
+(** [note r ~time ~vehicle json] keeps what the platform wants to find again of a vehicle. It may raise {!Broken}. *)
+
+val sync : t -> (unit -> unit Lwt.t) option
+(** Resolves once all that was kept before is on the disk, and may fail with {!Broken}; [None]: there is no journal. *)
+
+val observer : t -> Dolphin_runtime.Observer.t
+(** To be told of the run before anybody else. It may raise {!Broken}. *)
+
+val close : t -> unit
+(** [close r] gives the journal's file up, as it is. It may be called again, and after {!finish}. *)
+
+val finish : t -> time:float -> stuck:bool -> (unit, Error.t) result
+(** [finish r ~time ~stuck] ends the journal of a run that is over, and draws it. The error, {!Error.Unavailable}, says
+    what could not be written. *)

@@ -1,0 +1,254 @@
+open Dolphin_semantics
+open Dolphin_runtime
+open Dolphin_trace
+open Lwt.Infix
+module Diagnostic = Dolphin_syntax.Diagnostic
+module Simulator = Dolphin_platform_sim.Simulator
+module Udp_platform = Dolphin_platform_imc.Udp_platform
+
+type settings = {
+  network : Udp_platform.options option;
+  speed : float option;
+  seed : int option;
+  answers : string list;
+  supplier : string option;
+  supplier_timeout : float option;
+  recording : Recording.settings;
+}
+
+let simulated =
+  { network = None; speed = None; seed = None; answers = []; supplier = None; supplier_timeout = None;
+    recording = Recording.nothing }
+
+type estimate = { vehicle : string; plan : string; share : float; remaining : float option }
+type view = { now : unit -> float; estimates : unit -> estimate list }
+
+type front = {
+  replayed : Entry.t -> Replay.t -> unit;
+  notice : string -> unit;
+  opened : view -> unit;
+  remark : string -> unit;
+  observer : Observer.t;
+  person : Questions.person;
+  wants_telemetry : bool;
+}
+
+let unattended =
+  { replayed = (fun _ _ -> ()); notice = ignore; opened = ignore; remark = ignore; observer = Observer.nobody;
+    person = Questions.nobody; wants_telemetry = false }
+
+(* {1 Outcomes} *)
+
+let explain (program : Program_file.t) : Driver.outcome -> Error.t option = function
+  | Ended (Completed | Halted _ | Interrupted) -> None
+  | Ended (Failed fault) ->
+    Some (Error.Bad_text { source = program.source; found = [ Program_file.diagnostic program fault ] })
+  | Stuck residual -> (
+      let guard (c : Core.closure) =
+        let at = program.program.locations.(c.lambda.lambda_site) in
+        Diagnostic.error at "the program is stuck: nothing can make this condition true any more"
+      in
+      match List.sort_uniq Diagnostic.compare (List.map guard (Driver.guards residual)) with
+      | [] -> Some (Error.Bad_input "the program is stuck: nothing more can happen")
+      | found -> Some (Error.Bad_text { source = program.source; found }))
+
+(* {1 What a run needs} *)
+
+(* One run: what it was started with, and what it resumes. *)
+type t = {
+  front : front;
+  settings : settings;
+  seed : int;
+  program : Program_file.t;
+  scenario : Dolphin_scenario.Scenario.t;
+  resumed : Resumed.t option;
+}
+
+let history r = Option.fold r.resumed ~none:[] ~some:(fun (resumed : Resumed.t) -> resumed.past.history)
+
+(* What a host remembers died with it, and only its people can know what that was. *)
+let start_host r =
+  let is_answered (_, reply) = reply <> None in
+  let calls = List.length (List.filter is_answered (History.replies (history r))) in
+  match r.settings.supplier with
+  | None -> Ok None
+  | Some command ->
+    if calls > 0 then
+      r.front.notice
+        (Printf.sprintf "the supplier is started anew: %s that it has answered in this run %s not made again"
+           (Phrase.count calls "call") (if calls = 1 then "is" else "are"));
+    (match Host.start ?timeout:r.settings.supplier_timeout ~calls command with
+     | Ok host -> Ok (Some host)
+     | Error why -> Error (Error.Unavailable ("the supplier cannot be started: " ^ why)))
+
+let header r (fleet : Fleet_file.t) : Header.t =
+  { program = Program_file.header r.program;
+    fleet = Fleet_file.header fleet;
+    platform = (if r.settings.network = None then "sim" else "imc");
+    seed = r.seed;
+    speed = r.settings.speed;
+    started = Recording.utc_now () }
+
+(* {1 Platforms} *)
+
+type 'p fleet = {
+  platform : 'p;
+  estimates : unit -> estimate list;
+  news : World.vehicle_state list;  (* of vehicles, since the console died *)
+}
+
+type platform = Platform : (module Platform.S with type t = 'p) * 'p fleet -> platform
+
+(* The simulated fleet passes its time at once, or as a clock does. *)
+let open_simulated r =
+  let fresh platform = { platform; estimates = (fun () -> []); news = [] } in
+  let rebuilt (platform, news) = { (fresh platform) with news } in
+  let seed = r.seed and scenario = r.scenario in
+  let virtual_ fleet = Platform ((module Simulator.Virtual), fleet) in
+  let paced fleet = Platform ((module Simulator.Paced), fleet) in
+  match r.settings.speed, r.resumed with
+  | None, None -> Ok (virtual_ (fresh (Simulator.Virtual.create ~seed scenario)))
+  | Some speed, None -> Ok (paced (fresh (Simulator.Paced.create ~speed ~seed scenario)))
+  | None, Some { past; _ } ->
+    Result.map (fun made -> virtual_ (rebuilt made)) (Simulator.Virtual.create_again ~seed scenario past.history)
+  | Some speed, Some { past; _ } ->
+    Result.map (fun made -> paced (rebuilt made)) (Simulator.Paced.create_again ~speed ~seed scenario past.history)
+
+let estimates network () =
+  let of_system (system : Dolphin_platform_imc.Station.system) =
+    match Udp_platform.progress network system.state.id with
+    | Some { plan; share = Some share; remaining; _ } -> Some { vehicle = system.state.id; plan; share; remaining }
+    | Some { share = None; _ } | None -> None
+  in
+  List.filter_map of_system (Udp_platform.systems network)
+
+(* What the time of a run is now whose console died: it went on. Clocks may have been set meanwhile, but runs never go
+   back. *)
+let time_of_run ({ past; _ } : Resumed.t) =
+  let time, at = past.clock in
+  let passed = Option.map (fun began -> Unix.gettimeofday () -. began) (Header.of_utc at) in
+  Float.max (Replay.time past.replay) (time +. Option.value passed ~default:0.)
+
+(* Nothing is heard of vehicles until they are heard again. *)
+let unheard (resumed : Resumed.t) =
+  let lose (state : World.vehicle_state) = { state with connected = false } in
+  List.map lose (World.vehicles (Replay.world resumed.past.replay))
+
+let open_network r recording options =
+  let note vehicle text = r.front.remark (Printf.sprintf "%s: %s" vehicle text) in
+  let keep ~time vehicle json = Recording.note recording ~time ~vehicle json in
+  let options = { options with Udp_platform.note; keep; sync = Recording.sync recording } in
+  let opened =
+    match r.resumed with
+    | None -> Udp_platform.open_ options
+    | Some resumed -> Udp_platform.open_again options ~time:(time_of_run resumed) resumed.past.history
+  in
+  let news = Option.fold r.resumed ~none:[] ~some:unheard in
+  let fleet network = Platform ((module Udp_platform), { platform = network; estimates = estimates network; news }) in
+  Result.map fleet opened
+
+let open_platform r recording =
+  let opened =
+    match r.settings.network with
+    | None -> open_simulated r
+    | Some options -> open_network r recording options
+  in
+  Result.map_error (fun why -> Error.Unavailable why) opened
+
+(* {1 The run} *)
+
+let beginning resumed news : Driver.beginning option =
+  let of_past ({ past; _ } : Resumed.t) : Driver.beginning =
+    let replay = past.replay in
+    { configuration = Replay.configuration replay; world = Replay.world replay; news; pending = past.pending }
+  in
+  Option.map of_past resumed
+
+let was_stuck (resumed : Resumed.t) = Replay.was_stuck resumed.past.replay
+
+let drive r recording host ~interruption (Platform ((module P), { platform; estimates; news })) =
+  let now () = P.now platform in
+  r.front.opened { now; estimates };
+  let console =
+    Questions.console r.front.person ~answered:(History.answers (history r)) ~answers:r.settings.answers
+      ~scenario:r.scenario
+  in
+  let run () =
+    Driver.run (module P) platform
+      ~always_telemetry:(r.front.wants_telemetry || Recording.is_wanted r.settings.recording)
+      ~observer:(Observer.both (Recording.observer recording) r.front.observer)
+      ~host:(match host with Some host -> Host.call host | None -> Replies.call ~past:(history r) r.scenario)
+      ?beginning:(beginning r.resumed news) ~console ~interruption:(Interruption.promise interruption)
+      r.program.program
+  in
+  let close () = Option.fold host ~none:Lwt.return_unit ~some:Host.close in
+  let finish (outcome : Driver.outcome) =
+    let stuck =
+      match outcome with Stuck _ -> true | Ended _ -> Option.fold r.resumed ~none:false ~some:was_stuck in
+    Result.map (fun () -> outcome) (Recording.finish recording ~time:(now ()) ~stuck)
+  in
+  let unavailable why = Lwt.return (Error (Error.Unavailable why)) in
+  Lwt.catch
+    (fun () -> Lwt.finalize run close >|= finish)
+    (function
+      | Recording.Broken why -> unavailable (why ^ "; the run was ended as by Ctrl-C")
+      | Unix.Unix_error (error, call, _) ->
+        unavailable (Printf.sprintf "trouble of the platform: %s: %s" call (Unix.error_message error))
+      | error -> Lwt.fail error)
+
+let ( let*? ) result f = match result with Ok x -> f x | Error _ as error -> Lwt.return error
+
+let on_platform r recording ~interruption (Platform ((module P), fleet) as platform) =
+  match start_host r with
+  | Ok host -> drive r recording host ~interruption platform
+  | Error _ as error -> P.close fleet.platform >|= fun () -> error
+
+let go r ~interruption recording =
+  Sys.set_signal Sys.sigpipe Signal_ignore;
+  let*? recording = recording in
+  let run () =
+    let*? platform = open_platform r recording in
+    on_platform r recording ~interruption platform
+  in
+  Lwt.finalize run (fun () -> Recording.close recording; Lwt.return_unit)
+
+let start front ~interruption (settings : settings) program (fleet : Fleet_file.t) =
+  let seed = Option.value settings.seed ~default:0 in
+  let r = { front; settings; seed; program; scenario = fleet.scenario; resumed = None } in
+  go r ~interruption (Recording.start settings.recording (header r fleet) program.program)
+
+(* {1 Resumption} *)
+
+let ( let* ) = Result.bind
+
+(* The fleet and the settings with which a run is resumed: seed and speed are those of its journal. *)
+let as_before (settings : settings) ~fleet (resumed : Resumed.t) =
+  let header = resumed.past.header in
+  let refuse why = Error (Error.Bad_input (resumed.path ^ ": " ^ why)) in
+  match header.platform, settings.network with
+  | "sim", Some _ -> refuse "this run was on a simulated fleet: leave out --imc"
+  | "sim", None when settings.seed <> None -> refuse "a run goes on with the seed that it began with: leave out --seed"
+  | "sim", None ->
+    let speed = if settings.speed = None then header.speed else settings.speed in
+    Result.map (fun fleet -> (fleet, { settings with speed })) (Resumed.fleet resumed ~named:fleet)
+  | _, Some _ ->
+    let fleet = if fleet = None then Ok Fleet_file.nobody else Fleet_file.load fleet in
+    Result.map (fun fleet -> (fleet, { settings with speed = None })) fleet
+  | platform, None ->
+    refuse (Printf.sprintf "this run was on vehicles of a network, which will move again: say --%s" platform)
+
+let resumption front settings ~changed ~fleet program path =
+  let* resumed = Resumed.read ~changed ~tell:front.replayed program path in
+  let* fleet, settings = as_before settings ~fleet resumed in
+  if settings.supplier = None && not (Replies.are_of fleet.scenario resumed.past.history) then
+    Error
+      (Error.Bad_input
+         (path ^ ": this run has a supplier, which died with its console: name it again with --supplier"))
+  else
+    let seed = resumed.past.header.seed and scenario = fleet.scenario in
+    Ok ({ front; settings; seed; program; scenario; resumed = Some resumed }, resumed)
+
+let resume front ~interruption (settings : settings) ~changed ~fleet program path =
+  let*? r, resumed = resumption front settings ~changed ~fleet program path in
+  let source = Program_file.header program in
+  go r ~interruption (Recording.resume settings.recording program.program ~source resumed)

@@ -1,0 +1,51 @@
+open Dolphin_semantics
+module Witness = Dolphin_trace.Witness
+module Log = Dolphin_display.Log
+module Scenario_world = Dolphin_environment.Scenario_world
+
+let ( let* ) = Result.bind
+
+(* The columns of the time, which there is none of. *)
+let time_columns = 9
+
+let without_time number text =
+  let cut i line =
+    let head = if i = 0 then Printf.sprintf "%4d" number else "    " in
+    head ^ "  " ^ String.sub line time_columns (String.length line - time_columns)
+  in
+  String.concat "\n" (List.mapi cut (String.split_on_char '\n' text))
+
+let print_log first log transitions =
+  let print (number, log) (t : Transition.t) =
+    let log, lines = Log.transition log ~time:0. t in
+    List.iter (fun line -> print_endline (without_time number line)) lines;
+    List.iter (fun a -> print_endline (Format.asprintf "      if %a" World.pp_assumption a)) t.assumed;
+    (number + 1, log)
+  in
+  List.fold_left print (first, log) transitions
+
+let ending transitions =
+  match List.rev transitions with
+  | ({ next = { control = Ended ending; _ }; _ } : Transition.t) :: _ -> Some ending
+  | _ -> print_endline "      here the recorded run stops"; None
+
+let follow (program : Program_file.t) scenario path witness =
+  match Witness.follow program.program (Scenario_world.world scenario) witness with
+  | Error (taken, { number; why }) ->
+    ignore (print_log 1 Log.start taken);
+    Error (Error.Bad_input (Printf.sprintf "%s: %s does not fit, at step %d: %s" path program.path number why))
+  | Ok (steps, cycle) ->
+    Printf.printf "breaks: %s\n" witness.property;
+    let number, log = print_log 1 Log.start steps in
+    if cycle = [] then Ok (ending steps)
+    else begin
+      print_endline "and from there, again and again:";
+      ignore (print_log number log cycle);
+      Ok None
+    end
+
+let print program scenario path =
+  let* text = Text_file.read path in
+  let lines = List.filter (fun line -> line <> "") (String.split_on_char '\n' text) in
+  let bad why = Error.Bad_input (Printf.sprintf "%s: %s" path why) in
+  Result.bind (Result.map_error bad (Witness.of_lines lines)) (follow program scenario path)

@@ -1,0 +1,12 @@
+(** Programs in the world of a fleet as models in TLA+. *)
+
+type t = {
+  files : Dolphin_tla.Model.file list;
+  environment : Dolphin_environment.Environment.options;
+  world : Dolphin_semantics.World.t;
+}
+
+val make :
+  answers:string list -> faults:Dolphin_environment.Faults.t -> Program_file.t -> Fleet_file.t -> (t, Error.t) result
+(** [make ~answers ~faults program fleet] is the model. The error, {!Error.Bad_text}, has the places in the fleet or in
+    the program of what has no meaning in TLA+. *)

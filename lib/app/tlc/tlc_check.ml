@@ -1,0 +1,149 @@
+open Dolphin_tlc
+open Dolphin_semantics
+module Property = Dolphin_explore.Property
+module Environment = Dolphin_environment.Environment
+
+module Run = Dolphin_tla.Run
+
+type settings = {
+  mode : Invocation.mode;
+  directory : string option;
+  strict : bool;
+  notice : string -> unit;
+}
+
+(* {1 Names} *)
+
+let properties : (string * Property.t) list =
+  [ ("NoDeadlock", No_deadlock); ("Termination", Termination); ("NoError", No_error); ("Assertions", Assertions);
+    ("EnoughVehicles", Vehicles); ("NoHalt", No_halt); ("NoLeftover", No_leftover) ]
+
+let phrase name = match List.assoc_opt name properties with Some p -> Property.name p | None -> name
+
+(* There is one temporal property: TLC does not say which is violated. *)
+let violated : Event.violation -> string = function
+  | Invariant name | Property name -> name
+  | Temporal -> "Termination"
+  | Deadlock -> "NoDeadlock"
+  | Unnamed -> ""
+
+(* Whether a run shows what is said to be violated: where labels leave a choice, such a run is wanted. *)
+let shows name options program world ((c, e) : Dolphin_explore.Labelled.state) (steps : Transition.t list) =
+  match List.assoc_opt name properties, List.rev steps with
+  | Some No_deadlock, _ -> not (Environment.goes_on (Environment.choices options program world e c))
+  | Some ((No_error | Assertions | Vehicles | No_halt | No_leftover) as p), last :: _ ->
+    Property.broken_by_end last.rules c = Some p
+  | (Some _ | None), _ -> true
+
+(* {1 Printing} *)
+
+let print_states (c : Outcome.counter_example) =
+  let print i (step : Outcome.step) =
+    Printf.printf "%4d  %s\n" (i + 1) (Option.value step.action ~default:"?");
+    List.iter (fun line -> Printf.printf "      %s\n" line) (String.split_on_char '\n' step.state)
+  in
+  List.iteri print c.steps
+
+(* All that the server of the distributed mode shows. *)
+let print_last_step (c : Outcome.counter_example) =
+  print_endline
+    "some property is violated: TLC's distributed mode does not say which, and shows only the last step. To see a run: \
+     --run alone.";
+  let label (step : Outcome.step) = Option.bind (Event.variable "label" step.state) Quoted.unescape in
+  match List.rev_map label c.steps with
+  | Some label :: _ -> Printf.printf "last step: %s\n" label
+  | None :: _ | [] -> ()
+
+let print_counter_example options (program : Program_file.t) world (c : Outcome.counter_example) =
+  let name = violated c.violation in
+  let question =
+    match List.assoc_opt name properties with Some p -> Property.question p | None -> "it does not hold"
+  in
+  Format.printf "@.%s: a run in which %s@." (phrase name) question;
+  let broken = shows name options program.program world in
+  match Recovered.run options program.program world ~broken c with
+  | exception Reading.Unsettled fault ->
+    Format.printf "Of this run the explorer cannot list what may happen: %s. The states of TLC:@." fault.message;
+    print_states c
+  | Ok { steps; cycle } ->
+    Run_columns.print program.program ~steps ~cycle;
+    if name = "NoDeadlock" then Run_columns.print_waiting program.program steps
+  | Error trouble ->
+    Format.printf "This is no run of the explorer: %a. --compare tells more. The states of TLC:@." Recovered.pp_trouble
+      trouble;
+    print_states c
+
+let length (c : Outcome.counter_example) =
+  let n = Phrase.count (List.length c.steps) "step" in
+  match c.repetition with
+  | Once -> "after " ^ n
+  | Stays -> Printf.sprintf "after %s, for ever" n
+  | Back_to 0 -> Printf.sprintf "%s that can repeat for ever" (Phrase.count (List.length c.steps + 1) "step")
+  | Back_to k ->
+    Printf.sprintf "after %s, %s that can repeat for ever" (Phrase.count k "step")
+      (Phrase.count (List.length c.steps - k + 1) "step")
+
+(* TLC looks no further than the first violation, but for temporal properties: these it looks at when it has all states,
+   and now and then before. What is asked of the specification rather than of the program is only told where it does not
+   hold. *)
+let print_verdicts names (o : Outcome.t) =
+  let broken = match o.verdict with Violated c -> Some (violated c.violation, length c) | _ -> None in
+  let all_states = match o.verdict with Violated { violation = Temporal; _ } -> o.queue = 0 | _ -> false in
+  let print name =
+    match broken, o.verdict with
+    | Some (broken, how), _ when broken = name -> Printf.printf "%s: violated %s\n" (phrase name) how
+    | _, _ when not (List.mem_assoc name properties) -> ()
+    | None, Holds -> Printf.printf "%s: holds\n" (phrase name)
+    | Some _, _ when all_states -> Printf.printf "%s: holds\n" (phrase name)
+    | Some _, _ -> Printf.printf "%s: not decided: TLC stops at a violation\n" (phrase name)
+    | None, _ -> Printf.printf "%s: not decided\n" (phrase name)
+  in
+  List.iter print names
+
+let print_counts (o : Outcome.t) =
+  let depth = match o.depth with Some d -> Printf.sprintf ", depth %d" d | None -> "" in
+  let left = if o.queue > 0 then Printf.sprintf ", %d not looked at" o.queue else "" in
+  Printf.printf "%d distinct states, %d generated%s%s\n" o.distinct o.generated left depth
+
+let print names options program world (o : Outcome.t) =
+  Option.iter print_endline o.version;
+  print_verdicts names o;
+  print_counts o;
+  match o.verdict with
+  | Violated ({ violation = Unnamed; _ } as c) -> print_last_step c
+  | Violated c -> print_counter_example options program world c
+  | Holds | Unfinished | Gave_up _ | Failed _ -> ()
+
+let verdict : Outcome.verdict -> Exploration.verdict = function
+  | Holds -> Holds
+  | Violated _ -> Violated
+  | Unfinished | Gave_up _ | Failed _ -> Inconclusive
+
+(* Workers may be started before or after the server; without any, nothing is computed. *)
+let tell_workers installation ~notice : Invocation.mode -> unit = function
+  | Local _ -> ()
+  | Server { host; port } ->
+    let command = String.concat " " (Invocation.worker installation ~host ~port) in
+    notice ("workers join by:\n  " ^ command)
+
+let run installation s model options program world =
+  let files = List.map (fun (f : Dolphin_tla.Model.file) -> (f.name, f.text)) (Run.files ~strict:s.strict model) in
+  let all = Run.properties ~strict:s.strict in
+  (* TLC's distributed mode cannot check temporal properties. *)
+  let configuration, checked =
+    match s.mode with
+    | Local _ -> (Run.check, all)
+    | Server _ -> (Run.check_states, List.filter (fun (p : Run.property) -> not p.of_runs) all)
+  in
+  tell_workers installation ~notice:s.notice s.mode;
+  Tlc_session.in_directory s.directory files @@ fun directory ->
+  let ended = Tlc_session.run installation s.mode ~directory ~main:Run.main ~configuration ignore in
+  let print outcome = print (List.map (fun (p : Run.property) -> p.name) checked) options program world outcome in
+  match ended with
+  | Error _ as error -> error
+  | Ok (Ended outcome) -> print outcome; Ok (verdict outcome.verdict)
+  | Ok (Interrupted outcome) ->
+    print outcome;
+    (match verdict outcome.verdict with
+     | Violated -> Ok Violated
+     | Holds | Inconclusive -> Error (Error.Inconclusive "interrupted before TLC was done"))

@@ -10,7 +10,7 @@ An interruption stops what runs and releases the vehicles. The run is paced, so 
   > plan 'left', { duration 2.hours }
   > plan 'right', { duration 2.hours }
   > EOF
-  $ timeout --preserve-status -s INT 1 dolphin exec long.dol --speed 1 > log.txt
+  $ timeout --foreground --preserve-status -s INT 1 dolphin exec long.dol --speed 1 > log.txt
   [130]
   $ cut -c 10- log.txt
   program     picks a, b
@@ -23,22 +23,22 @@ An interruption stops what runs and releases the vehicles. The run is paced, so 
 
 Other requests to terminate do the same.
 
-  $ timeout --preserve-status -s TERM 1 dolphin exec long.dol --speed 1 | tail -1 | cut -c 10-
+  $ timeout --foreground --preserve-status -s TERM 1 dolphin exec long.dol --speed 1 | tail -1 | cut -c 10-
   program     is interrupted
 
 A script that loops without any effect can be interrupted, so can one that waits for an answer or for vehicles.
 
   $ echo 'while (true) { }' > loop.dol
-  $ timeout --preserve-status -s INT 1 dolphin exec loop.dol
+  $ timeout --foreground --preserve-status -s INT 1 dolphin exec loop.dol
      0:00  program     is interrupted
   [130]
   $ echo "x = ask 'Well?'" > ask.dol
-  $ sleep 5 | timeout --preserve-status -s INT 1 dolphin exec ask.dol
+  $ sleep 5 | timeout --foreground --preserve-status -s INT 1 dolphin exec ask.dol
      0:00  program     asks: Well? 
      0:00  program     is interrupted
   [130]
   $ echo "v = pick { type 'ROV'; timeout 1.hour }" > pick.dol
-  $ timeout --preserve-status -s INT 1 dolphin exec pick.dol --speed 1 | cut -c 10-
+  $ timeout --foreground --preserve-status -s INT 1 dolphin exec pick.dol --speed 1 | cut -c 10-
   program     is interrupted
 
 Code inside of a task that has no end is an error of the program.

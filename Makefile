@@ -1,5 +1,9 @@
 # What takes more than building and testing. The rest: dune build, dune test.
-.PHONY: tlc crosscheck mutate mutate-code coverage
+.PHONY: nightly tlc crosscheck mutate mutate-code coverage
+
+# All that is too slow for every change, a line each; ONLY="mutate peers" picks. scripts/nightly tells more.
+nightly:
+	@scripts/nightly $(ONLY)
 
 # TLC, where `dolphin tla --run` finds it.
 tlc:

@@ -122,7 +122,7 @@ let () =
   let lifecycle = packets Sys.argv.(2) in
   let recorded = Array.of_list (lifecycle @ packets Sys.argv.(3)) in
   let definition = Lazy.force Definition.builtin in
-  let random = Random.State.make [| 1866 |] in
+  let random = Random.State.make [| (match Sys.getenv_opt "SEED" with Some n -> int_of_string n | None -> 1866) |] in
   let tally = { valid = 0; invalid = 0; looked = 0 } in
   let first = count / 4 in
   let began = Unix.gettimeofday () in

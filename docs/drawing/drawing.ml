@@ -1,0 +1,132 @@
+type sexp = Atom of string | List of sexp list
+
+(* Atoms are words, in quotes or not; a comment is from a semicolon to the end of the line. *)
+let parse text =
+  let length = String.length text in
+  let rec until stop i = if i < length && not (stop text.[i]) then until stop (i + 1) else i in
+  let is_delimiter c = String.contains " \t\n()\";" c in
+  let rec items parsed i =
+    if i >= length then (List.rev parsed, i)
+    else
+      match text.[i] with
+      | ')' -> (List.rev parsed, i + 1)
+      | '(' ->
+        let inner, i = items [] (i + 1) in
+        items (List inner :: parsed) i
+      | ' ' | '\t' | '\n' -> items parsed (i + 1)
+      | ';' -> items parsed (until (Char.equal '\n') i)
+      | '"' ->
+        let rec quote i = if text.[i] = '\\' then quote (i + 2) else if text.[i] = '"' then i else quote (i + 1) in
+        let stop = quote (i + 1) in
+        items (Atom (String.sub text (i + 1) (stop - i - 1)) :: parsed) (stop + 1)
+      | _ ->
+        let stop = until is_delimiter i in
+        items (Atom (String.sub text i (stop - i)) :: parsed) stop
+  in
+  fst (items [] 0)
+
+type component = { name : string; public : string; folder : string; uses : string list }
+
+let field name fields =
+  let is_it = function List (Atom a :: values) when a = name -> Some values | List _ | Atom _ -> None in
+  Option.value (List.find_map is_it fields) ~default:[]
+
+let atoms = List.filter_map (function Atom a -> Some a | List _ -> None)
+
+(* Libraries are used by either of their names. *)
+let component folder = function
+  | List (Atom ("library" | "executable") :: fields) -> (
+      match (field "name" fields, field "public_name" fields) with
+      | [ Atom name ], [ Atom public ] -> Some { name; public; folder; uses = atoms (field "libraries" fields) }
+      | _ -> None)
+  | List _ | Atom _ -> None
+
+let read path =
+  let channel = open_in_bin path in
+  Fun.protect
+    ~finally:(fun () -> close_in channel)
+    (fun () -> really_input_string channel (in_channel_length channel))
+
+let rec components ~shown folder =
+  let entries = Array.to_list (Sys.readdir folder) in
+  let inside entry =
+    let path = Filename.concat folder entry and shown = shown ^ "/" ^ entry in
+    if Sys.is_directory path then components ~shown path else []
+  in
+  let here = if List.mem "dune" entries then parse (read (Filename.concat folder "dune")) else [] in
+  List.filter_map (component shown) here @ List.concat_map inside (List.sort String.compare entries)
+
+(* {1 The graph} *)
+
+let uses all c =
+  let named x = List.find_opt (fun d -> d.name = x || d.public = x) all in
+  List.filter_map named c.uses
+
+let rec reaches all target c = List.exists (fun d -> d.name = target.name || reaches all target d) (uses all c)
+
+(* Without the arrows that other arrows make up for. *)
+let arrows all c =
+  let direct = uses all c in
+  let is_needed d = not (List.exists (fun e -> e.name <> d.name && reaches all d e) direct) in
+  List.filter is_needed direct
+
+let rec height all c = List.fold_left (fun h d -> max h (1 + height all d)) 0 (uses all c)
+
+let label c =
+  match String.index_opt c.public '.' with
+  | Some i -> String.sub c.public (i + 1) (String.length c.public - i - 1)
+  | None -> c.public
+
+let draw all =
+  let by_height c d = compare (- height all c, c.name) (- height all d, d.name) in
+  let sorted = List.sort by_height all in
+  let node c = Printf.sprintf "  %s[%s]\n" c.name (label c) in
+  let edges c = List.map (fun d -> Printf.sprintf "  %s --> %s\n" c.name d.name) (List.sort by_height (arrows all c)) in
+  String.concat "" (("```mermaid\ngraph TD\n" :: List.map node sorted) @ List.concat_map edges sorted @ [ "```\n" ])
+
+(* {1 The page} *)
+
+let find text part =
+  let n = String.length part in
+  let rec go i =
+    if i + n > String.length text then failwith ("the page lacks: " ^ part)
+    else if String.sub text i n = part then i
+    else go (i + 1)
+  in
+  go 0
+
+let has text part = match find text part with _ -> true | exception Failure _ -> false
+
+(* What stands between backquotes and begins with a folder is a path to something. *)
+let wrong_paths folders page =
+  let is_wrong quoted =
+    let is_in folder =
+      let name = Filename.basename folder ^ "/" in
+      String.length quoted > String.length name
+      && String.sub quoted 0 (String.length name) = name
+      && quoted = String.lowercase_ascii quoted
+      && not (Sys.file_exists (Filename.concat (Filename.dirname folder) quoted))
+    in
+    List.exists is_in folders
+  in
+  List.filteri (fun i quoted -> i mod 2 = 1 && is_wrong quoted) (String.split_on_char '`' page)
+
+let print page all =
+  let opening = "<!-- drawing -->\n" and ending = "<!-- end of drawing -->" in
+  let start = find page opening + String.length opening and stop = find page ending in
+  print_string (String.sub page 0 start ^ draw all ^ String.sub page stop (String.length page - stop))
+
+let check page folders all =
+  let missing = List.filter (fun c -> not (has page ("| `" ^ c.folder ^ "` |"))) all in
+  List.iter (fun c -> Printf.printf "architecture.md does not say what %s is\n" c.folder) missing;
+  let wrong = wrong_paths folders page in
+  List.iter (Printf.printf "architecture.md names %s, which is not there\n") wrong;
+  if missing <> [] || wrong <> [] then exit 1
+
+let () =
+  match Array.to_list Sys.argv with
+  | _ :: command :: page :: folders ->
+    let page = read page in
+    let all = List.concat_map (fun folder -> components ~shown:(Filename.basename folder) folder) folders in
+    if command = "check" then check page folders all else print page all
+  | _ -> failwith "usage: drawing.exe (print | check) PAGE FOLDER ..."

@@ -83,7 +83,7 @@ let () =
   Sys.remove tree;
   Unix.mkdir tree 0o700;
   at_exit (fun () -> ignore (shell "rm -rf %s" tree));
-  if not (shell "tar --exclude=./_build --exclude=./.git -cf - . | tar -xf - -C %s" tree && sound tree) then exit 2;
+  if not (shell "tar --exclude=./_build --exclude='./.[a-z]*' -cf - . | tar -xf - -C %s" tree && sound tree) then exit 2;
   let each unnoticed mistake =
     let tell what = Printf.printf "%-12s %s: %s\n%!" what mistake.file mistake.name in
     match judged tree mistake with

@@ -112,20 +112,20 @@ let of_transition g c event (t : Transition.t) =
   Ok (`Assoc (event @ step @ [ ("next", next) ]))
 
 (* What is awaited, less what an event of the kind has to say. *)
-let patterns (c : Configuration.t) (event : Transition.event) : members list =
+let patterns (c : Configuration.t) (awaited : Transition.awaited) : members list =
   let named name rest = ("event", `String name) :: rest in
-  match event, c.control with
-  | Vehicle_done v, _ -> List.map (fun name -> named name [ ("vehicle", `String v) ]) [ "done"; "failed" ]
-  | Timer_expired timer, _ -> [ named "timer" [ ("timer", `Int timer) ] ]
-  | Answered _, Waiting (_, Ask prompt) -> [ named "answer" [ ("prompt", `String prompt) ]; named "no-answer" [] ]
-  | Replied _, _ -> [ named "reply" []; named "no-reply" [] ]
-  | (Answered _ | Vehicle_failed _ | Nobody_answers _ | Host_failed _ | Interruption), _ -> []
+  match awaited, c.control with
+  | End_of v, _ -> List.map (fun name -> named name [ ("vehicle", `String v) ]) [ "done"; "failed" ]
+  | Expiry_of timer, _ -> [ named "timer" [ ("timer", `Int timer) ] ]
+  | Answer, Waiting (_, Ask prompt) -> [ named "answer" [ ("prompt", `String prompt) ]; named "no-answer" [] ]
+  | Answer, (Waiting _ | Script _ | Executing _ | Ended _) -> []
+  | Reply, _ -> [ named "reply" []; named "no-reply" [] ]
 
 (* The time-out of a pick that can be met is not awaited. *)
-let is_awaited g world c (event : Transition.event) =
-  match event with
-  | Timer_expired _ -> Result.is_ok (Transition.accept g.program world c event)
-  | Vehicle_done _ | Vehicle_failed _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Interruption -> true
+let is_awaited g world c (awaited : Transition.awaited) =
+  match awaited with
+  | Expiry_of timer -> Result.is_ok (Transition.accept g.program world c (Timer_expired timer))
+  | End_of _ | Answer | Reply -> true
 
 let has_ended (c : Configuration.t) =
   match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false
@@ -139,24 +139,29 @@ let of_awaited c events : json =
 
 (* Those that are what they are, and so need nobody to say more. *)
 let plain events : Event.t list =
-  let of_event : Transition.event -> Event.t option = function
-    | (Vehicle_done _ | Timer_expired _) as event -> Some (Event.of_event event)
-    | Vehicle_failed _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Interruption -> None
+  let of_awaited : Transition.awaited -> Event.t option = function
+    | End_of v -> Some (Done v)
+    | Expiry_of timer -> Some (Timer timer)
+    | Answer | Reply -> None
   in
-  List.filter_map of_event events
+  List.filter_map of_awaited events
 
 let deliver g world c event =
   let refused code message =
     let message = match message with None -> [] | Some text -> [ ("message", `String text) ] in
     Ok (Either.Right (`Assoc ([ ("event", `Assoc (Event.members event)); ("code", `String code) ] @ message)))
   in
-  match Event.to_event ~site:(Configuration.site c) event with
-  | Error why -> Error (Bad_event why)
-  | Ok cause -> (
-      match Transition.accept g.program world c cause with
+  let of_refusal : Transition.refusal -> _ = function
+    | Not_awaited -> refused "not-awaited" None
+    | Bad_answer why -> refused "bad-answer" (Some why)
+  in
+  match Event.to_event g.program c event with
+  | Error (No_value why) -> Error (Bad_event why)
+  | Error (Refused why) -> of_refusal why
+  | Ok e -> (
+      match Transition.accept g.program world c e with
       | Ok t -> Result.map (fun t -> Either.Left t) (of_transition g c (Some event) t)
-      | Error Not_awaited -> refused "not-awaited" None
-      | Error (Bad_answer why) -> refused "bad-answer" (Some why))
+      | Error why -> of_refusal why)
 
 let step_of g world c events =
   let* internal = bounded most_transitions (Transition.internal g.program world c) in

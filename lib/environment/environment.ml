@@ -117,61 +117,63 @@ let once_more name counted rounds =
   if n >= List.length rounds then counted
   else List.sort Stdlib.compare ((name, n) :: List.remove_assoc name counted)
 
-let answered options e prompt : (Transition.event * t) list =
+let answered options program e prompt : ((Transition.event, Transition.refusal) result * t) list =
   let rounds = options.answers prompt in
   match this_time prompt e.asked rounds with
-  | [] -> [ (Transition.Nobody_answers "none is given", e) ]
+  | [] -> [ (Ok (Nobody_answers "none is given"), e) ]
   | texts ->
     let e = { e with asked = once_more prompt e.asked rounds } in
-    List.map (fun text -> (Transition.Answered text, e)) texts
+    List.map (fun text -> (Answer.event program text, e)) texts
 
 let no_reply call = Format.asprintf "the fleet has no reply %a" Value.pp (String call)
 
-let replied options e site call : (Transition.event * t) list =
+let replied options e site call : ((Transition.event, Transition.refusal) result * t) list =
   let rounds = options.replies call in
   match this_time call e.called rounds with
-  | [] -> [ (Transition.Host_failed (no_reply call), e) ]
+  | [] -> [ (Ok (Host_failed (no_reply call)), e) ]
   | replies ->
     let e = { e with called = once_more call e.called rounds } in
-    let event : _ -> Transition.event = function
-      | Ok x -> Replied (Value.made_at site x)
-      | Error why -> Host_failed why
+    let event : _ -> (Transition.event, _) result = function
+      | Ok x -> Ok (Replied (Value.made_at site x))
+      | Error why -> Ok (Host_failed why)
     in
     List.map (fun reply -> (event reply, e)) replies
 
 (* After an answer that was refused the question is asked again, [e] being remembered, and [before] when it was asked
    first. Who has nothing else to say has said nothing. *)
-let after_refusal options ~before e (c : Configuration.t) why : (Transition.event * t) list =
+let after_refusal options program ~before e (c : Configuration.t) why =
   match c.control with
   | Waiting (_, Ask prompt) when times prompt before.asked < List.length (options.answers prompt) - 1 ->
-    answered options e prompt
-  | Waiting _ | Script _ | Executing _ | Ended _ -> [ (Nobody_answers why, e) ]
+    answered options program e prompt
+  | Waiting _ | Script _ | Executing _ | Ended _ -> [ (Ok (Transition.Nobody_answers why), e) ]
 
 (* {1 Transitions} *)
 
-let events options e (c : Configuration.t) (event : Transition.event) : (Transition.event * t) list =
-  match event, c.control with
-  | Vehicle_done v, _ -> (
+let events options program e (c : Configuration.t) (awaited : Transition.awaited) =
+  match awaited, c.control with
+  | End_of v, _ -> (
       match Vehicle_map.find_opt v c.shared.allocation with
-      | Some p -> task_ends options e v p
+      | Some p -> List.map (fun (event, e) -> (Ok event, e)) (task_ends options e v p)
       | None -> [])
-  | Answered _, Waiting (_, Ask prompt) -> answered options e prompt
-  | Replied _, Waiting (_, Host_call { subject; member; _ }) ->
+  | Answer, Waiting (_, Ask prompt) -> answered options program e prompt
+  | Reply, Waiting (_, Host_call { subject; member; _ }) ->
     replied options e (Configuration.site c) (Machine.name_of_call ~subject ~member)
-  | ( (Answered _ | Replied _ | Vehicle_failed _ | Timer_expired _ | Nobody_answers _ | Host_failed _ | Interruption),
-      (Script _ | Waiting _ | Executing _ | Ended _) ) -> [ (event, e) ]
+  | Expiry_of timer, _ -> [ (Ok (Transition.Timer_expired timer), e) ]
+  | (Answer | Reply), (Script _ | Waiting _ | Executing _ | Ended _) -> []
 
 let in_world options program world e c =
   let internal = List.of_seq (Seq.map (fun t -> (t, e)) (Transition.internal program world c)) in
   let rec accept before (event, e) =
-    let of_result = function
+    let of_result : _ -> (Transition.t * t) list = function
       | Ok t -> [ (t, e) ]
       | Error Transition.Not_awaited -> []
-      | Error (Bad_answer why) -> List.concat_map (accept e) (after_refusal options ~before e c why)
+      | Error (Bad_answer why) -> List.concat_map (accept e) (after_refusal options program ~before e c why)
     in
-    List.concat_map of_result (Transition.accept_all program world c event)
+    match event with
+    | Ok event -> List.concat_map of_result (Transition.accept_all program world c event)
+    | Error refusal -> of_result (Error refusal)
   in
-  let on_event event = List.concat_map (accept e) (events options e c event) in
+  let on_event event = List.concat_map (accept e) (events options program e c event) in
   internal @ List.concat_map on_event (Transition.awaited c)
 
 (* {1 Who is there} *)

@@ -39,7 +39,7 @@ let afresh program =
 let breath = 100
 
 (* What happens outside. *)
-type news = Seen of World.vehicle_state | Event of Transition.event | Nothing_more
+type news = Seen of World.vehicle_state | Event of (Transition.event, Transition.refusal) result | Nothing_more
 
 module Make (P : Platform.S) = struct
   type t = {
@@ -64,14 +64,14 @@ module Make (P : Platform.S) = struct
 
   let ask s prompt =
     let answer = function
-      | Ok text -> Event (Answered text)
-      | Error why -> Event (Nobody_answers why)
+      | Ok text -> Event (Answer.event s.program text)
+      | Error why -> Event (Ok (Nobody_answers why))
     in
     s.reply <- Some (s.console.ask prompt >|= answer)
 
   let call_host s subject member arguments =
     let site = Configuration.site s.configuration in
-    let reply = function Ok x -> Event (Replied x) | Error why -> Event (Host_failed why) in
+    let reply = function Ok x -> Event (Ok (Replied x)) | Error why -> Event (Ok (Host_failed why)) in
     s.reply <- Some (s.call ~site ~subject ~member ~arguments >|= reply)
 
   let carry_out s : Effect.t -> unit = function
@@ -118,6 +118,12 @@ module Make (P : Platform.S) = struct
     Log.vehicle ~time state;
     s.observer.news ~time state
 
+  let refuse_answer s why =
+    s.console.refused why;
+    match s.configuration.control with
+    | Waiting (_, Ask prompt) -> ask s prompt
+    | Waiting (_, (Pick _ | Pause _ | Execute _ | Host_call _)) | Script _ | Executing _ | Ended _ -> ()
+
   (* [deliver s e] is whether [e] changed the configuration. *)
   let deliver s event =
     match Transition.accept s.program s.world s.configuration event with
@@ -126,12 +132,12 @@ module Make (P : Platform.S) = struct
       Log.not_awaited ~time:(P.now s.platform) event;
       s.unbroken <- s.unbroken + 1;
       false
-    | Error (Bad_answer why) ->
-      s.console.refused why;
-      (match s.configuration.control with
-       | Waiting (_, Ask prompt) -> ask s prompt
-       | Waiting (_, (Pick _ | Pause _ | Execute _ | Host_call _)) | Script _ | Executing _ | Ended _ -> ());
-      false
+    | Error (Bad_answer why) -> refuse_answer s why; false
+
+  let deliver_if_any s = function
+    | Ok event -> deliver s event
+    | Error Transition.Not_awaited -> false
+    | Error (Bad_answer why) -> refuse_answer s why; false
 
   (* {1 Waiting} *)
 
@@ -141,9 +147,9 @@ module Make (P : Platform.S) = struct
     | None ->
       let news : Platform.event -> news = function
         | Vehicle state -> Seen state
-        | Task_done v -> Event (Vehicle_done v)
-        | Task_failed (v, why) -> Event (Vehicle_failed (v, why))
-        | Timer timer -> Event (Timer_expired timer)
+        | Task_done v -> Event (Ok (Vehicle_done v))
+        | Task_failed (v, why) -> Event (Ok (Vehicle_failed (v, why)))
+        | Timer timer -> Event (Ok (Timer_expired timer))
         | Quiet -> Nothing_more
       in
       let promise = P.next s.platform >|= news in
@@ -186,7 +192,7 @@ module Make (P : Platform.S) = struct
             forget s promise;
             (match news with
              | Seen state -> see s state
-             | Event event -> ignore (deliver s event)
+             | Event event -> ignore (deliver_if_any s event)
              | Nothing_more -> ());
             catch_up s)
 
@@ -231,7 +237,7 @@ module Make (P : Platform.S) = struct
   and wait ~sensitive s =
     next_news s >>= function
     | Seen state -> see s state; continue s (if sensitive then advance else wait ~sensitive)
-    | Event event -> continue s (if deliver s event then advance else wait ~sensitive)
+    | Event event -> continue s (if deliver_if_any s event then advance else wait ~sensitive)
     | Nothing_more -> (
         match s.configuration.control with
         | Executing (_, r) -> interrupt s; Lwt.return (Stuck r)
@@ -264,7 +270,7 @@ module Make (P : Platform.S) = struct
   let run platform ~always_telemetry ~observer ~call ~console ~interruption ~(beginning : beginning) program =
     let s =
       { platform; program; console; call; observer; always_telemetry;
-        interruption = (Lwt.protected interruption >|= fun () -> Event Interruption);
+        interruption = (Lwt.protected interruption >|= fun () -> Event (Ok Interruption));
         configuration = beginning.configuration;
         world = beginning.world;
         telemetry = false; upcoming = None; reply = None; unbroken = 0 }

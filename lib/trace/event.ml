@@ -16,7 +16,7 @@ let of_event : Transition.event -> t = function
   | Vehicle_done v -> Done v
   | Vehicle_failed (vehicle, why) -> Failed { vehicle; why }
   | Timer_expired timer -> Timer timer
-  | Answered text -> Answer text
+  | Answered { text; _ } -> Answer text
   | Nobody_answers why -> No_answer why
   | Replied x -> (
       match Host_value.to_json x with
@@ -25,13 +25,24 @@ let of_event : Transition.event -> t = function
   | Host_failed why -> No_reply why
   | Interruption -> Interruption
 
-let to_event ~site : t -> (Transition.event, string) result = function
+type fault = No_value of string | Refused of Transition.refusal
+
+let answer program (c : Configuration.t) text =
+  match c.control with
+  | Waiting (_, Ask _) -> Result.map_error (fun why -> Refused why) (Answer.event program text)
+  | Waiting (_, (Pick _ | Pause _ | Execute _ | Host_call _)) | Script _ | Executing _ | Ended _ ->
+    Error (Refused Not_awaited)
+
+let to_event program c : t -> (Transition.event, fault) result = function
   | Done v -> Ok (Vehicle_done v)
   | Failed { vehicle; why } -> Ok (Vehicle_failed (vehicle, why))
   | Timer timer -> Ok (Timer_expired timer)
-  | Answer text -> Ok (Answered text)
+  | Answer text -> answer program c text
   | No_answer why -> Ok (Nobody_answers why)
-  | Reply json -> Result.map (fun x -> Transition.Replied x) (Host_value.of_json ~site json)
+  | Reply json -> (
+      match Host_value.of_json ~site:(Configuration.site c) json with
+      | Ok x -> Ok (Replied x)
+      | Error why -> Error (No_value why))
   | No_reply why -> Ok (Host_failed why)
   | Interruption -> Ok Interruption
 

@@ -15,8 +15,13 @@ type t =
 val of_event : Transition.event -> t
 (** @raise Invalid_argument for a reply that no host process can give: a closure, for example. *)
 
-val to_event : site:Core.site -> t -> (Transition.event, string) result
-(** [to_event ~site h] is the event; tasks in a reply come from [site]. The error says why the reply is no value. *)
+(** Why one is no event for the transition function. *)
+type fault =
+  | No_value of string  (** the reply is no value: why *)
+  | Refused of Transition.refusal  (** it is an answer, and nobody asks, or it is no expression *)
+
+val to_event : Core.program -> Configuration.t -> t -> (Transition.event, fault) result
+(** [to_event p c h] is the event, for [c]: tasks in a reply come from where the script of [c] stands. *)
 
 val members : t -> Dolphin_json.Field.members
 (** As journals and the step protocol have it. *)

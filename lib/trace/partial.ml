@@ -48,19 +48,19 @@ let events p (c : Configuration.t) label =
         | Some why -> [ Vehicle_failed (v, why) ]
         | None -> [ Vehicle_done v ])
   in
-  let of_awaited : Transition.event -> Transition.event list = function
-    | Vehicle_done v | Vehicle_failed (v, _) -> ends v
-    | Timer_expired timer -> [ Timer_expired timer ]
-    | Answered _ | Nobody_answers _ -> (
+  let of_awaited : Transition.awaited -> Transition.event list = function
+    | End_of v -> ends v
+    | Expiry_of timer -> [ Timer_expired timer ]
+    | Answer -> (
         match label with
         | None -> []
         | Some "no-answer" -> [ Nobody_answers "" ]
-        | Some label -> Option.to_list (Option.map (fun text -> Transition.Answered text) (inside "answer(" label)))
-    | Replied _ | Host_failed _ -> (
+        | Some label -> 
+          Option.to_list (Option.bind (inside "answer(" label) (fun text -> Result.to_option (Answer.event p.program text))))
+    | Reply -> (
         match label with
         | None -> []
         | Some label -> Option.to_list (Option.map (fun why -> Transition.Host_failed why) (inside "no-reply(" label)))
-    | Interruption -> []
   in
   let interruption = if label = Some "interrupt" then [ Transition.Interruption ] else [] in
   List.concat_map of_awaited (Transition.awaited c) @ interruption
@@ -128,7 +128,7 @@ let label p text =
 
 let cause p event =
   let choose (c : Configuration.t) add =
-    match Event.to_event ~site:(Configuration.site c) event with
+    match Event.to_event p.program c event with
     | Ok cause -> Option.iter (fun (t : Transition.t) -> add t.next) (on p c cause)
     | Error _ -> ()
   in

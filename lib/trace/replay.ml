@@ -28,7 +28,7 @@ let latest r = r.latest
 let was_stuck r = r.stuck
 
 let event r =
-  let event event = Result.to_option (Event.to_event ~site:(Configuration.site r.configuration) event) in
+  let event event = Result.to_option (Event.to_event r.program r.configuration event) in
   Option.bind r.event event
 
 (* {1 Mismatches} *)
@@ -53,14 +53,15 @@ let enabled r =
   if List.length labels > most_shown then List.filteri (fun i _ -> i < most_shown) labels @ [ "and more" ] else labels
 
 let awaited r =
-  let show event = Format.asprintf "%a" Event.pp (Event.of_event event) in
-  match r.configuration.control with
-  | Waiting (_, Ask _) -> [ "an answer" ]
-  | Waiting (_, Host_call _) -> [ "a reply of the host" ]
-  | Script _ | Waiting _ | Executing _ | Ended _ ->
-    let events = Transition.awaited r.configuration in
-    let shown = List.filteri (fun i _ -> i < most_shown) events in
-    List.map show shown @ if List.length events > most_shown then [ "and more" ] else []
+  let show : Transition.awaited -> string = function
+    | End_of v -> Format.asprintf "%a" Event.pp (Done v)
+    | Expiry_of timer -> Format.asprintf "%a" Event.pp (Timer timer)
+    | Answer -> "an answer"
+    | Reply -> "a reply of the host"
+  in
+  let events = Transition.awaited r.configuration in
+  let shown = List.filteri (fun i _ -> i < most_shown) events in
+  List.map show shown @ if List.length events > most_shown then [ "and more" ] else []
 
 (* A check that is offered and not enabled is false. *)
 let false_guards r =
@@ -154,12 +155,16 @@ let alone r (step : Step.t) =
 
 let caused r (step : Step.t) event =
   let by = Format.asprintf "%a" Event.pp event in
-  match Event.to_event ~site:(Configuration.site r.configuration) event with
-  | Error why -> mismatch r (Printf.sprintf "%s is no event: %s" by why)
+  let refused : Transition.refusal -> _ = function
+    | Not_awaited -> mismatch r (Printf.sprintf "%s makes no transition: it was not awaited" by)
+    | Bad_answer why -> mismatch r (Printf.sprintf "%s makes no transition: %s" by why)
+  in
+  match Event.to_event r.program r.configuration event with
+  | Error (No_value why) -> mismatch r (Printf.sprintf "%s is no event: %s" by why)
+  | Error (Refused why) -> refused why
   | Ok e -> (
       match Transition.accept r.program r.world r.configuration e with
-      | Error Not_awaited -> mismatch r (Printf.sprintf "%s makes no transition: it was not awaited" by)
-      | Error (Bad_answer why) -> mismatch r (Printf.sprintf "%s makes no transition: %s" by why)
+      | Error why -> refused why
       | Ok t -> (
           let expected = Step.of_transition r.program r.configuration t in
           match Step.difference ~places:r.places expected step with

@@ -20,15 +20,20 @@ let text_of_label label = Format.asprintf "%a" Label.pp label
 (* {1 From transitions} *)
 
 (* Events that the transition may be an answer to: those awaited, and those that its label tells of. *)
-let candidates (c : Configuration.t) (t : Transition.t) : Transition.event list =
+let candidates program (c : Configuration.t) (t : Transition.t) : Transition.event list =
+  let of_awaited : Transition.awaited -> Transition.event option = function
+    | End_of v -> Some (Vehicle_done v)
+    | Expiry_of timer -> Some (Timer_expired timer)
+    | Answer | Reply -> None
+  in
   match t.label with
   | Fail (v, _, why) -> [ Vehicle_failed (v, why) ]
-  | Answer text -> [ Answered text ]
+  | Answer text -> Option.to_list (Result.to_option (Answer.event program text))
   | No_answer -> [ Nobody_answers "none is given" ]
   | Reply _ -> (match t.next.control with Script { focus = Give x; _ } -> [ Replied x ] | _ -> [])
   | No_reply why -> [ Host_failed why ]
   | Interrupt -> [ Interruption ]
-  | _ -> Transition.awaited c
+  | _ -> List.filter_map of_awaited (Transition.awaited c)
 
 let step program world c (t : Transition.t) =
   let world = World.suppose t.assumed world in
@@ -44,7 +49,7 @@ let step program world c (t : Transition.t) =
     match choice 0 (Transition.internal program world c) with
     | Some cause -> cause
     | None -> (
-        match t.label, List.find_opt event (candidates c t) with
+        match t.label, List.find_opt event (candidates program c t) with
         | _, Some e -> Event (Event.of_event e)
         | No_answer, None ->
           (* Nobody answered for another reason: an answer that was refused. *)
@@ -83,13 +88,15 @@ let take program world (c : Configuration.t) s =
         | Some t -> Ok t
         | None -> Error "the program has no such choice there")
     | Event h -> (
-        match Event.to_event ~site:(Configuration.site c) h with
-        | Error why -> Error why
+        let refused : Transition.refusal -> _ = function
+          | Not_awaited -> Error (Format.asprintf "the program does not wait for %a there" Event.pp h)
+          | Bad_answer why -> Error why
+        in
+        match Event.to_event program c h with
+        | Error (No_value why) -> Error why
+        | Error (Refused why) -> refused why
         | Ok event -> (
-            match Transition.accept program world c event with
-            | Ok t -> Ok t
-            | Error Not_awaited -> Error (Format.asprintf "the program does not wait for %a there" Event.pp h)
-            | Error (Bad_answer why) -> Error why))
+            match Transition.accept program world c event with Ok t -> Ok t | Error why -> refused why))
   in
   match found () with
   | exception Reading.Unsettled fault -> Error fault.message

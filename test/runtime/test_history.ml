@@ -67,11 +67,15 @@ let timeouts () =
   check "one for all, then one of its own" (Some 90., [ ("a", 30.) ]) [ asked 1. [ all ]; asked 2. [ single ] ];
   check "one for all is for all" (Some 90., []) [ asked 1. [ single ]; asked 2. [ all ] ]
 
+let answered text : Transition.event =
+  let program = Test_support.Pure_run.compile_exn "here = 1" in
+  Result.get_ok (Answer.event program text)
+
 let answers () =
   let found =
     History.answers
-      [ asked 1. [ Ask "How many?" ]; at 2. (Happened (Answered "2")); asked 3. [ Ask "Where?" ];
-        at 4. (Happened (Answered "here")); asked 5. [ Ask "When?" ];
+      [ asked 1. [ Ask "How many?" ]; at 2. (Happened (answered "2")); asked 3. [ Ask "Where?" ];
+        at 4. (Happened (answered "here")); asked 5. [ Ask "When?" ];
         at 6. (Happened (Nobody_answers "none is given")) ]
   in
   Alcotest.(check (list (pair string string))) "in order" [ ("How many?", "2"); ("Where?", "here") ] found

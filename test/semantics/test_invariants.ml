@@ -148,13 +148,13 @@ let awaits_what_it_accepts program (s : Walk.step) =
   let accepts e = Result.is_ok (Transition.accept program Generate.world c e) in
   List.for_all
     (fun v ->
-       let expected = List.mem (Transition.Vehicle_done v) awaited in
+       let expected = List.mem (Transition.End_of v) awaited in
        accepts (Vehicle_done v) = expected && accepts (Vehicle_failed (v, "")) = expected
        || fail "before %s: %s is %sawaited" (shown s) v (if expected then "" else "not "))
     [ "a"; "b"; "c"; "d" ]
   && List.for_all
     (fun timer ->
-       (not (accepts (Timer_expired timer))) || List.mem (Transition.Timer_expired timer) awaited
+       (not (accepts (Timer_expired timer))) || List.mem (Transition.Expiry_of timer) awaited
        || fail "before %s: timer %d is not awaited" (shown s) timer)
     [ 0; 1; 2; 3; 4; 5 ]
 

@@ -57,7 +57,7 @@ let interrupted_script () =
 
 let answered text =
   let program, c = waiting "def twice(x) { 2 * x }\nr = 3\nv = pick { id 'noptilus-1' }\nn = ask 'n?'\npause 1" in
-  match Transition.accept program Pure_run.fleet c (Answered text) with
+  match Result.bind (Answer.event program text) (Transition.accept program Pure_run.fleet c) with
   | Ok t -> Ok (variable program (after program t.next []) "n")
   | Error (Bad_answer why) -> Error why
   | Error Not_awaited -> Alcotest.fail "not awaited"
@@ -81,13 +81,13 @@ let answers =
     case "no expression" (fun () -> Alcotest.(check bool) "refused" true (Result.is_error (answered "2 +")));
     case "an assignment" (fun () ->
         let program, c = waiting "r = 3\nn = ask 'n?'\npause 1" in
-        match Transition.accept program Pure_run.fleet c (Answered "r++") with
+        match Result.bind (Answer.event program "r++") (Transition.accept program Pure_run.fleet c) with
         | Ok _ -> Alcotest.fail "accepted"
         | Error (Bad_answer why) -> Alcotest.(check string) "why" "an answer may only compute a value" why
         | Error Not_awaited -> Alcotest.fail "not awaited");
     case "a task that fails later has no place in the program" (fun () ->
         let program, c = waiting "v = pick { id 'noptilus-1' }\nexecute ask('what?')" in
-        let c = after program c [ Answered "task('p')"; Vehicle_failed ("noptilus-1", "leak") ] in
+        let c = after program c [ Result.get_ok (Answer.event program "task('p')"); Vehicle_failed ("noptilus-1", "leak") ] in
         match c.control with
         | Ended (Failed fault) ->
           Alcotest.(check string) "message" "p failed on noptilus-1: leak" fault.message;

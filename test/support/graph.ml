@@ -4,24 +4,22 @@ type t = { states : Configuration.t array; edges : (Transition.t * int) list arr
 
 module Table = Hashtbl.Make (Configuration)
 
-let failure_of (e : Transition.event) : Transition.event option =
-  match e with
-  | Vehicle_done v -> Some (Vehicle_failed (v, "broken"))
-  | Answered _ -> Some (Nobody_answers "end of input")
-  | Replied _ -> Some (Host_failed "gone")
-  | Timer_expired _ | Vehicle_failed _ | Nobody_answers _ | Host_failed _ | Interruption -> None
+let failure_of : Transition.awaited -> Transition.event option = function
+  | End_of v -> Some (Vehicle_failed (v, "broken"))
+  | Answer -> Some (Nobody_answers "end of input")
+  | Reply -> Some (Host_failed "gone")
+  | Expiry_of _ -> None
+
+let success_of program : Transition.awaited -> Transition.event option = function
+  | End_of v -> Some (Vehicle_done v)
+  | Expiry_of timer -> Some (Timer_expired timer)
+  | Answer -> Result.to_option (Answer.event program Generate.answer)
+  | Reply -> Some (Replied Null)
 
 let outcomes ?(failures = true) ?(interruption = false) program world c =
-  let events =
-    List.map
-      (fun (e : Transition.event) ->
-         match e with
-         | Answered _ -> Transition.Answered Generate.answer
-         | Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Nobody_answers _ | Replied _ | Host_failed _
-         | Interruption -> e)
-      (Transition.awaited c)
-  in
-  let failed = if failures then List.filter_map failure_of events else [] in
+  let awaited = Transition.awaited c in
+  let events = List.filter_map (success_of program) awaited in
+  let failed = if failures then List.filter_map failure_of awaited else [] in
   let stopped = if interruption then [ Transition.Interruption ] else [] in
   let accepted e = Result.to_option (Transition.accept program world c e) in
   List.of_seq (Transition.internal program world c) @ List.filter_map accepted (events @ failed @ stopped)

@@ -25,10 +25,13 @@ let fleet =
 
 (* What follows the events that [c] awaits, one after the other. *)
 let awaited ?(answers = []) program world c =
-  let follow (e : Transition.event) =
-    let e = match e, answers with Answered _, text :: _ -> Transition.Answered text | e, _ -> e in
-    Result.to_option (Transition.accept program world c e)
+  let event : Transition.awaited -> (Transition.event, _) result = function
+    | End_of v -> Ok (Vehicle_done v)
+    | Expiry_of timer -> Ok (Timer_expired timer)
+    | Answer -> Answer.event program (match answers with text :: _ -> text | [] -> "")
+    | Reply -> Ok (Replied Null)
   in
+  let follow awaited = Result.to_option (Result.bind (event awaited) (Transition.accept program world c)) in
   Seq.filter_map follow (List.to_seq (Transition.awaited c))
 
 let successors ?answers program world c =

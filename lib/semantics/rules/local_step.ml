@@ -4,7 +4,7 @@ type event =
   | Vehicle_done of vehicle
   | Vehicle_failed of vehicle * string
   | Timer_expired of Residual.timer
-  | Answered of string
+  | Answered of { text : string; code : closure }
   | Nobody_answers of string
   | Replied of value
   | Host_failed of string

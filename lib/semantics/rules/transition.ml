@@ -4,7 +4,7 @@ type event = Local_step.event =
   | Vehicle_done of vehicle
   | Vehicle_failed of vehicle * string
   | Timer_expired of Residual.timer
-  | Answered of string
+  | Answered of { text : string; code : closure }
   | Nobody_answers of string
   | Replied of value
   | Host_failed of string
@@ -19,6 +19,7 @@ type t = Conclusion.t = {
 }
 
 type refusal = Not_awaited | Bad_answer of string
+type awaited = End_of of vehicle | Expiry_of of Residual.timer | Answer | Reply
 
 (* {1 Of all that is left open} *)
 
@@ -66,11 +67,6 @@ let executing_event program world s m r event =
   | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Interruption ->
     first (Task_rules.steps r)
 
-let answered program world s m text =
-  match Elaborate.answer program text with
-  | Error why -> Error (Bad_answer why)
-  | Ok code -> Result.map_error (fun why -> Bad_answer why) (Script_rules.answer program world s m ~text code)
-
 (* Of a configuration that executes nothing, in a world of which enough is known. *)
 let whole_event program world ({ control; shared = s } as c : Configuration.t) event =
   match event, control with
@@ -81,7 +77,8 @@ let whole_event program world ({ control; shared = s } as c : Configuration.t) e
     Option.to_result ~none:Not_awaited (Pick_rules.timed_out world s m pick)
   | Timer_expired timer, Waiting (m, Pause _) when timer = Residual.script_timer ->
     Ok (Script_rules.go_on Resume Resume Null s m)
-  | Answered text, Waiting (m, Ask _) -> answered program world s m text
+  | Answered { text; code }, Waiting (m, Ask _) ->
+    Result.map_error (fun why -> Bad_answer why) (Script_rules.answer program world s m ~text code)
   | Nobody_answers why, Waiting (m, Ask prompt) ->
     Ok (Script_rules.fail Answer_err No_answer (Printf.sprintf "no answer to '%s': %s" prompt why) s m)
   | Replied x, Waiting (m, Host_call _) -> Ok (Script_rules.go_on Reply (Reply (Value.to_string x)) x s m)
@@ -108,14 +105,14 @@ let accept program world c event = List.hd (accept_all program world c event)
 let awaited (c : Configuration.t) =
   match c.control with
   | Script _ | Ended _ | Waiting (_, Execute _) -> []
-  | Waiting (_, (Pick _ | Pause _)) -> [ Timer_expired Residual.script_timer ]
-  | Waiting (_, Ask _) -> [ Answered "" ]
-  | Waiting (_, Host_call _) -> [ Replied Null ]
+  | Waiting (_, (Pick _ | Pause _)) -> [ Expiry_of Residual.script_timer ]
+  | Waiting (_, Ask _) -> [ Answer ]
+  | Waiting (_, Host_call _) -> [ Reply ]
   | Executing (_, r) ->
-    let event (Task_rules.Step { offer; _ }) =
+    let event (Task_rules.Step { offer; _ }) : awaited option =
       match offer with
-      | End_of (_, v) -> Some (Vehicle_done v)
-      | Expiry_of timer -> Some (Timer_expired timer)
+      | End_of (_, v) -> Some (End_of v)
+      | Expiry_of timer -> Some (Expiry_of timer)
       | Start _ | Perform _ | Check _ | Measure _ -> None
     in
     List.of_seq (Seq.filter_map event (Task_rules.steps r))

@@ -10,7 +10,7 @@ type event = Local_step.event =
   | Vehicle_failed of vehicle * string
   (** it failed, refused the task, or its connection was lost for longer than its timeout: why *)
   | Timer_expired of Residual.timer
-  | Answered of string  (** to [ask], as typed *)
+  | Answered of { text : string; code : closure }  (** to [ask]: what was typed, and its code *)
   | Nobody_answers of string  (** why *)
   | Replied of value  (** by the host *)
   | Host_failed of string  (** why *)
@@ -29,6 +29,13 @@ type refusal =
   | Not_awaited  (** nothing in the configuration depends on it: it may be forgotten *)
   | Bad_answer of string  (** the answer is no expression that has a value: why; to be asked again *)
 
+(** What a configuration waits for. *)
+type awaited =
+  | End_of of vehicle  (** that it is done with its task, or fails *)
+  | Expiry_of of Residual.timer
+  | Answer  (** to [ask], or that nobody answers *)
+  | Reply  (** of the host, or that the host fails *)
+
 val internal : program -> World.t -> Configuration.t -> t Seq.t
 (** [internal p w c] is the transitions that [c] can make by itself, leftmost first, computed on demand. A [pick] has
     one for every choice of vehicles, in pick order. In an open world they are those for all that sensors may show; of
@@ -42,10 +49,9 @@ val accept : program -> World.t -> Configuration.t -> event -> (t, refusal) resu
 val accept_all : program -> World.t -> Configuration.t -> event -> (t, refusal) result list
 (** [accept_all p w c e] is every transition of [c] on [e], one unless the world is open; or one refusal. *)
 
-val awaited : Configuration.t -> event list
-(** [awaited c] is the events that [c] has transitions for, less [Interruption]: the ends of tasks that run (as
-    [Vehicle_done]; where it is awaited, [Vehicle_failed] is too), timers that run, an answer or a reply (with empty
-    content). The time-out of a [pick] is among them, but not accepted while the pick can be met: then it must be. *)
+val awaited : Configuration.t -> awaited list
+(** [awaited c] is what [c] has transitions for, leftmost first, besides [Interruption]. The time-out of a [pick] is among
+    them, but not accepted while the pick can be met: then it must be. *)
 
 val depends_on_sensors : program -> Configuration.t -> bool
 (** [depends_on_sensors p c] is whether the positions and batteries of the world may matter to [c] or to what follows:

@@ -1,0 +1,5 @@
+(** Answers to [ask], as somebody types them. *)
+
+val event : Core.program -> string -> (Transition.event, Transition.refusal) result
+(** [event p text] is the event that somebody answers [text], an expression over the variables of [p];
+    [Error (Bad_answer why)] if it is none. *)

@@ -1,58 +1,38 @@
 -------------------------------- MODULE Dolphin --------------------------------
-(* The semantics of Dolphin, to be read next to docs/semantics.md: one operator   *)
-(* for each inference rule, under the rule's name (PAR_ERR is [PAR-ERR]).         *)
+(* The rules of Dolphin, to be read beside docs/semantics.md: one operator for    *)
+(* each inference rule, under the rule's name (PAR_ERR is [PAR-ERR]). What may    *)
+(* come from outside, and so the whole system, is in DolphinEnvironment.          *)
 (*                                                                                *)
 (* Letters as there: v, V vehicles; p a platform task; t a task; r a residual;    *)
 (* k, x a pair of N; g a guard; i a timer; m a message; M the script's machine;   *)
-(* S the shared part <store, A, B, N>, with what sensors have shown in the step;  *)
-(* l a label. Its kappa and sigma are the variables control and store.            *)
+(* l a label; w a world. Its kappa and sigma are the variables control and store. *)
+(* S is the shared part <store, A, B, N>, with what sensors have shown in the     *)
+(* step.                                                                          *)
 (*                                                                                *)
-(* Steps(S, r) is the steps of a residual, Transitions those of a configuration:  *)
-(* sequences, the leftmost first. A step of a residual is a sequence of what it   *)
-(* may be, as sensors show this or that; mostly of one. Each of these is a        *)
-(* record:                                                                        *)
+(* Steps(S, r, E) is the steps of the residual r: those that need no event, and   *)
+(* those on the events E; the leftmost first. A step is a sequence of its         *)
+(* outcomes, one for each thing that sensors may show; mostly there is one.       *)
+(* An outcome is a record:                                                        *)
 (*                                                                                *)
-(*   rules  the derivation, the axiom first                                       *)
-(*   label  what an observer sees, as text                                        *)
-(*   cause  what it answers: <<"program">>, or an event <<"task", v>> ...         *)
-(*   S      the shared part after it                                              *)
-(*   out    <<"next", r>>, <<"ok">>, <<"err", fault>>, or <<"ends", ending>> if   *)
-(*          the whole program ends, whatever is around                            *)
-(*   deeds  what its code did, handlers included                                  *)
+(*   rules    the derivation, the axiom first                                     *)
+(*   label    what an observer sees, as text                                      *)
+(*   event    what it answers: Program, or an event from outside                  *)
+(*   S        the shared part after it                                            *)
+(*   out      <<"next", r>>, <<"ok">>, <<"err", fault>>, or <<"ends", ending>>    *)
+(*            if the whole program ends, whatever is around                       *)
+(*   effects  what it asks of the outside, in order                               *)
+(*   deeds    what its code did, handlers included                                *)
 (*                                                                                *)
-(* Effects are in docs/semantics.md only: they follow from the step, and nothing  *)
-(* here depends on them.                                                          *)
+(* A transition of a configuration is the same, with control instead of out.      *)
+(* Effects and deeds are no part of a state.                                      *)
 EXTENDS DolphinMachine
-
-CONSTANTS
-  Main,          \* the closure of the whole program
-  Ending(_, _),  \* how plan p may end on vehicle v: "succeeds", "may fail" or "fails"
-  Failures,      \* how many of the failures that need not be there may be in one run; -1: any number
-  Losses,        \* how often connections may be lost in one run; -1: any number
-  Latecomers,    \* how many vehicles of one run may be late, or missing, when they are looked for; -1: any number
-  MayBeLate,     \* which ones those may be
-  Answers(_),    \* to a prompt: for the first time it is asked, the second ..., the answers that may be given; the last
-                 \* item is for all later times
-  Prompts,       \* the prompts whose answers depend on how often they were asked
-  HostReplies(_, _), \* to a call, made at this place: likewise what the host may reply, <<"value", y>>, or why it
-                 \* fails, <<"failure", m>>
-  Calls,         \* the calls whose replies depend on how often they were made
-  Interruptions  \* whether the program may be interrupted
-
-(* Known(vars) is Transitions. It is for whoever asks several times, and a constant, for which a configuration puts
-   ComputedOnce. *)
-CONSTANT Known(_)
 
 VARIABLES
   control,  \* kappa: what runs
   store,    \* sigma: the values of the global variables, << >> for those that have none yet
   A,        \* the allocation: which platform task each vehicle runs, for those that run one
   B,        \* the bound vehicles, in the order in which they were picked
-  N,        \* the tuple space
-  outside   \* what the environment remembers: failures and losses so far, who is lost, who was late, how often it was asked
-            \* and called
-
-vars == << control, store, A, B, N, outside >>
+  N         \* the tuple space
 
 Shared == [ store |-> store, A |-> A, B |-> B, N |-> N, sees |-> NothingSeen ]
 
@@ -72,15 +52,15 @@ Interrupted == [ how |-> "interrupted", why |-> "", message |-> "", site |-> 0 ]
 (* {1 Residuals} *)
 
 (* r >> ts: it leans to the right. *)
-SeqOf(r, ts) ==
+Sequence(r, ts) ==
   IF r.op = "seq" THEN [ op |-> "seq", first |-> r.first, rest |-> r.rest \o ts ]
   ELSE [ op |-> "seq", first |-> r, rest |-> ts ]
 
 Parts(r) == IF r.op = "seq" THEN << r.first >> \o r.rest ELSE << r >>
-FromParts(rs) == IF Len(rs) = 1 THEN rs[1] ELSE [ op |-> "seq", first |-> rs[1], rest |-> Tail(rs) ]
+OfParts(rs) == IF Len(rs) = 1 THEN rs[1] ELSE [ op |-> "seq", first |-> rs[1], rest |-> Tail(rs) ]
 
 (* r1 | .. | rn: it is flat. *)
-ParOf(rs) ==
+Parallel(rs) ==
   LET flat == Flatten(Each(rs, LAMBDA r : IF r.op = "par" THEN r.branches ELSE << r >>))
   IN IF Len(flat) = 1 THEN flat[1] ELSE [ op |-> "par", branches |-> flat ]
 
@@ -111,9 +91,56 @@ Running(r) ==
     [] r.op = "during" -> IF r.started THEN Running(r.body) ELSE << >>
     [] OTHER -> << >>
 
-(* S without A(run(r)): what is cut off stops. *)
-WithoutA(S, V) == [ S EXCEPT !.A = [ v \in DOMAIN @ \ V |-> @[v] ] ]
-Cut(S, r) == WithoutA(S, Range(Running(r)))
+(* tim(r): the timers that run in the active part of r, each with its time. *)
+RECURSIVE Timers(_)
+Timers(r) ==
+  CASE r.op = "idle" -> << [ i |-> r.timer, time |-> r.time ] >>
+    [] r.op = "seq" -> Timers(r.first)
+    [] r.op = "par" -> Flatten(Each(r.branches, Timers))
+    [] r.op = "allOf" -> Flatten(Each(r.runs, Timers))
+    [] r.op \in { "until", "watch" } -> Timers(r.body)
+    [] r.op = "during" -> IF r.started THEN << [ i |-> r.timer, time |-> r.time ] >> \o Timers(r.body) ELSE << >>
+    [] OTHER -> << >>
+
+-----------------------------------------------------------------------------
+(* {1 Events} *)
+
+(* No event: the program goes on by itself. *)
+Program == << "program" >>
+
+Done(v) == << "done", v >>
+FailedOn(v, m) == << "failed", v, m >>
+Expired(i) == << "expired", i >>
+AnsweredWith(text) == << "answered", text >>
+NobodyAnswers(m) == << "nobody answers", m >>
+Replied(y) == << "replied", y >>
+HostFailed(m) == << "host failed", m >>
+Interruption == << "interruption" >>
+
+(* The timer of pick and pause. *)
+ScriptTimer == 0
+
+-----------------------------------------------------------------------------
+(* {1 Effects} *)
+
+(* What a transition asks of the outside: <<"start", v, p>>, <<"stop", v>>, <<"set timer", i, n>>, <<"cancel timer", i>>,
+   <<"look for", q>>, <<"bind", V>>, <<"release", V>>, <<"connection timeout", V, n>>, where V is << >> for all vehicles,
+   <<"say", x>>, <<"ask", x>>, <<"call", name, arguments>>, and last of all <<"end", ending>>. *)
+
+SetTimers(timers) == Each(timers, LAMBDA timer : << "set timer", timer.i, timer.time >>)
+CancelTimers(timers) == Each(timers, LAMBDA timer : << "cancel timer", timer.i >>)
+
+(* cut(rs): the timers of these residuals are cancelled, then their vehicles stop. *)
+Cut(rs) ==
+  CancelTimers(Flatten(Each(rs, Timers))) \o Each(Flatten(Each(rs, Running)), LAMBDA v : << "stop", v >>)
+
+EffectOf(d) ==
+  CASE d.did = "message" -> << << "say", d.text >> >>
+    [] d.did = "release" -> << << "release", d.vehicles >> >>
+    [] d.did = "timeout" -> << << "connection timeout", d.vehicles, d.time >> >>
+    [] OTHER -> << >>
+
+EffectsOf(deeds) == Flatten(Each(deeds, EffectOf))
 
 -----------------------------------------------------------------------------
 (* {1 Labels} *)
@@ -142,13 +169,13 @@ PickText(q) ==
 -----------------------------------------------------------------------------
 (* {1 Steps of residuals} *)
 
-Step(rule, label, cause, S, out, deeds) ==
-  [ rules |-> << rule >>, label |-> label, cause |-> cause, S |-> S, out |-> out, deeds |-> deeds ]
-
-Program == << "program" >>
+Step(rule, label, event, S, out, effects) ==
+  [ rules |-> << rule >>, label |-> label, event |-> event, S |-> S, out |-> out, effects |-> effects, deeds |-> << >> ]
 
 (* What the step s of a part is for the whole around it: by one more rule, the outcome out. *)
 By(s, rule, out) == [ s EXCEPT !.rules = Append(@, rule), !.out = out ]
+
+Asking(s, effects) == [ s EXCEPT !.effects = @ \o effects ]
 
 Next_(r) == << "next", r >>
 Done_ == << "ok" >>
@@ -159,7 +186,16 @@ GoesOn(s) == s.out[1] = "next"
 IsDone(s) == s.out[1] = "ok"
 IsErr(s) == s.out[1] = "err"
 
-(* S |- g => x, S', ds: the code g with these arguments, as often as its outcome may be another one by what sensors show.
+(* s, by which the turn of r comes, which is active now. *)
+Entering(s, r) == Asking(s, SetTimers(Timers(r)))
+
+(* S without A(V). *)
+WithoutA(S, V) == [ S EXCEPT !.A = [ v \in DOMAIN @ \ V |-> @[v] ] ]
+
+(* s, by which rs are cut off: S' without A(run(rs)), and the effects cut(rs). *)
+CutOff(s, rs) == Asking([ s EXCEPT !.S = WithoutA(@, Range(Flatten(Each(rs, Running)))) ], Cut(rs))
+
+(* S |- g => x, S', ds: the code g with these arguments, once for each outcome that it may have by what sensors show.
    A fault leaves no effect. What was seen stays so for the rest of the step. *)
 After(S, m) == [ S EXCEPT !.store = m.store, !.N = m.N, !.sees = m.sees ]
 Knowing(S, sees) == [ S EXCEPT !.sees = sees ]
@@ -179,41 +215,50 @@ RunCode(S, mode, closure, arguments) ==
           [] m.stop[1] = "exhausted" -> result(m, "fault", Fault(Endless, -closure[2]), Knowing(S, m.sees), << >>)
   IN Each(Run(Call(closure, arguments), S, mode, AtomicFuel), of)
 
-(* No watch handles an assertion that fails, nor halt. *)
-ASSERT_ERR(S, fault) == Step("ASSERT-ERR", "broken(" \o fault.message \o ")", Program, S, Ends(Failed(fault)), << >>)
-HaltLabel(m) == IF m = "" THEN "halt" ELSE "halt(" \o m \o ")"
-HALT_CODE(run) == Step("HALT", HaltLabel(run.value), Program, run.S, Ends(Halted(run.value)), run.deeds)
+(* Code ran, and gave what the rule asks for. *)
+CodeStep(rule, label, run, out) ==
+  [ Step(rule, label, Program, run.S, out, EffectsOf(run.deeds)) EXCEPT !.deeds = run.deeds ]
 
-Broken(rule, S, fault) == Step(rule, "broken(" \o fault.message \o ")", Program, S, Err(fault), << >>)
+(* Code is faulty; which rule that is depends on what the code is for. *)
+Broken(S, fault) ==
+  [ Step("", "broken(" \o fault.message \o ")", Program, S, Err(fault), << >>) EXCEPT !.rules = << >> ]
 
 (* {2 Platform tasks} *)
 
 START(S, r) == Step("START", "start(" \o r.v \o ", " \o r.p.name \o ")", Program,
-                    [ S EXCEPT !.A = (r.v :> r.p) @@ @ ], Next_([ r EXCEPT !.op = "running" ]), << >>)
+                    [ S EXCEPT !.A = (r.v :> r.p) @@ @ ], Next_([ r EXCEPT !.op = "running" ]),
+                    << << "start", r.v, r.p >> >>)
 
-DONE(S, r) == Step("DONE", "done(" \o r.v \o ", " \o r.p.name \o ")", << "task", r.v, "done" >>,
-                   WithoutA(S, { r.v }), Done_, << >>)
+DONE(S, r) == Step("DONE", "done(" \o r.v \o ", " \o r.p.name \o ")", Done(r.v), WithoutA(S, { r.v }), Done_, << >>)
 
 FAIL(S, r, m) ==
   LET fault == Fault(r.p.name \o " failed on " \o r.v \o ": " \o m, r.p.at)
-  IN Step("FAIL", "fail(" \o r.v \o ", " \o r.p.name \o ", " \o m \o ")", << "task", r.v, "failed" >>,
+  IN Step("FAIL", "fail(" \o r.v \o ", " \o r.p.name \o ", " \o m \o ")", FailedOn(r.v, m),
           WithoutA(S, { r.v }), Err(fault), << >>)
 
 (* {2 Code} *)
 
-ACTION_(run) == Step("ACTION", Labelled("act", run.deeds), Program, run.S, Done_, run.deeds)
-ACTION_ERR(S, fault) == Broken("ACTION-ERR", S, fault)
+ACTION_(run) == CodeStep("ACTION", Labelled("act", run.deeds), run, Done_)
+ACTION_ERR(s) == By(s, "ACTION-ERR", s.out)
 
-CONDITION(run) == Step("CONDITION", Labelled("check", run.deeds), Program, run.S, Done_, run.deeds)
-CONDITION_ERR(S, fault) == Broken("CONDITION-ERR", S, fault)
+CONDITION(run) == CodeStep("CONDITION", Labelled("check", run.deeds), run, Done_)
+CONDITION_ERR(s) == By(s, "CONDITION-ERR", s.out)
+
+(* {2 Assertions, and halt} *)
+
+(* No watch handles an assertion that fails, nor halt. *)
+ASSERT_ERR(s, fault) == By(s, "ASSERT-ERR", Ends(Failed(fault)))
+
+HaltLabel(m) == IF m = "" THEN "halt" ELSE "halt(" \o m \o ")"
+HALT(run) == CodeStep("HALT", HaltLabel(run.value), run, Ends(Halted(run.value)))
 
 (* {2 One after the other} *)
 
-SEQ_1(s, ts) == By(s, "SEQ-1", Next_(SeqOf(s.out[2], ts)))
-SEQ_2(s, ts) == By(s, "SEQ-2", Next_(Act(FromParts(ts))))
+SEQ_1(s, ts) == By(s, "SEQ-1", Next_(Sequence(s.out[2], ts)))
+SEQ_2(s, ts) == LET r == Act(OfParts(ts)) IN Entering(By(s, "SEQ-2", Next_(r)), r)
 SEQ_ERR(s) == By(s, "SEQ-ERR", s.out)
 
-InSeq(s, ts) ==
+InSequence(s, ts) ==
   CASE GoesOn(s) -> SEQ_1(s, ts)
     [] IsDone(s) -> SEQ_2(s, ts)
     [] IsErr(s) -> SEQ_ERR(s)
@@ -221,12 +266,11 @@ InSeq(s, ts) ==
 
 (* {2 Side by side} *)
 
-PAR_1(s, rs, j) == By(s, "PAR-1", Next_(ParOf(With(rs, j, s.out[2]))))
-PAR_2(s, rs, j) == By(s, "PAR-2", Next_(ParOf(Without(rs, j))))
-PAR_ERR(s, rs, j) ==
-  By([ s EXCEPT !.S = WithoutA(@, Range(Flatten(Each(Without(rs, j), Running)))) ], "PAR-ERR", s.out)
+PAR_1(s, rs, j) == By(s, "PAR-1", Next_(Parallel(With(rs, j, s.out[2]))))
+PAR_2(s, rs, j) == By(s, "PAR-2", Next_(Parallel(Without(rs, j))))
+PAR_ERR(s, rs, j) == CutOff(By(s, "PAR-ERR", s.out), Without(rs, j))
 
-InPar(s, rs, j) ==
+InParallel(s, rs, j) ==
   CASE GoesOn(s) -> PAR_1(s, rs, j)
     [] IsDone(s) -> PAR_2(s, rs, j)
     [] IsErr(s) -> PAR_ERR(s, rs, j)
@@ -235,12 +279,11 @@ InPar(s, rs, j) ==
 (* {2 Branches with guards} *)
 
 ALLOF_WHEN(run, bs, j) ==
-  Step("ALLOF-WHEN", Labelled("check", run.deeds), Program, run.S,
-       Next_(AllOf(<< Act(bs[j].body) >>, Without(bs, j))), run.deeds)
+  LET r == Act(bs[j].body)
+  IN Entering(CodeStep("ALLOF-WHEN", Labelled("check", run.deeds), run, Next_(AllOf(<< r >>, Without(bs, j)))), r)
 ALLOF_1(s, bs) == By(s, "ALLOF-1", Next_(AllOf(<< s.out[2] >>, bs)))
 ALLOF_2(s, bs) == By(s, "ALLOF-2", Next_(AllOf(<< >>, bs)))
 ALLOF_ERR(s) == By(s, "ALLOF-ERR", s.out)
-ALLOF_ERR_WHEN(S, fault) == Broken("ALLOF-ERR", S, fault)
 
 InAllOf(s, bs) ==
   CASE GoesOn(s) -> ALLOF_1(s, bs)
@@ -249,40 +292,43 @@ InAllOf(s, bs) ==
     [] OTHER -> s
 
 ONEOF_WHEN(run, b) ==
-  Step("ONEOF-WHEN", Labelled("check", run.deeds), Program, run.S, Next_(Act(b.body)), run.deeds)
-ONEOF_ERR(S, fault) == Broken("ONEOF-ERR", S, fault)
+  LET r == Act(b.body) IN Entering(CodeStep("ONEOF-WHEN", Labelled("check", run.deeds), run, Next_(r)), r)
+ONEOF_ERR(s) == By(s, "ONEOF-ERR", s.out)
 
 (* {2 Until} *)
 
-UNTIL_CUT(run, r) == Step("UNTIL-CUT", Labelled("cut", run.deeds), Program, Cut(run.S, r), Done_, run.deeds)
+UNTIL_CUT(run, r) == CutOff(CodeStep("UNTIL-CUT", Labelled("cut", run.deeds), run, Done_), << r >>)
 UNTIL_1(s, g) == By(s, "UNTIL-1", Next_([ op |-> "until", guard |-> g, body |-> s.out[2] ]))
 UNTIL_2(s) == By(s, "UNTIL-2", Done_)
-UNTIL_ERR(s) == By(s, "UNTIL-ERR", s.out)
-UNTIL_ERR_WHEN(S, r, fault) == Broken("UNTIL-ERR", Cut(S, r), fault)
+
+(* rs is what still runs: nothing if the body failed, the body if the guard did. *)
+UNTIL_ERR(s, rs) == CutOff(By(s, "UNTIL-ERR", s.out), rs)
 
 InUntil(s, g) ==
   CASE GoesOn(s) -> UNTIL_1(s, g)
     [] IsDone(s) -> UNTIL_2(s)
-    [] IsErr(s) -> UNTIL_ERR(s)
+    [] IsErr(s) -> UNTIL_ERR(s, << >>)
     [] OTHER -> s
 
 (* {2 Time} *)
 
-IDLE_END(S, r) == Step("IDLE-END", "timeout", << "timer", r.timer >>, S, Done_, << >>)
+IDLE_END(S, r) == Step("IDLE-END", "timeout", Expired(r.timer), S, Done_, << >>)
 
 DURING_SET(run, r, n) ==
-  Step("DURING-SET", "set-time(" \o ShortText(n) \o ")", Program, run.S,
-       Next_([ r EXCEPT !.time = n, !.started = TRUE, !.body = Act(@) ]), run.deeds)
-DURING_CUT(S, r) == Step("DURING-CUT", "timeout", << "timer", r.timer >>, Cut(S, r.body), Done_, << >>)
+  LET started == [ r EXCEPT !.time = n, !.started = TRUE, !.body = Act(@) ]
+  IN Entering(CodeStep("DURING-SET", "set-time(" \o ShortText(n) \o ")", run, Next_(started)), started)
+DURING_CUT(S, r) == CutOff(Step("DURING-CUT", "timeout", Expired(r.timer), S, Done_, << >>), << r.body >>)
 DURING_1(s, r) == By(s, "DURING-1", Next_([ r EXCEPT !.body = s.out[2] ]))
-DURING_2(s) == By(s, "DURING-2", Done_)
-DURING_ERR(s) == By(s, "DURING-ERR", s.out)
-DURING_ERR_SET(S, fault) == Broken("DURING-ERR", S, fault)
+DURING_2(s, r) == Asking(By(s, "DURING-2", Done_), << << "cancel timer", r.timer >> >>)
+
+(* Its timer runs unless the code that gives the time is faulty. *)
+DURING_ERR(s, r) ==
+  Asking(By(s, "DURING-ERR", s.out), IF r.started THEN << << "cancel timer", r.timer >> >> ELSE << >>)
 
 InDuring(s, r) ==
   CASE GoesOn(s) -> DURING_1(s, r)
-    [] IsDone(s) -> DURING_2(s)
-    [] IsErr(s) -> DURING_ERR(s)
+    [] IsDone(s) -> DURING_2(s, r)
+    [] IsErr(s) -> DURING_ERR(s, r)
     [] OTHER -> s
 
 NoTime(x, g) == Fault("during takes a time of 0 seconds or more, this code gives " \o Text(x), -g[2])
@@ -297,12 +343,12 @@ WATCH_HALT(s, m) == By(s, "WATCH-HALT", Ends(Halted(m)))
 
 (* The handler runs in the step that failed. *)
 Handled(s, h) ==
-  LET after(run) == [ s EXCEPT !.S = run.S, !.deeds = @ \o run.deeds ]
+  LET after(run) ==
+        Asking([ s EXCEPT !.S = run.S, !.deeds = @ \o run.deeds ], EffectsOf(run.deeds))
       by(run) ==
         CASE run.is = "halt" -> WATCH_HALT(after(run), run.value)
-          [] run.is = "fault" ->
-               IF run.value.assertion THEN By(after(run), "ASSERT-ERR", Ends(Failed(run.value)))
-               ELSE WATCH_PROPAGATE(after(run), run.value)
+          [] run.is = "fault" /\ run.value.assertion -> ASSERT_ERR(after(run), run.value)
+          [] run.is = "fault" -> WATCH_PROPAGATE(after(run), run.value)
           [] run.verdict = "ignore" -> WATCH_IGNORE(after(run))
           [] OTHER -> WATCH_PROPAGATE(after(run), s.out[2])
   IN Each(RunCode(s.S, "handler", h, << String(s.out[2].message) >>), by)
@@ -315,23 +361,6 @@ InWatch(s, h) ==
 
 (* {2 All steps of r} *)
 
-(* A platform task that runs ends as the environment lets it. *)
-Endings(S, r) ==
-  LET ending == Ending(r.v, r.p.name)
-      mayFail == ending = "may fail" /\ (Failures = -1 \/ outside.failed < Failures)
-      done == << DONE(S, r) >>
-      fail == << FAIL(S, r, "failure") >>
-  IN CASE ending = "fails" -> fail
-       [] mayFail -> done \o fail
-       [] OTHER -> done
-
-(* Or the connection is lost for longer than its timeout: that counts as a failure. As long as nothing else was heard of *)
-(* the vehicle, it is no further loss.                                                                                   *)
-LostConnection(S, r) == [ FAIL(S, r, "connection lost") EXCEPT !.cause = << "task", r.v, "lost" >> ]
-
-MayBeLost(v) == v \in outside.lost \/ Losses = -1 \/ outside.losses < Losses
-LossOf(S, r) == IF MayBeLost(r.v) THEN << LostConnection(S, r) >> ELSE << >>
-
 (* The code that r looks at: of an action, a condition, guards, a duration that is not known yet. *)
 CodeOf(r) ==
   CASE r.op \in { "action", "condition" } -> << r.code >>
@@ -340,33 +369,33 @@ CodeOf(r) ==
     [] r.op = "during" /\ ~r.started -> << r.time >>
     [] OTHER -> << >>
 
-(* What r does when its j-th code gave a value; guards that are not true do nothing. *)
+(* What r does when its j-th code is faulty. *)
+WithFault(r, s) ==
+  CASE r.op = "action" -> ACTION_ERR(s)
+    [] r.op = "during" -> DURING_ERR(s, r)
+    [] r.op = "condition" -> CONDITION_ERR(s)
+    [] r.op = "allOf" -> ALLOF_ERR(s)
+    [] r.op = "oneOf" -> ONEOF_ERR(s)
+    [] r.op = "until" -> UNTIL_ERR(s, << r.body >>)
+
+(* ... when it gave a value; guards that are not true do nothing. *)
 WithValue(S, r, j, run) ==
   CASE r.op = "action" -> << ACTION_(run) >>
     [] IsReading(run.value) -> Assert(FALSE, OpenHere(run.value[3], -CodeOf(r)[j][2]))
     [] r.op = "during" ->
          << IF IsTime(run.value) THEN DURING_SET(run, r, Time(run.value))
-            ELSE DURING_ERR_SET(Knowing(S, run.S.sees), NoTime(run.value, r.time)) >>
+            ELSE WithFault(r, Broken(Knowing(S, run.S.sees), NoTime(run.value, r.time))) >>
     [] ~Truth(run.value) -> << >>
     [] r.op = "condition" -> << CONDITION(run) >>
     [] r.op = "allOf" -> << ALLOF_WHEN(run, r.choices, j) >>
     [] r.op = "oneOf" -> << ONEOF_WHEN(run, r.choices[j]) >>
     [] r.op = "until" -> << UNTIL_CUT(run, r.body) >>
 
-(* ... when it broke. *)
-WithFault(S, r, fault) ==
-  CASE r.op = "action" -> ACTION_ERR(S, fault)
-    [] r.op = "during" -> DURING_ERR_SET(S, fault)
-    [] r.op = "condition" -> CONDITION_ERR(S, fault)
-    [] r.op = "allOf" -> ALLOF_ERR_WHEN(S, fault)
-    [] r.op = "oneOf" -> ONEOF_ERR(S, fault)
-    [] r.op = "until" -> UNTIL_ERR_WHEN(S, r.body, fault)
-
 WithCode(S, r, j, run) ==
-  CASE run.is = "value" -> WithValue(S, r, j, run)
-    [] run.is = "halt" -> << HALT_CODE(run) >>
-    [] run.is = "fault" ->
-         << IF run.value.assertion THEN ASSERT_ERR(run.S, run.value) ELSE WithFault(run.S, r, run.value) >>
+  LET broken == Broken(run.S, run.value)
+  IN CASE run.is = "value" -> WithValue(S, r, j, run)
+       [] run.is = "halt" -> << HALT(run) >>
+       [] run.is = "fault" -> << IF run.value.assertion THEN ASSERT_ERR(broken, run.value) ELSE WithFault(r, broken) >>
 
 CodeSteps(S, r) ==
   LET codes == CodeOf(r)
@@ -379,21 +408,31 @@ CodeSteps(S, r) ==
 Always(s) == << s >>
 In(steps, F(_)) == Each(steps, LAMBDA outcomes : IF Len(outcomes) = 1 THEN << F(outcomes[1]) >> ELSE Each(outcomes, F))
 
-RECURSIVE Steps(_, _)
-Steps(S, r) ==
+(* The steps, each by F, on those of the events E that are awaited. *)
+OnThose(E, Awaits(_), F(_)) == Each(SelectSeq(E, Awaits), LAMBDA e : Always(F(e)))
+
+EndsOn(S, r, E) ==
+  OnThose(E, LAMBDA e : e[1] \in { "done", "failed" } /\ e[2] = r.v,
+          LAMBDA e : IF e[1] = "done" THEN DONE(S, r) ELSE FAIL(S, r, e[3]))
+
+ExpiresOn(S, r, E) ==
+  OnThose(E, LAMBDA e : e = Expired(r.timer), LAMBDA e : IF r.op = "idle" THEN IDLE_END(S, r) ELSE DURING_CUT(S, r))
+
+RECURSIVE Steps(_, _, _)
+Steps(S, r, E) ==
   CodeSteps(S, r) \o
   CASE r.op = "ready" -> << Always(START(S, r)) >>
-    [] r.op = "running" -> Each(Endings(S, r) \o LossOf(S, r), Always)
-    [] r.op = "seq" -> In(Steps(S, r.first), LAMBDA s : InSeq(s, r.rest))
+    [] r.op = "running" -> EndsOn(S, r, E)
+    [] r.op = "seq" -> In(Steps(S, r.first, E), LAMBDA s : InSequence(s, r.rest))
     [] r.op = "par" ->
-         Flatten([ j \in DOMAIN r.branches |-> In(Steps(S, r.branches[j]), LAMBDA s : InPar(s, r.branches, j)) ])
-    [] r.op = "allOf" /\ r.runs # << >> -> In(Steps(S, r.runs[1]), LAMBDA s : InAllOf(s, r.choices))
-    [] r.op = "until" -> In(Steps(S, r.body), LAMBDA s : InUntil(s, r.guard))
-    [] r.op = "idle" -> << Always(IDLE_END(S, r)) >>
-    [] r.op = "during" /\ r.started ->
-         << Always(DURING_CUT(S, r)) >> \o In(Steps(S, r.body), LAMBDA s : InDuring(s, r))
+         Flatten([ j \in DOMAIN r.branches |->
+                   In(Steps(S, r.branches[j], E), LAMBDA s : InParallel(s, r.branches, j)) ])
+    [] r.op = "allOf" /\ r.runs # << >> -> In(Steps(S, r.runs[1], E), LAMBDA s : InAllOf(s, r.choices))
+    [] r.op = "until" -> In(Steps(S, r.body, E), LAMBDA s : InUntil(s, r.guard))
+    [] r.op = "idle" -> ExpiresOn(S, r, E)
+    [] r.op = "during" /\ r.started -> ExpiresOn(S, r, E) \o In(Steps(S, r.body, E), LAMBDA s : InDuring(s, r))
     [] r.op = "watch" ->
-         Each(Steps(S, r.body), LAMBDA outcomes : Flatten(Each(outcomes, LAMBDA s : InWatch(s, r.handler))))
+         Each(Steps(S, r.body, E), LAMBDA outcomes : Flatten(Each(outcomes, LAMBDA s : InWatch(s, r.handler))))
     [] OTHER -> << >>
 
 -----------------------------------------------------------------------------
@@ -482,9 +521,9 @@ RECURSIVE Assigned(_, _, _, _)
 Assigned(t, f, n, i) ==
   CASE t.op = "platform" -> [ op |-> "ready", p |-> t, v |-> B[f[n + 1]] ]
     [] t.op = "seq" ->
-         SeqOf(Assigned(t.left, f, n, i), Parts(Assigned(t.right, f, n + LeafCount(t.left), i + TimerCount(t.left))))
+         Sequence(Assigned(t.left, f, n, i), Parts(Assigned(t.right, f, n + LeafCount(t.left), i + TimerCount(t.left))))
     [] t.op = "par" ->
-         ParOf(<< Assigned(t.left, f, n, i), Assigned(t.right, f, n + LeafCount(t.left), i + TimerCount(t.left)) >>)
+         Parallel(<< Assigned(t.left, f, n, i), Assigned(t.right, f, n + LeafCount(t.left), i + TimerCount(t.left)) >>)
     [] t.op = "on" -> Assigned(t.body, f, n, i)
     [] t.op \in { "allOf", "oneOf" } ->
          LET before(j) == [ op |-> "allOf", branches |-> SubSeq(t.branches, 1, j - 1) ]
@@ -526,7 +565,7 @@ Conflict(leaves, exclusive) ==
            \o Join(Each(competing, LAMBDA j : B[j]), ", "), leaves[those[1]].p.at)
 
 (* Whether it matters to the allocation of t where vehicles are. *)
-PrefersTheNear(t) == \E leaf \in Range(Leaves(t, << >>)) : leaf.p.plan # 0
+DependsOnPlaces(t) == \E leaf \in Range(Leaves(t, << >>)) : leaf.p.plan # 0
 
 (* alloc(t, B) where vehicles are where they were seen: <<"ok", r>>, or <<"wrong", fault>>. *)
 Alloc(t, sees) ==
@@ -541,26 +580,40 @@ Alloc(t, sees) ==
 -----------------------------------------------------------------------------
 (* {1 Transitions of configurations} *)
 
-Transition(rules, label, cause, kappa, S, deeds) ==
-  [ rules |-> rules, label |-> label, cause |-> cause, control |-> kappa, S |-> S, deeds |-> deeds, late |-> { } ]
+Transition(rule, label, event, kappa, S, effects) ==
+  [ rules |-> << rule >>, label |-> label, event |-> event, control |-> kappa, S |-> S, effects |-> effects,
+    deeds |-> << >> ]
 
-(* Of what a step may be as sensors show this or that, the first of those with the same label and the same result. *)
+(* The step s, as a transition to kappa. *)
+Becoming(s, kappa) ==
+  [ rules |-> s.rules, label |-> s.label, event |-> s.event, control |-> kappa, S |-> s.S, effects |-> s.effects,
+    deeds |-> s.deeds ]
+
+(* ended(S, e) by the step s: the timers stop that are not cancelled by then, all vehicles stop, all of B is released. *)
+EndedBy(s, timers) ==
+  LET running == SelectSeq(CancelTimers(timers), LAMBDA cancel : cancel \notin Range(s.effects))
+      stops == Each(SelectSeq(s.S.B, LAMBDA v : v \in DOMAIN s.S.A), LAMBDA v : << "stop", v >>)
+      released == IF s.S.B = << >> THEN << >> ELSE << << "release", s.S.B >> >>
+      asking == Asking(s, running \o stops \o released \o << << "end", s.out[2] >> >>)
+  IN Becoming([ asking EXCEPT !.S.A = << >>, !.S.B = << >> ], Ended(s.out[2]))
+
+(* The same where no timer runs any more. *)
+EndStep(rule, label, event, S, ending) == EndedBy(Step(rule, label, event, S, Ends(ending), << >>), << >>)
+
+(* Of the outcomes of a step, the first of those with the same label and the same result. *)
 Different(ts) ==
   LET result(t) == << t.label, t.control, Knowing(t.S, NothingSeen) >>
       isNew(j) == \A i \in 1 .. j - 1 : result(ts[i]) # result(ts[j])
   IN IF Len(ts) < 2 THEN ts ELSE Each(SelectSeq([ j \in DOMAIN ts |-> j ], isNew), LAMBDA j : ts[j])
 
-(* ended(S, e): all stops, all of B is released. *)
-ToEnd(rules, label, cause, ending, S, deeds) ==
-  Transition(rules, label, cause, Ended(ending), [ S EXCEPT !.A = << >>, !.B = << >> ], deeds)
-
 (* {2 Deeds of the script} *)
 
 (* m is the machine after it ran from M, S the shared part then. *)
 DeedOf(m) == m.deeds[1]
-DeedStep(rule, m, S) == Transition(<< rule >>, DeedText(DeedOf(m)), Program, Script(Machine(m)), S, m.deeds)
+DeedStep(rule, m, S) ==
+  [ Transition(rule, DeedText(DeedOf(m)), Program, Script(Machine(m)), S, EffectsOf(m.deeds)) EXCEPT !.deeds = m.deeds ]
 
-SCRIPT(m, S) == Transition(<< "SCRIPT" >>, "script", Program, Script(Machine(m)), S, << >>)
+SCRIPT(m, S) == Transition("SCRIPT", "script", Program, Script(Machine(m)), S, << >>)
 POST(m, S) == DeedStep("POST", m, S)
 CONSUME(m, S) == DeedStep("CONSUME", m, S)
 MESSAGE(m, S) == DeedStep("MESSAGE", m, S)
@@ -578,49 +631,62 @@ Deed(m, S) ==
 
 (* {2 Waiting begins} *)
 
-WaitStep(rule, label, m, S) ==
-  Transition(<< rule >>, label, Program, Waiting(Machine(m), m.stop[2]), S, << >>)
+WaitStep(rule, label, m, S, effects) ==
+  Transition(rule, label, Program, Waiting(Machine(m), m.stop[2]), S, effects)
 
-PICK_(m, S, q) == WaitStep("PICK", "pick(" \o PickText(q) \o ")", m, S)
-ASK(m, S, x) == WaitStep("ASK", "ask(" \o x \o ")", m, S)
-PAUSE(m, S, n) == WaitStep("PAUSE", "pause(" \o ShortText(n) \o ")", m, S)
-CALL(m, S, what) == WaitStep("CALL", "call(" \o what \o ")", m, S)
+PICK_(m, S, q) == WaitStep("PICK", "pick(" \o PickText(q) \o ")", m, S, << << "look for", q >> >>)
+ASK(m, S, x) == WaitStep("ASK", "ask(" \o x \o ")", m, S, << << "ask", x >> >>)
+PAUSE(m, S, n) == WaitStep("PAUSE", "pause(" \o ShortText(n) \o ")", m, S, << << "set timer", ScriptTimer, n >> >>)
+CALL(m, S, call, arguments) == WaitStep("CALL", "call(" \o call \o ")", m, S, << << "call", call, arguments >> >>)
 
-EXECUTE(m, S, r) == Transition(<< "EXECUTE" >>, "execute", Program, Executing(Machine(m), Act(r)), S, << >>)
+EXECUTE(m, S, r) ==
+  LET active == Act(r)
+  IN Transition("EXECUTE", "execute", Program, Executing(Machine(m), active), S, SetTimers(Timers(active)))
 ALLOC_ERR(S, fault) ==
-  ToEnd(<< "ALLOC-ERR" >>, "cannot-execute(" \o fault.message \o ")", Program, FailedFor("vehicles", fault), S, << >>)
+  EndStep("ALLOC-ERR", "cannot-execute(" \o fault.message \o ")", Program, S, FailedFor("vehicles", fault))
 
 ExecuteSteps(m, S, t) ==
   LET step(allocated) == IF IsOk(allocated) THEN EXECUTE(m, S, allocated[2]) ELSE ALLOC_ERR(S, allocated[2])
-  IN Each(Placings(S.sees, IF PrefersTheNear(t) THEN B ELSE << >>),
+  IN Each(Placings(S.sees, IF DependsOnPlaces(t) THEN B ELSE << >>),
           LAMBDA sees : Only({ step(allocated) : allocated \in { Alloc(t, sees) } }))
 
 Wait(m, S, request) ==
   CASE request[1] = "pick" -> << PICK_(m, S, request[2]) >>
     [] request[1] = "ask" -> << ASK(m, S, request[2]) >>
     [] request[1] = "pause" -> << PAUSE(m, S, request[2]) >>
-    [] request[1] = "call" -> << CALL(m, S, request[2]) >>
+    [] request[1] = "call" -> << CALL(m, S, request[2], request[3]) >>
     [] request[1] = "execute" -> ExecuteSteps(m, S, request[2])
 
 (* {2 Ends} *)
 
-END(S) == ToEnd(<< "END" >>, "end", Program, Completed, S, << >>)
-HALT(S, m) == ToEnd(<< "HALT" >>, HaltLabel(m), Program, Halted(m), S, << >>)
-FAULT(S, fault) == ToEnd(<< "FAULT" >>, "fault(" \o fault.message \o ")", Program, Failed(fault), S, << >>)
-Interruption == << "interruption" >>
-INTERRUPT == ToEnd(<< "INTERRUPT" >>, "interrupt", Interruption, Interrupted, Shared, << >>)
+END(S) == EndStep("END", "end", Program, S, Completed)
+FAULT(S, fault) == EndStep("FAULT", "fault(" \o fault.message \o ")", Program, S, Failed(fault))
+
+(* HALT is with the rules of tasks: by the script nothing else is done in its step. *)
+HaltOfScript(S, m) == EndedBy(HALT([ value |-> m, S |-> S, deeds |-> << >> ]), << >>)
+
+TimersOf(kappa) ==
+  CASE kappa.at = "exec" -> Timers(kappa.r)
+    [] kappa.at = "wait" /\ kappa.request[1] \in { "pick", "pause" } -> << [ i |-> ScriptTimer ] >>
+    [] OTHER -> << >>
+
+INTERRUPT(kappa) ==
+  EndedBy(Step("INTERRUPT", "interrupt", Interruption, Shared, Ends(Interrupted), << >>), TimersOf(kappa))
 
 ScriptSteps(M) ==
   LET of(m, S) ==
         CASE m.stop[1] = "did" -> << Deed(m, S) >>
           [] m.stop[1] = "waits" -> Wait(m, S, m.stop[2])
           [] m.stop[1] = "finished" -> << END(S) >>
-          [] m.stop[1] = "halted" -> << HALT(S, m.stop[2]) >>
+          [] m.stop[1] = "halted" -> << HaltOfScript(S, m.stop[2]) >>
           [] m.stop[1] = "faulted" -> << FAULT(S, m.stop[2]) >>
           [] m.stop[1] = "exhausted" -> << SCRIPT(m, S) >>
   IN Different(Flatten(Each(Run(M, Shared, "script", ScriptFuel), LAMBDA m : of(m, Over(After(Shared, m))))))
 
-(* {2 Who is there} *)
+(* {2 Picking vehicles} *)
+
+(* A world w: its vehicles, in the order in which they were heard of; those that are missing, of which nothing is heard now;
+   and where vehicles are seen. *)
 
 (* Wherever it is. *)
 Accepts(q, vehicle) ==
@@ -628,7 +694,33 @@ Accepts(q, vehicle) ==
   /\ q.type = << >> \/ q.type[1] = vehicle.type
   /\ Carries(vehicle, q.payload)
 
-IsInRegion(q, vehicle, sees) == q.region = << >> \/ Within(q.region[1], FoundAt(vehicle, sees))
+IsInRegion(q, w, vehicle) == q.region = << >> \/ Within(q.region[1], FoundAt(vehicle, w.sees))
+
+(* fit(q, w, B) *)
+Fit(q, w) ==
+  LET meets(vehicle) == /\ Accepts(q, vehicle)
+                        /\ vehicle.id \notin Range(B) \cup Range(w.missing)
+                        /\ IsInRegion(q, w, vehicle)
+  IN Each(SelectSeq(w.vehicles, meets), LAMBDA vehicle : vehicle.id)
+
+WhyNot(q, w, vehicle) ==
+  vehicle.id \o " " \o
+  CASE vehicle.id \in Range(B) -> "is already bound"
+    [] vehicle.id \in Range(w.missing) -> "is not connected"
+    [] q.id # << >> /\ q.id[1] # vehicle.id -> "has another id"
+    [] q.type # << >> /\ q.type[1] # vehicle.type -> "is a " \o vehicle.type
+    [] ~Carries(vehicle, q.payload) ->
+         "lacks " \o Join(SelectSeq(q.payload, LAMBDA d : ~Carries(vehicle, << d >>)), ", ")
+    [] ~IsInRegion(q, w, vehicle) -> "is at " \o Places[FoundAt(vehicle, w.sees)] \o ", outside of the region"
+    [] OTHER -> "fits"
+
+NoVehicles(q, w) ==
+  LET shown == SubSeq(w.vehicles, 1, Clipped(8, 0, Len(w.vehicles)))
+      more == Len(w.vehicles) - Len(shown)
+      there == IF w.vehicles = << >> THEN "no vehicle was heard of"
+               ELSE Join(Each(shown, LAMBDA vehicle : WhyNot(q, w, vehicle)), "; ")
+                    \o (IF more > 0 THEN "; and " \o ToString(more) \o " more" ELSE "")
+  IN "could not pick " \o PickText(q) \o ": " \o there
 
 (* All sequences of n elements of xs in their order, the first ones first. *)
 RECURSIVE Choices(_, _)
@@ -637,446 +729,64 @@ Choices(n, xs) ==
     [] n > Len(xs) -> << >>
     [] OTHER -> Each(Choices(n - 1, Tail(xs)), LAMBDA chosen : << Head(xs) >> \o chosen) \o Choices(n, Tail(xs))
 
-(* An attendance is who comes after all others, in this order, and who is missing. *)
-World(a) ==
-  LET moved == a.coming \o a.missing
-  IN SelectSeq(Fleet, LAMBDA vehicle : vehicle.id \notin Range(moved)) \o Each(moved, VehicleOf)
+PICK_BIND(M, V, event) ==
+  Transition("PICK-BIND", "bind(" \o Join(V, ", ") \o ")", event, Script(GoOn(M, Vehicles(V))),
+             [ Shared EXCEPT !.B = @ \o V ],
+             (IF event = Program THEN << << "cancel timer", ScriptTimer >> >> ELSE << >>) \o << << "bind", V >> >>)
+PICK_ERR(M, q, w) ==
+  EndStep("PICK-ERR", "no-vehicles(" \o NoVehicles(q, w) \o ")", Expired(ScriptTimer), Shared,
+          FailedFor("vehicles", Fault(NoVehicles(q, w), M.at)))
 
-Subsequences(xs) == Flatten([ n \in 1 .. Len(xs) + 1 |-> Choices(n - 1, xs) ])
-
-(* All sequences of at most n different elements of xs. *)
-RECURSIVE Arrangements(_, _)
-Arrangements(n, xs) ==
-  << << >> >> \o
-  IF n = 0 THEN << >>
-  ELSE Flatten([ j \in DOMAIN xs |-> Each(Arrangements(n - 1, Without(xs, j)), LAMBDA rest : << xs[j] >> \o rest) ])
-
-(* Whom q looks for, wherever they are. Nothing was heard of the silent ones since they were lost; the unsure may be late. *)
-Wanted(q) ==
-  Each(SelectSeq(Fleet, LAMBDA vehicle : Accepts(q, vehicle) /\ vehicle.id \notin Range(B)),
-       LAMBDA vehicle : vehicle.id)
-Silent(q) == SelectSeq(Wanted(q), LAMBDA v : v \in outside.lost)
-Unsure(q) == SelectSeq(Wanted(q), LAMBDA v : v \notin outside.lost /\ Latecomers # 0 /\ v \in MayBeLate)
-
-LateIn(a) == (Range(a.coming) \cup Range(a.missing)) \ outside.lost
-LateAnew(a) == Cardinality(LateIn(a) \ outside.late)
-
-(* A pick of all waits for its whole time-out: some may come late while others are missing. One of n vehicles goes on with the *)
-(* first n, of which up to n were late; or too few come, and then all silent ones are missing, and of the unsure any or, where  *)
-(* there is no bound, all. Attendances with fewer vehicles that are late anew come first.                                      *)
-Attendances(q) ==
-  LET silent == Silent(q)
-      unsure == Unsure(q)
-      attendance(coming, missing) == [ coming |-> coming, missing |-> missing ]
-      ofAll(unheard, absent) ==
-        Each(Arrangements(Len(unsure), SelectSeq(unsure, LAMBDA v : v \notin Range(absent))),
-             LAMBDA coming : attendance(coming, unheard \o absent))
-      all == Flatten(Each(Subsequences(silent), LAMBDA unheard :
-                            Flatten(Each(Subsequences(unsure), LAMBDA absent : ofAll(unheard, absent)))))
-      some == Each(Arrangements(q.count, unsure), LAMBDA coming : attendance(coming, << >>))
-              \o Each(IF Latecomers = -1 THEN << unsure >> ELSE Subsequences(unsure),
-                      LAMBDA absent : attendance(<< >>, silent \o absent))
-      most == IF Latecomers = -1 THEN Len(unsure) ELSE Latecomers - Cardinality(outside.late)
-      byNumber(as) == Flatten([ n \in 1 .. most + 1 |-> SelectSeq(as, LAMBDA a : LateAnew(a) = n - 1) ])
-  IN Only({ byNumber(as) : as \in { IF q.all THEN all ELSE some } })
-
-(* {2 Picking vehicles} *)
-
-(* fit(q, w, B), in the order in which they were heard of, where w is the world with attendance a and vehicles where they
-   were seen. *)
-Fit(q, a, sees) ==
-  LET fits(vehicle) == /\ Accepts(q, vehicle)
-                       /\ vehicle.id \notin Range(B) \cup Range(a.missing)
-                       /\ IsInRegion(q, vehicle, sees)
-  IN Each(SelectSeq(World(a), fits), LAMBDA vehicle : vehicle.id)
-
-WhyNot(q, a, sees, vehicle) ==
-  vehicle.id \o " " \o
-  CASE vehicle.id \in Range(B) -> "is already bound"
-    [] vehicle.id \in Range(a.missing) -> "is not connected"
-    [] q.id # << >> /\ q.id[1] # vehicle.id -> "has another id"
-    [] q.type # << >> /\ q.type[1] # vehicle.type -> "is a " \o vehicle.type
-    [] ~Carries(vehicle, q.payload) ->
-         "lacks " \o Join(SelectSeq(q.payload, LAMBDA d : ~Carries(vehicle, << d >>)), ", ")
-    [] ~IsInRegion(q, vehicle, sees) -> "is at " \o Places[FoundAt(vehicle, sees)] \o ", outside of the region"
-    [] OTHER -> "fits"
-
-NoVehicles(q, a, sees) ==
-  LET shown == SubSeq(World(a), 1, Clipped(8, 0, Len(Fleet)))
-      more == Len(Fleet) - Len(shown)
-      there == IF Fleet = << >> THEN "no vehicle was heard of"
-               ELSE Join(Each(shown, LAMBDA vehicle : WhyNot(q, a, sees, vehicle)), "; ")
-                    \o (IF more > 0 THEN "; and " \o ToString(more) \o " more" ELSE "")
-  IN "could not pick " \o PickText(q) \o ": " \o there
-
-PICK_BIND(M, V, cause) ==
-  Transition(<< "PICK-BIND" >>, "bind(" \o Join(V, ", ") \o ")", cause, Script(GoOn(M, Vehicles(V))),
-             [ Shared EXCEPT !.B = @ \o V ], << >>)
-PICK_ERR(M, q, a, sees) ==
-  ToEnd(<< "PICK-ERR" >>, "no-vehicles(" \o NoVehicles(q, a, sees) \o ")", << "timer", 0 >>,
-        FailedFor("vehicles", Fault(NoVehicles(q, a, sees), M.at)), Shared, << >>)
-
-PickStepsIn(M, q, a, sees) ==
-  LET fit == Fit(q, a, sees)
-  IN CASE q.all -> << IF fit = << >> THEN PICK_ERR(M, q, a, sees) ELSE PICK_BIND(M, fit, << "timer", 0 >>) >>
-       [] Len(fit) < q.count -> << PICK_ERR(M, q, a, sees) >>
-       [] OTHER -> Each(Choices(q.count, fit), LAMBDA V : PICK_BIND(M, V, Program))
-
-(* In each world that may be. What comes of several is remembered as of the first: with the fewest that are late anew. *)
-PickSteps(M, q) ==
-  LET placings == Placings(NothingSeen, IF q.region = << >> THEN << >> ELSE Wanted(q))
-      in(a) == Flatten(Each(placings, LAMBDA sees : PickStepsIn(M, q, a, sees)))
-      steps(a) == Each(in(a), LAMBDA t : [ t EXCEPT !.late = LateIn(a) ])
-      first(ts) == SelectSeq([ j \in DOMAIN ts |-> j ], LAMBDA j : \A i \in 1 .. j - 1 : ts[i].label # ts[j].label)
-  IN Only({ Each(first(ts), LAMBDA j : ts[j]) : ts \in { Flatten(Each(Attendances(q), steps)) } })
+PickSteps(M, q, w) ==
+  LET V == Fit(q, w)
+  IN CASE q.all /\ V # << >> -> << PICK_BIND(M, V, Expired(ScriptTimer)) >>
+       [] q.all \/ Len(V) < q.count -> << PICK_ERR(M, q, w) >>
+       [] OTHER -> Each(Choices(q.count, V), LAMBDA chosen : PICK_BIND(M, chosen, Program))
 
 (* {2 Waiting ends} *)
 
-ANSWER(M, prompt, text, y, cause) ==
-  Transition(<< "ANSWER" >>, "answer(" \o text \o ")", cause, Script(Machine(GoOn(M, y))), Shared, << >>)
-ANSWER_ERR(M, prompt, m, cause) ==
-  ToEnd(<< "ANSWER-ERR" >>, "no-answer", cause,
-        Failed(Fault("no answer to '" \o prompt \o "': " \o m, M.at)), Shared, << >>)
+ANSWER(M, text, y) ==
+  Transition("ANSWER", "answer(" \o text \o ")", AnsweredWith(text), Script(Machine(GoOn(M, y))), Shared, << >>)
+ANSWER_ERR(M, prompt, m) ==
+  EndStep("ANSWER-ERR", "no-answer", NobodyAnswers(m), Shared,
+          Failed(Fault("no answer to '" \o prompt \o "': " \o m, M.at)))
 
-RESUME(M) == Transition(<< "RESUME" >>, "resume", << "timer", 0 >>, Script(GoOn(M, Null)), Shared, << >>)
-
-REPLY(M, y, cause) ==
-  Transition(<< "REPLY" >>, "reply(" \o Text(y) \o ")", cause, Script(GoOn(M, y)), Shared, << >>)
-CALL_ERR(M, call, m, cause) ==
-  ToEnd(<< "CALL-ERR" >>, "no-reply(" \o m \o ")", cause, Failed(Fault(call \o ": " \o m, M.at)), Shared, << >>)
-
-Times(prompt) == IF prompt \in Prompts THEN outside.asked[prompt] ELSE 0
-TimesCalled(call) == IF call \in Calls THEN outside.called[call] ELSE 0
-
-(* Of rounds, what is answered the first time, the second ..., the one for this time; and how often it was asked then,
-   as far as it matters. *)
-ThisTime(rounds, times) ==
-  IF rounds = << >> THEN << >> ELSE rounds[IF times < Len(rounds) THEN times + 1 ELSE Len(rounds)]
-OnceMore(rounds, times) == IF times + 1 < Len(rounds) THEN times + 1 ELSE times
-
-(* An answer is an expression over the program's variables, which may only compute a value. A refused one is asked for
-   again, while there are others to come; then it counts as none. *)
-RECURSIVE AnswerSteps(_, _, _)
-AnswerSteps(M, prompt, times) ==
-  LET rounds == Answers(prompt)
-      given == ThisTime(rounds, times)
-      cause == << "answer", prompt, OnceMore(rounds, times) >>
-      refused(m) ==
-        IF times + 1 < Len(rounds) THEN AnswerSteps(M, prompt, times + 1) ELSE << ANSWER_ERR(M, prompt, m, cause) >>
-      evaluated(answer) == RunCode(Shared, "task", << "closure", answer.lambda, << >> >>, << >>)
-      isValue(run) == run.is = "value" /\ run.deeds = << >> /\ run.S.store = store
-      by(answer, runs) ==
+(* An answer is an expression over the program's variables, which may only compute a value: <<"ok", transitions>>; or it is
+   refused: <<"wrong", m>>. *)
+AnswerSteps(M, answer) ==
+  LET isValue(run) == run.is = "value" /\ run.deeds = << >> /\ run.S.store = store
+      by(runs) ==
         CASE \E j \in DOMAIN runs : isValue(runs[j]) ->
-               Different(Each(SelectSeq(runs, isValue), LAMBDA run : ANSWER(M, prompt, answer.text, run.value, cause)))
-          [] runs[1].is = "fault" -> refused(runs[1].value.message)
-          [] OTHER -> refused("an answer may only compute a value")
-      step(answer) ==
-        IF answer.lambda = 0 THEN refused(answer.why) ELSE Only({ by(answer, runs) : runs \in { evaluated(answer) } })
-  IN IF given = << >> THEN << ANSWER_ERR(M, prompt, "none is given", << "answer", prompt, times >>) >>
-     ELSE Flatten(Each(given, step))
+               Ok(Different(Each(SelectSeq(runs, isValue), LAMBDA run : ANSWER(M, answer.text, run.value))))
+          [] runs[1].is = "fault" -> Bad(runs[1].value.message)
+          [] OTHER -> Bad("an answer may only compute a value")
+  IN IF answer.lambda = 0 THEN Bad(answer.why)
+     ELSE Only({ by(runs) : runs \in { RunCode(Shared, "task", << "closure", answer.lambda, << >> >>, << >>) } })
 
-ReplySteps(M, call, times) ==
-  LET rounds == HostReplies(call, M.at)
-      given == ThisTime(rounds, times)
-      cause == << "host", call, OnceMore(rounds, times) >>
-      step(reply) == IF reply[1] = "value" THEN REPLY(M, reply[2], cause) ELSE CALL_ERR(M, call, reply[2], cause)
-  IN IF given = << >>
-     THEN << CALL_ERR(M, call, "the fleet has no reply " \o Quoted(call), << "host", call, times >>) >>
-     ELSE Each(given, step)
+RESUME(M) == Transition("RESUME", "resume", Expired(ScriptTimer), Script(GoOn(M, Null)), Shared, << >>)
 
-WaitSteps(M, request) ==
-  CASE request[1] = "pick" -> PickSteps(M, request[2])
-    [] request[1] = "ask" -> AnswerSteps(M, request[2], Times(request[2]))
-    [] request[1] = "pause" -> << RESUME(M) >>
-    [] request[1] = "call" -> ReplySteps(M, request[2], TimesCalled(request[2]))
+REPLY(M, y) == Transition("REPLY", "reply(" \o Text(y) \o ")", Replied(y), Script(GoOn(M, y)), Shared, << >>)
+CALL_ERR(M, call, m) ==
+  EndStep("CALL-ERR", "no-reply(" \o m \o ")", HostFailed(m), Shared, Failed(Fault(call \o ": " \o m, M.at)))
 
 (* {2 Executing tasks} *)
 
-EXECUTE_DONE(M, s) ==
-  Transition(Append(s.rules, "EXECUTE-DONE"), s.label, s.cause, Script(GoOn(M, Null)), s.S, s.deeds)
-EXECUTE_ERR(M, s) == ToEnd(Append(s.rules, "EXECUTE-ERR"), s.label, s.cause, Failed(s.out[2]), s.S, s.deeds)
+EXECUTE_DONE(M, s) == LET t == By(s, "EXECUTE-DONE", Done_) IN Becoming(t, Script(GoOn(M, Null)))
 
-InExecute(M, s) ==
-  CASE GoesOn(s) -> Transition(s.rules, s.label, s.cause, Executing(M, s.out[2]), s.S, s.deeds)
+(* The failure has cut off all that ran. *)
+EXECUTE_ERR(s) == EndedBy(By(s, "EXECUTE-ERR", Ends(Failed(s.out[2]))), << >>)
+
+InExecute(M, r, s) ==
+  CASE GoesOn(s) -> Becoming(s, Executing(M, s.out[2]))
     [] IsDone(s) -> EXECUTE_DONE(M, s)
-    [] IsErr(s) -> EXECUTE_ERR(M, s)
-    [] OTHER -> ToEnd(s.rules, s.label, s.cause, s.out[2], s.S, s.deeds)
+    [] IsErr(s) -> EXECUTE_ERR(s)
+    [] OTHER -> EndedBy(s, Timers(r))
 
------------------------------------------------------------------------------
-(* {1 The whole system} *)
-
-ExecutingSteps(M, r) ==
-  LET in(s) == InExecute(M, IF HasReadings THEN [ s EXCEPT !.S = Over(@) ] ELSE s)
+(* Those that need no event, and those on the events E. *)
+ExecutingSteps(M, r, E) ==
+  LET in(s) == InExecute(M, r, IF HasReadings THEN [ s EXCEPT !.S = Over(@) ] ELSE s)
       alone(outcomes) == Len(outcomes) = 1
       all(steps) == IF \A j \in DOMAIN steps : alone(steps[j]) THEN Each(steps, LAMBDA outcomes : in(outcomes[1]))
                     ELSE Flatten(Each(steps, LAMBDA outcomes : Different(Each(outcomes, in))))
-  IN Only({ all(steps) : steps \in { Steps(Shared, r) } })
-
-Transitions ==
-  (CASE control.at = "script" -> ScriptSteps(control.M)
-     [] control.at = "wait" -> WaitSteps(control.M, control.request)
-     [] control.at = "exec" -> ExecutingSteps(control.M, control.r)
-     [] control.at = "end" -> << >>)
-  \o (IF Interruptions /\ control.at # "end" THEN << INTERRUPT >> ELSE << >>)
-
-(* To stand for Known: Transitions, computed once for a state, however many actions and properties ask. TLC's register 1 has
-   the last ones. If Known were defined as this and no constant, TLC -coverage would lay out all that Transitions applies,
-   for each action anew, and come to no end. *)
-ASSUME TLCSet(1, << >>)
-
-ComputedOnce(state) ==
-  LET last == TLCGet(1)
-  IN IF last # << >> /\ last[1] = state THEN last[2]
-     ELSE CHOOSE ts \in { Transitions } : TLCSet(1, << state, ts >>)
-
-(* The environment counts failures where their number is bounded, and questions and calls as far as what comes of them
-   depends on it. *)
-OutsideAfter(cause) ==
-  CASE cause[1] = "task" /\ cause[3] = "failed" /\ Failures # -1 /\ Ending(cause[2], A[cause[2]].name) = "may fail" ->
-         [ outside EXCEPT !.failed = @ + 1 ]
-    [] cause[1] = "answer" /\ cause[2] \in Prompts -> [ outside EXCEPT !.asked[cause[2]] = cause[3] ]
-    [] cause[1] = "host" /\ cause[2] \in Calls -> [ outside EXCEPT !.called[cause[2]] = cause[3] ]
-    [] OTHER -> outside
-
-(* Of a vehicle whose task ends otherwise than by a loss something was heard, so it was of one that is picked. What has no   *)
-(* bound is not counted.                                                                                                    *)
-Remembered(t) ==
-  LET before == OutsideAfter(t.cause)
-      v == t.cause[2]
-  IN CASE t.cause[1] = "task" /\ t.cause[3] # "lost" -> [ before EXCEPT !.lost = @ \ { v } ]
-       [] t.cause[1] = "task" /\ v \notin outside.lost ->
-            [ before EXCEPT !.lost = @ \cup { v }, !.losses = IF Losses = -1 THEN @ ELSE @ + 1 ]
-       [] OTHER ->
-            [ before EXCEPT !.lost = @ \ (Range(t.S.B) \ Range(B)),
-                            !.late = IF Latecomers = -1 THEN @ ELSE @ \cup t.late ]
-
-Becomes(t) ==
-  /\ control' = t.control
-  /\ store' = t.S.store
-  /\ A' = t.S.A
-  /\ B' = t.S.B
-  /\ N' = t.S.N
-  /\ outside' = Remembered(t)
-
-Init ==
-  /\ control = Script(Call(Main, << >>))
-  /\ store = << >> \o [ i \in DOMAIN GlobalNames |-> << >> ]
-  /\ A = << >>
-  /\ B = << >>
-  /\ N = NoTuples
-  /\ outside = [ failed |-> 0, losses |-> 0, lost |-> { }, late |-> { }, asked |-> [ prompt \in Prompts |-> 0 ],
-                  called |-> [ call \in Calls |-> 0 ] ]
-
-(* A transition for which Which holds of what it answers. *)
-Some(Which(_)) == \E ts \in { Known(vars) } : \E j \in DOMAIN ts : Which(ts[j].cause) /\ Becomes(ts[j])
-Possible(Which(_)) == \E ts \in { Known(vars) } : \E j \in DOMAIN ts : Which(ts[j].cause)
-
-IsAny(cause) == TRUE
-IsOwed(cause) == cause # Interruption
-IsProgram(cause) == cause = Program
-IsTimer(cause) == cause[1] = "timer"
-
-Next == Some(IsAny)
-
-(* {2 An action for each rule} *)
-
-(* Those of the transitions ts in whose derivations this rule stands, by number. *)
-Taking(rule, ts) == { j \in DOMAIN ts : rule \in Range(ts[j].rules) }
-
-Take_START(ts) == \E j \in Taking("START", ts) : Becomes(ts[j])
-Take_DONE(ts) == \E j \in Taking("DONE", ts) : Becomes(ts[j])
-Take_FAIL(ts) == \E j \in Taking("FAIL", ts) : Becomes(ts[j])
-Take_ACTION(ts) == \E j \in Taking("ACTION", ts) : Becomes(ts[j])
-Take_ACTION_ERR(ts) == \E j \in Taking("ACTION-ERR", ts) : Becomes(ts[j])
-Take_CONDITION(ts) == \E j \in Taking("CONDITION", ts) : Becomes(ts[j])
-Take_CONDITION_ERR(ts) == \E j \in Taking("CONDITION-ERR", ts) : Becomes(ts[j])
-Take_ASSERT_ERR(ts) == \E j \in Taking("ASSERT-ERR", ts) : Becomes(ts[j])
-Take_SEQ_1(ts) == \E j \in Taking("SEQ-1", ts) : Becomes(ts[j])
-Take_SEQ_2(ts) == \E j \in Taking("SEQ-2", ts) : Becomes(ts[j])
-Take_SEQ_ERR(ts) == \E j \in Taking("SEQ-ERR", ts) : Becomes(ts[j])
-Take_PAR_1(ts) == \E j \in Taking("PAR-1", ts) : Becomes(ts[j])
-Take_PAR_2(ts) == \E j \in Taking("PAR-2", ts) : Becomes(ts[j])
-Take_PAR_ERR(ts) == \E j \in Taking("PAR-ERR", ts) : Becomes(ts[j])
-Take_ALLOF_WHEN(ts) == \E j \in Taking("ALLOF-WHEN", ts) : Becomes(ts[j])
-Take_ALLOF_1(ts) == \E j \in Taking("ALLOF-1", ts) : Becomes(ts[j])
-Take_ALLOF_2(ts) == \E j \in Taking("ALLOF-2", ts) : Becomes(ts[j])
-Take_ALLOF_ERR(ts) == \E j \in Taking("ALLOF-ERR", ts) : Becomes(ts[j])
-Take_ONEOF_WHEN(ts) == \E j \in Taking("ONEOF-WHEN", ts) : Becomes(ts[j])
-Take_ONEOF_ERR(ts) == \E j \in Taking("ONEOF-ERR", ts) : Becomes(ts[j])
-Take_UNTIL_CUT(ts) == \E j \in Taking("UNTIL-CUT", ts) : Becomes(ts[j])
-Take_UNTIL_1(ts) == \E j \in Taking("UNTIL-1", ts) : Becomes(ts[j])
-Take_UNTIL_2(ts) == \E j \in Taking("UNTIL-2", ts) : Becomes(ts[j])
-Take_UNTIL_ERR(ts) == \E j \in Taking("UNTIL-ERR", ts) : Becomes(ts[j])
-Take_IDLE_END(ts) == \E j \in Taking("IDLE-END", ts) : Becomes(ts[j])
-Take_DURING_SET(ts) == \E j \in Taking("DURING-SET", ts) : Becomes(ts[j])
-Take_DURING_CUT(ts) == \E j \in Taking("DURING-CUT", ts) : Becomes(ts[j])
-Take_DURING_1(ts) == \E j \in Taking("DURING-1", ts) : Becomes(ts[j])
-Take_DURING_2(ts) == \E j \in Taking("DURING-2", ts) : Becomes(ts[j])
-Take_DURING_ERR(ts) == \E j \in Taking("DURING-ERR", ts) : Becomes(ts[j])
-Take_WATCH_1(ts) == \E j \in Taking("WATCH-1", ts) : Becomes(ts[j])
-Take_WATCH_2(ts) == \E j \in Taking("WATCH-2", ts) : Becomes(ts[j])
-Take_WATCH_IGNORE(ts) == \E j \in Taking("WATCH-IGNORE", ts) : Becomes(ts[j])
-Take_WATCH_PROPAGATE(ts) == \E j \in Taking("WATCH-PROPAGATE", ts) : Becomes(ts[j])
-Take_WATCH_HALT(ts) == \E j \in Taking("WATCH-HALT", ts) : Becomes(ts[j])
-Take_SCRIPT(ts) == \E j \in Taking("SCRIPT", ts) : Becomes(ts[j])
-Take_POST(ts) == \E j \in Taking("POST", ts) : Becomes(ts[j])
-Take_CONSUME(ts) == \E j \in Taking("CONSUME", ts) : Becomes(ts[j])
-Take_MESSAGE(ts) == \E j \in Taking("MESSAGE", ts) : Becomes(ts[j])
-Take_RELEASE(ts) == \E j \in Taking("RELEASE", ts) : Becomes(ts[j])
-Take_SET_TIMEOUT(ts) == \E j \in Taking("SET-TIMEOUT", ts) : Becomes(ts[j])
-Take_PICK(ts) == \E j \in Taking("PICK", ts) : Becomes(ts[j])
-Take_PICK_BIND(ts) == \E j \in Taking("PICK-BIND", ts) : Becomes(ts[j])
-Take_PICK_ERR(ts) == \E j \in Taking("PICK-ERR", ts) : Becomes(ts[j])
-Take_ASK(ts) == \E j \in Taking("ASK", ts) : Becomes(ts[j])
-Take_ANSWER(ts) == \E j \in Taking("ANSWER", ts) : Becomes(ts[j])
-Take_ANSWER_ERR(ts) == \E j \in Taking("ANSWER-ERR", ts) : Becomes(ts[j])
-Take_PAUSE(ts) == \E j \in Taking("PAUSE", ts) : Becomes(ts[j])
-Take_RESUME(ts) == \E j \in Taking("RESUME", ts) : Becomes(ts[j])
-Take_CALL(ts) == \E j \in Taking("CALL", ts) : Becomes(ts[j])
-Take_REPLY(ts) == \E j \in Taking("REPLY", ts) : Becomes(ts[j])
-Take_CALL_ERR(ts) == \E j \in Taking("CALL-ERR", ts) : Becomes(ts[j])
-Take_EXECUTE(ts) == \E j \in Taking("EXECUTE", ts) : Becomes(ts[j])
-Take_EXECUTE_DONE(ts) == \E j \in Taking("EXECUTE-DONE", ts) : Becomes(ts[j])
-Take_EXECUTE_ERR(ts) == \E j \in Taking("EXECUTE-ERR", ts) : Becomes(ts[j])
-Take_ALLOC_ERR(ts) == \E j \in Taking("ALLOC-ERR", ts) : Becomes(ts[j])
-Take_END(ts) == \E j \in Taking("END", ts) : Becomes(ts[j])
-Take_HALT(ts) == \E j \in Taking("HALT", ts) : Becomes(ts[j])
-Take_FAULT(ts) == \E j \in Taking("FAULT", ts) : Becomes(ts[j])
-Take_INTERRUPT(ts) == \E j \in Taking("INTERRUPT", ts) : Becomes(ts[j])
-
-(* The same as Next. A transition is counted under each rule of its derivation: TLC -coverage shows which rules were used.
-   TLC looks through all that a definition without parameters applies before it starts, but once through what a LET names. *)
-NextByRule ==
-  LET ts == Known(vars) IN
-     \/ Take_START(ts) \/ Take_DONE(ts) \/ Take_FAIL(ts) \/ Take_ACTION(ts) \/ Take_ACTION_ERR(ts)
-     \/ Take_CONDITION(ts) \/ Take_CONDITION_ERR(ts) \/ Take_ASSERT_ERR(ts) \/ Take_SEQ_1(ts)
-     \/ Take_SEQ_2(ts) \/ Take_SEQ_ERR(ts) \/ Take_PAR_1(ts) \/ Take_PAR_2(ts) \/ Take_PAR_ERR(ts)
-     \/ Take_ALLOF_WHEN(ts) \/ Take_ALLOF_1(ts) \/ Take_ALLOF_2(ts) \/ Take_ALLOF_ERR(ts)
-     \/ Take_ONEOF_WHEN(ts) \/ Take_ONEOF_ERR(ts) \/ Take_UNTIL_CUT(ts) \/ Take_UNTIL_1(ts)
-     \/ Take_UNTIL_2(ts) \/ Take_UNTIL_ERR(ts) \/ Take_IDLE_END(ts) \/ Take_DURING_SET(ts)
-     \/ Take_DURING_CUT(ts) \/ Take_DURING_1(ts) \/ Take_DURING_2(ts) \/ Take_DURING_ERR(ts)
-     \/ Take_WATCH_1(ts) \/ Take_WATCH_2(ts) \/ Take_WATCH_IGNORE(ts) \/ Take_WATCH_PROPAGATE(ts)
-     \/ Take_WATCH_HALT(ts) \/ Take_SCRIPT(ts) \/ Take_POST(ts) \/ Take_CONSUME(ts) \/ Take_MESSAGE(ts)
-     \/ Take_RELEASE(ts) \/ Take_SET_TIMEOUT(ts) \/ Take_PICK(ts) \/ Take_PICK_BIND(ts) \/ Take_PICK_ERR(ts)
-     \/ Take_ASK(ts) \/ Take_ANSWER(ts) \/ Take_ANSWER_ERR(ts) \/ Take_PAUSE(ts) \/ Take_RESUME(ts)
-     \/ Take_CALL(ts) \/ Take_REPLY(ts) \/ Take_CALL_ERR(ts) \/ Take_EXECUTE(ts) \/ Take_EXECUTE_DONE(ts)
-     \/ Take_EXECUTE_ERR(ts) \/ Take_ALLOC_ERR(ts) \/ Take_END(ts) \/ Take_HALT(ts) \/ Take_FAULT(ts)
-     \/ Take_INTERRUPT(ts)
-
-(* WF_vars(Some(Which)), where Possible(Which) is the same as ENABLED <<Some(Which)>>_vars, as each transition changes
-   something, and is faster. Tasks that run end, timers that run expire, steps of the program that stay possible are
-   taken. Nobody need ever interrupt. *)
-Fair(Which(_)) == []<>~Possible(Which) \/ []<><< Some(Which) >>_vars
-
-Identifiers == { Fleet[j].id : j \in DOMAIN Fleet }
-
-Fairness ==
-  /\ Fair(IsOwed)
-  /\ Fair(IsProgram)
-  /\ Fair(IsTimer)
-  /\ \A v \in Identifiers : Fair(LAMBDA cause : cause[1] = "task" /\ cause[2] = v)
-
-Spec == Init /\ [][Next]_vars /\ Fairness
-
------------------------------------------------------------------------------
-(* {1 Properties} *)
-
-HasEnded == control.at = "end"
-
-NoDeadlock == HasEnded \/ Possible(IsOwed)
-
-Termination == <>HasEnded
-
-(* How a run may end. NoHalt and NoLeftover are asked for by name only: a program may mean to halt, or to leave pairs
-   in N. *)
-EndsSo(how, why) == HasEnded /\ control.ending.how = how /\ control.ending.why = why
-NothingLeft == (\A k \in OrderedKeys : N.queue[k] = << >>) /\ DOMAIN N.bag = { }
-
-NoError == ~EndsSo("failed", "error")
-Assertions == ~EndsSo("failed", "assertion")
-EnoughVehicles == ~EndsSo("failed", "vehicles")
-NoHalt == ~EndsSo("halted", "")
-NoLeftover == EndsSo("completed", "") => NothingLeft
-
-TypeOK ==
-  /\ control.at \in { "script", "wait", "exec", "end" }
-  /\ Len(store) = Len(GlobalNames)
-  /\ DOMAIN A \subseteq Identifiers
-  /\ Range(B) \subseteq Identifiers
-  /\ Cardinality(Range(B)) = Len(B)
-  /\ DOMAIN N.queue = OrderedKeys
-  /\ \A pair \in DOMAIN N.bag : N.bag[pair] \in Nat \ { 0 }
-  /\ outside.failed \in Nat
-  /\ outside.losses \in Nat
-  /\ outside.lost \subseteq Identifiers
-  /\ outside.late \subseteq MayBeLate
-
-AllocationWithinBound == DOMAIN A \subseteq Range(B)
-
-(* A is exactly what runs, and no vehicle runs two tasks. *)
-OneTaskEach ==
-  LET running == IF control.at = "exec" THEN Running(control.r) ELSE << >>
-  IN Range(running) = DOMAIN A /\ Cardinality(Range(running)) = Len(running)
-
-EmptyAfterEnd == HasEnded => A = << >> /\ B = << >>
-
-(* N changes by what is posted and consumed, and by nothing else. *)
-RECURSIVE Tally(_)
-Tally(pairs) == IF pairs = << >> THEN EmptyBag ELSE SetToBag({ Head(pairs) }) (+) Tally(Tail(pairs))
-
-PairsOf(deeds, kind) == Flatten(Each(SelectSeq(deeds, LAMBDA d : d.did = kind), LAMBDA d : d.pairs))
-
-AllPairs(n) ==
-  LET queued == UNION { { << k, j >> : j \in DOMAIN n.queue[k] } : k \in OrderedKeys }
-      pairs == { << k, n.queue[k][j] >> : << k, j >> \in queued } 
-      count(pair) == Cardinality({ q \in queued : q[1] = pair[1] /\ n.queue[q[1]][q[2]] = pair[2] })
-  IN [ pair \in pairs |-> count(pair) ] (+) n.bag
-
-TuplesConserved ==
-  \A ts \in { Known(vars) } : \A j \in DOMAIN ts :
-    LET t == ts[j]
-    IN AllPairs(t.S.N) (+) Tally(PairsOf(t.deeds, "consume")) = AllPairs(N) (+) Tally(PairsOf(t.deeds, "post"))
-
------------------------------------------------------------------------------
-(* {1 A run, told} *)
-
-(* An ALIAS, for TLC to show of each state of a run instead of the variables: what is seen of it, and by what transition
-   the run goes on; by several, if they lead to the same state. *)
-Told ==
-  LET taken == SelectSeq(Known(vars), Becomes)
-  IN [ control |-> IF control.at = "end" THEN << "end", control.ending.how, control.ending.message >>
-                   ELSE << control.at >>,
-       store |-> [ x \in Range(GlobalNames) |-> store[IndexOf(GlobalNames, x)] ],
-       A |-> [ v \in DOMAIN A |-> A[v].name ],
-       B |-> B,
-       N |-> N,
-       goes_on |-> Each(taken, LAMBDA t : t.label),
-       by |-> Each(taken, LAMBDA t : t.rules) ]
-
------------------------------------------------------------------------------
-(* {1 The graph, printed} *)
-
-(* The elements of a set, in an order that is always the same. *)
-RECURSIVE InOrder(_)
-InOrder(set) == IF set = { } THEN << >> ELSE LET x == CHOOSE x \in set : TRUE IN << x >> \o InOrder(set \ { x })
-
-(* A text for a state, the same for equal ones: comparing a value brings TLC to put the fields of its records in
-   order. *)
-StateText(kappa, S, environment) ==
-  Only({ IF state = state THEN ToString(state) ELSE "" : state \in {
-    << kappa, S.store, Each(S.B, LAMBDA v : IF v \in DOMAIN S.A THEN << S.A[v] >> ELSE << >>), S.B,
-       Each(InOrder(OrderedKeys), LAMBDA k : S.N.queue[k]),
-       Each(InOrder(DOMAIN S.N.bag), LAMBDA pair : << pair, S.N.bag[pair] >>),
-       environment.failed, environment.losses, InOrder(environment.lost), InOrder(environment.late),
-       Each(InOrder(Prompts), LAMBDA prompt : environment.asked[prompt]),
-       Each(InOrder(Calls), LAMBDA call : environment.called[call]) >> } })
-
-PrintTransition(t) ==
-  PrintT("E\t" \o t.label \o "\t" \o StateText(t.control, t.S, Remembered(t)) \o "\t" \o Join(t.rules, ", "))
-
-(* TLC evaluates an invariant once for each state that it finds: this one is always true, and prints the state and its
-   transitions. *)
-PrintGraph ==
-  /\ PrintT("S\t" \o StateText(control, Shared, outside))
-  /\ \A ts \in { Known(vars) } : \A j \in DOMAIN ts : PrintTransition(ts[j])
+  IN Only({ all(steps) : steps \in { Steps(Shared, r, E) } })
 ==============================================================================

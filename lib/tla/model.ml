@@ -145,7 +145,7 @@ let text program world (environment : Environment.options) plans prompts calls t
   Format.fprintf ppf
     "---- MODULE MC ----@.\\* %s in its world. Made by dolphin tla: make it anew rather than change it.@."
     (Tla.comment program.Core.source_name);
-  Format.fprintf ppf "EXTENDS Dolphin@.@.";
+  Format.fprintf ppf "EXTENDS DolphinChecking@.@.";
   table ppf "MCFleet" fleet;
   table ppf "MCCode" (Translation.code translation);
   table ppf "MCLambdas" (Translation.lambdas translation);
@@ -181,16 +181,16 @@ let constants (environment : Environment.options) =
 let invariants = [ "TypeOK"; "AllocationWithinBound"; "OneTaskEach"; "EmptyAfterEnd"; "TuplesConserved"; "NoDeadlock" ]
 
 let check environment =
-  "SPECIFICATION Spec\n" ^ constants environment ^ "INVARIANTS " ^ String.concat " " invariants
+  "SPECIFICATION Spec\nVIEW View\n" ^ constants environment ^ "INVARIANTS " ^ String.concat " " invariants
   ^ "\nPROPERTY Termination\nCHECK_DEADLOCK FALSE\n"
 
 (* Not every TLC knows the word: the one that [make tlc] fetches does not. *)
 let told environment = "ALIAS Told\n" ^ check environment
 
-let coverage environment = "INIT Init\nNEXT NextByRule\n" ^ constants environment ^ "CHECK_DEADLOCK FALSE\n"
+let coverage environment = "INIT CheckedInit\nNEXT NextByRule\n" ^ constants environment ^ "CHECK_DEADLOCK FALSE\n"
 
 let graph environment =
-  "INIT Init\nNEXT Next\n" ^ constants environment ^ "INVARIANT PrintGraph\nCHECK_DEADLOCK FALSE\n"
+  "INIT CheckedInit\nNEXT GraphNext\n" ^ constants environment ^ "INVARIANT PrintGraph\nCHECK_DEADLOCK FALSE\n"
 
 let unfit_replies ~environment ~calls world program =
   let why call =
@@ -207,9 +207,8 @@ let of_program ?(plans = []) ?(prompts = []) ?(calls = []) ~environment world pr
   match Translation.refusals translation with
   | [] ->
     Ok
-      [ { name = "MC.tla"; text }; { name = "MC.cfg"; text = check environment };
-        { name = "Told.cfg"; text = told environment }; { name = "Graph.cfg"; text = graph environment };
-        { name = "Coverage.cfg"; text = coverage environment };
-        { name = "Dolphin.tla"; text = Spec.dolphin }; { name = "DolphinMachine.tla"; text = Spec.machine };
-        { name = "DolphinValues.tla"; text = Spec.values } ]
+      ([ { name = "MC.tla"; text }; { name = "MC.cfg"; text = check environment };
+         { name = "Told.cfg"; text = told environment }; { name = "Graph.cfg"; text = graph environment };
+         { name = "Coverage.cfg"; text = coverage environment } ]
+       @ List.map (fun (name, text) -> { name; text }) Spec.modules)
   | refusals -> Error refusals

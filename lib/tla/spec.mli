@@ -1,5 +1,4 @@
-(** The texts of the specification's modules, as in [spec/]. Made by the build. *)
+(** The modules of the specification in [spec/]. *)
 
-val dolphin : string
-val machine : string
-val values : string
+val modules : (string * string) list
+(** Names of files, and texts. *)

@@ -10,9 +10,36 @@ let ending (c : Configuration.t) =
   | Ended Interrupted -> "interrupted"
   | Script _ | Waiting _ | Executing _ -> ""
 
-let label (t : Transition.t) =
-  let rules = String.concat ", " (List.map Rule.name t.rules) in
-  Printed_graph.label ~rules (Format.asprintf "%a" Label.pp t.label)
+(* {1 Labels} *)
+
+let label_text (t : Transition.t) = Format.asprintf "%a" Label.pp t.label
+
+(* Objects of the host are named by their calls. *)
+let effect_text : Effect.t -> string = function
+  | Call_host { subject; member; _ } -> "call " ^ Machine.name_of_call ~subject ~member
+  | e -> Format.asprintf "%a" Effect.pp e
+
+(* Vehicles that stop one after another, in pick order: the semantics leaves open in which. *)
+let rec in_pick_order bound : Effect.t list -> Effect.t list = function
+  | Stop _ :: _ as effects ->
+    let rec split stopped : Effect.t list -> _ = function
+      | Stop v :: rest -> split (v :: stopped) rest
+      | rest -> (stopped, rest)
+    in
+    let stopped, rest = split [] effects in
+    List.filter_map (fun v -> if List.mem v stopped then Some (Effect.Stop v) else None) bound @ in_pick_order bound rest
+  | e :: rest -> e :: in_pick_order bound rest
+  | [] -> []
+
+let label_and_effects (c : Configuration.t) (t : Transition.t) =
+  match in_pick_order c.bound t.effects with
+  | [] -> label_text t
+  | effects -> label_text t ^ " ! " ^ String.concat "; " (List.map effect_text effects)
+
+let with_rules (t : Transition.t) text =
+  Printed_graph.label ~rules:(String.concat ", " (List.map Rule.name t.rules)) text
+
+(* {1 What is seen of a state} *)
 
 (* Of a key whose order matters one mark for all its pairs, of others one for each pair. *)
 let marks_of_key (c : Configuration.t) (k, values) =
@@ -36,11 +63,13 @@ let marks (c : Configuration.t) =
   @ List.map runs (Vehicle_map.bindings c.shared.allocation)
   @ List.concat_map (marks_of_key c) (Tuples.bindings c.shared.tuples)
 
-let graph (space : Reference.t) =
+let graph ?(effects = false) (space : Reference.t) =
   let b = Graph.Builder.create () in
   let state s (edges : (Transition.t * int) list) =
+    let c = space.states.(s).configuration in
+    let label t = with_rules t (if effects then label_and_effects c t else label_text t) in
     List.iter (fun (t, target) -> Graph.Builder.add b s (label t) target) edges;
-    List.iter (fun m -> Graph.Builder.add b s (Printed_graph.mark m) s) (marks space.states.(s).configuration)
+    List.iter (fun m -> Graph.Builder.add b s (Printed_graph.mark m) s) (marks c)
   in
   Array.iteri state space.edges;
   Graph.Builder.finish ~states:(Array.length space.states) b

@@ -8,5 +8,6 @@ val marks : Configuration.t -> string list
     and ["ended: failed: ..."], with the message, if it has; ["B a, b"]; ["A a: survey"]; ["N k:1 * 2"] for two such pairs, or
     ["N k:1, k:2 in order"], the oldest first, if order matters. *)
 
-val graph : Dolphin_explore.Reference.t -> Dolphin_lts.Graph.t
-(** Its states have the numbers that they have there. *)
+val graph : ?effects:bool -> Dolphin_explore.Reference.t -> Dolphin_lts.Graph.t
+(** [graph ~effects space] is the graph of [space], with the same numbers of states. With [effects], which is false by
+    default, a label has the transition's effects after it, as [LabelAndEffects] of [spec/DolphinChecking.tla] has. *)

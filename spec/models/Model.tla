@@ -2,7 +2,7 @@
 (* Words to write small programs in, as TLA+ expressions, where `dolphin tla` would translate a text. A model extends
    this module and says what the script is (Body), the code of its closures (Closures), and what must hold in it
    (Claim). Model.cfg has the rest in common. *)
-EXTENDS Dolphin
+EXTENDS DolphinChecking
 
 CONSTANTS
   ScriptOfModel,   \* Body

@@ -3,7 +3,7 @@ open Dolphin_lts
 module Reference = Dolphin_explore.Reference
 
 type verdict = Agrees | Differs of Isomorphism.difference | Not_printed
-type result = { case : Case.t; states : int; transitions : int; verdict : verdict }
+type result = { name : string; source : string; states : int; transitions : int; verdict : verdict }
 
 type t = {
   results : result list;
@@ -22,9 +22,11 @@ let prepare ~limit (case : Case.t) =
       match Reference.explore ~limit case.environment case.program case.world with
       | None -> Error Too_large
       | exception Dolphin_semantics.Reading.Unsettled fault -> Error (Unsettled fault.message)
-      | Some space -> Ok { case; graph = Explored.graph space; transitions = Reference.transitions space; constants })
+      | Some space -> Ok { case; graph = Explored.graph ~effects:true space; transitions = Reference.transitions space; constants })
 
 let case p = p.case
+let states p = Graph.states p.graph
+let transitions (p : prepared) = p.transitions
 
 (* {1 Running TLC} *)
 
@@ -95,7 +97,7 @@ let judge graphs i p =
     | Some theirs -> (
         match Compare.isomorphic p.graph theirs with Ok () -> Agrees | Error difference -> Differs difference)
   in
-  { case = p.case; states = Graph.states p.graph; transitions = p.transitions; verdict }
+  { name = p.case.name; source = p.case.source; states = Graph.states p.graph; transitions = p.transitions; verdict }
 
 (* With an action for each rule a transition is taken by several. *)
 let conclude prepared ~coverage r =

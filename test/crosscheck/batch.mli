@@ -3,11 +3,17 @@
 open Dolphin_tlc
 
 type verdict =
-  | Agrees  (** isomorphic graphs, with equal labels, derivations and ends *)
+  | Agrees  (** isomorphic graphs, with equal labels, effects, derivations and ends *)
   | Differs of Dolphin_lts.Isomorphism.difference  (** left is the explorer's graph *)
   | Not_printed  (** TLC printed no state of it *)
 
-type result = { case : Case.t; states : int; transitions : int; verdict : verdict }
+type result = {
+  name : string;  (** of the case *)
+  source : string;
+  states : int;
+  transitions : int;
+  verdict : verdict;
+}
 
 type t = {
   results : result list;
@@ -28,6 +34,10 @@ val prepare : limit:int -> Case.t -> (prepared, unfit) Stdlib.result
 (** [prepare ~limit c] explores at most [limit] states. *)
 
 val case : prepared -> Case.t
+
+val states : prepared -> int
+val transitions : prepared -> int
+(** How many of each the explorer found. *)
 
 val run :
   ?coverage:bool -> Installation.t -> specification:(string * string) list -> prepared list -> (t, string) Stdlib.result

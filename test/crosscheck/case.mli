@@ -27,11 +27,20 @@ val faulty_examples : string -> t list
 (** Likewise with losses, with a vehicle that is late, with at most one fault of each kind, with interruptions, and with
     calls of a supplier that fail. *)
 
-val traps : t list
-(** Small programs for what random ones seldom meet, some of which may be interrupted. *)
+(** {1:texts Programs by their texts} *)
 
-val sensor_traps : t list
-(** Likewise, in a world that leaves open what sensors show. *)
+val of_text : string -> string -> Dolphin_semantics.World.t -> Dolphin_environment.Environment.options -> t
+(** [of_text name source world environment] is the program [source] there. One that cannot be compiled is an error of
+    ours, and raises [Failure]. *)
 
-val faulty_traps : t list
-(** Likewise for losses and vehicles that are late. *)
+val answering : Dolphin_environment.Environment.options
+(** All goes as planned, with answers to ["how many?"], and with the replies of [Test_support.Calls]. *)
+
+val with_losses : Dolphin_environment.Environment.limit -> Dolphin_environment.Environment.options
+val with_latecomers : Dolphin_environment.Environment.limit -> Dolphin_environment.Environment.options
+
+val all_once : Dolphin_environment.Environment.options
+(** {!answering} with at most one failure, one loss and one vehicle that is late. *)
+
+val interrupted : Dolphin_environment.Environment.options -> Dolphin_environment.Environment.options
+(** [interrupted e] is [e] where the program may be interrupted. *)

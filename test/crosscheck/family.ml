@@ -57,17 +57,17 @@ let extending_programs line = if begins "EXTENDS " line then line ^ ", Programs"
 let model_module count =
   Printf.sprintf
     {|---- MODULE MC ----
-EXTENDS Dolphin
-FamilyInit == which \in 1 .. %d /\ Init
-%s
-PrintFamily == PrintGraphOf(which)
+EXTENDS DolphinChecking
+FamilyInit == which \in 1 .. %d /\ CheckedInit
+PrintFamily == PrintGraphOf(which, LabelAndEffects)
 ====
 |}
-    count Dolphin_tla.Run.printing
+    count
 
 let taking next =
   Printf.sprintf
-    "INIT FamilyInit\nNEXT %s\nCONSTANT Known <- ComputedOnce\nINVARIANT PrintFamily\nCHECK_DEADLOCK FALSE\n" next
+    "INIT FamilyInit\nNEXT %s\nCONSTANT Known <- ComputedOnce\nINVARIANT PrintFamily\nCHECK_DEADLOCK FALSE\n"
+    next
 
 let files ~specification programs =
   if not (List.mem_assoc lowest specification) then Error ("there is no " ^ lowest ^ " in the specification")
@@ -79,5 +79,5 @@ let files ~specification programs =
     Ok
       ([ ("Programs.tla", programs_module programs);
          ("MC.tla", model_module (List.length programs));
-         (configuration, taking "Next"); (by_rule, taking "NextByRule") ]
+         (configuration, taking "GraphNext"); (by_rule, taking "NextByRule") ]
        @ List.map changed specification)

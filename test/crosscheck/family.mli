@@ -3,7 +3,7 @@
 
     The specification is for one program, which is its constants. Here its [CONSTANTS] are definitions instead, that
     look up what the constant is for the program at hand; beside that, its text is changed only so that the variable is
-    one of [vars], and each transition leaves it as it is. [Known], a [CONSTANT] by itself, stays one. *)
+    one of [vars], and each transition leaves it as it is. *)
 
 type constant = { name : string; parameters : string list; definition : string }
 

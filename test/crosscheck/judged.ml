@@ -3,7 +3,7 @@ module Run = Dolphin_tla.Run
 module Search = Dolphin_explore.Search
 module Property = Dolphin_explore.Property
 
-type t = Not_translated | Judged of { tlc : string; explorer : string; agree : bool }
+type t = Not_translated of string | Judged of { tlc : string; explorer : string; agree : bool }
 
 let properties =
   [ ("NoDeadlock", Property.No_deadlock); ("Termination", Termination); ("NoError", No_error);
@@ -54,9 +54,10 @@ let judge (c : Case.t) (o : Outcome.t) =
   | Gave_up why -> Error why
   | Failed lines -> Error (String.concat "\n" lines)
 
-let verdicts installation (c : Case.t) =
+let verdicts ?(specification = []) installation (c : Case.t) =
   match Translated.model c with
-  | Error _ -> Ok Not_translated
+  | Error why -> Ok (Not_translated why)
   | Ok model ->
-    let files = List.map (fun (f : Dolphin_tla.Model.file) -> (f.name, f.text)) (Run.files ~strict:true model) in
+    let text (f : Dolphin_tla.Model.file) = Option.value (List.assoc_opt f.name specification) ~default:f.text in
+    let files = List.map (fun (f : Dolphin_tla.Model.file) -> (f.name, text f)) (Run.files ~strict:true model) in
     judge c (Batch.in_directory files (outcome installation))

@@ -1,8 +1,6 @@
 module Model = Dolphin_tla.Model
 
-let specification =
-  let open Dolphin_tla.Spec in
-  [ ("Dolphin.tla", dolphin); ("DolphinMachine.tla", machine); ("DolphinValues.tla", values) ]
+let specification = Dolphin_tla.Spec.modules
 
 (* Where [part] begins in [text]. *)
 let find part text =

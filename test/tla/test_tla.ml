@@ -67,7 +67,7 @@ let translated ?world source () =
   match translate ?world source with
   | Ok files ->
     Alcotest.(check (list string)) "files"
-      [ "MC.tla"; "MC.cfg"; "Told.cfg"; "Graph.cfg"; "Coverage.cfg"; "Dolphin.tla"; "DolphinMachine.tla"; "DolphinValues.tla" ]
+      ([ "MC.tla"; "MC.cfg"; "Told.cfg"; "Graph.cfg"; "Coverage.cfg" ] @ List.map fst Spec.modules)
       (List.map (fun (file : Model.file) -> file.name) files)
   | Error ds -> Alcotest.failf "refused:\n%s" (Pure_run.explain source ds)
 
@@ -155,9 +155,7 @@ let with_tlc f ({ java; jar } : Dolphin_tlc.Installation.t) =
   let copy name = write name (read ("../../spec/models/" ^ name)) in
   List.iter copy [ "Model.tla"; "Model.cfg" ];
   List.iter (fun name -> copy (name ^ ".tla")) models;
-  write "Dolphin.tla" Spec.dolphin;
-  write "DolphinMachine.tla" Spec.machine;
-  write "DolphinValues.tla" Spec.values;
+  List.iter (fun (name, text) -> write name text) Spec.modules;
   let run arguments =
     let command =
       Printf.sprintf "cd %s && %s -Xss64m -XX:+UseSerialGC -cp %s %s > output 2>&1" (Filename.quote directory)

@@ -1,0 +1,274 @@
+-------------------------- MODULE DolphinEnvironment --------------------------
+(* What may come from outside, and so the whole system: which events and worlds    *)
+(* there are in each state, what the environment remembers of them, Init and Next, *)
+(* and what must hold. It is what Environment and Faults are in lib/environment.   *)
+EXTENDS Dolphin
+
+CONSTANTS
+  Main,          \* the closure of the whole program
+  Ending(_, _),  \* how plan p may end on vehicle v: "succeeds", "may fail" or "fails"
+  Failures,      \* how many of the failures that need not be there may be in one run; -1: any number
+  Losses,        \* how often connections may be lost in one run; -1: any number
+  Latecomers,    \* how many vehicles of one run may be late, or missing, when they are looked for; -1: any number
+  MayBeLate,     \* which ones those may be
+  Answers(_),    \* to a prompt: for the first time it is asked, the second ..., the answers that may be given; the last
+                 \* item is for all later times
+  Prompts,       \* the prompts whose answers depend on how often they were asked
+  HostReplies(_, _), \* to a call, made at this place: likewise what the host may reply, <<"value", y>>, or why it
+                 \* fails, <<"failure", m>>
+  Calls,         \* the calls whose replies depend on how often they were made
+  Interruptions  \* whether the program may be interrupted
+
+VARIABLE
+  outside   \* what the environment remembers: how many failures and losses there were, who is lost, who was late, how often
+            \* each question was asked and each call made
+
+vars == << control, store, A, B, N, outside >>
+
+(* The transition t, after which the environment remembers o. *)
+Remembering(t, o) ==
+  [ rules |-> t.rules, label |-> t.label, event |-> t.event, control |-> t.control, S |-> t.S, effects |-> t.effects,
+    deeds |-> t.deeds, outside |-> o ]
+
+-----------------------------------------------------------------------------
+(* {1 Ends of tasks} *)
+
+Failure(v) == FailedOn(v, "failure")
+LostConnection(v) == FailedOn(v, "connection lost")
+
+MayFail(v) == Ending(v, A[v].name) = "may fail"
+
+(* The connection is lost for longer than its timeout: that counts as a failure. As long as nothing else was heard of the
+   vehicle, it is no further loss. *)
+MayBeLost(v) == v \in outside.lost \/ Losses = -1 \/ outside.losses < Losses
+
+(* How the task that v runs may end now. *)
+EndsOf(v) ==
+  LET fails == Ending(v, A[v].name) = "fails"
+      mayFail == MayFail(v) /\ (Failures = -1 \/ outside.failed < Failures)
+  IN (IF fails THEN << >> ELSE << Done(v) >>)
+     \o (IF fails \/ mayFail THEN << Failure(v) >> ELSE << >>)
+     \o (IF MayBeLost(v) THEN << LostConnection(v) >> ELSE << >>)
+
+(* The events that may come while r executes. A timer that runs may expire at any moment. *)
+Events(r) == Flatten(Each(Running(r), EndsOf)) \o Each(Timers(r), LAMBDA timer : Expired(timer.i))
+
+(* Failures and losses are counted where their number is bounded. Of a vehicle whose task ends otherwise than by a loss
+   something was heard. *)
+AfterEnd(event) ==
+  LET v == event[2]
+      heard == [ outside EXCEPT !.lost = @ \ { v } ]
+  IN CASE event = Failure(v) /\ Failures # -1 /\ MayFail(v) -> [ heard EXCEPT !.failed = @ + 1 ]
+       [] event # LostConnection(v) -> heard
+       [] v \in outside.lost -> outside
+       [] OTHER -> [ outside EXCEPT !.lost = @ \cup { v }, !.losses = IF Losses = -1 THEN @ ELSE @ + 1 ]
+
+AfterStep(event) == IF event[1] \in { "done", "failed" } THEN AfterEnd(event) ELSE outside
+
+ExecutingTransitions(M, r) ==
+  LET of(E) == Each(ExecutingSteps(M, r, E), LAMBDA t : Remembering(t, AfterStep(t.event)))
+  IN Only({ of(E) : E \in { Events(r) } })
+
+-----------------------------------------------------------------------------
+(* {1 Who is there} *)
+
+(* An attendance is who comes after all others, in this order, and who is missing. *)
+WorldOf(a, sees) ==
+  LET moved == a.coming \o a.missing
+  IN [ vehicles |-> SelectSeq(Fleet, LAMBDA vehicle : vehicle.id \notin Range(moved)) \o Each(moved, VehicleOf),
+       missing |-> a.missing,
+       sees |-> sees ]
+
+Subsequences(xs) == Flatten([ n \in 1 .. Len(xs) + 1 |-> Choices(n - 1, xs) ])
+
+(* All sequences of at most n different elements of xs. *)
+RECURSIVE Arrangements(_, _)
+Arrangements(n, xs) ==
+  << << >> >> \o
+  IF n = 0 THEN << >>
+  ELSE Flatten([ j \in DOMAIN xs |-> Each(Arrangements(n - 1, Without(xs, j)), LAMBDA rest : << xs[j] >> \o rest) ])
+
+(* The vehicles that q looks for, wherever they are. Nothing was heard of the silent ones since they were lost; the unsure
+   may be late. *)
+Wanted(q) ==
+  Each(SelectSeq(Fleet, LAMBDA vehicle : Accepts(q, vehicle) /\ vehicle.id \notin Range(B)),
+       LAMBDA vehicle : vehicle.id)
+Silent(q) == SelectSeq(Wanted(q), LAMBDA v : v \in outside.lost)
+Unsure(q) == SelectSeq(Wanted(q), LAMBDA v : v \notin outside.lost /\ Latecomers # 0 /\ v \in MayBeLate)
+
+LateIn(a) == (Range(a.coming) \cup Range(a.missing)) \ outside.lost
+NewlyLate(a) == Cardinality(LateIn(a) \ outside.late)
+
+(* A pick of all vehicles waits for its whole timeout: some may come late while others are missing. A pick of n vehicles goes
+   on with the first n, of which up to n were late. Or too few come: then all silent ones are missing, and any of the unsure
+   or, where there is no bound, all. Attendances with fewer newly late vehicles come first. *)
+Attendances(q) ==
+  LET silent == Silent(q)
+      unsure == Unsure(q)
+      attendance(coming, missing) == [ coming |-> coming, missing |-> missing ]
+      ofAll(unheard, absent) ==
+        Each(Arrangements(Len(unsure), SelectSeq(unsure, LAMBDA v : v \notin Range(absent))),
+             LAMBDA coming : attendance(coming, unheard \o absent))
+      all == Flatten(Each(Subsequences(silent), LAMBDA unheard :
+                            Flatten(Each(Subsequences(unsure), LAMBDA absent : ofAll(unheard, absent)))))
+      some == Each(Arrangements(q.count, unsure), LAMBDA coming : attendance(coming, << >>))
+              \o Each(IF Latecomers = -1 THEN << unsure >> ELSE Subsequences(unsure),
+                      LAMBDA absent : attendance(<< >>, silent \o absent))
+      most == IF Latecomers = -1 THEN Len(unsure) ELSE Latecomers - Cardinality(outside.late)
+      byNumber(as) == Flatten([ n \in 1 .. most + 1 |-> SelectSeq(as, LAMBDA a : NewlyLate(a) = n - 1) ])
+  IN Only({ byNumber(as) : as \in { IF q.all THEN all ELSE some } })
+
+(* Something was heard of a vehicle that is picked. Late vehicles are remembered where their number is bounded. *)
+AfterPick(t, a) ==
+  [ outside EXCEPT !.lost = @ \ (Range(t.S.B) \ Range(B)),
+                   !.late = IF Latecomers = -1 THEN @ ELSE @ \cup LateIn(a) ]
+
+(* In each world that may be. A transition that is there in several worlds is remembered as in the first of them: with the
+   fewest newly late vehicles. *)
+PickTransitions(M, q) ==
+  LET placings == Placings(NothingSeen, IF q.region = << >> THEN << >> ELSE Wanted(q))
+      in(a) == Flatten(Each(placings, LAMBDA sees : PickSteps(M, q, WorldOf(a, sees))))
+      steps(a) == Each(in(a), LAMBDA t : Remembering(t, AfterPick(t, a)))
+      first(ts) == SelectSeq([ j \in DOMAIN ts |-> j ], LAMBDA j : \A i \in 1 .. j - 1 : ts[i].label # ts[j].label)
+  IN Only({ Each(first(ts), LAMBDA j : ts[j]) : ts \in { Flatten(Each(Attendances(q), steps)) } })
+
+-----------------------------------------------------------------------------
+(* {1 Answers and replies} *)
+
+(* Of rounds, the answers for the first time, the second ..., those for this time; and how often it was asked then, as far as
+   it matters. *)
+ThisTime(rounds, times) ==
+  IF rounds = << >> THEN << >> ELSE rounds[IF times < Len(rounds) THEN times + 1 ELSE Len(rounds)]
+OnceMore(rounds, times) == IF times + 1 < Len(rounds) THEN times + 1 ELSE times
+
+(* A refused answer is asked for again, while there are others to come; then it counts as none. *)
+RECURSIVE AnswerTransitions(_, _, _)
+AnswerTransitions(M, prompt, times) ==
+  LET rounds == Answers(prompt)
+      given == ThisTime(rounds, times)
+      asked(n) == IF prompt \in Prompts THEN [ outside EXCEPT !.asked[prompt] = n ] ELSE outside
+      remembering(t) == Remembering(t, asked(OnceMore(rounds, times)))
+      refused(m) ==
+        IF times + 1 < Len(rounds) THEN AnswerTransitions(M, prompt, times + 1)
+        ELSE << remembering(ANSWER_ERR(M, prompt, m)) >>
+      of(result) == IF IsOk(result) THEN Each(result[2], remembering) ELSE refused(result[2])
+      on(answer) == Only({ of(result) : result \in { AnswerSteps(M, answer) } })
+  IN IF given = << >> THEN << Remembering(ANSWER_ERR(M, prompt, "none is given"), asked(times)) >>
+     ELSE Flatten(Each(given, on))
+
+ReplyTransitions(M, call, times) ==
+  LET rounds == HostReplies(call, M.at)
+      given == ThisTime(rounds, times)
+      called(n) == IF call \in Calls THEN [ outside EXCEPT !.called[call] = n ] ELSE outside
+      on(reply) == Remembering(IF reply[1] = "value" THEN REPLY(M, reply[2]) ELSE CALL_ERR(M, call, reply[2]),
+                               called(OnceMore(rounds, times)))
+  IN IF given = << >>
+     THEN << Remembering(CALL_ERR(M, call, "the fleet has no reply " \o Quoted(call)), called(times)) >>
+     ELSE Each(given, on)
+
+-----------------------------------------------------------------------------
+(* {1 The whole system} *)
+
+Unnoticed(t) == Remembering(t, outside)
+
+WaitTransitions(M, request) ==
+  LET name == request[2]
+  IN CASE request[1] = "pick" -> PickTransitions(M, request[2])
+       [] request[1] = "ask" -> AnswerTransitions(M, name, IF name \in Prompts THEN outside.asked[name] ELSE 0)
+       [] request[1] = "pause" -> << Unnoticed(RESUME(M)) >>
+       [] request[1] = "call" -> ReplyTransitions(M, name, IF name \in Calls THEN outside.called[name] ELSE 0)
+
+TransitionsFrom(kappa) ==
+  (CASE kappa.at = "script" -> Each(ScriptSteps(kappa.M), Unnoticed)
+     [] kappa.at = "wait" -> WaitTransitions(kappa.M, kappa.request)
+     [] kappa.at = "exec" -> ExecutingTransitions(kappa.M, kappa.r)
+     [] kappa.at = "end" -> << >>)
+  \o (IF Interruptions /\ kappa.at # "end" THEN << Unnoticed(INTERRUPT(kappa)) >> ELSE << >>)
+
+(* All that may happen now. *)
+Transitions == TransitionsFrom(control)
+
+Becomes(t) ==
+  /\ control' = t.control
+  /\ store' = t.S.store
+  /\ A' = t.S.A
+  /\ B' = t.S.B
+  /\ N' = t.S.N
+  /\ outside' = t.outside
+
+Init ==
+  /\ control = Script(Call(Main, << >>))
+  /\ store = << >> \o [ i \in DOMAIN GlobalNames |-> << >> ]
+  /\ A = << >>
+  /\ B = << >>
+  /\ N = NoTuples
+  /\ outside = [ failed |-> 0, losses |-> 0, lost |-> { }, late |-> { }, asked |-> [ prompt \in Prompts |-> 0 ],
+                  called |-> [ call \in Calls |-> 0 ] ]
+
+Next == \E j \in DOMAIN Transitions : Becomes(Transitions[j])
+
+(* {2 Events by kind} *)
+
+(* Nobody need ever interrupt. *)
+IsOwed(event) == event # Interruption
+IsProgram(event) == event = Program
+IsTimer(event) == event[1] = "expired"
+IsEndOf(v, event) == event[1] \in { "done", "failed" } /\ event[2] = v
+
+Identifiers == { Fleet[j].id : j \in DOMAIN Fleet }
+
+-----------------------------------------------------------------------------
+(* {1 Properties} *)
+
+(* NoDeadlock, TuplesConserved and Termination are about transitions: they are in DolphinChecking. *)
+
+HasEnded == control.at = "end"
+
+(* How a run may end. NoHalt and NoLeftover are asked for by name only: a program may mean to halt, or to leave pairs
+   in N. *)
+EndsSo(how, why) == HasEnded /\ control.ending.how = how /\ control.ending.why = why
+NothingLeft == (\A k \in OrderedKeys : N.queue[k] = << >>) /\ DOMAIN N.bag = { }
+
+NoError == ~EndsSo("failed", "error")
+Assertions == ~EndsSo("failed", "assertion")
+EnoughVehicles == ~EndsSo("failed", "vehicles")
+NoHalt == ~EndsSo("halted", "")
+NoLeftover == EndsSo("completed", "") => NothingLeft
+
+TypeOK ==
+  /\ control.at \in { "script", "wait", "exec", "end" }
+  /\ Len(store) = Len(GlobalNames)
+  /\ DOMAIN A \subseteq Identifiers
+  /\ Range(B) \subseteq Identifiers
+  /\ Cardinality(Range(B)) = Len(B)
+  /\ DOMAIN N.queue = OrderedKeys
+  /\ \A pair \in DOMAIN N.bag : N.bag[pair] \in Nat \ { 0 }
+  /\ outside.failed \in Nat
+  /\ outside.losses \in Nat
+  /\ outside.lost \subseteq Identifiers
+  /\ outside.late \subseteq MayBeLate
+
+AllocationWithinBound == DOMAIN A \subseteq Range(B)
+
+(* A is exactly what runs, and no vehicle runs two tasks. *)
+OneTaskEach ==
+  LET running == IF control.at = "exec" THEN Running(control.r) ELSE << >>
+  IN Range(running) = DOMAIN A /\ Cardinality(Range(running)) = Len(running)
+
+EmptyAfterEnd == HasEnded => A = << >> /\ B = << >>
+
+(* N changes by what is posted and consumed, and by nothing else. *)
+RECURSIVE Tally(_)
+Tally(pairs) == IF pairs = << >> THEN EmptyBag ELSE SetToBag({ Head(pairs) }) (+) Tally(Tail(pairs))
+
+PairsOf(deeds, kind) == Flatten(Each(SelectSeq(deeds, LAMBDA d : d.did = kind), LAMBDA d : d.pairs))
+
+AllPairs(n) ==
+  LET queued == UNION { { << k, j >> : j \in DOMAIN n.queue[k] } : k \in OrderedKeys }
+      pairs == { << k, n.queue[k][j] >> : << k, j >> \in queued } 
+      count(pair) == Cardinality({ q \in queued : q[1] = pair[1] /\ n.queue[q[1]][q[2]] = pair[2] })
+  IN [ pair \in pairs |-> count(pair) ] (+) n.bag
+
+ConservesTuples(t) ==
+  AllPairs(t.S.N) (+) Tally(PairsOf(t.deeds, "consume")) = AllPairs(N) (+) Tally(PairsOf(t.deeds, "post"))
+==============================================================================

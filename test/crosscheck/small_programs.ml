@@ -1,0 +1,177 @@
+module Environment = Dolphin_environment.Environment
+module World = Dolphin_semantics.World
+module Generate = Test_support.Generate
+open Case
+
+let program ?failures ?(world = Generate.world) name source =
+  of_text name source world (Environment.failing ?failures answering)
+
+let two = "a = pick { id 'a' }; b = pick { id 'b' }\n"
+
+let tasks =
+  program "at most one failure" ~failures:1 (two ^ "execute watch (task('p')[a] >> task('q')[b]) onError { ignore() }\nexecute task('p')[a]")
+  :: List.map
+    (fun (name, source) -> program name source)
+    [ ("vehicles that a failure stops are free again",
+       two ^ "execute (watch (task('p')[a] | task('q')[b]) onError { ignore() }) >> (task('q')[a] | task('p')[b])");
+      ("a fault of an until's condition stops vehicles",
+       two ^ "execute watch (until { 1 / 0 > 1 } run task('p')[a]) onError { ignore() }");
+      ("a guard does not take a part", "post x: 1\nexecute condition { consume x: 1, y: 1 } | action { post y: 1 } >> condition { consume x: 1 }");
+      ("code that breaks leaves nothing", "x = 0\nexecute watch (action { post k: 1; x = 1; y = 1 / 0 }) onError { ignore() }\nif (poll(k: 1) || x == 1) { message 'left' }");
+      ("a handler that breaks leaves nothing", two ^ "execute watch (watch task('p')[a] onError { post k: 1; 1 / 0 }) onError { ignore() }\nif (poll(k: 1)) { message 'left' }");
+      ("a guard that is false did nothing", "post k: 1\nexecute condition { consume k: 1; false } | condition { poll k: 1 }");
+      ("until stops what runs, or what did not start", two ^ "execute (until { poll x: 1 } run (task('p')[a] >> task('q')[a])) | action { post x: 1 }");
+      ("an error leaves out what would follow", two ^ "execute watch (task('p')[a] >> task('q')[b] >> task('q')[a]) onError { ignore() }");
+      ("a handler that does nothing propagates", two ^ "execute watch task('p')[a] onError { post k: 1 }");
+      ("a condition that breaks", "execute watch condition { 1 / 0 } onError { ignore() }");
+      ("a guard that breaks", "execute watch (oneOf { when { 1 / 0 } then idle(1.seconds) }) onError { ignore() }");
+      ("a script that breaks", "x = 1\npost k: x\nx / 0");
+      ("a script that computes for long", "x = 0\nwhile (x < 2000) { x = x + 1 }\npost k: x");
+      ("the oldest pair", "post k: 1\npost k: 2\nexecute condition { consume k: _ } >> condition { consume k: 2 }");
+      ("a pair twice is there twice", "post k: 1\npost k: 1\nexecute condition { consume k: 1 } >> condition { consume k: 1 }");
+      ("a handler's deeds", two ^ "execute watch task('p')[a] onError { post failed: 1; ignore() }\nif (consume(failed: 1)) { message 'seen' }");
+      ("a handler's halt", two ^ "execute (watch task('p')[a] onError { halt 'enough' }) | task('q')[b]");
+      ("three branches, one at a time", two ^ "execute allOf { when { true } then task('p')[a] \n when { true } then task('q')[b] \n when { poll x: 1 } then action { post y: 1 } } | action { post x: 1 }");
+      ("a timer that is not needed any more", two ^ "execute (during 10.seconds run task('p')[a]) >> idle(5.seconds)");
+      ("code that says how long", "execute during { post asked: 1; 3 } run condition { consume asked: 1 }");
+      ("released, and picked again", two ^ "release a\nc = pick { id 'a' }\nexecute task('p')[c] | task('q')[b]");
+      ("which two of three", "v = pick { count 2 }\nexecute task('p') | task('q')");
+      ("not enough for all", "v = pick { id 'a' }\nexecute task('p') | task('q')");
+      ("an assertion that no watch sees", two ^ "execute watch (assert({ poll x: 1 }, 'x is there') | action { post x: 1 } | task('p')[a]) onError { ignore() }") ]
+
+(* In a world where the batteries of a and c may show anything, b's 1 or 0.2, and c is in one of two places. *)
+let sensors =
+  let one ?(world = Generate.open_world) (name, source) = program ~world ("sensors: " ^ name) source in
+  let three = two ^ "c = pick { id 'c' }\n" and low = "battery(a) < 0.3" and charged = "battery(a) >= 0.3" in
+  List.map (fun case -> one case)
+    [ ("a guard", two ^ "execute (waitFor { " ^ low ^ " } then task('p')[a]) | task('q')[b]");
+      ("until", two ^ "execute (task('p')[a] / { " ^ low ^ " }) | condition { " ^ charged ^ " }");
+      ("an assertion", two ^ "execute task('p')[a] | assert({ battery(a) > 0.1 }, 'low')");
+      ("a time", two ^ "execute during { " ^ low ^ " ? 5 : 10 } run task('p')[a]");
+      ("one battery against another", three ^ "message battery(a) < battery(c)\nmessage (battery(a) < battery(b) && battery(c) > battery(a))");
+      ("of two batteries one is low", three ^ "if (" ^ low ^ " && battery(c) >= 0.3) { halt 'a is low' }");
+      ("the same comparison again", two ^ "message ((" ^ low ^ ") == (" ^ low ^ "))");
+      ("a comparison and its opposite", two ^ "message (" ^ low ^ " && " ^ charged ^ ")");
+      ("the same at another step", two ^ "execute condition { " ^ low ^ " } >> condition { " ^ charged ^ " }");
+      ("kept, and compared later", two ^ "h = battery(a)\npost x: 1\nif (h < 0.3 && " ^ charged ^ ") { halt 'charged' }");
+      ("kept twice", two ^ "h = battery(a)\npost x: 1\ni = battery(a)\npost x: 1\nif (h < 0.3 && i >= 0.3) { halt h }");
+      ("kept by a task", two ^ "h = 1\nexecute (action { h = battery(a) }) >> condition { h < 0.3 && " ^ charged ^ " }");
+      ("kept by a local", two ^ "def f(l) { post x: 1; return l < 0.3 && " ^ charged ^ " }\nif (f(battery(a))) { halt 'charged' }");
+      ("kept by a caller", two ^ "def g() { post x: 1; return 1 }\ndef f(l) { y = g(); message l; return y }\nmessage f(battery(a)) + 1");
+      ("kept by an argument", two ^ "def f(l, x, m) { message l; return l < m && " ^ charged ^ " }\npost x: 1\nif (f(battery(a), consume(x: 1), 0.3)) { halt 'charged' }");
+      ("told of", two ^ "message \"${(battery(a) * 100 - 1).round()} percent\"\nmessage 'at ' + position(a)\nmessage(-battery(a))");
+      ("computed with", two ^ "message Math.max(battery(a), 0.5) > 0.7 && position(a).distance(Location.APDL) / 2 < 100 && Location.APDL in (position(a) ^ 10)");
+      ("equal", two ^ "message battery(a) == 1\nmessage battery(a) != 'x'\nmessage position(a).equals(Location.APDL)");
+      ("in an area", two ^ "execute waitFor { position(a) in (Location.APDL ^ 150) || position(b) in (Location.APDL ^ 150) } then task('p')[a]");
+      ("outcomes that are one", two ^ "execute action { if (" ^ low ^ ") { post x: 1 } else { post x: 1 } }\nif (" ^ low ^ ") { post y: 1 } else { post y: 1 }");
+      ("one outcome, by two rules", two ^ "execute watch (watch task('p')[a] onError { if (" ^ low ^ ") { ignore() } }) onError { ignore() }");
+      ("a handler sees what the code saw", two ^ "execute watch (action { if (" ^ low ^ ") { 1 / 0 } else { 2 / 0 } }) onError { if (" ^ low ^ ") { post x: 1; ignore() } }");
+      ("a handler sees what another one saw", two ^ "execute watch (watch task('p')[a] onError { if (" ^ low ^ ") { post x: 1 } }) onError { if (" ^ charged ^ ") { ignore() } }");
+      ("kept by one handler, and compared by another", two ^ "h = battery(a)\nexecute watch (watch task('p')[a] onError { if (h < 0.3) { post low: 1; h = battery(a) } }) onError { if (h >= 0.3) { post high: 1 } ; ignore() }");
+      ("a loop that looks again and again", two ^ "while (battery(a) >= 0.3) { pause 5 }");
+      ("one of several values", two ^ "message battery(b)\nif (battery(b) == 1 && battery(b) < 0.3) { halt 'both' }\nmessage battery(b)");
+      ("several values of two sensors", three ^ "if (battery(b) < 0.3) { message position(c) in (Location.APDL ^ 1.km) }");
+      ("picked where it is seen", "v = pick { id 'c'; region Location.APDL, 1.km }\nrelease v\nv = pick { id 'c'; region Location.APDL, 1.km }");
+      ("beside one that is bound", "c = pick { id 'c' }\nv = pick { count _; region Location.APDL, 1.km }\nw = pick { id 'c'; region Location.APDL, 1.km }");
+      ("all that are seen there", "v = pick { count _; region Location.APDL, 1.km }");
+      ("picked in a place, and seen in another one", "v = pick { id 'c'; region Location.APDL, 1.km }\nmessage position(v)");
+      ("the nearer one", three ^ "t = imcPlan { planName 'q'\n locate 41.2032, -8.7048\n goTo() }\nexecute t\nexecute t | t");
+      ("the nearer one, as was seen in this step", three ^ "if (position(c) in (Location.APDL ^ 1.km)) {\nexecute imcPlan { planName 'q'\n locate 41.2032, -8.7048\n goTo() }\n}") ]
+  @ [ one ~world:(World.open_position "c" [] Generate.open_world)
+        ("coordinates", two ^ "if (position(a).latitude > 41 && position(a).bearing(Location.APDL) < 90) { message position(a).longitude - 1 }");
+      { (program ~world:Generate.open_world "sensors: an answer" "a = pick { id 'a' }\nh = ask 'how many?'\npost x: 1\nif (h < 0.3 && battery(a) >= 0.3) { halt h }\nmessage ask('how many?') < 0.3 && battery(a) < 0.3")
+        with prompts = [ "how many?" ];
+             environment = { answering with answers = (fun _ -> [ [ "battery(a)" ]; [ "battery(a) < 0.3 ? battery(a) : 1 / 0"; "1 / 0" ] ]) } } ]
+
+let supplied = "s = getSupplier()\n"
+
+(* Calls of the supplier that [Calls] stands in for. *)
+let calls =
+  List.map
+    (fun (name, source) -> program name (supplied ^ source))
+    [ ("replies that differ from one call to the next", "x = s.level\ny = s.level\nz = s.level\npost k: y");
+      ("a call for which there is no reply", two ^ "x = s.level\ny = s.nothing(x)");
+      ("a reply that fails the second time", two ^ "s.next()\nexecute s.next()");
+      ("replies of two objects", "t = s.self\nx = s.level + t.level\nt = s.self\nx = t.level");
+      ("what a host object is", "t = s.self\nif (s == t) { post same: t } else { post other: t }\nm = [a: s, b: [t]]\n\
+                                 if (s && s in m.b) { message \"${m} ${s}\" }\nconsume other: t\nmessage s[0]");
+      ("what a host object is not", "x = s + 1");
+      ("methods of an object with names of the language", "s.add(1)\nmessage s\ns.ready()\nmessage s.size()");
+      ("calls that differ in their arguments", "x = s.level(ask 'how many?', [s])");
+      ("calls in code of tasks",
+       two
+       ^ "t = watch action { post x: 1; y = s.level } onError { e -> message e; ignore() }\n\
+          execute t >> watch condition { s.ready(1) } onError { e -> message e; ignore() }");
+      ("tasks of a supplier, executed twice",
+       two ^ "t = s.next()\nexecute watch (t[a] | t[b]) onError { ignore() }\nexecute t >> s.self.next()");
+      ("an object in a closure", "f = { s.level }\nx = f() + f()\nexecute watch action { f() } onError { ignore() }");
+      ("asked again and again", "while (s.ready()) { message 'on' }") ]
+
+(* Programs at rest in each way in which they can wait, and at work. *)
+let interruptions =
+  let programs =
+    [ ("interrupted while vehicles run",
+       two ^ "post k: 1\nexecute (task('p')[a] >> task('q')[a]) | task('q')[b] | idle(5.seconds)");
+      ("interrupted while it waits",
+       "v = pick { count _ }\nx = ask 'how many?'\npause 3.seconds\n" ^ supplied ^ "post k: s.level\nrelease v");
+      ("interrupted where it is stuck", "v = pick { id 'a' }\nexecute condition { consume k: 1 }");
+      ("interrupted within an until, and a handler",
+       two
+       ^ "t = until { poll x: 1 } run (task('p')[a] | during 2.seconds run task('q')[b])\n\
+          execute watch t onError { post x: 1; ignore() }");
+      ("interrupted again and again", "while (true) { post k: 1; consume k: 1 }") ]
+  in
+  let kinds = [ ("", interrupted answering); (", with all faults once", interrupted all_once) ] in
+  let one (name, source) (kind, environment) = { (program (name ^ kind) source) with environment } in
+  List.concat_map (fun program -> List.map (one program) kinds) programs
+
+let questions =
+  let asking name answers source = { (program name source) with environment = { answering with answers } } in
+  [ asking "a question that nobody answers" (fun _ -> []) "x = ask 'how many?'";
+    asking "answers that are refused" (fun _ -> [ [ "y"; "1 / 0" ]; [ "2"; "post(k: 1)" ] ]) "x = ask 'how many?'" ]
+
+(* Some of the transitions of these leave all as it is. *)
+let loops =
+  let charging = "a = pick { id 'a' }\nwhile (battery(a) >= 0.3) { message 'charging' }" in
+  let loop name source = of_text name source Generate.world answering in
+  [ loop "the same message again and again" "while (true) { message 'x' }";
+    of_text "a message while a sensor shows this" charging Generate.open_world answering;
+    loop "a loop that does nothing" "while (true) { }";
+    loop "messages by turns" "while (true) { message 'x'; message 'y' }";
+    of_text "a message until it is interrupted" "while (true) { message 'x' }" Generate.world (interrupted answering) ]
+
+(* Each waits for something of another kind, which comes. *)
+let ends =
+  List.map
+    (fun (name, source) -> of_text name source Generate.world answering)
+    [ ("a task ends", two ^ "execute task('p')[a] | task('q')[b]");
+      ("an answer comes", "x = ask 'how many?'");
+      ("a timer expires", "execute idle(5.seconds) >> idle(5.seconds)");
+      ("a program goes on", "x = 0\nwhile (x < 3) { x = x + 1; message x }") ]
+
+let verdicts = loops @ ends @ List.filter (fun (c : Case.t) -> c.name = "interrupted where it is stuck") interruptions
+
+let lost_once = "v = pick { id 'a' }\nt = watch task('p')[v] onError { post failed: 1; ignore() }\nexecute t\n"
+
+(* Each with losses and with vehicles that are late, with and without bounds. *)
+let faults =
+  let programs =
+    [ ("a lost vehicle may be lost again, and that is no other loss", lost_once ^ "execute t\nexecute t");
+      ("nothing is heard of a lost vehicle when another one is picked", lost_once ^ "w = pick { id 'b' }\nexecute t");
+      ("of two vehicles, one after the other", two ^ "execute watch (task('p')[a] | task('q')[b]) onError { ignore() }\nexecute task('q')[b] >> task('p')[a]");
+      ("a lost vehicle is missing, or is there", lost_once ^ "release v\nw = pick { id 'a'; timeout 1.seconds }\nexecute t");
+      ("all, less who is lost", lost_once ^ "release v\nw = pick { count _ }");
+      ("two, less who is lost", lost_once ^ "release v\nw = pick { count 2 }");
+      ("late for two picks", "v = pick { count 2; type 'UUV' }\nrelease v\nw = pick { count _ }");
+      ("late in a place", "v = pick { region Location.APDL, 150 }\nw = pick { count _; region Location.APDL, 150; timeout 0.seconds }") ]
+  in
+  let kinds =
+    [ ("with losses", with_losses Any_number); ("with a loss", with_losses (At_most 1));
+      ("with latecomers", with_latecomers Any_number); ("with all faults once", all_once) ]
+  in
+  let one (name, source) (kind, environment) =
+    { (program (name ^ ", " ^ kind) source) with environment }
+  in
+  List.concat_map (fun program -> List.map (one program) kinds) programs
+
+let all = tasks @ questions @ calls @ interruptions @ sensors @ loops @ ends @ faults

@@ -32,7 +32,7 @@ let rec in_pick_order bound : Effect.t list -> Effect.t list = function
   | [] -> []
 
 let label_and_effects (c : Configuration.t) (t : Transition.t) =
-  match in_pick_order c.bound t.effects with
+  match in_pick_order c.shared.bound t.effects with
   | [] -> label_text t
   | effects -> label_text t ^ " ! " ^ String.concat "; " (List.map effect_text effects)
 

@@ -9,6 +9,8 @@
   $ ls out/model
   Coverage.cfg
   Dolphin.tla
+  DolphinChecking.tla
+  DolphinEnvironment.tla
   DolphinMachine.tla
   DolphinValues.tla
   Graph.cfg
@@ -18,7 +20,7 @@
   $ head -3 out/model/MC.tla
   ---- MODULE MC ----
   \* mission.dol in its world. Made by dolphin tla: make it anew rather than change it.
-  EXTENDS Dolphin
+  EXTENDS DolphinChecking
   $ grep -c 'at mission.dol:2' out/model/MC.tla
   4
   $ grep MCOrderedKeys out/model/MC.tla
@@ -30,8 +32,8 @@
   MCEnding(v, p) ==
     "succeeds"
   $ cat out/model/Graph.cfg
-  INIT Init
-  NEXT Next
+  INIT CheckedInit
+  NEXT GraphNext
   CONSTANTS
     Known <- ComputedOnce
     Fleet <- TheFleet

@@ -52,7 +52,7 @@ let follow (program : Program_file.t) (fleet : Fleet_file.t) path =
 
 let ( let* ) = Result.bind
 
-let run path sim fleet network definition speed seed answers supplier supplier_timeout journal drawing recorded resumed
+let run () path sim fleet network definition speed seed answers supplier supplier_timeout journal drawing recorded resumed
     changed =
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
   let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
@@ -201,5 +201,5 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ sim $ fleet $ Imc_options.chosen $ Imc_options.definition $ speed $ seed $ answers
-      $ supplier $ supplier_timeout $ journal $ drawing $ follow $ resumed $ changed)
+      const run $ Verbosity.setup $ Options.program $ sim $ fleet $ Imc_options.chosen $ Imc_options.definition
+      $ speed $ seed $ answers $ supplier $ supplier_timeout $ journal $ drawing $ follow $ resumed $ changed)

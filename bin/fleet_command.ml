@@ -3,7 +3,7 @@ open Dolphin_app
 
 let ( let* ) = Result.bind
 
-let run options definition as_json once seconds =
+let run () options definition as_json once seconds =
   Report.result
     (let* definition = Definition_file.load definition in
      let options = Imc_options.with_names definition options in
@@ -57,4 +57,4 @@ let command =
     Cmd.info "fleet" ~doc:"show the vehicles of the network" ~man
       ~exits:(Options.exits [ Done; Bad_input; Platform_trouble; Bug ])
   in
-  Cmd.v info Term.(const run $ Imc_options.options $ Imc_options.definition $ as_json $ once $ seconds)
+  Cmd.v info Term.(const run $ Verbosity.setup $ Imc_options.options $ Imc_options.definition $ as_json $ once $ seconds)

@@ -42,7 +42,7 @@ let print_all found outcome : Exit_status.t =
   List.iter (fun f -> print_endline (line f)) found;
   Done
 
-let run path name fleet seed answers definition =
+let run () path name fleet seed answers definition =
   Report.result
     (let* program = Program_file.load path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
@@ -86,4 +86,7 @@ let command =
     Cmd.info "plan" ~doc:"print an inline plan as IMC vehicles get it" ~man
       ~exits:(Options.exits [ Done; Failed; Bad_input; Bug ])
   in
-  Cmd.v info Term.(const run $ Options.program $ plan_name $ Options.fleet $ seed $ answers $ Imc_options.definition)
+  Cmd.v info
+    Term.(
+      const run $ Verbosity.setup $ Options.program $ plan_name $ Options.fleet $ seed $ answers
+      $ Imc_options.definition)

@@ -52,6 +52,24 @@ let explain (program : Program_file.t) : Driver.outcome -> Error.t option = func
       | [] -> Some (Error.Bad_input "the program is stuck: nothing more can happen")
       | found -> Some (Error.Bad_text { source = program.source; found }))
 
+(* {1 What is told of the start} *)
+
+let source = Logs.Src.create "dolphin.app" ~doc:"What runs are started with"
+
+module Log = (val Logs.src_log source : Logs.LOG)
+
+let log_start (settings : settings) (program : Program_file.t) (fleet : Fleet_file.t) ~seed =
+  let option name = Fmt.option (fun ppf text -> Fmt.pf ppf ", %s %s" name text) in
+  Log.info (fun m ->
+      m "program %s, fleet %s, seed %d%a%a" program.path
+        (Option.value fleet.path ~default:"built in")
+        seed (option "journal") settings.recording.journal (option "supplier") settings.supplier)
+
+let log_network network =
+  Log.info (fun m ->
+      m "on the network as %s, IMC address 0x%04X, data port %d" (Udp_platform.name_on_network network)
+        (Udp_platform.id network) (Udp_platform.data_port network))
+
 (* {1 What a run needs} *)
 
 (* One run: what it was started with, and what it resumes. *)
@@ -144,7 +162,10 @@ let open_network r recording options =
     | Some resumed -> Udp_platform.open_again options ~time:(time_of_run resumed) resumed.past.history
   in
   let news = Option.fold r.resumed ~none:[] ~some:unheard in
-  let fleet network = Platform ((module Udp_platform), { platform = network; estimates = estimates network; news }) in
+  let fleet network =
+    log_network network;
+    Platform ((module Udp_platform), { platform = network; estimates = estimates network; news })
+  in
   Result.map fleet opened
 
 let open_platform r recording =
@@ -215,6 +236,7 @@ let go r ~interruption recording =
 let start front ~interruption (settings : settings) program (fleet : Fleet_file.t) =
   let seed = Option.value settings.seed ~default:0 in
   let r = { front; settings; seed; program; scenario = fleet.scenario; resumed = None } in
+  log_start settings program fleet ~seed;
   go r ~interruption (Recording.start settings.recording (header r fleet) program.program)
 
 (* {1 Resumption} *)
@@ -246,6 +268,7 @@ let resumption front settings ~changed ~fleet program path =
          (path ^ ": this run has a supplier, which died with its console: name it again with --supplier"))
   else
     let seed = resumed.past.header.seed and scenario = fleet.scenario in
+    log_start settings program fleet ~seed;
     Ok ({ front; settings; seed; program; scenario; resumed = Some resumed }, resumed)
 
 let resume front ~interruption (settings : settings) ~changed ~fleet program path =

@@ -1,35 +1,53 @@
-(* What a scenario is made of. A types-only module: it has no interface of its own; {!Scenario} says what the
-   fields mean. *)
+(** What a scenario is made of: the entries of a fleet file. A types-only module; {!Scenario} includes it. *)
 
-type drop = { from : float; lasts : float }
+(** Nothing is heard of a vehicle for a while; both in seconds, [lasts] more than 0. *)
+type drop = { from : float;  (** since the start *) lasts : float }
 
 type vehicle = {
   id : Dolphin_semantics.Core.vehicle;
-  kind : string;
-  payload : string list;
-  position : Dolphin_geo.Position.t;
-  speed : float;
-  battery : float;
-  drain : float;
-  charge : float;
-  joins : float;
-  leaves : float option;
-  drops : drop list;
+  kind : string;  (** ["UUV"], ["UAV"], ... *)
+  payload : string list;  (** the devices that it carries *)
+  position : Dolphin_geo.Position.t;  (** at the start *)
+  speed : float;  (** metres per second, more than 0 *)
+  battery : float;  (** at the start, from 0 to 1 *)
+  drain : float;  (** the share of the battery that an hour's work takes; rest takes a quarter of that *)
+  charge : float;  (** the share that an hour's rest gives, instead; 0: it does not charge *)
+  joins : float;  (** seconds since the start *)
+  leaves : float option;  (** seconds since the start, after [joins]; [None]: it stays *)
+  drops : drop list;  (** in the order of the file *)
   batteries : float list;
+  (** if not empty, all that the battery ever shows: at least two, [battery] first. If empty, it shows what is left. *)
   places : Dolphin_geo.Position.t list;
+  (** if not empty, all places where it is ever seen: at least two, [position] first. If empty, it is seen where it
+      is. *)
 }
 
+(** How long a plan takes, in seconds: [0 <= least <= most]. *)
 type duration = { least : float; most : float }
-type ending = Succeeds | May_fail of float | Fails
 
+type ending =
+  | Succeeds
+  | May_fail of float  (** how often, from 0 to 1; who looks at all that can happen does not care how often *)
+  | Fails
+
+(** What becomes of the platform tasks of one name. *)
 type plan = {
   name : string;
-  duration : duration option;
+  duration : duration option;  (** [None]: any time *)
   ending : ending;
-  place : Dolphin_geo.Position.t option;
-  only : string list;
+  place : Dolphin_geo.Position.t option;  (** where it is run; [None]: wherever the vehicle is *)
+  only : string list;  (** types and ids of the vehicles that know it; others refuse. [[]]: all know it *)
 }
 
-type answer = { prompt : string; texts : string list }
-type reply = { call : string; rounds : Reply.t list list }
+(** What is typed when a program asks [prompt]: the text of an expression, such as ["2"] or ["'x8-02'"]. *)
+type answer = { prompt : string; texts : string list  (** one for each asking, at least one *) }
+
+(** What the supplier replies to [call], named as in labels ({!Dolphin_semantics.Machine.name_of_call}). *)
+type reply = {
+  call : string;
+  rounds : Reply.t list list;
+  (** for the first call, the second and so on, at least one: what it may reply then, at least one *)
+}
+
 type t = { vehicles : vehicle list; plans : plan list; answers : answer list; replies : reply list }
+(** Vehicles, plans, prompts and calls are unique by their names, and in the order of the file. *)

@@ -1,37 +1,6 @@
 open Dolphin_semantics
 
-type drop = Entry.drop = { from : float; lasts : float }
-
-type vehicle = Entry.vehicle = {
-  id : Core.vehicle;
-  kind : string;
-  payload : string list;
-  position : Dolphin_geo.Position.t;
-  speed : float;
-  battery : float;
-  drain : float;
-  charge : float;
-  joins : float;
-  leaves : float option;
-  drops : drop list;
-  batteries : float list;
-  places : Dolphin_geo.Position.t list;
-}
-
-type duration = Entry.duration = { least : float; most : float }
-type ending = Entry.ending = Succeeds | May_fail of float | Fails
-
-type plan = Entry.plan = {
-  name : string;
-  duration : duration option;
-  ending : ending;
-  place : Dolphin_geo.Position.t option;
-  only : string list;
-}
-
-type answer = Entry.answer = { prompt : string; texts : string list }
-type reply = Entry.reply = { call : string; rounds : Reply.t list list }
-type t = Entry.t = { vehicles : vehicle list; plans : plan list; answers : answer list; replies : reply list }
+include Entry
 
 let read = Fleet_parser.read
 let vehicles_at = Fleet_parser.vehicles_at

@@ -3,57 +3,9 @@
 
 (** {1:types What there is} *)
 
-(** Nothing is heard of a vehicle for a while; both in seconds, [lasts] more than 0. *)
-type drop = Entry.drop = { from : float;  (** since the start *) lasts : float }
-
-type vehicle = Entry.vehicle = {
-  id : Dolphin_semantics.Core.vehicle;
-  kind : string;  (** ["UUV"], ["UAV"], ... *)
-  payload : string list;  (** the devices that it carries *)
-  position : Dolphin_geo.Position.t;  (** at the start *)
-  speed : float;  (** metres per second, more than 0 *)
-  battery : float;  (** at the start, from 0 to 1 *)
-  drain : float;  (** the share of the battery that an hour's work takes; rest takes a quarter of that *)
-  charge : float;  (** the share that an hour's rest gives, instead; 0: it does not charge *)
-  joins : float;  (** seconds since the start *)
-  leaves : float option;  (** seconds since the start, after [joins]; [None]: it stays *)
-  drops : drop list;  (** in the order of the file *)
-  batteries : float list;
-  (** if not empty, all that the battery ever shows: at least two, [battery] first. If empty, it shows what is left. *)
-  places : Dolphin_geo.Position.t list;
-  (** if not empty, all places where it is ever seen: at least two, [position] first. If empty, it is seen where it
-      is. *)
-}
-
-(** How long a plan takes, in seconds: [0 <= least <= most]. *)
-type duration = Entry.duration = { least : float; most : float }
-
-type ending = Entry.ending =
-  | Succeeds
-  | May_fail of float  (** how often, from 0 to 1; who looks at all that can happen does not care how often *)
-  | Fails
-
-(** What becomes of the platform tasks of one name. *)
-type plan = Entry.plan = {
-  name : string;
-  duration : duration option;  (** [None]: any time *)
-  ending : ending;
-  place : Dolphin_geo.Position.t option;  (** where it is run; [None]: wherever the vehicle is *)
-  only : string list;  (** types and ids of the vehicles that know it; others refuse. [[]]: all know it *)
-}
-
-(** What is typed when a program asks [prompt]: the text of an expression, such as ["2"] or ["'x8-02'"]. *)
-type answer = Entry.answer = { prompt : string; texts : string list  (** one for each asking, at least one *) }
-
-(** What the supplier replies to [call], named as in labels ({!Dolphin_semantics.Machine.name_of_call}). *)
-type reply = Entry.reply = {
-  call : string;
-  rounds : Reply.t list list;
-  (** for the first call, the second and so on, at least one: what it may reply then, at least one *)
-}
-
-type t = Entry.t = { vehicles : vehicle list; plans : plan list; answers : answer list; replies : reply list }
-(** Vehicles, plans, prompts and calls are unique by their names, and in the order of the file. *)
+include module type of struct
+  include Entry
+end
 
 (** {1:reading Reading and writing} *)
 

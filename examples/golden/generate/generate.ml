@@ -1,5 +1,5 @@
-(* Each example runs on the fleet beside it; a script beside it, NAME.py, is its supplier. What it says is as before, and
-   what it does is a run by the semantics. *)
+(* Each example runs on the fleet beside it; a script beside it, NAME.py, is its supplier. What it says is as before,
+   and what it does is a run by the semantics. *)
 let rule ~has_supplier name =
   let supplier = if has_supplier then Printf.sprintf "\n      --supplier %%{dep:../%s.py}" name else "" in
   Printf.printf
@@ -27,7 +27,8 @@ let rule ~has_supplier name =
  (alias runtest)
  (action
   (system
-   "verdict=$(%%{exe:../../bin/dolphin.exe} trace check %%{dep:../%s.dol} %%{dep:%s.run}) || { echo $verdict; exit 1; }")))
+   "verdict=$(%%{exe:../../bin/dolphin.exe} trace check %%{dep:../%s.dol} %%{dep:%s.run}) ||
+    { echo $verdict; exit 1; }")))
 |}
     name name name name name name supplier name name name name name
 

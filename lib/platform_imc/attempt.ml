@@ -13,6 +13,7 @@ type t = {
   before : Plan_report.t option;
   after : float;
   accepted : float option;
+  answered : bool;
   adopted : bool;
   initialised : bool;
 }
@@ -24,7 +25,7 @@ let make ~now ~clock ~request ~before order =
     asked = Vehicle_clock.estimate ~now clock;
     before;
     after = Vehicle_clock.latest clock;
-    accepted = None; adopted = false; initialised = false }
+    accepted = None; answered = false; adopted = false; initialised = false }
 
 (* A report of which no more was kept than what is judged by it. *)
 let remembered (plan_id, busy) =
@@ -37,6 +38,7 @@ let adopted ~now ~clock order (k : Durable_note.knowledge) =
     before = Option.map remembered k.before;
     after = neg_infinity;
     accepted = (if k.taken || k.runs then Some neg_infinity else None);
+    answered = k.taken;
     adopted = true; initialised = false }
 
 let send_again ~now ~clock a =
@@ -69,6 +71,7 @@ let accepted_before (r : Plan_report.t) a =
 
 let effect_time a = Option.value a.accepted ~default:a.after
 let may_arrive ~now a = now < a.last_sent +. patience
+let is_open a = a.copies > 1 || not a.answered
 let is_past ~now (r : Plan_report.t) a = (not (may_arrive ~now a)) && r.sent >= a.asked +. patience
 
 (* {1 What is to be kept} *)

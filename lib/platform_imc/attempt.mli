@@ -18,6 +18,7 @@ type t = {
   before : Plan_report.t option;  (** what the vehicle had said last when the request was first sent *)
   after : float;  (** when, by its clock, it had said anything last then *)
   accepted : float option;  (** when, by its clock, it first answered that it takes the plan *)
+  answered : bool;  (** it answered in any way *)
   adopted : bool;  (** the request was that of a console that has died *)
   initialised : bool;  (** INITIALIZING was seen since *)
 }
@@ -55,6 +56,10 @@ val effect_time : t -> float
 
 val may_arrive : now:float -> t -> bool
 (** [may_arrive ~now a]: a copy of the request may still be on its way. *)
+
+val is_open : t -> bool
+(** Whether a copy of the request may take effect as far as the vehicle's answers tell: it has not answered, or not each
+    copy. *)
 
 val is_past : now:float -> Plan_report.t -> t -> bool
 (** [is_past ~now r a]: no copy is on its way any more, and the vehicle sent [r] after the last one had arrived, if it

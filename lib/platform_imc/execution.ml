@@ -182,7 +182,7 @@ let judge_start ~now ~clock (a : Attempt.t) r x =
   let former_ended =
     match x.former with Some f when f.attempt.order.plan = a.order.plan -> f.ended | Some _ | None -> neg_infinity
   in
-  conclude ~now ~clock ~since:(Attempt.effect_time a) a r (Verdict.of_start ~former_ended a r) x
+  conclude ~now ~clock ~since:(Attempt.effect_time a) a r (Verdict.of_start ~now ~former_ended a r) x
 
 let stopped ~now ~clock ~ended attempt next x =
   let x = close ~now ~ended attempt x in
@@ -216,6 +216,10 @@ let judge ~now ~clock (r : Plan_report.t) x =
   | Idle -> judge_idle ~now ~clock r x
   | Starting a -> judge_start ~now ~clock a r x
   | Running { attempt; since } -> conclude ~now ~clock ~since attempt r (Verdict.of_run ~since attempt r) x
+  (* Not ours ended, but another's of that name, and now our request has taken effect. *)
+  | Ending { attempt; _ }
+    when Attempt.is_open attempt && r.state.state = Executing && Plan_report.names attempt.order.plan r ->
+    ({ x with phase = Running { attempt; since = r.sent } }, [])
   | Ending _ -> (x, [])
   | Stopping p ->
     let runs = Plan_report.names p.attempt.order.plan r && r.state.state = Executing && r.sent > p.after in
@@ -232,14 +236,19 @@ let start_reply ~now ~clock ~sent (reply : Message.t Control.t) x =
   match x.phase, reply.type_ with
   | Starting a, (Success | In_progress) when reply.request_id = a.request ->
     let accepted = Option.fold a.accepted ~none:sent ~some:(Float.min sent) in
-    let a = { a with accepted = Some accepted } in
+    let a = { a with accepted = Some accepted; answered = true } in
     let x = { x with phase = Starting a } in
     (match x.latest with Some r -> judge_start ~now ~clock a r x | None -> (x, []))
   | Starting a, Failure when reply.request_id = a.request ->
     (* Unless a copy of the request was refused before another was accepted. *)
+    let a = { a with answered = true } in
     if Option.fold a.accepted ~none:true ~some:(fun at -> sent >= at) then
       fail ~now ~ended:sent a (in_words reply.info) x
-    else (x, [])
+    else ({ x with phase = Starting a }, [])
+  | Running { attempt; since }, (Success | In_progress) when reply.request_id = attempt.request ->
+    (* What was seen before may have been another's plan of that name. *)
+    let since = if attempt.answered then since else Float.max since sent in
+    ({ x with phase = Running { attempt = { attempt with answered = true }; since } }, [])
   | Running { attempt = a; since }, Failure when reply.request_id = a.request && sent > since ->
     fail ~now ~ended:sent a (in_words reply.info) x
   | Ending { attempt = a; since; _ }, Failure when reply.request_id = a.request && sent >= since ->
@@ -393,11 +402,23 @@ let owes x =
   | Starting _ | Running _ | Ending _ | Stopping { next = Some _; _ } -> true
   | Idle | Stopping { next = None; _ } -> false
 
-let unsettled x =
+(* The request of a plan that is over may still take effect: the plan would run, and nobody would want it. *)
+let may_still_begin ~now x (f : former) =
+  let is_past = match x.latest with Some r -> Attempt.is_past ~now r f.attempt | None -> false in
+  Attempt.is_open f.attempt && now < f.attempt.last_sent +. late_copies && not is_past
+
+let is_settled ~now x =
+  match x.phase, x.former with
+  | Idle, Some f -> not (may_still_begin ~now x f)
+  | Idle, None -> true
+  | (Starting _ | Running _ | Ending _ | Stopping _), _ -> false
+
+let unsettled ~now x =
   let unheard_since time = match x.latest with Some r -> r.sent <= time | None -> true in
   match x.phase, x.former with
   | Stopping { attempt; next = None; _ }, _ -> Some attempt.order.plan
   | Idle, Some { attempt; ended; given_up = true; _ } when unheard_since ended -> Some attempt.order.plan
+  | Idle, Some f when may_still_begin ~now x f -> Some f.attempt.order.plan
   | (Idle | Starting _ | Running _ | Ending _ | Stopping _), _ -> None
 
 let is_heard x = x.latest <> None

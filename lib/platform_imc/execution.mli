@@ -88,9 +88,13 @@ val idle : t -> bool
 val owes : t -> bool
 (** [owes x]: [Done] or [Failed] is still to come. *)
 
-val unsettled : t -> string option
-(** The plan that the vehicle may still run though nobody wants it to: its stop is not confirmed, or it was given up and
-    the vehicle has said nothing since. *)
+val is_settled : now:float -> t -> bool
+(** [is_settled ~now x]: [x] is {!idle}, and no request of ours may still take effect. If one does after all, it is
+    stopped. *)
+
+val unsettled : now:float -> t -> string option
+(** [unsettled ~now x] is the plan that the vehicle may still run though nobody wants it to: its stop is not confirmed,
+    or it was given up and the vehicle has said nothing since, or the request for it may still take effect. *)
 
 val is_heard : t -> bool
 (** The vehicle has said something of its plan. *)

@@ -399,10 +399,11 @@ let telemetry ~now on s =
 let take s = Option.map (fun (event, outbox) -> (event, { s with outbox })) (Outbox.take s.outbox)
 let waiting s = not (Outbox.is_empty s.outbox)
 let owes_stop s = Expected.halts s.expected <> []
-let quiet s = (not (owes_stop s)) && not (Systems.exists (fun n -> not (Execution.idle n.execution)) s.systems)
+let quiet ~now s =
+  (not (owes_stop s)) && not (Systems.exists (fun n -> not (Execution.is_settled ~now n.execution)) s.systems)
 
-let unsettled s =
-  let of_node (n : Node.t) = Option.map (fun plan -> (n.name, plan)) (Execution.unsettled n.execution) in
+let unsettled ~now s =
+  let of_node (n : Node.t) = Option.map (fun plan -> (n.name, plan)) (Execution.unsettled ~now n.execution) in
   List.sort compare (List.filter_map of_node (Systems.to_list s.systems) @ Expected.halts s.expected)
 
 type system = { node : Node.t; state : World.vehicle_state; age : float; linked : bool }

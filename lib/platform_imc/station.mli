@@ -86,10 +86,10 @@ val waiting : t -> bool
 val owes_stop : t -> bool
 (** A vehicle that is to be stopped was not heard yet, since {!resume}. *)
 
-val quiet : t -> bool
-(** No plan is ordered, and no stop waits for its confirmation. *)
+val quiet : now:float -> t -> bool
+(** No plan is ordered, no stop waits for its confirmation, and no request of ours may still take effect. *)
 
-val unsettled : t -> (Core.vehicle * string) list
+val unsettled : now:float -> t -> (Core.vehicle * string) list
 (** Vehicles that may still run a plan though the program does not want it any more: it was stopped or given up, and
     they have not been heard to have ended it. *)
 

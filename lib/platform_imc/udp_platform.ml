@@ -113,7 +113,7 @@ let settle p =
     p.waiting <- None;
     wake waiting
   end;
-  if p.closing <> None && Station.quiet p.station then begin
+  if p.closing <> None && Station.quiet ~now:(now p) p.station then begin
     let closing = p.closing in
     p.closing <- None;
     wake closing
@@ -312,11 +312,11 @@ let release_sockets p =
 (* A stop that is confirmed later than this is worth a word to whoever waits; Execution.patience is usual. *)
 let prompt = 2.
 
-let tell_unsettled p text = List.iter (fun (v, plan) -> p.options.note v (text plan)) (Station.unsettled p.station)
+let tell_unsettled p text = List.iter (fun (v, plan) -> p.options.note v (text plan)) (Station.unsettled ~now:(now p) p.station)
 
 (* All is quiet, or has not become so in time. *)
 let wait_for_stops p =
-  if Station.quiet p.station then Lwt.return_unit
+  if Station.quiet ~now:(now p) p.station then Lwt.return_unit
   else begin
     let quiet, closing = Lwt.task () in
     p.closing <- Some closing;

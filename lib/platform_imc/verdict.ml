@@ -13,7 +13,7 @@ let blocked = "the vehicle is blocked: it cannot run plans now"
 let forgotten = "the vehicle knows of no plan any more: it was restarted"
 
 (* READY with the plan's own name. *)
-let of_ready ~former_ended ~accepted (a : Attempt.t) r =
+let of_ready ~former_ended ~accepted ~is_final (a : Attempt.t) r =
   (* Unless the plan that had its name there was ours, and ended after that was said. *)
   let had_another =
     match a.before with
@@ -22,21 +22,29 @@ let of_ready ~former_ended ~accepted (a : Attempt.t) r =
   in
   if not (accepted || a.initialised || had_another) then No_sign
   else if Plan_report.succeeded r then Succeeded
-  else Ended (if accepted then ended_badly else refused)
+  else if is_final then Ended (if accepted then ended_badly else refused)
+  else Nothing_new
 
-let of_start ~former_ended (a : Attempt.t) (r : Plan_report.t) =
+let of_start ~now ~former_ended (a : Attempt.t) (r : Plan_report.t) =
   let own = Plan_report.names a.order.plan r and accepted = Attempt.accepted_before r a in
+  (* What else befalls the vehicle, our request may undo as long as it is on its way. *)
+  let is_final = accepted || Attempt.is_past ~now r a in
   if r.sent <= a.after then Nothing_new
   else
     match r.state.state with
     | Initializing -> Initialises
+    (* Another's plan of that name, which ours has replaced. *)
+    | Executing when own && a.accepted <> None && not accepted -> Nothing_new
     | Executing when own ->
       if Attempt.was_busy_with a.order.plan a && not (accepted || a.initialised) then No_sign else Runs
     | Executing ->
       let other = r.state.plan_id in
-      if (not accepted) && (a.before = None || Attempt.was_busy_with other a) then No_sign else Replaced other
-    | Ready when own -> of_ready ~former_ended ~accepted a r
-    | Ready when accepted || (a.initialised && Plan_report.failed r) -> Ended refused
+      if (not accepted) && (a.before = None || Attempt.was_busy_with other a) then No_sign
+      else if is_final then Replaced other
+      else Nothing_new
+    | Ready when own -> of_ready ~former_ended ~accepted ~is_final a r
+    | Ready when accepted -> Ended refused
+    | Ready when a.initialised && Plan_report.failed r -> if is_final then Ended refused else Nothing_new
     | Blocked when accepted -> Ended blocked
     | Ready | Blocked -> No_sign
     | Other _ -> Nothing_new

@@ -80,14 +80,15 @@ let requests run =
     (List.rev run.sent)
 
 let strings = Alcotest.(list string)
+let the_end = List.fold_left (fun _ (line : Recording.line) -> line.time) 0. (Lazy.force Recording.lines)
 
 let case name ?keep ?until ~request commands ~verdict ~asked =
   Alcotest.test_case name `Quick (fun () ->
       let run = replay ?keep ?until ~request commands in
       Alcotest.check strings "verdict" verdict (verdicts run);
       Alcotest.check strings "requests" asked (requests run);
-      Alcotest.(check bool) "quiet" true (Station.quiet run.station);
-      Alcotest.(check (list (pair string string))) "unsettled" [] (Station.unsettled run.station))
+      Alcotest.(check bool) "quiet" true (Station.quiet ~now:the_end run.station);
+      Alcotest.(check (list (pair string string))) "unsettled" [] (Station.unsettled ~now:the_end run.station))
 
 (* {1 What may get lost} *)
 
@@ -170,7 +171,7 @@ let unsettled =
   Alcotest.test_case "what a silent vehicle may still run" `Quick (fun () ->
       let check what plans run =
         let expected = List.map (fun plan -> (Recording.vehicle, plan)) plans in
-        Alcotest.(check (list (pair string string))) what expected (Station.unsettled run.station)
+        Alcotest.(check (list (pair string string))) what expected (Station.unsettled ~now:the_end run.station)
       in
       let stopped = replay ~request:101 [ (101, `Start); (102, `Stop) ] ~keep:(silent_since 102) in
       check "its stop is not confirmed" [ "planA" ] stopped;
@@ -193,7 +194,7 @@ let tests =
       case "unknown plan" ~request:103 [ (103, `Start) ] ~verdict:(failed 21.126 "undefined plan")
         ~asked:[ "START 103 nonexistent" ];
       case "unknown plan, the words being lost" ~request:103 [ (103, `Start) ] ~keep:(without is_reply)
-        ~verdict:(failed 22.171 "the plan was refused, and the vehicle gave no reason")
+        ~verdict:(failed 23.450 "the plan was refused, and the vehicle gave no reason")
         ~asked:[ "START 103 nonexistent" ];
       case "unsupported maneuver" ~request:104 [ (104, `Start) ]
         ~verdict:(failed 24.126 "parse error: 1: maneuver is not supported")

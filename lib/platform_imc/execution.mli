@@ -17,7 +17,8 @@
     - It {e failed} when a FAILURE replies to our request, in the words of that reply; when READY has another outcome
       than SUCCESS; when the vehicle went from INITIALIZING to READY without taking the plan; when it is BLOCKED; when
       it executes another plan, or has executed one. Where the words are missing they are waited for, {!grace} long; an
-      error that the vehicle reports stands in for them.
+      error that the vehicle reports stands in for them. None of this counts while the request is unanswered and may
+      still take effect: another console may have been quicker, and our request takes the vehicle from that one.
     - A request waits until its note is durable ([Leaves]). Until it has left, nothing follows from silence.
     - A request is {e sent again} only after a look: no reply came within {!patience}, and a state that the vehicle sent
       so long after the request shows that it was without effect. After {!most_copies} the plan has failed.

@@ -54,7 +54,8 @@ let describe (s : Station.system) =
 
 let changed ~now before after =
   if is_on () then begin
-    let described station = List.map (fun (s : Station.system) -> (s.node.name, describe s)) (Station.systems ~now station) in
+    let named (s : Station.system) = (s.node.name, describe s) in
+    let described station = List.map named (Station.systems ~now station) in
     let known = described before in
     let tell (name, text) =
       if List.assoc_opt name known <> Some text then Log.debug (fun m -> m "%.3f %s: %s" now name text)

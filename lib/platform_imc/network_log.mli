@@ -19,6 +19,7 @@ val timer_set : now:float -> Residual.timer -> float -> unit
 (** [timer_set ~now timer seconds] logs that [timer] is to fire after [seconds]. *)
 
 val timer_cancelled : now:float -> Residual.timer -> unit
+(** Logs that the timer is not to fire any more. *)
 
 val event : now:float -> Dolphin_runtime.Platform.event -> unit
 (** [event ~now e] logs what the program is told next: of a timer, that it fired. *)

@@ -64,10 +64,9 @@ val silent : now:float -> timeout:float -> t -> bool
 (** [silent ~now ~timeout n] is whether nothing but announcements was heard of [n] for [timeout] seconds. *)
 
 val state : now:float -> timeout:float -> kind:string -> payload:string list option -> t -> World.vehicle_state
-(** [state ~now ~timeout ~kind ~payload n] is [n] for programs, as one of type [kind]. It is connected if it is
-    a vehicle, is not silent, and is in
-    service or has a plan of ours. It carries [payload], or else the entities of its list. Until it says otherwise its
-    battery is full, and it is where it announced to be. *)
+(** [state ~now ~timeout ~kind ~payload n] is [n] for programs, as a vehicle of type [kind]. It is connected if it is a
+    vehicle, is not silent, and is in service or has a plan of ours. It carries [payload], or else the entities of its
+    list. Until it says otherwise its battery is full, and it is where it announced to be. *)
 
 val mode : names:(int * string) list -> t -> string
 (** ["SERVICE"], ["MANEUVER"] ..., by [names] first; ["-"] if not known. *)

@@ -292,8 +292,8 @@ let announce ~now s =
   ({ s with presence }, if is_due then [ Announce (announcement ~now s) ] else [])
 
 let expire ~now s =
-  let rung, timers = Timers.rung ~now s.timers in
-  List.fold_left (fun s timer -> push (Timer timer) s) { s with timers } rung
+  let expired, timers = Timers.expired ~now s.timers in
+  List.fold_left (fun s timer -> push (Timer timer) s) { s with timers } expired
 
 let was_connected (n : Node.t) s =
   match Outbox.told n.name s.outbox with Some state -> state.connected | None -> false

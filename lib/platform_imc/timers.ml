@@ -19,6 +19,6 @@ let set timer time x =
 
 let first = function (time, _) :: _ -> time | [] -> infinity
 
-let rung ~now x =
-  let rung, later = List.partition (fun (time, _) -> time <= now) x in
-  (List.map snd rung, later)
+let expired ~now x =
+  let due, later = List.partition (fun (time, _) -> time <= now) x in
+  (List.map snd due, later)

@@ -244,7 +244,8 @@ let make ?(time = 0.) ?outstanding options =
   let announcements = Lwt_unix.of_unix_file_descr ~blocking:false announcements in
   Sockets.join announcements options.group ~interfaces;
   let p =
-    { options; settings; now = Clock.stopwatch ~at:time options.clock; data = Lwt_unix.of_unix_file_descr ~blocking:false data;
+    { options; settings; now = Clock.stopwatch ~at:time options.clock;
+      data = Lwt_unix.of_unix_file_descr ~blocking:false data;
       announcements; speakers = List.filter_map Sockets.speaker interfaces; port;
       buffer = Bytes.create 65536; station; write_ahead = None; armed = infinity; rearm = None; waiting = None;
       closing = None; failure = None; closed = false; unsent = 0 }
@@ -312,7 +313,9 @@ let release_sockets p =
 (* A stop that is confirmed later than this is worth a word to whoever waits; Execution.patience is usual. *)
 let prompt = 2.
 
-let tell_unsettled p text = List.iter (fun (v, plan) -> p.options.note v (text plan)) (Station.unsettled ~now:(now p) p.station)
+let tell_unsettled p text =
+  let tell (v, plan) = p.options.note v (text plan) in
+  List.iter tell (Station.unsettled ~now:(now p) p.station)
 
 (* All is quiet, or has not become so in time. *)
 let wait_for_stops p =

@@ -23,17 +23,18 @@ type options = {
                                that are not heard again yet, {!announce_period} at least. *)
   note : Core.vehicle -> string -> unit;  (** Is told what is unusual, for people. *)
   keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
-  (** Keeps what a console that takes over has to know ({!Durable_note}). When it returns, that must survive this process. *)
+  (** Keeps what a console that takes over has to know ({!Durable_note}). When it returns, the note must survive this
+      process. *)
   sync : (unit -> unit Lwt.t) option;
-  (** Resolves once all that was kept before survives this machine, too. Requests to start plans wait for that
-      ({!Write_ahead}); with [None] they do not. *)
+  (** Resolves once all that was kept before survives this machine, too. Requests to start plans wait for that; with
+      [None] they do not. *)
   clock : Clock.t;  (** Only the dates in the headers of IMC packets begin with its [date]. *)
 }
 
 val default : options
 (** As vehicles with the usual settings expect it: ports 30100 to 30104, the group 224.0.75.69, all interfaces, 5 s;
-    notes are thrown away, and so is what is to be kept, which no request waits for; {!received} is not kept; the clock is
-    {!Clock.system}. *)
+    notes are thrown away, and so is what is to be kept, which no request waits for; {!received} is not kept; the clock
+    is {!Clock.system}. *)
 
 include Platform.S
 

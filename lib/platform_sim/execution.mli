@@ -1,4 +1,4 @@
-(** The execution of a platform task by a simulated vehicle: a track, a duration and an outcome, settled when it starts. *)
+(** The execution of a platform task by a simulated vehicle: its track, duration and outcome, settled when it starts. *)
 
 open Dolphin_semantics
 open Dolphin_scenario

@@ -299,7 +299,8 @@ let create ~seed (s : Scenario.t) =
   let add_plan plans (p : Scenario.plan) = String_map.add p.name p plans in
   let plans = List.fold_left add_plan String_map.empty s.plans in
   let empty =
-    { seed; plans; order = List.map (fun (v : Scenario.vehicle) -> v.id) s.vehicles; now = 0.; queue = Event_queue.empty;
+    { seed; plans; order = List.map (fun (v : Scenario.vehicle) -> v.id) s.vehicles; now = 0.;
+      queue = Event_queue.empty;
       crafts = String_map.empty; bound = String_set.empty; timers = Int_map.empty; timeout = default_timeout;
       telemetry = false; beat = None } in
   let add f (v : Scenario.vehicle) =

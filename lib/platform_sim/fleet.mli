@@ -1,7 +1,7 @@
 (** The simulated fleet itself: a pure state machine. Time passes only when it is told to; nothing here sleeps, draws
     from a hidden source or waits. {!Simulator} is the shell that makes a platform of it.
 
-    A fleet is a set of vehicles and an {!Event_queue} of what will happen to them. {!step} takes the next occurrence; the
+    A fleet is a set of vehicles and an {!Event_queue} of what will happen to them. {!step} takes the next event; the
     commands of a platform change the vehicles and the queue. Everything costs O(log n) but {!vehicles}, {!quiet},
     telemetry (each second, O(n) in the vehicles that are bound) and a change of the timeout of all. *)
 

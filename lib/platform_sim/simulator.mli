@@ -68,9 +68,9 @@
     {1:simulation What is simulated}
 
     Vehicles have a position, a battery, and a link that comes and goes as the scenario says. How tasks go is
-    {!Execution}'s, how batteries go is {!Vehicle}'s. A seed and a scenario determine everything: the same commands at the
-    same times see the same events. What a vehicle's task comes to depends on the seed, the vehicle, how many tasks it
-    has begun before and the task's entry in the scenario, on nothing else. *)
+    {!Execution}'s, how batteries go is {!Vehicle}'s. A seed and a scenario determine everything: the same commands at
+    the same times see the same events. The execution of a task depends on the seed, the vehicle, the task's ordinal on
+    that vehicle and the task's entry in the scenario, and on nothing else. *)
 
 open Dolphin_semantics
 open Dolphin_runtime
@@ -103,8 +103,9 @@ module Virtual : sig
   val create_again :
     seed:int -> Scenario.t -> History.t -> (t * World.vehicle_state list, string) result
     (** [create_again ~seed s history] is the platform of a run whose console died after [history], with what was told
-        of vehicles since the journal's last lines on them: see {!Reconstruction}. No time has passed since. The error says
-        why [history] are not those of this fleet. *)
+        of vehicles since the journal's last lines on them. All that became of the fleet follows from what it was
+        commanded and when: it is simulated again. No time has passed since the last entry. The error says why [history]
+        is not one of this fleet. *)
 end
 
 (** Time passes by itself, perhaps faster than outside. *)

@@ -5,8 +5,8 @@ type t = {
   elapsed : unit -> float;
   (** Seconds since some moment. It never goes back, and nobody sets it: durations are differences of it. *)
   date : unit -> float;
-  (** Seconds since 1970-01-01 00:00 UTC. It jumps, forward or back, when somebody sets the system's time: it tells dates,
-      never durations. *)
+  (** Seconds since 1970-01-01 00:00 UTC. It jumps, forward or back, when somebody sets the system's time: it tells
+      dates, never durations. *)
 }
 
 val system : t

@@ -36,7 +36,7 @@ let afresh program =
   { configuration = Configuration.initial program; world = World.empty; news = []; pending = None }
 
 (* So many transitions and events may pass before others get their turn. *)
-let breath = 100
+let most_without_pause = 100
 
 (* What happens outside. *)
 type news = Seen of World.vehicle_state | Event of (Transition.event, Transition.refusal) result | Nothing_more
@@ -55,7 +55,7 @@ module Make (P : Platform.S) = struct
     mutable telemetry : bool;  (* as the platform was told last *)
     mutable upcoming : news Lwt.t option;  (* the platform's next event, if it was asked for *)
     mutable reply : news Lwt.t option;  (* from the console or the host, if it is awaited *)
-    mutable unbroken : int;  (* transitions and events since others had their turn *)
+    mutable since_pause : int;  (* transitions and events since others had their turn *)
   }
 
   let is_resolved promise = match Lwt.state promise with Lwt.Sleep -> false | Return _ | Fail _ -> true
@@ -92,8 +92,8 @@ module Make (P : Platform.S) = struct
 
   (* One effect that cannot be carried out does not keep the others, a vehicle's stop perhaps, from being so. *)
   let carry_out_all s effects =
-    let attempt failure effect =
-      match carry_out s effect with
+    let attempt failure one =
+      match carry_out s one with
       | () -> failure
       | exception error -> if failure = None then Some (error, Printexc.get_raw_backtrace ()) else failure
     in
@@ -104,7 +104,7 @@ module Make (P : Platform.S) = struct
   (* {1 Transitions} *)
 
   let take s ~cause (t : Transition.t) =
-    s.unbroken <- (match t.label with Silent -> breath | _ -> s.unbroken + 1);
+    s.since_pause <- (match t.label with Silent -> most_without_pause | _ -> s.since_pause + 1);
     let time = P.now s.platform in
     Log.transition ~time ~cause t;
     s.observer.transition ~time ~cause t;
@@ -112,7 +112,7 @@ module Make (P : Platform.S) = struct
     carry_out_all s t.effects
 
   let see s state =
-    s.unbroken <- s.unbroken + 1;
+    s.since_pause <- s.since_pause + 1;
     s.world <- World.add state s.world;
     let time = P.now s.platform in
     Log.vehicle ~time state;
@@ -130,7 +130,7 @@ module Make (P : Platform.S) = struct
     | Ok t -> take s ~cause:(Some event) t; true
     | Error Not_awaited ->
       Log.not_awaited ~time:(P.now s.platform) event;
-      s.unbroken <- s.unbroken + 1;
+      s.since_pause <- s.since_pause + 1;
       false
     | Error (Bad_answer why) -> refuse_answer s why; false
 
@@ -202,9 +202,9 @@ module Make (P : Platform.S) = struct
 
   (* Goes on with [f s], after others had their turn if it is time. *)
   let continue s f =
-    if s.unbroken < breath then f s
+    if s.since_pause < most_without_pause then f s
     else begin
-      s.unbroken <- 0;
+      s.since_pause <- 0;
       Lwt.pause () >>= fun () ->
       catch_up s;
       f s
@@ -273,7 +273,7 @@ module Make (P : Platform.S) = struct
         interruption = (Lwt.protected interruption >|= fun () -> Event (Ok Interruption));
         configuration = beginning.configuration;
         world = beginning.world;
-        telemetry = false; upcoming = None; reply = None; unbroken = 0 }
+        telemetry = false; upcoming = None; reply = None; since_pause = 0 }
     in
     let whole () =
       switch_telemetry s always_telemetry;

@@ -70,7 +70,8 @@ let answers history =
     | Asked effects ->
       let latest prompt : Effect.t -> _ = function Ask text -> Some text | _ -> prompt in
       (List.fold_left latest prompt effects, found)
-    | Happened (Answered { text; _ }) -> (prompt, Option.fold prompt ~none:found ~some:(fun prompt -> (prompt, text) :: found))
+    | Happened (Answered { text; _ }) ->
+      (prompt, Option.fold prompt ~none:found ~some:(fun prompt -> (prompt, text) :: found))
     | Saw _ | Noted _ | Happened _ -> (prompt, found)
   in
   List.rev (snd (List.fold_left add (None, []) history))

@@ -1,12 +1,11 @@
-(** The debug log of the runtime, the source ["dolphin.runtime"] of {!Logs}: what happened outside, which transitions were
-    taken for it, and what vehicles, timers, people and the host process were asked for. Nothing is formatted unless
-    somebody listens at the level [Debug]. *)
+(** The debug log of the runtime, the source ["dolphin.runtime"] of {!Logs}: what happened outside, which transitions
+    followed, and their effects. Nothing is formatted unless the level is [Debug]. *)
 
 open Dolphin_semantics
 
 val transition : time:float -> cause:Transition.event option -> Transition.t -> unit
-(** [transition ~time ~cause t] logs that [t] was taken at [time] (s, the platform's), on the event [cause] or by itself,
-    and its effects. *)
+(** [transition ~time ~cause t] logs that [t] was taken at [time] (s, the platform's), on the event [cause] or by
+    itself, and its effects. *)
 
 val not_awaited : time:float -> Transition.event -> unit
 (** [not_awaited ~time e] logs that nothing in the program waits for [e]. *)

@@ -8,7 +8,7 @@ type part = { id : string; kind : int;  (** the number of its message *) ends : 
 
 type t = {
   execution : Dolphin_platform_sim.Execution.t;
-  parts : part list;  (** in order; of an execution that fails some are not reached *)
+  parts : part list;  (** in order; if the execution fails, some are not reached *)
 }
 
 val make :
@@ -20,7 +20,8 @@ val make :
   Specification.t option ->
   t
 (** [make ~draw plan vehicle position ~name specification] is the flight of plan [name], from [position]. It lasts and
-    ends as {!Dolphin_platform_sim.Execution.make} says. A plan without a specification is one maneuver, ["1"], a Goto. *)
+    ends as {!Dolphin_platform_sim.Execution.make} says. A plan without a specification is one maneuver, ["1"], a
+    Goto. *)
 
 val part : t -> float -> part
 (** [part f time] is the maneuver at [time]: the last of those that end at once when they begin. *)

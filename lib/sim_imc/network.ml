@@ -120,7 +120,8 @@ let create ?(clock = Clock.system) s =
         match open_all host s.first_port numbered with
         | Error _ as error -> close_socket discovery; error
         | Ok crafts ->
-          Ok { settings = s; clock; discovery; crafts; buffer = Bytes.create 65536; now = (fun () -> 0.); changed = None })
+          Ok { settings = s; clock; discovery; crafts; buffer = Bytes.create 65536; now = (fun () -> 0.);
+               changed = None })
 
 let radio n ~epoch (c : craft) =
   let s = n.settings in

@@ -42,7 +42,8 @@ val vehicles : t -> vehicle list
 (** In the scenario's order. *)
 
 val run : log:(Yojson.Safe.t -> unit) -> until:unit Lwt.t -> t -> unit Lwt.t
-(** [run ~log ~until n] lets the vehicles live until [until] is resolved; [log] takes {!Activity}s. To be called once. *)
+(** [run ~log ~until n] lets the vehicles live until [until] is resolved; [log] takes each {!Activity}. To be called
+    once. *)
 
 val close : t -> unit
 (** Closes the sockets. *)

@@ -1,8 +1,8 @@
-(** The other systems, as a vehicle keeps account of them.
+(** What a vehicle knows of the other systems.
 
     A vehicle sends what it has to say to every system that has announced an address and is in contact. Contact is a
-    packet from that system to the vehicle's data port; it lasts {!patience}. Contacts are looked at every [period]
-    seconds only, hence what a vehicle says begins to come some time after the first packet. *)
+    packet from that system to the vehicle's data port; it lasts {!patience}. The vehicle looks for new contacts every
+    [period] seconds only, so that it begins to send some time after the first packet came. *)
 
 type t
 

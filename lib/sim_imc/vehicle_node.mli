@@ -13,7 +13,7 @@
 
     While its link is silent, as the scenario has it, nothing comes in or goes out; the plan goes on.
 
-    Times are seconds since the start, by the clock on the wall. Time in the scenario and of missions may run faster. *)
+    Times are seconds since the start, in real time. Time in the scenario and of missions may pass faster. *)
 
 open Dolphin_imc
 

@@ -58,7 +58,8 @@ let hear ~now c (stamp, (message : Message.t)) =
 
 (* As {!Udp_platform.close} does. *)
 let live ~now c =
-  List.iter (fun message -> match c.phase with `Closed _ -> () | _ -> hear ~now c message) (Network.arrived ~now c.back);
+  let hear_unless_closed message = match c.phase with `Closed _ -> () | _ -> hear ~now c message in
+  List.iter hear_unless_closed (Network.arrived ~now c.back);
   (match c.phase with
    | `Closed _ -> ()
    | `Waits | `Runs | `Closes _ -> if Execution.due c.execution <= now then input ~now c Tick);

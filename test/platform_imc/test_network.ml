@@ -217,7 +217,8 @@ execute imcPlan('survey')
       Alcotest.(check (list bool)) "the link comes, and stays" [ false; true ] (List.rev !links);
       Alcotest.(check (list (pair string string))) "nothing to remark" [] !notes;
       let starts = List.rev (Udp_vehicle.starts a) in
-      Alcotest.(check (list string)) "each once" [ "patrol"; "survey"; "patrol"; "long"; "survey" ] (List.map snd starts);
+      let plans = [ "patrol"; "survey"; "patrol"; "long"; "survey" ] in
+      Alcotest.(check (list string)) "each once" plans (List.map snd starts);
       let time i = fst (List.nth starts i) in
       let during = time 4 -. time 3 in
       Alcotest.(check bool) "three seconds are three seconds" true (during >= 2.9 && during < 4.5);
@@ -233,7 +234,12 @@ let logged name f =
   in
   Logs.set_reporter { Logs.report };
   Logs.Src.set_level source (Some Debug);
-  Lwt.finalize f (fun () -> Logs.set_reporter reporter; Logs.Src.set_level source None; Lwt.return_unit) >|= fun result ->
+  let restore () =
+    Logs.set_reporter reporter;
+    Logs.Src.set_level source None;
+    Lwt.return_unit
+  in
+  Lwt.finalize f restore >|= fun result ->
   (result, List.rev !lines)
 
 let debug_log =
@@ -296,4 +302,7 @@ execute all
       Printf.printf "end to next start: median %.1f ms, 99%% %.1f ms\n" (1000. *. at 0.5) (1000. *. at 0.99);
       Lwt.join (List.map Udp_vehicle.stop vehicles))
 
-let tests = ("network", [ program; bad_network; vanished; journal_breaks; slow_disk; broken_disk; time_is_set; debug_log; nobody; taken; many ])
+let tests =
+  ( "network",
+    [ program; bad_network; vanished; journal_breaks; slow_disk; broken_disk; time_is_set; debug_log; nobody; taken;
+      many ] )

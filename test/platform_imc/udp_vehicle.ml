@@ -111,7 +111,8 @@ let rec live v =
 
 let perfect = { Network.loss = 0.; duplication = 0.; delay = 0. }
 
-let start ?(quality = perfect) ?(seed = 0) ?(multiplier = 1.) ?(date = Unix.gettimeofday) ~announce_ports ~id ~name ~fate () =
+let start ?(quality = perfect) ?(seed = 0) ?(multiplier = 1.) ?(date = Unix.gettimeofday) ~announce_ports ~id ~name
+    ~fate () =
   let fd = Unix.socket ~cloexec:true PF_INET SOCK_DGRAM 0 in
   Unix.bind fd (loopback 0);
   Unix.set_nonblock fd;

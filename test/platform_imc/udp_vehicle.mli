@@ -13,7 +13,8 @@ val start :
 val model : t -> Vehicle_model.t
 
 val ends : t -> (float * string) list
-(** When READY with success was first sent for each plan that ended well, by {!Dolphin_runtime.Clock.system}; latest first. *)
+(** When READY with success was first sent for each plan that ended well, by {!Dolphin_runtime.Clock.system}; latest
+    first. *)
 
 val starts : t -> (float * string) list
 (** When requests to start came, by {!Dolphin_runtime.Clock.system}; latest first. *)

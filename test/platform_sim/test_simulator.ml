@@ -121,4 +121,5 @@ let speeds () =
 let () =
   Alcotest.run "simulator"
     [ ("virtual time", [ case "whole task" whole_task; case "idle" idle; case "load" load ]);
-      ("real time", [ case "paced" paced; case "sooner" sooner; case "late" late; case "the time is set" time_is_set; case "speeds" speeds ]) ]
+      ("real time", [ case "paced" paced; case "sooner" sooner; case "late" late;
+          case "the time is set" time_is_set; case "speeds" speeds ]) ]

@@ -55,7 +55,8 @@ let exchange ?faults ~seed datagrams =
           go r got (List.rev_append activities did) all
         | Some _ | None ->
           let sent, activities, r = input ~at r in
-          go r (List.rev_append (List.map (fun d -> at, d.Radio.bytes) sent) got) (List.rev_append activities did) later)
+          let sent = List.map (fun d -> at, d.Radio.bytes) sent in
+          go r (List.rev_append sent got) (List.rev_append activities did) later)
   in
   let receive channel bytes ~at r = Radio.receive ~at channel ~host:"127.0.0.1" bytes r in
   let end_ = 10., fun ~at:_ r -> [], [], r in

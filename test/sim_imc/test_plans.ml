@@ -27,7 +27,8 @@ let replies s =
     (Scene.story s)
 
 let did s =
-  List.map (fun d -> Yojson.Safe.Util.(to_string (member "did" (Activity.to_json ~time:0. ~vehicle:"a" d)))) (Scene.activities s)
+  let did a = Yojson.Safe.Util.(to_string (member "did" (Activity.to_json ~time:0. ~vehicle:"a" a))) in
+  List.map did (Scene.activities s)
 
 let by_name () =
   let s = scene "plan 'p', { duration 60 }" in

@@ -95,22 +95,22 @@ let stubborn =
         {|Footprint.conflict ~possible:(surely_moves t x k) own f|},
         {|Footprint.conflict ~possible:(surely_moves t x k || true) own f|} );
       ( "what is cut off need not be taken along",
-        {|exists_step t x cut && not (Footprint.is_traceless (future t y x))|},
-        {|exists_step t x cut && false && not (Footprint.is_traceless (future t y x))|} );
+        {|exists_step t x cut && not (Footprint.leaves_no_trace (future t y x))|},
+        {|exists_step t x cut && false && not (Footprint.leaves_no_trace (future t y x))|} );
       ( "a key may cut off others",
-        {|List.exists (is_cut_off own.place other.place) landings
+        {|List.exists (is_cut_off own.place other.place) moves
   |||},
-        {|(List.exists (is_cut_off own.place other.place) landings && false)
+        {|(List.exists (is_cut_off own.place other.place) moves && false)
   |||} );
       ( "a key may be cut off",
-        {||| ((not (Footprint.is_traceless f)) && may_cut_off t y x)|},
-        {||| ((not (Footprint.is_traceless f)) && may_cut_off t y x && false)|} );
+        {||| ((not (Footprint.leaves_no_trace f)) && may_cut_off t y x)|},
+        {||| ((not (Footprint.leaves_no_trace f)) && may_cut_off t y x && false)|} );
       ( "a key may end a nest",
-        {||| (List.exists ends_nest landings &&|},
-        {||| (List.exists ends_nest landings && false &&|} );
+        {||| (List.exists ends_nest moves &&|},
+        {||| (List.exists ends_nest moves && false &&|} );
       ( "an end of the run depends on nothing",
-        {|ends.(k) && (not (Footprint.is_blind footprints.(k))) && may_end t x k|},
-        {|ends.(k) && (not (Footprint.is_blind footprints.(k))) && may_end t x k && false|} );
+        {|ends.(k) && (not (Footprint.reads_nothing footprints.(k))) && may_end t x k|},
+        {|ends.(k) && (not (Footprint.reads_nothing footprints.(k))) && may_end t x k && false|} );
       ( "a branch that runs first may be cut off",
         {| && not (may_cut_off t y x))
   in|},
@@ -153,8 +153,8 @@ let task_groups =
         {|if not (Option.fold ~none:true ~some:fixes group.group || true) then|} );
       ( "each N has a group of its own",
         {|let e = { Symmetry.task = r; constant = constant footprint shared } in|},
-        {|ignore (constant footprint);
-    let e = { Symmetry.task = r; constant = shared } in|} );
+        {|let constant = ignore (constant footprint shared); shared in
+    let e = { Symmetry.task = r; constant } in|} );
       ( "handlers have other orbits in other tasks",
         {|known = members | None -> true|},
         {|known = members || true | None -> true|} );
@@ -268,21 +268,198 @@ let environment =
         {|ends @ lost { e with losses = e.losses }|} );
       ( "who is heard of stays lost",
         {|let heard = if is_lost then { e with lost = less v e.lost } else e in|},
-        {|let heard = if is_lost then { e with lost = add v e.lost } else e in|} );
+        {|let heard = if is_lost then { e with lost = add v (less v e.lost) } else e in|} );
       ( "a loss of a lost vehicle is counted",
         {|| _ when is_lost -> ends @ lost e|},
         {|| _ when is_lost && options.losses = Any_number -> ends @ lost e|} );
       ( "a question gets its first answers only",
         {|min (times name counted) (n - 1)|},
-        {|min 0 (n - 1)|} );
+        {|min (min 0 (times name counted)) (n - 1)|} );
       ( "no answer is refused twice",
         {|times prompt before.asked < List.length (options.answers prompt) - 1|},
         {|times prompt before.asked < List.length (options.answers prompt) - 2|} );
       ( "lost vehicles are always there",
         {|let may_miss v = List.mem v e.lost || |},
-        {|let may_miss v = |} );
+        {|let may_miss v = (List.mem v e.lost && false) || |} );
+    ]
+
+let task_rules =
+  in_file "lib/semantics/rules/task_rules.ml" ~noticed_by:"semantics/test_rules"
+    [
+      ( "SEQ-2 starts no timers",
+        {|timers = c.timers @ timers }
+  in
+  { (around ~next:(within (Before rest))|},
+        {|timers = c.timers @ List.filter (fun _ -> false) timers }
+  in
+  { (around ~next:(within (Before rest))|} );
+      ( "PAR-ERR does not cut the siblings",
+        {|undoing (Cut (List.rev_append before after)) (leave_parallel fault c)|},
+        {|undoing (Cut (List.filter (fun _ -> false) (List.rev_append before after))) (leave_parallel fault c)|} );
+      ( "ALLOF-2 forgets the other branches",
+        {|on_finished = (fun c -> add Rule.Allof_2 (Next (all_of None remaining)) c);|},
+        {|on_finished = (fun c -> add Rule.Allof_2 (if List.length remaining > 5 then Next (all_of None remaining) else Finished) c);|} );
+      ( "DURING-2 cancels no timer",
+        {|on_finished = (fun c -> undoing (Cancel timer) (plain.on_finished c));|},
+        {|on_finished = plain.on_finished;|} );
+      ( "WATCH-IGNORE goes on with the error",
+        {|let ignored () = change c.label Rule.Watch_ignore Finished in|},
+        {|let ignored () = change c.label Rule.Watch_ignore (Failed fault) in|} );
+      ( "WATCH-PROPAGATE ignores the error",
+        {|let propagated fault = change c.label Rule.Watch_propagate (Failed fault) in|},
+        {|let propagated (_ : Fault.t) = change c.label Rule.Watch_propagate Finished in|} );
+      ( "UNTIL-CUT leaves the body running",
+        {|let cut change = undoing (Cut [ body ]) change in|},
+        {|let cut change = if body = body then change else undoing (Cut [ body ]) change in|} );
+      ( "UNTIL has no cut",
+        {|    Some (Step { offer = Check condition; continue })
+  | Body_during|},
+        {|    if true then None else Some (Step { offer = Check condition; continue })
+  | Body_during|} );
+      ( "ONEOF-WHEN does not begin its body",
+        {|holds:(fun label -> enter label Rule.Oneof_when Fun.id b.body)|},
+        {|holds:(fun label -> change label Rule.Oneof_when (Next b.body))|} );
+      ( "DURING-SET sets no timer",
+        {|with timers = (timer, seconds) :: timers }
+  in
+  Step|},
+        {|with timers = List.tl ((timer, seconds) :: timers) }
+  in
+  Step|} );
+      ( "ALLOF-WHEN takes away the branches before",
+        {|let remaining = List.rev_append before after in
+  let holds|},
+        {|let remaining = List.rev_append (List.filter (fun _ -> false) before) after in
+  let holds|} );
+    ]
+
+let local_step =
+  in_file "lib/semantics/rules/local_step.ml" ~noticed_by:"semantics/test_rules"
+    [
+      ( "what is cut stays in A",
+        {|let s = without_tasks (List.concat stopped) s in|},
+        {|let s = without_tasks (List.filter (fun _ -> false) (List.concat stopped)) s in|} );
+      ( "START does not enter A",
+        {|{ s with allocation = Vehicle_map.add v p s.allocation } (continue ())|},
+        {|{ s with allocation = Vehicle_map.remove v s.allocation } (continue ())|} );
+      ( "a faulty handler ends the run",
+        {|| Faulty fault, _ when Fault.is_assertion fault ->|},
+        {|| Faulty fault, _ when Fault.is_assertion fault || true ->|} );
+      ( "a handler that ignores propagates",
+        {|| Gives (_, s, deeds), Ignored ->
+        settle program world s derivation (asked @ Run_code.effects deeds) (ignored ())|},
+        {|| Gives (_, s, deeds), Ignored ->
+        ignore ignored;
+        settle program world s derivation (asked @ Run_code.effects deeds) (propagated fault)|} );
+    ]
+
+let run_code =
+  in_file "lib/semantics/rules/run_code.ml" ~noticed_by:"semantics/test_rules"
+    [
+      ( "code that is faulty has effects",
+        {|    | Faulted fault -> Faulty fault
+|},
+        {|    | Faulted fault -> if fault.message = "" then Faulty fault else Halts (fault.message, after context s, deeds)
+|} );
+      ( "code changes no variables",
+        {|{ s with store = context.store; tuples = context.tuples }|},
+        {|{ s with tuples = context.tuples }|} );
+    ]
+
+let pick_rules =
+  in_file "lib/semantics/rules/pick_rules.ml" ~noticed_by:"semantics/test_rules"
+    [
+      ( "a pick replaces B",
+        {|{ s with bound = s.bound @ vs }|},
+        {|{ s with bound = vs }|} );
+    ]
+
+let conclusion =
+  in_file "lib/semantics/rules/conclusion.ml" ~noticed_by:"semantics/test_rules"
+    [
+      ( "an end stops nothing",
+        {|before @ cancelled @ stopped @ released @ [ Effect.End ending ]|},
+        {|before @ cancelled @ List.filter (fun _ -> false) stopped @ released @ [ Effect.End ending ]|} );
+    ]
+
+let allocation =
+  in_file "lib/semantics/rules/allocation.ml" ~noticed_by:"semantics/test_rules"
+    [
+      ( "tasks side by side share vehicles",
+        {|Parallel (a, b) -> Disjoint [|},
+        {|Parallel (a, b) -> Shared [|} );
+    ]
+
+let tuple_space =
+  in_file "lib/semantics/terms/tuple_space.ml" ~noticed_by:"tuple_space/test_tuple_space"
+    [
+      ( "N is a set",
+        {|Some (1 + Option.value count ~default:0)|},
+        {|Some (max 1 (Option.value count ~default:0))|} );
+      ( "the newest pair is consumed",
+        {|By_arrival.min_binding queue in|},
+        {|By_arrival.max_binding queue in|} );
+    ]
+
+let task_rules_in_walks =
+  in_file "lib/semantics/rules/task_rules.ml" ~noticed_by:"semantics/test_invariants"
+    [
+      ( "PAR-2 ends all",
+        {|on_finished = (fun c -> add Rule.Par_2 (Next (parallel (List.rev_append before after))) c);|},
+        {|on_finished = (fun c -> add Rule.Par_2 (if before = [] then Finished else Next (parallel (List.rev_append before after))) c);|} );
+    ]
+
+let local_step_in_walks =
+  in_file "lib/semantics/rules/local_step.ml" ~noticed_by:"semantics/test_invariants"
+    [
+      ( "a false guard lets go on",
+        {|if Value.truth (Reading.settled guard.lambda.lambda_site x) then|},
+        {|if Value.truth (Reading.settled guard.lambda.lambda_site x) || true then|} );
+      ( "DONE leaves the vehicle in A",
+        {|go (without_tasks [ v ] s) (continue (Ok ()))|},
+        {|go (without_tasks [] s) (continue (Ok ()))|} );
+    ]
+
+let conclusion_in_walks =
+  in_file "lib/semantics/rules/conclusion.ml" ~noticed_by:"semantics/test_invariants"
+    [
+      ( "an end releases nothing",
+        {|{ s with allocation = Vehicle_map.empty; bound = [] }|},
+        {|{ s with allocation = Vehicle_map.empty }|} );
+    ]
+
+let allocation_in_traps =
+  in_file "lib/semantics/rules/allocation.ml" ~noticed_by:"reduction/test_traps"
+    [
+      ( "an outer T[V] does not count",
+        {|| Some ws -> Some (List.filter (fun v -> List.mem v ws) vs)|},
+        {|| Some _ -> Some vs|} );
+      ( "tasks in turn need different vehicles",
+        {|Sequence (a, b) -> Shared [|},
+        {|Sequence (a, b) -> Disjoint [|} );
+    ]
+
+let local_step_in_traps =
+  in_file "lib/semantics/rules/local_step.ml" ~noticed_by:"reduction/test_traps"
+    [
+      ( "any time is one for during",
+        {|when seconds >= 0. && seconds < infinity|},
+        {|when seconds < infinity|} );
+    ]
+
+let pick_rules_in_traps =
+  in_file "lib/semantics/rules/pick_rules.ml" ~noticed_by:"reduction/test_traps"
+    [
+      ( "bound vehicles are picked again",
+        {|(not (List.mem v.id s.bound))
+    && Option|},
+        {|(not (List.mem v.id s.bound && false))
+    && Option|} );
     ]
 
 let all =
   List.concat
-    [ footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups; quotient; expansion; vehicle_orbits; canonical_vehicles; name_flow; liveness; environment ]
+    [ footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups; quotient; expansion;
+      vehicle_orbits; canonical_vehicles; name_flow; liveness; environment; task_rules; local_step; run_code;
+      pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
+      conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps ]

@@ -40,7 +40,8 @@ let build tree target = shell "dune build --root %s %s >%s/build.log 2>&1" tree 
 
 (* A mistake may make a test run for ever, or take all memory. *)
 let run tree target =
-  shell "cd %s && (ulimit -v 4000000; timeout 100 _build/default/%s >run.log 2>&1)" tree target
+  shell "cd %s/%s && (ulimit -v 4000000; timeout 100 %s/_build/default/%s >%s/run.log 2>&1)" tree
+    (Filename.dirname target) tree target tree
 
 type verdict = Noticed | Not_noticed | Trouble of string
 

@@ -268,6 +268,18 @@ let copies =
       ~environment:{ plain with endings = (fun v _ -> if v = "a" then Fails else Succeeds) }
       [ No_error ]
       {|execute (task('p')[a] >> action { post x: 1 }) | (task('q')[b] >> action { post x: 2 } >> condition { consume x: 1 })|};
+    breaks "isomorphic subtasks of which one fails"
+      ~environment:{ plain with endings = (fun v _ -> if v = "b" then Fails else Succeeds) }
+      [ No_leftover ]
+      {|execute (watch (task('p')[a] >> action { post x: 1 }) onError { ignore() }) |
+          (watch (task('q')[b] >> action { post x: 2 }) onError { ignore() })
+        if (poll(x: 2)) { halt 'b did not fail' }|};
+    breaks "a symmetry that N has at first, and not later" [ No_leftover ]
+      {|execute oneOf { when { true } then action { }
+                      when { true } then action { } >> action { post x: 1 } }
+        execute (during 1 run action { post x: 1 }) | (during 1 run action { post x: 2 })
+        if (poll(x: 2)) { consume x: 2
+                          if (poll(x: 2)) { halt 'x: 2 was posted twice' } }|};
     breaks "tasks that are alike before, and all begun" []
       {|s = task('p')[a] >> action { message 's' }
         t = task('q')[b] >> action { message 't' }
@@ -341,6 +353,15 @@ let copies =
           execute oneOf { when { consume y: 1 } then action { post x: 1 }
                           when { consume y: 2 } then action { post x: 2 } }
         }|};
+  ]
+
+(* What both searches take from the semantics: comparing them with each other would not show a mistake in it. *)
+let semantics =
+  [
+    breaks "a time below 0" [ No_error ] "execute during { -1 } run task('p')[a]";
+    breaks "a vehicle that is bound" [ Vehicles ] "v = pick { id 'a' ; timeout 1.seconds }";
+    breaks "an allocation around an allocation" ~environment:{ plain with endings = (fun v _ -> if v = "a" then Fails else Succeeds) }
+      [] "execute (task('p')[a + b])[b]";
   ]
 
 let fleet n =
@@ -425,4 +446,4 @@ let one_group =
 
 let () =
   Alcotest.run "reduction by hand"
-    [ ("traps", traps); ("copies", copies); ("savings", savings); ("one group", one_group) ]
+    [ ("semantics", semantics); ("traps", traps); ("copies", copies); ("savings", savings); ("one group", one_group) ]

@@ -75,21 +75,21 @@ let union f f' =
       ignores = f.ignores || f'.ignores;
     }
 
-let is_blind f =
+let reads_nothing f =
   Pairs.is_empty f.takes && Pairs.is_empty f.needs && Pairs.is_empty f.tests && Globals.is_empty f.reads
   && not f.anything
 
-let is_free f =
-  is_blind f && Pairs.is_empty f.posts && Globals.is_empty f.writes
+let touches_nothing f =
+  reads_nothing f && Pairs.is_empty f.posts && Globals.is_empty f.writes
 
-let is_traceless f =
+let leaves_no_trace f =
   Pairs.is_empty f.posts && Pairs.is_empty f.takes && Globals.is_empty f.writes
   && (not f.anything) && not f.remembered
 
 let share a b = not (Globals.disjoint a b)
 
 let conflict ~possible f f' =
-  (not (is_free f || is_free f'))
+  (not (touches_nothing f || touches_nothing f'))
   && (f.anything || f'.anything
       || Pairs.meet f.queues f'.queues
       || Pairs.meet f.posts f'.tests

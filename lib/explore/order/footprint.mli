@@ -1,5 +1,5 @@
-(** What pieces of code, and steps, may touch of that which the parts of a task share: an upper bound, found without
-    running them. Two steps whose footprints do not conflict can change places in a run. *)
+(** Footprints: what code, and steps, may read and write of what the components of a task share. An upper bound, found
+    without running them. Two steps whose footprints do not conflict commute. *)
 
 open Dolphin_semantics
 
@@ -33,14 +33,15 @@ type t = {
 val empty : t
 val union : t -> t -> t
 
-val is_free : t -> bool
-(** [is_free f] is whether [f] touches nothing, so that it conflicts with nothing. *)
+val touches_nothing : t -> bool
+(** [touches_nothing f] is whether [f] touches nothing, so that it conflicts with nothing. *)
 
-val is_traceless : t -> bool
-(** [is_traceless f] is whether nobody can tell, once what [f] is of is cut off, whether it was. *)
+val leaves_no_trace : t -> bool
+(** [leaves_no_trace f] is whether [f] changes nothing: if the step is cut off, it makes no difference whether it was
+    taken before. *)
 
-val is_blind : t -> bool
-(** [is_blind f] is whether what happens does not depend on what is shared. *)
+val reads_nothing : t -> bool
+(** [reads_nothing f] is whether the step does not depend on what is shared. *)
 
 val conflict : possible:bool -> t -> t -> bool
 (** [conflict ~possible f f'] is [false] only if a step with footprint [f], [possible] now or not, is as possible after

@@ -6,8 +6,8 @@ type t = {
   footprints : Footprint.t array;
   ends : bool array;
   futures : Footprint.t array;
-  kills : bool array;
-  alone : Footprint.t option array;
+  cut_by_error : bool array;
+  runs_first : Footprint.t option array;
 }
 
 type step = { index : int; source : Task_rules.step; event : Transition.event option }
@@ -77,7 +77,7 @@ let rec is_settled c (r : Residual.t) =
   | Ready (p, v) | Running (p, v) -> Environment.may_succeed c.options v p.name
   | Action a ->
     let f = Footprint.of_code c.code a in
-    Footprint.is_free f && (not f.breaks) && not f.halts
+    Footprint.touches_nothing f && (not f.breaks) && not f.halts
   | Idle _ -> true
   | Sequence (r, rest) -> List.for_all (is_settled c) (r :: rest)
   | Parallel rs -> List.for_all (is_settled c) rs
@@ -87,7 +87,7 @@ let only_takes (f : Footprint.t) =
   Footprint.(Pairs.is_empty f.posts && Pairs.is_empty f.tests && Globals.is_empty f.writes && not f.anything)
 
 (* By branch: its footprint, if it may run first. [around] is what handlers of its errors touch. *)
-let branches_alone c around (bs : Residual.branch list) =
+let branches_first c around (bs : Residual.branch list) =
   let whole = List.map (of_branch c) bs in
   let rec each before (whole : Footprint.t list) (bs : Residual.branch list) =
     match whole, bs with
@@ -104,12 +104,12 @@ let branches_alone c around (bs : Residual.branch list) =
   each [] whole bs
 
 (* Those of an [allOf] that waits, where errors cannot be ignored; [around] as above. *)
-let rec alone c around (r : Residual.t) =
+let rec first_branches c around (r : Residual.t) =
   match r with
-  | Sequence (r, _) | All_of (Some r, _) -> alone c around r
+  | Sequence (r, _) | All_of (Some r, _) -> first_branches c around r
   | Watch (r, handler) when not ((Footprint.of_code c.code handler).ignores && (future c r).breaks) ->
-    alone c (union around (Footprint.of_code c.code handler)) r
-  | All_of (None, bs) -> branches_alone c around bs
+    first_branches c (union around (Footprint.of_code c.code handler)) r
+  | All_of (None, bs) -> branches_first c around bs
   | Parallel _ | Ready _ | Running _ | Action _ | Condition _ | One_of _ | Until _ | Idle _ | During _ | Watch _ -> []
 
 (* {1 Components} *)
@@ -131,7 +131,7 @@ let following c contexts =
   all (List.map following contexts)
 
 (* [first] is what the component itself may do. An error may reach any handler around. *)
-let analyse c nests first alone steps =
+let analyse c nests first branches steps =
   let around = all (List.concat_map (handlers_of c) nests) in
   let with_handlers (f : Footprint.t) = if f.breaks then union f around else f in
   let further futures contexts =
@@ -141,20 +141,20 @@ let analyse c nests first alone steps =
   in
   let futures = Array.of_list (List.rev (List.fold_left further (further [] []) nests)) in
   let ignores (f : Footprint.t) = f.ignores in
-  let kill level contexts = futures.(level).breaks && List.exists ignores (handlers_of c contexts) in
+  let cut_by_error level contexts = futures.(level).breaks && List.exists ignores (handlers_of c contexts) in
   let footprints = Array.map (footprint c) steps in
   let may_end (f : Footprint.t) = f.breaks || f.halts in
   {
     footprints;
     ends = Array.map may_end footprints;
     futures;
-    kills = Array.of_list (false :: List.mapi kill nests);
-    alone = Array.map (fun step -> Option.join (List.nth_opt alone step.index)) steps;
+    cut_by_error = Array.of_list (false :: List.mapi cut_by_error nests);
+    runs_first = Array.map (fun step -> Option.join (List.nth_opt branches step.index)) steps;
   }
 
 let of_part c nests r steps =
   let around = all (List.concat_map (handlers_of c) nests) in
-  analyse c nests (future c r) (alone c around r) steps
+  analyse c nests (future c r) (first_branches c around r) steps
 
 let of_cuts c nests steps =
   match nests with

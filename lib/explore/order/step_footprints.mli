@@ -1,6 +1,6 @@
 (** What the components of an executing task may do: its parts, and nests with the steps of their contexts, the cuts.
-    What stands around a component is given as the contexts of its nests, the innermost nest first, and in each the
-    innermost context first. *)
+    The surroundings of a component are the contexts of its nests, the innermost nest first, and in each the innermost
+    context first. *)
 
 open Dolphin_semantics
 open Dolphin_environment
@@ -10,12 +10,13 @@ type t = {
   ends : bool array;  (** by step: whether it may end the run *)
   futures : Footprint.t array;
   (** by level: all that the component may do until it is over, with what follows it inside of so many nests *)
-  kills : bool array;
-  (** by level, from 1: whether an error of all that may be ignored by the nest so far above, so that the nest goes *)
-  alone : Footprint.t option array;
-  (** by step: that of a whole branch of an [allOf] that the step starts, if it may as well run first. Its guard takes
-      and needs what no other branch touches; its body has steps that are always possible, touch nothing, and can end
-      it. *)
+  cut_by_error : bool array;
+  (** by level, from 1: whether the nest so many levels above may ignore an error of the component, so that all in it is
+      cut off *)
+  runs_first : Footprint.t option array;
+  (** by step: the footprint of the whole branch of an [allOf] that the step starts, if the branch may run first. Its
+      guard takes and needs what no other branch touches; the steps of its body are always possible, touch nothing, and
+      can end it. *)
 }
 
 (** A step of a residual or nest, by its number in [Task_rules.steps], on one of the events it awaits, as a step of the

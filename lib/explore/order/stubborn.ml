@@ -1,14 +1,14 @@
 open Step_footprints
 
-type landing = { level : int; gone : bool }
-type status = Impossible | Moves of landing | Ends | Depends of { moves : landing list; ends : bool }
+type move = { level : int; over : bool }
+type status = Impossible | Moves of move | Ends | Depends of { moves : move list; ends : bool }
 type component = { place : Layout.place; analysis : Step_footprints.t }
 type t = { components : component array; status : int -> int -> status }
 
-let landings t x k =
-  match t.status x k with Moves landing -> [ landing ] | Depends { moves; _ } -> moves | Impossible | Ends -> []
+let moves_of t x k =
+  match t.status x k with Moves move -> [ move ] | Depends { moves; _ } -> moves | Impossible | Ends -> []
 
-let moves t x k = landings t x k <> []
+let may_move t x k = moves_of t x k <> []
 let surely_moves t x k = match t.status x k with Moves _ -> true | Impossible | Ends | Depends _ -> false
 let may_end t x k = match t.status x k with Ends -> true | Depends { ends; _ } -> ends | Impossible | Moves _ -> false
 
@@ -21,7 +21,7 @@ let exists_step t x p =
 let is_nest (place : Layout.place) = place.inside <> None
 let contains (nest : Layout.place) (place : Layout.place) = nest.from <= place.from && place.upto <= nest.upto
 
-(* The nests around [y] that [x] is not in. *)
+(* How many nests around [y] do not contain [x]. *)
 let apart y x =
   let rec count n (place : Layout.place) =
     match place.around with Some nest when not (contains nest x) -> count (n + 1) nest | Some _ | None -> n
@@ -33,7 +33,7 @@ let future t y x =
   let c = t.components.(y) in
   c.analysis.futures.(apart c.place t.components.(x).place)
 
-(* Whether what stands at [place] is cut off when a step of the component at [own] lands there. *)
+(* Whether a step of the component at [own] that moves so cuts off what stands at [place]. *)
 let is_cut_off own place { level; _ } = (level > 0 || is_nest own) && contains (Layout.above own level) place
 
 (* Whether a step of [y] may ever cut off [x]. *)
@@ -42,13 +42,13 @@ let may_cut_off t y x =
   let rec by_error n (at : Layout.place) =
     match at.around with
     | None -> false
-    | Some nest -> (contains nest x && analysis.kills.(n)) || by_error (n + 1) nest
+    | Some nest -> (contains nest x && analysis.cut_by_error.(n)) || by_error (n + 1) nest
   in
   (is_nest place && contains place x) || by_error 1 place
 
-(* {1 What must be taken along} *)
+(* {1 Dependence} *)
 
-(* What may be done to a step, or by it. One that ends the run now ends it whatever others do: see below. *)
+(* The footprint of a step, as far as others depend on it. A step that ends the run now is followed in any case. *)
 let touches t x k =
   let { ends; footprints; _ } = t.components.(x).analysis in
   let is_end = ends.(k) && match t.status x k with Ends -> true | Impossible | Moves _ | Depends _ -> false in
@@ -58,43 +58,43 @@ let conflict t x y =
   let f = future t y x in
   let clash k =
     let own = touches t x k in
-    (not (Footprint.is_free own)) && Footprint.conflict ~possible:(surely_moves t x k) own f
+    (not (Footprint.touches_nothing own)) && Footprint.conflict ~possible:(surely_moves t x k) own f
   in
-  (not (Footprint.is_free f)) && exists_step t x clash
+  (not (Footprint.touches_nothing f)) && exists_step t x clash
 
-(* A step of [x] would cut off [y], which may leave traces before. *)
+(* Whether a step of [x] would cut off [y], which may leave a trace before. *)
 let cuts_off t x y =
-  let cut k = List.exists (is_cut_off t.components.(x).place t.components.(y).place) (landings t x k) in
-  exists_step t x cut && not (Footprint.is_traceless (future t y x))
+  let cut k = List.exists (is_cut_off t.components.(x).place t.components.(y).place) (moves_of t x k) in
+  exists_step t x cut && not (Footprint.leaves_no_trace (future t y x))
 
 (* {1 Keys}
 
-   Of the steps that are taken, one must be such that whatever others do, it can come first. *)
+   One of the steps that are taken must be possible first, whatever others do. *)
 
-(* Whether it would cut off [y], or [y] might cut it off and leave a trace of it in the wrong place, or the nest of [y]
-   might be over before it cuts what it cuts now. *)
+(* Whether the key would cut off [y]; or [y] may cut it off, and its trace would be in the wrong place; or the nest of
+   [y] may be over before it cuts what it cuts now. *)
 let is_in_the_way t x k y =
   let own = t.components.(x) and other = t.components.(y) in
   let f = own.analysis.footprints.(k) in
-  let is_idle_cut (f : Footprint.t) = Footprint.is_traceless f && (not f.breaks) && not f.halts in
-  let ends_nest { level; gone } =
+  let is_idle_cut (f : Footprint.t) = Footprint.leaves_no_trace f && (not f.breaks) && not f.halts in
+  let ends_nest { level; over } =
     let place = Layout.above own.place level in
-    gone && is_nest other.place && other.place != place && contains other.place place
+    over && is_nest other.place && other.place != place && contains other.place place
   in
-  let landings = landings t x k in
-  List.exists (is_cut_off own.place other.place) landings
-  || ((not (Footprint.is_traceless f)) && may_cut_off t y x)
-  || (List.exists ends_nest landings && not (Array.for_all is_idle_cut other.analysis.footprints))
+  let moves = moves_of t x k in
+  List.exists (is_cut_off own.place other.place) moves
+  || ((not (Footprint.leaves_no_trace f)) && may_cut_off t y x)
+  || (List.exists ends_nest moves && not (Array.for_all is_idle_cut other.analysis.footprints))
 
-(* The key of [x] that most others leave alone, with those that do not. Failures elsewhere may use up the ones that a
-   failure needs; but the success of the same task comes before it, and is no worse. *)
+(* The key of [x] with the fewest components in its way, as these. Failures elsewhere may use up those that a failure
+   needs; but the success of the same task comes before it, and is no worse. *)
 let key t x =
   let best = ref None in
   let others k =
     List.filter (fun y -> y <> x && is_in_the_way t x k y) (List.init (Array.length t.components) Fun.id)
   in
   let try_step k =
-    if moves t x k then
+    if may_move t x k then
       let others = others k in
       match !best with
       | Some best when List.compare_lengths best others <= 0 -> ()
@@ -105,7 +105,7 @@ let key t x =
 
 (* {1 Sets} *)
 
-(* All that must be taken along with a key of [seed], if it has one. *)
+(* The smallest set that has a key of [seed] and all that it depends on, if [seed] has a key. *)
 let closure t seed =
   let along others =
     let n = Array.length t.components in
@@ -127,34 +127,34 @@ let closure t seed =
   in
   Option.map along (key t seed)
 
-(* Whether a step that would end the run here would perhaps not do so later. Those that do whatever is shared are
-   outcomes: they are noted here, and nothing follows them. *)
+(* Whether some step would end the run here, and perhaps not later. Those that end it whatever is shared are outcomes:
+   nothing follows them. *)
 let some_end_depends t =
   let depends x k =
     let { footprints; ends; _ } = t.components.(x).analysis in
-    ends.(k) && (not (Footprint.is_blind footprints.(k))) && may_end t x k
+    ends.(k) && (not (Footprint.reads_nothing footprints.(k))) && may_end t x k
   in
   let rec from x = x < Array.length t.components && (exists_step t x (depends x) || from (x + 1)) in
   from 0
 
-(* Nothing that others do has to do with such a component, unless it is cut off. *)
-let is_free t x = Array.for_all Footprint.is_free t.components.(x).analysis.footprints
+(* Such a component depends on no other, unless it is cut off. *)
+let is_independent t x = Array.for_all Footprint.touches_nothing t.components.(x).analysis.footprints
 
 let size t taken =
   let n = ref 0 in
-  let count x k = if taken.(x) && moves t x k then incr n in
+  let count x k = if taken.(x) && may_move t x k then incr n in
   Array.iteri (fun x c -> Array.iteri (fun k _ -> count x k) c.analysis.footprints) t.components;
   !n
 
-let is_alone taken = Array.fold_left (fun n is -> if is then n + 1 else n) 0 taken = 1
+let is_single taken = Array.fold_left (fun n is -> if is then n + 1 else n) 0 taken = 1
 
-let free t =
+let independent t =
   let n = Array.length t.components in
   let rec from x =
     if x = n then None
     else
-      match if is_free t x then closure t x else None with
-      | Some taken when is_alone taken -> Some taken
+      match if is_independent t x then closure t x else None with
+      | Some taken when is_single taken -> Some taken
       | Some _ | None -> from (x + 1)
   in
   from 0
@@ -169,14 +169,14 @@ let branch_first t =
   in
   let fits x k f =
     surely_moves t x k
-    && (not (Array.exists Fun.id t.components.(x).analysis.kills))
+    && (not (Array.exists Fun.id t.components.(x).analysis.cut_by_error))
     && others x (fun y -> (not (Footprint.conflict ~possible:true f (future t y x))) && not (may_cut_off t y x))
   in
   let rec from x k =
     if x = n then None
-    else if k = Array.length t.components.(x).analysis.alone then from (x + 1) 0
+    else if k = Array.length t.components.(x).analysis.runs_first then from (x + 1) 0
     else
-      match t.components.(x).analysis.alone.(k) with
+      match t.components.(x).analysis.runs_first.(k) with
       | Some f when fits x k f -> Some (x, k)
       | Some _ | None -> from x (k + 1)
   in
@@ -206,7 +206,7 @@ let choose components status =
   let t = { components; status } in
   if some_end_depends t then None
   else
-    match free t with
+    match independent t with
     | Some taken -> Some (fun x _ -> taken.(x))
     | None -> (
         match branch_first t with

@@ -1,22 +1,22 @@
-(** Which steps of an executing configuration are enough: a persistent set, as far as what is cut off allows.
-    docs/explorer.md says why. *)
+(** Which steps of an executing configuration are enough: a stubborn set, for components that may be cut off.
+    docs/explorer.md proves it. *)
 
-(** What becomes of a component that moves: something takes its place (level 0), or that of the nest so many levels
-    above, or it is [gone]. *)
-type landing = { level : int; gone : bool }
+(** What a step changes: the component itself (level 0), or the nest so many levels above. That is replaced, or is
+    [over]. *)
+type move = { level : int; over : bool }
 
 (** What a step does where it stands. *)
 type status =
   | Impossible
-  | Moves of landing
+  | Moves of move
   | Ends  (** the run *)
-  | Depends of { moves : landing list; ends : bool }
-  (** on what sensors show, that may show anything: how it may move, whether it may end the run *)
+  | Depends of { moves : move list; ends : bool }
+  (** on open sensors: how it may move, whether it may end the run *)
 
 (** A part, or a nest with its cuts. *)
 type component = { place : Layout.place; analysis : Step_footprints.t }
 
 val choose : component array -> (int -> int -> status) -> (int -> int -> bool) option
-(** [choose components status] is which of the steps that move are enough, or [None] if all are needed. Steps are told
-    by index of their component, and place in its [footprints]. [status] is asked only as far as needed. Steps that end
-    the run are to be taken in any case, as far as they end it. *)
+(** [choose components status] is which of the steps that move are enough, or [None] if all are needed. A step is given
+    by the index of its component, and its index in [footprints] there. [status] is asked only as far as needed. Steps
+    that end the run are to be taken in any case, as far as they end it. *)

@@ -114,10 +114,10 @@ let expand_all t (s : Layout.t) shared i =
 (* {1 Steps that are enough} *)
 
 let local_status t step shared : Stubborn.status =
-  let landing level target : Stubborn.landing =
-    { level; gone = (match target with Gone -> true | Stays _ | Becomes _ | Ends _ -> false) }
+  let move level target : Stubborn.move =
+    { level; over = (match target with Gone -> true | Stays _ | Becomes _ | Ends _ -> false) }
   in
-  let of_case case = landing case.level case.result in
+  let of_case case = move case.level case.result in
   let by_case () : Stubborn.status =
     match Memoised_steps.case t.cases step shared with
     | { possible = false; _ } -> Impossible
@@ -127,11 +127,11 @@ let local_status t step shared : Stubborn.status =
       Depends { moves = List.map of_case moves; ends = ends <> [] }
   in
   match step.dependence with
-  | Free -> Moves (landing 0 step.target)
+  | Free -> Moves (move 0 step.target)
   | By_case -> by_case ()
   | Guarded guard ->
     let result = Memoised_steps.guarded t.cases step guard shared in
-    if result >= 0 then Moves (landing 0 step.target) else if result = special then by_case () else Impossible
+    if result >= 0 then Moves (move 0 step.target) else if result = special then by_case () else Impossible
 
 let take_step t s place step shared i =
   match step.dependence with

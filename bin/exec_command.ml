@@ -78,13 +78,7 @@ let run () path sim fleet network definition speed seed answers supplier supplie
        let run front ~interruption = Run.start front ~interruption settings program fleet in
        Ok (on_terminal settings program run))
 
-let positive =
-  let parse text =
-    match float_of_string_opt text with
-    | Some x when x > 0. && x < infinity -> Ok x
-    | Some _ | None -> Error (`Msg (Printf.sprintf "'%s' is not a number greater than 0" text))
-  in
-  Arg.conv ~docv:"NUMBER" (parse, Format.pp_print_float)
+let positive = Options.positive ~docv:"NUMBER"
 
 let sim =
   let doc =

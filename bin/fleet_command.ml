@@ -21,14 +21,7 @@ let once =
   Arg.(value & flag & info [ "once" ] ~doc)
 
 let seconds =
-  let positive =
-    let parse text =
-      match float_of_string_opt text with
-      | Some x when x > 0. && x < infinity -> Ok x
-      | Some _ | None -> Error (`Msg (Printf.sprintf "'%s' is not a number of seconds" text))
-    in
-    Arg.conv ~docv:"SECONDS" (parse, Format.pp_print_float)
-  in
+  let positive = Options.number ~docv:"SECONDS" "a number of seconds" (fun x -> x > 0. && x < infinity) in
   let doc =
     "Look for $(docv) seconds. By default until Ctrl-C, and with $(b,--once) for 16: after so long every vehicle with \
      the usual settings has announced itself and spoken to us."

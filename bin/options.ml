@@ -12,6 +12,16 @@ let drawing =
   let parse path = Result.map_error (fun why -> `Msg why) (Dolphin_app.Drawing.of_path path) in
   Arg.conv ~docv:"FILE" (parse, fun ppf d -> Format.pp_print_string ppf (Dolphin_app.Drawing.path d))
 
+let number ~docv what accepts =
+  let parse text =
+    match float_of_string_opt text with
+    | Some x when accepts x -> Ok x
+    | Some _ | None -> Error (`Msg (Printf.sprintf "'%s' is not %s" text what))
+  in
+  Arg.conv ~docv (parse, Format.pp_print_float)
+
+let positive ~docv = number ~docv "a number greater than 0" (fun x -> x > 0. && x < infinity)
+
 let exits = Exit_status.info
 
 let see_also =

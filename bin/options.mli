@@ -11,6 +11,12 @@ val fleet : string option Term.t
 val drawing : Dolphin_app.Drawing.t Arg.conv
 (** The name of a picture. *)
 
+val number : docv:string -> string -> (float -> bool) -> float Arg.conv
+(** [number ~docv what accepts] is the numbers that [accepts]; others are not [what]. *)
+
+val positive : docv:string -> float Arg.conv
+(** Finite numbers greater than 0. *)
+
 val exits : Exit_status.t list -> Cmd.Exit.info list
 (** What each of them means, for a manual page. *)
 

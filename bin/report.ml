@@ -23,5 +23,5 @@ let result = function Ok status -> status | Error e -> error e
 let counts ds =
   let is_error (d : Diagnostic.t) = match d.severity with Error -> true | Warning -> false in
   let errors, warnings = List.partition is_error ds in
-  let first = if errors = [] then "no errors" else Phrase.count (List.length errors) "error" in
-  if warnings = [] then first else first ^ ", " ^ Phrase.count (List.length warnings) "warning"
+  let first = if errors = [] then "no errors" else Dolphin_trace.Phrase.count (List.length errors) "error" in
+  if warnings = [] then first else first ^ ", " ^ Dolphin_trace.Phrase.count (List.length warnings) "warning"

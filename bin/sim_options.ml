@@ -3,17 +3,9 @@ module Network = Dolphin_sim_imc.Network
 
 (* {1 Values} *)
 
-let number ~docv what accepts =
-  let parse text =
-    match float_of_string_opt text with
-    | Some x when accepts x -> Ok x
-    | Some _ | None -> Error (`Msg (Printf.sprintf "'%s' is not %s" text what))
-  in
-  Arg.conv ~docv (parse, Format.pp_print_float)
-
-let positive = number ~docv:"NUMBER" "a number greater than 0" (fun x -> x > 0. && x < infinity)
-let natural = number ~docv:"SECONDS" "a number, 0 or greater" (fun x -> x >= 0. && x < infinity)
-let share = number ~docv:"SHARE" "a number from 0 to 1" (fun x -> x >= 0. && x <= 1.)
+let positive = Options.positive ~docv:"NUMBER"
+let natural = Options.number ~docv:"SECONDS" "a number, 0 or greater" (fun x -> x >= 0. && x < infinity)
+let share = Options.number ~docv:"SHARE" "a number from 0 to 1" (fun x -> x >= 0. && x <= 1.)
 
 let port =
   let parse text =

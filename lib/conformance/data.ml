@@ -20,11 +20,7 @@ let part left write =
   left.depth <- left.depth + 1;
   json
 
-let shortened json =
-  let text = Dolphin_json.Canonical.to_string json in
-  if String.length text <= 40 then text else String.sub text 0 40 ^ "..."
-
-let wrong what json = raise (Wrong (Printf.sprintf "%s is not %s" (shortened json) what))
+let wrong what json = raise (Wrong (Printf.sprintf "%s is not %s" (Dolphin_json.Canonical.shortened 40 json) what))
 let tagged name parts : json = `List (`String name :: parts)
 let whole : json -> int = function `Int i -> i | json -> wrong "a whole number" json
 let text : json -> string = function `String text -> text | json -> wrong "a text" json

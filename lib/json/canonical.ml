@@ -52,3 +52,7 @@ let to_string json =
   let buffer = Buffer.create 256 in
   write buffer json;
   Buffer.contents buffer
+
+let shortened n json =
+  let text = to_string json in
+  if String.length text <= n then text else String.sub text 0 n ^ "..."

@@ -13,5 +13,8 @@ val write : Buffer.t -> Yojson.Safe.t -> unit
     point or exponent, and has the fewest of 15, 16 or 17 digits that give it back; one that is
     not finite, which JSON does not have, is [inf] or [nan]. Strings are taken for UTF-8. *)
 
+val shortened : int -> Yojson.Safe.t -> string
+(** [shortened n json] is the text of [json], for messages: cut after [n] bytes, with ["..."], if it is longer. *)
+
 val to_string : Yojson.Safe.t -> string
 (** On one line, the members in their order. *)

@@ -14,11 +14,7 @@ let get read name members =
 let optional read ~default name members =
   match List.assoc_opt name members with Some json -> within name read json | None -> Ok default
 
-let shortened json =
-  let text = Canonical.to_string json in
-  if String.length text <= 40 then text else String.sub text 0 40 ^ "..."
-
-let wrong json what = Error (Printf.sprintf "%s, not %s" (shortened json) what)
+let wrong json what = Error (Printf.sprintf "%s, not %s" (Canonical.shortened 40 json) what)
 let text : Yojson.Safe.t -> _ = function `String text -> Ok text | json -> wrong json "a text"
 
 let number : Yojson.Safe.t -> _ = function

@@ -67,11 +67,7 @@ let to_json = to_json_within 0
 
 (* {1 From JSON} *)
 
-let shortened json =
-  let text = Canonical.to_string json in
-  if String.length text <= 60 then text else String.sub text 0 60 ^ "..."
-
-let expected what json = Error (Printf.sprintf "%s is expected, not %s" what (shortened json))
+let expected what json = Error (Printf.sprintf "%s is expected, not %s" what (Canonical.shortened 60 json))
 
 let to_float what (json : Yojson.Safe.t) =
   let* x =

@@ -164,7 +164,7 @@ let print_columns ppf picked rows =
     Format.fprintf ppf "%s@\n" (trim text (String.length text))
   in
   let print_row previous row =
-    let clock = Clock.text row.time in
+    let clock = Phrase.time row.time in
     let cell (actor, _, n) =
       let idle = if Hashtbl.mem working actor then "│" else "" in
       match cells_of actor row with
@@ -200,7 +200,7 @@ let print_list ppf rows =
   let cells = List.concat_map (fun row -> List.map (fun (who, text) -> (row.time, name who, text)) row.cells) rows in
   let column = List.fold_left (fun n (_, who, _) -> max n (min widest (width who))) 7 cells in
   let print (time, who, text) =
-    Format.fprintf ppf "%*s  %s  %s@\n" clock_width (Clock.text time) (pad column (harmless who)) (harmless text)
+    Format.fprintf ppf "%*s  %s  %s@\n" clock_width (Phrase.time time) (pad column (harmless who)) (harmless text)
   in
   List.iter print cells
 
@@ -219,6 +219,6 @@ let print_transitions ppf (entry : Entry.t) =
   match entry with
   | Transition { index; time; step } ->
     let place = match step.at with Some (line, column) -> Printf.sprintf "%d:%d" line column | None -> "" in
-    Format.fprintf ppf "%6d  %*s  %-7s  %s  %s@\n" index clock_width (Clock.text time) place
+    Format.fprintf ppf "%6d  %*s  %-7s  %s  %s@\n" index clock_width (Phrase.time time) place
       (String.concat ", " step.rules) (harmless step.label)
   | Header _ | Partial _ | Label _ | Vehicle _ | Event _ | Note _ | Resumed _ | End _ -> ()

@@ -70,28 +70,27 @@ let describe (entry : Entry.t) =
   | Resumed _ -> "a resumption"
   | End { ending; _ } -> Format.asprintf "the end: %a" pp_ending ending
 
-let count n = Printf.sprintf "%d transition%s" n (if n = 1 then "" else "s")
+let count n = Phrase.count n "transition"
 
 let pp ppf = function
   | Run { transitions; time; ending } ->
-    Format.fprintf ppf "a run, of %s in %s; %a" (count transitions) (Clock.text time) pp_ending ending
+    Format.fprintf ppf "a run, of %s in %s; %a" (count transitions) (Phrase.time time) pp_ending ending
   | Prefix { transitions; time; torn } ->
-    Format.fprintf ppf "the beginning of a run, of %s in %s; it breaks off%s" (count transitions) (Clock.text time)
+    Format.fprintf ppf "the beginning of a run, of %s in %s; it breaks off%s" (count transitions) (Phrase.time time)
       (if torn then " in the middle of a line" else "")
   | No_run { number; entry; transitions; mismatch } ->
     Format.fprintf ppf "line %d is none of a run: %s@,%a@,before it: %s of a run" number (describe entry)
       Replay.pp_mismatch mismatch (count transitions)
   | Possible { lines; over } ->
-    Format.fprintf ppf "what a run can look like: %d line%s%s" lines (if lines = 1 then "" else "s")
+    Format.fprintf ppf "what a run can look like: %s%s" (Phrase.count lines "line")
       (if over then ", to its end" else "")
   | Impossible { number; entry; lines; mismatch } ->
     let show_all ppf = function
       | [] -> Format.pp_print_string ppf "nothing"
       | labels -> Format.pp_print_string ppf (String.concat ", " labels)
     in
-    Format.fprintf ppf "line %d is not what a run can look like: %s@,%s@,what could come: %a@,before it: %d line%s"
-      number (describe entry) mismatch.reason show_all mismatch.possible lines
-      (if lines = 1 then "" else "s")
+    Format.fprintf ppf "line %d is not what a run can look like: %s@,%s@,what could come: %a@,before it: %s"
+      number (describe entry) mismatch.reason show_all mismatch.possible (Phrase.count lines "line")
   | Unknown { number; most } ->
     Format.fprintf ppf
       "not known: between line %d and the one before, more than %d configurations can be hidden; a trace with more \

@@ -19,7 +19,7 @@ let tasks_of_vehicles () =
     let ending =
       match t.ending with Done -> "done" | Failed why -> why | Stopped -> "stopped" | Unfinished -> "not ended"
     in
-    Printf.sprintf "%s %s-%s %s" t.plan (Clock.text t.from) (Clock.text t.until) ending
+    Printf.sprintf "%s %s-%s %s" t.plan (Phrase.time t.from) (Phrase.time t.until) ending
   in
   let of_vehicle (v : Summary.vehicle) = (v.id, List.map show v.tasks) in
   Alcotest.(check (list (pair string (list string))))

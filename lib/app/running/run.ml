@@ -94,7 +94,7 @@ let start_host r =
     if calls > 0 then
       r.front.notice
         (Printf.sprintf "the supplier is started anew: %s that it has answered in this run %s not made again"
-           (Phrase.count calls "call") (if calls = 1 then "is" else "are"));
+           (Dolphin_trace.Phrase.count calls "call") (if calls = 1 then "is" else "are"));
     (match Host.start ?timeout:r.settings.supplier_timeout ~calls command with
      | Ok host -> Ok (Some host)
      | Error why -> Error (Error.Unavailable ("the supplier cannot be started: " ^ why)))

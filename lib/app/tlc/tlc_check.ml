@@ -74,14 +74,14 @@ let print_counter_example options (program : Program_file.t) world (c : Outcome.
     print_states c
 
 let length (c : Outcome.counter_example) =
-  let n = Phrase.count (List.length c.steps) "step" in
+  let n = Dolphin_trace.Phrase.count (List.length c.steps) "step" in
   match c.repetition with
   | Once -> "after " ^ n
   | Stays -> Printf.sprintf "after %s, for ever" n
-  | Back_to 0 -> Printf.sprintf "%s that can repeat for ever" (Phrase.count (List.length c.steps + 1) "step")
+  | Back_to 0 -> Printf.sprintf "%s that can repeat for ever" (Dolphin_trace.Phrase.count (List.length c.steps + 1) "step")
   | Back_to k ->
-    Printf.sprintf "after %s, %s that can repeat for ever" (Phrase.count k "step")
-      (Phrase.count (List.length c.steps - k + 1) "step")
+    Printf.sprintf "after %s, %s that can repeat for ever" (Dolphin_trace.Phrase.count k "step")
+      (Dolphin_trace.Phrase.count (List.length c.steps - k + 1) "step")
 
 (* TLC looks no further than the first violation, but for temporal properties: these it looks at when it has all states,
    and now and then before. What is asked of the specification rather than of the program is only told where it does not

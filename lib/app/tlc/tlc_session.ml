@@ -69,7 +69,7 @@ let show format = Printf.ksprintf (fun text -> Printf.eprintf "\r%s\027[K%!" tex
 
 let show_progress : Event.t -> unit = function
   | Version text -> show "%s: reads the model" text
-  | Initial_states n -> show "searches from %s" (Phrase.count n "initial state")
+  | Initial_states n -> show "searches from %s" (Dolphin_trace.Phrase.count n "initial state")
   | Progress { depth; generated; distinct; queue } ->
     show "searches: %d distinct states, %d generated, %d left, depth %d" distinct generated queue (depth - 1)
   | Checks_temporal states -> show "checks termination on %d states" states

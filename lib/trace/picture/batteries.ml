@@ -28,7 +28,7 @@ let draw summary ~x ~y ~width ~height =
   let tick time =
     let at = across time in
     [ Svg.line ~name:"grid" (at, y) (at, y +. height);
-      Svg.text ~name:"axis" ~anchor:(if time > 0. then Middle else Start) (at, y +. height +. 13.) (Clock.text time) ]
+      Svg.text ~name:"axis" ~anchor:(if time > 0. then Middle else Start) (at, y +. height +. 13.) (Phrase.time time) ]
   in
   let curve i v =
     let point s = (across s.time, down s.battery) in

@@ -11,7 +11,6 @@ let outcome summary =
   | Some { how; message = None | Some "" } -> (how, how <> "completed")
   | Some { how; message = Some message } -> (how ^ ": " ^ message, how <> "completed")
 
-let count n what = Printf.sprintf "%d %s%s" n what (if n = 1 then "" else "s")
 
 let title summary =
   match summary.header with Some h -> Filename.basename h.program.path | None -> "A run"
@@ -27,7 +26,7 @@ let circumstances summary =
     [ fleet; Printf.sprintf "seed %d" h.seed ] @ speed @ [ h.started ]
   in
   String.concat "  ·  "
-    ([ count (List.length summary.vehicles) "vehicle"; Clock.text summary.duration ]
+    ([ Phrase.count (List.length summary.vehicles) "vehicle"; Phrase.time summary.duration ]
      @ Option.fold ~none:[] ~some:of_header summary.header)
 
 let head summary =
@@ -105,7 +104,7 @@ let table summary =
       | Stopped -> "stopped"
       | Unfinished -> "not ended"
     in
-    (t.from, row "td" [ Clock.text t.from; Clock.text t.until; v.id; t.plan; how ])
+    (t.from, row "td" [ Phrase.time t.from; Phrase.time t.until; v.id; t.plan; how ])
   in
   let tasks = List.concat_map (fun v -> List.map (of_task v) v.tasks) summary.vehicles in
   let in_time = List.stable_sort (fun (a, _) (b, _) -> Float.compare a b) tasks in

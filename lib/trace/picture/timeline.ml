@@ -79,7 +79,7 @@ let level_height = 15.
 
 let draw_mark base (x, level, leftwards, activity, text, time) =
   let y = base -. (float_of_int level *. level_height) in
-  let tip = Printf.sprintf "%s  %s" (Clock.text time) (words activity) in
+  let tip = Printf.sprintf "%s  %s" (Phrase.time time) (words activity) in
   let anchor, dx = if leftwards then (Svg.End, -8.) else (Svg.Start, 8.) in
   let name = match activity with Erred _ -> "axis bad" | Posted _ | Consumed _ | Said _ | Asked _ -> "axis" in
   shape activity (x, y) tip :: (if text = "" then [] else [ Svg.text ~name ~anchor ~tip (x +. dx, y +. 3.5) text ])
@@ -94,7 +94,7 @@ let describe v (task : task) =
     | Stopped -> "stopped"
     | Unfinished -> "not ended"
   in
-  Printf.sprintf "%s runs %s from %s to %s: %s" v.id task.plan (Clock.text task.from) (Clock.text task.until) how
+  Printf.sprintf "%s runs %s from %s to %s: %s" v.id task.plan (Phrase.time task.from) (Phrase.time task.until) how
 
 let least_width = 2.
 
@@ -135,7 +135,7 @@ let draw_row f i v ~y ~row =
   in
   let silence (s : span) =
     let x = at f s.from in
-    let tip = Printf.sprintf "%s has no link from %s to %s" v.id (Clock.text s.from) (Clock.text s.until) in
+    let tip = Printf.sprintf "%s has no link from %s to %s" v.id (Phrase.time s.from) (Phrase.time s.until) in
     Svg.rect ~name:"silent" ~tip ~x ~y:(top +. height +. 1.) ~width:(Float.max 2. (at f s.until -. x)) ~height:3. ()
   in
   (* How a task ended is seen even if another one begins at once. *)
@@ -196,7 +196,7 @@ let draw summary ~x ~y ~width =
   let tick time =
     let x = at f time in
     [ Svg.line ~name:"grid" (x, y) (x, bottom);
-      Svg.text ~name:"axis" ~anchor:Middle (x, bottom +. char_height) (Clock.text time) ]
+      Svg.text ~name:"axis" ~anchor:Middle (x, bottom +. char_height) (Phrase.time time) ]
   in
   let guide (x, level, _, activity, _, _) =
     let top = base -. (float_of_int level *. level_height) +. 5. in

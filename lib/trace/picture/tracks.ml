@@ -141,7 +141,7 @@ let way m i v =
   in
   let starts =
     let start ((t : task), p) =
-      let tip = Printf.sprintf "%s starts %s at %s" v.id t.plan (Clock.text t.from) in
+      let tip = Printf.sprintf "%s starts %s at %s" v.id t.plan (Phrase.time t.from) in
       Svg.circle ~name:("step " ^ colour) ~tip (project m p) 2.4
     in
     List.map start (places v)

@@ -1,1 +1,0 @@
-let count n what = Printf.sprintf "%d %s%s" n what (if n = 1 then "" else "s")

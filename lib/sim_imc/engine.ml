@@ -14,7 +14,7 @@ type settings = {
 }
 
 type party = { system : int; entity : int }
-type said = { from : int; to_ : party; message : Message.t }
+type outgoing = { from : int; to_ : party; message : Message.t }
 
 type run = {
   plan : string;
@@ -30,7 +30,7 @@ type mode =
   | Ready
   | Blocked of { until : float; operation : Message.Vehicle_state.Op_mode.t }
   | Calibrating of { run : run; until : float }
-  | Executing of { run : run; since : float; part : Flight.part; ends : float; outcome : (unit, string) result }
+  | Executing of { run : run; since : float; maneuver : Flight.maneuver; ends : float; outcome : (unit, string) result }
 
 type t = {
   settings : settings;
@@ -45,7 +45,7 @@ type t = {
   starts : int;
 }
 
-type outcome = said list * Activity.t list * t
+type outcome = outgoing list * Activity.t list * t
 
 let entity = 55
 let supervisor = 75
@@ -79,14 +79,14 @@ let plan_control_state ~at e : Message.Plan_control_state.t =
   | Ready -> idle Ready
   | Blocked _ -> idle Blocked
   | Calibrating _ -> idle Initializing
-  | Executing { run; since; part; ends = _; outcome = _ } ->
+  | Executing { run; since; maneuver; ends = _; outcome = _ } ->
     let elapsed = at -. since and total = run.flight.execution.duration in
     let known = elapsed > 0. && total > 0. && total < infinity in
     { (idle Executing) with
-      plan_id = run.plan; man_id = part.id; man_type = part.kind;
+      plan_id = run.plan; man_id = maneuver.id; man_type = maneuver.kind;
       plan_eta = (if known then whole (total -. elapsed) else 0);
       plan_progress = (if known then Float.min 100. (100. *. elapsed /. total) else -1.);
-      man_eta = (if known then whole (part.ends -. elapsed) else 0) }
+      man_eta = (if known then whole (maneuver.ends -. elapsed) else 0) }
 
 (* The largest number stands for a time of arrival that is not known. *)
 let unknown_time = 65535
@@ -104,8 +104,8 @@ let vehicle_state e : Message.Vehicle_state.t =
   | Ready -> at_rest Service
   | Blocked { operation; until = _ } -> at_rest operation
   | Calibrating _ -> at_rest Calibration
-  | Executing { part; since; run = _; ends = _; outcome = _ } ->
-    { (at_rest Maneuver) with maneuver_type = part.kind; maneuver_stime = e.settings.epoch +. since }
+  | Executing { maneuver; since; run = _; ends = _; outcome = _ } ->
+    { (at_rest Maneuver) with maneuver_type = maneuver.kind; maneuver_stime = e.settings.epoch +. since }
 
 (* {1 Messages} *)
 
@@ -155,9 +155,9 @@ let take_off ~at (run : run) e =
   let body = Vehicle.set_out e.body ~at run.flight.execution.track in
   let ends = at +. run.flight.execution.duration and empty = Float.max at (Vehicle.empty_from body) in
   let ends, outcome = if empty < ends then empty, Error "battery empty" else ends, run.flight.execution.outcome in
-  let part = Flight.part run.flight 0. in
-  let e = { e with body; loaded = run.plan; mode = Executing { run; since = at; part; ends; outcome } } in
-  let executing = Printf.sprintf "%s: executing maneuver" part.id in
+  let maneuver = Flight.maneuver run.flight 0. in
+  let e = { e with body; loaded = run.plan; mode = Executing { run; since = at; maneuver; ends; outcome } } in
+  let executing = Printf.sprintf "%s: executing maneuver" maneuver.id in
   ( [ say_vehicle e; say_control ~at e; reply_to_start e run Success executing; log_answer ~at e run.plan executing ],
     [ Activity.Started { request = requested run; inline = run.inline; instead = run.instead } ],
     e )
@@ -291,8 +291,8 @@ let mode_due e =
   match e.mode with
   | Ready -> infinity
   | Blocked { until; _ } | Calibrating { until; _ } -> until
-  | Executing { run; since; part; ends; _ } when not (Flight.is_last run.flight part) ->
-    Float.min (since +. part.ends) ends
+  | Executing { run; since; maneuver; ends; _ } when not (Flight.is_last run.flight maneuver) ->
+    Float.min (since +. maneuver.ends) ends
   | Executing { ends; _ } -> ends
 
 let due e =
@@ -328,8 +328,8 @@ let mode_changes ~at e =
   | Executing x when x.ends <= at -> ended ~at x.run x.outcome e
   | Executing x ->
     let is_done = say_done e in
-    let part = Flight.part x.run.flight (Float.max x.part.ends (at -. x.since)) in
-    let e = { e with mode = Executing { x with part } } in
+    let maneuver = Flight.maneuver x.run.flight (Float.max x.maneuver.ends (at -. x.since)) in
+    let e = { e with mode = Executing { x with maneuver } } in
     [ is_done; say_vehicle e; say_control ~at e ], [], e
 
 let rec advance ~at e =

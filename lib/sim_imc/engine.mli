@@ -44,9 +44,9 @@ val create : settings -> t
 type party = { system : int; entity : int }
 
 (** A message from an entity of the vehicle. *)
-type said = { from : int; to_ : party; message : Message.t }
+type outgoing = { from : int; to_ : party; message : Message.t }
 
-type outcome = said list * Activity.t list * t
+type outcome = outgoing list * Activity.t list * t
 (** What is sent, in order; what is to be logged; the engine afterwards. *)
 
 (** {1:time Time} *)

@@ -4,11 +4,11 @@
 open Dolphin_scenario
 
 (** A maneuver, until [ends]. *)
-type part = { id : string; kind : int;  (** the number of its message *) ends : float }
+type maneuver = { id : string; kind : int;  (** the number of its message *) ends : float }
 
 type t = {
   execution : Dolphin_platform_sim.Execution.t;
-  parts : part list;  (** in order; if the execution fails, some are not reached *)
+  maneuvers : maneuver list;  (** in order; if the execution fails, some are not reached *)
 }
 
 val make :
@@ -23,11 +23,11 @@ val make :
     ends as {!Dolphin_platform_sim.Execution.make} says. A plan without a specification is one maneuver, ["1"], a
     Goto. *)
 
-val part : t -> float -> part
-(** [part f time] is the maneuver at [time]: the last of those that end at once when they begin. *)
+val maneuver : t -> float -> maneuver
+(** [maneuver f time] is the maneuver at [time]: the last of those that end at once when they begin. *)
 
-val is_last : t -> part -> bool
-(** [is_last f p], of a part [p] of [f]. *)
+val is_last : t -> maneuver -> bool
+(** [is_last f m] is whether [m], a maneuver of [f], is the last one. *)
 
 val statistics : name:string -> t -> Dolphin_imc.Message.Plan_statistics.t
-(** How long it will take in whole and in parts. *)
+(** How long it will take in whole and maneuver by maneuver. *)

@@ -82,7 +82,7 @@ let tell ~at ~src_ent ~content v =
   let packet, v = make ~at ~src_ent content v in
   send_to_systems ~at packet v, v
 
-let say ~at v (said : Engine.said) =
+let say ~at v (said : Engine.outgoing) =
   let packet, v =
     make ~at ~src_ent:said.from ~dst:said.to_.system ~dst_ent:said.to_.entity (Message said.message) v
   in

@@ -30,8 +30,8 @@ let again () =
 let bytes packet =
   match Packet.encode packet with Ok s -> s | Error e -> Alcotest.failf "%a" Error.pp_encode e
 
-let from_console ?(dst = Scene.vehicle) message =
-  bytes (Packet.make ~src:Scene.console ~src_ent:1 ~dst ~timestamp:Scene.epoch message)
+let from_console ?(dst = Harness.vehicle) message =
+  bytes (Packet.make ~src:Harness.console ~src_ent:1 ~dst ~timestamp:Harness.epoch message)
 
 let announcement =
   from_console ~dst:0
@@ -61,7 +61,7 @@ let exchange ?faults ~seed datagrams =
   let receive channel bytes ~at r = Radio.receive ~at channel ~host:"127.0.0.1" bytes r in
   let end_ = 10., fun ~at:_ r -> [], [], r in
   let inputs = List.map (fun (at, channel, bytes) -> at, receive channel bytes) datagrams @ [ end_ ] in
-  go (Radio.create ?faults ~seed (Scene.settings source)) [] [] inputs
+  go (Radio.create ?faults ~seed (Harness.settings source)) [] [] inputs
 
 let heartbeats =
   List.init 9 (fun i -> float_of_int i, Vehicle_node.Data, from_console Heartbeat)
@@ -158,12 +158,12 @@ let action =
       3, map (fun m -> Inline m) maneuver; 2, return Stop; 1, return Abort; 2, return Beat ]
 
 let act s number = function
-  | Wait t -> Scene.until s (Scene.now s +. t)
-  | Start p -> Scene.start s number p
-  | Inline m -> Scene.start ~arg:(Maneuver m) s number "i"
-  | Stop -> Scene.stop s number
-  | Abort -> Scene.send s Abort
-  | Beat -> Scene.send s Heartbeat
+  | Wait t -> Harness.until s (Harness.now s +. t)
+  | Start p -> Harness.start s number p
+  | Inline m -> Harness.start ~arg:(Maneuver m) s number "i"
+  | Stop -> Harness.stop s number
+  | Abort -> Harness.send s Abort
+  | Beat -> Harness.send s Heartbeat
 
 let fleet =
   "vehicle 'a', { type 'UUV'; battery 10.percent; drain 100.percent; drops 50, 20 }\nplan 'p', { duration 5, 50 }\n\
@@ -181,10 +181,10 @@ let rec is_well_formed running : Activity.t list -> bool = function
   | (Ignored _ | Unblocked) :: rest -> is_well_formed running rest
 
 let any_requests (speed, actions) =
-  let s = Scene.make (Scene.settings ~speed ~blocks:[ 30., 10.; 200., 5. ] fleet) in
-  Scene.join s;
+  let s = Harness.make (Harness.settings ~speed ~blocks:[ 30., 10.; 200., 5. ] fleet) in
+  Harness.join s;
   List.iteri (act s) actions;
-  is_well_formed None (Scene.activities s)
+  is_well_formed None (Harness.activities s)
 
 let tests =
   [ case "loses, doubles and holds back so many" shares;

@@ -5,59 +5,59 @@ let case name run = Alcotest.test_case name `Quick run
 let vehicle = "vehicle 'a', { type 'UUV'; at 41.1850, -8.7060; speed 2 }\n"
 
 let scene ?speed ?strict ?refuses ?blocks plans =
-  let s = Scene.make (Scene.settings ?speed ?strict ?refuses ?blocks (vehicle ^ plans)) in
-  Scene.join s;
-  Scene.until s 0.;
-  Scene.forget s;
+  let s = Harness.make (Harness.settings ?speed ?strict ?refuses ?blocks (vehicle ^ plans)) in
+  Harness.join s;
+  Harness.until s 0.;
+  Harness.forget s;
   s
 
 let rec keep_alive s time =
-  let next = Float.min time (Scene.now s +. 10.) in
-  Scene.until s next;
+  let next = Float.min time (Harness.now s +. 10.) in
+  Harness.until s next;
   if next < time then begin
-    Scene.send s Heartbeat;
+    Harness.send s Heartbeat;
     keep_alive s time
   end
 
-let story s = Alcotest.(check (list string)) "story" s
+let summary s = Alcotest.(check (list string)) "summary" s
 
 let replies s =
   List.filter_map
     (fun line -> if String.length line > 6 && String.sub line 0 6 = "reply " then Some line else None)
-    (Scene.story s)
+    (Harness.summary s)
 
 let did s =
   let did a = Yojson.Safe.Util.(to_string (member "did" (Activity.to_json ~time:0. ~vehicle:"a" a))) in
-  List.map did (Scene.activities s)
+  List.map did (Harness.activities s)
 
 let by_name () =
   let s = scene "plan 'p', { duration 60 }" in
-  Scene.start s 7 "p";
+  Harness.start s 7 "p";
   keep_alive s 59.9;
   let begun =
     [ "state INITIALIZING '' - NONE"; "reply SUCCESS START 7 'p' plan loaded"; "vehicle MANEUVER";
       "state EXECUTING 'p' 1 NONE"; "reply SUCCESS START 7 'p' 1: executing maneuver" ]
   in
-  story begun (Scene.story s);
+  summary begun (Harness.summary s);
   keep_alive s 61.;
-  story (begun @ [ "reply SUCCESS START 7 'p' plan completed"; "state READY 'p' - SUCCESS"; "vehicle SERVICE" ])
-    (Scene.story s)
+  summary (begun @ [ "reply SUCCESS START 7 'p' plan completed"; "state READY 'p' - SUCCESS"; "vehicle SERVICE" ])
+    (Harness.summary s)
 
 let multiplied () =
   let s = scene ~speed:20. "plan 'p', { duration 60 }" in
-  Scene.start s 7 "p";
-  Scene.until s 2.9;
+  Harness.start s 7 "p";
+  Harness.until s 2.9;
   Alcotest.(check (list string)) "under way" [ "started" ] (did s);
-  Scene.until s 3.1;
+  Harness.until s 3.1;
   Alcotest.(check (list string)) "over in a twentieth" [ "started"; "completed" ] (did s)
 
 let progress () =
   let s = scene "plan 'p', { duration 100 }" in
-  Scene.start s 7 "p";
+  Harness.start s 7 "p";
   keep_alive s 50.1;
-  let state = List.fold_left (fun last (h : Scene.heard) ->
+  let state = List.fold_left (fun last (h : Harness.heard) ->
       match h.packet.content with Message (Plan_control_state s) -> Some s | Message _ | Unknown _ -> last)
-      None (Scene.heard s) in
+      None (Harness.heard s) in
   match state with
   | Some state ->
     Alcotest.(check bool) "half done" true (Float.abs (state.plan_progress -. 50.) < 1.);
@@ -66,85 +66,85 @@ let progress () =
 
 let twice () =
   let s = scene "plan 'p', { duration 60 }" in
-  Scene.start s 7 "p";
-  Scene.until s 5.;
-  Scene.start s 7 "p";
-  Scene.until s 6.;
+  Harness.start s 7 "p";
+  Harness.until s 5.;
+  Harness.start s 7 "p";
+  Harness.until s 6.;
   Alcotest.(check (list string)) "starts again" [ "started"; "started" ] (did s);
-  match List.rev (Scene.activities s) with
+  match List.rev (Harness.activities s) with
   | Started { instead = Some "p"; _ } :: _ -> ()
   | _ -> Alcotest.fail "not instead of itself"
 
 let fails () =
   let s = scene "plan 'p', { duration 10; fails }" in
-  Scene.start s 7 "p";
+  Harness.start s 7 "p";
   keep_alive s 11.;
   Alcotest.(check (list string)) "with a text" 
     [ "reply SUCCESS START 7 'p' plan loaded"; "reply SUCCESS START 7 'p' 1: executing maneuver";
       "reply FAILURE START 7 'p' plan failed" ]
     (replies s);
-  Alcotest.(check bool) "outcome" true (List.mem "state READY 'p' - FAILURE" (Scene.story s));
+  Alcotest.(check bool) "outcome" true (List.mem "state READY 'p' - FAILURE" (Harness.summary s));
   Alcotest.(check (list string)) "activities" [ "started"; "failed" ] (did s)
 
 let refusals () =
   let refusal ?strict ?refuses plans plan =
     let s = scene ?strict ?refuses plans in
-    Scene.start s 7 plan;
-    Scene.story s
+    Harness.start s 7 plan;
+    Harness.summary s
   in
   let refused ?(plan = "p") why =
     [ "state INITIALIZING '' - NONE"; Printf.sprintf "reply FAILURE START 7 '%s' %s" plan why;
       "state READY '' - FAILURE" ]
   in
-  story (refused "undefined plan") (refusal ~strict:true "" "p");
-  story (refused "undefined plan") (refusal "plan 'p', { only 'UAV' }" "p");
-  story (refused ~plan:"" "undefined plan id") (refusal "" "");
-  story (refused "out of order") (refusal ~refuses:"out of order" "" "p");
-  story [] (refusal "" "dislodge")
+  summary (refused "undefined plan") (refusal ~strict:true "" "p");
+  summary (refused "undefined plan") (refusal "plan 'p', { only 'UAV' }" "p");
+  summary (refused ~plan:"" "undefined plan id") (refusal "" "");
+  summary (refused "out of order") (refusal ~refuses:"out of order" "" "p");
+  summary [] (refusal "" "dislodge")
 
 let without_entry () =
   let s = scene "" in
-  Scene.start s 7 "anything";
+  Harness.start s 7 "anything";
   keep_alive s 181.;
   Alcotest.(check (list string)) "as long as any plan" [ "started"; "completed" ] (did s)
 
 let stops () =
   let s = scene "" in
-  Scene.stop s 8;
-  story [ "reply FAILURE STOP 8 '' no plan is running, request ignored" ] (Scene.story s)
+  Harness.stop s 8;
+  summary [ "reply FAILURE STOP 8 '' no plan is running, request ignored" ] (Harness.summary s)
 
 let calibrates () =
   let s = scene "plan 'p', { duration 10 }" in
-  Scene.start ~flags:Message.Plan_control.Flags.calibrate s 7 "p";
-  Scene.until s 2.9;
-  story [ "state INITIALIZING '' - NONE"; "reply SUCCESS START 7 'p' plan loaded"; "vehicle CALIBRATION" ]
-    (Scene.story s);
-  Scene.until s 12.9;
+  Harness.start ~flags:Message.Plan_control.Flags.calibrate s 7 "p";
+  Harness.until s 2.9;
+  summary [ "state INITIALIZING '' - NONE"; "reply SUCCESS START 7 'p' plan loaded"; "vehicle CALIBRATION" ]
+    (Harness.summary s);
+  Harness.until s 12.9;
   Alcotest.(check (list string)) "not done" [ "started" ] (did s);
-  Scene.until s 13.1;
+  Harness.until s 13.1;
   Alcotest.(check (list string)) "done" [ "started"; "completed" ] (did s)
 
 let blocked () =
   let s = scene ~blocks:[ 5., 10. ] "plan 'p', { duration 60 }" in
-  Scene.start s 7 "p";
-  Scene.until s 6.;
-  Scene.start s 8 "p";
-  Scene.until s 16.;
+  Harness.start s 7 "p";
+  Harness.until s 6.;
+  Harness.start s 8 "p";
+  Harness.until s 16.;
   let rec from_block = function ("reply FAILURE START 7 'p' vehicle is under external control" :: _) as rest -> rest
                               | _ :: rest -> from_block rest | [] -> [] in
-  story
+  summary
     [ "reply FAILURE START 7 'p' vehicle is under external control"; "state BLOCKED 'p' - FAILURE"; "vehicle EXTERNAL";
       "reply FAILURE START 8 'p' vehicle is blocked"; "vehicle SERVICE"; "state READY 'p' - FAILURE" ]
-    (from_block (Scene.story s));
+    (from_block (Harness.summary s));
   Alcotest.(check (list string)) "activities" [ "started"; "blocked"; "refused"; "unblocked" ] (did s)
 
 let aborted_at_rest () =
   let s = scene "" in
-  Scene.send s Abort;
-  Scene.until s 2.;
-  story
+  Harness.send s Abort;
+  Harness.until s 2.;
+  summary
     [ "state BLOCKED '' - NONE"; "vehicle ERROR"; "vehicle SERVICE"; "state READY '' - NONE" ]
-    (List.filter (fun l -> l <> "") (Scene.story s))
+    (List.filter (fun l -> l <> "") (Harness.summary s))
 
 (* {1 Inline plans} *)
 
@@ -164,22 +164,22 @@ let inline () =
   let plan =
     specification [ maneuver "1" (go_to 20.); maneuver "2" (go_to 60.) ] [ transition "1" "2"; transition "2" "_done_" ]
   in
-  Scene.start ~arg:(Plan_specification plan) s 7 "p";
-  Scene.until s 15.;
-  let states = List.filter (fun l -> String.sub l 0 5 = "state") (Scene.story s) in
-  story [ "state INITIALIZING '' - NONE"; "state EXECUTING 'p' 1 NONE"; "state EXECUTING 'p' 2 NONE" ] states;
-  Scene.until s 31.;
+  Harness.start ~arg:(Plan_specification plan) s 7 "p";
+  Harness.until s 15.;
+  let states = List.filter (fun l -> String.sub l 0 5 = "state") (Harness.summary s) in
+  summary [ "state INITIALIZING '' - NONE"; "state EXECUTING 'p' 1 NONE"; "state EXECUTING 'p' 2 NONE" ] states;
+  Harness.until s 31.;
   Alcotest.(check (list string)) "as long as its way takes" [ "started"; "completed" ] (did s);
-  let there = Vehicle_node.position ~at:31. (Scene.node s) in
+  let there = Vehicle_node.position ~at:31. (Harness.node s) in
   let start : Dolphin_geo.Position.t = { latitude = 41.1850; longitude = -8.7060; height = 0. } in
   Alcotest.(check (float 0.5)) "is there" 60. (Dolphin_geo.Wgs84.distance start there);
-  Scene.start s 8 "p";
+  Harness.start s 8 "p";
   Alcotest.(check (list string)) "is known by name from then on" [ "started"; "completed"; "started" ] (did s)
 
 let one_maneuver () =
   let s = scene "" in
-  Scene.start ~arg:(Maneuver (go_to 20.)) s 7 "p";
-  Scene.until s 11.;
+  Harness.start ~arg:(Maneuver (go_to 20.)) s 7 "p";
+  Harness.until s 11.;
   Alcotest.(check (list string)) "is a plan" [ "started"; "completed" ] (did s)
 
 let read () =

@@ -34,32 +34,32 @@ let requests, answers =
     (List.sort
        (fun (p : Packet.t) (q : Packet.t) -> Float.compare p.timestamp q.timestamp)
        (List.filter is_request (Lazy.force of_console))),
-    lazy (List.filter (is_from Scene.vehicle) (Lazy.force packets)) )
+    lazy (List.filter (is_from Harness.vehicle) (Lazy.force packets)) )
 
 let source =
   "vehicle 'lauv-noptilus-1', { type 'UUV'; at 41.1850, -8.7062; speed 1.5 }"
 
 let replay () =
-  let s = Scene.make (Scene.settings ~strict:true source) in
+  let s = Harness.make (Harness.settings ~strict:true source) in
   let first = (List.hd (Lazy.force requests)).timestamp in
   (* The clock of the vehicle is that of the console. *)
   let time_of (p : Packet.t) = 10. +. p.timestamp -. first in
-  Scene.announce s;
+  Harness.announce s;
   let rec beat until =
-    if Scene.now s +. 1. < until then begin
-      Scene.until s (Scene.now s +. 1.);
-      Scene.send s Heartbeat;
+    if Harness.now s +. 1. < until then begin
+      Harness.until s (Harness.now s +. 1.);
+      Harness.send s Heartbeat;
       beat until
     end
   in
   let ask (p : Packet.t) =
     beat (time_of p);
-    Scene.until s (time_of p);
-    match p.content with Message m -> Scene.send s m | Unknown _ -> ()
+    Harness.until s (time_of p);
+    match p.content with Message m -> Harness.send s m | Unknown _ -> ()
   in
-  Scene.send s Heartbeat;
+  Harness.send s Heartbeat;
   List.iter ask (Lazy.force requests);
-  beat (Scene.now s +. 200.);
+  beat (Harness.now s +. 200.);
   s
 
 (* By message: what of different messages is sent within a millisecond comes in one order or the other. *)
@@ -71,8 +71,8 @@ let renamed line =
   String.concat " " (List.map (function "ccu-dolphin-0001" -> "ccu-test" | part -> part) parts)
 
 let same kind () =
-  let real = List.map renamed (of_kind kind (Scene.narrate (Lazy.force answers))) in
-  let ours = of_kind kind (Scene.story (replay ())) in
+  let real = List.map renamed (of_kind kind (Harness.summarise (Lazy.force answers))) in
+  let ours = of_kind kind (Harness.summary (replay ())) in
   Alcotest.(check (list string)) "as the vehicle" real ours
 
 let tests =

@@ -13,7 +13,7 @@ let enumeration name members =
   let body =
     paragraphs
       [
-        Shape.enumeration members ~comment:(fun _ -> "");
+        Ocaml_types.enumeration members ~comment:(fun _ -> "");
         under "let of_int = function" (List.map of_int members @ [ line "| n -> Other n" ]);
         under "let to_int = function" (List.map (case "| %s -> %d") members @ [ line "| Other n -> n" ]);
         under "let name = function" (List.map name_of members @ [ line "| Other n -> string_of_int n" ]);
@@ -33,14 +33,14 @@ let bits name members =
       [
         enclosed "let names = [" (List.map pair members) "]";
         [ line "include Bits.Make (struct let names = names end)" ];
-        List.map constant (List.filter Shape.constant members);
+        List.map constant (List.filter Ocaml_types.constant members);
       ]
   in
   enclosed (spf "module %s = struct" name) body "end"
 
 let set = function
-  | name, Shape.Enumeration_of members -> enumeration name members
-  | name, Shape.Bits_of members -> bits name members
+  | name, Ocaml_types.Enumeration_of members -> enumeration name members
+  | name, Ocaml_types.Bits_of members -> bits name members
 
 (* {1 Fields}
 
@@ -83,7 +83,7 @@ let read_field o (f : field) =
   match f.typ with
   | Number (scalar, Quantity _) -> spf "Reader.%s input" (scalar_name scalar)
   | Number (scalar, (Enumeration names | Bits names)) ->
-    spf "%s.of_int (Reader.%s input)" (Shape.set_module f names) (scalar_name scalar)
+    spf "%s.of_int (Reader.%s input)" (Ocaml_types.set_module f names) (scalar_name scalar)
   | Text _ | Raw -> "Reader.text input"
   | Inline of_ -> spf "Reader.inline input %s" (read_contained o of_)
   | List of_ -> spf "Reader.list input %s" (read_contained o of_)
@@ -95,7 +95,7 @@ let write_field o (m : message) (f : field) =
     spf "Writer.%s output %s" (scalar_name scalar) value
   | Number (scalar, Quantity _) -> spf "Writer.%s output %s %s" (scalar_name scalar) field value
   | Number (scalar, (Enumeration names | Bits names)) ->
-    let set = Shape.set_module f names in
+    let set = Ocaml_types.set_module f names in
     spf "Writer.%s output %s (%s.to_int %s)" (scalar_name scalar) field set value
   | Text _ | Raw -> spf "Writer.text output %s %s" field value
   | Inline of_ -> spf "Writer.inline output %s %s %s" field (write_contained o of_) value
@@ -107,7 +107,7 @@ let show_field o (f : field) =
   | Number ((F32 | F64), Quantity _) -> spf "Json.float %s" value
   | Number (I64, Quantity _) -> spf "Json.int64 %s" value
   | Number (_, Quantity _) -> spf "Json.int %s" value
-  | Number (_, (Enumeration names | Bits names)) -> spf "%s.to_json %s" (Shape.set_module f names) value
+  | Number (_, (Enumeration names | Bits names)) -> spf "%s.to_json %s" (Ocaml_types.set_module f names) value
   | Text _ -> spf "Json.text %s" value
   | Raw -> spf "Json.raw %s" value
   | Inline of_ -> spf "Json.inline %s %s" (show_contained o of_) value
@@ -118,8 +118,8 @@ let default_field (f : field) =
   | Number ((F32 | F64), Quantity _) -> "0."
   | Number (I64, Quantity _) -> "0L"
   | Number (_, Quantity _) -> "0"
-  | Number (_, Enumeration names) -> spf "%s.of_int 0" (Shape.set_module f names)
-  | Number (_, Bits names) -> spf "%s.none" (Shape.set_module f names)
+  | Number (_, Enumeration names) -> spf "%s.of_int 0" (Ocaml_types.set_module f names)
+  | Number (_, Bits names) -> spf "%s.none" (Ocaml_types.set_module f names)
   | Text _ | Raw -> "\"\""
   | Inline _ -> "None"
   | List _ -> "[]"
@@ -149,8 +149,8 @@ let message o (m : message) =
     match m.fields with
     | [] -> id
     | _ ->
-      let sets = List.map set (Shape.own_sets m) in
-      let record = Shape.record o m ~comment:(fun _ -> "") in
+      let sets = List.map set (Ocaml_types.own_sets m) in
+      let record = Ocaml_types.record o m ~comment:(fun _ -> "") in
       paragraphs (sets @ (record :: id :: record_functions o m))
   in
   enclosed (spf "module %s = struct" (Names.module_ m.name)) body "end"
@@ -191,7 +191,7 @@ let group o (g : group) members =
   let body =
     paragraphs
       [
-        Shape.variant o item (cases (fun m -> Outline.Message m));
+        Ocaml_types.variant o item (cases (fun m -> Outline.Message m));
         under "let id = function" (cases id_case);
         under "let name = function" (cases name_case);
         under (spf "let read%s input = function" any)
@@ -237,7 +237,7 @@ let all o =
   in
   let known = List.concat_map members groups @ loose in
   [
-    Shape.all o;
+    Ocaml_types.all o;
     under "let id = function" (cases "id" ~arguments:"" ~any:None id_case);
     under "let name = function" (cases "name" ~arguments:"" ~any:None name_case);
     under "let is_known = function" [ line "| %s -> true" (ids known); line "| _ -> false" ];
@@ -254,4 +254,4 @@ let all o =
   ]
 
 let code o =
-  paragraphs (List.map set (Shape.shared_sets o) @ List.map (item o) (Outline.items o) @ all o)
+  paragraphs (List.map set (Ocaml_types.shared_sets o) @ List.map (item o) (Outline.items o) @ all o)

@@ -44,7 +44,7 @@ let enumeration name members =
   let comment (n : named) = spf "(** %d%s. *)" n.value (colon n.title) in
   let body =
     paragraphs
-      [ Shape.enumeration members ~comment; [ line "include Enumeration.S with type t := t" ] ]
+      [ Ocaml_types.enumeration members ~comment; [ line "include Enumeration.S with type t := t" ] ]
   in
   enclosed (spf "module %s : sig" name) body "end"
 
@@ -52,12 +52,12 @@ let bits name members =
   let constant (n : named) =
     [ line "val %s : t" (Names.value n.name); line "(** [0x%X]%s. *)" n.value (colon n.title) ]
   in
-  let constants = List.map constant (List.filter Shape.constant members) in
+  let constants = List.map constant (List.filter Ocaml_types.constant members) in
   enclosed (spf "module %s : sig" name) (paragraphs ([ line "include Bits.S" ] :: constants)) "end"
 
 let set = function
-  | name, Shape.Enumeration_of members -> enumeration name members
-  | name, Shape.Bits_of members -> bits name members
+  | name, Ocaml_types.Enumeration_of members -> enumeration name members
+  | name, Ocaml_types.Bits_of members -> bits name members
 
 (* {1 Messages and groups} *)
 
@@ -65,7 +65,7 @@ let message o (m : message) =
   let id = [ line "val id : int  (** [%d]. *)" m.id ] in
   let default =
     [
-      line "val default : %st" (Shape.parameter o (Message m));
+      line "val default : %st" (Ocaml_types.parameter o (Message m));
       line "(** Every number 0, every text and list empty, no message within. *)";
     ]
   in
@@ -73,8 +73,8 @@ let message o (m : message) =
     match m.fields with
     | [] -> id
     | _ ->
-      let sets = List.map set (Shape.own_sets m) in
-      paragraphs (sets @ [ Shape.record o m ~comment:field_comment; id; default ])
+      let sets = List.map set (Ocaml_types.own_sets m) in
+      paragraphs (sets @ [ Ocaml_types.record o m ~comment:field_comment; id; default ])
   in
   let title = if m.title = "" then "" else prose m.title ^ ". " in
   line "(** %sMessage %d. *)" title m.id
@@ -82,7 +82,7 @@ let message o (m : message) =
 
 let group o (g : group) members =
   let item = Outline.Group (g, members) in
-  let body = Shape.variant o item (List.map (fun m -> Outline.Message m) members) in
+  let body = Ocaml_types.variant o item (List.map (fun m -> Outline.Message m) members) in
   enclosed (spf "module %s : sig" (Names.module_ g.name)) body "end"
 
 let item o = function
@@ -136,7 +136,7 @@ let title label words = [ line "(** {1:%s %s} *)" label words ]
 let code o =
   paragraphs
     ([ text head; title "values" "Values that several messages share" ]
-     @ List.map set (Shape.shared_sets o)
+     @ List.map set (Ocaml_types.shared_sets o)
      @ [ title "messages" "Messages" ]
      @ List.map (item o) (Outline.items o)
-     @ [ title "any" "Any message"; Shape.all o; text functions ])
+     @ [ title "any" "Any message"; Ocaml_types.all o; text functions ])

@@ -101,7 +101,7 @@ let line (p : Packet.t) =
 let kind text = String.sub text 0 (String.index text ' ')
 
 (* Repeated states are no news. *)
-let narrate packets =
+let summarise packets =
   let add (lines, last) p =
     match line p with
     | None -> lines, last
@@ -110,4 +110,4 @@ let narrate packets =
   in
   List.rev (fst (List.fold_left add ([], []) packets))
 
-let story s = narrate (List.map (fun h -> h.packet) (heard s))
+let summary s = summarise (List.map (fun h -> h.packet) (heard s))

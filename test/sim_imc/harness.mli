@@ -62,8 +62,8 @@ val activities : t -> Activity.t list
 val count : t -> Message.t -> int
 (** [count s m] is how many messages with the number of [m] are in {!heard}. *)
 
-val story : t -> string list
+val summary : t -> string list
 (** What matters of {!heard}, a line for each change of PlanControlState and VehicleState and for each reply. *)
 
-val narrate : Packet.t list -> string list
-(** {!story} of any packets. *)
+val summarise : Packet.t list -> string list
+(** {!summary} of any packets. *)

@@ -14,6 +14,10 @@ type options = {
   interruptions : bool;
 }
 
+exception Unclear of Fault.t
+
+let clear = function Ok x -> x | Error fault -> raise (Unclear fault)
+
 let default =
   { endings = (fun _ _ -> Succeeds); failures = None; losses = Never; latecomers = Never;
     may_be_late = (fun _ -> true); answers = (fun _ -> []); replies = (fun _ -> []); interruptions = false }
@@ -162,7 +166,7 @@ let events options program e (c : Configuration.t) (awaited : Transition.awaited
   | (Answer | Reply), (Script _ | Waiting _ | Executing _ | Ended _) -> []
 
 let in_world options program world e c =
-  let internal = List.of_seq (Seq.map (fun t -> (t, e)) (Transition.internal program world c)) in
+  let internal = List.of_seq (Seq.map (fun t -> (t, e)) (clear (Transition.internal_all program world c))) in
   let rec accept before (event, e) =
     let of_result : _ -> (Transition.t * t) list = function
       | Ok t -> [ (t, e) ]
@@ -170,7 +174,7 @@ let in_world options program world e c =
       | Error (Bad_answer why) -> List.concat_map (accept e) (after_refusal options program ~before e c why)
     in
     match event with
-    | Ok event -> List.concat_map of_result (Transition.accept_all program world c event)
+    | Ok event -> List.concat_map of_result (clear (Transition.accept_all program world c event))
     | Error refusal -> of_result (Error refusal)
   in
   let on_event event = List.concat_map (accept e) (events options program e c event) in

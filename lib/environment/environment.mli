@@ -27,6 +27,14 @@ type options = {
   interruptions : bool;  (** whether the program may be interrupted, at any time *)
 }
 
+exception Unclear of Fault.t
+(** Raised where an exploration cannot go on, for nobody could list the outcomes of a step in an open world: see
+    {!Transition.internal_all}. *)
+
+val clear : ('a, Fault.t) result -> 'a
+(** [clear (Ok x)] is [x].
+    @raise Unclear *)
+
 val default : options
 (** Tasks succeed, nothing is lost, nobody is late, nobody answers or replies, and nobody interrupts. *)
 
@@ -75,7 +83,7 @@ val choices : options -> Core.program -> World.t -> t -> Configuration.t -> (Tra
 (** [choices o p w e c] is every transition of [c]: its own, leftmost first, then those on events, in the order of
     [Transition.awaited], and last the interruption, if there are any. What a transition takes for granted, of sensors
     and of who is there, is among its [assumed].
-    @raise Reading.Unsettled if [w] is open and the outcomes of a step cannot be listed. *)
+    @raise Unclear if [w] is open and the outcomes of a step cannot be listed. *)
 
 val goes_on : (Transition.t * 'state) list -> bool
 (** [goes_on choices] is whether there is more among them than an interruption: nobody need ever interrupt, so a program

@@ -45,6 +45,6 @@ let value program world e =
     { program; world; bound = []; store = Store.empty; tuples = Tuples.empty No_key; mode = Task_code; deeds = [] }
   in
   match Machine.run ~fuel context (Machine.call { lambda; captured = [||] } []) with
-  | Finished x, _, _ -> Ok x
-  | Faulted fault, _, _ -> Error fault
-  | (Exhausted | Did _ | Waits _ | Halted _), _, _ -> Error (Fault.make e.site "this has no value")
+  | Decided (Finished x, _, _) -> Ok x
+  | Decided (Faulted fault, _, _) | Unclear fault -> Error fault
+  | Decided ((Exhausted | Did _ | Waits _ | Halted _), _, _) | Open _ -> Error (Fault.make e.site "this has no value")

@@ -16,24 +16,23 @@ let charge level =
   in
   Tla.Tuple [ String "number"; Integer n; Integer d ]
 
-let shows world look = List.map snd (World.cases world look)
-
 (* What a sensor may show, nothing if that may be anything. Where no code looks at sensors, they may as well show what
    they show at the start: TLC is faster if it need not look for readings among values. *)
-let sensor translation world look value at_start =
-  match shows world look with
-  | [ None ] when Translation.reads_sensors translation -> Tla.Tuple []
-  | [ None ] -> Tla.Tuple [ value at_start ]
-  | shown -> Tla.Tuple (List.map value (List.filter_map Fun.id shown))
+let sensor translation (shown : _ World.shown) value at_start =
+  match shown with
+  | Anything when Translation.reads_sensors translation -> Tla.Tuple []
+  | Anything -> Tla.Tuple [ value at_start ]
+  | Shows x -> Tla.Tuple [ value x ]
+  | One_of xs -> Tla.Tuple (List.map value xs)
 
 let vehicle translation world (s : World.vehicle_state) =
   let place p = Tla.Integer (Translation.place translation p) in
   let position p = Tla.Tuple [ String "position"; place p ] in
   Tla.Record
     [ ("id", String s.id); ("type", String s.kind); ("payload", Tla.strings s.payload); ("devices", devices s.payload);
-      ("places", Tuple (List.map place (shows world (fun world -> World.place world s))));
-      ("position", sensor translation world (fun world -> World.position world s) position s.position);
-      ("battery", sensor translation world (fun world -> World.battery world s) charge s.battery) ]
+      ("places", Tuple (List.map place (World.places_of world s)));
+      ("position", sensor translation (World.position world s) position s.position);
+      ("battery", sensor translation (World.battery world s) charge s.battery) ]
 
 let ending : Environment.endings -> string = function
   | Succeeds -> "succeeds"

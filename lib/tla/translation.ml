@@ -20,11 +20,7 @@ type t = {
 
 (* Everywhere where a vehicle may be. *)
 let whereabouts world =
-  List.concat_map
-    (fun s -> List.map snd (World.cases world (fun world -> World.place world s)))
-    (World.vehicles world)
-
-let shows_anything world look = List.for_all (fun (_, shown) -> shown = None) (World.cases world look)
+  List.concat_map (World.places_of world) (World.vehicles world)
 
 let create program world =
   let places = Places.create () in
@@ -105,7 +101,7 @@ and fraction t site n =
 
 (* [position(...)] where no position is known. *)
 and is_open_position t (e : expression) =
-  let is_open s = shows_anything t.world (fun world -> World.position world s) in
+  let is_open s = World.position t.world s = Anything in
   match e.node with
   | Apply (Builtin Position_of, _) -> List.for_all is_open (World.vehicles t.world)
   | _ -> false

@@ -44,9 +44,11 @@ let step program world c (t : Transition.t) =
     | Seq.Cons (t', _) when is_it t' -> Some (Choice i)
     | Seq.Cons (_, rest) -> choice (i + 1) rest
   in
-  let event e = match Transition.accept program world c e with Ok t' -> is_it t' | Error _ -> false in
+  let event e =
+    match Transition.accept_all program world c e with Ok (Ok t' :: _) -> is_it t' | Ok _ | Error _ -> false
+  in
   let cause =
-    match choice 0 (Transition.internal program world c) with
+    match Option.bind (Result.to_option (Transition.internal_all program world c)) (choice 0) with
     | Some cause -> cause
     | None -> (
         match t.label, List.find_opt event (candidates program c t) with
@@ -84,9 +86,10 @@ let take program world (c : Configuration.t) s =
           | Seq.Nil -> None
           | Seq.Cons (t, rest) -> if i = 0 then Some t else nth (i - 1) rest
         in
-        match nth i (Transition.internal program world c) with
-        | Some t -> Ok t
-        | None -> Error "the program has no such choice there")
+        match Result.map (nth i) (Transition.internal_all program world c) with
+        | Ok (Some t) -> Ok t
+        | Error fault -> Error fault.message
+        | Ok None -> Error "the program has no such choice there")
     | Event h -> (
         let refused : Transition.refusal -> _ = function
           | Not_awaited -> Error (Format.asprintf "the program does not wait for %a there" Event.pp h)
@@ -96,10 +99,13 @@ let take program world (c : Configuration.t) s =
         | Error (No_value why) -> Error why
         | Error (Refused why) -> refused why
         | Ok event -> (
-            match Transition.accept program world c event with Ok t -> Ok t | Error why -> refused why))
+            match Transition.accept_all program world c event with
+            | Ok (Ok t :: _) -> Ok t
+            | Ok (Error why :: _) -> refused why
+            | Ok [] -> refused Not_awaited
+            | Error fault -> Error fault.message))
   in
   match found () with
-  | exception Reading.Unsettled fault -> Error fault.message
   | Ok t when text_of_label t.label = s.label -> Ok { t with assumed = s.assumed }
   | Ok t -> Error (Printf.sprintf "the program does %s there, and not %s" (text_of_label t.label) s.label)
   | Error why -> Error (Printf.sprintf "%s (%s)" why s.label)

@@ -21,7 +21,7 @@ let prepare ~limit (case : Case.t) =
   | Ok constants -> (
       match Reference.explore ~limit case.environment case.program case.world with
       | None -> Error Too_large
-      | exception Dolphin_semantics.Reading.Unsettled fault -> Error (Unsettled fault.message)
+      | exception Dolphin_environment.Environment.Unclear fault -> Error (Unsettled fault.message)
       | Some space -> Ok { case; graph = Explored.graph ~effects:true space; transitions = Reference.transitions space; constants })
 
 let case p = p.case

@@ -86,7 +86,7 @@ let graphs title installation ~limit ~batch cases =
 let is_small (c : Case.t) =
   match Reference.explore ~limit:300 c.environment c.program c.world with
   | Some _ -> true
-  | None | (exception Dolphin_semantics.Reading.Unsettled _) -> false
+  | None | (exception Dolphin_environment.Environment.Unclear _) -> false
 
 (* TLC's verdict, and whether it is the explorer's; [None] if the program cannot be translated. *)
 let judge installation (c : Case.t) =

@@ -102,7 +102,7 @@ let agrees ((ast, world), looped, (_, environment)) =
   | None ->
     incr skipped;
     true
-  | exception Dolphin_semantics.Reading.Unsettled _ ->
+  | exception Dolphin_environment.Environment.Unclear _ ->
     incr unsettled;
     let o = Search.run { Search.default with environment } program world in
     (match o.stopped with Some (Unsettled _) -> true | Some _ | None -> false)

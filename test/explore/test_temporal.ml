@@ -143,7 +143,7 @@ let agrees_on program world environment at plain (f, verdict) =
 let agrees ((ast, world), looped, (_, environment), formulas) =
   let program = Generate.compile (if looped then for_ever ast else ast) in
   match Reference.explore ~limit environment program world with
-  | None | (exception Reading.Unsettled _) -> note "are skipped"; true
+  | None | (exception Environment.Unclear _) -> note "are skipped"; true
   | Some reference ->
     let plain = graph_of program reference and at = at program world in
     let read f = match Temporal.of_string program (shown f) with Ok f -> f | Error why -> failwith why in

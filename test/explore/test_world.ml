@@ -16,7 +16,7 @@ let labels ?(environment = Environment.default) ?(world = Generate.open_world) s
   | Some graph ->
     let label ((t : Transition.t), _) = Format.asprintf "%a" Label.pp t.label in
     List.sort_uniq String.compare (List.concat_map (List.map label) (Array.to_list graph.edges))
-  | exception Reading.Unsettled fault -> [ "unsettled: " ^ fault.message ]
+  | exception Environment.Unclear fault -> [ "unsettled: " ^ fault.message ]
 
 let happens name ?environment ?world ~some ~none source =
   let check () =

@@ -148,7 +148,7 @@ let check_graph ~reductions environment program world graph =
 let explored ?limit environment program world =
   match Reference.explore ?limit environment program world with
   | graph -> graph
-  | exception Reading.Unsettled _ -> None
+  | exception Environment.Unclear _ -> None
 
 let check ?limit ?(reductions = [ Reduction.Partial_order; Symmetry; All ]) environment program world =
   match explored ?limit environment program world with

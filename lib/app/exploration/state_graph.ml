@@ -25,7 +25,7 @@ let explored ~limit environment (program : Program_file.t) world =
   | Some space -> Ok space
   | None ->
     Error (Error.Inconclusive (Printf.sprintf "%s has more than %d states: see --max-states" program.path limit))
-  | exception Reading.Unsettled fault -> Error (Program_file.unsettled program fault)
+  | exception Dolphin_environment.Environment.Unclear fault -> Error (Program_file.unsettled program fault)
 
 let of_program w path =
   let* program = Program_file.load path in

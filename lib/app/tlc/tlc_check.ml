@@ -62,7 +62,7 @@ let print_counter_example options (program : Program_file.t) world (c : Outcome.
   Format.printf "@.%s: a run in which %s@." (phrase name) question;
   let broken = shows name options program.program world in
   match Recovered.run options program.program world ~broken c with
-  | exception Reading.Unsettled fault ->
+  | exception Environment.Unclear fault ->
     Format.printf "Of this run the explorer cannot list what may happen: %s. The states of TLC:@." fault.message;
     print_states c
   | Ok { steps; cycle } ->

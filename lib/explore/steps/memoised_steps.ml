@@ -44,10 +44,10 @@ type taken = { local : Local_step.t; level : int; certain : bool }
 let taken t step s =
   let { Surroundings.shared; outside } = Shareds.value t.shareds s in
   let source = Components.escaping step in
-  let take world =
+  let take () =
     match step.event with
-    | None -> Local_step.internal (program t) world shared source
-    | Some event -> Local_step.on_event (program t) world shared source event
+    | None -> Local_step.internal (program t) (world t) shared source
+    | Some event -> Local_step.on_event (program t) (world t) shared source event
   in
   let after =
     match step.event with
@@ -59,7 +59,7 @@ let taken t step s =
   | Some after ->
     let equal local local' = Int.equal (level local) (level local') && Local_step.equal local local' in
     let one (assumed, local) = { local; level = level local; certain = assumed = [] } in
-    let found = List.map one (World.outcomes ~equal (world t) take) in
+    let found = List.map one (Environment.clear (Decision.outcomes ~equal (take ()))) in
     List.iter (fun { local; _ } -> note_handlers t step local) found;
     (found, after)
 

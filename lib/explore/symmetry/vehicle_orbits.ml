@@ -55,9 +55,6 @@ let split f p =
     (fun _ members found -> Vehicle_map.union union (by_key f (Array.to_list members)) found)
     orbits none
 
-(* What [sensor] may show of a vehicle. *)
-let readings sensor world state = List.map snd (World.cases world (fun world -> sensor world state))
-
 (* An open sensor's reading is a text that names the vehicle and starts with another character: readings of different
    vehicles differ. *)
 let is_plain id =
@@ -66,8 +63,8 @@ let is_plain id =
 (* All that a step may depend on but the name. *)
 let key (options : Environment.options) world (flow : Name_flow.t) (s : World.vehicle_state) =
   let if_read is_read f = if is_read then Some (f ()) else None in
-  let place = if_read flow.places (fun () -> (s.position, readings World.position world s)) in
-  let battery = if_read flow.batteries (fun () -> readings World.battery world s) in
+  let place = if_read flow.places (fun () -> (s.position, World.position world s)) in
+  let battery = if_read flow.batteries (fun () -> World.battery world s) in
   let endings = List.map (options.endings s.id) flow.texts in
   let is_odd = World.is_open world && (flow.places || flow.batteries) && not (is_plain s.id) in
   let alone = if is_odd || List.mem s.id flow.texts then Some s.id else None in

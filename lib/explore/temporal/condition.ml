@@ -114,28 +114,32 @@ let answer_to (c : Configuration.t) = function
 let fuel = 100_000
 
 let eval_in program world t (c : Configuration.t) =
-  if List.exists (fun i -> Store.find i c.shared.store = None) t.names then Not_yet
+  if List.exists (fun i -> Store.find i c.shared.store = None) t.names then Decision.Decided Not_yet
   else
     let set store (i, question) = Store.set i (Core.Boolean (answer_to c question)) store in
     let store = List.fold_left set c.shared.store t.questions in
     let context : Machine.context =
       { program; world; bound = c.shared.bound; store; tuples = c.shared.tuples; mode = Task_code; deeds = [] }
     in
-    let stop, _, after = Machine.run ~fuel context (Machine.call t.closure []) in
-    match stop with
-    | Finished x when after.deeds = [] && Store.compare after.store store = 0 ->
-      if Value.truth (Reading.settled Fault.unknown_site x) then Holds else Fails
-    | Finished _ -> Broken "a condition may only look, and not do anything"
-    | Faulted fault -> Broken fault.message
-    | Halted _ -> Broken "a condition may not halt the program"
-    | Exhausted -> Broken "it does not come to an end"
-    | Did _ | Waits _ -> Broken "a condition cannot wait"
+    let answer ((stop : Machine.stop), _, (after : Machine.context)) =
+      match stop with
+      | Finished x when after.deeds = [] && Store.compare after.store store = 0 -> (
+          match Reading.settled Fault.unknown_site x with
+          | Ok x -> if Value.truth x then Holds else Fails
+          | Error fault -> Broken fault.message)
+      | Finished _ -> Broken "a condition may only look, and not do anything"
+      | Faulted fault -> Broken fault.message
+      | Halted _ -> Broken "a condition may not halt the program"
+      | Exhausted -> Broken "it does not come to an end"
+      | Did _ | Waits _ -> Broken "a condition cannot wait"
+    in
+    Decision.map answer (Machine.run ~fuel context (Machine.call t.closure []))
 
 let eval program world t c =
-  match World.cases world (fun world -> eval_in program world t c) with
-  | (_, answer) :: others when List.for_all (fun (_, answer') -> answer' = answer) others -> answer
-  | _ -> Broken "it depends on what sensors show, which may be this or that in one state"
-  | exception Reading.Unsettled fault -> Broken fault.message
+  match Decision.cases (eval_in program world t c) with
+  | Ok ((_, answer) :: others) when List.for_all (fun (_, answer') -> answer' = answer) others -> answer
+  | Ok _ -> Broken "it depends on what sensors show, which may be this or that in one state"
+  | Error fault -> Broken fault.message
 
 let running t =
   List.filter_map (function _, Bound _ -> None | _, Running (plan, v) -> Some (plan, v)) t.questions

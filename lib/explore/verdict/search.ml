@@ -187,7 +187,7 @@ let explore ?(enough = fun () -> false) program t =
   match expand_all enough t with
   | () -> settled None
   | exception Stop bound -> settled (Some bound)
-  | exception Reading.Unsettled fault -> settled (Some (unsettled program fault))
+  | exception Environment.Unclear fault -> settled (Some (unsettled program fault))
   | exception Out_of_memory -> no_memory ()
 
 (* {1 Verdicts} *)
@@ -292,7 +292,7 @@ let formula started (options : options) program world f =
   with
   | found -> found
   | exception Valuation.Broken why -> (Inconclusive (Broken_condition why), 0, 0)
-  | exception Reading.Unsettled fault -> (Inconclusive (unsettled program fault), 0, 0)
+  | exception Environment.Unclear fault -> (Inconclusive (unsettled program fault), 0, 0)
 
 (* {1 Outcomes} *)
 

@@ -53,3 +53,5 @@ type outcome =
   | Wrong of string  (* a fault of this very operation *)
   | Wrong_at of Fault.t
   | Refuted of string  (* an assertion does not hold *)
+  | Asks of World.question * (World.t -> outcome)  (* depends on what the world leaves open *)
+  | Unclear of Fault.t

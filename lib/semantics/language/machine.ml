@@ -1,4 +1,6 @@
+open Dolphin_results
 open Core
+
 type deed = Code.deed =
   | Posted of (string * value) list
   | Consumed of (string * value) list
@@ -173,15 +175,15 @@ let arity_fault (lambda : lambda) n =
 (* {1 The loop} *)
 
 let machine focus locals stack calls at = { focus; locals; stack; calls; at }
-let fault context m at message = (Faulted (Fault.make at message), m, context)
+let fault context m at message = Decision.Decided (Faulted (Fault.make at message), m, context)
 
 let set_local locals slot x =
   let locals = Array.copy locals in
   locals.(slot) <- x;
   locals
 
-let rec evaluate context fuel (e : expression) locals stack calls =
-  if fuel <= 0 then (Exhausted, machine (Evaluate e) locals stack calls e.site, context)
+let rec evaluate context fuel (e : expression) locals stack calls : (stop * t * context) Decision.t =
+  if fuel <= 0 then Decision.Decided (Exhausted, machine (Evaluate e) locals stack calls e.site, context)
   else
     let fuel = fuel - 1 in
     let continue x = proceed context fuel x locals stack calls e.site in
@@ -202,9 +204,10 @@ let rec evaluate context fuel (e : expression) locals stack calls =
       evaluate context fuel first locals
         (Arguments { operation; at = e.site; evaluated = []; remaining } :: stack)
         calls
-    | Make_closure (lambda, slots) ->
-      let captured = Array.of_list (List.map (fun slot -> Reading.settled e.site locals.(slot)) slots) in
-      continue (Closure { lambda; captured })
+    | Make_closure (lambda, slots) -> (
+        match Results.map (fun slot -> Reading.settled e.site locals.(slot)) slots with
+        | Ok captured -> continue (Closure { lambda; captured = Array.of_list captured })
+        | Error fault -> Unclear fault)
     | If (test, yes, no) -> evaluate context fuel test locals (Choose (yes, no) :: stack) calls
     | Block [] -> continue Null
     | Block [ last ] -> evaluate context fuel last locals stack calls
@@ -231,9 +234,9 @@ and to_loop = function
   | _ :: stack -> to_loop stack
   | [] -> []
 
-and proceed context fuel x locals stack calls at =
+and proceed context fuel x locals stack calls at : (stop * t * context) Decision.t =
   match stack with
-  | [] -> (Finished x, machine (Give x) locals [] calls at, context)
+  | [] -> Decided (Finished x, machine (Give x) locals [] calls at, context)
   | frame :: stack -> (
       match frame with
       | Arguments { operation; at; evaluated; remaining = [] } ->
@@ -245,35 +248,40 @@ and proceed context fuel x locals stack calls at =
       | Assign_local slot -> proceed context fuel x (set_local locals slot x) stack calls at
       | Assign_global i ->
         proceed { context with store = Store.set i x context.store } fuel x locals stack calls at
-      | Choose (yes, no) ->
-        evaluate context fuel (if Value.truth (Reading.settled at x) then yes else no) locals stack calls
+      | Choose (yes, no) -> (
+          match Reading.settled at x with
+          | Ok x -> evaluate context fuel (if Value.truth x then yes else no) locals stack calls
+          | Error fault -> Unclear fault)
       | Rest [] -> proceed context fuel x locals stack calls at
       | Rest [ last ] -> evaluate context fuel last locals stack calls
       | Rest (next :: rest) -> evaluate context fuel next locals (Rest rest :: stack) calls
-      | Loop_test (test, body) ->
-        if Value.truth (Reading.settled at x) then
-          evaluate context fuel body locals (Loop_body (test, body) :: stack) calls
-        else proceed context fuel Null locals stack calls at
+      | Loop_test (test, body) -> (
+          match Reading.settled at x with
+          | Ok x when Value.truth x -> evaluate context fuel body locals (Loop_body (test, body) :: stack) calls
+          | Ok _ -> proceed context fuel Null locals stack calls at
+          | Error fault -> Unclear fault)
       | Loop_body (test, body) -> evaluate context fuel test locals (Loop_test (test, body) :: stack) calls
       | Next_item (slot, Items (_, -1), body) -> begin_loop context fuel x slot body locals stack calls at
       | Next_item (slot, items, body) -> next_item context fuel slot items body locals stack calls at
       | Leave callers -> proceed context fuel x callers stack (calls - 1) at
       | Iterate i -> (
           let item = i.items.(i.index) in
-          let x = match i.iteration with Each -> x | _ -> Reading.settled i.at x in
-          match Iteration.early i.iteration item x with
-          | Some result -> proceed context fuel result locals stack calls i.at
-          | None ->
+          let settled = match i.iteration with Each -> Ok x | _ -> Reading.settled i.at x in
+          match Result.map (fun x -> (x, Iteration.early i.iteration item x)) settled with
+          | Error fault -> Unclear fault
+          | Ok (_, Some result) -> proceed context fuel result locals stack calls i.at
+          | Ok (x, None) ->
             iterate context fuel
               (Iterate { i with gathered = x :: i.gathered; index = i.index + 1 })
               locals stack calls))
 
-and begin_loop context fuel x slot body locals stack calls at =
+and begin_loop context fuel x slot body locals stack calls at : (stop * t * context) Decision.t =
   let start items = next_item context fuel slot items body locals stack calls at in
   match Reading.settled at x with
-  | Range (first, last) -> start (Counting (first, last))
-  | Null -> proceed context fuel Null locals stack calls at
-  | x -> (
+  | Error fault -> Unclear fault
+  | Ok (Range (first, last)) -> start (Counting (first, last))
+  | Ok Null -> proceed context fuel Null locals stack calls at
+  | Ok x -> (
       match Value.items x with
       | Some items -> start (Items (items, 0))
       | None ->
@@ -320,14 +328,14 @@ and enter context fuel closure arguments at locals stack calls =
 and perform context fuel operation at arguments locals stack calls =
   settle_outcome context fuel (Operation.apply context at operation arguments) at locals stack calls
 
-and settle_outcome context fuel (outcome : Code.outcome) at locals stack calls =
+and settle_outcome context fuel (outcome : Code.outcome) at locals stack calls : (stop * t * context) Decision.t =
   let stopped focus = machine focus locals stack calls at in
   match outcome with
   | Value x -> proceed context fuel x locals stack calls at
   | Done (deed, context, x) -> (
       let context = { context with deeds = deed :: context.deeds } in
       match context.mode with
-      | Script -> (Did deed, stopped (Give x), context)
+      | Script -> Decided (Did deed, stopped (Give x), context)
       | Task_code | Handler _ -> proceed context fuel x locals stack calls at)
   | Judged verdict -> proceed { context with mode = Handler verdict } fuel Null locals stack calls at
   | Enter (closure, arguments) -> enter context fuel closure arguments at locals stack calls
@@ -336,11 +344,15 @@ and settle_outcome context fuel (outcome : Code.outcome) at locals stack calls =
     iterate context fuel
       (Iterate { iteration; closure; subject; items; index = 0; gathered; at })
       locals stack calls
-  | Wait request -> (Waits request, stopped (Give Null), context)
-  | Stop message -> (Halted message, stopped (Give Null), context)
+  | Wait request -> Decided (Waits request, stopped (Give Null), context)
+  | Stop message -> Decided (Halted message, stopped (Give Null), context)
   | Wrong message -> fault context (stopped (Give Null)) at message
-  | Wrong_at f -> (Faulted f, stopped (Give Null), context)
-  | Refuted message -> (Faulted (Fault.assertion at message), stopped (Give Null), context)
+  | Wrong_at f -> Decided (Faulted f, stopped (Give Null), context)
+  | Refuted message -> Decided (Faulted (Fault.assertion at message), stopped (Give Null), context)
+  | Asks (question, answered) ->
+    let go_on world = settle_outcome { context with world } fuel (answered world) at locals stack calls in
+    Decision.ask context.world question go_on
+  | Unclear fault -> Unclear fault
 
 (* {1 Readings} *)
 

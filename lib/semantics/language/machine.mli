@@ -113,5 +113,6 @@ type stop =
   | Halted of string  (** the code called [halt] *)
   | Faulted of Fault.t
 
-val run : fuel:int -> context -> t -> stop * t * context
-(** [run ~fuel context m] runs [m] until it stops, for at most [fuel] expressions. *)
+val run : fuel:int -> context -> t -> (stop * t * context) Decision.t
+(** [run ~fuel context m] runs [m] until it stops, for at most [fuel] expressions. Where it depends on what the world
+    leaves open, it goes on in each way, in a world in which that is supposed. *)

@@ -82,8 +82,6 @@ let of_vehicles world vs name =
   | "id" -> (match vs with [ v ] -> Some (Ok (String v)) | _ -> Some (with_state (fun s -> String s.World.id)))
   | "ids" -> Some (Ok (strings vs))
   | "type" -> Some (with_state (fun s -> String s.World.kind))
-  | "position" -> Some (with_state (Reading.position world))
-  | "battery" -> Some (with_state (Reading.battery world))
   | "payload" -> Some (with_state (fun s -> strings s.World.payload))
   | _ -> None
 

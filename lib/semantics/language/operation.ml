@@ -61,10 +61,16 @@ let own_method subject name =
   | Map entries -> (match List.assoc_opt name entries with Some (Closure c) -> Some c | Some _ | None -> None)
   | _ -> None
 
+let sense context name vs =
+  match Reading.sensor name with
+  | Some sensor -> Procedures.sense context sensor vs
+  | None -> of_result (Methods.property context.world (Vehicles vs) name)
+
 let call_method context name names arguments =
   match with_named names arguments with
   | Host subject :: arguments -> host_call context subject name (Some arguments)
   | Closure c :: arguments when name = "call" -> Enter (c, arguments)
+  | [ Vehicles vs ] when Reading.sensor name <> None -> sense context name vs
   | subject :: arguments -> (
       match own_method subject name, Iteration.find subject name arguments with
       | Some closure, _ -> Enter (closure, arguments)
@@ -85,6 +91,7 @@ let apply_settled context at operation arguments =
   | Replace_element, [ x; i; y ] -> of_result (Operators.replace_element x i y)
   | Replace_member k, [ x; y ] -> of_result (Operators.replace_element x (String k) y)
   | Property name, [ Host subject ] -> host_call context subject name None
+  | Property (("position" | "battery") as name), [ Vehicles vs ] -> sense context name vs
   | Property name, [ x ] -> of_result (Methods.property context.world x name)
   | Call names, Closure c :: arguments -> Enter (c, with_named names arguments)
   | Call _, x :: _ -> expected "a function or closure to call" x
@@ -97,9 +104,11 @@ let apply_settled context at operation arguments =
       | Method _ ),
       _ ) -> Wrong "wrong number of operands"
 
-let apply context at operation arguments =
+let rec apply context at operation arguments =
   if World.is_open context.world && List.exists Reading.is_reading arguments then
     match Reading.apply context.world at operation arguments with
-    | Some result -> of_result result
-    | None -> apply_settled context at operation arguments
+    | Gives result -> of_result result
+    | Asks question -> Asks (question, fun world -> apply { context with world } at operation arguments)
+    | Unclear fault -> Unclear fault
+    | As_any -> apply_settled context at operation arguments
   else apply_settled context at operation arguments

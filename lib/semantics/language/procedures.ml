@@ -74,14 +74,14 @@ let poll context pairs =
   in
   Value (Boolean (List.for_all there pairs))
 
-let one_vehicle context = function
-  | Vehicles [ v ] -> (
-      match World.find v context.world with
-      | Some state -> Ok state
-      | None -> Error (Error (Printf.sprintf "nothing is known of vehicle %s" v)))
-  | Vehicles vs ->
-    Error (Error (Printf.sprintf "the set must be a single vehicle, it has %d" (List.length vs)))
-  | x -> Error (Operators.expected "a vehicle" x)
+let sense context sensor vs =
+  match Methods.one_vehicle context.world vs with
+  | Error message -> Wrong message
+  | Ok state ->
+    let rec look world =
+      match Reading.look world sensor state with Ok x -> Value x | Error question -> Asks (question, look)
+    in
+    look context.world
 
 let minimum_connection_timeout = 5.
 let maximum_connection_timeout = 3600.
@@ -185,14 +185,9 @@ let apply context at operation arguments =
   | Poll [], [ String k ] -> poll context [ (k, Wildcard) ]
   | Poll [], [ x ] -> expected "a key, as in poll 'ready', or pairs, as in poll(ready: 1)" x
   | Poll keys, arguments -> poll context (pair keys arguments)
-  | Position_of, [ x ] -> (
-      match one_vehicle context x with
-      | Ok state -> Value (Reading.position context.world state)
-      | Error e -> of_result e)
-  | Battery_of, [ x ] -> (
-      match one_vehicle context x with
-      | Ok state -> Value (Reading.battery context.world state)
-      | Error e -> of_result e)
+  | Position_of, [ Vehicles vs ] -> sense context Position vs
+  | Battery_of, [ Vehicles vs ] -> sense context Battery vs
+  | (Position_of | Battery_of), [ x ] -> expected "a vehicle" x
   | Location_of, ([ _; _ ] | [ _; _; _ ]) -> (
       match numbers arguments with
       | Some (latitude :: longitude :: height) -> (

@@ -12,3 +12,6 @@ val blocking : Code.context -> string -> Code.request -> Code.outcome
 
 val of_result : (value, string) result -> Code.outcome
 (** The value, or the text of the fault. *)
+
+val sense : Code.context -> Reading.sensor -> vehicle list -> Code.outcome
+(** [sense x sensor vs] is what the sensor of the only vehicle of [vs] shows. *)

@@ -1,3 +1,4 @@
+open Dolphin_results
 open Core
 module Assignment = Dolphin_assignment.Assignment
 
@@ -19,10 +20,10 @@ let rec tree_of allowed t : leaf Assignment.tree =
     Shared (List.map (fun (b : Core.branch) -> tree_of allowed b.body) branches)
   | Until (_, a) | During (_, a) | Watch (a, _) -> tree_of allowed a
 
-let rec map_tree f : 'a Assignment.tree -> 'b Assignment.tree = function
-  | Leaf x -> Leaf (f x)
-  | Disjoint trees -> Disjoint (List.map (map_tree f) trees)
-  | Shared trees -> Shared (List.map (map_tree f) trees)
+let rec map_tree f : 'a Assignment.tree -> ('b Assignment.tree, 'e) result = function
+  | Leaf x -> Result.map (fun y -> Assignment.Leaf y) (f x)
+  | Disjoint trees -> Result.map (fun trees -> Assignment.Disjoint trees) (Results.map (map_tree f) trees)
+  | Shared trees -> Result.map (fun trees -> Assignment.Shared trees) (Results.map (map_tree f) trees)
 
 let rec leaves tree rest =
   match (tree : 'a Assignment.tree) with
@@ -47,18 +48,23 @@ let lack task =
 module Wgs84 = Dolphin_geo.Wgs84
 
 (* A vehicle of B, with what the world says of it. *)
-type candidate = { vehicle : vehicle; state : World.vehicle_state option; place : Wgs84.cartesian option Lazy.t }
+type candidate = {
+  vehicle : vehicle;
+  state : World.vehicle_state option;
+  place : (Wgs84.cartesian option, World.question) result Lazy.t;
+}
 
 let candidate_of world vehicle =
   let state = World.find vehicle world in
-  { vehicle; state; place = lazy (Option.map (fun s -> Wgs84.cartesian (World.place world s)) state) }
+  let place s = Result.map (fun p -> Some (Wgs84.cartesian p)) (World.place world s) in
+  { vehicle; state; place = lazy (Option.fold ~none:(Ok None) ~some:place state) }
 
 let cost task =
   match Option.map (fun plan -> Wgs84.cartesian (Plan.reference plan)) task.plan with
-  | None -> fun _ -> 0.
-  | Some reference -> (
-      fun candidate ->
-        match Lazy.force candidate.place with Some place -> Wgs84.straight place reference | None -> 0.)
+  | None -> fun _ -> Ok 0.
+  | Some reference ->
+    let from place = Option.fold ~none:0. ~some:(fun place -> Wgs84.straight place reference) place in
+    fun candidate -> Result.map from (Lazy.force candidate.place)
 
 module String_set = Set.Make (String)
 
@@ -69,10 +75,17 @@ let permitted leaf =
     let set = String_set.of_list vs in
     fun v -> String_set.mem v set
 
-let candidates all leaf : Assignment.leaf =
+let candidates all leaf : (Assignment.leaf, World.question) result =
   let permitted = permitted leaf and lack = lack leaf.task and cost = cost leaf.task in
-  let candidate i c = if permitted c.vehicle && lack c.vehicle c.state = None then Some (i, cost c) else None in
-  { candidates = Array.of_seq (Seq.filter_map Fun.id (Array.to_seq (Array.mapi candidate all))) }
+  let rec from i found =
+    if i = Array.length all then Ok { Assignment.candidates = Array.of_list (List.rev found) }
+    else
+      let c = all.(i) in
+      if permitted c.vehicle && lack c.vehicle c.state = None then
+        Result.bind (cost c) (fun cost -> from (i + 1) ((i, cost) :: found))
+      else from (i + 1) found
+  in
+  from 0 []
 
 (* Tasks by name under one [T[V]] have the same candidates, computed once. *)
 let candidates_once world bound =
@@ -168,12 +181,15 @@ let allocate_small world bound t =
   let bound = Array.of_list bound in
   let tree = tree_of None t in
   let tasks = Array.of_list (leaves tree []) in
-  match Assignment.solve ~vehicles:(Array.length bound) (map_tree (candidates_once world bound) tree) with
-  | Ok vehicles ->
-    let next = counter () in
-    Ok (residual (fun () -> bound.(vehicles.(next () - 1))) (counter ()) t)
-  | Error (No_candidate i) -> Error (no_candidate world bound tasks.(i))
-  | Error (Conflict { leaves; vehicles }) -> Error (conflict bound tasks leaves vehicles)
+  let solved candidates =
+    match Assignment.solve ~vehicles:(Array.length bound) candidates with
+    | Ok vehicles ->
+      let next = counter () in
+      Ok (residual (fun () -> bound.(vehicles.(next () - 1))) (counter ()) t)
+    | Error (No_candidate i) -> Error (no_candidate world bound tasks.(i))
+    | Error (Conflict { leaves; vehicles }) -> Error (conflict bound tasks leaves vehicles)
+  in
+  Result.map solved (map_tree (candidates_once world bound) tree)
 
 let allocate world bound t =
-  if is_too_large t then Error (Fault.make Fault.unknown_site too_large) else allocate_small world bound t
+  if is_too_large t then Ok (Error (Fault.make Fault.unknown_site too_large)) else allocate_small world bound t

@@ -51,79 +51,92 @@ let rec settle program world s derivation asked (change : Task_rules.change) =
   let asked = asked @ List.concat undone @ Conclusion.timers_started change.timers in
   let come_to outcome = { after = s; outcome; derivation; named = change.label; asked } in
   match change.outcome with
-  | Next r -> come_to (Goes_on r)
-  | Finished -> come_to Over
-  | Failed fault -> come_to (Ends (Failed fault))
-  | Handling { handler; fault; ignored; propagated } -> (
-      let { Run_code.result; verdict } = Run_code.handler program world s handler fault in
-      match result, verdict with
+  | Next r -> Decision.Decided (come_to (Goes_on r))
+  | Finished -> Decided (come_to Over)
+  | Failed fault -> Decided (come_to (Ends (Failed fault)))
+  | Handling { handler; fault; ignored; propagated } ->
+    let handled { Run_code.world; outcome; mode } =
+      match outcome, mode with
       | Halts (message, s, deeds), _ ->
         let derivation = derivation @ [ Rule.Watch_halt ] and asked = asked @ Run_code.effects deeds in
-        { after = s; outcome = Ends (Halted message); derivation; named = change.label; asked }
+        Decision.Decided { after = s; outcome = Ends (Halted message); derivation; named = change.label; asked }
       | Faulty fault, _ when Fault.is_assertion fault ->
-        { (come_to (Ends (Failed fault))) with derivation = derivation @ [ Rule.Assert_err ] }
+        Decided { (come_to (Ends (Failed fault))) with derivation = derivation @ [ Rule.Assert_err ] }
       | Faulty fault, _ -> settle program world s derivation asked (propagated fault)
-      | Gives (_, s, deeds), Ignored ->
+      | Gives (_, s, deeds), Handler Ignored ->
         settle program world s derivation (asked @ Run_code.effects deeds) (ignored ())
-      | Gives (_, s, deeds), Propagated ->
-        settle program world s derivation (asked @ Run_code.effects deeds) (propagated fault))
+      | Gives (_, s, deeds), (Handler Propagated | Script | Task_code) ->
+        settle program world s derivation (asked @ Run_code.effects deeds) (propagated fault)
+    in
+    Decision.bind (Run_code.handler program world s handler fault) handled
 
 (* {1 Steps} *)
 
 let kept program world local = { local with after = Run_code.kept program world local.after }
 
-(* [seconds_of code x] is the time that the value [x] of a [during]'s code is. *)
+(* The time that the value [x] of a [during]'s code is. *)
 let seconds_of (code : closure) x =
-  match Value.to_number (Reading.settled code.lambda.lambda_site x) with
+  match Value.to_number x with
   | Some seconds when seconds >= 0. && seconds < infinity -> Ok seconds
   | Some _ | None ->
     let message = "during takes a time of 0 seconds or more, this code gives " ^ Value.to_string x in
     Error (Fault.make code.lambda.lambda_site message)
 
-let internal program world s (Task_rules.Step { offer; continue }) =
-  let go ?(asked = []) s change = Some (kept program world (settle program world s [] asked change)) in
-  let ends rule label outcome s asked =
-    Some (kept program world { after = s; outcome = Ends outcome; derivation = [ rule ]; named = label; asked })
+(* Code of a step: what it [gives] or [fails] with, or the end of the program. Rules HALT and ASSERT-ERR are here, for
+   code of every step. *)
+let coded program world s code ~fails ~gives =
+  let ends rule label ending s asked =
+    let local = { after = s; outcome = Ends ending; derivation = [ rule ]; named = label; asked } in
+    Decision.Decided (Some (kept program world local))
   in
-  (* Rules HALT and ASSERT-ERR are for code of every step. *)
-  let coded code ~fails ~gives =
-    match Run_code.atomic program world s code with
+  let ran { Run_code.world; outcome; _ } =
+    match outcome with
     | Faulty fault when Fault.is_assertion fault -> ends Assert_err (Broken fault.message) (Failed fault) s []
-    | Faulty fault -> go s (fails fault)
+    | Faulty fault -> fails world fault
     | Halts (message, s, deeds) -> ends Halt (Halt message) (Halted message) s (Run_code.effects deeds)
-    | Gives (x, s, deeds) -> gives x s deeds
+    | Gives (x, s, deeds) -> gives world x s deeds
+  in
+  Decision.bind (Run_code.atomic program world s code) ran
+
+(* [f] of a value, which must not be a reading. *)
+let settled (code : closure) x f =
+  match Reading.settled code.lambda.lambda_site x with Ok x -> f x | Error fault -> Decision.Unclear fault
+
+let internal program world (s : Shared.t) (Task_rules.Step { offer; continue }) =
+  let go ?(asked = []) world s change =
+    Decision.map (fun local -> Some (kept program world local)) (settle program world s [] asked change)
   in
   match offer with
-  | End_of _ | Expiry_of _ -> None
+  | End_of _ | Expiry_of _ -> Decision.Decided None
   | Start (p, v) ->
-    go ~asked:[ Start (v, p) ] { s with allocation = Vehicle_map.add v p s.allocation } (continue ())
+    go world ~asked:[ Start (v, p) ] { s with allocation = Vehicle_map.add v p s.allocation } (continue ())
   | Perform code ->
-    let gives _ s deeds = go ~asked:(Run_code.effects deeds) s (continue (Ok deeds)) in
-    coded code ~fails:(fun fault -> continue (Error fault)) ~gives
+    let gives world _ s deeds = go world ~asked:(Run_code.effects deeds) s (continue (Ok deeds)) in
+    coded program world s code ~gives ~fails:(fun world fault -> go world s (continue (Error fault)))
   | Check guard ->
-    let gives x s deeds =
-      if Value.truth (Reading.settled guard.lambda.lambda_site x) then
-        go ~asked:(Run_code.effects deeds) s (continue (Ok deeds))
-      else None
+    let gives world x s deeds =
+      settled guard x (fun x ->
+          if Value.truth x then go world ~asked:(Run_code.effects deeds) s (continue (Ok deeds)) else Decided None)
     in
-    coded guard ~fails:(fun fault -> continue (Error fault)) ~gives
+    coded program world s guard ~gives ~fails:(fun world fault -> go world s (continue (Error fault)))
   | Measure code ->
-    let gives x after deeds =
-      match seconds_of code x with
-      | Ok seconds -> go ~asked:(Run_code.effects deeds) after (continue (Ok seconds))
-      | Error fault -> go s (continue (Error fault))
+    let gives world x after deeds =
+      settled code x (fun x ->
+          match seconds_of code x with
+          | Ok seconds -> go world ~asked:(Run_code.effects deeds) after (continue (Ok seconds))
+          | Error fault -> go world s (continue (Error fault)))
     in
-    coded code ~fails:(fun fault -> continue (Error fault)) ~gives
+    coded program world s code ~gives ~fails:(fun world fault -> go world s (continue (Error fault)))
 
 let on_event program world s (Task_rules.Step { offer; continue }) (event : event) =
-  let go s change = Some (kept program world (settle program world s [] [] change)) in
+  let go s change = Decision.map (fun local -> Some (kept program world local)) (settle program world s [] [] change) in
   match event, offer with
   | Vehicle_done v, End_of (_, v') when v = v' -> go (without_tasks [ v ] s) (continue (Ok ()))
   | Vehicle_failed (v, why), End_of (_, v') when v = v' -> go (without_tasks [ v ] s) (continue (Error why))
   | Timer_expired timer, Expiry_of timer' when timer = timer' -> go s (continue ())
   | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _
       | Host_failed _ | Interruption ),
-      (Start _ | Perform _ | Check _ | Measure _ | End_of _ | Expiry_of _) ) -> None
+      (Start _ | Perform _ | Check _ | Measure _ | End_of _ | Expiry_of _) ) -> Decided None
 
 (* {1 In configurations} *)
 

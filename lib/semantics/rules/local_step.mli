@@ -33,12 +33,11 @@ type t = {
   asked : Effect.t list;
 }
 
-val internal : program -> World.t -> Shared.t -> Task_rules.step -> t option
-(** [internal p w s step] is what [step] does by itself with shared part [s], if it is enabled. In an open world this
-    may be called inside of {!World.cases} only. *)
+val internal : program -> World.t -> Shared.t -> Task_rules.step -> t option Decision.t
+(** [internal p w s step] is what [step] does by itself with shared part [s], if it is enabled. *)
 
-val on_event : program -> World.t -> Shared.t -> Task_rules.step -> event -> t option
-(** [on_event p w s step e] is what [step] does on [e], if that is what it awaits. Likewise. *)
+val on_event : program -> World.t -> Shared.t -> Task_rules.step -> event -> t option Decision.t
+(** [on_event p w s step e] is what [step] does on [e], if that is what it awaits. *)
 
 val equal : t -> t -> bool
 (** Whether two steps of one residual have the same label, and the same result. *)

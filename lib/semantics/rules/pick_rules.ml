@@ -1,12 +1,18 @@
+open Dolphin_results
+
+let ( let* ) = Result.bind
+
 (* fit(q, w, B). *)
 let candidates world (s : Shared.t) (pick : Settings.pick) =
-  let is_near (v : World.vehicle_state) area = Dolphin_geo.Area.contains area (World.place world v) in
-  let fits (v : World.vehicle_state) =
-    Settings.accepts { pick.filter with region = None } v
-    && (not (List.mem v.id s.bound))
-    && Option.fold ~none:true ~some:(is_near v) pick.filter.region
+  let that_fit (v : World.vehicle_state) =
+    if (not (Settings.accepts { pick.filter with region = None } v)) || List.mem v.id s.bound then Ok []
+    else
+      match pick.filter.region with
+      | None -> Ok [ v.id ]
+      | Some area ->
+        Result.map (fun place -> if Dolphin_geo.Area.contains area place then [ v.id ] else []) (World.place world v)
   in
-  List.map (fun (v : World.vehicle_state) -> v.id) (List.filter fits (World.vehicles world))
+  Results.concat_map that_fit (World.vehicles world)
 
 (* All lists of [n] elements of [xs] in their order, the first ones first. *)
 let choices n xs : 'a list Seq.t =
@@ -26,45 +32,49 @@ let bind (s : Shared.t) m effects vs =
 
 let bindings world s m (pick : Settings.pick) =
   match pick.count with
-  | All -> Seq.empty
+  | All -> Decision.Decided Seq.empty
   | Exactly n ->
-    Seq.map (bind s m [ Effect.Cancel_timer Residual.script_timer ]) (choices n (candidates world s pick))
+    let bind = bind s m [ Effect.Cancel_timer Residual.script_timer ] in
+    let all candidates = Seq.map bind (choices n candidates) in
+    Decision.look world (fun world -> Result.map all (candidates world s pick))
 
 (* {1 Picks that are not met} *)
 
 let why_not world (s : Shared.t) (pick : Settings.pick) (v : World.vehicle_state) =
   let f = pick.filter in
-  let place = lazy (World.place world v) in
-  let is_missed area = not (Dolphin_geo.Area.contains area (Lazy.force place)) in
-  let region_missed = lazy (Option.fold ~none:false ~some:is_missed f.region) in
-  let reason =
-    if List.mem v.id s.bound then "is already bound"
-    else if not v.connected then "is not connected"
-    else if Option.fold ~none:false ~some:(fun id -> id <> v.id) f.id then "has another id"
-    else if Option.fold ~none:false ~some:(fun kind -> kind <> v.kind) f.kind then "is a " ^ v.kind
+  let because reason = Ok (Printf.sprintf "%s %s" v.id reason) in
+    if List.mem v.id s.bound then because "is already bound"
+    else if not v.connected then because "is not connected"
+    else if Option.fold ~none:false ~some:(fun id -> id <> v.id) f.id then because "has another id"
+    else if Option.fold ~none:false ~some:(fun kind -> kind <> v.kind) f.kind then because ("is a " ^ v.kind)
     else if not (World.carries f.payload v) then
-      "lacks " ^ String.concat ", " (List.filter (fun d -> not (World.carries [ d ] v)) f.payload)
-    else if Lazy.force region_missed then
-      Format.asprintf "is at %a, outside of the region" Dolphin_geo.Position.pp (Lazy.force place)
-    else "fits"
-  in
-  Printf.sprintf "%s %s" v.id reason
+      because ("lacks " ^ String.concat ", " (List.filter (fun d -> not (World.carries [ d ] v)) f.payload))
+    else
+      match f.region with
+      | None -> because "fits"
+      | Some area ->
+        let* place = World.place world v in
+        because
+          (if Dolphin_geo.Area.contains area place then "fits"
+           else Format.asprintf "is at %a, outside of the region" Dolphin_geo.Position.pp place)
 
-let no_vehicles world (s : Shared.t) m pick =
-  let there =
+let no_vehicles world s m pick =
+  let* there =
     match World.vehicles world with
-    | [] -> "no vehicle was heard of"
+    | [] -> Ok "no vehicle was heard of"
     | states ->
       let shown = List.filteri (fun i _ -> i < 8) states in
       let more = List.length states - List.length shown in
-      String.concat "; " (List.map (why_not world s pick) shown)
-      ^ if more > 0 then Printf.sprintf "; and %d more" more else ""
+      let* reasons = Results.map (why_not world s pick) shown in
+      Ok (String.concat "; " reasons ^ if more > 0 then Printf.sprintf "; and %d more" more else "")
   in
   let message = Format.asprintf "could not pick %a: %s" Settings.pp_pick pick there in
-  Conclusion.ending [ Pick_err ] (No_vehicles message) s (Failed (Fault.make (Machine.site m) message))
+  Ok (Conclusion.ending [ Pick_err ] (No_vehicles message) s (Failed (Fault.make (Machine.site m) message)))
 
 let timed_out world s m (pick : Settings.pick) =
-  match pick.count, candidates world s pick with
-  | All, (_ :: _ as vs) -> Some (bind s m [] vs)
-  | All, [] -> Some (no_vehicles world s m pick)
-  | Exactly n, vs -> if List.length vs >= n then None else Some (no_vehicles world s m pick)
+  Decision.look world (fun world ->
+      let* candidates = candidates world s pick in
+      match pick.count, candidates with
+      | All, (_ :: _ as vs) -> Ok (Some (bind s m [] vs))
+      | Exactly n, vs when List.length vs >= n -> Ok None
+      | (All | Exactly _), _ -> Result.map Option.some (no_vehicles world s m pick))

@@ -1,11 +1,11 @@
 open Core
 
-type result =
+type outcome =
   | Gives of value * Shared.t * Machine.deed list
   | Faulty of Fault.t
   | Halts of string * Shared.t * Machine.deed list
 
-type handled = { result : result; verdict : Machine.verdict }
+type result = { world : World.t; outcome : outcome; mode : Machine.mode }
 
 (* Atomic code that takes more expressions counts as endless. *)
 let fuel = 2_000_000
@@ -27,22 +27,23 @@ let action_of : Machine.deed -> Effect.t option = function
 let effects deeds = List.filter_map action_of deeds
 
 let run program world s mode closure arguments =
-  let stop, _, context = Machine.run ~fuel (context program world s mode) (Machine.call closure arguments) in
-  let deeds = List.rev context.deeds in
-  let result =
-    match stop with
-    | Finished x -> Gives (x, after context s, deeds)
-    | Halted message -> Halts (message, after context s, deeds)
-    | Faulted fault -> Faulty fault
-    | Exhausted ->
-      let message = "this code does not come to an end, and code inside of a task is atomic" in
-      Faulty (Fault.make closure.lambda.lambda_site message)
-    | Did _ | Waits _ -> invalid_arg "Run_code.run: atomic code stopped"
+  let result (stop, _, (context : Machine.context)) =
+    let deeds = List.rev context.deeds in
+    let outcome =
+      match (stop : Machine.stop) with
+      | Finished x -> Gives (x, after context s, deeds)
+      | Halted message -> Halts (message, after context s, deeds)
+      | Faulted fault -> Faulty fault
+      | Exhausted ->
+        let message = "this code does not come to an end, and code inside of a task is atomic" in
+        Faulty (Fault.make closure.lambda.lambda_site message)
+      | Did _ | Waits _ -> invalid_arg "Run_code.run: atomic code stopped"
+    in
+    { world = context.world; outcome; mode = context.mode }
   in
-  (result, context.mode)
+  Decision.map result (Machine.run ~fuel (context program world s mode) (Machine.call closure arguments))
 
-let atomic program world s closure = fst (run program world s Task_code closure [])
+let atomic program world s closure = run program world s Task_code closure []
 
 let handler program world s closure (fault : Fault.t) =
-  let result, mode = run program world s (Handler Propagated) closure [ String fault.message ] in
-  { result; verdict = (match mode with Handler verdict -> verdict | Script | Task_code -> Propagated) }
+  run program world s (Handler Propagated) closure [ String fault.message ]

@@ -2,18 +2,21 @@
 
 open Core
 
-type result =
+type outcome =
   | Gives of value * Shared.t * Machine.deed list  (** what the code did, first deed first *)
   | Faulty of Fault.t
   | Halts of string * Shared.t * Machine.deed list
 
-val atomic : program -> World.t -> Shared.t -> closure -> result
+type result = {
+  world : World.t;  (** with what was supposed of it *)
+  outcome : outcome;
+  mode : Machine.mode;  (** a handler's has its verdict *)
+}
+
+val atomic : program -> World.t -> Shared.t -> closure -> result Decision.t
 (** [atomic p w s code] runs [code] of a task, which takes no arguments, to its end. *)
 
-(** What a handler makes of an error. *)
-type handled = { result : result; verdict : Machine.verdict }
-
-val handler : program -> World.t -> Shared.t -> closure -> Fault.t -> handled
+val handler : program -> World.t -> Shared.t -> closure -> Fault.t -> result Decision.t
 (** [handler p w s code fault] runs the [onError] code [code] for [fault]. *)
 
 val context : program -> World.t -> Shared.t -> Machine.mode -> Machine.context

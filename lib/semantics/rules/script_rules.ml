@@ -18,16 +18,20 @@ let do_deed (deed : Machine.deed) s m =
   Conclusion.make ~effects:(Run_code.effects [ deed ]) (rule_of_deed deed) (Did deed) (Script m) s
 
 let execute world (s : Shared.t) m t =
-  match Allocation.allocate world s.bound t with
-  | Error fault ->
+  let allocated = function
+  | Error (fault : Fault.t) ->
     let fault = if fault.site = Fault.unknown_site then { fault with site = Machine.site m } else fault in
     Conclusion.ending [ Alloc_err ] (Cannot_execute fault.message) s (Failed fault)
   | Ok r ->
     let r, timers = Residual.activate r in
     Conclusion.make ~effects:(Conclusion.timers_started timers) Execute Execute (Executing (m, r)) s
+  in
+  Decision.map allocated (Decision.look world (fun world -> Allocation.allocate world s.bound t))
 
 let wait world s m (request : Machine.request) =
-  let waiting rule label action = Conclusion.make ~effects:[ action ] rule label (Waiting (m, request)) s in
+  let waiting rule label action =
+    Decision.Decided (Conclusion.make ~effects:[ action ] rule label (Waiting (m, request)) s)
+  in
   match request with
   | Execute t -> execute world s m t
   | Pick pick -> waiting Pick (Pick (Format.asprintf "%a" Settings.pp_pick pick)) (Look_for pick)
@@ -39,23 +43,28 @@ let wait world s m (request : Machine.request) =
 let keep_in_machine world m = if World.is_open world then Machine.keep_readings m else m
 
 let step program world s m =
-  let stop, m, context = Machine.run ~fuel (Run_code.context program world s Script) m in
-  let m = keep_in_machine world m and s = Run_code.kept program world (Run_code.after context s) in
-  match stop with
-  | Exhausted -> Conclusion.make Script Silent (Script m) s
-  | Did deed -> do_deed deed s m
-  | Waits request -> wait world s m request
-  | Finished _ -> Conclusion.ending [ End ] End s Completed
-  | Halted message -> Conclusion.ending [ Halt ] (Halt message) s (Halted message)
-  | Faulted fault -> Conclusion.ending [ Fault ] (Fault fault.message) s (Failed fault)
+  let stopped ((stop : Machine.stop), m, (context : Machine.context)) =
+    let m = keep_in_machine world m and s = Run_code.kept program world (Run_code.after context s) in
+    match stop with
+    | Exhausted -> Decision.Decided (Conclusion.make Script Silent (Script m) s)
+    | Did deed -> Decided (do_deed deed s m)
+    | Waits request -> wait context.world s m request
+    | Finished _ -> Decided (Conclusion.ending [ End ] End s Completed)
+    | Halted message -> Decided (Conclusion.ending [ Halt ] (Halt message) s (Halted message))
+    | Faulted fault -> Decided (Conclusion.ending [ Fault ] (Fault fault.message) s (Failed fault))
+  in
+  Decision.bind (Machine.run ~fuel (Run_code.context program world s Script) m) stopped
 
 let go_on rule label x s m = Conclusion.make rule label (Script (Machine.give x m)) s
 
 let fail rule label why s m = Conclusion.ending [ rule ] label s (Failed (Fault.make (Machine.site m) why))
 
 let answer program world (s : Shared.t) m ~text code =
-  match Run_code.atomic program world s code with
-  | Gives (x, after, []) when Store.compare after.store s.store = 0 ->
-    Ok (Conclusion.make Answer (Answer text) (Script (keep_in_machine world (Machine.give x m))) s)
-  | Gives _ | Halts _ -> Error "an answer may only compute a value"
-  | Faulty fault -> Error fault.message
+  let ran { Run_code.outcome; _ } =
+    match outcome with
+    | Gives (x, after, []) when Store.compare after.store s.store = 0 ->
+      Ok (Conclusion.make Answer (Answer text) (Script (keep_in_machine world (Machine.give x m))) s)
+    | Gives _ | Halts _ -> Error "an answer may only compute a value"
+    | Faulty fault -> Error fault.message
+  in
+  Decision.map ran (Run_code.atomic program world s code)

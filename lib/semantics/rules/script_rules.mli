@@ -2,9 +2,9 @@
 
 open Core
 
-val step : program -> World.t -> Shared.t -> Machine.t -> Conclusion.t
+val step : program -> World.t -> Shared.t -> Machine.t -> Conclusion.t Decision.t
 (** [step p w s m] is the transition of <script m, s>: SCRIPT, a deed, a request (PICK, ASK, PAUSE, CALL, EXECUTE or
-    ALLOC-ERR), or an end. In an open world this may be called inside of {!World.cases} only. *)
+    ALLOC-ERR), or an end. *)
 
 val go_on : Rule.t -> Label.t -> value -> Shared.t -> Machine.t -> Conclusion.t
 (** [go_on rule l x s m] is the transition by which [m], which waited, goes on with [x]: RESUME, REPLY, ANSWER. *)
@@ -13,6 +13,6 @@ val fail : Rule.t -> Label.t -> string -> Shared.t -> Machine.t -> Conclusion.t
 (** [fail rule l why s m] is the one by which the program ends because [m] waits in vain: ANSWER-ERR, CALL-ERR. *)
 
 val answer :
-  program -> World.t -> Shared.t -> Machine.t -> text:string -> closure -> (Conclusion.t, string) result
+  program -> World.t -> Shared.t -> Machine.t -> text:string -> closure -> (Conclusion.t, string) result Decision.t
 (** [answer p w s m ~text code] is ANSWER, if [code], which was typed as [text], only computes a value; or why it is
     none. *)

@@ -38,16 +38,12 @@ type awaited =
 
 val internal : program -> World.t -> Configuration.t -> t Seq.t
 (** [internal p w c] is the transitions that [c] can make by itself, leftmost first, computed on demand. A [pick] has
-    one for every choice of vehicles, in pick order. In an open world they are those for all that sensors may show; of
-    several of one step with one label and one result there is the first only.
-    @raise Reading.Unsettled in an open world, as do the functions below. *)
+    one for every choice of vehicles, in pick order. Where [w] is open, steps that depend on what it leaves open are not
+    among them: see {!internal_all}. *)
 
 val accept : program -> World.t -> Configuration.t -> event -> (t, refusal) result
-(** [accept p w c e] is the transition of [c] on [e]. [Interruption] is accepted wherever the program has not ended.
-    In an open world it is the first one. *)
-
-val accept_all : program -> World.t -> Configuration.t -> event -> (t, refusal) result list
-(** [accept_all p w c e] is every transition of [c] on [e], one unless the world is open; or one refusal. *)
+(** [accept p w c e] is the transition of [c] on [e]. [Interruption] is accepted wherever the program has not ended. Where
+    [w] is open, what depends on that is not accepted: see {!accept_all}. *)
 
 val awaited : Configuration.t -> awaited list
 (** [awaited c] is what [c] has transitions for, leftmost first, besides [Interruption]. The time-out of a [pick] is among
@@ -56,3 +52,16 @@ val awaited : Configuration.t -> awaited list
 val depends_on_sensors : program -> Configuration.t -> bool
 (** [depends_on_sensors p c] is whether the positions and batteries of the world may matter to [c] or to what follows:
     a driver then keeps them up to date. *)
+
+(** {1:open In open worlds}
+
+    Where the world leaves open what sensors show, there are transitions for all that they may show, each with what it
+    assumes. Of several of one step with one label and one result there is the first only; if all assumptions lead to it,
+    it assumes nothing. The error is where more than a comparison depends on what a sensor shows that may show anything:
+    nobody could list the outcomes. In a closed world these are {!internal} and {!accept}. *)
+
+val internal_all : program -> World.t -> Configuration.t -> (t Seq.t, Fault.t) result
+(** [internal_all p w c] is the transitions that [c] can make by itself, leftmost first. *)
+
+val accept_all : program -> World.t -> Configuration.t -> event -> ((t, refusal) result list, Fault.t) result
+(** [accept_all p w c e] is the transitions of [c] on [e], at least one; or one refusal. *)

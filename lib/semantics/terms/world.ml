@@ -80,64 +80,39 @@ let suppose assumed world =
   in
   List.fold_left one world assumed
 
-(* Raised where something is asked for that is neither known nor supposed: with all that may be supposed. *)
-exception Open of assumption list
-
-let rec cases world f =
-  match f world with
-  | result -> [ ([], result) ]
-  | exception Open alternatives ->
-    let further assumption =
-      List.map
-        (fun (assumed, result) -> (assumption :: assumed, result))
-        (cases (suppose [ assumption ] world) f)
-    in
-    List.concat_map further alternatives
-
-let outcomes ~equal world f =
-  match cases world f with
-  | [ ([], result) ] -> ( match result with Some result -> [ ([], result) ] | None -> [])
-  | all -> (
-      let add kept (assumed, result) =
-        match result with
-        | Some x when not (List.exists (fun (_, y) -> equal x y) kept) -> (assumed, x) :: kept
-        | Some _ | None -> kept
-      in
-      match List.rev (List.fold_left add [] all) with
-      | [ (_, x) ] when List.for_all (fun (_, result) -> result <> None) all -> [ ([], x) ]
-      | kept -> kept)
-
 (* {1 To look} *)
 
+type 'a shown = Shows of 'a | One_of of 'a list | Anything
+type question = assumption list
+
+let shown (state : vehicle_state) opened known supposed world =
+  match String_map.find_opt state.id opened with
+  | None -> Shows known
+  | Some [] -> Anything
+  | Some xs -> ( match List.find_map supposed world.supposed with Some x -> Shows x | None -> One_of xs)
+
 let battery world state =
-  match String_map.find_opt state.id world.batteries with
-  | None -> Some state.battery
-  | Some [] -> None
-  | Some xs -> (
-      let shown = function Charged (v, x) when v = state.id -> Some x | _ -> None in
-      match List.find_map shown world.supposed with
-      | Some x -> Some x
-      | None -> raise (Open (List.map (fun x -> Charged (state.id, x)) xs)))
+  let supposed = function Charged (v, x) when v = state.id -> Some x | _ -> None in
+  shown state world.batteries state.battery supposed world
 
 let position world state =
-  match String_map.find_opt state.id world.positions with
-  | None -> Some state.position
-  | Some [] -> None
-  | Some ps -> (
-      let seen = function Placed (v, p) when v = state.id -> Some p | _ -> None in
-      match List.find_map seen world.supposed with
-      | Some p -> Some p
-      | None -> raise (Open (List.map (fun p -> Placed (state.id, p)) ps)))
+  let supposed = function Placed (v, p) when v = state.id -> Some p | _ -> None in
+  shown state world.positions state.position supposed world
 
-let place world state = Option.value (position world state) ~default:state.position
+let charges state xs = List.map (fun x -> Charged (state.id, x)) xs
+let places state ps = List.map (fun p -> Placed (state.id, p)) ps
 
-let claimed world text =
-  let made = function Claim (text', holds) when String.equal text text' -> Some holds | _ -> None in
-  List.find_map made world.supposed
+let place world state =
+  match position world state with
+  | Shows p -> Ok p
+  | Anything -> Ok state.position
+  | One_of ps -> Error (places state ps)
+
+let places_of world state =
+  match position world state with Shows p -> [ p ] | One_of ps -> ps | Anything -> [ state.position ]
 
 let claim world text =
-  match claimed world text with
-  | Some holds -> holds
-  | None -> raise (Open [ Claim (text, true); Claim (text, false) ])
+  let supposed = function Claim (text', holds) when String.equal text text' -> Some holds | _ -> None in
+  Option.to_result ~none:[ Claim (text, true); Claim (text, false) ] (List.find_map supposed world.supposed)
 
 let claims world = List.length (List.filter (function Claim _ -> true | _ -> false) world.supposed)

@@ -58,33 +58,37 @@ val is_open : t -> bool
 val suppose : assumption list -> t -> t
 (** [suppose assumed w] is [w] if that is so. Of what is assumed, nothing is open any more. *)
 
-val cases : t -> (t -> 'a) -> (assumption list * 'a) list
-(** [cases w f] is the results of [f], which calls {!section:look}, on [w] with all that [w] leaves open assumed in
-    each possible way, as far as [f] asks for it. If it asks for nothing, that is [[ ([], f w) ]]. [f] is begun anew for
-    each. *)
+(** {1:look To look} *)
 
-val outcomes : equal:('a -> 'a -> bool) -> t -> (t -> 'a option) -> (assumption list * 'a) list
-(** [outcomes ~equal w f] is the different ones of the results in {!cases}, each with what is assumed where it came
-    first. If it is one, and there is one in each case, nothing has to be assumed. *)
+(** What a sensor may show. *)
+type 'a shown =
+  | Shows of 'a
+  | One_of of 'a list  (** that is open: any of these *)
+  | Anything
 
-(** {1:look To look}
+val battery : t -> vehicle_state -> float shown
+(** [battery w s] is what the battery of [s] shows. *)
 
-    Of an open world these may be called inside of {!cases} only. *)
+val position : t -> vehicle_state -> Dolphin_geo.Position.t shown
+(** [position w s] is where [s] is seen. *)
 
-val battery : t -> vehicle_state -> float option
-(** [battery w s] is what the battery of [s] shows; [None] if that may be anything. *)
+type question = assumption list
+(** What is open, by what may be assumed instead: one of these, and no two of them. *)
 
-val position : t -> vehicle_state -> Dolphin_geo.Position.t option
-(** [position w s] is where [s] is seen; [None] if that may be anywhere. *)
+val charges : vehicle_state -> float list -> question
+(** [charges s xs] is the question which of [xs] the battery of [s] shows. *)
 
-val place : t -> vehicle_state -> Dolphin_geo.Position.t
-(** [place w s] is [position w s], or if that may be anything, [s.position]: for picking and allocating. *)
+val places : vehicle_state -> Dolphin_geo.Position.t list -> question
+(** [places s ps] is the question at which of [ps] [s] is seen. *)
 
-val claim : t -> string -> bool
+val places_of : t -> vehicle_state -> Dolphin_geo.Position.t list
+(** [places_of w s] is all that {!place} may be. *)
+
+val place : t -> vehicle_state -> (Dolphin_geo.Position.t, question) result
+(** [place w s] is where [s] is seen, or if that may be anywhere, [s.position]: for picking and allocating. *)
+
+val claim : t -> string -> (bool, question) result
 (** [claim w text] is whether a comparison with what may be anything holds. *)
 
-val claimed : t -> string -> bool option
-(** [claimed w text] is [claim w text] if that is known. *)
-
 val claims : t -> int
-(** How many were made. *)
+(** How many were supposed. *)

@@ -1,0 +1,22 @@
+(** Results that may depend on what a world leaves open, as trees of decisions. In a closed world all is {!Decided}. *)
+
+type 'a t =
+  | Decided of 'a
+  | Open of (World.assumption * 'a t Lazy.t) list  (** by what is assumed, which is one of these *)
+  | Unclear of Fault.t  (** more than a comparison depends on what a sensor shows, and it may show anything *)
+
+val ask : World.t -> World.question -> (World.t -> 'a t) -> 'a t
+(** [ask w q f] is [f] of [w] with each answer to [q] supposed. *)
+
+val look : World.t -> (World.t -> ('a, World.question) result) -> 'a t
+(** [look w f] is [f w], with its questions asked one after the other. *)
+
+val map : ('a -> 'b) -> 'a t -> 'b t
+val bind : 'a t -> ('a -> 'b t) -> 'b t
+
+val cases : 'a t -> ((World.assumption list * 'a) list, Fault.t) result
+(** [cases d] is all results of [d], each with what it assumes: without assumptions, if [d] is decided. *)
+
+val outcomes : equal:('a -> 'a -> bool) -> 'a option t -> ((World.assumption list * 'a) list, Fault.t) result
+(** [outcomes ~equal d] is the different ones of the results in {!cases}, each with what is assumed where it came first.
+    If it is one, and there is one in each case, nothing has to be assumed. *)

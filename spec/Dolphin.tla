@@ -123,9 +123,9 @@ ScriptTimer == 0
 -----------------------------------------------------------------------------
 (* {1 Effects} *)
 
-(* What a transition asks of the outside: <<"start", v, p>>, <<"stop", v>>, <<"set timer", i, n>>, <<"cancel timer", i>>,
-   <<"look for", q>>, <<"bind", V>>, <<"release", V>>, <<"connection timeout", V, n>>, where V is << >> for all vehicles,
-   <<"say", x>>, <<"ask", x>>, <<"call", name, arguments>>, and last of all <<"end", ending>>. *)
+(* What a transition asks of the outside: <<"start", v, p>>, <<"stop", v>>, <<"set timer", i, n>>, <<"cancel timer",
+   i>>, <<"look for", q>>, <<"bind", V>>, <<"release", V>>, <<"connection timeout", V, n>>, where V is << >> for all
+   vehicles, <<"say", x>>, <<"ask", x>>, <<"call", name, arguments>>, and last of all <<"end", ending>>. *)
 
 SetTimers(timers) == Each(timers, LAMBDA timer : << "set timer", timer.i, timer.time >>)
 CancelTimers(timers) == Each(timers, LAMBDA timer : << "cancel timer", timer.i >>)
@@ -589,7 +589,7 @@ Becoming(s, kappa) ==
   [ rules |-> s.rules, label |-> s.label, event |-> s.event, control |-> kappa, S |-> s.S, effects |-> s.effects,
     deeds |-> s.deeds ]
 
-(* ended(S, e) by the step s: the timers stop that are not cancelled by then, all vehicles stop, all of B is released. *)
+(* ended(S, e) by the step s: it cancels the timers that s does not cancel, stops all vehicles, releases all of B. *)
 EndedBy(s, timers) ==
   LET running == SelectSeq(CancelTimers(timers), LAMBDA cancel : cancel \notin Range(s.effects))
       stops == Each(SelectSeq(s.S.B, LAMBDA v : v \in DOMAIN s.S.A), LAMBDA v : << "stop", v >>)
@@ -685,8 +685,8 @@ ScriptSteps(M) ==
 
 (* {2 Picking vehicles} *)
 
-(* A world w: its vehicles, in the order in which they were heard of; those that are missing, of which nothing is heard now;
-   and where vehicles are seen. *)
+(* A world w: its vehicles, in the order in which they were heard of; those that are missing, of which nothing is
+   heard now; and where vehicles are seen. *)
 
 (* Wherever it is. *)
 Accepts(q, vehicle) ==
@@ -751,8 +751,8 @@ ANSWER_ERR(M, prompt, m) ==
   EndStep("ANSWER-ERR", "no-answer", NobodyAnswers(m), Shared,
           Failed(Fault("no answer to '" \o prompt \o "': " \o m, M.at)))
 
-(* An answer is an expression over the program's variables, which may only compute a value: <<"ok", transitions>>; or it is
-   refused: <<"wrong", m>>. *)
+(* An answer is an expression over the program's variables, which may only compute a value: <<"ok", transitions>>; or
+   it is refused: <<"wrong", m>>. *)
 AnswerSteps(M, answer) ==
   LET isValue(run) == run.is = "value" /\ run.deeds = << >> /\ run.S.store = store
       by(runs) ==

@@ -5,17 +5,17 @@
 EXTENDS DolphinEnvironment
 
 VARIABLES
-  label,  \* of the last transition, "" at the start: for whoever tells a run. It is no part of a state, see View
-  again   \* whether the last transition left all as it was, and so did those just before it, an odd number in all
+  label,  \* of the last transition, "" at the start. It tells a run, and is no part of a state: View leaves it out
+  again   \* TRUE after an odd number of transitions that all left the state as it was
 
 View == << vars, again >>
 
 -----------------------------------------------------------------------------
 (* {1 Transitions, once a state} *)
 
-(* Known(vars) is Transitions. It is a constant, for which a configuration puts ComputedOnce: TLC's register 1 has the last
-   ones, for all actions and properties that ask. TLC's -coverage lays out all that an action can reach, for each action anew;
-   it does not go on into what is put in the place of a constant, if that is a LET. *)
+(* Known(vars) is Transitions. It is a constant, for which a configuration puts ComputedOnce: TLC's register 1 has the
+   last ones, for all actions and properties that ask. TLC's -coverage lays out all that an action can reach, for each
+   action anew; it does not go on into what is put in the place of a constant, if that is a LET. *)
 CONSTANT Known(_)
 
 ASSUME TLCSet(1, << >>)
@@ -33,8 +33,9 @@ Possible(Which(_)) == \E ts \in { Known(vars) } : \E j \in DOMAIN ts : Which(ts[
 
 CheckedInit == Init /\ label = "" /\ again = FALSE
 
-(* A transition may leave all as it is: a loop that does nothing but say something. For TLA+ that is no step, so a program
-   that goes on so for ever would count as one that stands still though it could go on. The bit makes each a step. *)
+(* A transition may leave the state as it is: each round of "while (true) { message 'x' }" does. To TLA+ such a
+   transition is stuttering, and a run of nothing else looks unfair, as if the program stood still though it could go
+   on. The bit again makes every transition a step. *)
 Some(Which(_)) ==
   \E ts \in { Known(vars) } : \E j \in DOMAIN ts :
     /\ Which(ts[j].event)
@@ -44,7 +45,7 @@ Some(Which(_)) ==
 
 IsAny(event) == TRUE
 
-(* WF_View(Some(Which)): as each transition is a step, Possible(Which) is ENABLED <<Some(Which)>>_View, and is faster. *)
+(* WF_View(Some(Which)). Each transition is a step, so Possible(Which) is ENABLED <<Some(Which)>>_View; it is faster. *)
 Fair(Which(_)) == []<>~Possible(Which) \/ []<><< Some(Which) >>_View
 
 (* Tasks that run end, timers that run expire, steps of the program that stay possible are taken. *)
@@ -68,7 +69,7 @@ Termination == <>HasEnded
 -----------------------------------------------------------------------------
 (* {1 The graph} *)
 
-(* States and transitions as they are, neither told nor told apart. *)
+(* For graphs, label and again stay as they are: the states are those of the system. *)
 Unmarked(t) == Becomes(t) /\ UNCHANGED << label, again >>
 
 GraphNext == \E ts \in { Known(vars) } : \E j \in DOMAIN ts : Unmarked(ts[j])
@@ -139,8 +140,9 @@ Take_HALT(ts) == \E j \in Taking("HALT", ts) : Unmarked(ts[j])
 Take_FAULT(ts) == \E j \in Taking("FAULT", ts) : Unmarked(ts[j])
 Take_INTERRUPT(ts) == \E j \in Taking("INTERRUPT", ts) : Unmarked(ts[j])
 
-(* The same as GraphNext. A transition is counted under each rule of its derivation: TLC -coverage shows which rules were used.
-   TLC looks through all that a definition without parameters applies before it starts, but once through what a LET names. *)
+(* The same as GraphNext. A transition is counted under each rule of its derivation: TLC -coverage shows which rules
+   were used. TLC looks through all that a definition without parameters applies before it starts, but once through
+   what a LET names. *)
 NextByRule ==
   LET ts == Known(vars) IN
      \/ Take_START(ts) \/ Take_DONE(ts) \/ Take_FAIL(ts) \/ Take_ACTION(ts) \/ Take_ACTION_ERR(ts)

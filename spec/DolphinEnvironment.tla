@@ -20,8 +20,8 @@ CONSTANTS
   Interruptions  \* whether the program may be interrupted
 
 VARIABLE
-  outside   \* what the environment remembers: how many failures and losses there were, who is lost, who was late, how often
-            \* each question was asked and each call made
+  outside  \* what the environment remembers: how many failures and losses there were, who is lost, who was late, how
+           \* often each question was asked and each call made
 
 vars == << control, store, A, B, N, outside >>
 
@@ -38,8 +38,8 @@ LostConnection(v) == FailedOn(v, "connection lost")
 
 MayFail(v) == Ending(v, A[v].name) = "may fail"
 
-(* The connection is lost for longer than its timeout: that counts as a failure. As long as nothing else was heard of the
-   vehicle, it is no further loss. *)
+(* The connection is lost for longer than its timeout: that counts as a failure. As long as nothing else was heard of
+   the vehicle, it is no further loss. *)
 MayBeLost(v) == v \in outside.lost \/ Losses = -1 \/ outside.losses < Losses
 
 (* How the task that v runs may end now. *)
@@ -88,8 +88,8 @@ Arrangements(n, xs) ==
   IF n = 0 THEN << >>
   ELSE Flatten([ j \in DOMAIN xs |-> Each(Arrangements(n - 1, Without(xs, j)), LAMBDA rest : << xs[j] >> \o rest) ])
 
-(* The vehicles that q looks for, wherever they are. Nothing was heard of the silent ones since they were lost; the unsure
-   may be late. *)
+(* The vehicles that q looks for, wherever they are. Nothing was heard of the silent ones since they were lost; the
+   unsure may be late. *)
 Wanted(q) ==
   Each(SelectSeq(Fleet, LAMBDA vehicle : Accepts(q, vehicle) /\ vehicle.id \notin Range(B)),
        LAMBDA vehicle : vehicle.id)
@@ -99,9 +99,9 @@ Unsure(q) == SelectSeq(Wanted(q), LAMBDA v : v \notin outside.lost /\ Latecomers
 LateIn(a) == (Range(a.coming) \cup Range(a.missing)) \ outside.lost
 NewlyLate(a) == Cardinality(LateIn(a) \ outside.late)
 
-(* A pick of all vehicles waits for its whole timeout: some may come late while others are missing. A pick of n vehicles goes
-   on with the first n, of which up to n were late. Or too few come: then all silent ones are missing, and any of the unsure
-   or, where there is no bound, all. Attendances with fewer newly late vehicles come first. *)
+(* A pick of all vehicles waits for its whole timeout: some may come late while others are missing. A pick of n
+   vehicles goes on with the first n, of which up to n were late. Or too few come: then all silent ones are missing,
+   and any of the unsure or, where there is no bound, all. Attendances with fewer newly late vehicles come first. *)
 Attendances(q) ==
   LET silent == Silent(q)
       unsure == Unsure(q)
@@ -123,8 +123,8 @@ AfterPick(t, a) ==
   [ outside EXCEPT !.lost = @ \ (Range(t.S.B) \ Range(B)),
                    !.late = IF Latecomers = -1 THEN @ ELSE @ \cup LateIn(a) ]
 
-(* In each world that may be. A transition that is there in several worlds is remembered as in the first of them: with the
-   fewest newly late vehicles. *)
+(* In each world that may be. A transition that is there in several worlds is remembered as in the first of them: with
+   the fewest newly late vehicles. *)
 PickTransitions(M, q) ==
   LET placings == Placings(NothingSeen, IF q.region = << >> THEN << >> ELSE Wanted(q))
       in(a) == Flatten(Each(placings, LAMBDA sees : PickSteps(M, q, WorldOf(a, sees))))
@@ -135,8 +135,8 @@ PickTransitions(M, q) ==
 -----------------------------------------------------------------------------
 (* {1 Answers and replies} *)
 
-(* Of rounds, the answers for the first time, the second ..., those for this time; and how often it was asked then, as far as
-   it matters. *)
+(* Of rounds, the answers for the first time, the second ..., those for this time; and how often it was asked then, as
+   far as it matters. *)
 ThisTime(rounds, times) ==
   IF rounds = << >> THEN << >> ELSE rounds[IF times < Len(rounds) THEN times + 1 ELSE Len(rounds)]
 OnceMore(rounds, times) == IF times + 1 < Len(rounds) THEN times + 1 ELSE times

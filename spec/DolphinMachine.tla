@@ -65,9 +65,9 @@ Carries(vehicle, devices) == { Lower(d) : d \in Range(devices) } \subseteq vehic
 
 (* {2 Sensors} *)
 
-(* What a sensor shows is open, at each step anew; within one step it stays. S.sees is what was seen in this step so far:
-   of each question its answer, by number. There are three kinds of questions: <<"battery", v>> and <<"position", v>> where
-   the fleet gives several values, and <<"claim", text>>, of a comparison. *)
+(* What a sensor shows is open, at each step anew; within one step it stays. S.sees is what was seen in this step so
+   far: of each question its answer, by number. There are three kinds of questions: <<"battery", v>> and <<"position",
+   v>> where the fleet gives several values, and <<"claim", text>>, of a comparison. *)
 NothingSeen == << >>
 Seeing(sees, question, i) == (question :> i) @@ sees
 Claims(sees) == { question \in DOMAIN sees : question[1] = "claim" }
@@ -863,7 +863,7 @@ Continuation(m, f, x) ==
             IN IF early # << >> THEN Result([ below EXCEPT !.at = f.node ], early[1])
                ELSE Iterate(below, [ f EXCEPT !.gathered = Append(@, x), !.index = @ + 1 ])
 
-(* Which of xs it is depends on the answer to the question: if it is not known yet, the machine stops and asks for it. *)
+(* Which of xs it is depends on the answer to the question: if that is not known, the machine stops and asks for it. *)
 Answered(m, question, xs) ==
   CASE question \in DOMAIN m.sees -> Result(m, xs[m.sees[question]])
     [] question[1] = "claim" /\ Cardinality(Claims(m.sees)) >= MostClaims -> Stop(m, << "unsettled", question[2] >>)

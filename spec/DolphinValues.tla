@@ -214,8 +214,8 @@ NumberText(n, d) ==
          IF Assert(10000 * Abs(n) >= d, "a number is too small for this model to write it")
          THEN DecimalText(n, d) ELSE ""
 
-(* Without a point if the number is whole, as labels show seconds: C's %g, with six digits or as many more as it takes. A
-   million is 1e+06 there. *)
+(* Without a point if the number is whole, as labels show seconds: C's %g, with six digits or as many more as it
+   takes. A million is 1e+06 there. *)
 ShortText(x) ==
   LET n == Numerator(x)
       d == Denominator(x)
@@ -326,7 +326,8 @@ Takes(op) ==
     [] OTHER -> "two values"
 
 Found(x) ==
-  IF x[1] \in { "null", "closure", "settings", "reading" } \/ Len(Text(x)) > 60 THEN Kind(x) ELSE Kind(x) \o ", " \o Literal(x)
+  IF x[1] \in { "null", "closure", "settings", "reading" } \/ Len(Text(x)) > 60 THEN Kind(x)
+  ELSE Kind(x) \o ", " \o Literal(x)
 
 (* The sentence of a result that is none. TLC looks through all operators that a definition can reach, once for each way
    there; so sentences are made here, and not where the trouble is. *)
@@ -545,9 +546,9 @@ InUnit(x, name) ==
 
 (* {1 Readings} *)
 
-(* A reading is known by its text: how it was got, or where it is kept. It may be handed on, computed with, compared and
-   told of. Of a comparison either outcome is possible, the same wherever the same texts are compared so; of whatever else
-   could be done with it nobody could list the outcomes. *)
+(* A reading is known by its text: how it was got, or where it is kept. It may be handed on, computed with, compared
+   and told of. Of a comparison either outcome is possible, the same wherever the same texts are compared so; of
+   whatever else could be done with it nobody could list the outcomes. *)
 
 Reading(quantity, text) == << "reading", quantity, text >>
 IsReading(x) == Is(x, "reading")

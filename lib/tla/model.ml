@@ -16,8 +16,8 @@ let charge level =
   in
   Tla.Tuple [ String "number"; Integer n; Integer d ]
 
-(* What a sensor may show, nothing if that may be anything. Where no code looks at sensors, they may as well show what
-   they show at the start: TLC is faster if it need not look for readings among values. *)
+(* The values that a sensor may show; none if it may show anything. Where no code reads sensors, they show what they
+   show at the start: TLC is faster if it need not look for readings among values. *)
 let sensor translation (shown : _ World.shown) value at_start =
   match shown with
   | Anything when Translation.reads_sensors translation -> Tla.Tuple []
@@ -42,7 +42,7 @@ let ending : Environment.endings -> string = function
 (* A name that no program has. *)
 let nobody = "\000"
 
-(* [v] and [p] as in the definition of Ending; what most have comes last. *)
+(* The body of Ending(v, p); what holds for most comes last. *)
 let endings (environment : Environment.options) world plans =
   let ids = List.map (fun (s : World.vehicle_state) -> s.id) (World.vehicles world) in
   let usual = match ids with id :: _ -> environment.endings id nobody | [] -> Environment.Succeeds in
@@ -72,8 +72,8 @@ let late (environment : Environment.options) world =
 
 (* {1 Answers and replies} *)
 
-(* What [of_name] gives for each of [names], where a definition has the parameter [parameter], and what it does for all
-   others. *)
+(* The body of a definition with the parameter [parameter]: [of_name] of each of [names], and of a name that nobody has
+   for all others. *)
 let cases parameter names of_name =
   let clause name = Format.asprintf "%s = %a -> %a" parameter Tla.pp (Tla.String name) Tla.pp (of_name name) in
   let others = Format.asprintf "%a" Tla.pp (of_name nobody) in
@@ -102,15 +102,15 @@ let reply translation = function
 let replies translation (environment : Environment.options) calls =
   cases "call" calls (fun call -> in_rounds (reply translation) (environment.replies call))
 
-(* Of those with several rounds it matters how often they came. *)
+(* The names with several rounds: for these it matters how often they came. *)
 let counted names rounds =
   let several name = List.compare_length_with (rounds name) 1 > 0 in
   Tla.Set (List.map (fun name -> Tla.String name) (List.filter several names))
 
 (* {1 The module} *)
 
-(* What is put in the place of a constant TLC computes anew whenever it is used, other definitions once: so for what is
-   large, a name of it is put there. *)
+(* TLC computes anew, at each use, what a configuration puts in the place of a constant; other definitions it computes
+   once. So for large values a name is put there. *)
 let tables = [ "Fleet"; "Code"; "Lambdas"; "LambdaNames"; "Places"; "Distances"; "Plans" ]
 
 let small =
@@ -161,8 +161,8 @@ let text program world (environment : Environment.options) plans prompts calls t
   definition ppf "MCLosses" (limit environment.losses);
   definition ppf "MCLatecomers" (limit environment.latecomers);
   definition ppf "MCMayBeLate" (late environment world);
-  Format.fprintf ppf "MCSiteOf(n) ==@.  IF n > 0 THEN %a[n] ELSE %a[-n]@.@." Tla.pp (sites (Translation.code translation))
-    Tla.pp (sites (Translation.lambdas translation));
+  Format.fprintf ppf "MCSiteOf(n) ==@.  IF n > 0 THEN %a[n] ELSE %a[-n]@.@." Tla.pp
+    (sites (Translation.code translation)) Tla.pp (sites (Translation.lambdas translation));
   Format.fprintf ppf "MCEnding(v, p) ==@.  %s@.@." (endings environment world plans);
   Format.fprintf ppf "MCAnswers(prompt) ==@.  %s@.@." answers;
   Format.fprintf ppf "MCHostReplies(call, at) ==@.  %s@.@." replies;

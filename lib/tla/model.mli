@@ -1,6 +1,5 @@
-(** The TLA+ model of one program in one world: what TLC needs to explore it, by the specification in [spec/]. The
-    program is a table of expressions there, which the specification runs itself: nothing of what it does is computed
-    here, but for geometry. *)
+(** The TLA+ model of one program in one world: what TLC needs to explore it, by the specification in [spec/]. There the
+    program is a table of expressions, which the specification runs itself. Only geometry is computed here. *)
 
 open Dolphin_semantics
 module Environment = Dolphin_environment.Environment
@@ -15,13 +14,14 @@ val of_program :
   World.t ->
   Core.program ->
   (file list, Dolphin_syntax.Diagnostic.t list) result
-(** [of_program ~plans ~prompts ~calls ~environment w p] is the model of [p] in [w]: the specification's modules, [MC.tla] with the
-    program and the world as constants, and configurations, all for one directory: [MC.cfg] checks the properties,
-    [Told.cfg] does, and tells runs by an [ALIAS], [Graph.cfg] prints the graph, and [Coverage.cfg] has an action for each
-    rule. Or what cannot be translated, at least one, in the order of the text. [environment] is asked about the plans,
-    prompts and calls of the host that are listed here; what it says of a name that nobody has holds for all others. *)
+(** [of_program ~plans ~prompts ~calls ~environment w p] is the model of [p] in [w]: the specification's modules,
+    [MC.tla] with the program and the world as constants, and configurations, all for one directory. [MC.cfg] checks
+    the properties; [Told.cfg] does too, and tells runs by an [ALIAS]; [Graph.cfg] prints the graph; [Coverage.cfg] has
+    an action for each rule. An error is what cannot be translated, in the order of the text. [environment] is asked
+    about the plans, prompts and calls of the host that are listed here; what it says of a name that nobody has holds
+    for all others. *)
 
 val unfit_replies :
   environment:Environment.options -> calls:string list -> World.t -> Core.program -> (string * string) list
-(** [unfit_replies ~environment ~calls w p] is those of [calls] of which some reply has no words in TLA+, each with why:
-    {!of_program} refuses them, and knows no place for it. *)
+(** [unfit_replies ~environment ~calls w p] is those of [calls] with a reply that TLA+ cannot express, each with why.
+    {!of_program} refuses them too, but without a place. *)

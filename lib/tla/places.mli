@@ -17,4 +17,5 @@ val texts : t -> Tla.t
 (** The positions as messages show them. *)
 
 val distances : t -> Tla.t
-(** A row for each place: over the ground to each, in millimetres, rounded up; as far as TLC's whole numbers go. *)
+(** A row for each place: the distances over the ground to each place, in millimetres, rounded up; at most TLC's
+    greatest whole number. *)

@@ -17,9 +17,8 @@ let properties ~strict =
 (* MC.cfg, up to the properties that it checks. *)
 let beginning model =
   let text = (List.find (fun (f : Model.file) -> f.name = "MC.cfg") model).text in
-  let begins prefix line = String.length line >= String.length prefix && String.sub line 0 (String.length prefix) = prefix in
   let rec before = function
-    | line :: rest when not (begins "INVARIANTS" line) -> line :: before rest
+    | line :: rest when not (String.length line > 10 && String.sub line 0 10 = "INVARIANTS") -> line :: before rest
     | _ -> []
   in
   String.concat "\n" (before (String.split_on_char '\n' text)) ^ "\n"

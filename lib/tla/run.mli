@@ -9,14 +9,14 @@ val check : string
 (** The name of the file with the configuration that checks the properties. *)
 
 val check_states : string
-(** Of the same, without temporal properties, for where they cannot be checked. *)
+(** The name of the same without temporal properties, which TLC's distributed mode cannot check. *)
 
 val graph : string
-(** Of one that checks nothing, and prints the graph in the lines that [Dolphin_tlc.Printed_graph] reads. TLC must be given
-    one worker, for a state's lines to stay together. *)
+(** The name of the one that checks nothing, and prints the graph in the lines that [Dolphin_tlc.Printed_graph] reads.
+    TLC must have one worker, for a state's lines to stay together. *)
 
 val properties : strict:bool -> property list
-(** What {!check} checks; [strict], also that nothing halts, and that no tuples are left. *)
+(** What {!check} checks; with [strict] also that nothing halts, and that no tuples are left. *)
 
 val files : strict:bool -> Model.file list -> Model.file list
 (** [files ~strict model] is [model] with the configurations {!check} and {!check_states}. *)

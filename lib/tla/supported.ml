@@ -5,7 +5,8 @@ let is_refused_property name =
 
 let is_for_readings name =
   List.mem name
-    [ "latitude"; "lat"; "longitude"; "lon"; "height"; "getLatitude"; "getLongitude"; "getHeight"; "bearing"; "bearingTo" ]
+    [ "latitude"; "lat"; "longitude"; "lon"; "height"; "getLatitude"; "getLongitude"; "getHeight"; "bearing";
+      "bearingTo" ]
 
 let is_refused_method name =
   List.mem name

@@ -25,8 +25,8 @@ let whereabouts world =
 let create program world =
   let places = Places.create () in
   List.iter (fun p -> ignore (Places.index places p : int)) (whereabouts world);
-  { program; world; places; vehicles_at = Places.positions places; nodes = Hashtbl.create 1000; lambdas = []; plans = [];
-    reads_sensors = false; refusals = [] }
+  { program; world; places; vehicles_at = Places.positions places; nodes = Hashtbl.create 1000; lambdas = [];
+    plans = []; reads_sensors = false; refusals = [] }
 
 let place t p = Places.index t.places p
 let reads_sensors t = t.reads_sensors
@@ -259,8 +259,8 @@ and unfolded t (e : expression) =
 
 (* {1 Inline plans} *)
 
-(* A plan is built once, here: all its settings but the name must be constants. Of the lines of the block only planName
-   is left to the program; the others only say that they are there. *)
+(* A plan is built once, here, so all its settings but the name must be constants. Of the lines of the block only
+   planName is left to the program; the others are kept without their arguments. *)
 and plan t site start body default build_site =
   let n = reserve t site in
   let settings = ref [] in
@@ -338,7 +338,7 @@ and lambda t (l : lambda) =
   | Some (_, n, _) -> n
   | None ->
     let n = List.length t.lambdas + 1 in
-    (* Functions may refer to themselves, so its number is given out before its code is translated. *)
+    (* A function may refer to itself, so it has its number before its code is translated. *)
     t.lambdas <- (l, n, Tla.Tuple []) :: t.lambdas;
     let code = expression t l.code in
     let fields =

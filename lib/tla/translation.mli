@@ -1,4 +1,4 @@
-(** Programs as tables of TLA+: every expression has a number, so has every closure; expressions refer to their parts by
+(** Programs as tables of TLA+. Every expression and every closure has a number; expressions refer to their parts by
     number. What [spec/DolphinMachine.tla] cannot run is refused, with its place in the program. *)
 
 open Dolphin_semantics

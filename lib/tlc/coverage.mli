@@ -7,5 +7,5 @@ type count = {
 }
 
 val of_message : Message.t -> count option
-(** [of_message m] is what [m] counts, if it counts an action. TLC tells once a minute and at its end what it has counted
-    so far: the last one of an action has it all. *)
+(** [of_message m] is what [m] counts, if it counts an action. Once a minute and at its end TLC tells what it
+    has counted so far, so the last count of an action is the whole. *)

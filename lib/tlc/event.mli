@@ -18,8 +18,8 @@ type t =
   | Violation of violation
   | Behaviour  (** a counter-example follows *)
   | State of { number : int; action : string option; text : string }
-  (** of a counter-example, from 1: the action that led there, unless it is an initial state; the variables, [/\ x = 1]
-      and so on *)
+  (** of a counter-example, numbered from 1: the action that led there, unless it is an initial state; the text of the
+      variables, [/\ x = 1] and so on *)
   | Stutters  (** the counter-example stays in its last state for ever *)
   | Returns_to of int  (** the counter-example goes on from its last state to this one, and so on for ever *)
   | Holds  (** no error was found *)

@@ -27,7 +27,8 @@ let rec in_pick_order bound : Effect.t list -> Effect.t list = function
       | rest -> (stopped, rest)
     in
     let stopped, rest = split [] effects in
-    List.filter_map (fun v -> if List.mem v stopped then Some (Effect.Stop v) else None) bound @ in_pick_order bound rest
+    let in_order = List.filter (fun v -> List.mem v stopped) bound in
+    List.map (fun v -> Effect.Stop v) in_order @ in_pick_order bound rest
   | e :: rest -> e :: in_pick_order bound rest
   | [] -> []
 
@@ -41,10 +42,11 @@ let with_rules (t : Transition.t) text =
 
 (* {1 What is seen of a state} *)
 
-(* Of a key whose order matters one mark for all its pairs, of others one for each pair. *)
+(* One mark for all pairs of a key if their order matters, otherwise one for each pair. *)
 let marks_of_key (c : Configuration.t) (k, values) =
   let pair x = Format.asprintf "%a" Value.pp_tuple (k, x) in
-  if Tuples.is_ordered k c.shared.tuples then [ Printf.sprintf "N %s in order" (String.concat ", " (List.map pair values)) ]
+  if Tuples.is_ordered k c.shared.tuples then
+    [ Printf.sprintf "N %s in order" (String.concat ", " (List.map pair values)) ]
   else
     let rec runs = function
       | [] -> []

@@ -13,8 +13,8 @@ val variable : string
 
 val find : ?jar:string -> (string -> string option) -> (t, trouble) result
 (** [find ~jar getenv] is Java, by [JAVA_HOME] or [PATH], and the archive: [jar], or what {!variable} says, or the first
-    there is of the usual places: Maven's repository, of several versions the highest, [/usr/share/java], and where
-    TLA+'s Toolbox and the archive of its releases are commonly put. *)
+    that is in one of the usual places. These are Maven's repository (the highest of several versions),
+    [/usr/share/java], and where TLA+'s Toolbox and the archive of its releases are commonly put. *)
 
 val pp_trouble : Format.formatter -> trouble -> unit
 (** What is wrong, and what would be right; a sentence or two. *)

@@ -18,7 +18,7 @@ let of_mode (i : Installation.t) = function
     [ "-Djava.rmi.server.hostname=" ^ host; port_option port; "-cp"; i.jar; "tlc2.tool.distributed.TLCServer" ]
 
 (* [-deadlock] says not to look for deadlocks: an end has no successor either, so models have an invariant for that. The
-   server does not heed what the configuration says of it. *)
+   distributed server ignores CHECK_DEADLOCK in the configuration. *)
 let command ?(short = false) ?(coverage = false) i mode ~directory ~main ~configuration =
   java i ~short
   @ [ "-Djava.io.tmpdir=" ^ directory ]

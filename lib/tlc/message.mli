@@ -19,8 +19,8 @@ type reader
 val start : reader
 
 val line : reader -> string -> reader * t list
-(** [line r s] takes in the next line, [s], and gives what is complete by it. A message that begins before the last one
-    has ended ends that one. A carriage return at the end of a line does not count. *)
+(** [line r s] takes in the next line, [s], and gives the messages that it completes. A message that begins before the
+    last one has ended ends that one. A carriage return at the end of a line does not count. *)
 
 val finish : reader -> t list
 (** [finish r] is what is left when the output ends: the message that was cut off, if any. *)

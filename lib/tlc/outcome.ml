@@ -35,7 +35,7 @@ let start =
     printed = [];
     holds = false }
 
-(* Of lines outside of messages only the last few can matter: if there are no messages at all. *)
+(* Lines outside of messages matter only if there are no messages at all, and then only the last few. *)
 let most_printed = 20
 
 let keep line printed =

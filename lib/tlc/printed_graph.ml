@@ -1,8 +1,8 @@
 open Dolphin_lts
 module Growing = Packed.Growing
 
-(* States are numbered as they are first mentioned, whether as a state or as where a transition leads. Their texts are long,
-   and known by their digests. *)
+(* States are numbered in the order in which they are first mentioned, as a state or as the target of a transition.
+   Their texts are long, so their digests are kept. *)
 type t = {
   numbers : (Digest.t, int) Hashtbl.t;
   programs : (int, int) Hashtbl.t;  (* by state that had its line *)
@@ -26,8 +26,9 @@ type problem =
   | No_states
 
 let create () =
-  { numbers = Hashtbl.create 1000; programs = Hashtbl.create 1000; initial = Hashtbl.create 10; labels = Hashtbl.create 100;
-    names = []; sources = Growing.create (); edge_labels = Growing.create (); targets = Growing.create ();
+  { numbers = Hashtbl.create 1000; programs = Hashtbl.create 1000; initial = Hashtbl.create 10;
+    labels = Hashtbl.create 100; names = []; sources = Growing.create (); edge_labels = Growing.create ();
+    targets = Growing.create ();
     derivations = Hashtbl.create 100; current = None; transitions = 0 }
 
 let mark text = "(" ^ text ^ ")"
@@ -117,7 +118,7 @@ let used g =
   Hashtbl.iter add g.derivations;
   fun rule -> Option.value (Hashtbl.find_opt used rule) ~default:0
 
-(* For each program a builder, and for each state its number in its program's graph: the initial one is the first. *)
+(* A builder for each program, and for each state its number in its program's graph, where the initial one is first. *)
 let numbered g =
   let builders = Hashtbl.create 10 and counts = Hashtbl.create 10 in
   Hashtbl.iter

@@ -9,10 +9,10 @@ M <tab> mark                            something that can be seen of it
 E <tab> label <tab> state <tab> rules   a transition of it, and where it leads
     v}
 
-    Equal states have equal texts. A label may contain tabulators, other fields do not. [program] is a number, of the program that
-    the state is of, where a model has several; the first state of each is its initial one. It may be missing, which is
-    as if it were 1. What is marked becomes a transition from the state to itself, so that comparing graphs compares
-    that too: how a state has ended, and its A, B and N, which labels do not show. *)
+    Equal states have equal texts. A label may contain tabulators, other fields do not. Where a model has several
+    programs, [program] is the number of the one that the state is of, and is 1 if it is missing; the first state of
+    each program is its initial one. A mark becomes a transition from the state to itself, so that comparing graphs
+    compares marks too: how a state has ended, and its A, B and N, which labels do not show. *)
 
 open Dolphin_lts
 

@@ -51,7 +51,7 @@ let read_all ~interrupted ~pid line input =
   in
   go None
 
-(* A child begins where its parent is: we go there for that moment. *)
+(* A child begins in its parent's directory, so the parent goes there for that moment. *)
 let start directory argv output =
   let nothing = Unix.openfile "/dev/null" [ O_RDONLY; O_CLOEXEC ] 0 and here = Sys.getcwd () in
   let back () =

@@ -15,9 +15,10 @@ type trouble =
   | Does_not_return of string list  (** these labels, of the cycle, lead to another state than TLC says *)
 
 val run :
-  Environment.options -> Core.program -> World.t -> broken:(Dolphin_explore.Labelled.state -> Transition.t list -> bool) ->
+  Environment.options -> Core.program -> World.t ->
+  broken:(Dolphin_explore.Labelled.state -> Transition.t list -> bool) ->
   Outcome.counter_example -> (run, trouble) result
 (** [run o p w ~broken c] is a run with the labels of [c], which are the values of the variable [label] in its states.
-    If there are several, it is one for whose last state and transitions [broken] holds, if one is. *)
+    If there are several, one for whose last state and transitions [broken] holds is preferred. *)
 
 val pp_trouble : Format.formatter -> trouble -> unit

@@ -97,8 +97,8 @@ LambdasOfModel(body, closures) ==
   << >> \o [ j \in DOMAIN Pieces(body, closures) |->
               LambdaAt(1 + Len(All(SubSeq(Pieces(body, closures), 1, j - 1))), "code", IF j < 3 THEN 0 ELSE 1) ]
 
-(* What a configuration puts in the place of a constant TLC computes anew whenever it is used, other definitions once: so a
-   name of one of these is put there. *)
+(* What a configuration puts in the place of a constant TLC computes anew whenever it is used, other definitions once:
+   so a name of one of these is put there. *)
 CodeTable == CodeOfModel(ScriptOfModel, ClosuresOfModel)
 LambdaTable == LambdasOfModel(ScriptOfModel, ClosuresOfModel)
 

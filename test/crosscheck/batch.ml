@@ -22,7 +22,9 @@ let prepare ~limit (case : Case.t) =
       match Reference.explore ~limit case.environment case.program case.world with
       | None -> Error Too_large
       | exception Dolphin_environment.Environment.Unclear fault -> Error (Unsettled fault.message)
-      | Some space -> Ok { case; graph = Explored.graph ~effects:true space; transitions = Reference.transitions space; constants })
+      | Some space ->
+        let graph = Explored.graph ~effects:true space in
+        Ok { case; graph; transitions = Reference.transitions space; constants })
 
 let case p = p.case
 let states p = Graph.states p.graph
@@ -99,7 +101,7 @@ let judge graphs i p =
   in
   { name = p.case.name; source = p.case.source; states = Graph.states p.graph; transitions = p.transitions; verdict }
 
-(* With an action for each rule a transition is taken by several. *)
+(* With an action for each rule, several actions take one transition. *)
 let conclude prepared ~coverage r =
   let o = Outcome.finish r.outcome in
   let states = Printed_graph.states r.printed and transitions = Printed_graph.transitions r.printed in
@@ -117,7 +119,7 @@ let conclude prepared ~coverage r =
   | None, Holds, Ok graphs ->
     let results = List.mapi (judge graphs) prepared in
     let ours = List.fold_left (fun n (r : result) -> n + r.transitions) 0 results in
-    (* Transitions with one label between two states are one in a graph. *)
+    (* In a graph, transitions between the same two states with the same label are one. *)
     if ours <> transitions && List.for_all (fun (r : result) -> r.verdict = Agrees) results then
       Error (Printf.sprintf "the explorer counts %d transitions, and TLC %d" ours transitions)
     else Ok { results; warnings = List.rev r.warnings; used = Printed_graph.used r.printed; counted = r.counted }

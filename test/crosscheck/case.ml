@@ -20,7 +20,7 @@ type t = {
 
 (* {1 Random programs} *)
 
-(* What the script does after its picks, again and again: for cycles. *)
+(* The program whose script repeats for ever what it does after its picks, for cycles in the graph. *)
 let for_ever (program : Ast.program) =
   let comes_first (s : Ast.statement) =
     match s.it with Assign { value = { it = Builder _ | Integer _; _ }; _ } -> true | _ -> false

@@ -28,7 +28,7 @@ let tell_failure name source what = Printf.printf "%s: %s\n%s\n%!" name what sou
 
 (* {1 State graphs} *)
 
-(* Those that were prepared, and of the others why not, with their names. *)
+(* The programs that were prepared; the names of the others, with why they were not. *)
 let prepared_or_not ~limit cases =
   let one (c : Case.t) = match Batch.prepare ~limit c with Ok p -> Either.Left p | Error why -> Right (c.name, why) in
   List.partition_map one cases
@@ -46,7 +46,7 @@ let agrees (r : Batch.result) =
       (Format.asprintf "left is the explorer, right TLC@.%a" Dolphin_lts.Isomorphism.pp_difference difference);
     false
 
-(* How many programs do not agree, or are warned of. Where TLC fails it is asked of each program by itself. *)
+(* How many programs do not agree, or have a warning. Where TLC fails, it is given each program by itself. *)
 let rec failures_of installation prepared =
   match Batch.run installation ~specification:Translated.specification prepared, prepared with
   | Ok { results; warnings; _ }, _ ->
@@ -104,7 +104,8 @@ let verdicts installation cases =
   let failures = List.length (List.filter (fun (_, agree) -> not agree) done_) in
   let kinds = List.sort_uniq compare (List.map fst done_) in
   let count kind = Printf.sprintf "%s: %d" kind (List.length (List.filter (fun (k, _) -> k = kind) done_)) in
-  Printf.printf "verdicts: %d programs, each checked by TLC's own properties: %s%s\n  %s\n  %.0f s\n%!" (List.length done_)
+  Printf.printf "verdicts: %d programs, each checked by TLC's own properties: %s%s\n  %s\n  %.0f s\n%!"
+    (List.length done_)
     (verdict_of failures)
     (if refused > 0 then Printf.sprintf "; %d refused by the translation" refused else "")
     (String.concat "; " (List.map count kinds))

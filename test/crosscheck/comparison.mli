@@ -17,9 +17,9 @@ val prepare : limit:int -> Case.t list -> Batch.prepared list
 (** Those of the programs that can be given to TLC, and have at most [limit] states. *)
 
 val graphs : string -> Installation.t -> limit:int -> batch:int -> Case.t list -> count
-(** [graphs title i ~limit ~batch cases] compares the state graphs of [cases], [batch] programs at a time, and prints a line of
-    them all, after one for each difference. *)
+(** [graphs title i ~limit ~batch cases] compares the state graphs of [cases], [batch] programs at a time, and prints
+    a line of them all, after one for each difference. *)
 
 val verdicts : Installation.t -> Case.t list -> count
-(** [verdicts i cases] compares TLC's own verdicts with the explorer's, on those of [cases] that have at most 300 states: TLC
-    takes minutes for the temporal properties of some programs of a thousand. *)
+(** [verdicts i cases] compares TLC's own verdicts with the explorer's, on those of [cases] that have at most 300
+    states: TLC takes minutes for the temporal properties of some programs of a thousand. *)

@@ -19,7 +19,8 @@ let definition count (c : constant) =
 
 let programs_module programs =
   let of_one i constants =
-    List.map (fun c -> Printf.sprintf "%s == %s\n" (applied (of_program (i + 1) c.name) c.parameters) c.definition) constants
+    let one c = Printf.sprintf "%s == %s\n" (applied (of_program (i + 1) c.name) c.parameters) c.definition in
+    List.map one constants
   in
   let lookups = match programs with [] -> [] | first :: _ -> List.map (definition (List.length programs)) first in
   String.concat ""

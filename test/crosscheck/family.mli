@@ -14,5 +14,6 @@ val by_rule : string
 (** Of one in which there is an action for each rule. *)
 
 val files : specification:(string * string) list -> constant list list -> ((string * string) list, string) result
-(** [files ~specification programs] is the model's files, names and texts: each program is given by its constants, and has
-    a number, from 1, in what the model prints ({!Dolphin_tlc.Printed_graph}). It is an error if the text of the specification is not as expected. *)
+(** [files ~specification programs] is the model's files, names and texts: each program is given by its constants, and
+    has a number, from 1, in what the model prints ({!Dolphin_tlc.Printed_graph}). It is an error if the text of the
+    specification is not as expected. *)

@@ -39,10 +39,9 @@ let all =
          IF run.deeds = << >> THEN << >> ELSE << Step("CONDITION", "check", Program, run.S, Next_(r), << >>) >>|} };
     { name = "consume takes some of the pairs if not all are there";
       file = machine;
-      pattern = {|          THEN LET y == Taken(N, k, x) IN TakeAll(WithoutPair(N, k, y), Tail(pairs), Append(taken, << k, y >>))
+      pattern = {|Append(taken, << k, y >>))
           ELSE << >>|};
-      replacement =
-        {|          THEN LET y == Taken(N, k, x) IN TakeAll(WithoutPair(N, k, y), Tail(pairs), Append(taken, << k, y >>))
+      replacement = {|Append(taken, << k, y >>))
           ELSE TakeAll(N, Tail(pairs), taken)|} };
     { name = "consume takes the newest pair";
       file = machine;
@@ -50,8 +49,8 @@ let all =
       replacement = {|Taken(N, k, x) == IF x = Wildcard THEN Last(N.queue[k]) ELSE x|} };
     { name = "N is a set";
       file = machine;
-      pattern = {|  ELSE [ N EXCEPT !.bag = @ (+) SetToBag({ << k, x >> }) ]|};
-      replacement = {|  ELSE IF BagIn(<< k, x >>, N.bag) THEN N ELSE [ N EXCEPT !.bag = @ (+) SetToBag({ << k, x >> }) ]|} };
+      pattern = {|  ELSE [ N EXCEPT !.bag = @ (+) |};
+      replacement = {|  ELSE IF BagIn(<< k, x >>, N.bag) THEN N ELSE [ N EXCEPT !.bag = @ (+) |} };
     { name = "an error passes a watch";
       file = rules;
       pattern = {|    [] IsErr(s) -> Handled(s, h)|};
@@ -83,7 +82,8 @@ let all =
     { name = "the timer of a during outlives its task";
       file = rules;
       pattern = {|DURING_2(s, r) == Asking(By(s, "DURING-2", Done_), |};
-      replacement = {|DURING_2(s, r) == Asking(By(s, "DURING-2", Next_([ op |-> "idle", timer |-> 0, time |-> Integer(1) ])), |} };
+      replacement =
+        {|DURING_2(s, r) == Asking(By(s, "DURING-2", Next_([ op |-> "idle", timer |-> 0, time |-> Integer(1) ])), |} };
     { name = "what the code of a during does is lost";
       file = rules;
       pattern = {|"set-time(" \o ShortText(n) \o ")", run, Next_(started))|};
@@ -206,7 +206,8 @@ let all =
       replacement = {|Result(m, False)|} };
     { name = "an interruption stops nothing";
       file = rules;
-      pattern = {|  EndedBy(Step("INTERRUPT", "interrupt", Interruption, Shared, Ends(Interrupted), << >>), TimersOf(kappa))|};
+      pattern =
+        {|  EndedBy(Step("INTERRUPT", "interrupt", Interruption, Shared, Ends(Interrupted), << >>), TimersOf(kappa))|};
       replacement = {|  Transition("INTERRUPT", "interrupt", Interruption, Ended(Interrupted), Shared, << >>)|} };
     { name = "an interruption completes the program";
       file = rules;

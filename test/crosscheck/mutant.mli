@@ -11,7 +11,8 @@ val about : string -> t list
 (** [about part] is those with [part] in their names. *)
 
 val is_of_checking : t -> bool
-(** Whether it is about what TLC is asked of runs, so that TLC's own verdicts must be looked at: graphs are as they were. *)
+(** Whether the mistake is in [DolphinChecking.tla]. Such a mistake leaves graphs as they are, but not TLC's own
+    verdicts. *)
 
 val apply : t -> (string * string) list -> ((string * string) list, string) result
 (** [apply m files] is [files], names and texts, with [m]'s mistake in them; or why it does not apply. *)

@@ -9,35 +9,58 @@ let program ?failures ?(world = Generate.world) name source =
 let two = "a = pick { id 'a' }; b = pick { id 'b' }\n"
 
 let tasks =
-  program "at most one failure" ~failures:1 (two ^ "execute watch (task('p')[a] >> task('q')[b]) onError { ignore() }\nexecute task('p')[a]")
+  program "at most one failure" ~failures:1
+    (two ^ "execute watch (task('p')[a] >> task('q')[b]) onError { ignore() }\nexecute task('p')[a]")
   :: List.map
     (fun (name, source) -> program name source)
     [ ("vehicles that a failure stops are free again",
        two ^ "execute (watch (task('p')[a] | task('q')[b]) onError { ignore() }) >> (task('q')[a] | task('p')[b])");
       ("a fault of an until's condition stops vehicles",
        two ^ "execute watch (until { 1 / 0 > 1 } run task('p')[a]) onError { ignore() }");
-      ("a guard does not take a part", "post x: 1\nexecute condition { consume x: 1, y: 1 } | action { post y: 1 } >> condition { consume x: 1 }");
-      ("code that breaks leaves nothing", "x = 0\nexecute watch (action { post k: 1; x = 1; y = 1 / 0 }) onError { ignore() }\nif (poll(k: 1) || x == 1) { message 'left' }");
-      ("a handler that breaks leaves nothing", two ^ "execute watch (watch task('p')[a] onError { post k: 1; 1 / 0 }) onError { ignore() }\nif (poll(k: 1)) { message 'left' }");
-      ("a guard that is false did nothing", "post k: 1\nexecute condition { consume k: 1; false } | condition { poll k: 1 }");
-      ("until stops what runs, or what did not start", two ^ "execute (until { poll x: 1 } run (task('p')[a] >> task('q')[a])) | action { post x: 1 }");
-      ("an error leaves out what would follow", two ^ "execute watch (task('p')[a] >> task('q')[b] >> task('q')[a]) onError { ignore() }");
+      ("a guard does not take a part",
+       "post x: 1\nexecute condition { consume x: 1, y: 1 } | action { post y: 1 } >> condition { consume x: 1 }");
+      ("code that breaks leaves nothing",
+       "x = 0\nexecute watch (action { post k: 1; x = 1; y = 1 / 0 }) onError { ignore() }\n\
+        if (poll(k: 1) || x == 1) { message 'left' }");
+      ("a handler that breaks leaves nothing",
+       two ^ "execute watch (watch task('p')[a] onError { post k: 1; 1 / 0 }) onError { ignore() }\n\
+              if (poll(k: 1)) { message 'left' }");
+      ("a guard that is false did nothing",
+       "post k: 1\nexecute condition { consume k: 1; false } | condition { poll k: 1 }");
+      ("until stops what runs, or what did not start",
+       two ^ "execute (until { poll x: 1 } run (task('p')[a] >> task('q')[a])) | action { post x: 1 }");
+      ("an error leaves out what would follow",
+       two ^ "execute watch (task('p')[a] >> task('q')[b] >> task('q')[a]) onError { ignore() }");
       ("a handler that does nothing propagates", two ^ "execute watch task('p')[a] onError { post k: 1 }");
       ("a condition that breaks", "execute watch condition { 1 / 0 } onError { ignore() }");
       ("a guard that breaks", "execute watch (oneOf { when { 1 / 0 } then idle(1.seconds) }) onError { ignore() }");
       ("a script that breaks", "x = 1\npost k: x\nx / 0");
       ("a script that computes for long", "x = 0\nwhile (x < 2000) { x = x + 1 }\npost k: x");
       ("the oldest pair", "post k: 1\npost k: 2\nexecute condition { consume k: _ } >> condition { consume k: 2 }");
-      ("a pair twice is there twice", "post k: 1\npost k: 1\nexecute condition { consume k: 1 } >> condition { consume k: 1 }");
-      ("a handler's deeds", two ^ "execute watch task('p')[a] onError { post failed: 1; ignore() }\nif (consume(failed: 1)) { message 'seen' }");
+      ("a pair twice is there twice",
+       "post k: 1\npost k: 1\nexecute condition { consume k: 1 } >> condition { consume k: 1 }");
+      ("a handler's deeds",
+       two ^ "execute watch task('p')[a] onError { post failed: 1; ignore() }\n\
+              if (consume(failed: 1)) { message 'seen' }");
       ("a handler's halt", two ^ "execute (watch task('p')[a] onError { halt 'enough' }) | task('q')[b]");
-      ("three branches, one at a time", two ^ "execute allOf { when { true } then task('p')[a] \n when { true } then task('q')[b] \n when { poll x: 1 } then action { post y: 1 } } | action { post x: 1 }");
+      ("three branches, one at a time",
+       two ^ "execute allOf { when { true } then task('p')[a] \n when { true } then task('q')[b] \n\
+             \ when { poll x: 1 } then action { post y: 1 } } | action { post x: 1 }");
       ("a timer that is not needed any more", two ^ "execute (during 10.seconds run task('p')[a]) >> idle(5.seconds)");
       ("code that says how long", "execute during { post asked: 1; 3 } run condition { consume asked: 1 }");
       ("released, and picked again", two ^ "release a\nc = pick { id 'a' }\nexecute task('p')[c] | task('q')[b]");
+      ("a handler tells of it, and what stops has been told to",
+       two ^ "execute watch (task('p')[a] | task('q')[b] | idle(5.seconds)) onError { message 'x'; ignore() }");
+      ("a handler says something, and so does another one",
+       two ^ "execute watch (watch task('p')[a] onError { message 'x' }) onError { message 'y'; ignore() }");
+      ("timeouts of one vehicle, and of all",
+       two ^ "setConnectionTimeout b, 10\nexecute action { setConnectionTimeout 20; setConnectionTimeout a, 30 }");
       ("which two of three", "v = pick { count 2 }\nexecute task('p') | task('q')");
       ("not enough for all", "v = pick { id 'a' }\nexecute task('p') | task('q')");
-      ("an assertion that no watch sees", two ^ "execute watch (assert({ poll x: 1 }, 'x is there') | action { post x: 1 } | task('p')[a]) onError { ignore() }") ]
+      ("an assertion that no watch sees",
+       two
+       ^ "execute watch (assert({ poll x: 1 }, 'x is there') | action { post x: 1 } | task('p')[a]) \
+          onError { ignore() }") ]
 
 (* In a world where the batteries of a and c may show anything, b's 1 or 0.2, and c is in one of two places. *)
 let sensors =
@@ -48,40 +71,81 @@ let sensors =
       ("until", two ^ "execute (task('p')[a] / { " ^ low ^ " }) | condition { " ^ charged ^ " }");
       ("an assertion", two ^ "execute task('p')[a] | assert({ battery(a) > 0.1 }, 'low')");
       ("a time", two ^ "execute during { " ^ low ^ " ? 5 : 10 } run task('p')[a]");
-      ("one battery against another", three ^ "message battery(a) < battery(c)\nmessage (battery(a) < battery(b) && battery(c) > battery(a))");
+      ("one battery against another",
+       three ^ "message battery(a) < battery(c)\nmessage (battery(a) < battery(b) && battery(c) > battery(a))");
       ("of two batteries one is low", three ^ "if (" ^ low ^ " && battery(c) >= 0.3) { halt 'a is low' }");
       ("the same comparison again", two ^ "message ((" ^ low ^ ") == (" ^ low ^ "))");
       ("a comparison and its opposite", two ^ "message (" ^ low ^ " && " ^ charged ^ ")");
       ("the same at another step", two ^ "execute condition { " ^ low ^ " } >> condition { " ^ charged ^ " }");
-      ("kept, and compared later", two ^ "h = battery(a)\npost x: 1\nif (h < 0.3 && " ^ charged ^ ") { halt 'charged' }");
+      ("kept, and compared later",
+       two ^ "h = battery(a)\npost x: 1\nif (h < 0.3 && " ^ charged ^ ") { halt 'charged' }");
       ("kept twice", two ^ "h = battery(a)\npost x: 1\ni = battery(a)\npost x: 1\nif (h < 0.3 && i >= 0.3) { halt h }");
-      ("kept by a task", two ^ "h = 1\nexecute (action { h = battery(a) }) >> condition { h < 0.3 && " ^ charged ^ " }");
-      ("kept by a local", two ^ "def f(l) { post x: 1; return l < 0.3 && " ^ charged ^ " }\nif (f(battery(a))) { halt 'charged' }");
-      ("kept by a caller", two ^ "def g() { post x: 1; return 1 }\ndef f(l) { y = g(); message l; return y }\nmessage f(battery(a)) + 1");
-      ("kept by an argument", two ^ "def f(l, x, m) { message l; return l < m && " ^ charged ^ " }\npost x: 1\nif (f(battery(a), consume(x: 1), 0.3)) { halt 'charged' }");
-      ("told of", two ^ "message \"${(battery(a) * 100 - 1).round()} percent\"\nmessage 'at ' + position(a)\nmessage(-battery(a))");
-      ("computed with", two ^ "message Math.max(battery(a), 0.5) > 0.7 && position(a).distance(Location.APDL) / 2 < 100 && Location.APDL in (position(a) ^ 10)");
+      ("kept by a task",
+       two ^ "h = 1\nexecute (action { h = battery(a) }) >> condition { h < 0.3 && " ^ charged ^ " }");
+      ("kept by a local",
+       two ^ "def f(l) { post x: 1; return l < 0.3 && " ^ charged ^ " }\nif (f(battery(a))) { halt 'charged' }");
+      ("kept by a caller",
+       two ^ "def g() { post x: 1; return 1 }\ndef f(l) { y = g(); message l; return y }\nmessage f(battery(a)) + 1");
+      ("kept by an argument",
+       two ^ "def f(l, x, m) { message l; return l < m && " ^ charged ^ " }\n"
+       ^ "post x: 1\nif (f(battery(a), consume(x: 1), 0.3)) { halt 'charged' }");
+      ("told of",
+       two ^ "message \"${(battery(a) * 100 - 1).round()} percent\"\nmessage 'at ' + position(a)\n\
+              message(-battery(a))");
+      ("computed with",
+       two
+       ^ "message Math.max(battery(a), 0.5) > 0.7 && position(a).distance(Location.APDL) / 2 < 100 \
+          && Location.APDL in (position(a) ^ 10)");
       ("equal", two ^ "message battery(a) == 1\nmessage battery(a) != 'x'\nmessage position(a).equals(Location.APDL)");
-      ("in an area", two ^ "execute waitFor { position(a) in (Location.APDL ^ 150) || position(b) in (Location.APDL ^ 150) } then task('p')[a]");
-      ("outcomes that are one", two ^ "execute action { if (" ^ low ^ ") { post x: 1 } else { post x: 1 } }\nif (" ^ low ^ ") { post y: 1 } else { post y: 1 }");
-      ("one outcome, by two rules", two ^ "execute watch (watch task('p')[a] onError { if (" ^ low ^ ") { ignore() } }) onError { ignore() }");
-      ("a handler sees what the code saw", two ^ "execute watch (action { if (" ^ low ^ ") { 1 / 0 } else { 2 / 0 } }) onError { if (" ^ low ^ ") { post x: 1; ignore() } }");
-      ("a handler sees what another one saw", two ^ "execute watch (watch task('p')[a] onError { if (" ^ low ^ ") { post x: 1 } }) onError { if (" ^ charged ^ ") { ignore() } }");
-      ("kept by one handler, and compared by another", two ^ "h = battery(a)\nexecute watch (watch task('p')[a] onError { if (h < 0.3) { post low: 1; h = battery(a) } }) onError { if (h >= 0.3) { post high: 1 } ; ignore() }");
+      ("in an area",
+       two
+       ^ "execute waitFor { position(a) in (Location.APDL ^ 150) || position(b) in (Location.APDL ^ 150) } \
+          then task('p')[a]");
+      ("outcomes that are one",
+       two ^ "execute action { if (" ^ low ^ ") { post x: 1 } else { post x: 1 } }\nif (" ^ low
+       ^ ") { post y: 1 } else { post y: 1 }");
+      ("one outcome, by two rules",
+       two ^ "execute watch (watch task('p')[a] onError { if (" ^ low ^ ") { ignore() } }) onError { ignore() }");
+      ("a handler sees what the code saw",
+       two ^ "execute watch (action { if (" ^ low ^ ") { 1 / 0 } else { 2 / 0 } }) onError { if (" ^ low
+       ^ ") { post x: 1; ignore() } }");
+      ("a handler sees what another one saw",
+       two ^ "execute watch (watch task('p')[a] onError { if (" ^ low
+       ^ ") { post x: 1 } }) onError { if (" ^ charged ^ ") { ignore() } }");
+      ("kept by one handler, and compared by another",
+       two ^ "h = battery(a)\n\
+              execute watch (watch task('p')[a] onError { if (h < 0.3) { post low: 1; h = battery(a) } }) \
+              onError { if (h >= 0.3) { post high: 1 } ; ignore() }");
       ("a loop that looks again and again", two ^ "while (battery(a) >= 0.3) { pause 5 }");
-      ("one of several values", two ^ "message battery(b)\nif (battery(b) == 1 && battery(b) < 0.3) { halt 'both' }\nmessage battery(b)");
-      ("several values of two sensors", three ^ "if (battery(b) < 0.3) { message position(c) in (Location.APDL ^ 1.km) }");
-      ("picked where it is seen", "v = pick { id 'c'; region Location.APDL, 1.km }\nrelease v\nv = pick { id 'c'; region Location.APDL, 1.km }");
-      ("beside one that is bound", "c = pick { id 'c' }\nv = pick { count _; region Location.APDL, 1.km }\nw = pick { id 'c'; region Location.APDL, 1.km }");
+      ("one of several values",
+       two ^ "message battery(b)\nif (battery(b) == 1 && battery(b) < 0.3) { halt 'both' }\nmessage battery(b)");
+      ("several values of two sensors",
+       three ^ "if (battery(b) < 0.3) { message position(c) in (Location.APDL ^ 1.km) }");
+      ("picked where it is seen",
+       "v = pick { id 'c'; region Location.APDL, 1.km }\nrelease v\nv = pick { id 'c'; region Location.APDL, 1.km }");
+      ("beside one that is bound",
+       "c = pick { id 'c' }\nv = pick { count _; region Location.APDL, 1.km }\n\
+        w = pick { id 'c'; region Location.APDL, 1.km }");
       ("all that are seen there", "v = pick { count _; region Location.APDL, 1.km }");
-      ("picked in a place, and seen in another one", "v = pick { id 'c'; region Location.APDL, 1.km }\nmessage position(v)");
-      ("the nearer one", three ^ "t = imcPlan { planName 'q'\n locate 41.2032, -8.7048\n goTo() }\nexecute t\nexecute t | t");
-      ("the nearer one, as was seen in this step", three ^ "if (position(c) in (Location.APDL ^ 1.km)) {\nexecute imcPlan { planName 'q'\n locate 41.2032, -8.7048\n goTo() }\n}") ]
+      ("picked in a place, and seen in another one",
+       "v = pick { id 'c'; region Location.APDL, 1.km }\nmessage position(v)");
+      ("the nearer one",
+       three ^ "t = imcPlan { planName 'q'\n locate 41.2032, -8.7048\n goTo() }\nexecute t\nexecute t | t");
+      ("the nearer one, as was seen in this step",
+       three ^ "if (position(c) in (Location.APDL ^ 1.km)) {\nexecute imcPlan { planName 'q'\n\
+               \ locate 41.2032, -8.7048\n goTo() }\n}") ]
   @ [ one ~world:(World.open_position "c" [] Generate.open_world)
-        ("coordinates", two ^ "if (position(a).latitude > 41 && position(a).bearing(Location.APDL) < 90) { message position(a).longitude - 1 }");
-      { (program ~world:Generate.open_world "sensors: an answer" "a = pick { id 'a' }\nh = ask 'how many?'\npost x: 1\nif (h < 0.3 && battery(a) >= 0.3) { halt h }\nmessage ask('how many?') < 0.3 && battery(a) < 0.3")
+        ("coordinates",
+         two
+         ^ "if (position(a).latitude > 41 && position(a).bearing(Location.APDL) < 90) \
+            { message position(a).longitude - 1 }");
+      { (program ~world:Generate.open_world "sensors: an answer"
+           "a = pick { id 'a' }\nh = ask 'how many?'\npost x: 1\nif (h < 0.3 && battery(a) >= 0.3) { halt h }\n\
+            message ask('how many?') < 0.3 && battery(a) < 0.3")
         with prompts = [ "how many?" ];
-             environment = { answering with answers = (fun _ -> [ [ "battery(a)" ]; [ "battery(a) < 0.3 ? battery(a) : 1 / 0"; "1 / 0" ] ]) } } ]
+             environment =
+               (let rounds = [ [ "battery(a)" ]; [ "battery(a) < 0.3 ? battery(a) : 1 / 0"; "1 / 0" ] ] in
+                { answering with answers = (fun _ -> rounds) }) } ]
 
 let supplied = "s = getSupplier()\n"
 
@@ -158,12 +222,15 @@ let faults =
   let programs =
     [ ("a lost vehicle may be lost again, and that is no other loss", lost_once ^ "execute t\nexecute t");
       ("nothing is heard of a lost vehicle when another one is picked", lost_once ^ "w = pick { id 'b' }\nexecute t");
-      ("of two vehicles, one after the other", two ^ "execute watch (task('p')[a] | task('q')[b]) onError { ignore() }\nexecute task('q')[b] >> task('p')[a]");
-      ("a lost vehicle is missing, or is there", lost_once ^ "release v\nw = pick { id 'a'; timeout 1.seconds }\nexecute t");
+      ("of two vehicles, one after the other",
+       two ^ "execute watch (task('p')[a] | task('q')[b]) onError { ignore() }\nexecute task('q')[b] >> task('p')[a]");
+      ("a lost vehicle is missing, or is there",
+       lost_once ^ "release v\nw = pick { id 'a'; timeout 1.seconds }\nexecute t");
       ("all, less who is lost", lost_once ^ "release v\nw = pick { count _ }");
       ("two, less who is lost", lost_once ^ "release v\nw = pick { count 2 }");
       ("late for two picks", "v = pick { count 2; type 'UUV' }\nrelease v\nw = pick { count _ }");
-      ("late in a place", "v = pick { region Location.APDL, 150 }\nw = pick { count _; region Location.APDL, 150; timeout 0.seconds }") ]
+      ("late in a place",
+       "v = pick { region Location.APDL, 150 }\nw = pick { count _; region Location.APDL, 150; timeout 0.seconds }") ]
   in
   let kinds =
     [ ("with losses", with_losses Any_number); ("with a loss", with_losses (At_most 1));

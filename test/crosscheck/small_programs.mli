@@ -5,8 +5,8 @@ val loops : Case.t list
     still. *)
 
 val verdicts : Case.t list
-(** {!loops}, some that end because what they wait for comes, and one that is stuck: on these TLC's own verdicts depend on
-    all that the specification says of runs. *)
+(** {!loops}, some that end because what they wait for comes, and one that is stuck: on these TLC's own verdicts
+    depend on all that the specification says of runs. *)
 
 val all : Case.t list
 (** These, and those about tasks, questions, calls, interruptions, sensors, losses and vehicles that are late. *)

@@ -58,7 +58,8 @@ let refusals =
     case "code in plans" (refused "p = imcPlan {\nif (1) { speed 2 }\ngoTo() }" 2 "code among its settings");
     case "large numbers" (refused "message 'a'\nmessage 10000000000" 2 "beyond TLC's whole numbers");
     case "trigonometry" (refused "x = 2\ny = Math.sin(x)" 2 "Math.sin");
-    case "coordinates of a vehicle that is in a place" (refused "v = pick { }\nmessage position(v).latitude > 41" 2 "latitude");
+    case "coordinates of a vehicle that is in a place"
+      (refused "v = pick { }\nmessage position(v).latitude > 41" 2 "latitude");
     case "coordinates of what may be no vehicle"
       (refused ~world:open_world "v = [position: Location.APDL]\nmessage v.position.latitude > 41" 2 "latitude");
     case "methods of strings" (refused "message 'a'.toUpperCase()" 1 "toUpperCase") ]
@@ -75,7 +76,8 @@ let constants =
   [ case "constant locations" (translated "p = location(41.185, -8.7062) ^ 2.km");
     case "constant trigonometry" (translated "message Math.floor(Math.sin(1))");
     case "coordinates of a vehicle that may be anywhere"
-      (translated ~world:open_world "v = pick { }\nmessage position(v).latitude > 41 && position(v).bearing(Location.APDL) > 0");
+      (translated ~world:open_world
+         "v = pick { }\nmessage position(v).latitude > 41 && position(v).bearing(Location.APDL) > 0");
     case "plans by name" (translated "i = 1\np = imcPlan { planName 'p' + i\n loiter radius:100 }") ]
 
 (* {1 Replies} *)

@@ -53,6 +53,8 @@ let tasks =
        two ^ "execute watch (task('p')[a] | task('q')[b] | idle(5.seconds)) onError { message 'x'; ignore() }");
       ("a handler says something, and so does another one",
        two ^ "execute watch (watch task('p')[a] onError { message 'x' }) onError { message 'y'; ignore() }");
+      ("a handler's halt, and timers that run or are cancelled",
+       two ^ "execute (watch (during 5.seconds run task('p')[a]) onError { halt 'x' }) | idle(5.seconds)");
       ("timeouts of one vehicle, and of all",
        two ^ "setConnectionTimeout b, 10\nexecute action { setConnectionTimeout 20; setConnectionTimeout a, 30 }");
       ("which two of three", "v = pick { count 2 }\nexecute task('p') | task('q')");

@@ -102,9 +102,11 @@ let replies () =
   check "HostReplies" [] "MCHostReplies(call, at) ==\n  CASE call = \"s.next\" -> << >>\n    [] OTHER -> << >>";
   check "HostReplies"
     [ [ Ok (List [| task "p"; Host "q" |]); Error "shut" ] ]
-    {|MCHostReplies(call, at) ==
-  CASE call = "s.next" -> << << << "value", << "list", << << "task", [ op |-> "platform", name |-> "p", plan |-> 0, at |-> at ] >>, << "host", "q" >> >> >> >>, << "failure", "shut" >> >> >>
-    [] OTHER -> << >>|};
+    ({|MCHostReplies(call, at) ==
+  CASE call = "s.next" -> << << << "value", << "list", << << "task", |}
+     ^ {|[ op |-> "platform", name |-> "p", plan |-> 0, at |-> at ] >>, << "host", "q" >> >> >> >>, |}
+     ^ {|<< "failure", "shut" >> >> >>
+    [] OTHER -> << >>|});
   check "Calls" [ [ Ok Null ] ] "MCCalls == { }";
   check "Calls" [ [ Ok Null ]; [ Ok (Boolean true) ] ] "MCCalls == { \"s.next\" }"
 

@@ -4,7 +4,7 @@ module Faults = Dolphin_environment.Faults
 
 (* {1 Progress} *)
 
-let show_progress (p : Dolphin_explore.Search.progress) =
+let show_progress (p : Dolphin_checker.Limits.progress) =
   Printf.eprintf "\r%s: %d states, %.0f/s, frontier %d, depth %d, %d MiB, %.0f s\027[K%!" p.phase p.states p.rate
     p.frontier p.depth (Exploration_report.mebibytes p.memory) p.elapsed
 

@@ -5,6 +5,7 @@
    to be checked as well: a second line says how many states that took, and what comes of it. *)
 
 open Dolphin_environment
+open Dolphin_checker
 open Dolphin_explore
 module Pure_run = Test_support.Pure_run
 
@@ -47,7 +48,7 @@ let () =
   let environment =
     if argument 2 = Some 1 then Environment.failing Environment.default else Environment.default
   in
-  let report (p : Search.progress) =
+  let report (p : Limits.progress) =
     Printf.eprintf "%s: %d states, %.0f a second, frontier %d, depth %d, %d MB\n%!" p.phase p.states p.rate p.frontier
       p.depth (p.memory / 1_000_000)
   in
@@ -60,14 +61,15 @@ let () =
     | Some _ | None -> Whole
   in
   let compress = Sys.getenv_opt "COMPRESS" <> None in
+  let limits = { Limits.none with max_states = argument 3; progress } in
   let program = Pure_run.compile_exn (program n) in
   let formulas = formulas program in
-  let options = { Search.default with environment; reduction; compress; max_states = argument 3; progress; formulas } in
+  let options = { Search.default with environment; reduction; compress; limits; formulas } in
   let o = Search.run options program (world n) in
   Printf.printf "%d states, %d transitions, depth %d, %.2f s, %.1f bytes a state%s\n" o.states o.transitions o.depth
     (Sys.time ())
     (float_of_int o.bytes /. float_of_int o.states)
-    (match o.stopped with None -> "" | Some bound -> Format.asprintf ", %a" Search.pp_bound bound);
+    (match o.stopped with None -> "" | Some bound -> Format.asprintf ", %a" Limits.pp_bound bound);
   let print_formula = function
     | (Property.Formula _, _) as verdict ->
       Format.printf "%d states for formulas; %a@." o.formula_states (Search.pp_verdict program) verdict

@@ -4,6 +4,7 @@
    of three, four times, one after the other). REDUCTION is none, por, symmetry or all, the default. *)
 
 open Dolphin_environment
+open Dolphin_checker
 open Dolphin_explore
 module Pure_run = Test_support.Pure_run
 
@@ -46,6 +47,6 @@ let () =
     | Some "symmetry" -> Symmetry
     | Some _ | None -> All
   in
-  let o = Search.run { Search.default with environment; reduction; max_states } (Pure_run.compile_exn program) (world n) in
+  let o = Search.run { Search.default with environment; reduction; limits = { Limits.none with max_states } } (Pure_run.compile_exn program) (world n) in
   Printf.printf "%d states, %d transitions, depth %d, %.2f s%s\n" o.states o.transitions o.depth (Sys.time ())
-    (match o.stopped with None -> "" | Some bound -> Format.asprintf ", %a" Search.pp_bound bound)
+    (match o.stopped with None -> "" | Some bound -> Format.asprintf ", %a" Limits.pp_bound bound)

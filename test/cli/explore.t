@@ -502,7 +502,7 @@ Of vehicles that are alike it does not matter which are picked. A run that is sh
   no unhandled error: inconclusive, the bound on states was met
   assertions: inconclusive, the bound on states was met
   vehicles for all tasks: inconclusive, the bound on states was met
-  14192 states, 14191 transitions, depth 1; reduced by partial order
+  253 states, 1 transitions, depth 1; reduced by partial order
 
 When the process can have no more memory, it says so. (OCaml 5 reserves at its start what 128 domains take, without d=1.)
 

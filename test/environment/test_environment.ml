@@ -19,7 +19,7 @@ let breaks name environment expected text =
         match (verdict : Search.verdict) with
         | Violated _ -> Some p
         | Holds | Unreached _ -> None
-        | Inconclusive bound -> Alcotest.failf "%a: %a" Property.pp p Search.pp_bound bound
+        | Inconclusive bound -> Alcotest.failf "%a: %a" Property.pp p Dolphin_checker.Limits.pp_bound bound
       in
       List.filter_map is_broken outcome.verdicts
     in

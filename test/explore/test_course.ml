@@ -2,6 +2,7 @@
    they lead; what does not fit is refused. *)
 
 open Dolphin_environment
+open Dolphin_checker
 open Dolphin_explore
 module Generate = Test_support.Generate
 module Witness = Dolphin_trace.Witness
@@ -42,7 +43,7 @@ let follows ((ast, world), answers) =
       latecomers = Any_number;
       may_be_late = (fun v -> v = "b") }
   in
-  let options = { Search.default with environment; max_states = Some 2_000 } in
+  let options = { Search.default with environment; limits = { Limits.none with max_states = Some 2_000 } } in
   let o = Search.run options program world in
   let violation (property, verdict) =
     match (verdict : Search.verdict) with

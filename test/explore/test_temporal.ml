@@ -5,6 +5,7 @@
 open Dolphin_syntax
 open Dolphin_semantics
 open Dolphin_environment
+open Dolphin_checker
 open Dolphin_explore
 module Generate = Test_support.Generate
 module Linear = Test_support.Linear
@@ -191,7 +192,7 @@ let agrees_with_properties (ast, looped, failing) =
   let program = Generate.compile (if looped then for_ever ast else ast) in
   let environment = if failing then Environment.failing Environment.default else Environment.default in
   let read text = match Temporal.of_string program text with Ok f -> f | Error why -> failwith why in
-  let options = { Search.default with environment; max_states = Some 3_000 } in
+  let options = { Search.default with environment; limits = { Limits.none with max_states = Some 3_000 } } in
   let formulas = List.map (fun (text, _) -> read text) agreements in
   let o = Search.run { options with formulas } program Generate.world in
   let agree (text, properties) =

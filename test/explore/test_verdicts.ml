@@ -2,12 +2,14 @@
    do to verdicts. *)
 
 open Dolphin_environment
+open Dolphin_checker
 open Dolphin_explore
 open Test_support
 module Property = Dolphin_explore.Property
 
 let world = Pure_run.world [ Pure_run.vehicle "a"; Pure_run.vehicle "b" ~north:100. ]
 let options = Search.default
+let limited limits = { options with limits }
 
 let run ?(options = options) source =
   let program = Pure_run.compile_exn source in
@@ -112,18 +114,18 @@ let interrupted_after n =
 
 let bounds =
   [
-    ("states", stops "a bound on states" { options with max_states = Some 50 } States);
-    ("depth", stops "a bound on depth" { options with max_depth = Some 5 } Depth);
-    ("memory", stops "a bound on memory" { options with max_memory = Some 1_000 } Memory);
-    ("the machine's memory", stops "no memory" { options with memory_left = (fun () -> Some 0) } No_memory);
-    ("time", stops "a timeout" { options with timeout = Some 0.4; clock = ticking () } Time);
-    ("interruption", stops "an interruption" { options with interrupted = interrupted_after 1 } Interruption);
+    ("states", stops "a bound on states" (limited { Limits.none with max_states = Some 50 }) States);
+    ("depth", stops "a bound on depth" (limited { Limits.none with max_depth = Some 5 }) Depth);
+    ("memory", stops "a bound on memory" (limited { Limits.none with max_memory = Some 1_000 }) Memory);
+    ("the machine's memory", stops "no memory" (limited { Limits.none with memory_left = (fun () -> Some 0) }) No_memory);
+    ("time", stops "a timeout" (limited { Limits.none with timeout = Some 0.4; clock = ticking () }) Time);
+    ("interruption", stops "an interruption" (limited { Limits.none with interrupted = interrupted_after 1 }) Interruption);
   ]
 
 (* Found before the bound was met: still a violation. *)
 let test_violation_before_bound () =
   let environment = { options.environment with answers = (fun _ -> [ [ "1"; "2" ] ]) } in
-  let options = { options with environment; max_states = Some 50 } in
+  let options = { (limited { Limits.none with max_states = Some 50 }) with environment } in
   let source = "x = ask 'which?'\nif (x == 1) { y = 1 / 0 }\n" ^ large in
   check ~options No_error source "violated in 3" ();
   check ~options No_deadlock source "inconclusive" ()
@@ -131,12 +133,12 @@ let test_violation_before_bound () =
 (* Exactly as many states as there are is no bound. *)
 let test_exact_bound () =
   let _, o = run large in
-  let _, o' = run ~options:{ options with max_states = Some o.states } large in
+  let _, o' = run ~options:(limited { Limits.none with max_states = Some o.states }) large in
   Alcotest.(check bool) "not stopped" true (o'.stopped = None)
 
 let test_progress () =
   let reports = ref 0 in
-  let options = { options with clock = ticking (); progress = (fun _ -> incr reports) } in
+  let options = limited { Limits.none with clock = ticking (); progress = (fun _ -> incr reports) } in
   ignore (run ~options large);
   Alcotest.(check bool) "some reports" true (!reports > 0)
 

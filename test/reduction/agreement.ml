@@ -1,5 +1,6 @@
 open Dolphin_semantics
 open Dolphin_environment
+open Dolphin_checker
 open Dolphin_explore
 
 type t = { whole : int; reduced : int; broken : Property.t list }
@@ -79,16 +80,14 @@ let all_outcomes (g : Reference.t) =
   !found
 
 let reduced_outcomes environment program world =
-  let space = Space.create ~reduction:Partial_order environment program world in
+  let graph = State_graph.create Limits.none (Space.create ~reduction:Partial_order environment program world) in
   let rec from i found =
-    if i = Space.count space then Space.flush space;
-    if i = Space.count space then found
+    if i = State_graph.count graph then State_graph.flush graph;
+    if i = State_graph.count graph then found
     else begin
       let interruptions = if environment.Environment.interruptions then 1 else 0 in
-      let before = Space.transitions space in
-      Space.expand space i;
-      let stuck = Space.transitions space <= before + interruptions in
-      from (i + 1) (outcome (fst (Space.state space i)) ~stuck found)
+      let stuck = State_graph.expand graph i <= interruptions in
+      from (i + 1) (outcome (fst (State_graph.state graph i)) ~stuck found)
     end
   in
   from 0 Outcomes.empty
@@ -184,19 +183,15 @@ let is_of_script (c : Configuration.t) =
   match c.control with Script _ | Waiting _ | Ended _ -> true | Executing _ -> false
 
 let rec explored_up_to symmetry environment program world =
-  let space = Space.create ~symmetry environment program world in
-  let rec from i =
-    if i = Space.count space then Space.flush space;
-    if i < Space.count space then (Space.expand space i; from (i + 1))
-  in
-  match from 0 with
-  | () -> space
+  let graph = State_graph.create Limits.none (Space.create ~symmetry environment program world) in
+  match State_graph.run graph with
+  | () -> graph
   | exception Symmetry.Broken symmetry -> explored_up_to symmetry environment program world
 
 let same_script program environment world (graph : Reference.t) =
-  let space = 
-    explored_up_to (Symmetry.without_tasks (Symmetry.find environment program ~asked:[] world)) environment program world
-  in
+  let symmetry = Symmetry.without_tasks (Symmetry.find environment program ~asked:[] world) in
+  let reduced = explored_up_to symmetry environment program world in
+  let space = State_graph.system reduced in
   let state (s : Reference.state) found =
     if is_of_script s.configuration then
       let c, e = Space.canonical space s.configuration s.outside in
@@ -204,7 +199,7 @@ let same_script program environment world (graph : Reference.t) =
     else found
   in
   let expected = Array.fold_right state graph.states Script.empty in
-  let found = List.map (Space.state space) (List.init (Space.count space) Fun.id) in
+  let found = List.init (State_graph.count reduced) (State_graph.state reduced) in
   let found = List.filter (fun (c, _) -> is_of_script c) found in
   let found = Script.of_list (List.map (fun (c, e) -> (without_text c, e)) found) in
   let tell what (c, _) = Error (Format.asprintf "%s %a" what (Configuration.pp program) c) in

@@ -3,6 +3,7 @@
 
 open Dolphin_semantics
 open Dolphin_environment
+open Dolphin_checker
 open Dolphin_explore
 module Pure_run = Test_support.Pure_run
 
@@ -199,7 +200,7 @@ let large n = Pure_run.world (List.init n (fun i -> uuv (Printf.sprintf "uuv-%d"
 
 let explored ?(environment = plain) world text =
   let program = Pure_run.compile_exn text in
-  (program, Search.run { Search.default with environment; reduction = All; max_states = Some 10_000 } program world)
+  (program, Search.run { Search.default with environment; reduction = All; limits = { Limits.none with max_states = Some 10_000 } } program world)
 
 let small name ?environment ?(n = 100) most text =
   let test () =

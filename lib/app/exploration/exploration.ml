@@ -37,10 +37,10 @@ let explore ~interrupted ~progress s (program : Program_file.t) (fleet : Fleet_f
     { environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
       reduction = s.reduction; compress = s.compress;
       search_again = Search.default.search_again;
-      max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; memory_left = Memory.left;
-      timeout = s.timeout;
-      clock = Unix.gettimeofday;
-      invariants; formulas; interrupted; progress }
+      limits =
+        { max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; memory_left = Memory.left;
+          timeout = s.timeout; clock = Unix.gettimeofday; interrupted; progress };
+      invariants; formulas }
   in
   Ok (Search.run options core (Scenario_world.world fleet.scenario))
 

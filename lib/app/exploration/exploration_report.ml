@@ -92,7 +92,7 @@ let to_json (program : Core.program) (o : Search.outcome) : Yojson.Safe.t =
         in
         ("violated", [ ("unreached", `List (List.map piece pieces)) ])
       | Inconclusive bound ->
-        ("inconclusive", [ ("bound", `String (Format.asprintf "%a" Search.pp_bound bound)) ])
+        ("inconclusive", [ ("bound", `String (Format.asprintf "%a" Dolphin_checker.Limits.pp_bound bound)) ])
     in
     `Assoc ([ ("property", name); ("verdict", `String result) ] @ more)
   in

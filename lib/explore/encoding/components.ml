@@ -29,8 +29,8 @@ type t = {
 let hole = Residual.Idle { timer = 0; seconds = 0. }
 
 let new_path id contexts outer body =
-  let parts = Residuals.create 16 and inner = Residuals.create 1 in
-  { id; contexts; outer; body; parts; inner; cuts = None; cuts_components = None }
+  let components = Residuals.create 16 and inner = Residuals.create 1 in
+  { id; contexts; outer; body; components; inner; cuts = None; cut_footprints = None }
 
 let create ?(foreseen = 2_048) options program world =
   {
@@ -93,8 +93,8 @@ let none_outgrown t = t.outgrown <- false
 
 let member t path family residual =
   let p =
-    { residual; path; family; local = family.size; steps = [||]; worked_out = None; runs = -1; alone = None;
-      components = None }
+    { residual; path; family; local = family.size; steps = [||]; worked_out = None; alone = None;
+      footprints = None }
   in
   if family.size = Array.length family.members then begin
     let longer = Array.make (max 8 (2 * family.size)) p in
@@ -104,7 +104,7 @@ let member t path family residual =
   family.members.(family.size) <- p;
   family.size <- family.size + 1;
   if family.width > 0 && family.size > 1 lsl family.width then t.outgrown <- true;
-  Residuals.add path.parts residual p;
+  Residuals.add path.components residual p;
   p
 
 let new_family t =
@@ -121,8 +121,8 @@ let guard t check closure =
 
 (* {1 Steps} *)
 
-let rec part t path residual =
-  match Residuals.find_opt path.parts residual with
+let rec component t path residual =
+  match Residuals.find_opt path.components residual with
   | Some p -> p
   | None ->
     let family = new_family t in
@@ -137,50 +137,47 @@ let rec part t path residual =
     p
 
 and grown t path = function
-  | Leaf r -> Leaf (part t path r)
+  | Leaf r -> Leaf (component t path r)
   | Nest (inside, children) -> Nest (inside, List.map (grown t inside) children)
 
 and becomes t path tree =
   let children = List.map (grown t path) tree in
   t.serial <- t.serial + 1;
-  Becomes { serial = t.serial; children; parts = Array.of_list (List.concat_map leaves children) }
+  Becomes { serial = t.serial; children; components = Array.of_list (List.concat_map leaves children) }
 
 and target_of t path family residual =
   match tree t path residual, family with
   | [ Leaf r ], Some family -> (
-      match Residuals.find_opt path.parts r with
+      match Residuals.find_opt path.components r with
       | Some p when p.family == family -> Stays p.local
       | Some _ -> becomes t path [ Leaf r ]
       | None -> Stays (member t path family r).local)
   | tree, _ -> becomes t path tree
 
-(* Steps that go on in one way, whatever is shared, are settled here; the others case by case. *)
+(* Steps that go on in one way, whatever is shared, are settled here; the others per shared state, by {!Memoised_steps}. *)
 and compile t home kin index (Step { offer; continue } as source : Task_rules.step) =
-  let by_case event =
-    { index; source; event; home; kin; dependence = By_case; target = Gone; stays = -1; free_action = -1; cases = [||] }
+  let dependent event =
+    { index; source; event; home; kin; dependence = Dependent; successor = Gone; free_action = -1; outcomes = [||] }
   in
   let certain event dependence change =
-    let settled target =
-      let stays = match target with Stays n -> n | Gone | Becomes _ | Ends _ -> -1 in
-      { (by_case event) with dependence; target; stays }
-    in
+    let settled successor = { (dependent event) with dependence; successor } in
     match (change : Task_rules.change).outcome with
     | Next r -> settled (target_of t home kin r)
     | Finished -> settled Gone
-    | Failed _ | Handling _ -> by_case event
+    | Failed _ | Handling _ -> dependent event
   in
   match offer with
   | Start _ -> [ certain None Free (continue ()) ]
   | Perform closure -> [ certain None (Guarded (guard t false closure)) (continue (Ok [])) ]
   | Check closure -> [ certain None (Guarded (guard t true closure)) (continue (Ok [])) ]
-  | Measure _ -> [ by_case None ]
+  | Measure _ -> [ dependent None ]
   | Expiry_of timer -> [ certain (Some (Timer_expired timer)) Free (continue ()) ]
   | End_of (task, v) ->
     let on_event (event, _) =
       match event with
       | Transition.Vehicle_done _ when not (Environment.endings_remember t.options) ->
         certain (Some event) Free (continue (Ok ()))
-      | event -> by_case (Some event)
+      | event -> dependent (Some event)
     in
     List.map on_event (Environment.task_ends t.options Environment.initial v task)
 
@@ -195,7 +192,7 @@ and work_out t p =
 
 let children t path r = List.map (grown t path) (tree t path r)
 
-(* Code of a part that is reached is run, whatever comes of it. *)
+(* Code of a component that is reached is run, whatever comes of it. *)
 let cover t steps =
   let step { source = Step { offer; _ }; _ } =
     match offer with
@@ -212,22 +209,22 @@ let reach t p =
   cover t steps;
   p.steps <- steps
 
-(* {1 Components} *)
+(* {1 Footprints} *)
 
 let rec nests path = match path.outer with Some outer -> path.contexts :: nests outer | None -> []
 let escaping step = Task_rules.escaping (nests step.home) step.source
 
-let component_step step : Step_footprints.step =
+let footprint_step step : Step_footprints.step =
   { index = step.index; source = escaping step; event = step.event }
 
-let components t p =
-  match p.components with
-  | Some components -> components
+let footprints t p =
+  match p.footprints with
+  | Some footprints -> footprints
   | None ->
-    let steps = Array.map component_step (work_out t p) in
-    let components = Step_footprints.of_part t.context (nests p.path) p.residual steps in
-    p.components <- Some components;
-    components
+    let steps = Array.map footprint_step (work_out t p) in
+    let footprints = Step_footprints.of_part t.context (nests p.path) p.residual steps in
+    p.footprints <- Some footprints;
+    footprints
 
 (* {1 Nests} *)
 
@@ -241,13 +238,13 @@ let cuts t path =
     path.cuts <- Some cuts;
     cuts
 
-let cuts_components t path =
-  match path.cuts_components with
-  | Some components -> components
+let cut_footprints t path =
+  match path.cut_footprints with
+  | Some footprints -> footprints
   | None ->
-    let components = Step_footprints.of_cuts t.context (nests path) (Array.map component_step (cuts t path)) in
-    path.cuts_components <- Some components;
-    components
+    let footprints = Step_footprints.of_cuts t.context (nests path) (Array.map footprint_step (cuts t path)) in
+    path.cut_footprints <- Some footprints;
+    footprints
 
 let alone t p =
   match p.alone with

@@ -1,4 +1,5 @@
-(** The parts of executing tasks ({!Component}), each known by a small number, with their local steps worked out once. *)
+(** The components of executing tasks ({!Component}), each known by a small number, with their local steps, which are
+    compiled once. *)
 
 open Dolphin_semantics
 open Dolphin_environment
@@ -6,38 +7,39 @@ open Dolphin_environment
 type t
 
 val create : ?foreseen:int -> Environment.options -> Core.program -> World.t -> t
-(** So many members of a new family are worked out in advance: layouts are then seldom outgrown. *)
+(** [foreseen] members of a new family are compiled in advance, so that layouts are seldom outgrown: 2,048 by
+    default. *)
 
 val options : t -> Environment.options
 val program : t -> Core.program
 val world : t -> World.t
 val coverage : t -> Coverage.t
 
-(** {1:parts Parts} *)
+(** {1:components Components} *)
 
-val children : t -> Component.path -> Residual.t -> Component.part Component.tree list
+val children : t -> Component.path -> Residual.t -> Component.component Component.tree list
 (** [children t p r] is what [r], at [p], is made of. *)
 
 val root : t -> Component.path
 
-val reach : t -> Component.part -> unit
-(** [reach t p] works out the steps of [p], which some run reaches. *)
+val reach : t -> Component.component -> unit
+(** [reach t p] compiles the steps of [p], which some run reaches. *)
 
-val components : t -> Component.part -> Step_footprints.t
-(** [components t p] is of the steps of [p], in their order. *)
+val footprints : t -> Component.component -> Step_footprints.t
+(** [footprints t p] is the footprints of the steps of [p], in their order. *)
 
 (** {1:nests Nests} *)
 
 val cuts : t -> Component.path -> Component.step array
 (** [cuts t p] is the steps of the contexts of nests whose inside is at [p], which some run reaches. *)
 
-val cuts_components : t -> Component.path -> Step_footprints.t
-(** [cuts_components t p] is of these steps, in their order. *)
+val cut_footprints : t -> Component.path -> Step_footprints.t
+(** [cut_footprints t p] is the footprints of these steps, in their order. *)
 
 val escaping : Component.step -> Task_rules.step
 (** [escaping s] is [s] as a step of the whole task, as far as errors go ({!Task_rules.escaping}). *)
 
-val alone : t -> Component.part -> Component.target
+val alone : t -> Component.component -> Component.target
 (** [alone t p] is what becomes of the nest around [p] when nothing else is left in it. *)
 
 val around : Component.path -> Residual.t -> Residual.t
@@ -47,8 +49,8 @@ val outside : Component.path -> Component.path
 (** [outside p] is where that nest stands. *)
 
 val landed : t -> Component.step -> int -> Residual.t -> Component.target
-(** [landed t s n r] is what becomes of the nest that is [n] levels above what [s] belongs to (0: of that itself) when
-    [r] takes its place. *)
+(** [landed t s n r] is the target of step [s] if [r] takes the place of the nest that is [n] levels above what [s]
+    belongs to; 0 is the level of that itself. *)
 
 (** {1:families Widths of families} *)
 

@@ -1,14 +1,15 @@
 open Dolphin_semantics
 open Dolphin_environment
+open Dolphin_checker
 
-module Machines = Dolphin_checker.Interner.Make (struct
+module Machines = Interner.Make (struct
     type t = Machine.t
 
     let equal a b = Machine.compare a b = 0
     let hash m = Machine.hash m land max_int
   end)
 
-module Wholes = Dolphin_checker.Interner.Make (struct
+module Scripts = Interner.Make (struct
     type t = Configuration.t * Environment.t
 
     let equal (c, e) (c', e') = Environment.compare e e' = 0 && Configuration.equal c c'
@@ -16,111 +17,116 @@ module Wholes = Dolphin_checker.Interner.Make (struct
   end)
 
 type t = {
-  parts : Components.t;
-  shareds : Memoised_steps.Shareds.t;
-  shapes : Layouts.t;
+  components : Components.t;
+  shareds : Surroundings.Numbers.t;
+  layouts : Layouts.t;
   machines : Machines.t;
   find_symmetry : Residual.t -> Surroundings.t -> Task_group.t option;
   canonical : Configuration.t -> Environment.t -> Configuration.t * Environment.t;
   frames : (int * int, Layout.frame) Hashtbl.t;  (* by numbers of the machine and of the symmetry, 0 for none *)
-  wholes : Wholes.t;
-  mutable breaks : Property.t option array;  (* by number of such a configuration: what reaching it breaks *)
+  scripts : Scripts.t;
+  mutable broken : Property.t option array;  (* by number of the configuration *)
 }
 
-let create ?(find_symmetry = fun _ _ -> None) ?(canonical = fun c outside -> (c, outside)) ?watched parts cases =
+let create ?(find_symmetry = fun _ _ -> None) ?(canonical = fun c outside -> (c, outside)) components shareds =
   {
-    parts;
+    components;
     find_symmetry;
     canonical;
-    shareds = Memoised_steps.shareds cases;
-    shapes = Layouts.create ?watched parts;
+    shareds;
+    layouts = Layouts.create components;
     machines = Machines.create ();
     frames = Hashtbl.create 16;
-    wholes = Wholes.create ();
-    breaks = [||];
+    scripts = Scripts.create ();
+    broken = [||];
   }
 
-let shapes t = t.shapes
-let check_fit t = if not (Layouts.fits t.shapes ~shared:(Memoised_steps.Shareds.count t.shareds)) then raise Layouts.Outgrown
-let widened t ~watched = Layouts.widened t.shapes ~watched ~shared:(Memoised_steps.Shareds.count t.shareds)
+let layouts t = t.layouts
+let shareds t = t.shareds
+let count_shareds t = Surroundings.Numbers.count t.shareds
+let check_fit t = if not (Layouts.fits t.layouts ~shared:(count_shareds t)) then raise Layouts.Outgrown
+let widen t ~reserved = Layouts.widen t.layouts ~reserved ~shared:(count_shareds t)
 
 (* {1 Configurations that execute nothing} *)
 
-let value t number = Wholes.value t.wholes number
-let broken t number = t.breaks.(number)
-let count_wholes t = Wholes.count t.wholes
+let script t number = Scripts.value t.scripts number
+let broken t number = t.broken.(number)
 
-let whole t rules c outside =
-  let known = Wholes.count t.wholes in
-  let number = Wholes.number t.wholes (t.canonical c outside) in
+let script_number t rules c outside =
+  let known = Scripts.count t.scripts in
+  let number = Scripts.number t.scripts (t.canonical c outside) in
   if number = known then begin
-    if number = Array.length t.breaks then t.breaks <- Array.append t.breaks (Array.make (max 8 number) None);
-    t.breaks.(number) <- Property.broken_by_end rules c
+    if number = Array.length t.broken then t.broken <- Array.append t.broken (Array.make (max 8 number) None);
+    t.broken.(number) <- Property.broken_by_end rules c
   end;
   number
 
 let clear key = Array.fill key 0 (Array.length key) 0
 
-let write_whole t key number =
+let write_script t key number =
   clear key;
-  key.(0) <- Layouts.first t.shapes 0 number
+  key.(0) <- Layouts.first t.layouts 0 number
 
-(* {1 Words} *)
+(* {1 Executing configurations} *)
 
 let frame t machine symmetry =
   let key = (Machines.number t.machines machine, Option.fold ~none:0 ~some:Task_group.number symmetry) in
   match Hashtbl.find_opt t.frames key with
   | Some frame -> frame
   | None ->
-    let frame : Layout.frame = { frame = Hashtbl.length t.frames; machine; symmetry; over = [||] } in
+    let frame : Layout.frame = { number = Hashtbl.length t.frames; machine; symmetry } in
     Hashtbl.add t.frames key frame;
     frame
 
-let family (p : Component.part) = p.family
+let family (p : Component.component) = p.family
 
-let write_parts t key frame children shared =
-  let s = Layouts.find t.shapes frame (List.map (Component.map family) children) in
+let write_components t key frame children shared =
+  let layout = Layouts.find t.layouts frame (List.map (Component.map family) children) in
   check_fit t;
   clear key;
-  key.(0) <- Layouts.first t.shapes s.number shared;
-  List.iteri (fun i (p : Component.part) -> Layout.put s key i p.local) (List.concat_map Component.leaves children)
+  key.(0) <- Layouts.first t.layouts layout.number shared;
+  List.iteri
+    (fun i (p : Component.component) -> Layout.put layout key i p.local)
+    (List.concat_map Component.leaves children)
 
 let write t key rules (c : Configuration.t) outside =
   match c.control with
   | Script _ | Waiting _ | Ended _ ->
-    let number = whole t rules c outside in
-    write_whole t key number;
+    let number = script_number t rules c outside in
+    write_script t key number;
     number
   | Executing (m, r) ->
     let surroundings = Surroundings.make c.shared outside in
     let frame = frame t m (t.find_symmetry r surroundings) in
-    let children = Components.children t.parts (Components.root t.parts) r in
-    write_parts t key frame children (Memoised_steps.Shareds.number t.shareds surroundings);
-    -1 - frame.frame
+    let children = Components.children t.components (Components.root t.components) r in
+    write_components t key frame children (Surroundings.Numbers.number t.shareds surroundings);
+    -1 - frame.number
 
-let part (s : Layout.t) key i =
-  let family = Array.unsafe_get s.families i in
-  family.members.(Layout.local s key i)
+(* {1 Reading} *)
 
-let residual s key place = Layout.residual s place (fun i -> (part s key i).residual)
+let component (layout : Layout.t) key i =
+  let family = Array.unsafe_get layout.families i in
+  family.members.(Layout.local layout key i)
 
-let executing (s : Layout.t) key : Residual.t * Core.platform_task Vehicle_map.t =
-  let rs = List.map (residual s key) s.top in
+let residual layout key place = Layout.residual layout place (fun i -> (component layout key i).residual)
+
+let executing (layout : Layout.t) key : Residual.t * Core.platform_task Vehicle_map.t =
+  let rs = List.map (residual layout key) layout.top in
   let runs allocation (Task_rules.Step { offer; _ }) =
     match offer with
     | End_of (p, v) -> Vehicle_map.add v p allocation
     | Start _ | Perform _ | Check _ | Measure _ | Expiry_of _ -> allocation
   in
-  let of_position allocation i = Seq.fold_left runs allocation (Task_rules.steps (part s key i).residual) in
-  let positions = List.init (Array.length s.families) Fun.id in
+  let of_position allocation i = Seq.fold_left runs allocation (Task_rules.steps (component layout key i).residual) in
+  let positions = List.init (Array.length layout.families) Fun.id in
   (Residual.parallel rs, List.fold_left of_position Vehicle_map.empty positions)
 
 let read t key =
-  let number = Layouts.number t.shapes key.(0) and above = Layouts.shared t.shapes key.(0) in
-  if number = 0 then Wholes.value t.wholes above
+  let number = Layouts.number t.layouts key.(0) and above = Layouts.shared t.layouts key.(0) in
+  if number = 0 then Scripts.value t.scripts above
   else begin
-    let s = Layouts.shape t.shapes number in
-    let { Surroundings.shared; outside } = Memoised_steps.Shareds.value t.shareds above in
-    let r, allocation = executing s key in
-    ({ control = Executing (s.frame.machine, r); shared = { shared with allocation } }, outside)
+    let layout = Layouts.layout t.layouts number in
+    let { Surroundings.shared; outside } = Surroundings.Numbers.value t.shareds above in
+    let r, allocation = executing layout key in
+    ({ control = Executing (layout.frame.machine, r); shared = { shared with allocation } }, outside)
   end

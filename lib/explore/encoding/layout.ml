@@ -1,6 +1,6 @@
 open Dolphin_semantics
 
-type frame = { frame : int; machine : Machine.t; symmetry : Task_group.t option; mutable over : int array }
+type frame = { number : int; machine : Machine.t; symmetry : Task_group.t option }
 
 type place = {
   index : int;
@@ -70,15 +70,15 @@ let rec above place level =
   | Some nest when level > 0 -> above nest (level - 1)
   | Some _ | None -> place
 
-let replaced s place trees =
+let replaced l place trees =
   let rec tree p : Component.family Component.tree list =
     if p == place then trees
     else
       match p.inside with
-      | None -> [ Leaf s.families.(p.from) ]
+      | None -> [ Leaf l.families.(p.from) ]
       | Some path -> [ Nest (path, List.concat_map tree p.children) ]
   in
-  List.concat_map tree s.top
+  List.concat_map tree l.top
 
 let key (frame : frame) trees =
   let rec add (tree : Component.family Component.tree) key =
@@ -86,34 +86,34 @@ let key (frame : frame) trees =
     | Leaf family -> family.number :: key
     | Nest (path, children) -> (-1 - path.id) :: List.fold_right add children (-1 :: key)
   in
-  frame.frame :: List.fold_right add trees []
+  frame.number :: List.fold_right add trees []
 
-let rec residual s place part =
+let rec residual l place component =
   match place.inside with
-  | None -> part place.from
-  | Some path -> Components.around path (Parallel (List.map (fun child -> residual s child part) place.children))
+  | None -> component place.from
+  | Some path -> Components.around path (Parallel (List.map (fun child -> residual l child component) place.children))
 
 (* {1 Words} *)
 
 (* So that no word is negative. *)
 let bits_of_word = 62
 
-type widths = { shape : int; watched : int; shared : int }
+type widths = { reserved : int; layout : int; shared : int }
 
-let lay_out widths s =
-  let n = Array.length s.families in
-  s.word <- Array.make n 0;
-  s.shift <- Array.make n 0;
-  s.mask <- Array.make n 0;
+let lay_out widths l =
+  let n = Array.length l.families in
+  l.word <- Array.make n 0;
+  l.shift <- Array.make n 0;
+  l.mask <- Array.make n 0;
   let place (word, bit) i (family : Component.family) =
     let word, bit = if bit + family.width > bits_of_word then (word + 1, 0) else (word, bit) in
-    s.word.(i) <- word;
-    s.shift.(i) <- bit;
-    s.mask.(i) <- (1 lsl family.width) - 1;
+    l.word.(i) <- word;
+    l.shift.(i) <- bit;
+    l.mask.(i) <- (1 lsl family.width) - 1;
     (word, bit + family.width)
   in
-  let rec from i at = if i = n then at else from (i + 1) (place at i s.families.(i)) in
-  fst (from 0 (0, widths.shape + widths.watched + widths.shared)) + 1
+  let rec from i at = if i = n then at else from (i + 1) (place at i l.families.(i)) in
+  fst (from 0 (0, widths.reserved + widths.layout + widths.shared)) + 1
 
-let local s key i = (key.(s.word.(i)) lsr s.shift.(i)) land s.mask.(i)
-let put s key i n = key.(s.word.(i)) <- key.(s.word.(i)) lor (n lsl s.shift.(i))
+let local l key i = (key.(l.word.(i)) lsr l.shift.(i)) land l.mask.(i)
+let put l key i n = key.(l.word.(i)) <- key.(l.word.(i)) lor (n lsl l.shift.(i))

@@ -1,23 +1,21 @@
-(** Shapes of executing configurations, and how a configuration of a shape is laid out in words. A shape is the machine
-    that waits, the tree of nests, and the families of the parts in it, in order. All else that tells configurations of
-    one shape apart is a few small numbers: what is shared, and each part's number in its family. *)
+(** Layouts of executing configurations in words. A layout is the machine that waits, the tree of nests, and the families
+    of the components in it, in order. Configurations with the same layout differ in a few small numbers: that of the
+    shared state, and each component's number in its family. *)
 
 open Dolphin_semantics
 
 (** A machine that waits for a task. *)
 type frame = {
-  frame : int;
+  number : int;  (** from 0 *)
   machine : Machine.t;
   symmetry : Task_group.t option;  (** if states are kept only up to what can change places *)
-  mutable over : int array;
-  (** by shared number, for the use of {!Space}: the number of the configuration that follows the end of the task *)
 }
 
-(** Where a part or a nest stands. *)
+(** Where a component or a nest stands. *)
 type place = private {
-  index : int;  (** parts first, by position *)
+  index : int;  (** components first, by position *)
   from : int;
-  upto : int;  (** the positions of its parts: those from [from] on, below [upto] *)
+  upto : int;  (** the positions of its components: those from [from] on, below [upto] *)
   inside : Component.path option;  (** of a nest *)
   children : place list;  (** of a nest *)
   mutable around : place option;  (** the nest that it is in *)
@@ -30,12 +28,12 @@ type t = {
   families : Component.family array;
   leaves : place array;  (** by position *)
   nests : place array;
-  mutable word : int array;  (** by position: the word that holds the part *)
+  mutable word : int array;  (** by position: the word that holds the component *)
   mutable shift : int array;  (** its lowest bit there *)
   mutable mask : int array;  (** all bits of its width, at the right *)
-  without : t option array;  (** by place: the shape without what stands there, once it is known *)
+  without : t option array;  (** memoised by {!Layouts}, by place: the layout without what stands there *)
   becoming : (int, t) Hashtbl.t;
-  (** by place and serial number of a target: the shape after it, once it is known *)
+  (** memoised by {!Layouts}, by place and serial number of a target: the layout after it *)
 }
 
 val create : number:int -> frame -> Component.family Component.tree list -> t
@@ -45,28 +43,28 @@ val above : place -> int -> place
 (** [above p n] is the nest that is [n] levels above [p]; [p] itself if [n] is 0. *)
 
 val replaced : t -> place -> Component.family Component.tree list -> Component.family Component.tree list
-(** [replaced s p trees] is the tree of [s] with [trees] for what stands at [p]. *)
+(** [replaced l p trees] is the tree of [l] with [trees] for what stands at [p]. *)
 
 val key : frame -> Component.family Component.tree list -> int list
-(** [key f trees] is different for all that makes a different shape. *)
+(** [key f trees] is different for each layout. *)
 
 val residual : t -> place -> (int -> Residual.t) -> Residual.t
-(** [residual s p part] is what stands at [p], with [part i] at position [i]. *)
+(** [residual l p component] is what stands at [p], with [component i] at position [i]. *)
 
 (** {1:words Words}
 
-    The first word starts with the shape's number, lowest bits first, then has what a {!Product} knows, if there is one,
-    and the number of what is shared; the parts follow, none across the end of a word. Shape 0 stands for all other
-    configurations, each with its own number above these. *)
+    The fields of the first word are, lowest bits first: the bits that are reserved for the search, the layout's number,
+    and the number of the shared state. The components follow; none lies across the end of a word. Layout 0 stands for
+    configurations that execute nothing: the rest of the first word is the configuration's number. *)
 
-type widths = { shape : int; watched : int; shared : int }
+type widths = { reserved : int; layout : int; shared : int }
 
 val lay_out : widths -> t -> int
-(** [lay_out widths s] lays [s] out anew, in the present widths of its families; the result is how many words it
+(** [lay_out widths l] lays [l] out anew, in the present widths of its families. The result is how many words it
     needs. *)
 
 val local : t -> int array -> int -> int
-(** [local s key i] is the number of the part at position [i] in its family, in a state of shape [s]. *)
+(** [local l key i] is the number of the component at position [i] in its family, in a state of layout [l]. *)
 
 val put : t -> int array -> int -> int -> unit
-(** [put s key i n] makes it [n], where all bits are 0. *)
+(** [put l key i n] makes it [n], where all bits are 0. *)

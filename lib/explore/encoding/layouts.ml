@@ -8,13 +8,12 @@ module Keys = Hashtbl.Make (struct
   end)
 
 type t = {
-  parts : Components.t;
+  components : Components.t;
   by_key : Layout.t Keys.t;
-  mutable shapes : Layout.t array;  (* by number; the first is none *)
+  mutable layouts : Layout.t array;  (* by number; the first is none *)
   mutable count : int;  (* and one *)
   mutable widths : Layout.widths;
-  mutable shape_mask : int;
-  mutable watched_mask : int;
+  mutable layout_mask : int;
   mutable shared_shift : int;
   mutable shared_mask : int;
   mutable words : int;
@@ -22,113 +21,102 @@ type t = {
 
 let set_widths t (widths : Layout.widths) =
   t.widths <- widths;
-  t.shape_mask <- (1 lsl widths.shape) - 1;
-  t.watched_mask <- (1 lsl widths.watched) - 1;
-  t.shared_shift <- widths.shape + widths.watched;
+  t.layout_mask <- (1 lsl widths.layout) - 1;
+  t.shared_shift <- widths.layout + widths.reserved;
   t.shared_mask <- (1 lsl widths.shared) - 1
 
-let create ?(watched = 0) parts =
-  let widths : Layout.widths = { shape = 4; watched; shared = 4 } in
+let create components =
+  let widths : Layout.widths = { reserved = 0; layout = 4; shared = 4 } in
   let by_key = Keys.create 64 in
   let t =
-    { parts; by_key; shapes = [||]; count = 1; widths; shape_mask = 0; watched_mask = 0; shared_shift = 0;
+    { components; by_key; layouts = [||]; count = 1; widths; layout_mask = 0; shared_shift = 0;
       shared_mask = 0; words = 1 }
   in
   set_widths t widths;
   t
 
-let count t = t.count - 1
 let words t = t.words
-let widths t = t.widths
 
 (* {1 First words} *)
 
-let number t word = word land t.shape_mask
+let number t word = (word lsr t.widths.reserved) land t.layout_mask
 let shared t word = if number t word = 0 then word lsr t.shared_shift else (word lsr t.shared_shift) land t.shared_mask
-let first t number shared = number lor (shared lsl t.shared_shift)
-let watched t word = (word lsr t.widths.shape) land t.watched_mask
+let first t number shared = (number lsl t.widths.reserved) lor (shared lsl t.shared_shift)
+let layout t number = Array.unsafe_get t.layouts number
 
-let watching t word n =
-  if n > t.watched_mask then raise Outgrown;
-  word land lnot (t.watched_mask lsl t.widths.shape) lor (n lsl t.widths.shape)
+(* {1 Layouts} *)
 
-let shape t number = Array.unsafe_get t.shapes number
-
-(* {1 Shapes} *)
-
-let lay_out_families (s : Layout.t) =
-  Array.iter (fun (f : Component.family) -> if f.width = 0 then Components.lay_out f) s.families
+let lay_out_families (l : Layout.t) =
+  Array.iter (fun (f : Component.family) -> if f.width = 0 then Components.lay_out f) l.families
 
 let add t key frame trees =
-  let s = Layout.create ~number:t.count frame trees in
-  if t.count >= Array.length t.shapes then begin
-    let shapes = Array.make (2 * (t.count + 1)) s in
-    Array.blit t.shapes 0 shapes 0 (Array.length t.shapes);
-    t.shapes <- shapes
+  let l = Layout.create ~number:t.count frame trees in
+  if t.count >= Array.length t.layouts then begin
+    let layouts = Array.make (2 * (t.count + 1)) l in
+    Array.blit t.layouts 0 layouts 0 (Array.length t.layouts);
+    t.layouts <- layouts
   end;
-  t.shapes.(t.count) <- s;
+  t.layouts.(t.count) <- l;
   t.count <- t.count + 1;
-  Keys.add t.by_key key s;
-  lay_out_families s;
-  if Layout.lay_out t.widths s > t.words then raise Outgrown;
-  s
+  Keys.add t.by_key key l;
+  lay_out_families l;
+  if Layout.lay_out t.widths l > t.words then raise Outgrown;
+  l
 
 let find t frame trees =
   let key = Layout.key frame trees in
-  match Keys.find_opt t.by_key key with Some s -> s | None -> add t key frame trees
+  match Keys.find_opt t.by_key key with Some l -> l | None -> add t key frame trees
 
-let without t (s : Layout.t) (place : Layout.place) =
-  match s.without.(place.index) with
-  | Some s -> s
+let without t (l : Layout.t) (place : Layout.place) =
+  match l.without.(place.index) with
+  | Some l -> l
   | None ->
-    let smaller = find t s.frame (Layout.replaced s place []) in
-    s.without.(place.index) <- Some smaller;
+    let smaller = find t l.frame (Layout.replaced l place []) in
+    l.without.(place.index) <- Some smaller;
     smaller
 
-let family (p : Component.part) = p.family
+let family (p : Component.component) = p.family
 
-let with_children t (s : Layout.t) place children =
-  find t s.frame (Layout.replaced s place (List.map (Component.map family) children))
+let with_children t (l : Layout.t) place children =
+  find t l.frame (Layout.replaced l place (List.map (Component.map family) children))
 
-let becoming t (s : Layout.t) (place : Layout.place) serial children =
-  let key = (serial * Array.length s.without) + place.index in
-  match Hashtbl.find_opt s.becoming key with
-  | Some s -> s
+let becoming t (l : Layout.t) (place : Layout.place) serial children =
+  let key = (serial * Array.length l.without) + place.index in
+  match Hashtbl.find_opt l.becoming key with
+  | Some l -> l
   | None ->
-    let other = with_children t s place children in
-    Hashtbl.add s.becoming key other;
+    let other = with_children t l place children in
+    Hashtbl.add l.becoming key other;
     other
 
 (* {1 Fields} *)
 
 let fits t ~shared =
-  (not (Components.outgrown t.parts)) && t.count <= t.shape_mask + 1 && shared <= t.shared_mask + 1
+  (not (Components.outgrown t.components)) && t.count <= t.layout_mask + 1 && shared <= t.shared_mask + 1
 
 let bits_for n =
   let rec from bits = if 1 lsl bits >= n then bits else from (bits + 1) in
   from 1
 
 let shared_of = shared
-let watched_of = watched
 
-(* What a state is made of is read in the old layout and written in the new one. *)
-let widened t ~watched ~shared =
-  let before = { t with shapes = Array.map (fun (s : Layout.t) -> { s with number = s.number }) t.shapes } in
-  let shapes = if t.count = 1 then [||] else Array.sub t.shapes 1 (t.count - 1) in
-  Array.iter (fun (s : Layout.t) -> Array.iter Components.lay_out s.families) shapes;
-  Components.none_outgrown t.parts;
-  let at_least width n = if n = 0 then width else max width (bits_for n) in
+(* A state is read in the old layout and written in the new one. *)
+let widen t ~reserved ~shared =
+  let before = { t with layouts = Array.map (fun (l : Layout.t) -> { l with number = l.number }) t.layouts } in
+  let layouts = if t.count = 1 then [||] else Array.sub t.layouts 1 (t.count - 1) in
+  Array.iter (fun (l : Layout.t) -> Array.iter Components.lay_out l.families) layouts;
+  Components.none_outgrown t.components;
+  let at_least width n = max width (bits_for n) in
   set_widths t
-    { shape = at_least t.widths.shape t.count; watched = at_least t.widths.watched watched;
-      shared = at_least t.widths.shared shared };
-  let lay_out words s = max words (Layout.lay_out t.widths s) in
-  t.words <- Array.fold_left lay_out t.words shapes;
+    { reserved; layout = at_least t.widths.layout t.count; shared = at_least t.widths.shared shared };
+  let lay_out words l = max words (Layout.lay_out t.widths l) in
+  t.words <- Array.fold_left lay_out t.words layouts;
   fun old fresh ->
     let number = number before old.(0) in
-    fresh.(0) <- watching t (first t number (shared_of before old.(0))) (watched_of before old.(0));
+    fresh.(0) <- first t number (shared_of before old.(0));
     if number > 0 then begin
-      let was = before.shapes.(number) and s = t.shapes.(number) in
-      for i = 0 to Array.length s.families - 1 do
-        Layout.put s fresh i (Layout.local was old i)
+      let was = before.layouts.(number) and l = t.layouts.(number) in
+      for i = 0 to Array.length l.families - 1 do
+        Layout.put l fresh i (Layout.local was old i)
       done
     end

@@ -1,62 +1,51 @@
-(** The shapes of a state space, numbered, all laid out alike: with so many bits for a shape's number and for that of
-    what is shared, and so many words. *)
+(** The layouts of a state space, numbered, with equal widths of the fields that all have, and equally many words. *)
 
-(** Some number does not fit its field: all must be laid out anew, by {!widened}. *)
 exception Outgrown
+(** Some number does not fit its field: {!widen} must be called. *)
 
 type t
 
-val create : ?watched:int -> Components.t -> t
-(** With so many bits for what a {!Product} knows: none by default. *)
-
-val count : t -> int
+val create : Components.t -> t
 
 val words : t -> int
 (** Words of a state. *)
 
-val widths : t -> Layout.widths
-
 (** {1:reading First words} *)
 
 val number : t -> int -> int
-(** [number t w] is the number of the shape of a state that starts with [w]; 0 is none. *)
+(** [number t w] is the number of the layout of a state with first word [w]; 0 is none. *)
 
 val shared : t -> int -> int
-(** [shared t w] is the number above it: of what is shared, or of a configuration that executes nothing. *)
+(** [shared t w] is the number in the next field: of the shared state, or of a configuration that executes nothing. *)
 
 val first : t -> int -> int -> int
-(** [first t number shared] is the word that starts with these. *)
+(** [first t number shared] is the first word with these, and 0 in all other bits. *)
 
-val watched : t -> int -> int
-(** [watched t w] is what a {!Product} knows. *)
+val layout : t -> int -> Layout.t
+(** [layout t n] is the layout with number [n], from 1. *)
 
-val watching : t -> int -> int -> int
-(** [watching t w n] is [w] with [n] for that.
-    @raise Outgrown *)
-
-val shape : t -> int -> Layout.t
-(** [shape t n] is the shape with number [n], from 1. *)
-
-(** {1:shapes Shapes} *)
+(** {1:layouts Layouts} *)
 
 val find : t -> Layout.frame -> Component.family Component.tree list -> Layout.t
-(** [find t f trees] is the shape with frame [f] and parts of these families. *)
+(** [find t f trees] is the layout with frame [f] and components of these families.
+    @raise Outgrown if it is new, and needs more words than there are. *)
 
 val without : t -> Layout.t -> Layout.place -> Layout.t
-(** [without t s p] is [s] without what stands at [p]. *)
+(** [without t l p] is [l] without what stands at [p]. *)
 
-val becoming : t -> Layout.t -> Layout.place -> int -> Component.part Component.tree list -> Layout.t
-(** [becoming t s p serial children] is [s] with [children], the ones of the target with this serial number, for what
+val becoming : t -> Layout.t -> Layout.place -> int -> Component.component Component.tree list -> Layout.t
+(** [becoming t l p serial children] is [l] with [children], those of the target with this serial number, for what
     stands at [p]. *)
 
-val with_children : t -> Layout.t -> Layout.place -> Component.part Component.tree list -> Layout.t
-(** As {!becoming}, of any children. *)
+val with_children : t -> Layout.t -> Layout.place -> Component.component Component.tree list -> Layout.t
+(** As {!becoming}, with any children. *)
 
 (** {1:fields Fields} *)
 
 val fits : t -> shared:int -> bool
-(** [fits t ~shared] is whether all numbers fit their fields, those of what is shared being below [shared]. *)
+(** [fits t ~shared] is whether all numbers fit their fields, those of shared states being below [shared]. *)
 
-val widened : t -> watched:int -> shared:int -> int array -> int array -> unit
-(** [widened t ~watched ~shared] makes all fields as wide as they need be, for numbers below [watched] and [shared];
-    [widened t ~watched ~shared old fresh] then puts the state that was [old] into [fresh], which is all 0. *)
+val widen : t -> reserved:int -> shared:int -> int array -> int array -> unit
+(** [widen t ~reserved ~shared] makes all fields as wide as they need be, for shared states with numbers below
+    [shared], and reserves that many bits. [widen t ~reserved ~shared old fresh] then puts the state that was [old]
+    into [fresh], which is all 0; the reserved bits are left out. *)

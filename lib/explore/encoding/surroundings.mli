@@ -1,5 +1,5 @@
-(** What surrounds the parts of an executing task: the shared part of the configuration, and what the outside remembers.
-    A is left out, for the parts say what they run: it is empty here. *)
+(** What surrounds the components of an executing task: the shared part of the configuration, and what the environment remembers.
+    A is left out, for the components say what they run: it is empty here. *)
 
 open Dolphin_semantics
 open Dolphin_environment
@@ -11,3 +11,14 @@ val make : Shared.t -> Environment.t -> t
 
 val equal : t -> t -> bool
 val hash : t -> int
+
+(** Numbers for surroundings, from 0: the shared states that the encoding speaks of. *)
+module Numbers : sig
+  type surroundings := t
+  type t
+
+  val create : unit -> t
+  val number : t -> surroundings -> int
+  val value : t -> int -> surroundings
+  val count : t -> int
+end

@@ -1,94 +1,53 @@
-(** A state space as it grows: the states that there are, and going from the one that is expanded to others. {!Space}
-    says which steps are taken. *)
+(** Transitions of states in which a task executes, as vectors of words. {!Space} says which steps are taken. *)
 
 open Dolphin_semantics
 open Dolphin_environment
+open Dolphin_checker
 
-(** A state that a transition leads to. *)
-type arrival = {
-  into : int;
-  by : Task_group.permutation option;  (** that led there from what the transition leads to *)
-  letter : int;  (** of the watch, or 0 *)
-}
-
-type t = {
-  options : Environment.options;
-  reduction : Reduction.t;
-  program : Core.program;
-  world : World.t;
-  parts : Components.t;
-  cases : Memoised_steps.t;
-  words : Encoding.t;
-  shapes : Layouts.t;
-  mutable states : Dolphin_checker.States.t;
-  mutable key : int array;  (** the state being expanded, changed in place for its successors and changed back *)
-  mutable other : int array;  (** successors of another shape *)
-  mutable transitions : int;
-  broken : int array;  (** by rank in [Property.all]: the first state, or -1 *)
-  script : Script_graph.t;
-  mutable fresh : int -> int -> unit;  (** what is done with new states, by number and first word *)
-  mutable gathering : bool;
-  mutable gathered : arrival list;
-  watch : Product.t option;
-  mutable watched : int;  (** what the watch knows of the state being expanded *)
-  mutable action : int;  (** of the step being taken, for the watch *)
-  mutable shown : int;  (** the first state that shows a violation, or -1 *)
-  task_groups : Task_groups.t option;
-  quotient : Quotient.t;
-  interrupted : (int, int * int) Hashtbl.t;  (** by number of what is shared: where an interruption leads *)
-  mutable canonical : int array;  (** a state's canonical form *)
-  vehicles : Canonical_vehicles.t option;
-  reserve : int -> unit;
-}
+type t
 
 val create :
-  ?reduction:Reduction.t ->
-  ?symmetry:Symmetry.t ->
-  ?asked:Condition.t list ->
-  ?compress:bool ->
-  ?reserve:(int -> unit) ->
-  ?watch:Product.t ->
-  Environment.options ->
-  Core.program ->
-  World.t ->
-  t
-(** See {!Space.create}. *)
+  Environment.options -> Components.t -> Encoding.t -> Memoised_steps.t -> Quotient.t -> Labelling.t option -> t
 
-(** {1:states States} *)
+val follows : t -> int -> int -> unit
+(** [follows t p p'] notes that place [p'] of the script may come after place [p], by the numbers of
+    {!Encoding.write}. *)
 
-val load : t -> int -> int array
-(** [load t i] is the words of state [i]. *)
+val may_cycle : t -> bool
+(** Whether some place of the script may come after itself. *)
 
-val repack : t -> unit
-(** Everything in fields that are wide enough. Nothing may wait to be added. *)
+val widen : t -> words:int -> unit
+(** Vectors have [words] words from now on. *)
 
-val flush : t -> unit
-val note_broken : t -> Property.t -> int -> unit
-val broken : t -> Property.t -> int option
+(** The state being expanded. *)
+type source = {
+  expansion : t;
+  key : int array;  (** changed in place for successors of the same layout, and changed back *)
+  layout : Layout.t;
+  shared : int;  (** the number of its shared state *)
+  visitor : Task_group.permutation option System.visitor;
+}
 
-val visit : t -> int array -> int -> unit
-(** [visit t key i] adds the state [key], to which state [i] leads, or what stands for it; or gathers its number. If a
-    watch has nothing to see after it, nothing is done. *)
-
-val note_stays : t -> int -> unit
-(** [note_stays t i]: a run may stay in state [i], which is [t.key], for nothing need happen there. *)
-
-(** {1:going Going to other states}
-
-    From state [i], which is [t.key] and of shape [s], with number [n] of what is shared.
+(** All of these visit states, or representatives of them with the permutation that leads there.
     @raise Layouts.Outgrown *)
 
-val go_to : t -> Layout.t -> Layout.place -> Component.target -> int -> int -> int -> unit
-(** [go_to t s p target n n' i] is where [target] becomes of what stands at [p], with [n'] shared. *)
+val go_to : source -> Layout.place -> Component.target -> action:int -> int -> unit
+(** [go_to x p target ~action s] visits [x] with [target] for what stands at [p], in shared state [s]. *)
 
-val go_by_case : t -> Layout.t -> Layout.place -> Component.step -> int -> int -> int
-(** [go_by_case t s p step n i] takes [step] of what stands at [p]; the result is how many transitions that makes. *)
+val take_dependent : source -> Layout.place -> Component.step -> int
+(** [take_dependent x p step] takes [step] of what stands at [p]. The result is how many transitions that makes. *)
 
-val go_to_ends : t -> Layout.t -> Layout.place -> Component.step -> int -> int -> int
-(** Likewise, only as far as it ends the run. *)
+val take_ends : source -> Layout.place -> Component.step -> int
+(** Likewise, but only as far as the step ends the run. *)
 
-val interrupt : t -> Layout.t -> int -> int -> int
-(** [interrupt t s n i] is to where an interruption leads, if there are any. Nothing follows it, and it breaks nothing:
-    whatever states are looked at, verdicts are the same with it. The result is how many transitions that makes. *)
+val interrupt : source -> int
+(** [interrupt x] takes the interruption, if there are any. Nothing follows it, and it breaks nothing: whatever states
+    are explored, verdicts are the same with it. The result is how many transitions that makes. *)
 
-val ends_run : Component.case -> bool
+val visit_script : t -> Task_group.permutation option System.visitor -> int -> action:int -> unit
+(** [visit_script t v n ~action] visits configuration [n], which executes nothing. *)
+
+val write_and_visit :
+  t -> Task_group.permutation option System.visitor -> Rule.t list -> Configuration.t -> Environment.t -> action:int -> int
+(** [write_and_visit t v rules c e ~action] visits [c] with [e], which a step by [rules] led to. The result is its place
+    of the script. *)

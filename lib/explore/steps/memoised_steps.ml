@@ -1,12 +1,10 @@
 open Dolphin_semantics
 open Dolphin_environment
 open Component
-module Shareds = Dolphin_checker.Interner.Make (Surroundings)
 
-type t = { parts : Components.t; shareds : Shareds.t; observe : (Local_step.t -> int) option }
+type t = { components : Components.t; encoding : Encoding.t; observe : (Local_step.t -> int) option }
 
-let create ?observe parts = { parts; shareds = Shareds.create (); observe }
-let shareds t = t.shareds
+let create ?observe components encoding = { components; encoding; observe }
 let unknown = -1
 let impossible = -2
 let special = -3
@@ -18,7 +16,7 @@ let note_handlers t step (local : Local_step.t) =
   let rec note n (change : Task_rules.change) =
     match change.outcome with
     | Handling { handler; fault; propagated; _ } when n > 0 ->
-      Coverage.run (Components.coverage t.parts) handler;
+      Coverage.run (Components.coverage t.components) handler;
       note (n - 1) (propagated fault)
     | Handling _ | Next _ | Finished | Failed _ -> ()
   in
@@ -28,21 +26,21 @@ let note_handlers t step (local : Local_step.t) =
 (* The level at which the change stopped: an error leaves one nest after the other, each by PAR-ERR. *)
 let level (local : Local_step.t) = List.length (List.filter (( = ) Rule.Par_err) local.derivation)
 
-let program t = Components.program t.parts
-let world t = Components.world t.parts
+let program t = Components.program t.components
+let world t = Components.world t.components
 
-(* What the outside remembers after the event, if it can happen. *)
+(* What the environment remembers after the event, if it can happen. *)
 let outside_after t (Task_rules.Step { offer; _ }) event outside =
   match offer with
   | End_of (task, v) ->
-    List.assoc_opt event (Environment.task_ends (Components.options t.parts) outside v task)
+    List.assoc_opt event (Environment.task_ends (Components.options t.components) outside v task)
   | Start _ | Perform _ | Check _ | Measure _ | Expiry_of _ -> Some outside
 
 type taken = { local : Local_step.t; level : int; certain : bool }
 
 (* What [step] does, and at which level: several things, if it depends on sensors that may show this or that. *)
 let taken t step s =
-  let { Surroundings.shared; outside } = Shareds.value t.shareds s in
+  let { Surroundings.shared; outside } = Surroundings.Numbers.value (Encoding.shareds t.encoding) s in
   let source = Components.escaping step in
   let take () =
     match step.event with
@@ -64,7 +62,7 @@ let taken t step s =
     (found, after)
 
 let shared_after t (local : Local_step.t) outside =
-  Shareds.number t.shareds (Surroundings.make local.after outside)
+  Surroundings.Numbers.number (Encoding.shareds t.encoding) (Surroundings.make local.after outside)
 
 let grown xs length x =
   let longer = Array.make (max length (2 * Array.length xs)) x in
@@ -93,26 +91,28 @@ let action t step s =
     step.free_action <- (match taken t step s with { local; _ } :: _, _ -> observed t local | [], _ -> 0);
   step.free_action
 
-let no_case =
-  { possible = false; certain = true; shared = -1; action = 0; level = 0; result = Gone; whole = -1; others = [] }
+let unknown_outcome =
+  { possible = false; certain = true; shared = -1; action = 0; level = 0; target = Gone; others = [] }
 
 let find t step s =
   let found, outside = taken t step s in
-  let case others { local; level; certain } =
-    let result =
+  let outcome others { local; level; certain } =
+    let target =
       match local.outcome with
-      | Goes_on r -> Components.landed t.parts step level r
+      | Goes_on r -> Components.landed t.components step level r
       | Over -> Gone
-      | Ends ending -> Ends ending
+      | Ends ending -> Ends (Encoding.script_number t.encoding [] (Conclusion.ended local.after ending) outside)
     in
     let shared = shared_after t local outside and action = observed t local in
-    { possible = true; certain; shared; action; level; result; whole = -1; others }
+    { possible = true; certain; shared; action; level; target; others }
   in
   match found with
-  | [] -> { no_case with possible = false }
-  | first :: rest -> case (List.map (case []) rest) first
+  | [] -> { unknown_outcome with possible = false }
+  | first :: rest -> outcome (List.map (outcome []) rest) first
 
-let case t step s =
-  if s >= Array.length step.cases then step.cases <- grown step.cases (s + 1) no_case;
-  if step.cases.(s) == no_case then step.cases.(s) <- find t step s;
-  step.cases.(s)
+let outcome t step s =
+  if s >= Array.length step.outcomes then step.outcomes <- grown step.outcomes (s + 1) unknown_outcome;
+  if step.outcomes.(s) == unknown_outcome then step.outcomes.(s) <- find t step s;
+  step.outcomes.(s)
+
+let ends_run outcome = match outcome.target with Ends _ -> true | Stays _ | Gone | Becomes _ -> false

@@ -1,15 +1,12 @@
-(** What steps of parts and of nests do when so and so is shared, each worked out once, by the transition function. *)
+(** What steps of components and of nests do: per shared state, memoised, by the transition function. Shared states are
+    given by their numbers. *)
 
 open Dolphin_semantics
 
-module Shareds : module type of Dolphin_checker.Interner.Make (Surroundings)
-
 type t
 
-val create : ?observe:(Local_step.t -> int) -> Components.t -> t
-(** [observe local] is a number for what a step did, kept as the [action] of steps, guards and cases; 0 by default. *)
-
-val shareds : t -> Shareds.t
+val create : ?observe:(Local_step.t -> int) -> Components.t -> Encoding.t -> t
+(** [observe local] is the number of the action of [local]; 0 by default. *)
 
 val unknown : int
 (** A guard's result that is to be found with {!guarded}. *)
@@ -18,14 +15,16 @@ val impossible : int
 (** The guard does not hold. *)
 
 val special : int
-(** The code did not go well: see {!case}. *)
+(** The code did not go well: see {!outcome}. *)
 
 val guarded : t -> Component.step -> Component.guard -> int -> int
-(** [guarded t step guard s] is the result of [guard] for shared number [s]: the number of what is shared after it, or
-    one of the above. *)
+(** [guarded t step guard s] is the result of [guard] in shared state [s]: the shared state after it, or one of the
+    above. *)
 
 val action : t -> Component.step -> int -> int
-(** [action t step s] is the number of what [step], which is [Free], does; it is possible when [s] is shared. *)
+(** [action t step s] is the number of the action of [step], which is [Free], and possible in shared state [s]. *)
 
-val case : t -> Component.step -> int -> Component.case
-(** [case t step s] is what [step] does when [s] is shared. *)
+val outcome : t -> Component.step -> int -> Component.outcome
+(** [outcome t step s] is what [step] does in shared state [s]. *)
+
+val ends_run : Component.outcome -> bool

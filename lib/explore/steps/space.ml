@@ -1,17 +1,30 @@
 open Dolphin_semantics
 open Dolphin_environment
+open Dolphin_checker
 open Component
-open Expansion
 
-type t = Expansion.t
+exception Outgrown = Layouts.Outgrown
 
-(* {1 States} *)
+type via = Task_group.permutation option
+type property = Property.t
 
-let state t i = Encoding.read t.words (load t i)
+type t = {
+  options : Environment.options;
+  reduction : Reduction.t;
+  program : Core.program;
+  world : World.t;
+  components : Components.t;
+  encoding : Encoding.t;
+  layouts : Layouts.t;
+  steps : Memoised_steps.t;
+  expansion : Expansion.t;
+  quotient : Quotient.t;
+  labelling : Labelling.t option;
+  task_groups : Task_groups.t option;
+  vehicles : Canonical_vehicles.t option;
+}
 
-let shared t i =
-  let first = (load t i).(0) in
-  if Layouts.number t.shapes first = 0 then -1 else Layouts.shared t.shapes first
+(* {1 Representatives} *)
 
 let choices t outside c =
   match t.vehicles with
@@ -25,22 +38,18 @@ let has_vehicle_symmetry t = t.vehicles <> None
 
 (* {1 Where nothing executes} *)
 
-let expand_whole t i number =
-  let c, outside = Encoding.value t.words number in
+let expand_script t number (visitor : via System.visitor) =
+  let c, outside = Encoding.script t.encoding number in
   let choices = choices t outside c in
   let go ((next : Transition.t), outside) =
-    Coverage.transition (Components.coverage t.parts) c next;
-    Script_graph.follows t.script number (Encoding.write t.words t.other next.rules next.next outside);
-    Option.iter (fun w -> t.action <- Valuation.action (Product.letters w) next) t.watch;
-    visit t t.other i
+    Coverage.transition (Components.coverage t.components) c next;
+    let action labelling = Valuation.action (Labelling.valuations labelling) next in
+    let action = Option.fold ~none:Valuation.nothing ~some:action t.labelling in
+    let place = Expansion.write_and_visit t.expansion visitor next.rules next.next outside ~action in
+    Expansion.follows t.expansion number place
   in
   List.iter go choices;
-  if not (Environment.goes_on choices) then begin
-    note_stays t i;
-    match c.control with
-    | Ended _ -> ()
-    | Script _ | Waiting _ | Executing _ -> note_broken t No_deadlock i
-  end;
+  if not (Environment.goes_on choices) then visitor.rest ();
   List.length choices
 
 (* {1 All steps} *)
@@ -49,236 +58,254 @@ let expand_whole t i number =
 let unknown = Memoised_steps.unknown
 let special = Memoised_steps.special
 
-(* For the watch: [step] is possible, and not [special]. *)
-let note_action t step shared =
+(* Of a step that is possible, and not [special]. *)
+let action t step shared =
   match step.dependence with
-  | Guarded guard -> t.action <- guard.actions.(shared)
-  | Free -> t.action <- (if step.free_action >= 0 then step.free_action else Memoised_steps.action t.cases step shared)
-  | By_case -> ()
+  | Guarded guard -> guard.actions.(shared)
+  | Free -> if step.free_action >= 0 then step.free_action else Memoised_steps.action t.steps step shared
+  | Dependent -> Valuation.nothing
 
-let take_all t (s : Layout.t) place steps shared i =
-  let taken = ref 0 and is_watched = Option.is_some t.watch in
+let take_all t (x : Expansion.source) place steps =
+  let taken = ref 0 and is_observed = Option.is_some t.labelling and shared = x.shared in
   for k = 0 to Array.length steps - 1 do
     let step = Array.unsafe_get steps k in
     let shared' =
       match step.dependence with
       | Free -> shared
-      | By_case -> special
+      | Dependent -> special
       | Guarded guard ->
         let known = if shared < Array.length guard.results then Array.unsafe_get guard.results shared else unknown in
         if known <> unknown then known
         else begin
-          let result = Memoised_steps.guarded t.cases step guard shared in
-          Encoding.check_fit t.words;
+          let result = Memoised_steps.guarded t.steps step guard shared in
+          Encoding.check_fit t.encoding;
           result
         end
     in
     if shared' >= 0 then begin
       incr taken;
-      if is_watched then note_action t step shared;
-      go_to t s place step.target shared shared' i
+      let action = if is_observed then action t step shared else Valuation.nothing in
+      Expansion.go_to x place step.successor ~action shared'
     end
-    else if shared' = special then taken := !taken + go_by_case t s place step shared i
+    else if shared' = special then taken := !taken + Expansion.take_dependent x place step
   done;
   !taken
 
-let part_at t (s : Layout.t) position =
-  let part = Encoding.part s t.key position in
-  if Array.length part.steps = 0 then begin
-    Components.reach t.parts part;
-    Encoding.check_fit t.words
+let component_at t (x : Expansion.source) position =
+  let component = Encoding.component x.layout x.key position in
+  if Array.length component.steps = 0 then begin
+    Components.reach t.components component;
+    Encoding.check_fit t.encoding
   end;
-  part
+  component
 
 let cuts t (nest : Layout.place) =
   match nest.inside with
   | None -> [||]
   | Some { cuts = Some cuts; _ } -> cuts
   | Some inside ->
-    let cuts = Components.cuts t.parts inside in
-    Encoding.check_fit t.words;
+    let cuts = Components.cuts t.components inside in
+    Encoding.check_fit t.encoding;
     cuts
 
-let expand_all t (s : Layout.t) shared i =
-  let taken = ref 0 in
-  for position = 0 to Array.length s.families - 1 do
-    let part = part_at t s position in
-    taken := !taken + take_all t s (Array.unsafe_get s.leaves position) part.steps shared i
+let expand_all t (x : Expansion.source) =
+  let layout = x.layout and taken = ref 0 in
+  for position = 0 to Array.length layout.families - 1 do
+    let component = component_at t x position in
+    taken := !taken + take_all t x (Array.unsafe_get layout.leaves position) component.steps
   done;
-  for n = 0 to Array.length s.nests - 1 do
-    let nest = s.nests.(n) in
-    taken := !taken + take_all t s nest (cuts t nest) shared i
+  for n = 0 to Array.length layout.nests - 1 do
+    let nest = layout.nests.(n) in
+    taken := !taken + take_all t x nest (cuts t nest)
   done;
   !taken
 
 (* {1 Steps that are enough} *)
 
-let local_status t step shared : Stubborn.status =
+let local_status t (x : Expansion.source) step : Stubborn.status =
   let move level target : Stubborn.move =
     { level; over = (match target with Gone -> true | Stays _ | Becomes _ | Ends _ -> false) }
   in
-  let of_case case = move case.level case.result in
-  let by_case () : Stubborn.status =
-    match Memoised_steps.case t.cases step shared with
+  let of_outcome (outcome : outcome) = move outcome.level outcome.target in
+  let dependent () : Stubborn.status =
+    match Memoised_steps.outcome t.steps step x.shared with
     | { possible = false; _ } -> Impossible
-    | { certain = true; _ } as case -> if ends_run case then Ends else Moves (of_case case)
-    | { certain = false; _ } as case ->
-      let ends, moves = List.partition ends_run (case :: case.others) in
-      Depends { moves = List.map of_case moves; ends = ends <> [] }
+    | { certain = true; _ } as outcome -> if Memoised_steps.ends_run outcome then Ends else Moves (of_outcome outcome)
+    | { certain = false; _ } as outcome ->
+      let ends, moves = List.partition Memoised_steps.ends_run (outcome :: outcome.others) in
+      Depends { moves = List.map of_outcome moves; ends = ends <> [] }
   in
   match step.dependence with
-  | Free -> Moves (move 0 step.target)
-  | By_case -> by_case ()
+  | Free -> Moves (move 0 step.successor)
+  | Dependent -> dependent ()
   | Guarded guard ->
-    let result = Memoised_steps.guarded t.cases step guard shared in
-    if result >= 0 then Moves (move 0 step.target) else if result = special then by_case () else Impossible
+    let result = Memoised_steps.guarded t.steps step guard x.shared in
+    if result >= 0 then Moves (move 0 step.successor) else if result = special then dependent () else Impossible
 
-let take_step t s place step shared i =
-  match step.dependence with
-  | Free -> go_to t s place step.target shared shared i; 1
-  | Guarded guard when Memoised_steps.guarded t.cases step guard shared >= 0 ->
-    go_to t s place step.target shared (Memoised_steps.guarded t.cases step guard shared) i;
+(* Nothing is observed where steps are left out. *)
+let take_step t (x : Expansion.source) place step =
+  let go shared' =
+    Expansion.go_to x place step.successor ~action:Valuation.nothing shared';
     1
-  | Guarded _ | By_case -> go_by_case t s place step shared i
+  in
+  match step.dependence with
+  | Free -> go x.shared
+  | Guarded guard ->
+    let result = Memoised_steps.guarded t.steps step guard x.shared in
+    if result >= 0 then go result else Expansion.take_dependent x place step
+  | Dependent -> Expansion.take_dependent x place step
 
-(* Parts and nests, with their steps. *)
-let components t (s : Layout.t) =
-  let part position place =
-    let part = part_at t s position in
-    ({ Stubborn.place; analysis = Components.components t.parts part }, part.steps)
+(* Components and nests, with their steps. *)
+let components t (x : Expansion.source) =
+  let component position place =
+    let component = component_at t x position in
+    ({ Stubborn.place; analysis = Components.footprints t.components component }, component.steps)
   in
   let nest (place : Layout.place) =
     let steps = cuts t place in
-    let of_path path = ({ Stubborn.place; analysis = Components.cuts_components t.parts path }, steps) in
+    let of_path path = ({ Stubborn.place; analysis = Components.cut_footprints t.components path }, steps) in
     if Array.length steps = 0 then None else Option.map of_path place.inside
   in
-  Array.append (Array.mapi part s.leaves) (Array.of_list (List.filter_map nest (Array.to_list s.nests)))
+  Array.append
+    (Array.mapi component x.layout.leaves)
+    (Array.of_list (List.filter_map nest (Array.to_list x.layout.nests)))
 
 (* As [expand_all]. Which steps are enough depends on nothing but the configuration. *)
-let expand_some t (s : Layout.t) shared i =
-  let components = components t s in
-  let status x k = local_status t (snd components.(x)).(k) shared in
+let expand_some t (x : Expansion.source) =
+  let components = components t x in
+  let status c k = local_status t x (snd components.(c)).(k) in
   let choice = Stubborn.choose (Array.map fst components) status in
   let taken = ref 0 in
-  let go x ({ Stubborn.place; analysis }, steps) =
+  let go c ({ Stubborn.place; analysis }, steps) =
     let take k step =
-      let is_chosen = match choice with None -> true | Some chosen -> chosen x k in
+      let is_chosen = match choice with None -> true | Some chosen -> chosen c k in
       if is_chosen || analysis.ends.(k) then begin
-        let status = status x k in
-        Encoding.check_fit t.words;
+        let status = status c k in
+        Encoding.check_fit t.encoding;
         match status with
         | Impossible -> ()
         | Moves _ when not is_chosen -> ()
-        | Depends _ when not is_chosen -> taken := !taken + go_to_ends t s place step shared i
-        | Moves _ | Ends | Depends _ -> taken := !taken + take_step t s place step shared i
+        | Depends _ when not is_chosen -> taken := !taken + Expansion.take_ends x place step
+        | Moves _ | Ends | Depends _ -> taken := !taken + take_step t x place step
       end
     in
     Array.iteri take steps
   in
   Array.iteri go components;
-  Encoding.check_fit t.words;
+  Encoding.check_fit t.encoding;
   !taken
 
-(* {1 Expanding} *)
+(* {1 The system} *)
 
-let expand_executing t i number =
-  let s = Layouts.shape t.shapes number and shared = Layouts.shared t.shapes t.key.(0) in
-  let taken =
-    if Reduction.by_order t.reduction then expand_some t s shared i else expand_all t s shared i
-  in
-  if taken = 0 then begin
-    note_stays t i;
-    note_broken t No_deadlock i
-  end;
-  taken + interrupt t s shared i
+let words t = Layouts.words t.layouts
 
-let rec expand t i =
-  match
-    Dolphin_checker.States.load t.states i t.key;
-    let number = Layouts.number t.shapes t.key.(0) in
-    if Option.is_some t.watch then t.watched <- Layouts.watched t.shapes t.key.(0);
-    if number = 0 then expand_whole t i (Layouts.shared t.shapes t.key.(0)) else expand_executing t i number
-  with
-  | taken ->
-    if not t.gathering then t.transitions <- t.transitions + taken
-  | exception Layouts.Outgrown ->
-    flush t;
-    (* Once this has begun it must not fail. *)
-    t.reserve (Dolphin_checker.States.bytes_to_rewrite t.states ~words:(Dolphin_checker.States.words t.states + 1));
-    repack t;
-    expand t i
+let widen t ~reserved =
+  let rewritten = Encoding.widen t.encoding ~reserved in
+  Expansion.widen t.expansion ~words:(words t);
+  rewritten
 
-let gather t i =
-  t.gathering <- true;
-  t.gathered <- [];
-  expand t i;
-  t.gathering <- false;
-  t.gathered
+let initial t visitor =
+  let initial = Configuration.initial t.program in
+  let action = Valuation.nothing in
+  ignore (Expansion.write_and_visit t.expansion visitor [] initial Environment.initial ~action)
 
-let steps t i = List.rev_map (fun arrival -> (arrival.into, arrival.by)) (gather t i)
-let arrivals t i = List.rev_map (fun arrival -> (arrival.into, arrival.letter)) (gather t i)
-let successors t i = List.rev_map (fun arrival -> arrival.into) (gather t i)
+let unsettled program (fault : Fault.t) : Limits.bound =
+  match Fault.location program fault with
+  | Some at -> Unsettled (Format.asprintf "%a: %s" Dolphin_syntax.Location.pp at fault.message)
+  | None -> Unsettled fault.message
+
+let transitions t key (visitor : via System.visitor) =
+  match Layouts.number t.layouts key.(0) with
+  | 0 -> expand_script t (Layouts.shared t.layouts key.(0)) visitor
+  | number ->
+    let layout = Layouts.layout t.layouts number and shared = Layouts.shared t.layouts key.(0) in
+    let x : Expansion.source = { expansion = t.expansion; key; layout; shared; visitor } in
+    let taken = if Reduction.by_order t.reduction then expand_some t x else expand_all t x in
+    if taken = 0 then visitor.rest ();
+    taken + Expansion.interrupt x
+
+let expand t key visitor =
+  match transitions t key visitor with
+  | taken -> taken
+  | exception Environment.Unclear fault -> raise (Limits.Stop (unsettled t.program fault))
+
+let is_anchor t word = Layouts.number t.layouts word = 0
+
+let broken t word =
+  if Layouts.number t.layouts word > 0 then None else Encoding.broken t.encoding (Layouts.shared t.layouts word)
+
+let is_end t word =
+  is_anchor t word
+  &&
+  match (fst (Encoding.script t.encoding (Layouts.shared t.layouts word))).control with
+  | Ended _ -> true
+  | Script _ | Waiting _ | Executing _ -> false
+
+let may_cycle t = Expansion.may_cycle t.expansion
+
+let valuation t action key =
+  Option.fold ~none:0 ~some:(fun labelling -> Labelling.valuation labelling t.encoding action key) t.labelling
+
+(* {1 States} *)
+
+let state t key = Encoding.read t.encoding key
+
+let shared t key =
+  if is_anchor t key.(0) then None else Some (Layouts.shared t.layouts key.(0))
 
 type view = Exact of Configuration.t * Environment.t | Up_to of Task_group.t * Task_group.state
 
-let view t i =
-  let key = load t i in
-  let number = Layouts.number t.shapes key.(0) in
+let view t key =
   let exact () =
-    let c, outside = Encoding.read t.words key in
+    let c, outside = state t key in
     Exact (c, outside)
   in
-  if number = 0 then exact ()
-  else
-    let s = Layouts.shape t.shapes number in
-    match s.frame.symmetry with
-    | None -> exact ()
-    | Some g -> Up_to (g, Quotient.state t.quotient g s key (Layouts.shared t.shapes key.(0)))
+  match Layouts.number t.layouts key.(0) with
+  | 0 -> exact ()
+  | number -> (
+      let layout = Layouts.layout t.layouts number in
+      match layout.frame.symmetry with
+      | None -> exact ()
+      | Some g -> Up_to (g, Quotient.state t.quotient g layout key (Layouts.shared t.layouts key.(0))))
 
 let quotient_state t g (c : Configuration.t) outside : Task_group.state option =
   match c.control with
   | Executing (_, r) ->
     let rs = match r with Parallel rs -> rs | r -> [ r ] in
-    let shared = Memoised_steps.Shareds.number (Memoised_steps.shareds t.cases) (Surroundings.make c.shared outside) in
-    Some (Task_group.state g rs shared)
+    let shared = Surroundings.make c.shared outside in
+    Some (Task_group.state g rs (Surroundings.Numbers.number (Encoding.shareds t.encoding) shared))
   | Script _ | Waiting _ | Ended _ -> None
-
-let breaks t i =
-  let key = load t i in
-  if Layouts.number t.shapes key.(0) > 0 then None else Encoding.broken t.words (Layouts.shared t.shapes key.(0))
 
 (* {1 Findings} *)
 
-let count t = Dolphin_checker.States.count t.states
-let transitions t = t.transitions
-let parent t i = Dolphin_checker.States.parent t.states i
 let used_task_symmetry t = Option.fold ~none:false ~some:Task_groups.is_used t.task_groups
 let used_vehicle_symmetry t = Option.fold ~none:false ~some:Canonical_vehicles.is_used t.vehicles
 
 (* If an error handler has run in some task, so have those of its orbit, in other runs. *)
 let coverage t =
-  let coverage = Components.coverage t.parts in
+  let coverage = Components.coverage t.components in
   let is_run = function Task_isomorphism.Task _ -> false | Code id -> Coverage.is_run coverage id in
   let cover labels = if List.exists is_run labels then List.iter (Quotient.cover coverage) labels in
   Option.iter (fun groups -> Task_groups.equivalent_handlers groups cover) t.task_groups;
   coverage
 
-let bytes t = Dolphin_checker.States.bytes t.states
-let bytes_to_grow t ~by = Dolphin_checker.States.bytes_to_grow t.states ~by
-let forget_waiting t = Dolphin_checker.States.forget_waiting t.states
-let shown t = if t.shown < 0 then None else Some t.shown
-let watched t i = Layouts.watched t.shapes (load t i).(0)
-let executes t i = Layouts.number t.shapes (load t i).(0) > 0
-let words t = Dolphin_checker.States.words t.states
-let may_cycle t = Script_graph.may_cycle t.script
+(* {1 Beginning} *)
 
-let create = Expansion.create
-let broken = Expansion.broken
-let flush = Expansion.flush
-
-let statistics ppf t =
-  let widths = Layouts.widths t.shapes in
-  Format.fprintf ppf "%d words; widths: shape %d, shared %d; %d shapes, %d shared, %d configurations" (words t)
-    widths.shape widths.shared (Layouts.count t.shapes)
-    (Memoised_steps.Shareds.count (Memoised_steps.shareds t.cases))
-    (Encoding.count_wholes t.words)
+let create ?(reduction = Reduction.Whole) ?(symmetry = Symmetry.none) ?(asked = []) ?labelling options program world =
+  let foreseen = if Reduction.by_order reduction then Some 0 else None in
+  let components = Components.create ?foreseen options program world in
+  let shareds = Surroundings.Numbers.create () in
+  let number = Surroundings.Numbers.number shareds and value = Surroundings.Numbers.value shareds in
+  let task_groups = Task_groups.create options program symmetry { number; value } in
+  let vehicles =
+    if Vehicle_orbits.is_none symmetry.vehicles then None
+    else Some (Canonical_vehicles.create options program ~asked world symmetry)
+  in
+  let find_symmetry = Option.map Task_groups.find task_groups in
+  let canonical = Option.map Canonical_vehicles.canonical vehicles in
+  let encoding = Encoding.create ?find_symmetry ?canonical components shareds in
+  let observe = Option.map (fun labelling -> Valuation.action_of_local (Labelling.valuations labelling)) labelling in
+  let steps = Memoised_steps.create ?observe components encoding and quotient = Quotient.create components encoding in
+  let expansion = Expansion.create options components encoding steps quotient labelling in
+  { options; reduction; program; world; components; encoding; layouts = Encoding.layouts encoding; steps; expansion;
+    quotient; labelling; task_groups; vehicles }

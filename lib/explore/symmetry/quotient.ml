@@ -9,13 +9,13 @@ module Numbered = Hashtbl.Make (struct
   end)
 
 type t = {
-  parts : Components.t;
-  words : Encoding.t;
-  classes : int Numbered.t;  (* of parts, by group and family, and number in the family *)
-  children : part tree list Numbered.t;  (* by group and class *)
+  components : Components.t;
+  encoding : Encoding.t;
+  classes : int Numbered.t;  (* of components, by group and family, and number in the family *)
+  children : component tree list Numbered.t;  (* by group and class *)
 }
 
-let create parts words = { parts; words; classes = Numbered.create 64; children = Numbered.create 64 }
+let create components encoding = { components; encoding; classes = Numbered.create 64; children = Numbered.create 64 }
 
 let cover coverage = function
   | Task_isomorphism.Task site -> Coverage.reach coverage site
@@ -23,7 +23,7 @@ let cover coverage = function
 
 (* What [r] starts in a state, its images start in others of the orbit. *)
 let reach_orbit t g r =
-  let reach label = List.iter (cover (Components.coverage t.parts)) (Task_group.equivalent g label) in
+  let reach label = List.iter (cover (Components.coverage t.components)) (Task_group.equivalent g label) in
   let step (Task_rules.Step { offer; _ }) =
     match offer with
     | Start (p, _) -> reach (Task_isomorphism.Task p.task_site)
@@ -34,17 +34,17 @@ let reach_orbit t g r =
   in
   Seq.iter step (Task_rules.steps r)
 
-(* Of a part or a nest at the top. *)
+(* Of a component or a nest at the top. *)
 let class_at t g (s : Layout.t) key (place : Layout.place) =
   match place.inside with
   | Some _ -> Task_group.class_of g (Encoding.residual s key place)
   | None -> (
-      let part = Encoding.part s key place.from in
-      let known = ((Task_group.number g lsl 31) lor part.family.number, part.local) in
+      let component = Encoding.component s key place.from in
+      let known = ((Task_group.number g lsl 31) lor component.family.number, component.local) in
       match Numbered.find_opt t.classes known with
       | Some found -> found
       | None ->
-        let found = Task_group.class_of g part.residual in
+        let found = Task_group.class_of g component.residual in
         Numbered.add t.classes known found;
         found)
 
@@ -61,14 +61,14 @@ let children t g found =
   | Some children -> children
   | None ->
     let r = Task_group.representative g found in
-    let children = Components.children t.parts (Components.root t.parts) r in
+    let children = Components.children t.components (Components.root t.components) r in
     reach_orbit t g r;
     Numbered.add t.children known children;
     children
 
 (* In the order of families there are fewer layouts. *)
 let by_family tree tree' =
-  let both (p : part) (p' : part) order =
+  let both (p : component) (p' : component) order =
     if order <> 0 then order
     else
       match Int.compare p.family.number p'.family.number with 0 -> Int.compare p.local p'.local | order -> order
@@ -81,5 +81,5 @@ let by_family tree tree' =
 let canonical t g (s : Layout.t) key shared ~into =
   let state, permutation = Task_group.canonical g (classes t g s key) shared in
   let trees = List.concat_map (children t g) (Array.to_list state.classes) in
-  Encoding.write_parts t.words into s.frame (List.stable_sort by_family trees) state.shared;
+  Encoding.write_components t.encoding into s.frame (List.stable_sort by_family trees) state.shared;
   permutation

@@ -17,8 +17,8 @@ type t = {
   asks_states : bool;
   actions : Valuations.t;
   states : Valuations.t;
-  letters : Valuations.t;
-  mutable pairs : int array array;  (* by action, then state: the letter, or -1 *)
+  combined : Valuations.t;
+  mutable pairs : int array array;  (* by action, then state: the valuation, or -1 *)
 }
 
 let nothing = 0
@@ -31,7 +31,7 @@ let create program world propositions =
   in
   let asks_states = Array.exists (fun p -> not (Proposition.needs_action p)) propositions in
   { program; world; propositions; asks_states; actions = valuations (); states = valuations ();
-    letters = Valuations.create (); pairs = [||] }
+    combined = Valuations.create (); pairs = [||] }
 
 let asks_states t = t.asks_states
 
@@ -54,11 +54,11 @@ let state t c =
 
 let find t action state =
   let a = Valuations.value t.actions action and s = Valuations.value t.states state in
-  Valuations.number t.letters (Array.map2 ( || ) a s)
+  Valuations.number t.combined (Array.map2 ( || ) a s)
 
 let grown xs length x = Array.append xs (Array.make (max (length - Array.length xs) (Array.length xs)) x)
 
-let letter t action state =
+let valuation t action state =
   if action >= Array.length t.pairs then t.pairs <- grown t.pairs (action + 1) [||];
   let row = t.pairs.(action) in
   if state < Array.length row && row.(state) >= 0 then row.(state)
@@ -68,4 +68,4 @@ let letter t action state =
     t.pairs.(action).(state)
   end
 
-let holds t letter place = (Valuations.value t.letters letter).(place)
+let holds t valuation place = (Valuations.value t.combined valuation).(place)

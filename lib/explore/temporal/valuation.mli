@@ -1,5 +1,5 @@
-(** The letters of the words that runs are to a formula: which of its propositions hold at a position. A letter is made
-    of what holds of the transition and of what holds in the state; all three are numbers. *)
+(** Valuations of a formula's propositions: which of them hold at a position of a run. A valuation combines what holds
+    of the transition, the action, with what holds in the state. All three are numbers. *)
 
 open Dolphin_semantics
 
@@ -11,24 +11,26 @@ exception Broken of string
 val create : Core.program -> World.t -> Proposition.t array -> t
 
 val nothing : int
-(** The action where there is no transition, or none of the propositions holds of it. *)
+(** The action where there is no transition, or no proposition holds of it: 0. *)
 
 val action : t -> Transition.t -> int
+(** [action t x] is the number of what holds of [x]. *)
 
 val action_observed : t -> Proposition.observed -> int
-(** That of what was observed. *)
+(** [action_observed t x] is that of what was observed. *)
 
 val action_of_local : t -> Local_step.t -> int
 (** That of the transitions that the local step makes ({!Local_step.conclude}). *)
 
 val state : t -> Configuration.t -> int
-(** @raise Broken *)
+(** [state t c] is the number of what holds in [c].
+    @raise Broken *)
 
 val asks_states : t -> bool
 (** Whether any proposition is of states: otherwise [state] is 0. *)
 
-val letter : t -> int -> int -> int
-(** [letter t action state] *)
+val valuation : t -> int -> int -> int
+(** [valuation t action state] is what holds where [action] leads to [state]. *)
 
 val holds : t -> int -> int -> bool
-(** [holds t letter place] is whether the proposition at this place of the array holds. *)
+(** [holds t n place] is whether the proposition at this place of the array holds in valuation [n]. *)

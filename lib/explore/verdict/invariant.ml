@@ -4,7 +4,7 @@ type t = {
   program : Core.program;
   world : World.t;
   condition : Condition.t;
-  seen : (int, unit) Hashtbl.t;  (* by number of what is shared *)
+  seen : (int, unit) Hashtbl.t;  (* by number of the shared state *)
   only_shared : bool;
   mutable broken : int option;
   mutable trouble : string option;
@@ -18,17 +18,18 @@ let condition t = t.condition
 let broken t = t.broken
 let trouble t = t.trouble
 
-let look t space i =
-  match Condition.eval t.program t.world t.condition (fst (Space.state space i)) with
+let look t graph i =
+  match Condition.eval t.program t.world t.condition (fst (State_graph.state graph i)) with
   | Holds | Not_yet -> ()
   | Fails -> t.broken <- Some i
   | Broken why -> if t.trouble = None then t.trouble <- Some why
 
-let check t space i =
+let check t graph i =
   if t.broken = None then
-    let shared = if t.only_shared then Space.shared space i else -1 in
-    if shared < 0 then look t space i
-    else if not (Hashtbl.mem t.seen shared) then begin
-      Hashtbl.add t.seen shared ();
-      look t space i
-    end
+    match if t.only_shared then State_graph.shared graph i else None with
+    | None -> look t graph i
+    | Some shared ->
+      if not (Hashtbl.mem t.seen shared) then begin
+        Hashtbl.add t.seen shared ();
+        look t graph i
+      end

@@ -1,16 +1,13 @@
-(** Runs that lead to states of a {!Space}, transition by transition. Each transition is one that the semantics offers
+(** Runs that lead to states of a {!State_graph}, transition by transition. Each transition is one that the semantics offers
     between the two configurations. All of this raises [Invalid_argument] if there is none, which would be an error of
-    {!Space}. *)
+    {!State_graph}. *)
 
 open Dolphin_semantics
 
-val through : Space.t -> int list -> Transition.t list
-(** [through s states] is transitions from the initial configuration that lead through [states], in this order. *)
+val through : State_graph.t -> int list -> Transition.t list
+(** [through g states] is transitions from the initial configuration that lead through [states], in this order. *)
 
-val around : Space.t -> stem:int list -> int list -> Transition.t list * Transition.t list
-(** [around s ~stem states] is transitions that lead through [stem], and some that go on through [states], which are
+val around : State_graph.t -> stem:int list -> int list -> Transition.t list * Transition.t list
+(** [around g ~stem states] is transitions that lead through [stem], and some that go on through [states], which are
     from the last one of [stem] back to it, and come back to where they started. If states stand for others, it may have
     to go around several times, before and in between. *)
-
-val shortest : Space.t -> int -> int list
-(** [shortest s i] is states from the initial one to [i], as few as can be. *)

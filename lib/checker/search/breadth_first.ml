@@ -1,0 +1,311 @@
+open Dolphin_ltl
+
+type 'run verdict = Holds | Violated of 'run | Inconclusive of Limits.bound
+type lasso = { stem : int list; around : int list }
+type violation = Whatever_follows of int list | Around of { stem : int list; cycle : (int * int) list }
+
+module Make (S : System.S) = struct
+  type t = {
+    system : S.t;
+    limits : Limits.t;
+    phase : string;
+    monitor : Monitor.t option;
+    mutable reserved : int;  (* bits of first words: for the number of the monitor's set *)
+    mutable states : States.t;
+    mutable key : int array;  (* the state being expanded *)
+    mutable from : int;  (* the monitor's set in it *)
+    mutable next : int;  (* to be expanded *)
+    mutable depth : int;  (* of [next] *)
+    mutable level_end : int;  (* the first state that is deeper *)
+    mutable transitions : int;
+    mutable work : int;  (* visits and expansions *)
+    mutable deadlock : int;  (* the first state that is one, or -1; likewise *)
+    mutable violation : int;
+    broken : (S.property, int) Hashtbl.t;
+    mutable stopped : Limits.bound option;
+    guard : Limits.guard;
+    fresh : int -> int -> unit;
+    visitor : S.via System.visitor;
+  }
+
+  let system t = t.system
+  let stopped t = t.stopped
+  let count t = States.count t.states
+  let transitions t = t.transitions
+  let expanded t = t.next
+  let depth t = t.depth
+  let memory t = States.bytes t.states + (8 * (Gc.quick_stat ()).heap_words)
+  let found i = if i < 0 then None else Some i
+  let deadlock t = found t.deadlock
+  let broken t property = Hashtbl.find_opt t.broken property
+  let is_violated t = t.violation >= 0
+
+  (* {1 Arriving in states} *)
+
+  let mask t = (1 lsl t.reserved) - 1
+  let note_violation t i = if t.violation < 0 then t.violation <- i
+
+  let arrived t i word =
+    (match t.monitor with
+     | Some monitor when Monitor.is_certain monitor (word land mask t) -> note_violation t i
+     | Some _ | None -> ());
+    match S.broken t.system word with
+    | Some property when not (Hashtbl.mem t.broken property) -> Hashtbl.add t.broken property i
+    | Some _ | None -> ()
+
+  let rest t =
+    (match t.monitor with
+     | Some monitor when Monitor.stays monitor t.from (S.valuation t.system 0 t.key) -> note_violation t t.next
+     | Some _ | None -> ());
+    if t.deadlock < 0 && not (S.is_end t.system t.key.(0)) then t.deadlock <- t.next
+
+  (* [stride] is how many visits and expansions lie between two looks: to look at each would cost more than the state
+     does. Twice as many states are foreseen. *)
+  let stride = 4_096
+
+  let look_around t phase =
+    let growth = States.bytes_to_grow t.states ~by:(2 * stride) in
+    Limits.look t.guard phase
+      { states = count t; expanded = t.next; depth = t.depth; used = memory t; growth }
+
+  let ticker t phase =
+    let ticks = ref 0 in
+    fun () ->
+      incr ticks;
+      if !ticks land 0xFF = 0 then look_around t phase
+
+  (* A single expansion may visit many states. *)
+  let worked t =
+    t.work <- t.work + 1;
+    if t.work land 0xFF = 0 then begin
+      if Limits.exceeds t.limits.max_states (count t) then raise (Limits.Stop States);
+      if t.work land (stride - 1) = 0 then look_around t t.phase
+    end
+
+  let push t key =
+    worked t;
+    States.push t.states key ~parent:t.next ~fresh:t.fresh
+
+  (* [put valuation] is for [key] with the monitor's set, if a violation is still possible. *)
+  let under t monitor key action put =
+    let valuation = S.valuation t.system action key in
+    let set = Monitor.next monitor t.from valuation in
+    if set >= 0 then begin
+      if set > mask t then raise S.Outgrown;
+      key.(0) <- key.(0) lor set;
+      put valuation;
+      key.(0) <- key.(0) lxor set
+    end
+
+  let arrive t key action =
+    match t.monitor with
+    | None -> push t key
+    | Some monitor -> under t monitor key action (fun _ -> push t key)
+
+  let flush t = States.flush t.states ~fresh:t.fresh
+
+  (* {1 Expanding} *)
+
+  let widen t =
+    let before = mask t in
+    let rec bits_for n bits = if 1 lsl bits >= n then bits else bits_for n (bits + 1) in
+    t.reserved <- Option.fold ~none:0 ~some:(fun monitor -> bits_for (Monitor.count monitor) 1) t.monitor;
+    let rewritten = S.widen t.system ~reserved:t.reserved in
+    let with_set old fresh =
+      rewritten old fresh;
+      fresh.(0) <- fresh.(0) lor (old.(0) land before)
+    in
+    let words = S.words t.system in
+    t.states <- States.rewrite t.states ~words with_set;
+    t.key <- Array.make words 0
+
+  let fetch t i =
+    States.load t.states i t.key;
+    let first = t.key.(0) in
+    t.from <- first land mask t;
+    t.key.(0) <- first land lnot (mask t)
+
+  let rec expanding t =
+    match fetch t t.next; S.expand t.system t.key t.visitor with
+    | taken -> taken
+    | exception S.Outgrown ->
+      flush t;
+      (* Once this has begun it must not fail. *)
+      Limits.weigh t.guard ~used:(memory t) (States.bytes_to_rewrite t.states ~words:(States.words t.states + 1));
+      widen t;
+      expanding t
+
+  let expand t i =
+    t.next <- i;
+    let taken = expanding t in
+    t.transitions <- t.transitions + taken;
+    t.next <- i + 1;
+    taken
+
+  let create ?(compress = false) ?monitor ?(phase = "exploring") ?started limits system =
+    let states = States.create ~compress ~words:1 and guard = Limits.guard ?started limits in
+    let rec t =
+      { system; limits; phase; monitor; reserved = 0; states; key = [| 0 |]; from = Monitor.start; next = 0; depth = -1;
+        level_end = 0; transitions = 0; work = 0; deadlock = -1; violation = -1; broken = Hashtbl.create 8;
+        stopped = None; guard; fresh = (fun i word -> arrived t i word); visitor = { visit; rest = (fun () -> rest t) } }
+    and visit key action _ = arrive t key action in
+    let rec begin_with () =
+      match widen t; S.initial system t.visitor with () -> flush t | exception S.Outgrown -> begin_with ()
+    in
+    begin_with ();
+    t
+
+  let more t =
+    t.next < count t
+    || begin
+      flush t;
+      t.next < count t
+    end
+
+  let deeper t =
+    flush t;
+    t.depth <- t.depth + 1;
+    t.level_end <- count t;
+    if t.limits.max_depth = Some t.depth then raise (Limits.Stop Depth)
+
+  let expand_all t look enough =
+    look_around t t.phase;
+    while (not (is_violated t || enough ())) && more t do
+      if t.next >= t.level_end then deeper t;
+      worked t;
+      look t.next;
+      ignore (expand t t.next);
+      if Limits.exceeds t.limits.max_states (count t) then raise (Limits.Stop States)
+    done
+
+  (* Once there is no memory nothing can be added, not even what waits. *)
+  let run ?(look = ignore) ?(enough = fun () -> false) t =
+    let no_memory () =
+      States.forget_waiting t.states;
+      t.stopped <- Some No_memory
+    in
+    let settle stopped =
+      t.stopped <- stopped;
+      try flush t with Out_of_memory -> no_memory ()
+    in
+    match expand_all t look enough with
+    | () -> settle None
+    | exception Limits.Stop bound -> settle (Some bound)
+    | exception Out_of_memory -> no_memory ()
+
+  (* {1 States} *)
+
+  let load t i =
+    let key = Array.make (States.words t.states) 0 in
+    States.load t.states i key;
+    key.(0) <- key.(0) land lnot (mask t);
+    key
+
+  let first_word t i =
+    let key = Array.make (States.words t.states) 0 in
+    States.load t.states i key;
+    key.(0)
+
+  let set t i = first_word t i land mask t
+
+  let path t i =
+    let rec back i states = if i = 0 then 0 :: states else back (States.parent t.states i) (i :: states) in
+    back i []
+
+  type arrival = { into : int; valuation : int; via : S.via }
+
+  let arrivals t i =
+    let found = ref [] in
+    let put key via valuation = found := { into = States.find t.states key; valuation; via } :: !found in
+    let visit key action via =
+      match t.monitor with None -> put key via 0 | Some monitor -> under t monitor key action (put key via)
+    in
+    fetch t i;
+    ignore (S.expand t.system t.key { visit; rest = ignore });
+    List.rev !found
+
+  (* {1 Verdicts} *)
+
+  let unless_stopped t verdict =
+    match t.stopped with
+    | Some bound -> Inconclusive bound
+    | None -> (
+        try verdict () with
+        | Limits.Stop bound -> Inconclusive bound
+        | Out_of_memory -> Inconclusive No_memory)
+
+  let reached t = function
+    | Some i -> Violated (path t i)
+    | None -> unless_stopped t (fun () -> Holds)
+
+  let no_deadlock t = reached t (deadlock t)
+  let never t property = reached t (broken t property)
+
+  let cycle t exact : lasso option =
+    let successors i = List.map (fun arrival -> (arrival.into, ())) (arrivals t i) in
+    let graph : unit Cycles.graph = { successors; sets = 0; is_in = (fun _ _ -> false) } in
+    let around i =
+      match Cycles.way graph ~within:(fun _ -> true) ~goal:(Int.equal i) (successors i) with
+      | Some way -> i :: List.map fst way
+      | None -> invalid_arg "Breadth_first.cycle: a state that is on no cycle"
+    in
+    let lasso component =
+      let first = Cycles.first component in
+      let start = if exact first then first else List.find exact (around first) in
+      { stem = path t start; around = around start }
+    in
+    Option.map lasso (Cycles.find ~tick:(ticker t "looking for cycles") graph [ 0 ])
+
+  let termination t ~exact =
+    let search () = match cycle t exact with Some lasso -> Violated lasso | None -> Holds in
+    unless_stopped t (fun () -> if S.may_cycle t.system then search () else Holds)
+
+  (* {1 Formulas}
+
+     Nodes are pairs of a state and a state of the automaton in its set. A cycle goes through an anchor, and its states
+     of the automaton are in one component. *)
+
+  let product t monitor : int Cycles.graph =
+    let q = Monitor.automaton_states monitor and component = Monitor.component monitor in
+    let successors node =
+      let from = node mod q in
+      let after { into; valuation; _ } =
+        let continued q' = if component q' = component from then Some ((into * q) + q', valuation) else None in
+        List.filter_map continued (Monitor.after monitor from valuation)
+      in
+      List.concat_map after (arrivals t (node / q))
+    in
+    let is_in node set = Monitor.is_in monitor (node mod q) set in
+    { successors; sets = Monitor.acceptance_sets monitor; is_in }
+
+  let anchors t monitor =
+    let q = Monitor.automaton_states monitor in
+    let of_state i =
+      let first = first_word t i in
+      let node q' = if Monitor.component monitor q' < 0 then None else Some ((i * q) + q') in
+      if S.is_anchor t.system first then List.filter_map node (Monitor.members monitor (first land mask t)) else []
+    in
+    let rec from i found = if i < 0 then found else from (i - 1) (of_state i @ found) in
+    from (count t - 1) []
+
+  let accepting_cycle t monitor =
+    let graph = product t monitor and q = Monitor.automaton_states monitor in
+    let lasso component =
+      let start = Cycles.first component in
+      let cycle = List.map (fun (node, valuation) -> (node / q, valuation)) (Cycles.around graph component start) in
+      Around { stem = path t (start / q); cycle }
+    in
+    Option.map lasso (Cycles.find ~tick:(ticker t "checking formulas") graph (anchors t monitor))
+
+  let formula t =
+    match t.monitor, found t.violation with
+    | None, _ -> invalid_arg "Breadth_first.formula: no monitor"
+    | Some _, Some i -> Violated (Whatever_follows (path t i))
+    | Some monitor, None ->
+      let search () =
+        match if S.may_cycle t.system then accepting_cycle t monitor else None with
+        | Some violation -> Violated violation
+        | None -> Holds
+      in
+      unless_stopped t search
+end

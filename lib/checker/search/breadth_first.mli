@@ -1,0 +1,104 @@
+(** Explicit-state model checking of a {!System}, breadth first: each state is kept once, with the state that it was
+    first reached from, and so a run to it as short as any.
+
+    Under a monitor, each state is kept once for each set of automaton states that runs to it may be in: the product of
+    the system with the negation of a formula. Runs that cannot violate the formula any more are not followed.
+
+    What is said of fairness is the caller's: here every cycle is a run. *)
+
+(** What is found of a property. *)
+type 'run verdict =
+  | Holds  (** all states were searched *)
+  | Violated of 'run
+  | Inconclusive of Limits.bound  (** no violation was found before this bound was met *)
+
+(** States on a run without end. *)
+type lasso = {
+  stem : int list;  (** from the initial state *)
+  around : int list;  (** from the last one of [stem] back to it *)
+}
+
+(** A run that violates a formula. *)
+type violation =
+  | Whatever_follows of int list  (** every run that starts through these states violates it, or may rest in the last *)
+  | Around of { stem : int list; cycle : (int * int) list }
+  (** [cycle] is arrivals in states, with valuations, that go on for ever after [stem] and come back to its last *)
+
+module Make (S : System.S) : sig
+  type t
+
+  val create : ?compress:bool -> ?monitor:Dolphin_ltl.Monitor.t -> ?phase:string -> ?started:float -> Limits.t -> S.t -> t
+  (** [create limits s] is the search of [s] with nothing but its initial state. [compress] is as for
+      {!States.create}, [false] by default. Under a monitor there may be no state at all. [phase] says what is being
+      done, in reports of progress. [started] is as for {!Limits.guard}. *)
+
+  val run : ?look:(int -> unit) -> ?enough:(unit -> bool) -> t -> unit
+  (** [run t] expands all states, until a bound is met, [enough ()] says so, or it {!is_violated}. [look i] is called
+      before state [i] is expanded, in order. What [S.expand], [look] and [enough] raise is raised, {!Limits.Stop}
+      apart. *)
+
+  val expand : t -> int -> int
+  (** [expand t i] expands state [i], and is the number of its transitions: for tests, in place of {!run}. States come
+      in order. *)
+
+  val flush : t -> unit
+  (** All states that have been visited are now there. *)
+
+  (** {1:findings What was found} *)
+
+  val system : t -> S.t
+  val stopped : t -> Limits.bound option
+  val count : t -> int
+  val transitions : t -> int
+  val expanded : t -> int
+
+  val depth : t -> int
+  (** The most transitions of a shortest run to an expanded state. *)
+
+  val memory : t -> int
+  (** Bytes, as [max_memory] counts them. *)
+
+  val deadlock : t -> int option
+  (** The first state that is no end, and where a run may rest. *)
+
+  val broken : t -> S.property -> int option
+  (** The first state that breaks the property by being reached. *)
+
+  val is_violated : t -> bool
+  (** Whether a state has been found after which, or if a run rests there, the formula is violated. *)
+
+  (** {1:verdicts Verdicts}
+
+      Each a shortest run to the first state that shows the violation. *)
+
+  val no_deadlock : t -> int list verdict
+  val never : t -> S.property -> int list verdict
+
+  val termination : t -> exact:(int -> bool) -> lasso verdict
+  (** That there is no cycle; otherwise a cycle with a shortest run to it and the shortest way around. The run comes
+      back to a state with [exact], for states that stand for others do not; such a state is on every cycle. *)
+
+  val formula : t -> violation verdict
+  (** That no run violates the formula of the monitor. *)
+
+  val ticker : t -> string -> unit -> unit
+  (** [ticker t phase] is to be called at each state by what searches the states again: now and then it looks at the
+      limits, and reports progress in [phase].
+      @raise Limits.Stop *)
+
+  (** {1:states States} *)
+
+  val load : t -> int -> int array
+  (** [load t i] is the vector of state [i]. *)
+
+  val set : t -> int -> int
+  (** [set t i] is the number of the monitor's set in state [i]. *)
+
+  val path : t -> int -> int list
+  (** [path t i] is states from the initial one to [i], as few as can be. *)
+
+  type arrival = { into : int; valuation : int; via : S.via }
+
+  val arrivals : t -> int -> arrival list
+  (** [arrivals t i] is the states that transitions of the expanded state [i] lead to, in order. *)
+end

@@ -1,0 +1,71 @@
+(** How far a search goes, and who is told. *)
+
+type t = {
+  max_states : int option;
+  max_depth : int option;  (** in transitions *)
+  max_memory : int option;  (** in bytes, of the whole process but for code and libraries *)
+  memory_left : unit -> int option;
+  (** bytes that the process can still have, if that is known; asked often. The search stops before it has nine tenths
+      of all that it can have. *)
+  timeout : float option;  (** in seconds of [clock] *)
+  clock : unit -> float;  (** seconds, from any start *)
+  interrupted : unit -> bool;  (** asked often: whether to stop *)
+  progress : progress -> unit;  (** called about once a second *)
+}
+
+and progress = {
+  phase : string;  (** what is being done *)
+  states : int;
+  rate : float;  (** states a second, since the start *)
+  frontier : int;  (** states still to be expanded *)
+  depth : int;
+  memory : int;  (** bytes *)
+  elapsed : float;  (** seconds *)
+}
+
+val none : t
+(** No bounds, [Sys.time], no reports. *)
+
+(** Why a search came to no end. *)
+type bound =
+  | States
+  | Depth
+  | Memory
+  | No_memory  (** the machine has no more *)
+  | Time
+  | Interruption
+  | Unsettled of string  (** something that was asked has no answer, for this reason *)
+
+exception Stop of bound
+
+val pp_bound : Format.formatter -> bound -> unit
+(** ["the time was up"] *)
+
+val exceeds : int option -> int -> bool
+(** [exceeds bound n] is whether [n] is more than [bound]. *)
+
+(** {1:guards Guards} *)
+
+type guard
+(** Looks whether a search is within its limits. *)
+
+val guard : ?started:float -> t -> guard
+(** [guard ~started t] looks after what started when [t.clock] showed [started]: now by default. *)
+
+(** How far a search has come. *)
+type measures = {
+  states : int;
+  expanded : int;
+  depth : int;
+  used : int;  (** bytes in use *)
+  growth : int;  (** bytes that may be taken until the guard looks again *)
+}
+
+val weigh : guard -> used:int -> int -> unit
+(** [weigh g ~used n] looks whether [n] bytes more than [used] may be taken.
+    @raise Stop if not. *)
+
+val look : guard -> string -> measures -> unit
+(** [look g phase m] looks at all limits but those on states and depth, and reports progress in [phase] if it is time
+    to. It takes about a microsecond.
+    @raise Stop *)

@@ -1,0 +1,80 @@
+(** What can be explored: a transition system whose states are vectors of words. Types only. {!Breadth_first} knows a
+    system by nothing else.
+
+    {b What is equal.} States are equal if their vectors are. The vector that an expansion hands over is the one of a
+    state that {e stands for} the state that the transition leads to: the system chooses which. Usually it is that
+    state itself. With symmetry it is a canonical form. With inclusion, as for sets of clock valuations (zones), it is
+    that of a state already handed over which includes the new one: the system keeps the zones that it has handed over,
+    by the rest of the vector, and a zone is a word of the vector by its number, as {!Interner} gives it. A state
+    that a later one includes stays in the store; the system may expand it to nothing but a transition to that one. *)
+
+(** What an expansion calls for each transition. ['via] says how the state that a transition leads to became the one
+    that stands for it: a permutation, for example. *)
+type 'via visitor = {
+  visit : int array -> int -> 'via -> unit;
+  (** [visit key action via]: some transition, whose action has number [action], leads to the state in the first words
+      of [key]. The system may reuse [key] once [visit] returns. Actions matter to formulas only. *)
+  rest : unit -> unit;
+  (** a run may stay in the state for ever, for no transition need happen; the vector that is expanded must be as it
+      was handed over *)
+}
+
+module type S = sig
+  type t
+  type via
+  type property
+
+  (** {1:encoding Encoding}
+
+      No word is negative. The lowest bits of the first word are reserved for the search: they are 0 in all vectors
+      that the system hands over or gets. *)
+
+  exception Outgrown
+  (** Some number does not fit into its field of the vector. *)
+
+  val words : t -> int
+  (** [words t] is how many words a vector has now. *)
+
+  val widen : t -> reserved:int -> int array -> int array -> unit
+  (** [widen t ~reserved] is called before all else, and after {!Outgrown}: it makes all fields as wide as they need
+      be, and reserves [reserved] bits. It never makes a vector shorter. The function that it returns puts the state
+      [old], in the encoding before, into [fresh], in the encoding after; [fresh] is all 0, and the reserved bits of
+      [old] are not. *)
+
+  (** {1:transitions Transitions} *)
+
+  val initial : t -> via visitor -> unit
+  (** [initial t v] visits the initial state.
+      @raise Outgrown *)
+
+  val expand : t -> int array -> via visitor -> int
+  (** [expand t key v] visits the states that transitions of the state [key] lead to. It may change [key]. The result
+      is the number of transitions: one of them may be visited more often, if several states together stand for where
+      it leads.
+      @raise Outgrown when some have been visited: it is called again after {!widen}.
+      @raise Limits.Stop with [Unsettled] if the system cannot say what follows [key]. *)
+
+  (** {1:properties Properties}
+
+      To be quick, the search asks them of a state's first word, reserved bits included. *)
+
+  val broken : t -> int -> property option
+  (** [broken t w] is what is violated when a state with first word [w] is reached. *)
+
+  val is_end : t -> int -> bool
+  (** [is_end t w] is whether a run may rest in a state with first word [w] without being in a deadlock. *)
+
+  (** {1:cycles Cycles} *)
+
+  val may_cycle : t -> bool
+  (** Once all states are expanded: [false] only if there is no cycle. *)
+
+  val is_anchor : t -> int -> bool
+  (** Every cycle goes through a state with [is_anchor t w] for its first word [w]. *)
+
+  (** {1:formulas Formulas} *)
+
+  val valuation : t -> int -> int array -> int
+  (** [valuation t action key] is the number of the valuation of a formula's propositions where [action] leads to
+      [key]; 0 is the action of resting. Asked only under a {!Dolphin_ltl.Monitor}. *)
+end

@@ -1,0 +1,18 @@
+(** Which propositions of a formula hold where, in encoded states: the labelling of the state graph. Memoised by the
+    number of the configuration or of the shared state, and by which plans run. *)
+
+open Dolphin_semantics
+
+type t
+
+val create : Core.program -> World.t -> Temporal.t -> t
+(** For one state space. *)
+
+val monitor : t -> Dolphin_ltl.Monitor.t
+(** Of runs that violate the formula. *)
+
+val valuations : t -> Valuation.t
+
+val valuation : t -> Encoding.t -> int -> int array -> int
+(** [valuation t e action key] is the number of the valuation where [action] leads to the state [key].
+    @raise Valuation.Broken *)

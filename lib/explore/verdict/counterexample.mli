@@ -1,0 +1,14 @@
+(** Runs that violate a formula, transition by transition. *)
+
+open Dolphin_semantics
+open Dolphin_environment
+
+(** A run from the initial configuration; [cycle] goes on for ever after [steps], and is empty if they come to an
+    end. *)
+type run = { steps : Transition.t list; cycle : Transition.t list }
+
+val of_violation :
+  ?tick:(unit -> unit) -> Environment.options -> Core.program -> World.t -> State_graph.t -> Labelling.t ->
+  Dolphin_checker.Breadth_first.violation -> run
+(** [of_violation o p w g l v] is a run through the states of [v], found in [g] under the monitor of [l]. [tick] is
+    called often. *)

@@ -1,0 +1,20 @@
+(** The state graph of a program, as far as it has been searched. *)
+
+open Dolphin_semantics
+open Dolphin_environment
+
+include module type of Dolphin_checker.Breadth_first.Make (Space)
+
+(** {1:dolphin States of Dolphin}
+
+    These are {!Space}'s, of states by their numbers. *)
+
+val state : t -> int -> Configuration.t * Environment.t
+val view : t -> int -> Space.view
+val shared : t -> int -> int option
+
+val broken_by : t -> int -> Property.t option
+(** [broken_by t i] is the property that reaching state [i] breaks. *)
+
+val is_exact : t -> int -> bool
+(** Whether state [i] stands for itself alone. *)

@@ -12,6 +12,7 @@ type input =
   | Vehicle of { sent : float; state : Message.Vehicle_state.t }
   | Log of { sent : float; entry : Message.Log_book_entry.t }
   | Abort of string
+  | Stopped_by of string
   | Lost of string
   | Adopt of { order : order; stopped : bool; notes : Durable_note.t list }
   | Leaves of float
@@ -61,7 +62,7 @@ type t = {
   next_request : int;
   latest : Plan_report.t option;
   error : (float * string) option;  (* the last error that the vehicle reported, and when *)
-  abort : string option;
+  intervention : string option;  (* what another console did to the plan, in words *)
   last_stop : int option;
   stop_echo : float;  (* when the vehicle last answered a stop of ours *)
   former : former option;
@@ -70,7 +71,7 @@ type t = {
 }
 
 let create ~request =
-  { next_request = request land 0xFFFF; latest = None; error = None; abort = None; last_stop = None;
+  { next_request = request land 0xFFFF; latest = None; error = None; intervention = None; last_stop = None;
     stop_echo = neg_infinity; former = None; duplicates = Duplicates.nothing; phase = Idle }
 
 (* The request that is not over yet, and how far it has come. *)
@@ -92,7 +93,7 @@ let begin_attempt ~now ~clock (order : order) x =
     Duplicates.request ~plan:order.plan ~number:request ~after:attempt.after
       ~busy:(Attempt.was_busy_with order.plan attempt)
   in
-  ({ x with phase = Starting attempt; abort = None; duplicates }, [ Send (Attempt.start attempt) ])
+  ({ x with phase = Starting attempt; intervention = None; duplicates }, [ Send (Attempt.start attempt) ])
 
 let send_again ~now ~clock attempt x =
   let attempt = Attempt.send_again ~now ~clock attempt in
@@ -134,9 +135,9 @@ let replaced ~now ~clock ~ended attempt other x =
 
 (* Why it failed, in the vehicle's words if there are any. *)
 let words x ~since ~why =
-  match x.error, x.abort with
+  match x.error, x.intervention with
   | Some (at, error), _ when at > since -> error
-  | (Some _ | None), Some by -> Printf.sprintf "aborted by %s" by
+  | (Some _ | None), Some what -> what
   | (Some _ | None), None -> why
 
 (* {1 What the vehicle's report means} *)
@@ -309,6 +310,12 @@ let start ~now ~clock order x =
   | Idle | Starting _ | Running _ | Ending _ -> begin_attempt ~now ~clock order x
   | Stopping s -> ({ x with phase = Stopping { s with next = Some order } }, [])
 
+(* What another console stops before our request was taken is not our plan. *)
+let stopped_by by x =
+  match x.phase with
+  | Running _ | Ending _ | Starting { accepted = Some _; _ } -> { x with intervention = Some ("stopped by " ^ by) }
+  | Starting { accepted = None; _ } | Idle | Stopping _ -> x
+
 let lost ~now ~clock why x =
   match x.phase with
   | Idle | Stopping { next = None; _ } -> (x, [])
@@ -346,7 +353,7 @@ let adopt ~now ~clock (order : order) ~stopped notes x =
   | Some k, latest ->
     let attempt = Attempt.adopted ~now ~clock order k in
     let phase = if k.runs then Running { attempt; since = neg_infinity } else Starting attempt in
-    let x = { x with phase; abort = None; next_request = (k.request + 1) land 0xFFFF } in
+    let x = { x with phase; intervention = None; next_request = (k.request + 1) land 0xFFFF } in
     (match latest with Some r -> judge ~now ~clock r x | None -> (x, []))
 
 (* {1 Steps} *)
@@ -358,7 +365,7 @@ let detect_duplicates input x =
     | Reply { sent; reply } -> Duplicates.reply ~sent reply x.duplicates
     | State { sent; state } -> Duplicates.state ~sent state x.duplicates
     | Log { sent; entry } -> Duplicates.log ~sent entry x.duplicates
-    | Start _ | Stop | Vehicle _ | Abort _ | Lost _ | Adopt _ | Leaves _ | Tick -> x.duplicates
+    | Start _ | Stop | Vehicle _ | Abort _ | Stopped_by _ | Lost _ | Adopt _ | Leaves _ | Tick -> x.duplicates
   in
   match Duplicates.detected duplicates with
   | None -> ({ x with duplicates }, [])
@@ -374,7 +381,8 @@ let handle ~now ~clock input x =
   | State { sent; state = s } -> state ~now ~clock sent s x
   | Vehicle { sent; state } -> vehicle ~sent state x
   | Log _ -> (x, [])
-  | Abort by -> ({ x with abort = Some by }, [])
+  | Abort by -> ({ x with intervention = Some ("aborted by " ^ by) }, [])
+  | Stopped_by by -> (stopped_by by x, [])
   | Lost why -> lost ~now ~clock why x
   | Adopt { order; stopped; notes } -> adopt ~now ~clock order ~stopped notes x
   | Leaves at -> (leaves ~at ~clock x, [])

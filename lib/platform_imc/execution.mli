@@ -56,6 +56,7 @@ type input =
   | Vehicle of { sent : float; state : Message.Vehicle_state.t }
   | Log of { sent : float; entry : Message.Log_book_entry.t }
   | Abort of string  (** The console of this name told the vehicle to abort. *)
+  | Stopped_by of string  (** The console of this name told the vehicle to stop its plan. *)
   | Lost of string  (** The link is given up; why. *)
   | Adopt of { order : order; stopped : bool; notes : Durable_note.t list  (** latest first *) }
   (** A console before this one was told to start [order], and if [stopped] to stop it again, and then died; [notes] is

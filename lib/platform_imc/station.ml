@@ -188,12 +188,12 @@ let announced ~now ~from (p : Packet.t) (a : Message.Announce.t) s =
           let is_elsewhere = n.address <> before.address && n.address <> None in
           if is_elsewhere then introduce ~now n (accept n s) else (accept n s, []))
 
+let name_of id s =
+  match Systems.find_id id s.systems with Some n -> n.name | None -> Printf.sprintf "system 0x%04x" id
+
 let aborted ~now (p : Packet.t) s =
-  let by =
-    match Systems.find_id p.src s.systems with Some n -> n.name | None -> Printf.sprintf "system 0x%04x" p.src
-  in
   match Systems.find_id p.dst s.systems with
-  | Some n -> command ~now (Abort by) n s
+  | Some n -> command ~now (Abort (name_of p.src s)) n s
   | None -> (s, [])
 
 (* What was intended for an expected vehicle is done once it has said what it runs. *)
@@ -214,6 +214,13 @@ let heard ~now (p : Packet.t) (n : Node.t) s =
     let s, queried = query ~now n { s with presence = Presence.hasten ~at s.presence } in
     (s, sent @ more @ queried)
   else (s, sent @ more)
+
+(* Vehicles send on to all consoles what one of them requests. *)
+let request_of_another ~now (vehicle : Node.t) (p : Packet.t) s =
+  match p.content with
+  | Message (Plan_control { type_ = Request; op = Stop; _ }) ->
+    command ~now (Stopped_by (name_of p.src s)) vehicle { s with accepted = s.accepted + 1 }
+  | Message _ | Unknown _ -> skip s
 
 let packet ~now ~from (p : Packet.t) s =
   match p.content with
@@ -237,15 +244,21 @@ let record ~from (h : Header.t) bytes s =
 let datagram ~now ~from ?len bytes s =
   let header = Header.read ?len bytes in
   let s = match header with Ok h -> record ~from h bytes s | Error _ -> s in
+  let decoded f =
+    match Packet.decode ?len bytes with
+    | Error why -> drop (Error.label why) s
+    | Ok p -> f p
+  in
   match header with
   | Error why -> drop (Error.label why) s
   | Ok h when not (is_wanted h.id) -> skip s
   | Ok h when h.src = s.settings.id -> drop "our own" s
-  | Ok h when h.id = Message.Plan_control.id && h.dst <> s.settings.id -> skip s
-  | Ok _ -> (
-      match Packet.decode ?len bytes with
-      | Error why -> drop (Error.label why) s
-      | Ok p -> packet ~now ~from p s)
+  | Ok h when h.id = Message.Plan_control.id && h.dst <> s.settings.id -> (
+      match Systems.find_id h.dst s.systems with
+      | Some vehicle when h.src <> h.dst && Node.belongs from vehicle ->
+        decoded (fun p -> request_of_another ~now vehicle p s)
+      | Some _ | None -> skip s)
+  | Ok _ -> decoded (fun p -> packet ~now ~from p s)
 
 (* {1 Time} *)
 

@@ -25,10 +25,10 @@ val create : settings -> t
 (** Nobody is known; an announcement is due. *)
 
 val resume : now:float -> Dolphin_runtime.History.outstanding -> t -> t
-(** [resume ~now outstanding s] is [s], as {!create} made it, taking over at [now] from a console that died. The vehicles
-    that it held, and those that it had commanded, are expected: what they were asked is settled when they have said what
-    they run ({!Execution}), and they may be commanded before they are heard. A vehicle that is not heard within its
-    connection timeout fails its task. Timers go on. *)
+(** [resume ~now outstanding s] is [s], as {!create} made it, taking over at [now] from a console that died. The
+    vehicles that it held, and those that it had commanded, are expected: what they were asked is settled when they have
+    said what they run ({!Execution}), and they may be commanded before they are heard. A vehicle that is not heard
+    within its connection timeout fails its task. Timers go on. *)
 
 (** {1:time Input}
 

@@ -1,0 +1,207 @@
+(* The checker on systems that are not Dolphin: philosophers at a table, with a known number of states and one deadlock,
+   and a counter, with a known cycle and formulas with known verdicts. *)
+
+open Dolphin_checker
+open Dolphin_ltl
+
+(* A system of vectors of small numbers, one word each, given by the successors of a vector. Words get a bit wider each
+   time that a number does not fit, so that the search has to encode its states anew. *)
+module Vectors = struct
+  type t = {
+    start : int list;
+    successors : int list -> int list list;
+    is_end : bool;  (* whether resting is no deadlock *)
+    is_broken : int -> bool;  (* of the first number *)
+    mutable bits : int;  (* of a number *)
+    mutable reserved : int;
+  }
+
+  type via = unit
+  type property = Too_large
+
+  exception Outgrown
+
+  let make ?(is_end = false) ?(is_broken = fun _ -> false) start successors =
+    { start; successors; is_end; is_broken; bits = 0; reserved = 0 }
+
+  let words s = List.length s.start
+  let first s word = word lsr s.reserved
+  let read s key = List.mapi (fun w _ -> if w = 0 then first s key.(0) else key.(w)) s.start
+
+  let write s key numbers =
+    let put w n =
+      if n >= 1 lsl s.bits then raise Outgrown;
+      key.(w) <- (if w = 0 then n lsl s.reserved else n)
+    in
+    List.iteri put numbers
+
+  let widen s ~reserved =
+    let before = s.reserved in
+    s.bits <- s.bits + 1;
+    s.reserved <- reserved;
+    fun old fresh ->
+      Array.blit old 0 fresh 0 (Array.length old);
+      fresh.(0) <- (old.(0) lsr before) lsl reserved
+
+  let visit s (visitor : unit System.visitor) numbers =
+    let key = Array.make (words s) 0 in
+    write s key numbers;
+    visitor.visit key 0 ()
+
+  let initial s visitor = visit s visitor s.start
+
+  let expand s key visitor =
+    let next = s.successors (read s key) in
+    List.iter (visit s visitor) next;
+    if next = [] then visitor.rest ();
+    List.length next
+
+  let broken s word = if s.is_broken (first s word) then Some Too_large else None
+  let is_end s _ = s.is_end
+  let may_cycle _ = true
+  let is_anchor _ _ = true
+
+  (* The proposition holds where the first number is 3. *)
+  let valuation s _ key = if first s key.(0) = 3 then 1 else 0
+end
+
+module Search = Breadth_first.Make (Vectors)
+
+let searched ?compress ?monitor ?(limits = Limits.none) system =
+  let search = Search.create ?compress ?monitor limits system in
+  Search.run search;
+  search
+
+let numbers search states = List.map (fun i -> Vectors.read (Search.system search) (Search.load search i)) states
+let check_int = Alcotest.(check int)
+let check_states = Alcotest.(check (list (list int)))
+
+(* {1 Philosophers}
+
+   Each thinks (0), has the left fork (1) or eats (2). Who eats has the left fork of the next, who then thinks. So the
+   states are the words of 0, 1, 2 around a table in which 0 follows each 2, and all of them are reached. *)
+
+let philosophers n =
+  let successors table =
+    let at i = List.nth table (i mod n) in
+    let becomes i x = List.mapi (fun j y -> if j = i then x else y) table in
+    let steps i =
+      match at i with
+      | 0 -> if at (i + n - 1) = 2 then [] else [ becomes i 1 ]
+      | 1 -> if at (i + 1) = 0 then [ becomes i 2 ] else []
+      | _ -> [ becomes i 0 ]
+    in
+    List.concat_map steps (List.init n Fun.id)
+  in
+  Vectors.make (List.init n (fun _ -> 0)) successors
+
+(* The trace of the power of the matrix of who may follow whom. *)
+let tables n =
+  let follows = [| [| 1; 1; 1 |]; [| 1; 1; 1 |]; [| 1; 0; 0 |] |] in
+  let times a b =
+    let entry i j = List.fold_left (fun sum k -> sum + (a.(i).(k) * b.(k).(j))) 0 [ 0; 1; 2 ] in
+    Array.init 3 (fun i -> Array.init 3 (entry i))
+  in
+  let rec power k = if k = 1 then follows else times follows (power (k - 1)) in
+  let p = power n in
+  p.(0).(0) + p.(1).(1) + p.(2).(2)
+
+let test_philosophers ~compress n () =
+  let search = searched ~compress (philosophers n) in
+  check_int "states" (tables n) (Search.count search);
+  check_int "all are expanded" (Search.count search) (Search.expanded search);
+  match Search.no_deadlock search with
+  | Violated path ->
+    check_int "each takes one fork" (n + 1) (List.length path);
+    check_states "nobody has two" [ List.init n (fun _ -> 1) ] (numbers search [ List.nth path n ])
+  | Holds | Inconclusive _ -> Alcotest.fail "no deadlock was found"
+
+(* {1 A counter}
+
+   From 0 up to 9, and from there back to 5. *)
+
+let counter ?is_broken () =
+  Vectors.make ?is_broken [ 0 ] (function [ 9 ] -> [ [ 5 ] ] | numbers -> [ List.map succ numbers ])
+
+let range from upto = List.init (upto - from + 1) (fun i -> [ from + i ])
+
+let test_cycle () =
+  let search = searched (counter ()) in
+  check_int "states" 10 (Search.count search);
+  check_int "transitions" 10 (Search.transitions search);
+  Alcotest.(check bool) "no deadlock" true (Search.no_deadlock search = Holds);
+  match Search.termination search ~exact:(fun _ -> true) with
+  | Violated { stem; around } ->
+    check_states "stem" (range 0 5) (numbers search stem);
+    check_states "around" (range 5 9 @ [ [ 5 ] ]) (numbers search around)
+  | Holds | Inconclusive _ -> Alcotest.fail "no cycle was found"
+
+let test_reached () =
+  let search = searched (counter ~is_broken:(fun n -> n > 6) ()) in
+  match Search.never search Too_large with
+  | Violated path -> check_states "a shortest run" (range 0 7) (numbers search path)
+  | Holds | Inconclusive _ -> Alcotest.fail "it is reached"
+
+let test_bounds () =
+  let stopped limits = Search.stopped (searched ~limits (counter ())) in
+  let is name expected limits = Alcotest.(check bool) name true (stopped limits = expected) in
+  is "states" (Some Limits.States) { Limits.none with max_states = Some 5 };
+  is "exactly as many states" None { Limits.none with max_states = Some 10 };
+  is "depth" (Some Limits.Depth) { Limits.none with max_depth = Some 4 };
+  is "interruption" (Some Limits.Interruption) { Limits.none with interrupted = (fun () -> true) };
+  let search = searched ~limits:{ Limits.none with max_states = Some 5 } (counter ()) in
+  Alcotest.(check bool) "nothing is said to hold" true (Search.no_deadlock search = Inconclusive States)
+
+(* A single expansion may have many transitions. *)
+let test_wide () =
+  let wide = Vectors.make ~is_end:true [ 0 ] (function [ 0 ] -> range 1 100_000 | _ -> []) in
+  let search = searched ~limits:{ Limits.none with max_states = Some 1_000 } wide in
+  Alcotest.(check bool) "it is stopped" true (Search.stopped search = Some States);
+  Alcotest.(check bool) "before the expansion is done" true (Search.count search < 2_000);
+  let search = searched wide in
+  check_int "all states" 100_001 (Search.count search);
+  Alcotest.(check bool) "an end is no deadlock" true (Search.no_deadlock search = Holds)
+
+(* {1 Formulas} *)
+
+let verdict system text =
+  let f = match Formula.of_string text with Ok f -> f | Error why -> failwith why in
+  let monitor = Monitor.create ~holds:(fun valuation _ -> valuation = 1) (Automaton.of_formula (Not f)) in
+  let search = searched ~monitor system in
+  (search, Search.formula search)
+
+let test_holds system text () =
+  match verdict system text with
+  | _, Holds -> ()
+  | _, (Violated _ | Inconclusive _) -> Alcotest.failf "%s does not hold" text
+
+let test_violated text ~stem ~cycle () =
+  match verdict (counter ()) text with
+  | search, Violated (Whatever_follows path) ->
+    check_states "path" stem (numbers search path);
+    Alcotest.(check bool) "no cycle" true (cycle = [])
+  | search, Violated (Around around) ->
+    check_states "stem" stem (numbers search around.stem);
+    check_states "cycle" cycle (numbers search (List.map fst around.cycle))
+  | _, (Holds | Inconclusive _) -> Alcotest.failf "%s is not violated" text
+
+(* It rests at 3. *)
+let resting () = Vectors.make ~is_end:true [ 0 ] (function [ 3 ] -> [] | numbers -> [ List.map succ numbers ])
+
+let () =
+  let case name f = Alcotest.test_case name `Quick f in
+  Alcotest.run "search"
+    [
+      ( "philosophers",
+        [ case "five" (test_philosophers ~compress:false 5); case "eight" (test_philosophers ~compress:false 8);
+          case "eight, compressed" (test_philosophers ~compress:true 8) ] );
+      ( "counter",
+        [ case "its cycle" test_cycle; case "a state that is reached" test_reached; case "bounds" test_bounds;
+          case "a bound within an expansion" test_wide ] );
+      ( "formulas",
+        [ case "F three" (test_holds (counter ()) "F three"); case "F G !three" (test_holds (counter ()) "F G !three");
+          case "three or not" (test_holds (counter ()) "G (three | !three)");
+          case "F G three, at rest" (test_holds (resting ()) "F G three");
+          case "G !three" (test_violated "G !three" ~stem:(range 0 3) ~cycle:[]);
+          case "G F three" (test_violated "G F three" ~stem:(range 0 5) ~cycle:(range 6 9 @ [ [ 5 ] ])) ] );
+    ]

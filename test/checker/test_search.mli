@@ -1,0 +1,1 @@
+(** Tests of the search. No value of its own. *)

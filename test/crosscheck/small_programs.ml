@@ -34,6 +34,9 @@ let tasks =
       ("a handler that does nothing propagates", two ^ "execute watch task('p')[a] onError { post k: 1 }");
       ("a condition that breaks", "execute watch condition { 1 / 0 } onError { ignore() }");
       ("a guard that breaks", "execute watch (oneOf { when { 1 / 0 } then idle(1.seconds) }) onError { ignore() }");
+      ("one of two guards that breaks",
+       "execute watch (allOf { when { 1 / 0 } then idle(1.seconds)\n when { poll x: 1 } then idle(2.seconds) })\n\
+        onError { ignore() }");
       ("a script that breaks", "x = 1\npost k: x\nx / 0");
       ("a script that computes for long", "x = 0\nwhile (x < 2000) { x = x + 1 }\npost k: x");
       ("the oldest pair", "post k: 1\npost k: 2\nexecute condition { consume k: _ } >> condition { consume k: 2 }");
@@ -191,6 +194,11 @@ let interruptions =
   let one (name, source) (kind, environment) = { (program (name ^ kind) source) with environment } in
   List.concat_map (fun program -> List.map (one program) kinds) programs
 
+let failing =
+  [ of_text "a plan that always fails" (two ^ "execute watch (task('p')[a] | task('q')[b]) onError { ignore() }")
+      Generate.world
+      { answering with endings = (fun _ _ -> Fails) } ]
+
 let questions =
   let asking name answers source = { (program name source) with environment = { answering with answers } } in
   [ asking "a question that nobody answers" (fun _ -> []) "x = ask 'how many?'";
@@ -210,12 +218,14 @@ let loops =
 let ends =
   List.map
     (fun (name, source) -> of_text name source Generate.world answering)
-    [ ("a task ends", two ^ "execute task('p')[a] | task('q')[b]");
-      ("an answer comes", "x = ask 'how many?'");
+    [ ("an answer comes", "x = ask 'how many?'");
+      ("a task ends", two ^ "execute task('p')[a] | task('q')[b]");
       ("a timer expires", "execute idle(5.seconds) >> idle(5.seconds)");
       ("a program goes on", "x = 0\nwhile (x < 3) { x = x + 1; message x }") ]
 
-let verdicts = loops @ ends @ List.filter (fun (c : Case.t) -> c.name = "interrupted where it is stuck") interruptions
+let verdicts =
+  let stuck = List.filter (fun (c : Case.t) -> c.name = "interrupted where it is stuck") interruptions in
+  List.hd loops :: stuck @ ends @ List.tl loops
 
 let lost_once = "v = pick { id 'a' }\nt = watch task('p')[v] onError { post failed: 1; ignore() }\nexecute t\n"
 
@@ -243,4 +253,4 @@ let faults =
   in
   List.concat_map (fun program -> List.map (one program) kinds) programs
 
-let all = tasks @ questions @ calls @ interruptions @ sensors @ loops @ ends @ faults
+let all = tasks @ failing @ questions @ calls @ interruptions @ sensors @ loops @ ends @ faults

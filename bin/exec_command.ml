@@ -52,8 +52,8 @@ let follow (program : Program_file.t) (fleet : Fleet_file.t) path =
 
 let ( let* ) = Result.bind
 
-let run () path sim fleet network definition speed seed answers supplier supplier_timeout journal drawing recorded resumed
-    changed =
+let run () path sim fleet network definition speed seed answers supplier supplier_timeout journal drawing recorded
+    resumed changed =
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
   let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
   let settings : Run.settings =

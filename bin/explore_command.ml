@@ -23,8 +23,8 @@ let explore settings program fleet ~live =
   if live then clear_progress ();
   outcome
 
-let run path fleet answers faults strict json trace reduction compress invariants formulas max_states max_depth max_memory
-    timeout =
+let run path fleet answers faults strict json trace reduction compress invariants formulas max_states max_depth
+    max_memory timeout =
   let settings : Exploration.settings =
     { answers; faults; reduction; compress; max_states; max_depth; max_memory; timeout; invariants; formulas } in
   Report.result
@@ -67,12 +67,12 @@ let size =
 let faults =
   let parse text = Result.map_error (fun why -> `Msg why) (Faults.of_string text) in
   let doc =
-    "What else may go wrong, separated by commas: $(b,fail), every platform task may fail; $(b,loss), the connection of a \
-     vehicle that runs a task may be lost for longer than its timeout; $(b,join), vehicles may be late or missing when \
-     the program picks them: those that the fleet lets join, leave or drop, or if there are none, all; $(b,all) of \
-     these. $(b,interrupt), which is not among $(b,all): the program may be interrupted at any time, as by Ctrl-C. With \
-     $(b,=)$(i,N) at most $(i,N) times in one run: $(b,fail=1,loss=2). By default only those plans may fail of which the \
-     fleet says so."
+    "What else may go wrong, separated by commas: $(b,fail), every platform task may fail; $(b,loss), the connection \
+     of a vehicle that runs a task may be lost for longer than its timeout; $(b,join), vehicles may be late or missing \
+     when the program picks them: those that the fleet lets join, leave or drop, or if there are none, all; $(b,all) \
+     of these. $(b,interrupt), which is not among $(b,all): the program may be interrupted at any time, as by Ctrl-C. \
+     With $(b,=)$(i,N) at most $(i,N) times in one run: $(b,fail=1,loss=2). By default only those plans may fail of \
+     which the fleet says so."
   in
   Arg.(value & opt (conv ~docv:"FAULTS" (parse, Faults.pp)) Faults.none & info [ "faults" ] ~docv:"FAULTS" ~doc)
 
@@ -80,8 +80,8 @@ let bound kind name docv doc = Arg.(value & opt (some kind) None & info [ name ]
 let max_states = bound Arg.int "max-states" "N" "Stop after $(docv) states."
 let max_depth = bound Arg.int "max-depth" "N" "Follow runs for $(docv) transitions only."
 let max_memory = bound size "max-memory" "SIZE" 
-    "Stop before more than $(docv) of memory is used, as in 512M or 8G. Without it, the search stops before it has nine \
-     tenths of what the machine, and the limits on the process, leave to it."
+    "Stop before more than $(docv) of memory is used, as in 512M or 8G. Without it, the search stops before it has \
+     nine tenths of what the machine, and the limits on the process, leave to it."
 let timeout = bound Arg.float "timeout" "SECONDS" "Stop after $(docv) seconds."
 
 let answers =
@@ -107,16 +107,16 @@ let invariants =
 
 let formulas =
   let doc =
-    "Check that every run satisfies the formula of linear temporal logic $(docv), as in $(b,G \\(start\\(survey1\\) -> F \
-     done\\(survey1\\)\\)): with $(b,!), $(b,&), $(b,|), $(b,->), $(b,<->), $(b,X), $(b,F), $(b,G), $(b,U), $(b,R), \
+    "Check that every run satisfies the formula of linear temporal logic $(docv), as in $(b,G \\(start\\(survey1\\) -> \
+     F done\\(survey1\\)\\)): with $(b,!), $(b,&), $(b,|), $(b,->), $(b,<->), $(b,X), $(b,F), $(b,G), $(b,U), $(b,R), \
      $(b,W). $(i,docs/questions.md) lists its propositions. May be repeated."
   in
   Arg.(value & opt_all string [] & info [ "ltl" ] ~docv:"FORMULA" ~doc)
 
 let trace =
   let doc =
-    "Write the first of the runs that are shown into the file $(docv). $(mname) $(b,exec --follow) $(docv) replays it. If \
-     its name ends in $(b,.itf.json), it is written in the Informal Trace Format instead, for the tools of TLA+ and \
+    "Write the first of the runs that are shown into the file $(docv). $(mname) $(b,exec --follow) $(docv) replays it. \
+     If its name ends in $(b,.itf.json), it is written in the Informal Trace Format instead, for the tools of TLA+ and \
      Quint. Nothing is written if there is none."
   in
   let parse path =
@@ -135,15 +135,15 @@ let reduction =
   let doc =
     "How much is looked at: $(b,none) for every state; $(b,por) for one of the orders that make no difference (partial \
      order reduction); $(b,symmetry) for one of those that differ by exchanging vehicles, plans and tuples that are \
-     alike, in tasks and in what $(b,pick) gives; $(b,all) for both. The verdicts are the same. Beside an $(b,--invariant) only vehicles are \
-     exchanged. The number of states printed is that of \
-     the states looked at, and which reductions were used is said behind it."
+     alike, in tasks and in what $(b,pick) gives; $(b,all) for both. The verdicts are the same. Beside an \
+     $(b,--invariant) only vehicles are exchanged. The number of states printed is that of the states looked at, and \
+     which reductions were used is said behind it."
   in
   Arg.(value & opt (enum kinds) All & info [ "reduction" ] ~docv:"KIND" ~doc)
 
 let compress =
   let doc =
-    "Keep the states in some 12 bytes each instead of 28 (or more, if they are large), which takes about twice the time."
+    "Keep the states in some 12 bytes each instead of 28 (more, if they are large), which takes about twice the time."
   in
   Arg.(value & flag & info [ "compress" ] ~doc)
 
@@ -151,11 +151,10 @@ let json = Arg.(value & flag & info [ "json" ] ~doc:"Print the result as one JSO
 
 let man =
   [ `S Manpage.s_description;
-    `P "$(tname) follows every run that $(i,PROG) can have: every order in which tasks end and timers expire, every choice \
-        of vehicles, every branch that is ready. It uses the very transition function that $(mname) $(b,exec) uses. \
-        For each of these it says whether it holds, or shows a run that breaks it, a shortest one if it says so, a \
-        column for the program and one \
-        for each vehicle:";
+    `P "$(tname) follows every run that $(i,PROG) can have: every order in which tasks end and timers expire, every \
+        choice of vehicles, every branch that is ready. It uses the very transition function that $(mname) $(b,exec) \
+        uses. For each of these it says whether it holds, or shows a run that breaks it, a shortest one if it says so, \
+        a column for the program and one for each vehicle:";
     `I ("no deadlock", "some transition is possible until the program ends.");
     `I
       ("termination",
@@ -164,12 +163,12 @@ let man =
     `I ("assertions", "no $(b,assert) of the program fails.");
     `I ("vehicles for all tasks", "every $(b,pick) and every $(b,execute) gets its vehicles.");
     `P "Noted are also runs that call $(b,halt), tuples left over at the end, and code that no run reaches.";
-    `P "What sensors show is open: of a condition such as $(b,battery\\(v\\) < 0.3) both outcomes are possible at each look, \
-        or those for the values that the fleet gives; a run says what it assumes. All vehicles of the fleet are in \
-        reach, unless $(b,--faults) says otherwise. Calls of a supplier get each of the replies that the fleet gives for \
-        them; a call for which it has none fails.";
-    `P "A bound that is met, or Ctrl-C, makes the answer inconclusive where no violation was found: it is never said that \
-        something holds that was not wholly explored.";
+    `P "What sensors show is open: of a condition such as $(b,battery\\(v\\) < 0.3) both outcomes are possible at each \
+        look, or those for the values that the fleet gives; a run says what it assumes. All vehicles of the fleet are \
+        in reach, unless $(b,--faults) says otherwise. Calls of a supplier get each of the replies that the fleet \
+        gives for them; a call for which it has none fails.";
+    `P "A bound that is met, or Ctrl-C, makes the answer inconclusive where no violation was found: it is never said \
+        that something holds that was not wholly explored.";
     `S Manpage.s_arguments;
     `S Manpage.s_options;
     `S Manpage.s_exit_status;

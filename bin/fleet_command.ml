@@ -50,4 +50,5 @@ let command =
     Cmd.info "fleet" ~doc:"show the vehicles of the network" ~man
       ~exits:(Options.exits [ Done; Bad_input; Platform_trouble; Bug ])
   in
-  Cmd.v info Term.(const run $ Verbosity.setup $ Imc_options.options $ Imc_options.definition $ as_json $ once $ seconds)
+  Cmd.v info
+    Term.(const run $ Verbosity.setup $ Imc_options.options $ Imc_options.definition $ as_json $ once $ seconds)

@@ -60,8 +60,8 @@ let run path fleet answers faults directory check compare strict limit jar worke
 
 let directory =
   let doc =
-    "Write the model into the directory $(docv), which is made if it is not there. With $(b,--run) and $(b,--compare) it is kept there, \
-     and so is what TLC writes."
+    "Write the model into the directory $(docv), which is made if it is not there. With $(b,--run) and $(b,--compare) \
+     it is kept there, and so is what TLC writes."
   in
   Arg.(value & opt (some string) None & info [ "o"; "output" ] ~docv:"DIR" ~doc)
 
@@ -81,21 +81,22 @@ let limit =
 
 let man =
   [ `S Manpage.s_description;
-    `P "$(tname) writes a model of a program in its world in TLA+, for the model checker TLC: $(b,MC.tla), which is the \
-        program as a table of expressions and the world as constants, and the modules of the specification of the language \
-        that it extends, of which $(b,Dolphin.tla) is the semantics, rule by rule. The world is that of $(mname) $(b,explore), \
-        with the same $(b,--faults), and what sensors show is open in the same way: TLC finds the states and transitions of \
-        $(mname) $(b,explore --reduction none).";
-    `P "$(b,MC.cfg) checks the properties; $(b,Told.cfg) too, and has TLC show of a run what is seen of each state, and the \
-        label and the rules of each transition (by an $(b,ALIAS), which the TLC that $(b,make tlc) fetches does not know yet); \
-        $(b,Graph.cfg) prints the state graph; $(b,Coverage.cfg) has an action for each rule, for TLC to count. In the \
-        directory, with TLC's jar:";
+    `P "$(tname) writes a model of a program in its world in TLA+, for the model checker TLC: $(b,MC.tla), which is \
+        the program as a table of expressions and the world as constants, and the modules of the specification of the \
+        language that it extends, of which $(b,Dolphin.tla) is the semantics, rule by rule. The world is that of \
+        $(mname) $(b,explore), with the same $(b,--faults), and what sensors show is open in the same way: TLC finds \
+        the states and transitions of $(mname) $(b,explore --reduction none).";
+    `P "$(b,MC.cfg) checks the properties; $(b,Told.cfg) too, and has TLC show of a run what is seen of each state, \
+        and the label and the rules of each transition (by an $(b,ALIAS), which the TLC that $(b,make tlc) fetches \
+        does not know yet); $(b,Graph.cfg) prints the state graph; $(b,Coverage.cfg) has an action for each rule, for \
+        TLC to count. In the directory, with TLC's jar:";
     `Pre "  java -Xss64m -cp tla2tools.jar tlc2.TLC -config MC.cfg MC.tla\n\
          \  java -Xss64m -cp tla2tools.jar tlc2.TLC -workers 1 -config Graph.cfg MC.tla\n\
          \  java -Xss64m -cp tla2tools.jar tlc2.TLC -config Coverage.cfg -coverage 1 MC.tla";
-    `P "What has no meaning in TLA+ is refused, with its place in the program or in the fleet, such as coordinates that the \
-        program computes, or numbers of a reply that TLC has not. What is known only when TLC gets there ends it, with status 3: \
-        numbers that it cannot hold, and more than comparisons that depends on what a sensor shows.";
+    `P "What has no meaning in TLA+ is refused, with its place in the program or in the fleet, such as coordinates \
+        that the program computes, or numbers of a reply that TLC has not. What is known only when TLC gets there ends \
+        it, with status 3: numbers that it cannot hold, and more than comparisons that depends on what a sensor \
+        shows.";
     `S "RUNNING TLC";
   ]
   @ Tlc_options.man
@@ -116,5 +117,6 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ Options.fleet $ Explore_command.answers $ Explore_command.faults $ directory $ check $ compare
+      const run $ Options.program $ Options.fleet $ Explore_command.answers $ Explore_command.faults $ directory $ check
+      $ compare
       $ strict $ limit $ Tlc_options.jar $ Tlc_options.workers $ Tlc_options.distributed $ Tlc_options.coverage)

@@ -4,5 +4,5 @@
     silence. *)
 
 val setup : unit Cmdliner.Term.t
-(** Sets the level of all sources, and has what they tell written on standard error, a line each: source, level, text. By
-    default there is only what is an error or a warning. *)
+(** Sets the level of all sources, and has what they tell written on standard error, a line each: source, level, text.
+    By default there is only what is an error or a warning. *)

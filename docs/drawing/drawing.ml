@@ -47,11 +47,12 @@ let read path =
     ~finally:(fun () -> close_in channel)
     (fun () -> really_input_string channel (in_channel_length channel))
 
+(* Folders with a dot in front are dune's own, and change while it builds. *)
 let rec components ~shown folder =
   let entries = Array.to_list (Sys.readdir folder) in
   let inside entry =
     let path = Filename.concat folder entry and shown = shown ^ "/" ^ entry in
-    if Sys.is_directory path then components ~shown path else []
+    if entry.[0] <> '.' && Sys.is_directory path then components ~shown path else []
   in
   let here = if List.mem "dune" entries then parse (read (Filename.concat folder "dune")) else [] in
   List.filter_map (component shown) here @ List.concat_map inside (List.sort String.compare entries)

@@ -42,7 +42,8 @@ let to_json p (c : Configuration.t) =
     let tasks = List.map task (Vehicle_map.bindings c.shared.allocation) in
     Ok
       (`Assoc
-         [ ("control", `String (control c)); ("end", ending c); ("A", `Assoc tasks); ("B", of_list of_text c.shared.bound);
+         [ ("control", `String (control c)); ("end", ending c); ("A", `Assoc tasks);
+           ("B", of_list of_text c.shared.bound);
            ("N", of_list of_text (pairs c)); ("store", `Assoc (variables p c)); ("state", state) ])
 
 let post tuples (k, xs) = List.fold_left (fun tuples x -> Tuples.post k x tuples) tuples xs

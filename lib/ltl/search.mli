@@ -1,6 +1,6 @@
 (** Runs of a graph whose letters satisfy a formula: the product of the graph with the formula's automaton, searched for
-    strongly connected components that meet all acceptance sets. Takes no stack. It is plain, and some words a state: the
-    explorer has the same from {!Monitor} and {!Cycles} for a few bytes, and is compared with this. *)
+    strongly connected components that meet all acceptance sets. Takes no stack. It is plain, and some words a state:
+    the explorer has the same from {!Monitor} and {!Cycles} for a few bytes, and is compared with this. *)
 
 (** A graph: a letter stands at each arrival in a state. *)
 type 'letter graph = {

@@ -105,7 +105,7 @@ reply 'queue.await', task('survey1'), either(task('survey2'), fails('the queue i
     last for good. Any expression will do here, for it is only kept as text.
 
     [reply CALL, REPLY, ...]. What the supplier replies where the program calls it, when no supplier is there: the
-    replies one after another, the last for good. CALL is as labels name it: ['getSupplier'], or an object and its method
-    or property, ['queue.await']. REPLY is as {!Reply.read} says.
+    replies one after another, the last for good. CALL is as labels name it: ['getSupplier'], or an object and its
+    method or property, ['queue.await']. REPLY is as {!Reply.read} says.
 
     Times without a unit are seconds. *)

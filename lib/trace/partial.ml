@@ -56,7 +56,8 @@ let events p (c : Configuration.t) label =
         | None -> []
         | Some "no-answer" -> [ Nobody_answers "" ]
         | Some label -> 
-          Option.to_list (Option.bind (inside "answer(" label) (fun text -> Result.to_option (Answer.event p.program text))))
+          let answered text = Result.to_option (Answer.event p.program text) in
+          Option.to_list (Option.bind (inside "answer(" label) answered))
     | Reply -> (
         match label with
         | None -> []

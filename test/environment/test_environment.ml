@@ -1,4 +1,5 @@
-(* What the outside does, and what it remembers: bounds of 2, which tell counting from remembering that something was. *)
+(* What the outside does, and what it remembers: bounds of 2, which tell counting from remembering
+   that something was. *)
 
 open Dolphin_environment
 open Dolphin_explore

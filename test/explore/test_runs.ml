@@ -213,7 +213,9 @@ let fleet =
 
 let random_case =
   QCheck2.Gen.(
-    triple (oneof [ Generate.program; Generate.sensing_program; Calls.within Generate.program ]) fleet (int_bound 1_000))
+    triple
+      (oneof [ Generate.program; Generate.sensing_program; Calls.within Generate.program ])
+      fleet (int_bound 1_000))
 
 let print (ast, scenario, seed) =
   Format.asprintf "seed %d@.%a@.%s" seed Scenario.pp scenario (Generate.print ast)

@@ -110,7 +110,8 @@ let at program world =
   in
   fun (transition, c) text ->
     let p = proposition text in
-    if Proposition.needs_action p then Option.fold ~none:false ~some:(fun t -> Proposition.holds_after p (Proposition.observed t)) transition
+    if Proposition.needs_action p then
+      Option.fold ~none:false ~some:(fun t -> Proposition.holds_after p (Proposition.observed t)) transition
     else Result.get_ok (Proposition.holds_in program world p c)
 
 let graph_of program (g : Reference.t) : _ Dolphin_ltl.Search.graph =

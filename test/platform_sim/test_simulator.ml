@@ -122,4 +122,4 @@ let () =
   Alcotest.run "simulator"
     [ ("virtual time", [ case "whole task" whole_task; case "idle" idle; case "load" load ]);
       ("real time", [ case "paced" paced; case "sooner" sooner; case "late" late;
-          case "the time is set" time_is_set; case "speeds" speeds ]) ]
+                      case "the time is set" time_is_set; case "speeds" speeds ]) ]

@@ -19,9 +19,9 @@ val check :
   (t option, string) result
 (** [check ~reductions o p w] is an error unless all searches, plain and with each of the reductions (at first
     [Partial_order], [Symmetry], [All]), find the same properties broken, the same code unreached, and each run that a
-    reduced one shows is one of the semantics that ends as it should; and unless with [Partial_order] executing tasks come
-    to the same as without: to the same configurations of the script, the same deadlocks, the same halts and failures.
-    [None] if the program has more than [limit] states. *)
+    reduced one shows is one of the semantics that ends as it should; and unless with [Partial_order] executing tasks
+    come to the same as without: to the same configurations of the script, the same deadlocks, the same halts and
+    failures. [None] if the program has more than [limit] states. *)
 
 val check_peers :
   ?limit:int ->
@@ -31,5 +31,5 @@ val check_peers :
   World.t ->
   ((t * bool) option, string) result
 (** [check_peers o p w] is likewise with [All] and [Symmetry], and is an error unless the script comes to the same
-    configurations as without, up to what [Vehicle_orbits.find] says is alike, and each of the invariants holds as without. The
-    truth value is whether some of that was exchanged. *)
+    configurations as without, up to what [Vehicle_orbits.find] says is alike, and each of the invariants holds as
+    without. The truth value is whether some of that was exchanged. *)

@@ -79,7 +79,8 @@ let environments =
 
 let case =
   let open QCheck2.Gen in
-  let closed program = pair program (return Generate.world) and opened program = pair program (return Generate.open_world) in
+  let closed program = pair program (return Generate.world) in
+  let opened program = pair program (return Generate.open_world) in
   pair
     (frequency
        [ (2, closed Generate.program); (2, closed (map for_ever Generate.program));

@@ -13,7 +13,8 @@ let programs = number "PROGRAMS" 2_000
 let seed = number "SEED" 20_261_122
 let limit = number "LIMIT" 400
 let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]); replies = Calls.replies }
-let failing fails : Environment.options = { answering with endings = (fun v p -> if fails v p then May_fail else Succeeds) }
+let failing fails : Environment.options =
+  { answering with endings = (fun v p -> if fails v p then May_fail else Succeeds) }
 
 let environments =
   [ ("as planned", answering);

@@ -6,8 +6,8 @@ val with_reader : string -> (Journal.t -> ('a, Error.t) result) -> ('a, Error.t)
 (** [with_reader path f] is [f] of the journal in the file [path]; ["-"] is standard input. *)
 
 val iter : (Entry.t -> unit) -> string -> (unit, Error.t) result
-(** [iter f path] gives each line of the journal [path] to [f]. The last line may be torn. The error, {!Error.Bad_input},
-    is the first line that is none of a journal. *)
+(** [iter f path] gives each line of the journal [path] to [f]. The last line may be torn. The error,
+    {!Error.Bad_input}, is the first line that is none of a journal. *)
 
 val wrong : string -> number:int -> string -> Error.t
 (** [wrong path ~number why] is {!Error.Bad_input}: [why] line [number] of [path] is none of a journal. *)

@@ -63,11 +63,11 @@ val start :
 val resume :
   front -> interruption:Interruption.t -> settings -> changed:bool -> fleet:string option -> Program_file.t -> string ->
   (Driver.outcome, Error.t) result Lwt.t
-(** [resume front ~interruption s ~changed ~fleet program path] continues, as {!start} does, the run whose journal is the
-    file [path], in that file unless [s.recording] names another one. With [changed] the program need not be the one that
-    ran, if the journal is one of a run of it. [fleet] names the fleet if it is elsewhere now; on a network, one whose
-    answers and replies are used. The error is {!Error.Bad_input} if the run cannot be resumed, or not with these
-    settings. *)
+(** [resume front ~interruption s ~changed ~fleet program path] continues, as {!start} does, the run whose journal
+    is the file [path], in that file unless [s.recording] names another one. With [changed] the program need not be
+    the one that ran, if the journal is one of a run of it. [fleet] names the fleet if it is elsewhere now; on a
+    network, one whose answers and replies are used. The error is {!Error.Bad_input} if the run cannot be resumed,
+    or not with these settings. *)
 
 (** {1:outcomes Outcomes} *)
 

@@ -78,7 +78,8 @@ let length (c : Outcome.counter_example) =
   match c.repetition with
   | Once -> "after " ^ n
   | Stays -> Printf.sprintf "after %s, for ever" n
-  | Back_to 0 -> Printf.sprintf "%s that can repeat for ever" (Dolphin_trace.Phrase.count (List.length c.steps + 1) "step")
+  | Back_to 0 ->
+    Printf.sprintf "%s that can repeat for ever" (Dolphin_trace.Phrase.count (List.length c.steps + 1) "step")
   | Back_to k ->
     Printf.sprintf "after %s, %s that can repeat for ever" (Dolphin_trace.Phrase.count k "step")
       (Dolphin_trace.Phrase.count (List.length c.steps - k + 1) "step")

@@ -10,8 +10,13 @@ type settings = {
 }
 
 val run :
-  Installation.t -> settings -> Dolphin_tla.Model.file list -> Dolphin_environment.Environment.options -> Program_file.t ->
-  Dolphin_semantics.World.t -> (Exploration.verdict, Error.t) result
-(** [run installation s model options program world] runs TLC on [model], that of [program] in [world], and prints what it
-    found on standard output: whether each property holds; of the first that is violated a run, in columns, recovered by
-    its labels. An interrupted check is {!Error.Inconclusive}; what was found before is printed. *)
+  Installation.t ->
+  settings ->
+  Dolphin_tla.Model.file list ->
+  Dolphin_environment.Environment.options ->
+  Program_file.t ->
+  Dolphin_semantics.World.t ->
+  (Exploration.verdict, Error.t) result
+(** [run installation s model options program world] runs TLC on [model], that of [program] in [world], and prints what
+    it found on standard output: whether each property holds; of the first that is violated a run, in columns, recovered
+    by its labels. An interrupted check is {!Error.Inconclusive}; what was found before is printed. *)

@@ -1,5 +1,5 @@
-(** Flow of names: whether a step of a program may depend on the name of a vehicle. An analysis of non-interference, made
-    without running the program: it follows which values may contain what, in whatever order things happen. *)
+(** Flow of names: whether a step of a program may depend on the name of a vehicle. An analysis of non-interference,
+    made without running the program: it follows which values may contain what, in whatever order things happen. *)
 
 open Dolphin_semantics
 

@@ -8,8 +8,8 @@ val state : t -> Task_group.t -> Layout.t -> int array -> int -> Task_group.stat
 (** [state t g s key n] is the state [key] of layout [s], with shared [n], for [g]. *)
 
 val canonical : t -> Task_group.t -> Layout.t -> int array -> int -> into:int array -> Task_group.permutation
-(** [canonical t g s key n ~into] puts the canonical form of that state ({!Task_group.canonical}) into [into]. The result
-    leads there.
+(** [canonical t g s key n ~into] puts the canonical form of that state ({!Task_group.canonical}) into [into].
+    The result leads there.
     @raise Layouts.Outgrown *)
 
 val cover : Coverage.t -> Task_isomorphism.label -> unit

@@ -17,7 +17,8 @@ val find : t -> Residual.t -> Surroundings.t -> Task_group.t option
     with others in one execution and not in another: once it has run, it would not be known whether the others do. *)
 
 val equivalent_handlers : t -> (Task_isomorphism.label list -> unit) -> unit
-(** [equivalent_handlers f note] calls [note] with each orbit of handlers: if one of them runs in some run, each does. *)
+(** [equivalent_handlers f note] calls [note] with each orbit of handlers: if one of them runs in some
+    run, each does. *)
 
 val is_used : t -> bool
 (** Whether some group is not trivial. *)

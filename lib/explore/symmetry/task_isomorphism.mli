@@ -31,5 +31,5 @@ val key : context -> sorted:bool -> pair:(int -> string) -> label:(label -> stri
     [pair] is, and labels when [label] is. If it is [sorted], the order of what stands side by side does not count. *)
 
 val matched : context -> rename:(int -> int) -> Residual.t -> Residual.t -> (label * label) list option
-(** [matched c ~rename r r'] is an isomorphism from [r] to [r'] that renames pairs by [rename], given by what it maps the
-    labels of [r] to; [None] if there is none. *)
+(** [matched c ~rename r r'] is an isomorphism from [r] to [r'] that renames pairs by [rename], given by what it maps
+    the labels of [r] to; [None] if there is none. *)

@@ -32,7 +32,8 @@ let names = function
   | Some inner -> List.map (fun part -> unquoted (String.trim part)) (String.split_on_char ',' inner)
 
 let simple = [ "timeout"; "execute"; "pick"; "ask"; "answer"; "pause"; "end"; "halt"; "error"; "interrupt" ]
-let known = [ "start"; "done"; "fail"; "bind"; "message"; "post"; "consume"; "running"; "bound"; "poll"; "ended" ] @ simple
+let known =
+  [ "start"; "done"; "fail"; "bind"; "message"; "post"; "consume"; "running"; "bound"; "poll"; "ended" ] @ simple
 
 let literal (e : Ast.expression) : Core.value option =
   match e.it with

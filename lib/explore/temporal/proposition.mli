@@ -18,7 +18,11 @@ val running : t -> (string * string option) list
 (** As {!Condition.running}. *)
 
 (** What propositions see of a transition. *)
-type observed = { label : Label.t; effects : Effect.t list; ending : Configuration.ending option  (** if it ends the run *) }
+type observed = {
+  label : Label.t;
+  effects : Effect.t list;
+  ending : Configuration.ending option;  (** if it ends the run *)
+}
 
 val observed : Transition.t -> observed
 

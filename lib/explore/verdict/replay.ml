@@ -65,7 +65,8 @@ let is_end (c : Configuration.t) =
   match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false
 
 (* An end by an error may have another text than that of the state that stands for it. *)
-let ends_in_same_way property ((t : Transition.t), _) = Property.broken_by_end t.rules t.next = property && is_end t.next
+let ends_in_same_way property ((t : Transition.t), _) =
+  Property.broken_by_end t.rules t.next = property && is_end t.next
 
 let leads_to graph i state =
   let is_it ((t : Transition.t), e) = equal (t.next, e) state || equal (Space.canonical (State_graph.system graph) t.next e) state in

@@ -26,3 +26,4 @@ Every event, transition and effect.
   Usage: dolphin exec [OPTION]… PROG
   Try 'dolphin exec --help' or 'dolphin --help' for more information.
   [2]
+  $ check-journals

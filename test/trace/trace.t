@@ -166,12 +166,12 @@ What is no journal.
   $ dolphin trace check ../../examples/rendezvous.dol hole.run
   dolphin: hole.run:6: this is no JSON: Line 1, bytes 0-4: Invalid token 'oops'
   [2]
-  $ dolphin trace show hole.run | head -4
-  dolphin: hole.run:6: this is no JSON: Line 1, bytes 0-4: Invalid token 'oops'
+  $ dolphin trace show hole.run 2> told | head -4; cat told
       time  program
       0:00  asks: Radius of operation area? (km)
             is answered: 2
             looks for 3 vehicles of type 'UUV' with payload
+  dolphin: hole.run:6: this is no JSON: Line 1, bytes 0-4: Invalid token 'oops'
 
 Pictures are whole documents that need nothing else.
 

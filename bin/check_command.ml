@@ -36,7 +36,7 @@ let man =
   [ `S Manpage.s_description;
     `P "$(tname) finds what can be known to be wrong with a program without running it: syntax, unknown names, numbers \
         of arguments and kinds of literals, what belongs to the script inside of a task's code, one vehicle needed \
-        twice at once. Each fault is told with its line and, if there is one, what would be right. $(b,exec) checks \
+        twice at once. It shows each fault with its line and, if known, what would be right. $(b,exec) checks \
         the same before it starts.";
     `P "The fleet that the program would run with is checked too, and plans that the program seems to misspell.";
     `S Manpage.s_files;

@@ -61,7 +61,7 @@ let implementation =
   Arg.(value & opt (some string) None & info [ "impl" ] ~docv:"CMD" ~doc)
 
 let timeout =
-  let doc = "Give the implementation up if it does not reply within $(docv) seconds." in
+  let doc = "Give up on the implementation if it does not reply within $(docv) seconds." in
   Arg.(value & opt float 10. & info [ "impl-timeout" ] ~docv:"SECONDS" ~doc)
 
 let matrix =
@@ -72,16 +72,16 @@ let matrix =
   Arg.(value & flag & info [ "matrix" ] ~doc)
 
 let verbose =
-  let doc = "Tell of cases that pass, too." in
+  let doc = "Print cases that pass, too." in
   Arg.(value & flag & info [ "v"; "verbose" ] ~doc)
 
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) judges an implementation of Dolphin's semantics by the cases of a corpus. A case is a small program \
-        with its world, and says what must be so: that the program is rejected, which run it has, which outcomes all \
-        of its runs have, what it may and may not do. Cases in $(i,must-fail/) say what is not so: they pass if that \
-        is noticed.";
-    `P "For each case that fails it is told what was expected and what was seen; the last line counts. \
+        with its world, and says what must hold: that the program is rejected, which run it has, which outcomes all \
+        of its runs have, what it may and may not do. Cases in $(i,must-fail/) say what does not hold: they pass if \
+        that is noticed.";
+    `P "For each case that fails it says what was expected and what was seen; the last line counts. \
         $(i,conformance/INTERPRETING.md) describes cases and the step protocol.";
     `S Manpage.s_examples;
     `Pre "  $(mname) $(tname)\n  $(mname) $(tname) conformance/cases/until --verbose\n\

@@ -12,7 +12,7 @@ let man =
          \  $(mname) check mission.dol";
     `S Manpage.s_files;
     `I ("$(i,*.dol)", "Programs. $(i,*.dolphin) is as good.");
-    `I ("$(i,*.fleet)", "Fleets: vehicles, what they make of plans, and what people answer.") ]
+    `I ("$(i,*.fleet)", "Fleets: vehicles, how plans end on them, and what people answer.") ]
   @ Options.see_also
 
 let command =

@@ -92,11 +92,11 @@ let fleet =
   Arg.(value & opt (some string) None & info [ "fleet" ] ~docv:"FLEET" ~doc)
 
 let speed =
-  let doc = "Let time pass $(docv) times as fast as in reality. By default nothing is waited for." in
+  let doc = "Let time pass $(docv) times as fast as in reality. By default the run does not wait." in
   Arg.(value & opt (some positive) None & info [ "speed" ] ~docv:"X" ~doc)
 
 let seed =
-  let doc = "What chance depends on, by default 0: two runs with the same seed have the same log." in
+  let doc = "The seed of random numbers, by default 0: two runs with the same seed have the same log." in
   Arg.(value & opt (some int) None & info [ "seed" ] ~docv:"N" ~doc)
 
 let answers =
@@ -141,17 +141,17 @@ let follow =
 
 let resumed =
   let doc =
-    "Go on with the run whose journal is the file $(docv), and whose console died. What it has done is not done again: \
-     vehicles are asked what they run, plans that run are waited for, those that ended meanwhile are taken as ended, \
-     those that were never started are started. The journal is gone on with in the same file, or with $(b,--journal) \
-     in another one. $(i,docs/trace.md) tells more."
+    "Resume the run whose journal is the file $(docv), and whose console died. What it has done is not done again: \
+     vehicles are asked what they run; plans that run are waited for, those that ended meanwhile count as ended, and \
+     those that were never started are started. The journal continues in the same file, or with $(b,--journal) in \
+     another one. $(i,docs/trace.md) tells more."
   in
   Arg.(value & opt (some string) None & info [ "resume" ] ~docv:"RUN" ~doc)
 
 let changed =
   let doc =
-    "With $(b,--resume): go on although the program has changed since, if what happened so far is the beginning of a \
-     run of this program, too."
+    "With $(b,--resume): resume although the program has changed since, if what happened so far is also the beginning \
+     of a run of the changed program."
   in
   Arg.(value & flag & info [ "force-prefix" ] ~doc)
 
@@ -166,6 +166,8 @@ let man =
         and its battery.";
     `P "Ctrl-C interrupts the program: running tasks are stopped, vehicles are released. A second Ctrl-C ends \
         $(mname) at once.";
+    `P "With $(b,-vv) every event, transition and effect of the run, and on a network every datagram, is told on \
+        standard error: $(mname) $(tname) mission.dol -vv 2> debug.log.";
     `S Manpage.s_arguments;
     `S Manpage.s_options;
     `S Imc_options.s_network;
@@ -184,7 +186,7 @@ let man =
     `Pre "  $(mname) $(tname) examples/supplier.dol \\\\\n    --supplier examples/supplier.py --supplier-timeout 10";
     `P "With a journal of the run, and a picture of it:";
     `Pre "  $(mname) $(tname) mission.dol --journal mission.run --draw mission.svg";
-    `P "Going on with it after the console was killed:";
+    `P "Resuming it after the console was killed:";
     `Pre "  $(mname) $(tname) mission.dol --resume mission.run" ]
   @ Options.see_also
 

@@ -133,17 +133,18 @@ let reduction =
     [ ("none", Dolphin_explore.Reduction.Whole); ("por", Partial_order); ("symmetry", Symmetry); ("all", All) ]
   in
   let doc =
-    "How much is looked at: $(b,none) for every state; $(b,por) for one of the orders that make no difference (partial \
-     order reduction); $(b,symmetry) for one of those that differ by exchanging vehicles, plans and tuples that are \
-     alike, in tasks and in what $(b,pick) gives; $(b,all) for both. The verdicts are the same. Beside an \
-     $(b,--invariant) only vehicles are exchanged. The number of states printed is that of the states looked at, and \
-     which reductions were used is said behind it."
+    "Which states are explored: with $(b,none) every one; with $(b,por) only one of the orders that make no difference \
+     (partial order reduction); with $(b,symmetry) one representative of all states that differ by exchanging \
+     vehicles, plans and tuples that the program treats alike, in tasks and in what $(b,pick) gives; with $(b,all) \
+     both. The verdicts are the same. With an $(b,--invariant) only vehicles are exchanged. The number of states \
+     printed is that of the states explored; the reductions that were used stand behind it."
   in
   Arg.(value & opt (enum kinds) All & info [ "reduction" ] ~docv:"KIND" ~doc)
 
 let compress =
   let doc =
-    "Keep the states in some 12 bytes each instead of 28 (more, if they are large), which takes about twice the time."
+    "Keep the states in some 12 bytes each instead of 28 (or more, if they are large), which takes about twice the \
+     time."
   in
   Arg.(value & flag & info [ "compress" ] ~doc)
 

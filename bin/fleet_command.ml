@@ -51,4 +51,5 @@ let command =
       ~exits:(Options.exits [ Done; Bad_input; Platform_trouble; Bug ])
   in
   Cmd.v info
-    Term.(const run $ Verbosity.setup $ Imc_options.options $ Imc_options.definition $ as_json $ once $ seconds)
+    Term.(
+      const run $ Verbosity.setup $ Imc_options.options $ Imc_options.definition $ as_json $ once $ seconds)

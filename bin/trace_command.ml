@@ -45,27 +45,29 @@ let check program_path path fleet most =
 let check_exits =
   [ Cmd.Exit.info 0 ~doc:"the journal is one of a run of the program, or of the beginning of one.";
     Cmd.Exit.info 1 ~doc:"it is not.";
-    Cmd.Exit.info 3 ~doc:"a partial trace leaves more possibilities open than $(b,--max-states) allows to go through." ]
+    Cmd.Exit.info 3 ~doc:"a partial trace leaves more possibilities open than $(b,--max-states) allows to visit." ]
   @ Options.exits [ Bad_input; Bug ]
 
 let known =
-  let doc = "Of a partial trace: know the vehicles of the file $(docv) from the beginning, where it places them." in
+  let doc =
+    "For a partial trace: the vehicles of the file $(docv) are known from the beginning, where it places them."
+  in
   Arg.(value & opt (some string) None & info [ "fleet" ] ~docv:"FLEET" ~doc)
 
 let most =
-  let doc = "Of a partial trace: look at $(docv) configurations at most between two lines." in
+  let doc = "For a partial trace: visit at most $(docv) configurations between two lines." in
   Arg.(value & opt int Verdict.most & info [ "max-states" ] ~docv:"N" ~doc)
 
 let check_command =
   let man =
     [ `S Manpage.s_description;
-      `P "$(tname) runs $(i,PROG) again in thought, as the journal $(i,RUN) says: each transition must be one that the \
-          semantics has at that point, on the event that the journal tells of, with just these changes and effects. A \
-          journal that breaks off, even in the middle of a line, is one of the beginning of a run.";
-      `P "Of a journal that is none of a run, the first line that does not fit is told, and what could have happened \
-          there instead.";
+      `P "$(tname) replays $(i,PROG) as the journal $(i,RUN) says: each transition must be one that the semantics has \
+          at that point, on the event that the journal gives, with exactly these changes and effects. A journal that \
+          breaks off, even in the middle of a line, is that of the beginning of a run.";
+      `P "If the journal is not that of a run, $(tname) shows the first line that does not fit, and what could have \
+          happened there instead.";
       `P "A trace whose first line says which labels it has, only starts and ends of tasks for example, is one of a \
-          run if there are steps between its lines that lead from each to the next. $(i,docs/trace.md) describes it. \
+          run if there are steps that lead from each of its lines to the next. $(i,docs/trace.md) describes it. \
           It may say itself which vehicles there are, or $(b,--fleet) does." ]
     @ Options.see_also
   in

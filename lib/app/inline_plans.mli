@@ -11,5 +11,5 @@ val of_run :
     after 200,000 transitions. *)
 
 val to_json : Dolphin_imc.Definition.t option -> Plan.t -> Yojson.Safe.t
-(** [to_json definition plan] is the PlanSpecification that IMC vehicles get, by the user's definition of IMC if
-    there is one. *)
+(** [to_json definition plan] is the PlanSpecification that IMC vehicles get, by the user's definition of IMC if there
+    is one. *)

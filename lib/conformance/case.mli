@@ -29,7 +29,7 @@ type expectation =
   | Admits of step list
   | Forbids of step list
 
-(** What may happen around a program whose every run is looked at. *)
+(** What may happen around a program all of whose runs are explored. *)
 type environment = {
   fails : string list;  (** plans that always fail *)
   may_fail : string list;

@@ -6,4 +6,4 @@ val of_control : Data.budget -> Configuration.control -> Data.json
 (** @raise Data.Too_large as {!Data.part} does. *)
 
 val control : Nodes.t -> Data.json -> Configuration.control
-(** @raise Data.Wrong if it is none of this program. *)
+(** @raise Data.Wrong if this program has no such control. *)

@@ -1,9 +1,9 @@
-(** Talking to an implementation: the requests of the protocol, and its replies read. *)
+(** The runner's side of the step protocol: requests to an implementation, and its replies. *)
 
 type json = Yojson.Safe.t
 
 exception Trouble of string
-(** The implementation does not answer, or not what the protocol has: why, without a full stop. *)
+(** The implementation does not answer, or its answer is not that of the protocol; why, without a full stop. *)
 
 type ask = json -> (json, string) result
 (** [ask request] is the reply, or why there is none. *)
@@ -37,7 +37,7 @@ val initial : ask -> program:string -> fleet:string -> (place, (string * int opt
 (** Where runs begin; or the codes and lines of what is wrong. *)
 
 val steps : ask -> place -> json list option -> steps
-(** [steps ask place events] is what may happen: without [events], those come that need nobody to say more. *)
+(** [steps ask place events] is what may happen on [events]; without them, on all awaited ends of tasks and timers. *)
 
 (** {1:configurations What a configuration shows} *)
 

@@ -9,7 +9,7 @@ type failure = {
 type verdict = { failures : failure list; rules : string list  (** that were taken, sorted *) }
 
 val judge : Dialogue.ask -> Case.t -> verdict
-(** [judge ask case] is in what [case] fails, each expectation looked at. *)
+(** [judge ask case] checks every expectation of [case]. *)
 
 val passes : Case.t -> verdict -> bool
 (** [passes case verdict] is whether [verdict] is as it should be: without failures, or for a case that must fail with

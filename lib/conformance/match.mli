@@ -1,8 +1,9 @@
-(** Whether a transition is the one that a case speaks of. *)
+(** Whether a transition matches the step that a case expects. *)
 
 val label : string -> string -> bool
-(** [label expected seen]: they are equal; or what is in the parentheses of [seen] is wording, and [expected] leaves it
+(** [label expected seen] is whether they are equal, or differ only by wording in parentheses that [expected] leaves
     out. *)
 
 val difference : Case.seen -> Dialogue.transition -> string option
-(** [difference expected t] is in what [t] is not as expected, in a sentence without a full stop. *)
+(** [difference expected t] is how [t] differs from what is expected, in a sentence without a full stop; [None] if it
+    matches. *)

@@ -1,5 +1,5 @@
-(** The pieces of a core program by their numbers, for configurations that are written down: expressions by their sites,
-    which elaboration makes unique, functions and closures by their identifiers. *)
+(** The parts of a core program by their numbers, for configurations in JSON: expressions by their sites, which
+    elaboration makes unique, functions and closures by their identifiers. *)
 
 open Dolphin_semantics
 

@@ -1,5 +1,5 @@
-(** The oracle: answers questions about what a configuration can do, one at a time, in JSON. It remembers the program
-    that it was last given, and nothing else: what it says of a configuration depends on that and on the question alone.
+(** The oracle answers questions about what a configuration can do, one at a time, in JSON. It remembers only the latest
+    program: an answer depends on that program and on the question alone.
     [conformance/INTERPRETING.md] describes the protocol member by member. *)
 
 type t

@@ -1,5 +1,5 @@
-(** Configurations as JSON that another program can hold on to: what is in them in the clear, for it to look at, and the
-    whole of it as data, for us to go on from. Equal configurations are the same JSON. *)
+(** Configurations as JSON that another program can keep: their contents in readable form, and all of it as data from
+    which {!of_json} restores the configuration. Equal configurations have the same JSON. *)
 
 open Dolphin_semantics
 
@@ -8,5 +8,5 @@ val to_json : Core.program -> Configuration.t -> (Yojson.Safe.t, string) result
     large to be written, as a task is that a loop doubles again and again. *)
 
 val of_json : Nodes.t -> Core.program -> Yojson.Safe.t -> (Configuration.t, string) result
-(** [of_json nodes p json] is the configuration of [p] that [json] is: only its [state] is looked at. The error says
+(** [of_json nodes p json] is the configuration of [p] that [json] is: only its [state] is read. The error says
     what is wrong, in a sentence without a full stop. *)

@@ -16,7 +16,7 @@ val of_task : Data.budget -> Core.task -> Data.json
 
 (** {1:read Reading}
 
-    @raise Data.Wrong if it is none of this program. *)
+    @raise Data.Wrong if this program has no such part. *)
 
 val value : Nodes.t -> Data.json -> Core.value
 val closure : Nodes.t -> Data.json -> Core.closure

@@ -27,7 +27,7 @@ type duration = { least : float; most : float }
 
 type ending =
   | Succeeds
-  | May_fail of float  (** how often, from 0 to 1; who looks at all that can happen does not care how often *)
+  | May_fail of float  (** how often, from 0 to 1; the explorer takes both outcomes *)
   | Fails
 
 (** What becomes of the platform tasks of one name. *)

@@ -1,5 +1,5 @@
-(** A world to run programs in: vehicles, what they make of plans, what people answer and a supplier replies. It is the
-    contents of a fleet file, [*.fleet]; {!section:grammar} says how one is written. *)
+(** A world to run programs in: its vehicles, how plans end on them, what people answer and what a supplier replies. It
+    is the contents of a fleet file, [*.fleet]; {!section:grammar} has its syntax. *)
 
 (** {1:types What there is} *)
 

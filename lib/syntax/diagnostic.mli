@@ -1,4 +1,4 @@
-(** A fault of a program, told to the person who wrote it. *)
+(** A fault of a program, for the person who wrote it. *)
 
 type severity = Error | Warning
 

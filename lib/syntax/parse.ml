@@ -24,7 +24,7 @@ let run start (tokens : Token.t array) first stop =
   let checkpoint = start tokens.(first).start in
   go checkpoint checkpoint first
 
-(* {1 Going on after a fault} *)
+(* {1 Recovery after a fault} *)
 
 (* The brackets of arranged tokens. *)
 type nesting = {

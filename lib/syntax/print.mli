@@ -2,7 +2,7 @@
     forms of the task operators. Comments are not in the syntax tree and so not in the text. *)
 
 val program : Format.formatter -> Ast.program -> unit
-(** [program ppf p] prints [p] such that reading it again gives [p], but for the locations. *)
+(** [program ppf p] prints [p] such that reading it again gives [p] with other locations. *)
 
 val expression : Format.formatter -> Ast.expression -> unit
 (** [expression ppf e] prints [e], likewise. *)

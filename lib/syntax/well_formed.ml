@@ -2,7 +2,7 @@ open Ast
 
 let limit = 10_000
 
-(* A node still to be looked at. *)
+(* A node still to be checked. *)
 type node = Expression_node of expression | Statement_node of statement
 
 let expressions es = List.rev_map (fun e -> Expression_node e) es

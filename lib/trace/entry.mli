@@ -11,10 +11,10 @@ type t =
   | Event of { time : float; event : Event.t }  (** what the transition that follows is caused by *)
   | Transition of { time : float; index : int;  (** from 0 *) step : Step.t }
   | Note of { time : float; vehicle : Core.vehicle; note : Yojson.Safe.t }
-  (** What the platform wants to find again of a vehicle when the run is resumed: an object. It means nothing to the
+  (** What the platform keeps of a vehicle for a resumption of the run: an object. It means nothing to the
       semantics. *)
   | Resumed of { time : float; program : Header.source; at : string  (** in UTC *) }
-  (** The console died, and another one went on from here, with this program. *)
+  (** The console died, and another one resumed the run here, with this program. *)
   | End of { time : float; transitions : int; ending : Request.ending }  (** the last line of a run that ended *)
 
 val time : t -> float
@@ -24,7 +24,7 @@ val to_string : t -> string
 (** One line, without its end. *)
 
 val of_string : string -> (t, string) result
-(** Or what is wrong, in a sentence without a full stop. Members that are not known are passed over. *)
+(** Or what is wrong, in a sentence without a full stop. Unknown members are ignored. *)
 
 val first_of_string : string -> (t, string) result
 (** The same for a first line, which is a header or that of no journal. *)

@@ -18,11 +18,11 @@ val next : t -> item
 (** The first line is a header, and no other one is: else it is [Wrong]. *)
 
 val whole : t -> int
-(** [whole r] is how many bytes the lines have that were read so far and have an end. *)
+(** [whole r] is the number of bytes of the lines read so far, without a torn last one. *)
 
 val breaks_off : in_channel -> bool
-(** [breaks_off channel]: from where it stands the channel has the journal of a run that took a transition at least and
-    has not ended. It is read to its end; what is no journal does not break off. *)
+(** [breaks_off channel] is whether the rest of [channel] is the journal of a run that took at least one transition and
+    has not ended. It reads [channel] to its end. What is no journal does not break off. *)
 
 val longest : int
 (** 16 MiB. *)

@@ -1,6 +1,5 @@
-(** Traces that tell only part of what happened: some of the labels, or some events, and nothing of what was between. A
-    program can have done that if there are steps, hidden from whoever wrote the trace, that lead from each line to the
-    next one. They are searched for. *)
+(** Partial traces, which have only some of the labels, or some events, of a run. A program has a run like that if there
+    are hidden steps that lead from each line to the next one. They are searched for. *)
 
 open Dolphin_semantics
 
@@ -10,7 +9,7 @@ val start : observed:string list -> most:int -> World.t -> Core.program -> t
 (** [start ~observed ~most world program] is before the first line. Of the labels of the kinds [observed], such as
     ["start"] and ["done"], the trace has each that there was, in order; the others are hidden. With [[]] it has all.
     Answers, replies of the host and interruptions are never hidden. [world] is what is known of vehicles from the
-    beginning. At most [most] configurations are looked at between two lines. *)
+    beginning. At most [most] configurations are visited between two lines. *)
 
 (** Why there is no step like that of a line. *)
 type mismatch = { reason : string;  (** without a full stop *) possible : string list  (** labels that could come *) }
@@ -18,7 +17,7 @@ type mismatch = { reason : string;  (** without a full stop *) possible : string
 type trouble = Impossible of mismatch | Too_many  (** more than [most] configurations: it is not known *)
 
 val feed : t -> Entry.t -> (t, trouble) result
-(** [feed p line] is [p] after [line], with all ways to get there. *)
+(** [feed p line] is [p] after [line], with all configurations that [line] may lead to. *)
 
 val lines : t -> int
 (** How many labels and events there were. *)

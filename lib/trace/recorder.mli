@@ -1,9 +1,8 @@
-(** Makes the journal of a run, told of it as {!Dolphin_runtime.Observer} are.
+(** Makes the journal of a run from what a {!Dolphin_runtime.Observer} gets.
 
-    What is told of vehicles becomes a line at once if it is new or the link came or went. The rest, positions and
-    batteries, becomes one every few seconds or every ten metres of a vehicle; but before a transition that may depend
-    on it, all of it does. So whoever reads the journal knows of vehicles, at each transition, all that the program
-    could know. *)
+    News of a vehicle become a line at once if the vehicle is new or its link came or went. New positions and battery
+    levels become one only every few seconds or every ten metres, or before a transition that may depend on them. So at
+    each transition the journal has all that the program could know of vehicles. *)
 
 open Dolphin_semantics
 
@@ -11,13 +10,13 @@ type t
 
 val make : ?period:float -> Core.program -> Header.t -> (Entry.t -> unit) -> t
 (** [make ~period program header write] gives [header] and then the lines of a run of [program] to [write], in order. A
-    vehicle's samples are at most about [period] seconds apart, by default 5. An exception of [write] goes to whoever
-    tells of the run. *)
+    vehicle's samples are at most about [period] seconds apart, by default 5. An exception of [write] is raised by
+    the functions below. *)
 
 val resume :
   ?period:float -> Core.program -> Replay.t -> seen:(float * World.vehicle_state) list -> (Entry.t -> unit) -> t
-(** [resume program replay ~seen write] goes on with the journal that [replay] has gone through, to its end; [seen] is
-    what it says of each vehicle, and when. Nothing is written of what it has. *)
+(** [resume program replay ~seen write] continues the journal that [replay] has read to its end; [seen] is what it says
+    of each vehicle, and when. What the journal has is not written again. *)
 
 val write : t -> time:float -> (time:float -> Entry.t) -> unit
 (** [write r ~time line] writes [line ~time], at [time] or, if that is later, the time of the line before. *)

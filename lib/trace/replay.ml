@@ -105,7 +105,7 @@ let rec nth n p (xs : 'a Seq.t) =
   | Seq.Nil -> None
   | Seq.Cons (x, rest) -> if not (p x) then nth n p rest else if n = 0 then Some x else nth (n - 1) p rest
 
-(* A pick may be met in more ways than can be gone through: only the one that is meant is looked at. *)
+(* A pick may be met in more ways than can be listed: only the one that is meant is computed. *)
 let picking r (step : Step.t) =
   let binding = List.find_map (function Request.Bind vs -> Some vs | _ -> None) step.requests in
   match binding with

@@ -1,6 +1,6 @@
-(** Journals, judged by the semantics: a journal is one of a run if each of its transitions is what
-    {!Dolphin_semantics.Transition} makes of the configuration before it, of what was known of vehicles, and of the
-    event before it. Nothing is kept of lines but the configuration that they lead to. *)
+(** Journals, checked by the semantics: a journal is that of a run if each of its transitions is the one that
+    {!Dolphin_semantics.Transition} gives for the configuration before it, what was known of vehicles, and the event
+    before it. Of the lines only the configuration that they lead to is kept. *)
 
 open Dolphin_semantics
 
@@ -8,10 +8,10 @@ type t
 
 val start : hash:string -> Core.program -> t
 (** [start ~hash program] is before the first line; [hash] is that of the program's text, as in {!Header.source}. Where
-    a journal's header, or the line of its latest resumption, has another one, it does not matter where transitions are
-    said to be in the program: after it was changed, they are elsewhere. *)
+    a journal's header, or the line of its latest resumption, has another hash, the places of transitions are not
+    compared: in a program that was changed they are elsewhere. *)
 
-(** Why a line is none of a run. *)
+(** Why no run has this line. *)
 type mismatch = {
   reason : string;  (** a sentence without a full stop *)
   false_guards : (Dolphin_syntax.Location.t * string) list;

@@ -80,7 +80,7 @@ let less xs ys =
 
 let show_pair pair = Format.asprintf "%a" Value.pp_tuple pair
 
-(* What was posted and consumed on balance. Labels have all that code did with N, but for handlers of errors. *)
+(* What was posted and consumed on balance. Labels have all that code did with N, except that of error handlers. *)
 let tuple_changes (before : Configuration.t) (t : Transition.t) =
   let balance posted consumed =
     let posted = List.map show_pair posted and consumed = List.map show_pair consumed in

@@ -24,7 +24,7 @@ val of_transition : Core.program -> Configuration.t -> Transition.t -> t
 (** [of_transition p c t] is [t], taken from [c]. *)
 
 val same : places:bool -> t -> t -> bool
-(** [same ~places s s'] is whether [s] and [s'] are one but for the choice; without [places], wherever they are. *)
+(** [same ~places s s'] is whether [s] and [s'] are equal except for [choice], and unless [places] for [at]. *)
 
 val difference : places:bool -> t -> t -> string option
 (** [difference ~places expected found] is in what [found] is not {!same} as [expected], in a sentence without a full

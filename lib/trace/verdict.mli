@@ -21,7 +21,7 @@ val check : ?world:World.t -> ?most:int -> Core.program -> hash:string -> Journa
 (** [check ~world ~most program ~hash reader] reads the journal to its end, or to what is wrong with it; [hash] is that
     of the program's text, as in {!Header.source}. Where transitions are in the program only matters if the program is
     that of the journal. Of a partial trace, [world] is what is known of vehicles from the beginning (by default
-    nothing), and at most [most] configurations, by default {!most}, are looked at between two lines: see {!Partial}. *)
+    nothing), and at most [most] configurations, by default {!most}, are visited between two lines: see {!Partial}. *)
 
 val most : int
 (** 100,000. *)

@@ -76,6 +76,9 @@ let rec steps program world c = function
 
 type misfit = { number : int; why : string }
 
+(* Why there is no such step: it does not fit, or what sensors show leaves it open. *)
+type obstacle = Unfit of string | Unsettled of string
+
 let take program world (c : Configuration.t) s =
   let world = World.suppose s.assumed world in
   let found () =
@@ -88,27 +91,28 @@ let take program world (c : Configuration.t) s =
         in
         match Result.map (nth i) (Transition.internal_all program world c) with
         | Ok (Some t) -> Ok t
-        | Error fault -> Error fault.message
-        | Ok None -> Error "the program has no such choice there")
+        | Error fault -> Error (Unsettled fault.message)
+        | Ok None -> Error (Unfit "the program has no such choice there"))
     | Event h -> (
         let refused : Transition.refusal -> _ = function
-          | Not_awaited -> Error (Format.asprintf "the program does not wait for %a there" Event.pp h)
-          | Bad_answer why -> Error why
+          | Not_awaited -> Error (Unfit (Format.asprintf "the program does not wait for %a there" Event.pp h))
+          | Bad_answer why -> Error (Unfit why)
         in
         match Event.to_event program c h with
-        | Error (No_value why) -> Error why
+        | Error (No_value why) -> Error (Unfit why)
         | Error (Refused why) -> refused why
         | Ok event -> (
             match Transition.accept_all program world c event with
             | Ok (Ok t :: _) -> Ok t
             | Ok (Error why :: _) -> refused why
             | Ok [] -> refused Not_awaited
-            | Error fault -> Error fault.message))
+            | Error fault -> Error (Unsettled fault.message)))
   in
   match found () with
   | Ok t when text_of_label t.label = s.label -> Ok { t with assumed = s.assumed }
   | Ok t -> Error (Printf.sprintf "the program does %s there, and not %s" (text_of_label t.label) s.label)
-  | Error why -> Error (Printf.sprintf "%s (%s)" why s.label)
+  | Error (Unfit why) -> Error (Printf.sprintf "%s (%s)" why s.label)
+  | Error (Unsettled why) -> Error why
 
 let follow program world witness =
   let rec go number (c : Configuration.t) taken = function

@@ -1,17 +1,18 @@
-(** A run to be followed: what happened at each step, without the times. [dolphin explore --trace] writes
-    counter-examples so, [dolphin exec --follow] follows them. A line of JSON for the whole, then one for each step. *)
+(** A counterexample in a file: the property that the run violates, and the choice or the event of each step, without
+    times. [dolphin explore --trace] writes witnesses, [dolphin exec --follow] takes their steps again. A file has a
+    line of JSON as its header, then one for each step. *)
 
 open Dolphin_semantics
 
 type cause =
   | Choice of int
-  (** the transition that the program took by itself: its place in {!Transition.internal}, in the world with what is
-      assumed *)
+  (** the transition that the program took by itself: its index in {!Transition.internal}, in the world with the
+      assumptions *)
   | Event of Event.t
 
 type step = {
   cause : cause;
-  assumed : World.assumption list;  (** what the step takes for granted of an open world *)
+  assumed : World.assumption list;  (** what the step assumes of an open world *)
   label : string;
 }
 
@@ -20,7 +21,7 @@ type t = {
   fleet : Header.source option;
   property : string;  (** what the run breaks *)
   steps : step list;
-  cycle : step list;  (** follows the steps again and again; empty if the run comes to an end *)
+  cycle : step list;  (** repeats for ever after the steps; empty if the run ends *)
 }
 
 val version : int
@@ -28,7 +29,7 @@ val version : int
 
 val steps : Core.program -> World.t -> Configuration.t -> Transition.t list -> step list
 (** [steps p w c run] is the transitions [run], one after the other from [c].
-    @raise Invalid_argument if they are none of the semantics. *)
+    @raise Invalid_argument if the semantics does not have these transitions. *)
 
 type misfit = { number : int;  (** of the step, from 1 *) why : string }
 

@@ -228,7 +228,7 @@ A supplier that need never come to its end.
   invariant !running("survey"): violated after 13 steps: it does not hold
   formula F ended: violated: after 11 steps, 10 steps that can repeat for ever
 
-A journal of such a run checks, and is gone on with wherever it breaks off: the fleet goes on with its replies.
+A journal of such a run checks, and is resumed wherever it breaks off: the fleet continues with its replies.
 
   $ cp ../../examples/supplier.dol ../../examples/supplier.fleet .
   $ dolphin exec supplier.dol --journal whole.run > whole.log

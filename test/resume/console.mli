@@ -1,4 +1,4 @@
-(** A console that runs {!Mission}, or goes on with it, and dies when it is told to: the library as [dolphin exec] uses
+(** A console that runs {!Mission}, or resumes it, and dies when it is told to: the library as [dolphin exec] uses
     it. *)
 
 (** When it dies, by SIGKILL. Lines of the journal are counted from 0; those that say where a vehicle is do not count,
@@ -10,7 +10,7 @@ type death =
   | Never
 
 val start : port:int -> journal:string -> death -> int
-(** [start ~port ~journal death] is the process of a console that goes on with the run of [journal], or begins it if
+(** [start ~port ~journal death] is the process of a console that resumes the run of [journal], or begins it if
     there is no such file. It exits with 0 if the mission was completed. *)
 
 val program : Dolphin_semantics.Core.program

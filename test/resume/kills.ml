@@ -47,7 +47,7 @@ let run how_many =
   let began = Unix.gettimeofday () in
   let failed = run_all trials in
   let summary =
-    Printf.sprintf "%d consoles killed, of a journal of %d lines: %d gone on with rightly, %d not; %.0f s"
+    Printf.sprintf "%d consoles killed, of a journal of %d lines: %d resumed rightly, %d not; %.0f s"
       (List.length trials) lines
       (List.length trials - List.length failed)
       (List.length failed)

@@ -9,7 +9,7 @@ let pp ppf t =
     | After i -> Format.fprintf ppf "after line %d" i
     | Never -> Format.fprintf ppf "never"
   in
-  Format.fprintf ppf "killed %a, %g s later gone on with" death t.death t.pause;
+  Format.fprintf ppf "killed %a, %g s later resumed" death t.death t.pause;
   if t.again <> Never then Format.fprintf ppf ", killed %a" death t.again
 
 (* Below those that systems give out by themselves, and apart from those of the same tests elsewhere on this machine. *)

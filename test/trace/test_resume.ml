@@ -55,7 +55,7 @@ let examples () =
   in
   List.iter go Runs.examples
 
-(* Cut at any byte, a journal is gone on with from its last whole line, or refused. *)
+(* Cut at any byte, a journal is resumed from its last whole line, or refused. *)
 let at_each_byte () =
   let r = Runs.run ~period:60. "tuple_space" in
   let header = 1 + String.index r.journal '\n' in

@@ -1,1 +1,1 @@
-(** Runs whose console died, gone on with. *)
+(** Runs whose console died, resumed. *)

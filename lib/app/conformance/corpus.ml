@@ -33,7 +33,7 @@ let load paths =
 
 (* {1 Implementations} *)
 
-(* This very one, spoken to as others are but for the text. *)
+(* This implementation, asked as others are, without the text in between. *)
 let ourselves ~name : Dialogue.ask =
   let oracle = ref (Oracle.start ~name) in
   fun request ->

@@ -3,7 +3,8 @@
 open Dolphin_conformance
 
 val load : string list -> (Case.t list, Error.t) result
-(** [load paths] is the cases in these files, and in these directories all those inside but for schemas. *)
+(** [load paths] is the cases in these files, and all cases in these directories. Schemas are
+    not cases. *)
 
 val with_implementation : name:string -> timeout:float -> string option -> (Dialogue.ask -> 'a) -> 'a
 (** [with_implementation ~name ~timeout command f] is [f ask], where [ask] asks the program that the shell command

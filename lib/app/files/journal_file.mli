@@ -7,7 +7,7 @@ val with_reader : string -> (Journal.t -> ('a, Error.t) result) -> ('a, Error.t)
 
 val iter : (Entry.t -> unit) -> string -> (unit, Error.t) result
 (** [iter f path] gives each line of the journal [path] to [f]. The last line may be torn. The error,
-    {!Error.Bad_input}, is the first line that is none of a journal. *)
+    {!Error.Bad_input}, is the first line that is not a line of a journal. *)
 
 val wrong : string -> number:int -> string -> Error.t
-(** [wrong path ~number why] is {!Error.Bad_input}: [why] line [number] of [path] is none of a journal. *)
+(** [wrong path ~number why] is {!Error.Bad_input}: [why] line [number] of [path] is not a line of a journal. *)

@@ -6,5 +6,5 @@ val run :
   Network.settings -> Interruption.t -> log:string option -> lasts:float option -> started:(Network.vehicle -> unit) ->
   (unit, Error.t) result
 (** [run s interruption ~log ~lasts ~started] puts the vehicles of [s] on the network, for [lasts] seconds or until
-    [interruption] happens. [started] is told of each vehicle once all of them can be found. What they are commanded and
-    do goes into the file [log], a JSON object a line. *)
+    [interruption] happens. [started] gets each vehicle once all of them can be found. The file [log] gets what they
+    are commanded and do, a JSON object a line. *)

@@ -19,8 +19,8 @@ val console :
   scenario:Dolphin_scenario.Scenario.t ->
   Dolphin_runtime.Console.t
 (** [console person ~answered ~answers ~scenario] answers with each of [answers] in turn, then with what [scenario] has
-    for the prompt, then as [person] does. It does not show what the program says: whoever wants to reads it in the
-    transitions. [answered] is the questions that were answered before, with the answers: what the fleet gave of these
-    it does not give again.
+    for the prompt, then as [person] does. It does not show what the program says: fronts read that in the transitions.
+    [answered] is the questions that were answered before, with the answers: what the fleet gave of these it does not
+    give again.
 
     An answer of the fleet that is refused would be refused for ever: it is not given twice. *)

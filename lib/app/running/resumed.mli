@@ -14,5 +14,5 @@ val read : changed:bool -> tell:(Entry.t -> Replay.t -> unit) -> Program_file.t 
     {!Error.Bad_input}, says why there is nothing to resume. *)
 
 val fleet : t -> named:string option -> (Fleet_file.t, Error.t) result
-(** [fleet r ~named] is the fleet that the run was on: the file that its header names, or [named], with
-    the same text. *)
+(** [fleet r ~named] is the fleet that the run was on: the file that its header names, or [named], with the same text.
+*)

@@ -52,7 +52,7 @@ let explain (program : Program_file.t) : Driver.outcome -> Error.t option = func
       | [] -> Some (Error.Bad_input "the program is stuck: nothing more can happen")
       | found -> Some (Error.Bad_text { source = program.source; found }))
 
-(* {1 What is told of the start} *)
+(* {1 Debug log} *)
 
 let source = Logs.Src.create "dolphin.app" ~doc:"What runs are started with"
 

@@ -38,11 +38,11 @@ type view = {
 
 type front = {
   replayed : Entry.t -> Replay.t -> unit;
-  (** is told of each line of the journal of a run that is resumed, with what it led to, before all else *)
-  notice : string -> unit;  (** is told a sentence before the run begins *)
-  opened : view -> unit;  (** The run begins: it may be looked at from now on. *)
-  remark : string -> unit;  (** is told what is unusual about a vehicle *)
-  observer : Observer.t;  (** is told of each transition, and of what is known of vehicles *)
+  (** gets each line of the journal of a run that is resumed, with what it led to, before all else *)
+  notice : string -> unit;  (** shows a sentence, before the run begins *)
+  opened : view -> unit;  (** The run begins; the view is valid from now on. *)
+  remark : string -> unit;  (** shows what is unusual about a vehicle *)
+  observer : Observer.t;  (** gets each transition, and what is known of vehicles *)
   person : Questions.person;
   wants_telemetry : bool;  (** whether positions and batteries are wanted even if the program does not look at them *)
 }
@@ -63,11 +63,11 @@ val start :
 val resume :
   front -> interruption:Interruption.t -> settings -> changed:bool -> fleet:string option -> Program_file.t -> string ->
   (Driver.outcome, Error.t) result Lwt.t
-(** [resume front ~interruption s ~changed ~fleet program path] continues, as {!start} does, the run whose journal
-    is the file [path], in that file unless [s.recording] names another one. With [changed] the program need not be
-    the one that ran, if the journal is one of a run of it. [fleet] names the fleet if it is elsewhere now; on a
-    network, one whose answers and replies are used. The error is {!Error.Bad_input} if the run cannot be resumed,
-    or not with these settings. *)
+(** [resume front ~interruption s ~changed ~fleet program path] continues, as {!start} does, the run whose journal is
+    the file [path], in that file unless [s.recording] names another one. With [changed] the program need not be the one
+    that ran, if the journal is one of a run of it. [fleet] names the fleet if it is elsewhere now; on a network, one
+    whose answers and replies are used. The error is {!Error.Bad_input} if the run cannot be resumed, or not with these
+    settings. *)
 
 (** {1:outcomes Outcomes} *)
 

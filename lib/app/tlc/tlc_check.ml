@@ -73,20 +73,19 @@ let print_counter_example options (program : Program_file.t) world (c : Outcome.
       trouble;
     print_states c
 
+let steps n = Dolphin_trace.Phrase.count n "step"
+
 let length (c : Outcome.counter_example) =
-  let n = Dolphin_trace.Phrase.count (List.length c.steps) "step" in
+  let n = steps (List.length c.steps) in
   match c.repetition with
   | Once -> "after " ^ n
   | Stays -> Printf.sprintf "after %s, for ever" n
-  | Back_to 0 ->
-    Printf.sprintf "%s that can repeat for ever" (Dolphin_trace.Phrase.count (List.length c.steps + 1) "step")
+  | Back_to 0 -> Printf.sprintf "%s that can repeat for ever" (steps (List.length c.steps + 1))
   | Back_to k ->
-    Printf.sprintf "after %s, %s that can repeat for ever" (Dolphin_trace.Phrase.count k "step")
-      (Dolphin_trace.Phrase.count (List.length c.steps - k + 1) "step")
+    Printf.sprintf "after %s, %s that can repeat for ever" (steps k) (steps (List.length c.steps - k + 1))
 
-(* TLC looks no further than the first violation, but for temporal properties: these it looks at when it has all states,
-   and now and then before. What is asked of the specification rather than of the program is only told where it does not
-   hold. *)
+(* TLC stops at the first violation, except of temporal properties: these it checks when it has all states, and now and
+   then before. What is asked of the specification rather than of the program is only shown where it does not hold. *)
 let print_verdicts names (o : Outcome.t) =
   let broken = match o.verdict with Violated c -> Some (violated c.violation, length c) | _ -> None in
   let all_states = match o.verdict with Violated { violation = Temporal; _ } -> o.queue = 0 | _ -> false in

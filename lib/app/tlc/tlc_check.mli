@@ -6,17 +6,13 @@ type settings = {
   mode : Invocation.mode;
   directory : string option;  (** where the model is kept; otherwise it is gone afterwards *)
   strict : bool;  (** also that nothing halts and that no tuples are left *)
-  notice : string -> unit;  (** is told how workers join a server *)
+  notice : string -> unit;  (** shows how workers join a server *)
 }
 
 val run :
-  Installation.t ->
-  settings ->
-  Dolphin_tla.Model.file list ->
-  Dolphin_environment.Environment.options ->
+  Installation.t -> settings -> Dolphin_tla.Model.file list -> Dolphin_environment.Environment.options ->
   Program_file.t ->
-  Dolphin_semantics.World.t ->
-  (Exploration.verdict, Error.t) result
+  Dolphin_semantics.World.t -> (Exploration.verdict, Error.t) result
 (** [run installation s model options program world] runs TLC on [model], that of [program] in [world], and prints what
     it found on standard output: whether each property holds; of the first that is violated a run, in columns, recovered
     by its labels. An interrupted check is {!Error.Inconclusive}; what was found before is printed. *)

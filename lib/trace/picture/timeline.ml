@@ -156,8 +156,7 @@ let exists_failure summary =
 
 let legend summary ~x ~y =
   let activity p sample text =
-    if has_activity p summary then [ ((fun x -> shape sample (x, y -. 3.5) text), text) ] else []
-  in
+    if has_activity p summary then [ ((fun x -> shape sample (x, y -. 3.5) text), text) ] else [] in
   let n = Svg.number in
   let cross x = Svg.path ~name:"end-failed" (Printf.sprintf "M%s,%s l8,8 m0,-8 l-8,8" (n (x -. 4.)) (n (y -. 8.))) in
   let block x = Svg.rect ~name:"end-stopped" ~x:(x -. 1.5) ~y:(y -. 11.) ~width:3. ~height:14. () in

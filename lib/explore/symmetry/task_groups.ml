@@ -102,16 +102,15 @@ let automorphisms f r number ns =
     Starts.add f.automorphisms (number, ns) found;
     found
 
-let task f r =
+(* To find automorphisms takes long: those of [tuples] are asked for first, since a group will need them. *)
+let task f r tuples =
   match Residuals.find_opt f.tasks r with
   | Some task -> task
   | None ->
     let number = Residuals.length f.tasks in
-    let footprint =
-      match automorphisms f r number [] with
-      | Some _ -> Some (Step_footprints.of_residual f.footprints r)
-      | None -> note_no_group f r; None
-    in
+    let is_symmetric = automorphisms f r number [ tuples ] <> None || automorphisms f r number [] <> None in
+    if not is_symmetric then note_no_group f r;
+    let footprint = if is_symmetric then Some (Step_footprints.of_residual f.footprints r) else None in
     let task = { number; footprint } in
     Residuals.add f.tasks r task;
     task
@@ -175,7 +174,7 @@ let check_fixed f e group tuples =
   end
 
 let find f r ({ shared; _ } : Surroundings.t) =
-  let { number; footprint } = task f r in
+  let { number; footprint } = task f r shared.tuples in
   let of_execution footprint =
     let e = { Symmetry.task = r; constant = constant footprint shared } in
     let group = group f number e shared.tuples in

@@ -34,7 +34,7 @@ let world n =
 let environment text =
   match if text = "none" then Ok Faults.none else Faults.of_string text with
   | Error why -> failwith why
-  | Ok faults -> Faults.add_to Environment.default faults
+  | Ok faults -> { Environment.default with faults }
 
 let () =
   let n = int_of_string Sys.argv.(1) and environment = environment Sys.argv.(2) in

@@ -1,17 +1,13 @@
 open Dolphin_semantics
 
-type endings = Succeeds | May_fail | Fails
-type limit = Never | At_most of int | Any_number
+type ending = Succeeds | May_fail | Fails
 
 type options = {
-  endings : Core.vehicle -> string -> endings;
-  failures : int option;
-  losses : limit;
-  latecomers : limit;
+  endings : Core.vehicle -> string -> ending;
   may_be_late : Core.vehicle -> bool;
   answers : string -> string list list;
   replies : string -> (Core.value, string) result list list;
-  interruptions : bool;
+  faults : Faults.t;
 }
 
 exception Unclear of Fault.t
@@ -19,25 +15,27 @@ exception Unclear of Fault.t
 let clear = function Ok x -> x | Error fault -> raise (Unclear fault)
 
 let default =
-  { endings = (fun _ _ -> Succeeds); failures = None; losses = Never; latecomers = Never;
-    may_be_late = (fun _ -> true); answers = (fun _ -> []); replies = (fun _ -> []); interruptions = false }
+  { endings = (fun _ _ -> Succeeds); may_be_late = (fun _ -> true); answers = (fun _ -> []); replies = (fun _ -> []);
+    faults = Faults.none }
+
+let ending options v name =
+  match options.endings v name, options.faults.fail with
+  | (Fails | May_fail | Succeeds) as ending, Never -> ending
+  | Fails, (At_most _ | Any_number) -> Fails
+  | (May_fail | Succeeds), (At_most _ | Any_number) -> May_fail
 
 let failing ?failures options =
-  let endings v name =
-    match options.endings v name with Succeeds | May_fail -> May_fail | Fails -> Fails
-  in
-  { options with endings; failures }
-
-let is_possible = function Never | At_most 0 -> false | At_most _ | Any_number -> true
+  let fail = match failures with Some most -> Faults.At_most most | None -> Any_number in
+  { options with faults = { options.faults with fail } }
 
 let may_succeed options v name =
-  match options.endings v name with Succeeds | May_fail -> true | Fails -> false
+  match ending options v name with Succeeds | May_fail -> true | Fails -> false
 
 let may_fail options v name =
-  is_possible options.losses
-  || match options.endings v name, options.failures with
-  | Succeeds, _ | May_fail, Some 0 -> false
-  | Fails, _ | May_fail, (None | Some _) -> true
+  Faults.is_possible options.faults.loss
+  || match ending options v name, options.faults.fail with
+  | Succeeds, _ | May_fail, At_most 0 -> false
+  | Fails, _ | May_fail, (Never | At_most _ | Any_number) -> true
 
 (* {1 What the outside remembers} *)
 
@@ -86,22 +84,22 @@ let less v vs = List.filter (fun v' -> not (String.equal v v')) vs
 
 let failure = "failure"
 let loss = "connection lost"
-let endings_remember (options : options) = is_possible options.losses
+let endings_remember options = Faults.is_possible options.faults.loss
 
-let task_ends (options : options) e v (p : Core.platform_task) : (Transition.event * t) list =
+let task_ends options e v (p : Core.platform_task) : (Transition.event * t) list =
   let is_lost = List.mem v e.lost in
   let heard = if is_lost then { e with lost = less v e.lost } else e in
   let succeeded = (Transition.Vehicle_done v, heard) and failed e = (Transition.Vehicle_failed (v, failure), e) in
   let ends =
-    match options.endings v p.name, options.failures with
+    match ending options v p.name, options.faults.fail with
     | Succeeds, _ -> [ succeeded ]
     | Fails, _ -> [ failed heard ]
-    | May_fail, None -> [ succeeded; failed heard ]
-    | May_fail, Some most when e.failed < most -> [ succeeded; failed { heard with failed = e.failed + 1 } ]
-    | May_fail, Some _ -> [ succeeded ]
+    | May_fail, (Never | Any_number) -> [ succeeded; failed heard ]
+    | May_fail, At_most most when e.failed < most -> [ succeeded; failed { heard with failed = e.failed + 1 } ]
+    | May_fail, At_most _ -> [ succeeded ]
   in
   let lost e = [ (Transition.Vehicle_failed (v, loss), { e with lost = add v e.lost }) ] in
-  match options.losses with
+  match options.faults.loss with
   | _ when is_lost -> ends @ lost e
   | Any_number -> ends @ lost e
   | At_most most when e.losses < most -> ends @ lost { e with losses = e.losses + 1 }
@@ -200,8 +198,8 @@ let rec arrangements most xs =
     [] :: List.concat_map first xs
 
 (* The vehicles that [pick] may look for, and of which it is open whether they are there. *)
-let uncertain (options : options) world e (c : Configuration.t) (pick : Settings.pick) =
-  let may_miss v = List.mem v e.lost || (is_possible options.latecomers && options.may_be_late v) in
+let uncertain options world e (c : Configuration.t) (pick : Settings.pick) =
+  let may_miss v = List.mem v e.lost || (Faults.is_possible options.faults.join && options.may_be_late v) in
   let is_wanted (s : World.vehicle_state) =
     Settings.accepts { pick.filter with region = None } s && (not (List.mem s.id c.shared.bound)) && may_miss s.id
   in
@@ -217,14 +215,14 @@ let cost e ~lost a =
 
 (* Whatever can come of a pick comes of one of these, cheaper ones first. If a number is wanted, nobody need be missing
    for it to be met, and if it is not met all may be that can be. *)
-let attendances (options : options) e (pick : Settings.pick) ~lost ~late =
+let attendances options e (pick : Settings.pick) ~lost ~late =
   let most_new =
-    match options.latecomers with Never -> 0 | At_most n -> max 0 (n - List.length e.late) | Any_number -> max_int
+    match options.faults.join with Never -> 0 | At_most n -> max 0 (n - List.length e.late) | Any_number -> max_int
   in
   let known = List.length (List.filter (fun v -> List.mem v e.late) late) in
   let most = if most_new > List.length late then List.length late else most_new + known in
   let ways =
-    match pick.count, options.latecomers with
+    match pick.count, options.faults.join with
     | _, _ when lost = [] && late = [] -> [ { coming = []; missing = [] } ]
     | Exactly n, limit ->
       let on_the_way = List.map (fun coming -> { coming; missing = [] }) (arrangements (min n most) late) in
@@ -242,13 +240,13 @@ let attendances (options : options) e (pick : Settings.pick) ~lost ~late =
   let by_cost a b = Int.compare (cost e ~lost a) (cost e ~lost b) in
   List.stable_sort by_cost (List.filter (fun a -> cost e ~lost a <= most_new) ways)
 
-let picking (options : options) program world e (c : Configuration.t) (pick : Settings.pick) =
+let picking options program world e (c : Configuration.t) (pick : Settings.pick) =
   let lost, late = List.partition (fun v -> List.mem v e.lost) (uncertain options world e c pick) in
   let remember a ((t : Transition.t), e) =
     let is_picked v = List.mem v t.next.shared.bound && not (List.mem v c.shared.bound) in
     let lost = List.filter (fun v -> not (is_picked v)) e.lost in
     let noted = List.filter (fun v -> List.mem v late) (a.coming @ a.missing) in
-    let noted = match options.latecomers with At_most _ -> noted | Never | Any_number -> [] in
+    let noted = match options.faults.join with At_most _ -> noted | Never | Any_number -> [] in
     (t, { e with lost; late = List.fold_left (fun vs v -> add v vs) e.late noted })
   in
   let given a =
@@ -269,7 +267,7 @@ let picking (options : options) program world e (c : Configuration.t) (pick : Se
 (* {1 All together} *)
 
 let interruption options program world e c =
-  if not options.interruptions then []
+  if not options.faults.interrupt then []
   else match Transition.accept program world c Interruption with Ok t -> [ (t, e) ] | Error _ -> []
 
 let choices options program world e (c : Configuration.t) =

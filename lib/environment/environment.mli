@@ -5,26 +5,19 @@
 open Dolphin_semantics
 
 (** How a platform task may end. *)
-type endings = Succeeds | May_fail | Fails
-
-(** How often something may happen in one run. *)
-type limit = Never | At_most of int | Any_number
+type ending = Succeeds | May_fail | Fails
 
 type options = {
-  endings : Core.vehicle -> string -> endings;  (** of a vehicle's run of the plan with this name *)
-  failures : int option;  (** at most so many of those that need not be in one run; [None]: no bound *)
-  losses : limit;
-  (** how often the connection of a vehicle that runs a task may be lost for longer than its timeout. It is counted
-      once until the vehicle is heard of again. *)
-  latecomers : limit;  (** how many vehicles of one run may be late, or missing, when they are looked for *)
-  may_be_late : Core.vehicle -> bool;  (** which ones those may be *)
+  endings : Core.vehicle -> string -> ending;
+  (** of a vehicle's run of the plan with this name, without {!Faults} *)
+  may_be_late : Core.vehicle -> bool;  (** the vehicles that may be late, or missing, if any may *)
   answers : string -> string list list;
   (** by prompt, for the first time it is asked, the second and so on: what may be answered then. The last item is for
       all later times. Where there is none, nobody answers. *)
   replies : string -> (Core.value, string) result list list;
   (** likewise, by the name of a call ({!Machine.name_of_call}): what the supplier may reply, or why it does not. Tasks
       come from the place of the call. Where there is none, the call fails ({!no_reply}). *)
-  interruptions : bool;  (** whether the program may be interrupted, at any time *)
+  faults : Faults.t;
 }
 
 exception Unclear of Fault.t
@@ -38,8 +31,11 @@ val clear : ('a, Fault.t) result -> 'a
 val default : options
 (** Tasks succeed, nothing is lost, nobody is late, nobody answers or replies, and nobody interrupts. *)
 
+val ending : options -> Core.vehicle -> string -> ending
+(** [ending o v name] is how [v] may end the plan of this name, faults included. *)
+
 val failing : ?failures:int -> options -> options
-(** [failing options] is [options] with every task that may succeed failing too, at most [failures] times. *)
+(** [failing options] is [options] with failures of every task that may succeed, at most [failures] in one run. *)
 
 val may_succeed : options -> Core.vehicle -> string -> bool
 (** [may_succeed o v name] is whether [v] may end the plan of this name well. *)

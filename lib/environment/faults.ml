@@ -1,6 +1,9 @@
-type t = { fail : Environment.limit; loss : Environment.limit; join : Environment.limit; interrupt : bool }
+type limit = Never | At_most of int | Any_number
 
-let none : t = { fail = Never; loss = Never; join = Never; interrupt = false }
+type t = { fail : limit; loss : limit; join : limit; interrupt : bool }
+
+let is_possible = function Never | At_most 0 -> false | At_most _ | Any_number -> true
+let none = { fail = Never; loss = Never; join = Never; interrupt = false }
 let names = [ "fail"; "loss"; "join"; "all"; "interrupt" ]
 
 (* To interrupt is a person's decision and no fault: it is not among [all]. *)
@@ -10,7 +13,7 @@ let set faults name limit =
   | "loss" -> Ok { faults with loss = limit }
   | "join" -> Ok { faults with join = limit }
   | "all" -> Ok { faults with fail = limit; loss = limit; join = limit }
-  | "interrupt" -> Ok { faults with interrupt = limit <> Environment.At_most 0 }
+  | "interrupt" -> Ok { faults with interrupt = limit <> At_most 0 }
   | other ->
     let hint =
       match Dolphin_syntax.Diagnostic.suggest other names with
@@ -31,15 +34,8 @@ let add faults item =
 
 let of_string text = List.fold_left add (Ok none) (String.split_on_char ',' text)
 
-let add_to (options : Environment.options) faults =
-  let options = { options with losses = faults.loss; latecomers = faults.join; interruptions = faults.interrupt } in
-  match faults.fail with
-  | Never -> options
-  | Any_number -> Environment.failing options
-  | At_most n -> Environment.failing ~failures:n options
-
 let pp ppf faults =
-  let item (name, (limit : Environment.limit)) =
+  let item (name, limit) =
     match limit with
     | Never -> None
     | At_most n -> Some (Printf.sprintf "%s=%d" name n)

@@ -1,9 +1,19 @@
-(** What may go wrong in a world that is explored, as [--faults] says. *)
+(** What may go wrong in a world that is explored, beyond what its scenario says: [--faults]. *)
+
+(** How often something may happen in one run. *)
+type limit = Never | At_most of int | Any_number
+
+val is_possible : limit -> bool
+(** Whether it may happen at all. *)
 
 type t = {
-  fail : Environment.limit;  (** tasks that fail though the fleet does not say so *)
-  loss : Environment.limit;  (** lost connections *)
-  join : Environment.limit;  (** vehicles that come late, or never *)
+  fail : limit;
+  (** failures of platform tasks that would succeed, or might. If not [Never], every task that may succeed may fail too,
+      and only so many do in one run. *)
+  loss : limit;
+  (** how often the connection of a vehicle that runs a task may be lost for longer than its timeout. It is counted once
+      until the vehicle is heard of again. *)
+  join : limit;  (** how many vehicles of one run may be late, or missing, when they are picked *)
   interrupt : bool;  (** whether a person may interrupt the program, at any time: no run is interrupted twice *)
 }
 
@@ -11,10 +21,6 @@ val none : t
 
 val of_string : string -> (t, string) result
 (** [of_string text] is what [text] spells: ["fail"], ["fail=1,loss=2"], ["all,interrupt"]; or what is wrong with it. *)
-
-val add_to : Environment.options -> t -> Environment.options
-(** [add_to o faults] is [o], with these faults instead of its losses, latecomers and interruptions, and with failures of
-    every task that may succeed, if there are to be any ({!Environment.failing}). *)
 
 val pp : Format.formatter -> t -> unit
 (** As {!of_string} reads it. *)

@@ -11,7 +11,7 @@ let world (scenario : Scenario.t) =
   in
   List.fold_left open_sensors (still scenario) scenario.vehicles
 
-let ending (scenario : Scenario.t) v name : Environment.endings =
+let ending (scenario : Scenario.t) v name : Environment.ending =
   let vehicle = List.find_opt (fun (vehicle : Scenario.vehicle) -> vehicle.id = v) scenario.vehicles in
   match Scenario.plan scenario name, vehicle with
   | None, _ -> Succeeds
@@ -30,10 +30,10 @@ let is_unsteady (v : Scenario.vehicle) = v.joins > 0. || v.leaves <> None || v.d
 let environment ~answers:given ~faults (scenario : Scenario.t) =
   let unsteady = List.filter is_unsteady scenario.vehicles in
   let late = List.map (fun (v : Scenario.vehicle) -> v.id) (if unsteady = [] then scenario.vehicles else unsteady) in
-  Faults.add_to
-    { Environment.default with
-      endings = ending scenario;
-      answers = answers given scenario;
-      may_be_late = (fun v -> List.mem v late);
-      replies = (fun call -> Option.value (Scenario.rounds scenario call) ~default:[]) }
-    faults
+  {
+    Environment.endings = ending scenario;
+    may_be_late = (fun v -> List.mem v late);
+    answers = answers given scenario;
+    replies = (fun call -> Option.value (Scenario.rounds scenario call) ~default:[]);
+    faults;
+  }

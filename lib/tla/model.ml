@@ -34,7 +34,7 @@ let vehicle translation world (s : World.vehicle_state) =
       ("position", sensor translation (World.position world s) position s.position);
       ("battery", sensor translation (World.battery world s) charge s.battery) ]
 
-let ending : Environment.endings -> string = function
+let ending : Environment.ending -> string = function
   | Succeeds -> "succeeds"
   | May_fail -> "may fail"
   | Fails -> "fails"
@@ -45,9 +45,9 @@ let nobody = "\000"
 (* The body of Ending(v, p); what holds for most comes last. *)
 let endings (environment : Environment.options) world plans =
   let ids = List.map (fun (s : World.vehicle_state) -> s.id) (World.vehicles world) in
-  let usual = match ids with id :: _ -> environment.endings id nobody | [] -> Environment.Succeeds in
+  let usual = match ids with id :: _ -> Environment.ending environment id nobody | [] -> Environment.Succeeds in
   let clause id plan =
-    let this = environment.endings id plan in
+    let this = Environment.ending environment id plan in
     if this = usual then None
     else
       Some
@@ -61,7 +61,7 @@ let endings (environment : Environment.options) world plans =
   | clauses -> Printf.sprintf "CASE %s\n    [] OTHER -> %s" (String.concat "\n    [] " clauses) usual
 
 (* -1 stands for any number. *)
-let limit : Environment.limit -> Tla.t = function
+let limit : Dolphin_environment.Faults.limit -> Tla.t = function
   | Never -> Integer 0
   | At_most n -> Integer n
   | Any_number -> Integer (-1)
@@ -157,9 +157,9 @@ let text program world (environment : Environment.options) plans prompts calls t
   definition ppf "MCPlans" (Translation.plans translation);
   definition ppf "MCPrompts" (counted prompts environment.answers);
   definition ppf "MCCalls" (counted calls environment.replies);
-  definition ppf "MCFailures" (Tla.Integer (Option.value environment.failures ~default:(-1)));
-  definition ppf "MCLosses" (limit environment.losses);
-  definition ppf "MCLatecomers" (limit environment.latecomers);
+  definition ppf "MCFailures" (match environment.faults.fail with Never -> Tla.Integer (-1) | most -> limit most);
+  definition ppf "MCLosses" (limit environment.faults.loss);
+  definition ppf "MCLatecomers" (limit environment.faults.join);
   definition ppf "MCMayBeLate" (late environment world);
   Format.fprintf ppf "MCSiteOf(n) ==@.  IF n > 0 THEN %a[n] ELSE %a[-n]@.@." Tla.pp
     (sites (Translation.code translation)) Tla.pp (sites (Translation.lambdas translation));
@@ -174,7 +174,7 @@ let constants (environment : Environment.options) =
   let replaced by name = Printf.sprintf "  %s <- %s%s\n" name by name in
   "CONSTANTS\n  Known <- ComputedOnce\n"
   ^ String.concat "" (List.map (replaced "The") tables @ List.map (replaced "MC") small)
-  ^ Format.asprintf "  Interruptions = %a\n" Tla.pp (Boolean environment.interruptions)
+  ^ Format.asprintf "  Interruptions = %a\n" Tla.pp (Boolean environment.faults.interrupt)
   ^ "  ScriptFuel = 10000\n  AtomicFuel = 2000000\n  MaximumCalls = 10000\n"
 
 let invariants = [ "TypeOK"; "AllocationWithinBound"; "OneTaskEach"; "EmptyAfterEnd"; "TuplesConserved"; "NoDeadlock" ]

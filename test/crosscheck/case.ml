@@ -30,13 +30,14 @@ let for_ever (program : Ast.program) =
 
 let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]); replies = Calls.replies }
 
-let with_losses losses = { answering with losses }
-let with_latecomers latecomers = { answering with latecomers }
+let with_losses losses = { answering with faults = { Faults.none with loss = losses } }
+let with_latecomers latecomers = { answering with faults = { Faults.none with join = latecomers } }
 
 let all_once =
-  { (Environment.failing ~failures:1 answering) with losses = At_most 1; latecomers = At_most 1 }
+  { answering with faults = { Faults.none with fail = At_most 1; loss = At_most 1; join = At_most 1 } }
 
-let interrupted environment : Environment.options = { environment with interruptions = true }
+let interrupted (environment : Environment.options) =
+  { environment with faults = { environment.faults with interrupt = true } }
 
 let environments =
   [ ("as planned", answering);

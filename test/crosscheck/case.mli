@@ -36,8 +36,8 @@ val of_text : string -> string -> Dolphin_semantics.World.t -> Dolphin_environme
 val answering : Dolphin_environment.Environment.options
 (** All goes as planned, with answers to ["how many?"], and with the replies of [Test_support.Calls]. *)
 
-val with_losses : Dolphin_environment.Environment.limit -> Dolphin_environment.Environment.options
-val with_latecomers : Dolphin_environment.Environment.limit -> Dolphin_environment.Environment.options
+val with_losses : Dolphin_environment.Faults.limit -> Dolphin_environment.Environment.options
+val with_latecomers : Dolphin_environment.Faults.limit -> Dolphin_environment.Environment.options
 
 val all_once : Dolphin_environment.Environment.options
 (** {!answering} with at most one failure, one loss and one vehicle that is late. *)

@@ -33,7 +33,7 @@ let breaks name environment expected text =
 
    Several vehicles are picked in the order in which they come. So [b] comes before [a] only if [a] is late. *)
 
-let late most = { plain with latecomers = At_most most }
+let late most = { plain with faults = { Faults.none with join = At_most most } }
 let pairs = [ ("UUV", "b"); ("UAV", "d"); ("USV", "f") ]
 
 let late_in_turn n =
@@ -75,7 +75,7 @@ let tasks_that_end_badly n =
     n n
 
 let failing n = Environment.failing ~failures:n plain
-let losing n = { plain with losses = At_most n }
+let losing n = { plain with faults = { Faults.none with loss = At_most n } }
 
 (* A lost vehicle that is lost again was not heard of in between, which is one loss; then it is heard of. *)
 let lost_again =

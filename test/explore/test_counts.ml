@@ -62,7 +62,7 @@ let test_pick () =
 (* An interruption of each state but the end. Where it leads is told apart by the store only: [a] has no value while its
    vehicle is picked, and one while its task is executed. *)
 let test_interrupted () =
-  let environment = { Environment.default with interruptions = true } in
+  let environment = { Environment.default with faults = { Faults.none with interrupt = true } } in
   check "one task, interrupted" one ~environment ~states:(7 + 2) ~transitions:(6 + 6) ()
 
 (* Initial, called, replied; called again: 1 or 2; each called once more, of which it is known that it is not the first

@@ -36,12 +36,11 @@ let comes_back program world (property, (run : Search.run)) =
 let follows ((ast, world), answers) =
   let program = Generate.compile ast in
   let environment =
-    { (Environment.failing { Environment.default with answers = (fun _ -> answers) }) with
+    { Environment.default with
+      answers = (fun _ -> answers);
       replies = Test_support.Calls.replies;
-      interruptions = true;
-      losses = Any_number;
-      latecomers = Any_number;
-      may_be_late = (fun v -> v = "b") }
+      may_be_late = (fun v -> v = "b");
+      faults = { fail = Any_number; loss = Any_number; join = Any_number; interrupt = true } }
   in
   let options = { Search.default with environment; limits = { Limits.none with max_states = Some 2_000 } } in
   let o = Search.run options program world in

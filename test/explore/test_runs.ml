@@ -144,7 +144,7 @@ let is_unsteady (v : Scenario.vehicle) = v.joins > 0. || v.leaves <> None || v.d
    fail. *)
 let environment (scenario : Scenario.t) =
   let is_drained (v : Scenario.vehicle) = v.drain > 1. in
-  let where is_so : Environment.limit = if List.exists is_so scenario.vehicles then Any_number else Never in
+  let where is_so : Faults.limit = if List.exists is_so scenario.vehicles then Any_number else Never in
   let faults : Faults.t =
     { Faults.none with fail = where is_drained; loss = where is_unsteady; join = where is_unsteady }
   in
@@ -238,7 +238,9 @@ let world_at (x, y, z) =
   List.fold_left (fun world s -> World.add (show s) world) World.empty (World.vehicles Generate.world)
 
 let options =
-  { (Environment.failing { Environment.default with answers = (fun _ -> [ [ "1"; "2" ] ]) }) with losses = Any_number }
+  { Environment.default with
+    answers = (fun _ -> [ [ "1"; "2" ] ]);
+    faults = { Faults.none with fail = Any_number; loss = Any_number } }
 
 (* At each step sensors show something new, and of what may happen then one thing does. *)
 let walk program choices =

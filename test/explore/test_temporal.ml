@@ -71,12 +71,12 @@ let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [
 let environments =
   [ ("as planned", answering); ("with failures", Environment.failing answering);
     ("with a failure", Environment.failing ~failures:1 answering);
-    ("with losses", { answering with losses = Any_number });
-    ("with latecomers", { answering with latecomers = Any_number; may_be_late = (fun v -> v <> "a") });
+    ("with losses", { answering with faults = { Faults.none with loss = Any_number } });
+    ("with latecomers", { answering with faults = { Faults.none with join = Any_number }; may_be_late = (fun v -> v <> "a") });
     ( "with all of it, once",
-      { (Environment.failing ~failures:1 answering) with losses = At_most 1; latecomers = At_most 1 } );
-    ("with interruptions", { answering with interruptions = true });
-    ("with failures and interruptions", { (Environment.failing answering) with interruptions = true }) ]
+      { answering with faults = { Faults.none with fail = At_most 1; loss = At_most 1; join = At_most 1 } } );
+    ("with interruptions", { answering with faults = { Faults.none with interrupt = true } });
+    ("with failures and interruptions", { answering with faults = { Faults.none with fail = Any_number; interrupt = true } }) ]
 
 let case =
   let open QCheck2.Gen in

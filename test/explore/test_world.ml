@@ -109,8 +109,8 @@ let beyond =
 
 let missing_a =
   "no-vehicles(could not pick 1 vehicle with id 'a': b has another id; c has another id; a is not connected)"
-let late limit = { Environment.default with latecomers = limit; may_be_late = (fun v -> v <> "a") }
-let lossy limit = { Environment.default with losses = limit }
+let late limit = { Environment.default with faults = { Faults.none with join = limit }; may_be_late = (fun v -> v <> "a") }
+let lossy limit = { Environment.default with faults = { Faults.none with loss = limit } }
 let everybody = "v = pick { count _ }"
 let closed = Generate.world
 

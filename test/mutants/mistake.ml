@@ -258,8 +258,8 @@ let environment =
   in_file "lib/environment/environment.ml" ~noticed_by:"environment/test_environment"
     [
       ( "late vehicles are remembered for join=1 only",
-        {|match options.latecomers with At_most _ -> noted | Never | Any_number -> [] in|},
-        {|match options.latecomers with At_most 1 -> noted | At_most _ | Never | Any_number -> [] in|} );
+        {|match options.faults.join with At_most _ -> noted | Never | Any_number -> [] in|},
+        {|match options.faults.join with At_most 1 -> noted | At_most _ | Never | Any_number -> [] in|} );
       ( "failures are not counted",
         {|failed { heard with failed = e.failed + 1 }|},
         {|failed { heard with failed = e.failed }|} );
@@ -271,7 +271,7 @@ let environment =
         {|let heard = if is_lost then { e with lost = add v (less v e.lost) } else e in|} );
       ( "a loss of a lost vehicle is counted",
         {|| _ when is_lost -> ends @ lost e|},
-        {|| _ when is_lost && options.losses = Any_number -> ends @ lost e|} );
+        {|| _ when is_lost && options.faults.loss = Any_number -> ends @ lost e|} );
       ( "a question gets its first answers only",
         {|min (times name counted) (n - 1)|},
         {|min (min 0 (times name counted)) (n - 1)|} );

@@ -85,7 +85,7 @@ let reduced_outcomes environment program world =
     if i = State_graph.count graph then State_graph.flush graph;
     if i = State_graph.count graph then found
     else begin
-      let interruptions = if environment.Environment.interruptions then 1 else 0 in
+      let interruptions = if environment.Environment.faults.interrupt then 1 else 0 in
       let stuck = State_graph.expand graph i <= interruptions in
       from (i + 1) (outcome (fst (State_graph.state graph i)) ~stuck found)
     end

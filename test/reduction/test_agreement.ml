@@ -71,11 +71,11 @@ let environments =
     ("with a failure", Environment.failing ~failures:1 answering);
     ("with two failures", Environment.failing ~failures:2 answering);
     ("vehicle a fails", failing_vehicle "a");
-    ("with losses", { answering with losses = Any_number });
-    ("with a failure and a loss", { (Environment.failing ~failures:1 answering) with losses = At_most 1 });
-    ("with latecomers", { answering with latecomers = Any_number; may_be_late = (fun v -> v = "b") });
-    ("with interruptions", { answering with interruptions = true });
-    ("with a failure and interruptions", { (Environment.failing ~failures:1 answering) with interruptions = true }) ]
+    ("with losses", { answering with faults = { Faults.none with loss = Any_number } });
+    ("with a failure and a loss", { answering with faults = { Faults.none with fail = At_most 1; loss = At_most 1 } });
+    ("with latecomers", { answering with faults = { Faults.none with join = Any_number }; may_be_late = (fun v -> v = "b") });
+    ("with interruptions", { answering with faults = { Faults.none with interrupt = true } });
+    ("with a failure and interruptions", { answering with faults = { Faults.none with fail = At_most 1; interrupt = true } }) ]
 
 let case =
   let open QCheck2.Gen in

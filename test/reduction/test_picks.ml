@@ -23,10 +23,10 @@ let environments =
     ("with answers that read variables", reading);
     ("with failures", Environment.failing answering);
     ("with a failure", Environment.failing ~failures:1 answering);
-    ("with losses", { answering with losses = Any_number });
-    ("with a loss", { answering with losses = At_most 1 });
-    ("with a latecomer", { answering with latecomers = At_most 1 });
-    ("with interruptions", { answering with interruptions = true });
+    ("with losses", { answering with faults = { Faults.none with loss = Any_number } });
+    ("with a loss", { answering with faults = { Faults.none with loss = At_most 1 } });
+    ("with a latecomer", { answering with faults = { Faults.none with join = At_most 1 } });
+    ("with interruptions", { answering with faults = { Faults.none with interrupt = true } });
     ("vehicle b may fail", failing (fun v _ -> v = "b"));
     ("plan t may fail", failing (fun _ p -> p = "t"));
     ("plan t may fail on vehicle b", failing (fun v p -> v = "b" && p = "t")) ]

@@ -20,11 +20,11 @@ let environments =
   [ ("as planned", answering);
     ("with failures", Environment.failing answering);
     ("with a failure", Environment.failing ~failures:1 answering);
-    ("with losses", { answering with losses = Any_number });
+    ("with losses", { answering with faults = { Faults.none with loss = Any_number } });
     ("vehicle a may fail", failing (fun v _ -> v = "a"));
     ("plan p3 may fail", failing (fun _ p -> p = "p3"));
-    ("with interruptions", { answering with interruptions = true });
-    ("with failures and interruptions", { (Environment.failing answering) with interruptions = true }) ]
+    ("with interruptions", { answering with faults = { Faults.none with interrupt = true } });
+    ("with failures and interruptions", { answering with faults = { Faults.none with fail = Any_number; interrupt = true } }) ]
 
 let case =
   let open QCheck2.Gen in

@@ -102,7 +102,7 @@ let by_what_they_are =
               if (position(v).latitude > 41.2) { halt 'far' }");
     keeps "a region" ~world:near_and_far [ Vehicles ]
       ("w = pick { count 3; type 'UUV' }\nv = pick { region location(41.1851, -8.7048), 1.km; timeout 1.seconds }");
-    keeps "a distance" ~world:near_and_far ~environment:{ plain with losses = At_most 1 } [ Vehicles ]
+    keeps "a distance" ~world:near_and_far ~environment:{ plain with faults = { Faults.none with loss = At_most 1 } } [ Vehicles ]
       {|team = pick { count 2; type 'UUV' }
         w = pick { count 2; type 'UUV' }
         execute watch imcPlan { planName 'i'; locate 41.1851, -8.7048; goTo speed:1.0 }[team] onError { ignore() }
@@ -118,7 +118,7 @@ let by_what_they_are =
     keeps "a plan that fails on one, with a name that is computed"
       ~environment:{ plain with endings = (fun v p -> if v = "c" && p = "p" then Fails else Succeeds) }
       [ No_error ] (one ^ "execute task('P'.toLowerCase())[v]");
-    tells "one that may be late" ~environment:{ plain with latecomers = At_most 1; may_be_late = (fun v -> v = "c") }
+    tells "one that may be late" ~environment:{ plain with faults = { Faults.none with join = At_most 1 }; may_be_late = (fun v -> v = "c") }
       [ Vehicles ] (one ^ "w = pick { count 2; type 'UUV'; timeout 1.seconds }");
   ]
 
@@ -163,7 +163,7 @@ let by_order =
       (one ^ "same = { w -> w == v }\nrelease v\nw = pick { count 2; type 'UUV' }\nif (same.call(w[1])) { halt 'h' }");
     tells "who was there before, in N" [ No_halt; No_leftover ]
       (one ^ "post at: v\nrelease v\nv = null\nw = pick { count 2; type 'UUV' }\nif (poll(at: w[1])) { halt 'h' }");
-    tells "who was lost before" ~environment:{ plain with losses = At_most 1 } [ No_error; Vehicles ]
+    tells "who was lost before" ~environment:{ plain with faults = { Faults.none with loss = At_most 1 } } [ No_error; Vehicles ]
       (one
        ^ "w = pick { type 'UUV' }\nexecute watch (task('p')[v]) onError { ignore() }\n\
           execute task('q')[w]\nrelease v\nrelease w\nv = null\nw = null\n\
@@ -247,7 +247,7 @@ let large_fleets =
   [
     small "three teams" 30 three_teams;
     small "three teams, with failures" ~environment:(Environment.failing plain) 35 three_teams;
-    small "three teams, with losses" ~environment:{ plain with losses = Any_number } 60 three_teams;
+    small "three teams, with losses" ~environment:{ plain with faults = { Faults.none with loss = Any_number } } 60 three_teams;
     small "teams in turn" 60 each_in_turn;
     small "one by one" 400
       "vs = pick { type 'UUV' }\nfor (i in 1..40) { vs = vs + pick { type 'UUV' } }\n\

@@ -128,7 +128,7 @@ let traps =
         if (poll(x: 1)) { halt 'it waited' }|};
     breaks "code that may end the run, or go on" ~world:Test_support.Generate.open_world [ No_halt; No_leftover ]
       {|execute action { if (battery(a) < 0.3) { halt 'low' } ; post x: 1 } | action { post x: 2 }|};
-    breaks "a lost vehicle that is looked for again" ~environment:{ plain with losses = At_most 1 }
+    breaks "a lost vehicle that is looked for again" ~environment:{ plain with faults = { Faults.none with loss = At_most 1 } }
       [ No_error; Vehicles ]
       {|execute (watch task('p')[a] onError { ignore() }) | task('q')[b]
         release a
@@ -201,7 +201,7 @@ let traps =
         execute action { if (!poll(x: 1)) { post y: 1 } } |
           (watch ((until { poll z: 1 } run (condition { consume u: 1 } | condition { consume v: 1 })) >> task('p')[a])
              onError { post x: 1 ; ignore() })|};
-    breaks "a lost vehicle that is missed later" ~environment:{ plain with losses = Any_number }
+    breaks "a lost vehicle that is missed later" ~environment:{ plain with faults = { Faults.none with loss = Any_number } }
       [ Vehicles ]
       {|execute watch (task('q')[b] | (watch task('p')[a] onError { ignore() })) onError { ignore() }
         release a

@@ -198,7 +198,7 @@ let interruption x =
 
 let interrupt x =
   let t = x.expansion in
-  if not t.options.interruptions then 0
+  if not t.options.faults.interrupt then 0
   else begin
     let number, action =
       match By_number.find_opt t.interrupted x.shared with

@@ -193,7 +193,7 @@ let check_replies r call =
 
 let check_plan r (p : Core.platform_task) =
   if not (Hashtbl.mem r.plans p.name) then begin
-    let ending v = r.options.endings v p.name in
+    let ending v = Environment.ending r.options v p.name in
     let as_first (s : World.vehicle_state) =
       ending s.id = ending (first r s.id)
     in

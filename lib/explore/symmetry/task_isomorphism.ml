@@ -43,7 +43,7 @@ let pairs c r =
 type spelling = { context : context; sorted : bool; pair : int -> string; name : label -> string }
 
 let ending s (p : platform_task) v =
-  match s.context.options.endings v p.name with
+  match Environment.ending s.context.options v p.name with
   | Environment.Succeeds -> "s"
   | May_fail -> "m"
   | Fails -> "f"

@@ -65,7 +65,7 @@ let key (options : Environment.options) world (flow : Name_flow.t) (s : World.ve
   let if_read is_read f = if is_read then Some (f ()) else None in
   let place = if_read flow.places (fun () -> (s.position, World.position world s)) in
   let battery = if_read flow.batteries (fun () -> World.battery world s) in
-  let endings = List.map (options.endings s.id) flow.texts in
+  let endings = List.map (Environment.ending options s.id) flow.texts in
   let is_odd = World.is_open world && (flow.places || flow.batteries) && not (is_plain s.id) in
   let alone = if is_odd || List.mem s.id flow.texts then Some s.id else None in
   ((s.kind, s.payload, s.connected), place, battery, endings, alone)
@@ -73,9 +73,8 @@ let key (options : Environment.options) world (flow : Name_flow.t) (s : World.ve
 let find (options : Environment.options) program ~asked world =
   let flow = Name_flow.of_program program ~asked:(List.map Condition.closure asked) in
   let flow = { flow with texts = List.concat_map Condition.vehicles asked @ flow.texts } in
-  let nobody_is_late = match options.latecomers with Never | At_most 0 -> true | At_most _ | Any_number -> false in
   let is_independent = flow.names = None && not (World.is_open world && flow.readings <> None) in
-  if not (nobody_is_late && is_independent && flow.picks) then none
+  if Faults.is_possible options.faults.join || not (is_independent && flow.picks) then none
   else
     let states = World.vehicles world in
     let keys = Hashtbl.create 16 in

@@ -116,7 +116,7 @@ module Make (S : System.S) = struct
       fresh.(0) <- fresh.(0) lor (old.(0) land before)
     in
     let words = S.words t.system in
-    t.states <- States.rewrite t.states ~words with_set;
+    t.states <- States.rewrite t.states ~words (if before = 0 then rewritten else with_set);
     t.key <- Array.make words 0
 
   let fetch t i =

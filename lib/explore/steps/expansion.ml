@@ -138,8 +138,7 @@ let rec go x (place : Layout.place) target action shared =
   | Gone, (None | Some _) -> replace x (Layouts.without t.layouts layout place) place no_components action shared
   | Becomes { serial; children; components }, _ ->
     replace x (Layouts.becoming t.layouts layout place serial children) place components action shared
-  | Ends number, _ -> visit_script t x.visitor number ~action
-  | Stays _, _ -> invalid_arg "Expansion.go: a target in the same layout"
+  | (Stays _ | Ends _), _ -> invalid_arg "Expansion.go: a target of the same layout, or none"
 
 (* Only [other] is left in a nest, which is none then. *)
 and leave_alone x nest (other : Layout.place) action shared =
@@ -172,16 +171,22 @@ let go_to x (place : Layout.place) target ~action shared =
 let outcome x step = Memoised_steps.outcome x.expansion.steps step x.shared
 
 let take_outcome x place (outcome : outcome) =
-  Encoding.check_fit x.expansion.encoding;
-  go_to x (Layout.above place outcome.level) outcome.target ~action:outcome.action outcome.shared
+  match outcome.target with
+  | Ends number -> visit_script x.expansion x.visitor number ~action:outcome.action
+  | (Stays _ | Gone | Becomes _) as target ->
+    Encoding.check_fit x.expansion.encoding;
+    go_to x (Layout.above place outcome.level) target ~action:outcome.action outcome.shared
 
 let take_dependent x place step =
   let outcome = outcome x step in
   if not outcome.possible then 0
   else begin
     take_outcome x place outcome;
-    List.iter (take_outcome x place) outcome.others;
-    1 + List.length outcome.others
+    match outcome.others with
+    | [] -> 1
+    | others ->
+      List.iter (take_outcome x place) others;
+      1 + List.length others
   end
 
 let take_ends x place step =

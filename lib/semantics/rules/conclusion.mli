@@ -20,6 +20,7 @@ val ended : Shared.t -> Configuration.ending -> Configuration.t
 (** [ended s e] is the end [e] of a run with shared part [s]: A and B are empty. *)
 
 val ending :
-  ?timers:Residual.timer list -> ?before:Effect.t list -> Rule.t list -> Label.t -> Shared.t -> Configuration.ending -> t
-(** [ending ~timers ~before rules l s e] is the transition to [ended s e]. After the effects [before] it cancels those of
-    [timers] (none by default) that [before] does not cancel, stops all that A runs, and releases B. *)
+  ?timers:Residual.timer list -> ?before:Effect.t list -> Rule.t list -> Label.t -> Shared.t ->
+  Configuration.ending -> t
+(** [ending ~timers ~before rules l s e] is the transition to [ended s e]. After the effects [before] it cancels those
+    of [timers] (none by default) that [before] does not cancel, stops all that A runs, and releases B. *)

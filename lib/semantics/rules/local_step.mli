@@ -1,5 +1,5 @@
-(** Steps of a residual in a shared part: [S, r --l--> S', o ! E]. {!Task_rules} says what a step needs; here it gets that
-    from the shared part, the world or an event.
+(** Steps of a residual in a shared part: [S, r --l--> S', o ! E]. {!Task_rules} says what a step needs; here it gets
+    that from the shared part, the world or an event.
 
     The transitions of a configuration that executes a residual are those of the residual's steps: [Transition.internal]
     is {!internal} of each step, and [Transition.accept] is {!on_event}, both completed by {!conclude}. Whoever explores

@@ -43,20 +43,20 @@ let bindings world s m (pick : Settings.pick) =
 let why_not world (s : Shared.t) (pick : Settings.pick) (v : World.vehicle_state) =
   let f = pick.filter in
   let because reason = Ok (Printf.sprintf "%s %s" v.id reason) in
-    if List.mem v.id s.bound then because "is already bound"
-    else if not v.connected then because "is not connected"
-    else if Option.fold ~none:false ~some:(fun id -> id <> v.id) f.id then because "has another id"
-    else if Option.fold ~none:false ~some:(fun kind -> kind <> v.kind) f.kind then because ("is a " ^ v.kind)
-    else if not (World.carries f.payload v) then
-      because ("lacks " ^ String.concat ", " (List.filter (fun d -> not (World.carries [ d ] v)) f.payload))
-    else
-      match f.region with
-      | None -> because "fits"
-      | Some area ->
-        let* place = World.place world v in
-        because
-          (if Dolphin_geo.Area.contains area place then "fits"
-           else Format.asprintf "is at %a, outside of the region" Dolphin_geo.Position.pp place)
+  if List.mem v.id s.bound then because "is already bound"
+  else if not v.connected then because "is not connected"
+  else if Option.fold ~none:false ~some:(fun id -> id <> v.id) f.id then because "has another id"
+  else if Option.fold ~none:false ~some:(fun kind -> kind <> v.kind) f.kind then because ("is a " ^ v.kind)
+  else if not (World.carries f.payload v) then
+    because ("lacks " ^ String.concat ", " (List.filter (fun d -> not (World.carries [ d ] v)) f.payload))
+  else
+    match f.region with
+    | None -> because "fits"
+    | Some area ->
+      let* place = World.place world v in
+      because
+        (if Dolphin_geo.Area.contains area place then "fits"
+         else Format.asprintf "is at %a, outside of the region" Dolphin_geo.Position.pp place)
 
 let no_vehicles world s m pick =
   let* there =

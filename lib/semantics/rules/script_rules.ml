@@ -14,17 +14,21 @@ let release vs (s : Shared.t) =
 
 (* No task runs while the script does, so to release a vehicle stops none. *)
 let do_deed (deed : Machine.deed) s m =
-  let s = match deed with Released vs -> release vs s | Posted _ | Consumed _ | Said _ | Set_connection_timeout _ -> s in
+  let s =
+    match deed with
+    | Released vs -> release vs s
+    | Posted _ | Consumed _ | Said _ | Set_connection_timeout _ -> s
+  in
   Conclusion.make ~effects:(Run_code.effects [ deed ]) (rule_of_deed deed) (Did deed) (Script m) s
 
 let execute world (s : Shared.t) m t =
   let allocated = function
-  | Error (fault : Fault.t) ->
-    let fault = if fault.site = Fault.unknown_site then { fault with site = Machine.site m } else fault in
-    Conclusion.ending [ Alloc_err ] (Cannot_execute fault.message) s (Failed fault)
-  | Ok r ->
-    let r, timers = Residual.activate r in
-    Conclusion.make ~effects:(Conclusion.timers_started timers) Execute Execute (Executing (m, r)) s
+    | Error (fault : Fault.t) ->
+      let fault = if fault.site = Fault.unknown_site then { fault with site = Machine.site m } else fault in
+      Conclusion.ending [ Alloc_err ] (Cannot_execute fault.message) s (Failed fault)
+    | Ok r ->
+      let r, timers = Residual.activate r in
+      Conclusion.make ~effects:(Conclusion.timers_started timers) Execute Execute (Executing (m, r)) s
   in
   Decision.map allocated (Decision.look world (fun world -> Allocation.allocate world s.bound t))
 

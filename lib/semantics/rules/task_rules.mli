@@ -67,11 +67,11 @@ val change_within : context -> change -> change
     DURING, WATCH. *)
 
 val cuts : context list -> t -> step list
-(** [cuts ks r] is the steps of [plug ks r] that are none of [r]: UNTIL-CUT and DURING-CUT of each of [ks], the innermost
-    first. *)
+(** [cuts ks r] is the steps of [plug ks r] that are none of [r]: UNTIL-CUT and DURING-CUT of each of [ks], the
+    innermost first. *)
 
 val escaping : context list list -> step -> step
-(** [escaping nests s] is [s], a step of a branch of a [|] that stands in the contexts at the head of [nests], as a branch
-    of a [|] in those that come next, and so on; as far as errors go. What goes on or is over leaves all around the
-    branch as it is. An error leaves the [|] by PAR-ERR, passes through the contexts, and climbs on unless it is handled
-    there; what stood beside is not known here, and so is not in [undone]. *)
+(** [escaping nests s] is [s], a step of a branch of a [|] that stands in the contexts at the head of [nests], as a
+    branch of a [|] in those that come next, and so on; as far as errors go. What goes on or is over leaves all around
+    the branch as it is. An error leaves the [|] by PAR-ERR, passes through the contexts, and climbs on unless it is
+    handled there; what stood beside is not known here, and so is not in [undone]. *)

@@ -117,5 +117,6 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ Options.fleet $ Explore_command.answers $ Explore_command.faults $ directory $ check
-      $ compare $ strict $ limit $ Tlc_options.jar $ Tlc_options.workers $ Tlc_options.distributed $ Tlc_options.coverage)
+      const run $ Options.program $ Options.fleet $ Explore_command.answers $ Explore_command.faults $ directory
+      $ check $ compare $ strict $ limit $ Tlc_options.jar $ Tlc_options.workers $ Tlc_options.distributed
+      $ Tlc_options.coverage)

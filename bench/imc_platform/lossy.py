@@ -5,7 +5,8 @@ Usage: bench/imc_platform/lossy.py [--runs N] [--first SEED] [--at-once N] [--sp
 
 The mission of the paper runs N times (100), on simulated vehicles in another process that lose 30% of all datagrams,
 double 10% and reorder 20%, both ways. Of each run, with a seed of its own, the log of the vehicles is compared with
-that of the console: did the mission complete, was each plan started once, and where a vehicle began one anew, was that said?
+that of the console: did the mission complete, was each plan started once, and where a vehicle began one anew, was that
+said?
 
 The status is 1 if a mission did not complete, or if a request was sent again to a vehicle that had taken it.
 """

@@ -1,8 +1,8 @@
 #!/bin/bash
 # formulas.sh [N ...]: the explorer, SPIN and TLC on one formula about the system of compare.sh (N vehicles, without
-# failures): whenever vehicle 1 surveys, it is met some time. It holds. A table as in compare.sh; states are those that
-# each tool keeps for it, a state once for each thing that may be left to be shown there, if it is kept so. Default: 5 6.
-# TLC is left out where N > 5, or with TLC=no.
+# failures): whenever vehicle 1 surveys, it is met some time. It holds. The table is as in compare.sh; its states are
+# those that each tool stores, of the product with the formula's automaton where it builds one. Default: 5 6. TLC is
+# left out where N > 5, or with TLC=no.
 set -euo pipefail
 tools=
 . "$(dirname "$0")/tools.sh"

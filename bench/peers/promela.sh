@@ -6,7 +6,8 @@ N=$1; F=$2
 tasks=$((3 * N))
 cat <<X
 /* u: 0 survey to start, 1 runs, 2 to post, 3 sk to start, 4 runs, 5 over.  ready[i]: how many tuples ready:i.
-   rv: 0 not yet consumed, 1 to start, 2 runs, 3 over.  phase: 0-4 script, 5 executing, 6 script, 7 ended, 8.. failed. */
+   rv: 0 not yet consumed, 1 to start, 2 runs, 3 over.
+   phase: 0-4 script, 5 executing, 6 script, 7 ended, 8.. failed. */
 byte phase, u[$N], ready[$N], rv[$N], busy, left = $((2 * N));
 #define executing (phase == 5 && left > 0)
 active proctype system() {

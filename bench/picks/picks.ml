@@ -47,6 +47,7 @@ let () =
     | Some "symmetry" -> Symmetry
     | Some _ | None -> All
   in
-  let o = Search.run { Search.default with environment; reduction; limits = { Limits.none with max_states } } (Pure_run.compile_exn program) (world n) in
+  let options = { Search.default with environment; reduction; limits = { Limits.none with max_states } } in
+  let o = Search.run options (Pure_run.compile_exn program) (world n) in
   Printf.printf "%d states, %d transitions, depth %d, %.2f s%s\n" o.states o.transitions o.depth (Sys.time ())
     (match o.stopped with None -> "" | Some bound -> Format.asprintf ", %a" Limits.pp_bound bound)

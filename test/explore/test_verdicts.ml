@@ -28,7 +28,8 @@ let check ?options property source expected () =
   Alcotest.(check string) (Property.name property) expected (text (List.assoc property o.verdicts))
 
 let failing = { options with environment = Environment.failing options.environment }
-let interrupted = { options with environment = { options.environment with faults = { Faults.none with interrupt = true } } }
+let interrupted =
+  { options with environment = { options.environment with faults = { Faults.none with interrupt = true } } }
 let supplied = { options with environment = { options.environment with replies = Calls.replies } }
 let pick = "va = pick { id 'a' }\nvb = pick { id 'b' }\n"
 

@@ -200,7 +200,8 @@ let large n = Pure_run.world (List.init n (fun i -> uuv (Printf.sprintf "uuv-%d"
 
 let explored ?(environment = plain) world text =
   let program = Pure_run.compile_exn text in
-  (program, Search.run { Search.default with environment; reduction = All; limits = { Limits.none with max_states = Some 10_000 } } program world)
+  let limits = { Limits.none with max_states = Some 10_000 } in
+  (program, Search.run { Search.default with environment; reduction = All; limits } program world)
 
 let small name ?environment ?(n = 100) most text =
   let test () =

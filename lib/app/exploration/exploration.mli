@@ -18,8 +18,8 @@ type settings = {
 }
 
 val explore :
-  interrupted:(unit -> bool) -> progress:(Dolphin_checker.Limits.progress -> unit) -> settings -> Program_file.t -> Fleet_file.t ->
-  (Search.outcome, Error.t) result
+  interrupted:(unit -> bool) -> progress:(Dolphin_checker.Limits.progress -> unit) -> settings -> Program_file.t ->
+  Fleet_file.t -> (Search.outcome, Error.t) result
 (** [explore ~interrupted ~progress s program fleet] is what is found out about the runs of [program] in the world of
     [fleet]. It ends early, as at a bound, once [interrupted ()]; [progress] is called now and then. The
     error, {!Error.Bad_input}, is a wrong invariant or formula. *)

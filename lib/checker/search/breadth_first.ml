@@ -147,7 +147,8 @@ module Make (S : System.S) = struct
     let rec t =
       { system; limits; phase; monitor; reserved = 0; states; key = [| 0 |]; from = Monitor.start; next = 0; depth = -1;
         level_end = 0; transitions = 0; work = 0; deadlock = -1; violation = -1; broken = Hashtbl.create 8;
-        stopped = None; guard; fresh = (fun i word -> arrived t i word); visitor = { visit; rest = (fun () -> rest t) } }
+        stopped = None; guard; fresh = (fun i word -> arrived t i word);
+        visitor = { visit; rest = (fun () -> rest t) } }
     and visit key action _ = arrive t key action in
     let rec begin_with () =
       match widen t; S.initial system t.visitor with () -> flush t | exception S.Outgrown -> begin_with ()

@@ -27,7 +27,8 @@ type violation =
 module Make (S : System.S) : sig
   type t
 
-  val create : ?compress:bool -> ?monitor:Dolphin_ltl.Monitor.t -> ?phase:string -> ?started:float -> Limits.t -> S.t -> t
+  val create :
+    ?compress:bool -> ?monitor:Dolphin_ltl.Monitor.t -> ?phase:string -> ?started:float -> Limits.t -> S.t -> t
   (** [create limits s] is the search of [s] with nothing but its initial state. [compress] is as for
       {!States.create}, [false] by default. Under a monitor there may be no state at all. [phase] says what is being
       done, in reports of progress. [started] is as for {!Limits.guard}. *)

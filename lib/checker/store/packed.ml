@@ -125,8 +125,8 @@ let set_table t slots =
   t.most <- most_of slots;
   fill t
 
-(* The old table is given back before there is a new one: the states can fill it again. If there is no memory for the new
-   one, there is for one like the old one. *)
+(* The old table is given back before there is a new one: the states can fill it again. If there is no memory for the
+   new one, there is for one like the old one. *)
 let resize t slots =
   let before = t.mask + 1 in
   t.table <- fresh_table 1;
@@ -174,9 +174,10 @@ let add_bare t keys at h ~parent ~fresh =
 
 (* {1 Many at a time}
 
-   Looking for a state costs two reads of memory, of the table and of the state found there, and little else. A processor
-   waits for many reads at once if they do not depend on each other: so the table is read for all that wait, then the
-   states, and only then are they added, from the caches. A bare table has the states, and there is only one read. *)
+   Looking for a state costs two reads of memory, of the table and of the state found there, and little else. A
+   processor waits for many reads at once if they do not depend on each other: so the table is read for all that wait,
+   then the states, and only then are they added, from the caches. A bare table has the states, and there is only one
+   read. *)
 
 let read_tables t =
   let waiting = t.waiting and table : words_of_chunk = t.table and mask = t.mask in

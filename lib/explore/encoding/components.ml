@@ -154,7 +154,8 @@ and target_of t path family residual =
       | None -> Stays (member t path family r).local)
   | tree, _ -> becomes t path tree
 
-(* Steps that go on in one way, whatever is shared, are settled here; the others per shared state, by {!Memoised_steps}. *)
+(* Steps that go on in one way, whatever is shared, are settled here; the others per shared state, by
+   {!Memoised_steps}. *)
 and compile t home kin index (Step { offer; continue } as source : Task_rules.step) =
   let dependent event =
     { index; source; event; home; kin; dependence = Dependent; successor = Gone; free_action = -1; outcomes = [||] }

@@ -1,6 +1,6 @@
-(** Layouts of executing configurations in words. A layout is the machine that waits, the tree of nests, and the families
-    of the components in it, in order. Configurations with the same layout differ in a few small numbers: that of the
-    shared state, and each component's number in its family. *)
+(** Layouts of executing configurations in words. A layout is the machine that waits, the tree of nests, and the
+    families of the components in it, in order. Configurations with the same layout differ in a few small numbers: that
+    of the shared state, and each component's number in its family. *)
 
 open Dolphin_semantics
 

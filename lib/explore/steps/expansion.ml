@@ -145,7 +145,8 @@ and leave_alone x nest (other : Layout.place) action shared =
   let t = x.expansion in
   match nest.inside, other.inside with
   | None, _ -> invalid_arg "Expansion.leave_alone: no nest"
-  | Some _, None -> go x nest (Components.alone t.components (Encoding.component x.layout x.key other.from)) action shared
+  | Some _, None ->
+    go x nest (Components.alone t.components (Encoding.component x.layout x.key other.from)) action shared
   | Some inside, Some _ ->
     let r = Components.around inside (Encoding.residual x.layout x.key other) in
     let children = Components.children t.components (Components.outside inside) r in

@@ -48,6 +48,7 @@ val visit_script : t -> Task_group.permutation option System.visitor -> int -> a
 (** [visit_script t v n ~action] visits configuration [n], which executes nothing. *)
 
 val write_and_visit :
-  t -> Task_group.permutation option System.visitor -> Rule.t list -> Configuration.t -> Environment.t -> action:int -> int
+  t -> Task_group.permutation option System.visitor -> Rule.t list -> Configuration.t -> Environment.t ->
+  action:int -> int
 (** [write_and_visit t v rules c e ~action] visits [c] with [e], which a step by [rules] led to. The result is its place
     of the script. *)

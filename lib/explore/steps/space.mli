@@ -38,8 +38,8 @@ val shared : t -> int array -> int option
 (** [shared t key] is the number of the shared state of [key], if it executes a task. *)
 
 val unsettled : Core.program -> Fault.t -> Dolphin_checker.Limits.bound
-(** [unsettled p fault] is that nobody can list what follows some state of [p], because of [fault]: more than comparisons
-    depends on what a sensor shows. *)
+(** [unsettled p fault] is that nobody can list what follows some state of [p], because of [fault]: more than a
+    comparison depends on what a sensor shows. *)
 
 (** {1:representatives Representatives} *)
 

@@ -69,7 +69,9 @@ let ends_in_same_way property ((t : Transition.t), _) =
   Property.broken_by_end t.rules t.next = property && is_end t.next
 
 let leads_to graph i state =
-  let is_it ((t : Transition.t), e) = equal (t.next, e) state || equal (Space.canonical (State_graph.system graph) t.next e) state in
+  let is_it ((t : Transition.t), e) =
+    equal (t.next, e) state || equal (Space.canonical (State_graph.system graph) t.next e) state
+  in
   fun found ->
     match List.find_opt is_it found with
     | Some choice -> Some choice

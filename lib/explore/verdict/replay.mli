@@ -1,6 +1,6 @@
-(** Runs that lead to states of a {!State_graph}, transition by transition. Each transition is one that the semantics offers
-    between the two configurations. All of this raises [Invalid_argument] if there is none, which would be an error of
-    {!State_graph}. *)
+(** Runs that lead to states of a {!State_graph}, transition by transition. Each transition is one that the semantics
+    offers between the two configurations. All of this raises [Invalid_argument] if there is none, which would be an
+    error of {!State_graph}. *)
 
 open Dolphin_semantics
 

@@ -14,6 +14,7 @@ module Vectors = struct
     is_broken : int -> bool;  (* of the first number *)
     mutable bits : int;  (* of a number *)
     mutable reserved : int;
+    mutable outgrown : bool;  (* whether the next expansion outgrows the encoding, whatever it visits *)
   }
 
   type via = unit
@@ -22,7 +23,7 @@ module Vectors = struct
   exception Outgrown
 
   let make ?(is_end = false) ?(is_broken = fun _ -> false) start successors =
-    { start; successors; is_end; is_broken; bits = 0; reserved = 0 }
+    { start; successors; is_end; is_broken; bits = 0; reserved = 0; outgrown = false }
 
   let words s = List.length s.start
   let first s word = word lsr s.reserved
@@ -39,6 +40,7 @@ module Vectors = struct
     let before = s.reserved in
     s.bits <- s.bits + 1;
     s.reserved <- reserved;
+    s.outgrown <- false;
     fun old fresh ->
       Array.blit old 0 fresh 0 (Array.length old);
       fresh.(0) <- (old.(0) lsr before) lsl reserved
@@ -51,6 +53,7 @@ module Vectors = struct
   let initial s visitor = visit s visitor s.start
 
   let expand s key visitor =
+    if s.outgrown then raise Outgrown;
     let next = s.successors (read s key) in
     List.iter (visit s visitor) next;
     if next = [] then visitor.rest ();
@@ -125,8 +128,10 @@ let counter ?is_broken () =
 
 let range from upto = List.init (upto - from + 1) (fun i -> [ from + i ])
 
-let test_cycle () =
+(* Looking for the cycle expands states again, and may outgrow their encoding. *)
+let test_cycle ~outgrown () =
   let search = searched (counter ()) in
+  (Search.system search).outgrown <- outgrown;
   check_int "states" 10 (Search.count search);
   check_int "transitions" 10 (Search.transitions search);
   Alcotest.(check bool) "no deadlock" true (Search.no_deadlock search = Holds);
@@ -196,7 +201,9 @@ let () =
         [ case "five" (test_philosophers ~compress:false 5); case "eight" (test_philosophers ~compress:false 8);
           case "eight, compressed" (test_philosophers ~compress:true 8) ] );
       ( "counter",
-        [ case "its cycle" test_cycle; case "a state that is reached" test_reached; case "bounds" test_bounds;
+        [ case "its cycle" (test_cycle ~outgrown:false);
+          case "its cycle, after outgrowing" (test_cycle ~outgrown:true);
+          case "a state that is reached" test_reached; case "bounds" test_bounds;
           case "a bound within an expansion" test_wide ] );
       ( "formulas",
         [ case "F three" (test_holds (counter ()) "F three"); case "F G !three" (test_holds (counter ()) "F G !three");

@@ -215,15 +215,19 @@ module Make (S : System.S) = struct
 
   type arrival = { into : int; valuation : int; via : S.via }
 
-  let arrivals t i =
+  (* What a system numbers may grow by looking at a state again, too. *)
+  let rec arrivals t i =
     let found = ref [] in
     let put key via valuation = found := { into = States.find t.states key; valuation; via } :: !found in
     let visit key action via =
       match t.monitor with None -> put key via 0 | Some monitor -> under t monitor key action (put key via)
     in
     fetch t i;
-    ignore (S.expand t.system t.key { visit; rest = ignore });
-    List.rev !found
+    match S.expand t.system t.key { visit; rest = ignore } with
+    | (_ : int) -> List.rev !found
+    | exception S.Outgrown ->
+      widen t;
+      arrivals t i
 
   (* {1 Verdicts} *)
 

@@ -167,7 +167,7 @@ let count : json -> Settings.count = function
   | `Int n when n > 0 -> Exactly n
   | json -> wrong "a number of vehicles" json
 
-let of_request budget : Machine.request -> json = function
+let of_request budget : Code.request -> json = function
   | Pick pick -> of_pick pick
   | Ask prompt -> tagged "ask" [ `String prompt ]
   | Pause seconds -> tagged "pause" [ of_float seconds ]
@@ -176,7 +176,7 @@ let of_request budget : Machine.request -> json = function
     let arguments = of_option (of_list (of_value budget)) arguments in
     tagged "call" [ of_option (fun name -> `String name) subject; `String member; arguments ]
 
-let request nodes : json -> Machine.request = function
+let request nodes : json -> Code.request = function
   | `List [ `String "pick"; id; kind; payload; region; its_count; timeout ] ->
     let filter : Settings.filter =
       { id = option text id; kind = option text kind; payload = list text payload; region = option area region } in

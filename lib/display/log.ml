@@ -27,7 +27,7 @@ let remark l ~time text = line l ~time program text
 
 (* {1 What transitions say} *)
 
-let deed : Machine.deed -> string = function
+let deed : Code.deed -> string = function
   | Posted pairs -> Format.asprintf "posts %a" Fmt.(list ~sep:(any ", ") Value.pp_tuple) pairs
   | Consumed pairs -> Format.asprintf "consumes %a" Fmt.(list ~sep:(any ", ") Value.pp_tuple) pairs
   | Said text -> "says: " ^ text
@@ -68,7 +68,7 @@ let of_label (s : Transition.t) =
 
 (* The first effects of a transition are those of the deeds in its label, which are told already. *)
 let told_by_label (label : Label.t) =
-  let has_effect : Machine.deed -> bool = function
+  let has_effect : Code.deed -> bool = function
     | Posted _ | Consumed _ -> false
     | Said _ | Released _ | Set_connection_timeout _ -> true
   in

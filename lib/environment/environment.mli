@@ -21,8 +21,9 @@ type options = {
 }
 
 exception Unclear of Fault.t
-(** Raised where an exploration cannot go on, for nobody could list the outcomes of a step in an open world: see
-    {!Transition.internal_all}. *)
+(** Nobody could list the outcomes of a step in an open world: see {!Transition.internal_all}. The exploration cannot go
+    on. This is the one exception here that is no broken invariant. It passes through whatever expands states, memoised
+    steps included; whoever explores handles it where the exploration ends. *)
 
 val clear : ('a, Fault.t) result -> 'a
 (** [clear (Ok x)] is [x].

@@ -41,7 +41,7 @@ let value program world e =
     { id = -1; label = "constant"; parameters = 0; implicit = false; captures = [||]; slots = slots e; code = e;
       lambda_site = e.site }
   in
-  let context : Machine.context =
+  let context : Code.context =
     { program; world; bound = []; store = Store.empty; tuples = Tuples.empty No_key; mode = Task_code; deeds = [] }
   in
   match Machine.run ~fuel context (Machine.call { lambda; captured = [||] } []) with

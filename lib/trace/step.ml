@@ -90,8 +90,8 @@ let tuple_changes (before : Configuration.t) (t : Transition.t) =
   else
     let all tuples = List.concat_map (fun (k, xs) -> List.map (fun x -> (k, x)) xs) (Tuples.bindings tuples) in
     let of_deeds deeds =
-      let posted = List.concat_map (function Machine.Posted pairs -> pairs | _ -> []) deeds in
-      let consumed = List.concat_map (function Machine.Consumed pairs -> pairs | _ -> []) deeds in
+      let posted = List.concat_map (function Code.Posted pairs -> pairs | _ -> []) deeds in
+      let consumed = List.concat_map (function Code.Consumed pairs -> pairs | _ -> []) deeds in
       balance posted consumed
     in
     let is_handling = function

@@ -45,7 +45,7 @@ let b_changes_only_so _ (s : Walk.step) =
 let pairs n =
   List.concat_map (fun (k, xs) -> List.map (fun x -> Format.asprintf "%a" Value.pp_tuple (k, x)) xs) (Tuples.bindings n)
 
-let deeds_of (l : Label.t) : Machine.deed list =
+let deeds_of (l : Label.t) : Code.deed list =
   match l with
   | Check deeds | Act deeds | Cut deeds -> deeds
   | Did deed -> [ deed ]
@@ -60,7 +60,7 @@ let tuples_are_conserved _ (s : Walk.step) =
   let texts = List.map (Format.asprintf "%a" Value.pp_tuple) in
   let posted, consumed =
     List.fold_left
-      (fun (posted, consumed) (deed : Machine.deed) ->
+      (fun (posted, consumed) (deed : Code.deed) ->
          match deed with
          | Posted xs -> (texts xs @ posted, consumed)
          | Consumed xs -> (posted, texts xs @ consumed)

@@ -117,7 +117,7 @@ let machine r (m : Machine.t) : Machine.t =
   let locals = Array.map (value_by r) m.locals in
   { m with focus; locals; stack = List.map (frame r) m.stack }
 
-let request r : Machine.request -> Machine.request = function
+let request r : Code.request -> Code.request = function
   | Execute t -> Execute (task r t)
   | Host_call call -> Host_call { call with arguments = Option.map (List.map (value_by r)) call.arguments }
   | (Pick _ | Ask _ | Pause _) as request -> request

@@ -118,10 +118,10 @@ let eval_in program world t (c : Configuration.t) =
   else
     let set store (i, question) = Store.set i (Core.Boolean (answer_to c question)) store in
     let store = List.fold_left set c.shared.store t.questions in
-    let context : Machine.context =
+    let context : Code.context =
       { program; world; bound = c.shared.bound; store; tuples = c.shared.tuples; mode = Task_code; deeds = [] }
     in
-    let answer ((stop : Machine.stop), _, (after : Machine.context)) =
+    let answer ((stop : Machine.stop), _, (after : Code.context)) =
       match stop with
       | Finished x when after.deeds = [] && Store.compare after.store store = 0 -> (
           match Reading.settled Fault.unknown_site x with

@@ -134,8 +134,8 @@ let holds_after_action action t =
   | Binds vehicle, Bind vs -> List.exists (is vehicle) vs
   | Binds _, _ -> false
   | Says text, _ -> List.exists (function Effect.Say said -> is text said | _ -> false) t.effects
-  | Posts (key, x), _ -> List.exists (function Machine.Posted ps -> exists_pair key x ps | _ -> false) (deeds t)
-  | Consumes (key, x), _ -> List.exists (function Machine.Consumed ps -> exists_pair key x ps | _ -> false) (deeds t)
+  | Posts (key, x), _ -> List.exists (function Code.Posted ps -> exists_pair key x ps | _ -> false) (deeds t)
+  | Consumes (key, x), _ -> List.exists (function Code.Consumed ps -> exists_pair key x ps | _ -> false) (deeds t)
   | Simple "error", _ -> (match t.ending with Some (Failed _) -> true | Some _ | None -> false)
   | Simple "halt", _ -> (match t.ending with Some (Halted _) -> true | Some _ | None -> false)
   | Simple name, label -> (

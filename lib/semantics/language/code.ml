@@ -1,18 +1,21 @@
 (* What pieces of code see, do and ask for: the types that the machine and its operations share. A types-only module:
-   it has no interface of its own. *)
+   it has no interface of its own. [Machine] runs code. *)
 
 open Core
+
+(** {1 What code sees and does} *)
 
 (** What code did that others can see. *)
 type deed =
   | Posted of (string * value) list
   | Consumed of (string * value) list
   | Said of string
-  | Released of vehicle list
-  | Set_connection_timeout of vehicle list option * float
+  | Released of vehicle list                    (* those that were bound *)
+  | Set_connection_timeout of vehicle list option * float  (* for these vehicles, or for all; seconds *)
 
 (** How an error handler settles the error: [ignore()], or [propagate()], which is the default. *)
 type verdict = Ignored | Propagated
+
 type mode =
   | Script                                      (* stops after every deed and may wait *)
   | Task_code                                   (* guards, conditions, actions: atomic, may not wait *)
@@ -33,9 +36,12 @@ type context = {
 type request =
   | Pick of Settings.pick
   | Ask of string
-  | Pause of float
+  | Pause of float                              (* seconds *)
   | Execute of task
   | Host_call of { subject : string option; member : string; arguments : value list option }
+  (* a method of a host object, or with [None] a property; without subject, a procedure of the host itself *)
+
+(** {1 Operations} *)
 
 (** What a method that calls a closure for each item does with the results. *)
 type iteration =

@@ -1,25 +1,6 @@
 open Dolphin_results
 open Core
-
-type deed = Code.deed =
-  | Posted of (string * value) list
-  | Consumed of (string * value) list
-  | Said of string
-  | Released of vehicle list
-  | Set_connection_timeout of vehicle list option * float
-
-type verdict = Code.verdict = Ignored | Propagated
-type mode = Code.mode = Script | Task_code | Handler of verdict
-
-type context = Code.context = {
-  program : program;
-  world : World.t;
-  bound : vehicle list;
-  store : Store.t;
-  tuples : Tuples.t;
-  mode : mode;
-  deeds : deed list;
-}
+open Code
 
 (* What a loop has yet to go through: elements from an index on, or numbers up to and with the last, up or down. *)
 type items = Items of value array * int | Counting of int * int
@@ -35,7 +16,7 @@ type frame =
   | Next_item of int * items * expression
   | Leave of value array
   | Iterate of {
-      iteration : Code.iteration;
+      iteration : iteration;
       closure : closure;
       subject : value;
       items : value array;
@@ -116,13 +97,6 @@ let hash m =
       (h * 31) + rank_frame f
   in
   (List.fold_left frame focus m.stack * 65599) + Value.hash (List m.locals) + m.at
-
-type request = Code.request =
-  | Pick of Settings.pick
-  | Ask of string
-  | Pause of float
-  | Execute of task
-  | Host_call of { subject : string option; member : string; arguments : value list option }
 
 let name_of_call ~subject ~member =
   match subject with None -> member | Some subject -> subject ^ "." ^ member
@@ -328,7 +302,7 @@ and enter context fuel closure arguments at locals stack calls =
 and perform context fuel operation at arguments locals stack calls =
   settle_outcome context fuel (Operation.apply context at operation arguments) at locals stack calls
 
-and settle_outcome context fuel (outcome : Code.outcome) at locals stack calls : (stop * t * context) Decision.t =
+and settle_outcome context fuel (outcome : outcome) at locals stack calls : (stop * t * context) Decision.t =
   let stopped focus = machine focus locals stack calls at in
   match outcome with
   | Value x -> proceed context fuel x locals stack calls at

@@ -1,36 +1,9 @@
 (** The abstract machine that runs the program's code: the script between its visible steps, and the code of guards,
     actions and error handlers in one go. Control is data (an expression in focus and a stack of frames), so that a
-    configuration can be stored, compared and resumed, and deep recursion of a program costs heap, not stack. *)
+    configuration can be stored, compared and resumed, and deep recursion of a program costs heap, not stack. {!Code} has
+    the types of what code sees, does and asks for. *)
 
 open Core
-
-(** {1:context What code sees and changes} *)
-
-(** What code did that others can see. *)
-type deed =
-  | Posted of (string * value) list
-  | Consumed of (string * value) list
-  | Said of string
-  | Released of vehicle list  (** those that were bound *)
-  | Set_connection_timeout of vehicle list option * float  (** for these vehicles, or for all; seconds *)
-
-(** How an error handler settles the error: [ignore()], or [propagate()], which is the default. *)
-type verdict = Ignored | Propagated
-
-type mode =
-  | Script  (** stops after every deed and may wait *)
-  | Task_code  (** guards, conditions, actions: atomic, may not wait *)
-  | Handler of verdict  (** [onError] code: as task code, and gives a verdict *)
-
-type context = {
-  program : program;
-  world : World.t;
-  bound : vehicle list;  (** B, in pick order *)
-  store : Store.t;
-  tuples : Tuples.t;  (** N *)
-  mode : mode;
-  deeds : deed list;  (** latest first *)
-}
 
 (** {1:machine Machines} *)
 
@@ -89,30 +62,21 @@ val keep_readings : t -> t
 
 (** {1:running Running} *)
 
-(** What the script waits for. *)
-type request =
-  | Pick of Settings.pick
-  | Ask of string
-  | Pause of float  (** seconds *)
-  | Execute of task
-  | Host_call of { subject : string option; member : string; arguments : value list option }
-  (** a method of a host object, or with [None] a property; without subject, a procedure of the host itself *)
-
 val name_of_call : subject:string option -> member:string -> string
 (** [name_of_call ~subject ~member] is how labels and journals name a call of the host: ["getSupplier"],
     ["queue.await"]. *)
 
-val compare_request : request -> request -> int
+val compare_request : Code.request -> Code.request -> int
 (** A total order. *)
 
 type stop =
   | Exhausted  (** the fuel ran out; the machine can go on *)
   | Finished of value
-  | Did of deed  (** in script mode: something that others see, the latest of [deeds]; the machine can go on *)
-  | Waits of request  (** in script mode; go on with {!give} *)
+  | Did of Code.deed  (** in script mode: something that others see, the latest of [deeds]; the machine can go on *)
+  | Waits of Code.request  (** in script mode; go on with {!give} *)
   | Halted of string  (** the code called [halt] *)
   | Faulted of Fault.t
 
-val run : fuel:int -> context -> t -> (stop * t * context) Decision.t
+val run : fuel:int -> Code.context -> t -> (stop * t * Code.context) Decision.t
 (** [run ~fuel context m] runs [m] until it stops, for at most [fuel] expressions. Where it depends on what the world
     leaves open, it goes on in each way, in a world in which that is supposed. *)

@@ -4,7 +4,7 @@ type ending = Completed | Halted of string | Failed of Fault.t | Interrupted
 
 type control =
   | Script of Machine.t
-  | Waiting of Machine.t * Machine.request
+  | Waiting of Machine.t * Code.request
   | Executing of Machine.t * Residual.t
   | Ended of ending
 

@@ -14,7 +14,7 @@ val compare_ending : ending -> ending -> int
 
 type control =
   | Script of Machine.t
-  | Waiting of Machine.t * Machine.request  (** the script waits; never for [Execute] *)
+  | Waiting of Machine.t * Code.request  (** the script waits; never for [Execute] *)
   | Executing of Machine.t * Residual.t  (** the script waits for the task *)
   | Ended of ending
 

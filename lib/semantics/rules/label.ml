@@ -4,13 +4,13 @@ type t =
   | Start of vehicle * string
   | Done of vehicle * string
   | Fail of vehicle * string * string
-  | Check of Machine.deed list
-  | Act of Machine.deed list
-  | Cut of Machine.deed list
+  | Check of Code.deed list
+  | Act of Code.deed list
+  | Cut of Code.deed list
   | Time_out
   | Set_time of float
   | Broken of string
-  | Did of Machine.deed
+  | Did of Code.deed
   | Silent
   | Pick of string
   | Bind of vehicle list
@@ -32,7 +32,7 @@ type t =
 
 let pp_tuples = Fmt.(list ~sep:(any ", ") Value.pp_tuple)
 
-let pp_deed ppf : Machine.deed -> unit = function
+let pp_deed ppf : Code.deed -> unit = function
   | Posted pairs -> Format.fprintf ppf "post %a" pp_tuples pairs
   | Consumed pairs -> Format.fprintf ppf "consume %a" pp_tuples pairs
   | Said text -> Format.fprintf ppf "message %a" Value.pp (String text)

@@ -6,13 +6,13 @@ type t =
   | Start of vehicle * string  (** of the plan with this name *)
   | Done of vehicle * string
   | Fail of vehicle * string * string  (** why *)
-  | Check of Machine.deed list  (** a guard or condition that held, with what its code did *)
-  | Act of Machine.deed list
-  | Cut of Machine.deed list  (** the condition of an [until] *)
+  | Check of Code.deed list  (** a guard or condition that held, with what its code did *)
+  | Act of Code.deed list
+  | Cut of Code.deed list  (** the condition of an [until] *)
   | Time_out  (** of [during] or [idle] *)
   | Set_time of float  (** seconds that [during] starts with, given by code *)
   | Broken of string  (** code inside of a task that failed *)
-  | Did of Machine.deed  (** by the script *)
+  | Did of Code.deed  (** by the script *)
   | Silent
   | Pick of string  (** what is looked for *)
   | Bind of vehicle list

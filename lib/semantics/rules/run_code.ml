@@ -1,24 +1,24 @@
 open Core
 
 type outcome =
-  | Gives of value * Shared.t * Machine.deed list
+  | Gives of value * Shared.t * Code.deed list
   | Faulty of Fault.t
-  | Halts of string * Shared.t * Machine.deed list
+  | Halts of string * Shared.t * Code.deed list
 
-type result = { world : World.t; outcome : outcome; mode : Machine.mode }
+type result = { world : World.t; outcome : outcome; mode : Code.mode }
 
 (* Atomic code that takes more expressions counts as endless. *)
 let fuel = 2_000_000
 
-let context program world (s : Shared.t) mode : Machine.context =
+let context program world (s : Shared.t) mode : Code.context =
   { program; world; bound = s.bound; store = s.store; tuples = s.tuples; mode; deeds = [] }
 
-let after (context : Machine.context) (s : Shared.t) = { s with store = context.store; tuples = context.tuples }
+let after (context : Code.context) (s : Shared.t) = { s with store = context.store; tuples = context.tuples }
 
 let kept program world (s : Shared.t) =
   if World.is_open world then { s with store = Reading.keep program s.store } else s
 
-let action_of : Machine.deed -> Effect.t option = function
+let action_of : Code.deed -> Effect.t option = function
   | Posted _ | Consumed _ -> None
   | Said text -> Some (Say text)
   | Released vs -> Some (Release vs)
@@ -27,7 +27,7 @@ let action_of : Machine.deed -> Effect.t option = function
 let effects deeds = List.filter_map action_of deeds
 
 let run program world s mode closure arguments =
-  let result (stop, _, (context : Machine.context)) =
+  let result (stop, _, (context : Code.context)) =
     let deeds = List.rev context.deeds in
     let outcome =
       match (stop : Machine.stop) with

@@ -3,14 +3,14 @@
 open Core
 
 type outcome =
-  | Gives of value * Shared.t * Machine.deed list  (** what the code did, first deed first *)
+  | Gives of value * Shared.t * Code.deed list  (** what the code did, first deed first *)
   | Faulty of Fault.t
-  | Halts of string * Shared.t * Machine.deed list
+  | Halts of string * Shared.t * Code.deed list
 
 type result = {
   world : World.t;  (** with what was supposed of it *)
   outcome : outcome;
-  mode : Machine.mode;  (** a handler's has its verdict *)
+  mode : Code.mode;  (** a handler's has its verdict *)
 }
 
 val atomic : program -> World.t -> Shared.t -> closure -> result Decision.t
@@ -19,15 +19,15 @@ val atomic : program -> World.t -> Shared.t -> closure -> result Decision.t
 val handler : program -> World.t -> Shared.t -> closure -> Fault.t -> result Decision.t
 (** [handler p w s code fault] runs the [onError] code [code] for [fault]. *)
 
-val context : program -> World.t -> Shared.t -> Machine.mode -> Machine.context
+val context : program -> World.t -> Shared.t -> Code.mode -> Code.context
 (** What the machine sees of a shared part. *)
 
-val after : Machine.context -> Shared.t -> Shared.t
+val after : Code.context -> Shared.t -> Shared.t
 (** [after x s] is [s] with the store and N that [x] holds. *)
 
 val kept : program -> World.t -> Shared.t -> Shared.t
 (** [kept p w s] is [s] once the step is over that ran the code: in an open world, what sensors showed is from now on
     what they have shown ({!Reading.keep}). *)
 
-val effects : Machine.deed list -> Effect.t list
+val effects : Code.deed list -> Effect.t list
 (** What these deeds ask of the outside. *)

@@ -1,7 +1,7 @@
 (* The script runs so many expressions in one silent transition, then lets others see it. *)
 let fuel = 10_000
 
-let rule_of_deed : Machine.deed -> Rule.t = function
+let rule_of_deed : Code.deed -> Rule.t = function
   | Posted _ -> Post
   | Consumed _ -> Consume
   | Said _ -> Message
@@ -13,7 +13,7 @@ let release vs (s : Shared.t) =
   { s with bound; allocation = Vehicle_map.filter (fun v _ -> not (List.mem v vs)) s.allocation }
 
 (* No task runs while the script does, so to release a vehicle stops none. *)
-let do_deed (deed : Machine.deed) s m =
+let do_deed (deed : Code.deed) s m =
   let s =
     match deed with
     | Released vs -> release vs s
@@ -32,7 +32,7 @@ let execute world (s : Shared.t) m t =
   in
   Decision.map allocated (Decision.look world (fun world -> Allocation.allocate world s.bound t))
 
-let wait world s m (request : Machine.request) =
+let wait world s m (request : Code.request) =
   let waiting rule label action =
     Decision.Decided (Conclusion.make ~effects:[ action ] rule label (Waiting (m, request)) s)
   in
@@ -47,7 +47,7 @@ let wait world s m (request : Machine.request) =
 let keep_in_machine world m = if World.is_open world then Machine.keep_readings m else m
 
 let step program world s m =
-  let stopped ((stop : Machine.stop), m, (context : Machine.context)) =
+  let stopped ((stop : Machine.stop), m, (context : Code.context)) =
     let m = keep_in_machine world m and s = Run_code.kept program world (Run_code.after context s) in
     match stop with
     | Exhausted -> Decision.Decided (Conclusion.make Script Silent (Script m) s)

@@ -5,8 +5,8 @@ open Residual
 
 type _ offer =
   | Start : platform_task * vehicle -> unit offer
-  | Perform : closure -> (Machine.deed list, Fault.t) result offer
-  | Check : closure -> (Machine.deed list, Fault.t) result offer
+  | Perform : closure -> (Code.deed list, Fault.t) result offer
+  | Check : closure -> (Code.deed list, Fault.t) result offer
   | Measure : closure -> (float, Fault.t) result offer
   | End_of : platform_task * vehicle -> (unit, string) result offer
   | Expiry_of : timer -> unit offer

@@ -11,8 +11,8 @@ open Residual
     failed and said why. *)
 type _ offer =
   | Start : platform_task * vehicle -> unit offer  (** nothing; A(v) becomes the task *)
-  | Perform : closure -> (Machine.deed list, Fault.t) result offer  (** to run this action: what it did *)
-  | Check : closure -> (Machine.deed list, Fault.t) result offer  (** that this guard is true: what it did *)
+  | Perform : closure -> (Code.deed list, Fault.t) result offer  (** to run this action: what it did *)
+  | Check : closure -> (Code.deed list, Fault.t) result offer  (** that this guard is true: what it did *)
   | Measure : closure -> (float, Fault.t) result offer  (** the seconds that this code gives *)
   | End_of : platform_task * vehicle -> (unit, string) result offer  (** that the vehicle reports the end *)
   | Expiry_of : timer -> unit offer  (** that the timer expires *)

@@ -74,7 +74,7 @@ let log_of_a_stop () =
          (5., transition ~effects:[ Stop "v"; Release bound; End Interrupted ] Interrupt) ])
 
 let log_of_deeds () =
-  let deeds : Machine.deed list = [ Posted [ ("k", Integer 1) ]; Said "two\nlines"; Posted [ ("l", Integer 2) ] ] in
+  let deeds : Code.deed list = [ Posted [ ("k", Integer 1) ]; Said "two\nlines"; Posted [ ("l", Integer 2) ] ] in
   lines "in their order, once each"
     [ "   0:00  program     posts k:1"; "   0:00  program     says: two\n                     lines";
       "   0:00  program     posts l:2" ]

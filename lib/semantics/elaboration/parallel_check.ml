@@ -62,7 +62,7 @@ let rec assignments acc (s : statement) =
     List.fold_left assignments acc body
   | Assign _ | Expression _ | Setting _ | Return _ | Break | Continue -> acc
 
-(* Code inside of expressions assigns too, and its parameters hide what they are named like. *)
+(* Code inside of expressions assigns too, and its parameters hide variables of the same name. *)
 let assignments_inside acc (e : expression) =
   let hide acc (x : string located) = String_map.add x.it false acc in
   match e.it with

@@ -330,7 +330,7 @@ and settle_outcome context fuel (outcome : outcome) at locals stack calls : (sto
 
 (* {1 Readings} *)
 
-(* Where a value is kept tells readings apart: two that were made at different times are seldom the same. *)
+(* A kept reading is known by its place: readings that were made in different steps are seldom the same. *)
 let keep_readings m =
   let keep where i x = match x with Reading r -> Reading { r with text = Printf.sprintf "%s %d" where i } | x -> x in
   let frame depth = function

@@ -1,7 +1,7 @@
 (** The abstract machine that runs the program's code: the script between its visible steps, and the code of guards,
     actions and error handlers in one go. Control is data (an expression in focus and a stack of frames), so that a
-    configuration can be stored, compared and resumed, and deep recursion of a program costs heap, not stack. {!Code} has
-    the types of what code sees, does and asks for. *)
+    configuration can be stored, compared and resumed, and deep recursion of a program costs heap, not stack. {!Code}
+    has the types of what code sees, does and asks for. *)
 
 open Core
 
@@ -37,11 +37,11 @@ type focus = Evaluate of expression | Give of value
 
 type t = { focus : focus; locals : value array; stack : frame list; calls : int;  (** as many as [Leave] in [stack] *)
            at : site }
-(** Code about to run, or waiting for a value. It is open to those who store machines; whoever makes one up from parts
-    that do not belong together may see {!run} raise [Invalid_argument]. *)
+(** Code about to run, or waiting for a value. The type is public so that machines can be stored. {!run} may raise
+    [Invalid_argument] on a machine made of parts that do not belong together. *)
 
 val compare : t -> t -> int
-(** A total order: of machines of one program, those are equal that go on alike. *)
+(** A total order: machines of one program are equal if they go on alike. *)
 
 val hash : t -> int
 (** Equal machines have equal hashes. *)
@@ -50,15 +50,13 @@ val site : t -> site
 (** [site m] is the place in the program where [m] stands. *)
 
 val call : closure -> value list -> t
-(** [call c arguments] is [c] about to run. Of too many arguments the first are used, as for handlers that ignore their
-    error. *)
+(** [call c arguments] is [c] about to run. Surplus arguments are dropped, as for handlers that ignore their error. *)
 
 val give : value -> t -> t
 (** [give x m] is [m], which waited, going on with [x]. *)
 
 val keep_readings : t -> t
-(** [keep_readings m] is [m] with readings of sensors known by where [m] keeps them, as must be when a step is over: see
-    {!Reading.keep}. *)
+(** [keep_readings m] is [m] once a step is over: its readings are known by where [m] keeps them ({!Reading.keep}). *)
 
 (** {1:running Running} *)
 

@@ -43,7 +43,7 @@ let settled at = function Reading r -> Error (unclear at r.text) | x -> Ok x
 
 type applied = Gives of (value, string) result | Asks of World.question | Unclear of Fault.t | As_any
 
-(* Comparisons beyond these, of one step, are too many to list the outcomes of. *)
+(* With more comparisons in one step, the outcomes would be too many to list. *)
 let most_claims = 12
 
 let spell x = match x with Reading r -> r.text | x -> Format.asprintf "%a" Value.pp (Value.canonical x)
@@ -61,13 +61,13 @@ let is_words = function Reading { quantity = Words; _ } | String _ -> true | _ -
 let coordinates =
   [ "latitude"; "lat"; "longitude"; "lon"; "height"; "getLatitude"; "getLat"; "getLongitude"; "getLon"; "getHeight" ]
 
-(* They make numbers of numbers, without fail; [round] and the like too, of all that a battery or a place gives. *)
+(* Of a number these give a number and never fail: [round] and the like too, whatever a battery or a place shows. *)
 let numeric = [ "abs"; "round"; "intValue"; "toInteger"; "doubleValue"; "toDouble" ]
 let mathematical = [ "abs"; "round"; "floor"; "ceil"; "min"; "max" ]
 
 let distances = [ "distance"; "distanceTo"; "bearing"; "bearingTo" ]
 
-(* Whether the comparison that [text] spells holds, or with [~is:false] whether it does not. *)
+(* Whether the comparison that [text] spells holds; with [~is:false], whether it does not hold. *)
 let claim world at ~is text =
   match World.claim world text with
   | Ok holds -> Gives (Ok (Boolean (holds = is)))

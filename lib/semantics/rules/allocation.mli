@@ -7,5 +7,5 @@ val allocate : World.t -> vehicle list -> task -> ((Residual.t, Fault.t) result,
     activated. Branches of [|] get different vehicles, other parts may share and prefer to; [T[V]] restricts [T] to [V];
     an inline plan's payload and vehicles are requirements. Of the feasible allocations it is the one with the fewest
     vehicles, then the least total straight-line distance from the vehicles' positions in [w] to the plans' reference
-    positions, then by pick order. The fault says which task lacks what. The question is where a
-    vehicle is, if [w] leaves that open. *)
+    positions, then by pick order. The fault says which task lacks what. If [w] leaves open where a
+    vehicle is, the question asks for it. *)

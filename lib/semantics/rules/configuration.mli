@@ -30,8 +30,8 @@ val timers : t -> Residual.timer list
 (** [timers c] is the timers that run in [c]: those of its residual, or the script's. *)
 
 val compare : t -> t -> int
-(** A total order, of which {!equal} is the equality. Of one program, those are equal that have the same control, store,
-    A, B and N. *)
+(** A total order, of which {!equal} is the equality. Configurations of one program are equal if they have the same
+    control, store, A, B and N. *)
 
 val equal : t -> t -> bool
 

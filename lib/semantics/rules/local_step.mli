@@ -2,8 +2,9 @@
     that from the shared part, the world or an event.
 
     The transitions of a configuration that executes a residual are those of the residual's steps: [Transition.internal]
-    is {!internal} of each step, and [Transition.accept] is {!on_event}, both completed by {!conclude}. Whoever explores
-    many configurations computes what a step does once for all the residuals that contain it. *)
+    is {!internal} of each step, and [Transition.accept] is {!on_event}, both completed by {!conclude}. What a
+    step does depends on the step and the shared part alone, so it can be computed once for all residuals that contain
+    it. *)
 
 open Core
 
@@ -40,7 +41,7 @@ val on_event : program -> World.t -> Shared.t -> Task_rules.step -> event -> t o
 (** [on_event p w s step e] is what [step] does on [e], if that is what it awaits. *)
 
 val equal : t -> t -> bool
-(** Whether two steps of one residual have the same label, and the same result. *)
+(** Whether two steps of one residual have the same label and the same result. *)
 
 val next : Machine.t -> outcome -> Shared.t -> Configuration.t
 (** [next m o s] is the configuration after a step with outcome [o] of the residual that [m] waits for; [s] is what is

@@ -67,9 +67,9 @@ val exists_active : (t -> bool) -> t -> bool
 
 (** {1:contexts Contexts}
 
-    A residual that has begun stands in contexts. Its changes are changes of the whole by the contexts alone, whatever
-    stands beside it ({!Task_rules.change_within}); so its steps are worked out once for all that may. A [Parallel] is
-    no context: several of its branches have begun. *)
+    A residual that has begun stands in contexts. How a change of it becomes a change of the whole depends on the
+    contexts alone, not on what stands beside it ({!Task_rules.change_within}); so its steps can be computed once. A
+    [Parallel] is no context: several of its branches have begun. *)
 
 type context =
   | Before of t list  (** [_ >> t1 >> ... >> tn] *)

@@ -7,7 +7,7 @@ type outcome =
 
 type result = { world : World.t; outcome : outcome; mode : Code.mode }
 
-(* Atomic code that takes more expressions counts as endless. *)
+(* Atomic code that evaluates more expressions counts as endless. *)
 let fuel = 2_000_000
 
 let context program world (s : Shared.t) mode : Code.context =

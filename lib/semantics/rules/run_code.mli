@@ -26,8 +26,8 @@ val after : Code.context -> Shared.t -> Shared.t
 (** [after x s] is [s] with the store and N that [x] holds. *)
 
 val kept : program -> World.t -> Shared.t -> Shared.t
-(** [kept p w s] is [s] once the step is over that ran the code: in an open world, what sensors showed is from now on
-    what they have shown ({!Reading.keep}). *)
+(** [kept p w s] is [s] once the step that ran the code is over: in an open world, its readings are known by the
+    variables that hold them ({!Reading.keep}). *)
 
 val effects : Code.deed list -> Effect.t list
 (** What these deeds ask of the outside. *)

@@ -1,4 +1,4 @@
-(* The script runs so many expressions in one silent transition, then lets others see it. *)
+(* At most so many expressions are evaluated in one silent transition of the script. *)
 let fuel = 10_000
 
 let rule_of_deed : Code.deed -> Rule.t = function

@@ -56,7 +56,7 @@ type around = {
 
 let add rule outcome change = { change with outcome; rules = change.rules @ [ rule ] }
 
-(* [after_handling f c] is [c] with [f] done to what comes of its handler, if there is one. *)
+(* [after_handling f c] is [c] with [f] applied to the changes after its handler, if there is one. *)
 let after_handling f change =
   match change.outcome with
   | Next _ | Finished | Failed _ -> change
@@ -195,7 +195,7 @@ let perform code =
   in
   Step { offer = Perform code; continue }
 
-(* A guard that lets go on as [holds] says. *)
+(* The step of [guard]: the change is [holds] of its label, or the error by rule [error]. *)
 let check guard ~holds ~error =
   let continue = function
     | Ok deeds -> holds (Label.Check deeds)

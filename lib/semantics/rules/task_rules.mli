@@ -7,8 +7,8 @@ open Residual
 
 (** {1:steps Steps} *)
 
-(** What a step needs, and with what it goes on then. An error is what went wrong: the code is faulty, or the vehicle
-    failed and said why. *)
+(** What a step needs; the parameter is the type of the reply that it goes on with. An error says what went wrong: the
+    code is faulty, or why the vehicle failed. *)
 type _ offer =
   | Start : platform_task * vehicle -> unit offer  (** nothing; A(v) becomes the task *)
   | Perform : closure -> (Code.deed list, Fault.t) result offer  (** to run this action: what it did *)
@@ -48,10 +48,10 @@ val steps : t -> step Seq.t
 (** [steps r] is all that [r] can do, leftmost first, computed on demand. *)
 
 val internal_steps : t -> step Seq.t
-(** [internal_steps r] is [steps r], less some of those that wait for an end or an expiry. *)
+(** [internal_steps r] is [steps r], without some of those that wait for an end or an expiry. *)
 
 val steps_of_vehicle : vehicle -> t -> step Seq.t
-(** [steps_of_vehicle v r] is [steps r], less some that do not wait for the end of a task of [v]. *)
+(** [steps_of_vehicle v r] is [steps r], without some of those that do not wait for the end of a task of [v]. *)
 
 val broken : step -> Fault.t -> change option
 (** [broken s fault] is the change by [s] if what it needs goes wrong, with [fault] if it runs code; [None] if nothing
@@ -60,18 +60,18 @@ val broken : step -> Fault.t -> change option
 (** {1:contexts Composition}
 
     The steps of a whole are those of its parts, with their changes composed by the rules of what is around the parts.
-    [steps] is made so, and who explores parts by themselves composes their changes by the same functions. *)
+    [steps] is made so. The functions are public so that changes of single parts are composed in the same way. *)
 
 val change_within : context -> change -> change
 (** [change_within k c] is the change of [within k r] by a step of [r] that changes [r] by [c]: SEQ, ALLOF, UNTIL,
     DURING, WATCH. *)
 
 val cuts : context list -> t -> step list
-(** [cuts ks r] is the steps of [plug ks r] that are none of [r]: UNTIL-CUT and DURING-CUT of each of [ks], the
+(** [cuts ks r] is the steps of [plug ks r] that are not steps of [r]: UNTIL-CUT and DURING-CUT of each of [ks], the
     innermost first. *)
 
 val escaping : context list list -> step -> step
-(** [escaping nests s] is [s], a step of a branch of a [|] that stands in the contexts at the head of [nests], as a
-    branch of a [|] in those that come next, and so on; as far as errors go. What goes on or is over leaves all around
-    the branch as it is. An error leaves the [|] by PAR-ERR, passes through the contexts, and climbs on unless it is
-    handled there; what stood beside is not known here, and so is not in [undone]. *)
+(** [escaping nests s] is [s] with its errors passed on. [s] is a step of a branch of a [|]. This [|] stands in the
+    contexts at the head of [nests], as a branch of a [|] that stands in the next contexts, and so on. If the branch
+    goes on or is over, all around it stays. An error leaves the [|] by PAR-ERR, passes through the contexts, and climbs
+    on unless it is handled there. The other branches are not known here, so they are not in [undone]. *)

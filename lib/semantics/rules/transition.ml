@@ -92,10 +92,10 @@ let ( let* ) = Result.bind
 let equal (t : t) (t' : t) = Label.equal t.label t'.label && Configuration.equal t.next t'.next
 let with_assumed (assumed, (t : t)) = { t with assumed }
 
-(* Of several ways to the same, the first; and if all ways lead to one, with nothing assumed. *)
+(* Without duplicates. If all cases have one transition, it assumes nothing. *)
 let different d = Result.map (List.map with_assumed) (Decision.outcomes ~equal d)
 
-(* The choices of a pick, which may be several in each case. *)
+(* The choices of a pick, of which each case may have several. *)
 let choices cases =
   let add found (assumed, ts) =
     let fresh = List.filter (fun t -> not (List.exists (equal t) found)) (List.of_seq ts) in

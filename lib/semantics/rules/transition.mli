@@ -38,12 +38,12 @@ type awaited =
 
 val internal : program -> World.t -> Configuration.t -> t Seq.t
 (** [internal p w c] is the transitions that [c] can make by itself, leftmost first, computed on demand. A [pick] has
-    one for every choice of vehicles, in pick order. Where [w] is open, steps that depend on what it leaves open are not
-    among them: see {!internal_all}. *)
+    one for every choice of vehicles, in pick order. Steps that depend on what [w] leaves open are not among them: see
+    {!internal_all}. *)
 
 val accept : program -> World.t -> Configuration.t -> event -> (t, refusal) result
 (** [accept p w c e] is the transition of [c] on [e]. [Interruption] is accepted wherever the program has not ended.
-    Where [w] is open, what depends on that is not accepted: see {!accept_all}. *)
+    What depends on something that [w] leaves open is not accepted: see {!accept_all}. *)
 
 val awaited : Configuration.t -> awaited list
 (** [awaited c] is what [c] has transitions for, leftmost first, besides [Interruption]. The time-out of a [pick] is
@@ -56,9 +56,9 @@ val depends_on_sensors : program -> Configuration.t -> bool
 (** {1:open In open worlds}
 
     Where the world leaves open what sensors show, there are transitions for all that they may show, each with what it
-    assumes. Of several of one step with one label and one result there is the first only; if all assumptions lead to
-    it, it assumes nothing. The error is where more than a comparison depends on what a sensor shows that may show
-    anything: nobody could list the outcomes. In a closed world these are {!internal} and {!accept}. *)
+    assumes. If a step has one label and one result under several assumptions, only the first is listed; if all
+    assumptions lead to it, it assumes nothing. It is an error if more than a comparison depends on a reading
+    ({!Core.reading}): nobody could list the outcomes. In a closed world these are {!internal} and {!accept}. *)
 
 val internal_all : program -> World.t -> Configuration.t -> (t Seq.t, Fault.t) result
 (** [internal_all p w c] is the transitions that [c] can make by itself, leftmost first. *)

@@ -1,9 +1,9 @@
-(* The core language: what programs become after elaboration, and the values they compute. A types-only
-   module: it has no interface of its own. [Value], [Task] and [Machine] work on these types, which refer
-   to one another: a task holds closures, a closure holds values, a value may be a task.
+(* The core language: what programs become after elaboration, and the values they compute. A types-only module: it has
+   no interface of its own. [Value] and [Machine] work on these types, which refer to one another: a task holds
+   closures, a closure holds values, a value may be a task.
 
-   Metavariables, as in docs/semantics.md: [e] expression, [t] task, [v] vehicle, [k] and [x] key and value
-   of a tuple, [g] guard, [r] residual, [c] configuration, [l] label. *)
+   Metavariables, as in docs/semantics.md: [e] expression, [t] task, [v] vehicle, [k] and [x] key and value of a tuple,
+   [g] guard, [r] residual, [c] configuration, [l] label. *)
 
 type vehicle = string
 (** A vehicle, by its identifier in the network. *)
@@ -31,10 +31,10 @@ type value =
   | Closure of closure
   | Host of string                              (* an object of the host process, by its name there *)
   | Settings of setting list                    (* a block of settings being read, latest first *)
-  | Reading of reading                          (* what a sensor shows that may show anything *)
+  | Reading of reading                          (* in open worlds: what a sensor shows *)
 
-(** In open worlds only. A reading is known by its text: how it was got, or the variable that keeps it from one step to
-    another. *)
+(** A value that an open world leaves open: it may be anything of its quantity. It is known by its text, which says how
+    the value was computed, or which variable keeps it from one step to the next. *)
 and reading = { quantity : quantity; text : string }
 
 and quantity = Amount | Place | Region | Words  (* a number, a position, an area, a string *)

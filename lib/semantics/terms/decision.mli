@@ -3,7 +3,7 @@
 type 'a t =
   | Decided of 'a
   | Open of (World.assumption * 'a t Lazy.t) list  (** by what is assumed, which is one of these *)
-  | Unclear of Fault.t  (** more than a comparison depends on what a sensor shows, and it may show anything *)
+  | Unclear of Fault.t  (** more than a comparison depends on a reading: nobody could list the results *)
 
 val ask : World.t -> World.question -> (World.t -> 'a t) -> 'a t
 (** [ask w q f] is [f] of [w] with each answer to [q] supposed. *)
@@ -18,5 +18,5 @@ val cases : 'a t -> ((World.assumption list * 'a) list, Fault.t) result
 (** [cases d] is all results of [d], each with what it assumes: without assumptions, if [d] is decided. *)
 
 val outcomes : equal:('a -> 'a -> bool) -> 'a option t -> ((World.assumption list * 'a) list, Fault.t) result
-(** [outcomes ~equal d] is the different ones of the results in {!cases}, each with what is assumed where it came first.
-    If it is one, and there is one in each case, nothing has to be assumed. *)
+(** [outcomes ~equal d] is the results in {!cases} without duplicates, each with the assumptions of its first case. If
+    every case has the same result, that one assumes nothing. *)

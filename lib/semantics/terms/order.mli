@@ -1,7 +1,7 @@
 (** Orders and hashes, put together from those of parts. *)
 
 val both : int -> (unit -> int) -> int
-(** [both a b] is the order by [a], the result of a comparison, and of what is equal there by [b ()]. *)
+(** [both a b] is [a], the result of a comparison, or if that is 0, [b ()]: the lexicographic order. *)
 
 val array : ('a -> 'a -> int) -> 'a array -> 'a array -> int
 (** [array compare xs ys] orders arrays, shorter ones first, those of one length by their elements. *)

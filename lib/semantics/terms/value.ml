@@ -100,7 +100,7 @@ let rec hash x =
 
 and hash_closure c = Array.fold_left (fun h x -> Order.mix h (hash x)) c.lambda.id c.captured
 
-(* Of a deep task, which may share its parts with itself many times over, the upper levels are enough. *)
+(* The upper levels of a deep task are enough: it may share its parts with itself many times over. *)
 and hash_task depth t =
   let part = hash_task (depth - 1) in
   if depth = 0 then 0
@@ -245,7 +245,7 @@ let quoted s =
   Buffer.add_char b '\'';
   Buffer.contents b
 
-(* Of a long task the first parts are shown. *)
+(* Only the first parts of a long task are shown. *)
 let shown_parts = 100
 
 let comma ppf () = Format.pp_print_string ppf ", "

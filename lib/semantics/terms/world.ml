@@ -64,7 +64,7 @@ let open_battery v xs world = { world with batteries = String_map.add v xs world
 let open_position v ps world = { world with positions = String_map.add v ps world.positions }
 let is_open world = not (String_map.is_empty world.batteries && String_map.is_empty world.positions)
 
-(* The vehicle after all others, as [change] makes it. *)
+(* [v] with the state that [change] makes of its own, after all other vehicles. *)
 let last v change world =
   match find v world with
   | None -> world
@@ -80,7 +80,7 @@ let suppose assumed world =
   in
   List.fold_left one world assumed
 
-(* {1 To look} *)
+(* {1 What is looked at} *)
 
 type 'a shown = Shows of 'a | One_of of 'a list | Anything
 type question = assumption list

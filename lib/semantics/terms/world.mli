@@ -30,10 +30,10 @@ val carries : string list -> vehicle_state -> bool
 
 (** {1:open Worlds that leave something open}
 
-    A driver knows what sensors show. Whoever looks at all that may happen does not: in an {e open} world, batteries and
-    positions may show one of several values, or any. The transition function then gives the transitions for all that
-    may be shown, each with what it assumes. Within one step a sensor does not change; from one step to the next it
-    may show anything anew. *)
+    A driver knows what sensors show. An analysis of all that may happen does not: in an {e open} world, the sensor of a
+    battery or position may show one of several values, or any value. The transition function then gives the transitions
+    for all of them, each with what it assumes. Within one step a sensor does not change; in the next step it may show
+    another value. *)
 
 type assumption =
   | Late of Core.vehicle  (** it was first heard of after all others so far *)
@@ -56,9 +56,9 @@ val is_open : t -> bool
 (** Whether some sensor may show several values. *)
 
 val suppose : assumption list -> t -> t
-(** [suppose assumed w] is [w] if that is so. Of what is assumed, nothing is open any more. *)
+(** [suppose assumed w] is [w] in which [assumed] holds: what it says is no longer open. *)
 
-(** {1:look To look} *)
+(** {1:look What is looked at} *)
 
 (** What a sensor may show. *)
 type 'a shown =
@@ -82,7 +82,7 @@ val places : vehicle_state -> Dolphin_geo.Position.t list -> question
 (** [places s ps] is the question at which of [ps] [s] is seen. *)
 
 val places_of : t -> vehicle_state -> Dolphin_geo.Position.t list
-(** [places_of w s] is all that {!place} may be. *)
+(** [places_of w s] is all values that {!place} may have. *)
 
 val place : t -> vehicle_state -> (Dolphin_geo.Position.t, question) result
 (** [place w s] is where [s] is seen, or if that may be anywhere, [s.position]: for picking and allocating. *)
@@ -91,4 +91,4 @@ val claim : t -> string -> (bool, question) result
 (** [claim w text] is whether a comparison with what may be anything holds. *)
 
 val claims : t -> int
-(** How many were supposed. *)
+(** [claims w] is how many claims were supposed of [w]. *)

@@ -206,7 +206,8 @@ let refused guard () =
   let c = Option.get (Pure_run.last (Pure_run.run program)) in
   Alcotest.(check int) "no step" 0 (List.length (Graph.outcomes program Pure_run.fleet c));
   Alcotest.(check (list string)) "N" [ "a:1" ] (pairs c.shared.tuples);
-  Alcotest.(check (list string)) "store" [ "0" ] (List.map (fun (_, x) -> Value.to_string x) (Store.bindings c.shared.store))
+  let values = List.map (fun (_, x) -> Value.to_string x) (Store.bindings c.shared.store) in
+  Alcotest.(check (list string)) "store" [ "0" ] values
 
 (* A branch that is not taken leaves nothing to the one that is. *)
 let refused_then_taken () =

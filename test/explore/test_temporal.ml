@@ -9,6 +9,7 @@ open Dolphin_checker
 open Dolphin_explore
 module Generate = Test_support.Generate
 module Linear = Test_support.Linear
+module Product_search = Test_support.Product_search
 module Property = Dolphin_explore.Property
 module Formula = Dolphin_ltl.Formula
 
@@ -114,7 +115,7 @@ let at program world =
       Option.fold ~none:false ~some:(fun t -> Proposition.holds_after p (Proposition.observed t)) transition
     else Result.get_ok (Proposition.holds_in program world p c)
 
-let graph_of program (g : Reference.t) : _ Dolphin_ltl.Search.graph =
+let graph_of program (g : Reference.t) : _ Product_search.graph =
   let configuration i = g.states.(i).configuration in
   let successors i =
     let stays = if Environment.goes_on g.edges.(i) then [] else [ (i, (None, configuration i)) ] in
@@ -134,7 +135,7 @@ let judged = Hashtbl.create 7
 let note what = Hashtbl.replace judged what (1 + Option.value (Hashtbl.find_opt judged what) ~default:0)
 
 let agrees_on program world environment at plain (f, verdict) =
-  let expected = Dolphin_ltl.Search.satisfying ~holds:at plain (Not f) = None in
+  let expected = Product_search.satisfying ~holds:at plain (Not f) = None in
   match (verdict : Search.verdict) with
   | Holds -> note "hold"; expected
   | Violated run ->

@@ -1,6 +1,7 @@
 open Dolphin_ltl
 module Gen = QCheck2.Gen
 module Linear = Test_support.Linear
+module Product_search = Test_support.Product_search
 
 (* {1 Random formulas and graphs} *)
 
@@ -29,7 +30,7 @@ let graph =
 
 let search (g : graph) f =
   let holds letter p = List.mem p letter in
-  Search.satisfying ~holds { start = (0, g.first); successors = (fun s -> g.edges.(s)) } f
+  Product_search.satisfying ~holds { start = (0, g.first); successors = (fun s -> g.edges.(s)) } f
 
 let graph_of_word ({ letters; back } : int list Linear.word) =
   let n = Array.length letters in
@@ -39,7 +40,7 @@ let graph_of_word ({ letters; back } : int list Linear.word) =
   in
   { first = letters.(0); edges = Array.init n edge }
 
-let word_of_lasso ({ stem; cycle } : int list Search.lasso) : int list Linear.word =
+let word_of_lasso ({ stem; cycle } : int list Product_search.lasso) : int list Linear.word =
   let stem = List.map snd stem and cycle = List.map snd cycle in
   { letters = Array.of_list (stem @ cycle); back = List.length stem }
 
@@ -55,7 +56,7 @@ let is_path g lasso =
     | [] -> true
     | arrival :: rest -> List.mem arrival g.edges.(from) && connected (fst arrival) rest
   in
-  let { Search.stem; cycle } = lasso in
+  let { Product_search.stem; cycle } = lasso in
   match stem with
   | first :: rest ->
     let last xs = fst (List.nth xs (List.length xs - 1)) in

@@ -1,3 +1,5 @@
+open Dolphin_ltl
+
 type 'letter graph = { start : int * 'letter; successors : int -> (int * 'letter) list }
 type 'letter lasso = { stem : (int * 'letter) list; cycle : (int * 'letter) list }
 
@@ -34,7 +36,7 @@ let product ~tick ~holds (g : 'letter graph) a =
 let rec last = function
   | [ (i, _) ] -> i
   | _ :: rest -> last rest
-  | [] -> invalid_arg "Search.last: an empty way"
+  | [] -> invalid_arg "Product_search.last: an empty way"
 
 let satisfying ?(tick = ignore) ~holds g f =
   let a = Automaton.of_formula f in
@@ -43,7 +45,7 @@ let satisfying ?(tick = ignore) ~holds g f =
   let product : _ Cycles.graph = { successors; sets = Automaton.acceptance_sets a; is_in } in
   let lasso component =
     match Cycles.way product ~within:(fun _ -> true) ~goal:(Cycles.mem component) starts with
-    | None -> invalid_arg "Search.satisfying: a component that is not reached"
+    | None -> invalid_arg "Product_search.satisfying: a component that is not reached"
     | Some stem ->
       let state (i, letter) = (fst (pair i), letter) in
       { stem = List.map state stem; cycle = List.map state (Cycles.around product component (last stem)) }

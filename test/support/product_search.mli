@@ -1,16 +1,18 @@
 (** Runs of a graph whose letters satisfy a formula: the product of the graph with the formula's automaton, searched for
-    strongly connected components that meet all acceptance sets. Takes no stack. It is plain, and some words a state:
-    the explorer has the same from {!Monitor} and {!Cycles} for a few bytes, and is compared with this. *)
+    strongly connected components that meet all acceptance sets. It takes no stack. It is plain, and takes some words for
+    each state: the explorer does the same with {!Monitor} and {!Cycles} in a few bytes, and is compared with this. *)
+
+open Dolphin_ltl
 
 (** A graph: a letter stands at each arrival in a state. *)
 type 'letter graph = {
   start : int * 'letter;  (** the first state and its letter *)
   successors : int -> (int * 'letter) list;
-  (** states and the letters with which they are arrived at; a state without any would be the end of the run: let
-      it succeed itself *)
+  (** states, each with the letter at the arrival; a state without successors would end the run: let it be its own
+      successor *)
 }
 
-(** States with the letters they are arrived at with. *)
+(** States, each with the letter at the arrival. *)
 type 'letter lasso = {
   stem : (int * 'letter) list;  (** from the start; not empty *)
   cycle : (int * 'letter) list;  (** repeated for ever after the stem; its last state is that of the stem. Not empty *)

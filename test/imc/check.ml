@@ -16,8 +16,3 @@ let message_json (p : Packet.t) =
 
 let other_order (p : Packet.t) =
   { p with order = (match p.order with Little_endian -> Big_endian | Big_endian -> Little_endian) }
-
-let cell ?(count = 1000) name gen ~print law =
-  let cell = QCheck2.Test.make_cell ~count ~name ~print gen law in
-  let run () = QCheck2.Test.check_cell_exn ~rand:(Random.State.make [| 1866 |]) cell in
-  Alcotest.test_case name `Quick run

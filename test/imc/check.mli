@@ -14,12 +14,3 @@ val message_json : Packet.t -> Yojson.Safe.t
 (** The message of a packet that has a known one. *)
 
 val other_order : Packet.t -> Packet.t
-
-val cell :
-  ?count:int ->
-  string ->
-  'a QCheck2.Gen.t ->
-  print:('a -> string) ->
-  ('a -> bool) ->
-  unit Alcotest.test_case
-(** A property as a test case, from a fixed seed. *)

@@ -133,7 +133,7 @@ let dynamic m =
   | Ok m' -> Yojson.Safe.equal m.json (Dynamic.to_json m')
   | Error _ -> false
 
-let law name law = Check.cell ~count:2000 name any ~print (fun m -> QCheck2.assume (small m); law m)
+let law name law = Test_support.Property.case ~count:2000 name ~print any (fun m -> QCheck2.assume (small m); law m)
 
 let suite =
   [

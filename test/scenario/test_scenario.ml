@@ -3,9 +3,7 @@ open Dolphin_syntax
 
 let case name run = Alcotest.test_case name `Quick run
 
-let law name generator ~print property =
-  let cell = QCheck2.Test.make_cell ~count:300 ~name ~print generator property in
-  case name (fun () -> QCheck2.Test.check_cell_exn ~rand:(Random.State.make [| 2016 |]) cell)
+let law name generator ~print property = Test_support.Property.case ~count:300 name ~print generator property
 
 let text = Alcotest.(check string)
 

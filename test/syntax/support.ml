@@ -23,8 +23,3 @@ let printed program = Format.asprintf "%a" Print.program program
 
 (* Two programs are the same if they differ in locations only. *)
 let same = Alcotest.testable Print.program (fun p q -> Erase.program p = Erase.program q)
-
-let property ?(count = 1000) name generator ?print law =
-  Alcotest.test_case name `Quick (fun () ->
-      let cell = QCheck2.Test.make_cell ~count ~name ?print generator law in
-      QCheck2.Test.check_cell_exn cell ~rand:(Random.State.make [| 20210415 |]))

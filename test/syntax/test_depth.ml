@@ -91,9 +91,9 @@ let shuffled =
   map (String.concat " ") (list_size (int_bound 40) (map (Array.get words) (int_bound (Array.length words - 1))))
 
 let arbitrary =
-  [ Support.property "bytes" QCheck2.Gen.(string_size (int_bound 60)) ~print:String.escaped
+  [ Test_support.Property.case "bytes" ~count:1000 QCheck2.Gen.(string_size (int_bound 60)) ~print:String.escaped
       (fun source -> never_raises source && told_in_bounds source);
-    Support.property "words" ~count:4000 shuffled ~print:String.escaped
+    Test_support.Property.case "words" ~count:4000 shuffled ~print:String.escaped
       (fun source -> never_raises source && told_in_bounds source) ]
 
 let suite = deep @ strange @ large @ arbitrary

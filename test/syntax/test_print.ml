@@ -13,4 +13,5 @@ let print program =
   | Ok read -> "read as:\n" ^ Support.printed read
   | Error _ -> ""
 
-let suite = [ Support.property "what is printed is read as the same" ~count:600 Generate.program ~print law ]
+let suite =
+  [ Test_support.Property.case "what is printed is read as the same" ~count:600 Generate.program ~print law ]

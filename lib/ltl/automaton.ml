@@ -80,7 +80,7 @@ let ways untils formulas =
     let inside = List.map (fun (until, goal) -> (not (List.mem until old)) || List.mem goal old) untils in
     found := { now; later = sort later; inside } :: !found
   in
-  (* [fresh] is still to be looked at, [old] holds. *)
+  (* [fresh] is still to be expanded, [old] holds. *)
   let rec expand fresh old later =
     match fresh with
     | [] -> finished old later

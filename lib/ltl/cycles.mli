@@ -1,4 +1,4 @@
-(** Cycles of a graph that meet sets of its nodes, all of them, again and again. Nodes are numbers from 0. *)
+(** Cycles of a graph that meet each of several sets of its nodes. Nodes are numbers from 0. *)
 
 type 'label graph = {
   successors : int -> (int * 'label) list;
@@ -7,7 +7,7 @@ type 'label graph = {
 }
 
 type component
-(** Nodes each of which can be reached from each by one step at least, with some in every set. *)
+(** Nodes that each can reach all, itself included, in one step or more; each set has some of them. *)
 
 val find : ?tick:(unit -> unit) -> 'label graph -> int list -> component option
 (** [find g starts] is such a component of what can be reached from [starts], if there is any, by the algorithm of

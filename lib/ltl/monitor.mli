@@ -1,5 +1,5 @@
-(** What is known of a word after each of its letters: the set of states in which runs of an automaton over it can be.
-    Sets have numbers, in order of first sight, and so have letters. *)
+(** The subset construction of an automaton, on the fly: after each letter of a word, the set of states in which the
+    automaton's runs over the word can be. Sets are numbered from 0 as they are found; letters are numbers too. *)
 
 type t
 
@@ -17,7 +17,7 @@ val count : t -> int
 (** Sets so far. *)
 
 val is_certain : t -> int -> bool
-(** [is_certain m s] is whether a word in [s] is accepted however it goes on. (It may be so in other sets too.) *)
+(** If [is_certain m s], a word in [s] is accepted however it goes on. The converse does not hold. *)
 
 val stays : t -> int -> int -> bool
 (** [stays m s l] is whether a word in [s] is accepted if it goes on with the letter [l] for ever. *)

@@ -16,8 +16,8 @@ type difference = {
 }
 
 val effort : int
-(** The states that are looked at, each as often as it comes up in a set of states with the same trace, to find a
-    difference of traces: a few seconds' worth. To decide on bisimilarity there is no limit. *)
+(** How many states the search for a difference of traces visits at most: a few seconds' work. A state counts once for
+    each set of states with the same trace that it is in. Deciding on bisimilarity has no limit. *)
 
 val strong : Graph.t -> Graph.t -> (unit, difference) result
 (** [strong left right] is [Ok ()] exactly if the initial states are strongly bisimilar. *)

@@ -12,8 +12,8 @@ type reason =
   (** [trace] leads in the graph on this side to a state of a kind of which there are [left] in the left graph and
       [right] in the right one; states are of one kind if they cannot be told apart by [steps] steps, forwards or
       back, with all transitions counted. There is no trace if no such state can be reached. *)
-  | No_matching  (** Each state has its like in the other graph, but not all of them together. *)
-  | Undecided  (** {!effort} was spent. It takes a graph that is symmetric in a rare way. *)
+  | No_matching  (** Each state can be matched with one of the other graph, but not all at once. *)
+  | Undecided  (** {!effort} was spent. Only graphs with rare symmetries need that much. *)
 
 type difference = {
   states : int * int;  (** how many there are, left and right *)

@@ -26,7 +26,7 @@ type error =
   | No_such_label of { label : int; labels : int; where : string }
 
 val of_string : string -> (Graph.t, error) result
-(** [of_string (to_string g)] equals [g], and describes states alike. *)
+(** [of_string (to_string g)] equals [g], and describes the states as [g] does. *)
 
 val pp_error : Format.formatter -> error -> unit
 (** What is wrong and where, without a full stop. *)

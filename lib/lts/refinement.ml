@@ -1,5 +1,5 @@
 (* The states of block [b] are [elements] from [start.(b)] to [start.(b) + size.(b) - 1]. The first [dirty.(b)] of them
-   are to be looked at again: they have a transition to a state whose block changed, or nobody has looked at them yet.
+   are to be visited again: they have a transition to a state whose block changed, or were never visited.
    The others, which are clean, all have the same signature, and none that a dirty state can have: the signature of a
    dirty state speaks of a block that is new. *)
 type t = {

@@ -5,7 +5,7 @@
     are bisimilar for [k] steps.
 
     When a block is split, its largest part keeps its number, and only states with a transition to one of the other
-    parts are looked at again. So a state's block changes at most [log n] times, and the whole takes
+    parts are visited again. So a state's block changes at most [log n] times, and the whole takes
     [O(d m log n)] for [n] states, [m] transitions and [d] transitions per state. *)
 
 type t

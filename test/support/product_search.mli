@@ -1,6 +1,7 @@
 (** Runs of a graph whose letters satisfy a formula: the product of the graph with the formula's automaton, searched for
-    strongly connected components that meet all acceptance sets. It takes no stack. It is plain, and takes some words for
-    each state: the explorer does the same with {!Monitor} and {!Cycles} in a few bytes, and is compared with this. *)
+    strongly connected components that meet all acceptance sets. It takes no stack. It is plain, and takes some words
+    for each state: the explorer does the same with {!Monitor} and {!Cycles} in a few bytes, and is compared with
+    this. *)
 
 open Dolphin_ltl
 

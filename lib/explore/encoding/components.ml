@@ -223,7 +223,7 @@ let footprints t p =
   | Some footprints -> footprints
   | None ->
     let steps = Array.map footprint_step (work_out t p) in
-    let footprints = Step_footprints.of_part t.context (nests p.path) p.residual steps in
+    let footprints = Step_footprints.of_component t.context (nests p.path) p.residual steps in
     p.footprints <- Some footprints;
     footprints
 

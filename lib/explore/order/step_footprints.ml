@@ -152,7 +152,7 @@ let analyse c nests first branches steps =
     runs_first = Array.map (fun step -> Option.join (List.nth_opt branches step.index)) steps;
   }
 
-let of_part c nests r steps =
+let of_component c nests r steps =
   let around = all (List.concat_map (handlers_of c) nests) in
   analyse c nests (future c r) (first_branches c around r) steps
 

@@ -1,6 +1,6 @@
-(** What the components of an executing task may do: its parts, and nests with the steps of their contexts, the cuts.
-    The surroundings of a component are the contexts of its nests, the innermost nest first, and in each the innermost
-    context first. *)
+(** What the components of an executing task may do. Here a nest counts as a component too: its steps are those of its
+    contexts, the cuts. The surroundings of a component are the contexts of its nests, the innermost nest first, and in
+    each the innermost context first. *)
 
 open Dolphin_semantics
 open Dolphin_environment
@@ -30,8 +30,8 @@ val context : Environment.options -> Core.program -> context
 val of_residual : context -> Residual.t -> Footprint.t
 (** [of_residual c r] is of all that steps of [r] and of what becomes of it may do. *)
 
-val of_part : context -> Residual.context list list -> Residual.t -> step array -> t
-(** [of_part c nests r steps] is for [steps], all the steps of [r]. *)
+val of_component : context -> Residual.context list list -> Residual.t -> step array -> t
+(** [of_component c nests r steps] is for [steps], all the steps of [r]. *)
 
 val of_cuts : context -> Residual.context list list -> step array -> t
 (** [of_cuts c nests steps] is for [steps], all the cuts of the first of [nests]; the component's level 0 is around that

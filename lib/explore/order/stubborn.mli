@@ -13,7 +13,7 @@ type status =
   | Depends of { moves : move list; ends : bool }
   (** on open sensors: how it may move, whether it may end the run *)
 
-(** A part, or a nest with its cuts. *)
+(** A component, or a nest with its cuts: where it stands, and what its steps may do. *)
 type component = { place : Layout.place; analysis : Step_footprints.t }
 
 val choose : component array -> (int -> int -> status) -> (int -> int -> bool) option

@@ -15,7 +15,8 @@ type t = {
 
 (* {1 Code that others call} *)
 
-(* The variables that code reads, and what it calls; of the script's own, only the latter. *)
+(* The variables that [lambdas], and the code that they make or hold, read. Of [main], only the code that it makes or
+   holds counts. *)
 let read_by ?main lambdas =
   let read = ref Variables.empty and seen = ref [] in
   let rec expression ~main e =
@@ -51,7 +52,8 @@ let may_call = function
 
 (* {1 What is read}
 
-   Before what may come next: the value of an expression being used, or a jump. *)
+   [exits] has the variables that are live after an expression, by the way in which it is left: its value is used next,
+   or it jumps. *)
 
 type exits = { next : Variables.t; break : Variables.t; continue : Variables.t; return : Variables.t }
 
@@ -61,7 +63,7 @@ let rec fixpoint f live =
   let more = Variables.union live (f live) in
   if Variables.equal more live then live else fixpoint f more
 
-(* What may be read from the beginning of [e] on. *)
+(* The variables that are live before [e]. *)
 let rec before called e exits =
   let before = before called in
   match e.node with
@@ -87,14 +89,14 @@ and applied called operation live = if may_call operation then Variables.union c
 
 and inside exits again = { exits with next = again; continue = again; break = exits.next }
 
-(* Where the test is about to be looked at. *)
+(* Before the test is evaluated. *)
 and loop called test body exits =
   let again live =
     before called test { exits with next = Variables.union exits.next (before called body (inside exits live)) }
   in
   fixpoint again Variables.empty
 
-(* Where the next item is about to be taken. *)
+(* Before the next item is taken. *)
 and items called slot body exits =
   let again live = Variables.remove (`Local slot) (before called body (inside exits live)) in
   fixpoint again exits.next
@@ -107,7 +109,7 @@ let locals_of live locals is_sought =
 
 let globals = Variables.filter (function `Global _ -> true | `Local _ -> false)
 
-(* The stack, and what may be read once it has the value it waits for, and by jumps. *)
+(* The stack, and the variables that are live once it has the value that it waits for, or gets a jump. *)
 let rec stack called is_sought : Machine.frame list -> Machine.frame list * exits = function
   | [] -> ([], over)
   | frame :: below ->

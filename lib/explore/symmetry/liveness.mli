@@ -1,13 +1,15 @@
-(** Variables that nothing reads any more: whoever forgets what they hold goes on as before. *)
+(** Dead variables: nothing reads what they hold before they are assigned anew. A configuration that forgets it goes on
+    as before. *)
 
 open Dolphin_semantics
 
 type t
 
 val of_program : Core.program -> asked:Core.closure list -> t
-(** [of_program p ~asked] is for [p] and conditions that may be asked at any time. *)
+(** [of_program p ~asked] is the liveness of the variables of [p], where the conditions [asked] may be evaluated at any
+    time. *)
 
 val forget : t -> (Core.value -> bool) -> Configuration.t -> Configuration.t
-(** [forget l is_sought c] is [c] with [Null] in place of what variables and locals hold, and loops have gone through,
-    where [is_sought] says so and nothing reads it before it is assigned anew: whatever happens, if code that is
-    answered to [ask] reads no variables. *)
+(** [forget l is_sought c] is [c] with [Null] in place of each value with [is_sought] that a dead variable or local
+    holds, or that a loop has gone past. This is so whatever happens, provided that code that is answered to [ask] reads
+    no variables. *)

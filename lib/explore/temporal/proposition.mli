@@ -1,4 +1,4 @@
-(** What formulas of temporal logic speak of: the transition that has just been taken, and the state that it led to. *)
+(** Propositions of formulas of temporal logic: about the last transition, and about the state that it led to. *)
 
 open Dolphin_semantics
 
@@ -12,7 +12,7 @@ val of_string : Core.program -> string -> (t, string) result
     need no quotes, [poll(key: value)], [ended], and any {!Condition} in braces. *)
 
 val needs_action : t -> bool
-(** Whether it is of transitions: then it is false in the first state, and after the end. *)
+(** Whether it is about transitions: then it is false in the first state, and after the end. *)
 
 val running : t -> (string * string option) list
 (** As {!Condition.running}. *)

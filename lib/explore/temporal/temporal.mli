@@ -2,7 +2,7 @@
     transition that led to it. A run that comes to an end, or cannot go on, stays in its last state for ever, without
     transitions.
 
-    Every run without end is fair (see {!Cycle}): so a formula holds of the program if it holds of every path of its
+    Every run without end is fair (docs/explorer.md): so a formula holds of the program if it holds of every path of its
     state graph. No reduction is used: propositions see every transition. *)
 
 open Dolphin_semantics

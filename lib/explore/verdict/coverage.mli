@@ -1,4 +1,4 @@
-(** Which code of a program some run has reached. *)
+(** The code of a program that some run has reached. *)
 
 open Dolphin_semantics
 
@@ -13,10 +13,10 @@ val start : t -> Core.platform_task -> unit
 (** The task has been started. *)
 
 val is_run : t -> int -> bool
-(** Of code, by the number of its lambda. *)
+(** [is_run t i] is whether the code of the lambda with number [i] has been run. *)
 
 val reach : t -> Core.site -> unit
-(** A task at that site has been started. *)
+(** The task at that site has been started. *)
 
 val reach_code : t -> int -> unit
 (** The code with this number has been run. *)
@@ -28,6 +28,6 @@ val transition : t -> Configuration.t -> Transition.t -> unit
 type piece = { site : Core.site; what : string  (** ["action"], ["task"] *) }
 
 val unreached : t -> Core.program -> piece list
-(** In the order of the text: platform tasks that no vehicle starts; code of actions, conditions, guards, [until],
-    [during] and [onError] that is not run; and of the script outside of functions and closures, what others would see
-    it do ([execute], [post], [message], ...) if it does not. *)
+(** The pieces that no run has reached, in the order of the text. They are platform tasks that no vehicle starts; code
+    of actions, conditions, guards, [until], [during] and [onError] that is not run; and what the script does visibly
+    outside of functions and closures ([execute], [post], [message], ...). *)

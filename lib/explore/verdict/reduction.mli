@@ -1,11 +1,11 @@
-(** How much of a state space is looked at. docs/explorer.md says what each reduction keeps, and why. *)
+(** Which part of a state space is explored. docs/explorer.md says what each reduction preserves, and why. *)
 
 type t =
   | Whole  (** every state *)
   | Partial_order
-  (** of orders in which independent steps may come, one. All verdicts are as of the whole; a run that shows a
+  (** one of the orders in which independent steps may come. All verdicts are as of the whole; a run that shows a
       violation may be longer than the shortest. *)
-  | Symmetry  (** of states that differ by exchanging things that are alike, one. All verdicts are as of the whole. *)
+  | Symmetry  (** one state of each class that symmetry identifies. All verdicts are as of the whole. *)
   | All  (** both *)
 
 val by_order : t -> bool

@@ -49,7 +49,7 @@ let explore ?(limit = 100_000) options program world =
 let transitions g = Array.fold_left (fun n edges -> n + List.length edges) 0 g.edges
 let depth g = Array.fold_left max 0 g.depths
 
-(* The fewest transitions of a run that meets a state twice: to the state, and around. *)
+(* The fewest transitions of a run that meets a state twice: to the state, and around the cycle. *)
 let shortest_lasso g =
   let around start =
     let seen = Hashtbl.create 100 and queue = Queue.create () in

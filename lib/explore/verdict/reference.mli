@@ -19,5 +19,5 @@ val transitions : t -> int
 val depth : t -> int
 
 val broken : t -> (Property.t * int) list
-(** The properties of {!Property.all} that are broken, but for [All_reached]: each with the fewest transitions after
-    which this shows; for [Termination], until the first state is met again. *)
+(** The properties of {!Property.all} that are broken, except [All_reached]: each with the fewest transitions after
+    which this shows. [Termination] shows where a state is met again. *)

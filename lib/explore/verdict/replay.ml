@@ -10,10 +10,10 @@ let take graph state leads ~from ~into =
 
 let equal (c, outside) (c', outside') = Environment.compare outside outside' = 0 && Configuration.equal c c'
 
-(* {1 Through states that stand for others}
+(* {1 Through representatives}
 
-   Of what stands for others in a task, the first state of the task and the script after it are fixed: the permutations
-   in between are found from the end. *)
+   Where the states of a task are representatives of their classes, its first state and the script after it are still
+   exact. The permutations in between are found from the end. *)
 
 let permutation graph i j =
   let leads (arrival : State_graph.arrival) = arrival.into = j in
@@ -21,7 +21,7 @@ let permutation graph i j =
   | Some arrival -> arrival.via
   | None -> Fmt.invalid_arg "Replay.permutation: no step from state %d to state %d" i j
 
-(* The permutation of each of [states], which follow each other in the task; [last] is that of the last one. *)
+(* Each of [states], which follow each other in the task, with its permutation; [last] is that of the last one. *)
 let rec permutations graph last = function
   | [] -> []
   | [ i ] -> [ (i, last) ]
@@ -30,7 +30,7 @@ let rec permutations graph last = function
       | ((_, p) :: _ as found), Some q -> (i, Task_group.compose p q) :: found
       | _, _ -> Fmt.invalid_arg "Replay.permutations: state %d" i)
 
-(* The states of [states] in the task that the first one is of, with the symmetry, and those after. *)
+(* Those of [states] in the task of the first one; the symmetry of the task; and the states after it. *)
 let rec task graph = function
   | i :: rest -> (
       match State_graph.view graph i with
@@ -64,7 +64,7 @@ let follow graph g start ~from states after =
 let is_end (c : Configuration.t) =
   match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false
 
-(* An end by an error may have another text than that of the state that stands for it. *)
+(* An end by an error may have another text than its representative. *)
 let ends_in_same_way property ((t : Transition.t), _) =
   Property.broken_by_end t.rules t.next = property && is_end t.next
 
@@ -77,7 +77,7 @@ let leads_to graph i state =
     | Some choice -> Some choice
     | None -> List.find_opt (ends_in_same_way (State_graph.broken_by graph i)) found
 
-(* Transitions from state to state, each from where the one before led to, or from what stands for that. The result is
+(* Transitions from state to state, each from where the one before led to, or from its representative. The result is
    latest first. *)
 let in_names_of graph states =
   let rec go state from found = function
@@ -104,7 +104,8 @@ let in_names_of graph states =
 
 (* {1 Runs} *)
 
-(* The transitions that are the like of others, from [state] on, and where they lead. *)
+(* The transitions from [state] on whose targets are in the orbits of those of [images], one after the other, and the
+   state that they lead to. *)
 let real graph state images =
   let step (state, found) (((image : Transition.t), e) as choice) =
     let t, e =
@@ -135,7 +136,7 @@ let through graph states = snd (from_start graph states)
 let around graph ~stem states =
   let state, stem = from_start graph stem in
   let images = in_names_of graph states in
-  (* Until it is where it was after some round: [rounds] has where they began, latest first. *)
+  (* Rounds are added until one ends where an earlier one began: [rounds] has these states, latest first. *)
   let rec go state rounds =
     let next, steps = real graph state images in
     let rounds = (state, steps) :: rounds in

@@ -8,6 +8,6 @@ val through : State_graph.t -> int list -> Transition.t list
 (** [through g states] is transitions from the initial configuration that lead through [states], in this order. *)
 
 val around : State_graph.t -> stem:int list -> int list -> Transition.t list * Transition.t list
-(** [around g ~stem states] is transitions that lead through [stem], and some that go on through [states], which are
-    from the last one of [stem] back to it, and come back to where they started. If states stand for others, it may have
-    to go around several times, before and in between. *)
+(** [around g ~stem states], where [states] lead from the last one of [stem] back to it, is transitions through [stem],
+    and transitions that go on through [states] and come back to where they started. Where states are representatives,
+    both may go around [states] several times. *)

@@ -42,6 +42,13 @@ let traps =
       {|execute (until { consume go: 1 } run task('p')[a]) | (task('q')[b] >> action { post go: 1 } >> condition { consume go: 1 })|};
     breaks "during lets its body go on or not" [ No_deadlock; No_leftover ]
       {|execute (during 1.minutes run (task('p')[a] >> action { post x: 1; post y: 1 })) | condition { consume x: 1 }|};
+    breaks "handlers with one outcome, of which sensors choose" ~environment:failing
+      ~world:Test_support.Generate.open_world [ No_error ]
+      {|h = battery(a)
+        execute (watch (watch (waitFor { h < 0.3 && battery(a) >= 0.3 || poll(x: 1) } then task('p')[a]
+              | action { consume y: 1 }) onError {
+            if (position(a) in area(location(41.1852, -8.7048), 400)) { ignore() } }) | (during 2 run action { message 'm' })
+          onError { ignore() }) | (watch task('p')[c] onError { 1 / 0 })|};
     breaks "a poll for absence" [ No_halt ]
       {|execute (task('p')[a] >> action { if (!poll(x: 1)) { halt 'too early' } }) | (task('q')[b] >> action { post x: 1 })
         consume x: 1|};

@@ -57,9 +57,11 @@ let taken t step s =
   | Some after ->
     let equal local local' = Int.equal (level local) (level local') && Local_step.equal local local' in
     let one (assumed, local) = { local; level = level local; certain = assumed = [] } in
-    let found = List.map one (Environment.clear (Decision.outcomes ~equal (take ()))) in
-    List.iter (fun { local; _ } -> note_handlers t step local) found;
-    (found, after)
+    let decision = take () in
+    (* Cases with one outcome may have run different handlers. *)
+    let note (_, local) = Option.iter (note_handlers t step) local in
+    List.iter note (Environment.clear (Decision.cases decision));
+    (List.map one (Environment.clear (Decision.outcomes ~equal decision)), after)
 
 let shared_after t (local : Local_step.t) outside =
   Surroundings.Numbers.number (Encoding.shareds t.encoding) (Surroundings.make local.after outside)

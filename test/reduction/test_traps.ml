@@ -47,7 +47,8 @@ let traps =
       {|h = battery(a)
         execute (watch (watch (waitFor { h < 0.3 && battery(a) >= 0.3 || poll(x: 1) } then task('p')[a]
               | action { consume y: 1 }) onError {
-            if (position(a) in area(location(41.1852, -8.7048), 400)) { ignore() } }) | (during 2 run action { message 'm' })
+            if (position(a) in area(location(41.1852, -8.7048), 400)) { ignore() } })
+              | (during 2 run action { message 'm' })
           onError { ignore() }) | (watch task('p')[c] onError { 1 / 0 })|};
     breaks "a poll for absence" [ No_halt ]
       {|execute (task('p')[a] >> action { if (!poll(x: 1)) { halt 'too early' } }) | (task('q')[b] >> action { post x: 1 })

@@ -180,10 +180,13 @@ let conclude ~now ~clock ~since (a : Attempt.t) (r : Plan_report.t) (verdict : V
 
 (* [r] is the latest report. *)
 let judge_start ~now ~clock (a : Attempt.t) r x =
-  let former_ended =
-    match x.former with Some f when f.attempt.order.plan = a.order.plan -> f.ended | Some _ | None -> neg_infinity
+  let former_ended, late =
+    match x.former with
+    | Some f when f.attempt.order.plan = a.order.plan -> (f.ended, None)
+    | Some f when now < f.watched_until -> (neg_infinity, Some f.attempt.order.plan)
+    | Some _ | None -> (neg_infinity, None)
   in
-  conclude ~now ~clock ~since:(Attempt.effect_time a) a r (Verdict.of_start ~now ~former_ended a r) x
+  conclude ~now ~clock ~since:(Attempt.effect_time a) a r (Verdict.of_start ~now ~former_ended ~late a r) x
 
 let stopped ~now ~clock ~ended attempt next x =
   let x = close ~now ~ended attempt x in

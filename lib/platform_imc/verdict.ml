@@ -25,7 +25,7 @@ let of_ready ~former_ended ~accepted ~is_final (a : Attempt.t) r =
   else if is_final then Ended (if accepted then ended_badly else refused)
   else Nothing_new
 
-let of_start ~now ~former_ended (a : Attempt.t) (r : Plan_report.t) =
+let of_start ~now ~former_ended ~late (a : Attempt.t) (r : Plan_report.t) =
   let own = Plan_report.names a.order.plan r and accepted = Attempt.accepted_before r a in
   (* What else befalls the vehicle, our request may undo as long as it is on its way. *)
   let is_final = accepted || Attempt.is_past ~now r a in
@@ -40,7 +40,7 @@ let of_start ~now ~former_ended (a : Attempt.t) (r : Plan_report.t) =
     | Executing ->
       let other = r.state.plan_id in
       if (not accepted) && (a.before = None || Attempt.was_busy_with other a) then No_sign
-      else if is_final then Replaced other
+      else if is_final || late = Some other then Replaced other
       else Nothing_new
     | Ready when own -> of_ready ~former_ended ~accepted ~is_final a r
     | Ready when accepted -> Ended refused

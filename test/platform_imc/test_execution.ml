@@ -261,7 +261,7 @@ let tests =
       property "requests get lost: each plan once" ~outward:losing ~inward:reordering (fun s logs w ->
           List.for_all (fun l -> verdict_is_fate s l && is_sound l && never_resent_in_vain l) logs
           && List.for_all ran_once_or_says_so logs && is_over w);
-      property "requests are doubled: no plan begins anew without a word" ~count:1000 ~outward:doubling ~inward:perfect
+      property "requests are doubled: no plan begins anew without a word" ~count:10_000 ~outward:doubling ~inward:perfect
         (fun _ logs w -> List.for_all is_complete logs && each_anew_is_told logs w && is_over w);
       property "what the vehicle says gets lost: no plan twice without a word" ~count:1000 ~outward:losing
         ~inward:losing

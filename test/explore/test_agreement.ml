@@ -123,10 +123,8 @@ let agrees ((ast, world), looped, (_, environment)) =
     List.for_all agree o.verdicts
 
 let test_agreement () =
-  let seed = match Sys.getenv_opt "SEED" with Some n -> int_of_string n | None -> 20_240_817 in
-  Printf.printf "SEED=%d PROGRAMS=%d\n" seed programs;
   let test = QCheck2.Test.make ~count:programs ~print ~name:"packed and plain search agree" case agrees in
-  QCheck2.Test.check_exn ~rand:(Random.State.make [| seed |]) test;
+  Test_support.Property.on_each_seed ~usual:20_240_817 ~programs test;
   Printf.printf "%d skipped, of more than %d states; %d unsettled\n" !skipped limit !unsettled;
   Hashtbl.iter (fun p n -> Printf.printf "%s: broken by %d\n" (Property.name p) n) broken
 

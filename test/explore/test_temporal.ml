@@ -159,10 +159,9 @@ let agrees ((ast, world), looped, (_, environment), formulas) =
     List.for_all judge formulas
 
 let test_agreement () =
-  let seed = number "SEED" 20_261_122 and programs = number "PROGRAMS" 400 in
-  Printf.printf "SEED=%d PROGRAMS=%d\n" seed programs;
+  let programs = number "PROGRAMS" 400 in
   let test = QCheck2.Test.make ~count:programs ~print ~name:"verdicts agree with the plain graph" case agrees in
-  QCheck2.Test.check_exn ~rand:(Random.State.make [| seed |]) test;
+  Test_support.Property.on_each_seed ~usual:20_261_122 ~programs test;
   Hashtbl.iter (fun what n -> Printf.printf "%d %s\n" n what) judged
 
 let test_variety () =

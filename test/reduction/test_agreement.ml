@@ -10,7 +10,7 @@ module Calls = Test_support.Calls
 
 let number name default = match Sys.getenv_opt name with Some n -> int_of_string n | None -> default
 let programs = number "PROGRAMS" 2_000
-let seed = number "SEED" 20_260_911
+let usual = 20_260_911
 let limit = number "LIMIT" 3_000
 
 (* What the script does after its picks, again and again: for cycles. *)
@@ -113,9 +113,8 @@ let agrees ((ast, world), (_, environment)) =
     true
 
 let test_agreement () =
-  Printf.printf "SEED=%d PROGRAMS=%d\n%!" seed programs;
   let test = QCheck2.Test.make ~count:programs ~print ~name:"reduced and plain search agree" case agrees in
-  QCheck2.Test.check_exn ~rand:(Random.State.make [| seed |]) test;
+  Test_support.Property.on_each_seed ~usual ~programs test;
   Printf.printf "%d skipped, of more than %d states; %d states, %d after reduction\n" !skipped limit !whole !reduced;
   Hashtbl.iter (fun p n -> Printf.printf "%s: broken by %d\n" (Property.name p) n) broken
 

@@ -9,7 +9,7 @@ module Pure_run = Test_support.Pure_run
 
 let number name default = match Sys.getenv_opt name with Some n -> int_of_string n | None -> default
 let programs = number "PROGRAMS" 2_000
-let seed = number "SEED" 20_261_122
+let usual = 20_261_122
 let limit = number "LIMIT" 300
 let supplied = { Environment.default with replies = Picking.replies }
 let answering = { supplied with answers = (fun _ -> [ [ "1"; "null" ] ]) }
@@ -64,9 +64,8 @@ let agrees ((p : Picking.t), (_, environment)) =
         true)
 
 let test_agreement () =
-  Printf.printf "SEED=%d PROGRAMS=%d\n%!" seed programs;
   let test = QCheck2.Test.make ~count:programs ~print ~name:"search with peers and plain search agree" case agrees in
-  QCheck2.Test.check_exn ~rand:(Random.State.make [| seed |]) test;
+  Test_support.Property.on_each_seed ~usual ~programs test;
   Printf.printf
     "%d no programs, %d skipped, of more than %d states; %d of %d states by exchanging peers alone, fewer for %d \
      programs; peers exchanged in %d\n"
@@ -80,7 +79,8 @@ let test_variety () =
       Alcotest.failf "no program breaks: %s" (Property.name property)
   in
   List.iter enough Property.all;
-  if 4 * !smaller < programs - !skipped - !invalid then Alcotest.fail "few programs have less states"
+  let tried = (programs * List.length (Test_support.Property.seeds ~usual)) - !skipped - !invalid in
+  if 4 * !smaller < tried then Alcotest.fail "few programs have less states"
 
 let () =
   Alcotest.run "picks"

@@ -1,9 +1,19 @@
-let seeds = 2018 :: Option.to_list (Option.bind (Sys.getenv_opt "DOLPHIN_SEED") int_of_string_opt)
+let variable name = Option.bind (Sys.getenv_opt name) int_of_string_opt
+let with_new usual = usual :: Option.to_list (variable "DOLPHIN_SEED")
+let seeds ~usual = match variable "SEED" with Some seed -> [ seed ] | None -> with_new usual
 
 let case ?(count = 100) name ~print generator property =
+  let seeds = with_new 2018 in
   let cell = QCheck2.Test.make_cell ~count ~name ~print generator property in
   let check seed =
     if List.length seeds > 1 then Printf.printf "DOLPHIN_SEED=%d\n%!" seed;
     QCheck2.Test.check_cell_exn ~rand:(Random.State.make [| seed |]) cell
   in
   Alcotest.test_case name `Quick (fun () -> List.iter check seeds)
+
+let on_each_seed ~usual ~programs test =
+  let compare seed =
+    Printf.printf "SEED=%d PROGRAMS=%d\n%!" seed programs;
+    QCheck2.Test.check_exn ~rand:(Random.State.make [| seed |]) test
+  in
+  List.iter compare (seeds ~usual)

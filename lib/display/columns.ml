@@ -1,4 +1,5 @@
 open Dolphin_semantics
+module Phrase = Dolphin_trace.Phrase
 module Location = Dolphin_syntax.Location
 
 let program_column = "program"
@@ -32,7 +33,7 @@ let row (program : Core.program) before (t : Transition.t) =
     | Bind vs -> "picks " ^ Wording.vehicles vs
     | label -> Format.asprintf "%a" Label.pp label
   in
-  { actor; text = Wording.harmless text; at = Option.bind (site_of t.label t before) at; assumed = t.assumed }
+  { actor; text = Phrase.one_line text; at = Option.bind (site_of t.label t before) at; assumed = t.assumed }
 
 let rows program run =
   let add (before, rows) (t : Transition.t) =
@@ -43,7 +44,7 @@ let rows program run =
   List.rev (snd (List.fold_left add (Vehicle_map.empty, []) run))
 
 let shortened text =
-  if Wording.width text <= widest then text
+  if Phrase.width text <= widest then text
   else
     match Value.items (String text) with
     | None -> text
@@ -58,14 +59,14 @@ let lines ?(first = 1) program run =
   in
   let width actor =
     List.fold_left
-      (fun width row -> if row.actor = actor then max width (Wording.width (shortened row.text)) else width)
-      (Wording.width actor) rows
+      (fun width row -> if row.actor = actor then max width (Phrase.width (shortened row.text)) else width)
+      (Phrase.width actor) rows
   in
   let widths = List.map width actors in
   let number = String.length (string_of_int (first + List.length rows)) in
   let print head cells tail =
-    let cells = List.map2 Wording.pad widths cells in
-    let line = String.concat "  " ((Wording.pad (number + 1) head :: cells) @ [ tail ]) in
+    let cells = List.map2 Phrase.pad widths cells in
+    let line = String.concat "  " ((Phrase.pad (number + 1) head :: cells) @ [ tail ]) in
     let rec trimmed n = if n > 0 && line.[n - 1] = ' ' then trimmed (n - 1) else String.sub line 0 n in
     trimmed (String.length line)
   in
@@ -78,7 +79,7 @@ let lines ?(first = 1) program run =
     in
     let n = string_of_int (first + i) in
     let assumed a =
-      String.make (number + 3) ' ' ^ "if " ^ Wording.harmless (Format.asprintf "%a" World.pp_assumption a)
+      String.make (number + 3) ' ' ^ "if " ^ Phrase.one_line (Format.asprintf "%a" World.pp_assumption a)
     in
     print (String.make (number - String.length n) ' ' ^ n) (List.map cell actors) where :: List.map assumed row.assumed
   in

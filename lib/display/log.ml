@@ -1,4 +1,5 @@
 open Dolphin_semantics
+module Phrase = Dolphin_trace.Phrase
 
 type t = {
   before : Core.platform_task Vehicle_map.t;  (* A before the transition: what a vehicle that is stopped was doing *)
@@ -16,9 +17,9 @@ let start = { before = Vehicle_map.empty; unheard = []; bound = []; column = nar
 
 (* Further lines of a text stand below its first one. *)
 let line l ~time actor text =
-  let head = Printf.sprintf "%7s  %s  " (Wording.clock time) (Wording.pad l.column (Wording.harmless actor)) in
-  let indentation = String.make (Wording.width head) ' ' in
-  match String.split_on_char '\n' (Wording.harmless text) with
+  let head = Printf.sprintf "%7s  %s  " (Phrase.time time) (Phrase.pad l.column (Phrase.one_line actor)) in
+  let indentation = String.make (Phrase.width head) ' ' in
+  match String.split_on_char '\n' (Phrase.harmless text) with
   | [] -> head
   | first :: rest -> String.concat "\n" ((head ^ first) :: List.map (fun text -> indentation ^ text) rest)
 
@@ -43,15 +44,15 @@ let ending ~stuck : Configuration.ending -> string = function
   | Failed fault -> "fails: " ^ fault.message
   | Interrupted -> if stuck then "is stuck" else "is interrupted"
 
-let task_of l v = match Vehicle_map.find_opt v l.before with Some p -> p.Core.name | None -> "its task"
+let task_of l v = match Vehicle_map.find_opt v l.before with Some p -> Phrase.one_line p.Core.name | None -> "its task"
 
 (* Who did what, as far as the label tells. Ends and what leads to them are told by the effect [End]. *)
 let of_label (s : Transition.t) =
   let by_program text = [ (program, text) ] in
   let deeds ds = List.map (fun d -> (program, deed d)) ds in
   match s.label with
-  | Done (v, name) -> [ (v, "ends " ^ name) ]
-  | Fail (v, name, why) -> [ (v, Printf.sprintf "fails in %s: %s" name why) ]
+  | Done (v, name) -> [ (v, "ends " ^ Phrase.one_line name) ]
+  | Fail (v, name, why) -> [ (v, Printf.sprintf "fails in %s: %s" (Phrase.one_line name) why) ]
   | Check [] -> by_program "sees that a condition holds"
   | Cut ds -> by_program "sees that the condition of until holds" @ deeds ds
   | Check ds | Act ds -> deeds ds
@@ -80,7 +81,7 @@ let told_by_label (label : Label.t) =
   | Halt _ | Fault _ | Interrupt -> 0
 
 let of_effect ~stuck l : Effect.t -> (string * string) list = function
-  | Start (v, p) -> [ (v, "starts " ^ p.name) ]
+  | Start (v, p) -> [ (v, "starts " ^ Phrase.one_line p.name) ]
   | Stop v -> [ (v, "stops " ^ task_of l v) ]
   | Bind vs -> [ (program, "picks " ^ Wording.vehicles vs) ]
   | Release vs -> [ (program, deed (Released vs)) ]
@@ -91,7 +92,7 @@ let of_effect ~stuck l : Effect.t -> (string * string) list = function
 
 let transition ?(stuck = false) l ~time (s : Transition.t) =
   let bound = s.next.shared.bound in
-  let wider column v = max column (min widest (Wording.width v)) in
+  let wider column v = max column (min widest (Phrase.width v)) in
   let column = if bound == l.bound then l.column else List.fold_left wider l.column bound in
   let l = { l with column } in
   let further = List.filteri (fun i _ -> i >= told_by_label s.label) s.effects in

@@ -1,4 +1,5 @@
 open Dolphin_semantics
+module Phrase = Dolphin_trace.Phrase
 
 type t = {
   now : float;
@@ -29,7 +30,7 @@ let news b ~time (state : World.vehicle_state) = { b with now = time; seen = Veh
 let row b v =
   let task, time =
     match Vehicle_map.find_opt v b.running with
-    | Some (p, since) -> (p.Core.name, Wording.clock (b.now -. since))
+    | Some (p, since) -> (p.Core.name, Phrase.time (b.now -. since))
     | None -> ("-", "")
   in
   let place, battery =
@@ -39,11 +40,11 @@ let row b v =
         if s.connected then Printf.sprintf "%.0f%%" (100. *. s.battery) else "no link" )
     | None -> ("", "")
   in
-  [ Wording.harmless v; Wording.harmless task; time; place; battery ]
+  [ Phrase.one_line v; Phrase.one_line task; time; place; battery ]
 
 let head b =
   let busy = Vehicle_map.cardinal b.running in
-  Printf.sprintf "%7s  %d vehicle%s, %d busy" (Wording.clock b.now) (List.length b.bound)
+  Printf.sprintf "%7s  %d vehicle%s, %d busy" (Phrase.time b.now) (List.length b.bound)
     (if List.length b.bound = 1 then "" else "s")
     busy
 
@@ -53,9 +54,9 @@ let lines b =
   if b.bound = [] then []
   else
     let rows = List.map (row b) (first most_lines b.bound) in
-    let wider = List.map2 (fun width cell -> max width (Wording.width cell)) in
+    let wider = List.map2 (fun width cell -> max width (Phrase.width cell)) in
     let widths = List.fold_left wider [ 0; 0; 0; 0; 0 ] rows in
-    let show cells = "         " ^ String.concat "  " (List.map2 Wording.pad widths cells) in
+    let show cells = "         " ^ String.concat "  " (List.map2 Phrase.pad widths cells) in
     let more = List.length b.bound - most_lines in
     (head b :: List.map show rows)
     @ if more > 0 then [ Printf.sprintf "         and %d more" more ] else []

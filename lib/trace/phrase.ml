@@ -5,3 +5,27 @@ let time seconds =
   else Printf.sprintf "%d:%02d" minutes (whole mod 60)
 
 let count n what = Printf.sprintf "%d %s%s" n what (if n = 1 then "" else "s")
+
+(* A terminal may take the characters from U+0080 to U+009F, C2 80 to C2 9F in UTF-8, for commands too. *)
+let harmless text =
+  let is_control i c =
+    (Char.code c < 0x20 && c <> '\n') || c = '\x7F'
+    || Char.code c land 0xE0 = 0x80 && i > 0 && text.[i - 1] = '\xC2'
+  in
+  String.mapi (fun i c -> if c = '\t' then ' ' else if is_control i c then '?' else c) text
+
+let one_line text = String.map (fun c -> if c = '\n' then ' ' else c) (harmless text)
+let is_continuation c = Char.code c land 0xC0 = 0x80
+let width text = String.fold_left (fun n c -> if is_continuation c then n else n + 1) 0 text
+let pad n text = text ^ String.make (max 0 (n - width text)) ' '
+
+let split n text =
+  let length = String.length text in
+  let rec stop i left =
+    if i >= length then length
+    else if is_continuation text.[i] then stop (i + 1) left
+    else if left = 0 then i
+    else stop (i + 1) (left - 1)
+  in
+  let i = stop 0 n in
+  (String.sub text 0 i, String.sub text i (length - i))

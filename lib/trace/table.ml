@@ -7,43 +7,18 @@ let most_columns = 8
 let widest = 30
 let widest_of_program = 48
 
-(* Journals may come from anywhere: nothing in them commands the terminal. *)
-let harmless text =
-  let is_control i c =
-    Char.code c < 0x20 || c = '\x7F' || (Char.code c land 0xE0 = 0x80 && i > 0 && text.[i - 1] = '\xC2')
-  in
-  String.mapi (fun i c -> if is_control i c then ' ' else c) text
-
-let width text =
-  let is_continuation c = Char.code c land 0xC0 = 0x80 in
-  String.fold_left (fun n c -> if is_continuation c then n else n + 1) 0 text
-
-let pad n text = text ^ String.make (max 0 (n - width text)) ' '
-
-(* [first n text] is the first [n] characters of [text], and the others. *)
-let first n text =
-  let length = String.length text in
-  let rec stop i left =
-    if i >= length then length
-    else
-      let is_continuation = Char.code text.[i] land 0xC0 = 0x80 in
-      if is_continuation then stop (i + 1) left else if left = 0 then i else stop (i + 1) (left - 1)
-  in
-  let i = stop 0 n in
-  (String.sub text 0 i, String.sub text i (length - i))
-
 (* The lines of [text], none longer than [n] characters; broken between words where that is possible. *)
 let wrap n text =
   let rec add lines line = function
     | [] -> List.rev (line :: lines)
-    | word :: words when width word > n ->
-      let head, rest = first n word in
+    | word :: words when Phrase.width word > n ->
+      let head, rest = Phrase.split n word in
       add (if line = "" then lines else line :: lines) head (rest :: words)
     | word :: words when line = "" -> add lines word words
-    | word :: words when width line + 1 + width word <= n -> add lines (line ^ " " ^ word) words
+    | word :: words when Phrase.width line + 1 + Phrase.width word <= n -> add lines (line ^ " " ^ word) words
     | word :: words -> add (line :: lines) word words
   in
-  add [] "" (String.split_on_char ' ' (harmless text))
+  add [] "" (String.split_on_char ' ' (Phrase.one_line text))
 
 (* {1 Rows} *)
 
@@ -151,7 +126,7 @@ let print_columns ppf picked rows =
   let cells_of actor row = List.filter_map (fun (who, text) -> if who = actor then Some text else None) row.cells in
   let widest_cell limit actor name =
     let cells = List.concat_map (cells_of actor) rows in
-    min limit (List.fold_left (fun n text -> max n (width (harmless text))) (width name) cells)
+    min limit (List.fold_left (fun n text -> max n (Phrase.width (Phrase.one_line text))) (Phrase.width name) cells)
   in
   let columns =
     (Program, "program", widest_cell widest_of_program Program "program")
@@ -160,7 +135,7 @@ let print_columns ppf picked rows =
   let working = Hashtbl.create 8 in
   let line time cells =
     let rec trim text n = if n > 0 && text.[n - 1] = ' ' then trim text (n - 1) else String.sub text 0 n in
-    let text = String.concat "  " (time :: List.map2 (fun (_, _, n) cell -> pad n cell) columns cells) in
+    let text = String.concat "  " (time :: List.map2 (fun (_, _, n) cell -> Phrase.pad n cell) columns cells) in
     Format.fprintf ppf "%s@\n" (trim text (String.length text))
   in
   let print_row previous row =
@@ -192,15 +167,17 @@ let print_columns ppf picked rows =
     done;
     clock
   in
-  line (Printf.sprintf "%*s" clock_width "time") (List.map (fun (_, name, _) -> harmless name) columns);
+  line (Printf.sprintf "%*s" clock_width "time") (List.map (fun (_, name, _) -> Phrase.one_line name) columns);
   ignore (List.fold_left print_row "" rows)
 
 let print_list ppf rows =
   let name = function Program -> "program" | Vehicle v -> v in
   let cells = List.concat_map (fun row -> List.map (fun (who, text) -> (row.time, name who, text)) row.cells) rows in
-  let column = List.fold_left (fun n (_, who, _) -> max n (min widest (width who))) 7 cells in
+  let column = List.fold_left (fun n (_, who, _) -> max n (min widest (Phrase.width who))) 7 cells in
   let print (time, who, text) =
-    Format.fprintf ppf "%*s  %s  %s@\n" clock_width (Phrase.time time) (pad column (harmless who)) (harmless text)
+    Format.fprintf ppf "%*s  %s  %s@\n" clock_width (Phrase.time time)
+      (Phrase.pad column (Phrase.one_line who))
+      (Phrase.one_line text)
   in
   List.iter print cells
 
@@ -220,5 +197,5 @@ let print_transitions ppf (entry : Entry.t) =
   | Transition { index; time; step } ->
     let place = match step.at with Some (line, column) -> Printf.sprintf "%d:%d" line column | None -> "" in
     Format.fprintf ppf "%6d  %*s  %-7s  %s  %s@\n" index clock_width (Phrase.time time) place
-      (String.concat ", " step.rules) (harmless step.label)
+      (String.concat ", " step.rules) (Phrase.one_line step.label)
   | Header _ | Partial _ | Label _ | Vehicle _ | Event _ | Note _ | Resumed _ | End _ -> ()

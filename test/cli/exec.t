@@ -158,6 +158,19 @@ Nobody reads on: the run is interrupted, without a word.
      0:00  program     says: still here
   status 130
 
+A pick that gives up is told of the vehicles that would have come.
+
+  $ cat > late.fleet <<'END'
+  > vehicle 'late', { type 'UUV'; joins 1.hour }
+  > END
+  $ dolphin exec visit.dol --fleet late.fleet
+     0:10  program     fails: could not pick 1 vehicle of type 'UUV': no vehicle was heard of
+  dolphin: the pick gave up at 0:10, and late joins at 1:00:00: 'timeout' lets a pick wait longer
+  visit.dol:1:5: error: could not pick 1 vehicle of type 'UUV': no vehicle was heard of
+    1 | v = pick { type 'UUV' }
+      |     ^^^^^^^^^^^^^^^^^^^
+  [1]
+
 The programs that ran did what the semantics allows.
 
   $ check-journals

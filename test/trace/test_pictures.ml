@@ -79,6 +79,20 @@ let escaped () =
   Alcotest.(check bool) "escaped" false (contains "<script" (Picture.html s));
   Alcotest.(check bool) "there" true (contains "&lt;script&gt;" (Picture.svg s))
 
+let header ~platform : Header.t =
+  { program = Header.source ~path:"mission.dol" ""; fleet = None; platform; seed = 7; speed = None;
+    started = "2026-03-01T12:00:00Z" }
+
+let circumstances () =
+  let head platform =
+    let builder = Summary.create () in
+    Summary.add builder (Header (header ~platform));
+    Picture.svg (Summary.finish builder)
+  in
+  Alcotest.(check bool) "a simulation" true (contains "simulated: the built-in fleet  ·  seed 7" (head "sim"));
+  Alcotest.(check bool) "a network" true (contains "vehicles of a network (IMC)  ·  2026" (head "imc"));
+  Alcotest.(check bool) "has no seed" false (contains "seed" (head "imc"))
+
 let nothing_at_all () = ignore (Picture.svg (Summary.finish (Summary.create ())))
 
 (* {1 Scales} *)
@@ -104,5 +118,6 @@ let () =
           case "long runs have few samples" few_samples;
           case "all examples, without anything from outside" of_all_examples;
           case "texts are escaped" escaped;
+          case "where it ran" circumstances;
           case "an empty story" nothing_at_all;
           case "scales" scales ] ) ]

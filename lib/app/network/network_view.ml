@@ -1,6 +1,7 @@
 open Dolphin_display
 open Dolphin_platform_imc
 open Lwt.Infix
+module Phrase = Dolphin_trace.Phrase
 
 (* {1 One system} *)
 
@@ -67,14 +68,14 @@ let row network definition (s : Station.system) =
 let heads = [ "VEHICLE"; "TYPE"; "IMC"; "ADDRESS"; "POSITION"; "MODE"; "BATTERY"; "PAYLOAD"; "PLAN"; "HEARD" ]
 
 let table network definition sights =
-  let rows = heads :: List.map (fun s -> List.map Wording.harmless (row network definition s)) sights in
-  let wider = List.map2 (fun width cell -> max width (Wording.width cell)) in
+  let rows = heads :: List.map (fun s -> List.map Phrase.one_line (row network definition s)) sights in
+  let wider = List.map2 (fun width cell -> max width (Phrase.width cell)) in
   let widths = List.fold_left wider (List.map (fun _ -> 0) heads) rows in
   let rec trimmed text =
     let n = String.length text in
     if n > 0 && text.[n - 1] = ' ' then trimmed (String.sub text 0 (n - 1)) else text
   in
-  List.map (fun cells -> trimmed (String.concat "  " (List.map2 Wording.pad widths cells))) rows
+  List.map (fun cells -> trimmed (String.concat "  " (List.map2 Phrase.pad widths cells))) rows
 
 (* {1 Printing} *)
 

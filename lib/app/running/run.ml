@@ -176,6 +176,25 @@ let open_platform r recording =
   in
   Result.map_error (fun why -> Error.Unavailable why) opened
 
+(* {1 Picks that came too early} *)
+
+let not_there_yet r ~time =
+  let joins (v : Dolphin_scenario.Scenario.vehicle) =
+    if v.joins > time then Some (Printf.sprintf "%s joins at %s" v.id (Phrase.time v.joins)) else None
+  in
+  match r.settings.network, List.filter_map joins r.scenario.vehicles with
+  | Some _, _ | None, [] -> None
+  | None, late ->
+    Some (Printf.sprintf "the pick gave up at %s, and %s: 'timeout' lets a pick wait longer" (Phrase.time time)
+            (Dolphin_display.Wording.vehicles late))
+
+(* Notes in [unmet] what to say of a pick that ends the program. *)
+let watching_picks r unmet : Observer.t =
+  let transition ~time ~cause:_ (t : Transition.t) =
+    match t.label with No_vehicles _ -> unmet := not_there_yet r ~time | _ -> ()
+  in
+  { Observer.nobody with transition }
+
 (* {1 The run} *)
 
 let beginning resumed news : Driver.beginning option =
@@ -194,10 +213,14 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
     Questions.console r.front.person ~answered:(History.answers (history r)) ~answers:r.settings.answers
       ~scenario:r.scenario
   in
+  let unmet = ref None in
+  let observer =
+    List.fold_left Observer.both (Recording.observer recording) [ r.front.observer; watching_picks r unmet ]
+  in
   let run () =
     Driver.run (module P) platform
       ~always_telemetry:(r.front.wants_telemetry || Recording.is_wanted r.settings.recording)
-      ~observer:(Observer.both (Recording.observer recording) r.front.observer)
+      ~observer
       ~host:(match host with Some host -> Host.call host | None -> Replies.call ~past:(history r) r.scenario)
       ?beginning:(beginning r.resumed news) ~console ~interruption:(Interruption.promise interruption)
       r.program.program
@@ -206,6 +229,7 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
   let finish (outcome : Driver.outcome) =
     let stuck =
       match outcome with Stuck _ -> true | Ended _ -> Option.fold r.resumed ~none:false ~some:was_stuck in
+    Option.iter r.front.notice !unmet;
     Result.map (fun () -> outcome) (Recording.finish recording ~time:(now ()) ~stuck)
   in
   let unavailable why = Lwt.return (Error (Error.Unavailable why)) in

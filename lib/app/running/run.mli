@@ -39,7 +39,7 @@ type view = {
 type front = {
   replayed : Entry.t -> Replay.t -> unit;
   (** gets each line of the journal of a run that is resumed, with what it led to, before all else *)
-  notice : string -> unit;  (** shows a sentence, before the run begins *)
+  notice : string -> unit;  (** shows a sentence, before the run begins or after its end *)
   opened : view -> unit;  (** The run begins; the view is valid from now on. *)
   remark : string -> unit;  (** shows what is unusual about a vehicle *)
   observer : Observer.t;  (** gets each transition, and what is known of vehicles *)

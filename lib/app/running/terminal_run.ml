@@ -53,8 +53,8 @@ let replayed t (entry : Entry.t) replay =
 
 (* How far vehicles are with their plans. *)
 let estimate ({ vehicle; plan; share; remaining } : Run.estimate) =
-  let left = match remaining with Some t -> Printf.sprintf ", %s left" (Wording.clock t) | None -> "" in
-  Printf.sprintf "         %s: %.0f%% of %s%s" (Wording.harmless vehicle) (100. *. share) (Wording.harmless plan) left
+  let left = match remaining with Some t -> Printf.sprintf ", %s left" (Phrase.time t) | None -> "" in
+  Printf.sprintf "         %s: %.0f%% of %s%s" (Phrase.one_line vehicle) (100. *. share) (Phrase.one_line plan) left
 
 let board t () =
   match Status.lines t.board with [] -> [] | lines -> lines @ List.map estimate (t.view.estimates ())

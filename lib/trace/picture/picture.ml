@@ -11,19 +11,21 @@ let outcome summary =
   | Some { how; message = None | Some "" } -> (how, how <> "completed")
   | Some { how; message = Some message } -> (how ^ ": " ^ message, how <> "completed")
 
-
 let title summary =
   match summary.header with Some h -> Filename.basename h.program.path | None -> "A run"
 
 let circumstances summary =
-  let of_header (h : Header.t) =
-    let fleet =
-      match h.fleet with
-      | Some fleet -> Printf.sprintf "%s fleet %s" h.platform (Filename.basename fleet.path)
-      | None -> Printf.sprintf "%s built-in fleet" h.platform
-    in
+  let simulated (h : Header.t) =
+    let fleet = Option.fold ~none:"the built-in fleet" ~some:(fun (f : Header.source) -> Filename.basename f.path) in
     let speed = match h.speed with None -> [] | Some x -> [ Printf.sprintf "%g times real time" x ] in
-    [ fleet; Printf.sprintf "seed %d" h.seed ] @ speed @ [ h.started ]
+    [ "simulated: " ^ fleet h.fleet; Printf.sprintf "seed %d" h.seed ] @ speed
+  in
+  (* Of a fleet only the answers and replies are used on a network, and nothing there depends on a seed. *)
+  let of_header (h : Header.t) =
+    (match h.platform with
+     | "sim" -> simulated h
+     | platform -> [ Printf.sprintf "vehicles of a network (%s)" (String.uppercase_ascii platform) ])
+    @ [ h.started ]
   in
   String.concat "  ·  "
     ([ Phrase.count (List.length summary.vehicles) "vehicle"; Phrase.time summary.duration ]

@@ -1,5 +1,6 @@
 open Dolphin_semantics
 open Dolphin_display
+module Phrase = Dolphin_trace.Phrase
 
 let case name f = Alcotest.test_case name `Quick f
 let text = Alcotest.(check string)
@@ -9,7 +10,7 @@ let lines = Alcotest.(check (list string))
 
 let clocks () =
   List.iter
-    (fun (seconds, expected) -> text expected expected (Wording.clock seconds))
+    (fun (seconds, expected) -> text expected expected (Phrase.time seconds))
     [ (0., "0:00"); (59.4, "0:59"); (59.999_999_9, "1:00"); (540., "9:00"); (3600., "1:00:00"); (90_061., "25:01:01") ]
 
 let durations () =
@@ -19,10 +20,11 @@ let durations () =
       (1234567.5, "342 h 56.125 min") ]
 
 let harmless () =
-  text "an escape sequence" "a?[31mb" (Wording.harmless "a\027[31mb");
-  text "one in UTF-8" "a\xC2?31m" (Wording.harmless "a\xC2\x9B31m");
-  text "lines and letters stay" "é\nß" (Wording.harmless "é\nß");
-  text "a tab takes one column" "a b" (Wording.harmless "a\tb")
+  text "an escape sequence" "a?[31mb" (Phrase.harmless "a\027[31mb");
+  text "one in UTF-8" "a\xC2?31m" (Phrase.harmless "a\xC2\x9B31m");
+  text "lines and letters stay" "é\nß" (Phrase.harmless "é\nß");
+  text "a tab takes one column" "a b" (Phrase.harmless "a\tb");
+  text "one line" "a b?" (Phrase.one_line "a\nb\r")
 
 let many_vehicles () =
   text "few are named" "a, b" (Wording.vehicles [ "a"; "b" ]);
@@ -73,6 +75,16 @@ let log_of_a_stop () =
        [ (0., transition ~bound ~running:[ ("v", p) ] ~effects:[ Start ("v", p) ] (Start ("v", "dive")));
          (5., transition ~effects:[ Stop "v"; Release bound; End Interrupted ] Interrupt) ])
 
+(* Vehicles of a network choose their names. *)
+let log_of_strange_names () =
+  let bound = [ "v\n1" ] and p = task "dive\n\027[2J" in
+  lines "a line for each event"
+    [ "   0:00  program     picks v 1"; "   0:00  v 1         starts dive ?[2J"; "   1:00  v 1         ends dive ?[2J" ]
+    (told
+       [ (0., transition ~bound ~effects:[ Bind bound ] (Bind bound));
+         (0., transition ~bound ~running:[ ("v\n1", p) ] ~effects:[ Start ("v\n1", p) ] (Start ("v\n1", p.name)));
+         (60., transition ~bound (Done ("v\n1", p.name))) ])
+
 let log_of_deeds () =
   let deeds : Code.deed list = [ Posted [ ("k", Integer 1) ]; Said "two\nlines"; Posted [ ("l", Integer 2) ] ] in
   lines "in their order, once each"
@@ -119,6 +131,6 @@ let () =
   Alcotest.run "display"
     [ ("words", [ case "clock" clocks; case "duration" durations; case "harmless" harmless;
                   case "many vehicles" many_vehicles ]);
-      ("log", [ case "a task" log_of_a_task; case "a stop" log_of_a_stop; case "deeds" log_of_deeds;
+      ("log", [ case "a task" log_of_a_task; case "a stop" log_of_a_stop; case "deeds" log_of_deeds; case "strange names" log_of_strange_names;
                 case "links" log_of_links ]);
       ("board", [ case "lines" board; case "many vehicles" large_board ]) ]

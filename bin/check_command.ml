@@ -47,7 +47,7 @@ let man =
 
 let command =
   let info =
-    Cmd.info "check" ~doc:"find what is wrong with a program, without running it" ~man
+    Cmd.info "check" ~docs:Options.s_write ~doc:"find what is wrong with a program, without running it" ~man
       ~exits:(Options.exits [ Done; Bad_input; Bug ])
   in
   Cmd.v info Term.(const run $ Options.program $ Options.fleet)

@@ -95,5 +95,7 @@ let exits =
   @ Options.exits [ Bug; Interrupted ]
 
 let command =
-  let info = Cmd.info "conform" ~doc:"judge an implementation by a corpus of cases" ~man ~exits in
+  let info =
+    Cmd.info "conform" ~docs:Options.s_others ~doc:"judge an implementation by a corpus of cases" ~man ~exits
+  in
   Cmd.v info Term.(const run $ paths $ implementation $ timeout $ matrix $ verbose)

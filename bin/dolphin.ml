@@ -7,6 +7,7 @@ let man =
         until an error.";
     `P "$(mname) $(b,exec) runs a program, $(mname) $(b,explore) checks every run that it can have, $(mname) \
         $(b,check) finds its faults without running it. Each command has a manual: $(mname) $(i,COMMAND) $(b,--help).";
+    `S Options.s_write; `S Options.s_prove; `S Options.s_run; `S Options.s_runs; `S Options.s_others;
     `S Manpage.s_examples;
     `Pre "  $(mname) exec examples/rendezvous.dol\n  $(mname) explore examples/rendezvous.dol\n\
          \  $(mname) check mission.dol";

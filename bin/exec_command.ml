@@ -192,7 +192,7 @@ let man =
 
 let command =
   let info =
-    Cmd.info "exec" ~doc:"run a program, on a simulated fleet or on vehicles of a network" ~man
+    Cmd.info "exec" ~docs:Options.s_run ~doc:"run a program, on a simulated fleet or on vehicles of a network" ~man
       ~exits:(Options.exits [ Done; Failed; Bad_input; Platform_trouble; Bug; Interrupted ])
   in
   Cmd.v info

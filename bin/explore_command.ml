@@ -182,7 +182,7 @@ let man =
 
 let command =
   let info =
-    Cmd.info "explore" ~doc:"check every run of a program" ~man
+    Cmd.info "explore" ~docs:Options.s_prove ~doc:"check every run of a program" ~man
       ~exits:(Options.exits [ Done; Violated; Bad_input; Inconclusive; Platform_trouble; Bug ])
   in
   Cmd.v info

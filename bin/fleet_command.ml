@@ -47,7 +47,7 @@ let man =
 
 let command =
   let info =
-    Cmd.info "fleet" ~doc:"show the vehicles of the network" ~man
+    Cmd.info "fleet" ~docs:Options.s_run ~doc:"show the vehicles of the network" ~man
       ~exits:(Options.exits [ Done; Bad_input; Platform_trouble; Bug ])
   in
   Cmd.v info

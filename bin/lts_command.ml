@@ -77,7 +77,7 @@ let man =
 
 let command =
   let info =
-    Cmd.info "lts" ~doc:"write the state graph of a program, or compare graphs" ~man
+    Cmd.info "lts" ~docs:Options.s_prove ~doc:"write the state graph of a program, or compare graphs" ~man
       ~exits:(Options.exits [ Done; Violated; Bad_input; Inconclusive; Bug ])
   in
   Cmd.v info

@@ -22,6 +22,12 @@ let number ~docv what accepts =
 
 let positive ~docv = number ~docv "a number greater than 0" (fun x -> x > 0. && x < infinity)
 
+let s_write = "WRITE A PROGRAM"
+let s_prove = "KNOW WHAT IT MAY DO"
+let s_run = "RUN IT"
+let s_runs = "SEE WHAT HAPPENED"
+let s_others = "FOR OTHER PROGRAMS"
+
 let exits = Exit_status.info
 
 let see_also =

@@ -17,6 +17,16 @@ val number : docv:string -> string -> (float -> bool) -> float Arg.conv
 val positive : docv:string -> float Arg.conv
 (** Finite numbers greater than 0. *)
 
+(** {1 Sections of the manual in which commands stand, by need} *)
+
+val s_write : string
+val s_prove : string
+val s_run : string
+val s_runs : string
+val s_others : string
+
+(** {1 Parts of every manual page} *)
+
 val exits : Exit_status.t list -> Cmd.Exit.info list
 (** What each of them means, for a manual page. *)
 

@@ -21,7 +21,7 @@ let man =
 
 let command =
   let info =
-    Cmd.info "parse" ~doc:"print a program as it was understood" ~man
+    Cmd.info "parse" ~docs:Options.s_write ~doc:"print a program as it was understood" ~man
       ~exits:(Options.exits [ Done; Bad_input; Bug ])
   in
   Cmd.v info Term.(const run $ Options.program)

@@ -83,7 +83,7 @@ let man =
 
 let command =
   let info =
-    Cmd.info "plan" ~doc:"print an inline plan as IMC vehicles get it" ~man
+    Cmd.info "plan" ~docs:Options.s_run ~doc:"print an inline plan as IMC vehicles get it" ~man
       ~exits:(Options.exits [ Done; Failed; Bad_input; Bug ])
   in
   Cmd.v info

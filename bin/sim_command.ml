@@ -61,7 +61,7 @@ let man =
 
 let command =
   let info =
-    Cmd.info "sim" ~doc:"put simulated vehicles on the network" ~man
+    Cmd.info "sim" ~docs:Options.s_run ~doc:"put simulated vehicles on the network" ~man
       ~exits:(Options.exits [ Done; Bad_input; Platform_trouble; Bug; Interrupted ])
   in
   Cmd.v info Term.(const run $ fleet $ imc $ log_file $ lasts $ Sim_options.settings)

@@ -23,7 +23,7 @@ let man =
 
 let command =
   let info =
-    Cmd.info "step" ~doc:"tell what a configuration can do, for other programs" ~man
+    Cmd.info "step" ~docs:Options.s_others ~doc:"tell what a configuration can do, for other programs" ~man
       ~exits:(Options.exits [ Done; Platform_trouble; Bug ])
   in
   Cmd.v info Term.(const run $ const ())

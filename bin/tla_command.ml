@@ -112,7 +112,7 @@ let man =
 
 let command =
   let info =
-    Cmd.info "tla" ~doc:"write a program as a model in TLA+, and have TLC check it" ~man
+    Cmd.info "tla" ~docs:Options.s_prove ~doc:"write a program as a model in TLA+, and have TLC check it" ~man
       ~exits:(Options.exits [ Done; Violated; Bad_input; Inconclusive; Platform_trouble; Bug ])
   in
   Cmd.v info

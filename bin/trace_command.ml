@@ -153,5 +153,5 @@ let command =
     @ Options.see_also
   in
   let exits = Options.exits [ Done; Failed; Bad_input; Bug ] in
-  let info = Cmd.info "trace" ~doc:"check, show and draw journals of runs" ~man ~exits in
+  let info = Cmd.info "trace" ~docs:Options.s_runs ~doc:"check, show and draw journals of runs" ~man ~exits in
   Cmd.group info [ check_command; show_command; draw_command ]

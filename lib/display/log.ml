@@ -4,6 +4,7 @@ module Phrase = Dolphin_trace.Phrase
 type t = {
   before : Core.platform_task Vehicle_map.t;  (* A before the transition: what a vehicle that is stopped was doing *)
   unheard : Core.vehicle list;  (* bound vehicles without a link *)
+  unready : (Core.vehicle * string) list;  (* bound vehicles that cannot be given a plan, and why *)
   bound : Core.vehicle list;
   column : int;  (* width of the column of actors *)
 }
@@ -13,7 +14,7 @@ type t = {
 let narrowest = 10
 let widest = 24
 let program = "program"
-let start = { before = Vehicle_map.empty; unheard = []; bound = []; column = narrowest }
+let start = { before = Vehicle_map.empty; unheard = []; unready = []; bound = []; column = narrowest }
 
 (* Further lines of a text stand below its first one. *)
 let line l ~time actor text =
@@ -100,10 +101,27 @@ let transition ?(stuck = false) l ~time (s : Transition.t) =
   let lines = List.map (fun (actor, text) -> line l ~time actor text) happenings in
   ({ l with before = s.next.shared.allocation; bound }, lines)
 
-let news l ~time (state : World.vehicle_state) =
+let link l ~time (state : World.vehicle_state) =
   let was_heard = not (List.mem state.id l.unheard) in
-  if state.connected = was_heard || not (List.mem state.id l.bound) then (l, [])
+  if state.connected = was_heard then (l, [])
   else if state.connected then
     let unheard = List.filter (fun v -> v <> state.id) l.unheard in
     ({ l with unheard }, [ line l ~time state.id "has its link back" ])
   else ({ l with unheard = state.id :: l.unheard }, [ line l ~time state.id "loses its link" ])
+
+(* Of a vehicle without a link nobody knows. *)
+let readiness l ~time (state : World.vehicle_state) =
+  let before = List.assoc_opt state.id l.unready in
+  if (not state.connected) || before = state.unready then (l, [])
+  else
+    let others = List.remove_assoc state.id l.unready in
+    match state.unready with
+    | Some why -> ({ l with unready = (state.id, why) :: others }, [ line l ~time state.id why ])
+    | None -> ({ l with unready = others }, [ line l ~time state.id "is ready again" ])
+
+let news l ~time (state : World.vehicle_state) =
+  if not (List.mem state.id l.bound) then (l, [])
+  else
+    let l, of_link = link l ~time state in
+    let l, of_readiness = readiness l ~time state in
+    (l, of_link @ of_readiness)

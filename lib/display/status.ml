@@ -37,7 +37,9 @@ let row b v =
     match Vehicle_map.find_opt v b.seen with
     | Some s ->
       ( Printf.sprintf "%.5f, %.5f" s.position.latitude s.position.longitude,
-        if s.connected then Printf.sprintf "%.0f%%" (100. *. s.battery) else "no link" )
+        if not s.connected then "no link"
+        else if not (World.is_ready s) then "not ready"
+        else Printf.sprintf "%.0f%%" (100. *. s.battery) )
     | None -> ("", "")
   in
   [ Phrase.one_line v; Phrase.one_line task; time; place; battery ]

@@ -432,7 +432,7 @@ let unsettled ~now x =
   | Idle, Some f when may_still_begin ~now x f -> Some f.attempt.order.plan
   | (Idle | Starting _ | Running _ | Ending _ | Stopping _), _ -> None
 
-let is_heard x = x.latest <> None
+let report x = x.latest
 
 (* {1 Displays} *)
 
@@ -456,9 +456,3 @@ let executing x =
   match x.latest with
   | Some { state = { state = Executing; plan_id; _ }; _ } -> Some plan_id
   | Some _ | None -> None
-
-let readiness x =
-  match x.latest with
-  | None | Some { state = { state = Initializing | Other _; _ }; _ } -> None
-  | Some { sent; state = { state = Ready; _ } } -> Some (sent, true)
-  | Some { sent; state = { state = Executing | Blocked; _ } } -> Some (sent, false)

@@ -60,7 +60,7 @@ type input =
   | Lost of string  (** The link is given up; why. *)
   | Adopt of { order : order; stopped : bool; notes : Durable_note.t list  (** latest first *) }
   (** A console before this one was told to start [order], and if [stopped] to stop it again, and then died; [notes] is
-      what it kept since then. To be given to an execution that has nothing to do, once the vehicle {!is_heard}. *)
+      what it kept since then. To be given to an execution that has nothing to do, once there is a {!report}. *)
   | Leaves of float
   (** The last request to start leaves at that time, and not at once; [infinity]: nobody knows yet when. *)
   | Tick  (** Time has passed. *)
@@ -98,8 +98,8 @@ val unsettled : now:float -> t -> string option
 (** [unsettled ~now x] is the plan that the vehicle may still run though nobody wants it to: its stop is not confirmed,
     or it was given up and the vehicle has said nothing since, or the request for it may still take effect. *)
 
-val is_heard : t -> bool
-(** The vehicle has said something of its plan. *)
+val report : t -> Plan_report.t option
+(** What the vehicle said last of its plan. *)
 
 (** {1:displays For displays} *)
 
@@ -117,10 +117,6 @@ val progress : t -> progress option
 
 val executing : t -> string option
 (** The plan that the vehicle says it executes, ours or not. *)
-
-val readiness : t -> (float * bool) option
-(** When, by the vehicle's clock, it last said something of its plan from which one knows whether it could be given a
-    plan, and whether it could: READY. *)
 
 (** {1:constants Constants} Seconds, but for the first. *)
 

@@ -49,7 +49,7 @@ let describe (s : Station.system) =
   Printf.sprintf "%s, mode %s, %s%s%s"
     (if s.linked then "link" else "no link")
     (Node.mode ~names:[] s.node)
-    (if s.state.connected then "connected" else "not connected")
+    (if s.state.connected then Option.value s.state.unready ~default:"is ready" else "is not connected")
     ours says
 
 let changed ~now before after =

@@ -136,16 +136,7 @@ let queried n = { n with queries = n.queries + 1 }
 
 (* {1 As programs see it} *)
 
-(* The last word of the vehicle is that it could be given a plan: VehicleState in mode SERVICE, or PlanControlState
-   READY, whichever was sent later. *)
-let in_service n =
-  let by_mode = Option.map (fun (sent, mode) -> (sent, mode = Message.Vehicle_state.Op_mode.Service)) n.mode in
-  match by_mode, Execution.readiness n.execution with
-  | Some (sent, _), Some (later, ready) when later > sent -> ready
-  | Some (_, service), _ -> service
-  | None, Some (_, ready) -> ready
-  | None, None -> false
-
+let obstacle n = Readiness.obstacle ~mode:n.mode ~error:n.error (Execution.report n.execution)
 let silent ~now ~timeout n = now -. n.last_heard >= timeout
 let unknown_position = { Position.latitude = 0.; longitude = 0.; height = 0. }
 
@@ -155,15 +146,15 @@ let state ~now ~timeout ~kind ~payload n : World.vehicle_state =
     | Some (_, p), _ | None, Some p -> p
     | None, None -> unknown_position
   in
-  (* Nobody could tell later what became of a plan if it was not known what the vehicle ran before. *)
-  let is_ready = in_service n && Execution.is_heard n.execution in
-  let useful = is_ready || not (Execution.idle n.execution) in
+  let connected = is_vehicle n && not (silent ~now ~timeout n) in
+  let is_idle = Execution.idle n.execution in
   { id = n.name;
     kind;
     payload = (match payload with Some devices -> devices | None -> Option.value n.entities ~default:[]);
     position;
     battery = (match n.battery with Some (_, share) -> share | None -> 1.);
-    connected = is_vehicle n && useful && not (silent ~now ~timeout n) }
+    connected;
+    unready = (if connected && is_idle then obstacle n else None) }
 
 let mode ~names n =
   match n.mode with

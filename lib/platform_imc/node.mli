@@ -65,8 +65,8 @@ val silent : now:float -> timeout:float -> t -> bool
 
 val state : now:float -> timeout:float -> kind:string -> payload:string list option -> t -> World.vehicle_state
 (** [state ~now ~timeout ~kind ~payload n] is [n] for programs, as a vehicle of type [kind]. It is connected if it is a
-    vehicle, is not silent, and is in service or has a plan of ours. It carries [payload], or else the entities of its
-    list. Until it says otherwise its battery is full, and it is where it announced to be. *)
+    vehicle and not silent, and ready if it has a plan of ours or {!Readiness} says so. It carries [payload], or else
+    the entities of its list. Until it says otherwise its battery is full, and it is where it announced to be. *)
 
 val mode : names:(int * string) list -> t -> string
 (** ["SERVICE"], ["MANEUVER"] ..., by [names] first; ["-"] if not known. *)

@@ -32,7 +32,8 @@ let vehicle ~now ~urgent ~periodic (state : World.vehicle_state) b =
     | None -> true
     | Some { state = before; at } ->
       before <> state
-      && (before.connected <> state.connected || before.kind <> state.kind || before.payload <> state.payload || urgent
+      && (before.connected <> state.connected || before.unready <> state.unready
+          || before.kind <> state.kind || before.payload <> state.payload || urgent
           || (periodic && now -. at >= telemetry_interval))
   in
   if is_news then add (Vehicle state) { b with last = Names.add state.id { state; at = now } b.last } else b

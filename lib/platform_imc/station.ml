@@ -198,7 +198,7 @@ let aborted ~now (p : Packet.t) s =
 
 (* What was intended for an expected vehicle is done once it has said what it runs. *)
 let take_over ~now (n : Node.t) s =
-  if not (Execution.is_heard n.execution) then (s, [])
+  if Execution.report n.execution = None then (s, [])
   else
     let inputs, expected = Expected.heard n.name s.expected in
     command_all ~now inputs n { s with expected }

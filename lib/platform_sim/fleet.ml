@@ -77,7 +77,8 @@ let find id f = match String_map.find_opt id f.crafts with Some craft -> craft |
 let state f craft : World.vehicle_state =
   let v = Vehicle.scenario craft.body in
   { id = v.id; kind = v.kind; payload = v.payload; position = Vehicle.seen_at craft.body ~at:f.now;
-    battery = Vehicle.shown_battery craft.body ~at:f.now; connected = craft.connected }
+    battery = Vehicle.shown_battery craft.body ~at:f.now; connected = craft.connected;
+    unready = None }
 
 (* [tell id f] is the event that makes the state of [id] known, if it is not, and can be. *)
 let tell id f =

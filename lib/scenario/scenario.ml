@@ -49,7 +49,8 @@ let silences v =
 let states s =
   let state (v : vehicle) : World.vehicle_state =
     let connected = match silences v with (from, _) :: _ -> from > 0. | [] -> true in
-    { id = v.id; kind = v.kind; payload = v.payload; position = v.position; battery = v.battery; connected } in
+    { id = v.id; kind = v.kind; payload = v.payload; position = v.position; battery = v.battery; connected;
+      unready = None } in
   List.map state s.vehicles
 
 (* {1 Writing} *)

@@ -30,6 +30,7 @@ let of_state (s : World.vehicle_state) : members =
   [ ("vehicle", `String s.id); ("type", `String s.kind); ("payload", texts s.payload) ]
   @ of_position s.position
   @ [ ("battery", Canonical.number s.battery); ("connected", `Bool s.connected) ]
+  @ Option.fold s.unready ~none:[] ~some:(fun why -> [ ("unready", `String why) ])
 
 let to_json entry : Yojson.Safe.t =
   let line kind time rest = `Assoc (("kind", `String kind) :: ("time", Canonical.number time) :: rest) in
@@ -65,7 +66,8 @@ let to_state found =
   let* position = to_position found in
   let* battery = get number "battery" found in
   let* connected = get truth "connected" found in
-  Ok { World.id; kind; payload; position; battery; connected }
+  let* unready = optional (fun json -> Result.map Option.some (text json)) ~default:None "unready" found in
+  Ok { World.id; kind; payload; position; battery; connected; unready }
 
 let of_members found =
   let* kind = get text "kind" found in

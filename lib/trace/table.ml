@@ -1,3 +1,5 @@
+open Dolphin_semantics
+
 (* {1 Cells} *)
 
 type actor = Program | Vehicle of string
@@ -25,6 +27,7 @@ let wrap n text =
 type state = {
   mutable cause : Event.t option;
   silent : (string, unit) Hashtbl.t;
+  unready : (string, string) Hashtbl.t;
   mutable picked : string list;  (* latest first *)
   mutable rows : row list;  (* latest first *)
 }
@@ -95,22 +98,31 @@ let of_step t time (s : Step.t) =
   t.cause <- None;
   List.iter (add t time) (rows_of cells)
 
+let of_link t time (state : World.vehicle_state) =
+  let was_silent = Hashtbl.mem t.silent state.id in
+  if was_silent && state.connected then begin
+    Hashtbl.remove t.silent state.id;
+    add t time [ (Vehicle state.id, "link back") ]
+  end
+  else if (not was_silent) && not state.connected then begin
+    Hashtbl.replace t.silent state.id ();
+    add t time [ (Vehicle state.id, "no link") ]
+  end
+
+let of_readiness t time (state : World.vehicle_state) =
+  if state.connected && state.unready <> Hashtbl.find_opt t.unready state.id then begin
+    Hashtbl.remove t.unready state.id;
+    Option.iter (Hashtbl.replace t.unready state.id) state.unready;
+    add t time [ (Vehicle state.id, Option.value state.unready ~default:"ready") ]
+  end
+
 let of_entry t (entry : Entry.t) =
   match entry with
   | Header _ | Partial _ -> ()
   | Label { time; label } -> add t time [ (Program, label) ]
   | Event { event; _ } -> t.cause <- Some event
   | Transition { time; step; _ } -> of_step t time step
-  | Vehicle { time; state } ->
-    let was_silent = Hashtbl.mem t.silent state.id in
-    if was_silent && state.connected then begin
-      Hashtbl.remove t.silent state.id;
-      add t time [ (Vehicle state.id, "link back") ]
-    end
-    else if (not was_silent) && not state.connected then begin
-      Hashtbl.replace t.silent state.id ();
-      add t time [ (Vehicle state.id, "no link") ]
-    end
+  | Vehicle { time; state } -> of_link t time state; of_readiness t time state
   | Note _ -> ()
   | Resumed { time; at; _ } -> add t time [ (Program, "is resumed, at " ^ at) ]
   | End { time; ending; _ } ->
@@ -182,7 +194,7 @@ let print_list ppf rows =
   List.iter print cells
 
 let print ppf entries =
-  let t = { cause = None; silent = Hashtbl.create 8; picked = []; rows = [] } in
+  let t = { cause = None; silent = Hashtbl.create 8; unready = Hashtbl.create 8; picked = []; rows = [] } in
   List.iter (of_entry t) entries;
   let picked = List.rev t.picked in
   let is_shown (actor, _) = match actor with Program -> true | Vehicle v -> List.mem v picked in

@@ -136,7 +136,9 @@ let busy =
   Alcotest.test_case "a vehicle that runs a plan of another console cannot be picked" `Quick (fun () ->
       let run = replay ~request:1 [] ~until:18. in
       match last_state run with
-      | Some s -> Alcotest.(check bool) "connected" false s.connected
+      | Some s ->
+        Alcotest.(check bool) "has a link" true s.connected;
+        Alcotest.(check (option string)) "and is not ready" (Some "runs plan planA") s.unready
       | None -> Alcotest.fail "not told of")
 
 (* When the console announces itself while a vehicle announces itself and says nothing. *)

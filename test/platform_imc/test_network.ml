@@ -245,7 +245,7 @@ let logged name f =
 let debug_log =
   in_a_world "the debug log tells datagrams, changes of vehicles, timers" (fun () ->
       let announce_ports = ports () in
-      let fate = fates [ ("survey", quick) ] in
+      let fate = fates [ ("survey", Vehicle_model.Succeeds 0.5) ] in
       let platform = open_exn (options announce_ports) in
       let a = Udp_vehicle.start ~announce_ports ~id:0x1A ~name:"noptilus-1" ~fate () in
       logged "dolphin.imc" (fun () ->
@@ -255,7 +255,7 @@ let debug_log =
       let is_told part = Alcotest.(check bool) part true (List.exists (fun line -> contains line part) lines) in
       List.iter is_told
         [ "in from 127.0.0.1: Announce from 0x001a"; "in from 127.0.0.1: PlanControlState from 0x001a";
-          ": PlanControl from 0x"; "timer 0 set: 10 s"; "noptilus-1: link, mode -, connected, running plan survey";
+          ": PlanControl from 0x"; "timer 0 set: 10 s"; "noptilus-1: link, mode -, is ready, running plan survey";
           "noptilus-1 is done" ];
       Udp_vehicle.stop a)
 

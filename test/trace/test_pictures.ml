@@ -41,7 +41,7 @@ let few_samples () =
   let position : Dolphin_geo.Position.t = { latitude = 41.; longitude = -8.; height = 0. } in
   for i = 0 to 99_999 do
     let state : Dolphin_semantics.World.vehicle_state =
-      { id = "v"; kind = "UUV"; payload = []; position; battery = 1. -. (float_of_int i /. 1e5); connected = true }
+      { id = "v"; kind = "UUV"; payload = []; position; battery = 1. -. (float_of_int i /. 1e5); connected = true; unready = None }
     in
     Summary.add builder (Vehicle { time = float_of_int i; state })
   done;

@@ -1,5 +1,6 @@
 open Dolphin_display
 open Dolphin_platform_imc
+open Dolphin_semantics
 open Lwt.Infix
 module Phrase = Dolphin_trace.Phrase
 
@@ -45,7 +46,8 @@ let json network definition (s : Station.system) : Yojson.Safe.t =
        ("battery", optional (fun (_, share) -> number share) n.battery);
        ("payload", `List (List.map (fun d -> `String d) state.payload));
        ("plan", optional (fun p -> `String p) (plan_of network s));
-       ("linked", `Bool s.linked); ("available", `Bool state.connected); ("age", number s.age) ]
+       ("linked", `Bool s.linked); ("available", `Bool (World.is_ready state));
+       ("unready", optional (fun why -> `String why) state.unready); ("age", number s.age) ]
      @ said)
 
 (* Entity lists name every task on board: only short ones fit a table. *)
@@ -63,9 +65,10 @@ let row network definition (s : Station.system) =
     (match n.battery with Some (_, share) -> Printf.sprintf "%.0f%%" (100. *. share) | None -> "-");
     payload state.payload;
     Option.value (plan_of network s) ~default:"-";
-    (if s.linked then Printf.sprintf "%.1f s" s.age else Printf.sprintf "no link, %.0f s" s.age) ]
+    (if s.linked then Printf.sprintf "%.1f s" s.age else Printf.sprintf "no link, %.0f s" s.age);
+    (if state.connected then Option.value state.unready ~default:"yes" else "-") ]
 
-let heads = [ "VEHICLE"; "TYPE"; "IMC"; "ADDRESS"; "POSITION"; "MODE"; "BATTERY"; "PAYLOAD"; "PLAN"; "HEARD" ]
+let heads = [ "VEHICLE"; "TYPE"; "IMC"; "ADDRESS"; "POSITION"; "MODE"; "BATTERY"; "PAYLOAD"; "PLAN"; "HEARD"; "READY" ]
 
 let table network definition sights =
   let rows = heads :: List.map (fun s -> List.map Phrase.one_line (row network definition s)) sights in

@@ -15,7 +15,7 @@ let ( let* ) = Result.bind
 
 let accepts filter (state : World.vehicle_state) =
   let holds option test = match option with None -> true | Some x -> test x in
-  state.connected
+  World.is_ready state
   && holds filter.id (String.equal state.id)
   && holds filter.kind (String.equal state.kind)
   && World.carries filter.payload state

@@ -45,6 +45,7 @@ let why_not world (s : Shared.t) (pick : Settings.pick) (v : World.vehicle_state
   let because reason = Ok (Printf.sprintf "%s %s" v.id reason) in
   if List.mem v.id s.bound then because "is already bound"
   else if not v.connected then because "is not connected"
+  else if not (World.is_ready v) then because (Option.value v.unready ~default:"is not ready")
   else if Option.fold ~none:false ~some:(fun id -> id <> v.id) f.id then because "has another id"
   else if Option.fold ~none:false ~some:(fun kind -> kind <> v.kind) f.kind then because ("is a " ^ v.kind)
   else if not (World.carries f.payload v) then

@@ -9,6 +9,7 @@ type vehicle_state = {
   position : Position.t;
   battery : float;
   connected : bool;
+  unready : string option;
 }
 
 type assumption =
@@ -45,6 +46,8 @@ let find id world =
   Option.map (fun rank -> Int_map.find rank world.states) (String_map.find_opt id world.ranks)
 
 let vehicles world = List.map snd (Int_map.bindings world.states)
+
+let is_ready state = state.connected && state.unready = None
 
 let carries devices state =
   let lower = String.lowercase_ascii in

@@ -7,7 +7,9 @@ type vehicle_state = {
   payload : string list;  (** the devices that it carries *)
   position : Dolphin_geo.Position.t;
   battery : float;  (** what is left, from 0 (empty) to 1 (full) *)
-  connected : bool;  (** whether it can be picked now *)
+  connected : bool;  (** whether it has a link *)
+  unready : string option;
+  (** what keeps it from being given a plan though it has a link, as a predicate: ["is in mode ERROR: leak"] *)
 }
 
 type t
@@ -24,6 +26,9 @@ val find : Core.vehicle -> t -> vehicle_state option
 
 val vehicles : t -> vehicle_state list
 (** All vehicles ever heard of, in the order of first hearing. *)
+
+val is_ready : vehicle_state -> bool
+(** [is_ready s] is whether [s] can be given a plan: it has a link, and nothing keeps it. *)
 
 val carries : string list -> vehicle_state -> bool
 (** [carries devices s] is whether [s] carries each of [devices]; names are compared without regard to case. *)

@@ -92,9 +92,9 @@ let log_of_deeds () =
       "   0:00  program     posts l:2" ]
     (told [ (0., transition ~effects:[ Say "two\nlines" ] (Act deeds)) ])
 
-let state ?(connected = true) id : World.vehicle_state =
+let state ?(connected = true) ?unready id : World.vehicle_state =
   { id; kind = "UUV"; payload = []; position = { latitude = 41.; longitude = -8.; height = 0. }; battery = 0.5;
-    connected }
+    connected; unready }
 
 let log_of_links () =
   let log, _ = Log.transition Log.start ~time:0. (transition ~bound:[ "v" ] (Bind [ "v" ])) in
@@ -106,6 +106,19 @@ let log_of_links () =
   lines "told once" [] still;
   lines "back" [ "   0:03  v           has its link back" ] back;
   lines "only of the program's vehicles" [] of_others
+
+let log_of_readiness () =
+  let log, _ = Log.transition Log.start ~time:0. (transition ~bound:[ "v" ] (Bind [ "v" ])) in
+  let log, unready = Log.news log ~time:1. (state ~unready:"is in mode ERROR: leak" "v") in
+  let log, still = Log.news log ~time:2. (state ~unready:"is in mode ERROR: leak" "v") in
+  let log, lost = Log.news log ~time:3. (state ~connected:false "v") in
+  let log, heard = Log.news log ~time:4. (state ~unready:"is in mode ERROR: leak" "v") in
+  let _, ready = Log.news log ~time:5. (state "v") in
+  lines "a link is something else" [ "   0:01  v           is in mode ERROR: leak" ] unready;
+  lines "told once" [] still;
+  lines "lost" [ "   0:03  v           loses its link" ] lost;
+  lines "as before" [ "   0:04  v           has its link back" ] heard;
+  lines "ready" [ "   0:05  v           is ready again" ] ready
 
 let board () =
   let bound = [ "v"; "w" ] and p = task "dive" in
@@ -131,6 +144,7 @@ let () =
   Alcotest.run "display"
     [ ("words", [ case "clock" clocks; case "duration" durations; case "harmless" harmless;
                   case "many vehicles" many_vehicles ]);
-      ("log", [ case "a task" log_of_a_task; case "a stop" log_of_a_stop; case "deeds" log_of_deeds; case "strange names" log_of_strange_names;
-                case "links" log_of_links ]);
+      ("log", [ case "a task" log_of_a_task; case "a stop" log_of_a_stop; case "deeds" log_of_deeds;
+                case "strange names" log_of_strange_names; case "links" log_of_links;
+                case "readiness" log_of_readiness ]);
       ("board", [ case "lines" board; case "many vehicles" large_board ]) ]

@@ -298,6 +298,19 @@ BatteryOf(vehicle) == Shown("amount", "battery", vehicle.id, vehicle.battery)
 
 NoGetter == << "none" >>
 
+(* x is a list, a range or a vehicle set. *)
+ItemGetter(x, name) ==
+  LET items == Items(x)
+      ofVehicles == Is(x, "vehicles")
+      without(what) == Bad("an empty " \o (IF ofVehicles THEN "vehicle set" ELSE "list") \o " has no " \o what)
+      rest(s) == IF s = << >> THEN << >> ELSE Tail(s)
+  IN CASE name \in { "first", "head" } /\ items # << >> -> Ok(Head(items))
+       [] name = "last" /\ items # << >> -> Ok(Last(items))
+       [] name = "head" -> without("head")
+       [] name \in { "first", "last" } -> without(name \o " element")
+       [] name = "tail" -> Ok(IF ofVehicles THEN Vehicles(rest(x[2])) ELSE List(rest(items)))
+       [] OTHER -> NoGetter
+
 VehicleGetter(vs, name) ==
   CASE name = "id" -> IF Len(vs) = 1 THEN Ok(String(vs[1])) ELSE OneVehicle(vs, LAMBDA vehicle : Ok(String(vehicle.id)))
     [] name = "ids" -> Ok(StringList(vs))
@@ -305,20 +318,11 @@ VehicleGetter(vs, name) ==
     [] name = "position" -> OneVehicle(vs, PositionOf)
     [] name = "battery" -> OneVehicle(vs, BatteryOf)
     [] name = "payload" -> OneVehicle(vs, LAMBDA vehicle : Ok(StringList(vehicle.payload)))
-    [] OTHER -> NoGetter
-
-ItemGetter(items, name) ==
-  CASE name \in { "first", "head" } ->
-         CASE items # << >> -> Ok(Head(items))
-           [] name = "head" -> Bad("an empty list has no head")
-           [] OTHER -> Bad("an empty list has no first element")
-    [] name = "last" -> IF items = << >> THEN Bad("an empty list has no last element") ELSE Ok(Last(items))
-    [] name = "tail" -> Ok(List(IF items = << >> THEN << >> ELSE Tail(items)))
-    [] OTHER -> NoGetter
+    [] OTHER -> ItemGetter(Vehicles(vs), name)
 
 SpecificGetter(x, name) ==
   CASE Is(x, "vehicles") -> VehicleGetter(x[2], name)
-    [] Is(x, "list") \/ Is(x, "range") -> ItemGetter(Items(x), name)
+    [] Is(x, "list") \/ Is(x, "range") -> ItemGetter(x, name)
     [] Is(x, "area") ->
          CASE name \in { "centre", "center" } -> Ok(<< "position", x[2] >>)
            [] name = "radius" -> Ok(Number(x[3], x[4]))

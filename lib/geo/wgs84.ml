@@ -154,6 +154,8 @@ let move a ~bearing metres =
   finite "move" metres;
   if metres = 0. then a else direct a (radians bearing) metres
 
+let farthest = 20_000_000.
+
 let displace a ~north ~east =
   finite "displace" north;
   finite "displace" east;

@@ -21,6 +21,9 @@ val move : Position.t -> bearing:float -> float -> Position.t
     north) and is [metres] long, at [a]'s height. A negative length goes the other way. The longitude is greater than
     -180 and at most 180. *)
 
+val farthest : float
+(** Metres that a way of a program may go at most to the north and to the east, about half the globe. *)
+
 val displace : Position.t -> north:float -> east:float -> Position.t
 (** [displace a ~north ~east] is [move a ~bearing metres] with the [bearing] and the [metres] of the vector that
     goes [north] metres to the north and [east] metres to the east: so

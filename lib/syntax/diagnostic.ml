@@ -3,24 +3,26 @@ type severity = Error | Warning
 type code =
   | Syntax
   | Unknown_name | Unknown_unit | Unknown_setting | Unknown_argument
-  | Wrong_arity | Wrong_kind | Wrong_parameters | No_pairs | No_value
+  | Wrong_arity | Wrong_kind | Wrong_value | Wrong_parameters | No_pairs | No_value
   | Waits_in_task | Handler_only
   | Captured_local | Not_assignable | Defined_twice | Reserved_name
   | Wildcard_value
   | Misplaced_jump | Misplaced_when | Misplaced_setting | Misplaced_function
   | Deed_in_answer
   | Vehicle_twice
-  | Unused_task | Unknown_plan
+  | Unused_task | No_effect | Assigned_condition | Unknown_plan
 
 let codes =
   [ (Syntax, "syntax"); (Unknown_name, "unknown-name"); (Unknown_unit, "unknown-unit");
     (Unknown_setting, "unknown-setting"); (Unknown_argument, "unknown-argument"); (Wrong_arity, "wrong-arity");
-    (Wrong_kind, "wrong-kind"); (Wrong_parameters, "wrong-parameters"); (No_pairs, "no-pairs"); (No_value, "no-value");
+    (Wrong_kind, "wrong-kind"); (Wrong_value, "wrong-value");
+    (Wrong_parameters, "wrong-parameters"); (No_pairs, "no-pairs"); (No_value, "no-value");
     (Waits_in_task, "waits-in-task"); (Handler_only, "handler-only"); (Captured_local, "captured-local");
     (Not_assignable, "not-assignable"); (Defined_twice, "defined-twice"); (Reserved_name, "reserved-name");
     (Wildcard_value, "wildcard-value"); (Misplaced_jump, "misplaced-jump"); (Misplaced_when, "misplaced-when");
     (Misplaced_setting, "misplaced-setting"); (Misplaced_function, "misplaced-function");
     (Deed_in_answer, "deed-in-answer"); (Vehicle_twice, "vehicle-twice"); (Unused_task, "unused-task");
+    (No_effect, "no-effect"); (Assigned_condition, "assigned-condition");
     (Unknown_plan, "unknown-plan") ]
 
 let code_name code = List.assoc code codes

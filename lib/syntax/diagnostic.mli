@@ -8,6 +8,7 @@ type code =
   | Unknown_name | Unknown_unit | Unknown_setting | Unknown_argument
   | Wrong_arity  (** a number of arguments *)
   | Wrong_kind  (** a task where a number is needed, and the like *)
+  | Wrong_value  (** of the right kind: a negative time, and the like *)
   | Wrong_parameters  (** of the code of a guard or handler *)
   | No_pairs  (** [post], [consume] and [poll] take pairs *)
   | No_value  (** the name of a procedure, or of what has members only, in place of a value *)
@@ -22,6 +23,8 @@ type code =
   | Deed_in_answer  (** an answer may only compute *)
   | Vehicle_twice  (** one vehicle, needed twice at once *)
   | Unused_task  (** a warning *)
+  | No_effect  (** a warning: a statement that gives a value to nobody *)
+  | Assigned_condition  (** a warning: a condition whose value is that of an assignment *)
   | Unknown_plan  (** a warning: the fleet says nothing of it *)
 
 val codes : (code * string) list

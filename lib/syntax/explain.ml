@@ -159,6 +159,11 @@ let assignment place =
     Some ("a 'for' runs over the elements of something", "write for (x in xs) { ... }, such as for (i in 1..3)")
   | ASSIGN, _ when not (place.acceptable (INTEGER 0)) ->
     begin match before place 2, before place 1, kind place (opener place) with
+      | COMMAND ("post" | "consume" | "poll" as f), NAME x, _ ->
+        let value = rest_of_statement place (place.index + 1) in
+        Some ("'=' cannot stand within an expression", Printf.sprintf "a pair is written %s %s: %s" f x value)
+      | ASSIGN, NAME x, _ ->
+        Some ("an assignment has no value", Printf.sprintf "write %s = ... in a statement of its own" x)
       | COMMAND _, NAME x, _ ->
         Some ("a variable has no type before its name", Printf.sprintf "write def %s = ..." x)
       | _, NAME x, LPAREN ->
@@ -269,6 +274,19 @@ let greedy_bracket place =
     Some ("unexpected ':'", "before a ':' stands a name: give these vehicles one, or write execute (task)[vehicles]")
   | _ -> None
 
+(* [pause 5 mins]. *)
+let misspelt_units = [
+  "mins", "min"; "secs", "sec"; "s", "sec"; "msec", "ms"; "hrs", "hours"; "h", "hours"; "kms", "km"; "deg", "degrees";
+]
+
+let unit_without_point place =
+  match before place 1, this place with
+  | (INTEGER _ | NUMBER _), (NAME x | COMMAND x) when place.acceptable PLUS ->
+    let unit = Option.value (List.assoc_opt x misspelt_units) ~default:x in
+    Some (Printf.sprintf "unexpected %s" (spelt place place.index),
+          Printf.sprintf "a unit stands behind a point: %s.%s" (text_of place (place.index - 1)) unit)
+  | _ -> None
+
 let stray place =
   match this place, before place 1 with
   | (LBRACE | TRAILING), (STRING _ | TEMPLATE_CLOSE | INTEGER _ | NUMBER _) ->
@@ -289,7 +307,7 @@ let stray place =
 
 let rules = [
   missing_parenthesis; missing_brace; missing_parameters; negative_argument; greedy_bracket; assignment; missing_word;
-  misplaced_word; command; stray;
+  misplaced_word; command; unit_without_point; stray;
 ]
 
 let fault ~source ~tokens ~index ~acceptable =

@@ -9,6 +9,7 @@ let advice = function
   | "throw" -> Some "write halt 'reason'"
   | "do" -> Some "write while (...) { }"
   | "void" | "final" | "static" | "public" | "private" -> Some "variables and functions begin with def"
+  | "function" | "fun" | "func" -> Some "functions begin with def: def f(x) { ... }"
   | "as" -> Some "x.toString(), x.toInteger(), x.toDouble() and xs.toList() convert"
   | "instanceof" -> Some "values have no types that a program can ask for"
   | _ -> None
@@ -22,6 +23,7 @@ let is_used word following =
   | "switch", LPAREN -> true
   | ("class" | "interface" | "enum" | "import" | "package" | "new"), (NAME _ | COMMAND _) -> true
   | "throw", (NAME _ | COMMAND _ | STRING _ | TEMPLATE_OPEN) -> true
+  | ("function" | "fun" | "func"), (NAME _ | COMMAND _) -> true
   | ("void" | "final" | "static" | "public" | "private"), (NAME _ | COMMAND _ | DEF) -> true
   | ("as" | "instanceof"), NAME _ -> true
   | _ -> false

@@ -1,9 +1,10 @@
-type kind = Any | Number | String | Closure | Task | Vehicles | Position | Other
+type kind = Any | Number | String | Truth | Closure | Task | Vehicles | Position | Other
 
 let describe = function
   | Any | Other -> "a value"
   | Number -> "a number"
   | String -> "a string"
+  | Truth -> "a truth value"
   | Closure -> "code { ... }"
   | Task -> "a task"
   | Vehicles -> "a vehicle set"
@@ -41,8 +42,8 @@ let table : (string * t) list =
     ("pause", these Pause [ Number ] ~place:Script_only ~result:Other);
     ("halt", these Halt [] ~optional:[ Any ] ~result:Other);
     ("post", other (Pairs (fun keys -> Core.Post keys)));
-    ("consume", other (Pairs (fun keys -> Core.Consume keys)));
-    ("poll", other (Pairs_or_key (fun keys -> Core.Poll keys)));
+    ("consume", { (other (Pairs (fun keys -> Core.Consume keys))) with result = Truth });
+    ("poll", { (other (Pairs_or_key (fun keys -> Core.Poll keys))) with result = Truth });
     ("position", these Position_of [ Vehicles ] ~result:Position ~reads_sensors:true);
     ("battery", these Battery_of [ Vehicles ] ~result:Number ~reads_sensors:true);
     ("location", these Location_of [ Number; Number ] ~optional:[ Number ] ~result:Position);
@@ -57,6 +58,11 @@ let by_name = String_map.of_seq (List.to_seq table)
 let find name = String_map.find_opt name by_name
 let names = List.map fst table
 
+let is_deed name =
+  match find name with
+  | Some { place = Anywhere; result = Other | Truth; _ } -> true
+  | Some _ | None -> false
+
 let math_names =
   [ "abs"; "max"; "min"; "round"; "floor"; "ceil"; "sqrt"; "exp"; "log"; "log10"; "sin"; "cos"; "tan"; "asin"; "acos";
     "atan"; "atan2"; "pow"; "hypot"; "toRadians"; "toDegrees"; "signum" ]
@@ -70,9 +76,23 @@ let table_of_constants : (string * Core.value) list =
   @ List.map (fun (name, p) -> ("Location." ^ name, Core.Position p)) Dolphin_geo.Place.all
   @ List.map (fun unit -> (unit, Core.Symbol unit)) units
 
+let owners = [ "Location"; "Math"; "Speed"; "Z" ]
+
+(* A call [position(v)] is told from a variable [position] by its parentheses, [message x] is not. *)
+let is_reserved name =
+  List.mem name owners || match find name with Some { result = Other; _ } -> true | Some _ | None -> false
+
 let constant name = List.assoc_opt name table_of_constants
 let constants = List.map fst table_of_constants
-let owners = [ "Location"; "Math"; "Speed"; "Z" ]
+let builders =
+  [ ("pick", "type 'UUV'"); ("pos", "lat 41.18; lon 8.7.west"); ("imcPlan", "goTo()");
+    ("allOf", "when { condition } then task"); ("oneOf", "when { condition } then task");
+    ("choose", "when { condition } then task") ]
+
+let builder_names = List.map fst builders
+
+let example_of_builder name =
+  Option.map (fun inside -> Printf.sprintf "%s { %s }" name inside) (List.assoc_opt name builders)
 
 let settings : Dolphin_syntax.Ast.builder -> string list = function
   | Pick -> [ "id"; "type"; "payload"; "region"; "count"; "timeout" ]

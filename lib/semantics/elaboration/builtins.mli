@@ -5,6 +5,7 @@ type kind =
   | Any
   | Number
   | String
+  | Truth
   | Closure
   | Task
   | Vehicles
@@ -33,6 +34,9 @@ type t = { arguments : arguments; place : place; result : kind; reads_sensors : 
 val find : string -> t option
 (** The procedure of that name. *)
 
+val is_deed : string -> bool
+(** Whether this is a procedure that code of tasks calls for what it does: [message], [post] ... *)
+
 val names : string list
 (** Of all procedures. *)
 
@@ -45,6 +49,9 @@ val constants : string list
 val owners : string list
 (** The first names of constants and of [Math]'s functions: [Location], [Speed], [Z], [Math]. *)
 
+val is_reserved : string -> bool
+(** Whether no variable may have this name: it is an owner, or a procedure that gives nothing. *)
+
 val math : string -> bool
 (** Whether [Math] has a function of this name. *)
 
@@ -53,3 +60,9 @@ val math_names : string list
 
 val settings : Dolphin_syntax.Ast.builder -> string list
 (** The settings that a block may have. *)
+
+val builder_names : string list
+(** The words that open a block of settings. *)
+
+val example_of_builder : string -> string option
+(** [example_of_builder "pick"] is ["pick { type 'UUV' }"]; [None] for other words. *)

@@ -101,6 +101,13 @@ let set_connection_timeout env at arguments =
       ~hint:"write setConnectionTimeout v1, 2.min";
     null env at
 
+let check_literals env at operation kinds arguments =
+  let es = List.map value_of arguments in
+  let fits kind e = could_be kind (known_kind env e) in
+  if List.for_all2 fits (List.filteri (fun i _ -> i < List.length es) kinds) es then
+    let fault = Option.bind (Literal_check.all es) (Literal_check.fault operation) in
+    Option.iter (fun fault -> error env Wrong_value at "%s" fault) fault
+
 let to_builtin env at name (builtin : Builtins.t) arguments =
   match builtin.arguments with
   | These { required; optional; operation } ->
@@ -109,6 +116,7 @@ let to_builtin env at name (builtin : Builtins.t) arguments =
     if count < least || count > most then
       error env Wrong_arity at "%s takes %s, not %d" name (number_of_arguments least most) count;
     let kinds = required @ optional in
+    if least <= count && count <= most then check_literals env at operation kinds arguments;
     let argument i a =
       (match a with
        | Ast.Named (k, _) -> error env Unknown_argument k.Ast.at "%s takes no argument by name" name
@@ -129,6 +137,27 @@ let to_builtin env at name (builtin : Builtins.t) arguments =
   | Set_connection_timeout -> set_connection_timeout env at arguments
   | Assert -> assertion_task env at arguments
 
+let builder_in_parentheses env at name arguments =
+  let setting = function
+    | Ast.Named (k, e) -> Format.asprintf "%s: %a" k.Ast.it Dolphin_syntax.Print.expression e
+    | Ast.Positional e -> Format.asprintf "%a" Dolphin_syntax.Print.expression e
+  in
+  let hint =
+    if arguments <> [] && List.for_all (function Ast.Named _ -> true | Ast.Positional _ -> false) arguments then
+      Some (Printf.sprintf "write %s { %s }" name (String.concat "; " (List.map setting arguments)))
+    else Option.map (fun example -> "write " ^ example) (Builtins.example_of_builder name)
+  in
+  error env ?hint Unknown_name at "the settings of %s stand in braces" name;
+  null env at
+
+let misspells_builder env name arguments =
+  match List.rev arguments with
+  | Ast.Positional { it = Closure _; _ } :: _ when not (Scope.is_assigned env.program name) -> (
+      match Diagnostic.suggest name (Builtins.builder_names @ Scope.visible_names env.code) with
+      | Some near -> List.mem near Builtins.builder_names
+      | None -> false)
+  | _ -> false
+
 let by_name env at name (callee : Ast.expression) arguments =
   let called_value () =
     let callee = Names.variable env name callee.at in
@@ -148,6 +177,11 @@ let by_name env at name (callee : Ast.expression) arguments =
   | None, None, Some builtin ->
     check_place env builtin name callee.at;
     to_builtin env at name builtin arguments
+  | None, None, None when List.mem name Builtins.builder_names -> builder_in_parentheses env callee.at name arguments
+  | None, None, None when misspells_builder env name arguments ->
+    (* What the block would mean is not known, so nothing in it is told. *)
+    error env Unknown_name callee.at "unknown name '%s'" name ?hint:(did_you_mean name Builtins.builder_names);
+    null env at
   | None, None, None ->
     (match Scope.settings env.code with
      | Some (((Pick | Imc_plan | Pos) as builder), _) ->
@@ -158,6 +192,7 @@ let by_name env at name (callee : Ast.expression) arguments =
     else apply env at Make_list (values env arguments)
 
 let to_method env at subject name safe arguments =
+  check_supplier env subject name;
   if List.mem name.Ast.it sensor_members then Scope.note_sensor env.program;
   let keys = keys_of arguments in
   let on e = apply env at (Method (name.it, keys)) (e :: values env arguments) in

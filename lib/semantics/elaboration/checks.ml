@@ -45,7 +45,9 @@ let rec kind_of (e : Ast.expression) : Builtins.kind =
   | Builder ((Imc_plan | All_of | One_of), _) | Wait_for _ | Until _ | During _ | Watch _ -> Task
   | Builder (Pick, _) -> Vehicles
   | Builder (Pos, _) -> Position
-  | Boolean _ | Null | List _ | Map _ | Range _ -> Other
+  | Boolean _ | Unary (Not, _)
+  | Binary ((And | Or | Equal | Not_equal | Less | Less_equal | Greater | Greater_equal | Member_of), _, _) -> Truth
+  | Null | List _ | Map _ | Range _ -> Other
   | Member { subject; name; safe = false } when kind_of subject = Number && Operators.unit_factor name.it <> None ->
     Number
   | Unary (Negate, e) -> kind_of e
@@ -53,25 +55,34 @@ let rec kind_of (e : Ast.expression) : Builtins.kind =
   | Index (a, _) when kind_of a = Task -> Task
   | Call { callee = { it = Variable name; _ }; _ } -> (
       match Builtins.find name with Some builtin -> builtin.result | None -> Any)
-  | Variable _ | Wildcard | Unary _ | Binary _ | Conditional _ | Elvis _ | Increment _ | Call _ | Member _ | Index _
+  | Variable _ | Wildcard | Binary _ | Conditional _ | Elvis _ | Increment _ | Call _ | Member _ | Index _
   | When _ -> Any
 
 let could_be (wanted : Builtins.kind) (found : Builtins.kind) =
   match wanted, found with
   | Any, _ | _, Any -> true
-  | (Number | String | Closure | Task | Vehicles | Position | Other), _ -> wanted = found
+  | (Number | String | Truth | Closure | Task | Vehicles | Position | Other), _ -> wanted = found
+
+let is_hidden env name =
+  Scope.find_local env.code name <> None || Scope.find_function env.program name <> None
 
 (* A name that the program defines hides the built-in of that name from this check. *)
 let known_kind env (e : Ast.expression) =
   match e.it with
   | Call { callee = { it = Variable name; _ }; _ }
-    when Scope.find_local env.code name <> None || Scope.find_function env.program name <> None -> Builtins.Any
+    when is_hidden env name -> Builtins.Any
   | _ -> kind_of e
 
 let check_kind env what wanted (e : Ast.expression) =
   let found = known_kind env e in
+  let hint =
+    match wanted, e.it with
+    | Builtins.Task, Binary (And, _, _) -> Some "tasks one after the other are a >> b, tasks at once a | b"
+    | Builtins.Task, Binary (Or, _, _) -> Some "tasks at once are a | b; oneOf { when { C } then a } takes one"
+    | _, _ -> None
+  in
   if not (could_be wanted found) then
-    error env Wrong_kind e.at "%s takes %s, this is %s" what (Builtins.describe wanted)
+    error env ?hint Wrong_kind e.at "%s takes %s, this is %s" what (Builtins.describe wanted)
       (match found with Other -> "none" | found -> Builtins.describe found)
 
 let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expression) =
@@ -81,6 +92,8 @@ let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expressio
       match e.it with
       | String name -> Some (Printf.sprintf "a plan is named by task('%s')" name)
       | Closure _ -> Some "code becomes a task by action { ... } or condition { ... }"
+      | Call { callee = { it = Variable name; _ }; _ } when Builtins.is_deed name && not (is_hidden env name) ->
+        Some (Format.asprintf "what is done in a task is an action: action { %a }" Dolphin_syntax.Print.expression e)
       | _ -> None
     in
     if not (could_be Task (known_kind env e)) then
@@ -109,22 +122,44 @@ let rec dotted (e : Ast.expression) =
 
 let root name = match String.index_opt name '.' with Some i -> String.sub name 0 i | None -> name
 
-let is_hidden env name =
-  Scope.find_local env.code name <> None || Scope.find_function env.program name <> None
-
 let in_settings env name =
   match Scope.settings env.code with
   | Some (builder, slot) when List.mem name (Builtins.settings builder) -> Some slot
   | Some _ | None -> None
 
-(* [lon -8.7] is a subtraction, from the block that [lon] stands in. *)
-let rec check_subtraction env (e : Ast.expression) =
+(* [lon -8.7] and [message -5] are subtractions. *)
+let check_subtraction env (e : Ast.expression) =
   match e.it with
-  | Binary (Subtract, { it = Variable name; _ }, _) when in_settings env name <> None && not (is_hidden env name) ->
+  | Binary (Subtract, { it = Variable name; _ }, second)
+    when (not (is_hidden env name))
+      && (in_settings env name <> None
+          || (Builtins.find name <> None && not (Scope.is_assigned env.program name))) ->
     error env No_value e.at "'%s -' is read as a subtraction" name
-      ~hint:(Printf.sprintf "put parentheses around the value: %s(...)" name)
-  | Binary (_, first, _) -> check_subtraction env first
+      ~hint:(Format.asprintf "put parentheses around the value: %s(-%a)" name Dolphin_syntax.Print.expression second);
+    false
+  | _ -> true
+
+let check_no_setting env (target : Ast.expression) (value : Ast.expression) =
+  match target.it with
+  | Variable name when in_settings env name <> None && not (is_hidden env name) ->
+    let example =
+      match value.it with
+      | String s -> Printf.sprintf "%s '%s'" name s
+      | Integer n -> Printf.sprintf "%s %d" name n
+      | _ -> Printf.sprintf "%s VALUE" name
+    in
+    error env Misplaced_setting target.at "'%s = ' assigns a variable and sets nothing" name
+      ~hint:(Printf.sprintf "write %s" example)
   | _ -> ()
+
+let check_parameters program (parameters : string Ast.located list) =
+  let check seen (x : string Ast.located) =
+    if List.mem x.it seen then
+      Scope.report program
+        (Diagnostic.error ~code:Defined_twice x.at (Printf.sprintf "two parameters are called '%s'" x.it));
+    x.it :: seen
+  in
+  ignore (List.fold_left check [] parameters)
 
 (* What a [pick] has one of. *)
 let single_settings = [ "id"; "type"; "region"; "count"; "timeout" ]
@@ -161,6 +196,12 @@ let check_in_script env name at =
       construct
       ~hint:"do it before execute, or split the task"
   | None -> ()
+
+let check_supplier env (subject : Ast.expression) member =
+  match subject.it with
+  | Variable name when Scope.is_supplier env.program name && not (is_hidden env name) ->
+    check_in_script env (Printf.sprintf "%s.%s" name member.Ast.it) subject.at
+  | _ -> ()
 
 let check_place env (builtin : Builtins.t) name at =
   if builtin.reads_sensors then Scope.note_sensor env.program;

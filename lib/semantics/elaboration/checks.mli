@@ -88,8 +88,14 @@ val is_hidden : env -> string -> bool
 val in_settings : env -> string -> int option
 (** The slot of the block of settings around, if it has a setting of this name. *)
 
-val check_subtraction : env -> Ast.expression -> unit
-(** Reports a statement such as [lon -8.7] in a block of settings, which subtracts. *)
+val check_subtraction : env -> Ast.expression -> bool
+(** Whether this is no [lon -8.7] or [message -5], which subtract; reports these. *)
+
+val check_no_setting : env -> Ast.expression -> Ast.expression -> unit
+(** [check_no_setting env target e] reports [target = e] if [target] is a setting of the block around. *)
+
+val check_parameters : Scope.program -> string Ast.located list -> unit
+(** Reports a parameter that has the name of one before it. *)
 
 val check_repeated : env -> Ast.builder -> Ast.statement list -> unit
 (** Reports a second [type], say, among the statements of a [pick], which would replace the first one. *)
@@ -102,6 +108,10 @@ val check_in_script : env -> string -> Location.t -> unit
 
 val check_place : env -> Builtins.t -> string -> Location.t -> unit
 (** Reports a procedure that may not stand here, and notes what the program uses. *)
+
+val check_supplier : env -> Ast.expression -> string Ast.located -> unit
+(** [check_supplier env e x] reports [e.x] in code of a task if [e] is surely the supplier, which answers the script
+    only. *)
 
 val sensor_members : string list
 (** Properties and methods that read positions or batteries. *)

@@ -3,6 +3,7 @@ open Checks
 
 let make_lambda env at purpose label ~parameters ~implicit body =
   let code = Scope.code env.program purpose (Some env.code) in
+  check_parameters env.program parameters;
   let inside = { env with code } in
   List.iter (fun (x : string Ast.located) -> ignore (Scope.define code x.it)) parameters;
   let lambda =
@@ -31,8 +32,18 @@ let closure env at purpose label (c : Ast.closure) =
   let lambda, captured = make_lambda env at purpose label ~parameters ~implicit body in
   expression env at (Make_closure (lambda, captured))
 
+let conditions = [ "when"; "waitFor"; "until"; "condition"; "assert" ]
+
 let task_code env at construct (c : Ast.closure) =
   (match c.parameters with
    | Some (first :: _) -> error env Wrong_parameters first.Ast.at "the code of %s takes no parameters" construct
    | Some [] | None -> ());
+  (match List.rev c.body with
+   | { it = Assign { target; operator = None; _ }; at } :: _ when List.mem construct conditions ->
+     Scope.report env.program
+       (Diagnostic.warning Assigned_condition at "this condition assigns, and holds if the value that is assigned does"
+          ~hint:(match dotted target with
+              | Some name -> Printf.sprintf "to compare, write %s == ..." name
+              | None -> "to compare, write =="))
+   | _ -> ());
   closure env at (Scope.Task_code construct) construct c

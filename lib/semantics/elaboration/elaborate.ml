@@ -14,14 +14,14 @@ let declare_function program ((name : string Ast.located), lambda, _, _, _) =
       ~hint:"choose another name"
   else Scope.add_function program name.it lambda
 
-(* A word that opens a construct is a name where no brace follows it. *)
-let hint_for_unknown name names =
-  let braced inside = Some (Printf.sprintf "write %s { %s }" name inside) in
-  match name with
-  | "pick" -> braced "type 'UUV'"
-  | "pos" -> braced "lat 41.18; lon 8.7.west"
-  | "allOf" | "oneOf" | "choose" -> braced "when { condition } then task"
-  | _ -> Checks.did_you_mean name names
+let hint_for_unknown program name at names =
+  if Scope.wants_text program at then Some (Printf.sprintf "a text stands in quotes: '%s'" name)
+  else if Builtins.math name then Some (Printf.sprintf "write Math.%s" name)
+  else if Builtins.constant ("Math." ^ name) <> None then Some (Printf.sprintf "write Math.%s" name)
+  else
+    match Builtins.example_of_builder name with
+    | Some example -> Some ("write " ^ example)
+    | None -> Checks.did_you_mean name names
 
 let report_unknown program =
   let names = Scope.visible_names (Scope.code program Scope.Main None) in
@@ -30,7 +30,7 @@ let report_unknown program =
        Scope.report program
          (Diagnostic.error ~code:Unknown_name at
             (Printf.sprintf "unknown name '%s'" name)
-            ?hint:(hint_for_unknown name (List.filter (fun other -> other <> name) names))))
+            ?hint:(hint_for_unknown program name at (List.filter (fun other -> other <> name) names))))
     (Scope.unknown program)
 
 let report_blocking program =
@@ -57,14 +57,18 @@ let shell program at label parameters =
 
 let fill (env : Checks.env) (lambda : lambda) purpose parameters at body =
   let code = Scope.code env.program purpose None in
+  Checks.check_parameters env.program parameters;
   List.iter (fun (x : string Ast.located) -> ignore (Scope.define code x.it)) parameters;
   lambda.code <- Checks.statements { env with code } at body;
   lambda.slots <- Scope.slots code
 
 let is_error (d : Diagnostic.t) = match d.severity with Error -> true | Warning -> false
 
+let is_supplier (e : Ast.expression) =
+  match e.it with Call { callee = { it = Variable "getSupplier"; _ }; arguments = [] } -> true | _ -> false
+
 let program ~source_name (ast : Ast.program) =
-  let program = Scope.create ~functions:[] ~globals:[] () in
+  let program = Scope.create ~suppliers:(Assigned.once is_supplier ast) ~functions:[] ~globals:[] () in
   let defined =
     List.filter_map
       (fun (s : Ast.statement) ->
@@ -85,7 +89,7 @@ let program ~source_name (ast : Ast.program) =
     defined;
   report_unknown program;
   report_blocking program;
-  List.iter (Scope.report program) (Parallel_check.program ast);
+  List.iter (Scope.report program) (Parallel_check.program ast @ Effect_check.program ast);
   let reports = Scope.reports program in
   if List.exists is_error reports then Error reports
   else

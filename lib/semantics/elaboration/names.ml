@@ -19,7 +19,7 @@ let elaborate env name at =
                  (String.concat ", " (List.filter (fun c -> root c = name) Builtins.constants)));
       null env at
     end
-    else if Builtins.find name <> None && not (is_hidden env name) then begin
+    else if Builtins.find name <> None && not (is_hidden env name || Scope.is_assigned env.program name) then begin
       error env No_value at "'%s' is a procedure: it needs its arguments" name
         ~hint:(Printf.sprintf "write %s(...)" name);
       null env at
@@ -29,13 +29,17 @@ let elaborate env name at =
 let member env (whole : Ast.expression) subject (name : string Ast.located) safe =
   let at = whole.at in
   match dotted whole with
-  | Some full when List.mem (root full) Builtins.owners && not (is_hidden env (root full)) -> (
+  | Some full
+    when List.mem (root full) Builtins.owners
+      && not (is_hidden env (root full))
+      && Option.bind (dotted subject) Builtins.constant = None -> (
       match Builtins.constant full with
       | Some x -> constant env at x
       | None ->
         error env Unknown_name at "there is no '%s'" full ?hint:(did_you_mean full Builtins.constants);
         null env at)
   | Some _ | None ->
+    check_supplier env subject name;
     if List.mem name.it sensor_members then Scope.note_sensor env.program;
     (match kind_of subject with
      | Number when Operators.unit_factor name.it = None ->

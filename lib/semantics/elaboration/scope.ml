@@ -9,6 +9,7 @@ type global = { index : int; mutable assigned : bool; mutable uses : Location.t 
 type call = { caller : string option; in_task : string option; callee : string; at : Location.t }
 
 type program = {
+  suppliers : string list;
   functions : (string, Core.lambda) Hashtbl.t;
   table : (string, global) Hashtbl.t;
   mutable global_names : string list;  (* latest first *)
@@ -17,6 +18,7 @@ type program = {
   mutable lambdas : int;
   mutable reports : Diagnostic.t list;
   mutable ordered_keys : string list;
+  mutable texts : Location.t list;  (* where a text is wanted *)
   mutable reads_sensors : bool;
   mutable calls : call list;
   blocking : (string, string) Hashtbl.t;  (* function, and what it uses *)
@@ -36,9 +38,10 @@ let assigned_global program name =
   global.assigned <- true;
   global.index
 
-let create ?(first_site = 0) ~functions ~globals () =
+let create ?(first_site = 0) ?(suppliers = []) ~functions ~globals () =
   let program =
     {
+      suppliers;
       functions = Hashtbl.create 16;
       table = Hashtbl.create 64;
       global_names = [];
@@ -47,6 +50,7 @@ let create ?(first_site = 0) ~functions ~globals () =
       lambdas = 0;
       reports = [];
       ordered_keys = [];
+      texts = [];
       reads_sensors = false;
       calls = [];
       blocking = Hashtbl.create 16;
@@ -72,6 +76,9 @@ let globals program = Array.of_list (List.rev program.global_names)
 let add_function program name lambda = Hashtbl.replace program.functions name lambda
 let find_function program name = Hashtbl.find_opt program.functions name
 
+let is_assigned program name =
+  match Hashtbl.find_opt program.table name with Some global -> global.assigned | None -> false
+
 let used_global program name at =
   let global = global program name in
   global.uses <- at :: global.uses;
@@ -87,7 +94,10 @@ let note_ordered_key program key =
   if not (List.mem key program.ordered_keys) then program.ordered_keys <- key :: program.ordered_keys
 
 let ordered_keys program = List.sort String.compare program.ordered_keys
+let note_text program at = program.texts <- at :: program.texts
+let wants_text program at = List.memq at program.texts
 let note_sensor program = program.reads_sensors <- true
+let is_supplier program name = List.mem name program.suppliers
 let reads_sensors program = program.reads_sensors
 
 type code = {

@@ -8,9 +8,11 @@ module Location = Dolphin_syntax.Location
 
 type program
 
-val create : ?first_site:Core.site -> functions:(string * Core.lambda) list -> globals:string list -> unit -> program
+val create :
+  ?first_site:Core.site -> ?suppliers:string list -> functions:(string * Core.lambda) list -> globals:string list ->
+  unit -> program
 (** [functions] and [globals] exist already, as for an answer to [ask]; sites are numbered from [first_site] on, by
-    default from 0. *)
+    default from 0. [suppliers] are the names of variables that surely are the supplier. *)
 
 val site : program -> Location.t -> Core.site
 (** A new site there. *)
@@ -55,6 +57,18 @@ val note_sensor : program -> unit
 (** Something looks at a position or a battery. *)
 
 val reads_sensors : program -> bool
+
+val note_text : program -> Location.t -> unit
+(** Only a text can stand there. *)
+
+val wants_text : program -> Location.t -> bool
+(** Whether {!note_text} said so. *)
+
+val is_assigned : program -> string -> bool
+(** Whether some assignment before this point makes a global of this name. *)
+
+val is_supplier : program -> string -> bool
+(** Whether the variable is one of the [suppliers]. *)
 
 (** {1:code One piece of code} *)
 

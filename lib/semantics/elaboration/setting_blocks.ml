@@ -12,15 +12,26 @@ let check_named_settings env name arguments =
       | Ast.Named _ | Ast.Positional _ -> ())
     arguments
 
+let is_named = function Ast.Named _ -> true | Ast.Positional _ -> false
+
 let add env at slot name arguments =
   let outside f = Scope.inside_settings env.code None f in
+  let wants_text = List.mem name [ "id"; "type"; "payload"; "planName"; "description"; "vehicles" ] in
   let argument = function
+    | Ast.Positional { Ast.it = Variable _; at } as argument when wants_text ->
+      Scope.note_text env.program at;
+      elaborate env (value_of argument)
     | Ast.Positional { Ast.it = Wildcard; at } when name = "count" -> constant env at Wildcard
     | argument -> elaborate env (value_of argument)
   in
   let arguments' = outside (fun () -> List.map argument arguments) in
   (match Scope.settings env.code with
    | Some (Imc_plan, _) -> check_named_settings env name arguments
+   | Some (Pick, _) when arguments <> [] && not (List.exists is_named arguments) ->
+     let literal (e : Ast.expression) = match e.it with Wildcard -> Some Wildcard | _ -> Literal_check.value e in
+     let values = List.filter_map literal (List.map value_of arguments) in
+     if List.compare_lengths values arguments = 0 then
+       Option.iter (fun fault -> error env Wrong_value at "%s" fault) (Literal_check.fault_of_pick name values)
    | Some ((Pick | Pos | All_of | One_of), _) | None ->
      List.iter
        (function

@@ -19,7 +19,7 @@ let assign_variable env at name name_at e =
   | None ->
     if Scope.find_function env.program name <> None then
       error env Not_assignable name_at "'%s' is a function and cannot be assigned" name
-    else if Builtins.find name <> None || List.mem name Builtins.owners then
+    else if Builtins.is_reserved name then
       error env Not_assignable name_at "'%s' is a name of the language and cannot be assigned" name
         ~hint:"choose another name";
     expression env at (Set_global (Scope.assigned_global env.program name, e))

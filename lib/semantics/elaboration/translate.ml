@@ -14,22 +14,38 @@ let warn_of_unused_task env (e : Ast.expression) =
       (Diagnostic.warning Unused_task e.at "this task is made but not executed"
          ~hint:"write execute before it, or give it a name")
 
+(* What an expression begins with, and the expression around it. *)
+let first_operand (e : Ast.expression) : (Ast.expression * (Ast.expression -> Ast.expression_node)) option =
+  let begins (first : Ast.expression) = first.at.start.pos_cnum = e.at.start.pos_cnum in
+  match e.it with
+  | Binary (op, first, second) -> Some (first, fun first -> Binary (op, first, second))
+  | Index (first, index) -> Some (first, fun first -> Index (first, index))
+  | Member m -> Some (m.subject, fun subject -> Member { m with subject })
+  | Call c -> Some (c.callee, fun callee -> Call { c with callee })
+  | Range r -> Some (r.first, fun first -> Range { r with first })
+  | Conditional (test, yes, no) -> Some (test, fun test -> Conditional (test, yes, no))
+  | Elvis (first, otherwise) -> Some (first, fun first -> Elvis (first, otherwise))
+  | During (d, t) when begins t -> Some (t, fun t -> During (d, t))
+  | Until (c, t) when begins t -> Some (t, fun t -> Until (c, t))
+  | Null | Boolean _ | Integer _ | Number _ | String _ | Template _ | Variable _ | Wildcard | List _ | Map _ | Closure _
+  | Unary _ | Increment _ | Builder _ | When _ | Wait_for _ | Until _ | During _ | Watch _ -> None
+
 (* [execute (a | b) >> c] executes all of [(a | b) >> c]: a procedure that gives nothing is no operand, so what follows
    its parenthesis belongs to its argument. *)
 let rec regroup env (e : Ast.expression) : Ast.expression option =
-  let around first rebuild =
-    match regroup env first with
-    | Some ({ it = Call { callee; arguments = [ Positional argument ] }; _ } as whole) ->
-      let argument = { e with it = rebuild argument } in
-      Some { whole with it = Ast.Call { callee; arguments = [ Ast.Positional argument ] } }
-    | Some _ | None -> None
-  in
   match e.it with
   | Call { callee = { it = Variable name; _ }; arguments = [ Positional _ ] } when not (is_hidden env name) -> (
       match Builtins.find name with Some { result = Other; _ } -> Some e | Some _ | None -> None)
-  | Binary (op, first, second) -> around first (fun first -> Ast.Binary (op, first, second))
-  | Index (first, index) -> around first (fun first -> Ast.Index (first, index))
-  | _ -> None
+  | _ ->
+    let around (first, rebuild) =
+      match regroup env first with
+      | Some ({ it = Call { callee; arguments = [ Positional argument ] }; _ } as whole) ->
+        let at = { e.at with start = argument.at.start } in
+        let argument = Ast.Positional { Ast.it = rebuild argument; at } in
+        Some { Ast.it = Ast.Call { callee; arguments = [ argument ] }; at = { whole.at with stop = e.at.stop } }
+      | Some _ | None -> None
+    in
+    Option.bind (first_operand e) around
 
 let check_index env subject (index : Ast.expression) =
   let found = known_kind env index in
@@ -72,7 +88,7 @@ let rec elaborate env (e : Ast.expression) : expression =
     apply env at (Binary Divide) [ t; task_code env closure_at "until" c ]
   | Binary (op, a, b) ->
     check_operator env op a b;
-    apply env at (Binary op) (List.map (elaborate env) [ a; b ])
+    if check_subtraction env e then apply env at (Binary op) (List.map (elaborate env) [ a; b ]) else null env at
   | Conditional (test, yes, no) ->
     condition env at test (fun () -> elaborate env yes) (fun () -> elaborate env no)
   | Elvis (e, otherwise) -> elvis env at e otherwise
@@ -127,6 +143,7 @@ and during env at (d : Ast.expression) t =
     | Closure c -> task_code env d.at "during" c
     | _ ->
       check_kind env "during" Number d;
+      Option.iter (fun fault -> error env Wrong_value d.at "%s" fault) (Literal_check.fault_of_time "during" d);
       elaborate env d
   in
   apply env at (Builtin Make_during) [ d; elaborate env t ]
@@ -156,11 +173,12 @@ and statement env (s : Ast.statement) : expression =
     when not (is_hidden env "assert") ->
     Calls.assertion env at arguments
   | Expression e ->
-    check_subtraction env e;
     let e = Option.value (regroup env e) ~default:e in
     warn_of_unused_task env e;
     elaborate env e
-  | Assign { target; operator = None; value } -> Targets.assign env at target (elaborate env value)
+  | Assign { target; operator = None; value } ->
+    check_no_setting env target value;
+    Targets.assign env at target (elaborate env value)
   | Assign { target; operator = Some op; value } ->
     Targets.update env at target (fun current -> apply env at (Binary op) [ current; elaborate env value ])
   | Define (name, value) ->

@@ -96,21 +96,32 @@ let of_area (a : Dolphin_geo.Area.t) = function
   | "radius" -> Some (Ok (Number a.radius))
   | _ -> None
 
-let of_items items = function
-  | "first" -> Some (if items = [||] then Error "an empty list has no first element" else Ok items.(0))
-  | "last" ->
-    Some (if items = [||] then Error "an empty list has no last element" else Ok items.(Array.length items - 1))
-  | "head" -> Some (if items = [||] then Error "an empty list has no head" else Ok items.(0))
-  | "tail" -> Some (Ok (List (part items 1 (Array.length items))))
-  | _ -> None
+(* Of a list, a range or a vehicle set [x]. *)
+let of_items x items name =
+  let element i what =
+    if items <> [||] then Ok items.(i)
+    else
+      let kind = match x with Vehicles _ -> "vehicle set" | _ -> "list" in
+      Error (Printf.sprintf "an empty %s has no %s" kind what)
+  in
+  match name, x with
+  | "first", _ -> Some (element 0 "first element")
+  | "head", _ -> Some (element 0 "head")
+  | "last", _ -> Some (element (Array.length items - 1) "last element")
+  | "tail", Vehicles vs -> Some (Ok (Vehicles (match vs with [] -> [] | _ :: rest -> rest)))
+  | "tail", _ -> Some (Ok (List (part items 1 (Array.length items))))
+  | _, _ -> None
+
+let of_elements x name = Option.bind (Value.items x) (fun items -> of_items x items name)
 
 let getter world x name =
   let specific =
     match x with
-    | Vehicles vs -> of_vehicles world vs name
+    | Vehicles vs -> (
+        match of_vehicles world vs name with Some result -> Some result | None -> of_elements x name)
     | Position p -> of_position p name
     | Area a -> of_area a name
-    | List _ | Range _ -> (match Value.items x with Some items -> of_items items name | None -> None)
+    | List _ | Range _ -> of_elements x name
     | Task (Platform p) when name = "id" || name = "name" -> Some (Ok (String p.name))
     | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Map _ | Task _ | Closure _
     | Host _ | Settings _ | Reading _ -> None
@@ -121,9 +132,18 @@ let getter world x name =
   | None, ("empty" | "isEmpty") -> Option.map (fun n -> Ok (Boolean (n = 0))) (Value.length x)
   | None, _ -> None
 
-let properties =
-  [ "id"; "ids"; "type"; "position"; "battery"; "payload"; "size"; "length"; "latitude"; "longitude"; "height";
-    "centre"; "radius"; "first"; "last"; "head"; "tail"; "name" ]
+let of_any_elements = [ "size"; "length"; "first"; "last"; "head"; "tail" ]
+
+(* What [x] may be asked for. *)
+let properties = function
+  | Vehicles _ -> [ "id"; "ids"; "type"; "position"; "battery"; "payload" ] @ of_any_elements
+  | List _ | Range _ -> of_any_elements
+  | String _ | Map _ -> [ "size"; "length" ]
+  | Position _ -> [ "latitude"; "longitude"; "height" ]
+  | Area _ -> [ "centre"; "radius" ]
+  | Task _ -> [ "id"; "name" ]
+  | Integer _ | Number _ -> Operators.unit_names
+  | Null | Boolean _ | Wildcard | Symbol _ | Closure _ | Host _ | Settings _ | Reading _ -> []
 
 let near name names =
   match Suggest.suggest name names with Some near -> Printf.sprintf "; did you mean '%s'?" near | None -> ""
@@ -138,11 +158,11 @@ let property world x name =
   | _, Some result -> result
   | (Integer _ | Number _), None when Operators.unit_factor name <> None -> Operators.in_unit x name
   | (Integer _ | Number _), None ->
-    Error (Printf.sprintf "a number has no unit '%s'%s" name (near name Operators.unit_names))
+    Error (Printf.sprintf "a number has no unit '%s'%s" name (near name (properties x)))
   | Null, None -> Error (Printf.sprintf "null has no property '%s'" name)
   | ( ( Boolean _ | String _ | Wildcard | Symbol _ | List _ | Range _ | Position _ | Area _ | Vehicles _ | Task _
       | Closure _ | Host _ | Settings _ | Reading _ ),
-      None ) -> Error (Printf.sprintf "%s has no property '%s'%s" (Value.kind x) name (near name properties))
+      None ) -> Error (Printf.sprintf "%s has no property '%s'%s" (Value.kind x) name (near name (properties x)))
 
 (* "getId" is a getter of "id". *)
 let property_of_getter name =
@@ -254,13 +274,22 @@ let on_number n x name arguments =
     Some (Ok (Number (Float.round (n *. scale) /. scale)))
   | _, _ -> None
 
+let farthest = Dolphin_geo.Wgs84.farthest
+let is_distance metres = Float.abs metres <= farthest  (* false for what is not a number *)
+
 let on_position p name arguments =
   match name, arguments with
   | ("distance" | "distanceTo"), [ Position q ] -> Some (Ok (Number (Dolphin_geo.Wgs84.distance p q)))
   | ("bearing" | "bearingTo"), [ Position q ] -> Some (Ok (Number (Dolphin_geo.Wgs84.bearing p q)))
-  | "displace", [ north; east ] ->
-    let north = number_text north and east = number_text east in
-    Some (Ok (Position (Dolphin_geo.Wgs84.displace p ~north ~east)))
+  | "displace", [ x; y ] -> (
+      match Value.to_number x, Value.to_number y with
+      | Some north, Some east when is_distance north && is_distance east ->
+        Some (Ok (Position (Dolphin_geo.Wgs84.displace p ~north ~east)))
+      | Some north, Some east ->
+        let way = if is_distance north then east else north in
+        Some (Error (Printf.sprintf "displace moves a place by at most %.0f km, not by %g m" (farthest /. 1000.) way))
+      | Some _, None -> Some (Operators.expected "metres to the east" y)
+      | None, _ -> Some (Operators.expected "metres to the north" x))
   | _, _ -> None
 
 let updates = function
@@ -277,13 +306,36 @@ let specific x name arguments =
   | Position p -> on_position p name arguments
   | Null | Boolean _ | Wildcard | Symbol _ | Area _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ -> None
 
-let known =
-  [ "size"; "isEmpty"; "contains"; "getId"; "getType"; "getPosition"; "getBattery"; "getPayload"; "equals";
-    "toString"; "each"; "collect"; "findAll"; "find"; "any"; "every"; "first"; "last"; "sum"; "max"; "min";
-    "reverse"; "sort"; "unique"; "join"; "add"; "addAll"; "remove"; "indexOf"; "containsKey"; "keySet"; "values";
-    "put"; "get"; "toUpperCase"; "toLowerCase"; "trim"; "startsWith"; "endsWith"; "replace"; "split"; "substring";
-    "toInteger"; "toDouble"; "abs"; "round"; "distance"; "bearing"; "displace"; "inject"; "eachWithIndex"; "take";
-    "drop"; "count"; "times" ]
+let of_all_with_elements =
+  [ "size"; "length"; "isEmpty"; "contains"; "each"; "eachWithIndex"; "collect"; "collectWithIndex"; "findAll"; "find";
+    "any"; "every"; "count"; "inject" ]
+
+let of_lists =
+  [ "get"; "first"; "last"; "head"; "tail"; "take"; "drop"; "indexOf"; "reverse"; "sort"; "unique"; "sum"; "max"; "min";
+    "join"; "toList"; "add"; "push"; "addAll"; "remove"; "removeAt"; "removeElement"; "clear" ]
+
+(* The methods of the table in docs/language.md that [x] has. *)
+let known x =
+  let own =
+    match x with
+    | List _ | Range _ -> of_all_with_elements @ of_lists
+    | Vehicles _ ->
+      [ "getId"; "getType"; "getPosition"; "getBattery"; "getPayload"; "getIds" ] @ of_all_with_elements @ of_lists
+    | Map _ ->
+      [ "get"; "containsKey"; "containsValue"; "keySet"; "keys"; "values"; "put"; "remove"; "clear" ]
+      @ of_all_with_elements
+    | String _ ->
+      [ "toUpperCase"; "toLowerCase"; "capitalize"; "trim"; "equalsIgnoreCase"; "startsWith"; "endsWith"; "replace";
+        "split"; "substring"; "take"; "drop"; "padLeft"; "padRight"; "isNumber"; "toInteger"; "toDouble" ]
+      @ of_all_with_elements
+    | Integer _ | Number _ -> [ "abs"; "round"; "toInteger"; "toDouble"; "times" ]
+    | Position _ -> [ "distance"; "bearing"; "displace"; "getLatitude"; "getLongitude"; "getHeight" ]
+    | Area _ -> [ "contains"; "getCentre"; "getRadius" ]
+    | Task _ -> [ "getName" ]
+    | Closure _ -> [ "call" ]
+    | Null | Boolean _ | Wildcard | Symbol _ | Host _ | Settings _ | Reading _ -> []
+  in
+  [ "equals"; "toString" ] @ own
 
 (* Such a range, or number of times, is not gone through by methods; loops take any range. *)
 let too_many x name =
@@ -309,7 +361,7 @@ let call world x name arguments =
         | _, _, _ ->
           let hint =
             if too_many x name then Printf.sprintf " for more than %d elements" Value.most_items
-            else if List.mem name known then Printf.sprintf " for %d arguments of that kind" (List.length arguments)
-            else near name known
+            else if List.mem name (known x) then Printf.sprintf " for %d arguments of that kind" (List.length arguments)
+            else near name (known x)
           in
           Error (Printf.sprintf "%s has no method '%s'%s" (Value.kind x) name hint))

@@ -276,10 +276,8 @@ let locate s draft =
   in
   Ok { draft with location }
 
-let widest_move = 20_000_000.
-
 let move s draft =
-  let metres = within (-.widest_move) widest_move " m" s in
+  let metres = within (-.Wgs84.farthest) Wgs84.farthest " m" s in
   match s.positional with
   | [ north; east ] ->
     let* north = metres "move to the north" north in

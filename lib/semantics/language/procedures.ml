@@ -89,9 +89,10 @@ let maximum_connection_timeout = 3600.
 let set_connection_timeout context vehicles x =
   match Value.to_number x with
   | None -> expected "a time, as in 2.min" x
-  | Some seconds when seconds < minimum_connection_timeout || seconds > maximum_connection_timeout ->
+  | Some seconds when minimum_connection_timeout <= seconds && seconds <= maximum_connection_timeout ->
+    Done (Set_connection_timeout (vehicles, seconds), context, Null)
+  | Some seconds ->
     Wrong (Printf.sprintf "a connection timeout is from 5 seconds to 1 hour, not %g seconds" seconds)
-  | Some seconds -> Done (Set_connection_timeout (vehicles, seconds), context, Null)
 
 let numbers arguments =
   let numbers = List.filter_map Value.to_number arguments in

@@ -1,0 +1,39 @@
+open Dolphin_syntax.Ast
+module String_map = Map.Make (String)
+
+(* Whether each name is assigned once only, to an expression that is [wanted]. *)
+let rec assignments wanted acc (s : statement) =
+  let note name once = String_map.update name (function None -> Some once | Some _ -> Some false) acc in
+  match s.it with
+  | Assign { target = { it = Variable name; _ }; value; operator } -> note name (operator = None && wanted value)
+  | Define (name, Some e) -> note name.it (wanted e)
+  | Define (name, None) | For (name, _, []) -> note name.it false
+  | For (name, _, body) -> List.fold_left (assignments wanted) (note name.it false) body
+  | If (_, yes, no) -> List.fold_left (assignments wanted) acc (yes @ no)
+  | While (_, body) | Block body -> List.fold_left (assignments wanted) acc body
+  | Function { parameters; body; _ } ->
+    let acc =
+      List.fold_left (fun acc (x : string located) -> String_map.add x.it false acc) acc parameters
+    in
+    List.fold_left (assignments wanted) acc body
+  | Assign _ | Expression _ | Setting _ | Return _ | Break | Continue -> acc
+
+(* Code inside of expressions assigns too, and its parameters hide variables of the same name. *)
+let assignments_inside wanted acc (e : expression) =
+  let hide acc (x : string located) = String_map.add x.it false acc in
+  match e.it with
+  | Closure c | When (c, _) | Wait_for (c, _) | Until (c, _) | Watch (_, c) ->
+    let acc = List.fold_left (assignments wanted) acc c.body in
+    List.fold_left hide acc (Option.value c.parameters ~default:[])
+  | Builder (_, body) -> List.fold_left (assignments wanted) acc body
+  | Increment { target = { it = Variable name; _ }; _ } -> String_map.add name false acc
+  | _ -> acc
+
+let all wanted ast =
+  let outside = List.fold_left (assignments wanted) String_map.empty ast in
+  List.fold_left (Fold.statement (assignments_inside wanted)) outside ast
+
+let names ast = List.map fst (String_map.bindings (all (fun _ -> false) ast))
+
+let once wanted ast =
+  List.filter_map (fun (x, once) -> if once then Some x else None) (String_map.bindings (all wanted ast))

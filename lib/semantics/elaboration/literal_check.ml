@@ -1,0 +1,49 @@
+open Core
+module Ast = Dolphin_syntax.Ast
+
+let rec value (e : Ast.expression) =
+  match e.it with
+  | Null -> Some Null
+  | Boolean b -> Some (Boolean b)
+  | Integer n -> Some (Integer n)
+  | Number n -> Some (Number n)
+  | String s -> Some (String s)
+  | Unary (op, e) -> Option.bind (value e) (fun x -> Result.to_option (Operators.unary op x))
+  | Member { subject; name; safe = false } ->
+    Option.bind (value subject) (fun x -> Result.to_option (Operators.in_unit x name.it))
+  | Template _ | Variable _ | Wildcard | List _ | Map _ | Range _ | Closure _ | Binary _ | Conditional _ | Elvis _
+  | Increment _ | Call _ | Member _ | Index _ | Builder _ | When _ | Wait_for _ | Until _ | During _ | Watch _ -> None
+
+let all es =
+  let values = List.filter_map value es in
+  if List.compare_lengths values es = 0 then Some values else None
+
+(* What literals give does not depend on the program. *)
+let context : Code.context =
+  let code = { node = Constant Null; site = 0 } in
+  let main =
+    { id = 0; label = ""; parameters = 0; implicit = false; captures = [||]; slots = 0; code; lambda_site = 0 }
+  in
+  let program =
+    { source_name = ""; locations = [||]; global_names = [||]; functions = []; main; ordered_keys = [];
+      reads_sensors = false }
+  in
+  let tuples = Tuples.empty No_key in
+  { program; world = World.empty; bound = []; store = Store.empty; tuples; mode = Script; deeds = [] }
+
+let fault operation values =
+  match operation with
+  | Platform_task | Make_idle | Pause | Location_of | Math _ -> (
+      match Procedures.apply context 0 operation values with Wrong message -> Some message | _ -> None)
+  | _ -> None
+
+let fault_of_time what e =
+  match Option.bind (value e) Value.to_number with
+  | Some seconds when not (seconds >= 0. && seconds < infinity) ->
+    Some (Printf.sprintf "%s takes a time of 0 seconds or more, not %g" what seconds)
+  | Some _ | None -> None
+
+let fault_of_pick setting positional =
+  match Settings.pick [ { setting; positional; named = []; setting_site = 0 } ] with
+  | Ok _ -> None
+  | Error (fault : Fault.t) -> Some fault.message

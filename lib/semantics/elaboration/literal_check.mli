@@ -1,0 +1,21 @@
+(** What literals give is known before the program runs, so what is wrong with them is told then, in the words of the
+    run. *)
+
+open Core
+module Ast = Dolphin_syntax.Ast
+
+val value : Ast.expression -> value option
+(** [value e] is the value of [e] if it is a number, also with a unit, a string, a truth value or null. *)
+
+val all : Ast.expression list -> value list option
+(** Their values, if all are literals. *)
+
+val fault : builtin -> value list -> string option
+(** [fault b xs] is what is wrong with [xs] as arguments of [b], if [b] is among those whose arguments are numbers and
+    names only. *)
+
+val fault_of_time : string -> Ast.expression -> string option
+(** [fault_of_time what e] is what is wrong with [e] as a time for [what]. *)
+
+val fault_of_pick : string -> value list -> string option
+(** [fault_of_pick s xs] is what is wrong with [xs] as arguments of the setting [s] of [pick]. *)

@@ -99,9 +99,23 @@ Unsure(q) == SelectSeq(Wanted(q), LAMBDA v : v \notin outside.lost /\ Latecomers
 LateIn(a) == (Range(a.coming) \cup Range(a.missing)) \ outside.lost
 NewlyLate(a) == Cardinality(LateIn(a) \ outside.late)
 
+(* The vehicles that q takes if they are there, wherever they may be seen. *)
+AlwaysFit(q) ==
+  LET isAlwaysIn(v) == q.region = << >> \/ (\A place \in Range(VehicleOf(v).places) : Within(q.region[1], place))
+  IN SelectSeq(Wanted(q), isAlwaysIn)
+
+(* As many of them as must be missing for too few to come, if so many may be: those first whose absence is nothing
+   new. *)
+TooFew(q) ==
+  LET least == Len(AlwaysFit(q)) - (q.count - 1)
+      known == SelectSeq(Unsure(q), LAMBDA v : v \in outside.late)
+      unknown == SelectSeq(Unsure(q), LAMBDA v : v \notin outside.late)
+      mayMiss == SelectSeq(Silent(q) \o known \o unknown, LAMBDA v : v \in Range(AlwaysFit(q)))
+  IN IF least < 1 \/ least > Len(mayMiss) THEN << >> ELSE << SubSeq(mayMiss, 1, least) >>
+
 (* A pick of all vehicles waits for its whole timeout: some may come late while others are missing. A pick of n
-   vehicles goes on with the first n, of which up to n were late. Or too few come: then all silent ones are missing,
-   and any of the unsure or, where there is no bound, all. Attendances with fewer newly late vehicles come first. *)
+   vehicles goes on with the first n, of which up to n were late. Or too few come. Attendances with fewer newly late
+   vehicles come first. *)
 Attendances(q) ==
   LET silent == Silent(q)
       unsure == Unsure(q)
@@ -112,8 +126,7 @@ Attendances(q) ==
       all == Flatten(Each(Subsequences(silent), LAMBDA unheard :
                             Flatten(Each(Subsequences(unsure), LAMBDA absent : ofAll(unheard, absent)))))
       some == Each(Arrangements(q.count, unsure), LAMBDA coming : attendance(coming, << >>))
-              \o Each(IF Latecomers = -1 THEN << unsure >> ELSE Subsequences(unsure),
-                      LAMBDA absent : attendance(<< >>, silent \o absent))
+              \o Each(TooFew(q), LAMBDA absent : attendance(<< >>, absent))
       most == IF Latecomers = -1 THEN Len(unsure) ELSE Latecomers - Cardinality(outside.late)
       byNumber(as) == Flatten([ n \in 1 .. most + 1 |-> SelectSeq(as, LAMBDA a : NewlyLate(a) = n - 1) ])
   IN Only({ byNumber(as) : as \in { IF q.all THEN all ELSE some } })
@@ -124,12 +137,13 @@ AfterPick(t, a) ==
                    !.late = IF Latecomers = -1 THEN @ ELSE @ \cup LateIn(a) ]
 
 (* In each world that may be. A transition that is there in several worlds is remembered as in the first of them: with
-   the fewest newly late vehicles. *)
+   the fewest newly late vehicles. Nothing follows PICK-ERR, whose ways differ in the text only: one is enough. *)
 PickTransitions(M, q) ==
   LET placings == Placings(NothingSeen, IF q.region = << >> THEN << >> ELSE Wanted(q))
       in(a) == Flatten(Each(placings, LAMBDA sees : PickSteps(M, q, WorldOf(a, sees))))
       steps(a) == Each(in(a), LAMBDA t : Remembering(t, AfterPick(t, a)))
-      first(ts) == SelectSeq([ j \in DOMAIN ts |-> j ], LAMBDA j : \A i \in 1 .. j - 1 : ts[i].label # ts[j].label)
+      isSame(t, u) == t.label = u.label \/ (t.rules = << "PICK-ERR" >> /\ u.rules = << "PICK-ERR" >>)
+      first(ts) == SelectSeq([ j \in DOMAIN ts |-> j ], LAMBDA j : \A i \in 1 .. j - 1 : ~isSame(ts[i], ts[j]))
   IN Only({ Each(first(ts), LAMBDA j : ts[j]) : ts \in { Flatten(Each(Attendances(q), steps)) } })
 
 -----------------------------------------------------------------------------

@@ -163,8 +163,10 @@ let events options program e (c : Configuration.t) (awaited : Transition.awaited
   | Expiry_of timer, _ -> [ (Ok (Transition.Timer_expired timer), e) ]
   | (Answer | Reply), (Script _ | Waiting _ | Executing _ | Ended _) -> []
 
-let in_world options program world e c =
-  let internal = List.of_seq (Seq.map (fun t -> (t, e)) (clear (Transition.internal_all program world c))) in
+let internal program world e c : (Transition.t * t) Seq.t =
+  fun () -> Seq.map (fun t -> (t, e)) (clear (Transition.internal_all program world c)) ()
+
+let in_world options program world e c : (Transition.t * t) Seq.t =
   let rec accept before (event, e) =
     let of_result : _ -> (Transition.t * t) list = function
       | Ok t -> [ (t, e) ]
@@ -175,108 +177,87 @@ let in_world options program world e c =
     | Ok event -> List.concat_map of_result (clear (Transition.accept_all program world c event))
     | Error refusal -> of_result (Error refusal)
   in
-  let on_event event = List.concat_map (accept e) (events options program e c event) in
-  internal @ List.concat_map on_event (Transition.awaited c)
+  let on_event event = List.to_seq (List.concat_map (accept e) (events options program e c event)) in
+  Seq.append (internal program world e c) (Seq.flat_map on_event (List.to_seq (Transition.awaited c)))
 
 (* {1 Who is there} *)
 
-(* The sets of at most [most] elements of [xs], smaller ones first. *)
-let subsets most xs =
-  let rec of_size n xs =
-    match xs with
-    | _ when n = 0 -> [ [] ]
-    | [] -> []
-    | x :: rest -> List.map (fun set -> x :: set) (of_size (n - 1) rest) @ of_size n rest
+(* Nothing follows where too few come, and the ways to it differ in the text of the error only: the first is enough.
+   Other transitions come twice only where sensors are open. *)
+let once world choices () =
+  let too_few_came = ref false in
+  let is_first ((t : Transition.t), _) =
+    match t.label with
+    | No_vehicles _ when !too_few_came -> false
+    | No_vehicles _ -> too_few_came := true; true
+    | _ -> true
   in
-  List.concat_map (fun n -> of_size n xs) (List.init (min most (List.length xs) + 1) Fun.id)
-
-(* The lists of at most [most] different elements of [xs]. *)
-let rec arrangements most xs =
-  if most = 0 then [ [] ]
-  else
-    let first x = List.map (fun rest -> x :: rest) (arrangements (most - 1) (List.filter (fun y -> y <> x) xs)) in
-    [] :: List.concat_map first xs
-
-(* The vehicles that [pick] may look for, and of which it is open whether they are there. *)
-let uncertain options world e (c : Configuration.t) (pick : Settings.pick) =
-  let may_miss v = List.mem v e.lost || (Faults.is_possible options.faults.join && options.may_be_late v) in
-  let is_wanted (s : World.vehicle_state) =
-    Settings.accepts { pick.filter with region = None } s && (not (List.mem s.id c.shared.bound)) && may_miss s.id
-  in
-  List.map (fun (s : World.vehicle_state) -> s.id) (List.filter is_wanted (World.vehicles world))
-
-(* Who comes after all others, in this order, and who does not come. *)
-type attendance = { coming : Core.vehicle list; missing : Core.vehicle list }
-
-(* How many vehicles that are neither [lost] nor were late before this takes. *)
-let cost e ~lost a =
-  let is_new v = not (List.mem v lost || List.mem v e.late) in
-  List.length (List.filter is_new (a.coming @ a.missing))
-
-(* Whatever can come of a pick comes of one of these, cheaper ones first. If a number is wanted, nobody need be missing
-   for it to be met, and if it is not met all may be that can be. *)
-let attendances options e (pick : Settings.pick) ~lost ~late =
-  let most_new =
-    match options.faults.join with Never -> 0 | At_most n -> max 0 (n - List.length e.late) | Any_number -> max_int
-  in
-  let known = List.length (List.filter (fun v -> List.mem v e.late) late) in
-  let most = if most_new > List.length late then List.length late else most_new + known in
-  let ways =
-    match pick.count, options.faults.join with
-    | _, _ when lost = [] && late = [] -> [ { coming = []; missing = [] } ]
-    | Exactly n, limit ->
-      let on_the_way = List.map (fun coming -> { coming; missing = [] }) (arrangements (min n most) late) in
-      let missing = match limit with Any_number -> [ late ] | Never | At_most _ -> subsets most late in
-      on_the_way @ List.map (fun missing -> { coming = []; missing = lost @ missing }) missing
-    | All, _ ->
-      let with_missing missing =
-        let others = List.filter (fun v -> not (List.mem v missing)) late in
-        List.map (fun coming -> { coming; missing }) (arrangements most others)
-      in
-      List.concat_map
-        (fun silent -> List.concat_map (fun missing -> with_missing (silent @ missing)) (subsets most late))
-        (subsets (List.length lost) lost)
-  in
-  let by_cost a b = Int.compare (cost e ~lost a) (cost e ~lost b) in
-  List.stable_sort by_cost (List.filter (fun a -> cost e ~lost a <= most_new) ways)
+  let choices = Seq.filter is_first choices in
+  if World.is_open world then Transition.distinct fst choices () else choices ()
 
 let picking options program world e (c : Configuration.t) (pick : Settings.pick) =
-  let lost, late = List.partition (fun v -> List.mem v e.lost) (uncertain options world e c pick) in
-  let remember a ((t : Transition.t), e) =
+  let company =
+    Attendance.company options.faults ~may_be_late:options.may_be_late ~lost:e.lost ~late:e.late ~bound:c.shared.bound
+      world pick
+  in
+  let remember (a : Attendance.t) ((t : Transition.t), e) =
     let is_picked v = List.mem v t.next.shared.bound && not (List.mem v c.shared.bound) in
     let lost = List.filter (fun v -> not (is_picked v)) e.lost in
-    let noted = List.filter (fun v -> List.mem v late) (a.coming @ a.missing) in
+    let noted = List.filter (fun v -> List.mem v (Attendance.unsure company)) (a.coming @ a.missing) in
     let noted = match options.faults.join with At_most _ -> noted | Never | Any_number -> [] in
     (t, { e with lost; late = List.fold_left (fun vs v -> add v vs) e.late noted })
   in
-  let given a =
-    let assumed = List.map (fun v -> World.Late v) a.coming @ List.map (fun v -> World.Missing v) a.missing in
+  let assumed (a : Attendance.t) =
+    List.map (fun v -> World.Late v) a.coming @ List.map (fun v -> World.Missing v) a.missing
+  in
+  let given a transitions =
+    let assumed = assumed a in
     let with_assumed ((t : Transition.t), e) = remember a ({ t with assumed = assumed @ t.assumed }, e) in
-    List.map with_assumed (in_world options program (World.suppose assumed world) e c)
+    Seq.map with_assumed transitions
   in
-  let found = Hashtbl.create 16 in
-  let is_new ((t : Transition.t), _) =
-    let same (t' : Transition.t) = Label.equal t.label t'.label && Configuration.equal t.next t'.next in
-    let hash = Configuration.hash t.next in
-    let is_new = not (List.exists same (Hashtbl.find_all found hash)) in
-    if is_new then Hashtbl.add found hash t;
-    is_new
+  let attended a = given a (in_world options program (World.suppose (assumed a) world) e c) in
+  let of_number n news =
+    let bound (on_time, coming) =
+      given { coming; missing = [] } (internal program (World.only (on_time @ coming) world) e c)
+    in
+    let failed =
+      match Attendance.too_few company n with
+      | Some missing when Attendance.number_of_new company missing = news -> attended { coming = []; missing }
+      | Some _ | None -> Seq.empty
+    in
+    let as_it_is = if news = 0 then attended { coming = []; missing = [] } else Seq.empty in
+    Seq.append as_it_is (Seq.append (Seq.flat_map bound (Attendance.with_latecomers company n news)) failed)
   in
-  List.filter is_new (List.concat_map given (attendances options e pick ~lost ~late))
+  let with_new news =
+    match pick.count with
+    | Exactly n -> of_number n news
+    | All -> Seq.flat_map attended (Attendance.of_all company news)
+  in
+  once world (Seq.flat_map with_new (Attendance.costs company))
 
 (* {1 All together} *)
 
-let interruption options program world e c =
-  if not options.faults.interrupt then []
-  else match Transition.accept program world c Interruption with Ok t -> [ (t, e) ] | Error _ -> []
+let interruption options program world e c () =
+  if not options.faults.interrupt then Seq.Nil
+  else
+    match Transition.accept program world c Interruption with
+    | Ok t -> Seq.return (t, e) ()
+    | Error _ -> Seq.Nil
 
 let choices options program world e (c : Configuration.t) =
-  let by_itself =
+  let by_itself () =
     match c.control with
-    | Waiting (_, Pick pick) -> picking options program world e c pick
+    | Waiting (_, Pick pick) -> picking options program world e c pick ()
     | Script _ | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) | Executing _ | Ended _ ->
-      in_world options program world e c
+      in_world options program world e c ()
   in
-  by_itself @ interruption options program world e c
+  Seq.append by_itself (interruption options program world e c)
 
-let goes_on choices = List.exists (fun ((t : Transition.t), _) -> not (Label.equal t.label Interrupt)) choices
+let rec find p (choices : _ Seq.t) =
+  match choices () with
+  | Nil -> None
+  | Cons (choice, _) when p choice -> Some choice
+  | Cons (_, rest) -> find p rest
+
+let is_interruption (t : Transition.t) = Label.equal t.label Interrupt
+let is_stuck choices = Option.is_none (find (fun (t, _) -> not (is_interruption t)) choices)

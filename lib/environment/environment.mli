@@ -76,12 +76,18 @@ val task_ends : options -> t -> Core.vehicle -> Core.platform_task -> (Transitio
 val endings_remember : options -> bool
 (** Whether the memory after an end that [task_ends] gives may differ from that before it although the task succeeds. *)
 
-val choices : options -> Core.program -> World.t -> t -> Configuration.t -> (Transition.t * t) list
-(** [choices o p w e c] is every transition of [c]: its own, leftmost first, then those on events, in the order of
-    [Transition.awaited], and last the interruption, if there are any. What a transition takes for granted, of sensors
-    and of who is there, is among its [assumed].
-    @raise Unclear if [w] is open and the outcomes of a step cannot be listed. *)
+val choices : options -> Core.program -> World.t -> t -> Configuration.t -> (Transition.t * t) Seq.t
+(** [choices o p w e c] is every transition of [c], computed on demand: its own, leftmost first, then those on events,
+    in the order of [Transition.awaited], and last the interruption, if there are any. What a transition takes for
+    granted, of sensors and of who is there, is among its [assumed].
+    @raise Unclear (each time it is gone through) if [w] is open and the outcomes of a step cannot be listed. *)
 
-val goes_on : (Transition.t * 'state) list -> bool
-(** [goes_on choices] is whether there is more among them than an interruption: nobody need ever interrupt, so a program
-    that waits for nothing else is stuck. *)
+val find : ('choice -> bool) -> 'choice Seq.t -> 'choice option
+(** [find p choices] is the first of [choices] for which [p] holds, if there is one. The others after it are not
+    computed. *)
+
+val is_interruption : Transition.t -> bool
+
+val is_stuck : (Transition.t * 'state) Seq.t -> bool
+(** [is_stuck choices] is whether there is nothing among them but interruptions: nobody need ever interrupt, so a
+    program that waits for nothing else is stuck. *)

@@ -454,7 +454,7 @@ A bound that is met leaves the answer open.
   no unhandled error: inconclusive, the bound on states was met
   assertions: inconclusive, the bound on states was met
   vehicles for all tasks: inconclusive, the bound on states was met
-  137 states, 266 transitions, depth 14
+  101 states, 176 transitions, depth 13
   [3]
 
 Of vehicles that are alike it does not matter which are picked. A run that is shown names vehicles of the fleet.
@@ -502,7 +502,21 @@ Of vehicles that are alike it does not matter which are picked. A run that is sh
   no unhandled error: inconclusive, the bound on states was met
   assertions: inconclusive, the bound on states was met
   vehicles for all tasks: inconclusive, the bound on states was met
-  253 states, 1 transitions, depth 1; reduced by partial order
+  101 states, 1 transitions, depth 1; reduced by partial order
+
+The orders in which vehicles come are counted out one after another, also by a process that has little stack.
+
+  $ for i in 1 2 3 4 5 6 7 8 9; do echo "vehicle 'uuv-$i', { type 'UUV' }"; done > nine.fleet
+  $ echo 'v = pick { count 9 }' > nine.dol
+  $ (ulimit -s 512; explore nine.dol --fleet nine.fleet --faults join --max-states 3000 | grep -v inconclusive)
+  vehicles for all tasks: violated after 2 steps: vehicles are missing
+  3001 states, 1 transitions, depth 1; reduced by partial order
+  
+  vehicles for all tasks: a shortest run in which vehicles are missing
+      program                                   where
+  1   pick(9 vehicles)                          nine.dol:1
+  2   no-vehicles(could not pick 9 vehicles...  nine.dol:1
+      if uuv-1 is missing
 
 When the process can have no more memory, it says so. (OCaml 5 reserves at its start what 128 domains take, without d=1.)
 

@@ -1,6 +1,7 @@
 (* What the outside does, and what it remembers: bounds of 2, which tell counting from remembering
    that something was. *)
 
+open Dolphin_semantics
 open Dolphin_environment
 open Dolphin_explore
 module Pure_run = Test_support.Pure_run
@@ -62,6 +63,105 @@ let latecomers =
     breaks "one of them twice, two of one" (late 1) missing late_again;
     breaks "one of them twice, two of two" (late 2) (missing @ [ No_halt ]) late_again;
   ]
+
+(* {2 Against the definition}
+
+   What docs/explorer.md says of a pick with uncertain vehicles: some of them come after all others, in any order, some
+   are missing, and no more than the bound allows. The ways in which too few come are one. *)
+
+let definition (options : Environment.options) most program world (c : Configuration.t) =
+  let ids = List.map (fun (s : World.vehicle_state) -> s.id) (World.vehicles world) in
+  let rec arrangements vs =
+    let first v = List.map (List.cons v) (arrangements (List.filter (( <> ) v) vs)) in
+    [] :: List.concat_map first vs
+  in
+  let rec subsets = function
+    | [] -> [ [] ]
+    | v :: rest -> List.concat_map (fun vs -> [ vs; v :: vs ]) (subsets rest)
+  in
+  let unsure = List.filter options.may_be_late ids in
+  let with_missing missing =
+    let others = List.filter (fun v -> not (List.mem v missing)) unsure in
+    List.map (fun coming -> (coming, missing)) (arrangements others)
+  in
+  let is_allowed (coming, missing) = List.length coming + List.length missing <= most in
+  let transitions (coming, missing) =
+    let late = List.map (fun v -> World.Late v) coming and missing = List.map (fun v -> World.Missing v) missing in
+    let world = World.suppose (late @ missing) world in
+    let on_timer = Transition.accept_all program world c (Timer_expired Residual.script_timer) in
+    List.of_seq (Result.get_ok (Transition.internal_all program world c))
+    @ List.filter_map Result.to_option (Result.get_ok on_timer)
+  in
+  List.concat_map transitions (List.filter is_allowed (List.concat_map with_missing (subsets unsure)))
+
+let outcomes transitions =
+  let outcome (t : Transition.t) =
+    match t.label with No_vehicles _ -> "too few come" | label -> Format.asprintf "%a" Label.pp label
+  in
+  List.sort compare (List.map outcome transitions)
+
+let random_pick =
+  let open QCheck2.Gen in
+  let place = oneofl [ [ 0. ]; [ 900. ]; [ 0.; 900. ] ] in
+  let vehicle = pair place bool in
+  let* vehicles = list_size (int_range 1 5) vehicle in
+  let* most = int_bound 5 and* has_bound = bool and* in_region = bool and* count = int_bound 3 in
+  let count = if count = 0 then "_" else string_of_int count in
+  let region = if in_region then "region Location.APDL, 100; " else "" in
+  let text = Printf.sprintf "vs = pick { count %s; %stimeout 1.seconds }" count region in
+  return (vehicles, (if has_bound then Some most else None), text)
+
+let agrees_with_definition (vehicles, bound, text) =
+  let at north = Dolphin_geo.Wgs84.displace Dolphin_geo.Place.apdl ~north ~east:0. in
+  let id i = Printf.sprintf "v%d" i in
+  let add (i, world) (places, _) =
+    let s = { (Pure_run.vehicle (id i)) with position = at (List.hd places) } in
+    let world = World.add s world in
+    (i + 1, match places with [ _ ] -> world | _ -> World.open_position s.id (List.map at places) world)
+  in
+  let world = snd (List.fold_left add (0, World.empty) vehicles) in
+  let may_be_late v = snd (List.nth vehicles (int_of_string (String.sub v 1 (String.length v - 1)))) in
+  let join = match bound with Some most -> Faults.At_most most | None -> Any_number in
+  let options = { plain with may_be_late; faults = { Faults.none with join } } in
+  let program = Pure_run.compile_exn text in
+  let rec waiting (c : Configuration.t) =
+    match c.control with
+    | Waiting _ -> c
+    | Script _ | Executing _ | Ended _ -> (
+        match Transition.internal program world c () with
+        | Cons (t, _) -> waiting t.next
+        | Nil -> failwith "the program does not pick")
+  in
+  let c = waiting (Configuration.initial program) in
+  let choices = Environment.choices options program world Environment.initial c in
+  let found = outcomes (List.map fst (List.of_seq choices)) in
+  let most = Option.value bound ~default:max_int in
+  let defined = List.sort_uniq compare (outcomes (definition options most program world c)) in
+  if found <> defined then
+    QCheck2.Test.fail_reportf "found: %s@.defined: %s" (String.concat "; " found) (String.concat "; " defined);
+  true
+
+let print_pick (vehicles, bound, text) =
+  let vehicle (places, late) = Printf.sprintf "%d places%s" (List.length places) (if late then ", may be late" else "") in
+  Printf.sprintf "%s with %s, at most %s" text (String.concat "; " (List.map vehicle vehicles))
+    (Option.fold ~none:"any number" ~some:string_of_int bound)
+
+let by_definition =
+  [ Test_support.Property.case ~count:500 ~print:print_pick "picks with latecomers" random_pick agrees_with_definition ]
+
+(* There are 30! orders. *)
+let test_lazy () =
+  let world = Pure_run.world (of_kind "UUV" (List.init 30 string_of_int)) in
+  let program = Pure_run.compile_exn "vs = pick { count 30 }" in
+  let options = { plain with faults = { Faults.none with join = Any_number } } in
+  let choices c = Environment.choices options program world Environment.initial c in
+  match Environment.find (fun _ -> true) (choices (Configuration.initial program)) with
+  | None -> Alcotest.fail "the program does not pick"
+  | Some ((t : Transition.t), _) ->
+    let rec count n choices =
+      match (choices : _ Seq.t) () with Cons (_, rest) when n < 1_000 -> count (n + 1) rest | Cons _ | Nil -> n
+    in
+    Alcotest.(check int) "transitions" 1_000 (count 0 (choices t.next))
 
 (* {1 Failures and losses} *)
 
@@ -128,4 +228,4 @@ let answers =
     breaks "as long as there is another" (answering [ [ "(" ]; [ ")" ] ]) [ No_error ] {|x = ask('which')|};
   ]
 
-let () = Alcotest.run "environment" [ ("latecomers", latecomers); ("ends", ends); ("answers", answers) ]
+let () = Alcotest.run "environment" [ ("latecomers", latecomers @ by_definition @ [ Alcotest.test_case "one by one" `Quick test_lazy ]); ("ends", ends); ("answers", answers) ]

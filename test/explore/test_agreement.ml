@@ -68,7 +68,7 @@ let is_run program world environment (run : Search.run) =
       List.filter_map
         (fun ((t' : Dolphin_semantics.Transition.t), e') ->
            if Dolphin_semantics.Configuration.equal t'.next t.next then Some (t'.next, e') else None)
-        (Environment.choices environment program world e c)
+        (List.of_seq (Environment.choices environment program world e c))
     in
     List.concat_map offered states
   in

@@ -119,7 +119,7 @@ let follow options program world taken =
       if same_label ~senses t'.label t.label && same_configuration ~senses t'.next t.next then Some (t'.next, e)
       else None
     in
-    let after (c, e) = List.filter_map leads (Environment.choices options program world e c) in
+    let after (c, e) = List.of_seq (Seq.filter_map leads (Environment.choices options program world e c)) in
     let distinct found (c, e) =
       let same (c', e') = Configuration.equal c c' && Environment.compare e e' = 0 in
       if List.exists same found then found else (c, e) :: found
@@ -129,7 +129,7 @@ let follow options program world taken =
       let offered (c, e) =
         List.map
           (fun ((t : Transition.t), _) -> Format.asprintf "%a" Label.pp t.label)
-          (Environment.choices options program world e c)
+          (List.of_seq (Environment.choices options program world e c))
       in
       let offered = String.concat ", " (List.concat_map offered states) in
       failwith (Format.asprintf "step %d, %a, is not explored; there are: %s" number Label.pp t.label offered)
@@ -245,7 +245,7 @@ let options =
 (* At each step sensors show something new, and of what may happen then one thing does. *)
 let walk program choices =
   let step ((c, e), taken) (shown, choice) =
-    match Environment.choices options program (world_at shown) e c with
+    match List.of_seq (Environment.choices options program (world_at shown) e c) with
     | [] -> ((c, e), taken)
     | all ->
       let (t : Transition.t), e = List.nth all (choice mod List.length all) in

@@ -32,7 +32,7 @@ let after program world options steps from =
     let leads ((t' : Transition.t), e) =
       if Label.equal t'.label t.label && Configuration.equal t'.next t.next then Some (t'.next, e) else None
     in
-    let continued (c, e) = List.filter_map leads (Environment.choices options program world e c) in
+    let continued (c, e) = List.of_seq (Seq.filter_map leads (Environment.choices options program world e c)) in
     List.concat_map continued states
   in
   List.fold_left step from steps
@@ -43,7 +43,7 @@ let same (c, e) (c', e') = Configuration.equal c c' && Environment.compare e e' 
 let is_run program world options (run : Search.run) =
   let there = after program world options run.steps [ (Configuration.initial program, Environment.initial) ] in
   if run.cycle = [] then 
-    List.exists (fun (c, e) -> not (Environment.goes_on (Environment.choices options program world e c))) there
+    List.exists (fun (c, e) -> Environment.is_stuck (Environment.choices options program world e c)) there
   else
     let comes_back state = List.exists (same state) (after program world options run.cycle [ state ]) in
     List.exists comes_back there
@@ -118,7 +118,7 @@ let at program world =
 let graph_of program (g : Reference.t) : _ Product_search.graph =
   let configuration i = g.states.(i).configuration in
   let successors i =
-    let stays = if Environment.goes_on g.edges.(i) then [] else [ (i, (None, configuration i)) ] in
+    let stays = if Environment.is_stuck (List.to_seq g.edges.(i)) then [ (i, (None, configuration i)) ] else [] in
     stays @ List.map (fun ((t : Transition.t), j) -> (j, (Some t, t.next))) g.edges.(i)
   in
   { start = (0, (None, Configuration.initial program)); successors }

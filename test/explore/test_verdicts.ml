@@ -123,6 +123,38 @@ let bounds =
     ("interruption", stops "an interruption" (limited { Limits.none with interrupted = interrupted_after 1 }) Interruption);
   ]
 
+(* {1 Bounds within an expansion}
+
+   Twelve vehicles that may all be late are picked at once: a pick that can bind them in 12! orders. *)
+
+let all_late = { options.environment with faults = { Dolphin_environment.Faults.none with join = Any_number } }
+let twelve = Pure_run.world (List.init 12 (fun i -> Pure_run.vehicle (Printf.sprintf "v%d" i)))
+
+let stops_within name limits ~most bound () =
+  let search compress =
+    let options = { (limited limits) with environment = all_late; compress } in
+    let o = Search.run options (Pure_run.compile_exn "vs = pick { count 12 }") twelve in
+    Alcotest.(check bool) (name ^ " stops it") true (o.stopped = Some bound);
+    if o.states > most then Alcotest.failf "%s: %d states" name o.states
+  in
+  search false;
+  search true
+
+let bounds_within =
+  let ticking_clock = { Limits.none with clock = ticking () } in
+  let left_after n =
+    let asked = ref 0 in
+    fun () -> incr asked; Some (if !asked > n then 0 else max_int / 2)
+  in
+  [
+    ("states", stops_within "states" { Limits.none with max_states = Some 1_000 } ~most:1_001 States);
+    ("few states", stops_within "few states" { Limits.none with max_states = Some 10 } ~most:11 States);
+    ("time", stops_within "time" { ticking_clock with timeout = Some 50. } ~most:105 Time);
+    ("memory", stops_within "memory" { ticking_clock with memory_left = left_after 100 } ~most:105 No_memory);
+    ("interruption", stops_within "an interruption" { Limits.none with interrupted = interrupted_after 100 } ~most:105
+       Interruption);
+  ]
+
 (* Found before the bound was met: still a violation. *)
 let test_violation_before_bound () =
   let environment = { options.environment with answers = (fun _ -> [ [ "1"; "2" ] ]) } in
@@ -149,6 +181,7 @@ let () =
     [
       ("properties", List.map case verdicts);
       ("bounds", List.map case bounds);
+      ("bounds within an expansion", List.map case bounds_within);
       ( "around bounds",
         List.map case
           [ ("a violation before", test_violation_before_bound); ("just met", test_exact_bound);

@@ -278,9 +278,29 @@ let environment =
       ( "no answer is refused twice",
         {|times prompt before.asked < List.length (options.answers prompt) - 1|},
         {|times prompt before.asked < List.length (options.answers prompt) - 2|} );
+      ( "each way in which too few come is followed",
+        {|| No_vehicles _ when !too_few_came -> false|},
+        {|| No_vehicles _ when !too_few_came -> true|} );
+    ]
+
+let attendance =
+  in_file "lib/environment/attendance.ml" ~noticed_by:"environment/test_environment"
+    [
       ( "lost vehicles are always there",
-        {|let may_miss v = List.mem v e.lost || |},
-        {|let may_miss v = (List.mem v e.lost && false) || |} );
+        {|(company.silent @ known @ unknown)|},
+        {|(known @ unknown)|} );
+      ( "one too many must be missing",
+        {|let least = List.length company.always - (n - 1) in|},
+        {|let least = List.length company.always - (n - 2) in|} );
+      ( "latecomers come in the order of the fleet",
+        {|if passed then Seq.append (f (List.rev before) v) later () else later ()|},
+        {|if passed && false then Seq.append (f (List.rev before) v) later () else later ()|} );
+      ( "vehicles outside of the region are missed",
+        {|always = ids (List.filter (is_seen_in List.for_all) states)|},
+        {|always = ids (List.filter (is_seen_in List.exists) states)|} );
+      ( "who was late before counts again",
+        {|let is_new v = List.mem v unsure && not (List.mem v late) in|},
+        {|let is_new v = List.mem v unsure in|} );
     ]
 
 let task_rules =
@@ -455,6 +475,7 @@ let pick_rules_in_traps =
 let all =
   List.concat
     [ footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups; quotient; expansion;
-      vehicle_orbits; canonical_vehicles; name_flow; liveness; environment; task_rules; local_step; run_code;
+      vehicle_orbits; canonical_vehicles; name_flow; liveness; environment; attendance; task_rules; local_step;
+      run_code;
       pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
       conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps ]

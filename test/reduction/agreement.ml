@@ -17,7 +17,7 @@ let follow options program world states steps =
       && Format.asprintf "%a" Label.pp t'.label = Format.asprintf "%a" Label.pp t.label
       && Configuration.equal t'.next t.next
     in
-    let offered (c, e) = List.filter is_it (Environment.choices options program world e c) in
+    let offered (c, e) = List.of_seq (Seq.filter is_it (Environment.choices options program world e c)) in
     List.concat_map (fun state -> List.map (fun ((t : Transition.t), e) -> (t.next, e)) (offered state)) states
   in
   List.fold_left step states steps
@@ -28,7 +28,7 @@ let shows options program world property (run : Search.run) =
   let start = [ (Configuration.initial program, Environment.initial) ] in
   let there = follow options program world start run.steps in
   let stuck (c, e) =
-    (not (Environment.goes_on (Environment.choices options program world e c)))
+    (Environment.is_stuck (Environment.choices options program world e c))
     && match c.Configuration.control with Ended _ -> false | Script _ | Waiting _ | Executing _ -> true
   in
   match (property : Property.t) with
@@ -74,7 +74,7 @@ let outcome (c : Configuration.t) ~stuck outcomes =
 
 let all_outcomes (g : Reference.t) =
   let found = ref Outcomes.empty in
-  let is_stuck i = not (Environment.goes_on g.edges.(i)) in
+  let is_stuck i = Environment.is_stuck (List.to_seq g.edges.(i)) in
   let state i (s : Reference.state) = found := outcome s.configuration ~stuck:(is_stuck i) !found in
   Array.iteri state g.states;
   !found

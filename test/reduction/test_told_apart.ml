@@ -237,7 +237,7 @@ let test_run () =
   | Violated { steps; _ } ->
     let step (c, e) (t : Transition.t) =
       let is_it ((t' : Transition.t), _) = Label.equal t'.label t.label && Configuration.equal t'.next t.next in
-      match List.find_opt is_it (Environment.choices environment program world e c) with
+      match Environment.find is_it (Environment.choices environment program world e c) with
       | Some (t, e) -> (t.next, e)
       | None -> Alcotest.failf "there is no %s" (Format.asprintf "%a" Label.pp t.label)
     in

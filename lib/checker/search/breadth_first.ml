@@ -74,17 +74,25 @@ module Make (S : System.S) = struct
       incr ticks;
       if !ticks land 0xFF = 0 then look_around t phase
 
+  (* What is pushed is added in batches: close to the bound, one by one. The initial state is always there. *)
+  let batch = 256
+
+  let count_states t =
+    match t.limits.max_states with
+    | Some most when count t > most - batch ->
+      States.flush t.states ~fresh:t.fresh;
+      if count t > max most 1 then raise (Limits.Stop States)
+    | Some _ | None -> ()
+
   (* A single expansion may visit many states. *)
   let worked t =
     t.work <- t.work + 1;
-    if t.work land 0xFF = 0 then begin
-      if Limits.exceeds t.limits.max_states (count t) then raise (Limits.Stop States);
-      if t.work land (stride - 1) = 0 then look_around t t.phase
-    end
+    if t.work land (stride - 1) = 0 then look_around t t.phase
 
   let push t key =
     worked t;
-    States.push t.states key ~parent:t.next ~fresh:t.fresh
+    States.push t.states key ~parent:t.next ~fresh:t.fresh;
+    count_states t
 
   (* [put valuation] is for [key] with the monitor's set, if a violation is still possible. *)
   let under t monitor key action put =
@@ -148,7 +156,7 @@ module Make (S : System.S) = struct
       { system; limits; phase; monitor; reserved = 0; states; key = [| 0 |]; from = Monitor.start; next = 0; depth = -1;
         level_end = 0; transitions = 0; work = 0; deadlock = -1; violation = -1; broken = Hashtbl.create 8;
         stopped = None; guard; fresh = (fun i word -> arrived t i word);
-        visitor = { visit; rest = (fun () -> rest t) } }
+        visitor = { visit; tick = (fun () -> look_around t t.phase); rest = (fun () -> rest t) } }
     and visit key action _ = arrive t key action in
     let rec begin_with () =
       match widen t; S.initial system t.visitor with () -> flush t | exception S.Outgrown -> begin_with ()
@@ -216,18 +224,20 @@ module Make (S : System.S) = struct
   type arrival = { into : int; valuation : int; via : S.via }
 
   (* What a system numbers may grow by looking at a state again, too. *)
-  let rec arrivals t i =
+  let rec arrivals_with tick t i =
     let found = ref [] in
     let put key via valuation = found := { into = States.find t.states key; valuation; via } :: !found in
     let visit key action via =
       match t.monitor with None -> put key via 0 | Some monitor -> under t monitor key action (put key via)
     in
     fetch t i;
-    match S.expand t.system t.key { visit; rest = ignore } with
+    match S.expand t.system t.key { visit; tick; rest = ignore } with
     | (_ : int) -> List.rev !found
     | exception S.Outgrown ->
       widen t;
-      arrivals t i
+      arrivals_with tick t i
+
+  let arrivals t i = arrivals_with ignore t i
 
   (* {1 Verdicts} *)
 
@@ -247,7 +257,9 @@ module Make (S : System.S) = struct
   let never t property = reached t (broken t property)
 
   let cycle t exact : lasso option =
-    let successors i = List.map (fun arrival -> (arrival.into, ())) (arrivals t i) in
+    let phase = "looking for cycles" in
+    let tick () = look_around t phase in
+    let successors i = List.map (fun arrival -> (arrival.into, ())) (arrivals_with tick t i) in
     let graph : unit Cycles.graph = { successors; sets = 0; is_in = (fun _ _ -> false) } in
     let around i =
       match Cycles.way graph ~within:(fun _ -> true) ~goal:(Int.equal i) (successors i) with
@@ -259,7 +271,7 @@ module Make (S : System.S) = struct
       let start = if exact first then first else List.find exact (around first) in
       { stem = path t start; around = around start }
     in
-    Option.map lasso (Cycles.find ~tick:(ticker t "looking for cycles") graph [ 0 ])
+    Option.map lasso (Cycles.find ~tick:(ticker t phase) graph [ 0 ])
 
   let termination t ~exact =
     let search () = match cycle t exact with Some lasso -> Violated lasso | None -> Holds in
@@ -272,13 +284,14 @@ module Make (S : System.S) = struct
 
   let product t monitor : int Cycles.graph =
     let q = Monitor.automaton_states monitor and component = Monitor.component monitor in
+    let tick () = look_around t "checking formulas" in
     let successors node =
       let from = node mod q in
       let after { into; valuation; _ } =
         let continued q' = if component q' = component from then Some ((into * q) + q', valuation) else None in
         List.filter_map continued (Monitor.after monitor from valuation)
       in
-      List.concat_map after (arrivals t (node / q))
+      List.concat_map after (arrivals_with tick t (node / q))
     in
     let is_in node set = Monitor.is_in monitor (node mod q) set in
     { successors; sets = Monitor.acceptance_sets monitor; is_in }

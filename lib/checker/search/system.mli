@@ -14,6 +14,9 @@ type 'via visitor = {
   visit : int array -> int -> 'via -> unit;
   (** [visit key action via]: some transition, whose action has number [action], leads to the state in the first words
       of [key]. The system may reuse [key] once [visit] returns. Actions matter to formulas only. *)
+  tick : unit -> unit;
+  (** looks at the limits, which takes about a microsecond: to be called between transitions that take longer to find.
+      @raise Limits.Stop *)
   rest : unit -> unit;
   (** a run may stay in the state for ever, for no transition need happen; the vector that is expanded must be as it
       was handed over *)

@@ -40,17 +40,20 @@ let has_vehicle_symmetry t = t.vehicles <> None
 
 let expand_script t number (visitor : via System.visitor) =
   let c, outside = Encoding.script t.encoding number in
-  let choices = choices t outside c in
+  let taken = ref 0 and goes_on = ref false in
   let go ((next : Transition.t), outside) =
+    visitor.tick ();
+    incr taken;
+    if not (Environment.is_interruption next) then goes_on := true;
     Coverage.transition (Components.coverage t.components) c next;
     let action labelling = Valuation.action (Labelling.valuations labelling) next in
     let action = Option.fold ~none:Valuation.nothing ~some:action t.labelling in
     let place = Expansion.write_and_visit t.expansion visitor next.rules next.next outside ~action in
     Expansion.follows t.expansion number place
   in
-  List.iter go choices;
-  if not (Environment.goes_on choices) then visitor.rest ();
-  List.length choices
+  Seq.iter go (choices t outside c);
+  if not !goes_on then visitor.rest ();
+  !taken
 
 (* {1 All steps} *)
 

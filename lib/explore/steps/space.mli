@@ -43,7 +43,7 @@ val unsettled : Core.program -> Fault.t -> Dolphin_checker.Limits.bound
 
 (** {1:representatives Representatives} *)
 
-val choices : t -> Environment.t -> Configuration.t -> (Transition.t * Environment.t) list
+val choices : t -> Environment.t -> Configuration.t -> (Transition.t * Environment.t) Seq.t
 (** [choices t e c] is the transitions of [c] with [e]; of those that lead to the same state up to names, one at
     least. *)
 

@@ -222,11 +222,11 @@ let choices r outside (c : Configuration.t) =
       r.world
     | Script _ | Waiting (_, (Pause _ | Execute _)) | Executing _ | Ended _ -> r.world
   in
-  let found = Environment.choices r.options r.program world outside c in
-  let check ((t : Transition.t), _) =
-    match c.control, t.next.control with
-    | Script _, Executing (_, r') -> check_plans r r'
-    | _, _ -> ()
+  let check ((t : Transition.t), _ as choice) =
+    (match c.control, t.next.control with
+     | Script _, Executing (_, r') -> check_plans r r'
+     | _, _ -> ());
+    choice
   in
-  List.iter check found;
-  found
+  Seq.map check (Environment.choices r.options r.program world outside c)
+

@@ -17,7 +17,7 @@ val canonical : t -> Configuration.t -> Environment.t -> Configuration.t * Envir
     have the same answer in all.
     @raise Symmetry.Broken *)
 
-val choices : t -> Environment.t -> Configuration.t -> (Transition.t * Environment.t) list
+val choices : t -> Environment.t -> Configuration.t -> (Transition.t * Environment.t) Seq.t
 (** [choices r e c] is some of [Environment.choices]: of those that lead to one {!canonical} form, at least one.
     @raise Symmetry.Broken *)
 

@@ -28,7 +28,7 @@ let step x i j is_right =
   let leads ((t : Transition.t), e) =
     Environment.compare e outside = 0 && Configuration.equal t.next c && is_right (valuation x t)
   in
-  match List.find_opt leads (choices x (State_graph.state x.graph i)) with
+  match Environment.find leads (choices x (State_graph.state x.graph i)) with
   | Some (t, _) -> t
   | None -> Fmt.invalid_arg "Counterexample.step: no transition from state %d to state %d" i j
 
@@ -66,10 +66,10 @@ let onwards tick x states =
     | None -> (
         let n = List.length taken in
         States.add seen state n;
-        match choices x state with
-        | ((t : Transition.t), outside) :: _ as choices when Environment.goes_on choices ->
-          go (t.next, outside) (t :: taken)
-        | _ -> (n, List.rev taken))
+        let choices = choices x state in
+        match if Environment.is_stuck choices then None else Environment.find (fun _ -> true) choices with
+        | Some ((t : Transition.t), outside) -> go (t.next, outside) (t :: taken)
+        | None -> (n, List.rev taken))
   in
   let back, taken = go (State_graph.state x.graph (last states)) [] in
   let before = List.filteri (fun k _ -> k < back) taken and cycle = List.filteri (fun k _ -> k >= back) taken in

@@ -9,7 +9,7 @@ let label (t : Transition.t) = Format.asprintf "%a" Label.pp t.label
 
 let step options program world wanted (((c, e) : state), run) =
   let continued ((t : Transition.t), e') = if label t = wanted then Some ((t.next, e'), t :: run) else None in
-  List.filter_map continued (Environment.choices options program world e c)
+  List.of_seq (Seq.filter_map continued (Environment.choices options program world e c))
 
 (* One run to each state. *)
 let distinct reached =
@@ -22,4 +22,4 @@ let follow options program world s labels =
 
 let back options program world (c, e) target =
   let leads ((t : Transition.t), e') = same (t.next, e') target in
-  Option.map fst (List.find_opt leads (Environment.choices options program world e c))
+  Option.map fst (Environment.find leads (Environment.choices options program world e c))

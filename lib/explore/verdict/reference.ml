@@ -14,6 +14,8 @@ module Table = Hashtbl.Make (struct
     let hash s = Configuration.hash s.configuration + Environment.hash s.outside
   end)
 
+exception Too_many
+
 let explore ?(limit = 100_000) options program world =
   let numbers = Table.create 1_000 and queue = Queue.create () in
   let states = ref [] and edges = ref [] and depths = ref [] in
@@ -26,25 +28,26 @@ let explore ?(limit = 100_000) options program world =
       states := s :: !states;
       depths := depth :: !depths;
       Queue.add (s, depth) queue;
+      if i >= limit then raise_notrace Too_many;
       i
   in
   let rec go () =
-    if Table.length numbers > limit then None
-    else
-      match Queue.take_opt queue with
-      | None ->
-        let array xs = Array.of_list (List.rev !xs) in
-        Some { states = array states; edges = array edges; depths = array depths }
-      | Some (s, depth) ->
-        let edge ((t : Transition.t), outside) =
-          (t, number (depth + 1) { configuration = t.next; outside })
-        in
-        let choices = Environment.choices options program world s.outside s.configuration in
-        edges := List.map edge choices :: !edges;
-        go ()
+    match Queue.take_opt queue with
+    | None ->
+      let array xs = Array.of_list (List.rev !xs) in
+      { states = array states; edges = array edges; depths = array depths }
+    | Some (s, depth) ->
+      let edge ((t : Transition.t), outside) = (t, number (depth + 1) { configuration = t.next; outside }) in
+      let choices = Environment.choices options program world s.outside s.configuration in
+      edges := List.of_seq (Seq.map edge choices) :: !edges;
+      go ()
   in
-  ignore (number 0 { configuration = Configuration.initial program; outside = Environment.initial });
-  go ()
+  match
+    ignore (number 0 { configuration = Configuration.initial program; outside = Environment.initial });
+    go ()
+  with
+  | graph -> Some graph
+  | exception Too_many -> None
 
 let transitions g = Array.fold_left (fun n edges -> n + List.length edges) 0 g.edges
 let depth g = Array.fold_left max 0 g.depths
@@ -114,7 +117,8 @@ let broken g =
     List.iter (edge g.depths.(i)) g.edges.(i);
     match s.configuration.control with
     | Ended _ -> ()
-    | Script _ | Waiting _ | Executing _ -> if not (Environment.goes_on g.edges.(i)) then note No_deadlock g.depths.(i)
+    | Script _ | Waiting _ | Executing _ ->
+      if Environment.is_stuck (List.to_seq g.edges.(i)) then note No_deadlock g.depths.(i)
   in
   Array.iteri state g.states;
   if is_cyclic g then Option.iter (note Termination) (shortest_lasso g);

@@ -4,7 +4,7 @@ open Dolphin_environment
 let choices graph (c, outside) = Space.choices (State_graph.system graph) outside c
 
 let take graph state leads ~from ~into =
-  match List.find_opt leads (choices graph state) with
+  match Environment.find leads (choices graph state) with
   | Some choice -> choice
   | None -> Fmt.invalid_arg "Replay: no transition from state %d to state %d" from into
 
@@ -73,9 +73,9 @@ let leads_to graph i state =
     equal (t.next, e) state || equal (Space.canonical (State_graph.system graph) t.next e) state
   in
   fun found ->
-    match List.find_opt is_it found with
+    match Environment.find is_it found with
     | Some choice -> Some choice
-    | None -> List.find_opt (ends_in_same_way (State_graph.broken_by graph i)) found
+    | None -> Environment.find (ends_in_same_way (State_graph.broken_by graph i)) found
 
 (* Transitions from state to state, each from where the one before led to, or from its representative. The result is
    latest first. *)
@@ -114,10 +114,10 @@ let real graph state images =
         let wanted = Space.canonical (State_graph.system graph) image.next e in
         let is_it ((t : Transition.t), e) = equal (Space.canonical (State_graph.system graph) t.next e) wanted in
         let offered = choices graph state in
-        match List.find_opt is_it offered with
+        match Environment.find is_it offered with
         | Some choice -> choice
         | None -> (
-            match List.find_opt (ends_in_same_way (Property.broken_by_end image.rules image.next)) offered with
+            match Environment.find (ends_in_same_way (Property.broken_by_end image.rules image.next)) offered with
             | Some choice when is_end image.next -> choice
             | Some _ | None -> invalid_arg "Replay: a configuration of the orbit has no such transition")
     in

@@ -95,25 +95,40 @@ let with_assumed (assumed, (t : t)) = { t with assumed }
 (* Without duplicates. If all cases have one transition, it assumes nothing. *)
 let different d = Result.map (List.map with_assumed) (Decision.outcomes ~equal d)
 
-(* The choices of a pick, of which each case may have several. *)
-let choices cases =
-  let add found (assumed, ts) =
-    let fresh = List.filter (fun t -> not (List.exists (equal t) found)) (List.of_seq ts) in
-    found @ List.map (fun t -> with_assumed (assumed, t)) fresh
+module Seen = Hashtbl.Make (struct
+    type nonrec t = t
+
+    let equal = equal
+    let hash (t : t) = Configuration.hash t.next
+  end)
+
+let distinct transition ts () =
+  let seen = Seen.create 16 in
+  let is_new x =
+    let t = transition x in
+    let is_new = not (Seen.mem seen t) in
+    if is_new then Seen.add seen t ();
+    is_new
   in
-  List.fold_left add [] cases
+  Seq.filter is_new ts ()
+
+(* The choices of a pick, of which each case may have several. That where vehicles are matters is never unclear. *)
+let choices d =
+  let of_case (assumed, ts) =
+    match ts with Ok ts -> Seq.map (fun t -> with_assumed (assumed, t)) ts | Error (_ : Fault.t) -> Seq.empty
+  in
+  distinct Fun.id (Seq.flat_map of_case (Decision.leaves d))
 
 let first ts = match ts () with Seq.Nil -> None | Seq.Cons (t, _) -> Some t
 
 let internal_all program world (c : Configuration.t) =
   if not (World.is_open world) then Ok (internal program world c)
   else
-    let of_step d =
-      match c.control with
-      | Waiting _ -> Result.map choices (Decision.cases d)
-      | Script _ | Executing _ | Ended _ -> different (Decision.map first d)
-    in
-    Result.map List.to_seq (Results.concat_map of_step (List.of_seq (steps program world c)))
+    match c.control with
+    | Waiting _ -> Ok (Seq.flat_map choices (steps program world c))
+    | Script _ | Executing _ | Ended _ ->
+      let of_step d = different (Decision.map first d) in
+      Result.map List.to_seq (Results.concat_map of_step (List.of_seq (steps program world c)))
 
 let accept_all program world c event =
   match on_event program world c event with

@@ -65,3 +65,6 @@ val internal_all : program -> World.t -> Configuration.t -> (t Seq.t, Fault.t) r
 
 val accept_all : program -> World.t -> Configuration.t -> event -> ((t, refusal) result list, Fault.t) result
 (** [accept_all p w c e] is the transitions of [c] on [e], at least one; or one refusal. *)
+
+val distinct : ('a -> t) -> 'a Seq.t -> 'a Seq.t
+(** [distinct transition xs] is [xs] less those whose transition has the label and the result of an earlier one. *)

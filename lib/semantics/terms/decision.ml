@@ -16,14 +16,19 @@ let rec bind d f =
 
 let map f d = bind d (fun x -> Decided (f x))
 
-let rec cases = function
-  | Decided x -> Ok [ ([], x) ]
-  | Unclear fault -> Error fault
+let rec leaves d : (World.assumption list * ('a, Fault.t) result) Seq.t =
+  fun () ->
+  match d with
+  | Decided x -> Seq.return ([], Ok x) ()
+  | Unclear fault -> Seq.return ([], Error fault) ()
   | Open ways ->
-    let way (assumption, d) =
-      Result.map (List.map (fun (assumed, x) -> (assumption :: assumed, x))) (cases (Lazy.force d))
+    let way (assumption, d) () =
+      Seq.map (fun (assumed, x) -> (assumption :: assumed, x)) (leaves (Lazy.force d)) ()
     in
-    Results.concat_map way ways
+    Seq.flat_map way (List.to_seq ways) ()
+
+let cases d =
+  Results.map (fun (assumed, x) -> Result.map (fun x -> (assumed, x)) x) (List.of_seq (leaves d))
 
 let outcomes ~equal d =
   let of_all all =

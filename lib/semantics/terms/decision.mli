@@ -14,8 +14,11 @@ val look : World.t -> (World.t -> ('a, World.question) result) -> 'a t
 val map : ('a -> 'b) -> 'a t -> 'b t
 val bind : 'a t -> ('a -> 'b t) -> 'b t
 
+val leaves : 'a t -> (World.assumption list * ('a, Fault.t) result) Seq.t
+(** [leaves d] is all results of [d], computed on demand, each with what it assumes; an error where they are unclear. *)
+
 val cases : 'a t -> ((World.assumption list * 'a) list, Fault.t) result
-(** [cases d] is all results of [d], each with what it assumes: without assumptions, if [d] is decided. *)
+(** [cases d] is {!leaves} of [d] all at once, or its first error. *)
 
 val outcomes : equal:('a -> 'a -> bool) -> 'a option t -> ((World.assumption list * 'a) list, Fault.t) result
 (** [outcomes ~equal d] is the results in {!cases} without duplicates, each with the assumptions of its first case. If

@@ -49,6 +49,10 @@ let vehicles world = List.map snd (Int_map.bindings world.states)
 
 let is_ready state = state.connected && state.unready = None
 
+let only vs world =
+  let states = List.filter_map (fun v -> find v world) vs in
+  List.fold_left (fun w state -> add state w) { world with ranks = String_map.empty; states = Int_map.empty } states
+
 let carries devices state =
   let lower = String.lowercase_ascii in
   let carried = List.map lower state.payload in

@@ -30,6 +30,9 @@ val vehicles : t -> vehicle_state list
 val is_ready : vehicle_state -> bool
 (** [is_ready s] is whether [s] can be given a plan: it has a link, and nothing keeps it. *)
 
+val only : Core.vehicle list -> t -> t
+(** [only vs w] is [w] in which nothing was heard of other vehicles, and of [vs] in this order. *)
+
 val carries : string list -> vehicle_state -> bool
 (** [carries devices s] is whether [s] carries each of [devices]; names are compared without regard to case. *)
 

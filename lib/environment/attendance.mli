@@ -1,0 +1,48 @@
+(** Who comes to a pick, where some vehicles may be late or missing: whatever can come of it, by as few late and missing
+    vehicles as can be, and nothing twice. docs/explorer.md says why this is enough. *)
+
+open Dolphin_semantics
+
+type t = {
+  coming : Core.vehicle list;  (** who comes after all others, in this order *)
+  missing : Core.vehicle list;
+}
+
+type company
+(** The vehicles that a pick may look for. *)
+
+val company :
+  Faults.t ->
+  may_be_late:(Core.vehicle -> bool) ->
+  lost:Core.vehicle list ->
+  late:Core.vehicle list ->
+  bound:Core.vehicle list ->
+  World.t ->
+  Settings.pick ->
+  company
+(** [company faults ~may_be_late ~lost ~late ~bound w q] is those that [q] may look for in [w] while [bound] are in B.
+    The [lost] may be missing, others only as [faults] has it; [late] are those that were late before. *)
+
+val unsure : company -> Core.vehicle list
+(** Those that are not lost, and may be late or missing. *)
+
+val number_of_new : company -> Core.vehicle list -> int
+(** [number_of_new c vs] is how many of [vs] count if they are late or missing: the {!unsure} that never were before. *)
+
+val costs : company -> int Seq.t
+(** How many of these there may be, from 0 on. *)
+
+(** {1:ways Ways to attend}
+
+    Each with exactly [n] that count, computed on demand. *)
+
+val with_latecomers : company -> int -> int -> (Core.vehicle list * Core.vehicle list) Seq.t
+(** [with_latecomers c count n] is those who may be bound by a pick of [count] vehicles, some of them late: first who
+    comes in the order of the fleet, then who is late, which is somebody. *)
+
+val too_few : company -> int -> Core.vehicle list option
+(** [too_few c count] is who is missing if fewer than [count] come, and some of those that come otherwise are missing;
+    [None] if more would have to miss than may. *)
+
+val of_all : company -> int -> t Seq.t
+(** [of_all c n] is the ways to attend a pick of all vehicles. *)

@@ -62,6 +62,7 @@ type t = {
   next_request : int;
   latest : Plan_report.t option;
   error : (float * string) option;  (* the last error that the vehicle reported, and when *)
+  log_errors : Log_errors.t;
   intervention : string option;  (* what another console did to the plan, in words *)
   last_stop : int option;
   stop_echo : float;  (* when the vehicle last answered a stop of ours *)
@@ -71,7 +72,8 @@ type t = {
 }
 
 let create ~request =
-  { next_request = request land 0xFFFF; latest = None; error = None; intervention = None; last_stop = None;
+  { next_request = request land 0xFFFF; latest = None; error = None; log_errors = Log_errors.none;
+    intervention = None; last_stop = None;
     stop_echo = neg_infinity; former = None; duplicates = Duplicates.nothing; phase = Idle }
 
 (* The request that is not over yet, and how far it has come. *)
@@ -294,6 +296,17 @@ let vehicle ~sent (state : Message.Vehicle_state.t) x =
     ({ x with error = Some (sent, state.last_error) }, [])
   else (x, [])
 
+(* Errors that come with the plan, and are not its end. *)
+let log entry x =
+  let at_work =
+    match x.phase with
+    | Running _ | Ending _ | Starting { accepted = Some _; _ } -> true
+    | Starting { accepted = None; initialised; _ } -> initialised
+    | Idle | Stopping _ -> false
+  in
+  let told, log_errors = Log_errors.hear ~at_work entry x.log_errors in
+  ({ x with log_errors }, List.map (fun text -> Remark text) (Option.to_list told))
+
 let leaves ~at ~clock x =
   match x.phase with
   | Starting a -> { x with phase = Starting (Attempt.leaves ~at ~clock a) }
@@ -383,7 +396,7 @@ let handle ~now ~clock input x =
   | Reply { sent; reply = r } -> reply ~now ~clock ~sent r x
   | State { sent; state = s } -> state ~now ~clock sent s x
   | Vehicle { sent; state } -> vehicle ~sent state x
-  | Log _ -> (x, [])
+  | Log { entry; _ } -> log entry x
   | Abort by -> ({ x with intervention = Some ("aborted by " ^ by) }, [])
   | Stopped_by by -> (stopped_by by x, [])
   | Lost why -> lost ~now ~clock why x

@@ -203,13 +203,30 @@ let take_over ~now (n : Node.t) s =
     let inputs, expected = Expected.heard n.name s.expected in
     command_all ~now inputs n { s with expected }
 
+(* What it is said to carry, and does not list. *)
+let missing_devices (before : Node.t) (n : Node.t) s =
+  match before.entities, n.entities, List.assoc_opt n.name s.settings.payload with
+  | None, Some listed, Some claimed ->
+    let listed = List.map String.lowercase_ascii listed in
+    List.filter (fun device -> not (List.mem (String.lowercase_ascii device) listed)) claimed
+  | _, _, _ -> []
+
+let remark_on_payload before n s =
+  match missing_devices before n s with
+  | [] -> []
+  | devices ->
+    [ Remark (n.name, Printf.sprintf "does not list %s among its entities, as --imc-payload has it"
+                (String.concat ", " devices)) ]
+
 let heard ~now (p : Packet.t) (n : Node.t) s =
+  let before = n in
   let first = n.last_heard = neg_infinity in
   let n, outputs = Node.hear ~now ~own:s.settings.id p n in
   let s, sent = carry_out ~now n outputs (update n { s with accepted = s.accepted + 1 }) in
   let s, more = take_over ~now n s in
   let n = again n s in
-  if first && Node.is_vehicle n && not (List.mem_assoc n.name s.settings.payload) then
+  let sent = remark_on_payload before n s @ sent in
+  if first && Node.is_vehicle n then
     let at = now +. Presence.eager_heartbeat_interval in
     let s, queried = query ~now n { s with presence = Presence.hasten ~at s.presence } in
     (s, sent @ more @ queried)

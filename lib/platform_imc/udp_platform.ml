@@ -51,6 +51,9 @@ type t = {
 let name = "imc"
 let virtual_time = false
 
+(* Announcements come when they come. *)
+let order = Dolphin_semantics.World.By_id
+
 (* Vehicles announce every 10 s, and speak to a console up to 5 s after it has introduced itself: docs/rationale.md. *)
 let longest_silence = 16.
 let announce_period _ = longest_silence

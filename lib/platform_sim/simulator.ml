@@ -33,6 +33,7 @@ module Make (Time : Time) = struct
 
   let name = "sim"
   let virtual_time = Time.virtual_time
+  let order = Dolphin_semantics.World.By_hearing
   let announce_period = 10.
   let make clock ~seed scenario = { clock; fleet = Fleet.create ~seed scenario; changed = None; early = [] }
 

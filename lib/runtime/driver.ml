@@ -32,8 +32,8 @@ type beginning = {
   pending : Transition.event option;
 }
 
-let afresh program =
-  { configuration = Configuration.initial program; world = World.empty; news = []; pending = None }
+let afresh program order =
+  { configuration = Configuration.initial program; world = World.nobody order; news = []; pending = None }
 
 (* So many transitions and events may pass before others get their turn. *)
 let most_without_pause = 100
@@ -290,5 +290,5 @@ let run (type platform) (module P : Platform.S with type t = platform) (platform
     program =
   let module Driver = Make (P) in
   Driver.run platform ~always_telemetry ~observer ~call:host ~console ~interruption
-    ~beginning:(Option.value beginning ~default:(afresh program))
+    ~beginning:(Option.value beginning ~default:(afresh program P.order))
     program

@@ -26,6 +26,9 @@ module type S = sig
   (** Whether time passes only inside {!next}. A driver then does not call {!next} while it waits for people or other
       processes. *)
 
+  val order : World.order
+  (** In which order programs pick its vehicles. *)
+
   val now : t -> float
   (** Seconds since the platform started, by its own clock. *)
 

@@ -6,6 +6,7 @@ type t = {
   program : source;
   fleet : source option;
   platform : string;
+  order : Dolphin_semantics.World.order;
   seed : int;
   speed : float option;
   started : string;
@@ -34,6 +35,15 @@ let of_utc text =
 
 let format_members : members = [ ("format", `String format); ("version", `Int version) ]
 
+let of_order : Dolphin_semantics.World.order -> members = function
+  | By_hearing -> []
+  | By_id -> [ ("order", `String "id") ]
+
+let to_order json : (Dolphin_semantics.World.order, string) result =
+  match json with
+  | `String "id" -> Ok By_id
+  | _ -> Error "the order of vehicles is \"id\", or there is none"
+
 let to_json h : Yojson.Safe.t =
   `Assoc
     (format_members
@@ -42,7 +52,8 @@ let to_json h : Yojson.Safe.t =
          ("platform", `String h.platform);
          ("seed", `Int h.seed);
          ("speed", of_option Dolphin_json.Canonical.number h.speed);
-         ("started", `String h.started) ])
+         ("started", `String h.started) ]
+     @ of_order h.order)
 
 let to_source json =
   let* found = members json in
@@ -64,7 +75,8 @@ let of_json json =
   let* program = get to_source "program" found in
   let* fleet = get (nullable to_source) "fleet" found in
   let* platform = get text "platform" found in
+  let* order = optional to_order ~default:By_hearing "order" found in
   let* seed = get whole "seed" found in
   let* speed = get (nullable number) "speed" found in
   let* started = get text "started" found in
-  Ok { program; fleet; platform; seed; speed; started }
+  Ok { program; fleet; platform; order; seed; speed; started }

@@ -10,6 +10,7 @@ type t = {
   program : source;
   fleet : source option;  (** [None]: the built-in fleet *)
   platform : string;  (** ["sim"], ["imc"] *)
+  order : Dolphin_semantics.World.order;  (** of vehicles *)
   seed : int;
   speed : float option;  (** of a simulation, times real time; [None]: as fast as it goes *)
   started : string;  (** by the clock of the console, in UTC: ["2026-03-01T12:00:00Z"] *)

@@ -198,7 +198,9 @@ let feed r (entry : Entry.t) =
     | (Partial _ | Label _), _ -> mismatch r "such lines are those of a partial trace"
     | (Header _ | Vehicle _ | Event _ | Note _ | Resumed _ | End _), Some event ->
       mismatch r (Format.asprintf "the transition on %a is missing" Event.pp event)
-    | Header { program; _ }, None | Resumed { program; _ }, None -> Ok { r with places = program.hash = r.hash }
+    | Header { program; order; _ }, None ->
+      Ok { r with places = program.hash = r.hash; world = World.nobody order }
+    | Resumed { program; _ }, None -> Ok { r with places = program.hash = r.hash }
     | Note _, None -> Ok r
     | Vehicle { state; _ }, None -> Ok { r with world = World.add state r.world }
     | Event { event; _ }, None -> Ok { r with event = Some event }

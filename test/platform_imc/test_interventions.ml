@@ -22,17 +22,24 @@ let says ?(outcome = State.Last_outcome.None) state plan_id =
 (* What the vehicle sends on to all consoles of what Neptus asked it for. *)
 let asked op = Message.Plan_control { Message.Plan_control.default with type_ = Request; op; request_id = 77 }
 
-(* The failures of plan [p], which is started at 1 s, after these messages: when, from whom, to whom. *)
-let failures messages =
+(* The failures of plan [p], which is started at 1 s, after these messages: when, from whom, to whom; and remarks. *)
+let play ?(payload = []) ?(before = []) messages =
+  let remarks = ref [] in
   let hear s (now, src, dst, message) =
     let packet = Packet.make ~src ~dst ~timestamp:now message in
-    fst (Station.datagram ~now ~from:loopback (Result.get_ok (Packet.encode packet)) s)
+    let s, outputs = Station.datagram ~now ~from:loopback (Result.get_ok (Packet.encode packet)) s in
+    let remark : Station.output -> unit = function
+      | Remark (_, text) -> remarks := text :: !remarks
+      | Send _ | Announce _ | Announce_to _ | Keep _ -> ()
+    in
+    List.iter remark outputs;
+    s
   in
   let introduced =
     [ (0., vehicle, 0, announce "lauv-1" Uuv 6002); (0., neptus, 0, announce "ccu-neptus" Ccu 6003);
       (0.5, vehicle, Header.nobody, says Ready "q") ]
   in
-  let s = List.fold_left hear (Station.create settings) introduced in
+  let s = List.fold_left hear (Station.create { settings with payload }) (introduced @ before) in
   let s, sent = Station.start ~now:1. "lauv-1" { name = "p"; plan = None; task_site = 0 } s in
   let request = function
     | Station.Send { bytes; _ } -> (
@@ -50,13 +57,28 @@ let failures messages =
     | Some (_, s) -> told s
     | None -> []
   in
-  told (fst (Station.tick ~now:10. s))
+  let failures = told (fst (Station.tick ~now:10. s)) in
+  (failures, List.rev !remarks)
 
 let case name messages expected =
-  Alcotest.test_case name `Quick (fun () -> Alcotest.(check (list string)) name expected (failures messages))
+  Alcotest.test_case name `Quick (fun () -> Alcotest.(check (list string)) name expected (fst (play messages)))
+
+let remarks name ?payload ?before messages expected =
+  Alcotest.test_case name `Quick (fun () ->
+      Alcotest.(check (list string)) name expected (snd (play ?payload ?before messages)))
+
+let error ?(context = "Payload") at text =
+  (at, vehicle, Header.nobody,
+   Message.Log_book_entry { Message.Log_book_entry.default with type_ = Error; context; text })
+
+let lists devices =
+  let list = String.concat ";" (List.mapi (fun i d -> Printf.sprintf "%s=%d" d i) devices) in
+  (2., vehicle, own, Message.Entity_list { op = Report; list })
+
 
 let executes = (1.2, vehicle, Header.nobody, says Executing "p")
 let fails = (3.1, vehicle, Header.nobody, says ~outcome:Failure Ready "p")
+let succeeds = (3.1, vehicle, Header.nobody, says ~outcome:Success Ready "p")
 let no_reason = "the plan ended without success, and the vehicle gave no reason"
 
 let tests =
@@ -70,4 +92,17 @@ let tests =
       case "requests to start, or to other vehicles"
         [ executes; (2., neptus, vehicle, asked Start); (3., neptus, 0x1B, asked Stop); fails ]
         [ no_reason ];
-      case "nobody has" [ executes; fails ] [ no_reason ] ] )
+      case "nobody has" [ executes; fails ] [ no_reason ];
+      remarks "an error of the log book, once" [ executes; error 2. "invalid parameter"; error 2.5 "invalid parameter" ]
+        [ "error of Payload: invalid parameter" ];
+      remarks "an error that was there before the plan" ~before:[ error 0.6 "no socket" ]
+        [ executes; error 4. "no socket" ] [];
+      remarks "replies are told as the failure" [ executes; error ~context:"Plan.Engine" 3. "reply -- Start Plan (p) -- x" ]
+        [];
+      remarks "an error after the plan" [ executes; succeeds; error 4. "late" ] [];
+      remarks "no end of errors" (executes :: List.init 200 (fun i -> error 2. (string_of_int i)))
+        (List.init 50 (fun i -> Printf.sprintf "error of Payload: %d" i));
+      remarks "a device that the vehicle does not list" ~payload:[ ("lauv-1", [ "DVL"; "Camera" ]) ]
+        [ lists [ "dvl"; "CPU" ]; lists [ "dvl" ] ]
+        [ "does not list Camera among its entities, as --imc-payload has it" ];
+      remarks "a vehicle that nothing is claimed of" ~payload:[ ("lauv-2", [ "Camera" ]) ] [ lists [ "DVL" ] ] [] ] )

@@ -53,6 +53,7 @@ struct
 
   let name = "mock"
   let virtual_time = Time.virtual_time
+  let order = World.By_hearing
   let now m = m.now
   let announce_period _ = 10.
   let note m format = Printf.ksprintf (fun text -> m.log <- Printf.sprintf "%g %s" m.now text :: m.log) format

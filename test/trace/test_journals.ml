@@ -129,6 +129,32 @@ let refused () =
   | Unreadable { number = 2; _ } -> ()
   | verdict -> Alcotest.failf "deep: %s" (show verdict)
 
+(* The order of vehicles is the header's: 'b' was heard of first. *)
+let orders () =
+  let scenario =
+    let vehicle id = Printf.sprintf "vehicle '%s', { type 'UUV' }\n" id in
+    match Dolphin_scenario.Scenario.read ~file:"two.fleet" (vehicle "b" ^ vehicle "a") with
+    | Ok scenario -> scenario
+    | Error _ -> Alcotest.fail "the fleet is wrong"
+  in
+  let r = Runs.of_scenario scenario "v = pick { count 2; timeout 1.second }\nmessage v[0].id" in
+  is_run "by hearing" (Runs.check r);
+  let by_id line =
+    match Entry.of_string line with
+    | Ok (Header h) -> Entry.to_string (Header { h with order = By_id })
+    | Ok _ | Error _ -> line
+  in
+  let labels journal =
+    List.filter_map
+      (fun line -> match Entry.of_string line with Ok (Transition { step; _ }) -> Some step.label | _ -> None)
+      (Runs.lines journal)
+  in
+  Alcotest.(check bool) "b is first" true (List.mem "bind(b, a)" (labels r.journal));
+  match Runs.check_text r (Runs.text (List.map by_id (Runs.lines r.journal))) with
+  | No_run { entry = Transition { step = { label; _ }; _ }; _ } ->
+    Alcotest.(check string) "not by id" "bind(b, a)" label
+  | verdict -> Alcotest.failf "by id: %s" (show verdict)
+
 let () =
   Alcotest.run "journals"
     [ ( "journals",
@@ -139,5 +165,6 @@ let () =
           case "all endings" endings;
           case "all kinds of tuples" tuples;
           case "a pick of 30 among 60" many_choices;
+          case "vehicles by hearing and by id" orders;
           case "cut at every byte" cut_everywhere;
           case "what is no journal is refused" refused ] ) ]

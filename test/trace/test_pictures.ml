@@ -80,7 +80,8 @@ let escaped () =
   Alcotest.(check bool) "there" true (contains "&lt;script&gt;" (Picture.svg s))
 
 let header ~platform : Header.t =
-  { program = Header.source ~path:"mission.dol" ""; fleet = None; platform; seed = 7; speed = None;
+  { program = Header.source ~path:"mission.dol" ""; fleet = None; platform; order = By_hearing; seed = 7;
+    speed = None;
     started = "2026-03-01T12:00:00Z" }
 
 let circumstances () =

@@ -102,7 +102,8 @@ let start_host r =
 let header r (fleet : Fleet_file.t) : Header.t =
   { program = Program_file.header r.program;
     fleet = Fleet_file.header fleet;
-    platform = (if r.settings.network = None then "sim" else "imc");
+    platform = (if r.settings.network = None then "sim" else Udp_platform.name);
+    order = (if r.settings.network = None then Simulator.Virtual.order else Udp_platform.order);
     seed = r.seed;
     speed = r.settings.speed;
     started = Recording.utc_now () }

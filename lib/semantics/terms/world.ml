@@ -20,7 +20,10 @@ type assumption =
   | Claim of string * bool
 
 (* Vehicles by their rank in the order of first hearing; [states] has each rank that [ranks] has. *)
+type order = By_hearing | By_id
+
 type t = {
+  order : order;
   ranks : int String_map.t;
   states : vehicle_state Int_map.t;
   batteries : float list String_map.t;  (* of those that are open: what they may show *)
@@ -28,9 +31,11 @@ type t = {
   supposed : assumption list;  (* of sensors *)
 }
 
-let empty =
-  { ranks = String_map.empty; states = Int_map.empty; batteries = String_map.empty; positions = String_map.empty;
+let nobody order =
+  { order; ranks = String_map.empty; states = Int_map.empty; batteries = String_map.empty; positions = String_map.empty;
     supposed = [] }
+
+let empty = nobody By_hearing
 
 let next_rank world =
   match Int_map.max_binding_opt world.states with Some (last, _) -> last + 1 | None -> 0
@@ -45,7 +50,10 @@ let add state world =
 let find id world =
   Option.map (fun rank -> Int_map.find rank world.states) (String_map.find_opt id world.ranks)
 
-let vehicles world = List.map snd (Int_map.bindings world.states)
+let vehicles world =
+  match world.order with
+  | By_hearing -> List.map snd (Int_map.bindings world.states)
+  | By_id -> List.map (fun (_, rank) -> Int_map.find rank world.states) (String_map.bindings world.ranks)
 
 let is_ready state = state.connected && state.unready = None
 

@@ -14,18 +14,25 @@ type vehicle_state = {
 
 type t
 
-val empty : t
+(** In which order vehicles are picked. *)
+type order =
+  | By_hearing  (** the first one heard of first: a simulated fleet's order *)
+  | By_id  (** the same in each run, however late announcements come: a network's *)
+
+val nobody : order -> t
 (** Nothing is known of any vehicle. *)
 
+val empty : t
+(** [nobody By_hearing]. *)
+
 val add : vehicle_state -> t -> t
-(** [add s w] is [w] in which vehicle [s.id] has state [s]. A vehicle keeps its place in the order in which vehicles
-    were first heard of. *)
+(** [add s w] is [w] in which vehicle [s.id] has state [s]. A vehicle keeps its place in the order. *)
 
 val find : Core.vehicle -> t -> vehicle_state option
 (** What is known of it, if anything. *)
 
 val vehicles : t -> vehicle_state list
-(** All vehicles ever heard of, in the order of first hearing. *)
+(** All vehicles ever heard of, in the order of [w]. *)
 
 val is_ready : vehicle_state -> bool
 (** [is_ready s] is whether [s] can be given a plan: it has a link, and nothing keeps it. *)

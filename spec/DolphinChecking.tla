@@ -241,6 +241,16 @@ PrintEnd ==
          [] ending.how = "interrupted" -> "interrupted"
          [] OTHER -> ending.how \o ": " \o ending.message)
 
+(* A normal value, to be printed. *)
+RECURSIVE Listed(_)
+Listed(x) ==
+  CASE Is(x, "list") -> List(Each(x[2], Listed))
+    [] Is(x, "map") -> << "map", Each(InOrder(x[2]), LAMBDA entry : << entry[1], Listed(entry[2]) >>) >>
+    [] Is(x, "vehicles") ->
+         LET known == SelectSeq(Fleet, LAMBDA vehicle : vehicle.id \in x[2])
+         IN Vehicles(Each(known, LAMBDA vehicle : vehicle.id))
+    [] OTHER -> x
+
 (* What is seen of the state: how it has ended, B, A and N. *)
 PrintMarks ==
   /\ control.at = "end" => PrintEnd
@@ -248,7 +258,8 @@ PrintMarks ==
   /\ \A v \in DOMAIN A : PrintMark("A " \o v \o ": " \o A[v].name)
   /\ \A k \in OrderedKeys :
        N.queue[k] # << >> => PrintMark("N " \o PairsText(Each(N.queue[k], LAMBDA x : << k, x >>)) \o " in order")
-  /\ \A pair \in DOMAIN N.bag : PrintMark("N " \o PairText(pair) \o " * " \o ToString(N.bag[pair]))
+  /\ \A pair \in DOMAIN N.bag :
+       PrintMark("N " \o PairText(<< pair[1], Listed(pair[2]) >>) \o " * " \o ToString(N.bag[pair]))
 
 (* Prints the state and its transitions, of the program with this number. TLC evaluates an invariant once for each state
    that it finds: this one is always true. *)

@@ -273,14 +273,17 @@ EmptyAfterEnd == HasEnded => A = << >> /\ B = << >>
 
 (* N changes by what is posted and consumed, and by nothing else. *)
 RECURSIVE Tally(_)
-Tally(pairs) == IF pairs = << >> THEN EmptyBag ELSE SetToBag({ Head(pairs) }) (+) Tally(Tail(pairs))
+Tally(pairs) ==
+  IF pairs = << >> THEN EmptyBag
+  ELSE SetToBag({ << Head(pairs)[1], Normal(Head(pairs)[2]) >> }) (+) Tally(Tail(pairs))
 
 PairsOf(deeds, kind) == Flatten(Each(SelectSeq(deeds, LAMBDA d : d.did = kind), LAMBDA d : d.pairs))
 
 AllPairs(n) ==
   LET queued == UNION { { << k, j >> : j \in DOMAIN n.queue[k] } : k \in OrderedKeys }
-      pairs == { << k, n.queue[k][j] >> : << k, j >> \in queued } 
-      count(pair) == Cardinality({ q \in queued : q[1] = pair[1] /\ n.queue[q[1]][q[2]] = pair[2] })
+      value(q) == Normal(n.queue[q[1]][q[2]])
+      pairs == { << q[1], value(q) >> : q \in queued }
+      count(pair) == Cardinality({ q \in queued : q[1] = pair[1] /\ value(q) = pair[2] })
   IN [ pair \in pairs |-> count(pair) ] (+) n.bag
 
 ConservesTuples(t) ==

@@ -21,17 +21,19 @@ CONSTANTS
 
 (* {1 The tuple space N} *)
 
-(* A queue for each key whose order can matter, a bag of pairs for all others. *)
+(* A queue for each key whose order can matter, of values as they were posted; for all others a bag of pairs, whose
+   values are normal. *)
 NoTuples == [ queue |-> [ k \in OrderedKeys |-> << >> ], bag |-> EmptyBag ]
 
 Post(N, k, x) ==
   IF k \in OrderedKeys THEN [ N EXCEPT !.queue[k] = Append(@, x) ]
-  ELSE [ N EXCEPT !.bag = @ (+) SetToBag({ << k, x >> }) ]
+  ELSE [ N EXCEPT !.bag = @ (+) SetToBag({ << k, Normal(x) >> }) ]
 
 RECURSIVE PostAll(_, _)
 PostAll(N, pairs) == IF pairs = << >> THEN N ELSE PostAll(Post(N, Head(pairs)[1], Head(pairs)[2]), Tail(pairs))
 
-HasPair(N, k, x) == IF k \in OrderedKeys THEN x \in Range(N.queue[k]) ELSE BagIn(<< k, x >>, N.bag)
+HasPair(N, k, x) ==
+  IF k \in OrderedKeys THEN Normal(x) \in Range(Each(N.queue[k], Normal)) ELSE BagIn(<< k, Normal(x) >>, N.bag)
 
 HasKeyIn(N, k) ==
   IF k \in OrderedKeys THEN N.queue[k] # << >> ELSE \E pair \in BagToSet(N.bag) : pair[1] = k
@@ -42,8 +44,8 @@ IsThere(N, k, x) == IF x = Wildcard THEN HasKeyIn(N, k) ELSE HasPair(N, k, x)
 Taken(N, k, x) == IF x = Wildcard THEN Head(N.queue[k]) ELSE x
 
 WithoutPair(N, k, x) ==
-  IF k \in OrderedKeys THEN [ N EXCEPT !.queue[k] = Without(@, IndexOf(@, x)) ]
-  ELSE [ N EXCEPT !.bag = @ (-) SetToBag({ << k, x >> }) ]
+  IF k \in OrderedKeys THEN [ N EXCEPT !.queue[k] = Without(@, IndexOf(Each(@, Normal), Normal(x))) ]
+  ELSE [ N EXCEPT !.bag = @ (-) SetToBag({ << k, Normal(x) >> }) ]
 
 (* All of the pairs, one after the other, or none: what is taken, and the rest. *)
 RECURSIVE TakeAll(_, _, _)

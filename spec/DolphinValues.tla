@@ -121,13 +121,20 @@ Canonical(x) ==
     [] Is(x, "map") -> << "map", << >> \o [ i \in DOMAIN x[2] |-> << x[2][i][1], Canonical(x[2][i][2]) >> ] >>
     [] OTHER -> x
 
+(* The same for all values that are equal: vehicle sets and maps are sets. *)
+RECURSIVE Normal(_)
+Normal(x) ==
+  CASE Is(x, "number") -> Canonical(x)
+    [] Is(x, "list") -> List(Each(x[2], Normal))
+    [] Is(x, "map") -> << "map", { << x[2][i][1], Normal(x[2][i][2]) >> : i \in DOMAIN x[2] } >>
+    [] Is(x, "vehicles") -> << "vehicles", Range(x[2]) >>
+    [] OTHER -> x
+
 (* x == y in a program. *)
 Equals(x, y) ==
-  LET a == Canonical(x)
-      b == Canonical(y)
-  IN CASE Is(a, "map") /\ Is(b, "map") -> Len(a[2]) = Len(b[2]) /\ Range(a[2]) = Range(b[2])
-       [] Is(a, "vehicles") /\ Is(b, "vehicles") -> Range(a[2]) = Range(b[2])
-       [] Is(a, "distance") \/ Is(b, "distance") ->
+  LET a == Normal(x)
+      b == Normal(y)
+  IN CASE Is(a, "distance") \/ Is(b, "distance") ->
             Assert(IsNumber(a) # IsNumber(b),
                    "a distance is known to the millimetre: this model cannot tell what it equals")
             /\ FALSE

@@ -297,6 +297,14 @@ let all =
       file = rules;
       pattern = {|Asking(s, running \o stops|};
       replacement = {|Asking(s, stops|} };
+    { name = "a vehicle set is taken in its own order only";
+      file = machine;
+      pattern = {|BagIn(<< k, Normal(x) >>, N.bag)|};
+      replacement = {|BagIn(<< k, x >>, N.bag)|} };
+    { name = "a queue's values are taken in their own order only";
+      file = machine;
+      pattern = {|Normal(x) \in Range(Each(N.queue[k], Normal))|};
+      replacement = {|x \in Range(N.queue[k])|} };
     { name = "the end cancels timers twice";
       file = rules;
       pattern = {|LET running == SelectSeq(CancelTimers(timers), LAMBDA cancel : cancel \notin Range(s.effects))|};

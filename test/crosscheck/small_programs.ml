@@ -42,6 +42,13 @@ let tasks =
       ("the oldest pair", "post k: 1\npost k: 2\nexecute condition { consume k: _ } >> condition { consume k: 2 }");
       ("a pair twice is there twice",
        "post k: 1\npost k: 1\nexecute condition { consume k: 1 } >> condition { consume k: 1 }");
+      ("equal values are one pair",
+       two ^ "post team: a + b, of: [k: b + a, l: 1], of: [l: 2]\n\
+              execute condition { consume team: b + a } | condition { consume of: [l: 1.0, k: a + b] }\n\
+              if (!poll('team')) { post team: b + a }");
+      ("equal values in a queue",
+       two ^ "post team: a + b, team: a\n\
+              execute condition { consume team: b + a } >> condition { consume team: _ } | condition { poll team: a }");
       ("a handler's deeds",
        two ^ "execute watch task('p')[a] onError { post failed: 1; ignore() }\n\
               if (consume(failed: 1)) { message 'seen' }");

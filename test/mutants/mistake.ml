@@ -413,6 +413,12 @@ let tuple_space =
       ( "N is a set",
         {|Some (1 + Option.value count ~default:0)|},
         {|Some (max 1 (Option.value count ~default:0))|} );
+      ( "equal values are different pairs",
+        {|Counted (By_value.update (Value.normal x) more counts)|},
+        {|Counted (By_value.update x more counts)|} );
+      ( "a queue's values are found as they were written",
+        {|if Value.compare x (Value.normal y) = 0|},
+        {|if Value.compare x y = 0|} );
       ( "the newest pair is consumed",
         {|By_arrival.min_binding queue in|},
         {|By_arrival.max_binding queue in|} );

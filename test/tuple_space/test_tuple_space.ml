@@ -5,6 +5,8 @@ module Space = Tuple_space.Make (struct
 
     let hash x = x
 
+    let normal = abs
+
     let pp = Fmt.int
   end)
 
@@ -47,6 +49,14 @@ let history_is_forgotten () =
   in
   Alcotest.check space "equal" direct roundabout;
   Alcotest.(check int) "same hash" (Space.hash direct) (Space.hash roundabout)
+
+let equal_values_are_one_pair () =
+  let n = posted (Keys [ "b" ]) [ ("a", 1); ("a", -1); ("b", -2); ("b", 3); ("b", 2) ] in
+  Alcotest.check bindings "normal where counted, as posted where in order" [ ("a", [ 1; 1 ]); ("b", [ -2; 3; 2 ]) ]
+    (Space.bindings n);
+  Alcotest.(check bool) "seen" true (Space.poll "a" (-1) n && Space.poll "b" 2 n && Space.poll "b" (-3) n);
+  let n = Option.get (Option.bind (Space.consume "a" (-1) n) (Space.consume "b" 2)) in
+  Alcotest.check bindings "the oldest that is equal" [ ("a", [ 1 ]); ("b", [ 3; 2 ]) ] (Space.bindings n)
 
 (* {1 The model: a list of pairs, the oldest first} *)
 
@@ -152,6 +162,7 @@ let () =
           case "a multiset" a_multiset;
           case "the order is kept where it shows" the_order_is_kept_where_it_shows;
           case "history is forgotten" history_is_forgotten;
+          case "equal values are one pair" equal_values_are_one_pair;
         ] );
       ( "laws",
         [

@@ -162,7 +162,7 @@ let pairs code scope keys arguments =
   let pair k e =
     match value scope e with
     | Some Wildcard | None -> (k, None)
-    | Some x -> if List.mem k code.program.ordered_keys then (k, None) else (k, Some (Value.canonical x))
+    | Some x -> if List.mem k code.program.ordered_keys then (k, None) else (k, Some (Value.normal x))
   in
   Pairs.of_list (List.map2 pair keys arguments)
 

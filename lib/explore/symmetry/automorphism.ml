@@ -18,7 +18,8 @@ let renamed skeletons rename tuples =
       (fun (before, same) x ->
          let n = Skeleton.pair skeletons k x in
          let n' = rename n in
-         (Tuples.post k (Skeleton.value_of skeletons n') before, same && n = n'))
+         let x' = if n = n' then x else Skeleton.value_of skeletons n' in
+         (Tuples.post k x' before, same && n = n'))
       before xs
   in
   let without =

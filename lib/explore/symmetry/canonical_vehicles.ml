@@ -77,7 +77,7 @@ let sayings r name (c : Configuration.t) =
     match Vehicles.elements !found with
     | [] -> ()
     | [ v ] ->
-      let x = Renaming.value (fun u -> Option.value (name u) ~default:"") x in
+      let x = Value.normal (Renaming.value (fun u -> Option.value (name u) ~default:"") x) in
       Hashtbl.replace said v ((k, x) :: Option.value (Hashtbl.find_opt said v) ~default:[])
     | vs -> fix r (List.concat_map (all_of_orbit r) vs)
   in

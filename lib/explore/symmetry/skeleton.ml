@@ -35,7 +35,7 @@ let context program =
     known = Closures.create 64;
   }
 
-let pair c k x = Pair_numbers.number c.numbers (k, Value.canonical x)
+let pair c k x = Pair_numbers.number c.numbers (k, Value.normal x)
 let key_of c i = fst (Pair_numbers.value c.numbers i)
 let value_of c i = snd (Pair_numbers.value c.numbers i)
 
@@ -146,6 +146,7 @@ and called w lambda slots =
 and named w k e =
   match known w e with
   | Some Wildcard -> print w "_"
+  | Some x when not (Value.is_alone x) -> raise Opaque
   | Some x ->
     print w "#";
     w.named := pair w.context k x :: !(w.named)

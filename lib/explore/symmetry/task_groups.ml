@@ -122,7 +122,7 @@ let constant (g : Footprint.t) (s : Shared.t) : Shared.t =
     let forget i store = Store.set i Core.Null store in
     let touched = Footprint.Pairs.union g.posts g.takes in
     let remove k n x =
-      if Footprint.Pairs.(meet (singleton (k, Some (Value.canonical x))) touched) then
+      if Footprint.Pairs.(meet (singleton (k, Some (Value.normal x))) touched) then
         Option.value (Tuples.consume k x n) ~default:n
       else n
     in

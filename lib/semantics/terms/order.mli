@@ -6,5 +6,8 @@ val both : int -> (unit -> int) -> int
 val array : ('a -> 'a -> int) -> 'a array -> 'a array -> int
 (** [array compare xs ys] orders arrays, shorter ones first, those of one length by their elements. *)
 
+val list : ('a -> 'a -> int) -> 'a list -> 'a list -> int
+(** [list compare xs ys] is the lexicographic order. A tail that both share is not gone through. *)
+
 val mix : int -> int -> int
 (** [mix h h'] is the hash of what has hash [h] followed by what has hash [h']. *)

@@ -7,6 +7,8 @@ module type VALUE = sig
 
   val hash : t -> int
 
+  val normal : t -> t
+
   val pp : Format.formatter -> t -> unit
 end
 
@@ -81,9 +83,11 @@ module Make (Value : VALUE) = struct
     let pairs =
       match By_key.find_opt k n.pairs with
       | Some (Counted counts) ->
-        Counted (By_value.update x (fun count -> Some (1 + Option.value count ~default:0)) counts)
+        let more count = Some (1 + Option.value count ~default:0) in
+        Counted (By_value.update (Value.normal x) more counts)
       | Some (Queued queue) -> Queued (By_arrival.add (1 + fst (By_arrival.max_binding queue)) x queue)
-      | None -> if is_ordered k n then Queued (By_arrival.singleton 0 x) else Counted (By_value.singleton x 1)
+      | None ->
+        if is_ordered k n then Queued (By_arrival.singleton 0 x) else Counted (By_value.singleton (Value.normal x) 1)
     in
     { n with cardinal = n.cardinal + 1; pairs = By_key.add k pairs n.pairs }
 
@@ -98,10 +102,11 @@ module Make (Value : VALUE) = struct
     { n with cardinal = n.cardinal - 1; pairs }
 
   let arrival x queue =
+    let x = Value.normal x in
     let rec look seq =
       match seq () with
       | Seq.Nil -> None
-      | Seq.Cons ((number, y), rest) -> if Value.compare x y = 0 then Some number else look rest
+      | Seq.Cons ((number, y), rest) -> if Value.compare x (Value.normal y) = 0 then Some number else look rest
     in
     look (By_arrival.to_seq queue)
 
@@ -109,6 +114,7 @@ module Make (Value : VALUE) = struct
     match By_key.find_opt k n.pairs with
     | None -> None
     | Some (Counted counts) -> (
+        let x = Value.normal x in
         match By_value.find_opt x counts with
         | None -> None
         | Some 1 -> Some (shrunk k (Counted (By_value.remove x counts)) n)
@@ -127,7 +133,7 @@ module Make (Value : VALUE) = struct
   let poll k x n =
     match By_key.find_opt k n.pairs with
     | None -> false
-    | Some (Counted counts) -> By_value.mem x counts
+    | Some (Counted counts) -> By_value.mem (Value.normal x) counts
     | Some (Queued queue) -> Option.is_some (arrival x queue)
 
   let poll_any k n = By_key.mem k n.pairs

@@ -1,4 +1,4 @@
-(** N, the tuple space: a multiset of pairs key:value.
+(** N, the tuple space: a multiset of pairs key:value. Values are equal here if they are for programs.
 
     Only [consume k:_], which takes the oldest pair with key [k], can tell in which order pairs were posted. So a
     space is told once, when it is made, which keys are consumed like that, and remembers an order for these alone:
@@ -22,6 +22,9 @@ module type VALUE = sig
 
   val hash : t -> int
   (** Equal for equal values. *)
+
+  val normal : t -> t
+  (** [normal x] is the same for all values that programs take for equal. *)
 
   val pp : Format.formatter -> t -> unit
 end
@@ -64,8 +67,8 @@ module type S = sig
   (** [poll_any k n] is whether [n] has a pair with key [k]. *)
 
   val bindings : t -> (string * value list) list
-  (** The keys that have pairs, ascending, each with its values, as often as they are there: the oldest first if the
-      key is ordered, ascending if not. *)
+  (** The keys that have pairs, ascending, each with its values, as often as they are there: the oldest first, as
+      they were posted, if the key is ordered; ascending and normal if not. *)
 
   val equal : t -> t -> bool
   (** [equal n n'] is whether [n] and [n'] order the same keys and have the same {!bindings}. *)

@@ -24,7 +24,7 @@ let rec compare x y =
     | Number a, Number b -> Float.compare a b
     | String a, String b | Symbol a, Symbol b | Host a, Host b -> String.compare a b
     | List a, List b -> Order.array compare a b
-    | Map a, Map b -> List.compare compare_entry a b
+    | Map a, Map b -> Order.list compare_entry a b
     | Range (a, b), Range (a', b') -> Order.both (Int.compare a a') (fun () -> Int.compare b b')
     | Position a, Position b -> Position.compare a b
     | Area a, Area b -> Area.compare a b
@@ -59,7 +59,7 @@ and compare_task t t' =
       Order.both (compare_task a a') (fun () -> compare_task b b')
     | Allocated (a, vs), Allocated (a', vs') ->
       Order.both (List.compare String.compare vs vs') (fun () -> compare_task a a')
-    | All_of bs, All_of bs' | One_of bs, One_of bs' -> List.compare compare_branch bs bs'
+    | All_of bs, All_of bs' | One_of bs, One_of bs' -> Order.list compare_branch bs bs'
     | Until (c, a), Until (c', a') | Watch (a, c), Watch (a', c') ->
       Order.both (compare_closure c c') (fun () -> compare_task a a')
     | Idle d, Idle d' -> Float.compare d d'
@@ -78,59 +78,106 @@ and compare_duration d d' =
   | Seconds _, Given_by _ -> -1
   | Given_by _, Seconds _ -> 1
 
+(* So many parts of a value are hashed: it may share its parts with itself many times over. *)
+let hashed_parts = 10_000
+
+(* And so many levels of a task. *)
 let hashed_depth = 6
 
-let rec hash x =
-  match x with
-  | Null | Wildcard -> rank x
-  | Boolean b -> Order.mix 1 (Bool.to_int b)
-  | Integer i -> Order.mix 2 i
-  | Number n -> Order.mix 3 (Hashtbl.hash n)
-  | String s | Symbol s | Host s -> Order.mix (rank x) (Hashtbl.hash s)
-  | List xs -> Array.fold_left (fun h x -> Order.mix h (hash x)) 7 xs
-  | Map entries -> List.fold_left (fun h (k, x) -> Order.mix (Order.mix h (Hashtbl.hash k)) (hash x)) 8 entries
-  | Range (a, b) -> Order.mix (Order.mix 9 a) b
-  | Position p -> Order.mix 10 (Hashtbl.hash p)
-  | Area a -> Order.mix 11 (Hashtbl.hash a)
-  | Vehicles vs -> List.fold_left (fun h v -> Order.mix h (Hashtbl.hash v)) 12 vs
-  | Task t -> Order.mix 13 (hash_task hashed_depth t)
-  | Closure c -> Order.mix 14 (hash_closure c)
-  | Settings settings -> Order.mix 16 (List.length settings)
-  | Reading r -> Order.mix 17 (Hashtbl.hash r.text)
+let rec hash_value left x =
+  decr left;
+  if !left < 0 then 0
+  else
+    match x with
+    | Null | Wildcard -> rank x
+    | Boolean b -> Order.mix 1 (Bool.to_int b)
+    | Integer i -> Order.mix 2 i
+    | Number n -> Order.mix 3 (Hashtbl.hash n)
+    | String s | Symbol s | Host s -> Order.mix (rank x) (Hashtbl.hash s)
+    | List xs -> hash_values left (Order.mix 7 (Array.length xs)) xs
+    | Map entries ->
+      List.fold_left (fun h (k, x) -> Order.mix (Order.mix h (Hashtbl.hash k)) (hash_value left x)) 8 entries
+    | Range (a, b) -> Order.mix (Order.mix 9 a) b
+    | Position p -> Order.mix 10 (Hashtbl.hash p)
+    | Area a -> Order.mix 11 (Hashtbl.hash a)
+    | Vehicles vs -> List.fold_left (fun h v -> Order.mix h (Hashtbl.hash v)) 12 vs
+    | Task t -> Order.mix 13 (hash_task left hashed_depth t)
+    | Closure c -> Order.mix 14 (hash_code left c)
+    | Settings settings -> Order.mix 16 (List.length settings)
+    | Reading r -> Order.mix 17 (Hashtbl.hash r.text)
 
-and hash_closure c = Array.fold_left (fun h x -> Order.mix h (hash x)) c.lambda.id c.captured
+and hash_values left h xs =
+  let rec from i h =
+    if i = Array.length xs || !left < 0 then h else from (i + 1) (Order.mix h (hash_value left xs.(i)))
+  in
+  from 0 h
 
-(* The upper levels of a deep task are enough: it may share its parts with itself many times over. *)
-and hash_task depth t =
-  let part = hash_task (depth - 1) in
+and hash_code left c = hash_values left c.lambda.id c.captured
+
+and hash_task left depth t =
+  let part = hash_task left (depth - 1) in
   if depth = 0 then 0
   else
     match t with
     | Platform p -> Hashtbl.hash p.name
-    | Action c | Condition c -> Order.mix (rank_task t) (hash_closure c)
+    | Action c | Condition c -> Order.mix (rank_task t) (hash_code left c)
     | Sequence (a, b) | Parallel (a, b) -> Order.mix (Order.mix (rank_task t) (part a)) (part b)
     | Allocated (a, vs) -> Order.mix (part a) (Hashtbl.hash vs)
     | All_of bs | One_of bs ->
-      List.fold_left (fun h b -> Order.mix (Order.mix h (hash_closure b.guard)) (part b.body)) (rank_task t) bs
-    | Until (c, a) | Watch (a, c) -> Order.mix (Order.mix (rank_task t) (hash_closure c)) (part a)
+      List.fold_left (fun h b -> Order.mix (Order.mix h (hash_code left b.guard)) (part b.body)) (rank_task t) bs
+    | Until (c, a) | Watch (a, c) -> Order.mix (Order.mix (rank_task t) (hash_code left c)) (part a)
     | Idle d -> Order.mix 9 (Hashtbl.hash d)
     | During (_, a) -> Order.mix 10 (part a)
 
-let rec canonical x =
+let hash x = hash_value (ref hashed_parts) x
+let hash_closure c = hash_code (ref hashed_parts) c
+
+let canonical_number x =
   match x with
   | Number n when Float.is_integer n && Float.abs n < 0x1p62 -> Integer (int_of_float n)
+  | x -> x
+
+let by_key (k, _) (k', _) = String.compare k k'
+
+let rec canonical x =
+  match x with
+  | Number _ -> canonical_number x
   | List xs -> List (Array.map canonical xs)
   | Map entries -> Map (List.map (fun (k, x) -> (k, canonical x)) entries)
+  | Null | Boolean _ | Integer _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _ | Vehicles _ | Task _
+  | Closure _ | Host _ | Settings _ | Reading _ -> x
+
+let rec normal x =
+  match x with
+  | Number _ -> canonical_number x
+  | List xs -> List (Array.map normal xs)
+  | Map entries -> Map (List.sort by_key (List.map (fun (k, x) -> (k, normal x)) entries))
+  | Vehicles vs -> Vehicles (List.sort String.compare vs)
+  | Null | Boolean _ | Integer _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _ | Task _ | Closure _
+  | Host _ | Settings _ | Reading _ -> x
+
+let rec is_alone x =
+  match x with
+  | Vehicles (_ :: _ :: _) | Map (_ :: _ :: _) -> false
+  | List xs -> Array.for_all is_alone xs
+  | Map entries -> List.for_all (fun (_, x) -> is_alone x) entries
   | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _
-  | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ -> x
+  | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ -> true
 
-let sorted_entries entries = List.sort compare_entry entries
-
-let equals x y =
-  match canonical x, canonical y with
-  | Map a, Map b -> List.compare compare_entry (sorted_entries a) (sorted_entries b) = 0
-  | Vehicles a, Vehicles b -> List.sort String.compare a = List.sort String.compare b
-  | x, y -> compare x y = 0
+(* As [compare (normal x) (normal y) = 0], but what both share is not gone through. *)
+let rec equals x y =
+  x == y
+  ||
+  match x, y with
+  | (Integer _ | Number _), (Integer _ | Number _) -> compare (canonical_number x) (canonical_number y) = 0
+  | List xs, List ys -> Array.length xs = Array.length ys && Array.for_all2 equals xs ys
+  | Map a, Map b ->
+    let same (k, x) (k', y) = String.equal k k' && equals x y in
+    List.compare_lengths a b = 0 && List.for_all2 same (List.sort by_key a) (List.sort by_key b)
+  | Vehicles a, Vehicles b -> List.equal String.equal (List.sort String.compare a) (List.sort String.compare b)
+  | ( ( Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | List _ | Map _ | Range _ | Position _
+      | Area _ | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ ),
+      _ ) -> compare x y = 0
 
 let rec made_at site x =
   match x with

@@ -21,11 +21,18 @@ val hash_closure : Core.closure -> int
 (** {1:language As the language has it} *)
 
 val equals : t -> t -> bool
-(** [equals x y] is [x == y] in a program: numbers by their value, so that [1 == 1.0]. *)
+(** [equals x y] is [x == y] in a program: numbers by their value, so that [1 == 1.0]; vehicle sets without regard to
+    the order of picks, maps to that of keys. What [x] and [y] share takes no time. *)
 
 val canonical : t -> t
-(** [canonical x] is [x] with numbers that are whole as integers, so that [equals x y] is
-    [compare (canonical x) (canonical y) = 0]. Tuples hold such values. *)
+(** [canonical x] is [x] with numbers that are whole as integers. Tuples hold such values. *)
+
+val normal : t -> t
+(** [normal x] is the same for all [y] with [equals x y]: as {!canonical}, with vehicles and keys in alphabetical order.
+    [equals x y] is [compare (normal x) (normal y) = 0]. *)
+
+val is_alone : t -> bool
+(** [is_alone x] is whether no other value with the same {!canonical} numbers equals [x]. *)
 
 val truth : t -> bool
 (** [truth x] is how a condition takes [x]: false are [null], [false], 0, and what is empty. *)

@@ -110,7 +110,8 @@ let checked context is_movable r ns a b =
   let fixes map = List.for_all (is_fixed (Task_isomorphism.skeletons context) map) ns in
   match exchange is_movable a.pairs b.pairs with
   | Some map when fixes map ->
-    let with_labels matched = (map, List.rev_append (List.combine a.labels b.labels) matched) in
+    let moves (l, l') = l <> l' in
+    let with_labels matched = (map, List.filter moves (List.rev_append (List.combine a.labels b.labels) matched)) in
     Option.map with_labels (Task_isomorphism.matched context ~rename:(apply map) r r)
   | Some _ | None -> None
 
@@ -174,4 +175,5 @@ let find context r ns =
     let several subtasks = List.compare_length_with subtasks 1 > 0 in
     let candidates = List.filter several (List.concat_map by_key (subtasks context r)) in
     let found = List.fold_left (add_all check) none candidates in
-    if found.labels = [] then None else Some { found with orbits = List.rev found.orbits }
+    if found.exchanges = [] || Task_isomorphism.labels r = [] then None
+    else Some { found with orbits = List.rev found.orbits }

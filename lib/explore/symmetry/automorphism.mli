@@ -13,7 +13,7 @@ type orbit = int array array
 type t = {
   orbits : orbit list;  (** disjoint *)
   labels : (Task_isomorphism.label * Task_isomorphism.label) list;
-  (** each with its image under some automorphism that was checked *)
+  (** each with its image under some automorphism that was checked, where they differ *)
   exchanges : exchange list;  (** all that were checked *)
 }
 

@@ -2,10 +2,13 @@ open Dolphin_results
 
 let ( let* ) = Result.bind
 
+module Vehicle_set = Set.Make (String)
+
 (* fit(q, w, B). *)
 let candidates world (s : Shared.t) (pick : Settings.pick) =
+  let bound = Vehicle_set.of_list s.bound and elsewhere = { pick.filter with region = None } in
   let that_fit (v : World.vehicle_state) =
-    if (not (Settings.accepts { pick.filter with region = None } v)) || List.mem v.id s.bound then Ok []
+    if (not (Settings.accepts elsewhere v)) || Vehicle_set.mem v.id bound then Ok []
     else
       match pick.filter.region with
       | None -> Ok [ v.id ]

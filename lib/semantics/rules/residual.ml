@@ -34,11 +34,11 @@ let rec compare r r' =
       Order.both (String.compare v v') (fun () -> Value.compare_task (Platform p) (Platform p'))
     | Action c, Action c' | Condition c, Condition c' -> Value.compare_closure c c'
     | Sequence (a, rest), Sequence (a', rest') ->
-      Order.both (compare a a') (fun () -> List.compare compare rest rest')
-    | Parallel rs, Parallel rs' -> List.compare compare rs rs'
+      Order.both (compare a a') (fun () -> Order.list compare rest rest')
+    | Parallel rs, Parallel rs' -> Order.list compare rs rs'
     | All_of (a, bs), All_of (a', bs') ->
-      Order.both (Option.compare compare a a') (fun () -> List.compare compare_branch bs bs')
-    | One_of bs, One_of bs' -> List.compare compare_branch bs bs'
+      Order.both (Option.compare compare a a') (fun () -> Order.list compare_branch bs bs')
+    | One_of bs, One_of bs' -> Order.list compare_branch bs bs'
     | Until (c, a), Until (c', a') | Watch (a, c), Watch (a', c') ->
       Order.both (Value.compare_closure c c') (fun () -> compare a a')
     | Idle a, Idle b -> Order.both (Int.compare a.timer b.timer) (fun () -> Float.compare a.seconds b.seconds)

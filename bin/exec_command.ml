@@ -25,12 +25,12 @@ let contradiction (s : Run.settings) ~sim ~follow ~resumed ~changed =
 
 let last_words = "interrupted twice: ended at once; vehicles that were not told to stop yet run on"
 
-let on_terminal (s : Run.settings) program run : Exit_status.t =
+let on_terminal show (s : Run.settings) program run : Exit_status.t =
   let again () =
     (try if s.network <> None then Report.complain last_words with Sys_error _ -> ());
     Exit_status.exit_interrupted ()
   in
-  match Terminal_run.run ~notice:Report.complain ~again run with
+  match Terminal_run.run ~notice:Report.complain ~again show program run with
   | Error e -> Report.error e
   | Ok outcome -> (
       Option.iter Report.tell (Run.explain program outcome);
@@ -52,7 +52,17 @@ let follow (program : Program_file.t) (fleet : Fleet_file.t) path =
 
 let ( let* ) = Result.bind
 
-let run () path sim fleet network definition speed seed answers supplier supplier_timeout journal drawing recorded
+(* A vehicle that the fleet does not have is a slip; of a network nobody knows. *)
+let check_only (s : Run.settings) (fleet : Fleet_file.t) only =
+  let known = List.map (fun (v : Dolphin_scenario.Scenario.vehicle) -> v.id) fleet.scenario.vehicles in
+  match s.network, List.find_opt (fun v -> not (List.mem v known)) only with
+  | Some _, _ | None, None -> Ok ()
+  | None, Some v ->
+    let near = Dolphin_syntax.Diagnostic.suggest v known in
+    let hint = Option.fold near ~none:"" ~some:(Printf.sprintf " (did you mean '%s'?)") in
+    Error (Error.Bad_input (Printf.sprintf "--only: the fleet has no vehicle '%s'%s" v hint))
+
+let run () show path sim fleet network definition speed seed answers supplier supplier_timeout journal drawing recorded
     resumed changed =
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
   let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
@@ -68,6 +78,8 @@ let run () path sim fleet network definition speed seed answers supplier supplie
      in
      let* definition = Definition_file.load definition in
      let settings = { settings with network = Option.map (Imc_options.with_names definition) network } in
+     let* () = if resumed = None then check_only settings fleet show.Terminal_run.only else Ok () in
+     let on_terminal = on_terminal { show with journal = (if journal = None then resumed else journal) } in
      Report.diagnostics ~source:program.source program.warnings;
      match recorded, resumed with
      | Some recorded, _ -> follow program fleet recorded
@@ -155,6 +167,27 @@ let changed =
   in
   Arg.(value & flag & info [ "force-prefix" ] ~doc)
 
+let show =
+  let quiet =
+    let doc =
+      "Print only what went wrong, what the program says and asks, and at the end a summary of the run."
+    in
+    Arg.(value & flag & info [ "q"; "quiet" ] ~doc)
+  in
+  let only =
+    let doc = "Print only lines about the vehicle $(docv), and what went wrong. May be repeated." in
+    Arg.(value & opt_all string [] & info [ "only" ] ~docv:"VEHICLE" ~doc)
+  in
+  let colour =
+    let whens = [ ("auto", None); ("always", Some true); ("never", Some false) ] in
+    let doc =
+      "Whether trouble is red: $(b,always), $(b,never), or $(b,auto) (the default): on terminals, without NO_COLOR."
+    in
+    Arg.(value & opt (enum whens) None & info [ "color" ] ~docv:"WHEN" ~doc)
+  in
+  let make quiet only colour = { Terminal_run.quiet; only; colour; journal = None } in
+  Term.(const make $ quiet $ only $ colour)
+
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) checks the program $(i,PROG) as $(mname) $(b,check) does and runs it on a fleet of simulated \
@@ -162,8 +195,9 @@ let man =
         may fail. Unless $(b,--speed) is given the run takes no longer than it takes to compute: a mission of an \
         hour is over at once.";
     `P "The log on standard output has a line for whatever happens: the time since the start, who, what. On a terminal \
-        a board below it shows each vehicle of the program: its task, for how long it has been running, its position \
-        and its battery.";
+        a board below it shows what the program waits for, and each vehicle: its task, for how long it has been \
+        running, its battery and position; vehicles in trouble come first. At the end stands how the run ended, what \
+        became of its tasks, and where its journal is.";
     `P "Ctrl-C interrupts the program: running tasks are stopped, vehicles are released. A second Ctrl-C ends \
         $(mname) at once.";
     `P "With $(b,-vv) every event, transition and effect of the run, and on a network every datagram, is told on \
@@ -197,5 +231,5 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Verbosity.setup $ Options.program $ sim $ fleet $ Imc_options.chosen $ Imc_options.definition
+      const run $ Verbosity.setup $ show $ Options.program $ sim $ fleet $ Imc_options.chosen $ Imc_options.definition
       $ speed $ seed $ answers $ supplier $ supplier_timeout $ journal $ drawing $ follow $ resumed $ changed)

@@ -11,21 +11,44 @@ type t = {
 
 (* {1 Lines} *)
 
+type severity = Trouble | Said | Completed | Ordinary
+type line = { about : Core.vehicle list; severity : severity; text : string }
+
 let narrowest = 10
 let widest = 24
 let program = "program"
 let start = { before = Vehicle_map.empty; unheard = []; unready = []; bound = []; column = narrowest }
 
 (* Further lines of a text stand below its first one. *)
-let line l ~time actor text =
+let text_of l ~time actor text =
   let head = Printf.sprintf "%7s  %s  " (Phrase.time time) (Phrase.pad l.column (Phrase.one_line actor)) in
   let indentation = String.make (Phrase.width head) ' ' in
   match String.split_on_char '\n' (Phrase.harmless text) with
   | [] -> head
   | first :: rest -> String.concat "\n" ((head ^ first) :: List.map (fun text -> indentation ^ text) rest)
 
-let question l ~time prompt = line l ~time program ("asks: " ^ prompt)
-let remark l ~time text = line l ~time program text
+let question l ~time prompt = text_of l ~time program ("asks: " ^ prompt)
+let remark l ~time text = { about = []; severity = Trouble; text = text_of l ~time program text }
+
+(* What happened: to whom, how bad it is, in which words. *)
+type happening = { actor : string; others : Core.vehicle list; how : severity; words : string }
+
+let of_program ?(others = []) ?(how = Ordinary) words = { actor = program; others; how; words }
+let of_vehicle ?(how = Ordinary) actor words = { actor; others = []; how; words }
+
+let line l ~time { actor; others; how; words } =
+  let about = if actor = program then others else [ actor ] in
+  { about; severity = how; text = text_of l ~time actor words }
+
+let is_shown ~quiet ~only { about; severity; _ } =
+  severity = Trouble || severity = Completed
+  || ((severity = Said || not quiet) && (only = [] || List.exists (fun v -> List.mem v only) about))
+
+let tint ~colour { severity; text; _ } =
+  match severity with
+  | Trouble -> Tint.paint ~colour Tint.bad text
+  | Said | Completed -> Tint.paint ~colour Tint.strong text
+  | Ordinary -> text
 
 (* {1 What transitions say} *)
 
@@ -38,30 +61,36 @@ let deed : Code.deed -> string = function
   | Set_connection_timeout (Some vs, seconds) ->
     Printf.sprintf "sets the connection timeout of %s to %s" (Wording.vehicles vs) (Wording.duration seconds)
 
-let ending ~stuck : Configuration.ending -> string = function
-  | Completed -> "ends"
-  | Halted "" -> "halts"
-  | Halted message -> "halts: " ^ message
-  | Failed fault -> "fails: " ^ fault.message
-  | Interrupted -> if stuck then "is stuck" else "is interrupted"
+let of_deed d =
+  match (d : Code.deed) with
+  | Posted _ | Consumed _ | Set_connection_timeout (None, _) -> of_program (deed d)
+  | Said _ -> of_program ~how:Said (deed d)
+  | Released others | Set_connection_timeout (Some others, _) -> of_program ~others (deed d)
+
+let of_ending ~stuck : Configuration.ending -> happening = function
+  | Completed -> of_program ~how:Completed "ends"
+  | Halted "" -> of_program ~how:Trouble "halts"
+  | Halted message -> of_program ~how:Trouble ("halts: " ^ message)
+  | Failed fault -> of_program ~how:Trouble ("fails: " ^ fault.message)
+  | Interrupted -> of_program ~how:Trouble (if stuck then "is stuck" else "is interrupted")
 
 let task_of l v = match Vehicle_map.find_opt v l.before with Some p -> Phrase.one_line p.Core.name | None -> "its task"
 
 (* Who did what, as far as the label tells. Ends and what leads to them are told by the effect [End]. *)
 let of_label (s : Transition.t) =
-  let by_program text = [ (program, text) ] in
-  let deeds ds = List.map (fun d -> (program, deed d)) ds in
+  let by_program ?how text = [ of_program ?how text ] in
   match s.label with
-  | Done (v, name) -> [ (v, "ends " ^ Phrase.one_line name) ]
-  | Fail (v, name, why) -> [ (v, Printf.sprintf "fails in %s: %s" (Phrase.one_line name) why) ]
+  | Done (v, name) -> [ of_vehicle v ("ends " ^ Phrase.one_line name) ]
+  | Fail (v, name, why) ->
+    [ of_vehicle ~how:Trouble v (Printf.sprintf "fails in %s: %s" (Phrase.one_line name) why) ]
   | Check [] -> by_program "sees that a condition holds"
-  | Cut ds -> by_program "sees that the condition of until holds" @ deeds ds
-  | Check ds | Act ds -> deeds ds
-  | Did d -> deeds [ d ]
+  | Cut ds -> by_program "sees that the condition of until holds" @ List.map of_deed ds
+  | Check ds | Act ds -> List.map of_deed ds
+  | Did d -> [ of_deed d ]
   | Time_out when List.mem Rule.Idle_end s.rules -> by_program "idled long enough"
   | Time_out -> by_program "cuts a task short: its time is up"
   | Set_time seconds -> by_program ("allows a task " ^ Wording.duration seconds)
-  | Broken why -> by_program ("has an error in a task: " ^ why)
+  | Broken why -> by_program ~how:Trouble ("has an error in a task: " ^ why)
   | Pause seconds -> by_program ("pauses for " ^ Wording.duration seconds)
   | Call what -> by_program ("calls " ^ what)
   | Reply what -> by_program ("is told " ^ what)
@@ -81,14 +110,14 @@ let told_by_label (label : Label.t) =
   | Answer _ | No_answer | Pause _ | Resume | Call _ | Reply _ | No_reply _ | Execute | Cannot_execute _ | End
   | Halt _ | Fault _ | Interrupt -> 0
 
-let of_effect ~stuck l : Effect.t -> (string * string) list = function
-  | Start (v, p) -> [ (v, "starts " ^ Phrase.one_line p.name) ]
-  | Stop v -> [ (v, "stops " ^ task_of l v) ]
-  | Bind vs -> [ (program, "picks " ^ Wording.vehicles vs) ]
-  | Release vs -> [ (program, deed (Released vs)) ]
-  | Say text -> [ (program, deed (Said text)) ]
-  | Set_connection_timeout (vs, seconds) -> [ (program, deed (Set_connection_timeout (vs, seconds))) ]
-  | End e -> [ (program, ending ~stuck e) ]
+let of_effect ~stuck l : Effect.t -> happening list = function
+  | Start (v, p) -> [ of_vehicle v ("starts " ^ Phrase.one_line p.name) ]
+  | Stop v -> [ of_vehicle v ("stops " ^ task_of l v) ]
+  | Bind vs -> [ of_program ~others:vs ("picks " ^ Wording.vehicles vs) ]
+  | Release vs -> [ of_deed (Released vs) ]
+  | Say text -> [ of_deed (Said text) ]
+  | Set_connection_timeout (vs, seconds) -> [ of_deed (Set_connection_timeout (vs, seconds)) ]
+  | End e -> [ of_ending ~stuck e ]
   | Set_timer _ | Cancel_timer _ | Look_for _ | Ask _ | Call_host _ -> []
 
 let transition ?(stuck = false) l ~time (s : Transition.t) =
@@ -98,7 +127,7 @@ let transition ?(stuck = false) l ~time (s : Transition.t) =
   let l = { l with column } in
   let further = List.filteri (fun i _ -> i >= told_by_label s.label) s.effects in
   let happenings = of_label s @ List.concat_map (of_effect ~stuck l) further in
-  let lines = List.map (fun (actor, text) -> line l ~time actor text) happenings in
+  let lines = List.map (line l ~time) happenings in
   ({ l with before = s.next.shared.allocation; bound }, lines)
 
 let link l ~time (state : World.vehicle_state) =
@@ -106,8 +135,10 @@ let link l ~time (state : World.vehicle_state) =
   if state.connected = was_heard then (l, [])
   else if state.connected then
     let unheard = List.filter (fun v -> v <> state.id) l.unheard in
-    ({ l with unheard }, [ line l ~time state.id "has its link back" ])
-  else ({ l with unheard = state.id :: l.unheard }, [ line l ~time state.id "loses its link" ])
+    ({ l with unheard }, [ line l ~time (of_vehicle state.id "has its link back") ])
+  else
+    ( { l with unheard = state.id :: l.unheard },
+      [ line l ~time (of_vehicle ~how:Trouble state.id "loses its link") ] )
 
 (* Of a vehicle without a link nobody knows. *)
 let readiness l ~time (state : World.vehicle_state) =
@@ -116,8 +147,9 @@ let readiness l ~time (state : World.vehicle_state) =
   else
     let others = List.remove_assoc state.id l.unready in
     match state.unready with
-    | Some why -> ({ l with unready = (state.id, why) :: others }, [ line l ~time state.id why ])
-    | None -> ({ l with unready = others }, [ line l ~time state.id "is ready again" ])
+    | Some why ->
+      ({ l with unready = (state.id, why) :: others }, [ line l ~time (of_vehicle ~how:Trouble state.id why) ])
+    | None -> ({ l with unready = others }, [ line l ~time (of_vehicle state.id "is ready again") ])
 
 let news l ~time (state : World.vehicle_state) =
   if not (List.mem state.id l.bound) then (l, [])

@@ -5,8 +5,9 @@ type t = {
   live : bool;
   on_closed : Unix.error -> unit;
   mutable closed : bool;  (* nothing can be written any more *)
-  mutable board : unit -> string list;
-  mutable drawn : int;  (* lines of the board on the terminal *)
+  mutable board : rows:int -> columns:int -> string list;
+  mutable drawn : int list;  (* the lines of the board on the terminal, by their widths *)
+  mutable quiet : Terminal.quiet option;  (* what is typed is not shown *)
   mutable asking : bool;  (* the last line is a question, without its end *)
   pending : Buffer.t;  (* lines of the log that the terminal has not *)
   mutable due : bool;  (* whether a redraw is scheduled *)
@@ -19,8 +20,8 @@ let period = 0.1
 let now () = Int64.to_float (Mtime_clock.elapsed_ns ()) *. 1e-9
 
 let make ~live ~on_closed output =
-  { output; live; on_closed; closed = false; board = (fun () -> []); drawn = 0; asking = false;
-    pending = Buffer.create 256; due = false; last = neg_infinity }
+  { output; live; on_closed; closed = false; board = (fun ~rows:_ ~columns:_ -> []); drawn = []; quiet = None;
+    asking = false; pending = Buffer.create 256; due = false; last = neg_infinity }
 
 let rec write_from s text from =
   let left = String.length text - from in
@@ -39,22 +40,45 @@ let write s text = write_from s text 0
 
 (* {1 The terminal} *)
 
-(* Up over the board, and away with it. *)
-let erase s =
-  let n = s.drawn in
-  s.drawn <- 0;
-  if n = 0 then "" else Printf.sprintf "\r\027[%dA\027[J" n
+(* What is typed would move the board, and is not shown while there is one. *)
+let hush s = if s.live && s.quiet = None then s.quiet <- Terminal.hush ()
+
+let unhush s =
+  Option.iter Terminal.unhush s.quiet;
+  s.quiet <- None
+
+(* How wide a line is on the terminal: colours take no room. *)
+let width line =
+  let rec visible i n =
+    if i >= String.length line then n
+    else if line.[i] = '\027' then
+      match String.index_from_opt line i 'm' with Some stop -> visible (stop + 1) n | None -> n
+    else visible (i + 1) (if Char.code line.[i] land 0xC0 = 0x80 then n else n + 1)
+  in
+  visible 0 0
+
+(* Up over the board, and away with it. On a terminal that became narrower, lines may have been broken. *)
+let erase s ~columns =
+  let broken width = max 1 ((width + columns - 1) / columns) in
+  let rows = List.fold_left (fun n width -> n + broken width) 0 s.drawn in
+  s.drawn <- [];
+  if rows = 0 then "" else Printf.sprintf "\r\027[%dA\027[J" rows
+
+(* The log keeps a third of the terminal. *)
+let rows_of_board rows = max 1 (rows - max 4 (rows / 3))
 
 (* The log's new lines, and the board below. A line of the board that is too long is cut by the terminal, for a line
-   that went on below would not be erased. *)
+   that went on below would not be erased. In the background there is no board: the terminal is another's. *)
 let draw s ~board =
-  let erased = erase s in
+  let rows, columns = Terminal.size s.output in
+  let erased = erase s ~columns in
   let text = Buffer.contents s.pending in
   Buffer.clear s.pending;
-  let lines = if board then s.board () else [] in
-  s.drawn <- List.length lines;
+  let lines = if board && Terminal.is_ours s.output then s.board ~rows:(rows_of_board rows) ~columns else [] in
+  s.drawn <- List.map (fun line -> min columns (width line)) lines;
   let below = if lines = [] then "" else "\027[?7l" ^ String.concat "\n" lines ^ "\n\027[?7h" in
   s.last <- now ();
+  if lines <> [] then hush s;
   write s (erased ^ text ^ below)
 
 let redraw s =
@@ -93,7 +117,10 @@ let show s board =
   changed s
 
 let ask s prompt =
-  if s.live then draw s ~board:false;
+  if s.live then begin
+    draw s ~board:false;
+    unhush s
+  end;
   s.asking <- true;
   write s (prompt ^ " ")
 
@@ -102,6 +129,17 @@ let answered s text =
   Option.iter (fun text -> write s (text ^ "\n")) text;
   changed s
 
+(* {1 The end, for good or for a while} *)
+
+let restore s = unhush s
+
 let close s =
   give_up s;
-  if s.live then draw s ~board:false
+  if s.live then draw s ~board:false;
+  restore s
+
+let suspend s ~stop =
+  if s.live && not s.asking then draw s ~board:false;
+  restore s;
+  stop ();
+  changed s

@@ -10,8 +10,10 @@ val make : live:bool -> on_closed:(Unix.error -> unit) -> Unix.file_descr -> t
 val print : t -> string -> unit
 (** [print s text] adds the lines of [text] to the log. *)
 
-val show : t -> (unit -> string list) -> unit
-(** [show s board] has the lines [board ()] under the log from now on. *)
+val show : t -> (rows:int -> columns:int -> string list) -> unit
+(** [show s board] has the lines [board ~rows ~columns] under the log from now on: at most [rows], of [columns]
+    characters. What is typed while a board is there is not shown, for it would move the board. A job in the background
+    has no board. *)
 
 val changed : t -> unit
 (** [changed s] has the board redrawn, as its lines are no longer what they were. *)
@@ -22,5 +24,11 @@ val ask : t -> string -> unit
 val answered : t -> string option -> unit
 (** [answered s text] ends the line of the question with [text]; [None] after what was typed there, which ended it. *)
 
+val suspend : t -> stop:(unit -> unit) -> unit
+(** [suspend s ~stop] leaves the terminal to others while [stop ()] lasts, and then shows the board again. *)
+
+val restore : t -> unit
+(** [restore s] shows what is typed again: before the process ends at once. *)
+
 val close : t -> unit
-(** [close s] writes what is left, and takes the board away. *)
+(** [close s] writes what is left, takes the board away, and leaves the terminal as it was. *)

@@ -1,4 +1,4 @@
-(** What the vehicles of a program do right now: a line for each, for the foot of a terminal. *)
+(** What the vehicles of a program do right now, and what it waits for: the foot of a terminal. *)
 
 open Dolphin_semantics
 
@@ -10,13 +10,14 @@ val start : t
 val transition : t -> time:float -> Transition.t -> t
 (** [transition b ~time t] is [b] after [t] at [time] (seconds). *)
 
-val news : t -> time:float -> World.vehicle_state -> t
-(** [news b ~time state] is [b] after the news of a vehicle. *)
+val news : t -> World.vehicle_state -> t
+(** [news b state] is [b] after the news of a vehicle. *)
 
-val lines : t -> string list
-(** [lines b] is a line with the time, then one for each bound vehicle, in pick order: its task, for how long it has
-    been running, its position and its battery. Of many vehicles the first {!most_lines} are shown. Empty while no
-    vehicle is bound. *)
-
-val most_lines : int
-(** 12. *)
+val lines :
+  t -> now:float -> estimate:(Core.vehicle -> string option) -> waiting:Waiting.t list -> rows:int -> columns:int ->
+  colour:bool -> string list
+(** [lines b ~now ~estimate ~waiting ~rows ~columns ~colour] is at most [rows] lines of at most [columns] characters,
+    colours not counted: the time and how many vehicles there are; what the program waits for; then one for each bound
+    vehicle: its task, how far it is with it ([estimate]), for how long it has been running, its battery or that it has
+    no link, its position. Vehicles in trouble come first: without a link, with a failed task, with little left in
+    their batteries; then in pick order. Empty while no vehicle is bound and nothing is waited for. *)

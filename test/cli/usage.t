@@ -25,7 +25,7 @@
            dolphin exec mission.dol --fleet harbour.fleet --seed 7 --answer 2
   $ dolphin exec --help=plain | grep -c '^EXAMPLES\|^FILES\|^OPTIONS\|^DESCRIPTION'
   4
-  $ dolphin --help=plain | sed -n '/^COMMANDS/,/^[A-Z]* OPTIONS/p' | grep '^       \(check\|exec\|parse\) '
+  $ dolphin --help=plain | sed -n '/^WRITE A PROGRAM/,/^EXAMPLES/p' | grep '^       \(check\|exec\|parse\) '
          check [--fleet=FLEET] [OPTION]… PROG
-         exec [OPTION]… PROG
          parse [OPTION]… PROG
+         exec [OPTION]… PROG

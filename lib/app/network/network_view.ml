@@ -100,7 +100,11 @@ let is_over network interruption ~until = Interruption.happened interruption || 
 let watch network definition interruption ~until =
   let screen = Screen.make ~live:true ~on_closed:(fun _ -> Interruption.interrupt interruption) Unix.stdout in
   let head () = Printf.sprintf "%s hears, Ctrl-C ends" (Udp_platform.name_on_network network) in
-  Screen.show screen (fun () -> head () :: lines network definition ~json:false);
+  let board ~rows ~columns =
+    let all = head () :: lines network definition ~json:false in
+    List.map (fun line -> fst (Phrase.split columns line)) (List.filteri (fun i _ -> i < rows) all)
+  in
+  Screen.show screen board;
   let rec go () =
     if is_over network interruption ~until then Lwt.return_unit
     else begin
@@ -120,7 +124,7 @@ let rec report network definition interruption ~until =
 
 let show network definition interruption ~as_json ~once ~seconds =
   let until = Option.value seconds ~default:infinity in
-  if once || not (as_json || Terminal_run.is_live ()) then
+  if once || not (as_json || Terminal.is_live ()) then
     let patience = Option.value seconds ~default:(Udp_platform.announce_period network) in
     wait interruption patience >|= fun () -> print (lines network definition ~json:as_json)
   else if as_json then report network definition interruption ~until

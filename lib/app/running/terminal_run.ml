@@ -1,17 +1,23 @@
+open Dolphin_semantics
 open Dolphin_runtime
 open Dolphin_display
 open Dolphin_trace
 open Lwt.Infix
 
-let is_live () =
-  let dumb = match Sys.getenv_opt "TERM" with None | Some ("" | "dumb") -> true | Some _ -> false in
-  Unix.isatty Unix.stdout && not dumb
+type show = { quiet : bool; only : string list; colour : bool option; journal : string option }
 
 type t = {
   screen : Screen.t;
   interruption : Interruption.t;
+  program : Program_file.t;
+  show : show;
+  live : bool;
+  colour : bool;
   mutable log : Log.t;
   mutable board : Status.t;
+  mutable outcome : Outcome.t;
+  mutable configuration : Configuration.t;
+  mutable world : World.t;
   mutable view : Run.view;
 }
 
@@ -22,22 +28,34 @@ let trouble_of_log : Unix.error -> Error.t option = function
 
 (* {1 What is shown} *)
 
-let print t lines = List.iter (Screen.print t.screen) lines
-let remark t text = Screen.print t.screen (Log.remark t.log ~time:(t.view.now ()) text)
+let print t line =
+  if Log.is_shown ~quiet:t.show.quiet ~only:t.show.only line then
+    Screen.print t.screen (Log.tint ~colour:t.colour line)
+
+let remark t text = print t (Log.remark t.log ~time:(t.view.now ()) text)
+
+let see_transition t ~time (transition : Transition.t) =
+  t.board <- Status.transition t.board ~time transition;
+  t.outcome <- Outcome.transition t.outcome ~time transition;
+  t.configuration <- transition.next
+
+let see_vehicle t state =
+  t.board <- Status.news t.board state;
+  t.world <- World.add state t.world
 
 (* The driver interrupts stuck programs by itself. *)
 let transition t ~time ~cause:_ transition =
-  t.board <- Status.transition t.board ~time transition;
+  see_transition t ~time transition;
   let stuck = not (Interruption.happened t.interruption) in
   let log, lines = Log.transition ~stuck t.log ~time transition in
   t.log <- log;
-  print t lines
+  List.iter (print t) lines
 
 let news t ~time state =
-  t.board <- Status.news t.board ~time state;
+  see_vehicle t state;
   let log, lines = Log.news t.log ~time state in
   t.log <- log;
-  print t lines;
+  List.iter (print t) lines;
   Screen.changed t.screen
 
 (* The log and the board as they were when the console died; nothing is printed again. *)
@@ -45,19 +63,32 @@ let replayed t (entry : Entry.t) replay =
   match entry, Replay.latest replay with
   | Vehicle { time; state }, _ ->
     t.log <- fst (Log.news t.log ~time state);
-    t.board <- Status.news t.board ~time state
+    see_vehicle t state
   | Transition { time; _ }, Some (_, transition) ->
     t.log <- fst (Log.transition t.log ~time transition);
-    t.board <- Status.transition t.board ~time transition
+    see_transition t ~time transition
   | (Header _ | Partial _ | Label _ | Event _ | Transition _ | Note _ | Resumed _ | End _), _ -> ()
 
 (* How far vehicles are with their plans. *)
-let estimate ({ vehicle; plan; share; remaining } : Run.estimate) =
-  let left = match remaining with Some t -> Printf.sprintf ", %s left" (Phrase.time t) | None -> "" in
-  Printf.sprintf "         %s: %.0f%% of %s%s" (Phrase.one_line vehicle) (100. *. share) (Phrase.one_line plan) left
+let estimate estimates v =
+  let of_it ({ share; remaining; _ } : Run.estimate) =
+    let left = match remaining with Some t -> Printf.sprintf ", %s left" (Phrase.time t) | None -> "" in
+    Printf.sprintf "%.0f%%%s" (100. *. share) left
+  in
+  Option.map of_it (List.find_opt (fun (e : Run.estimate) -> e.vehicle = v) estimates)
 
-let board t () =
-  match Status.lines t.board with [] -> [] | lines -> lines @ List.map estimate (t.view.estimates ())
+let board t ~rows ~columns =
+  let { Program_file.program; source; _ } = t.program in
+  Status.lines t.board ~now:(t.view.now ())
+    ~estimate:(estimate (t.view.estimates ()))
+    ~waiting:(Waiting.list program ~source t.world t.configuration)
+    ~rows ~columns ~colour:t.colour
+
+(* The time passes and the terminal changes its size although nothing happens. *)
+let rec refresh t =
+  Lwt_unix.sleep 1. >>= fun () ->
+  Screen.changed t.screen;
+  refresh t
 
 (* {1 The person} *)
 
@@ -78,32 +109,67 @@ let person t : Questions.person =
 
 (* {1 The run} *)
 
-let front t ~live ~notice ~again : Run.front =
+(* Ctrl-Z: the terminal is left as it was found, and found again. *)
+let stop_on_request t =
+  let rec on_signal () =
+    let notification = Lwt_unix.make_notification ~once:true stop in
+    Sys.set_signal Sys.sigtstp (Signal_handle (fun _ -> Lwt_unix.send_notification notification))
+  and stop () =
+    Screen.suspend t.screen ~stop:(fun () ->
+        Sys.set_signal Sys.sigtstp Signal_default;
+        Unix.kill (Unix.getpid ()) Sys.sigtstp);
+    on_signal ()
+  in
+  if t.live then on_signal ()
+
+let front t ~notice ~again : Run.front =
+  let again () =
+    Screen.restore t.screen;
+    again ()
+  in
   let opened view =
     Interruption.on_signals ~again t.interruption;
+    stop_on_request t;
     t.view <- view;
     Screen.show t.screen (board t)
   in
   { replayed = replayed t; notice; opened; remark = remark t;
     observer = { transition = transition t; news = news t };
-    person = person t; wants_telemetry = live }
+    person = person t; wants_telemetry = t.live }
 
-let run ~notice ~again f =
+let summarise t =
+  if t.live || t.show.quiet then
+    List.iter (Screen.print t.screen)
+      (Outcome.lines t.outcome ~now:(t.view.now ()) ~journal:t.show.journal ~colour:t.colour)
+
+let has_no_colour () = match Sys.getenv_opt "NO_COLOR" with None | Some "" -> false | Some _ -> true
+
+let make show program interruption ~on_closed =
+  let live = Terminal.is_live () in
+  { screen = Screen.make ~live ~on_closed Unix.stdout;
+    interruption; program; show; live;
+    colour = Option.value show.colour ~default:(live && not (has_no_colour ()));
+    log = Log.start; board = Status.start; outcome = Outcome.start;
+    configuration = Configuration.initial program.program;
+    world = World.empty;
+    view = { now = (fun () -> 0.); estimates = (fun () -> []) } }
+
+let run ~notice ~again show program f =
   let interruption = Interruption.make () in
-  let live = is_live () in
   let trouble = ref None in
   let on_closed error =
     trouble := trouble_of_log error;
     Interruption.interrupt interruption
   in
-  let screen = Screen.make ~live ~on_closed Unix.stdout in
-  let view : Run.view = { now = (fun () -> 0.); estimates = (fun () -> []) } in
-  let t = { screen; interruption; log = Log.start; board = Status.start; view } in
+  let t = make show program interruption ~on_closed in
+  let refreshed = if t.live then refresh t else Lwt.return_unit in
   let close () =
-    Screen.close screen;
+    Lwt.cancel refreshed;
+    summarise t;
+    Screen.close t.screen;
     Lwt.return_unit
   in
-  let result = Lwt_main.run (Lwt.finalize (fun () -> f (front t ~live ~notice ~again) ~interruption) close) in
+  let result = Lwt_main.run (Lwt.finalize (fun () -> f (front t ~notice ~again) ~interruption) close) in
   match result, !trouble with
   | Ok _, Some why -> Error why
   | (Ok _ | Error _), _ -> result

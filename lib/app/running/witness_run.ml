@@ -18,7 +18,7 @@ let without_time number text =
 let print_log first log transitions =
   let print (number, log) (t : Transition.t) =
     let log, lines = Log.transition log ~time:0. t in
-    List.iter (fun line -> print_endline (without_time number line)) lines;
+    List.iter (fun (line : Log.line) -> print_endline (without_time number line.text)) lines;
     List.iter (fun a -> print_endline (Format.asprintf "      if %a" World.pp_assumption a)) t.assumed;
     (number + 1, log)
   in

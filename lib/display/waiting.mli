@@ -1,0 +1,15 @@
+(** What a program waits for, besides its vehicles: for the person who asks why nothing happens. *)
+
+open Dolphin_semantics
+
+type t = {
+  what : string;  (** ["consume ready:2 && battery(v) > 0.3"], in the words of the program; ["an answer"] *)
+  at : Dolphin_syntax.Location.t option;
+  lacking : string option;
+  (** of several conditions joined by [&&], the first that does not hold: ["not yet battery(v) > 0.3"]; of a [pick],
+      how many vehicles are in reach *)
+}
+
+val list : Core.program -> source:string -> World.t -> Configuration.t -> t list
+(** [list program ~source world c] is what [c] waits for in [world], each place of the program once, leftmost first.
+    [source] is the text of [program]. The tasks of vehicles are not among it. *)

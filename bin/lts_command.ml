@@ -14,7 +14,7 @@ let write format output graph =
     Ok Exit_status.Done
 
 let compare_graphs left right =
-  match Compare.strong left right with
+  match Compare.strong (Graph.without_doubles left) (Graph.without_doubles right) with
   | Ok () -> print_endline "strongly bisimilar"; Exit_status.Done
   | Error difference ->
     Format.printf "not bisimilar@.%a@." Compare.pp_difference difference;
@@ -26,7 +26,7 @@ let run path other fleet answers faults limit format quotient output =
     (let* graph = State_graph.load world path in
      match other, quotient with
      | Some other, _ -> Result.map (compare_graphs graph) (State_graph.load world other)
-     | None, Some Strong -> write format output (Partition.minimal graph)
+     | None, Some Strong -> write format output (Partition.minimal (Graph.without_doubles graph))
      | None, None -> write format output graph)
 
 (* {1 The command} *)
@@ -66,7 +66,9 @@ let limit =
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) writes the labelled transition system of a program in its world: its states are the configurations, \
-        its transitions carry the labels of $(i,docs/semantics.md). The world is that of $(mname) $(b,explore).";
+        its transitions are steps, with the labels of $(i,docs/semantics.md): two steps with one label that lead to \
+        one state are two transitions, as $(mname) $(b,explore) counts them. The world is that of $(mname) \
+        $(b,explore).";
     `P "With $(b,--compare) it tells two such graphs apart, by a formula that only one of them fulfils and, where \
         there is one, a run that only one of them has.";
     `S Manpage.s_examples;

@@ -39,8 +39,8 @@ let to_list g =
   List.rev !all
 
 (* The graph of the transitions [(sources.(i), edge_labels.(i), targets.(i))], in any order: sorted by target, then
-   stably by label, then by source, so that doubles are neighbours. *)
-let assemble ~initial ~states ~names ~text sources edge_labels targets =
+   stably by label, then by source, so that doubles are neighbours: one of them is kept, or all. *)
+let assemble ?(doubles = false) ~initial ~states ~names ~text sources edge_labels targets =
   let count = Packed.length sources in
   let order = Packed.make count in
   for i = 0 to count - 1 do
@@ -57,13 +57,13 @@ let assemble ~initial ~states ~names ~text sources edge_labels targets =
     && Packed.get edge_labels i = Packed.get edge_labels j
     && Packed.get targets i = Packed.get targets j
   in
-  let doubled k = k > 0 && same (Packed.get order k) (Packed.get order (k - 1)) in
-  let doubles = ref 0 in
+  let doubled k = (not doubles) && k > 0 && same (Packed.get order k) (Packed.get order (k - 1)) in
+  let left_out = ref 0 in
   for k = 0 to count - 1 do
-    if doubled k then incr doubles
+    if doubled k then incr left_out
   done;
   let rows = Packed.make (states + 1) in
-  let sorted_labels = Packed.make (count - !doubles) and sorted_targets = Packed.make (count - !doubles) in
+  let sorted_labels = Packed.make (count - !left_out) and sorted_targets = Packed.make (count - !left_out) in
   let filled = ref 0 in
   for k = 0 to count - 1 do
     if not (doubled k) then begin
@@ -121,12 +121,12 @@ module Builder = struct
 
   let add b s text s' = add_numbered b s (label b text) s'
 
-  let finish ?(initial = 0) ?(states = 1) ?text b =
+  let finish ?doubles ?(initial = 0) ?(states = 1) ?text b =
     check_state initial;
     let states = max (max states b.least_states) (initial + 1) in
     let names = Array.of_list (List.rev b.names) in
     let contents = Packed.Growing.contents in
-    assemble ~initial ~states ~names ~text (contents b.sources) (contents b.edge_labels) (contents b.targets)
+    assemble ?doubles ~initial ~states ~names ~text (contents b.sources) (contents b.edge_labels) (contents b.targets)
 end
 
 let of_list ?initial ?states transitions =
@@ -171,6 +171,8 @@ let sources g =
 
 let reverse g =
   assemble ~initial:g.initial ~states:(states g) ~names:g.names ~text:g.text g.edge_targets g.edge_labels (sources g)
+
+let without_doubles g = reverse (reverse g)
 
 let equal g h =
   initial g = initial h

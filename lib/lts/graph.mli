@@ -2,7 +2,8 @@
 
     States are numbered from 0, and so are labels. The transitions that leave one state are numbered in a row:
     those of state [s] are [first g s], [first g s + 1] ... [first g (s + 1) - 1], in ascending order of label, then
-    target. A transition that is there twice is one. A transition takes 8 bytes, a state 4. *)
+    target. A transition that is there twice is one, unless the graph is made {e with doubles}. What compares or
+    minimises graphs takes those without. A transition takes 8 bytes, a state 4. *)
 
 type t
 
@@ -26,10 +27,10 @@ module Builder : sig
   (** [add_numbered b s (label b text) s'] is [add b s text s'], faster.
       @raise Invalid_argument also if there is no such label. *)
 
-  val finish : ?initial:int -> ?states:int -> ?text:(int -> string) -> t -> graph
+  val finish : ?doubles:bool -> ?initial:int -> ?states:int -> ?text:(int -> string) -> t -> graph
   (** [finish b] is the graph with the transitions added so far. Its number of states is [states] or, if that is less
       or absent, the least that holds all states mentioned. [initial] is 0 unless given; [text s] describes state
-      [s]. *)
+      [s]. [doubles] ([false] by default) is whether a transition that was added twice is there twice. *)
 end
 
 val of_list : ?initial:int -> ?states:int -> (int * string * int) list -> t
@@ -47,6 +48,9 @@ val union : t -> t -> t
 
 val reverse : t -> t
 (** [reverse g] is [g] with every transition turned round; the numbers of labels are the same. *)
+
+val without_doubles : t -> t
+(** [without_doubles g] is [g] where what is there twice is there once. *)
 
 (** {1:read To read} *)
 

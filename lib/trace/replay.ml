@@ -169,6 +169,8 @@ let caused r (step : Step.t) event =
           let expected = Step.of_transition r.program r.configuration t in
           match Step.difference ~places:r.places expected step with
           | Some what -> mismatch r (Printf.sprintf "%s makes another transition: %s" by what)
+          | None when step.choice > 0 ->
+            mismatch r (Printf.sprintf "%s makes one transition, so there is no choice %d" by step.choice)
           | None ->
             let is_left () = Transition.internal r.program r.world r.configuration () <> Seq.Nil in
             let stuck = event = Interruption && not (is_left ()) in

@@ -77,6 +77,25 @@ A graph is bisimilar to itself, from a file too, and so is that of its quotient.
   $ dolphin lts two.json --compare two.aut
   strongly bisimilar
 
+Two steps with one label that lead to one state are two transitions, as `dolphin explore` counts them; one in what is
+minimised.
+
+  $ cat > alike.dol <<'END'
+  > t = action { post x: 1 }
+  > execute t | t
+  > END
+  $ dolphin lts alike.dol
+  des (0, 5, 5)
+  (0,"execute",1)
+  (1,"act(post x:1)",2)
+  (1,"act(post x:1)",2)
+  (2,"act(post x:1)",3)
+  (3,"end",4)
+  $ dolphin explore alike.dol --reduction none | grep -o '[0-9]* states, [0-9]* transitions'
+  5 states, 5 transitions
+  $ dolphin lts alike.dol --quotient strong | head -1
+  des (0, 4, 5)
+
 Programs that behave differently.
 
   $ dolphin lts two.dol --compare once.dol

@@ -92,6 +92,19 @@ let many_choices () =
      | No_run _ -> ()
      | verdict -> Alcotest.failf "other vehicles: %s" (show verdict))
 
+(* Of transitions that look alike, [choice] says which one was taken. An event makes one only. *)
+let choices () =
+  let r = Runs.of_text "v = pick { type 'UUV' }\nexecute task('t')[v]" in
+  let chosen label =
+    Str.global_replace (Str.regexp (Printf.sprintf {|"label":"%s[^"]*"|} label)) {|\0,"choice":1|} r.journal
+  in
+  let is_refused label =
+    match Runs.check_text r (chosen label) with
+    | No_run _ -> ()
+    | verdict -> Alcotest.failf "%s: %s" label (show verdict)
+  in
+  List.iter is_refused [ "start"; "done" ]
+
 (* {1 Cut journals} *)
 
 (* Cut anywhere it is the beginning of a run, or said to be no journal as long as there is no header. *)
@@ -166,5 +179,6 @@ let () =
           case "all kinds of tuples" tuples;
           case "a pick of 30 among 60" many_choices;
           case "vehicles by hearing and by id" orders;
+          case "a choice that was not there" choices;
           case "cut at every byte" cut_everywhere;
           case "what is no journal is refused" refused ] ) ]

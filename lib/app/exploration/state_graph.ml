@@ -18,7 +18,7 @@ let graph (program : Core.program) (space : Reference.t) =
     Graph.Builder.add builder from (Format.asprintf "%a" Label.pp t.label) target in
   Array.iteri (fun from edges -> List.iter (add from) edges) space.edges;
   let text s = Format.asprintf "%a" (Configuration.pp program) space.states.(s).configuration in
-  Graph.Builder.finish ~states:(Array.length space.states) ~text builder
+  Graph.Builder.finish ~doubles:true ~states:(Array.length space.states) ~text builder
 
 let explored ~limit environment (program : Program_file.t) world =
   match Reference.explore ~limit environment program.program world with

@@ -196,7 +196,7 @@ WithoutA(S, V) == [ S EXCEPT !.A = [ v \in DOMAIN @ \ V |-> @[v] ] ]
 CutOff(s, rs) == Asking([ s EXCEPT !.S = WithoutA(@, Range(Flatten(Each(rs, Running)))) ], Cut(rs))
 
 (* S |- g => x, S', ds: the code g with these arguments, once for each outcome that it may have by what sensors show.
-   A fault leaves no effect. What was seen stays so for the rest of the step. *)
+   Of a fault only what was said stays. What was seen stays so for the rest of the step. *)
 After(S, m) == [ S EXCEPT !.store = m.store, !.N = m.N, !.sees = m.sees ]
 Knowing(S, sees) == [ S EXCEPT !.sees = sees ]
 
@@ -205,13 +205,15 @@ Over(S) == IF HasReadings THEN [ S EXCEPT !.store = KeptInStore(@) ] ELSE S
 
 Endless == "this code does not come to an end, and code inside of a task is atomic"
 
+Said(deeds) == SelectSeq(deeds, LAMBDA d : d.did = "message")
+
 RunCode(S, mode, closure, arguments) ==
   LET result(m, is, value, after, deeds) ==
         [ is |-> is, value |-> value, verdict |-> m.verdict, S |-> after, deeds |-> deeds ]
       of(m) ==
         CASE m.stop[1] = "finished" -> result(m, "value", m.stop[2], After(S, m), m.deeds)
           [] m.stop[1] = "halted" -> result(m, "halt", m.stop[2], After(S, m), m.deeds)
-          [] m.stop[1] = "faulted" -> result(m, "fault", m.stop[2], Knowing(S, m.sees), << >>)
+          [] m.stop[1] = "faulted" -> result(m, "fault", m.stop[2], Knowing(S, m.sees), Said(m.deeds))
           [] m.stop[1] = "exhausted" -> result(m, "fault", Fault(Endless, -closure[2]), Knowing(S, m.sees), << >>)
   IN Each(Run(Call(closure, arguments), S, mode, AtomicFuel), of)
 
@@ -220,8 +222,8 @@ CodeStep(rule, label, run, out) ==
   [ Step(rule, label, Program, run.S, out, EffectsOf(run.deeds)) EXCEPT !.deeds = run.deeds ]
 
 (* Code is faulty; which rule that is depends on what the code is for. *)
-Broken(S, fault) ==
-  [ Step("", "broken(" \o fault.message \o ")", Program, S, Err(fault), << >>) EXCEPT !.rules = << >> ]
+Broken(S, fault, deeds) ==
+  [ Step("", "broken(" \o fault.message \o ")", Program, S, Err(fault), EffectsOf(Said(deeds))) EXCEPT !.rules = << >> ]
 
 (* {2 Platform tasks} *)
 
@@ -384,7 +386,7 @@ WithValue(S, r, j, run) ==
     [] IsReading(run.value) -> Assert(FALSE, OpenHere(run.value[3], -CodeOf(r)[j][2]))
     [] r.op = "during" ->
          << IF IsTime(run.value) THEN DURING_SET(run, r, Time(run.value))
-            ELSE WithFault(r, Broken(Knowing(S, run.S.sees), NoTime(run.value, r.time))) >>
+            ELSE WithFault(r, Broken(Knowing(S, run.S.sees), NoTime(run.value, r.time), run.deeds)) >>
     [] ~Truth(run.value) -> << >>
     [] r.op = "condition" -> << CONDITION(run) >>
     [] r.op = "allOf" -> << ALLOF_WHEN(run, r.choices, j) >>
@@ -392,7 +394,7 @@ WithValue(S, r, j, run) ==
     [] r.op = "until" -> << UNTIL_CUT(run, r.body) >>
 
 WithCode(S, r, j, run) ==
-  LET broken == Broken(run.S, run.value)
+  LET broken == Broken(run.S, run.value, run.deeds)
   IN CASE run.is = "value" -> WithValue(S, r, j, run)
        [] run.is = "halt" -> << HALT(run) >>
        [] run.is = "fault" -> << IF run.value.assertion THEN ASSERT_ERR(broken, run.value) ELSE WithFault(r, broken) >>

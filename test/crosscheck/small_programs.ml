@@ -25,6 +25,8 @@ let tasks =
       ("a handler that breaks leaves nothing",
        two ^ "execute watch (watch task('p')[a] onError { post k: 1; 1 / 0 }) onError { ignore() }\n\
               if (poll(k: 1)) { message 'left' }");
+      ("code that breaks has said what it said",
+       "execute watch (action { message 'a'; post k: 1; 1 / 0 }) onError { message 'b'; ignore() }");
       ("a guard that is false did nothing",
        "post k: 1\nexecute condition { consume k: 1; false } | condition { poll k: 1 }");
       ("until stops what runs, or what did not start",
@@ -176,8 +178,8 @@ let calls =
       ("calls that differ in their arguments", "x = s.level(ask 'how many?', [s])");
       ("calls in code of tasks",
        two
-       ^ "t = watch action { post x: 1; y = s.level } onError { e -> message e; ignore() }\n\
-          execute t >> watch condition { s.ready(1) } onError { e -> message e; ignore() }");
+       ^ "h = s.self\nt = watch action { post x: 1; y = h.level } onError { e -> message e; ignore() }\n\
+          execute t >> watch condition { h.ready(1) } onError { e -> message e; ignore() }");
       ("tasks of a supplier, executed twice",
        two ^ "t = s.next()\nexecute watch (t[a] | t[b]) onError { ignore() }\nexecute t >> s.self.next()");
       ("an object in a closure", "f = { s.level }\nx = f() + f()\nexecute watch action { f() } onError { ignore() }");

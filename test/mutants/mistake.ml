@@ -363,8 +363,8 @@ let local_step =
         {|{ s with allocation = Vehicle_map.add v p s.allocation } (continue ())|},
         {|{ s with allocation = Vehicle_map.remove v s.allocation } (continue ())|} );
       ( "a faulty handler ends the run",
-        {|| Faulty fault, _ when Fault.is_assertion fault ->|},
-        {|| Faulty fault, _ when Fault.is_assertion fault || true ->|} );
+        {|| Faulty (fault, said), _ when Fault.is_assertion fault ->|},
+        {|| Faulty (fault, said), _ when Fault.is_assertion fault || true ->|} );
       ( "a handler that ignores propagates",
         {|(asked @ Run_code.effects deeds) (ignored ())|},
         {|(asked @ Run_code.effects deeds) (ignore ignored; propagated fault)|} );
@@ -374,10 +374,14 @@ let run_code =
   in_file "lib/semantics/rules/run_code.ml" ~noticed_by:"semantics/test_rules"
     [
       ( "code that is faulty has effects",
-        {|    | Faulted fault -> Faulty fault
+        {|    | Faulted fault -> Faulty (fault, said deeds)
 |},
-        {|    | Faulted fault -> if fault.message = "" then Faulty fault else Halts (fault.message, after context s, deeds)
+        {|    | Faulted fault ->
+        if fault.message = "" then Faulty (fault, []) else Halts (fault.message, after context s, deeds)
 |} );
+      ( "what faulty code said is lost",
+        {|    | Faulted fault -> Faulty (fault, said deeds)|},
+        {|    | Faulted fault -> Faulty (fault, List.filter (fun _ -> false) (said deeds))|} );
       ( "code changes no variables",
         {|{ s with store = context.store; tuples = context.tuples }|},
         {|{ s with tuples = context.tuples }|} );

@@ -36,6 +36,16 @@ let tasks : example list =
       "ACTION, SEQ-2" "idle(1)" [ "set timer 1 to 1 s" ];
     example Action_err "code breaks" (task "action { post a: 1; 1 / 0 }") "broken(division by zero)"
       "ACTION-ERR, EXECUTE-ERR" "failed: division by zero" [ released; "end: division by zero" ];
+    example Action_err "what it said stays said" (task "action { message 'a'; post a: 1; message 'b'; 1 / 0 }")
+      "broken(division by zero)" "ACTION-ERR, EXECUTE-ERR" "failed: division by zero"
+      [ "say a"; "say b"; released; "end: division by zero" ];
+    example Condition_err "what it said stays said"
+      (task "watch (condition { message 'a'; 1 / 0 } | during 5 run %q) onError { message 'b'; 1 / 0 }")
+      "broken(division by zero)" "CONDITION-ERR, PAR-ERR, WATCH-PROPAGATE, EXECUTE-ERR" "failed: division by zero"
+      [ "say a"; "cancel timer 1"; "say b"; released; "end: division by zero" ];
+    example Assert_err "what was said before stays said" (task "action { message 'a'; assert { false } }")
+      "broken(assertion failed)" "ASSERT-ERR" "failed: assertion failed"
+      [ "say a"; released; "end: assertion failed" ];
     example Condition "true at last" (task "condition { poll(a: 1) } | action { post a: 1 }") "check"
       "CONDITION, EXECUTE-DONE" "script" [];
     example Condition_err "its code breaks" (task "condition { 1 / 0 }") "broken(division by zero)"
@@ -120,10 +130,10 @@ let tasks : example list =
       "DONE, DURING-2, EXECUTE-DONE" "script" [ "cancel timer 1" ];
     example During_err "the task fails in time" (task "watch (during 60 run %p) onError { ignore() }")
       "fail(noptilus-1, p, broken)" "FAIL, DURING-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [ "cancel timer 1" ];
-    example During_err "code gives no time, and leaves no effect"
+    example During_err "code gives no time, and leaves no effect but what it said"
       (task "watch (during { message 'm'; 'soon' } run %p) onError { ignore() }")
       "broken(during takes a time of 0 seconds or more, this code gives soon)"
-      "DURING-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [];
+      "DURING-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [ "say m" ];
     example Watch_1 "the task goes on" (task "watch %p onError { }") "start(noptilus-1, p)" "START, WATCH-1"
       "watch p[noptilus-1]..." [ "start p on noptilus-1" ];
     example Watch_2 "the task ends well" (task "watch %p onError { }")
@@ -137,10 +147,10 @@ let tasks : example list =
       (task "watch (watch %p onError { message 'in' }) onError { message 'out'; ignore() }")
       "fail(noptilus-1, p, broken)" "FAIL, WATCH-PROPAGATE, WATCH-IGNORE, EXECUTE-DONE" "script"
       [ "say in"; "say out" ];
-    example Watch_propagate "a handler that breaks is an error itself, and leaves no effect"
+    example Watch_propagate "a handler that breaks is an error itself, and leaves no effect but what it said"
       (task "watch (watch %p onError { message 'in'; ignore(); 1 / 0 }) onError { message it; ignore() }")
       "fail(noptilus-1, p, broken)" "FAIL, WATCH-PROPAGATE, WATCH-IGNORE, EXECUTE-DONE" "script"
-      [ "say division by zero" ];
+      [ "say in"; "say division by zero" ];
     example Watch_halt "the program ends" (task "(watch (during 5 run %p) onError { message 'm'; halt 'enough' }) | %q")
       "fail(noptilus-1, p, broken)" "FAIL, DURING-ERR, WATCH-HALT" "halted: enough"
       [ "cancel timer 1"; "say m"; "stop noptilus-2"; released; "end: halted enough" ] ]

@@ -32,7 +32,8 @@ let within programs =
   let first, rest = split [] program in
   let* calls = list_size (int_range 1 3) call in
   let* rest = List.fold_left (fun rest call -> Fun.flip ( >>= ) (insert (statements call)) rest) (return rest) calls in
-  return (first @ statements "s = getSupplier()" @ rest)
+  (* Assigned twice, [s] is not known to be the supplier, so its calls in code of tasks are faults of the run. *)
+  return (first @ statements "s = getSupplier()\ns = s" @ rest)
 
 let task name = Ok (Core.Task (Platform { name; plan = None; task_site = Fault.unknown_site }))
 

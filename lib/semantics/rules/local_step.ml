@@ -60,9 +60,11 @@ let rec settle program world s derivation asked (change : Task_rules.change) =
       | Halts (message, s, deeds), _ ->
         let derivation = derivation @ [ Rule.Watch_halt ] and asked = asked @ Run_code.effects deeds in
         Decision.Decided { after = s; outcome = Ends (Halted message); derivation; named = change.label; asked }
-      | Faulty fault, _ when Fault.is_assertion fault ->
-        Decided { (come_to (Ends (Failed fault))) with derivation = derivation @ [ Rule.Assert_err ] }
-      | Faulty fault, _ -> settle program world s derivation asked (propagated fault)
+      | Faulty (fault, said), _ when Fault.is_assertion fault ->
+        let asked = asked @ Run_code.effects said in
+        Decided { (come_to (Ends (Failed fault))) with derivation = derivation @ [ Rule.Assert_err ]; asked }
+      | Faulty (fault, said), _ ->
+        settle program world s derivation (asked @ Run_code.effects said) (propagated fault)
       | Gives (_, s, deeds), Handler Ignored ->
         settle program world s derivation (asked @ Run_code.effects deeds) (ignored ())
       | Gives (_, s, deeds), (Handler Propagated | Script | Task_code) ->
@@ -91,8 +93,9 @@ let coded program world s code ~fails ~gives =
   in
   let ran { Run_code.world; outcome; _ } =
     match outcome with
-    | Faulty fault when Fault.is_assertion fault -> ends Assert_err (Broken fault.message) (Failed fault) s []
-    | Faulty fault -> fails world fault
+    | Faulty (fault, said) when Fault.is_assertion fault ->
+      ends Assert_err (Broken fault.message) (Failed fault) s (Run_code.effects said)
+    | Faulty (fault, said) -> fails world said fault
     | Halts (message, s, deeds) -> ends Halt (Halt message) (Halted message) s (Run_code.effects deeds)
     | Gives (x, s, deeds) -> gives world x s deeds
   in
@@ -106,27 +109,28 @@ let internal program world (s : Shared.t) (Task_rules.Step { offer; continue }) 
   let go ?(asked = []) world s change =
     Decision.map (fun local -> Some (kept program world local)) (settle program world s [] asked change)
   in
+  let failed world said change = go world ~asked:(Run_code.effects said) s change in
   match offer with
   | End_of _ | Expiry_of _ -> Decision.Decided None
   | Start (p, v) ->
     go world ~asked:[ Start (v, p) ] { s with allocation = Vehicle_map.add v p s.allocation } (continue ())
   | Perform code ->
     let gives world _ s deeds = go world ~asked:(Run_code.effects deeds) s (continue (Ok deeds)) in
-    coded program world s code ~gives ~fails:(fun world fault -> go world s (continue (Error fault)))
+    coded program world s code ~gives ~fails:(fun world said fault -> failed world said (continue (Error fault)))
   | Check guard ->
     let gives world x s deeds =
       settled guard x (fun x ->
           if Value.truth x then go world ~asked:(Run_code.effects deeds) s (continue (Ok deeds)) else Decided None)
     in
-    coded program world s guard ~gives ~fails:(fun world fault -> go world s (continue (Error fault)))
+    coded program world s guard ~gives ~fails:(fun world said fault -> failed world said (continue (Error fault)))
   | Measure code ->
     let gives world x after deeds =
       settled code x (fun x ->
           match seconds_of code x with
           | Ok seconds -> go world ~asked:(Run_code.effects deeds) after (continue (Ok seconds))
-          | Error fault -> go world s (continue (Error fault)))
+          | Error fault -> failed world (Run_code.said deeds) (continue (Error fault)))
     in
-    coded program world s code ~gives ~fails:(fun world fault -> go world s (continue (Error fault)))
+    coded program world s code ~gives ~fails:(fun world said fault -> failed world said (continue (Error fault)))
 
 let on_event program world s (Task_rules.Step { offer; continue }) (event : event) =
   let go s change = Decision.map (fun local -> Some (kept program world local)) (settle program world s [] [] change) in

@@ -2,7 +2,7 @@ open Core
 
 type outcome =
   | Gives of value * Shared.t * Code.deed list
-  | Faulty of Fault.t
+  | Faulty of Fault.t * Code.deed list
   | Halts of string * Shared.t * Code.deed list
 
 type result = { world : World.t; outcome : outcome; mode : Code.mode }
@@ -24,6 +24,11 @@ let action_of : Code.deed -> Effect.t option = function
   | Released vs -> Some (Release vs)
   | Set_connection_timeout (vs, seconds) -> Some (Set_connection_timeout (vs, seconds))
 
+let is_said : Code.deed -> bool = function
+  | Said _ -> true
+  | Posted _ | Consumed _ | Released _ | Set_connection_timeout _ -> false
+
+let said deeds = List.filter is_said deeds
 let effects deeds = List.filter_map action_of deeds
 
 let run program world s mode closure arguments =
@@ -33,10 +38,11 @@ let run program world s mode closure arguments =
       match (stop : Machine.stop) with
       | Finished x -> Gives (x, after context s, deeds)
       | Halted message -> Halts (message, after context s, deeds)
-      | Faulted fault -> Faulty fault
+      | Faulted fault -> Faulty (fault, said deeds)
       | Exhausted ->
         let message = "this code does not come to an end, and code inside of a task is atomic" in
-        Faulty (Fault.make closure.lambda.lambda_site message)
+        (* It may have said any number of things. *)
+        Faulty (Fault.make closure.lambda.lambda_site message, [])
       | Did _ | Waits _ -> invalid_arg "Run_code.run: atomic code stopped"
     in
     { world = context.world; outcome; mode = context.mode }

@@ -4,7 +4,7 @@ open Core
 
 type outcome =
   | Gives of value * Shared.t * Code.deed list  (** what the code did, first deed first *)
-  | Faulty of Fault.t
+  | Faulty of Fault.t * Code.deed list  (** what it said before; all else that it did is undone *)
   | Halts of string * Shared.t * Code.deed list
 
 type result = {
@@ -28,6 +28,9 @@ val after : Code.context -> Shared.t -> Shared.t
 val kept : program -> World.t -> Shared.t -> Shared.t
 (** [kept p w s] is [s] once the step that ran the code is over: in an open world, its readings are known by the
     variables that hold them ({!Reading.keep}). *)
+
+val said : Code.deed list -> Code.deed list
+(** The messages among these deeds: what code said stays said, whatever becomes of it. *)
 
 val effects : Code.deed list -> Effect.t list
 (** What these deeds ask of the outside. *)

@@ -69,6 +69,6 @@ let answer program world (s : Shared.t) m ~text code =
     | Gives (x, after, []) when Store.compare after.store s.store = 0 ->
       Ok (Conclusion.make Answer (Answer text) (Script (keep_in_machine world (Machine.give x m))) s)
     | Gives _ | Halts _ -> Error "an answer may only compute a value"
-    | Faulty fault -> Error fault.message
+    | Faulty (fault, _) -> Error fault.message
   in
   Decision.map ran (Run_code.atomic program world s code)

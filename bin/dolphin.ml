@@ -24,7 +24,7 @@ let command =
   Cmd.group info
     [ Exec_command.command; Check_command.command; Conform_command.command; Explore_command.command;
       Fleet_command.command; Lts_command.command; Parse_command.command; Plan_command.command; Sim_command.command;
-      Step_command.command; Tla_command.command; Trace_command.command ]
+      Runs_command.command; Step_command.command; Tla_command.command; Trace_command.command ]
 
 (* [--sim] alone would take the next argument for its fleet. *)
 let arguments =

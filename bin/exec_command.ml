@@ -62,8 +62,21 @@ let check_only (s : Run.settings) (fleet : Fleet_file.t) only =
     let hint = Option.fold near ~none:"" ~some:(Printf.sprintf " (did you mean '%s'?)") in
     Error (Error.Bad_input (Printf.sprintf "--only: the fleet has no vehicle '%s'%s" v hint))
 
-let run () show path sim fleet network definition speed seed answers supplier supplier_timeout journal drawing recorded
-    resumed changed =
+(* Where the journal is to be. Vehicles that move have one: their run can then be resumed. *)
+let journal_of ~path ~network ~keep ~follow ~resumed journal =
+  if journal <> None || resumed <> None || follow <> None then
+    if keep then Error (Error.Bad_input "--keep goes with none of --journal, --resume and --follow") else Ok journal
+  else if keep then Result.map Option.some (Run_folder.fresh ~program:path)
+  else if network = None then Ok None
+  else
+    match Run_folder.fresh ~program:path with
+    | Ok journal -> Ok (Some journal)
+    | Error e ->
+      Report.complain (Format.asprintf "this run has no journal, and cannot be resumed: %a" Error.pp e);
+      Ok None
+
+let run () show path sim fleet network definition speed seed answers supplier supplier_timeout journal keep drawing
+    recorded resumed changed =
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
   let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
   let settings : Run.settings =
@@ -76,6 +89,8 @@ let run () show path sim fleet network definition speed seed answers supplier su
        | Some why -> Error (Error.Bad_input why)
        | None -> Ok ()
      in
+     let* journal = journal_of ~path ~network ~keep ~follow:recorded ~resumed journal in
+     let settings = { settings with recording = { settings.recording with journal } } in
      let* definition = Definition_file.load definition in
      let settings = { settings with network = Option.map (Imc_options.with_names definition) network } in
      let* () = if resumed = None then check_only settings fleet show.Terminal_run.only else Ok () in
@@ -136,6 +151,13 @@ let journal =
      $(mname) $(b,trace) checks, shows and draws journals."
   in
   Arg.(value & opt (some string) None & info [ "o"; "journal" ] ~docv:"FILE" ~doc)
+
+let keep =
+  let doc =
+    "Keep a journal of the run among those that $(mname) $(b,runs) lists. Runs on vehicles of a network are kept there \
+     without being asked, unless $(b,--journal) names a file."
+  in
+  Arg.(value & flag & info [ "keep" ] ~doc)
 
 let drawing =
   let doc =
@@ -232,4 +254,4 @@ let command =
   Cmd.v info
     Term.(
       const run $ Verbosity.setup $ show $ Options.program $ sim $ fleet $ Imc_options.chosen $ Imc_options.definition
-      $ speed $ seed $ answers $ supplier $ supplier_timeout $ journal $ drawing $ follow $ resumed $ changed)
+      $ speed $ seed $ answers $ supplier $ supplier_timeout $ journal $ keep $ drawing $ follow $ resumed $ changed)

@@ -102,11 +102,11 @@ let show transitions path =
   Format.printf "%!";
   Report.result (Result.map (fun () -> Exit_status.Done) result)
 
+let transitions =
+  let doc = "Show every transition, one a line: its number, time, place in the program, rules and label." in
+  Arg.(value & flag & info [ "transitions" ] ~doc)
+
 let show_command =
-  let transitions =
-    let doc = "Show every transition, one a line: its number, time, place in the program, rules and label." in
-    Arg.(value & flag & info [ "transitions" ] ~doc)
-  in
   let man =
     [ `S Manpage.s_description;
       `P "$(tname) prints the journal $(i,RUN) as a page of text: a column for the program and one for each vehicle \

@@ -1,0 +1,74 @@
+open Cmdliner
+open Dolphin_app
+open Dolphin_trace
+
+(* {1 List} *)
+
+let how : Run_folder.state -> string = function
+  | Ended { how; _ } -> how
+  | Going_on -> "goes on"
+  | Broken_off -> "broke off"
+
+let row ({ name; header; time; state; _ } : Run_folder.run) =
+  [ name; header.program.path; header.platform; how state; Phrase.time time ]
+
+let heads = [ "RUN"; "PROGRAM"; "PLATFORM"; "STATE"; "TIME" ]
+
+let print rows =
+  let rows = List.map (List.map Phrase.one_line) (heads :: rows) in
+  let widths =
+    List.fold_left (List.map2 (fun width cell -> max width (Phrase.width cell))) (List.map (fun _ -> 0) heads) rows in
+  List.iter (fun cells -> print_endline (String.trim (String.concat "  " (List.map2 Phrase.pad widths cells)))) rows
+
+let list () =
+  (match Run_folder.list () with
+   | [] -> print_endline "no run has been kept: dolphin exec --keep keeps one"
+   | runs -> print (List.map row runs));
+  Exit_status.Done
+
+(* {1 Show} *)
+
+let show transitions name =
+  Report.result
+    (Result.map
+       (fun path ->
+          Format.printf "%s@.@." path;
+          Trace_command.show transitions path)
+       (Run_folder.find name))
+
+let show_command =
+  let run =
+    let doc = "The run, by its name or how its name begins; by default the $(b,latest)." in
+    Arg.(value & pos 0 string "latest" & info [] ~docv:"RUN" ~doc)
+  in
+  let man =
+    [ `S Manpage.s_description;
+      `P "$(tname) prints where the journal of the run $(i,RUN) is, and shows it as $(mname) $(b,trace show) does." ]
+    @ Options.see_also
+  in
+  let exits = Options.exits [ Done; Bad_input; Bug ] in
+  Cmd.v (Cmd.info "show" ~doc:"show a run" ~man ~exits) Term.(const show $ Trace_command.transitions $ run)
+
+(* {1 All} *)
+
+let list_term = Term.(const list $ const ())
+
+let list_command =
+  let exits = Options.exits [ Done; Bug ] in
+  Cmd.v (Cmd.info "list" ~doc:"list the runs, as without a command" ~man:Options.see_also ~exits) list_term
+
+let command =
+  let man =
+    [ `S Manpage.s_description;
+      `P "$(tname) lists the runs whose journals have been kept for the user, the latest first: those on vehicles of a \
+          network, and those that $(mname) $(b,exec --keep) kept. A run that broke off is resumed by $(mname) \
+          $(b,exec --resume) with the path that $(tname) $(b,show) prints. To forget a run, remove its file.";
+      `S "FILES";
+      `I ("$(b,XDG_STATE_HOME)/dolphin/runs", "The journals. By default $(b,XDG_STATE_HOME) is ~/.local/state.");
+      `S Manpage.s_examples;
+      `Pre "  $(mname) exec mission.dol --keep\n  $(mname) $(tname)\n  $(mname) $(tname) show" ]
+    @ Options.see_also
+  in
+  let exits = Options.exits [ Done; Bug ] in
+  let info = Cmd.info "runs" ~docs:Options.s_runs ~doc:"list and show the runs that were kept" ~man ~exits in
+  Cmd.group ~default:list_term info [ list_command; show_command ]

@@ -1,0 +1,29 @@
+(** The home of journals: the folder [dolphin/runs] in the user's state directory, which [XDG_STATE_HOME] names or is
+    [~/.local/state]. *)
+
+open Dolphin_trace
+
+(** How far a run came. *)
+type state =
+  | Ended of Request.ending
+  | Going_on  (** its console lives *)
+  | Broken_off  (** its console died, and nobody resumed it *)
+
+type run = {
+  name : string;  (** of its file, without the ending [.run] *)
+  path : string;
+  header : Header.t;
+  time : float;  (** of its last line, in seconds since its start *)
+  state : state;
+}
+
+val fresh : program:string -> (string, Error.t) result
+(** [fresh ~program] is the path of a new journal of a run of [program] that starts now. The folder is made if it is not
+    there. The error, {!Error.Unavailable}, says why that is not possible. *)
+
+val list : unit -> run list
+(** The runs in the folder, latest first. Files that are no journals are left out. *)
+
+val find : string -> (string, Error.t) result
+(** [find name] is the path of the run of this name, or of the only one whose name begins so; [find "latest"] is that of
+    the latest. *)

@@ -39,7 +39,7 @@ let run path fleet answers faults strict json trace reduction compress invariant
      in
      Result.iter_error Report.tell written;
      if json then print_endline (Yojson.Safe.to_string (Exploration_report.to_json program.program outcome))
-     else Exploration_report.print ~strict program.program outcome;
+     else Exploration_report.print ~strict program outcome;
      match written with
      | Ok () -> Ok (Exit_status.of_verdict (Exploration.verdict ~strict outcome))
      | Error _ -> Ok Exit_status.Platform_trouble)

@@ -3,10 +3,16 @@ module Phrase = Dolphin_trace.Phrase
 module Location = Dolphin_syntax.Location
 
 let program_column = "program"
-let widest = 40
+let widest = 40  (* characters of a cell *)
 
 (* Who a transition is about, what happened, and where the program says so, as far as it can be told. *)
-type row = { actor : string; text : string; at : Location.t option; assumed : World.assumption list }
+type row = {
+  actor : string;
+  text : string;
+  at : Location.t option;
+  words : string;  (* what the log says, where the label says little *)
+  assumed : World.assumption list;
+}
 
 let site_of (label : Label.t) (t : Transition.t) before =
   let task v = Option.map (fun (p : Core.platform_task) -> p.task_site) (Vehicle_map.find_opt v before) in
@@ -20,7 +26,24 @@ let site_of (label : Label.t) (t : Transition.t) before =
   | _, Ended (Failed fault) -> Some fault.site
   | _, Ended (Completed | Halted _ | Interrupted) -> None
 
-let row (program : Core.program) before (t : Transition.t) =
+(* The text of the condition that the transition left behind, if it is clear which one. *)
+let condition program ~source (before : Configuration.t option) (t : Transition.t) =
+  let guards (c : Configuration.t) =
+    match c.control with Executing (_, r) -> Dolphin_runtime.Driver.guards r | Script _ | Waiting _ | Ended _ -> []
+  in
+  let left = List.map (fun (g : Core.closure) -> g.lambda.id) (guards t.next) in
+  let is_gone (g : Core.closure) = not (List.mem g.lambda.id left) in
+  match List.filter is_gone (Option.fold ~none:[] ~some:guards before) with
+  | [ g ] -> Waiting.text program ~source g.lambda.code.site
+  | [] | _ :: _ :: _ -> None
+
+let words program ~source before (t : Transition.t) =
+  match t.label, condition program ~source before t with
+  | Check [], Some text -> Printf.sprintf "sees that %s holds" text
+  | _, (Some _ | None) -> Log.words t
+
+let row (program : Core.program) ~source (before : Configuration.t option) (t : Transition.t) =
+  let running = Option.fold ~none:Vehicle_map.empty ~some:(fun (c : Configuration.t) -> c.shared.allocation) before in
   let at site = Fault.location program (Fault.make site "") in
   let actor =
     match t.label with Start (v, _) | Done (v, _) | Fail (v, _, _) -> v | _ -> program_column
@@ -33,26 +56,24 @@ let row (program : Core.program) before (t : Transition.t) =
     | Bind vs -> "picks " ^ Wording.vehicles vs
     | label -> Format.asprintf "%a" Label.pp label
   in
-  { actor; text = Phrase.one_line text; at = Option.bind (site_of t.label t before) at; assumed = t.assumed }
+  { actor; text = Phrase.one_line text; at = Option.bind (site_of t.label t running) at;
+    words = words program ~source before t; assumed = t.assumed }
 
-let rows program run =
+let rows program ~source run =
   let add (before, rows) (t : Transition.t) =
     let is_shown = match t.label with Silent -> t.assumed <> [] | _ -> true in
-    let rows = if is_shown then row program before t :: rows else rows in
-    (t.next.shared.allocation, rows)
+    let rows = if is_shown then row program ~source before t :: rows else rows in
+    (Some t.next, rows)
   in
-  List.rev (snd (List.fold_left add (Vehicle_map.empty, []) run))
+  List.rev (snd (List.fold_left add (None, []) run))
 
-let shortened text =
-  if Phrase.width text <= widest then text
-  else
-    match Value.items (String text) with
-    | None -> text
-    | Some characters ->
-      String.concat "" (List.map Value.to_string (Array.to_list (Array.sub characters 0 (widest - 3)))) ^ "..."
+let shortened widest text =
+  if Phrase.width text <= widest then text else fst (Phrase.split (widest - 3) text) ^ "..."
 
-let lines ?(first = 1) program run =
-  let rows = rows program run in
+(* As a table whose cells have at most [widest] characters, with a last column of [words] characters, if any. *)
+let table ~first ~widest ~words rows =
+  let shortened_to = shortened in
+  let shortened = shortened widest in
   let actors =
     List.fold_left (fun actors row -> if List.mem row.actor actors then actors else actors @ [ row.actor ])
       [ program_column ] rows
@@ -64,23 +85,45 @@ let lines ?(first = 1) program run =
   in
   let widths = List.map width actors in
   let number = String.length (string_of_int (first + List.length rows)) in
-  let print head cells tail =
+  let where row =
+    match row.at with
+    | Some at -> Printf.sprintf "%s:%d" (Filename.basename (Location.file at)) (Location.line at)
+    | None -> ""
+  in
+  let place = List.fold_left (fun width row -> max width (Phrase.width (where row))) (Phrase.width "where") rows in
+  let print head cells where said =
     let cells = List.map2 Phrase.pad widths cells in
-    let line = String.concat "  " ((Phrase.pad (number + 1) head :: cells) @ [ tail ]) in
+    let tail = match words with Some n -> [ Phrase.pad place where; shortened_to n said ] | None -> [ where ] in
+    let line = String.concat "  " ((Phrase.pad (number + 1) head :: cells) @ tail) in
     let rec trimmed n = if n > 0 && line.[n - 1] = ' ' then trimmed (n - 1) else String.sub line 0 n in
     trimmed (String.length line)
   in
   let body i row =
     let cell actor = if actor = row.actor then shortened row.text else "" in
-    let where =
-      match row.at with
-      | Some at -> Printf.sprintf "%s:%d" (Filename.basename (Location.file at)) (Location.line at)
-      | None -> ""
-    in
     let n = string_of_int (first + i) in
     let assumed a =
       String.make (number + 3) ' ' ^ "if " ^ Phrase.one_line (Format.asprintf "%a" World.pp_assumption a)
     in
-    print (String.make (number - String.length n) ' ' ^ n) (List.map cell actors) where :: List.map assumed row.assumed
+    let head = String.make (number - String.length n) ' ' ^ n in
+    print head (List.map cell actors) (where row) row.words :: List.map assumed row.assumed
   in
-  print "" actors "where" :: List.concat (List.mapi body rows)
+  print "" actors "where" "in words" :: List.concat (List.mapi body rows)
+
+let least_words = 24
+let narrowest = 12
+let width lines = List.fold_left (fun width line -> max width (Phrase.width line)) 0 lines
+
+(* What the log says is not known to the reader of a narrow table, but names of vehicles and tasks must be. *)
+let lines ?(first = 1) ?columns ~source program run =
+  let rows = rows program ~source run in
+  let without_assumed = List.map (fun row -> { row with assumed = [] }) rows in
+  let table = table ~first in
+  match columns with
+  | None -> table ~widest ~words:None rows
+  | Some columns ->
+    let width widest = width (table ~widest ~words:None without_assumed) in
+    let rec fitting widest = if widest <= narrowest || width widest <= columns then widest else fitting (widest - 1) in
+    let widest = fitting widest in
+    let has_words = List.exists (fun row -> row.words <> "") rows in
+    let left = columns - width widest - 2 in
+    table ~widest ~words:(if has_words && left >= least_words then Some left else None) rows

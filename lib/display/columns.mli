@@ -9,7 +9,8 @@
 
 open Dolphin_semantics
 
-val lines : ?first:int -> Core.program -> Transition.t list -> string list
-(** [lines program run] is the table of [run]. Silent transitions have no row. Rows are numbered from [first], by
-    default 1; of long texts the beginning is shown. What a transition takes for granted of an open world stands below
-    it. *)
+val lines : ?first:int -> ?columns:int -> source:string -> Core.program -> Transition.t list -> string list
+(** [lines ~source program run] is the table of [run]; [source] is the text of [program]. Silent transitions have no
+    row. Rows are numbered from [first], by default 1; of long texts the beginning is shown. What a transition takes for
+    granted of an open world stands below it. The table is made to fit into [columns], if it is given: with what the log
+    says of guards and timers in a last column, if there is room for it. *)

@@ -97,6 +97,12 @@ let of_label (s : Transition.t) =
   | Start _ | Silent | Pick _ | Bind _ | No_vehicles _ | Ask _ | Answer _ | No_answer | Resume | No_reply _
   | Execute | Cannot_execute _ | End | Halt _ | Fault _ | Interrupt -> []
 
+let words (t : Transition.t) =
+  match t.label with
+  | Check _ | Cut _ | Act _ | Time_out | Set_time _ | Broken _ | Did _ ->
+    String.concat "; " (List.map (fun happening -> Phrase.one_line happening.words) (of_label t))
+  | _ -> ""
+
 (* The first effects of a transition are those of the deeds in its label, which are told already. *)
 let told_by_label (label : Label.t) =
   let has_effect : Code.deed -> bool = function

@@ -50,3 +50,6 @@ val question : t -> time:float -> string -> string
 
 val remark : t -> time:float -> string -> line
 (** [remark l ~time text] is a line about what is unusual. *)
+
+val words : Transition.t -> string
+(** [words t] is what the log says of the deed, guard or timer that made [t]; [""] of other transitions. *)

@@ -10,6 +10,9 @@ type t = {
       how many vehicles are in reach *)
 }
 
+val text : Core.program -> source:string -> Core.site -> string option
+(** [text program ~source site] is what stands at [site] of [source], the text of [program], in one line. *)
+
 val list : Core.program -> source:string -> World.t -> Configuration.t -> t list
 (** [list program ~source world c] is what [c] waits for in [world], each place of the program once, leftmost first.
     [source] is the text of [program]. The tasks of vehicles are not among it. *)

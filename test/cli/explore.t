@@ -65,9 +65,50 @@ A program that may wait for ever.
   4                                  starts a    deadlock.dol:2
   5                                  ends a      deadlock.dol:2
   6   act(post left:1)                           deadlock.dol:2
-  waits for the condition at deadlock.dol:2:63
-  waits for the condition at deadlock.dol:2:97
+  tuples then: {left:1}
+  waits for the condition at deadlock.dol:2:65, consume right: 1
+  waits for the condition at deadlock.dol:2:99, consume right: 1
   [1]
+
+In a wide terminal the log's words stand beside what conditions and timers do. In a narrow one texts are cut.
+
+  $ COLUMNS=100 explore deadlock.dol | tail -n +9
+      program                        noptilus-1  where           in words
+  1   pick(1 vehicle of type 'UUV')              deadlock.dol:1
+  2   picks noptilus-1                           deadlock.dol:1
+  3   execute                                    deadlock.dol:2
+  4                                  starts a    deadlock.dol:2
+  5                                  ends a      deadlock.dol:2
+  6   act(post left:1)                           deadlock.dol:2  posts left:1
+  tuples then: {left:1}
+  waits for the condition at deadlock.dol:2:65, consume right: 1
+  waits for the condition at deadlock.dol:2:99, consume right: 1
+  $ cat > narrow.dol <<'END'
+  > vehicle = pick { type 'UUV'; payload 'DVL' }
+  > execute action { post position: 'north of the second buoy' } | condition { !poll(position: _) } | condition { poll(position: _) || false } | condition { poll(never: 1) }
+  > END
+  $ COLUMNS=60 explore narrow.dol | tail -n +8
+  no deadlock: a shortest run in which nothing can happen any more, and the program has not ended
+      program                                   where
+  1   pick(1 vehicle of type 'UUV' with pay...  narrow.dol:1
+  2   picks noptilus-1                          narrow.dol:1
+  3   execute                                   narrow.dol:2
+  4   act(post position:'north of the secon...  narrow.dol:2
+  5   check                                     narrow.dol:2
+  tuples then: {position:'north of the second buoy'}
+  waits for the condition at narrow.dol:2:76, !poll(position: _)
+  waits for the condition at narrow.dol:2:154, poll(never: 1)
+  $ COLUMNS=200 explore narrow.dol | tail -n +8
+  no deadlock: a shortest run in which nothing can happen any more, and the program has not ended
+      program                                   where         in words
+  1   pick(1 vehicle of type 'UUV' with pay...  narrow.dol:1
+  2   picks noptilus-1                          narrow.dol:1
+  3   execute                                   narrow.dol:2
+  4   act(post position:'north of the secon...  narrow.dol:2  posts position:'north of the second buoy'
+  5   check                                     narrow.dol:2  sees that poll(position: _) || false holds
+  tuples then: {position:'north of the second buoy'}
+  waits for the condition at narrow.dol:2:76, !poll(position: _)
+  waits for the condition at narrow.dol:2:154, poll(never: 1)
 
 A program that may never end.
 
@@ -124,6 +165,7 @@ Code that nothing reaches is only worth a note, unless one asks for more.
       program   where
   1   post a:1  unreached.dol:1
   2   end
+  tuples then: {a:1}
   
   all code reached: no run reaches
     unreached.dol:2:19: message
@@ -154,6 +196,7 @@ An assertion that some run breaks.
   3   execute                        assertion.dol:3
   4   act(post alarm:1)              assertion.dol:3
   5   broken(assertion failed)       assertion.dol:4
+  tuples then: {alarm:1}
   [1]
 
 Invariants.
@@ -193,6 +236,7 @@ Invariants.
   5                                  ends a      counting.dol:3
   6   act                                        counting.dol:3
   7   act(post done:2)                           counting.dol:3
+  tuples then: {done:2}
   [1]
   $ explore counting.dol --invariant '1 / n > 0' --invariant 'bound("noptilus-1") || n == 0'
   no deadlock: holds
@@ -389,7 +433,6 @@ Where states stand for others that are alike, runs have the names that the progr
   > execute (T(1) | T(2) | T(3) | waitFor { consume ready:_ } then idle(1)) >> condition { !poll(ready:2) }
   > END
   $ explore alike.dol --reduction symmetry --trace alike.run | tail -n 20
-  note: no leftover tuples: violated after 16 steps: tuples are left when the program completes
   106 states, 231 transitions, depth 16; reduced by symmetry, symmetry of vehicles
   
   no deadlock: a shortest run in which nothing can happen any more, and the program has not ended
@@ -408,7 +451,8 @@ Where states stand for others that are alike, runs have the names that the progr
   12   act(post ready:3)                                                             alike.dol:3
   13   check(consume ready:1)                                                        alike.dol:3
   14   timeout                                                                       alike.dol:3
-  waits for the condition at alike.dol:3:86
+  tuples then: {ready:2, ready:3}
+  waits for the condition at alike.dol:3:88, !poll(ready:2)
   $ dolphin exec alike.dol --follow alike.run
   breaks: no deadlock
      2  program     picks noptilus-1, noptilus-2, noptilus-3

@@ -40,6 +40,7 @@ What must hold of every state or every run may be broken by it. The run can be f
   4   execute                                       lock.dol:3
   5                                  starts survey  lock.dol:3
   6   interrupt
+  tuples then: {lock:1}
   $ dolphin exec lock.dol --follow cut.run
   breaks: formula G (start(survey) -> F done(survey))
      2  program     picks noptilus-1

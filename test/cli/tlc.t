@@ -63,8 +63,9 @@ A counter-example: its labels are enough to find where in the program each step 
   4                                  starts a    deadlock.dol:2
   5                                  ends a      deadlock.dol:2
   6   act(post left:1)                           deadlock.dol:2
-  waits for the condition at deadlock.dol:2:63
-  waits for the condition at deadlock.dol:2:97
+  tuples then: {left:1}
+  waits for the condition at deadlock.dol:2:65, consume right: 1
+  waits for the condition at deadlock.dol:2:99, consume right: 1
   [1]
 
 One that goes on for ever.

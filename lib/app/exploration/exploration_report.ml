@@ -46,16 +46,16 @@ let print_unreached (program : Core.program) property pieces =
        Format.printf "  %a: %s@." Dolphin_syntax.Location.pp program.locations.(piece.site) piece.what)
     pieces
 
-let print_violation program (property, (verdict : Search.verdict), remark) =
+let print_violation (program : Program_file.t) (property, (verdict : Search.verdict), remark) =
   match verdict with
   | Violated run when not remark -> print_run program property run
-  | Unreached pieces when not remark -> print_unreached program property pieces
+  | Unreached pieces when not remark -> print_unreached program.program property pieces
   | Holds | Inconclusive _ | Violated _ | Unreached _ -> ()
 
-let print ~strict program (o : Search.outcome) =
+let print ~strict (program : Program_file.t) (o : Search.outcome) =
   let with_remark (property, verdict) = (property, verdict, Exploration.is_remark property && not strict) in
   let verdicts = List.map with_remark o.verdicts in
-  List.iter (print_verdict program) verdicts;
+  List.iter (print_verdict program.program) verdicts;
   print_counts o;
   List.iter (print_violation program) verdicts
 

@@ -3,7 +3,7 @@
 open Dolphin_semantics
 module Search := Dolphin_explore.Search
 
-val print : strict:bool -> Core.program -> Search.outcome -> unit
+val print : strict:bool -> Program_file.t -> Search.outcome -> unit
 (** [print ~strict program o] prints [o] on standard output: a verdict for each property, the counts, and a
     counterexample of each violation, in columns. Unless [strict], remarks ({!Exploration.is_remark}) are notes. *)
 

@@ -1,19 +1,36 @@
 module Columns = Dolphin_display.Columns
+module Waiting = Dolphin_display.Waiting
+open Dolphin_semantics
 
-let print program ~steps ~cycle =
+(* Of a terminal its own; of anything else what the user says. *)
+let columns () =
+  if Unix.isatty Unix.stdout then Some (snd (Dolphin_display.Terminal.size Unix.stdout))
+  else Option.bind (Sys.getenv_opt "COLUMNS") int_of_string_opt
+
+let last steps cycle = match List.rev (steps @ cycle) with [] -> None | (t : Transition.t) :: _ -> Some t.next
+
+let print_tuples steps cycle =
+  match last steps cycle with
+  | Some c when not (Tuples.is_empty c.shared.tuples) -> Format.printf "tuples then: %a@." Tuples.pp c.shared.tuples
+  | Some _ | None -> ()
+
+let print (p : Program_file.t) ~steps ~cycle =
+  let lines ~first = Columns.lines ~first ?columns:(columns ()) ~source:p.source p.program in
   let print = List.iter print_endline in
-  print (Columns.lines program steps);
+  print (lines ~first:1 steps);
   if cycle <> [] then begin
     print_endline "and from there, again and again:";
-    print (Columns.lines ~first:(List.length steps + 1) program cycle)
-  end
+    print (lines ~first:(List.length steps + 1) cycle)
+  end;
+  print_tuples steps cycle
 
-let print_waiting (program : Dolphin_semantics.Core.program) steps =
-  match List.rev steps with
-  | ({ next = { control = Executing (_, residual); _ }; _ } : Dolphin_semantics.Transition.t) :: _ ->
-    let guard (c : Dolphin_semantics.Core.closure) =
-      Format.printf "waits for the condition at %a@." Dolphin_syntax.Location.pp
-        program.locations.(c.lambda.lambda_site)
-    in
-    List.iter guard (Dolphin_runtime.Driver.guards residual)
-  | _ -> ()
+let print_waiting (p : Program_file.t) steps =
+  let guard (w : Waiting.t) =
+    let place = Fmt.(option (any " at " ++ Dolphin_syntax.Location.pp)) in
+    let lacking = Fmt.(option (any ": " ++ string)) in
+    Format.printf "waits for the condition%a, %s%a@." place w.at w.what lacking w.lacking
+  in
+  match last steps [] with
+  | Some ({ control = Executing _; _ } as c) ->
+    List.iter guard (Waiting.list p.program ~source:p.source World.empty c)
+  | Some _ | None -> ()

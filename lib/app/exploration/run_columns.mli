@@ -2,8 +2,9 @@
 
 open Dolphin_semantics
 
-val print : Core.program -> steps:Transition.t list -> cycle:Transition.t list -> unit
-(** In columns (see {!Dolphin_display.Columns}); the cycle, if any, is what comes after it for ever. *)
+val print : Program_file.t -> steps:Transition.t list -> cycle:Transition.t list -> unit
+(** In columns (see {!Dolphin_display.Columns}), as many as the terminal or [COLUMNS] has; the cycle, if any, is what
+    comes after it for ever. Below stand the tuples that are left then. *)
 
-val print_waiting : Core.program -> Transition.t list -> unit
+val print_waiting : Program_file.t -> Transition.t list -> unit
 (** What the program waits for after this run, if it waits for conditions. *)

@@ -66,8 +66,8 @@ let print_counter_example options (program : Program_file.t) world (c : Outcome.
     Format.printf "Of this run the explorer cannot list what may happen: %s. The states of TLC:@." fault.message;
     print_states c
   | Ok { steps; cycle } ->
-    Run_columns.print program.program ~steps ~cycle;
-    if name = "NoDeadlock" then Run_columns.print_waiting program.program steps
+    Run_columns.print program ~steps ~cycle;
+    if name = "NoDeadlock" then Run_columns.print_waiting program steps
   | Error trouble ->
     Format.printf "This is no run of the explorer: %a. --compare tells more. The states of TLC:@." Recovered.pp_trouble
       trouble;

@@ -1,7 +1,8 @@
 open Dolphin_imc
 
 let spoken =
-  [ "Abort"; "Announce"; "EntityList"; "EntityParameter"; "EstimatedState"; "FuelLevel"; "Heartbeat"; "LogBookEntry";
+  [ "Abort"; "Announce"; "EntityList"; "EntityParameter"; "EntityParameters"; "EstimatedState"; "FuelLevel";
+    "Heartbeat"; "LogBookEntry";
     "PathPoint"; "PlanControl"; "PlanControlState"; "PlanManeuver"; "PlanSpecification"; "PlanTransition";
     "SetEntityParameters"; "VehicleState" ]
 

@@ -21,9 +21,12 @@ type t = {
   battery : (float * float) option;
   entities : string list option;
   queries : int;
+  freed : float option;
+  claim : (float * Claim.t) option;
 }
 
 let absence = 30.
+let rest = 1.
 let belongs host n = List.mem host n.hosts
 let is_vehicle n = Service.is_vehicle n.kind
 let last_sign n = Float.max n.last_announced n.last_heard
@@ -68,7 +71,7 @@ let make ~now ~from ~request (p : Packet.t) (a : Message.Announce.t) =
     { id = p.src; name = named p.src a.sys_name; kind = a.sys_type; hosts = []; address = None;
       clock = Vehicle_clock.unknown; execution = Execution.create ~request; first_announced = now;
       last_announced = now; last_heard = neg_infinity; position = None; announced_position = None; mode = None;
-      error = ""; battery = None; entities = None; queries = 0 }
+      error = ""; battery = None; entities = None; queries = 0; freed = None; claim = None }
 
 let announce ~now ~from (p : Packet.t) (a : Message.Announce.t) n =
   let same = belongs from n && named p.src a.sys_name = n.name in
@@ -119,7 +122,29 @@ let command ~now input n =
   let execution, outputs = Execution.step ~now ~clock:n.clock input n.execution in
   ({ n with execution }, outputs)
 
-let hear ~now ~own (p : Packet.t) n =
+(* Nobody could tell later what became of a plan if it was not known what the vehicle ran before. *)
+let obstacle n = Readiness.obstacle ~mode:n.mode ~error:n.error (Execution.report n.execution)
+
+let is_resting ~now n = match n.freed with Some at -> now < at +. rest | None -> false
+
+(* [n] that was [before], as to whether it has just become free: of a plan that was not ours. *)
+let freed ~now before n =
+  let is_idle n = Execution.idle n.execution in
+  match obstacle before, obstacle n with
+  | Some _, None when is_idle before && is_idle n && Execution.report before.execution <> None ->
+    { n with freed = Some now }
+  | _, Some _ -> { n with freed = None }
+  | (Some _ | None), None -> n
+
+let rested n = { n with freed = None }
+let unclaimed n = { n with claim = None }
+
+let claimed ~now parameters n =
+  match Claim.of_message parameters with
+  | Some claim -> { n with claim = Some (now, claim) }
+  | None -> n
+
+let hear_message ~now ~own (p : Packet.t) n =
   let clock, sent = Vehicle_clock.observe ~now ~sent:p.timestamp n.clock in
   let n = { n with clock; last_heard = now } in
   match p.content with
@@ -128,19 +153,29 @@ let hear ~now ~own (p : Packet.t) n =
   | Message (Entity_list list) -> (entities list n, [])
   | Message (Vehicle_state state) -> command ~now (Vehicle { sent; state }) (vehicle ~sent state n)
   | Message (Plan_control_state state) -> command ~now (State { sent; state }) n
+  | Message (Entity_parameters parameters) -> (claimed ~now parameters n, [])
   | Message (Log_book_entry entry) -> command ~now (Log { sent; entry }) n
   | Message (Plan_control reply) when p.dst = own -> command ~now (Reply { sent; reply }) n
   | Message _ | Unknown _ -> (n, [])
+
+let hear ~now ~own p n =
+  let heard, outputs = hear_message ~now ~own p n in
+  (freed ~now n heard, outputs)
 
 let queried n = { n with queries = n.queries + 1 }
 
 (* {1 As programs see it} *)
 
-let obstacle n = Readiness.obstacle ~mode:n.mode ~error:n.error (Execution.report n.execution)
 let silent ~now ~timeout n = now -. n.last_heard >= timeout
 let unknown_position = { Position.latitude = 0.; longitude = 0.; height = 0. }
 
-let state ~now ~timeout ~kind ~payload n : World.vehicle_state =
+(* Between two plans of another program a vehicle is ready for a millisecond. *)
+let unready ~now ~held n =
+  match held, obstacle n with
+  | Some why, _ | None, Some why -> Some why
+  | None, None -> if is_resting ~now n then Some "was busy a moment ago" else None
+
+let state ~now ~timeout ~kind ~payload ~held n : World.vehicle_state =
   let position =
     match n.position, n.announced_position with
     | Some (_, p), _ | None, Some p -> p
@@ -154,7 +189,7 @@ let state ~now ~timeout ~kind ~payload n : World.vehicle_state =
     position;
     battery = (match n.battery with Some (_, share) -> share | None -> 1.);
     connected;
-    unready = (if connected && is_idle then obstacle n else None) }
+    unready = (if connected && is_idle then unready ~now ~held n else None) }
 
 let mode ~names n =
   match n.mode with

@@ -22,6 +22,8 @@ type t = private {
   battery : (float * float) option;  (** From 0 to 1. *)
   entities : string list option;  (** Labels of its entity list. *)
   queries : int;  (** How often the entity list was asked for. *)
+  freed : float option;  (** Our clock: when it was ready again after it had not been, and no plan of ours ran. *)
+  claim : (float * Claim.t) option;  (** Of a console: what it holds, and when it said so (our clock). *)
 }
 
 (** {1:discovery Discovery} *)
@@ -36,6 +38,10 @@ val announce : now:float -> from:Unix.inet_addr -> Packet.t -> Message.Announce.
 
 val belongs : Unix.inet_addr -> t -> bool
 (** [belongs host n] is whether datagrams of [n] may come from [host]. *)
+
+val rest : float
+(** 1 s: so long a vehicle that was busy must be ready before it can be picked. Between two plans of another program it
+    is ready for about a millisecond (measured). *)
 
 val absence : float
 (** 30 s: three announcements are missing. After that a system may come back elsewhere. *)
@@ -52,6 +58,12 @@ val hear : now:float -> own:int -> Packet.t -> t -> t * Execution.output list
 val command : now:float -> Execution.input -> t -> t * Execution.output list
 (** [command ~now i n] gives [i] to [n]'s execution. *)
 
+val rested : t -> t
+(** [rested n] is [n] that has been ready for {!rest}. *)
+
+val unclaimed : t -> t
+(** [unclaimed n] is [n] that holds nothing any more. *)
+
 val queried : t -> t
 (** [queried n] is [n] that was asked for its entity list once more. *)
 
@@ -63,10 +75,13 @@ val is_vehicle : t -> bool
 val silent : now:float -> timeout:float -> t -> bool
 (** [silent ~now ~timeout n] is whether nothing but announcements was heard of [n] for [timeout] seconds. *)
 
-val state : now:float -> timeout:float -> kind:string -> payload:string list option -> t -> World.vehicle_state
-(** [state ~now ~timeout ~kind ~payload n] is [n] for programs, as a vehicle of type [kind]. It is connected if it is a
-    vehicle and not silent, and ready if it has a plan of ours or {!Readiness} says so. It carries [payload], or else
-    the entities of its list. Until it says otherwise its battery is full, and it is where it announced to be. *)
+val state :
+  now:float -> timeout:float -> kind:string -> payload:string list option -> held:string option -> t ->
+  World.vehicle_state
+(** [state ~now ~timeout ~kind ~payload ~held n] is [n] for programs, as a vehicle of type [kind]. It is connected if it
+    is a vehicle and not silent, and ready if it has a plan of ours or {!Readiness} says so, {!rest} is over, and no
+    other console holds it ([held]: which one). It carries [payload], or else the entities of its list. Until it says
+    otherwise its battery is full, and it is where it announced to be. *)
 
 val mode : names:(int * string) list -> t -> string
 (** ["SERVICE"], ["MANEUVER"] ..., by [names] first; ["-"] if not known. *)

@@ -7,6 +7,7 @@ module Name_set = Set.Make (String)
 type settings = {
   id : int;
   name : string;
+  program : string;
   addresses : Service.address list;
   epoch : float;
   first_request : int;
@@ -20,6 +21,7 @@ type t = {
   settings : settings;
   systems : Systems.t;
   bound : Name_set.t;
+  held : string Names.t;  (* by other consoles, and by which, in words *)
   telemetry : bool;
   timeouts : float Names.t;
   timeout : float;  (* of vehicles that are not in [timeouts] *)
@@ -54,22 +56,33 @@ let most_queries = 50
 let longest_name = 200
 
 let create settings =
-  { settings; systems = Systems.none; bound = Name_set.empty; telemetry = false; timeouts = Names.empty; timeout = 60.;
+  { settings; systems = Systems.none; bound = Name_set.empty; held = Names.empty; telemetry = false;
+    timeouts = Names.empty; timeout = 60.;
     timers = Timers.none; expected = Expected.none; outbox = Outbox.empty; presence = Presence.start;
     dropped = Names.empty; skipped = 0; accepted = 0; received = Received.nothing }
 
 let timeout_of name s = Option.value (Names.find_opt name s.timeouts) ~default:s.timeout
 let add_timeouts pairs s = { s with timeouts = List.fold_left (fun map (v, x) -> Names.add v x map) s.timeouts pairs }
-let bind vehicles s = { s with bound = List.fold_left (fun bound v -> Name_set.add v bound) s.bound vehicles }
-let release vehicles s = { s with bound = List.fold_left (fun bound v -> Name_set.remove v bound) s.bound vehicles }
+let hold vehicles s = { s with bound = List.fold_left (fun bound v -> Name_set.add v bound) s.bound vehicles }
 let find name s = Systems.find name s.systems
 let update n s = { s with systems = Systems.update n s.systems }
 
 let resume ~now (outstanding : History.outstanding) s =
   let s = { s with timeout = Option.value outstanding.timeout ~default:s.timeout } in
-  let s = bind outstanding.bound (add_timeouts outstanding.timeouts s) in
+  let s = hold outstanding.bound (add_timeouts outstanding.timeouts s) in
   let deadline v = now +. timeout_of v s in
   { s with expected = Expected.resume ~deadline outstanding; timers = Timers.of_list outstanding.timers }
+
+(* After a change of what other consoles hold. *)
+let with_claims s =
+  let add held (n : Node.t) =
+    match n.claim with
+    | Some (_, claim) ->
+      let why = Claim.obstacle ~console:n.name claim in
+      List.fold_left (fun held v -> Names.add v why held) held claim.vehicles
+    | None -> held
+  in
+  { s with held = List.fold_left add Names.empty (Systems.to_list s.systems) }
 
 let state_of ~now (n : Node.t) s =
   let kind =
@@ -78,7 +91,8 @@ let state_of ~now (n : Node.t) s =
     | None -> Service.kind ~names:s.settings.type_names n.kind
   in
   let payload = List.assoc_opt n.name s.settings.payload in
-  Node.state ~now ~timeout:(timeout_of n.name s) ~kind ~payload n
+  let held = if Name_set.mem n.name s.bound then None else Names.find_opt n.name s.held in
+  Node.state ~now ~timeout:(timeout_of n.name s) ~kind ~payload ~held n
 
 (* {1 Sending} *)
 
@@ -104,6 +118,14 @@ let query ~now (n : Node.t) s =
   let n = Node.queried n in
   let query = Message.Entity_list { Message.Entity_list.default with op = Query } in
   (update n s, to_node ~now n query s)
+
+let is_console (n : Node.t) = n.kind = Ccu && n.address <> None
+
+(* To all other consoles. *)
+let claims ~now s =
+  let claim = Claim.to_message { program = s.settings.program; vehicles = Name_set.elements s.bound } in
+  let to_console n = if is_console n then to_node ~now n claim s else [] in
+  List.concat_map to_console (Systems.to_list s.systems)
 
 (* {1 Telling the program} *)
 
@@ -156,7 +178,7 @@ let is_wanted id =
   id = Message.Announce.id || id = Message.Heartbeat.id || id = Message.Estimated_state.id
   || id = Message.Vehicle_state.id || id = Message.Plan_control_state.id || id = Message.Plan_control.id
   || id = Message.Fuel_level.id || id = Message.Log_book_entry.id || id = Message.Entity_list.id
-  || id = Message.Abort.id
+  || id = Message.Abort.id || id = Message.Entity_parameters.id
 
 let request_of ~id s = (s.settings.first_request + (id * 257)) land 0xFFFF
 
@@ -239,6 +261,25 @@ let request_of_another ~now (vehicle : Node.t) (p : Packet.t) s =
     command ~now (Stopped_by (name_of p.src s)) vehicle { s with accepted = s.accepted + 1 }
   | Message _ | Unknown _ -> skip s
 
+let tell_all ~now names s =
+  List.fold_left (fun s name -> match find name s with Some n -> tell ~now n s | None -> s) s names
+
+let held_by (n : Node.t) = match n.claim with Some (_, claim) -> claim.vehicles | None -> []
+
+(* What two consoles hold at once was picked by both at the same time. *)
+let claimed ~now (before : Node.t) s =
+  let n = again before s in
+  let held = held_by n and held_before = held_by before in
+  if held = held_before then (s, [])
+  else
+    let conflict v =
+      match n.claim with
+      | Some (_, claim) when Name_set.mem v s.bound && not (List.mem v held_before) ->
+        Some (Remark (v, "also " ^ Claim.obstacle ~console:n.name claim))
+      | Some _ | None -> None
+    in
+    (tell_all ~now (held @ held_before) (with_claims s), List.filter_map conflict held)
+
 let packet ~now ~from (p : Packet.t) s =
   match p.content with
   | Message (Announce a) -> announced ~now ~from p a s
@@ -249,6 +290,10 @@ let packet ~now ~from (p : Packet.t) s =
       | Some n -> (
           match p.content with
           | Message Abort -> aborted ~now p s
+          | Message (Entity_parameters _) ->
+            let s, sent = heard ~now p n s in
+            let s, more = claimed ~now n s in
+            (s, sent @ more)
           | Message _ | Unknown _ -> heard ~now p n s))
 
 (* Of systems that have announced, from where they are. *)
@@ -315,7 +360,8 @@ let beat ~now s =
   if heartbeats = Nobody then (s, [])
   else
     let s, queried = for_each (fun n s -> if lacks_entities ~now n then query ~now n s else (s, [])) s in
-    (s, beaten @ queried)
+    let claims = if heartbeats = All && not (Name_set.is_empty s.bound) then claims ~now s else [] in
+    (s, claims @ beaten @ queried)
 
 let announce ~now s =
   let presence, is_due = Presence.announce ~now ~awaited:(Systems.exists (is_awaited ~now) s.systems) s.presence in
@@ -335,7 +381,20 @@ let no_word name s = Printf.sprintf "no word from the vehicle for %s" (seconds (
 let end_of_link (n : Node.t) s =
   if was_connected n s || Execution.owes n.execution then n.last_heard +. timeout_of n.name s else infinity
 
+(* When what is known of [n] becomes old: that it was busy, and what it holds. *)
+let turns (n : Node.t) =
+  let rested = Option.fold n.freed ~none:infinity ~some:(fun at -> at +. Node.rest) in
+  let unclaimed = Option.fold n.claim ~none:infinity ~some:(fun (at, _) -> at +. Claim.patience) in
+  (rested, unclaimed)
+
+let turn ~now (n : Node.t) s =
+  let rested, unclaimed = turns n in
+  let s = if now >= rested then tell ~now (Node.rested n) (update (Node.rested n) s) else s in
+  if now < unclaimed then s else tell_all ~now (held_by n) (with_claims (update (Node.unclaimed (again n s)) s))
+
 let check ~now (n : Node.t) s =
+  let s = turn ~now n s in
+  let n = again n s in
   let timeout = timeout_of n.name s in
   let s, more = if Execution.due n.execution <= now then command ~now Tick n s else (s, []) in
   let n = again n s in
@@ -360,6 +419,10 @@ let tick ~now s =
 
 let due s =
   let of_node time (n : Node.t) = Float.min time (Float.min (Execution.due n.execution) (end_of_link n s)) in
+  let of_node time n =
+    let rested, unclaimed = turns n in
+    Float.min (of_node time n) (Float.min rested unclaimed)
+  in
   let own = Float.min (Presence.due s.presence) (Float.min (Timers.first s.timers) (Expected.due s.expected)) in
   List.fold_left of_node own (Systems.to_list s.systems)
 
@@ -396,6 +459,15 @@ let stop ~now vehicle s =
   | None | Some _ when Expected.mem vehicle s.expected -> ({ s with expected = Expected.stop vehicle s.expected }, [])
   | None -> (s, [])
   | Some n -> command ~now Stop n s
+
+let bind ~now vehicles s =
+  let also v = Option.map (fun why -> Remark (v, "also " ^ why)) (Names.find_opt v s.held) in
+  let s = hold vehicles s in
+  (s, List.filter_map also vehicles @ claims ~now s)
+
+let release ~now vehicles s =
+  let s = { s with bound = List.fold_left (fun bound v -> Name_set.remove v bound) s.bound vehicles } in
+  (tell_all ~now vehicles s, claims ~now s)
 
 let leaves ~now ~at vehicles s =
   let postpone s vehicle =

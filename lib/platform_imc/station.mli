@@ -12,6 +12,7 @@ type t
 type settings = {
   id : int;  (** The console's IMC address, from 0x4000 to 0x5FFF, other than those of other consoles. *)
   name : string;  (** As other systems see it. *)
+  program : string;  (** Which other consoles are told of: the name of its file. *)
   addresses : Service.address list;  (** Where vehicles can send to, announced to them. *)
   epoch : float;  (** The date of time 0 of our clock: seconds since 1970-01-01 00:00 UTC. *)
   first_request : int;  (** Where requests are numbered from. *)
@@ -61,8 +62,10 @@ val due : t -> float
 
 val start : now:float -> Core.vehicle -> Core.platform_task -> t -> t * output list
 val stop : now:float -> Core.vehicle -> t -> t * output list
-val bind : Core.vehicle list -> t -> t
-val release : Core.vehicle list -> t -> t
+val bind : now:float -> Core.vehicle list -> t -> t * output list
+(** Other consoles are told ({!Claim}). *)
+
+val release : now:float -> Core.vehicle list -> t -> t * output list
 val set_timer : now:float -> Residual.timer -> float -> t -> t
 val cancel_timer : Residual.timer -> t -> t
 val set_connection_timeout : Core.vehicle list option -> float -> t -> t

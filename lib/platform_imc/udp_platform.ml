@@ -5,6 +5,7 @@ open Lwt.Infix
 type options = {
   id : int option;
   name : string option;
+  program : string;
   loopback : bool;
   interfaces : Unix.inet_addr list;
   data_port : int;
@@ -22,7 +23,7 @@ type options = {
 }
 
 let default =
-  { id = None; name = None; loopback = false; interfaces = []; data_port = 0;
+  { id = None; name = None; program = ""; loopback = false; interfaces = []; data_port = 0;
     announce_ports = [ 30100; 30101; 30102; 30103; 30104 ];
     group = Unix.inet_addr_of_string "224.0.75.69";
     payload = []; types = []; type_names = []; records = false; close_patience = 5.; note = (fun _ _ -> ());
@@ -220,6 +221,7 @@ let settings options ~port ~hosts ~time : Station.settings =
   let id = match options.id with Some id -> id | None -> 0x4000 + Random.State.int random 0x2000 in
   { id;
     name = Option.value options.name ~default:(Printf.sprintf "ccu-dolphin-%04x" id);
+    program = options.program;
     addresses = List.map (fun host -> { Service.host; port }) hosts;
     epoch = options.clock.date () -. time;
     first_request = Random.State.int random 0x10000;
@@ -282,8 +284,8 @@ let cancel_timer p timer =
   Network_log.timer_cancelled ~now:(now p) timer;
   quietly p (Station.cancel_timer timer)
 
-let bind p vehicles = quietly p (Station.bind vehicles)
-let release p vehicles = quietly p (Station.release vehicles)
+let bind p vehicles = command p (Station.bind ~now:(now p) vehicles)
+let release p vehicles = command p (Station.release ~now:(now p) vehicles)
 let start p vehicle task = command p (Station.start ~now:(now p) vehicle task)
 let stop p vehicle = command p (Station.stop ~now:(now p) vehicle)
 let set_connection_timeout p vehicles seconds = quietly p (Station.set_connection_timeout vehicles seconds)

@@ -10,6 +10,7 @@ open Dolphin_runtime
 type options = {
   id : int option;  (** The IMC address; [None]: one by chance, from 0x4000 to 0x5FFF. *)
   name : string option;  (** [None]: ["ccu-dolphin-"] and the IMC address. *)
+  program : string;  (** Which other consoles are told of; [""]: they are told of none. *)
   loopback : bool;  (** Only this machine: neither multicast nor broadcast, and only 127.0.0.1 is bound. *)
   interfaces : Unix.inet_addr list;  (** Addresses of this machine to use; [[]]: all of them. *)
   data_port : int;  (** Where vehicles send to; 0: any free one. *)

@@ -77,7 +77,7 @@ let loopback = Unix.inet_addr_loopback
 let vehicle = "lauv-noptilus-1"
 
 let settings : Station.settings =
-  { id = 0x4ABC; name = "ccu-dolphin"; addresses = [ { host = loopback; port = 6001 } ]; epoch = 1.79e9;
+  { id = 0x4ABC; name = "ccu-dolphin"; program = ""; addresses = [ { host = loopback; port = 6001 } ]; epoch = 1.79e9;
     first_request = 101; payload = []; types = []; type_names = []; records = true }
 
 let hear ~now bytes s = fst (Station.datagram ~now ~from:loopback bytes s)

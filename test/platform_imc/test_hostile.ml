@@ -5,7 +5,7 @@ let loopback = Unix.inet_addr_loopback
 let elsewhere = Unix.inet_addr_of_string "203.0.113.9"
 
 let settings : Station.settings =
-  { id = Recording.console; name = "ccu-test"; addresses = [ { host = loopback; port = 6001 } ]; epoch = 1.79e9;
+  { id = Recording.console; name = "ccu-test"; program = ""; addresses = [ { host = loopback; port = 6001 } ]; epoch = 1.79e9;
     first_request = 0; payload = []; types = []; type_names = []; records = false }
 
 let station () = Station.create settings

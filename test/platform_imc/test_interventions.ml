@@ -8,7 +8,7 @@ let own = 0x4ABC
 let loopback = Unix.inet_addr_loopback
 
 let settings : Station.settings =
-  { id = own; name = "ccu-test"; addresses = [ { host = loopback; port = 6001 } ]; epoch = 0.; first_request = 0;
+  { id = own; name = "ccu-test"; program = ""; addresses = [ { host = loopback; port = 6001 } ]; epoch = 0.; first_request = 0;
     payload = []; types = []; type_names = []; records = false }
 
 let announce name sys_type port =

@@ -156,7 +156,8 @@ let unheard (resumed : Resumed.t) =
 let open_network r recording options =
   let note vehicle text = r.front.remark (Printf.sprintf "%s: %s" vehicle text) in
   let keep ~time vehicle json = Recording.note recording ~time ~vehicle json in
-  let options = { options with Udp_platform.note; keep; sync = Recording.sync recording } in
+  let program = Filename.basename r.program.path in
+  let options = { options with Udp_platform.program; note; keep; sync = Recording.sync recording } in
   let opened =
     match r.resumed with
     | None -> Udp_platform.open_ options

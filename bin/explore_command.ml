@@ -4,9 +4,7 @@ module Faults = Dolphin_environment.Faults
 
 (* {1 Progress} *)
 
-let show_progress (p : Dolphin_checker.Limits.progress) =
-  Printf.eprintf "\r%s: %d states, %.0f/s, frontier %d, depth %d, %d MiB, %.0f s\027[K%!" p.phase p.states p.rate
-    p.frontier p.depth (Exploration_report.mebibytes p.memory) p.elapsed
+let show_progress p = Printf.eprintf "\r%s\027[K%!" (Progress_lines.line p)
 
 let clear_progress () = Printf.eprintf "\r\027[K%!"
 
@@ -14,16 +12,34 @@ let clear_progress () = Printf.eprintf "\r\027[K%!"
 
 let ( let* ) = Result.bind
 
-let explore settings program fleet ~live =
+let explore settings program fleet ~json =
+  let live = Unix.isatty Unix.stderr && not json in
   let interrupted = ref false in
   Sys.set_signal Sys.sigint (Signal_handle (fun _ -> interrupted := true));
-  let progress = if live then show_progress else ignore in
+  let progress =
+    if live then show_progress else if json then ignore else Progress_lines.every_ten_seconds prerr_endline
+  in
   let outcome =
     Exploration.explore ~interrupted:(fun () -> !interrupted) ~progress settings program fleet in
   if live then clear_progress ();
   outcome
 
-let run path fleet answers faults strict json trace reduction compress invariants formulas max_states max_depth
+type files = { trace : string option; junit : string option; sarif : string option }
+
+(* All of them, although one cannot be written; the first error. *)
+let write_files files program fleet ~strict outcome =
+  let write path f = Option.fold ~none:(Ok ()) ~some:f path in
+  let witness path =
+    match Exploration.counterexample ~strict outcome with
+    | Some found -> Exploration.write_witness program fleet path found
+    | None -> Ok ()
+  in
+  let trace = write files.trace witness in
+  let junit = write files.junit (fun path -> Junit.write ~strict program path outcome) in
+  let sarif = write files.sarif (fun path -> Sarif.write ~strict ~version:Version.number program path outcome) in
+  List.fold_left (fun found next -> if Result.is_error found then found else next) trace [ junit; sarif ]
+
+let run path fleet answers faults strict json files reduction compress invariants formulas max_states max_depth
     max_memory timeout =
   let settings : Exploration.settings =
     { answers; faults; reduction; compress; max_states; max_depth; max_memory; timeout; invariants; formulas } in
@@ -31,12 +47,8 @@ let run path fleet answers faults strict json trace reduction compress invariant
     (let* program = Program_file.load path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
      Report.diagnostics ~source:program.source program.warnings;
-     let* outcome = explore settings program fleet ~live:(Unix.isatty Unix.stderr && not json) in
-     let written =
-       match trace, Exploration.counterexample ~strict outcome with
-       | Some path, Some found -> Exploration.write_witness program fleet path found
-       | Some _, None | None, _ -> Ok ()
-     in
+     let* outcome = explore settings program fleet ~json in
+     let written = write_files files program fleet ~strict outcome in
      Result.iter_error Report.tell written;
      if json then print_endline (Yojson.Safe.to_string (Exploration_report.to_json program.program outcome))
      else Exploration_report.print ~strict program outcome;
@@ -128,6 +140,23 @@ let trace =
   let run_file = Arg.conv ~docv:"FILE" (parse, Format.pp_print_string) in
   Arg.(value & opt (some run_file) None & info [ "trace" ] ~docv:"FILE" ~doc)
 
+let file name doc =
+  let parse path = if path = "-" then Error (`Msg "'-' is no name of a file") else Ok path in
+  let path = Arg.conv ~docv:"FILE" (parse, Format.pp_print_string) in
+  Arg.(value & opt (some path) None & info [ name ] ~docv:"FILE" ~doc)
+
+let files =
+  let junit =
+    file "junit" "Write the verdicts into $(docv) as JUnit's XML too: a test case for each property, for whatever \
+                  collects test results."
+  in
+  let sarif =
+    file "sarif" "Write the verdicts into $(docv) as SARIF 2.1.0 too, with the runs that are shown as code flows, for \
+                  code hosts and editors."
+  in
+  let make trace junit sarif = { trace; junit; sarif } in
+  Term.(const make $ trace $ junit $ sarif)
+
 let reduction =
   let kinds =
     [ ("none", Dolphin_explore.Reduction.Whole); ("por", Partial_order); ("symmetry", Symmetry); ("all", All) ]
@@ -168,6 +197,7 @@ let man =
         look, or those for the values that the fleet gives; a run says what it assumes. All vehicles of the fleet are \
         in reach, unless $(b,--faults) says otherwise. Calls of a supplier get each of the replies that the fleet \
         gives for them; a call for which it has none fails.";
+    `P "How far it is stands on standard error: on a terminal all the time, in a log as a line every ten seconds.";
     `P "A bound that is met, or Ctrl-C, makes the answer inconclusive where no violation was found: it is never said \
         that something holds that was not wholly explored.";
     `S Manpage.s_arguments;
@@ -187,5 +217,5 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ trace $ reduction $ compress
+      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ files $ reduction $ compress
       $ invariants $ formulas $ max_states $ max_depth $ max_memory $ timeout)

@@ -9,6 +9,18 @@
 
 open Dolphin_semantics
 
+(** A line of the table. *)
+type row = {
+  actor : string;  (** a vehicle, or ["program"] *)
+  text : string;  (** what it did *)
+  at : Dolphin_syntax.Location.t option;  (** where the program says so *)
+  words : string;  (** what the log says of it, where [text] is a label that says little; or [""] *)
+  assumed : World.assumption list;
+}
+
+val rows : Core.program -> source:string -> Transition.t list -> row list
+(** [rows program ~source run] is the rows of [run], the first one first. *)
+
 val lines : ?first:int -> ?columns:int -> source:string -> Core.program -> Transition.t list -> string list
 (** [lines ~source program run] is the table of [run]; [source] is the text of [program]. Silent transitions have no
     row. Rows are numbered from [first], by default 1; of long texts the beginning is shown. What a transition takes for

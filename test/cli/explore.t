@@ -606,3 +606,81 @@ What cannot be explored.
   Usage: dolphin explore [OPTION]… PROG
   Try 'dolphin explore --help' or 'dolphin --help' for more information.
   [2]
+
+For whatever collects results of tests, and for code hosts and editors.
+
+  $ cat > reports.dol <<'END'
+  > v = pick { type 'UUV' }
+  > assert { 1 < 2 }
+  > execute imcPlan('a & b') >> assert({ poll(done: 1) }, 'it is done')
+  > END
+  $ explore reports.dol --junit reports.xml --sarif reports.sarif > /dev/null
+  [1]
+  $ sed 's/time="[^"]*"/time="T"/' reports.xml
+  <?xml version="1.0" encoding="UTF-8"?>
+  <testsuites tests="8" failures="1" errors="0" time="T">
+    <testsuite name="reports.dol" tests="8" failures="1" errors="0" time="T">
+      <testcase classname="reports.dol" name="no deadlock"/>
+      <testcase classname="reports.dol" name="termination"/>
+      <testcase classname="reports.dol" name="no unhandled error"/>
+      <testcase classname="reports.dol" name="assertions">
+        <failure message="assertions: violated after 6 steps: reports.dol:3:29: assertion failed: it is done" type="assertions">
+          
+      program                               noptilus-1    where
+  1   pick(1 vehicle of type 'UUV')                       reports.dol:1
+  2   picks noptilus-1                                    reports.dol:1
+  3   execute                                             reports.dol:3
+  4                                         starts a &amp; b  reports.dol:3
+  5                                         ends a &amp; b    reports.dol:3
+  6   broken(assertion failed: it is done)                reports.dol:3
+  
+        </failure>
+      </testcase>
+      <testcase classname="reports.dol" name="vehicles for all tasks"/>
+      <testcase classname="reports.dol" name="no halt"/>
+      <testcase classname="reports.dol" name="no leftover tuples"/>
+      <testcase classname="reports.dol" name="all code reached"/>
+    </testsuite>
+  </testsuites>
+  $ cat > results.py <<'END'
+  > import json
+  > log = json.load(open('reports.sarif'))
+  > [run] = log['runs']
+  > print(log['version'], run['tool']['driver']['name'], [rule['id'] for rule in run['tool']['driver']['rules']])
+  > for result in run['results']:
+  >     place = result['locations'][0]['physicalLocation']
+  >     print(result['ruleId'], result['kind'], result['level'], place['artifactLocation']['uri'], place.get('region'))
+  >     for flow in result.get('codeFlows', []):
+  >         for step in flow['threadFlows'][0]['locations']:
+  >             print('  ', step['location']['message']['text'])
+  > END
+  $ python3 results.py
+  2.1.0 dolphin explore ['no-deadlock', 'termination', 'no-unhandled-error', 'assertions', 'vehicles-for-all-tasks', 'no-halt', 'no-leftover-tuples', 'all-code-reached']
+  no-deadlock pass none reports.dol None
+  termination pass none reports.dol None
+  no-unhandled-error pass none reports.dol None
+  assertions fail error reports.dol {'startLine': 3, 'startColumn': 29, 'endLine': 3, 'endColumn': 68}
+     program: pick(1 vehicle of type 'UUV')
+     program: picks noptilus-1
+     program: execute
+     noptilus-1: starts a & b
+     noptilus-1: ends a & b
+     program: broken(assertion failed: it is done)
+  vehicles-for-all-tasks pass none reports.dol None
+  no-halt pass none reports.dol None
+  no-leftover-tuples pass none reports.dol None
+  all-code-reached pass none reports.dol None
+  $ explore reports.dol --strict --max-states 2 --junit bound.xml --sarif bound.sarif > /dev/null
+  [3]
+  $ grep -c 'type="inconclusive"' bound.xml
+  8
+  $ grep -c '"kind": "open"' bound.sarif
+  8
+  $ explore reports.dol --sarif -
+  dolphin: option '--sarif': '-' is no name of a file
+  Usage: dolphin explore [OPTION]… PROG
+  Try 'dolphin explore --help' or 'dolphin --help' for more information.
+  [2]
+  $ explore reports.dol --junit nowhere/reports.xml > /dev/null
+  dolphin: nowhere/reports.xml: No such file or directory
+  [3]

@@ -9,20 +9,21 @@ let columns () =
 
 let last steps cycle = match List.rev (steps @ cycle) with [] -> None | (t : Transition.t) :: _ -> Some t.next
 
-let print_tuples steps cycle =
+let tuples steps cycle =
   match last steps cycle with
-  | Some c when not (Tuples.is_empty c.shared.tuples) -> Format.printf "tuples then: %a@." Tuples.pp c.shared.tuples
-  | Some _ | None -> ()
+  | Some c when not (Tuples.is_empty c.shared.tuples) -> [ Format.asprintf "tuples then: %a" Tuples.pp c.shared.tuples ]
+  | Some _ | None -> []
 
-let print (p : Program_file.t) ~steps ~cycle =
-  let lines ~first = Columns.lines ~first ?columns:(columns ()) ~source:p.source p.program in
-  let print = List.iter print_endline in
-  print (lines ~first:1 steps);
-  if cycle <> [] then begin
-    print_endline "and from there, again and again:";
-    print (lines ~first:(List.length steps + 1) cycle)
-  end;
-  print_tuples steps cycle
+let lines ?columns (p : Program_file.t) ~steps ~cycle =
+  let lines ~first = Columns.lines ~first ?columns ~source:p.source p.program in
+  let around =
+    if cycle = [] then []
+    else "and from there, again and again:" :: lines ~first:(List.length steps + 1) cycle
+  in
+  lines ~first:1 steps @ around @ tuples steps cycle
+
+let print p ~steps ~cycle = List.iter print_endline (lines ?columns:(columns ()) p ~steps ~cycle)
+let text p ~steps ~cycle = String.concat "\n" (lines p ~steps ~cycle)
 
 let print_waiting (p : Program_file.t) steps =
   let guard (w : Waiting.t) =

@@ -6,5 +6,8 @@ val print : Program_file.t -> steps:Transition.t list -> cycle:Transition.t list
 (** In columns (see {!Dolphin_display.Columns}), as many as the terminal or [COLUMNS] has; the cycle, if any, is what
     comes after it for ever. Below stand the tuples that are left then. *)
 
+val text : Program_file.t -> steps:Transition.t list -> cycle:Transition.t list -> string
+(** What {!print} prints, in as many columns as it takes. *)
+
 val print_waiting : Program_file.t -> Transition.t list -> unit
 (** What the program waits for after this run, if it waits for conditions. *)

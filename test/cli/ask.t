@@ -87,3 +87,34 @@ The end of the input is no answer.
 The programs that ran did what the semantics allows.
 
   $ check-journals
+
+Yes and no are what people type for truth values. `confirm` asks until it hears one of them.
+
+  $ cat > confirm.dol <<'EOF'
+  > y = false
+  > n = 'a name'
+  > for (i in 1..4) message(ask 'b?')
+  > message confirm('Retrieve now?')
+  > message(confirm('Surely?') ? 'sure' : 'not sure')
+  > place = ask 'Where?'
+  > EOF
+  $ printf 'y\nNo\nn\nYES\nn + 1\nperhaps\nyes\nfalse\nnorth\n"north"\n' | dolphin exec confirm.dol --sim
+     0:00  program     asks: b? y
+     0:00  program     says: true
+     0:00  program     asks: b? No
+     0:00  program     says: false
+     0:00  program     asks: b? n
+     0:00  program     says: false
+     0:00  program     asks: b? YES
+     0:00  program     says: true
+     0:00  program     asks: Retrieve now? n + 1
+     0:00  program     asks: Retrieve now? (yes or no) perhaps
+     0:00  program     cannot take this answer: unknown name 'perhaps' (a text stands in quotes: 'perhaps')
+     0:00  program     asks: Retrieve now? (yes or no) yes
+     0:00  program     says: true
+     0:00  program     asks: Surely? false
+     0:00  program     says: not sure
+     0:00  program     asks: Where? north
+     0:00  program     cannot take this answer: unknown name 'north' (a text stands in quotes: 'north')
+     0:00  program     asks: Where? "north"
+     0:00  program     ends

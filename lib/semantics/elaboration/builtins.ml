@@ -16,6 +16,7 @@ type arguments =
   | Pairs_or_key of (string list -> Core.builtin)
   | Execute
   | Set_connection_timeout
+  | Confirm
   | Assert
 
 type place = Anywhere | Script_only | Handler_only
@@ -37,6 +38,7 @@ let table : (string * t) list =
     ("release", these Release [ Vehicles ] ~place:Script_only ~result:Other);
     ("setConnectionTimeout", other Set_connection_timeout);
     ("ask", these Ask [ Any ] ~place:Script_only);
+    ("confirm", { (other Confirm ~place:Script_only) with result = Truth });
     ("message", these Message [ Any ] ~result:Other);
     ("println", these Message [ Any ] ~result:Other);
     ("pause", these Pause [ Number ] ~place:Script_only ~result:Other);
@@ -57,6 +59,9 @@ module String_map = Map.Make (String)
 let by_name = String_map.of_seq (List.to_seq table)
 let find name = String_map.find_opt name by_name
 let names = List.map fst table
+
+let is_of_script name =
+  match find name with Some { place = Script_only; _ } -> true | Some _ | None -> false
 
 let is_deed name =
   match find name with

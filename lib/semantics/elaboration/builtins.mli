@@ -22,6 +22,7 @@ type arguments =
   | Pairs_or_key of (string list -> Core.builtin)  (** [poll]: pairs, or one key *)
   | Execute
   | Set_connection_timeout
+  | Confirm  (** a prompt, put to people until they say yes or no *)
   | Assert  (** code, and perhaps a text *)
 
 type place =
@@ -33,6 +34,9 @@ type t = { arguments : arguments; place : place; result : kind; reads_sensors : 
 
 val find : string -> t option
 (** The procedure of that name. *)
+
+val is_of_script : string -> bool
+(** Whether this is a procedure that only the script may call. *)
 
 val is_deed : string -> bool
 (** Whether this is a procedure that code of tasks calls for what it does: [message], [post] ... *)

@@ -33,6 +33,25 @@ let assertion_task env at arguments =
   let lambda, captured = make_lambda env at (Scope.Task_code "assert") "assert" ~parameters:[] ~implicit:false body in
   apply env at (Builtin Make_action) [ expression env at (Make_closure (lambda, captured)) ]
 
+(* [x = ask Q; while (x is neither true nor false) x = ask "Q (yes or no)"]: no rule of its own. *)
+let confirm env at arguments =
+  match arguments with
+  | [ Ast.Positional prompt ] ->
+    let question = Scope.new_slot env.code and answer = Scope.new_slot env.code in
+    let ask prompt = set_local env at answer (apply env at (Builtin Ask) [ prompt ]) in
+    let truth b = constant env at (Boolean b) in
+    let is b = apply env at (Binary Equal) [ local env at answer; truth b ] in
+    let first = set_local env at question (apply env at Concatenate [ elaborate env prompt ]) in
+    let asked = ask (local env at question) in
+    let open_ = expression env at (If (is true, truth false, apply env at (Unary Not) [ is false ])) in
+    let again = ask (apply env at Concatenate [ local env at question; constant env at (String " (yes or no)") ]) in
+    block env at [ first; asked; expression env at (While (open_, again)); local env at answer ]
+  | [ Ast.Named (k, _) ] -> error env Unknown_argument k.at "confirm takes no argument by name"; null env at
+  | arguments ->
+    error env Wrong_arity at "confirm takes 1 argument, not %d" (List.length arguments)
+      ~hint:"write confirm 'Retrieve now?'";
+    null env at
+
 let number_of_arguments least most =
   match least, most with
   | 0, 0 -> "no arguments"
@@ -135,6 +154,7 @@ let to_builtin env at name (builtin : Builtins.t) arguments =
       | arguments -> pairs env at name operation arguments)
   | Execute -> execute env at arguments
   | Set_connection_timeout -> set_connection_timeout env at arguments
+  | Confirm -> confirm env at arguments
   | Assert -> assertion_task env at arguments
 
 let builder_in_parentheses env at name arguments =

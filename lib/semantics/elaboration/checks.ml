@@ -94,6 +94,8 @@ let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expressio
       | Closure _ -> Some "code becomes a task by action { ... } or condition { ... }"
       | Call { callee = { it = Variable name; _ }; _ } when Builtins.is_deed name && not (is_hidden env name) ->
         Some (Format.asprintf "what is done in a task is an action: action { %a }" Dolphin_syntax.Print.expression e)
+      | Call { callee = { it = Variable name; _ }; _ } when Builtins.is_of_script name && not (is_hidden env name) ->
+        Some (Printf.sprintf "%s belongs to the script: do it before execute" name)
       | _ -> None
     in
     if not (could_be Task (known_kind env e)) then

@@ -23,14 +23,17 @@ let hint_for_unknown program name at names =
     | Some example -> Some ("write " ^ example)
     | None -> Checks.did_you_mean name names
 
-let report_unknown program =
+let report_unknown ?(fallback = fun _ -> None) program =
   let names = Scope.visible_names (Scope.code program Scope.Main None) in
   List.iter
     (fun (name, at) ->
        Scope.report program
          (Diagnostic.error ~code:Unknown_name at
             (Printf.sprintf "unknown name '%s'" name)
-            ?hint:(hint_for_unknown program name at (List.filter (fun other -> other <> name) names))))
+            ?hint:(
+              match hint_for_unknown program name at (List.filter (fun other -> other <> name) names) with
+              | Some hint -> Some hint
+              | None -> fallback name)))
     (Scope.unknown program)
 
 let report_blocking program =
@@ -110,7 +113,7 @@ let first_message = function
       match d.hint with Some hint -> Printf.sprintf "%s (%s)" d.message hint | None -> d.message)
   | [] -> "it is no expression"
 
-let expression (p : Core.program) ~globals (e : Ast.expression) =
+let evaluated ?fallback (p : Core.program) ~globals (e : Ast.expression) =
   (* Beyond the program's own sites: what is made here has no place in the program's text. *)
   let first_site = Array.length p.locations in
   let globals = Array.to_list p.global_names @ globals in
@@ -118,12 +121,26 @@ let expression (p : Core.program) ~globals (e : Ast.expression) =
   let lambda = shell program e.at "answer" 0 in
   let env = Translate.env program (Scope.code program Main None) ~answer:true in
   fill env lambda Main [] e.at [ { Ast.it = Expression e; at = e.at } ];
-  report_unknown program;
+  report_unknown ?fallback program;
   match List.filter is_error (Scope.reports program) with
   | [] -> Ok { lambda; captured = [||] }
   | errors -> Error (first_message errors)
 
+let expression p ~globals e = evaluated p ~globals e
+
+(* As people type them: these words are never variables. *)
+let spoken (e : Ast.expression) : Ast.expression =
+  match e.it with
+  | Variable name -> (
+      match String.lowercase_ascii name with
+      | "yes" | "y" | "true" -> { e with it = Boolean true }
+      | "no" | "n" | "false" -> { e with it = Boolean false }
+      | _ -> e)
+  | _ -> e
+
 let answer p text =
   match Dolphin_syntax.Parse.expression ~file:"answer" text with
   | Error ds -> Error (first_message ds)
-  | Ok e -> expression p ~globals:[] e
+  | Ok e ->
+    let fallback name = Some (Printf.sprintf "a text stands in quotes: '%s'" name) in
+    evaluated ~fallback p ~globals:[] (spoken e)

@@ -14,7 +14,8 @@ val program :
 
 val answer : Core.program -> string -> (Core.closure, string) result
 (** [answer p text] is the expression [text], to be evaluated with the variables of [p] in sight, or what is wrong with
-    it in one sentence. *)
+    it in one sentence. [yes] and [y], [no] and [n], in small or large letters, are the truth values, whatever variables
+    [p] has. *)
 
 val expression : Core.program -> globals:string list -> Dolphin_syntax.Ast.expression -> (Core.closure, string) result
 (** [expression p ~globals e] is [e] likewise; [globals] are further variables, numbered after those of [p]. *)

@@ -15,15 +15,18 @@ let line json =
     Some { time = to_number (member "t" json); inward = to_string (member "dir" json) = "in"; bytes = of_hex hex }
   | _ -> None
 
-let lines =
+let read_lines path =
   lazy
-    (let channel = open_in "data/lifecycle.jsonl" in
+    (let channel = open_in path in
      let rec read found =
        match input_line channel with
        | text -> read (match line (Yojson.Safe.from_string text) with Some l -> l :: found | None -> found)
        | exception End_of_file -> close_in channel; List.rev found
      in
      read [])
+
+let lines = read_lines "data/lifecycle.jsonl"
+let fleet = read_lines "data/fleet.jsonl"
 
 let message line =
   match Packet.decode line.bytes with

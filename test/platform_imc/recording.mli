@@ -11,5 +11,8 @@ val vehicle : string
 val lines : line list Lazy.t
 (** All datagrams, in order. *)
 
+val fleet : line list Lazy.t
+(** The datagrams of four vehicles that execute [examples/rendezvous.dol]. *)
+
 val message : line -> Dolphin_imc.Message.t
 (** @raise Failure if it is broken. *)

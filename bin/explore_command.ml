@@ -24,6 +24,19 @@ let explore settings program fleet ~json =
   if live then clear_progress ();
   outcome
 
+(* As it is kept, if nothing has changed; or explored, and kept for the next time. *)
+let find_or_explore settings program fleet ~json ~cache =
+  let store = if cache then Verdict_store.make settings program fleet else None in
+  match Option.bind store Verdict_store.find with
+  | Some outcome ->
+    Report.complain "nothing has changed: these are the verdicts that were kept";
+    Ok outcome
+  | None ->
+    let* outcome = explore settings program fleet ~json in
+    let keep store = Result.iter_error Report.tell (Verdict_store.keep store outcome) in
+    Option.iter keep store;
+    Ok outcome
+
 type files = { trace : string option; junit : string option; sarif : string option }
 
 (* All of them, although one cannot be written; the first error. *)
@@ -39,7 +52,7 @@ let write_files files program fleet ~strict outcome =
   let sarif = write files.sarif (fun path -> Sarif.write ~strict ~version:Version.number program path outcome) in
   List.fold_left (fun found next -> if Result.is_error found then found else next) trace [ junit; sarif ]
 
-let run path fleet answers faults strict json files reduction compress invariants formulas max_states max_depth
+let run path fleet answers faults strict json files cache reduction compress invariants formulas max_states max_depth
     max_memory timeout =
   let settings : Exploration.settings =
     { answers; faults; reduction; compress; max_states; max_depth; max_memory; timeout; invariants; formulas } in
@@ -47,7 +60,7 @@ let run path fleet answers faults strict json files reduction compress invariant
     (let* program = Program_file.load path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
      Report.diagnostics ~source:program.source program.warnings;
-     let* outcome = explore settings program fleet ~json in
+     let* outcome = find_or_explore settings program fleet ~json ~cache in
      let written = write_files files program fleet ~strict outcome in
      Result.iter_error Report.tell written;
      if json then print_endline (Yojson.Safe.to_string (Exploration_report.to_json program.program outcome))
@@ -157,6 +170,14 @@ let files =
   let make trace junit sarif = { trace; junit; sarif } in
   Term.(const make $ trace $ junit $ sarif)
 
+let cache =
+  let doc =
+    "Keep the verdicts, unless one is inconclusive, and print those that were kept if nothing has changed: neither \
+     $(i,PROG) nor the fleet, the options or $(mname) itself. They are kept below $(b,dolphin/explore) in \
+     $(b,XDG_CACHE_HOME), by default $(b,~/.cache)."
+  in
+  Arg.(value & flag & info [ "cache" ] ~doc)
+
 let reduction =
   let kinds =
     [ ("none", Dolphin_explore.Reduction.Whole); ("por", Partial_order); ("symmetry", Symmetry); ("all", All) ]
@@ -217,5 +238,5 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ files $ reduction $ compress
-      $ invariants $ formulas $ max_states $ max_depth $ max_memory $ timeout)
+      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ files $ cache $ reduction
+      $ compress $ invariants $ formulas $ max_states $ max_depth $ max_memory $ timeout)

@@ -684,3 +684,50 @@ For whatever collects results of tests, and for code hosts and editors.
   $ explore reports.dol --junit nowhere/reports.xml > /dev/null
   dolphin: nowhere/reports.xml: No such file or directory
   [3]
+
+What was found is kept, and used again if nothing has changed.
+
+  $ export XDG_CACHE_HOME=$PWD/kept
+  $ cp reports.dol kept.dol
+  $ echo "vehicle 'a', { type 'UUV' }" > kept.fleet
+  $ verdict() { dolphin explore kept.dol --cache "$@" 2> notes > result; echo "$?, $(cat notes)"; }
+  $ verdict; cp result first
+  1, 
+  $ verdict --trace again.run; cmp result first
+  1, dolphin: nothing has changed: these are the verdicts that were kept
+  $ dolphin explore kept.dol --trace once.run > /dev/null; cmp once.run again.run
+  $ find kept -type f | wc -l
+  1
+  $ verdict --faults fail
+  1, 
+  $ verdict --faults fail
+  1, dolphin: nothing has changed: these are the verdicts that were kept
+  $ echo "vehicle 'b', { type 'UUV' }" >> kept.fleet
+  $ verdict
+  1, 
+  $ echo "post done: 1" > kept.dol
+  $ verdict
+  0, 
+  $ verdict
+  0, dolphin: nothing has changed: these are the verdicts that were kept
+
+Not if it is inconclusive, if the file is not as it was written, or where no file can be written.
+
+  $ rm -r kept
+  $ verdict --max-states 2
+  3, 
+  $ find kept -type f 2> none | wc -l
+  0
+  $ verdict
+  0, 
+  $ kept=$(find kept -type f)
+  $ cp $kept whole; { head -c 60 whole; printf x; tail -c +62 whole; } > $kept; verdict
+  0, 
+  $ head -c 60 whole > $kept; verdict
+  0, 
+  $ : > $kept; verdict
+  0, 
+  $ verdict
+  0, dolphin: nothing has changed: these are the verdicts that were kept
+  $ touch file; XDG_CACHE_HOME=$PWD/file verdict
+  0, dolphin: $TESTCASE_ROOT/file/dolphin: Not a directory

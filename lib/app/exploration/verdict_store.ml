@@ -1,0 +1,79 @@
+module Search = Dolphin_explore.Search
+
+type t = { directory : string; inputs : string }
+
+(* The specification of XDG has it that a relative path is ignored. *)
+let directory () =
+  let is_absolute path = not (Filename.is_relative path) in
+  let absolute name = Option.bind (Sys.getenv_opt name) (fun path -> if is_absolute path then Some path else None) in
+  let cache =
+    match absolute "XDG_CACHE_HOME", absolute "HOME" with
+    | Some path, _ -> Some path
+    | None, Some home -> Some (Filename.concat home ".cache")
+    | None, None -> None
+  in
+  Option.map (fun cache -> List.fold_left Filename.concat cache [ "dolphin"; "explore" ]) cache
+
+(* Where there is one, this link leads to the file that runs, although there may be another one now at its path. *)
+let running = "/proc/self/exe"
+
+let executable () =
+  let path = if Sys.file_exists running then running else Sys.executable_name in
+  match Digest.file path with digest -> Some digest | exception Sys_error _ -> None
+
+let make (settings : Exploration.settings) (program : Program_file.t) (fleet : Fleet_file.t) =
+  match directory (), executable () with
+  | None, _ | _, None -> None
+  | Some directory, Some executable ->
+    let inputs = (executable, settings, program.path, program.source, fleet.path, fleet.source) in
+    Some { directory; inputs = Marshal.to_string inputs [ No_sharing ] }
+
+let path t = Filename.concat t.directory (Digest.to_hex (Digest.string t.inputs))
+
+(* {1 Files}
+
+   The digest of what follows it: the inputs, and what was found. *)
+
+let read path =
+  match open_in_bin path with
+  | exception Sys_error _ -> None
+  | channel ->
+    let contents () = really_input_string channel (in_channel_length channel) in
+    Fun.protect
+      ~finally:(fun () -> close_in_noerr channel)
+      (fun () -> try Some (contents ()) with Sys_error _ | End_of_file -> None)
+
+let find t =
+  let digest_length = String.length (Digest.string "") in
+  match read (path t) with
+  | Some contents when String.length contents > digest_length ->
+    let rest = String.sub contents digest_length (String.length contents - digest_length) in
+    if Digest.string rest <> String.sub contents 0 digest_length then None
+    else
+      let inputs, (found : Search.outcome) = Marshal.from_string rest 0 in
+      if String.equal inputs t.inputs then Some found else None
+  | Some _ | None -> None
+
+let rec make_directory path =
+  if not (Sys.file_exists path) then begin
+    make_directory (Filename.dirname path);
+    try Sys.mkdir path 0o700 with Sys_error _ when Sys.file_exists path -> ()
+  end
+
+let is_conclusive (o : Search.outcome) =
+  let is_open = function _, Search.Inconclusive _ -> true | _, (Holds | Violated _ | Unreached _) -> false in
+  o.stopped = None && not (List.exists is_open o.verdicts)
+
+(* Renamed when it is whole: another process never sees a part of it. *)
+let keep t o =
+  if not (is_conclusive o) then Ok ()
+  else
+    let write () =
+      make_directory t.directory;
+      let contents = Marshal.to_string (t.inputs, o) [] in
+      let part, channel = Filename.open_temp_file ~mode:[ Open_binary ] ~temp_dir:t.directory "part" "" in
+      output_string channel (Digest.string contents ^ contents);
+      close_out channel;
+      Sys.rename part (path t)
+    in
+    try Ok (write ()) with Sys_error why -> Error (Error.Unavailable why)

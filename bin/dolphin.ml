@@ -7,7 +7,8 @@ let man =
         until an error.";
     `P "$(mname) $(b,exec) runs a program, $(mname) $(b,explore) checks every run that it can have, $(mname) \
         $(b,check) finds its faults without running it. Each command has a manual: $(mname) $(i,COMMAND) $(b,--help).";
-    `S Options.s_write; `S Options.s_prove; `S Options.s_run; `S Options.s_runs; `S Options.s_others;
+    `S Options.s_setup; `S Options.s_write; `S Options.s_prove; `S Options.s_run; `S Options.s_runs;
+    `S Options.s_others;
     `S Manpage.s_examples;
     `Pre "  $(mname) exec examples/rendezvous.dol\n  $(mname) explore examples/rendezvous.dol\n\
          \  $(mname) check mission.dol";
@@ -22,9 +23,10 @@ let command =
       ~exits:(Options.exits [ Done; Failed; Bad_input; Platform_trouble; Bug; Interrupted ])
   in
   Cmd.group info
-    [ Exec_command.command; Check_command.command; Conform_command.command; Explore_command.command;
-      Fleet_command.command; Lts_command.command; Parse_command.command; Plan_command.command; Sim_command.command;
-      Runs_command.command; Step_command.command; Tla_command.command; Trace_command.command ]
+    [ Check_command.command; Conform_command.command; Doctor_command.command; Exec_command.command;
+      Explore_command.command; Fleet_command.command; Lts_command.command; New_command.command; Parse_command.command;
+      Plan_command.command; Runs_command.command; Sim_command.command; Step_command.command; Tla_command.command;
+      Trace_command.command ]
 
 (* [--sim] alone would take the next argument for its fleet. *)
 let arguments =

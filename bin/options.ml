@@ -27,6 +27,7 @@ let s_prove = "KNOW WHAT IT MAY DO"
 let s_run = "RUN IT"
 let s_runs = "SEE WHAT HAPPENED"
 let s_others = "FOR OTHER PROGRAMS"
+let s_setup = "GET STARTED"
 
 let exits = Exit_status.info
 

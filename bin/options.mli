@@ -24,6 +24,7 @@ val s_prove : string
 val s_run : string
 val s_runs : string
 val s_others : string
+val s_setup : string
 
 (** {1 Parts of every manual page} *)
 

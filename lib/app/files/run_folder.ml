@@ -42,6 +42,15 @@ let fresh ~program =
   | exception Unix.Unix_error (error, _, _) ->
     Error (Error.Unavailable (Printf.sprintf "%s: %s" folder (Unix.error_message error)))
 
+let rec nearest path = if Sys.file_exists path then path else nearest (Filename.dirname path)
+
+let writable () =
+  let* folder = folder () in
+  match Unix.access (nearest folder) [ W_OK; X_OK ] with
+  | () -> Ok folder
+  | exception Unix.Unix_error (error, _, _) ->
+    Error (Error.Unavailable (Printf.sprintf "%s: %s" folder (Unix.error_message error)))
+
 (* {1 Its runs} *)
 
 (* Enough for the last line of any run but those that end with a very long message. *)

@@ -21,6 +21,9 @@ val fresh : program:string -> (string, Error.t) result
 (** [fresh ~program] is the path of a new journal of a run of [program] that starts now. The folder is made if it is not
     there. The error, {!Error.Unavailable}, says why that is not possible. *)
 
+val writable : unit -> (string, Error.t) result
+(** The folder, which may be yet to be made, if it can be written to. *)
+
 val list : unit -> run list
 (** The runs in the folder, latest first. Files that are no journals are left out. *)
 

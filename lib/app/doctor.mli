@@ -1,0 +1,12 @@
+(** What this machine has of what Dolphin may want. *)
+
+type finding = {
+  subject : string;  (** ["TLC"] *)
+  found : string;  (** what is there, or what is wrong *)
+  advice : string option;  (** what to do, if something is missing *)
+  is_needed : bool;  (** whether programs cannot be run without it *)
+}
+
+val examine : unit -> finding list
+(** Looks at the clocks, sockets, multicasts, the user's folder of runs, and TLC. Sends nothing, and leaves nothing
+    behind. *)

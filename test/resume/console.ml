@@ -100,8 +100,20 @@ let go_on ~port ~journal fd death =
     drive its_recorder platform
       (Some { configuration = Replay.configuration past.replay; world; news; pending = past.pending })
 
-let start ~port ~journal death =
+(* All that the library tells of datagrams, vehicles and timers. *)
+let log_to path =
+  let fd = Unix.openfile path [ O_WRONLY; O_CREAT; O_APPEND ] 0o644 in
+  let report _ _ ~over k message =
+    let write text = write_all fd (text ^ "\n"); over (); k () in
+    message (fun ?header:_ ?tags:_ format -> Format.kasprintf write format)
+  in
+  Logs.set_reporter { Logs.report };
+  Logs.set_level ~all:true (Some Debug);
+  Logs.debug (fun m -> m "a console begins")
+
+let start ~port ~journal ~log death =
   Processes.fork (fun () ->
+      log_to log;
       let is_there = Sys.file_exists journal in
       let fd = Unix.openfile journal [ O_RDWR; O_CREAT; O_APPEND ] 0o644 in
       if is_there then go_on ~port ~journal fd death else begin_run ~port fd death)

@@ -9,9 +9,10 @@ type death =
   | After of int  (** when the line is written, before anything that it tells of is done *)
   | Never
 
-val start : port:int -> journal:string -> death -> int
-(** [start ~port ~journal death] is the process of a console that resumes the run of [journal], or begins it if
-    there is no such file. It exits with 0 if the mission was completed. *)
+val start : port:int -> journal:string -> log:string -> death -> int
+(** [start ~port ~journal ~log death] is the process of a console that resumes the run of [journal], or begins it if
+    there is no such file. It exits with 0 if the mission was completed. Its debug log, each datagram of it, goes to the
+    end of [log]. *)
 
 val program : Dolphin_semantics.Core.program
 val hash : string

@@ -1,6 +1,8 @@
-(* Not part of the tests, as it takes some minutes: dune exec test/resume/kill_everywhere.exe *)
+(* Not part of the tests, as it takes some minutes: kill_everywhere.exe [KILLS [LOAD]]. Without KILLS each point is
+   taken once; LOAD processes take time meanwhile. *)
 
 let () =
-  match Resume_test.Kills.run None with
+  let argument i = if Array.length Sys.argv > i then Some (int_of_string Sys.argv.(i)) else None in
+  match Resume_test.Kills.run ?load:(argument 2) (argument 1) with
   | Ok summary -> print_endline summary
   | Error summary -> print_endline summary; exit 1

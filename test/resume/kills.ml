@@ -11,9 +11,10 @@ let all lines =
   in
   List.concat (List.mapi of_point points)
 
+(* If there are fewer, they are repeated. *)
 let sample n trials =
-  let total = List.length trials in
-  List.filteri (fun i _ -> i * n / total <> (i - 1) * n / total || i = 0) trials
+  let trials = Array.of_list trials in
+  List.init n (fun i -> trials.(i * Array.length trials / n))
 
 let at_once = 10
 
@@ -40,12 +41,18 @@ let run_all trials =
   while Hashtbl.length running > 0 do wait () done;
   !failed
 
-let run how_many =
+(* Processes that take time from all others. *)
+let burden n f =
+  let rec burn () = if Sys.opaque_identity true then burn () else 0 in
+  let burners = List.init n (fun _ -> Processes.fork ~patience:0 burn) in
+  Fun.protect ~finally:(fun () -> List.iter Processes.stop burners) f
+
+let run ?(load = 0) how_many =
   let lines = Trial.lines () in
   let trials = all lines in
   let trials = match how_many with Some n -> sample n trials | None -> trials in
   let began = Unix.gettimeofday () in
-  let failed = run_all trials in
+  let failed = burden load (fun () -> run_all trials) in
   let summary =
     Printf.sprintf "%d consoles killed, of a journal of %d lines: %d resumed rightly, %d not; %.0f s"
       (List.length trials) lines

@@ -1,6 +1,6 @@
 let patience = 15
 
-let fork f =
+let fork ?(patience = patience) f =
   flush_all ();
   match Lwt_unix.fork () with
   | 0 ->

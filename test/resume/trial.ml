@@ -20,7 +20,6 @@ let port number =
   let slot = Unix.getppid () mod 20 in
   20000 + (((slot * most_at_once) + (number mod most_at_once)) * ports_of_one)
 
-
 (* {1 What must be so afterwards} *)
 
 let check_journal path =
@@ -44,51 +43,67 @@ let read path =
   let channel = open_in_bin path in
   Fun.protect ~finally:(fun () -> close_in channel) (fun () -> really_input_string channel (in_channel_length channel))
 
+(* What explains a failure stays there, the rest does not. *)
+let folder number =
+  let root = Option.value (Sys.getenv_opt "DOLPHIN_KEPT") ~default:(Filename.get_temp_dir_name ()) in
+  Printf.sprintf "%s/dolphin-kill-%d-%d" root (Unix.getpid ()) number
+
+let remove folder =
+  Array.iter (fun name -> Sys.remove (Filename.concat folder name)) (Sys.readdir folder);
+  Unix.rmdir folder
+
+let write path text =
+  let channel = open_out_bin path in
+  Fun.protect ~finally:(fun () -> close_out channel) (fun () -> output_string channel text)
+
 let in_folder number f =
-  let folder = Filename.get_temp_dir_name () in
-  let name file = Printf.sprintf "%s/dolphin-kill-%d-%d.%s" folder (Unix.getpid ()) number file in
-  let journal = name "run" and log = name "log" in
-  let remove path = if Sys.file_exists path then Sys.remove path in
-  Fun.protect ~finally:(fun () -> List.iter remove [ journal; log ]) (fun () -> f ~journal ~log)
+  let folder = folder number in
+  Unix.mkdir folder 0o755;
+  let result = f (Filename.concat folder) in
+  if Result.is_ok result then remove folder;
+  Result.map_error (fun why -> Printf.sprintf "%s\nall of it is in %s" why folder) result
 
 let ( let* ) = Result.bind
 
-let console ~port ~journal death =
-  match Processes.wait (Console.start ~port ~journal death) with
+let console ~port ~name death =
+  match Processes.wait (Console.start ~port ~journal:(name "run") ~log:(name "consoles.log") death) with
   | WSIGNALED signal when signal = Sys.sigkill -> Ok `Killed
   | WEXITED 0 -> Ok `Completed
   | WEXITED code -> Error (Printf.sprintf "a console exited with status %d" code)
   | WSIGNALED signal when signal = Sys.sigalrm -> Error "a console did not come to an end"
   | WSIGNALED signal | WSTOPPED signal -> Error (Printf.sprintf "a console got signal %d" signal)
 
+(* One console after the other; the journal as each one left it is kept. *)
+let rec consoles ~port ~name pause number = function
+  | [] -> Ok ()
+  | death :: others -> (
+      let* ending = console ~port ~name death in
+      match ending with
+      | `Completed -> Ok ()
+      | `Killed ->
+        write (name (Printf.sprintf "run.%d" number)) (read (name "run"));
+        Unix.sleepf pause;
+        consoles ~port ~name 0. (number + 1) others)
+
 let run t ~number =
-  in_folder number (fun ~journal ~log ->
+  in_folder number (fun name ->
       let port = port number in
-      let vehicles = Vehicles.start ~port ~log in
-      let rec consoles pause = function
-        | [] -> Ok ()
-        | death :: others -> (
-            let* ending = console ~port ~journal death in
-            match ending with
-            | `Completed -> Ok ()
-            | `Killed ->
-              Unix.sleepf pause;
-              consoles 0. others)
-      in
-      let went = consoles t.pause [ t.death; t.again; Console.Never ] in
+      write (name "trial") (Format.asprintf "%a; trial %d, ports from %d@." pp t number port);
+      let vehicles = Vehicles.start ~port ~log:(name "vehicles.log") in
+      let went = consoles ~port ~name t.pause 1 [ t.death; t.again; Console.Never ] in
       Processes.stop vehicles;
-      let checked = let* () = went in let* () = check_vehicles log in check_journal journal in
-      let with_files why = Printf.sprintf "%s\n%s%s" why (read journal) (read log) in
+      let checked = let* () = went in let* () = check_vehicles (name "vehicles.log") in check_journal (name "run") in
+      let with_files why = Printf.sprintf "%s\n%s%s" why (read (name "run")) (read (name "vehicles.log")) in
       Result.map_error with_files checked)
 
 let lines () =
-  in_folder 0 (fun ~journal ~log ->
-      let vehicles = Vehicles.start ~port:(port 0) ~log in
-      let ending = console ~port:(port 0) ~journal Never in
-      Processes.stop vehicles;
-      match ending with
-      | Error why -> failwith (why ^ "\n" ^ read journal ^ read log)
-      | Ok (`Killed | `Completed) ->
-        let is_sample line = String.length line > 17 && String.sub line 0 17 = "{\"kind\":\"vehicle\"" in
-        let counts line = line <> "" && not (is_sample line) in
-        List.length (List.filter counts (String.split_on_char '\n' (read journal))))
+  let count name =
+    let vehicles = Vehicles.start ~port:(port 0) ~log:(name "vehicles.log") in
+    let ending = console ~port:(port 0) ~name Never in
+    Processes.stop vehicles;
+    let is_sample line = String.length line > 17 && String.sub line 0 17 = "{\"kind\":\"vehicle\"" in
+    let counts line = line <> "" && not (is_sample line) in
+    let lines () = List.length (List.filter counts (String.split_on_char '\n' (read (name "run")))) in
+    Result.map (fun (`Killed | `Completed) -> lines ()) ending
+  in
+  match in_folder 0 count with Ok lines -> lines | Error why -> failwith why

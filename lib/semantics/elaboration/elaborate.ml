@@ -71,7 +71,9 @@ let is_supplier (e : Ast.expression) =
   match e.it with Call { callee = { it = Variable "getSupplier"; _ }; arguments = [] } -> true | _ -> false
 
 let program ~source_name (ast : Ast.program) =
-  let program = Scope.create ~suppliers:(Assigned.once is_supplier ast) ~functions:[] ~globals:[] () in
+  let program =
+    Scope.create ~variables:(Assigned.names ast) ~suppliers:(Assigned.once is_supplier ast) ~functions:[] ~globals:[] ()
+  in
   let defined =
     List.filter_map
       (fun (s : Ast.statement) ->

@@ -9,6 +9,7 @@ type global = { index : int; mutable assigned : bool; mutable uses : Location.t 
 type call = { caller : string option; in_task : string option; callee : string; at : Location.t }
 
 type program = {
+  variables : string list;
   suppliers : string list;
   functions : (string, Core.lambda) Hashtbl.t;
   table : (string, global) Hashtbl.t;
@@ -38,9 +39,10 @@ let assigned_global program name =
   global.assigned <- true;
   global.index
 
-let create ?(first_site = 0) ?(suppliers = []) ~functions ~globals () =
+let create ?(first_site = 0) ?(variables = []) ?(suppliers = []) ~functions ~globals () =
   let program =
     {
+      variables;
       suppliers;
       functions = Hashtbl.create 16;
       table = Hashtbl.create 64;
@@ -77,7 +79,8 @@ let add_function program name lambda = Hashtbl.replace program.functions name la
 let find_function program name = Hashtbl.find_opt program.functions name
 
 let is_assigned program name =
-  match Hashtbl.find_opt program.table name with Some global -> global.assigned | None -> false
+  List.mem name program.variables
+  || match Hashtbl.find_opt program.table name with Some global -> global.assigned | None -> false
 
 let used_global program name at =
   let global = global program name in

@@ -9,10 +9,16 @@ module Location = Dolphin_syntax.Location
 type program
 
 val create :
-  ?first_site:Core.site -> ?suppliers:string list -> functions:(string * Core.lambda) list -> globals:string list ->
-  unit -> program
+  ?first_site:Core.site ->
+  ?variables:string list ->
+  ?suppliers:string list ->
+  functions:(string * Core.lambda) list ->
+  globals:string list ->
+  unit ->
+  program
 (** [functions] and [globals] exist already, as for an answer to [ask]; sites are numbered from [first_site] on, by
-    default from 0. [suppliers] are the names of variables that surely are the supplier. *)
+    default from 0. [variables] are names that the text gives a value to somewhere; [suppliers], the names of variables
+    that surely are the supplier. *)
 
 val site : program -> Location.t -> Core.site
 (** A new site there. *)
@@ -65,7 +71,7 @@ val wants_text : program -> Location.t -> bool
 (** Whether {!note_text} said so. *)
 
 val is_assigned : program -> string -> bool
-(** Whether some assignment before this point makes a global of this name. *)
+(** Whether something gives a value to a variable of this name. *)
 
 val is_supplier : program -> string -> bool
 (** Whether the variable is one of the [suppliers]. *)

@@ -73,8 +73,12 @@ let solve_within ~effort ~vehicles tree =
   match first_without 0 with
   | Some leaf -> Error (No_candidate leaf)
   | None ->
-    let parts = List.map (Part.make ~restricted candidates) (Part.components ~vehicles candidates) in
-    solve_parts parts ~effort ~proven:true
+    let part leaves =
+      match Alike.solve ~restricted candidates leaves with
+      | Some found -> Array.iteri (fun row leaf -> result.(leaf) <- found.(row)) leaves; None
+      | None -> Some (Part.make ~restricted candidates leaves)
+    in
+    solve_parts (List.filter_map part (Part.components ~vehicles candidates)) ~effort ~proven:true
 
 let solve ~vehicles tree =
   Result.map (fun { vehicles; _ } -> vehicles) (solve_within ~effort ~vehicles tree)

@@ -56,7 +56,8 @@ let components ~vehicles candidates =
     let root = find (fst candidates.(0)) in
     Array.iter (fun (vehicle, _) -> parent.(find vehicle) <- root) candidates
   in
-  Array.iter link candidates;
+  let is_as_before leaf = leaf > 0 && candidates.(leaf) == candidates.(leaf - 1) in
+  Array.iteri (fun leaf candidates -> if not (is_as_before leaf) then link candidates) candidates;
   let leaves = Hashtbl.create 16 and roots = ref [] in
   Array.iteri
     (fun leaf candidates ->

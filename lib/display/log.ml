@@ -1,11 +1,13 @@
 open Dolphin_semantics
 module Phrase = Dolphin_trace.Phrase
+module Vehicles = Set.Make (String)
 
 type t = {
   before : Core.platform_task Vehicle_map.t;  (* A before the transition: what a vehicle that is stopped was doing *)
   unheard : Core.vehicle list;  (* bound vehicles without a link *)
   unready : (Core.vehicle * string) list;  (* bound vehicles that cannot be given a plan, and why *)
   bound : Core.vehicle list;
+  members : Vehicles.t;  (* of [bound] *)
   column : int;  (* width of the column of actors *)
 }
 
@@ -17,7 +19,7 @@ type line = { about : Core.vehicle list; severity : severity; text : string }
 let narrowest = 10
 let widest = 24
 let program = "program"
-let start = { before = Vehicle_map.empty; unheard = []; unready = []; bound = []; column = narrowest }
+let start = { before = Vehicle_map.empty; unheard = []; unready = []; bound = []; members = Vehicles.empty; column = narrowest }
 
 (* Further lines of a text stand below its first one. *)
 let text_of l ~time actor text =
@@ -134,7 +136,8 @@ let transition ?(stuck = false) l ~time (s : Transition.t) =
   let further = List.filteri (fun i _ -> i >= told_by_label s.label) s.effects in
   let happenings = of_label s @ List.concat_map (of_effect ~stuck l) further in
   let lines = List.map (line l ~time) happenings in
-  ({ l with before = s.next.shared.allocation; bound }, lines)
+  let members = if bound == l.bound then l.members else Vehicles.of_list bound in
+  ({ l with before = s.next.shared.allocation; bound; members }, lines)
 
 let link l ~time (state : World.vehicle_state) =
   let was_heard = not (List.mem state.id l.unheard) in
@@ -158,7 +161,7 @@ let readiness l ~time (state : World.vehicle_state) =
     | None -> ({ l with unready = others }, [ line l ~time (of_vehicle state.id "is ready again") ])
 
 let news l ~time (state : World.vehicle_state) =
-  if not (List.mem state.id l.bound) then (l, [])
+  if not (Vehicles.mem state.id l.members) then (l, [])
   else
     let l, of_link = link l ~time state in
     let l, of_readiness = readiness l ~time state in

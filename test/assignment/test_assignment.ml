@@ -130,6 +130,14 @@ let thousand_by_thousand () =
     Alcotest.(check bool) "proven" true proven
   | Error failure -> Alcotest.failf "%a" pp_failure failure
 
+(* A matrix of them would have 400 million entries, and too many for the memory of many a console. *)
+let twenty_thousand_alike () =
+  let n = 20_000 in
+  let one = { candidates = Array.init n (fun v -> (v, 0.)) } in
+  match solve ~vehicles:n (Disjoint (List.init n (fun _ -> Leaf one))) with
+  | Ok vehicles -> Alcotest.(check bool) "pick order" true (vehicles = Array.init n Fun.id)
+  | Error failure -> Alcotest.failf "%a" pp_failure failure
+
 let effort_is_a_bound () =
   let random = Random.State.make [| 2 |] in
   let any_leaf _ = leaf (List.init 30 (fun v -> (v, Random.State.float random 1000.))) in
@@ -211,6 +219,17 @@ let tree_generator ~leaves ~vehicles =
   let* highest = oneofl [ 0; 1; 3; 50 ] in
   tree highest count
 
+(* The shape of a tree, with one leaf for all. *)
+let alike_generator ~leaves ~vehicles =
+  let open QCheck2.Gen in
+  let rec with_leaf leaf = function
+    | Leaf _ -> Leaf leaf
+    | Disjoint children -> Disjoint (List.map (with_leaf leaf) children)
+    | Shared children -> Shared (List.map (with_leaf leaf) children)
+  in
+  let+ shape = tree_generator ~leaves ~vehicles and+ one = tree_generator ~leaves:1 ~vehicles in
+  match one with Leaf leaf -> with_leaf leaf shape | Disjoint _ | Shared _ -> shape
+
 let conflict_is_real tree leaves =
   let all, pairs, _ = flatten 0 tree in
   let chosen = List.filter (fun (a, b) -> List.mem a leaves && List.mem b leaves) pairs in
@@ -265,11 +284,18 @@ let () =
           case "odd trees" odd_trees;
           case "deep trees" deep_trees;
         ] );
-      ("large", [ case "1000 x 1000" thousand_by_thousand; case "effort is a bound" effort_is_a_bound ]);
+      ( "large",
+        [
+          case "1000 x 1000" thousand_by_thousand;
+          case "20,000 alike" twenty_thousand_alike;
+          case "effort is a bound" effort_is_a_bound;
+        ] );
       ( "all allocations",
         [
           law "5 leaves, 4 vehicles" ~count:4000 ~leaves:5 ~vehicles:4;
           law "5 leaves, 2 vehicles" ~count:1000 ~leaves:5 ~vehicles:2;
+          law_of (alike_generator ~leaves:5 ~vehicles:4) print_tree (fun tree -> is_best tree 4) ~count:1000
+            "5 leaves that are alike, 4 vehicles";
           law "7 leaves, 3 vehicles" ~count:1000 ~leaves:7 ~vehicles:3;
           law_of_effort "stopped early" ~count:2000 ~leaves:6 ~vehicles:4;
         ] );

@@ -142,15 +142,13 @@ let rec activate r =
 
 (* {1 What is active} *)
 
-(* [exists_active p r] is whether [p] holds of a node of [r] that has begun. *)
 let rec exists_active p r =
-  p r
-  ||
   match r with
-  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | One_of _ | All_of (None, _) -> false
-  | During { started = false; _ } -> false
-  | Sequence (a, _) | All_of (Some a, _) | Until (_, a) | Watch (a, _) | During { body = a; _ } -> exists_active p a
+  | Sequence (a, _) | Watch (a, _) -> exists_active p a
   | Parallel rs -> List.exists (exists_active p) rs
+  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | One_of _ | All_of (None, _) | During { started = false; _ }
+    -> p r
+  | All_of (Some a, _) | Until (_, a) | During { body = a; _ } -> p r || exists_active p a
 
 let rec fold_active f acc r =
   let acc = f acc r in

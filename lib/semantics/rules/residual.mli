@@ -63,7 +63,8 @@ val timers : t -> timer list
 (** [timers r] is the timers of [r] that have started. *)
 
 val exists_active : (t -> bool) -> t -> bool
-(** [exists_active p r] is whether [p] holds of a node of [r] that has begun. *)
+(** [exists_active p r] is whether [p] holds of a node of [r] that has begun and may have steps of its own: of no
+    [Sequence], [Parallel], [Watch]. *)
 
 (** {1:contexts Contexts}
 

@@ -231,9 +231,8 @@ let each ~relevant f xs =
   let rec from before xs () =
     match xs with
     | [] -> Seq.Nil
-    | x :: after ->
-      let rest = from (x :: before) after in
-      if relevant x then Seq.append (f before x after) rest () else rest ()
+    | x :: after when relevant x -> Seq.append (f before x after) (from (x :: before) after) ()
+    | x :: after -> from (x :: before) after ()
   in
   from [] xs
 

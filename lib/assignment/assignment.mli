@@ -18,8 +18,8 @@
     without a [Disjoint] inside, whose branches can, all at once, be served by one vehicle each. The number of vehicles
     is then that of the branches, the rest is assignment of least cost, and pick order is decided on the dual solution.
     A problem also falls apart, exactly, where candidates do not overlap: parts that want boats and parts that want
-    aircraft are solved each for itself; where all leaves of such a tree are alike, any vehicle will do; and leaves that may share and have the same candidates at the same costs are
-    one.
+    aircraft are solved each for itself; where all leaves of such a tree are alike, the cheapest vehicles do; and leaves
+    that may share and have the same candidates at the same costs are one.
 
     What remains goes through branch and bound, with assignment problems on the cliques of the tree as bounds; where
     branches that exclude each other need several vehicles each, over the ways to split them up. Whether

@@ -19,7 +19,8 @@ type line = { about : Core.vehicle list; severity : severity; text : string }
 let narrowest = 10
 let widest = 24
 let program = "program"
-let start = { before = Vehicle_map.empty; unheard = []; unready = []; bound = []; members = Vehicles.empty; column = narrowest }
+let start =
+  { before = Vehicle_map.empty; unheard = []; unready = []; bound = []; members = Vehicles.empty; column = narrowest }
 
 (* Further lines of a text stand below its first one. *)
 let text_of l ~time actor text =

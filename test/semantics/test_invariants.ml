@@ -222,6 +222,19 @@ let refused_then_taken () =
   Alcotest.(check (list string)) "said" [ "third 0" ] (Pure_run.said run);
   Alcotest.(check (list string)) "N" [] (pairs (Option.get (Pure_run.last run)).shared.tuples)
 
+(* What is left of a long task has another hash after each part: tables of residuals would be slow otherwise. *)
+let hashes_of_long_tasks () =
+  let condition = "execute condition { false }" in
+  let code =
+    match (Pure_run.last (Pure_run.run (Pure_run.compile_exn condition)) : Configuration.t option) with
+    | Some { control = Executing (_, Condition code); _ } -> code
+    | _ -> Alcotest.fail "no condition waits"
+  in
+  let rest n = Residual.Sequence (Action code, List.init n (fun _ -> Residual.Action code)) in
+  let buckets = List.init 1_000 (fun n -> Residual.hash (rest n) land 0xffff) in
+  let different = List.length (List.sort_uniq Int.compare buckets) in
+  if different < 950 then Alcotest.failf "1,000 residuals have %d hashes" different
+
 let case name f = Alcotest.test_case name `Quick f
 
 let () =
@@ -246,4 +259,5 @@ let () =
           case "one pair of two" (refused "consume a: 1, b: 1");
           case "two consumes" (refused "consume(a: 1) && consume(b: 1)");
           case "the same pair twice" (refused "consume a: 1, a: 1");
-          case "refused, then another taken" refused_then_taken ] ) ]
+          case "refused, then another taken" refused_then_taken ] );
+      ("hashes", [ case "of long tasks" hashes_of_long_tasks ]) ]

@@ -7,15 +7,16 @@ module Vehicle_set = Set.Make (String)
 (* fit(q, w, B). *)
 let candidates world (s : Shared.t) (pick : Settings.pick) =
   let bound = Vehicle_set.of_list s.bound and elsewhere = { pick.filter with region = None } in
-  let that_fit (v : World.vehicle_state) =
-    if (not (Settings.accepts elsewhere v)) || Vehicle_set.mem v.id bound then Ok []
-    else
-      match pick.filter.region with
-      | None -> Ok [ v.id ]
-      | Some area ->
-        Result.map (fun place -> if Dolphin_geo.Area.contains area place then [ v.id ] else []) (World.place world v)
-  in
-  Results.concat_map that_fit (World.vehicles world)
+  let accepted (v : World.vehicle_state) = Settings.accepts elsewhere v && not (Vehicle_set.mem v.id bound) in
+  let id (v : World.vehicle_state) = v.id in
+  let accepted = List.filter accepted (World.vehicles world) in
+  match pick.filter.region with
+  | None -> Ok (List.map id accepted)
+  | Some area ->
+    let inside v =
+      Result.map (fun place -> if Dolphin_geo.Area.contains area place then [ id v ] else []) (World.place world v)
+    in
+    Results.concat_map inside accepted
 
 (* All lists of [n] elements of [xs] in their order, the first ones first. *)
 let choices n xs : 'a list Seq.t =

@@ -466,6 +466,22 @@ let allocation_in_traps =
         {|Sequence (a, b) -> Disjoint [|} );
     ]
 
+let answers_in_words =
+  in_file "lib/semantics/elaboration/elaborate.ml" ~noticed_by:"semantics/test_language"
+    [
+      ( "no is yes in answers",
+        {|| "no" | "n" | "false" -> { e with it = Boolean false }|},
+        {|| "no" | "n" | "false" -> { e with it = Boolean true }|} );
+    ]
+
+let confirm =
+  in_file "lib/semantics/elaboration/calls.ml" ~noticed_by:"semantics/test_language"
+    [
+      ( "confirm takes any answer",
+        {|expression env at (While (open_, again))|},
+        {|(ignore open_; again)|} );
+    ]
+
 let local_step_in_traps =
   in_file "lib/semantics/rules/local_step.ml" ~noticed_by:"reduction/test_traps"
     [
@@ -486,6 +502,6 @@ let all =
   List.concat
     [ footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups; quotient; expansion;
       vehicle_orbits; canonical_vehicles; name_flow; liveness; environment; attendance; task_rules; local_step;
-      run_code;
+      run_code; answers_in_words; confirm;
       pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
       conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps ]

@@ -70,6 +70,14 @@ let answers =
     case "with a unit" (answer_is "2.km" "2000");
     case "a string" (answer_is "'a' + 'b'" "ab");
     case "with variables and functions" (answer_is "twice(r) + v.size()" "7");
+    case "yes in words" (answer_is "yes" "true");
+    case "no in words" (answer_is "NO" "false");
+    case "a word of several" (answer_is_bad "perhaps" "unknown name 'perhaps' (a text stands in quotes: 'perhaps')");
+    case "confirm asks until it hears yes or no" (fun () ->
+        let program, c = waiting "y = false\nb = confirm 'now?'\npause 1" in
+        let hears text = Result.get_ok (Answer.event program text) in
+        let c = after program c (List.map hears [ "1"; "'yes'"; "y" ]) in
+        Alcotest.(check string) "b" "true" (variable program c "b"));
     case "no code"
       (answer_is_bad "[1, 2].collect { it + 1 }" "an answer may not contain code { ... }");
     case "an unknown name" (answer_is_bad "twise(2)" "unknown name 'twise' (did you mean 'twice'?)");

@@ -94,6 +94,30 @@ let circumstances () =
   Alcotest.(check bool) "a network" true (contains "vehicles of a network (IMC)  ·  2026" (head "imc"));
   Alcotest.(check bool) "has no seed" false (contains "seed" (head "imc"))
 
+(* A vehicle of a network that has not told of its battery yet. *)
+let unknown_batteries () =
+  let battery_axis platform =
+    let builder = Summary.create () in
+    Summary.add builder (Header (header ~platform));
+    let position : Dolphin_geo.Position.t = { latitude = 41.; longitude = -8.; height = 0. } in
+    let see time battery =
+      let state : Dolphin_semantics.World.vehicle_state =
+        { id = "v"; kind = "UUV"; payload = []; position; battery; connected = true; unready = None } in
+      Summary.add builder (Vehicle { time; state })
+    in
+    see 0. 1.;
+    see 5. 0.6;
+    see 10. 0.59;
+    let step : Step.t =
+      { rules = []; label = "bind(v)"; at = None; choice = 0; allocated = []; bound = [ "v" ]; released = [];
+        posted = []; consumed = []; requests = [ Bind [ "v" ] ] }
+    in
+    Summary.add builder (Transition { time = 10.; index = 0; step });
+    contains ">100%<" (Picture.svg (Summary.finish builder))
+  in
+  Alcotest.(check bool) "full in a simulation" true (battery_axis "sim");
+  Alcotest.(check bool) "not told on a network" false (battery_axis "imc")
+
 let nothing_at_all () = ignore (Picture.svg (Summary.finish (Summary.create ())))
 
 (* {1 Scales} *)
@@ -120,5 +144,6 @@ let () =
           case "all examples, without anything from outside" of_all_examples;
           case "texts are escaped" escaped;
           case "where it ran" circumstances;
+          case "batteries that are not known yet" unknown_batteries;
           case "an empty story" nothing_at_all;
           case "scales" scales ] ) ]

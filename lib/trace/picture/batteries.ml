@@ -1,8 +1,15 @@
 open Summary
 
+(* On a network a battery counts as full until the vehicle tells of it: that is not drawn. *)
+let known summary v =
+  let rec told = function { battery = 1.; _ } :: rest -> told rest | samples -> samples in
+  match summary.header with
+  | None | Some { platform = "sim"; _ } -> v.samples
+  | Some _ -> told v.samples
+
 (* From and until which share, in whole steps. *)
 let range summary =
-  let batteries = List.concat_map (fun v -> List.map (fun s -> s.battery) v.samples) summary.vehicles in
+  let batteries = List.concat_map (fun v -> List.map (fun s -> s.battery) (known summary v)) summary.vehicles in
   let least = List.fold_left Float.min 1. batteries and most = List.fold_left Float.max 0. batteries in
   let least = Float.max 0. least and most = Float.min 1. (Float.max least most) in
   let span = Float.max 0.05 (most -. least) in
@@ -32,10 +39,10 @@ let draw summary ~x ~y ~width ~height =
   in
   let curve i v =
     let point s = (across s.time, down s.battery) in
-    Svg.polyline ~name:("track " ^ Style.vehicle i) (Tracks.thin (List.map point v.samples))
+    Svg.polyline ~name:("track " ^ Style.vehicle i) (Tracks.thin (List.map point (known summary v)))
   in
   let wanted i v =
-    match List.rev v.samples with
+    match List.rev (known summary v) with
     | [] -> None
     | last :: _ -> Some (down last.battery +. 4., (i, v, across last.time))
   in

@@ -51,6 +51,12 @@ let late_again =
     us = pick { count 2 ; type 'UAV' }
     if (vs[0].getId() == 'b' && ws[0].getId() == 'b' && us[0].getId() == 'd') { halt 'a twice, and c' }|}
 
+let late_twice =
+  {|vs = pick { count 2 ; type 'UUV' }
+    release vs
+    ws = pick { count 2 ; type 'UUV' }
+    if (vs[0].getId() == 'b' && ws[0].getId() == 'b') { halt 'a twice' }|}
+
 let missing : Property.t list = [ Vehicles ]
 
 let latecomers =
@@ -60,6 +66,7 @@ let latecomers =
     breaks "two of two" (late 2) (missing @ [ No_halt ]) (late_in_turn 2);
     breaks "three of two" (late 2) missing (late_in_turn 3);
     breaks "three of three" (late 3) (missing @ [ No_halt ]) (late_in_turn 3);
+    breaks "one of them twice" (late 1) (missing @ [ No_halt ]) late_twice;
     breaks "one of them twice, two of one" (late 1) missing late_again;
     breaks "one of them twice, two of two" (late 2) (missing @ [ No_halt ]) late_again;
   ]

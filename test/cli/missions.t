@@ -1,0 +1,20 @@
+The missions of examples/missions: each is right, comes to its end on its simulated fleet, and in every run without
+faults.
+
+  $ cd ../../examples/missions
+  $ for f in *.dol; do
+  >   dolphin check "$f" > checked || cat checked
+  >   dolphin exec "$f" --sim="${f%.dol}.fleet" > log 2>&1 || tail -1 log
+  >   dolphin explore "$f" > verdicts || cat verdicts
+  >   echo "$f: $(grep -o '^[0-9]* states' verdicts), $(grep -c ': holds' verdicts) hold"
+  > done
+  adaptive_sampling.dol: 28 states, 5 hold
+  auction.dol: 311 states, 5 hold
+  barrier.dol: 126 states, 5 hold
+  convoy.dol: 52 states, 5 hold
+  data_mules.dol: 64 states, 5 hold
+  docks.dol: 218 states, 5 hold
+  leader_and_follower.dol: 29 states, 5 hold
+  mine_hunting.dol: 69 states, 5 hold
+  patrol.dol: 48 states, 5 hold
+  search_and_rescue.dol: 38 states, 5 hold

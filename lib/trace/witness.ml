@@ -79,36 +79,36 @@ type misfit = { number : int; why : string }
 (* Why there is no such step: it does not fit, or what sensors show leaves it open. *)
 type obstacle = Unfit of string | Unsettled of string
 
+let chosen program world c i =
+  let rec nth i (ts : Transition.t Seq.t) =
+    match ts () with
+    | Seq.Nil -> None
+    | Seq.Cons (t, rest) -> if i = 0 then Some t else nth (i - 1) rest
+  in
+  match Result.map (nth i) (Transition.internal_all program world c) with
+  | Ok (Some t) -> Ok t
+  | Error fault -> Error (Unsettled fault.message)
+  | Ok None -> Error (Unfit "the program has no such choice there")
+
+let caused program world c e =
+  let refused : Transition.refusal -> _ = function
+    | Not_awaited -> Error (Unfit (Format.asprintf "the program does not wait for %a there" Event.pp e))
+    | Bad_answer why -> Error (Unfit why)
+  in
+  match Event.to_event program c e with
+  | Error (No_value why) -> Error (Unfit why)
+  | Error (Refused why) -> refused why
+  | Ok event -> (
+      match Transition.accept_all program world c event with
+      | Ok (Ok t :: _) -> Ok t
+      | Ok (Error why :: _) -> refused why
+      | Ok [] -> refused Not_awaited
+      | Error fault -> Error (Unsettled fault.message))
+
 let take program world (c : Configuration.t) s =
   let world = World.suppose s.assumed world in
-  let found () =
-    match s.cause with
-    | Choice i -> (
-        let rec nth i (ts : Transition.t Seq.t) =
-          match ts () with
-          | Seq.Nil -> None
-          | Seq.Cons (t, rest) -> if i = 0 then Some t else nth (i - 1) rest
-        in
-        match Result.map (nth i) (Transition.internal_all program world c) with
-        | Ok (Some t) -> Ok t
-        | Error fault -> Error (Unsettled fault.message)
-        | Ok None -> Error (Unfit "the program has no such choice there"))
-    | Event h -> (
-        let refused : Transition.refusal -> _ = function
-          | Not_awaited -> Error (Unfit (Format.asprintf "the program does not wait for %a there" Event.pp h))
-          | Bad_answer why -> Error (Unfit why)
-        in
-        match Event.to_event program c h with
-        | Error (No_value why) -> Error (Unfit why)
-        | Error (Refused why) -> refused why
-        | Ok event -> (
-            match Transition.accept_all program world c event with
-            | Ok (Ok t :: _) -> Ok t
-            | Ok (Error why :: _) -> refused why
-            | Ok [] -> refused Not_awaited
-            | Error fault -> Error (Unsettled fault.message)))
-  in
-  match found () with
+  let found = match s.cause with Choice i -> chosen program world c i | Event e -> caused program world c e in
+  match found with
   | Ok t when text_of_label t.label = s.label -> Ok { t with assumed = s.assumed }
   | Ok t -> Error (Printf.sprintf "the program does %s there, and not %s" (text_of_label t.label) s.label)
   | Error (Unfit why) -> Error (Printf.sprintf "%s (%s)" why s.label)

@@ -297,17 +297,21 @@ ONEOF_WHEN(run, b) ==
   LET r == Act(b.body) IN Entering(CodeStep("ONEOF-WHEN", Labelled("check", run.deeds), run, Next_(r)), r)
 ONEOF_ERR(s) == By(s, "ONEOF-ERR", s.out)
 
-(* {2 Until} *)
+(* {2 Until and assure} *)
 
-UNTIL_CUT(run, r) == CutOff(CodeStep("UNTIL-CUT", Labelled("cut", run.deeds), run, Done_), << r >>)
-UNTIL_1(s, g) == By(s, "UNTIL-1", Next_([ op |-> "until", guard |-> g, body |-> s.out[2] ]))
+(* r.fails is the place of an assure; or << >>. *)
+NotAssured(r) == Fault("assure: { " \o LambdaNames[r.guard[2]] \o " } does not hold", r.fails[1])
+
+UNTIL_CUT(run, r) == CutOff(CodeStep("UNTIL-CUT", Labelled("cut", run.deeds), run, Done_), << r.body >>)
+ASSURE_CUT(S, r) == CutOff(Step("ASSURE-CUT", "cut", Program, S, Err(NotAssured(r)), << >>), << r.body >>)
+UNTIL_1(s, r) == By(s, "UNTIL-1", Next_([ r EXCEPT !.body = s.out[2] ]))
 UNTIL_2(s) == By(s, "UNTIL-2", Done_)
 
 (* rs is what still runs: nothing if the body failed, the body if the guard did. *)
 UNTIL_ERR(s, rs) == CutOff(By(s, "UNTIL-ERR", s.out), rs)
 
-InUntil(s, g) ==
-  CASE GoesOn(s) -> UNTIL_1(s, g)
+InUntil(s, r) ==
+  CASE GoesOn(s) -> UNTIL_1(s, r)
     [] IsDone(s) -> UNTIL_2(s)
     [] IsErr(s) -> UNTIL_ERR(s, << >>)
     [] OTHER -> s
@@ -320,6 +324,10 @@ DURING_SET(run, r, n) ==
   LET started == [ r EXCEPT !.time = n, !.started = TRUE, !.body = Act(@) ]
   IN Entering(CodeStep("DURING-SET", "set-time(" \o ShortText(n) \o ")", run, Next_(started)), started)
 DURING_CUT(S, r) == CutOff(Step("DURING-CUT", "timeout", Expired(r.timer), S, Done_, << >>), << r.body >>)
+
+(* r.fails is the place of a within; or << >>. *)
+TooLate(r) == Fault("not done within " \o ShortText(r.time) \o " s", r.fails[1])
+WITHIN_CUT(S, r) == CutOff(Step("WITHIN-CUT", "timeout", Expired(r.timer), S, Err(TooLate(r)), << >>), << r.body >>)
 DURING_1(s, r) == By(s, "DURING-1", Next_([ r EXCEPT !.body = s.out[2] ]))
 DURING_2(s, r) == Asking(By(s, "DURING-2", Done_), << << "cancel timer", r.timer >> >>)
 
@@ -333,7 +341,7 @@ InDuring(s, r) ==
     [] IsErr(s) -> DURING_ERR(s, r)
     [] OTHER -> s
 
-NoTime(x, g) == Fault("during takes a time of 0 seconds or more, this code gives " \o Text(x), -g[2])
+NoTime(x, g) == Fault(LambdaNames[g[2]] \o " takes a time of 0 seconds or more, this code gives " \o Text(x), -g[2])
 
 (* {2 Errors} *)
 
@@ -387,11 +395,13 @@ WithValue(S, r, j, run) ==
     [] r.op = "during" ->
          << IF IsTime(run.value) THEN DURING_SET(run, r, Time(run.value))
             ELSE WithFault(r, Broken(Knowing(S, run.S.sees), NoTime(run.value, r.time), run.deeds)) >>
+    [] r.op = "until" /\ r.fails # << >> ->
+         IF Truth(run.value) THEN << >> ELSE << ASSURE_CUT(Knowing(S, run.S.sees), r) >>
     [] ~Truth(run.value) -> << >>
     [] r.op = "condition" -> << CONDITION(run) >>
     [] r.op = "allOf" -> << ALLOF_WHEN(run, r.choices, j) >>
     [] r.op = "oneOf" -> << ONEOF_WHEN(run, r.choices[j]) >>
-    [] r.op = "until" -> << UNTIL_CUT(run, r.body) >>
+    [] r.op = "until" -> << UNTIL_CUT(run, r) >>
 
 WithCode(S, r, j, run) ==
   LET broken == Broken(run.S, run.value, run.deeds)
@@ -418,7 +428,11 @@ EndsOn(S, r, E) ==
           LAMBDA e : IF e[1] = "done" THEN DONE(S, r) ELSE FAIL(S, r, e[3]))
 
 ExpiresOn(S, r, E) ==
-  OnThose(E, LAMBDA e : e = Expired(r.timer), LAMBDA e : IF r.op = "idle" THEN IDLE_END(S, r) ELSE DURING_CUT(S, r))
+  LET expired ==
+        CASE r.op = "idle" -> IDLE_END(S, r)
+          [] r.fails = << >> -> DURING_CUT(S, r)
+          [] OTHER -> WITHIN_CUT(S, r)
+  IN OnThose(E, LAMBDA e : e = Expired(r.timer), LAMBDA e : expired)
 
 RECURSIVE Steps(_, _, _)
 Steps(S, r, E) ==
@@ -430,7 +444,7 @@ Steps(S, r, E) ==
          Flatten([ j \in DOMAIN r.branches |->
                    In(Steps(S, r.branches[j], E), LAMBDA s : InParallel(s, r.branches, j)) ])
     [] r.op = "allOf" /\ r.runs # << >> -> In(Steps(S, r.runs[1], E), LAMBDA s : InAllOf(s, r.choices))
-    [] r.op = "until" -> In(Steps(S, r.body, E), LAMBDA s : InUntil(s, r.guard))
+    [] r.op = "until" -> In(Steps(S, r.body, E), LAMBDA s : InUntil(s, r))
     [] r.op = "idle" -> ExpiresOn(S, r, E)
     [] r.op = "during" /\ r.started -> ExpiresOn(S, r, E) \o In(Steps(S, r.body, E), LAMBDA s : InDuring(s, r))
     [] r.op = "watch" ->
@@ -534,10 +548,10 @@ Assigned(t, f, n, i) ==
                                               i + TimerCount(before(j))) ]
              choices == << >> \o [ j \in DOMAIN t.branches |-> branch(j) ]
          IN IF t.op = "oneOf" THEN [ op |-> "oneOf", choices |-> choices ] ELSE AllOf(<< >>, choices)
-    [] t.op = "until" -> [ op |-> "until", guard |-> t.guard, body |-> Assigned(t.body, f, n, i) ]
+    [] t.op = "until" -> [ t EXCEPT !.body = Assigned(@, f, n, i) ]
     [] t.op = "idle" -> [ op |-> "idle", timer |-> i + 1, time |-> t.time ]
     [] t.op = "during" ->
-         [ op |-> "during", timer |-> i + 1, time |-> t.time, started |-> FALSE,
+         [ op |-> "during", timer |-> i + 1, time |-> t.time, started |-> FALSE, fails |-> t.fails,
            body |-> Assigned(t.body, f, n, i + 1) ]
     [] t.op = "watch" -> [ op |-> "watch", body |-> Assigned(t.body, f, n, i), handler |-> t.handler ]
     [] t.op \in { "action", "condition" } -> t

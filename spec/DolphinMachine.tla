@@ -590,7 +590,8 @@ TimeWanted(what, example, x) ==
 
 IsTime(x) == IsNumber(x) /\ ~Less(x, Integer(0))
 
-MakeTask(op, xs) ==
+(* at is the place of an assure or a within, which fail when they are cut off. *)
+MakeTask(op, at, xs) ==
   LET x == xs[1]
       y == xs[2]
   IN CASE op = "action" ->
@@ -600,22 +601,25 @@ MakeTask(op, xs) ==
        [] op = "waitFor" ->
             IF Is(y, "task") THEN Ok(TaskValue([ op |-> "oneOf", branches |-> << [ guard |-> x, body |-> y[2] ] >> ]))
             ELSE Expected("a task", y)
-       [] op = "until" ->
-            IF Is(y, "task") THEN Ok(TaskValue([ op |-> "until", guard |-> x, body |-> y[2] ]))
-            ELSE Expected("a task", y)
+       [] op \in { "until", "assure" } ->
+            LET fails == IF op = "assure" THEN << at >> ELSE << >>
+            IN IF Is(y, "task") THEN Ok(TaskValue([ op |-> "until", guard |-> x, fails |-> fails, body |-> y[2] ]))
+               ELSE Expected("a task", y)
        [] op = "watch" ->
             IF Is(x, "task") THEN Ok(TaskValue([ op |-> "watch", body |-> x[2], handler |-> y ]))
             ELSE Expected("a task after watch", x)
        [] op = "idle" ->
             IF IsTime(x) THEN Ok(TaskValue([ op |-> "idle", time |-> Time(x) ]))
             ELSE TimeWanted("idle", "a time after idle, as in idle(10.seconds)", x)
-       [] op = "during" ->
-            CASE ~Is(y, "task") -> Expected("a task", y)
-              [] Is(x, "closure") -> Ok(TaskValue([ op |-> "during", time |-> x, body |-> y[2] ]))
-              [] IsTime(x) -> Ok(TaskValue([ op |-> "during", time |-> Time(x), body |-> y[2] ]))
-              [] OTHER -> TimeWanted("during", "a time after during, as in during 10.minutes run T", x)
+       [] op \in { "during", "within" } ->
+            LET fails == IF op = "within" THEN << at >> ELSE << >>
+                during(time) == Ok(TaskValue([ op |-> "during", time |-> time, fails |-> fails, body |-> y[2] ]))
+            IN CASE ~Is(y, "task") -> Expected("a task", y)
+                 [] Is(x, "closure") -> during(x)
+                 [] IsTime(x) -> during(Time(x))
+                 [] OTHER -> TimeWanted(op, "a time after " \o op \o ", as in " \o op \o " 10.minutes run T", x)
 
-TaskNames == { "action", "condition", "waitFor", "until", "watch", "idle", "during" }
+TaskNames == { "action", "condition", "waitFor", "until", "assure", "watch", "idle", "during", "within" }
 
 PlatformTask(m, x) ==
   CASE ~IsString(x) -> Settle(m, Expected("the name of a plan, a string", x))
@@ -689,7 +693,7 @@ Procedure(m, op, xs) ==
               [] IsString(x) -> DoPoll(m, << << x[2], Wildcard >> >>)
               [] OTHER -> Settle(m, Expected("a key, as in poll 'ready', or pairs, as in poll(ready: 1)", x))
        [] name = "task" -> PlatformTask(m, x)
-       [] name \in TaskNames -> Settle(m, MakeTask(name, xs))
+       [] name \in TaskNames -> Settle(m, MakeTask(name, m.at, xs))
        [] name = "execute" ->
             IF Is(x, "task") THEN Execute(m, x[2]) ELSE Settle(m, Expected("a task to execute", x))
        [] name = "executeFor" -> ExecuteFor(m, op.names, xs)

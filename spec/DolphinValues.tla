@@ -243,11 +243,14 @@ TaskText(t, level) ==
     [] t.op \in { "allOf", "oneOf" } ->
          LET branch(b) == "when { ... } then " \o TaskText(b.body, 1)
          IN t.op \o " { " \o Join(Each(t.branches, branch), ", ") \o " }"
-    [] t.op = "until" -> Parenthesised(0, level, "until { ... } run " \o TaskText(t.body, 1))
+    [] t.op = "until" ->
+         LET name == IF t.fails = << >> THEN "until" ELSE "assure"
+         IN Parenthesised(0, level, name \o " { ... } run " \o TaskText(t.body, 1))
     [] t.op = "idle" -> "idle(" \o ShortText(t.time) \o ".seconds)"
     [] t.op = "during" ->
          LET time == IF Is(t.time, "closure") THEN "{ ... }" ELSE ShortText(t.time) \o ".seconds"
-         IN Parenthesised(0, level, "during " \o time \o " run " \o TaskText(t.body, 1))
+             name == IF t.fails = << >> THEN "during " ELSE "within "
+         IN Parenthesised(0, level, name \o time \o " run " \o TaskText(t.body, 1))
     [] t.op = "watch" -> Parenthesised(0, level, "watch " \o TaskText(t.body, 1) \o " onError { ... }")
 
 AreaText(x) == Places[x[2]] \o " ^ " \o ShortText(Number(x[3], x[4])) \o " m"
@@ -406,7 +409,8 @@ Multiply(x, y) ==
     LAMBDA a, b : Ok(Number(Numerator(a) * Numerator(b), Denominator(a) * Denominator(b))))
 
 Divide(x, y) ==
-  CASE Is(x, "task") /\ Is(y, "closure") -> Ok(TaskValue([ op |-> "until", guard |-> y, body |-> x[2] ]))
+  CASE Is(x, "task") /\ Is(y, "closure") ->
+         Ok(TaskValue([ op |-> "until", guard |-> y, fails |-> << >>, body |-> x[2] ]))
     [] IsNumber(x) /\ IsNumber(y) /\ Numerator(y) = 0 -> Bad("division by zero")
     [] Is(x, "integer") /\ Is(y, "integer") /\ x[2] % Abs(y[2]) = 0 -> Ok(Integer(Truncated(x[2], y[2])))
     [] IsNumber(x) /\ IsNumber(y) ->

@@ -18,10 +18,12 @@ let rec of_residual budget (r : Residual.t) : json =
   | Parallel rs -> tagged "parallel" (List.map part rs)
   | All_of (a, bs) -> tagged "allOf" (of_option part a :: List.map branch bs)
   | One_of bs -> tagged "oneOf" (List.map branch bs)
-  | Until (c, a) -> tagged "until" [ code c; part a ]
+  | Until (Completes, c, a) -> tagged "until" [ code c; part a ]
+  | Until (Fails site, c, a) -> tagged "assure" [ `Int site; code c; part a ]
   | Idle { timer; seconds } -> tagged "idle" [ `Int timer; of_float seconds ]
-  | During { timer; duration; started; body } ->
-    tagged "during" [ `Int timer; of_duration budget duration; `Bool started; part body ]
+  | During { on_cut; timer; duration; started; body } ->
+    let parts = [ `Int timer; of_duration budget duration; `Bool started; part body ] in
+    (match on_cut with Completes -> tagged "during" parts | Fails site -> tagged "within" (`Int site :: parts))
   | Watch (a, c) -> tagged "watch" [ part a; code c ]
 
 let rec residual nodes (json : json) : Residual.t =
@@ -29,6 +31,9 @@ let rec residual nodes (json : json) : Residual.t =
   let branch json : Residual.branch =
     let guard, body = pair code part json in
     { guard; body }
+  in
+  let during on_cut timer d started body : Residual.t =
+    During { on_cut; timer = whole timer; duration = duration nodes d; started = truth started; body = part body }
   in
   match json with
   | `List [ `String "ready"; p; v ] -> Ready (platform_task nodes p, text v)
@@ -39,10 +44,11 @@ let rec residual nodes (json : json) : Residual.t =
   | `List (`String "parallel" :: (_ :: _ :: _ as rs)) -> Parallel (List.map part rs)
   | `List (`String "allOf" :: a :: (_ :: _ as bs)) -> All_of (option part a, List.map branch bs)
   | `List (`String "oneOf" :: (_ :: _ as bs)) -> One_of (List.map branch bs)
-  | `List [ `String "until"; c; a ] -> Until (code c, part a)
+  | `List [ `String "until"; c; a ] -> Until (Completes, code c, part a)
+  | `List [ `String "assure"; site; c; a ] -> Until (Fails (whole site), code c, part a)
   | `List [ `String "idle"; timer; seconds ] -> Idle { timer = whole timer; seconds = float seconds }
-  | `List [ `String "during"; timer; d; started; body ] ->
-    During { timer = whole timer; duration = duration nodes d; started = truth started; body = part body }
+  | `List [ `String "during"; timer; d; started; body ] -> during Completes timer d started body
+  | `List [ `String "within"; site; timer; d; started; body ] -> during (Fails (whole site)) timer d started body
   | `List [ `String "watch"; a; c ] -> Watch (part a, code c)
   | json -> wrong "a residual" json
 

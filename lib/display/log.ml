@@ -87,10 +87,12 @@ let of_label (s : Transition.t) =
   | Fail (v, name, why) ->
     [ of_vehicle ~how:Trouble v (Printf.sprintf "fails in %s: %s" (Phrase.one_line name) why) ]
   | Check [] -> by_program "sees that a condition holds"
+  | Cut _ when List.mem Rule.Assure_cut s.rules -> by_program "sees that the condition of assure does not hold"
   | Cut ds -> by_program "sees that the condition of until holds" @ List.map of_deed ds
   | Check ds | Act ds -> List.map of_deed ds
   | Did d -> [ of_deed d ]
   | Time_out when List.mem Rule.Idle_end s.rules -> by_program "idled long enough"
+  | Time_out when List.mem Rule.Within_cut s.rules -> by_program "stops a task that is not done within its time"
   | Time_out -> by_program "cuts a task short: its time is up"
   | Set_time seconds -> by_program ("allows a task " ^ Wording.duration seconds)
   | Broken why -> by_program ~how:Trouble ("has an error in a task: " ^ why)

@@ -30,6 +30,9 @@ type builder =
   | All_of
   | One_of                                      (* also spelt [choose] *)
 
+(** What a task that is cut off is: done, by [until] and [during], or failed, by [assure] and [within]. *)
+type on_cut = Completes | Fails
+
 type expression = expression_node located
 
 and expression_node =
@@ -57,8 +60,8 @@ and expression_node =
   | Builder of builder * statement list
   | When of closure * expression                (* [when { C } then T], in [allOf] and [oneOf] *)
   | Wait_for of closure * expression            (* [waitFor { C } then T], also [.. run T] *)
-  | Until of closure * expression               (* [until { C } run T] *)
-  | During of expression * expression           (* [during D run T], also [T during D] *)
+  | Until of on_cut * closure * expression      (* [until { C } run T]; [assure { C } run T] *)
+  | During of on_cut * expression * expression  (* [during D run T], [T during D]; [within D run T], [T within D] *)
   | Watch of expression * closure               (* [watch T onError { ... }] *)
 
 and template_part = Literal of string | Hole of expression

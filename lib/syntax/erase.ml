@@ -23,8 +23,8 @@ and node = function
   | Builder (b, body) -> Builder (b, program body)
   | When (c, t) -> When (closure c, expression t)
   | Wait_for (c, t) -> Wait_for (closure c, expression t)
-  | Until (c, t) -> Until (closure c, expression t)
-  | During (d, t) -> During (expression d, expression t)
+  | Until (on_cut, c, t) -> Until (on_cut, closure c, expression t)
+  | During (on_cut, d, t) -> During (on_cut, expression d, expression t)
   | Watch (t, c) -> Watch (expression t, closure c)
 
 and part = function

@@ -131,8 +131,8 @@ let rest_of_statement place i =
     Each rule gives a message and a hint, or leaves the place to the next rule. *)
 
 let is_word = function
-  | DEF | IF | ELSE | WHILE | FOR | IN | RETURN | BREAK | CONTINUE | WHEN | WATCH | WAIT_FOR | UNTIL | DURING
-  | AFTER_UNTIL | AFTER_DURING | THEN | RUN | ON_ERROR | TRUE | FALSE | NULL -> true
+  | DEF | IF | ELSE | WHILE | FOR | IN | RETURN | BREAK | CONTINUE | WHEN | WATCH | WAIT_FOR | UNTIL _ | DURING _
+  | AFTER_UNTIL _ | AFTER_DURING _ | THEN | RUN | ON_ERROR | TRUE | FALSE | NULL -> true
   | _ -> false
 
 (* Whether the place is among the parameters of a function or of a closure. *)
@@ -175,37 +175,45 @@ let assignment place =
   | ASSIGN_OPERATOR _, _ -> Some ("this cannot be assigned to", "only a variable, an element xs[i] or a member m.k can")
   | _ -> None
 
-let constructs = [
-  WHEN, ("when", "when { condition } then task");
-  WAIT_FOR, ("waitFor", "waitFor { condition } then task");
-  UNTIL, ("until", "until { condition } run task");
-  AFTER_UNTIL, ("until", "until { condition } run task");
-  ON_ERROR, ("onError", "watch task onError { error -> ... }");
-]
+(* The construct that a word begins, and how it is written, if a closure follows the word. *)
+let construct = function
+  | WHEN -> Some ("when", "when { condition } then task")
+  | WAIT_FOR -> Some ("waitFor", "waitFor { condition } then task")
+  | UNTIL on_cut | AFTER_UNTIL on_cut ->
+    let word = Spelling.until on_cut in
+    Some (word, word ^ " { condition } run task")
+  | ON_ERROR -> Some ("onError", "watch task onError { error -> ... }")
+  | _ -> None
+
+let timed on_cut =
+  let word = Spelling.during on_cut in
+  (word ^ " time run task", "task " ^ word ^ " time")
 
 let missing_word place =
   let missing word form = Some (Printf.sprintf "'%s' is missing here" word, "write " ^ form) in
-  match word_before_closure place with
-  | (WHEN | WAIT_FOR | UNTIL) as word ->
-    let _, form = List.assoc word constructs in
-    missing (if word = UNTIL then "run" else "then") form
-  | AFTER_UNTIL when not (is_closer (this place) || this place = SEPARATOR) ->
-    missing "run" "until { condition } run task, or task until { condition }"
+  let before_closure = word_before_closure place in
+  match before_closure, construct before_closure with
+  | (WHEN | WAIT_FOR), Some (_, form) -> missing "then" form
+  | UNTIL _, Some (_, form) -> missing "run" form
+  | AFTER_UNTIL _, Some (word, form) when not (is_closer (this place) || this place = SEPARATOR) ->
+    missing "run" (Printf.sprintf "%s, or task %s { condition }" form word)
   | _ ->
+    let is_during = function DURING _ | AFTER_DURING _ | SEPARATOR | COMMA -> true | _ -> false in
+    let during = kind place (back place place.index is_during) in
     if place.acceptable ON_ERROR then missing "onError" "watch task onError { error -> ... }"
-    else if place.acceptable RUN then missing "run" "during time run task"
+    else if place.acceptable RUN then
+      missing "run" (fst (timed (match during with DURING on_cut -> on_cut | _ -> Ast.Completes)))
     else
-      let during = back place place.index (function AFTER_DURING | SEPARATOR | COMMA -> true | _ -> false) in
-      match this place, kind place during with
-      | (NAME _ | COMMAND _ | BUILDER _), AFTER_DURING -> missing "run" "during time run task, or task during time"
+      match this place, during with
+      | (NAME _ | COMMAND _ | BUILDER _), AFTER_DURING on_cut ->
+        let first, after = timed on_cut in
+        missing "run" (Printf.sprintf "%s, or %s" first after)
       | _ -> None
 
 let missing_brace place =
-  match before place 1 with
-  | (WHEN | WAIT_FOR | UNTIL | AFTER_UNTIL | ON_ERROR) as word ->
-    let word, form = List.assoc word constructs in
-    Some (Printf.sprintf "a '{' is missing after '%s'" word, "write " ^ form)
-  | RPAREN when place.acceptable BLOCK && not (place.acceptable (INTEGER 0)) ->
+  match before place 1, construct (before place 1) with
+  | _, Some (word, form) -> Some (Printf.sprintf "a '{' is missing after '%s'" word, "write " ^ form)
+  | RPAREN, None when place.acceptable BLOCK && not (place.acceptable (INTEGER 0)) ->
     Some ("a '{' is missing here", "the body of a function stands in braces")
   | _ -> None
 
@@ -226,7 +234,9 @@ let misplaced_word place =
   match this place with
   | ELSE -> Some ("'else' without an 'if'", "an 'else' follows the body of an 'if'")
   | THEN -> Some ("'then' cannot stand here", "'then' follows when { ... } and waitFor { ... }")
-  | RUN -> Some ("'run' cannot stand here", "'run' follows until { ... }, waitFor { ... } and during time")
+  | RUN ->
+    Some ("'run' cannot stand here",
+          "'run' follows until { ... }, assure { ... }, waitFor { ... }, during time and within time")
   | ON_ERROR -> Some ("'onError' cannot stand here", "write watch task onError { error -> ... }")
   | ARROW when (match before place 2, before place 1 with (NAME _ | COMMAND _), NAME _ -> true | _ -> false) ->
     Some ("a name has no type before it", Printf.sprintf "write only %s" (text_of place (place.index - 1)))

@@ -18,8 +18,9 @@ let expression place it = located place it
 %token <string> TEXT
 %token WILDCARD TRUE FALSE NULL
 %token DEF IF ELSE WHILE FOR IN RETURN BREAK CONTINUE
-%token WHEN WATCH WAIT_FOR UNTIL DURING THEN RUN ON_ERROR
-%token AFTER_UNTIL AFTER_DURING          (* after a task: [T until { C }], [T during D] *)
+%token WHEN WATCH WAIT_FOR THEN RUN ON_ERROR
+%token <Ast.on_cut> UNTIL DURING         (* [until] and [during] complete; [assure] and [within] fail *)
+%token <Ast.on_cut> AFTER_UNTIL AFTER_DURING    (* after a task: [T until { C }], [T during D] *)
 %token LPAREN RPAREN LBRACKET RBRACKET RBRACE
 %token LBRACE                            (* opens a closure *)
 %token TRAILING                          (* opens a closure after a call: [f(x) {] *)
@@ -138,8 +139,8 @@ item:
 
 plain:
   | e = expression                                                           %prec whole_expression { item e }
-  | e = plain; AFTER_DURING; duration = expression { limit e (During_limit duration) $endpos }
-  | e = plain; AFTER_UNTIL; c = closure { limit e (Until_limit c) $endpos }
+  | e = plain; on_cut = AFTER_DURING; duration = expression { limit e (During_limit (on_cut, duration)) $endpos }
+  | e = plain; on_cut = AFTER_UNTIL; c = closure { limit e (Until_limit (on_cut, c)) $endpos }
 
 command:
   | callee = commanded; reversed = command_arguments { command $loc callee reversed }
@@ -207,10 +208,10 @@ expression:
   | WAIT_FOR; c = closure; THEN; t = item
   | WAIT_FOR; c = closure; RUN; t = item
     { expression $loc (Wait_for (c, settle t)) }
-  | UNTIL; c = closure; RUN; t = item
-    { expression $loc (Until (c, settle t)) }
-  | DURING; d = item; RUN; t = item
-    { expression $loc (During (settle d, settle t)) }
+  | on_cut = UNTIL; c = closure; RUN; t = item
+    { expression $loc (Until (on_cut, c, settle t)) }
+  | on_cut = DURING; d = item; RUN; t = item
+    { expression $loc (During (on_cut, settle d, settle t)) }
   | WATCH; t = item; ON_ERROR; c = closure
     { expression $loc (Watch (settle t, c)) }
 

@@ -8,7 +8,7 @@ let is_incomplete = function
   | LESS_EQUAL | GREATER | GREATER_EQUAL | EQUAL | NOT_EQUAL | AMPERSAND | CARET | BAR | AND | OR | IN | NOT
   | COMMA | COLON | ARROW | DOT | SAFE_DOT | QUESTION | ELVIS | ASSIGN | ASSIGN_OPERATOR _
   | LPAREN | LBRACKET | LBRACE | TRAILING | BLOCK | HOLE_OPEN | SEPARATOR | BUILDER _ | COMMAND _
-  | DEF | IF | ELSE | WHILE | FOR | WHEN | WATCH | WAIT_FOR | UNTIL | DURING | AFTER_UNTIL | AFTER_DURING
+  | DEF | IF | ELSE | WHILE | FOR | WHEN | WATCH | WAIT_FOR | UNTIL _ | DURING _ | AFTER_UNTIL _ | AFTER_DURING _
   | THEN | RUN | ON_ERROR -> true
   | NAME _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | TEMPLATE_CLOSE | HOLE_CLOSE | TEXT _ | WILDCARD
   | TRUE | FALSE | NULL | RETURN | BREAK | CONTINUE | RPAREN | RBRACKET | RBRACE | STEP _ | EOF -> false
@@ -21,7 +21,7 @@ let continues = function
   | RPAREN | RBRACKET | RBRACE | HOLE_CLOSE | SEPARATOR | EOF -> true
   | NAME _ | COMMAND _ | BUILDER _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | TEMPLATE_CLOSE
   | HOLE_OPEN | TEXT _ | WILDCARD | TRUE | FALSE | NULL | DEF | IF | WHILE | FOR | RETURN | BREAK | CONTINUE
-  | WHEN | WATCH | WAIT_FOR | UNTIL | DURING | AFTER_UNTIL | AFTER_DURING | LPAREN | LBRACKET | LBRACE
+  | WHEN | WATCH | WAIT_FOR | UNTIL _ | DURING _ | AFTER_UNTIL _ | AFTER_DURING _ | LPAREN | LBRACKET | LBRACE
   | TRAILING | BLOCK | ARROW | ASSIGN | ASSIGN_OPERATOR _ | STEP _ | PLUS | MINUS | NOT -> false
 
 (* Whether an operand can end with [token]. *)
@@ -36,7 +36,7 @@ let takes_closure = function
   | _ -> false
 
 let is_word = function
-  | DEF | IF | ELSE | WHILE | FOR | IN | RETURN | BREAK | CONTINUE | WHEN | WATCH | WAIT_FOR | UNTIL | DURING
+  | DEF | IF | ELSE | WHILE | FOR | IN | RETURN | BREAK | CONTINUE | WHEN | WATCH | WAIT_FOR | UNTIL _ | DURING _
   | THEN | RUN | ON_ERROR -> true
   | _ -> false
 
@@ -95,7 +95,7 @@ let begins_argument state i =
   match raw_token state i with
   | NAME _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | WILDCARD | TRUE | FALSE | NULL | WHEN | WATCH
   | WAIT_FOR | NOT -> true
-  | UNTIL | DURING -> is_key state i || begins_expression state i
+  | UNTIL _ | DURING _ -> is_key state i || begins_expression state i
   | token -> is_word token && is_key state i
 
 let push state (token : Token.t) kind =
@@ -138,8 +138,8 @@ let classify state i (token : Token.t) =
   match token.token with
   | TRUE | FALSE | NULL when after_point state -> NAME (Token.text ~source:state.source token)
   | word when is_word word && (after_point state || is_key state i) -> NAME (Token.text ~source:state.source token)
-  | (UNTIL | DURING) as word when ends_operand state.last && not state.last_is_header ->
-    if word = UNTIL then AFTER_UNTIL else AFTER_DURING
+  | UNTIL on_cut when ends_operand state.last && not state.last_is_header -> AFTER_UNTIL on_cut
+  | DURING on_cut when ends_operand state.last && not state.last_is_header -> AFTER_DURING on_cut
   | NAME x as name ->
     if after_point state || raw_token state (i + 1) <> LBRACE then
       if same_line state (i + 1) && begins_argument state (i + 1) && state.last <> DEF then COMMAND x else name

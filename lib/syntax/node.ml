@@ -2,7 +2,7 @@ open Ast
 
 let located place it = { it; at = Location.make place }
 
-type limit = During_limit of expression | Until_limit of closure
+type limit = During_limit of on_cut * expression | Until_limit of on_cut * closure
 
 type item = { base : expression; limits : (limit * Lexing.position) list }
 
@@ -13,8 +13,8 @@ let apply base limits =
   let apply base (limit, stop) =
     let at = { base.at with stop } in
     match limit with
-    | During_limit duration -> { it = During (duration, base); at }
-    | Until_limit condition -> { it = Until (condition, base); at }
+    | During_limit (on_cut, duration) -> { it = During (on_cut, duration, base); at }
+    | Until_limit (on_cut, condition) -> { it = Until (on_cut, condition, base); at }
   in
   List.fold_left apply base (List.rev limits)
 

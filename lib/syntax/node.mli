@@ -4,8 +4,8 @@ open Ast
 
 val located : Lexing.position * Lexing.position -> 'a -> 'a located
 
-(** What follows a task in the postfix forms [T during D] and [T until { C }]. *)
-type limit = During_limit of expression | Until_limit of closure
+(** What follows a task in the postfix forms [T during D], [T within D], [T until { C }] and [T assure { C }]. *)
+type limit = During_limit of on_cut * expression | Until_limit of on_cut * closure
 
 (** An expression, and the limits written after it, outermost first. *)
 type item = { base : expression; limits : (limit * Lexing.position) list }

@@ -166,9 +166,10 @@ and bare out e =
     braces out "" body
   | When (c, t) -> guarded out "when" c "then" t
   | Wait_for (c, t) -> guarded out "waitFor" c "then" t
-  | Until (c, t) -> guarded out "until" c "run" t
-  | During (d, t) ->
-    put out "during ";
+  | Until (on_cut, c, t) -> guarded out (until on_cut) c "run" t
+  | During (on_cut, d, t) ->
+    put out (during on_cut);
+    put out " ";
     expression out conditional d;
     put out " run ";
     expression out whole t
@@ -333,7 +334,7 @@ and command out name arguments =
     let begins word = String.length text > String.length word && String.sub text 0 (String.length word) = word in
     match text.[0] with
     | 'a' .. 'z' | 'A' .. 'Z' | '_' | '0' .. '9' | '\'' | '"' | '!' | '\xC0' .. '\xFF' ->
-      not (begins "until " || begins "during ")
+      not (List.exists begins [ "until "; "assure "; "during "; "within " ])
     | _ -> false
   in
   (* A closure first, and more behind it: [assert { C }, 'text']. *)
@@ -358,6 +359,9 @@ and command out name arguments =
     separated out ", " (put out) texts;
     put out ")"
   end
+
+let until = Spelling.until
+let during = Spelling.during
 
 (* {1 Programs} *)
 

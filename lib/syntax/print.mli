@@ -6,3 +6,9 @@ val program : Format.formatter -> Ast.program -> unit
 
 val expression : Format.formatter -> Ast.expression -> unit
 (** [expression ppf e] prints [e], likewise. *)
+
+val until : Ast.on_cut -> string
+(** [until on_cut] is ["until"] or ["assure"]. *)
+
+val during : Ast.on_cut -> string
+(** [during on_cut] is ["during"] or ["within"]. *)

@@ -61,6 +61,9 @@ let operator = function
   | And -> "&&"
   | Or -> "||"
 
+let until = function Completes -> "until" | Fails -> "assure"
+let during = function Completes -> "during" | Fails -> "within"
+
 let builder = function
   | Pick -> "pick"
   | Imc_plan -> "imcPlan"

@@ -30,6 +30,12 @@ val level : Ast.expression -> int
 val operator : Ast.binary -> string
 (** [operator o] is ["+"] for [Add], and so on. *)
 
+val until : Ast.on_cut -> string
+(** [until on_cut] is ["until"] or ["assure"]. *)
+
+val during : Ast.on_cut -> string
+(** [during on_cut] is ["during"] or ["within"]. *)
+
 val builder : Ast.builder -> string
 (** [builder b] is ["pick"] for [Pick], and so on. *)
 

@@ -26,10 +26,10 @@ let children_of_expression e =
   | Range { first; last; inclusive = _ } -> expressions [ first; last ]
   | Closure { parameters = _; body } | Builder (_, body) -> statements body
   | Unary (_, e) | Increment { target = e; _ } | Member { subject = e; _ } -> expressions [ e ]
-  | Binary (_, a, b) | Elvis (a, b) | Index (a, b) | During (a, b) -> expressions [ a; b ]
+  | Binary (_, a, b) | Elvis (a, b) | Index (a, b) | During (_, a, b) -> expressions [ a; b ]
   | Conditional (a, b, c) -> expressions [ a; b; c ]
   | Call { callee; arguments } -> Expression_node callee :: List.rev_map argument arguments
-  | When (c, t) | Wait_for (c, t) | Until (c, t) | Watch (t, c) -> Expression_node t :: statements c.body
+  | When (c, t) | Wait_for (c, t) | Until (_, c, t) | Watch (t, c) -> Expression_node t :: statements c.body
 
 let children_of_statement s =
   match s.it with

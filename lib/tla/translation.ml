@@ -164,9 +164,11 @@ and procedure t site builtin : Tla.t =
   | Make_action -> plain "action"
   | Make_condition -> plain "condition"
   | Make_wait_for -> plain "waitFor"
-  | Make_until -> plain "until"
+  | Make_until Completes -> plain "until"
+  | Make_until Fails -> plain "assure"
   | Make_idle -> plain "idle"
-  | Make_during -> plain "during"
+  | Make_during Completes -> plain "during"
+  | Make_during Fails -> plain "within"
   | Make_watch -> plain "watch"
   | Execute -> plain "execute"
   | Execute_for vehicles -> record "executeFor" [ ("names", Tla.strings vehicles) ]

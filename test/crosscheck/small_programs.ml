@@ -31,6 +31,15 @@ let tasks =
        "post k: 1\nexecute condition { consume k: 1; false } | condition { poll k: 1 }");
       ("until stops what runs, or what did not start",
        two ^ "execute (until { poll x: 1 } run (task('p')[a] >> task('q')[a])) | action { post x: 1 }");
+      ("assure stops what runs, or what did not start, and fails",
+       two ^ "execute watch ((assure { !poll(x: 1) } run (task('p')[a] >> task('q')[a])) | action { post x: 1 })\n\
+              onError { why -> message why; ignore() }");
+      ("what a condition that is not assured did is undone",
+       "post x: 1\nexecute watch (assure { consume x: 1; false } run idle(1.seconds)) onError { ignore() }\n\
+        if (poll(x: 1)) { message 'there' }");
+      ("within a time, and not",
+       two ^ "execute watch ((task('p')[a] | task('q')[b]) within 10.seconds) onError { why -> message why; ignore() }");
+      ("within a time given by code", "execute idle(1.seconds) within { post asked: 1; consume asked: 1; 3 }");
       ("an error leaves out what would follow",
        two ^ "execute watch (task('p')[a] >> task('q')[b] >> task('q')[a]) onError { ignore() }");
       ("a handler that does nothing propagates", two ^ "execute watch task('p')[a] onError { post k: 1 }");

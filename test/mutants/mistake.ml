@@ -336,6 +336,14 @@ let task_rules =
   | Body_during|},
         {|    if true then None else Some (Step { offer = Check condition; continue })
   | Body_during|} );
+      ( "ASSURE-CUT ends as done",
+        {|Rule.Assure_cut (Failed (Fault.make site (not_assured condition))))|},
+        {|Rule.Assure_cut (if site < 0 then Failed (Fault.make site (not_assured condition)) else Finished))|}
+      );
+      ( "WITHIN-CUT ends as done",
+        {|      | Fails site -> (Rule.Within_cut, Failed (Fault.make site (too_late duration)))|},
+        {|      | Fails site -> (Rule.Within_cut, if site < 0 then Failed (Fault.make site (too_late duration)) else Finished)|}
+      );
       ( "ONEOF-WHEN does not begin its body",
         {|holds:(fun label -> enter label Rule.Oneof_when Fun.id b.body)|},
         {|holds:(fun label -> change label Rule.Oneof_when (Next b.body))|} );

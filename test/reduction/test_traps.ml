@@ -162,6 +162,19 @@ let traps =
     breaks "until takes something once all but one of its parts are done" [ No_leftover ]
       {|post x: 1
         execute until { consume x: 1 } run (task('p')[a] | task('q')[b])|};
+    breaks "assure fails once all but one of its parts are done" [ No_error ]
+      {|g = 1
+        execute assure { g == 1 } run (task('p')[a] | action { g = 0 })|};
+    breaks "assure fails between two steps of another part" [ No_leftover ]
+      {|execute watch (assure { !poll(x: 1) } run task('p')[a]) onError { post y: 1; ignore() }
+          | (action { post x: 1 } >> condition { consume x: 1 })|};
+    breaks "within fails while others run" [ No_leftover ]
+      {|execute (watch (idle(5) within 3) onError { post y: 1; ignore() }) | task('p')[a]|};
+    breaks "within cuts off what had not posted" [ No_deadlock ]
+      {|execute (watch ((task('p')[a] >> action { post x: 1 }) within 3) onError { ignore() }) | condition { consume x: 1 }|};
+    breaks "assure cuts off what had not posted" [ No_deadlock; No_leftover ]
+      {|execute (watch (assure { !poll(stop: 1) } run (task('p')[a] >> action { post x: 1 })) onError { ignore() })
+          | action { post stop: 1 } | condition { consume x: 1 }|};
     breaks "until cuts off what had posted" [ No_leftover ]
       {|execute until { poll stop: 1 } run (action { post x: 1 } | action { post y: 1 } | action { post stop: 1 })|};
     breaks "during ends between two posts" [ No_leftover ]

@@ -67,7 +67,7 @@ let looks_at_once () =
 let cuts_off () =
   let fate _ _ = Mock_platform.Goes_on in
   let mock = Mock_platform.make ~fate two_vehicles in
-  let during = call Make_during [ number 7.; task "a" ] in
+  let during = call (Make_during Completes) [ number 7.; task "a" ] in
   run mock (program [ pick_all (); call Execute [ parallel during (call Make_idle [ number 9. ]) ] ])
   |> outcome_is "end";
   log_is mock

@@ -16,7 +16,7 @@ let contexts : (Ast.expression -> Ast.expression) list =
   [ Fun.id;
     (fun t -> binary Sequence t (action [ message "next" ]));
     (fun t -> binary Parallel (action [ statement (post "x" 1); statement (post "z" 2) ]) t);
-    (fun t -> expression (Until (code [ statement (consumed "y") ], t)));
+    (fun t -> expression (Until (Completes, code [ statement (consumed "y") ], t)));
     (fun t -> expression (Watch (t, code [ message "handled"; statement (call "ignore" []) ])));
     (fun t -> binary Sequence (action [ statement (post "y" 2) ]) t) ]
 
@@ -61,8 +61,10 @@ let law ?(count = 500) name left right =
 
 let ( >> ) = binary Sequence
 let ( <|> ) = binary Parallel
-let until g t = expression (Until (g, t))
-let during n t = expression (During (expression (Integer n), t))
+let until g t = expression (Until (Completes, g, t))
+let assure g t = expression (Until (Fails, g, t))
+let during n t = expression (During (Completes, expression (Integer n), t))
+let within n t = expression (During (Fails, expression (Integer n), t))
 let watch t h = expression (Watch (t, code h))
 let branches builder bs =
   expression (Builder (builder, List.map (fun (g, t) -> statement (expression (When (g, t)))) bs))
@@ -72,7 +74,15 @@ let set vs = List.fold_left (binary Add) (variable (List.hd vs)) (List.map varia
 
 let on t vs = expression (Index (t, set vs))
 let propagate = [ statement (call "propagate" []) ]
+let ignored t = watch t [ statement (call "ignore" []) ]
 let never = code [ statement (expression (Boolean false)) ]
+let always = code [ statement (expression (Boolean true)) ]
+let polls =
+  let key = { Ast.it = "y"; at = Dolphin_syntax.Location.none } in
+  call "poll" [ Named (key, expression Wildcard) ]
+
+let polling = code [ statement polls ]
+let not_polling = code [ statement (expression (Unary (Not, polls))) ]
 
 let laws =
   [ law ">> is associative" (fun x -> (x.a >> x.b) >> x.c) (fun x -> x.a >> (x.b >> x.c));
@@ -88,6 +98,12 @@ let laws =
     law "allOf with one branch is waitFor" (fun x -> branches All_of [ (x.g, x.a) ])
       (fun x -> expression (Wait_for (x.g, x.a)));
     law "until { false } run T is T" (fun x -> until never x.a) (fun x -> x.a);
+    law "assure { true } run T is T" (fun x -> assure always x.a) (fun x -> x.a);
+    law "assure goes into >>" (fun x -> assure x.g (x.a >> x.b)) (fun x -> assure x.g x.a >> assure x.g x.b);
+    law "assure goes into |" (fun x -> assure x.g (x.a <|> x.b)) (fun x -> assure x.g x.a <|> assure x.g x.b);
+    law "assure, its errors ignored, is until" (fun x -> ignored (assure not_polling x.a))
+      (fun x -> until polling (ignored x.a));
+    law "within, its errors ignored, is during" (fun x -> ignored (within 5 x.a)) (fun x -> during 5 (ignored x.a));
     law ">> goes into oneOf from the right"
       (fun x -> branches One_of [ (x.g, x.a); (never, x.b) ] >> x.c)
       (fun x -> branches One_of [ (x.g, x.a >> x.c); (never, x.b >> x.c) ]);
@@ -189,6 +205,11 @@ let no_laws =
     differ "ignore() is no propagate()" (Printf.sprintf "watch %s onError { ignore() }" p) p;
     differ "until does not go into >>" (Printf.sprintf "until { poll(x: 1) } run (%s >> %s)" p q)
       (Printf.sprintf "(until { poll(x: 1) } run %s) >> (until { poll(x: 1) } run %s)" p q);
+    differ "within is not during" (Printf.sprintf "%s within 5" p) (Printf.sprintf "during 5 run %s" p);
+    differ "assure is not until" (Printf.sprintf "assure { poll(y: 1) } run %s" p)
+      (Printf.sprintf "until { !poll(y: 1) } run %s" p);
+    differ "assure { false } run T may start T" (Printf.sprintf "watch (assure { false } run %s) onError { ignore() }" p)
+      "condition { true }";
     differ "until { true } run T is not nothing" (Printf.sprintf "until { true } run %s" p) "action { }";
     differ "during { n } is not during n" (Printf.sprintf "during { 5 } run %s" p) (Printf.sprintf "during 5 run %s" p);
     differ "allOf is not |"

@@ -106,6 +106,24 @@ let tasks : example list =
       "cut(consume a:1)" "UNTIL-CUT, EXECUTE-DONE" "script" [ "cancel timer 1"; "stop noptilus-1" ];
     example Until_cut "before anything started" (task "until { true } run %p") "cut"
       "UNTIL-CUT, EXECUTE-DONE" "script" [];
+    example Assure_cut "what runs is stopped, and it fails"
+      (task "(assure { !poll(a: 1) } run during 5 run %p) | action { post a: 1 }")
+      "cut" "ASSURE-CUT, EXECUTE-ERR" "failed: assure: { !poll(a: 1) } does not hold"
+      [ "cancel timer 1"; "stop noptilus-1"; released; "end: assure: { !poll(a: 1) } does not hold" ];
+    example Assure_cut "what its condition did is undone"
+      ("post a: 1\n" ^ task "watch (assure { message 'm'; consume(a: 1) && false } run %p) onError { ignore() } >> condition { consume a: 1 }")
+      "cut" "ASSURE-CUT, WATCH-IGNORE, SEQ-2" "condition { condition }" [];
+    example Assure_cut "before anything started" (task "watch (assure { 1 > 2 } run %p) onError { ignore() }") "cut"
+      "ASSURE-CUT, WATCH-IGNORE, EXECUTE-DONE" "script" [];
+    example Assure_cut "by a return" (task "watch (assure { if (2 > 1) { return false }; true } run %p) onError { ignore() }")
+      "cut" "ASSURE-CUT, WATCH-IGNORE, EXECUTE-DONE" "script" [];
+    example Until_1 "an assured task goes on" (task "assure { 2 > 1 } run %p") "start(noptilus-1, p)" "START, UNTIL-1"
+      "assure { 2 > 1 } run p[noptilus-1]..." [ "start p on noptilus-1" ];
+    example Until_2 "an assured task ends by itself" (task "assure { true } run %p") "done(noptilus-1, p)"
+      "DONE, UNTIL-2, EXECUTE-DONE" "script" [];
+    example Until_err "the condition of assure breaks, the task is stopped"
+      (task "watch (assure { 1 / 0 } run %p) onError { ignore() }")
+      "broken(division by zero)" "UNTIL-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [ "stop noptilus-1" ];
     example Until_1 "the task goes on" (task "until { false } run %p") "start(noptilus-1, p)" "START, UNTIL-1"
       "until { until } run p[noptilus-1]..." [ "start p on noptilus-1" ];
     example Until_2 "the task ends by itself" (task "until { false } run %p") "done(noptilus-1, p)"
@@ -124,6 +142,19 @@ let tasks : example list =
       [ "stop noptilus-1" ];
     example During_cut "inner timers are cancelled" (task "during 60 run (%p | idle(5))") "timeout"
       "DURING-CUT, EXECUTE-DONE" "script" [ "cancel timer 2"; "stop noptilus-1" ];
+    example Within_cut "what runs is stopped, and it fails" (task "(%p | idle(5)) within 60") "timeout"
+      "WITHIN-CUT, EXECUTE-ERR" "failed: not done within 60 s"
+      [ "cancel timer 2"; "stop noptilus-1"; released; "end: not done within 60 s" ];
+    example Within_cut "a time given by code" (task "watch (%p within { 2 * 30 }) onError { error -> message error; ignore() }")
+      "timeout" "WITHIN-CUT, WATCH-IGNORE, EXECUTE-DONE" "script" [ "stop noptilus-1"; "say not done within 60 s" ];
+    example During_set "code says within which time" (task "within { 2 * 30 } run %p") "set-time(60)"
+      "DURING-SET" "within 60 run p[noptilus-1]" [ "set timer 1 to 60 s" ];
+    example During_2 "the task ends within its time" (task "%p within 60") "done(noptilus-1, p)"
+      "DONE, DURING-2, EXECUTE-DONE" "script" [ "cancel timer 1" ];
+    example During_err "code gives no time to be done within"
+      (task "watch (within { 'soon' } run %p) onError { ignore() }")
+      "broken(within takes a time of 0 seconds or more, this code gives soon)"
+      "DURING-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [];
     example During_1 "the task goes on" (task "during 60 run %p") "start(noptilus-1, p)" "START, DURING-1"
       "during 60 run p[noptilus-1]..." [ "start p on noptilus-1" ];
     example During_2 "the task ends in time" (task "during 60 run %p") "done(noptilus-1, p)"

@@ -149,6 +149,8 @@ let leaf ~sensing = function
   | [] -> code_task ~sensing
   | vehicles -> frequency [ (3, platform_task vehicles); (1, code_task ~sensing) ]
 
+let on_cut = frequencyl [ (3, Completes); (1, Fails) ]
+
 (* [vehicles] shared out to two branches. *)
 let shared_out vehicles =
   let* lefts = flatten_l (List.map (fun _ -> bool) vehicles) in
@@ -176,8 +178,8 @@ let rec task_of ~sensing ~vehicles ~depth : expression Gen.t =
     | `All_of -> map (fun branches -> expression (Builder (All_of, branches))) (branches guard part)
     | `One_of -> map (fun branches -> expression (Builder (One_of, branches))) (branches guard part)
     | `Wait_for -> map2 (fun c t -> expression (Wait_for (c, t))) guard (part ())
-    | `Until -> map2 (fun c t -> expression (Until (c, t))) guard (part ())
-    | `During -> map2 (fun d t -> expression (During (d, t))) duration (part ())
+    | `Until -> map3 (fun e c t -> expression (Until (e, c, t))) on_cut guard (part ())
+    | `During -> map3 (fun e d t -> expression (During (e, d, t))) on_cut duration (part ())
     | `Watch -> map2 (fun t c -> expression (Watch (t, c))) (part ()) (handler ~sensing)
     | `Allocated ->
       let all = match vehicles with [] -> [ "va" ] | vehicles -> vehicles in
@@ -206,8 +208,8 @@ let in_context ~sensing vehicles t =
     frequencyl [ (3, `Until); (2, `During); (4, `Watch); (2, `Before); (1, `After); (2, `All_of); (1, `One_of) ]
   in
   match shape with
-  | `Until -> map (fun c -> expression (Until (c, t))) guard
-  | `During -> map (fun d -> expression (During (d, t))) duration
+  | `Until -> map2 (fun e c -> expression (Until (e, c, t))) on_cut guard
+  | `During -> map2 (fun e d -> expression (During (e, d, t))) on_cut duration
   | `Watch -> map (fun c -> expression (Watch (t, c))) (handler ~sensing)
   | `Before -> map (binary Sequence t) (leaf vehicles)
   | `After -> map (fun first -> binary Sequence first t) (leaf vehicles)
@@ -391,7 +393,7 @@ let replicated =
     frequency
       [ (5, return all);
         (1, map (fun h -> text (expression (Watch (variable "t", h)))) (handler ~sensing:false));
-        (1, map (fun g -> text (expression (Until (g, variable "t")))) (guard_of ~sensing:false));
+        (1, map (fun g -> text (expression (Until (Completes, g, variable "t")))) (guard_of ~sensing:false));
         (1, map (fun t -> text (binary Sequence (variable "t") t)) (part [] 0)) ]
   in
   let executed = if wrapped = all then "execute " ^ all else Printf.sprintf "t = %s\nexecute %s" all wrapped in

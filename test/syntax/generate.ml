@@ -75,8 +75,8 @@ and node fuel =
         1, map2 (fun b body -> Builder (b, body)) (oneofl [ Pick; Imc_plan; Pos; All_of; One_of ]) (program (fuel / 2));
         1, map2 (fun c t -> When (c, t)) c e;
         1, map2 (fun c t -> Wait_for (c, t)) c e;
-        1, map2 (fun c t -> Until (c, t)) c e;
-        1, map2 (fun d t -> During (d, t)) e e;
+        1, map3 (fun on_cut c t -> Until (on_cut, c, t)) (oneofl [ Completes; Fails ]) c e;
+        1, map3 (fun on_cut d t -> During (on_cut, d, t)) (oneofl [ Completes; Fails ]) e e;
         1, map2 (fun t c -> Watch (t, c)) e c ]
 
 and argument fuel =

@@ -171,7 +171,7 @@ and compile t home kin index (Step { offer; continue } as source : Task_rules.st
   | Start _ -> [ certain None Free (continue ()) ]
   | Perform closure -> [ certain None (Guarded (guard t false closure)) (continue (Ok [])) ]
   | Check closure -> [ certain None (Guarded (guard t true closure)) (continue (Ok [])) ]
-  | Measure _ -> [ dependent None ]
+  | Refute _ | Measure _ -> [ dependent None ]
   | Expiry_of timer -> [ certain (Some (Timer_expired timer)) Free (continue ()) ]
   | End_of (task, v) ->
     let on_event (event, _) =
@@ -200,6 +200,7 @@ let cover t steps =
     | Start (task, _) -> Coverage.start t.coverage task
     | Perform c -> Coverage.run t.coverage c
     | Check c -> Coverage.run t.coverage c
+    | Refute c -> Coverage.run t.coverage c
     | Measure c -> Coverage.run t.coverage c
     | End_of _ | Expiry_of _ -> ()
   in

@@ -20,6 +20,12 @@ let breaking = { Footprint.empty with breaks = true }
 
 (* {1 Futures} *)
 
+(* Of a guard that is looked at, and fails where it is not true: what its code does is undone. *)
+let of_refuted c g =
+  let f = Footprint.of_code c.code g in
+  let none = Footprint.empty in
+  union { f with posts = none.posts; queues = none.queues; takes = none.takes; writes = none.writes } breaking
+
 let ending c (p : platform_task) v =
   let remembered = Environment.endings_remember c.options in
   { Footprint.empty with remembered; breaks = Environment.may_fail c.options v p.name }
@@ -36,9 +42,11 @@ let rec future c (r : Residual.t) =
   | Parallel rs -> all (List.map (future c) rs)
   | All_of (running, bs) -> all (Option.to_list (Option.map (future c) running) @ List.map (of_branch c) bs)
   | One_of bs -> all (List.map (of_branch c) bs)
-  | Until (g, r) -> union (Footprint.of_guard c.code g) (future c r)
+  | Until (Completes, g, r) -> union (Footprint.of_guard c.code g) (future c r)
+  | Until (Fails _, g, r) -> union (of_refuted c g) (future c r)
   | Idle _ -> Footprint.empty
-  | During { duration = Seconds _; body; _ } -> future c body
+  | During { on_cut = Completes; duration = Seconds _; body; _ } -> future c body
+  | During { on_cut = Fails _; duration = Seconds _; body; _ } -> union breaking (future c body)
   | During { duration = Given_by d; body; _ } -> all [ breaking; Footprint.of_code c.code d; future c body ]
   | Watch (r, handler) -> handled c (future c r) handler
 
@@ -47,6 +55,9 @@ and of_branch c (b : Residual.branch) = union (Footprint.of_guard c.code b.guard
 let of_residual = future
 
 (* {1 Steps} *)
+
+let is_error (change : Task_rules.change) =
+  match change.outcome with Failed _ | Handling _ -> true | Next _ | Finished -> false
 
 let handlers source =
   let error = Fault.make Fault.unknown_site "" in
@@ -57,14 +68,16 @@ let handlers source =
   in
   Option.fold ~none:[] ~some:of_change (Task_rules.broken source error)
 
-let footprint c { source = Step { offer; _ } as source; event; _ } =
+let footprint c { source = Step { offer; continue } as source; event; _ } =
   let f =
     match offer, event with
     | End_of (p, v), Some (Vehicle_failed _) -> ending c p v
     | End_of (p, v), _ -> { (ending c p v) with breaks = false }
-    | (Start _ | Expiry_of _), _ -> Footprint.empty
+    | Start _, _ -> Footprint.empty
+    | Expiry_of _, _ -> if is_error (continue ()) then breaking else Footprint.empty
     | Perform a, _ -> Footprint.of_code c.code a
     | Check g, _ -> Footprint.of_guard c.code g
+    | Refute g, _ -> of_refuted c g
     | Measure d, _ -> union breaking (Footprint.of_code c.code d)
   in
   if f.breaks then List.fold_left (handled c) f (handlers source) else f

@@ -34,7 +34,7 @@ let outside_after t (Task_rules.Step { offer; _ }) event outside =
   match offer with
   | End_of (task, v) ->
     List.assoc_opt event (Environment.task_ends (Components.options t.components) outside v task)
-  | Start _ | Perform _ | Check _ | Measure _ | Expiry_of _ -> Some outside
+  | Start _ | Perform _ | Check _ | Refute _ | Measure _ | Expiry_of _ -> Some outside
 
 type taken = { local : Local_step.t; level : int; certain : bool }
 

@@ -250,7 +250,7 @@ and applied w lambda at operation arguments =
       Hashtbl.add w.handlers handler.id ()
     end;
     values [ t; code ] land vehicles
-  | ( ( Builtin (Platform_task | Make_action | Make_condition | Make_wait_for | Make_until | Make_idle | Make_during
+  | ( ( Builtin (Platform_task | Make_action | Make_condition | Make_wait_for | Make_until _ | Make_idle | Make_during _
                 | Make_watch)
       | Make_branch ),
       es ) -> values es land vehicles

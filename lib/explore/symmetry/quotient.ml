@@ -29,6 +29,7 @@ let reach_orbit t g r =
     | Start (p, _) -> reach (Task_isomorphism.Task p.task_site)
     | Perform c -> reach (Task_isomorphism.Code c.lambda.id)
     | Check c -> reach (Task_isomorphism.Code c.lambda.id)
+    | Refute c -> reach (Task_isomorphism.Code c.lambda.id)
     | Measure c -> reach (Task_isomorphism.Code c.lambda.id)
     | End_of _ | Expiry_of _ -> ()
   in

@@ -51,12 +51,12 @@ and task r t =
     Allocated (task r a, vs)
   | All_of bs -> All_of (List.map (branch r) bs)
   | One_of bs -> One_of (List.map (branch r) bs)
-  | Until (c, a) ->
+  | Until (on_cut, c, a) ->
     let c = closure r c in
-    Until (c, task r a)
-  | During (d, a) ->
+    Until (on_cut, c, task r a)
+  | During (on_cut, d, a) ->
     let d = duration r d in
-    During (d, task r a)
+    During (on_cut, d, task r a)
   | Watch (a, c) ->
     let a = task r a in
     Watch (a, closure r c)
@@ -80,9 +80,9 @@ let rec residual r (t : Residual.t) : Residual.t =
     let a = Option.map go a in
     All_of (a, List.map (residual_branch r) bs)
   | One_of bs -> One_of (List.map (residual_branch r) bs)
-  | Until (c, a) ->
+  | Until (on_cut, c, a) ->
     let c = closure r c in
-    Until (c, go a)
+    Until (on_cut, c, go a)
   | Idle _ -> t
   | During d ->
     let duration = duration r d.duration in

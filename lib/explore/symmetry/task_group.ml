@@ -167,7 +167,7 @@ let rec image_of_residual g p (r : Residual.t) : Residual.t =
   | Parallel rs -> Parallel (List.map go rs)
   | All_of (a, bs) -> All_of (Option.map go a, List.map branch bs)
   | One_of bs -> One_of (List.map branch bs)
-  | Until (c, a) -> Until (code c, go a)
+  | Until (on_cut, c, a) -> Until (on_cut, code c, go a)
   | During ({ duration = Given_by c; _ } as d) -> During { d with duration = Given_by (code c); body = go d.body }
   | During ({ duration = Seconds _; _ } as d) -> During { d with body = go d.body }
   | Watch (a, c) -> Watch (go a, image_of_closure g p ~handler:true c)

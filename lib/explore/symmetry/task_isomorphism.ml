@@ -21,7 +21,7 @@ let rec fold f acc (r : Residual.t) =
   | Parallel rs -> List.fold_left (fold f) acc rs
   | All_of (a, bs) -> List.fold_left (fold_branch f) (Option.fold ~none:acc ~some:(fold f acc) a) bs
   | One_of bs -> List.fold_left (fold_branch f) acc bs
-  | Until (c, a) -> fold f (f acc (Of_code (false, c))) a
+  | Until (_, c, a) -> fold f (f acc (Of_code (false, c))) a
   | Idle _ -> acc
   | During { duration = Seconds _; body; _ } -> fold f acc body
   | During { duration = Given_by c; body; _ } -> fold f (f acc (Of_code (false, c))) body
@@ -67,11 +67,11 @@ let rec spell s (r : Residual.t) =
     let running = match a with Some a -> spell s a | None -> "" in
     "all(" ^ running ^ "!" ^ beside s (List.map (spell_branch s) bs) ^ ")"
   | One_of bs -> "one(" ^ beside s (List.map (spell_branch s) bs) ^ ")"
-  | Until (c, a) -> "until(" ^ code s ~handler:false c ^ "," ^ spell s a ^ ")"
+  | Until (e, c, a) -> Printf.sprintf "%s(%s,%s)" (Value.until e) (code s ~handler:false c) (spell s a)
   | Idle { seconds; _ } -> Printf.sprintf "idle%h" seconds
-  | During { duration; started; body; _ } ->
+  | During { on_cut; duration; started; body; _ } ->
     let time = match duration with Seconds x -> Printf.sprintf "%h" x | Given_by c -> code s ~handler:false c in
-    Printf.sprintf "during(%b,%s,%s)" started time (spell s body)
+    Printf.sprintf "%s(%b,%s,%s)" (Value.during on_cut) started time (spell s body)
   | Watch (a, c) -> "watch(" ^ code s ~handler:true c ^ "," ^ spell s a ^ ")"
 
 and spell_branch s (b : Residual.branch) = code s ~handler:false b.guard ^ "?" ^ spell s b.body
@@ -79,6 +79,9 @@ and spell_branch s (b : Residual.branch) = code s ~handler:false b.guard ^ "?" ^
 let key context ~sorted ~pair ~label r = spell { context; sorted; pair; name = label } r
 
 (* {1 Matching} *)
+
+let ends_alike e e' =
+  match e, e' with Completes, Completes | Fails _, Fails _ -> true | (Completes | Fails _), _ -> false
 
 exception Different
 
@@ -120,7 +123,7 @@ let matched context ~rename r r' =
     | All_of (Some a, bs), All_of (Some a', bs') ->
       go a a';
       children spell_branch branch bs bs'
-    | Until (c, a), Until (c', a') ->
+    | Until (e, c, a), Until (e', c', a') when ends_alike e e' ->
       same_code ~handler:false c c';
       go a a'
     | Watch (a, c), Watch (a', c') ->
@@ -128,9 +131,9 @@ let matched context ~rename r r' =
       go a a'
     | Idle { seconds; _ }, Idle { seconds = seconds'; _ } when seconds = seconds' -> ()
     | During ({ duration = Seconds s; _ } as d), During ({ duration = Seconds s'; _ } as d')
-      when s = s' && d.started = d'.started -> go d.body d'.body
+      when s = s' && d.started = d'.started && ends_alike d.on_cut d'.on_cut -> go d.body d'.body
     | During ({ duration = Given_by c; _ } as d), During ({ duration = Given_by c'; _ } as d')
-      when d.started = d'.started ->
+      when d.started = d'.started && ends_alike d.on_cut d'.on_cut ->
       same_code ~handler:false c c';
       go d.body d'.body
     | ( ( Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _

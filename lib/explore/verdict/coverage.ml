@@ -28,7 +28,7 @@ let of_builtin = function
   | Pause -> Some "pause"
   | Post _ -> Some "post"
   | Set_connection_timeout -> Some "setConnectionTimeout"
-  | Platform_task | Make_action | Make_condition | Make_wait_for | Make_until | Make_idle | Make_during | Make_watch
+  | Platform_task | Make_action | Make_condition | Make_wait_for | Make_until _ | Make_idle | Make_during _ | Make_watch
   | Halt | Consume _ | Poll _ | Position_of | Battery_of | Location_of | Area_of | Ignore | Propagate | Get_supplier
   | Assert | Is_host | Math _ -> None
 
@@ -37,8 +37,8 @@ let code_of = function
   | Builtin Make_action -> Some "action"
   | Builtin Make_condition -> Some "condition"
   | Builtin Make_wait_for -> Some "waitFor"
-  | Builtin Make_until -> Some "until"
-  | Builtin Make_during -> Some "during"
+  | Builtin (Make_until on_cut) -> Some (Dolphin_syntax.Print.until on_cut)
+  | Builtin (Make_during on_cut) -> Some (Dolphin_syntax.Print.during on_cut)
   | Builtin Make_watch -> Some "onError"
   | Make_branch -> Some "when"
   | _ -> None

@@ -32,7 +32,7 @@ let closure env at purpose label (c : Ast.closure) =
   let lambda, captured = make_lambda env at purpose label ~parameters ~implicit body in
   expression env at (Make_closure (lambda, captured))
 
-let conditions = [ "when"; "waitFor"; "until"; "condition"; "assert" ]
+let conditions = [ "when"; "waitFor"; "until"; "assure"; "condition"; "assert" ]
 
 let task_code env at construct (c : Ast.closure) =
   (match c.parameters with
@@ -47,3 +47,16 @@ let task_code env at construct (c : Ast.closure) =
               | None -> "to compare, write =="))
    | _ -> ());
   closure env at (Scope.Task_code construct) construct c
+
+(* The text of code, for messages: on one line. *)
+let text_of (c : Ast.closure) =
+  let text = Format.asprintf "%a" Dolphin_syntax.Print.program c.body in
+  let words = List.filter (( <> ) "") (String.split_on_char ' ' (String.map (function '\n' -> ' ' | c -> c) text)) in
+  let text = String.concat " " words in
+  if String.length text <= 60 then text else String.sub text 0 57 ^ "..."
+
+let told_code env at construct (c : Ast.closure) =
+  let code = task_code env at construct c in
+  match code.node with
+  | Make_closure (lambda, captured) -> { code with node = Make_closure ({ lambda with label = text_of c }, captured) }
+  | _ -> code

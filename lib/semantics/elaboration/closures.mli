@@ -20,3 +20,6 @@ val closure : env -> Location.t -> Scope.purpose -> string -> Ast.closure -> exp
 
 val task_code : env -> Location.t -> string -> Ast.closure -> expression
 (** [task_code env at construct c] is {!closure} for code of a task, which takes no parameters. *)
+
+val told_code : env -> Location.t -> string -> Ast.closure -> expression
+(** [told_code env at construct c] is {!task_code}, labelled with the text of [c], for messages. *)

@@ -30,7 +30,7 @@ let rec computes p (e : expression) =
   | Map entries -> List.for_all (fun (_, e) -> computes p e) entries
   | Binary (Append, _, _) -> false
   | Binary (Divide, a, { it = Closure _; _ }) -> computes p a
-  | Binary (_, a, b) | Range { first = a; last = b; _ } | Elvis (a, b) | Index (a, b) | During (a, b) -> all [ a; b ]
+  | Binary (_, a, b) | Range { first = a; last = b; _ } | Elvis (a, b) | Index (a, b) | During (_, a, b) -> all [ a; b ]
   | Unary (_, e) -> computes p e
   | Conditional (a, b, c) -> all [ a; b; c ]
   | Member { subject; _ } -> (not p.has_host) && computes p subject
@@ -41,7 +41,7 @@ let rec computes p (e : expression) =
     (not (p.is_own "Math")) && List.for_all argument arguments
   | Call { callee = { it = Member { subject; name; _ }; _ }; arguments } ->
     (not p.has_host) && List.mem name.it computing && computes p subject && List.for_all argument arguments
-  | Wait_for (_, t) | Until (_, t) | Watch (t, _) -> computes p t
+  | Wait_for (_, t) | Until (_, _, t) | Watch (t, _) -> computes p t
   | Increment _ | Call _ | Builder _ | When _ -> false
 
 let hint (e : expression) =
@@ -77,7 +77,7 @@ and statement p ~top ~value acc (s : statement) =
 let inside p acc (e : expression) =
   let code acc (c : closure) = body p ~top:false ~value:true acc c.body in
   match e.it with
-  | Closure c | When (c, _) | Wait_for (c, _) | Until (c, _) | Watch (_, c) -> code acc c
+  | Closure c | When (c, _) | Wait_for (c, _) | Until (_, c, _) | Watch (_, c) -> code acc c
   | _ -> acc
 
 let program (ast : Dolphin_syntax.Ast.program) =

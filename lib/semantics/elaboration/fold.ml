@@ -17,13 +17,14 @@ and expression f acc (e : expression) =
   | Template parts -> List.fold_left (fun acc -> function Literal _ -> acc | Hole e -> go acc e) acc parts
   | List es -> List.fold_left go acc es
   | Map entries -> List.fold_left (fun acc (_, e) -> go acc e) acc entries
-  | Range { first = a; last = b; _ } | Binary (_, a, b) | Elvis (a, b) | Index (a, b) | During (a, b) -> go (go acc a) b
+  | Range { first = a; last = b; _ } | Binary (_, a, b) | Elvis (a, b) | Index (a, b) | During (_, a, b) ->
+    go (go acc a) b
   | Closure c -> body acc c.body
   | Unary (_, e) | Increment { target = e; _ } | Member { subject = e; _ } -> go acc e
   | Conditional (a, b, c) -> go (go (go acc a) b) c
   | Call { callee; arguments } ->
     List.fold_left (fun acc -> function Positional e | Named (_, e) -> go acc e) (go acc callee) arguments
   | Builder (_, statements) -> body acc statements
-  | When (c, e) | Wait_for (c, e) | Until (c, e) -> go (body acc c.body) e
+  | When (c, e) | Wait_for (c, e) | Until (_, c, e) -> go (body acc c.body) e
   | Watch (e, c) -> body (go acc e) c.body
 

@@ -25,8 +25,8 @@ let first_operand (e : Ast.expression) : (Ast.expression * (Ast.expression -> As
   | Range r -> Some (r.first, fun first -> Range { r with first })
   | Conditional (test, yes, no) -> Some (test, fun test -> Conditional (test, yes, no))
   | Elvis (first, otherwise) -> Some (first, fun first -> Elvis (first, otherwise))
-  | During (d, t) when begins t -> Some (t, fun t -> During (d, t))
-  | Until (c, t) when begins t -> Some (t, fun t -> Until (c, t))
+  | During (e, d, t) when begins t -> Some (t, fun t -> During (e, d, t))
+  | Until (e, c, t) when begins t -> Some (t, fun t -> Until (e, c, t))
   | Null | Boolean _ | Integer _ | Number _ | String _ | Template _ | Variable _ | Wildcard | List _ | Map _ | Closure _
   | Unary _ | Increment _ | Builder _ | When _ | Wait_for _ | Until _ | During _ | Watch _ -> None
 
@@ -101,8 +101,9 @@ let rec elaborate env (e : Ast.expression) : expression =
   | Builder (builder, body) -> Setting_blocks.build env at builder body
   | When (guard, t) -> Setting_blocks.when_then env at guard t
   | Wait_for (guard, t) -> guarded env at Make_wait_for "waitFor" guard t
-  | Until (guard, t) -> guarded env at Make_until "until" guard t
-  | During (d, t) -> during env at d t
+  | Until (Completes, guard, t) -> guarded env at (Make_until Completes) "until" guard t
+  | Until (Fails, guard, t) -> assure env at guard t
+  | During (on_cut, d, t) -> during env at on_cut d t
   | Watch (t, handler) -> watch env at t handler
 
 and truth env (e : Ast.expression) =
@@ -136,17 +137,23 @@ and guarded env at operation construct guard t =
   let guard = task_code env at construct guard in
   apply env at (Builtin operation) [ guard; elaborate env t ]
 
-and during env at (d : Ast.expression) t =
-  check_kind env "during" Task t;
+and assure env at guard t =
+  check_kind env "assure" Task t;
+  let guard = told_code env at "assure" guard in
+  apply env at (Builtin (Make_until Fails)) [ guard; elaborate env t ]
+
+and during env at on_cut (d : Ast.expression) t =
+  let word = Dolphin_syntax.Print.during on_cut in
+  check_kind env word Task t;
   let d =
     match d.it with
-    | Closure c -> task_code env d.at "during" c
+    | Closure c -> task_code env d.at word c
     | _ ->
-      check_kind env "during" Number d;
-      Option.iter (fun fault -> error env Wrong_value d.at "%s" fault) (Literal_check.fault_of_time "during" d);
+      check_kind env word Number d;
+      Option.iter (fun fault -> error env Wrong_value d.at "%s" fault) (Literal_check.fault_of_time word d);
       elaborate env d
   in
-  apply env at (Builtin Make_during) [ d; elaborate env t ]
+  apply env at (Builtin (Make_during on_cut)) [ d; elaborate env t ]
 
 and watch env at t (handler : Ast.closure) =
   check_kind env "watch" Task t;

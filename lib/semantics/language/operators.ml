@@ -151,7 +151,7 @@ let binary (op : Ast.binary) x y =
   | Subtract, x, y -> arithmetic op subtract ( -. ) x y
   | Multiply, x, y -> arithmetic op multiply ( *. ) x y
   | Power, x, y -> arithmetic op integer_power Float.pow x y
-  | Divide, Task t, Closure c -> Ok (Task (Until (c, t)))
+  | Divide, Task t, Closure c -> Ok (Task (Until (Completes, c, t)))
   | Divide, x, y -> (
       match x, y, Value.to_number x, Value.to_number y with
       | _, _, Some _, Some 0. -> Error "division by zero"

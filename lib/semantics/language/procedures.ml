@@ -5,15 +5,17 @@ let of_result = function Ok x -> Value x | Error message -> Wrong message
 
 let expected what x = of_result (Operators.expected what x)
 
-let make_task = function
+let on_cut at : Dolphin_syntax.Ast.on_cut -> on_cut = function Completes -> Completes | Fails -> Fails at
+
+let make_task at = function
   | Platform_task, [ String "" ] -> Wrong "a plan's name may not be empty"
   | Platform_task, [ x ] -> expected "the name of a plan, a string" x
   | Make_action, [ Closure c ] -> Value (Task (Action c))
   | Make_condition, [ Closure c ] -> Value (Task (Condition c))
   | (Make_action | Make_condition), [ x ] -> expected "code { ... }" x
   | Make_wait_for, [ Closure guard; Task body ] -> Value (Task (One_of [ { guard; body } ]))
-  | Make_until, [ Closure c; Task t ] -> Value (Task (Until (c, t)))
-  | (Make_wait_for | Make_until), ([ Closure _; x ] | [ x; _ ]) -> expected "a task" x
+  | Make_until e, [ Closure c; Task t ] -> Value (Task (Until (on_cut at e, c, t)))
+  | (Make_wait_for | Make_until _), ([ Closure _; x ] | [ x; _ ]) -> expected "a task" x
   | Make_watch, [ Task t; Closure c ] -> Value (Task (Watch (t, c)))
   | Make_watch, (x :: _) -> expected "a task after watch" x
   | Make_idle, [ x ] -> (
@@ -21,13 +23,15 @@ let make_task = function
       | Some seconds when seconds >= 0. && seconds < infinity -> Value (Task (Idle seconds))
       | Some seconds -> Wrong (Printf.sprintf "idle takes a time of 0 seconds or more, not %g" seconds)
       | None -> expected "a time after idle, as in idle(10.seconds)" x)
-  | Make_during, [ Closure c; Task t ] -> Value (Task (During (Given_by c, t)))
-  | Make_during, [ x; Task t ] -> (
+  | Make_during e, [ Closure c; Task t ] -> Value (Task (During (on_cut at e, Given_by c, t)))
+  | Make_during e, [ x; Task t ] -> (
+      let e = on_cut at e in
+      let during = Value.during e in
       match Value.to_number x with
-      | Some seconds when seconds >= 0. && seconds < infinity -> Value (Task (During (Seconds seconds, t)))
-      | Some seconds -> Wrong (Printf.sprintf "during takes a time of 0 seconds or more, not %g" seconds)
-      | None -> expected "a time after during, as in during 10.minutes run T" x)
-  | Make_during, [ _; x ] -> expected "a task" x
+      | Some seconds when seconds >= 0. && seconds < infinity -> Value (Task (During (e, Seconds seconds, t)))
+      | Some seconds -> Wrong (Printf.sprintf "%s takes a time of 0 seconds or more, not %g" during seconds)
+      | None -> expected (Printf.sprintf "a time after %s, as in %s 10.minutes run T" during during) x)
+  | Make_during _, [ _; x ] -> expected "a task" x
   | _, _ -> Wrong "this construct has the wrong number of parts"
 
 let rec allocate_each names arguments tasks =
@@ -144,9 +148,9 @@ let apply context at operation arguments =
   match operation, arguments with
   | Platform_task, [ String name ] when name <> "" ->
     Value (Task (Platform { name; plan = None; task_site = at }))
-  | ( ( Platform_task | Make_action | Make_condition | Make_wait_for | Make_until | Make_idle | Make_during
+  | ( ( Platform_task | Make_action | Make_condition | Make_wait_for | Make_until _ | Make_idle | Make_during _
       | Make_watch ),
-      _ ) -> make_task (operation, arguments)
+      _ ) -> make_task at (operation, arguments)
   | Execute, [ Task t ] -> blocking context "execute" (Execute t)
   | Execute, [ x ] -> expected "a task to execute" x
   | Execute_for names, arguments -> (

@@ -8,9 +8,9 @@ type t =
   | Fail of vehicle * string * string  (** why *)
   | Check of Code.deed list  (** a guard or condition that held, with what its code did *)
   | Act of Code.deed list
-  | Cut of Code.deed list  (** the condition of an [until] *)
-  | Time_out  (** of [during] or [idle] *)
-  | Set_time of float  (** seconds that [during] starts with, given by code *)
+  | Cut of Code.deed list  (** by an [until] or [assure] *)
+  | Time_out  (** of [during], [within] or [idle] *)
+  | Set_time of float  (** seconds that [during] or [within] starts with, given by code *)
   | Broken of string  (** code inside of a task that failed *)
   | Did of Code.deed  (** by the script *)
   | Silent

@@ -76,12 +76,14 @@ let rec settle program world s derivation asked (change : Task_rules.change) =
 
 let kept program world local = { local with after = Run_code.kept program world local.after }
 
-(* The time that the value [x] of a [during]'s code is. *)
+(* The time that the value [x] of the code of a [during] or [within] is; [label] says which. *)
 let seconds_of (code : closure) x =
   match Value.to_number x with
   | Some seconds when seconds >= 0. && seconds < infinity -> Ok seconds
   | Some _ | None ->
-    let message = "during takes a time of 0 seconds or more, this code gives " ^ Value.to_string x in
+    let message =
+      Printf.sprintf "%s takes a time of 0 seconds or more, this code gives %s" code.lambda.label (Value.to_string x)
+    in
     Error (Fault.make code.lambda.lambda_site message)
 
 (* Code of a step: what it [gives] or [fails] with, or the end of the program. Rules HALT and ASSERT-ERR are here, for
@@ -123,6 +125,11 @@ let internal program world (s : Shared.t) (Task_rules.Step { offer; continue }) 
           if Value.truth x then go world ~asked:(Run_code.effects deeds) s (continue (Ok deeds)) else Decided None)
     in
     coded program world s guard ~gives ~fails:(fun world said fault -> failed world said (continue (Error fault)))
+  | Refute guard ->
+    let gives world x _ _ =
+      settled guard x (fun x -> if Value.truth x then Decision.Decided None else go world s (continue (Ok ())))
+    in
+    coded program world s guard ~gives ~fails:(fun world said fault -> failed world said (continue (Error fault)))
   | Measure code ->
     let gives world x after deeds =
       settled code x (fun x ->
@@ -140,7 +147,7 @@ let on_event program world s (Task_rules.Step { offer; continue }) (event : even
   | Timer_expired timer, Expiry_of timer' when timer = timer' -> go s (continue ())
   | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _
       | Host_failed _ | Interruption ),
-      (Start _ | Perform _ | Check _ | Measure _ | End_of _ | Expiry_of _) ) -> Decided None
+      (Start _ | Perform _ | Check _ | Refute _ | Measure _ | End_of _ | Expiry_of _) ) -> Decided None
 
 (* {1 In configurations} *)
 

@@ -13,9 +13,9 @@ type t =
   | Parallel of t list
   | All_of of t option * branch list
   | One_of of branch list
-  | Until of closure * t
+  | Until of on_cut * closure * t
   | Idle of { timer : timer; seconds : float }
-  | During of { timer : timer; duration : duration; started : bool; body : t }
+  | During of { on_cut : on_cut; timer : timer; duration : duration; started : bool; body : t }
   | Watch of t * closure
 
 and branch = { guard : closure; body : t }
@@ -39,13 +39,16 @@ let rec compare r r' =
     | All_of (a, bs), All_of (a', bs') ->
       Order.both (Option.compare compare a a') (fun () -> Order.list compare_branch bs bs')
     | One_of bs, One_of bs' -> Order.list compare_branch bs bs'
-    | Until (c, a), Until (c', a') | Watch (a, c), Watch (a', c') ->
-      Order.both (Value.compare_closure c c') (fun () -> compare a a')
+    | Until (e, c, a), Until (e', c', a') ->
+      Order.both (Value.compare_on_cut e e') (fun () ->
+          Order.both (Value.compare_closure c c') (fun () -> compare a a'))
+    | Watch (a, c), Watch (a', c') -> Order.both (Value.compare_closure c c') (fun () -> compare a a')
     | Idle a, Idle b -> Order.both (Int.compare a.timer b.timer) (fun () -> Float.compare a.seconds b.seconds)
     | During a, During b ->
       Order.both (Int.compare a.timer b.timer) (fun () ->
           Order.both (Bool.compare a.started b.started) (fun () ->
-              Order.both (compare_duration a.duration b.duration) (fun () -> compare a.body b.body)))
+              Order.both (compare_duration a.duration b.duration) (fun () ->
+                  Order.both (Value.compare_on_cut a.on_cut b.on_cut) (fun () -> compare a.body b.body))))
     | ( ( Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _
         | Idle _ | During _ | Watch _ ),
         _ ) -> Int.compare (rank r) (rank r')
@@ -71,7 +74,7 @@ let rec hash r =
     let h = match a with Some a -> Order.mix h (hash a) | None -> h in
     List.fold_left (fun h b -> Order.mix h (Value.hash_closure b.guard)) h bs
   | One_of bs -> List.fold_left (fun h b -> Order.mix (Order.mix h (Value.hash_closure b.guard)) (hash b.body)) h bs
-  | Until (c, a) | Watch (a, c) -> Order.mix (Order.mix h (Value.hash_closure c)) (hash a)
+  | Until (_, c, a) | Watch (a, c) -> Order.mix (Order.mix h (Value.hash_closure c)) (hash a)
   | Idle { timer; _ } -> Order.mix h timer
   | During { timer; started; body; _ } -> Order.mix (Order.mix (Order.mix h timer) (Bool.to_int started)) (hash body)
 
@@ -87,11 +90,12 @@ let rec pp ppf r =
   | All_of (None, bs) -> Format.fprintf ppf "allOf { %a }" (separated ", " pp_branch) bs
   | All_of (Some a, bs) -> Format.fprintf ppf "allOf { %a; %a }" pp a (separated ", " pp_branch) bs
   | One_of bs -> Format.fprintf ppf "oneOf { %a }" (separated ", " pp_branch) bs
-  | Until (c, a) -> Format.fprintf ppf "until { %s } run %a" c.lambda.label pp a
+  | Until (e, c, a) -> Format.fprintf ppf "%s { %s } run %a" (Value.until e) c.lambda.label pp a
   | Idle { seconds; _ } -> Format.fprintf ppf "idle(%s)" (Value.amount seconds)
-  | During { duration = Seconds s; body; _ } -> Format.fprintf ppf "during %s run %a" (Value.amount s) pp body
-  | During { duration = Given_by c; body; _ } ->
-    Format.fprintf ppf "during { %s } run %a" c.lambda.label pp body
+  | During { on_cut; duration = Seconds s; body; _ } ->
+    Format.fprintf ppf "%s %s run %a" (Value.during on_cut) (Value.amount s) pp body
+  | During { on_cut; duration = Given_by c; body; _ } ->
+    Format.fprintf ppf "%s { %s } run %a" (Value.during on_cut) c.lambda.label pp body
   | Watch (a, _) -> Format.fprintf ppf "watch %a" pp a
 
 and pp_branch ppf b = Format.fprintf ppf "when { %s } then %a" b.guard.lambda.label pp b.body
@@ -129,9 +133,9 @@ let rec activate r =
   | All_of (Some a, bs) ->
     let a, timers = activate a in
     (All_of (Some a, bs), timers)
-  | Until (c, a) ->
+  | Until (on_cut, c, a) ->
     let a, timers = activate a in
-    (Until (c, a), timers)
+    (Until (on_cut, c, a), timers)
   | Watch (a, c) ->
     let a, timers = activate a in
     (Watch (a, c), timers)
@@ -148,14 +152,14 @@ let rec exists_active p r =
   | Parallel rs -> List.exists (exists_active p) rs
   | Ready _ | Running _ | Action _ | Condition _ | Idle _ | One_of _ | All_of (None, _) | During { started = false; _ }
     -> p r
-  | All_of (Some a, _) | Until (_, a) | During { body = a; _ } -> p r || exists_active p a
+  | All_of (Some a, _) | Until (_, _, a) | During { body = a; _ } -> p r || exists_active p a
 
 let rec fold_active f acc r =
   let acc = f acc r in
   match r with
   | Ready _ | Running _ | Action _ | Condition _ | Idle _ | One_of _ | All_of (None, _) -> acc
   | During { started = false; _ } -> acc
-  | Sequence (a, _) | All_of (Some a, _) | Until (_, a) | Watch (a, _) | During { body = a; _ } ->
+  | Sequence (a, _) | All_of (Some a, _) | Until (_, _, a) | Watch (a, _) | During { body = a; _ } ->
     fold_active f acc a
   | Parallel rs -> List.fold_left (fold_active f) acc rs
 
@@ -174,16 +178,16 @@ let timers =
 type context =
   | Before of t list
   | Branch_of of branch list
-  | Body_until of closure
-  | Body_during of timer * duration
+  | Body_until of on_cut * closure
+  | Body_during of on_cut * timer * duration
   | Watched_by of closure
 
 let opened = function
   | Sequence (a, rest) -> Some (Before rest, a)
   | All_of (Some a, remaining) -> Some (Branch_of remaining, a)
-  | Until (condition, a) -> Some (Body_until condition, a)
+  | Until (on_cut, condition, a) -> Some (Body_until (on_cut, condition), a)
   | During { duration = Given_by _; started = false; _ } -> None
-  | During { timer; duration; body; _ } -> Some (Body_during (timer, duration), body)
+  | During { on_cut; timer; duration; body; _ } -> Some (Body_during (on_cut, timer, duration), body)
   | Watch (a, handler) -> Some (Watched_by handler, a)
   | Ready _ | Running _ | Action _ | Condition _ | Parallel _ | All_of (None, _) | One_of _ | Idle _ -> None
 
@@ -192,8 +196,8 @@ let within context r =
   | Before rest, Sequence (a, before) -> Sequence (a, before @ rest)
   | Before rest, r -> Sequence (r, rest)
   | Branch_of remaining, r -> All_of (Some r, remaining)
-  | Body_until condition, r -> Until (condition, r)
-  | Body_during (timer, duration), body -> During { timer; duration; started = true; body }
+  | Body_until (on_cut, condition), r -> Until (on_cut, condition, r)
+  | Body_during (on_cut, timer, duration), body -> During { on_cut; timer; duration; started = true; body }
   | Watched_by handler, r -> Watch (r, handler)
 
 let decompose r =

@@ -22,9 +22,9 @@ type t =
   | All_of of t option * branch list
   (** the branch that runs and at least one other; or none, and at least two *)
   | One_of of branch list
-  | Until of closure * t
+  | Until of on_cut * closure * t
   | Idle of { timer : timer; seconds : float }
-  | During of { timer : timer; duration : duration; started : bool; body : t }
+  | During of { on_cut : on_cut; timer : timer; duration : duration; started : bool; body : t }
   | Watch of t * closure
 
 and branch = { guard : closure; body : t }
@@ -75,8 +75,8 @@ val exists_active : (t -> bool) -> t -> bool
 type context =
   | Before of t list  (** [_ >> t1 >> ... >> tn] *)
   | Branch_of of branch list  (** [allOf(_; bs)] *)
-  | Body_until of closure
-  | Body_during of timer * duration  (** the timer runs *)
+  | Body_until of on_cut * closure
+  | Body_during of on_cut * timer * duration  (** the timer runs *)
   | Watched_by of closure
 
 val opened : t -> (context * t) option

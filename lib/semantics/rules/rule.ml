@@ -5,9 +5,9 @@ type t =
   | Par_1 | Par_2 | Par_err
   | Allof_when | Allof_1 | Allof_2 | Allof_err
   | Oneof_when | Oneof_err
-  | Until_cut | Until_1 | Until_2 | Until_err
+  | Until_cut | Assure_cut | Until_1 | Until_2 | Until_err
   | Idle_end
-  | During_set | During_cut | During_1 | During_2 | During_err
+  | During_set | During_cut | Within_cut | During_1 | During_2 | During_err
   | Watch_1 | Watch_2 | Watch_ignore | Watch_propagate | Watch_halt
   | Script | Post | Consume | Message | Release | Set_timeout
   | Pick | Pick_bind | Pick_err
@@ -20,11 +20,11 @@ type t =
 let all =
   [ Start; Done; Fail; Action; Action_err; Condition; Condition_err; Assert_err; Seq_1; Seq_2; Seq_err; Par_1; Par_2;
     Par_err;
-    Allof_when; Allof_1; Allof_2; Allof_err; Oneof_when; Oneof_err; Until_cut; Until_1; Until_2; Until_err; Idle_end;
-    During_set; During_cut; During_1; During_2; During_err; Watch_1; Watch_2; Watch_ignore; Watch_propagate;
-    Watch_halt; Script; Post; Consume; Message; Release; Set_timeout; Pick; Pick_bind; Pick_err; Ask; Answer;
-    Answer_err; Pause; Resume; Call; Reply; Call_err; Execute; Execute_done; Execute_err; Alloc_err; End; Halt; Fault;
-    Interrupt ]
+    Allof_when; Allof_1; Allof_2; Allof_err; Oneof_when; Oneof_err; Until_cut; Assure_cut; Until_1; Until_2;
+    Until_err; Idle_end; During_set; During_cut; Within_cut; During_1; During_2; During_err; Watch_1; Watch_2;
+    Watch_ignore; Watch_propagate; Watch_halt; Script; Post; Consume; Message; Release; Set_timeout; Pick; Pick_bind;
+    Pick_err; Ask; Answer; Answer_err; Pause; Resume; Call; Reply; Call_err; Execute; Execute_done; Execute_err;
+    Alloc_err; End; Halt; Fault; Interrupt ]
 
 let name = function
   | Start -> "START" | Done -> "DONE" | Fail -> "FAIL"
@@ -34,9 +34,11 @@ let name = function
   | Par_1 -> "PAR-1" | Par_2 -> "PAR-2" | Par_err -> "PAR-ERR"
   | Allof_when -> "ALLOF-WHEN" | Allof_1 -> "ALLOF-1" | Allof_2 -> "ALLOF-2" | Allof_err -> "ALLOF-ERR"
   | Oneof_when -> "ONEOF-WHEN" | Oneof_err -> "ONEOF-ERR"
-  | Until_cut -> "UNTIL-CUT" | Until_1 -> "UNTIL-1" | Until_2 -> "UNTIL-2" | Until_err -> "UNTIL-ERR"
+  | Until_cut -> "UNTIL-CUT" | Assure_cut -> "ASSURE-CUT"
+  | Until_1 -> "UNTIL-1" | Until_2 -> "UNTIL-2" | Until_err -> "UNTIL-ERR"
   | Idle_end -> "IDLE-END"
-  | During_set -> "DURING-SET" | During_cut -> "DURING-CUT" | During_1 -> "DURING-1" | During_2 -> "DURING-2"
+  | During_set -> "DURING-SET" | During_cut -> "DURING-CUT" | Within_cut -> "WITHIN-CUT"
+  | During_1 -> "DURING-1" | During_2 -> "DURING-2"
   | During_err -> "DURING-ERR"
   | Watch_1 -> "WATCH-1" | Watch_2 -> "WATCH-2" | Watch_ignore -> "WATCH-IGNORE"
   | Watch_propagate -> "WATCH-PROPAGATE" | Watch_halt -> "WATCH-HALT"

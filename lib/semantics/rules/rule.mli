@@ -10,9 +10,9 @@ type t =
   | Par_1 | Par_2 | Par_err
   | Allof_when | Allof_1 | Allof_2 | Allof_err
   | Oneof_when | Oneof_err
-  | Until_cut | Until_1 | Until_2 | Until_err
+  | Until_cut | Assure_cut | Until_1 | Until_2 | Until_err
   | Idle_end
-  | During_set | During_cut | During_1 | During_2 | During_err
+  | During_set | During_cut | Within_cut | During_1 | During_2 | During_err
   | Watch_1 | Watch_2 | Watch_ignore | Watch_propagate | Watch_halt
   (* The program *)
   | Script | Post | Consume | Message | Release | Set_timeout

@@ -7,6 +7,7 @@ type _ offer =
   | Start : platform_task * vehicle -> unit offer
   | Perform : closure -> (Code.deed list, Fault.t) result offer
   | Check : closure -> (Code.deed list, Fault.t) result offer
+  | Refute : closure -> (unit, Fault.t) result offer
   | Measure : closure -> (float, Fault.t) result offer
   | End_of : platform_task * vehicle -> (unit, string) result offer
   | Expiry_of : timer -> unit offer
@@ -115,11 +116,12 @@ let around_branch remaining =
     on_finished = (fun c -> add Rule.Allof_2 (Next (all_of None remaining)) c);
   }
 
-let around_until condition =
-  around ~next:(within (Body_until condition)) (Rule.Until_1, Rule.Until_2, Rule.Until_err)
+let around_until on_cut condition =
+  around ~next:(within (Body_until (on_cut, condition))) (Rule.Until_1, Rule.Until_2, Rule.Until_err)
 
-let around_during timer duration =
-  let plain = around ~next:(within (Body_during (timer, duration))) (Rule.During_1, Rule.During_2, Rule.During_err) in
+let around_during on_cut timer duration =
+  let next = within (Body_during (on_cut, timer, duration)) in
+  let plain = around ~next (Rule.During_1, Rule.During_2, Rule.During_err) in
   {
     plain with
     on_finished = (fun c -> undoing (Cancel timer) (plain.on_finished c));
@@ -137,8 +139,8 @@ let around_watch handler =
 let around_context = function
   | Before rest -> around_sequence rest
   | Branch_of remaining -> around_branch remaining
-  | Body_until condition -> around_until condition
-  | Body_during (timer, duration) -> around_during timer duration
+  | Body_until (on_cut, condition) -> around_until on_cut condition
+  | Body_during (on_cut, timer, duration) -> around_during on_cut timer duration
   | Watched_by handler -> around_watch handler
 
 let change_within context change = lift (around_context context) change
@@ -152,19 +154,36 @@ let rec escape nests change =
 
 let escaping nests step = with_change (escape nests) step
 
+let not_assured (condition : closure) = Printf.sprintf "assure: { %s } does not hold" condition.lambda.label
+
+let too_late = function
+  | Seconds seconds -> Printf.sprintf "not done within %s s" (Value.amount seconds)
+  | Given_by _ -> invalid_arg "Task_rules: a time that is not known yet"
+
 (* What a context can do to its body. *)
 let cut context body =
   let cut change = undoing (Cut [ body ]) change in
   match context with
   | Before _ | Branch_of _ | Watched_by _ -> None
-  | Body_until condition ->
+  | Body_until (Completes, condition) ->
     let continue = function
       | Ok deeds -> cut (change (Label.Cut deeds) Rule.Until_cut Finished)
       | Error fault -> cut (broke Rule.Until_err fault)
     in
     Some (Step { offer = Check condition; continue })
-  | Body_during (timer, _) ->
-    let continue () = cut (change Label.Time_out Rule.During_cut Finished) in
+  | Body_until (Fails site, condition) ->
+    let continue = function
+      | Ok () -> cut (change (Label.Cut []) Rule.Assure_cut (Failed (Fault.make site (not_assured condition))))
+      | Error fault -> cut (broke Rule.Until_err fault)
+    in
+    Some (Step { offer = Refute condition; continue })
+  | Body_during (on_cut, timer, duration) ->
+    let rule, outcome =
+      match on_cut with
+      | Completes -> (Rule.During_cut, Finished)
+      | Fails site -> (Rule.Within_cut, Failed (Fault.make site (too_late duration)))
+    in
+    let continue () = cut (change Label.Time_out rule outcome) in
     Some (Step { offer = Expiry_of timer; continue })
 
 let rec cuts contexts body =
@@ -216,12 +235,12 @@ let choose_one b = check b.guard ~holds:(fun label -> enter label Rule.Oneof_whe
 let idle_end timer =
   Step { offer = Expiry_of timer; continue = (fun () -> change Label.Time_out Rule.Idle_end Finished) }
 
-let set_during timer code body =
+let set_during on_cut timer code body =
   let continue = function
     | Error fault -> broke Rule.During_err fault
     | Ok seconds ->
       let body, timers = activate body in
-      let next = During { timer; duration = Seconds seconds; started = true; body } in
+      let next = During { on_cut; timer; duration = Seconds seconds; started = true; body } in
       { (change (Set_time seconds) Rule.During_set (Next next)) with timers = (timer, seconds) :: timers }
   in
   Step { offer = Measure code; continue }
@@ -251,7 +270,8 @@ let rec steps_at relevant r : step Seq.t =
   | All_of (None, branches) -> every choose_of_all branches
   | One_of branches -> every (fun _ b _ -> choose_one b) branches
   | Idle { timer; _ } -> Seq.return (idle_end timer)
-  | During { duration = Given_by code; started = false; timer; body } -> Seq.return (set_during timer code body)
+  | During { on_cut; duration = Given_by code; started = false; timer; body } ->
+    Seq.return (set_during on_cut timer code body)
   | Sequence _ | All_of (Some _, _) | Until _ | During _ | Watch _ -> (
       match opened r with
       | None -> Seq.empty
@@ -274,8 +294,12 @@ let steps_of_vehicle v = steps_at (function Running (_, v') -> String.equal v v'
 
 let broken (Step { offer; continue }) (fault : Fault.t) : change option =
   match offer with
-  | Start _ | Expiry_of _ -> None
+  | Start _ -> None
+  | Expiry_of _ -> (
+      let change = continue () in
+      match change.outcome with Failed _ | Handling _ -> Some change | Next _ | Finished -> None)
   | Perform _ -> Some (continue (Error fault))
   | Check _ -> Some (continue (Error fault))
+  | Refute _ -> Some (continue (Error fault))
   | Measure _ -> Some (continue (Error fault))
   | End_of _ -> Some (continue (Error fault.message))

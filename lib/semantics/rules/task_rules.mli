@@ -13,6 +13,7 @@ type _ offer =
   | Start : platform_task * vehicle -> unit offer  (** nothing; A(v) becomes the task *)
   | Perform : closure -> (Code.deed list, Fault.t) result offer  (** to run this action: what it did *)
   | Check : closure -> (Code.deed list, Fault.t) result offer  (** that this guard is true: what it did *)
+  | Refute : closure -> (unit, Fault.t) result offer  (** that this guard is not true; what its code did is undone *)
   | Measure : closure -> (float, Fault.t) result offer  (** the seconds that this code gives *)
   | End_of : platform_task * vehicle -> (unit, string) result offer  (** that the vehicle reports the end *)
   | Expiry_of : timer -> unit offer  (** that the timer expires *)
@@ -54,8 +55,8 @@ val steps_of_vehicle : vehicle -> t -> step Seq.t
 (** [steps_of_vehicle v r] is [steps r], without some of those that do not wait for the end of a task of [v]. *)
 
 val broken : step -> Fault.t -> change option
-(** [broken s fault] is the change by [s] if what it needs goes wrong, with [fault] if it runs code; [None] if nothing
-    can. *)
+(** [broken s fault] is the change by [s] if it fails: if what it needs goes wrong, with [fault] if it runs code, or by
+    WITHIN-CUT; [None] if it cannot fail. *)
 
 (** {1:contexts Composition}
 
@@ -67,8 +68,8 @@ val change_within : context -> change -> change
     DURING, WATCH. *)
 
 val cuts : context list -> t -> step list
-(** [cuts ks r] is the steps of [plug ks r] that are not steps of [r]: UNTIL-CUT and DURING-CUT of each of [ks], the
-    innermost first. *)
+(** [cuts ks r] is the steps of [plug ks r] that are not steps of [r]: UNTIL-CUT, ASSURE-CUT, DURING-CUT and WITHIN-CUT
+    of each of [ks], the innermost first. *)
 
 val escaping : context list list -> step -> step
 (** [escaping nests s] is [s] with its errors passed on. [s] is a step of a branch of a [|]. This [|] stands in the

@@ -152,7 +152,7 @@ let awaited (c : Configuration.t) =
       match offer with
       | End_of (_, v) -> Some (End_of v)
       | Expiry_of timer -> Some (Expiry_of timer)
-      | Start _ | Perform _ | Check _ | Measure _ -> None
+      | Start _ | Perform _ | Check _ | Refute _ | Measure _ -> None
     in
     List.of_seq (Seq.filter_map event (Task_rules.steps r))
 

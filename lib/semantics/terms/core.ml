@@ -60,12 +60,16 @@ and task =
   | Allocated of task * vehicle list            (* [T[V]] *)
   | All_of of branch list
   | One_of of branch list                       (* [waitFor { C } then T] is a [One_of] with one branch *)
-  | Until of closure * task
+  | Until of on_cut * closure * task
   | Idle of float                               (* seconds *)
-  | During of duration * task
+  | During of on_cut * duration * task
   | Watch of task * closure
 
 and branch = { guard : closure; body : task }
+
+(** What a task is that is cut off: done, by [until] and [during]; failed, by [assure] and [within], at a place in the
+    program. *)
+and on_cut = Completes | Fails of site
 
 and duration = Seconds of float | Given_by of closure
 
@@ -119,9 +123,9 @@ and builtin =
   | Make_action
   | Make_condition
   | Make_wait_for
-  | Make_until
+  | Make_until of Dolphin_syntax.Ast.on_cut
   | Make_idle
-  | Make_during
+  | Make_during of Dolphin_syntax.Ast.on_cut
   | Make_watch
   | Execute
   | Execute_for of string list                  (* [execute v1: T1, ...]; names for messages, ["_"] no vehicles *)

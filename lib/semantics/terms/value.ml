@@ -60,16 +60,25 @@ and compare_task t t' =
     | Allocated (a, vs), Allocated (a', vs') ->
       Order.both (List.compare String.compare vs vs') (fun () -> compare_task a a')
     | All_of bs, All_of bs' | One_of bs, One_of bs' -> Order.list compare_branch bs bs'
-    | Until (c, a), Until (c', a') | Watch (a, c), Watch (a', c') ->
-      Order.both (compare_closure c c') (fun () -> compare_task a a')
+    | Until (e, c, a), Until (e', c', a') ->
+      Order.both (compare_on_cut e e') (fun () -> Order.both (compare_closure c c') (fun () -> compare_task a a'))
+    | Watch (a, c), Watch (a', c') -> Order.both (compare_closure c c') (fun () -> compare_task a a')
     | Idle d, Idle d' -> Float.compare d d'
-    | During (d, a), During (d', a') -> Order.both (compare_duration d d') (fun () -> compare_task a a')
+    | During (e, d, a), During (e', d', a') ->
+      Order.both (compare_on_cut e e') (fun () -> Order.both (compare_duration d d') (fun () -> compare_task a a'))
     | ( ( Platform _ | Action _ | Condition _ | Sequence _ | Parallel _ | Allocated _ | All_of _ | One_of _
         | Until _ | Idle _ | During _ | Watch _ ),
         _ ) -> Int.compare (rank_task t) (rank_task t')
 
 and compare_branch b b' =
   Order.both (compare_closure b.guard b'.guard) (fun () -> compare_task b.body b'.body)
+
+and compare_on_cut e e' =
+  match e, e' with
+  | Completes, Completes -> 0
+  | Fails site, Fails site' -> Int.compare site site'
+  | Completes, Fails _ -> -1
+  | Fails _, Completes -> 1
 
 and compare_duration d d' =
   match d, d' with
@@ -125,9 +134,9 @@ and hash_task left depth t =
     | Allocated (a, vs) -> Order.mix (part a) (Hashtbl.hash vs)
     | All_of bs | One_of bs ->
       List.fold_left (fun h b -> Order.mix (Order.mix h (hash_code left b.guard)) (part b.body)) (rank_task t) bs
-    | Until (c, a) | Watch (a, c) -> Order.mix (Order.mix (rank_task t) (hash_code left c)) (part a)
+    | Until (_, c, a) | Watch (a, c) -> Order.mix (Order.mix (rank_task t) (hash_code left c)) (part a)
     | Idle d -> Order.mix 9 (Hashtbl.hash d)
-    | During (_, a) -> Order.mix 10 (part a)
+    | During (_, _, a) -> Order.mix 10 (part a)
 
 let hash x = hash_value (ref hashed_parts) x
 let hash_closure c = hash_code (ref hashed_parts) c
@@ -324,6 +333,9 @@ let rec print ~bare ppf x =
   | Settings _ -> text "{ ... }"
   | Reading r -> text r.text
 
+and until = function Completes -> "until" | Fails _ -> "assure"
+and during = function Completes -> "during" | Fails _ -> "within"
+
 and pp_task ppf t =
   let left = ref shown_parts in
   print_task left 0 ppf t
@@ -347,10 +359,10 @@ and print_task left level ppf t =
     | Allocated (a, vs) -> print "%a[%s]" (task 3) a (String.concat " + " vs)
     | All_of bs -> print "allOf { %a }" (Format.pp_print_list ~pp_sep:comma branch) bs
     | One_of bs -> print "oneOf { %a }" (Format.pp_print_list ~pp_sep:comma branch) bs
-    | Until (_, a) -> prefixed "until { ... }" a
+    | Until (e, _, a) -> prefixed (until e ^ " { ... }") a
     | Idle d -> print "idle(%s.seconds)" (amount d)
-    | During (Seconds d, a) -> prefixed (Printf.sprintf "during %s.seconds" (amount d)) a
-    | During (Given_by _, a) -> prefixed "during { ... }" a
+    | During (e, Seconds d, a) -> prefixed (Printf.sprintf "%s %s.seconds" (during e) (amount d)) a
+    | During (e, Given_by _, a) -> prefixed (during e ^ " { ... }") a
     | Watch (a, _) -> parenthesised 0 (fun ppf -> Format.fprintf ppf "watch %a onError { ... }" (task 1) a)
 
 let to_string x = Format.asprintf "%a" (print ~bare:true) x

@@ -12,6 +12,7 @@ val compare_task : Core.task -> Core.task -> int
 (** As {!compare}; so is {!compare_closure}. *)
 
 val compare_closure : Core.closure -> Core.closure -> int
+val compare_on_cut : Core.on_cut -> Core.on_cut -> int
 
 val hash : t -> int
 (** Equal values have equal hashes. *)
@@ -70,6 +71,12 @@ val amount : float -> string
 
 val pp : Format.formatter -> t -> unit
 (** As a literal: strings in quotes, else as {!to_string}. *)
+
+val until : Core.on_cut -> string
+(** [until e] is ["until"] or ["assure"]. *)
+
+val during : Core.on_cut -> string
+(** [during e] is ["during"] or ["within"]. *)
 
 val pp_tuple : Format.formatter -> string * t -> unit
 (** ["k:x"]. *)

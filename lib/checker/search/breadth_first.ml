@@ -63,8 +63,8 @@ module Make (S : System.S) = struct
      does. Twice as many states are foreseen. *)
   let stride = 4_096
 
-  let look_around t phase =
-    let growth = States.bytes_to_grow t.states ~by:(2 * stride) in
+  let look_around ?(by = 2 * stride) t phase =
+    let growth = States.bytes_to_grow t.states ~by in
     Limits.look t.guard phase
       { states = count t; expanded = t.next; depth = t.depth; used = memory t; growth }
 
@@ -156,7 +156,7 @@ module Make (S : System.S) = struct
       { system; limits; phase; monitor; reserved = 0; states; key = [| 0 |]; from = Monitor.start; next = 0; depth = -1;
         level_end = 0; transitions = 0; work = 0; deadlock = -1; violation = -1; broken = Hashtbl.create 8;
         stopped = None; guard; fresh = (fun i word -> arrived t i word);
-        visitor = { visit; tick = (fun () -> look_around t t.phase); rest = (fun () -> rest t) } }
+        visitor = { visit; tick = (fun () -> look_around ~by:256 t t.phase); rest = (fun () -> rest t) } }
     and visit key action _ = arrive t key action in
     let rec begin_with () =
       match widen t; S.initial system t.visitor with () -> flush t | exception S.Outgrown -> begin_with ()

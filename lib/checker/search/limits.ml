@@ -63,15 +63,18 @@ type measures = { states : int; expanded : int; depth : int; used : int; growth 
 
 (* A system that has given all its memory kills without a word. So a part of what could be had is left alone: for
    others, and for what grows between two looks. *)
+let weigh_own g ~used growth = if exceeds g.limits.max_memory (used + growth) then raise (Stop Memory)
+
 let weigh g ~used growth =
-  if exceeds g.limits.max_memory (used + growth) then raise (Stop Memory);
+  weigh_own g ~used growth;
   match g.limits.memory_left () with
   | Some left when growth > left - ((used + left) / 10) -> raise (Stop No_memory)
   | Some _ | None -> ()
 
 (* To ask what is left costs some reads of files. *)
 let weigh_sometimes g now { used; growth; _ } =
-  if g.limits.max_memory <> None || growth >= 1 lsl 20 || now -. g.weighed >= 0.1 then begin
+  weigh_own g ~used growth;
+  if growth >= 1 lsl 20 || now -. g.weighed >= 0.1 then begin
     g.weighed <- now;
     weigh g ~used growth
   end

@@ -37,6 +37,7 @@ let bind (s : Shared.t) m effects vs =
 let bindings world s m (pick : Settings.pick) =
   match pick.count with
   | All -> Decision.Decided Seq.empty
+  | Exactly n when n > World.count world -> Decision.Decided Seq.empty
   | Exactly n ->
     let bind = bind s m [ Effect.Cancel_timer Residual.script_timer ] in
     let all candidates = Seq.map bind (choices n candidates) in

@@ -61,6 +61,8 @@ let only vs world =
   let states = List.filter_map (fun v -> find v world) vs in
   List.fold_left (fun w state -> add state w) { world with ranks = String_map.empty; states = Int_map.empty } states
 
+let count world = Int_map.cardinal world.states
+
 let carries devices state =
   let lower = String.lowercase_ascii in
   devices = []

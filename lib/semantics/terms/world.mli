@@ -40,6 +40,9 @@ val is_ready : vehicle_state -> bool
 val only : Core.vehicle list -> t -> t
 (** [only vs w] is [w] in which nothing was heard of other vehicles, and of [vs] in this order. *)
 
+val count : t -> int
+(** The number of {!vehicles}. *)
+
 val carries : string list -> vehicle_state -> bool
 (** [carries devices s] is whether [s] carries each of [devices]; names are compared without regard to case. *)
 

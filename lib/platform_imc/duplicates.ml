@@ -6,31 +6,30 @@ type t = {
   after : float;
   busy : bool;
   begun : bool;  (* the vehicle has begun the plan at least once *)
-  signs : (string * float) list;  (* what is said once for each start, and when it was said first *)
-  doubled : bool;  (* one of these was said twice *)
+  signs : (string * float list) list;  (* what is said once for each start, and when it was said *)
   beginning : float;  (* when it was last said that the plan begins *)
   initializing : float;  (* when it was last said that some plan does *)
   first_executing : float;
   last_executing : float;
-  told : bool;
+  told : int;  (* of so many starts it is known already; the first is as it should be *)
 }
 
 let request ~plan ~number ~after ~busy =
-  { plan; number; after; busy; begun = false; signs = []; doubled = false; beginning = neg_infinity;
-    initializing = neg_infinity; first_executing = infinity; last_executing = neg_infinity; told = false }
+  { plan; number; after; busy; begun = false; signs = []; beginning = neg_infinity;
+    initializing = neg_infinity; first_executing = infinity; last_executing = neg_infinity; told = 1 }
 
 let nothing = request ~plan:"" ~number:(-1) ~after:infinity ~busy:false
 
 (* {1 Signs} *)
 
-(* A vehicle that says more different things at each start need not be believed in all of them. *)
+(* A vehicle that says more different things at each start, or starts more often, need not be believed in all of it. *)
 let most_signs = 16
 
 let once ~sent sign x =
-  match List.assoc_opt sign x.signs with
-  | Some at when at <> sent -> { x with doubled = true }
-  | Some _ -> x
-  | None -> if List.length x.signs < most_signs then { x with signs = (sign, sent) :: x.signs } else x
+  let stamps = Option.value (List.assoc_opt sign x.signs) ~default:[] in
+  let others = List.remove_assoc sign x.signs in
+  if List.mem sent stamps || List.length stamps >= most_signs || List.length others >= most_signs then x
+  else { x with signs = (sign, sent :: stamps) :: others }
 
 let begins ~sent x = { x with beginning = Float.max sent x.beginning }
 
@@ -83,6 +82,10 @@ let log ~sent (entry : Message.Log_book_entry.t) x =
 (* What another plan's request makes a vehicle say looks the same at first: until it executes this one again. *)
 let resumed x = x.first_executing < x.initializing && x.initializing < x.last_executing
 
+let starts x =
+  let again = if x.beginning > x.first_executing || resumed x then 2 else 1 in
+  List.fold_left (fun most (_, stamps) -> max most (List.length stamps)) again x.signs
+
 let detected x =
-  if x.told || not (x.begun && (x.doubled || x.beginning > x.first_executing || resumed x)) then None
-  else Some ({ x with told = true }, x.plan)
+  let starts = starts x in
+  if x.begun && starts > x.told then Some ({ x with told = starts }, x.plan) else None

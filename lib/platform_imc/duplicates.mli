@@ -33,4 +33,4 @@ val log : sent:float -> Message.Log_book_entry.t -> t -> t
 
 val detected : t -> (t * string) option
 (** [detected x] is [Some (x', plan)] once the signs prove that [plan] was begun more than once for one request, or for
-    another console's besides; [x'] does not tell it again. *)
+    another console's besides; [x'] tells it again only when the plan has begun once more. *)

@@ -18,3 +18,5 @@ faults.
   mine_hunting.dol: 69 states, 5 hold
   patrol.dol: 48 states, 5 hold
   search_and_rescue.dol: 38 states, 5 hold
+
+  $ check-journals

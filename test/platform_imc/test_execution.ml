@@ -249,9 +249,26 @@ let property name ?(count = 300) ~outward ~inward ?(fates = true) check =
       let logs, w = play s in
       check s logs w)
 
+(* A late copy of the third order's request, and then both of the fourth's: plan b begins four times for two orders. *)
+let each_copy_is_told =
+  Alcotest.test_case "late copies of two requests for one plan" `Quick (fun () ->
+      let ready = { Message.Plan_control_state.default with state = Ready; plan_progress = -1. } in
+      let order plan = { plan; stop_after = None } in
+      let logs, w =
+        play
+          { seed = 334; outward = { loss = 0.; duplication = 0.36; delay = 0.21 };
+            inward = { loss = 0.; duplication = 0.; delay = 0. }; before = ready;
+            fates = [ ("a", Is_refused "undefined plan"); ("b", Succeeds 0.11) ];
+            orders = List.map order [ "a"; "a"; "b"; "b" ]; clock = (0., 1.) }
+      in
+      Alcotest.(check (list int)) "executions" [ 0; 0; 2; 2 ]
+        (List.map (fun (l : log) -> List.length l.executions) logs);
+      Alcotest.(check int) "told" 2 (List.length w.told))
+
 let tests =
   ( "execution",
-    [ property "a perfect network: the vehicle's own verdict, each plan once" ~outward:perfect ~inward:perfect
+    [ each_copy_is_told;
+      property "a perfect network: the vehicle's own verdict, each plan once" ~outward:perfect ~inward:perfect
         (fun s logs w ->
            List.for_all (fun l -> verdict_is_fate s l && is_sound l && ran_once_or_says_so l && l.notes = []) logs
            && is_over w);

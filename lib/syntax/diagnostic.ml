@@ -10,7 +10,7 @@ type code =
   | Misplaced_jump | Misplaced_when | Misplaced_setting | Misplaced_function
   | Deed_in_answer
   | Vehicle_twice
-  | Unused_task | No_effect | Assigned_condition | Unknown_plan
+  | Unused_task | No_effect | Assigned_condition | Wide_value | Unknown_plan
 
 let codes =
   [ (Syntax, "syntax"); (Unknown_name, "unknown-name"); (Unknown_unit, "unknown-unit");
@@ -22,7 +22,7 @@ let codes =
     (Wildcard_value, "wildcard-value"); (Misplaced_jump, "misplaced-jump"); (Misplaced_when, "misplaced-when");
     (Misplaced_setting, "misplaced-setting"); (Misplaced_function, "misplaced-function");
     (Deed_in_answer, "deed-in-answer"); (Vehicle_twice, "vehicle-twice"); (Unused_task, "unused-task");
-    (No_effect, "no-effect"); (Assigned_condition, "assigned-condition");
+    (No_effect, "no-effect"); (Assigned_condition, "assigned-condition"); (Wide_value, "wide-value");
     (Unknown_plan, "unknown-plan") ]
 
 let code_name code = List.assoc code codes

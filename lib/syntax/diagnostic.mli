@@ -25,6 +25,7 @@ type code =
   | Unused_task  (** a warning *)
   | No_effect  (** a warning: a statement that gives a value to nobody *)
   | Assigned_condition  (** a warning: a condition whose value is that of an assignment *)
+  | Wide_value  (** a warning: the value of a pair has a condition in it that may be meant to stand beside it *)
   | Unknown_plan  (** a warning: the fleet says nothing of it *)
 
 val codes : (code * string) list

@@ -64,7 +64,9 @@ let pairs env at name operation arguments =
     | Ast.Named (k, { it = Wildcard; at }) when name <> "post" ->
       if name = "consume" then Scope.note_ordered_key env.program k.Ast.it;
       constant env at Wildcard
-    | Ast.Named (_, e) -> elaborate env e
+    | Ast.Named (k, e) ->
+      if name <> "post" then check_value env name k e;
+      elaborate env e
     | Ast.Positional e ->
       error env No_pairs e.at "%s takes pairs of key and value" name
         ~hint:(Printf.sprintf "write %s key: value" name);

@@ -163,6 +163,25 @@ let check_parameters program (parameters : string Ast.located list) =
   in
   ignore (List.fold_left check [] parameters)
 
+(* Parentheses belong to the location of what they enclose. *)
+let rec before_condition (e : Ast.expression) =
+  match e.it with
+  | Binary ((And | Or | Equal | Not_equal | Less | Less_equal | Greater | Greater_equal | Member_of), first, _)
+    when first.at.start.pos_cnum = e.at.start.pos_cnum -> Some (Option.value (before_condition first) ~default:first)
+  | _ -> None
+
+(* [consume go: 1 && x] is read as [consume(go: (1 && x))]. *)
+let check_value env name (key : string Ast.located) (e : Ast.expression) =
+  let warn (first : Ast.expression) =
+    let hint =
+      Format.asprintf "if the value ends earlier, write %s(%s: %a); if not, put parentheses around it" name key.it
+        Dolphin_syntax.Print.expression first
+    in
+    Scope.report env.program
+      (Diagnostic.warning Wide_value e.at (Printf.sprintf "all of this is the value of '%s'" key.it) ~hint)
+  in
+  Option.iter warn (before_condition e)
+
 (* What a [pick] has one of. *)
 let single_settings = [ "id"; "type"; "region"; "count"; "timeout" ]
 

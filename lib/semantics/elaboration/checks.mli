@@ -94,6 +94,10 @@ val check_subtraction : env -> Ast.expression -> bool
 val check_no_setting : env -> Ast.expression -> Ast.expression -> unit
 (** [check_no_setting env target e] reports [target = e] if [target] is a setting of the block around. *)
 
+val check_value : env -> string -> string Ast.located -> Ast.expression -> unit
+(** [check_value env f k e] warns of a pair [k: e] of [f], which is [consume] or [poll], if [e] is a condition without
+    parentheses around it: [1 && x]. *)
+
 val check_parameters : Scope.program -> string Ast.located list -> unit
 (** Reports a parameter that has the name of one before it. *)
 

@@ -3,7 +3,7 @@
 open Dolphin_semantics
 
 type t = {
-  what : string;  (** ["consume ready:2 && battery(v) > 0.3"], in the words of the program; ["an answer"] *)
+  what : string;  (** ["consume(ready: 2) && battery(v) > 0.3"], in the words of the program; ["an answer"] *)
   at : Dolphin_syntax.Location.t option;
   lacking : string option;
   (** of several conditions joined by [&&], the first that does not hold: ["not yet battery(v) > 0.3"]; of a [pick],

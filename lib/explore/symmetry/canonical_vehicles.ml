@@ -229,4 +229,3 @@ let choices r outside (c : Configuration.t) =
     choice
   in
   Seq.map check (Environment.choices r.options r.program world outside c)
-

@@ -27,4 +27,3 @@ and expression f acc (e : expression) =
   | Builder (_, statements) -> body acc statements
   | When (c, e) | Wait_for (c, e) | Until (_, c, e) -> go (body acc c.body) e
   | Watch (e, c) -> body (go acc e) c.body
-

@@ -39,4 +39,3 @@ val equal : t -> t -> bool
 
 val pp : Format.formatter -> t -> unit
 (** ["start(noptilus-1, survey1)"], ["check(consume ready:1)"]. *)
-

@@ -112,7 +112,8 @@ let distinct transition ts () =
   in
   Seq.filter is_new ts ()
 
-(* The choices of a pick, of which each case may have several. That where vehicles are matters is never unclear. *)
+(* The choices of a pick, of which each case may have several. A pick asks the world for places only, and these are
+   always known or listed: no case is unclear. *)
 let choices d =
   let of_case (assumed, ts) =
     match ts with Ok ts -> Seq.map (fun t -> with_assumed (assumed, t)) ts | Error (_ : Fault.t) -> Seq.empty

@@ -28,6 +28,21 @@ let is_closure = function
   | Positional { it = Closure _; _ } -> true
   | Positional _ | Named _ -> false
 
+(* Whether [e] is spelt with a call at its start, of a name with one argument. *)
+let rec begins_with_call e =
+  match e.it with
+  | Call { callee = { it = Variable name; _ }; arguments = [ (Positional _ as argument) ] } ->
+    is_plain name && not (is_closure argument)
+  | Binary (_, e, _) | Index (e, _) | Member { subject = e; _ } | Call { callee = e; _ } -> begins_with_call e
+  | _ -> false
+
+(* Whether [e] is that with limits around it, each of which can stand behind it. *)
+let rec is_limited_call e =
+  match e.it with
+  | During (_, d, e) -> (not (is_closure (Positional d))) && is_limited_call e
+  | Until (_, _, e) -> is_limited_call e
+  | _ -> begins_with_call e
+
 (* The arguments between parentheses, and the closure after them. *)
 let split_trailing callee arguments =
   let may_trail =
@@ -268,7 +283,7 @@ and statement out s =
   | Expression { it = Call { callee = { it = Variable name; _ }; arguments = _ :: _ as arguments }; _ }
     when is_plain name && not (List.compare_length_with arguments 1 = 0 && List.exists is_closure arguments) ->
     command out name arguments
-  | Expression e -> opening out e
+  | Expression e -> limited out e
   | Assign { target; operator = o; value } ->
     opening out target;
     put out (Printf.sprintf " %s= " (Option.fold o ~none:"" ~some:operator));
@@ -316,6 +331,19 @@ and conditional_statement out condition yes no =
   | no ->
     put out " else ";
     body out no
+
+(* [execute(t) during d] as a statement is read as [execute(t during d)]; [during d run execute(t)] is not. *)
+and limited out e =
+  match e.it with
+  | During (on_cut, d, t) when is_limited_call e ->
+    limited out t;
+    put out (" " ^ during on_cut ^ " ");
+    expression out postfix d
+  | Until (on_cut, c, t) when is_limited_call e ->
+    limited out t;
+    put out (" " ^ until on_cut ^ " ");
+    closure out c
+  | _ -> opening out e
 
 (* An expression at the start of a statement, where a brace opens a block. *)
 and opening out e = expression out (if starts_with_brace e then postfix + 1 else whole) e

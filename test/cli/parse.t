@@ -14,6 +14,14 @@ What it prints means the same.
   $ dolphin exec again.dol > again.log
   $ dolphin exec ../../examples/rendezvous.dol | diff again.log -
 
+Limits behind a command stay there, where they belong to its argument.
+
+  $ echo "execute (task('a')) until { poll('k') } within 5.min" > limits.dol
+  $ dolphin parse limits.dol
+  execute(task('a')) until { poll 'k' } within 5.min
+  $ dolphin parse limits.dol > printed.dol && dolphin check printed.dol
+  printed.dol: no errors
+
 Nobody need read all of it.
 
   $ python3 -c 'print("message 1\n" * 100000)' > long.dol

@@ -333,9 +333,9 @@ let task_rules =
         {|let cut change = if body = body then change else undoing (Cut [ body ]) change in|} );
       ( "UNTIL has no cut",
         {|    Some (Step { offer = Check condition; continue })
-  | Body_during|},
+  | Body_until (Fails|},
         {|    if true then None else Some (Step { offer = Check condition; continue })
-  | Body_during|} );
+  | Body_until (Fails|} );
       ( "ASSURE-CUT ends as done",
         {|Rule.Assure_cut (Failed (Fault.make site (not_assured condition))))|},
         {|Rule.Assure_cut (if site < 0 then Failed (Fault.make site (not_assured condition)) else Finished))|}
@@ -502,8 +502,8 @@ let pick_rules_in_traps =
   in_file "lib/semantics/rules/pick_rules.ml" ~noticed_by:"reduction/test_traps"
     [
       ( "bound vehicles are picked again",
-        {||| List.mem v.id s.bound then Ok []|},
-        {||| (List.mem v.id s.bound && false) then Ok []|} );
+        {|not (Vehicle_set.mem v.id bound) in|},
+        {|not (Vehicle_set.mem v.id bound && false) in|} );
     ]
 
 let all =

@@ -108,23 +108,24 @@ let run_order (s : script) w (o : order) =
     meanwhile = List.filteri (fun i _ -> i < List.length all - known) all;
     notes = w.notes }
 
-(* The orders one after another, and then some quiet time. *)
-let play (s : script) =
+let world (s : script) =
   let random = Random.State.make [| s.seed |] in
   let fate plan = List.assoc plan s.fates in
-  let w =
-    { now = 0.; execution = Execution.create ~request:65530;
-      clock = Vehicle_clock.unknown; verdicts = []; notes = []; told = [];
-      copies = []; vehicle = Vehicle_model.create ~fate ~before:s.before; out = Network.create random s.outward;
-      back = Network.create random s.inward }
-  in
-  let quiet seconds =
-    let until = w.now +. seconds in
-    while w.now < until do advance s w done
-  in
-  quiet 2.;
+  { now = 0.; execution = Execution.create ~request:65530;
+    clock = Vehicle_clock.unknown; verdicts = []; notes = []; told = [];
+    copies = []; vehicle = Vehicle_model.create ~fate ~before:s.before; out = Network.create random s.outward;
+    back = Network.create random s.inward }
+
+let pass (s : script) w seconds =
+  let until = w.now +. seconds in
+  while w.now < until do advance s w done
+
+(* The orders one after another, and then some quiet time. *)
+let play (s : script) =
+  let w = world s in
+  pass s w 2.;
   let logs = List.map (run_order s w) s.orders in
-  quiet 15.;
+  pass s w 15.;
   (logs, w)
 
 (* {1 Scripts} *)
@@ -249,21 +250,26 @@ let property name ?(count = 300) ~outward ~inward ?(fates = true) check =
       let logs, w = play s in
       check s logs w)
 
-(* A late copy of the third order's request, and then both of the fourth's: plan b begins four times for two orders. *)
 let each_copy_is_told =
-  Alcotest.test_case "late copies of two requests for one plan" `Quick (fun () ->
-      let ready = { Message.Plan_control_state.default with state = Ready; plan_progress = -1. } in
-      let order plan = { plan; stop_after = None } in
-      let logs, w =
-        play
-          { seed = 334; outward = { loss = 0.; duplication = 0.36; delay = 0.21 };
-            inward = { loss = 0.; duplication = 0.; delay = 0. }; before = ready;
-            fates = [ ("a", Is_refused "undefined plan"); ("b", Succeeds 0.11) ];
-            orders = List.map order [ "a"; "a"; "b"; "b" ]; clock = (0., 1.) }
+  Alcotest.test_case "three copies of a request" `Quick (fun () ->
+      let perfect = { Network.loss = 0.; duplication = 0.; delay = 0. } in
+      let before = { Message.Plan_control_state.default with state = Ready; plan_progress = -1. } in
+      let s =
+        { seed = 1; outward = perfect; inward = perfect; before; fates = [ ("a", Succeeds 9.) ]; orders = [];
+          clock = (0., 1.) }
       in
-      Alcotest.(check (list int)) "executions" [ 0; 0; 2; 2 ]
-        (List.map (fun (l : log) -> List.length l.executions) logs);
-      Alcotest.(check int) "told" 2 (List.length w.told))
+      let w = world s in
+      pass s w 2.;
+      input w (Start { plan = "a"; specification = None });
+      w.now <- w.now +. instant;
+      let requests = Network.arrived ~now:w.now w.out in
+      Alcotest.(check int) "requests" 1 (List.length requests);
+      let take told =
+        List.iter (fun (copy, r) -> say s w (Vehicle_model.request ~now:w.now ~copy r w.vehicle)) requests;
+        pass s w 0.1;
+        Alcotest.(check int) "told" told (List.length w.told)
+      in
+      List.iter take [ 0; 1; 2 ])
 
 let tests =
   ( "execution",

@@ -4,6 +4,9 @@ open Dolphin_semantics
 
 type t = { text : string; world : string * World.t; invariant : string  (** a condition to check *) }
 
+val worlds : (string * World.t) list
+(** By what is told of them. *)
+
 val gen : t QCheck2.Gen.t
 (** Few of them tell vehicles apart that are alike: by name, order, place or battery. A third have a supplier. *)
 

@@ -82,9 +82,20 @@ let test_variety () =
   let tried = (programs * List.length (Test_support.Property.seeds ~usual)) - !skipped - !invalid in
   if 4 * !smaller < tried then Alcotest.fail "few programs have less states"
 
+(* Of an end it does not matter which vehicles N names: x has two that are alike, in an order that names decide. *)
+let test_end () =
+  let text =
+    "p = pick { count 1 }\nq = pick { count 1 }\nr = p\nq = pick { count 2; type 'UUV' }\nr = pick { type 'UUV' }\n\
+     q = (r + q)\npost x: q\nexecute task('s')[q]\n"
+  in
+  let world = List.find (fun (name, _) -> name = "in turns") Picking.worlds in
+  let losses = List.find (fun (name, _) -> name = "with losses") environments in
+  Alcotest.(check bool) "agrees" true (agrees ({ text; world; invariant = "true" }, losses))
+
 let () =
   Alcotest.run "picks"
     [
+      ("ends", [ Alcotest.test_case "vehicles that are named in N and lost" `Quick test_end ]);
       ( "random programs",
         [
           Alcotest.test_case "search with peers and plain search agree" `Quick test_agreement;

@@ -52,6 +52,9 @@ let names_vehicles r x = named r x <> []
 
 let forget r c = Liveness.forget r.liveness (names_vehicles r) c
 
+let is_end (c : Configuration.t) =
+  match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false
+
 (* [c] and [outside] with each vehicle [v] as [f v]. [f] meets the vehicles in an order that does not depend on their
    names; after [unordered ()] in one that does. *)
 let renamed r f ~unordered (c : Configuration.t) outside =
@@ -59,11 +62,20 @@ let renamed r f ~unordered (c : Configuration.t) outside =
   let control = Renaming.control f c.control in
   let set store (i, x) = Store.set i (Renaming.value f x) store in
   let store = List.fold_left set Store.empty (Store.bindings c.shared.store) in
-  let tuples = Renaming.tuples r.program f ~unordered c.shared.tuples in
   let put v p allocation = Vehicle_map.add (f v) p allocation in
   let allocation = Vehicle_map.fold put c.shared.allocation Vehicle_map.empty in
+  let tuples () = Renaming.tuples r.program f ~unordered c.shared.tuples in
   (* Lost vehicles that are named nowhere else can be exchanged. *)
-  let outside = Environment.renamed f outside in
+  let outside () = Environment.renamed f outside in
+  let tuples, outside =
+    (* Of an end only what it breaks matters, and not which vehicles N names. *)
+    if is_end c then
+      let outside = outside () in
+      (tuples (), outside)
+    else
+      let tuples = tuples () in
+      (tuples, outside ())
+  in
   ({ Configuration.control; shared = { store; allocation; bound; tuples } }, outside)
 
 (* What pairs of N with unordered keys say of each vehicle that has no name yet: the pairs with vehicles by their new
@@ -95,16 +107,12 @@ let named_by_pairs r name c outside =
   let add v pairs found = (v, List.mem v (Environment.lost outside), List.sort compare_pair pairs) :: found in
   List.map (fun (v, _, _) -> v) (List.sort compare (Hashtbl.fold add (sayings r name c) []))
 
-let is_end (c : Configuration.t) =
-  match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false
-
 let canonical r c outside =
   let naming = Vehicle_orbits.naming r.assumed.vehicles in
   let name = Vehicle_orbits.name naming in
   match
     let c = forget r c in
     let unordered () =
-      (* Of an end, only what it breaks matters. *)
       if not (is_end c) then
         List.iter (fun v -> ignore (name v)) (named_by_pairs r (Vehicle_orbits.name_of naming) c outside)
     in

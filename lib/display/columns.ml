@@ -59,6 +59,11 @@ let row (program : Core.program) ~source (before : Configuration.t option) (t : 
   { actor; text = Phrase.one_line text; at = Option.bind (site_of t.label t running) at;
     words = words program ~source before t; assumed = t.assumed }
 
+let place row =
+  match row.at with
+  | Some at -> Printf.sprintf "%s:%d" (Filename.basename (Location.file at)) (Location.line at)
+  | None -> ""
+
 let rows program ~source run =
   let add (before, rows) (t : Transition.t) =
     let is_shown = match t.label with Silent -> t.assumed <> [] | _ -> true in
@@ -85,15 +90,11 @@ let table ~first ~widest ~words rows =
   in
   let widths = List.map width actors in
   let number = String.length (string_of_int (first + List.length rows)) in
-  let where row =
-    match row.at with
-    | Some at -> Printf.sprintf "%s:%d" (Filename.basename (Location.file at)) (Location.line at)
-    | None -> ""
-  in
-  let place = List.fold_left (fun width row -> max width (Phrase.width (where row))) (Phrase.width "where") rows in
+  let wider_place width row = max width (Phrase.width (place row)) in
+  let widest_place = List.fold_left wider_place (Phrase.width "where") rows in
   let print head cells where said =
     let cells = List.map2 Phrase.pad widths cells in
-    let tail = match words with Some n -> [ Phrase.pad place where; shortened_to n said ] | None -> [ where ] in
+    let tail = match words with Some n -> [ Phrase.pad widest_place where; shortened_to n said ] | None -> [ where ] in
     let line = String.concat "  " ((Phrase.pad (number + 1) head :: cells) @ tail) in
     let rec trimmed n = if n > 0 && line.[n - 1] = ' ' then trimmed (n - 1) else String.sub line 0 n in
     trimmed (String.length line)
@@ -105,7 +106,7 @@ let table ~first ~widest ~words rows =
       String.make (number + 3) ' ' ^ "if " ^ Phrase.one_line (Format.asprintf "%a" World.pp_assumption a)
     in
     let head = String.make (number - String.length n) ' ' ^ n in
-    print head (List.map cell actors) (where row) row.words :: List.map assumed row.assumed
+    print head (List.map cell actors) (place row) row.words :: List.map assumed row.assumed
   in
   print "" actors "where" "in words" :: List.concat (List.mapi body rows)
 

@@ -21,6 +21,13 @@ type row = {
 val rows : Core.program -> source:string -> Transition.t list -> row list
 (** [rows program ~source run] is the rows of [run], the first one first. *)
 
+val row : Core.program -> source:string -> Configuration.t option -> Transition.t -> row
+(** [row program ~source before t] is the line of [t], which was taken from [before], the initial configuration if that
+    is [None]. *)
+
+val place : row -> string
+(** [place row] is where the program says so: ["mission.dol:9"], or [""]. *)
+
 val lines : ?first:int -> ?columns:int -> source:string -> Core.program -> Transition.t list -> string list
 (** [lines ~source program run] is the table of [run]; [source] is the text of [program]. Silent transitions have no
     row. Rows are numbered from [first], by default 1; of long texts the beginning is shown. What a transition takes for

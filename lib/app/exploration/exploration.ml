@@ -1,7 +1,6 @@
 module Search = Dolphin_explore.Search
 module Property = Dolphin_explore.Property
 module Scenario_world = Dolphin_environment.Scenario_world
-module Witness = Dolphin_trace.Witness
 
 type settings = {
   answers : string list;
@@ -69,27 +68,7 @@ let counterexample ~strict (o : Search.outcome) =
 
 (* {1 Witnesses} *)
 
-let witness (program : Program_file.t) (fleet : Fleet_file.t) property (run : Search.run) =
-  let steps = Witness.steps program.program (Scenario_world.world fleet.scenario) in
-  let initial = Dolphin_semantics.Configuration.initial program.program in
-  let last (_ : Dolphin_semantics.Configuration.t) (t : Dolphin_semantics.Transition.t) = t.next in
-  Witness.to_lines
-    { program = Program_file.header program;
-      fleet = Fleet_file.header fleet;
-      property = Property.name property;
-      steps = steps initial run.steps;
-      cycle = steps (List.fold_left last initial run.steps) run.cycle }
-
-let informal_trace (program : Program_file.t) property (run : Search.run) =
-  let description = Printf.sprintf "%s: %s" (Property.name property) (Property.question property) in
-  let initial = Dolphin_semantics.Configuration.initial program.program in
-  let trace = Dolphin_trace.Itf.trace program.program ~description initial run.steps ~cycle:run.cycle in
-  [ Yojson.Safe.to_string trace ]
-
-let write_witness program fleet path (property, run) =
-  Text_file.write path (fun channel ->
-      let lines =
-        if Filename.check_suffix path ".itf.json" then informal_trace program property run
-        else witness program fleet property run
-      in
-      List.iter (fun line -> output_string channel (line ^ "\n")) lines)
+let write_witness program fleet path (property, (run : Search.run)) =
+  Witness_file.write program fleet path
+    { breaks = Property.name property; description = Property.name property ^ ": " ^ Property.question property;
+      steps = run.steps; cycle = run.cycle }

@@ -3,8 +3,6 @@ module Witness = Dolphin_trace.Witness
 module Log = Dolphin_display.Log
 module Scenario_world = Dolphin_environment.Scenario_world
 
-let ( let* ) = Result.bind
-
 (* The columns of the time, which there is none of. *)
 let time_columns = 9
 
@@ -35,7 +33,7 @@ let follow (program : Program_file.t) scenario path witness =
     ignore (print_log 1 Log.start taken);
     Error (Error.Bad_input (Printf.sprintf "%s: %s does not fit, at step %d: %s" path program.path number why))
   | Ok (steps, cycle) ->
-    Printf.printf "breaks: %s\n" witness.property;
+    if witness.property <> "" then Printf.printf "breaks: %s\n" witness.property;
     let number, log = print_log 1 Log.start steps in
     if cycle = [] then Ok (ending steps)
     else begin
@@ -44,8 +42,4 @@ let follow (program : Program_file.t) scenario path witness =
       Ok None
     end
 
-let print program scenario path =
-  let* text = Text_file.read path in
-  let lines = List.filter (fun line -> line <> "") (String.split_on_char '\n' text) in
-  let bad why = Error.Bad_input (Printf.sprintf "%s: %s" path why) in
-  Result.bind (Result.map_error bad (Witness.of_lines lines)) (follow program scenario path)
+let print program scenario path = Result.bind (Witness_file.read path) (follow program scenario path)

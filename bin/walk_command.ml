@@ -1,0 +1,59 @@
+open Cmdliner
+open Dolphin_app
+
+let ( let* ) = Result.bind
+
+(* Of a terminal its own; of anything else what the user says. *)
+let columns () =
+  if Unix.isatty Unix.stdout then snd (Dolphin_display.Terminal.size Unix.stdout)
+  else Option.value (Option.bind (Sys.getenv_opt "COLUMNS") int_of_string_opt) ~default:80
+
+(* What is typed on a terminal stands there already. *)
+let read prompt =
+  print_string prompt;
+  flush stdout;
+  let echo line = if not (Unix.isatty Unix.stdin) then print_endline line in
+  match input_line stdin with
+  | line -> echo line; Some line
+  | exception End_of_file -> print_newline (); None
+
+let run path fleet answers faults trace =
+  Report.result
+    (let* program = Program_file.load path in
+     let* fleet = Fleet_file.load_for ~program:path fleet in
+     Report.diagnostics ~source:program.source program.warnings;
+     let* () = Walk_session.run ~read ~print:print_endline ~columns program fleet ~answers ~faults ~trace in
+     Ok Exit_status.Done)
+
+let trace =
+  let doc =
+    "Have the run ahead that $(docv) records, as $(mname) $(b,explore --trace) $(docv) and $(b,write) write it. The \
+     world has to allow it: give the same $(b,--faults)."
+  in
+  Arg.(value & opt (some string) None & info [ "trace" ] ~docv:"FILE" ~doc)
+
+let man =
+  let typed (what, meaning) = `I ("$(b," ^ what ^ ")", meaning ^ ".") in
+  [ `S Manpage.s_description;
+    `P "$(tname) lets you be the outside: it shows the state that $(i,PROG) is in and numbers what may happen next, \
+        by the very transition function of $(mname) $(b,exec), in the world that $(mname) $(b,explore) explores: \
+        each step of the program, each end of a task, each choice of vehicles, each thing that a sensor may show. You \
+        type the number of a choice.";
+    `P "A state has A, the tasks that vehicles run; B, the vehicles that the program holds; N, the pairs of the tuple \
+        space; what is left of the task that is executed; and what the program waits for.";
+    `S "WHAT YOU TYPE" ]
+  @ List.map typed Walk_session.help
+  @ [ `P "Words may be shortened, to one letter if you like.";
+      `S Manpage.s_examples;
+      `Pre "  $(mname) $(tname) examples/rendezvous.dol --faults fail=1\n\
+           \  $(mname) explore mission.dol --faults loss --trace lost.run\n\
+           \  $(mname) $(tname) mission.dol --faults loss --trace lost.run" ]
+  @ Options.see_also
+
+let command =
+  let info =
+    Cmd.info "walk" ~docs:Options.s_prove ~doc:"take a run of a program step by step, by hand" ~man
+      ~exits:(Options.exits [ Done; Bad_input; Bug ])
+  in
+  Cmd.v info
+    Term.(const run $ Options.program $ Options.fleet $ Explore_command.answers $ Explore_command.faults $ trace)

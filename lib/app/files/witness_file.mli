@@ -1,0 +1,17 @@
+(** Files with a recorded run of a program in the world of a fleet: {!Dolphin_trace.Witness}. *)
+
+open Dolphin_semantics
+
+type run = {
+  breaks : string;  (** the property that it breaks; [""] if it was not recorded for one *)
+  description : string;  (** what it shows, in a line *)
+  steps : Transition.t list;
+  cycle : Transition.t list;  (** repeats for ever after the steps; empty if the run ends *)
+}
+
+val write : Program_file.t -> Fleet_file.t -> string -> run -> (unit, Error.t) result
+(** [write program fleet path run] writes [run] into the file [path], in the Informal Trace Format if its name ends in
+    [.itf.json], and else as {!read} reads it. *)
+
+val read : string -> (Dolphin_trace.Witness.t, Error.t) result
+(** [read path] is the run that the file [path] records. The error is {!Error.Bad_input}: there is none. *)

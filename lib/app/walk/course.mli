@@ -1,0 +1,55 @@
+(** A run that is taken by hand: where it has been, where it is, and what lies ahead of it if it was gone back, or if a
+    recorded run is followed. Its steps are those of {!Dolphin_environment.Environment.choices}, and no others. *)
+
+open Dolphin_semantics
+open Dolphin_environment
+
+type world = { program : Core.program; world : World.t; options : Environment.options }
+
+type choice = Transition.t * Environment.t
+(** A step, and what the outside remembers after it. *)
+
+type t
+
+val start : world -> t
+(** The run without steps, and nothing ahead. *)
+
+val configuration : t -> Configuration.t
+val outside : t -> Environment.t
+
+val length : t -> int
+(** How many steps were taken. *)
+
+val ahead : t -> choice list
+(** What {!next} takes, one after the other. *)
+
+val before : t -> Configuration.t option
+(** The configuration before the latest step. *)
+
+val steps : t -> Transition.t list
+(** The steps that were taken, the first one first. *)
+
+val choices : t -> choice Seq.t
+(** What may happen now, computed on demand.
+    @raise Environment.Unclear each time it is gone through, if nobody could list that. *)
+
+val is_next : t -> choice -> bool
+(** [is_next r x] is whether [x] is the first step ahead. *)
+
+(** {1:moves Moves} *)
+
+val take : choice -> t -> t
+(** [take x r] is [r] after [x], one of its {!choices}. What was ahead stays if [x] is its first step. *)
+
+val undo : t -> t option
+(** [undo r] is [r] without its latest step, which is ahead now. *)
+
+val next : t -> t option
+(** [next r] is [r] after the first step ahead. *)
+
+val goto : int -> t -> t option
+(** [goto n r] is [r] after [n] steps, back or ahead; [None] if there are not so many. *)
+
+val recorded : Dolphin_trace.Witness.t -> t -> (t, string) result
+(** [recorded w r] is the run without steps, with those of [w] and its cycle, once around, ahead; or which step of [w]
+    cannot be taken, and why. *)

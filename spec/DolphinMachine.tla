@@ -715,6 +715,7 @@ Procedure(m, op, xs) ==
        [] name = "battery" -> Settle(m, OneVehicleValue(x, BatteryOf))
        [] name = "area" -> Settle(m, Around(x, xs[2]))
        [] name = "math" -> Settle(m, Mathematics(op.name, xs))
+       [] name = "isThere" -> Result(m, Boolean(IsNumber(x) \/ Truth(x)))
        [] name = "isHost" -> Result(m, Boolean(Is(x, "host")))
        [] name = "getSupplier" -> RequestCall(m, "getSupplier", << << >> >>)
 
@@ -738,7 +739,7 @@ ArePositional(names) == \A i \in DOMAIN names : names[i] = ""
 (* These hand readings on, or tell of them, as they do with any values. *)
 TakesReadings(op, xs) ==
   \/ op.op = "call" /\ Is(xs[1], "closure") /\ ArePositional(op.names)
-  \/ op.op \in { "message", "halt", "assert", "isHost" }
+  \/ op.op \in { "message", "halt", "assert", "isHost", "isThere" }
 
 IsAboutReadings(op, xs) == (\E i \in DOMAIN xs : IsReading(xs[i])) /\ ~TakesReadings(op, xs)
 

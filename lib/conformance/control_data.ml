@@ -198,11 +198,12 @@ let request nodes : json -> Code.request = function
 (* {1 Control} *)
 
 let of_fault (f : Fault.t) : json =
-  let cause = match f.cause with Code -> "code" | Assertion -> "assertion" in
+  let cause = match f.cause with Code -> "code" | Assertion -> "assertion" | Unknown -> "unknown" in
   `List [ `String f.message; `Int f.site; `String cause ]
 
 let fault : json -> Fault.t = function
   | `List [ message; site; `String "code" ] -> Fault.make (whole site) (text message)
+  | `List [ message; site; `String "unknown" ] -> { (Fault.make (whole site) (text message)) with cause = Unknown }
   | `List [ message; site; `String "assertion" ] -> Fault.assertion (whole site) (text message)
   | json -> wrong "a fault" json
 

@@ -32,6 +32,7 @@ let rec of_value budget (x : value) : json =
   | Host name -> tagged "host" [ `String name ]
   | Settings settings -> tagged "settings" (List.map (of_setting budget) settings)
   | Reading r -> tagged "reading" [ `String r.text ]
+  | Unknown u -> tagged "unknown" [ `String u.sensor; `String u.of_vehicle ]
 
 (* Texts stand for themselves, so what JSON has no number for needs a tag. *)
 and of_number n = if Float.is_finite n then of_float n else tagged "number" [ of_float n ]
@@ -99,6 +100,7 @@ let rec value nodes (json : json) : value =
   | `List [ `String "task"; t ] -> Task (task nodes t)
   | `List [ `String "closure"; c ] -> Closure (closure nodes c)
   | `List [ `String "host"; name ] -> Host (text name)
+  | `List [ `String "unknown"; sensor; v ] -> Unknown { sensor = text sensor; of_vehicle = text v }
   | `List (`String "settings" :: settings) -> Settings (List.map (setting nodes) settings)
   | json -> wrong "a value" json
 

@@ -39,6 +39,8 @@ type condition = Trouble | Doubtful | Well
 
 let low_battery = 0.2
 
+let is_low (s : World.vehicle_state) = match s.battery with Some share -> share < low_battery | None -> false
+
 type row = { condition : condition; cells : string list }
 
 let task_of b ~now ~estimate v =
@@ -56,10 +58,10 @@ let row b ~now ~estimate v =
     match Vehicle_map.find_opt v b.seen with
     | None -> (Well, "", "")
     | Some s ->
-      ( (if not (World.is_ready s) then Trouble else if s.battery < low_battery then Doubtful else Well),
+      ( (if not (World.is_ready s) then Trouble else if is_low s then Doubtful else Well),
         (if not s.connected then "no link"
          else if not (World.is_ready s) then "not ready"
-         else Printf.sprintf "%.0f%%" (100. *. s.battery)),
+         else Option.fold s.battery ~none:"" ~some:(fun share -> Printf.sprintf "%.0f%%" (100. *. share))),
         Printf.sprintf "%.5f, %.5f" s.position.latitude s.position.longitude )
   in
   { condition = (if has_failed then Trouble else condition); cells = [ Phrase.one_line v; task; time; battery; place ] }

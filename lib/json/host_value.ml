@@ -39,7 +39,7 @@ let rec to_json_within depth (x : Core.value) : (Yojson.Safe.t, string) result =
   if depth > deepest then Error too_deep
   else
     match x with
-    | Null -> Ok `Null
+    | Null | Unknown _ -> Ok `Null
     | Boolean b -> Ok (`Bool b)
     | Integer i -> Ok (`Int i)
     | Number x -> of_float x

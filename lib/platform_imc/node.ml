@@ -187,7 +187,7 @@ let state ~now ~timeout ~kind ~payload ~held n : World.vehicle_state =
     kind;
     payload = (match payload with Some devices -> devices | None -> Option.value n.entities ~default:[]);
     position;
-    battery = (match n.battery with Some (_, share) -> share | None -> 1.);
+    battery = Option.map snd n.battery;
     connected;
     unready = (if connected && is_idle then unready ~now ~held n else None) }
 

@@ -81,7 +81,7 @@ val state :
 (** [state ~now ~timeout ~kind ~payload ~held n] is [n] for programs, as a vehicle of type [kind]. It is connected if it
     is a vehicle and not silent, and ready if it has a plan of ours or {!Readiness} says so, {!rest} is over, and no
     other console holds it ([held]: which one). It carries [payload], or else the entities of its list. Until it says
-    otherwise its battery is full, and it is where it announced to be. *)
+    otherwise its battery is unknown, and it is where it announced to be. *)
 
 val mode : names:(int * string) list -> t -> string
 (** ["SERVICE"], ["MANEUVER"] ..., by [names] first; ["-"] if not known. *)

@@ -43,7 +43,10 @@ let nearest distance x = function
   | first :: rest -> List.fold_left (fun best y -> if distance x y < distance x best then y else best) first rest
 
 let seen_at v ~at = nearest Dolphin_geo.Wgs84.distance (position v ~at) v.scenario.places
-let shown_battery v ~at = nearest (fun a b -> Float.abs (a -. b)) (battery v ~at) v.scenario.batteries
+let shown_battery v ~at =
+  if v.scenario.tells_battery then
+    Some (nearest (fun a b -> Float.abs (a -. b)) (battery v ~at) v.scenario.batteries)
+  else None
 
 let go v ~at track rate = { v with track; since = at; battery = battery v ~at; rate }
 let set_out v ~at track = go v ~at track (working v.scenario)

@@ -31,8 +31,9 @@ val battery : t -> at:float -> float
 val seen_at : t -> at:float -> Dolphin_geo.Position.t
 (** Where it is seen: at {!position}, or if the scenario gives several places, at the nearest of them. *)
 
-val shown_battery : t -> at:float -> float
-(** What its battery shows: {!battery}, or if the scenario gives several values, the nearest of them. *)
+val shown_battery : t -> at:float -> float option
+(** What its battery shows: {!battery}, or if the scenario gives several values, the nearest of them; [None] if it tells
+    none. *)
 
 val empty_from : t -> float
 (** [empty_from v] is when the battery is empty, if [v] goes on as it does; [infinity] if never. *)

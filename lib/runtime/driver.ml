@@ -55,6 +55,7 @@ module Make (P : Platform.S) = struct
     mutable telemetry : bool;  (* as the platform was told last *)
     mutable upcoming : news Lwt.t option;  (* the platform's next event, if it was asked for *)
     mutable reply : news Lwt.t option;  (* from the console or the host, if it is awaited *)
+    mutable unknown : Fault.t list;  (* what was told to be *)
     mutable since_pause : int;  (* transitions and events since others had their turn *)
   }
 
@@ -198,6 +199,17 @@ module Make (P : Platform.S) = struct
 
   (* {1 The run} *)
 
+  (* What vehicles of B have not told, if guards wait for it. *)
+  let tell_unknown s =
+    let c = s.configuration in
+    let has_not_told v = match World.find v s.world with Some { battery = None; _ } -> true | Some _ | None -> false in
+    if List.exists has_not_told c.shared.bound then begin
+      let told fault = List.mem fault s.unknown in
+      let news = List.filter (fun fault -> not (told fault)) (Transition.unknown s.program s.world c) in
+      s.unknown <- news @ s.unknown;
+      List.iter (s.observer.unknown ~time:(P.now s.platform)) news
+    end
+
   let interrupt s = ignore (deliver s Interruption)
 
   (* Goes on with [f s], after others had their turn if it is time. *)
@@ -231,6 +243,7 @@ module Make (P : Platform.S) = struct
       Lwt.return (Stuck r)
     | Script _ | Waiting _ | Executing _ | Ended _ ->
       switch_telemetry s (sensitive || s.always_telemetry);
+      if sensitive then tell_unknown s;
       wait ~sensitive s
 
   (* News that cannot enable a transition do not make the driver look for one. *)
@@ -273,7 +286,7 @@ module Make (P : Platform.S) = struct
         interruption = (Lwt.protected interruption >|= fun () -> Event (Ok Interruption));
         configuration = beginning.configuration;
         world = beginning.world;
-        telemetry = false; upcoming = None; reply = None; since_pause = 0 }
+        telemetry = false; upcoming = None; reply = None; unknown = []; since_pause = 0 }
     in
     let whole () =
       switch_telemetry s always_telemetry;

@@ -24,6 +24,7 @@ let not_awaited ~time event = Log.debug (fun m -> m "%.3f not awaited: %a" time 
 
 let vehicle ~time (v : World.vehicle_state) =
   Log.debug (fun m ->
-      m "%.3f %s %s: battery %.2f, at %.5f, %.5f" time v.id
+      m "%.3f %s %s: battery %s, at %.5f, %.5f" time v.id
         (if v.connected then Option.value v.unready ~default:"is ready" else "is not connected")
-        v.battery v.position.latitude v.position.longitude)
+        (Option.fold v.battery ~none:"unknown" ~some:(Printf.sprintf "%.2f"))
+        v.position.latitude v.position.longitude)

@@ -10,6 +10,7 @@ type vehicle = {
   position : Dolphin_geo.Position.t;  (** at the start *)
   speed : float;  (** metres per second, more than 0 *)
   battery : float;  (** at the start, from 0 to 1 *)
+  tells_battery : bool;  (** whether it ever tells what is left *)
   drain : float;  (** the share of the battery that an hour's work takes; rest takes a quarter of that *)
   charge : float;  (** the share that an hour's rest gives, instead; 0: it does not charge *)
   joins : float;  (** seconds since the start *)

@@ -33,6 +33,10 @@ let shares v = function
   | [ battery ] -> { v with battery }
   | batteries -> { v with battery = List.hd batteries; batteries }
 
+let battery v = function
+  | [ { it = Literal.Unknown; _ } ] -> Some (Ok { v with tells_battery = false })
+  | values -> several Setting.share shares v values
+
 let seen_at (v : vehicle) position =
   if v.places = [] then { v with position; places = [ position ] } else { v with places = v.places @ [ position ] }
 
@@ -50,7 +54,7 @@ let vehicle_table : vehicle Setting.t list =
       (several Setting.text (fun v payload -> { v with payload = v.payload @ payload }));
     setting "at" ~again:true position_takes (place seen_at);
     setting "speed" "metres per second, as in speed 1.5" (one Setting.speed (fun v speed -> { v with speed }));
-    setting "battery" "a share, or several, as in battery 80.percent" (several Setting.share shares);
+    setting "battery" "a share, or several, as in battery 80.percent, or unknown" battery;
     setting "drain" "the share of the battery that an hour's work takes, as in drain 10.percent"
       (one Setting.per_hour (fun v drain -> { v with drain }));
     setting "charge" "the share of the battery that an hour's rest gives, as in charge 50.percent"
@@ -113,7 +117,8 @@ let add_fault state fault = add_faults state [ fault ]
 let vehicle state (id : string located) body =
   let draft =
     { id = id.it; kind = ""; payload = []; position = Defaults.position state.unplaced; speed = 0.;
-      battery = Defaults.battery; drain = Defaults.drain; charge = 0.; joins = 0.; leaves = None; drops = [];
+      battery = Defaults.battery; tells_battery = true;
+      drain = Defaults.drain; charge = 0.; joins = 0.; leaves = None; drops = [];
       batteries = []; places = [] } in
   let v, seen, faults = Setting.block ~what:"a vehicle" vehicle_table draft body in
   let v = match v.places with [ _ ] -> { v with places = [] } | [] | _ :: _ :: _ -> v in

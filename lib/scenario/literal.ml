@@ -7,6 +7,7 @@ type t =
   | Number of float * dimension option
   | Text of string
   | Position of Dolphin_geo.Position.t
+  | Unknown
 
 let dimension = function
   | "m" | "meter" | "meters" | "metre" | "metres" | "km" | "kilometer" | "kilometers" | "kilometre" | "kilometres" ->
@@ -25,6 +26,7 @@ let describe = function
   | Number (_, Some Share) -> "a percentage"
   | Text text -> Format.asprintf "the text %a" Value.pp (String text)
   | Position _ -> "a position"
+  | Unknown -> "unknown"
 
 let error ?hint at fmt = Format.kasprintf (fun message -> Result.Error (Diagnostic.error ?hint at message)) fmt
 
@@ -66,6 +68,7 @@ let rec read (e : Ast.expression) =
       | Ok (Number (n, dimension)) -> Ok (Number (-.n, dimension))
       | Ok other -> error e.at "%s cannot be negative" (describe other)
       | Error _ as fault -> fault)
+  | Variable "unknown" -> Ok Unknown
   | Variable name ->
     error e.at "there are no variables in a fleet" ~hint:(Printf.sprintf "a text is put in quotes: '%s'" name)
   | _ ->

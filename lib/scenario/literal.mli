@@ -9,6 +9,7 @@ type t =
   | Number of float * dimension option  (** in metres, seconds, degrees or shares of 1; [None]: without a unit *)
   | Text of string
   | Position of Dolphin_geo.Position.t
+  | Unknown  (** the word [unknown]: what a vehicle does not tell *)
 
 val dimension : string -> dimension option
 (** [dimension name] is what unit [name] measures: [Some] for each of {!Dolphin_semantics.Operators.unit_names}. *)

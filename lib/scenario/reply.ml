@@ -80,6 +80,7 @@ and literal e =
   | Position p -> Ok (Core.Position p)
   | Number (n, _) -> Ok (Core.Number n)
   | Text text -> Ok (Core.String text)
+  | Unknown -> other e
 
 and other ?(hint = "as in true, 2.km, 'text', [1, 2], task('survey1'), object('queue'), either(true, false), fails") e =
   error e.at "this is nothing that a supplier can reply" ~hint
@@ -166,7 +167,7 @@ let rec pp_value ppf (x : Core.value) =
   | Vehicles vs -> Format.fprintf ppf "vehicles(%a)" Fmt.(list ~sep:(any ", ") pp_text) vs
   | Position p -> pp_position ppf p
   | Area { centre; radius } -> Format.fprintf ppf "area(%a, %a)" pp_position centre Value.pp (Core.Number radius)
-  | Task _ | Wildcard | Symbol _ | Range _ | Closure _ | Settings _ | Reading _ ->
+  | Task _ | Wildcard | Symbol _ | Range _ | Closure _ | Settings _ | Reading _ | Unknown _ ->
     invalid_arg ("Reply.pp: " ^ Value.kind x)
 
 let pp_one ppf = function

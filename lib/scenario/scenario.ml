@@ -49,8 +49,8 @@ let silences v =
 let states s =
   let state (v : vehicle) : World.vehicle_state =
     let connected = match silences v with (from, _) :: _ -> from > 0. | [] -> true in
-    { id = v.id; kind = v.kind; payload = v.payload; position = v.position; battery = v.battery; connected;
-      unready = None } in
+    { id = v.id; kind = v.kind; payload = v.payload; position = v.position; 
+      battery = (if v.tells_battery then Some v.battery else None); connected; unready = None } in
   List.map state s.vehicles
 
 (* {1 Writing} *)
@@ -78,7 +78,9 @@ let pp_vehicle ppf v =
   if v.payload <> [] then line "payload %a" pp_texts v.payload;
   List.iter (line "%a" pp_place) (if v.places = [] then [ v.position ] else v.places);
   line "speed %a" pp_number v.speed;
-  line "battery %a" Fmt.(list ~sep:(any ", ") pp_share) (if v.batteries = [] then [ v.battery ] else v.batteries);
+  if v.tells_battery then
+    line "battery %a" Fmt.(list ~sep:(any ", ") pp_share) (if v.batteries = [] then [ v.battery ] else v.batteries)
+  else line "battery unknown";
   line "drain %a" pp_share v.drain;
   if v.charge > 0. then line "charge %a" pp_share v.charge;
   if v.joins > 0. then line "joins %a" pp_time v.joins;
@@ -122,7 +124,8 @@ let pp ppf (s : t) =
 let default =
   let at latitude longitude : Dolphin_geo.Position.t = { latitude; longitude; height = 0. } in
   let vehicle id kind payload position drain =
-    { id; kind; payload; position; speed = Defaults.speed ~kind; battery = Defaults.battery; drain; charge = 0.;
+    { id; kind; payload; position; speed = Defaults.speed ~kind; battery = Defaults.battery;
+      tells_battery = true; drain; charge = 0.;
       joins = 0.; leaves = None; drops = []; batteries = []; places = [] } in
   let underwater id position = vehicle id "UUV" [ "DVL"; "Sidescan"; "Camera" ] position Defaults.drain in
   { vehicles =

@@ -88,6 +88,7 @@ reply 'queue.await', task('survey1'), either(task('survey2'), fails('the queue i
       vehicle is at the first place at the start, and is only ever seen at one of them.
     - [speed NUMBER]: m/s. Default: 18 for a UAV, 1.5 for others.
     - [battery SHARE, ...]. Default: [100.percent]. Of several, the first is at the start, and no others are ever shown.
+    - [battery unknown]: it never tells its battery, which is full at the start.
     - [drain SHARE]: an hour's work takes so much, an hour's rest a quarter of it. Default: [10.percent].
     - [charge SHARE]: an hour's rest gives so much instead. Default: it does not charge.
     - [joins TIME], [leaves TIME]. Default: there from the start, and for good.

@@ -118,7 +118,9 @@ let look ~at v =
       in
       { Engine.from = 89; to_ = { system = Header.nobody; entity = Header.any_entity }; message = Log_book_entry entry }
     in
-    let streams = if ids = [] then v.streams else List.map (fun s -> s, at) all_streams in
+    let told = function Fuel -> (vehicle v).tells_battery | Control | Supervision | Navigation | Life -> true in
+    let all = List.filter told all_streams in
+    let streams = if ids = [] then v.streams else List.map (fun s -> s, at) all in
     let outputs, v = say_all ~at { v with peers; streams } (List.map activating ids) in
     outputs, [], v
 

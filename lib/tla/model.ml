@@ -25,6 +25,12 @@ let sensor translation (shown : _ World.shown) value at_start =
   | Shows x -> Tla.Tuple [ value x ]
   | One_of xs -> Tla.Tuple (List.map value xs)
 
+(* Code that reads one that is unknown is refused. *)
+let battery translation world (s : World.vehicle_state) =
+  let at_start = Option.value s.battery ~default:1. in
+  let shown = Option.value (World.battery world s) ~default:(World.Shows at_start) in
+  sensor translation shown charge at_start
+
 let vehicle translation world (s : World.vehicle_state) =
   let place p = Tla.Integer (Translation.place translation p) in
   let position p = Tla.Tuple [ String "position"; place p ] in
@@ -32,7 +38,7 @@ let vehicle translation world (s : World.vehicle_state) =
     [ ("id", String s.id); ("type", String s.kind); ("payload", Tla.strings s.payload); ("devices", devices s.payload);
       ("places", Tuple (List.map place (World.places_of world s)));
       ("position", sensor translation (World.position world s) position s.position);
-      ("battery", sensor translation (World.battery world s) charge s.battery) ]
+      ("battery", battery translation world s) ]
 
 let ending : Environment.ending -> string = function
   | Succeeds -> "succeeds"

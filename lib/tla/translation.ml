@@ -31,7 +31,7 @@ let create program world =
 let place t p = Places.index t.places p
 let reads_sensors t = t.reads_sensors
 
-let note_sensor t name =
+let see_sensor t name =
   if List.mem name [ "position"; "battery"; "getPosition"; "getBattery" ] then t.reads_sensors <- true
 
 let location t site =
@@ -44,6 +44,15 @@ let refuse t ?hint site format =
     format
 
 let refusals t = List.sort_uniq Diagnostic.compare t.refusals
+(* The code at [site] looks at the sensor [name], if it is one. *)
+let note_sensor t site name =
+  see_sensor t name;
+  let is_unknown (s : World.vehicle_state) = World.battery t.world s = None in
+  if List.mem name [ "battery"; "getBattery" ] then
+    match List.find_opt is_unknown (World.vehicles t.world) with
+    | Some s -> refuse t site "the battery of %s is unknown in this fleet: the models have no unknown values" s.id
+    | None -> ()
+
 let numbers ints = Tla.Tuple (List.map (fun i -> Tla.Integer i) ints)
 
 (* {1 Values} *)
@@ -86,7 +95,7 @@ let rec value ?at t site x =
         let of_task = [ ("name", Tla.String name); ("plan", Tla.Integer 0); ("at", at) ] in
         tagged "task" [ Record (("op", String "platform") :: of_task) ]
       | _, _ -> constant_refused t site x)
-  | Settings _ | Reading _ -> constant_refused t site x
+  | Settings _ | Reading _ | Unknown _ -> constant_refused t site x
 
 and constant_refused t site x =
   refuse t site "%s as a constant" (Value.kind x);
@@ -136,13 +145,13 @@ and operation t ~known site op : Tla.t =
   | Property name ->
     if Supported.is_refused_property name && (known || not (Supported.is_for_readings name)) then
       refuse t site "'.%s' of a value that is not a constant: TLA+ has no such numbers" name;
-    note_sensor t name;
+    note_sensor t site name;
     record "property" [ ("name", String name) ]
   | Call names' -> record "call" [ ("names", names names') ]
   | Method (name, names') ->
     if Supported.is_refused_method name && (known || not (Supported.is_for_readings name)) then
       refuse t site "the method '%s'" name;
-    note_sensor t name;
+    note_sensor t site name;
     named "method" name names'
   | Add_setting (name, names') -> named "setting" name names'
   | Make_branch -> record "branch" []
@@ -181,12 +190,13 @@ and procedure t site builtin : Tla.t =
   | Post keys -> keyed "post" keys
   | Consume keys -> keyed "consume" keys
   | Poll keys -> keyed "poll" keys
-  | Position_of -> note_sensor t "position"; plain "position"
-  | Battery_of -> note_sensor t "battery"; plain "battery"
+  | Position_of -> note_sensor t site "position"; plain "position"
+  | Battery_of -> note_sensor t site "battery"; plain "battery"
   | Area_of -> plain "area"
   | Assert -> plain "assert"
   | Ignore -> plain "ignore"
   | Propagate -> plain "propagate"
+  | Is_there -> plain "isThere"
   | Is_host -> plain "isHost"
   | Math name ->
     if not (Supported.is_mathematics name) then

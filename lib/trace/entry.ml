@@ -29,7 +29,7 @@ let of_position (p : Position.t) : members =
 let of_state (s : World.vehicle_state) : members =
   [ ("vehicle", `String s.id); ("type", `String s.kind); ("payload", texts s.payload) ]
   @ of_position s.position
-  @ [ ("battery", Canonical.number s.battery); ("connected", `Bool s.connected) ]
+  @ [ ("battery", Option.fold s.battery ~none:`Null ~some:Canonical.number); ("connected", `Bool s.connected) ]
   @ Option.fold s.unready ~none:[] ~some:(fun why -> [ ("unready", `String why) ])
 
 let to_json entry : Yojson.Safe.t =
@@ -64,7 +64,7 @@ let to_state found =
   let* kind = get text "type" found in
   let* payload = get (list text) "payload" found in
   let* position = to_position found in
-  let* battery = get number "battery" found in
+  let* battery = get (nullable number) "battery" found in
   let* connected = get truth "connected" found in
   let* unready = optional (fun json -> Result.map Option.some (text json)) ~default:None "unready" found in
   Ok { World.id; kind; payload; position; battery; connected; unready }

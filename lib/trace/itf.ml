@@ -14,7 +14,7 @@ let rec value : value -> Yojson.Safe.t = function
   | Map entries -> map (List.map (fun (k, x) -> (k, value x)) entries)
   | Vehicles vs -> `List (List.map text vs)
   | ( Null | Number _ | Wildcard | Symbol _ | Range _ | Position _ | Area _ | Task _ | Closure _ | Host _
-    | Settings _ | Reading _ ) as x -> unserializable (Format.asprintf "%a" Value.pp x)
+    | Settings _ | Reading _ | Unknown _ ) as x -> unserializable (Format.asprintf "%a" Value.pp x)
 
 let control program (c : Configuration.t) : Yojson.Safe.t =
   let place fault =

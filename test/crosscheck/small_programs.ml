@@ -29,6 +29,9 @@ let tasks =
        "execute watch (action { message 'a'; post k: 1; 1 / 0 }) onError { message 'b'; ignore() }");
       ("a guard that is false did nothing",
        "post k: 1\nexecute condition { consume k: 1; false } | condition { poll k: 1 }");
+      ("what ?: takes",
+       "a = pick { id 'a' }\nfor (x in [null, false, 0, 0.5, '', [], [:], a - a, a]) { post y: (x ?: 'other') }\n\
+        b = battery(a) ?: 1\nif (b < 0.3) { message 'low' }");
       ("until stops what runs, or what did not start",
        two ^ "execute (until { poll x: 1 } run (task('p')[a] >> task('q')[a])) | action { post x: 1 }");
       ("assure stops what runs, or what did not start, and fails",

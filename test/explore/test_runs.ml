@@ -68,7 +68,7 @@ let run ~seed scenario program =
     match t.label with Interrupt -> () | _ -> taken := t :: !taken
   in
   let platform = Platform.create ~seed scenario in
-  let observer : Observer.t = { transition; news = (fun ~time:_ _ -> ()) } in
+  let observer : Observer.t = { Observer.nobody with transition } in
   let whole () =
     Driver.run (module Platform) platform ~observer ~host:(host scenario) ~console:(console scenario)
       ~interruption:(fst (Lwt.wait ())) program
@@ -231,9 +231,9 @@ let world_at (x, y, z) =
   let place north = (Test_support.Pure_run.vehicle ~north "a").position in
   let show (s : World.vehicle_state) =
     match s.id with
-    | "a" -> { s with battery = x; position = place (1_000. *. y) }
-    | "b" -> { s with battery = (if z < 0.5 then 1. else 0.2); position = place (1_000. *. x) }
-    | _ -> { s with battery = y; position = place (if x < 0.5 then 200. else 5_000.) }
+    | "a" -> { s with battery = Some x; position = place (1_000. *. y) }
+    | "b" -> { s with battery = Some (if z < 0.5 then 1. else 0.2); position = place (1_000. *. x) }
+    | _ -> { s with battery = Some y; position = place (if x < 0.5 then 200. else 5_000.) }
   in
   List.fold_left (fun world s -> World.add (show s) world) World.empty (World.vehicles Generate.world)
 

@@ -498,6 +498,29 @@ let local_step_in_traps =
         {|when seconds < infinity|} );
     ]
 
+let unknown =
+  in_file "lib/semantics/language/unknown.ml" ~noticed_by:"semantics/test_language"
+    [
+      ( "what is unknown or true is unknown",
+        {|if Value.truth x || Value.truth y then Boolean true else Unknown u|},
+        {|Unknown u|} );
+      ( "any of unknown ones is known",
+        {|| (Any | Every | Sum), Some u -> Ok (Some (Unknown u))|},
+        {|| (Any | Every | Sum), Some _ -> Ok None|} );
+      ("unknown values are posted", {|Builtin (Message|}, {|Builtin (Post _ | Message|});
+    ]
+  @ in_file "lib/semantics/rules/local_step.ml" ~noticed_by:"semantics/test_language"
+    [ ("assure fails when its guard is unknown", {|Value.truth x || Unknown.is x|}, {|Value.truth x|}) ]
+  @ in_file "lib/semantics/language/machine.ml" ~noticed_by:"semantics/test_language"
+    [
+      ( "an unknown value is false in an if",
+        {|
+      | _, _ -> needs context u locals stack calls at)|},
+        {|
+      | _, _ when Value.truth (Unknown u) -> needs context u locals stack calls at
+      | _, _ -> evaluate context fuel no locals stack calls)|} );
+    ]
+
 let pick_rules_in_traps =
   in_file "lib/semantics/rules/pick_rules.ml" ~noticed_by:"reduction/test_traps"
     [
@@ -510,6 +533,6 @@ let all =
   List.concat
     [ footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups; quotient; expansion;
       vehicle_orbits; canonical_vehicles; name_flow; liveness; environment; attendance; task_rules; local_step;
-      run_code; answers_in_words; confirm;
+      run_code; answers_in_words; confirm; unknown;
       pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
       conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps ]

@@ -58,7 +58,7 @@ let without x = List.filter (fun y -> y <> x)
 let hear e event =
   match (event : Platform.event) with
   | Vehicle state ->
-    require "a battery between empty and full" (state.battery >= 0. && state.battery <= 1.);
+    require "a battery between empty and full" (match state.battery with Some share -> share >= 0. && share <= 1. | None -> false);
     require "a vehicle of the scenario" (state.id <> "x");
     e
   | Task_done v | Task_failed (v, _) ->

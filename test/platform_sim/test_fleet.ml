@@ -28,7 +28,7 @@ let check_news name expected happened = check name expected (news happened)
 
 let ninety = "plan 'p', { duration 90 }"
 let position_of f = match Fleet.vehicles f with [ v ] -> v.position | _ -> Alcotest.fail "one vehicle"
-let battery_of f = match Fleet.vehicles f with [ v ] -> v.battery | _ -> Alcotest.fail "one vehicle"
+let battery_of f = match Fleet.vehicles f with [ { battery = Some share; _ } ] -> share | _ -> Alcotest.fail "one vehicle"
 
 (* {1 Coming and going} *)
 

@@ -51,7 +51,8 @@ let options ~port ~keep =
     sync = Some (fun () -> Lwt_unix.sleep 0.005) }
 
 let drive recorder platform beginning =
-  let observer : Observer.t = { transition = Recorder.transition recorder; news = Recorder.news recorder } in
+  let observer : Observer.t = { transition = Recorder.transition recorder; news = Recorder.news recorder;
+                                unknown = Observer.nobody.unknown } in
   let run =
     Driver.run (module Udp_platform) platform ~always_telemetry:true ~observer ?beginning ~console
       ~interruption:(fst (Lwt.wait ())) program

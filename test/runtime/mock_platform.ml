@@ -38,9 +38,10 @@ let make ?(fate = fun _ _ -> Succeeds 10.) events =
   m
 
 let vehicle ?(kind = "UUV") ?(battery = 1.) ?(connected = true) id : World.vehicle_state =
-  { id; kind; payload = []; position = { latitude = 41.; longitude = -8.; height = 0. }; battery; connected;
-    unready = None }
+  { id; kind; payload = []; position = { latitude = 41.; longitude = -8.; height = 0. }; battery = Some battery;
+    connected; unready = None }
 
+let silent time id = (time, Platform.Vehicle { (vehicle id) with battery = None })
 let seen ?battery time id = (time, Platform.Vehicle (vehicle ?battery id))
 let fail_on_start m = m.fails_on_start <- true
 let log m = List.rev m.log

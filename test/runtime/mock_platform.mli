@@ -12,6 +12,9 @@ val make : ?fate:(Core.vehicle -> string -> fate) -> (float * Platform.event) li
 (** [make ~fate events] has [events] at their times. [fate v plan] is by default [Succeeds 10.]. *)
 
 val vehicle : ?kind:string -> ?battery:float -> ?connected:bool -> string -> World.vehicle_state
+val silent : float -> string -> float * Platform.event
+(** [silent time id] is as {!seen}, of a vehicle that has not told its battery. *)
+
 val seen : ?battery:float -> float -> string -> float * Platform.event
 
 val fail_on_start : t -> unit

@@ -101,6 +101,20 @@ let telemetry_while_it_matters () =
   run mock (program ~reads_sensors:true ~globals:1 [ set_global 0 (pick 1); call Execute [ t ] ]) |> outcome_is "end";
   log_is mock [ "0 telemetry true"; "0 bind v1"; "30 start v1 home"; "40 release v1"; "40 close" ]
 
+(* What a guard waits for and a vehicle has not told is said once; then the vehicle tells it. *)
+let says_what_is_unknown () =
+  let seen battery time = Mock_platform.seen ~battery time "v1" in
+  let mock = Mock_platform.make [ Mock_platform.silent 0. "v1"; Mock_platform.silent 5. "v1"; seen 0.9 20.; seen 0.2 30. ] in
+  let said = ref [] in
+  let unknown ~time (fault : Fault.t) = said := Printf.sprintf "%g %s" time fault.message :: !said in
+  let low = below (call Battery_of [ global 0 ]) (number 0.3) in
+  let t = call Make_wait_for [ code low; task "home" ] in
+  run ~observer:{ Observer.nobody with unknown } mock
+    (program ~reads_sensors:true ~globals:1 [ set_global 0 (pick 1); call Execute [ t ] ])
+  |> outcome_is "end";
+  texts "said" [ "0 battery(v1) is unknown, since v1 has not told it: battery(v) ?: x takes x then" ] !said;
+  log_is mock [ "0 telemetry true"; "0 bind v1"; "30 start v1 home"; "40 release v1"; "40 close" ]
+
 (* The platform knows that the battery stays as it is. *)
 let quiet () =
   let mock = Mock_platform.make (two_vehicles @ [ (20., Dolphin_runtime.Platform.Quiet) ]) in
@@ -351,6 +365,7 @@ let tests =
     case "an error stops the siblings" stops_siblings;
     case "a handled error does not" handles_failures;
     case "telemetry is on while it matters" telemetry_while_it_matters;
+    case "what a vehicle has not told is said once" says_what_is_unknown;
     case "a deadlock on a battery is found" quiet;
     case "telemetry is on for displays" telemetry_for_displays;
     case "a busy script hears of its vehicles" busy_scripts_hear;

@@ -173,6 +173,57 @@ let tuples =
     case "left over" (fun () ->
         Alcotest.(check int) "keys" 2 (List.length (tuples_of "post a: 1, b: 2\nconsume a: 3"))) ]
 
+(* {1 What vehicles have not told} *)
+
+let silent = { (Pure_run.vehicle "silent") with battery = None }
+let with_silent = World.add silent Pure_run.fleet
+let begun = "v = pick { id 'silent' }\nw = pick { id 'noptilus-1' }\n"
+
+(* What the program says that prints [e], or how it fails. *)
+let value_of e =
+  let run = run ~world:with_silent (begun ^ Printf.sprintf "message(%s)" e) in
+  match Pure_run.said run with [ text ] -> text | _ -> Pure_run.ending run
+
+let is_unknown = "failed: battery(silent) is unknown, since silent has not told it: battery(v) ?: x takes x then"
+
+(* Whether a task that waits for [guard] begins. *)
+let begins guard =
+  let run = run ~world:with_silent (begun ^ Printf.sprintf "execute waitFor { %s } then action { message 'begun' }" guard) in
+  Pure_run.said run = [ "begun" ]
+
+let unknown =
+  let gives text e = case e (fun () -> Alcotest.(check string) "value" text (value_of e)) in
+  let guard holds g = case ("guard " ^ g) (fun () -> Alcotest.(check bool) "begins" holds (begins g)) in
+  [ gives "unknown" "battery(v)"; gives "unknown" "v.battery * 100 + 1"; gives "unknown" "-battery(v).round(2)";
+    gives "unknown" "battery(v) < 0.3"; gives "unknown" "!(battery(v) < 0.3)"; gives "unknown" "0.3 == battery(v)";
+    gives "unknown" "Math.max(battery(v), 0.3)"; gives "at unknown" "\"at ${battery(v)}\"";
+    gives "false" "battery(v) == null"; gives "true" "battery(v) != null";
+    gives "unknown" "battery(v) < 0.3 && true"; gives "false" "false && battery(v) < 0.3";
+    gives "true" "battery(v) < 0.3 || true"; gives "unknown" "battery(v) < 0.3 || false";
+    gives "true" "true || battery(v) < 0.3"; gives "unknown" "(v + w).any { battery(it) < 0.3 }";
+    gives "true" "(v + w).any { battery(it) > 0.3 }"; gives "false" "(v + w).every { battery(it) < 0.3 }";
+    gives "unknown" "(v + w).every { battery(it) > 0.3 }"; gives "unknown" "(v + w).sum { battery(it) }";
+    gives "[unknown, 1.0]" "(v + w).collect { battery(it) }";
+    gives "1" "battery(v) ?: 1"; gives "0" "0 ?: 1"; gives "1.0" "battery(w) ?: 0.5";
+    gives is_unknown "battery(v) < 0.3 ? 'low' : 'well'"; gives is_unknown "[1, 2][battery(v)]";
+    gives is_unknown "(v + w) | { battery(it) > 0.3 }"; gives is_unknown "(v + w).max { battery(it) }";
+    gives is_unknown "imcPlan { speed battery(v) }";
+    guard false "battery(v) < 0.3"; guard false "!(battery(v) < 0.3)"; guard false "battery(v)";
+    guard false "battery(v) < 0.3 ? 1 : 2"; guard true "battery(v) < 0.3 || true";
+    guard true "(battery(v) ?: 0.1) < 0.3"; guard false "post(a: battery(v)) || true";
+    case "a loop" (fun () ->
+        Alcotest.(check string) "ending" is_unknown
+          (Pure_run.ending (run ~world:with_silent (begun ^ "while (battery(v) > 0.3) { pause 1 }"))));
+    case "an action fails" (fun () ->
+        let run = run ~world:with_silent (begun ^ "execute action { if (battery(v) < 0.3) { post low: 1 } }") in
+        Alcotest.(check string) "ending" is_unknown (Pure_run.ending run));
+    case "posted" (fun () ->
+        Alcotest.(check string) "ending" is_unknown
+          (Pure_run.ending (run ~world:with_silent (begun ^ "post a: battery(v)"))));
+    case "assure goes on" (fun () ->
+        let run = run ~world:with_silent (begun ^ "execute action { message 'done' } assure { battery(v) > 0.3 }") in
+        strings "said" [ "done" ] (Pure_run.said run)) ]
+
 (* {1 When things happen} *)
 
 let moments =
@@ -217,4 +268,5 @@ let () =
       ("answers", answers);
       ("picks", picks);
       ("tuples", tuples);
+      ("unknown", unknown);
       ("moments", moments) ]

@@ -61,7 +61,8 @@ let started = "2026-03-01T12:00:00Z"
 
 (* Writes what follows to [journal], with [recorder] told. *)
 let drive r recorder platform ?beginning ~answered host =
-  let observer : Observer.t = { transition = Recorder.transition recorder; news = Recorder.news recorder } in
+  let observer : Observer.t = { transition = Recorder.transition recorder; news = Recorder.news recorder;
+                                unknown = Observer.nobody.unknown } in
   let host = host () in
   let run =
     Driver.run (module Simulator.Virtual) platform ~always_telemetry:true ~observer ?host:(Option.map Host.call host)

@@ -41,7 +41,7 @@ let few_samples () =
   let position : Dolphin_geo.Position.t = { latitude = 41.; longitude = -8.; height = 0. } in
   for i = 0 to 99_999 do
     let state : Dolphin_semantics.World.vehicle_state =
-      { id = "v"; kind = "UUV"; payload = []; position; battery = 1. -. (float_of_int i /. 1e5); connected = true; unready = None }
+      { id = "v"; kind = "UUV"; payload = []; position; battery = Some (1. -. (float_of_int i /. 1e5)); connected = true; unready = None }
     in
     Summary.add builder (Vehicle { time = float_of_int i; state })
   done;
@@ -96,18 +96,18 @@ let circumstances () =
 
 (* A vehicle of a network that has not told of its battery yet. *)
 let unknown_batteries () =
-  let battery_axis platform =
+  let battery_axis at_first =
     let builder = Summary.create () in
-    Summary.add builder (Header (header ~platform));
+    Summary.add builder (Header (header ~platform:"imc"));
     let position : Dolphin_geo.Position.t = { latitude = 41.; longitude = -8.; height = 0. } in
     let see time battery =
       let state : Dolphin_semantics.World.vehicle_state =
         { id = "v"; kind = "UUV"; payload = []; position; battery; connected = true; unready = None } in
       Summary.add builder (Vehicle { time; state })
     in
-    see 0. 1.;
-    see 5. 0.6;
-    see 10. 0.59;
+    see 0. at_first;
+    see 5. (Some 0.6);
+    see 10. (Some 0.59);
     let step : Step.t =
       { rules = []; label = "bind(v)"; at = None; choice = 0; allocated = []; bound = [ "v" ]; released = [];
         posted = []; consumed = []; requests = [ Bind [ "v" ] ] }
@@ -115,8 +115,8 @@ let unknown_batteries () =
     Summary.add builder (Transition { time = 10.; index = 0; step });
     contains ">100%<" (Picture.svg (Summary.finish builder))
   in
-  Alcotest.(check bool) "full in a simulation" true (battery_axis "sim");
-  Alcotest.(check bool) "not told on a network" false (battery_axis "imc")
+  Alcotest.(check bool) "full at first" true (battery_axis (Some 1.));
+  Alcotest.(check bool) "not told at first" false (battery_axis None)
 
 let nothing_at_all () = ignore (Picture.svg (Summary.finish (Summary.create ())))
 

@@ -175,7 +175,8 @@ let sync r =
 let observer r : Dolphin_runtime.Observer.t =
   match r.recorder with
   | None -> Dolphin_runtime.Observer.nobody
-  | Some recorder -> { transition = Recorder.transition recorder; news = Recorder.news recorder }
+  | Some recorder -> { transition = Recorder.transition recorder; news = Recorder.news recorder;
+                       unknown = Dolphin_runtime.Observer.nobody.unknown }
 
 let close r = Option.iter (fun file -> close_out_noerr file.channel) r.file
 

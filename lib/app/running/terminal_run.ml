@@ -58,6 +58,12 @@ let news t ~time state =
   List.iter (print t) lines;
   Screen.changed t.screen
 
+let unknown t ~time:_ (fault : Fault.t) =
+  let { Program_file.program; _ } = t.program in
+  let text = Format.asprintf "%a: " Dolphin_syntax.Location.pp in
+  let at = Option.fold (Fault.location program fault) ~none:"" ~some:text in
+  remark t (Printf.sprintf "%sthis condition does not hold: %s" at fault.message)
+
 (* The log and the board as they were when the console died; nothing is printed again. *)
 let replayed t (entry : Entry.t) replay =
   match entry, Replay.latest replay with
@@ -134,7 +140,7 @@ let front t ~notice ~again : Run.front =
     Screen.show t.screen (board t)
   in
   { replayed = replayed t; notice; opened; remark = remark t;
-    observer = { transition = transition t; news = news t };
+    observer = { transition = transition t; news = news t; unknown = unknown t };
     person = person t; wants_telemetry = t.live }
 
 let summarise t =

@@ -124,7 +124,7 @@ let rec holds_code = function
   | List xs -> Array.exists holds_code xs
   | Map entries -> List.exists (fun (_, x) -> holds_code x) entries
   | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _
-  | Vehicles _ | Task _ | Host _ | Reading _ -> false
+  | Vehicles _ | Task _ | Host _ | Reading _ | Unknown _ -> false
 
 let value (scope : scope) e =
   match e.node with

@@ -32,6 +32,7 @@ let rec of_value = function
   | List xs -> Array.fold_left (fun k x -> k lor of_value x) nothing xs
   | Map entries -> List.fold_left (fun k (_, x) -> k lor of_value x) map entries
   | Reading _ -> reading
+  | Unknown _ -> vehicles
   | Task _ -> vehicles
   | Closure _ -> code
   | Settings _ -> vehicles lor text lor map lor code

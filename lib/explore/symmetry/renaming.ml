@@ -22,6 +22,7 @@ let rec value_by r x =
   | Map entries -> Map (List.map (fun (k, x) -> (k, value_by r x)) entries)
   | Task t -> Task (task r t)
   | Closure c -> Closure (closure r c)
+  | Unknown u -> Unknown { u with of_vehicle = r.f u.of_vehicle }
   | Settings settings -> Settings (List.map (setting r) settings)
   | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _ | Host _
   | Reading _ -> x

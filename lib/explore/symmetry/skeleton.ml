@@ -49,7 +49,8 @@ let longest_text = 1_000
 let is_scalar = function
   | String s -> String.length s <= longest_text
   | Null | Boolean _ | Integer _ | Number _ | Symbol _ | Vehicles _ -> true
-  | Wildcard | List _ | Map _ | Range _ | Position _ | Area _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ ->
+  | Wildcard | List _ | Map _ | Range _ | Position _ | Area _ | Task _ | Closure _ | Host _ | Settings _ | Reading _
+  | Unknown _ ->
     false
 
 (* A skeleton being written. *)

@@ -30,7 +30,7 @@ let of_builtin = function
   | Set_connection_timeout -> Some "setConnectionTimeout"
   | Platform_task | Make_action | Make_condition | Make_wait_for | Make_until _ | Make_idle | Make_during _ | Make_watch
   | Halt | Consume _ | Poll _ | Position_of | Battery_of | Location_of | Area_of | Ignore | Propagate | Get_supplier
-  | Assert | Is_host | Math _ -> None
+  | Assert | Is_host | Is_there | Math _ -> None
 
 (* What the code in an argument of this operation is for. *)
 let code_of = function

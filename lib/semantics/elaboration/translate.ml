@@ -117,7 +117,7 @@ and condition env at test yes no =
 and elvis env at e otherwise =
   let slot = Scope.new_slot env.code in
   let first = set_local env at slot (elaborate env e) in
-  let test = local env at slot in
+  let test = apply env at (Builtin Is_there) [ local env at slot ] in
   let yes = local env at slot in
   expression env at (If (block env at [ first; test ], yes, elaborate env otherwise))
 

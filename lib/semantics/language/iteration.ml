@@ -73,5 +73,5 @@ let early iteration item result =
   match iteration with
   | Find when Value.truth result -> Some item
   | Any when Value.truth result -> Some (Boolean true)
-  | Every when not (Value.truth result) -> Some (Boolean false)
+  | Every when not (Value.truth result || Unknown.is result) -> Some (Boolean false)
   | Each | Collect | Find_all | Find | Any | Every | Count | Sum | Inject | Sort | Greatest | Least -> None

@@ -222,15 +222,13 @@ and proceed context fuel x locals stack calls at : (stop * t * context) Decision
       | Assign_local slot -> proceed context fuel x (set_local locals slot x) stack calls at
       | Assign_global i ->
         proceed { context with store = Store.set i x context.store } fuel x locals stack calls at
-      | Choose (yes, no) -> (
-          match Reading.settled at x with
-          | Ok x -> evaluate context fuel (if Value.truth x then yes else no) locals stack calls
-          | Error fault -> Unclear fault)
+      | Choose (yes, no) -> choose context fuel x yes no locals stack calls at
       | Rest [] -> proceed context fuel x locals stack calls at
       | Rest [ last ] -> evaluate context fuel last locals stack calls
       | Rest (next :: rest) -> evaluate context fuel next locals (Rest rest :: stack) calls
       | Loop_test (test, body) -> (
           match Reading.settled at x with
+          | Ok (Unknown u) -> needs context u locals stack calls at
           | Ok x when Value.truth x -> evaluate context fuel body locals (Loop_body (test, body) :: stack) calls
           | Ok _ -> proceed context fuel Null locals stack calls at
           | Error fault -> Unclear fault)
@@ -248,6 +246,23 @@ and proceed context fuel x locals stack calls at : (stop * t * context) Decision
             iterate context fuel
               (Iterate { i with gathered = x :: i.gathered; index = i.index + 1 })
               locals stack calls))
+
+(* [a && b] is [if a then b else false], [a || b] is [if a then true else b]. *)
+and choose context fuel x yes no locals stack calls at : (stop * t * context) Decision.t =
+  match Reading.settled at x with
+  | Error fault -> Unclear fault
+  | Ok (Unknown u as x) -> (
+      match yes.node, no.node with
+      | _, Constant (Boolean false) -> proceed context fuel x locals stack calls at
+      | Constant (Boolean true), _ ->
+        evaluate context fuel no locals
+          (Arguments { operation = Binary Or; at; evaluated = [ x ]; remaining = [] } :: stack)
+          calls
+      | _, _ -> needs context u locals stack calls at)
+  | Ok x -> evaluate context fuel (if Value.truth x then yes else no) locals stack calls
+
+and needs context u locals stack calls at : (stop * t * context) Decision.t =
+  Decided (Faulted (Fault.unknown at u), machine (Give (Unknown u)) locals stack calls at, context)
 
 and begin_loop context fuel x slot body locals stack calls at : (stop * t * context) Decision.t =
   let start items = next_item context fuel slot items body locals stack calls at in
@@ -279,8 +294,13 @@ and iterate context fuel frame locals stack calls =
     let arguments = Iteration.arguments i.iteration i.closure i.subject item i.index i.gathered in
     enter context fuel i.closure arguments i.at locals (frame :: stack) calls
   | Iterate i ->
-    let result = Iteration.conclude i.iteration i.subject i.items i.gathered in
-    settle_outcome context fuel (Procedures.of_result result) i.at locals stack calls
+    let outcome =
+      match Unknown.iterated i.iteration i.gathered with
+      | Ok (Some x) -> Value x
+      | Ok None -> Procedures.of_result (Iteration.conclude i.iteration i.subject i.items i.gathered)
+      | Error u -> Wrong_at (Fault.unknown i.at u)
+    in
+    settle_outcome context fuel outcome i.at locals stack calls
   | _ -> invalid_arg "Machine.iterate"
 
 and enter context fuel closure arguments at locals stack calls =

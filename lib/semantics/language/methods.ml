@@ -124,7 +124,7 @@ let getter world x name =
     | List _ | Range _ -> of_elements x name
     | Task (Platform p) when name = "id" || name = "name" -> Some (Ok (String p.name))
     | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Map _ | Task _ | Closure _
-    | Host _ | Settings _ | Reading _ -> None
+    | Host _ | Settings _ | Reading _ | Unknown _ -> None
   in
   match specific, name with
   | Some result, _ -> Some result
@@ -143,7 +143,7 @@ let properties = function
   | Area _ -> [ "centre"; "radius" ]
   | Task _ -> [ "id"; "name" ]
   | Integer _ | Number _ -> Operators.unit_names
-  | Null | Boolean _ | Wildcard | Symbol _ | Closure _ | Host _ | Settings _ | Reading _ -> []
+  | Null | Boolean _ | Wildcard | Symbol _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ -> []
 
 let near name names =
   match Suggest.suggest name names with Some near -> Printf.sprintf "; did you mean '%s'?" near | None -> ""
@@ -161,7 +161,7 @@ let property world x name =
     Error (Printf.sprintf "a number has no unit '%s'%s" name (near name (properties x)))
   | Null, None -> Error (Printf.sprintf "null has no property '%s'" name)
   | ( ( Boolean _ | String _ | Wildcard | Symbol _ | List _ | Range _ | Position _ | Area _ | Vehicles _ | Task _
-      | Closure _ | Host _ | Settings _ | Reading _ ),
+      | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ ),
       None ) -> Error (Printf.sprintf "%s has no property '%s'%s" (Value.kind x) name (near name (properties x)))
 
 (* "getId" is a getter of "id". *)
@@ -304,7 +304,8 @@ let specific x name arguments =
       match Value.items x with Some items -> on_items x items name arguments | None -> None)
   | Integer _ | Number _ -> on_number (number_text x) x name arguments
   | Position p -> on_position p name arguments
-  | Null | Boolean _ | Wildcard | Symbol _ | Area _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ -> None
+  | Null | Boolean _ | Wildcard | Symbol _ | Area _ | Task _ | Closure _ | Host _ | Settings _ | Reading _
+  | Unknown _ -> None
 
 let of_all_with_elements =
   [ "size"; "length"; "isEmpty"; "contains"; "each"; "eachWithIndex"; "collect"; "collectWithIndex"; "findAll"; "find";
@@ -333,7 +334,7 @@ let known x =
     | Area _ -> [ "contains"; "getCentre"; "getRadius" ]
     | Task _ -> [ "getName" ]
     | Closure _ -> [ "call" ]
-    | Null | Boolean _ | Wildcard | Symbol _ | Host _ | Settings _ | Reading _ -> []
+    | Null | Boolean _ | Wildcard | Symbol _ | Host _ | Settings _ | Reading _ | Unknown _ -> []
   in
   [ "equals"; "toString" ] @ own
 
@@ -343,7 +344,7 @@ let too_many x name =
   | Range _ -> Value.items x = None
   | Integer n -> name = "times" && n > Value.most_items
   | Null | Boolean _ | Number _ | String _ | Wildcard | Symbol _ | List _ | Map _ | Position _ | Area _ | Vehicles _
-  | Task _ | Closure _ | Host _ | Settings _ | Reading _ -> false
+  | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ -> false
 
 let call world x name arguments =
   match name, arguments with

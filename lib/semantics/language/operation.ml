@@ -105,6 +105,14 @@ let apply_settled context at operation arguments =
       _ ) -> Wrong "wrong number of operands"
 
 let rec apply context at operation arguments =
+  if List.exists Unknown.is arguments then
+    match Unknown.apply operation arguments with
+    | Gives x -> Value x
+    | Needs u -> Wrong_at (Fault.unknown at u)
+    | As_any -> apply_known context at operation arguments
+  else apply_known context at operation arguments
+
+and apply_known context at operation arguments =
   if World.is_open context.world && List.exists Reading.is_reading arguments then
     match Reading.apply context.world at operation arguments with
     | Gives result -> of_result result

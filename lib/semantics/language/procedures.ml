@@ -208,8 +208,11 @@ let apply context at operation arguments =
   | Propagate, [] -> settle context Propagated
   | Get_supplier, [] ->
     blocking context "getSupplier" (Host_call { subject = None; member = "getSupplier"; arguments = Some [] })
+  | Is_there, [ x ] ->
+    let is_number = match x with Integer _ | Number _ -> true | _ -> false in
+    Value (Boolean (is_number || Value.truth x))
   | Is_host, [ x ] -> Value (Boolean (match x with Host _ -> true | _ -> false))
   | Math name, arguments -> mathematics name arguments
   | ( ( Execute | Release | Set_connection_timeout | Ask | Message | Pause | Halt | Position_of | Battery_of
-      | Location_of | Area_of | Assert | Ignore | Propagate | Get_supplier | Is_host ),
+      | Location_of | Area_of | Assert | Ignore | Propagate | Get_supplier | Is_host | Is_there ),
       _ ) -> Wrong (Printf.sprintf "wrong number of arguments, %d" (List.length arguments))

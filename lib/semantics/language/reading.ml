@@ -14,9 +14,10 @@ let look world sensor (s : World.vehicle_state) =
   match sensor with
   | Battery -> (
       match World.battery world s with
-      | Shows share -> Ok (Number share)
-      | One_of xs -> Error (World.charges s xs)
-      | Anything -> Ok (reading Amount (Printf.sprintf "battery(%s)" s.id)))
+      | None -> Ok (Unknown { sensor = "battery"; of_vehicle = s.id })
+      | Some (Shows share) -> Ok (Number share)
+      | Some (One_of xs) -> Error (World.charges s xs)
+      | Some Anything -> Ok (reading Amount (Printf.sprintf "battery(%s)" s.id)))
   | Position -> (
       match World.position world s with
       | Shows p -> Ok (Core.Position p)
@@ -127,7 +128,7 @@ let apply world at operation arguments =
   match result, operation with
   | (Gives _ | Asks _ | Unclear _), _ -> result
   | As_any, Call names when List.for_all Option.is_none names && calls_code arguments -> As_any
-  | As_any, Builtin (Message | Halt | Assert | Is_host) -> As_any
+  | As_any, Builtin (Message | Halt | Assert | Is_host | Is_there) -> As_any
   | As_any, _ ->
     let texts = List.filter_map (function Reading r -> Some r.text | _ -> None) arguments in
     Unclear (unclear at (String.concat ", " texts))

@@ -11,7 +11,7 @@ val sensor : string -> sensor option
 
 val look : World.t -> sensor -> World.vehicle_state -> (value, World.question) result
 (** [look w sensor s] is what the sensor of [s] shows: if that may be anything, a reading whose text names the
-    sensor. *)
+    sensor; if the vehicle has not told it, {!Core.Unknown}. *)
 
 val is_reading : value -> bool
 (** Whether it is a reading. *)

@@ -120,16 +120,23 @@ let internal program world (s : Shared.t) (Task_rules.Step { offer; continue }) 
     let gives world _ s deeds = go world ~asked:(Run_code.effects deeds) s (continue (Ok deeds)) in
     coded program world s code ~gives ~fails:(fun world said fault -> failed world said (continue (Error fault)))
   | Check guard ->
+    let fails world said fault =
+      if Fault.is_unknown fault then Decision.Decided None else failed world said (continue (Error fault))
+    in
     let gives world x s deeds =
       settled guard x (fun x ->
           if Value.truth x then go world ~asked:(Run_code.effects deeds) s (continue (Ok deeds)) else Decided None)
     in
-    coded program world s guard ~gives ~fails:(fun world said fault -> failed world said (continue (Error fault)))
+    coded program world s guard ~gives ~fails
   | Refute guard ->
-    let gives world x _ _ =
-      settled guard x (fun x -> if Value.truth x then Decision.Decided None else go world s (continue (Ok ())))
+    let fails world said fault =
+      if Fault.is_unknown fault then Decision.Decided None else failed world said (continue (Error fault))
     in
-    coded program world s guard ~gives ~fails:(fun world said fault -> failed world said (continue (Error fault)))
+    let gives world x _ _ =
+      settled guard x (fun x ->
+          if Value.truth x || Unknown.is x then Decision.Decided None else go world s (continue (Ok ())))
+    in
+    coded program world s guard ~gives ~fails
   | Measure code ->
     let gives world x after deeds =
       settled code x (fun x ->

@@ -157,6 +157,22 @@ let awaited (c : Configuration.t) =
     in
     List.of_seq (Seq.filter_map event (Task_rules.steps r))
 
+let unknown program world (c : Configuration.t) =
+  let of_guard (guard : closure) =
+    match Run_code.atomic program world c.shared guard with
+    | Decided { outcome = Gives (Unknown u, _, _); _ } -> Some (Fault.unknown guard.lambda.lambda_site u)
+    | Decided { outcome = Faulty (fault, _); _ } when Fault.is_unknown fault -> Some fault
+    | Decided { outcome = Gives _ | Faulty _ | Halts _; _ } | Open _ | Unclear _ -> None
+  in
+  let of_step (Task_rules.Step { offer; _ }) =
+    match offer with
+    | Check guard | Refute guard -> of_guard guard
+    | Start _ | Perform _ | Measure _ | End_of _ | Expiry_of _ -> None
+  in
+  match c.control with
+  | Executing (_, r) when program.reads_sensors -> List.of_seq (Seq.filter_map of_step (Task_rules.steps r))
+  | Executing _ | Script _ | Waiting _ | Ended _ -> []
+
 let depends_on_sensors (program : program) (c : Configuration.t) =
   match c.control with
   | Waiting (_, Pick _) -> true

@@ -53,6 +53,9 @@ val depends_on_sensors : program -> Configuration.t -> bool
 (** [depends_on_sensors p c] is whether the positions and batteries of the world may matter to [c] or to what follows:
     a driver then keeps them up to date. *)
 
+val unknown : program -> World.t -> Configuration.t -> Fault.t list
+(** [unknown p w c] is what guards of [c] need to know that vehicles have not told: each such guard does not hold. *)
+
 (** {1:open In open worlds}
 
     Where the world leaves open what sensors show, there are transitions for all that they may show, each with what it

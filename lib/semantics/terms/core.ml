@@ -32,10 +32,14 @@ type value =
   | Host of string                              (* an object of the host process, by its name there *)
   | Settings of setting list                    (* a block of settings being read, latest first *)
   | Reading of reading                          (* in open worlds: what a sensor shows *)
+  | Unknown of unknown                          (* what a vehicle has not told *)
 
 (** A value that an open world leaves open: it may be anything of its quantity. It is known by its text, which says how
     the value was computed, or which variable keeps it from one step to the next. *)
 and reading = { quantity : quantity; text : string }
+
+(** What [sensor] of [of_vehicle] would show: ["battery"]. *)
+and unknown = { sensor : string; of_vehicle : vehicle }
 
 and quantity = Amount | Place | Region | Words  (* a number, a position, an area, a string *)
 
@@ -146,6 +150,7 @@ and builtin =
   | Ignore
   | Propagate
   | Get_supplier
+  | Is_there                                    (* made by elaboration: whether [a ?: b] is [a] *)
   | Is_host                                     (* made by elaboration, for updates of what may be a host object *)
   | Math of string
 

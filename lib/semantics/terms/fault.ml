@@ -1,10 +1,18 @@
-type cause = Code | Assertion
+type cause = Code | Assertion | Unknown
 type t = { message : string; site : Core.site; cause : cause }
 
 let unknown_site = -1
 let make site message = { message; site; cause = Code }
 let assertion site message = { message; site; cause = Assertion }
-let is_assertion fault = match fault.cause with Assertion -> true | Code -> false
+let is_assertion fault = match fault.cause with Assertion -> true | Code | Unknown -> false
+
+let unknown site ({ sensor; of_vehicle = v } : Core.unknown) =
+  let message =
+    Printf.sprintf "%s(%s) is unknown, since %s has not told it: %s(v) ?: x takes x then" sensor v v sensor
+  in
+  { message; site; cause = Unknown }
+
+let is_unknown fault = match fault.cause with Unknown -> true | Code | Assertion -> false
 
 let location (program : Core.program) fault =
   if fault.site >= 0 && fault.site < Array.length program.locations then Some program.locations.(fault.site)

@@ -3,6 +3,7 @@
 type cause =
   | Code  (** of the program, or of a vehicle: an error, which [watch] may handle *)
   | Assertion  (** an assertion that fails ends the program, whatever is around it *)
+  | Unknown  (** code needed what a vehicle has not told: of a guard, it does not hold; of other code, an error *)
 
 type t = {
   message : string;  (** one sentence without a full stop: what is wrong, and where it helps, what would be right *)
@@ -18,6 +19,12 @@ val make : Core.site -> string -> t
 
 val assertion : Core.site -> string -> t
 (** [assertion site message] is an assertion that does not hold: no handler sees it. *)
+
+val unknown : Core.site -> Core.unknown -> t
+(** [unknown site u] is that code at [site] needed [u]. *)
+
+val is_unknown : t -> bool
+(** Whether it was made by {!unknown}. *)
 
 val is_assertion : t -> bool
 (** Whether it was made by {!assertion}. *)

@@ -9,7 +9,7 @@ type t = value
 let rank = function
   | Null -> 0 | Boolean _ -> 1 | Integer _ -> 2 | Number _ -> 3 | String _ -> 4 | Wildcard -> 5 | Symbol _ -> 6
   | List _ -> 7 | Map _ -> 8 | Range _ -> 9 | Position _ -> 10 | Area _ -> 11 | Vehicles _ -> 12 | Task _ -> 13
-  | Closure _ -> 14 | Host _ -> 15 | Settings _ -> 16 | Reading _ -> 17
+  | Closure _ -> 14 | Host _ -> 15 | Settings _ -> 16 | Reading _ -> 17 | Unknown _ -> 18
 
 let rank_task = function
   | Platform _ -> 0 | Action _ -> 1 | Condition _ -> 2 | Sequence _ -> 3 | Parallel _ -> 4 | Allocated _ -> 5
@@ -32,9 +32,11 @@ let rec compare x y =
     | Task a, Task b -> compare_task a b
     | Closure a, Closure b -> compare_closure a b
     | Settings a, Settings b -> List.compare compare_setting a b
+    | Unknown a, Unknown b ->
+      Order.both (String.compare a.sensor b.sensor) (fun () -> String.compare a.of_vehicle b.of_vehicle)
     | Reading a, Reading b -> Order.both (Stdlib.compare a.quantity b.quantity) (fun () -> String.compare a.text b.text)
     | ( ( Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | List _ | Map _ | Range _
-        | Position _ | Area _ | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ ),
+        | Position _ | Area _ | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ ),
         _ ) -> Int.compare (rank x) (rank y)
 
 and compare_entry (k, x) (k', x') = Order.both (String.compare k k') (fun () -> compare x x')
@@ -114,6 +116,7 @@ let rec hash_value left x =
     | Closure c -> Order.mix 14 (hash_code left c)
     | Settings settings -> Order.mix 16 (List.length settings)
     | Reading r -> Order.mix 17 (Hashtbl.hash r.text)
+    | Unknown u -> Order.mix 18 (Hashtbl.hash u.of_vehicle)
 
 and hash_values left h xs =
   let rec from i h =
@@ -154,7 +157,7 @@ let rec canonical x =
   | List xs -> List (Array.map canonical xs)
   | Map entries -> Map (List.map (fun (k, x) -> (k, canonical x)) entries)
   | Null | Boolean _ | Integer _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _ | Vehicles _ | Task _
-  | Closure _ | Host _ | Settings _ | Reading _ -> x
+  | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ -> x
 
 let rec normal x =
   match x with
@@ -163,7 +166,7 @@ let rec normal x =
   | Map entries -> Map (List.sort by_key (List.map (fun (k, x) -> (k, normal x)) entries))
   | Vehicles vs -> Vehicles (List.sort String.compare vs)
   | Null | Boolean _ | Integer _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _ | Task _ | Closure _
-  | Host _ | Settings _ | Reading _ -> x
+  | Host _ | Settings _ | Reading _ | Unknown _ -> x
 
 let rec is_alone x =
   match x with
@@ -171,7 +174,7 @@ let rec is_alone x =
   | List xs -> Array.for_all is_alone xs
   | Map entries -> List.for_all (fun (_, x) -> is_alone x) entries
   | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _
-  | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ -> true
+  | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ -> true
 
 (* As [compare (normal x) (normal y) = 0], but what both share is not gone through. *)
 let rec equals x y =
@@ -185,7 +188,7 @@ let rec equals x y =
     List.compare_lengths a b = 0 && List.for_all2 same (List.sort by_key a) (List.sort by_key b)
   | Vehicles a, Vehicles b -> List.equal String.equal (List.sort String.compare a) (List.sort String.compare b)
   | ( ( Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | List _ | Map _ | Range _ | Position _
-      | Area _ | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ ),
+      | Area _ | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ ),
       _ ) -> compare x y = 0
 
 let rec made_at site x =
@@ -194,7 +197,7 @@ let rec made_at site x =
   | List xs -> List (Array.map (made_at site) xs)
   | Map entries -> Map (List.map (fun (k, x) -> (k, made_at site x)) entries)
   | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _
-  | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ -> x
+  | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ -> x
 
 let truth = function
   | Null -> false
@@ -205,6 +208,7 @@ let truth = function
   | List xs -> xs <> [||]
   | Map entries -> entries <> []
   | Vehicles vs -> vs <> []
+  | Unknown _ -> false
   | Wildcard | Symbol _ | Range _ | Position _ | Area _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ -> true
 
 let kind = function
@@ -228,12 +232,13 @@ let kind = function
   | Reading { quantity = Place; _ } -> "a position"
   | Reading { quantity = Region; _ } -> "an area"
   | Reading { quantity = Words; _ } -> "a string"
+  | Unknown _ -> "an unknown value"
 
 let to_number = function
   | Integer i -> Some (float_of_int i)
   | Number n -> Some n
   | Null | Boolean _ | String _ | Wildcard | Symbol _ | List _ | Map _ | Range _ | Position _ | Area _ | Vehicles _
-  | Task _ | Closure _ | Host _ | Settings _ | Reading _ -> None
+  | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ -> None
 
 
 let range_length first last = abs (last - first) + 1
@@ -263,7 +268,7 @@ let items = function
     Some (Array.of_list (List.map (fun (k, x) -> Map [ ("key", String k); ("value", x) ]) entries))
   | String s -> Some (characters s)
   | Null | Boolean _ | Integer _ | Number _ | Wildcard | Symbol _ | Position _ | Area _ | Task _ | Closure _
-  | Host _ | Settings _ | Reading _ -> None
+  | Host _ | Settings _ | Reading _ | Unknown _ -> None
 
 let length = function
   | List xs -> Some (Array.length xs)
@@ -272,7 +277,7 @@ let length = function
   | Map entries -> Some (List.length entries)
   | String s -> Some (Array.length (characters s))
   | Null | Boolean _ | Integer _ | Number _ | Wildcard | Symbol _ | Position _ | Area _ | Task _ | Closure _
-  | Host _ | Settings _ | Reading _ -> None
+  | Host _ | Settings _ | Reading _ | Unknown _ -> None
 
 (* With [digits], or as few more as read back as the same number. *)
 let rec shortest digits n =
@@ -332,6 +337,7 @@ let rec print ~bare ppf x =
   | Host name -> Format.fprintf ppf "host object %s" name
   | Settings _ -> text "{ ... }"
   | Reading r -> text r.text
+  | Unknown _ -> text "unknown"
 
 and until = function Completes -> "until" | Fails _ -> "assure"
 and during = function Completes -> "during" | Fails _ -> "within"

@@ -7,7 +7,7 @@ type vehicle_state = {
   kind : string;
   payload : string list;
   position : Position.t;
-  battery : float;
+  battery : float option;
   connected : bool;
   unready : string option;
 }
@@ -112,7 +112,7 @@ let shown (state : vehicle_state) opened known supposed world =
 
 let battery world state =
   let supposed = function Charged (v, x) when v = state.id -> Some x | _ -> None in
-  shown state world.batteries state.battery supposed world
+  Option.map (fun share -> shown state world.batteries share supposed world) state.battery
 
 let position world state =
   let supposed = function Placed (v, p) when v = state.id -> Some p | _ -> None in

@@ -6,7 +6,7 @@ type vehicle_state = {
   kind : string;  (** ["UUV"], ["UAV"], ["USV"], ["ROV"], ... *)
   payload : string list;  (** the devices that it carries *)
   position : Dolphin_geo.Position.t;
-  battery : float;  (** what is left, from 0 (empty) to 1 (full) *)
+  battery : float option;  (** what is left, from 0 (empty) to 1 (full); [None]: it has not told *)
   connected : bool;  (** whether it has a link *)
   unready : string option;
   (** what keeps it from being given a plan though it has a link, as a predicate: ["is in mode ERROR: leak"] *)
@@ -65,7 +65,7 @@ val pp_assumption : Format.formatter -> assumption -> unit
 
 val open_battery : Core.vehicle -> float list -> t -> t
 (** [open_battery v xs w] is [w] in which the battery of [v] shows one of [xs], whenever the program looks; if there are
-    none, any value. *)
+    none, any value. If [v] has not told it, it stays unknown. *)
 
 val open_position : Core.vehicle -> Dolphin_geo.Position.t list -> t -> t
 (** Likewise where [v] is seen. *)
@@ -84,8 +84,8 @@ type 'a shown =
   | One_of of 'a list  (** that is open: any of these *)
   | Anything
 
-val battery : t -> vehicle_state -> float shown
-(** [battery w s] is what the battery of [s] shows. *)
+val battery : t -> vehicle_state -> float shown option
+(** [battery w s] is what the battery of [s] shows; [None] if it has not told. *)
 
 val position : t -> vehicle_state -> Dolphin_geo.Position.t shown
 (** [position w s] is where [s] is seen. *)

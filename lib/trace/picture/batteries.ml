@@ -1,15 +1,11 @@
 open Summary
 
-(* On a network a battery counts as full until the vehicle tells of it: that is not drawn. *)
-let known summary v =
-  let rec told = function { battery = 1.; _ } :: rest -> told rest | samples -> samples in
-  match summary.header with
-  | None | Some { platform = "sim"; _ } -> v.samples
-  | Some _ -> told v.samples
+(* Times and charges; what a vehicle has not told is not drawn. *)
+let known v = List.filter_map (fun s -> Option.map (fun battery -> (s.time, battery)) s.battery) v.samples
 
 (* From and until which share, in whole steps. *)
 let range summary =
-  let batteries = List.concat_map (fun v -> List.map (fun s -> s.battery) (known summary v)) summary.vehicles in
+  let batteries = List.concat_map (fun v -> List.map snd (known v)) summary.vehicles in
   let least = List.fold_left Float.min 1. batteries and most = List.fold_left Float.max 0. batteries in
   let least = Float.max 0. least and most = Float.min 1. (Float.max least most) in
   let span = Float.max 0.05 (most -. least) in
@@ -38,13 +34,13 @@ let draw summary ~x ~y ~width ~height =
       Svg.text ~name:"axis" ~anchor:(if time > 0. then Middle else Start) (at, y +. height +. 13.) (Phrase.time time) ]
   in
   let curve i v =
-    let point s = (across s.time, down s.battery) in
-    Svg.polyline ~name:("track " ^ Style.vehicle i) (Tracks.thin (List.map point (known summary v)))
+    let point (time, battery) = (across time, down battery) in
+    Svg.polyline ~name:("track " ^ Style.vehicle i) (Tracks.thin (List.map point (known v)))
   in
   let wanted i v =
-    match List.rev (known summary v) with
+    match List.rev (known v) with
     | [] -> None
-    | last :: _ -> Some (down last.battery +. 4., (i, v, across last.time))
+    | (time, battery) :: _ -> Some (down battery +. 4., (i, v, across time))
   in
   let wanted = List.filter_map Fun.id (List.mapi wanted summary.vehicles) in
   let label (at, (i, v, _)) = Svg.text ~name:("name " ^ Style.vehicle i) (right +. 8., at) (Svg.fit 120. v.id) in

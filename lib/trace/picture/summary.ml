@@ -2,7 +2,7 @@ open Dolphin_semantics
 
 type ending = Done | Failed of string | Stopped | Unfinished
 type task = { plan : string; from : float; until : float; ending : ending }
-type sample = { time : float; position : Dolphin_geo.Position.t; battery : float }
+type sample = { time : float; position : Dolphin_geo.Position.t; battery : float option }
 type span = { from : float; until : float }
 
 type vehicle = {

@@ -10,7 +10,7 @@ type ending =
 (** A platform task that a vehicle ran. *)
 type task = { plan : string; from : float; until : float; ending : ending }
 
-type sample = { time : float; position : Dolphin_geo.Position.t; battery : float }
+type sample = { time : float; position : Dolphin_geo.Position.t; battery : float option }
 type span = { from : float; until : float }
 
 (** All lists are in order of time. *)

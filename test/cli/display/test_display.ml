@@ -93,7 +93,7 @@ let log_of_deeds () =
     (told [ (0., transition ~effects:[ Say "two\nlines" ] (Act deeds)) ])
 
 let state ?(connected = true) ?unready id : World.vehicle_state =
-  { id; kind = "UUV"; payload = []; position = { latitude = 41.; longitude = -8.; height = 0. }; battery = 0.5;
+  { id; kind = "UUV"; payload = []; position = { latitude = 41.; longitude = -8.; height = 0. }; battery = Some 0.5;
     connected; unready }
 
 let news log ~time state =

@@ -1,5 +1,5 @@
 # What takes more than building and testing. The rest: dune build, dune test.
-.PHONY: nightly tlc crosscheck mutate mutate-code coverage
+.PHONY: nightly tlc crosscheck refinement mutate mutate-code coverage
 
 # All that is too slow for every change, a line each; ONLY="mutate peers" picks. scripts/nightly tells more.
 nightly:
@@ -13,6 +13,11 @@ tlc:
 crosscheck: tlc
 	dune build bin/dolphin.exe test/crosscheck/crosscheck.exe
 	_build/default/test/crosscheck/crosscheck.exe all
+
+# That programs refine spec/Abstract.tla, by TLC: examples, small programs and PROGRAMS random ones of each kind.
+refinement: tlc
+	dune build test/crosscheck/crosscheck.exe
+	_build/default/test/crosscheck/crosscheck.exe refinement
 
 # Specifications that are wrong in one place, each of which the comparison must notice.
 mutate: tlc

@@ -103,6 +103,34 @@ Timers(r) ==
     [] OTHER -> << >>
 
 -----------------------------------------------------------------------------
+(* r is the residual of a task whose vehicles are in B, in normal form; what runs in it is in A, and only an active part
+   has begun. *)
+RECURSIVE IsResidual(_, _)
+IsResidual(r, active) ==
+  LET areChoices(bs) == \A j \in DOMAIN bs : Is(bs[j].guard, "closure") /\ IsResidual(bs[j].body, FALSE)
+  IN CASE r.op = "ready" -> r.p.op = "platform" /\ r.v \in Range(B)
+       [] r.op = "running" -> active /\ r.v \in DOMAIN A /\ A[r.v] = r.p
+       [] r.op \in { "action", "condition" } -> Is(r.code, "closure")
+       [] r.op = "seq" ->
+            /\ r.first.op # "seq" /\ IsResidual(r.first, active)
+            /\ r.rest # << >> /\ \A j \in DOMAIN r.rest : r.rest[j].op # "seq" /\ IsResidual(r.rest[j], FALSE)
+       [] r.op = "par" ->
+            /\ Len(r.branches) > 1
+            /\ \A j \in DOMAIN r.branches : r.branches[j].op # "par" /\ IsResidual(r.branches[j], active)
+       [] r.op = "allOf" ->
+            /\ Len(r.runs) <= 1 /\ (\A j \in DOMAIN r.runs : active /\ IsResidual(r.runs[j], active))
+            /\ Len(r.choices) > (IF r.runs = << >> THEN 1 ELSE 0) /\ areChoices(r.choices)
+       [] r.op = "oneOf" -> r.choices # << >> /\ areChoices(r.choices)
+       [] r.op = "until" -> Is(r.guard, "closure") /\ IsResidual(r.body, active)
+       [] r.op = "idle" -> r.timer \in Nat \ { 0 }
+       [] r.op = "during" ->
+            /\ r.timer \in Nat \ { 0 }
+            /\ r.started => active /\ ~Is(r.time, "closure")
+            /\ IsResidual(r.body, active /\ r.started)
+       [] r.op = "watch" -> Is(r.handler, "closure") /\ IsResidual(r.body, active)
+       [] OTHER -> FALSE
+
+-----------------------------------------------------------------------------
 (* {1 Events} *)
 
 (* No event: the program goes on by itself. *)

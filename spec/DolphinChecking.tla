@@ -66,6 +66,9 @@ TuplesConserved == \A ts \in { Known(vars) } : \A j \in DOMAIN ts : ConservesTup
 
 Termination == <>HasEnded
 
+(* Of every program; NoDeadlock and Termination are of some only. *)
+THEOREM Conservation == Spec => []TuplesConserved
+
 -----------------------------------------------------------------------------
 (* {1 The graph} *)
 
@@ -73,6 +76,9 @@ Termination == <>HasEnded
 Unmarked(t) == Becomes(t) /\ UNCHANGED << label, again >>
 
 GraphNext == \E ts \in { Known(vars) } : \E j \in DOMAIN ts : Unmarked(ts[j])
+
+(* A graph has the runs of Spec, but for its fairness and its marks. make crosscheck compares it with the explorer's. *)
+THEOREM SameSteps == [][Some(IsAny)]_<< View, label >> => [][Next]_vars
 
 (* {2 An action for each rule} *)
 

@@ -25,6 +25,17 @@ VARIABLE
 
 vars == << control, store, A, B, N, outside >>
 
+Identifiers == { Fleet[j].id : j \in DOMAIN Fleet }
+
+EnvironmentOK ==
+  /\ Is(Main, "closure") /\ Main[2] \in DOMAIN Lambdas
+  /\ { Failures, Losses, Latecomers } \subseteq Nat \cup { -1 }
+  /\ MayBeLate \subseteq Identifiers
+  /\ Prompts \subseteq STRING /\ Calls \subseteq STRING
+  /\ Interruptions \in BOOLEAN
+
+ASSUME EnvironmentOK
+
 (* The transition t, after which the environment remembers o. *)
 Remembering(t, o) ==
   [ rules |-> t.rules, label |-> t.label, event |-> t.event, control |-> t.control, S |-> t.S, effects |-> t.effects,
@@ -229,8 +240,6 @@ IsProgram(event) == event = Program
 IsTimer(event) == event[1] = "expired"
 IsEndOf(v, event) == event[1] \in { "done", "failed" } /\ event[2] = v
 
-Identifiers == { Fleet[j].id : j \in DOMAIN Fleet }
-
 -----------------------------------------------------------------------------
 (* {1 Properties} *)
 
@@ -249,9 +258,16 @@ EnoughVehicles == ~EndsSo("failed", "vehicles")
 NoHalt == ~EndsSo("halted", "")
 NoLeftover == EndsSo("completed", "") => NothingLeft
 
+IsControl(kappa) ==
+  CASE kappa.at = "script" -> IsMachine(kappa.M)
+    [] kappa.at = "wait" -> IsMachine(kappa.M) /\ kappa.request[1] \in { "pick", "ask", "pause", "call" }
+    [] kappa.at = "exec" -> IsMachine(kappa.M) /\ IsResidual(kappa.r, TRUE)
+    [] kappa.at = "end" -> kappa.ending.how \in { "completed", "halted", "failed", "interrupted" }
+    [] OTHER -> FALSE
+
 TypeOK ==
-  /\ control.at \in { "script", "wait", "exec", "end" }
-  /\ Len(store) = Len(GlobalNames)
+  /\ IsControl(control)
+  /\ Len(store) = Len(GlobalNames) /\ \A i \in DOMAIN store : Len(store[i]) <= 1
   /\ DOMAIN A \subseteq Identifiers
   /\ Range(B) \subseteq Identifiers
   /\ Cardinality(Range(B)) = Len(B)
@@ -288,4 +304,7 @@ AllPairs(n) ==
 
 ConservesTuples(t) ==
   AllPairs(t.S.N) (+) Tally(PairsOf(t.deeds, "consume")) = AllPairs(N) (+) Tally(PairsOf(t.deeds, "post"))
+
+(* Of every program. TLC checks it on every program that it is given: `dolphin tla --run`, crosscheck.exe. *)
+THEOREM Invariants == Init /\ [][Next]_vars => [](TypeOK /\ AllocationWithinBound /\ OneTaskEach /\ EmptyAfterEnd)
 ==============================================================================

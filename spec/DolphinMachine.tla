@@ -19,6 +19,21 @@ CONSTANTS
   MaximumCalls, \* how deep calls may nest
   SiteOf(_)     \* where expression n is in the text of the program; of -n, where closure n is
 
+ProgramOK ==
+  /\ \A n \in DOMAIN Code : Code[n].is \in STRING
+  /\ \A i \in DOMAIN Lambdas : Lambdas[i].code \in DOMAIN Code /\ Lambdas[i].parameters <= Lambdas[i].slots
+  /\ OrderedKeys \subseteq STRING
+  /\ \A i \in DOMAIN Plans : IsFiniteSet(Plans[i].devices)
+  /\ { ScriptFuel, AtomicFuel, MaximumCalls } \subseteq Nat \ { 0 }
+
+FleetOK ==
+  /\ \A i, j \in DOMAIN Fleet : Fleet[i].id = Fleet[j].id => i = j
+  /\ \A i \in DOMAIN Fleet : Fleet[i].places # << >> /\ Range(Fleet[i].places) \subseteq DOMAIN Places
+
+ASSUME ProgramOK
+
+ASSUME FleetOK
+
 (* {1 The tuple space N} *)
 
 (* A queue for each key whose order can matter, of values as they were posted; for all others a bag of pairs, whose
@@ -111,6 +126,20 @@ KeptInStore(store) ==
 (* M is a record: its focus, an expression to evaluate or a value to give to the stack; its locals; its stack of frames,
    the latest first; and where it stands. While it runs, m has beside these what code sees and changes, and why it
    stops. *)
+
+IsFrame(f) ==
+  CASE f.frame \in { "arguments", "choose", "rest", "loopTest", "loopBody", "loopRange", "items", "iterate" } ->
+         f.node \in DOMAIN Code
+    [] f.frame = "setLocal" -> f.slot \in Nat \ { 0 }
+    [] f.frame = "setGlobal" -> f.global \in DOMAIN GlobalNames
+    [] f.frame = "leave" -> TRUE
+    [] OTHER -> FALSE
+
+IsMachine(M) ==
+  /\ DOMAIN M = { "focus", "locals", "stack", "at" }
+  /\ M.focus[1] = "give" \/ (M.focus[1] = "evaluate" /\ M.focus[2] \in DOMAIN Code)
+  /\ M.at \in DOMAIN Code
+  /\ \A i \in DOMAIN M.stack : IsFrame(M.stack[i])
 
 (* While it runs, the focus may also be an operation whose arguments are values, or the result of one. *)
 Evaluate(e) == << "evaluate", e >>

@@ -26,6 +26,13 @@ CONSTANTS
   Distances,   \* Distances[i][j]: from place i to place j, in millimetres
   LambdaNames  \* by lambda: what the text of a closure says
 
+PlacesOK ==
+  /\ \A i \in DOMAIN Places : Places[i] \in STRING
+  /\ Len(Distances) = Len(Places)
+  /\ \A i \in DOMAIN Places : Len(Distances[i]) = Len(Places) /\ \A j \in DOMAIN Places : Distances[i][j] \in Nat
+
+ASSUME PlacesOK
+
 (* {1 Sequences} *)
 
 Range(s) == { s[i] : i \in DOMAIN s }

@@ -197,6 +197,13 @@ let coverage environment = "INIT CheckedInit\nNEXT NextByRule\n" ^ constants env
 let graph environment =
   "INIT CheckedInit\nNEXT GraphNext\n" ^ constants environment ^ "INVARIANT PrintGraph\nCHECK_DEADLOCK FALSE\n"
 
+(* The module that has both the program and the refinement. *)
+let refined_module = "---- MODULE MCRefinement ----\nEXTENDS MC, DolphinRefinement\n====\n"
+
+let refinement environment =
+  "INIT RefinedInit\nNEXT RefinedNext\n" ^ constants environment
+  ^ "INVARIANTS NoneRefused Mapped AbstractInv\nCHECK_DEADLOCK FALSE\n"
+
 let unfit_replies ~environment ~calls world program =
   let why call =
     let translation = Translation.create program world in
@@ -214,6 +221,8 @@ let of_program ?(plans = []) ?(prompts = []) ?(calls = []) ~environment world pr
     Ok
       ([ { name = "MC.tla"; text }; { name = "MC.cfg"; text = check environment };
          { name = "Told.cfg"; text = told environment }; { name = "Graph.cfg"; text = graph environment };
-         { name = "Coverage.cfg"; text = coverage environment } ]
+         { name = "Coverage.cfg"; text = coverage environment };
+         { name = "MCRefinement.tla"; text = refined_module };
+         { name = "Refinement.cfg"; text = refinement environment } ]
        @ List.map (fun (name, text) -> { name; text }) Spec.modules)
   | refusals -> Error refusals

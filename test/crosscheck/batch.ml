@@ -27,6 +27,7 @@ let prepare ~limit (case : Case.t) =
         Ok { case; graph; transitions = Reference.transitions space; constants })
 
 let case p = p.case
+let constants p = p.constants
 let states p = Graph.states p.graph
 let transitions (p : prepared) = p.transitions
 

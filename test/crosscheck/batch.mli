@@ -34,6 +34,7 @@ val prepare : limit:int -> Case.t -> (prepared, unfit) Stdlib.result
 (** [prepare ~limit c] explores at most [limit] states. *)
 
 val case : prepared -> Case.t
+val constants : prepared -> Family.constant list
 
 val states : prepared -> int
 val transitions : prepared -> int

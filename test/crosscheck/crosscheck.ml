@@ -1,10 +1,10 @@
 (* TLC and the explorer, each with its own statement of the semantics, on the same programs: as many states, isomorphic
    graphs, equal labels, effects, derivations and ends.
 
-   crosscheck.exe [quick | all | mutate | coverage | counts]. In the environment: PROGRAMS, how many random programs;
-   SEED; LIMIT, the most states of one; BATCH, how many are given to TLC at once; VERDICTS, of how many random programs
-   TLC's own verdict is asked, which takes a start of TLC for each; ONLY, a part of the names of the mistakes that are
-   made; JOBS, how many processes run at once. *)
+   crosscheck.exe [quick | all | mutate | refinement | coverage | counts]. In the environment: PROGRAMS, how many random
+   programs; SEED; LIMIT, the most states of one; BATCH, how many are given to TLC at once; VERDICTS, of how many random
+   programs TLC's own verdict is asked, which takes a start of TLC for each; ONLY, a part of the names of the mistakes
+   that are made; JOBS, how many processes run at once. *)
 
 open Dolphin_tlc
 
@@ -39,7 +39,19 @@ let quick installation =
       (examples () @ faulty_examples () @ Small_programs.all @ Case.random ~seed programs @ Case.sensing ~seed programs)
   in
   let verdicts = Comparison.verdicts installation (List.filteri (fun i _ -> i < 2) Small_programs.loops) in
-  Mutation.all_apply () && Comparison.passed graphs && graphs.programs > 50 && Comparison.passed verdicts
+  let refined = Refined.report installation ~limit:30 ~batch:1000 Small_programs.all in
+  Mutation.all_apply ()
+  && List.for_all Comparison.passed [ refined; graphs; verdicts ]
+  && graphs.programs > 50
+
+(* Whether programs refine spec/Abstract.tla; PROGRAMS random ones of each kind. *)
+let refinement installation =
+  let limit = number "LIMIT" 1_000 and programs = number "PROGRAMS" 100 and batch = number "BATCH" 40 in
+  Printf.printf "SEED=%d PROGRAMS=%d LIMIT=%d BATCH=%d JOBS=%d\n%!" seed programs limit batch Parallel.jobs;
+  Comparison.passed
+    (Refined.report installation ~limit ~batch
+       (examples () @ faulty_examples () @ Small_programs.all @ Case.random ~seed programs
+        @ Case.sensing ~seed programs))
 
 let mutate installation =
   let programs = number "PROGRAMS" 60 in
@@ -100,6 +112,7 @@ let () =
   | "all" -> run all
   | "quick" -> run quick
   | "mutate" -> run mutate
+  | "refinement" -> run refinement
   | "coverage" -> run coverage
   | "counts" -> run counts
-  | other -> Printf.eprintf "%s: not one of all, quick, mutate, coverage, counts\n" other; exit 2
+  | other -> Printf.eprintf "%s: not one of all, quick, mutate, refinement, coverage, counts\n" other; exit 2

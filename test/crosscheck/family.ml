@@ -2,6 +2,8 @@ type constant = { name : string; parameters : string list; definition : string }
 
 let configuration = "Family.cfg"
 let by_rule = "FamilyByRule.cfg"
+let refinement = "FamilyRefinement.cfg"
+let refined = "MCRefinement"
 
 (* {1 The constants as definitions} *)
 
@@ -42,6 +44,12 @@ let without_constants lines =
   and inside = function "" :: rest -> "" :: outside rest | _ :: rest -> inside rest | [] -> [] in
   outside lines
 
+(* What is assumed of constants is no longer of constants: it is an invariant ({!assumed}). *)
+let assumed = [ "PlacesOK"; "ProgramOK"; "FleetOK"; "EnvironmentOK" ]
+
+let without_assumptions lines =
+  List.filter (fun line -> not (List.exists (fun name -> line = "ASSUME " ^ name) assumed)) lines
+
 (* A state is of one program, and stays of it. *)
 let of_one_program line =
   let variables = "vars == << " in
@@ -70,15 +78,33 @@ let taking next =
     "INIT FamilyInit\nNEXT %s\nCONSTANT Known <- ComputedOnce\nINVARIANT PrintFamily\nCHECK_DEADLOCK FALSE\n"
     next
 
+(* The model module again, upon the module of the refinement. *)
+let refined_module count =
+  Printf.sprintf
+    {|---- MODULE %s ----
+EXTENDS DolphinRefinement
+FamilyInit == which \in 1 .. %d /\ RefinedInit
+====
+|}
+    refined count
+
+let refining =
+  "INIT FamilyInit\nNEXT RefinedNext\nCONSTANT Known <- ComputedOnce\nINVARIANTS NoneRefused Mapped AbstractInv TypeOK "
+  ^ String.concat " " assumed ^ "\nCHECK_DEADLOCK FALSE\n"
+
 let files ~specification programs =
   if not (List.mem_assoc lowest specification) then Error ("there is no " ^ lowest ^ " in the specification")
   else
     let changed (name, text) =
-      let lines = List.map of_one_program (without_constants (String.split_on_char '\n' text)) in
+      let lines = without_assumptions (without_constants (String.split_on_char '\n' text)) in
+      let lines = List.map of_one_program lines in
       (name, String.concat "\n" (if name = lowest then List.map extending_programs lines else lines))
     in
+    let is_abstract (name, _) = name = "Abstract.tla" in
+    let abstract, specification = List.partition is_abstract specification in
     Ok
       ([ ("Programs.tla", programs_module programs);
          ("MC.tla", model_module (List.length programs));
-         (configuration, taking "GraphNext"); (by_rule, taking "NextByRule") ]
-       @ List.map changed specification)
+         (refined ^ ".tla", refined_module (List.length programs));
+         (configuration, taking "GraphNext"); (by_rule, taking "NextByRule"); (refinement, refining) ]
+       @ abstract @ List.map changed specification)

@@ -3,7 +3,7 @@
 
     The specification is for one program, which is its constants. Here its [CONSTANTS] are definitions instead, that
     look up what the constant is for the program at hand; beside that, its text is changed only so that the variable is
-    one of [vars], and each transition leaves it as it is. *)
+    one of [vars], and each transition leaves it as it is; and what it assumes of constants is an invariant. *)
 
 type constant = { name : string; parameters : string list; definition : string }
 
@@ -12,6 +12,12 @@ val configuration : string
 
 val by_rule : string
 (** Of one in which there is an action for each rule. *)
+
+val refined : string
+(** The module that is for {!refinement}. *)
+
+val refinement : string
+(** Of one that checks [DolphinRefinement.tla], and the types of states. *)
 
 val files : specification:(string * string) list -> constant list list -> ((string * string) list, string) result
 (** [files ~specification programs] is the model's files, names and texts: each program is given by its constants, and

@@ -20,21 +20,6 @@ let violated_here (c : Case.t) =
   in
   List.filter_map violated o.verdicts
 
-let outcome installation directory =
-  let reader = ref Message.start and outcome = ref Outcome.start in
-  let take message = outcome := Outcome.event !outcome (Event.of_message message) in
-  let line text =
-    let next, messages = Message.line !reader text in
-    reader := next;
-    List.iter take messages
-  in
-  let command =
-    Invocation.command ~short:true installation (Local (Workers 1)) ~directory ~main:Run.main ~configuration:Run.check
-  in
-  ignore (Process.run ~directory ~interrupted:(fun () -> false) line command : Process.ending);
-  List.iter take (Message.finish !reader);
-  Outcome.finish !outcome
-
 let judge (c : Case.t) (o : Outcome.t) =
   let here = violated_here c in
   let judged tlc agree =
@@ -60,4 +45,4 @@ let verdicts ?(specification = []) installation (c : Case.t) =
   | Ok model ->
     let text (f : Dolphin_tla.Model.file) = Option.value (List.assoc_opt f.name specification) ~default:f.text in
     let files = List.map (fun (f : Dolphin_tla.Model.file) -> (f.name, text f)) (Run.files ~strict:true model) in
-    judge c (Batch.in_directory files (outcome installation))
+    judge c (Tlc_run.outcome installation ~main:Run.main ~configuration:Run.check files)

@@ -5,6 +5,11 @@ let environment = "DolphinEnvironment.tla"
 let machine = "DolphinMachine.tla"
 let values = "DolphinValues.tla"
 let checking = "DolphinChecking.tla"
+let abstract = "Abstract.tla"
+let refinement = "DolphinRefinement.tla"
+
+(* A mistake in what states are is no mistake in the rules: graphs stay as they are. *)
+let types = "no residual has a task that runs"
 
 let all =
   [ { name = "PAR-ERR leaves the siblings running";
@@ -390,7 +395,47 @@ let all =
       file = checking;
       pattern = {|  /\ Fair(IsOwed)
 |};
-      replacement = "" } ]
+      replacement = "" };
+    { name = "abstract: what is not bound starts";
+      file = abstract;
+      pattern = {|Start(v, p) == ~over /\ v \in Idle|};
+      replacement = {|Start(v, p) == ~over /\ v \notin DOMAIN A|} };
+    { name = "abstract: a vehicle that runs is given another task";
+      file = abstract;
+      pattern = {|Start(v, p) == ~over /\ v \in Idle /\ A' = A @@ (v :> p)|};
+      replacement = {|Start(v, p) == ~over /\ v \in B /\ A' = (v :> p) @@ A|} };
+    { name = "abstract: what runs is released";
+      file = abstract;
+      pattern = {|Release(v) == ~over /\ v \in Idle|};
+      replacement = {|Release(v) == ~over /\ v \in B|} };
+    { name = "abstract: the end holds vehicles";
+      file = abstract;
+      pattern = {|Finish == ~over /\ B = { }|};
+      replacement = {|Finish == ~over /\ A = << >>|} };
+    { name = "abstract: something is posted after the end";
+      file = abstract;
+      pattern = {|Post(x) == ~over /\ N' = N (+) SetToBag({ x })|};
+      replacement = {|Post(x) == N' = N (+) SetToBag({ x })|} };
+    { name = "abstract: a pair is taken twice";
+      file = abstract;
+      pattern = {|N' = N (-) SetToBag({ x }) /\|};
+      replacement = {|N' = N (-) (SetToBag({ x }) (+) SetToBag({ x })) /\|} };
+    { name = "refinement: what stops is not told";
+      file = refinement;
+      pattern = {|CASE e[1] \in { "start", "stop" } -> << e >>|};
+      replacement = {|CASE e[1] = "start" -> << e >>|} };
+    { name = "refinement: only the first of several vehicles is released";
+      file = refinement;
+      pattern = {|e[1] \in { "bind", "release" } -> Each(e[2], LAMBDA v : << e[1], v >>)|};
+      replacement = {|e[1] \in { "bind", "release" } -> << << e[1], e[2][1] >> >>|} };
+    { name = "refinement: what is consumed is not told";
+      file = refinement;
+      pattern = {|IF d.did \in { "post", "consume" }|};
+      replacement = {|IF d.did = "post"|} };
+    { name = types;
+      file = rules;
+      pattern = {|active /\ r.v \in DOMAIN A /\ A[r.v] = r.p|};
+      replacement = {|FALSE|} } ]
 
 (* Where [part] begins in [text], each time. *)
 let occurrences part text =
@@ -403,6 +448,8 @@ let occurrences part text =
   go 0 []
 
 let is_of_checking m = m.file = checking
+let is_of_abstract m = m.file = abstract
+let is_of_refinement m = m.file = refinement || m.name = types
 let about part = if part = "" then all else List.filter (fun m -> occurrences part m.name <> []) all
 
 let apply m files =

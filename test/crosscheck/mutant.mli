@@ -14,5 +14,11 @@ val is_of_checking : t -> bool
 (** Whether the mistake is in [DolphinChecking.tla]. Such a mistake leaves graphs as they are, but not TLC's own
     verdicts. *)
 
+val is_of_abstract : t -> bool
+(** Whether it is in [Abstract.tla]: its theorems must notice. *)
+
+val is_of_refinement : t -> bool
+(** Whether it leaves graphs as they are, but not what {!Refined.programs} says. *)
+
 val apply : t -> (string * string) list -> ((string * string) list, string) result
 (** [apply m files] is [files], names and texts, with [m]'s mistake in them; or why it does not apply. *)

@@ -40,6 +40,17 @@ let rec by_verdicts installation specification = function
         Noticed_by (Printf.sprintf "%s, of which TLC says: %s, and the explorer: %s" c.name tlc explorer)
       | Ok (Judged { agree = true; _ } | Not_translated _) -> by_verdicts installation specification rest)
 
+let by_refinement installation specification batches =
+  let rec go = function
+    | [] -> Unnoticed
+    | some :: rest -> (
+        match Refined.programs installation specification some with Error why -> of_failure why | Ok () -> go rest)
+  in
+  go batches
+
+let by_theorems installation specification =
+  match Refined.theorems installation specification with Error why -> of_failure why | Ok () -> Unnoticed
+
 (* {1 All of them} *)
 
 let look installation batches (m : Mutant.t) =
@@ -47,6 +58,8 @@ let look installation batches (m : Mutant.t) =
     Result.map
       (fun specification ->
          if Mutant.is_of_checking m then by_verdicts installation specification Small_programs.verdicts
+         else if Mutant.is_of_abstract m then by_theorems installation specification
+         else if Mutant.is_of_refinement m then by_refinement installation specification batches
          else by_graphs installation specification batches)
       (applied m)
   in

@@ -68,7 +68,8 @@ let translated ?world source () =
   match translate ?world source with
   | Ok files ->
     Alcotest.(check (list string)) "files"
-      ([ "MC.tla"; "MC.cfg"; "Told.cfg"; "Graph.cfg"; "Coverage.cfg" ] @ List.map fst Spec.modules)
+      ([ "MC.tla"; "MC.cfg"; "Told.cfg"; "Graph.cfg"; "Coverage.cfg"; "MCRefinement.tla"; "Refinement.cfg" ]
+       @ List.map fst Spec.modules)
       (List.map (fun (file : Model.file) -> file.name) files)
   | Error ds -> Alcotest.failf "refused:\n%s" (Pure_run.explain source ds)
 
@@ -142,7 +143,7 @@ let rules_have_models () =
 
 let models =
   [ "Paper"; "Platform"; "CodeOfTasks"; "Sequence"; "Parallel"; "Branches"; "Until"; "Time"; "Errors"; "Deeds";
-    "Picking"; "Sensors"; "Waiting"; "Executing"; "Ends" ]
+    "Picking"; "Sensors"; "Waiting"; "Executing"; "Ends"; "SmallAbstract" ]
 
 (* [f run] where [run arguments] is the status of Java with TLC's classes in a directory with all models, and what it
    says. *)

@@ -3,19 +3,21 @@ open Dolphin_app
 
 (* On a network nobody answers for people or a supplier, unless that is asked for: of a fleet only the answers and
    replies are used then. *)
-let fleet_of ~path ~sim ~named = function
-  | Some _ when sim <> None || named = None -> Ok Fleet_file.nobody
-  | Some _ -> Fleet_file.load named
-  | None -> Fleet_file.load_for ~program:path named
+let fleet_of ~path ~sim ~named ~is_simulated =
+  if is_simulated then Fleet_file.load_for ~program:path named
+  else if sim <> None || named = None then Ok Fleet_file.nobody
+  else Fleet_file.load named
 
 (* What options do not go together, if so. *)
 let contradiction (s : Run.settings) ~sim ~follow ~resumed ~changed =
   let { Recording.journal; drawing; follower = _ } = s.recording in
-  if s.network <> None && (sim <> None || s.speed <> None) then
-    Some "vehicles of a network (--imc) are not simulated: --sim and --speed do not go with them"
+  let on_network = not (Run.is_simulated s) in
+  if on_network && (sim <> None || s.speed <> None) then
+    Some
+      "vehicles of a network (--imc, --platform) are not simulated: --sim and --speed do not go with them"
   else if
     follow <> None
-    && (s.network <> None || s.speed <> None || s.answers <> [] || s.supplier <> None || journal <> None
+    && (on_network || s.speed <> None || s.answers <> [] || s.supplier <> None || journal <> None
         || drawing <> None || resumed <> None)
   then Some "a recorded run (--follow) goes with its program and a fleet, and with no other options"
   else if changed && resumed = None then Some "--force-prefix goes with --resume"
@@ -27,7 +29,7 @@ let last_words = "interrupted twice: ended at once; vehicles that were not told 
 
 let on_terminal show (s : Run.settings) program run : Exit_status.t =
   let again () =
-    (try if s.network <> None then Report.complain last_words with Sys_error _ -> ());
+    (try if not (Run.is_simulated s) then Report.complain last_words with Sys_error _ -> ());
     Exit_status.exit_interrupted ()
   in
   match Terminal_run.run ~notice:Report.complain ~again show program run with
@@ -55,19 +57,19 @@ let ( let* ) = Result.bind
 (* A vehicle that the fleet does not have is a slip; of a network nobody knows. *)
 let check_only (s : Run.settings) (fleet : Fleet_file.t) only =
   let known = List.map (fun (v : Dolphin_scenario.Scenario.vehicle) -> v.id) fleet.scenario.vehicles in
-  match s.network, List.find_opt (fun v -> not (List.mem v known)) only with
-  | Some _, _ | None, None -> Ok ()
-  | None, Some v ->
+  match Run.is_simulated s, List.find_opt (fun v -> not (List.mem v known)) only with
+  | false, _ | true, None -> Ok ()
+  | true, Some v ->
     let near = Dolphin_syntax.Diagnostic.suggest v known in
     let hint = Option.fold near ~none:"" ~some:(Printf.sprintf " (did you mean '%s'?)") in
     Error (Error.Bad_input (Printf.sprintf "--only: the fleet has no vehicle '%s'%s" v hint))
 
 (* Where the journal is to be. Vehicles that move have one: their run can then be resumed. *)
-let journal_of ~path ~network ~keep ~follow ~resumed journal =
+let journal_of ~path ~is_simulated ~keep ~follow ~resumed journal =
   if journal <> None || resumed <> None || follow <> None then
     if keep then Error (Error.Bad_input "--keep goes with none of --journal, --resume and --follow") else Ok journal
   else if keep then Result.map Option.some (Run_folder.fresh ~program:path)
-  else if network = None then Ok None
+  else if is_simulated then Ok None
   else
     match Run_folder.fresh ~program:path with
     | Ok journal -> Ok (Some journal)
@@ -75,21 +77,24 @@ let journal_of ~path ~network ~keep ~follow ~resumed journal =
       Report.complain (Format.asprintf "this run has no journal, and cannot be resumed: %a" Error.pp e);
       Ok None
 
-let run () show path sim fleet network definition speed seed answers supplier supplier_timeout journal keep drawing
-    recorded resumed changed =
+let run () show path sim fleet network adapters definition speed seed answers supplier supplier_timeout journal keep
+    drawing recorded resumed changed =
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
   let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
   let settings : Run.settings =
-    { network; speed; seed; answers; supplier; supplier_timeout; recording = { journal; drawing; follower = None } } in
+    { network; adapters; speed; seed; answers; supplier; supplier_timeout;
+      recording = { journal; drawing; follower = None } }
+  in
+  let is_simulated = Run.is_simulated settings in
   Report.result
     (let* program = Program_file.load path in
-     let* fleet = if resumed = None then fleet_of ~path ~sim ~named network else Ok Fleet_file.nobody in
+     let* fleet = if resumed = None then fleet_of ~path ~sim ~named ~is_simulated else Ok Fleet_file.nobody in
      let* () =
        match contradiction settings ~sim ~follow:recorded ~resumed ~changed with
        | Some why -> Error (Error.Bad_input why)
        | None -> Ok ()
      in
-     let* journal = journal_of ~path ~network ~keep ~follow:recorded ~resumed journal in
+     let* journal = journal_of ~path ~is_simulated ~keep ~follow:recorded ~resumed journal in
      let settings = { settings with recording = { settings.recording with journal } } in
      let* definition = Definition_file.load definition in
      let settings = { settings with network = Option.map (Imc_options.with_names definition) network } in
@@ -230,6 +235,10 @@ let man =
     `P "With $(b,--imc) the program runs on real vehicles, or on whatever speaks IMC as they do. The page \
         $(i,docs/imc.md) tells what it takes. Of a fleet that $(b,--fleet) names, only the answers and replies are \
         used then.";
+    `S Platform_options.s_platforms;
+    `P "With $(b,--platform) the program runs on vehicles of any kind, through adapters; with several of these \
+        options, and $(b,--imc), on all of them at once. $(mname) $(b,sim --platform) is an adapter of the \
+        simulated fleet.";
     `S Manpage.s_exit_status;
     `S Manpage.s_files;
     `I ("$(i,PROG) with the ending $(b,.fleet)", "The fleet, unless $(b,--sim) or $(b,--fleet) names another.");
@@ -253,5 +262,6 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Verbosity.setup $ show $ Options.program $ sim $ fleet $ Imc_options.chosen $ Imc_options.definition
-      $ speed $ seed $ answers $ supplier $ supplier_timeout $ journal $ keep $ drawing $ follow $ resumed $ changed)
+      const run $ Verbosity.setup $ show $ Options.program $ sim $ fleet $ Imc_options.chosen
+      $ Platform_options.adapters $ Imc_options.definition $ speed $ seed $ answers $ supplier
+      $ supplier_timeout $ journal $ keep $ drawing $ follow $ resumed $ changed)

@@ -1,6 +1,7 @@
 open Cmdliner
 open Dolphin_app
 module Network = Dolphin_sim_imc.Network
+module Server = Dolphin_sim_process.Server
 module Scenario = Dolphin_scenario.Scenario
 
 let tell_vehicle ({ name; kind; id; port } : Network.vehicle) =
@@ -13,11 +14,22 @@ let serve (settings : Scenario.t -> Network.settings) ~log lasts (fleet : Fleet_
   Result.map status
     (Simulated_network.run (settings fleet.scenario) interruption ~log ~lasts ~started:tell_vehicle)
 
-let run fleet imc log lasts settings =
-  if not imc then
-    Report.error
-      (Error.Bad_input "say --imc: IMC is the only protocol that simulated vehicles speak on a network")
-  else Report.result (Result.bind (Fleet_file.load fleet) (serve settings ~log lasts))
+(* Behind the platform protocol: everything on standard output is a report. *)
+let adapt (settings : Scenario.t -> Network.settings) ~state (fleet : Fleet_file.t) =
+  let { Network.seed; speed; _ } = settings fleet.scenario in
+  match Lwt_main.run (Server.run { scenario = fleet.scenario; seed; speed; state }) with
+  | Ok () -> Ok Exit_status.Done
+  | Error why -> Error (Error.Bad_input why)
+
+let run fleet imc platform state log lasts settings =
+  let bad why = Report.error (Error.Bad_input why) in
+  match imc, platform with
+  | true, true -> bad "--imc and --platform do not go together: say one of them"
+  | false, false -> bad "say --imc or --platform: which protocol the simulated vehicles are to speak"
+  | true, false when state <> None -> bad "--state goes with --platform"
+  | true, false -> Report.result (Result.bind (Fleet_file.load fleet) (serve settings ~log lasts))
+  | false, true when log <> None || lasts <> None -> bad "--log and --for go with --imc"
+  | false, true -> Report.result (Result.bind (Fleet_file.load fleet) (adapt settings ~state))
 
 (* {1 The command line} *)
 
@@ -25,7 +37,21 @@ let fleet =
   let doc = "The fleet, a file such as $(i,mission.fleet). The default is the built-in fleet." in
   Arg.(value & pos 0 (some string) None & info [] ~docv:"FLEET" ~doc)
 
-let imc = Arg.(value & flag & info [ "imc" ] ~doc:"Speak IMC over UDP. Must be given: there is no other protocol yet.")
+let imc = Arg.(value & flag & info [ "imc" ] ~doc:"Speak IMC over UDP.")
+
+let platform =
+  let doc =
+    "Speak the platform protocol on standard input and output, as an adapter of $(mname) $(b,exec --platform) does."
+  in
+  Arg.(value & flag & info [ "platform" ] ~doc)
+
+let state =
+  let doc =
+    "With $(b,--platform): keep in the file $(docv) what the fleet was ordered, so that it outlives this process: the \
+     next one with this file finds the vehicles as far on as they would be by now. The fleet file, the seed and the \
+     speed must be the same."
+  in
+  Arg.(value & opt (some string) None & info [ "state" ] ~docv:"FILE" ~doc)
 
 let log_file =
   let doc =
@@ -46,6 +72,8 @@ let man =
         fleet file says how plans end, and when vehicles join, lose their link and leave.";
     `P "When all vehicles can be found, a line for each is printed: its name, type, number and port. They go on until \
         Ctrl-C, or for the time given by $(b,--for).";
+    `P "With $(b,--platform) the vehicles are not on a network: $(tname) is an adapter, and standard input and output \
+        are its streams. $(i,docs/platform.md) tells more.";
     `S Manpage.s_arguments;
     `S Manpage.s_options;
     `S Sim_options.faults_section;
@@ -56,7 +84,10 @@ let man =
     `S Manpage.s_examples;
     `P "A fleet whose missions take a tenth of their time, on a bad link:";
     `Pre "  $(mname) $(tname) examples/rendezvous.fleet --imc --speed 10 --loss 0.3 --duplication 0.1 \
-          --reordering 0.2" ]
+          --reordering 0.2";
+    `P "A program on a fleet behind the platform protocol:";
+    `Pre "  $(mname) exec examples/rendezvous.dol --answer 2 \\\\\n    \
+          --platform '$(mname) $(tname) examples/rendezvous.fleet --platform --speed 60'" ]
   @ Options.see_also
 
 let command =
@@ -64,4 +95,4 @@ let command =
     Cmd.info "sim" ~docs:Options.s_run ~doc:"put simulated vehicles on the network" ~man
       ~exits:(Options.exits [ Done; Bad_input; Platform_trouble; Bug; Interrupted ])
   in
-  Cmd.v info Term.(const run $ fleet $ imc $ log_file $ lasts $ Sim_options.settings)
+  Cmd.v info Term.(const run $ fleet $ imc $ platform $ state $ log_file $ lasts $ Sim_options.settings)

@@ -9,6 +9,27 @@ type what =
 type entry = { time : float; what : what }
 type t = entry list
 
+let part ~vehicles ~timers history =
+  let effect_of : Effect.t -> Effect.t option = function
+    | (Start (v, _) | Stop v) as asked -> if vehicles v then Some asked else None
+    | (Set_timer _ | Look_for _ | Cancel_timer _) as asked -> if timers then Some asked else None
+    | Bind vs -> Some (Bind (List.filter vehicles vs))
+    | Release vs -> Some (Release (List.filter vehicles vs))
+    | Set_connection_timeout (Some vs, seconds) ->
+      Some (Set_connection_timeout (Some (List.filter vehicles vs), seconds))
+    | (Set_connection_timeout (None, _) | Say _ | Ask _ | Call_host _ | End _) as asked -> Some asked
+  in
+  let entry e =
+    let keep fits = if fits then Some e else None in
+    match e.what with
+    | Saw state -> keep (vehicles state.id)
+    | Noted (v, _) | Happened (Vehicle_done v | Vehicle_failed (v, _)) -> keep (vehicles v)
+    | Happened (Timer_expired _) -> keep timers
+    | Happened (Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Interruption) -> Some e
+    | Asked effects -> Some { e with what = Asked (List.filter_map effect_of effects) }
+  in
+  List.filter_map entry history
+
 type commanded = {
   task : Core.platform_task;
   is_stopped : bool;

@@ -14,6 +14,10 @@ type entry = { time : float; what : what }
 type t = entry list
 (** In order of time. *)
 
+val part : vehicles:(Core.vehicle -> bool) -> timers:bool -> t -> t
+(** [part ~vehicles ~timers history] is what concerns [vehicles], and all vehicles, in [history]; without [timers] none
+    was ever set. *)
+
 (** {1:outstanding What is outstanding} *)
 
 (** A task that a vehicle was told to run, and that is not known to be over. *)

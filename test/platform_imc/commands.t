@@ -134,7 +134,7 @@ What does not go together, and what is no option.
 
   $ echo "message 'hello'" > hello.dol
   $ dolphin exec hello.dol --imc --speed 2
-  dolphin: vehicles of a network (--imc) are not simulated: --sim and --speed do not go with them
+  dolphin: vehicles of a network (--imc, --platform) are not simulated: --sim and --speed do not go with them
   [2]
   $ dolphin exec hello.dol --imc-payload x8-02 2>&1 | head -1
   dolphin: option '--imc-payload': 'x8-02' is not like x8-02=Camera,Sidescan

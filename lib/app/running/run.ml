@@ -8,6 +8,7 @@ module Udp_platform = Dolphin_platform_imc.Udp_platform
 
 type settings = {
   network : Udp_platform.options option;
+  adapters : string list;
   speed : float option;
   seed : int option;
   answers : string list;
@@ -17,10 +18,19 @@ type settings = {
 }
 
 let simulated =
-  { network = None; speed = None; seed = None; answers = []; supplier = None; supplier_timeout = None;
+  { network = None; adapters = []; speed = None; seed = None; answers = []; supplier = None; supplier_timeout = None;
     recording = Recording.nothing }
 
-type estimate = { vehicle : string; plan : string; share : float; remaining : float option }
+let choice (s : settings) : Networks.choice = { imc = s.network; adapters = s.adapters }
+let is_simulated s = not (Networks.is_any (choice s))
+
+type estimate = Networks.estimate = {
+  vehicle : string;
+  plan : string;
+  share : float;
+  remaining : float option;
+}
+
 type view = { now : unit -> float; estimates : unit -> estimate list }
 
 type front = {
@@ -65,11 +75,6 @@ let log_start (settings : settings) (program : Program_file.t) (fleet : Fleet_fi
         (Option.value fleet.path ~default:"built in")
         seed (option "journal") settings.recording.journal (option "supplier") settings.supplier)
 
-let log_network network =
-  Log.info (fun m ->
-      m "on the network as %s, IMC address 0x%04X, data port %d" (Udp_platform.name_on_network network)
-        (Udp_platform.id network) (Udp_platform.data_port network))
-
 (* {1 What a run needs} *)
 
 (* One run: what it was started with, and what it resumes. *)
@@ -102,8 +107,8 @@ let start_host r =
 let header r (fleet : Fleet_file.t) : Header.t =
   { program = Program_file.header r.program;
     fleet = Fleet_file.header fleet;
-    platform = (if r.settings.network = None then "sim" else Udp_platform.name);
-    order = (if r.settings.network = None then Simulator.Virtual.order else Udp_platform.order);
+    platform = (if is_simulated r.settings then "sim" else Networks.name (choice r.settings));
+    order = (if is_simulated r.settings then Simulator.Virtual.order else Udp_platform.order);
     seed = r.seed;
     speed = r.settings.speed;
     started = Recording.utc_now () }
@@ -133,14 +138,6 @@ let open_simulated r =
   | Some speed, Some { past; _ } ->
     Result.map (fun made -> paced (rebuilt made)) (Simulator.Paced.create_again ~speed ~seed scenario past.history)
 
-let estimates network () =
-  let of_system (system : Dolphin_platform_imc.Station.system) =
-    match Udp_platform.progress network system.state.id with
-    | Some { plan; share = Some share; remaining; _ } -> Some { vehicle = system.state.id; plan; share; remaining }
-    | Some { share = None; _ } | None -> None
-  in
-  List.filter_map of_system (Udp_platform.systems network)
-
 (* What the time of a run is now whose console died: it went on. Clocks may have been set meanwhile, but runs never go
    back. *)
 let time_of_run ({ past; _ } : Resumed.t) =
@@ -153,30 +150,24 @@ let unheard (resumed : Resumed.t) =
   let lose (state : World.vehicle_state) = { state with connected = false } in
   List.map lose (World.vehicles (Replay.world resumed.past.replay))
 
-let open_network r recording options =
-  let note vehicle text = r.front.remark (Printf.sprintf "%s: %s" vehicle text) in
-  let keep ~time vehicle json = Recording.note recording ~time ~vehicle json in
-  let program = Filename.basename r.program.path in
-  let options = { options with Udp_platform.program; note; keep; sync = Recording.sync recording } in
-  let opened =
-    match r.resumed with
-    | None -> Udp_platform.open_ options
-    | Some resumed -> Udp_platform.open_again options ~time:(time_of_run resumed) resumed.past.history
+let open_network r recording =
+  let note vehicle text = r.front.remark (match vehicle with Some v -> v ^ ": " ^ text | None -> text) in
+  let surroundings : Networks.surroundings =
+    { program = Filename.basename r.program.path; note;
+      keep = (fun ~time vehicle json -> Recording.note recording ~time ~vehicle json);
+      sync = Recording.sync recording;
+      past = Option.map (fun resumed -> (time_of_run resumed, resumed.Resumed.past.history)) r.resumed }
   in
   let news = Option.fold r.resumed ~none:[] ~some:unheard in
-  let fleet network =
-    log_network network;
-    Platform ((module Udp_platform), { platform = network; estimates = estimates network; news })
+  let fleet ({ part = Part (platform, network); estimates } : Networks.opened) =
+    Platform (platform, { platform = network; estimates; news })
   in
-  Result.map fleet opened
+  Networks.open_ (choice r.settings) surroundings >|= Result.map fleet
 
 let open_platform r recording =
   let opened =
-    match r.settings.network with
-    | None -> open_simulated r
-    | Some options -> open_network r recording options
-  in
-  Result.map_error (fun why -> Error.Unavailable why) opened
+    if is_simulated r.settings then Lwt.return (open_simulated r) else open_network r recording in
+  opened >|= Result.map_error (fun why -> Error.Unavailable why)
 
 (* {1 Picks that came too early} *)
 
@@ -184,9 +175,9 @@ let not_there_yet r ~time =
   let joins (v : Dolphin_scenario.Scenario.vehicle) =
     if v.joins > time then Some (Printf.sprintf "%s joins at %s" v.id (Phrase.time v.joins)) else None
   in
-  match r.settings.network, List.filter_map joins r.scenario.vehicles with
-  | Some _, _ | None, [] -> None
-  | None, late ->
+  match is_simulated r.settings, List.filter_map joins r.scenario.vehicles with
+  | false, _ | true, [] -> None
+  | true, late ->
     Some (Printf.sprintf "the pick gave up at %s, and %s: 'timeout' lets a pick wait longer" (Phrase.time time)
             (Dolphin_display.Wording.vehicles late))
 
@@ -254,7 +245,8 @@ let go r ~interruption recording =
   Sys.set_signal Sys.sigpipe Signal_ignore;
   let*? recording = recording in
   let run () =
-    let*? platform = open_platform r recording in
+    open_platform r recording >>= fun platform ->
+    let*? platform = platform in
     on_platform r recording ~interruption platform
   in
   Lwt.finalize run (fun () -> Recording.close recording; Lwt.return_unit)
@@ -273,17 +265,19 @@ let ( let* ) = Result.bind
 let as_before (settings : settings) ~fleet (resumed : Resumed.t) =
   let header = resumed.past.header in
   let refuse why = Error (Error.Bad_input (resumed.path ^ ": " ^ why)) in
-  match header.platform, settings.network with
-  | "sim", Some _ -> refuse "this run was on a simulated fleet: leave out --imc"
-  | "sim", None when settings.seed <> None -> refuse "a run goes on with the seed that it began with: leave out --seed"
-  | "sim", None ->
+  match header.platform, is_simulated settings with
+  | "sim", false -> refuse "this run was on a simulated fleet: leave out --imc and --platform"
+  | "sim", true when settings.seed <> None -> refuse "a run goes on with the seed that it began with: leave out --seed"
+  | "sim", true ->
     let speed = if settings.speed = None then header.speed else settings.speed in
     Result.map (fun fleet -> (fleet, { settings with speed })) (Resumed.fleet resumed ~named:fleet)
-  | _, Some _ ->
+  | platform, false when platform = Networks.name (choice settings) ->
     let fleet = if fleet = None then Ok Fleet_file.nobody else Fleet_file.load fleet in
     Result.map (fun fleet -> (fleet, { settings with speed = None })) fleet
-  | platform, None ->
-    refuse (Printf.sprintf "this run was on vehicles of a network, which will move again: say --%s" platform)
+  | platform, (true | false) ->
+    refuse
+      (Printf.sprintf "this run was on vehicles of a network, which will move again: say %s"
+         (String.concat " and " (Networks.options_of platform)))
 
 let resumption front settings ~changed ~fleet program path =
   let* resumed = Resumed.read ~changed ~tell:front.replayed program path in

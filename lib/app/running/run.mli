@@ -9,7 +9,9 @@ open Dolphin_runtime
 open Dolphin_trace
 
 type settings = {
-  network : Dolphin_platform_imc.Udp_platform.options option;  (** [None]: the simulated fleet *)
+  network : Dolphin_platform_imc.Udp_platform.options option;  (** vehicles that speak IMC *)
+  adapters : string list;  (** commands that speak for further vehicles; without them and [network], the fleet is
+                               simulated *)
   speed : float option;  (** of the simulation, times real time; [None]: as fast as it goes *)
   seed : int option;  (** of the simulation; [None]: 0, or that of the run that is resumed *)
   answers : string list;  (** to the first questions of the program *)
@@ -18,13 +20,15 @@ type settings = {
   recording : Recording.settings;
 }
 
+val is_simulated : settings -> bool
+
 val simulated : settings
 (** On the simulated fleet, as fast as it goes, with seed 0, without answers and supplier; nothing is kept. *)
 
 (** {1:fronts Fronts} *)
 
 (** How far a vehicle is with its plan, by its own estimate. *)
-type estimate = {
+type estimate = Networks.estimate = {
   vehicle : string;
   plan : string;
   share : float;  (** from 0 to 1 *)

@@ -1,0 +1,39 @@
+(** The vehicles of a run that is not simulated: those that speak IMC, those of adapters, or both at once. *)
+
+open Dolphin_semantics
+open Dolphin_runtime
+
+type choice = {
+  imc : Dolphin_platform_imc.Udp_platform.options option;
+  adapters : string list;  (** commands ([docs/platform.md]) *)
+}
+
+val is_any : choice -> bool
+
+val name : choice -> string
+(** As the headers of journals have it: ["imc"], ["process"], ["imc+process"]. *)
+
+val options_of : string -> string list
+(** [options_of name] is the options that choose the platforms [name]: ["--imc"], ["--platform"]. *)
+
+(** How far a vehicle is with its plan, by its own estimate. *)
+type estimate = {
+  vehicle : string;
+  plan : string;
+  share : float;  (** from 0 to 1 *)
+  remaining : float option;  (** seconds *)
+}
+
+type opened = { part : Several.part; estimates : unit -> estimate list }
+
+(** What a run gives its platforms. *)
+type surroundings = {
+  program : string;  (** the name of its file *)
+  note : Core.vehicle option -> string -> unit;
+  keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
+  sync : (unit -> unit Lwt.t) option;
+  past : (float * History.t) option;  (** of a run that is resumed: the time, and what happened *)
+}
+
+val open_ : choice -> surroundings -> (opened, string) result Lwt.t
+(** The error says which one cannot be had. *)

@@ -1,0 +1,116 @@
+open Dolphin_runtime
+open Dolphin_platform_protocol
+open Lwt.Infix
+module Order = Dolphin_platform_protocol.Order
+
+type t = {
+  child : Child.t;
+  lines : Lines.t;
+  unwritten : Buffer.t;
+  mutable is_writing : bool;
+}
+
+type line = Report of Report.t | Garbage of string
+
+let greeting_patience = 10.
+
+(* How long the exit of one that closed its output is waited for, and what one that is gone wrote. *)
+let aftermath = 1.
+
+(* {1 Writing} *)
+
+let rec write_all fd bytes start length =
+  if length = 0 then Lwt.return_unit
+  else Lwt_unix.write fd bytes start length >>= fun n -> write_all fd bytes (start + n) (length - n)
+
+(* That it reads no more shows in that it is gone. *)
+let rec flush a =
+  if Buffer.length a.unwritten = 0 then begin
+    a.is_writing <- false;
+    Lwt.return_unit
+  end
+  else begin
+    let bytes = Buffer.to_bytes a.unwritten in
+    Buffer.clear a.unwritten;
+    Lwt.catch
+      (fun () -> write_all (Child.input a.child) bytes 0 (Bytes.length bytes))
+      (function Unix.Unix_error _ -> Lwt.return_unit | error -> Lwt.fail error)
+    >>= fun () -> flush a
+  end
+
+let send a line =
+  Buffer.add_string a.unwritten line;
+  if not a.is_writing then begin
+    a.is_writing <- true;
+    Lwt.async (fun () -> flush a)
+  end
+
+(* {1 Reading} *)
+
+let status status = Format.asprintf "%a" Child.pp_status status
+
+let gone a =
+  Lwt.pick [ (Child.exited a.child >|= status); (Lwt_unix.sleep aftermath >|= fun () -> "closed its output") ]
+
+(* Another process may keep the output of one that is gone open. *)
+let death a =
+  Child.exited a.child >>= fun s ->
+  Lwt_unix.sleep aftermath >|= fun () -> status s
+
+(* So many lines are read before others have their turn. *)
+let most_at_once = 64
+
+let listen a f =
+  let rec go n =
+    Lines.next a.lines >>= function
+    | End_of_input -> gone a
+    | Too_long ->
+      f (Garbage (Printf.sprintf "is longer than %d bytes" Report.longest_line));
+      go (n + 1)
+    | Line text ->
+      (match Report.of_line text with
+       | Ok (Some report) -> f (Report report)
+       | Ok None -> ()
+       | Error why -> f (Garbage why));
+      if n mod most_at_once = 0 then Lwt.pause () >>= fun () -> go (n + 1) else go (n + 1)
+  in
+  Lwt.pick [ go 1; death a ]
+
+let close a = Child.close a.child
+
+(* {1 The greeting} *)
+
+let read_greeting a =
+  Lines.next a.lines >>= function
+  | End_of_input -> gone a >|= fun why -> Error (why ^ " before it greeted")
+  | Too_long -> Lwt.return (Error "does not greet as the platform protocol has it: its first line is too long")
+  | Line text -> (
+      match Report.of_line text with
+      | Ok (Some (Hello greeting)) when greeting.version = Report.version -> Lwt.return (Ok greeting)
+      | Ok (Some (Hello greeting)) ->
+        Lwt.return
+          (Error
+             (Printf.sprintf "speaks version %d of the platform protocol, and we version %d" greeting.version
+                Report.version))
+      | Ok (Some (Trouble why)) -> Lwt.return (Error ("says: " ^ why))
+      | Ok (Some _ | None) ->
+        Lwt.return (Error "does not greet as the platform protocol has it: its first line is no 'hello'")
+      | Error why -> Lwt.return (Error ("does not greet as the platform protocol has it: its first line " ^ why)))
+
+let greet a hello =
+  send a (Order.to_line hello);
+  let late () = Error (Printf.sprintf "did not greet within %g s" greeting_patience) in
+  Lwt.pick
+    [ read_greeting a; (Lwt_unix.sleep greeting_patience >|= late);
+      (death a >|= fun why -> Error (why ^ " before it greeted")) ]
+
+let start ~command hello =
+  let environment = [ ("DOLPHIN_PLATFORM_PROTOCOL", string_of_int Report.version) ] in
+  match Child.start ~environment command with
+  | Error why -> Lwt.return (Error ("cannot be started: " ^ why))
+  | Ok child -> (
+      let lines = Lines.make ~limit:Report.longest_line (Child.output child) in
+      let a = { child; lines; unwritten = Buffer.create 4096; is_writing = false } in
+      greet a hello >>= function
+      | Ok greeting -> Lwt.return (Ok (a, greeting))
+      | Error why -> Child.close child >|= fun () -> Error why)

@@ -1,0 +1,26 @@
+(** An adapter as a process: started, greeted, written to and read. *)
+
+open Dolphin_platform_protocol
+
+module Order := Dolphin_platform_protocol.Order
+
+type t
+
+val start : command:string -> Order.t -> (t * Report.greeting, string) result Lwt.t
+(** [start ~command hello] starts [command], for [/bin/sh], and greets it. The error says why nobody greets in turn, as
+    a predicate: ["ended with exit status 127"]. *)
+
+val send : t -> string -> unit
+(** [send a line] writes [line] when the adapter reads; never waits. *)
+
+(** What an adapter wrote. *)
+type line = Report of Report.t | Garbage of string  (** what is wrong with it: ["is no JSON: ..."] *)
+
+val listen : t -> (line -> unit) -> string Lwt.t
+(** [listen a f] gives [f] each line, in order, and resolves once there are no more: why, as a predicate. *)
+
+val close : t -> unit Lwt.t
+(** Ends it, by force if need be. *)
+
+val greeting_patience : float
+(** 10 s *)

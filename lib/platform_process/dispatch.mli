@@ -1,0 +1,90 @@
+(** What is known of an adapter's vehicles, and all that was ordered of them, as a pure state. {!Process_platform} is
+    the shell that gives it reports and time, and sends what it orders. [docs/platform.md] says who decides what. *)
+
+open Dolphin_platform_protocol
+open Dolphin_semantics
+open Dolphin_runtime
+module Order := Dolphin_platform_protocol.Order
+
+type t
+
+val create : platform:string -> prefix:string -> t
+(** Nobody is known, and no adapter is there. [platform] is its name in journals; requests are numbered behind
+    [prefix]. *)
+
+val resume : now:float -> announce_period:float -> History.t -> t -> t
+(** [resume ~now ~announce_period history d] is [d], as {!create} made it, taking over at [now] from a console that
+    died after [history], the part of it that concerns this platform. *)
+
+val has_outstanding : t -> bool
+(** Whether an adapter is to be asked what became of something. *)
+
+(** {1:outputs Outputs} *)
+
+type output =
+  | Send of Order.t
+  | Keep of Core.vehicle * Yojson.Safe.t
+  | Keep_before of Core.vehicle * Yojson.Safe.t * string
+  (** Keep it, and when it is durable say so with {!durable}, of this request. *)
+  | Keep_and_tell of Core.vehicle * Yojson.Safe.t * int
+  (** Keep it, and when it is durable tell the adapter, by this number. *)
+  | Remark of Core.vehicle option * string
+  | Give_up of string  (** The adapter is silent: it is to be ended; why. *)
+
+(** {1:inputs Inputs} Times are seconds of our clock, which is never set back. *)
+
+val born : now:float -> Report.greeting -> t -> t * output list
+(** An adapter has greeted. It is asked what became of what is outstanding. *)
+
+val died : now:float -> t -> t * output list
+(** It is gone: its vehicles have no link. *)
+
+val report : now:float -> Report.t -> t -> t * output list
+val durable : now:float -> string -> t -> t * output list
+val tick : now:float -> t -> t * output list
+
+val due : t -> float
+(** When [tick] has something to do next. *)
+
+(** {1:commands Commands} See {!Dolphin_runtime.Platform.S}. *)
+
+val start : now:float -> Core.vehicle -> Core.platform_task -> t -> t * output list
+val stop : now:float -> Core.vehicle -> t -> t * output list
+val stop_all : now:float -> t -> t * output list
+val bind : Core.vehicle list -> t -> t * output list
+val release : Core.vehicle list -> t -> t * output list
+val set_connection_timeout : Core.vehicle list option -> float -> t -> t * output list
+val telemetry : bool -> t -> t * output list
+val set_timer : now:float -> Residual.timer -> float -> t -> t
+val cancel_timer : Residual.timer -> t -> t
+
+(** {1:events Events} *)
+
+val take : t -> (Platform.event * t) option
+(** The next event that waits to be handed out. *)
+
+val waiting : t -> bool
+val quiet : t -> bool
+(** No request lacks its end, but for those whose stop was given up. *)
+
+val unsettled : t -> (Core.vehicle * string) list
+(** Vehicles that may still run a plan, with its name, though nobody wants it. *)
+
+(** {1:displays For displays} *)
+
+(** What is known of one vehicle. *)
+type vehicle = {
+  state : World.vehicle_state;
+  is_placed : bool;  (** otherwise its position is not known *)
+  battery : float option;
+  speed : float option;
+  plan : string option;  (** that it runs for us *)
+  share : float option;
+  remaining : float option;
+}
+
+val vehicles : t -> vehicle list
+(** By id. *)
+
+val ping_interval : float
+(** 5 s *)

@@ -1,0 +1,48 @@
+(** The vehicles of an adapter, a child process that speaks the platform protocol ([docs/platform.md]), as a platform:
+    the shell around {!Dispatch}. It holds the process and the clock, and decides nothing but when an adapter that died
+    is started again. *)
+
+open Dolphin_semantics
+open Dolphin_runtime
+module Order := Dolphin_platform_protocol.Order
+
+type options = {
+  command : string;  (** for [/bin/sh] *)
+  purpose : Order.purpose;
+  program : string option;  (** the name of its file *)
+  dolphin : string;  (** our version, for the adapter's logs *)
+  taken : string list;  (** names that other platforms of the run have *)
+  close_patience : float;  (** so many seconds [close] waits for stops to be confirmed *)
+  note : Core.vehicle option -> string -> unit;  (** is told what is unusual, for people *)
+  keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
+  (** keeps what a console that takes over has to know; when it returns, the note must survive this process *)
+  sync : (unit -> unit Lwt.t) option;
+  (** resolves once all that was kept before survives this machine, too; orders to start wait for that *)
+  clock : Clock.t;
+}
+
+val default : command:string -> options
+(** To run a program that has no name; nothing is kept, and nobody told. *)
+
+include Platform.S
+
+val open_ : options -> (t, string) result Lwt.t
+(** [open_ options] starts the adapter. The error says why it cannot be spoken to. *)
+
+val open_again : options -> time:float -> (string -> History.t) -> (t, string) result Lwt.t
+(** [open_again options ~time history] takes over, at [time], from a console that died after [history name], where
+    [name] is this platform's. *)
+
+val platform : t -> string
+(** Its name: what the adapter calls itself, or that with a number. *)
+
+val offers : t -> string list
+(** The kinds of plans that the adapter takes. *)
+
+val vehicles : t -> Dispatch.vehicle list
+
+val check : t -> ?vehicle:Core.vehicle -> Core.platform_task -> (string list, string) result Lwt.t
+(** What keeps a vehicle from running the plan, as the adapter says; the error says why it does not. *)
+
+val restart_delays : float list
+(** Seconds after which an adapter that died is started again; the last one from then on. *)

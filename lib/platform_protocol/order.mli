@@ -1,0 +1,34 @@
+(** Orders: the lines of the platform protocol that Dolphin writes; [docs/platform.md] says what they mean. *)
+
+open Dolphin_semantics
+
+type purpose = Run | Look | Check
+
+type t =
+  | Hello of { version : int; dolphin : string; purpose : purpose; program : string option; resumes : bool }
+  | Telemetry of bool
+  | Hold of Core.vehicle list
+  | Release of Core.vehicle list
+  | Timeout of Core.vehicle list option * float
+  | Ping of int
+  | Start of { request : string; vehicle : Core.vehicle; plan : Yojson.Safe.t; timeout : float }
+  | Stop of { request : string; vehicle : Core.vehicle }
+  | Resume of {
+      request : string;
+      vehicle : Core.vehicle;
+      plan : Yojson.Safe.t;
+      timeout : float;
+      notes : Yojson.Safe.t list;  (** latest first *)
+    }
+  | Check of { id : int; vehicle : Core.vehicle option; plan : Yojson.Safe.t }
+  | Kept of int
+  | Close
+
+val to_json : t -> Yojson.Safe.t
+
+val to_line : t -> string
+(** With its line feed. *)
+
+val of_line : string -> (t option, string) result
+(** [of_line text] is the order that [text] is; [None] for one of a kind that is not known. The error follows the line's
+    name: ["is no JSON: ..."]. *)

@@ -1,0 +1,13 @@
+(** Plans as the platform protocol has them: [conformance/schema/plan.schema.json]. *)
+
+open Dolphin_semantics
+
+val to_json : Core.platform_task -> Yojson.Safe.t
+(** [to_json task] is the plan that [task] runs: by its name, or described. *)
+
+val of_json : Yojson.Safe.t -> (Core.platform_task, string) result
+(** [of_json json] is the task that runs the plan [json], which comes from site 0: by name, or in the language
+    [imcPlan]. The error says what is wrong with it, or that it is in another language. *)
+
+val language : Core.platform_task -> string
+(** The kind of plan, as greetings list it: ["name"], ["imcPlan"]. *)

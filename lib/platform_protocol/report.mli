@@ -1,0 +1,68 @@
+(** Reports: the lines of the platform protocol that an adapter writes; [docs/platform.md] says what they mean. *)
+
+open Dolphin_semantics
+
+type greeting = {
+  version : int;  (** of the protocol *)
+  name : string;
+  adapter : string option;  (** its own version *)
+  plans : string list;
+  announce : float;  (** seconds *)
+  patience : float;  (** seconds *)
+}
+
+(** What a report says about a vehicle; [None]: as before. *)
+type sight = {
+  vehicle : Core.vehicle;
+  kind : string option;
+  payload : string list option;
+  place : (float * float) option;  (** latitude and longitude, in degrees *)
+  height : float option;
+  battery : float option option;  (** [Some None]: not known *)
+  speed : float option option;
+  link : bool option;
+  unready : string option option;  (** [Some None]: nothing keeps it *)
+}
+
+val nothing : Core.vehicle -> sight
+(** Says nothing about the vehicle. *)
+
+(** What is said about a request. *)
+type word =
+  | Taken
+  | Progress of { share : float option; remaining : float option }
+  | Done
+  | Failed of string
+  | Stopped
+  | Unknown of string
+  | Absent
+
+type t =
+  | Hello of greeting
+  | Trouble of string  (** The adapter cannot go on. *)
+  | Vehicle of sight
+  | Gone of Core.vehicle
+  | Pong of int
+  | Request of string * word
+  | Checked of { id : int; problems : string list }
+  | Note of { request : string; note : Yojson.Safe.t; id : int option }
+  | Log of { vehicle : Core.vehicle option; text : string }
+  | Quiet
+
+val is_end : word -> bool
+(** Whether a request is over after this word: [Done], [Failed], [Stopped], [Absent]. *)
+
+val to_json : t -> Yojson.Safe.t
+
+val to_line : t -> string
+(** With its line feed. *)
+
+val of_line : string -> (t option, string) result
+(** [of_line text] is the report that [text] is; [None] for one of a kind that is not known. The error follows the
+    line's name: ["is no JSON: ..."]. *)
+
+val version : int
+(** Of the protocol: 1. *)
+
+val longest_line : int
+(** In bytes. *)

@@ -1,0 +1,27 @@
+(** The simulated fleet behind the platform protocol ([docs/platform.md]), as a pure state: orders and time go in,
+    reports come out. Times are seconds of the fleet. *)
+
+open Dolphin_platform_protocol
+
+type t
+
+val create : seed:int -> is_remembered:bool -> Dolphin_scenario.Scenario.t -> t
+(** At time 0. [is_remembered]: whoever commands this fleet has all that it was ever ordered, so a request that it does
+    not know was never ordered. *)
+
+val greeting : Report.t
+
+val order : now:float -> Order.t -> t -> t * Report.t list
+(** [order ~now o f] is [f] after it was ordered [o], at [now] if that is not before what has happened. *)
+
+val changes : Order.t -> t -> bool
+(** Whether the order makes a vehicle do something else: whoever wants to make the same fleet again gives it these. *)
+
+val advance : until:float -> t -> t * Report.t list
+(** All that happens up to this time. *)
+
+val due : t -> float option
+(** When something happens next. *)
+
+val everyone : t -> Report.t list
+(** What there is to say of each vehicle that was heard of. *)

@@ -1,0 +1,119 @@
+open Dolphin_platform_protocol
+open Dolphin_runtime
+open Lwt.Infix
+module Order = Dolphin_platform_protocol.Order
+
+type settings = {
+  scenario : Dolphin_scenario.Scenario.t;
+  seed : int;
+  speed : float;
+  state : string option;
+}
+
+type t = {
+  now : unit -> float;  (* of the fleet *)
+  memory : Memory.t option;
+  output : Buffer.t;
+  mutable writing : unit Lwt.t;
+  mutable fleet : Served_fleet.t;
+  mutable is_over : bool;
+}
+
+(* {1 Writing} *)
+
+let rec write_all bytes start length =
+  if length = 0 then Lwt.return_unit
+  else Lwt_unix.write Lwt_unix.stdout bytes start length >>= fun n -> write_all bytes (start + n) (length - n)
+
+(* Whoever does not read any more is not there any more; its input will end, too. *)
+let rec flush s =
+  if Buffer.length s.output = 0 then Lwt.return_unit
+  else begin
+    let bytes = Buffer.to_bytes s.output in
+    Buffer.clear s.output;
+    Lwt.catch
+      (fun () -> write_all bytes 0 (Bytes.length bytes))
+      (function Unix.Unix_error _ -> Lwt.return_unit | error -> Lwt.fail error)
+    >>= fun () -> flush s
+  end
+
+let tell s reports =
+  List.iter (fun report -> Buffer.add_string s.output (Report.to_line report)) reports;
+  match Lwt.state s.writing with Sleep -> () | Return () | Fail _ -> s.writing <- flush s
+
+(* {1 Orders and time} *)
+
+let change s (fleet, reports) =
+  s.fleet <- fleet;
+  tell s reports
+
+let catch_up s = change s (Served_fleet.advance ~until:(s.now ()) s.fleet)
+
+let obey s (order : Order.t) =
+  catch_up s;
+  let time = s.now () in
+  if Served_fleet.changes order s.fleet then Option.iter (fun memory -> Memory.add memory ~time order) s.memory;
+  (match order with Hello _ -> tell s (Served_fleet.greeting :: Served_fleet.everyone s.fleet) | _ -> ());
+  change s (Served_fleet.order ~now:time order s.fleet);
+  if order = Close then s.is_over <- true
+
+let read_order s = function
+  | Lines.Line text -> (
+      match Order.of_line text with
+      | Ok (Some order) -> obey s order
+      | Ok None -> ()
+      | Error why -> prerr_endline ("dolphin sim: an order " ^ why))
+  | Too_long -> prerr_endline "dolphin sim: an order is too long"
+  | End_of_input -> s.is_over <- true
+
+let longest_sleep = 3600.
+
+let until_due s speed =
+  match Served_fleet.due s.fleet with
+  | None -> fst (Lwt.task ())
+  | Some time -> Lwt_unix.sleep (Float.max 0. (Float.min longest_sleep ((time -. s.now ()) /. speed)))
+
+(* Nothing is said of vehicles before the greeting. *)
+let rec serve s speed lines line =
+  let greeted = match line with `Greeted line | `New line -> line in
+  let time = match line with `Greeted _ -> [ (until_due s speed >|= fun () -> `Time) ] | `New _ -> [] in
+  Lwt.pick ((Lwt.protected greeted >|= fun line -> `Line line) :: time) >>= function
+  | `Time -> catch_up s; serve s speed lines line
+  | `Line read ->
+    read_order s read;
+    if s.is_over then s.writing else serve s speed lines (`Greeted (Lines.next lines))
+
+(* The fleet as it is now, after what it was ordered before this process. *)
+let rebuilt settings ~now orders =
+  let fleet = Served_fleet.create ~seed:settings.seed ~is_remembered:(settings.state <> None) settings.scenario in
+  let again fleet (time, order) = fst (Served_fleet.order ~now:time order fleet) in
+  fst (Served_fleet.advance ~until:now (List.fold_left again fleet orders))
+
+(* What was told while nobody heard it is told again. *)
+let opened settings =
+  match settings.state with
+  | None -> Ok (None, 0., [])
+  | Some path ->
+    let past (memory, began, orders) =
+      let elapsed = Float.max 0. ((Unix.gettimeofday () -. began) *. settings.speed) in
+      let latest = List.fold_left (fun latest (time, _) -> Float.max latest time) 0. orders in
+      (Some memory, Float.max elapsed latest, orders)
+    in
+    Result.map past (Memory.open_ path)
+
+let run settings =
+  Sys.set_signal Sys.sigpipe Signal_ignore;
+  match opened settings with
+  | Error why ->
+    print_string (Report.to_line (Trouble why));
+    flush_all ();
+    Lwt.return (Error why)
+  | Ok (memory, at, orders) ->
+    let clock = Clock.stopwatch ~at:(at /. settings.speed) Clock.system in
+    let fleet = rebuilt settings ~now:at orders in
+    let s =
+      { now = (fun () -> clock () *. settings.speed); memory; output = Buffer.create 4096; writing = Lwt.return_unit;
+        fleet; is_over = false }
+    in
+    let lines = Lines.make ~limit:Report.longest_line Lwt_unix.stdin in
+    serve s settings.speed lines (`New (Lines.next lines)) >|= fun () -> Ok ()

@@ -1,0 +1,12 @@
+(** A simulated fleet that speaks the platform protocol on standard input and output, as an adapter does. *)
+
+type settings = {
+  scenario : Dolphin_scenario.Scenario.t;
+  seed : int;
+  speed : float;  (** seconds of the fleet that pass in one *)
+  state : string option;  (** a file in which the fleet outlives this process *)
+}
+
+val run : settings -> (unit, string) result Lwt.t
+(** Resolves when the input has ended, or all is closed. The error says why the state cannot be had; the greeting has
+    said so too. *)

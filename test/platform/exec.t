@@ -1,0 +1,94 @@
+What the page says about lines is what the schemas say.
+
+  $ PYTHONPATH=../conformance python3 lines_of_page.py ../../docs/platform.md ../../conformance/schema
+  32 fit
+
+A program on the simulated fleet behind the protocol. Times are left out of the log.
+
+  $ cat > slow.fleet <<'END'
+  > vehicle 'auv-1', { type 'UUV' }
+  > vehicle 'auv-2', { type 'UUV' }
+  > plan 'survey', { duration 10.seconds }
+  > plan 'long', { duration 1.hour }
+  > plan 'bad', { duration 10.seconds; fails }
+  > END
+  $ adapter="dolphin sim slow.fleet --platform --speed 100"
+  $ run() { dolphin exec "$@" 2>&1 | sed 's/^ *[0-9]*:[0-9]* *//'; }
+  $ cat > two.dol <<'END'
+  > v = pick { type 'UUV' }
+  > execute v: imcPlan('survey') >> imcPlan('bad')
+  > END
+  $ run two.dol --journal two.run --platform "$adapter"
+  program     picks auv-1
+  auv-1       starts survey
+  auv-1       ends survey
+  auv-1       starts bad
+  auv-1       fails in bad: plan failed
+  program     releases auv-1
+  program     fails: bad failed on auv-1: plan failed
+  two.dol:2:33: error: bad failed on auv-1: plan failed
+    2 | execute v: imcPlan('survey') >> imcPlan('bad')
+      |                                 ^^^^^^^^^^^^^^
+  $ dolphin trace check two.dol two.run | sed 's/ in 0:0[0-9]//'
+  two.run: a run, of 7 transitions; failed: bad failed on auv-1: plan failed
+
+Adapters that cannot be spoken to: no run begins.
+
+  $ for adapter in ./missing true 'echo {}' "echo '{\"kind\":\"hello\",\"protocol\":2,\"name\":\"x\"}'" \
+  >   "echo '{\"kind\":\"error\",\"why\":\"no serial port\"}'" "echo '{\"kind\":\"pong\",\"id\":1}'"; do
+  >   dolphin exec two.dol --journal none.run --platform "$adapter" 2>&1 | grep -v /bin/sh; rm none.run
+  > done
+  dolphin: the adapter './missing' ended with exit status 127 before it greeted
+  dolphin: the adapter 'true' ended with exit status 0 before it greeted
+  dolphin: the adapter 'echo {}' does not greet as the platform protocol has it: its first line has no member 'kind' that is a text
+  dolphin: the adapter 'echo '{"kind":"hello","protocol":2,"name":"x"}'' speaks version 2 of the platform protocol, and we version 1
+  dolphin: the adapter 'echo '{"kind":"error","why":"no serial port"}'' says: no serial port
+  dolphin: the adapter 'echo '{"kind":"pong","id":1}'' does not greet as the platform protocol has it: its first line is no 'hello'
+
+The example of the page.
+
+  $ cat > rover.dol <<'END'
+  > v = pick { type 'UGV' }
+  > execute v: imcPlan('short') >> watch imcPlan('nonsense') onError { error -> message "${error}" }
+  > END
+  $ run rover.dol --journal rover.run --platform ../../examples/adapter.py
+  program     picks rover-1
+  rover-1     starts short
+  rover-1     ends short
+  rover-1     starts nonsense
+  rover-1     fails in nonsense: undefined plan 'nonsense'
+  program     says: nonsense failed on rover-1: undefined plan 'nonsense'
+  program     releases rover-1
+  program     fails: nonsense failed on rover-1: undefined plan 'nonsense'
+  rover.dol:2:38: error: nonsense failed on rover-1: undefined plan 'nonsense'
+    2 | execute v: imcPlan('short') >> watch imcPlan('nonsense') onError { error -> message "${error}" }
+      |                                      ^^^^^^^^^^^^^^^^^^^
+
+Two platforms in one run; a vehicle that both offer cannot be picked.
+
+  $ cat > both.dol <<'END'
+  > v = pick { type 'UGV' }
+  > w = pick { type 'UUV' }
+  > execute v: imcPlan('short'), w: imcPlan('survey')
+  > END
+  $ run both.dol --journal both.run --platform ../../examples/adapter.py --platform "dolphin sim slow.fleet --platform --speed 100" | sort
+  auv-1       ends survey
+  auv-1       starts survey
+  program     ends
+  program     picks auv-1
+  program     picks rover-1
+  program     releases rover-1, auv-1
+  rover-1     ends short
+  rover-1     starts short
+  $ echo "vehicle 'rover-1', { type 'UGV' }" > rover.fleet
+  $ cat > twice.dol <<'END'
+  > pause 1.second
+  > v = pick { type 'UGV'; timeout 0.1.seconds }
+  > END
+  $ run twice.dol --journal twice.run --platform ../../examples/adapter.py --platform "dolphin sim rover.fleet --platform"
+  program     pauses for 1 s
+  program     rover-1: is offered by rover and by sim: it cannot be picked until only one does
+  program     fails: could not pick 1 vehicle of type 'UGV': rover-1 is offered by rover and by sim
+  twice.dol:2:5: error: could not pick 1 vehicle of type 'UGV': rover-1 is offered by rover and by sim
+    2 | v = pick { type 'UGV'; timeout 0.1.seconds }
+      |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^

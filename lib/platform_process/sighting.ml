@@ -43,7 +43,7 @@ let describe x : World.vehicle_state =
   let latitude, longitude = Option.value x.place ~default:(0., 0.) in
   { id = x.id; kind = x.kind; payload = x.payload;
     position = { latitude; longitude; height = x.height };
-    battery = Option.value x.battery ~default:1.;
+    battery = x.battery;
     connected = x.link;
     unready = (if x.link then x.unready else None) }
 

@@ -31,6 +31,11 @@ let read path =
   else if Sys.file_exists path && Sys.is_directory path then bad path "this is a directory, not a file"
   else with_channel path (read_all path)
 
+let read_input () =
+  match read_all "standard input" stdin with
+  | result -> result
+  | exception Sys_error why -> bad "standard input" why
+
 let write path f =
   let save () =
     let channel = open_out_bin path in

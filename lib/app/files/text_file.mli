@@ -3,6 +3,9 @@
 val read : string -> (string, Error.t) result
 (** [read path] is the contents of the file [path], at most 64 MB. The error, {!Error.Bad_input}, names the file. *)
 
+val read_input : unit -> (string, Error.t) result
+(** [read_input ()] is what standard input has up to its end, at most 64 MB. *)
+
 val named : string -> string -> string
 (** [named path why] is the reason [why] of a [Sys_error], with the name of the file, [path], before it if it lacks it:
     some have it. *)

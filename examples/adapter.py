@@ -24,6 +24,7 @@ class Rover:
 
 
 rover, lock = Rover(), threading.RLock()
+ENDS = ("done", "failed", "stopped")
 said = {}  # by request: what was reported of it last
 running = None  # the request that the rover runs
 
@@ -37,7 +38,7 @@ def say(request, kind, **members):
     """Reports on a request; after its end the rover is free, and nothing else is ever said of it."""
     global running
     with lock:
-        if said.get(request, {}).get("kind") in ("done", "failed", "stopped"):
+        if said.get(request, {}).get("kind") in ENDS:
             return
         if kind != "taken" and running == request:
             running = None
@@ -66,11 +67,12 @@ def start(request, vehicle, plan):
 
 
 def stop(request):
-    if running == request:
-        rover.halt()
+    if said.get(request, {}).get("kind") in ENDS:
+        report(request=request, **said[request])
+    else:  # it runs, or nobody knows what it did: now it does nothing
+        if running == request:
+            rover.halt()
         say(request, "stopped")
-    else:
-        report(request=request, **said.get(request, {"kind": "stopped"}))
 
 
 for line in sys.stdin:

@@ -95,3 +95,8 @@ let close c =
     let closing = Lwt.no_cancel (finish c) in
     c.closing <- Some closing;
     closing
+
+let kill c =
+  kill_group c.pid;
+  signal c.pid Sys.sigkill;
+  close c

@@ -23,3 +23,6 @@ val pp_status : Format.formatter -> Unix.process_status -> unit
 val close : t -> unit Lwt.t
 (** [close c] closes the child's input, and if the child does not end by itself within half a second terminates it, and
     a second later kills it. Resolves once it is reaped. May be called more than once. *)
+
+val kill : t -> unit Lwt.t
+(** [kill c] kills the child and all of its session's processes at once. Resolves once it is reaped. *)

@@ -1,0 +1,103 @@
+open Cmdliner
+open Dolphin_app
+module Kit = Dolphin_platform_kit.Kit
+
+let ( let* ) = Result.bind
+
+let tell (v : Kit.verdict) =
+  (match v.wrong with
+   | None ->
+     let remark = Option.fold v.remark ~none:"" ~some:(fun text -> " (" ^ text ^ ")") in
+     Printf.printf "ok    %-16s %s%s\n" v.name v.what remark
+   | Some why ->
+     Printf.printf "FAIL  %-16s %s\n" v.name v.what;
+     Printf.printf "      %s\n" why;
+     List.iter (fun line -> Printf.printf "      | %s\n" line) v.transcript);
+  flush stdout
+
+let known only =
+  match List.find_opt (fun name -> not (List.mem_assoc name Kit.names)) only with
+  | None -> Ok ()
+  | Some name ->
+    let near = Dolphin_syntax.Diagnostic.suggest name (List.map fst Kit.names) in
+    let hint = Option.fold near ~none:"" ~some:(Printf.sprintf " (did you mean '%s'?)") in
+    Error (Error.Bad_input (Printf.sprintf "there is no situation '%s'%s" name hint))
+
+let write path text =
+  match open_out_bin path with
+  | exception Sys_error why -> Error (Error.Unavailable why)
+  | channel ->
+    output_string channel text;
+    close_out channel;
+    Ok ()
+
+let run command short long vehicle patience only junit =
+  let plans = { Kit.short; long; vehicle; patience } in
+  Report.result
+    (let* () = known only in
+     let verdicts = Lwt_main.run (Kit.judge plans ~only tell command) in
+     let failed = List.filter (fun (v : Kit.verdict) -> v.wrong <> None) verdicts in
+     Printf.printf "%d of %d situations passed\n%!" (List.length verdicts - List.length failed) (List.length verdicts);
+     let* () = Option.fold junit ~none:(Ok ()) ~some:(fun path -> write path (Kit.to_junit ~command verdicts)) in
+     Ok (if failed = [] then Exit_status.Done else Exit_status.Violated))
+
+(* {1 The command line} *)
+
+let adapter =
+  let doc = "The command that starts the adapter; it is given to $(b,/bin/sh)." in
+  Arg.(required & pos 0 (some string) None & info [] ~docv:"CMD" ~doc)
+
+let plan name default what =
+  Arg.(value & opt string default & info [ name ] ~docv:"PLAN" ~doc:("The name of a plan " ^ what ^ "."))
+
+let short = plan "short" "short" "that vehicles run to its end, within the time of $(b,--patience)"
+let long = plan "long" "long" "that lasts longer than all situations together"
+
+let vehicle =
+  let doc = "Command only the vehicle $(docv). By default the first one that is ready." in
+  Arg.(value & opt (some string) None & info [ "vehicle" ] ~docv:"VEHICLE" ~doc)
+
+let patience =
+  let doc = "Wait $(docv) seconds for each answer." in
+  Arg.(value & opt (Options.positive ~docv:"SECONDS") 30. & info [ "patience" ] ~docv:"SECONDS" ~doc)
+
+let only =
+  let doc = "Only the situation $(docv). May be repeated." in
+  Arg.(value & opt_all string [] & info [ "only" ] ~docv:"NAME" ~doc)
+
+let junit =
+  let doc = "Write the verdicts into $(docv) as JUnit's XML too." in
+  Arg.(value & opt (some string) None & info [ "junit" ] ~docv:"FILE" ~doc)
+
+let man =
+  let situation (name, what) = `I ("$(b," ^ name ^ ")", what) in
+  [ `S Manpage.s_description;
+    `P "$(tname) puts an adapter, a process that speaks the platform protocol ($(i,docs/platform.md)), into situations \
+        that it must get right: orders that come twice, a slow reader, its own death, the death of the console. Each \
+        begins with a new process. Where it does something wrong, the last lines of the conversation are shown.";
+    `P "The adapter's vehicles move: let them be simulated. They must know two plans by name, a short and a long one.";
+    `S "SITUATIONS" ]
+  @ List.map situation Kit.names
+  @ [ `S Manpage.s_arguments;
+      `S Manpage.s_options;
+      `S Manpage.s_exit_status;
+      `S Manpage.s_examples;
+      `Pre "  dolphin platform check examples/adapter.py\n\
+           \  dolphin platform check 'dolphin sim kit.fleet --platform --state kit.state' --only killed" ]
+  @ Options.see_also
+
+let check =
+  let info =
+    Cmd.info "check" ~doc:"judge an adapter by situations that it must get right" ~man
+      ~exits:(Options.exits [ Done; Violated; Bad_input; Platform_trouble; Bug ])
+  in
+  Cmd.v info Term.(const run $ adapter $ short $ long $ vehicle $ patience $ only $ junit)
+
+let command =
+  let man =
+    [ `S Manpage.s_description;
+      `P "Adapters let programs command vehicles of any kind: $(mname) $(b,exec --platform). $(b,platform check) \
+          judges them." ]
+    @ Options.see_also
+  in
+  Cmd.group (Cmd.info "platform" ~docs:Options.s_others ~doc:"judge adapters of vehicles" ~man) [ check ]

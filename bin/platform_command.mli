@@ -1,0 +1,3 @@
+(** [dolphin platform]: judging adapters. *)
+
+val command : Exit_status.t Cmdliner.Cmd.t

@@ -1,0 +1,27 @@
+(** The kit that judges adapters: [dolphin platform check]. Each situation starts the adapter anew. *)
+
+type plans = Situations.plans = {
+  short : string;  (** a plan, by name, that a vehicle runs to its end within {!field-patience} *)
+  long : string;  (** one that lasts longer than all situations together *)
+  vehicle : string option;  (** only this vehicle; otherwise the first one that is ready *)
+  patience : float;  (** seconds that an answer may take *)
+}
+
+type verdict = {
+  name : string;
+  what : string;  (** what the adapter must do *)
+  wrong : string option;  (** [None]: it did *)
+  remark : string option;
+  transcript : string list;  (** the last lines of the conversation, if something is wrong *)
+  seconds : float;
+}
+
+val names : (string * string) list
+(** The situations, and what adapters must do in them. *)
+
+val judge : plans -> only:string list -> (verdict -> unit) -> string -> verdict list Lwt.t
+(** [judge plans ~only tell command] puts the adapter [command] into each situation, or those named [only], one after
+    the other; [tell] gets each verdict at once. *)
+
+val to_junit : command:string -> verdict list -> string
+(** The verdicts as JUnit's XML. *)

@@ -1,0 +1,115 @@
+"""An adapter with a fault to order: a filter around a good one.
+
+Usage: faulty.py FAULT COMMAND"""
+import json
+import os
+import subprocess
+import sys
+import threading
+
+FAULT, COMMAND = sys.argv[1:]
+base = subprocess.Popen(COMMAND, shell=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+lock = threading.RLock()
+vehicle_of, taken, ended, resumed = {}, set(), set(), set()  # of requests
+starts = 0
+
+
+def tell(**report):
+    with lock:
+        print(json.dumps(report), flush=True)
+
+
+def pass_on(order):
+    base.stdin.write((json.dumps(order) + "\n").encode())
+    base.stdin.flush()
+
+
+def running():
+    return set(vehicle_of) - ended
+
+
+def on_order(order):
+    """Whether the order is kept from the good adapter."""
+    global starts
+    kind, request = order["kind"], order.get("request")
+    if FAULT == "fragile" and kind == "dance":
+        os._exit(1)
+    if FAULT == "deaf" and kind == "ping" and running():
+        return True
+    if kind == "start":
+        starts += 1
+        if FAULT == "busy" and starts == 2:
+            tell(kind="failed", request=request, why="busy")
+            return True
+        if FAULT == "starts again" and request in vehicle_of:
+            tell(kind="failed", request=request, why="runs another plan")
+            return True
+        if FAULT == "one at a time" and running():
+            return True
+        vehicle_of[request] = order["vehicle"]
+    if kind == "stop":
+        if FAULT == "no stop" and request in taken:
+            return True
+        if FAULT == "ignores strangers" and request not in vehicle_of:
+            return True
+        if FAULT == "stops too early" and request not in taken:
+            return True
+    if kind == "resume":
+        if FAULT == "forgetful":
+            tell(kind="absent", request=request)
+            return True
+        if FAULT == "wavering" and request in resumed:
+            tell(kind="unknown", request=request, why="it depends")
+            return True
+        resumed.add(request)
+    return False
+
+
+def on_report(report):
+    """What becomes of a report: the lines in its place."""
+    kind, request = report["kind"], report.get("request")
+    if kind == "taken":
+        taken.add(request)
+    if kind in ("done", "failed", "stopped"):
+        ended.add(request)
+    if FAULT == "mute" and kind == "hello" or FAULT == "never quiet" and kind == "quiet":
+        return []
+    if FAULT == "typeless" and kind == "vehicle":
+        del report["type"]
+    if FAULT == "doubled ends" and kind == "done":
+        return [report, report]
+    if FAULT == "refuses without words" and kind == "failed":
+        report["why"] = " "
+    if FAULT == "yes-man" and kind == "checked":
+        report["problems"] = []
+    if FAULT == "loses lines" and kind == "pong" and report["id"] % 1000 == 0:
+        return []
+    if FAULT == "forgets ends" and kind == "done" and request in resumed:
+        return [{"kind": "absent", "request": request}]
+    if FAULT == "boaster" and kind == "absent":
+        return [{"kind": "done", "request": request}]
+    return [report]
+
+
+def reports():
+    for line in base.stdout:
+        with lock:
+            for report in on_report(json.loads(line)):
+                tell(**report)
+    os._exit(0)
+
+
+if FAULT == "chatty":
+    print("connecting ...", flush=True)
+threading.Thread(target=reports, daemon=True).start()
+for line in sys.stdin:
+    with lock:
+        if not on_order(json.loads(line)):
+            pass_on(json.loads(line))
+if FAULT == "stops at the end of input":
+    for request in running():
+        pass_on({"kind": "stop", "request": request, "vehicle": vehicle_of[request]})
+if FAULT == "lingers":
+    threading.Event().wait()
+base.stdin.close()
+base.wait()

@@ -1,0 +1,134 @@
+The simulated fleet passes the kit, with a hundred vehicles.
+
+  $ cat > kit.fleet <<'END'
+  > plan 'short', { duration 1.second }
+  > plan 'long', { duration 24.hours }
+  > END
+  $ for i in $(seq -w 100); do echo "vehicle 'auv-$i', { type 'UUV' }" >> kit.fleet; done
+  $ dolphin platform check "dolphin sim kit.fleet --platform --state kit.state --speed 5" --junit kit.xml
+  ok    greeting         greets within 10 s, before all else (it is sim, and takes name, imcPlan)
+  ok    vehicles         reports a vehicle that is ready, at first with type and link (auv-001 is ready)
+  ok    strange-orders   ignores orders and members that it does not know
+  ok    completion       runs a plan to its end, and reports one end
+  ok    next             runs the next plan at once
+  ok    pings            answers pings while a vehicle runs a plan
+  ok    start-twice      takes a start that comes twice for one
+  ok    stop             stops a plan, and reports one end, the same again when asked again
+  ok    stop-stranger    answers the stop of a request that it never heard of
+  ok    stop-at-once     stops a plan before it has said that it took it, and is free then
+  ok    refusal          refuses what it cannot do, in words, and is free then
+  ok    validation       says what is wrong with a plan, and moves nothing
+  ok    slow-reader      loses nothing while nobody reads what it writes
+  ok    all-at-once      commands all of its vehicles at once, up to 100 (100 at once)
+  ok    killed           after its death says what became of a plan that ran (it says 'taken')
+  ok    killed-after-end after its death does not run again what had ended (it says 'done')
+  ok    resume-twice     answers a second 'resume' as the first
+  ok    never-ordered    does not claim a request that was never ordered (it says 'absent')
+  ok    console-dies     lets vehicles fly on when its input ends, and ends (it says 'taken')
+  ok    close            stops all, says that it is quiet, and ends
+  20 of 20 situations passed
+  $ grep -c '<testcase' kit.xml
+  20
+
+So does the example, whose vehicle has no memory.
+
+  $ dolphin platform check ../../examples/adapter.py --patience 10 | tail -1
+  20 of 20 situations passed
+
+Each situation finds an adapter out that is wrong there.
+
+  $ find_out() {
+  >   dolphin platform check --patience 2 --only "$1" --junit "$1.xml" \
+  >     "python3 faulty.py '$2' 'dolphin sim kit.fleet --platform --state \"state of $2\" --speed 5'" > "$1.out"
+  >   echo "$2: status $?"; sed -n 's/^FAIL  */  /p' "$1.out"; sed -n '2p' "$1.out" | sed 's/kit-[-0-9]*/REQUEST/'
+  > }
+  $ find_out greeting chatty
+  chatty: status 1
+    greeting         greets within 10 s, before all else
+        its first line is no JSON: Line 1, bytes 0-14: Invalid token 'connecting ...'
+  $ find_out greeting mute
+  mute: status 1
+    greeting         greets within 10 s, before all else
+        its first line is no greeting
+  $ find_out vehicles typeless
+  typeless: status 1
+    vehicles         reports a vehicle that is ready, at first with type and link
+        the first report of auv-001 lacks its type or its link
+  $ find_out strange-orders fragile
+  fragile: status 1
+    strange-orders   ignores orders and members that it does not know
+        the adapter ended where the pong was awaited
+  $ find_out completion 'doubled ends'
+  doubled ends: status 1
+    completion       runs a plan to its end, and reports one end
+        REQUEST has 2 ends: done, done
+  $ find_out next busy
+  busy: status 1
+    next             runs the next plan at once
+        plan short was to be 'done', and is 'failed (busy)'
+  $ find_out pings deaf
+  deaf: status 1
+    pings            answers pings while a vehicle runs a plan
+        pong 1 did not come within 5 s
+  $ find_out start-twice 'starts again'
+  starts again: status 1
+    start-twice      takes a start that comes twice for one
+        REQUEST was to be 'taken', and is 'failed (runs another plan)'
+  $ find_out stop 'no stop'
+  no stop: status 1
+    stop             stops a plan, and reports one end, the same again when asked again
+        the end of REQUEST did not come within 2 s
+  $ find_out stop-stranger 'ignores strangers'
+  ignores strangers: status 1
+    stop-stranger    answers the stop of a request that it never heard of
+        the end of REQUEST did not come within 2 s
+  $ find_out stop-at-once 'stops too early'
+  stops too early: status 0
+  1 of 1 situations passed
+  $ find_out refusal 'refuses without words'
+  refuses without words: status 1
+    refusal          refuses what it cannot do, in words, and is free then
+        a plan in a language that nobody speaks was to be refused, as 'failed', and is 'failed ( )'
+  $ find_out validation 'yes-man'
+  yes-man: status 1
+    validation       says what is wrong with a plan, and moves nothing
+        a plan in a language that nobody speaks is found to have no problems
+  $ find_out slow-reader 'loses lines'
+  loses lines: status 1
+    slow-reader      loses nothing while nobody reads what it writes
+        of 5000 pings that were sent while nobody read, 4995 were answered, or not in order
+  $ find_out all-at-once 'one at a time'
+  one at a time: status 1
+    all-at-once      commands all of its vehicles at once, up to 100
+        the end of REQUEST did not come within 2 s
+  $ find_out killed forgetful
+  forgetful: status 1
+    killed           after its death says what became of a plan that ran
+        after its death the adapter says that a plan which the vehicle had taken was never started
+  $ find_out killed-after-end 'forgets ends'
+  forgets ends: status 1
+    killed-after-end after its death does not run again what had ended
+        a plan that was done before the adapter died is 'absent' after it
+  $ find_out resume-twice wavering
+  wavering: status 1
+    resume-twice     answers a second 'resume' as the first
+        a second 'resume' is answered by 'unknown (it depends)', and the first one was by 'taken'
+  $ find_out never-ordered boaster
+  boaster: status 1
+    never-ordered    does not claim a request that was never ordered
+        a request that was never ordered is 'done'
+  $ find_out console-dies lingers
+  lingers: status 1
+    console-dies     lets vehicles fly on when its input ends, and ends
+        its input has ended, and it has not, after 3 s
+  $ find_out console-dies 'stops at the end of input'
+  stops at the end of input: status 1
+    console-dies     lets vehicles fly on when its input ends, and ends
+        the console died, and a plan that ran is 'stopped': vehicles are to fly on
+  $ find_out close 'never quiet'
+  never quiet: status 1
+    close            stops all, says that it is quiet, and ends
+        the adapter ended where 'quiet' was awaited
+  $ dolphin platform check --only stopp true
+  dolphin: there is no situation 'stopp' (did you mean 'stop'?)
+  [2]

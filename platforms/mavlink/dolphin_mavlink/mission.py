@@ -1,0 +1,231 @@
+"""Missions as autopilots have them: items in order. Also read from files, of QGroundControl (`.plan`) and of MAVProxy
+and Mission Planner (`.waypoints`)."""
+
+import dataclasses
+import hashlib
+import json
+import math
+
+from .wire import mavlink
+
+WAYPOINT, LOITER_UNLIMITED, LOITER_TURNS, LOITER_TIME = 16, 17, 18, 19
+RETURN, LAND, TAKE_OFF, LOITER_TO_ALTITUDE, VTOL_TAKE_OFF, VTOL_LAND, DELAY = 20, 21, 22, 31, 84, 85, 93
+JUMP, CHANGE_SPEED = 177, 178
+
+# Frames in the form of MISSION_ITEM_INT; an autopilot may give back the same frame in its other form.
+GLOBAL, RELATIVE, MISSION_FRAME, TERRAIN = 5, 6, 2, 11
+_SAME_FRAME = {0: 5, 3: 6, 10: 11}
+_FRAMES = {0, 2, 3, 5, 6, 10, 11}
+
+# Commands with a place; and the parameters that decide what a vehicle does: they must come back as they were sent.
+LOCATED = {16, 17, 18, 19, 21, 22, 31, 82, 84, 85, 201, 195}
+_DECISIVE = {16: (1,), 18: (1,), 19: (1,), 93: (1,), 112: (1,), 177: (1, 2), 178: (2,)}
+
+
+class Unreadable(Exception):
+    """Why there is no mission; a text for people."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Item:
+    command: int
+    frame: int = MISSION_FRAME
+    params: tuple = (0.0, 0.0, 0.0, 0.0)
+    x: int = 0  # latitude, in 1e-7 degrees
+    y: int = 0  # longitude
+    z: float = 0.0
+    autocontinue: int = 1
+
+    @property
+    def is_navigation(self):
+        """Whether the autopilot goes on to the next item only after this one is fulfilled."""
+        return self.command <= 95
+
+    @property
+    def has_place(self):
+        return self.command in LOCATED and (self.x, self.y) != (0, 0)
+
+    @property
+    def place(self):
+        return self.x / 1e7, self.y / 1e7
+
+    def message(self, target, seq):
+        return mavlink.MAVLink_mission_item_int_message(
+            target[0],
+            target[1],
+            seq,
+            self.frame,
+            self.command,
+            1 if seq == 0 else 0,
+            self.autocontinue,
+            *self.params,
+            self.x,
+            self.y,
+            self.z,
+        )
+
+
+def of_message(message):
+    """The item in a MISSION_ITEM_INT or MISSION_ITEM."""
+    x, y = message.x, message.y
+    if message.get_type() == "MISSION_ITEM":
+        x, y = (round(c * 1e7) if math.isfinite(c) else 0 for c in (x, y))
+    params = (message.param1, message.param2, message.param3, message.param4)
+    return Item(message.command, message.frame, params, x, y, message.z, message.autocontinue)
+
+
+def _near(a, b):
+    """Whether an autopilot that stores numbers in few bits may have made `b` of `a`."""
+    a, b = (0.0 if math.isnan(c) else c for c in (a, b))
+    return abs(a - b) <= max(0.51, 0.02 * abs(a)) if abs(a) >= 2 else abs(a - b) <= 0.26
+
+
+def difference(sent, kept):
+    """What a vehicle keeps otherwise than it was sent, in words; None if the two mean the same."""
+    if sent.command != kept.command:
+        return f"command {kept.command} instead of {sent.command}"
+    for n in _DECISIVE.get(sent.command, ()):
+        if not _near(sent.params[n - 1], kept.params[n - 1]):
+            return (
+                f"parameter {n} of command {sent.command} is {kept.params[n - 1]:g} instead of {sent.params[n - 1]:g}"
+            )
+    if not sent.has_place:
+        return None
+    if max(abs(sent.x - kept.x), abs(sent.y - kept.y)) > 1:
+        return f"{kept.x / 1e7:.7f}, {kept.y / 1e7:.7f} instead of {sent.x / 1e7:.7f}, {sent.y / 1e7:.7f}"
+    if _SAME_FRAME.get(sent.frame, sent.frame) != _SAME_FRAME.get(kept.frame, kept.frame):
+        return f"frame {kept.frame} instead of {sent.frame}"
+    if not (math.isnan(sent.z) or abs(sent.z - kept.z) <= 0.02):
+        return f"a height of {kept.z:g} m instead of {sent.z:g} m"
+    return None
+
+
+@dataclasses.dataclass(frozen=True)
+class Mission:
+    """What a vehicle is to do. `items` are without the home position that ArduPilot keeps before them."""
+
+    items: tuple
+    arm: bool = False  # whether the vehicle may be armed in order to begin
+    endless: bool = False  # whether its last item goes on until it is stopped
+
+    @property
+    def last(self):
+        """The index of the last item that is navigated: what comes after it is done at once."""
+        return max((n for n, item in enumerate(self.items) if item.is_navigation), default=len(self.items) - 1)
+
+    @property
+    def visits(self):
+        """How many times the last navigated item is reached: jumps behind it lead back."""
+        times = 1
+        for item in self.items[self.last + 1 :]:
+            if item.command == JUMP:
+                times *= math.inf if item.params[1] < 0 else 1 + item.params[1]
+        return times
+
+    @property
+    def digest(self):
+        return hashlib.sha256(repr((self.items, self.arm)).encode()).hexdigest()[:16]
+
+
+# Files
+
+
+def _number(value, what, default=0.0):
+    if value is None:
+        return default
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise Unreadable(f"{what} is no number")
+    return float(value)
+
+
+def _item(command, frame, values, autocontinue, what):
+    if not isinstance(command, int) or isinstance(command, bool) or not 0 <= command <= 65535:
+        raise Unreadable(f"{what} has no command")
+    if frame not in _FRAMES:
+        raise Unreadable(f"{what} is in frame {frame}, which Dolphin does not know")
+    if not isinstance(values, list) or len(values) != 7:
+        raise Unreadable(f"{what} has not seven parameters")
+    named = [
+        _number(value, f"parameter {n} of {what}", math.nan if n == 4 else 0.0) for n, value in enumerate(values, 1)
+    ]
+    latitude, longitude, z = named[4:]
+    if command in LOCATED and not (abs(latitude) <= 90 and abs(longitude) <= 180):
+        raise Unreadable(f"{what} is at {latitude:g}, {longitude:g}, which is no place")
+    scale = 1e7 if command in LOCATED else 1
+    x, y = round(latitude * scale), round(longitude * scale)
+    if max(abs(x), abs(y)) >= 2**31:
+        raise Unreadable(f"{what} has a parameter out of range")
+    return Item(command, _SAME_FRAME.get(frame, frame), tuple(named[:4]), x, y, z, 1 if autocontinue else 0)
+
+
+def _of_plan(text):
+    """A `.plan` of QGroundControl, of simple items, and of complex ones that list their items."""
+    try:
+        items = json.loads(text)["mission"]["items"]
+    except (ValueError, KeyError, TypeError):
+        raise Unreadable("it is no plan of QGroundControl") from None
+    flat = []
+
+    def add(entries):
+        if not isinstance(entries, list):
+            raise Unreadable("it has no list of items")
+        for entry in entries:
+            if not isinstance(entry, dict):
+                raise Unreadable("an item is no object")
+            if entry.get("type") == "ComplexItem":
+                transects = entry.get("TransectStyleComplexItem")
+                inner = transects if isinstance(transects, dict) else entry
+                if "Items" not in inner:
+                    raise Unreadable(f"its item of type {entry.get('complexItemType')} lists no items: save it anew")
+                add(inner["Items"])
+            else:
+                what = f"item {len(flat) + 1}"
+                flat.append(
+                    _item(
+                        entry.get("command"),
+                        entry.get("frame"),
+                        entry.get("params"),
+                        entry.get("autoContinue", True),
+                        what,
+                    )
+                )
+
+    add(items)
+    return flat
+
+
+def _of_waypoints(text):
+    """A `.waypoints`: a first line `QGC WPL 110`, then twelve columns; item 0 is the home position."""
+    lines = [line for line in text.splitlines() if line.strip()]
+    if not lines or lines[0].split()[:3] != ["QGC", "WPL", "110"]:
+        raise Unreadable("its first line is not QGC WPL 110")
+    items = []
+    for line in lines[1:]:
+        what = f"item {len(items)}"
+        columns = line.split()
+        if len(columns) != 12:
+            raise Unreadable(f"{what} has {len(columns)} columns instead of 12")
+        try:
+            frame, command = int(columns[2]), int(columns[3])
+            values = [float(c) for c in columns[4:11]]
+        except ValueError:
+            raise Unreadable(f"{what} has a column that is no number") from None
+        items.append(_item(command, frame, values, columns[11] != "0", what))
+    return items[1:]
+
+
+def of_file(name, text):
+    """The items of the file `name`, which has `text`. Raises Unreadable."""
+    items = _of_plan(text) if name.endswith(".plan") else _of_waypoints(text)
+    if not items:
+        raise Unreadable("it has no items")
+    return tuple(items)
+
+
+def problems(items):
+    """What keeps any vehicle from carrying out `items`: places that are none, jumps that lead nowhere."""
+    found = []
+    for n, item in enumerate(items, 1):
+        if item.command == JUMP and not 1 <= item.params[0] <= len(items):
+            found.append(f"item {n} jumps to item {item.params[0]:g}, and there are {len(items)}")
+    return found

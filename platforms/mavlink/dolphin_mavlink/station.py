@@ -1,0 +1,420 @@
+"""All vehicles of the network, and all that Dolphin ordered. The pure core of the adapter: what is heard, ordered and
+the time go in; frames to send and lines to report come out, by `take`.
+
+    station.hear(now, address, message)    a message came from there
+    station.order(now, line)               Dolphin wrote this line, as a value
+    station.tick(now)                      time has passed: at least every `pace` seconds
+    station.take()                         what is to be done, oldest first:
+        ("send", address, message, version)    address None: to wherever vehicles are looked for
+        ("report", line)
+        ("quit",)
+"""
+
+import dataclasses
+import difflib
+
+from . import modes, plans, version
+from . import mission as missions
+from .execution import Execution
+from .transfer import RoundTrip
+from .vehicle import MOVE_SILENCE, Vehicle, is_autopilot
+from .wire import mavlink, version_of
+
+PROTOCOL = 1
+ANNOUNCE = 5
+PATIENCE = 120
+CLOSING = 5.0
+REMEMBERED = 1000  # so many ended requests are known
+_WANTED = [
+    ("GLOBAL_POSITION_INT", 33, 1.0),
+    ("SYS_STATUS", 1, 1.0),
+    ("MISSION_CURRENT", 42, 1.0),
+    ("GPS_RAW_INT", 24, 0.2),
+    ("EXTENDED_SYS_STATE", 245, 1.0),
+    ("BATTERY_STATUS", 147, 0.5),
+    ("HOME_POSITION", 242, 0.2),
+]
+
+
+@dataclasses.dataclass
+class Options:
+    system: int = 255
+    names: dict = dataclasses.field(default_factory=dict)  # of systems, by their numbers
+    kinds: dict = dataclasses.field(default_factory=dict)  # (autopilot, frame) of those that do not tell, by number
+    payloads: dict = dataclasses.field(default_factory=dict)  # devices, by names
+    stored: dict = dataclasses.field(default_factory=dict)  # items of missions, or why there are none, by names
+    directory: str = "."  # where they are from
+    on_stop: str = "hold"
+
+
+@dataclasses.dataclass
+class _Request:
+    vehicle: str
+    plan: dict
+    timeout: float
+    since: float
+    execution: Execution = None  # None until the vehicle is heard
+    last: dict = None  # the last report on it
+    resumes: bool = False
+    stops: bool = False  # whether it is to be stopped as soon as the vehicle is heard
+    note: int = None
+
+
+class Station:
+    def __init__(self, options):
+        self._options = options
+        self._out = []
+        self._vehicles = {}  # by system
+        self._reported = {}  # the last report on each vehicle, by name
+        self._reported_at = {}
+        self._requests, self._over = {}, {}
+        self._asked = {}  # when each vehicle was asked for what it is to send
+        self._foreign = set()
+        self._trips = {}
+        self._telemetry, self._greeted, self._closing, self._heartbeat_at = False, False, None, None
+        self._notes = 0
+
+    def take(self):
+        out, self._out = self._out, []
+        return out
+
+    @property
+    def pace(self):
+        return 0.05 if self._requests or self._closing is not None else 0.25
+
+    # Names
+
+    def name_of(self, system):
+        return self._options.names.get(system, f"mav-{system}")
+
+    def _find(self, name):
+        return next((v for v in self._vehicles.values() if self.name_of(v.system) == name), None)
+
+    # From vehicles
+
+    def hear(self, now, address, message):
+        system = message.get_srcSystem()
+        if system in (0, self._options.system):
+            return
+        vehicle = self._vehicles.get(system)
+        if vehicle is None:
+            kind = self._options.kinds.get(system)
+            if message.get_type() != "HEARTBEAT":
+                return
+            if not is_autopilot(message) and (kind is None or message.get_srcComponent() != 1):
+                return
+            vehicle = self._vehicles[system] = Vehicle(now, address, message, kind)
+            self._trips[system] = RoundTrip()
+            self._asked[system] = (0, now)
+            self._ask_for_telemetry(now, vehicle)
+            self._send_heartbeat(vehicle.address, vehicle.version)
+        if not self._believed(now, vehicle, address):
+            return
+        before = vehicle.mode, vehicle.armed
+        if not self._is_for_us(message) or not vehicle.hear(now, message):
+            self._show(now, vehicle)
+            return
+        request = self._request_on(vehicle)
+        if request is not None and request.execution is not None:
+            self._do(now, request, request.execution.hear(now, message))
+        self._show(now, vehicle, before != (vehicle.mode, vehicle.armed))
+
+    def _believed(self, now, vehicle, address):
+        """A vehicle that is there is not suddenly elsewhere: it moves only after it was silent."""
+        if address == vehicle.address:
+            return True
+        if now - vehicle.heard_at > MOVE_SILENCE:
+            vehicle.address = address
+            return True
+        if (vehicle.system, address) not in self._foreign and len(self._foreign) < 1000:
+            self._foreign.add((vehicle.system, address))
+            self._log(f"another system has number {vehicle.system} too: what it says is ignored", vehicle)
+        return False
+
+    def _is_for_us(self, message):
+        """Answers to other ground stations are no answers to us. Older autopilots name nobody."""
+        target = getattr(message, "target_system", 0)
+        return target in (0, self._options.system)
+
+    def _ask_for_telemetry(self, now, vehicle):
+        times, _ = self._asked[vehicle.system]
+        self._asked[vehicle.system] = (times + 1, now)
+        command = mavlink.MAVLink_command_long_message
+        for _, number, rate in _WANTED:
+            interval = 1e6 / rate
+            self._send(
+                vehicle,
+                command(*vehicle.target, mavlink.MAV_CMD_SET_MESSAGE_INTERVAL, 0, number, interval, 0, 0, 0, 0, 0),
+            )
+        if times > 0:
+            # Older autopilots know only this.
+            self._send(
+                vehicle,
+                mavlink.MAVLink_request_data_stream_message(*vehicle.target, mavlink.MAV_DATA_STREAM_ALL, 2, 1),
+            )
+
+    # From Dolphin
+
+    def order(self, now, line):
+        """`line` is any JSON value. What is unknown is ignored, as the protocol wants it."""
+        kind = line.get("kind") if isinstance(line, dict) else None
+        take = getattr(self, "_order_" + kind, None) if isinstance(kind, str) and kind.isidentifier() else None
+        if take is None:
+            return
+        try:
+            take(now, line)
+        except (KeyError, TypeError):
+            self._log(f"an order of kind {kind} lacks something, and is ignored")
+
+    def _order_hello(self, now, line):
+        if line["protocol"] != PROTOCOL:
+            why = f"it speaks version {PROTOCOL} of the platform protocol, and Dolphin version {line['protocol']}"
+            self._report({"kind": "error", "why": why})
+            self._out.append(("quit",))
+            return
+        self._greeted = True
+        self._report(
+            {
+                "kind": "hello",
+                "protocol": PROTOCOL,
+                "name": "mavlink",
+                "version": version,
+                "plans": ["name", "imcPlan", "mission"],
+                "announce": ANNOUNCE,
+                "patience": PATIENCE,
+            }
+        )
+        for vehicle in self._vehicles.values():
+            self._show(now, vehicle, True)
+
+    def _order_telemetry(self, now, line):
+        self._telemetry = bool(line["on"])
+
+    def _order_ping(self, now, line):
+        self._report({"kind": "pong", "id": line["id"]})
+
+    def _order_check(self, now, line):
+        vehicle = self._find(line.get("vehicle"))
+        whom = plans.For() if vehicle is None else plans.vehicle(line["vehicle"], vehicle)
+        problems = []
+        try:
+            plans.compile_plan(line["plan"], self._stored, whom)
+        except plans.Refused as refused:
+            problems = refused.problems
+        self._report({"kind": "checked", "id": line["id"], "problems": problems})
+
+    def _order_kept(self, now, line):
+        for request in list(self._requests.values()):
+            if request.note == line["id"] and request.execution is not None:
+                request.note = None
+                self._do(now, request, request.execution.kept(now))
+
+    def _order_start(self, now, line):
+        known = self._known(line["request"])
+        if known is not None:
+            if known.last is not None:
+                self._report(known.last)
+            return
+        self._give_up_older(now, line)
+        self._enter(now, line)
+        self._try_to_begin(now, line["request"])
+
+    def _order_resume(self, now, line):
+        known = self._known(line["request"])
+        if known is not None:
+            if known.last is not None:
+                self._report(known.last)
+            return
+        self._enter(now, line).resumes = True
+        if line["notes"]:
+            self._try_to_begin(now, line["request"])
+        else:
+            # Nothing is sent that begins a mission before its note is kept.
+            self._end(now, line["request"], {"kind": "absent"})
+
+    def _try_to_begin(self, now, name):
+        """Once the vehicle is heard."""
+        request = self._requests[name]
+        vehicle = self._find(request.vehicle)
+        if vehicle is None:
+            if not request.resumes and now - request.since >= request.timeout:
+                why = f"no {request.vehicle} was heard for {request.timeout:g} seconds"
+                self._end(now, name, {"kind": "failed", "why": why})
+            return
+        try:
+            mission = plans.compile_plan(request.plan, self._stored, plans.vehicle(request.vehicle, vehicle))
+        except plans.Refused as refused:
+            self._end(now, name, {"kind": "failed", "why": str(refused)})
+            return
+        request.execution = self._execution(vehicle, mission, request.timeout)
+        out = request.execution.resume(now) if request.resumes else request.execution.begin(now)
+        if request.stops:
+            out += request.execution.stop(now)
+        self._do(now, request, out)
+
+    def _execution(self, vehicle, mission, timeout):
+        vehicle.idle_mission = vehicle.idle_mission and vehicle.mode == vehicle.modes.mission
+        return Execution(vehicle, self._trips[vehicle.system], mission, timeout, self._options.on_stop)
+
+    def _order_stop(self, now, line):
+        name = line["request"]
+        request = self._known(name)
+        if request is None:
+            self._report({"kind": "stopped", "request": name})
+        elif name in self._over:
+            self._report(request.last)
+        elif request.execution is not None:
+            self._do(now, request, request.execution.stop(now))
+        elif request.resumes:
+            request.stops = True
+        else:
+            self._end(now, name, {"kind": "stopped"})
+
+    def _order_close(self, now, line):
+        self._closing = now
+        self._quit_if_quiet(now)
+
+    # Requests
+
+    def _known(self, name):
+        return self._requests.get(name) or self._over.get(name)
+
+    def _enter(self, now, line):
+        request = _Request(line["vehicle"], line["plan"], float(line["timeout"]), now)
+        self._requests[line["request"]] = request
+        return request
+
+    def _request_on(self, vehicle):
+        name = self.name_of(vehicle.system)
+        return next((r for r in self._requests.values() if r.vehicle == name), None)
+
+    def _give_up_older(self, now, line):
+        """Dolphin orders a second start only after a stop that was not confirmed: the first one is over."""
+        older = [n for n, r in self._requests.items() if r.vehicle == line["vehicle"] and n != line["request"]]
+        for name in older:
+            self._over[name] = self._requests.pop(name)
+            self._over[name].last = {"kind": "stopped", "request": name}
+
+    def _name(self, request):
+        return next(n for n, r in self._requests.items() if r is request)
+
+    def _do(self, now, request, messages):
+        """Sends what an execution sends, and reports what it reports."""
+        execution = request.execution
+        for message in messages:
+            self._send(execution.vehicle, message)
+        events, execution.events = execution.events, []
+        for event in events:
+            self._tell(now, request, *event)
+
+    def _tell(self, now, request, kind, *what):
+        name = self._name(request)
+        if kind == "note":
+            self._notes += 1
+            request.note = self._notes
+            self._report({"kind": "note", "request": name, "note": what[0], "id": request.note})
+        elif kind == "progress":
+            self._report({"kind": "progress", "request": name, "share": round(what[0], 3)})
+        elif kind in ("done", "failed", "stopped"):
+            self._end(now, name, {"kind": kind, **({"why": what[0]} if what else {})})
+        elif kind in ("taken", "unknown"):
+            request.last = {"kind": kind, "request": name, **({"why": what[0]} if what else {})}
+            self._report(request.last)
+
+    def _end(self, now, name, report):
+        request = self._requests.pop(name)
+        request.last = {"kind": report["kind"], "request": name, **report}
+        vehicle = self._find(request.vehicle)
+        if vehicle is not None:
+            self._show(now, vehicle, True)
+        self._report(request.last)
+        self._over[name] = request
+        if len(self._over) > REMEMBERED:
+            del self._over[next(iter(self._over))]
+
+    def _stored(self, name):
+        found = self._options.stored.get(name)
+        if isinstance(found, tuple):
+            return found
+        if found is not None:
+            raise missions.Unreadable(f"mission '{name}': {found}")
+        near = difflib.get_close_matches(name, self._options.stored, 1)
+        hint = f": did you mean '{near[0]}'?" if near else f" in {self._options.directory}"
+        raise missions.Unreadable(f"there is no mission '{name}'{hint}")
+
+    # Time
+
+    def tick(self, now):
+        if self._heartbeat_at is None or now - self._heartbeat_at >= 1:
+            self._heartbeat_at = now
+            self._send_heartbeat(None, 2)
+            for vehicle in self._vehicles.values():
+                self._send_heartbeat(vehicle.address, 2)
+                if vehicle.version == 1:
+                    self._send_heartbeat(vehicle.address, 1)
+        for name, request in list(self._requests.items()):
+            if request.execution is not None:
+                self._do(now, request, request.execution.tick(now))
+            else:
+                self._try_to_begin(now, name)
+        for vehicle in self._vehicles.values():
+            times, at = self._asked[vehicle.system]
+            lacks = vehicle.place is None or vehicle.current is None
+            if vehicle.link(now) and lacks and times < 10 and now - at >= 2:
+                self._ask_for_telemetry(now, vehicle)
+            self._show(now, vehicle)
+        self._quit_if_quiet(now)
+
+    def _quit_if_quiet(self, now):
+        if self._closing is not None and (not self._requests or now - self._closing >= CLOSING):
+            self._report({"kind": "quiet"})
+            self._out.append(("quit",))
+
+    # To Dolphin
+
+    def _show(self, now, vehicle, at_once=False):
+        """Reports what has changed: links and readiness at once, the rest about once a second."""
+        if not self._greeted:
+            return
+        name = self.name_of(vehicle.system)
+        has_plan = self._request_on(vehicle) is not None
+        payload = self._options.payloads.get(name, vehicle.devices)
+        report = {
+            "type": modes.TYPES[vehicle.frame],
+            "payload": list(payload),
+            "link": vehicle.link(now),
+            "unready": vehicle.unready(now, has_plan),
+        }
+        before = self._reported.get(name, {})
+        due = now - self._reported_at.get(name, -60) >= (1 if self._telemetry else 5)
+        first = (vehicle.place is not None and "latitude" not in before) or (
+            vehicle.battery is not None and before.get("battery") is None
+        )
+        if due or at_once or first or any(before.get(k) != x for k, x in report.items()):
+            self._reported_at[name] = now
+            if vehicle.place is not None:
+                height = (vehicle.altitude or 0.0) + (vehicle.geoid or 0.0)
+                report.update(latitude=vehicle.place[0], longitude=vehicle.place[1], height=round(height, 2))
+            report.update(battery=vehicle.battery, speed=vehicle.speed)
+            changed = {k: x for k, x in report.items() if k not in before or before[k] != x}
+            if changed:
+                self._reported[name] = report
+                self._report({"kind": "vehicle", "vehicle": name, **changed})
+
+    def _log(self, text, vehicle=None):
+        about = {} if vehicle is None else {"vehicle": self.name_of(vehicle.system)}
+        self._report({"kind": "log", **about, "text": text})
+
+    def _report(self, line):
+        self._out.append(("report", line))
+
+    # To vehicles
+
+    def _send(self, vehicle, message):
+        self._out.append(("send", vehicle.address, message, vehicle.version))
+
+    def _send_heartbeat(self, address, version):
+        heartbeat = mavlink.MAVLink_heartbeat_message(
+            mavlink.MAV_TYPE_GCS, mavlink.MAV_AUTOPILOT_INVALID, 0, 0, mavlink.MAV_STATE_ACTIVE, 3
+        )
+        self._out.append(("send", address, heartbeat, version))

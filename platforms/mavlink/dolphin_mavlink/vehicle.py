@@ -1,0 +1,164 @@
+"""What a vehicle says of itself. Pure: `hear` takes a message and the time."""
+
+import math
+import re
+
+from . import modes
+from .wire import mavlink, version_of
+
+LINK_SILENCE = 5.0  # seconds without a heartbeat, after which the link counts as lost
+MOVE_SILENCE = 10.0  # seconds after which a vehicle may be heard from another address
+_DEVICES = {mavlink.MAV_TYPE_CAMERA: "camera", mavlink.MAV_TYPE_GIMBAL: "gimbal", mavlink.MAV_TYPE_WINCH: "winch"}
+_DISTRESS = re.compile(r"failsafe|fence breach|battery .*(low|critical)|(low|critical) battery|crash", re.IGNORECASE)
+_UNABLE = {
+    mavlink.MAV_STATE_BOOT: "is starting",
+    mavlink.MAV_STATE_CALIBRATING: "is calibrating",
+    mavlink.MAV_STATE_CRITICAL: "is in failsafe",
+    mavlink.MAV_STATE_EMERGENCY: "is in an emergency",
+    mavlink.MAV_STATE_POWEROFF: "is switching itself off",
+    mavlink.MAV_STATE_FLIGHT_TERMINATION: "terminates its flight",
+}
+
+
+def is_autopilot(heartbeat):
+    """Whether a heartbeat is one of a vehicle that plans can be given to."""
+    return heartbeat.autopilot in (modes.ARDUPILOT, modes.PX4) and modes.frame_of(heartbeat.type) is not None
+
+
+class Order:
+    """The order in which a component sent its messages, by the numbers in their frames."""
+
+    def __init__(self):
+        self._last, self._at = None, -math.inf
+
+    def is_new(self, now, seq):
+        """Whether the message is later than all before it: neither a copy nor one that was overtaken."""
+        ahead = 1 if self._last is None or now - self._at > 3 else (seq - self._last) & 0xFF
+        if 0 < ahead < 192:
+            self._last, self._at = seq, now
+            return True
+        return False
+
+
+class Vehicle:
+    """`kind` is the autopilot and the frame of one that does not tell them."""
+
+    def __init__(self, now, address, heartbeat, kind=None):
+        self.system, self.component = heartbeat.get_srcSystem(), heartbeat.get_srcComponent()
+        self.address = address
+        self.version = version_of(heartbeat)
+        self.autopilot, self.frame = kind or (heartbeat.autopilot, modes.frame_of(heartbeat.type))
+        self._type = heartbeat.type
+        self.modes = modes.modes_of(self.autopilot, self.frame)
+        self.heard_at = now
+        self.mode, self.armed, self.status = None, False, mavlink.MAV_STATE_UNINIT
+        self.heartbeats = 0  # how many there were
+        self.place = None  # (latitude, longitude)
+        self.altitude = None  # above mean sea level
+        self.geoid = None  # how far mean sea level is above the ellipsoid, where it says so
+        self.battery, self.speed, self.home, self.landed = None, None, None, None
+        self.current, self.total, self.mission_state = None, None, None
+        self.news = 0  # how many times it told of its mission
+        self.distress = (-math.inf, "")  # when it last spoke of an emergency, and how
+        self.words = (-math.inf, "")  # its last warning
+        self.devices = []
+        self.pilot = None  # the mode in which a pilot took it over; until it is given back
+        self.idle_mission = False  # its mission has ended, and it is still in that mode
+        self._orders = {}
+
+    @property
+    def target(self):
+        return self.system, self.component
+
+    @property
+    def home_is_item_0(self):
+        return self.autopilot == modes.ARDUPILOT
+
+    def link(self, now):
+        return now - self.heard_at <= LINK_SILENCE
+
+    def hear(self, now, message):
+        """Takes in `message` of this system. Gives whether it is of the autopilot, and later than all before it."""
+        component = message.get_srcComponent()
+        new = self._orders.setdefault(component, Order()).is_new(now, message.get_seq())
+        kind = message.get_type()
+        if component != self.component:
+            if kind == "HEARTBEAT" and message.type in _DEVICES and _DEVICES[message.type] not in self.devices:
+                self.devices.append(_DEVICES[message.type])
+            return False
+        if new:
+            hear = getattr(self, "_" + kind.lower(), None)
+            if hear is not None:
+                hear(now, message)
+        return new
+
+    def _heartbeat(self, now, message):
+        if message.type != self._type:
+            return
+        self.heard_at, self.version = now, version_of(message)
+        self.heartbeats += 1
+        mode = modes.name_of(self.autopilot, self.frame, message.custom_mode)
+        armed = bool(message.base_mode & mavlink.MAV_MODE_FLAG_SAFETY_ARMED)
+        if not armed or (mode != self.mode and mode in self.modes.given_back and mode != self.pilot):
+            self.pilot = None
+        if mode != self.mode or not armed:
+            self.idle_mission = False
+        self.mode, self.armed, self.status = mode, armed, message.system_status
+
+    def _global_position_int(self, now, message):
+        if (message.lat, message.lon) != (0, 0) and abs(message.lat) <= 900000000 and abs(message.lon) <= 1800000000:
+            self.place = message.lat / 1e7, message.lon / 1e7
+            self.altitude = message.alt / 1000
+            self.speed = math.hypot(message.vx, message.vy) / 100
+
+    def _gps_raw_int(self, now, message):
+        if message.alt_ellipsoid != 0 and message.fix_type >= 3:
+            geoid = (message.alt_ellipsoid - message.alt) / 1000
+            self.geoid = geoid if abs(geoid) < 150 else None
+
+    def _sys_status(self, now, message):
+        self._charge(message.battery_remaining)
+
+    def _battery_status(self, now, message):
+        if message.id == 0:
+            self._charge(message.battery_remaining)
+
+    def _charge(self, percent):
+        if 0 <= percent <= 100:
+            self.battery = percent / 100
+
+    def _home_position(self, now, message):
+        self.home = message.latitude / 1e7, message.longitude / 1e7
+
+    def _extended_sys_state(self, now, message):
+        known = message.landed_state != mavlink.MAV_LANDED_STATE_UNDEFINED
+        self.landed = message.landed_state == mavlink.MAV_LANDED_STATE_ON_GROUND if known else None
+
+    def _mission_current(self, now, message):
+        self.current, self.news = message.seq, self.news + 1
+        self.total = message.total if 0 < message.total < 65535 else None
+        self.mission_state = message.mission_state or None
+
+    def _statustext(self, now, message):
+        text = message.text if isinstance(message.text, str) else message.text.decode("utf-8", "replace")
+        text = re.sub(r"[\x00-\x1f\x7f]+", " ", text).strip()
+        if message.severity <= mavlink.MAV_SEVERITY_WARNING and text:
+            self.words = (now, text)
+            if _DISTRESS.search(text):
+                self.distress = (now, text)
+
+    def unready(self, now, has_plan):
+        """What keeps the vehicle from being given a plan though it has a link, as a predicate; None: nothing."""
+        if has_plan:
+            return None
+        if self.status in _UNABLE:
+            said_at, text = self.distress
+            return _UNABLE[self.status] + (f": {text}" if text and now - said_at < 60 else "")
+        if not self.armed:
+            return None
+        if self.pilot is not None or self.mode not in self.modes.hands_off:
+            return f"is flown by its pilot in mode {self.mode}"
+        if self.mode == self.modes.mission and not self.idle_mission:
+            if self.mission_state != mavlink.MISSION_STATE_COMPLETE:
+                return f"flies a mission of another station in mode {self.mode}"
+        return None

@@ -1,0 +1,96 @@
+"""MAVLink's frames as messages, and back. Pure: the time is an argument.
+
+The messages are pymavlink's, of its dialect `ardupilotmega`, which contains `common`; here it is called `mavlink`.
+"""
+
+import hashlib
+
+from pymavlink.dialects.v20 import ardupilotmega as mavlink
+
+SIGNATURE = 13
+SIGNED = 0x01
+# Signatures count units of 10 microseconds since 2015-01-01, in seconds since 1970.
+SIGNING_EPOCH = 1420070400
+
+
+class _Codec(mavlink.MAVLink):
+    """pymavlink's codec. It would take the timestamp of a forged signature for the stream's latest, and refuse the true
+    ones after it; here only a signature that is right moves the stream on."""
+
+    def check_signature(self, msgbuf, srcSystem, srcComponent):
+        right = hashlib.sha256(self.signing.secret_key + bytes(msgbuf[:-6])).digest()[:6]
+        return right == bytes(msgbuf[-6:]) and super().check_signature(msgbuf, srcSystem, srcComponent)
+
+
+class Wire:
+    """One end of MAVLink links: who we are, what we count, and the key if there is one."""
+
+    def __init__(self, system, component, key=None):
+        self._codec = _Codec(None, srcSystem=system, srcComponent=component)
+        if key is not None:
+            self._codec.signing.secret_key = hashlib.sha256(key.encode()).digest()
+            self._codec.signing.sign_outgoing = True
+
+    def set_date(self, date):
+        """`date`, in seconds since 1970, is what signatures are stamped with, unless one was stamped later."""
+        signing = self._codec.signing
+        signing.timestamp = max(signing.timestamp, int((date - SIGNING_EPOCH) * 1e5))
+
+    def encode(self, message, version=2):
+        """The frame of `message`, as MAVLink 1 or 2."""
+        frame = message.pack(self._codec, force_mavlink1=version == 1)
+        self._codec.seq = (self._codec.seq + 1) % 256
+        return frame
+
+    def decode(self, data):
+        """The messages in `data`, a datagram or a piece of a stream, and the bytes after the last whole frame. What is
+        no frame, has a wrong checksum or signature, or is no message of the dialect, is passed over."""
+        messages, at = [], 0
+        while at < len(data):
+            if data[at] not in (mavlink.PROTOCOL_MARKER_V1, mavlink.PROTOCOL_MARKER_V2):
+                at += 1
+                continue
+            size = _size(data, at)
+            if size is None or at + size > len(data):
+                # Perhaps the rest is still to come, perhaps a stray byte looks like a frame's first.
+                break
+            message = self._message(data[at : at + size])
+            if message is None:
+                at += 1
+            else:
+                messages.append(message)
+                at += size
+        return messages, bytes(data[at:])
+
+    def decode_datagram(self, data):
+        """The messages in `data`, of which nothing is still to come."""
+        messages = []
+        while data:
+            found, rest = self.decode(data)
+            messages += found
+            data = rest[1:]
+        return messages
+
+    def _message(self, frame):
+        if frame[0] == mavlink.PROTOCOL_MARKER_V2 and frame[2] & ~SIGNED:
+            return None
+        try:
+            message = self._codec.decode(bytearray(frame))
+        except (mavlink.MAVError, ValueError, TypeError):
+            return None
+        return None if message.get_msgId() < 0 or message.get_type().startswith("UNKNOWN") else message
+
+
+def _size(data, at):
+    """How long the frame at `at` is, or None if its header is not there yet."""
+    if at + 3 > len(data):
+        return None
+    if data[at] == mavlink.PROTOCOL_MARKER_V1:
+        return data[at + 1] + 8
+    return data[at + 1] + 12 + (SIGNATURE if data[at + 2] & SIGNED else 0)
+
+
+def version_of(message):
+    """1 or 2: the version of MAVLink that `message` came in."""
+    buffer = message.get_msgbuf()
+    return 1 if buffer and buffer[0] == mavlink.PROTOCOL_MARKER_V1 else 2

@@ -1,0 +1,352 @@
+"""A vehicle that speaks MAVLink, for tests: the mission protocol and the modes as ArduPilot or PX4 have them, on a
+straight way at constant speed. Pure: messages and the time go in, messages come out. Faults are ordered by its
+attributes and by `pilot`, `failsafe`, `disarm`.
+
+It shares pymavlink's messages and the tables of modes with the adapter, nothing else.
+"""
+
+import math
+
+from dolphin_mavlink import geo, modes
+from dolphin_mavlink.wire import mavlink
+
+KINDS = {
+    "copter": mavlink.MAV_TYPE_QUADROTOR,
+    "plane": mavlink.MAV_TYPE_FIXED_WING,
+    "rover": mavlink.MAV_TYPE_GROUND_ROVER,
+    "boat": mavlink.MAV_TYPE_SURFACE_BOAT,
+    "sub": mavlink.MAV_TYPE_SUBMARINE,
+}
+_DONE_AT_ONCE = 95  # commands above this number are no navigation
+
+
+class SimVehicle:
+    def __init__(self, system, kind="copter", px4=False, place=(41.185, -8.706), speed=15.0, armed=False, battery=90):
+        self.system, self.component = system, 1
+        self.autopilot = modes.PX4 if px4 else modes.ARDUPILOT
+        self.type, self.frame = KINDS[kind], kind
+        self.modes = modes.modes_of(self.autopilot, kind)
+        self.mode = (
+            "HOLD" if px4 else "GUIDED" if armed else {"copter": "STABILIZE", "sub": "STABILIZE"}.get(kind, "MANUAL")
+        )
+        self.place, self.home, self.altitude, self.speed = place, place, 0.0, speed
+        self.armed, self.battery, self.status = armed, battery, mavlink.MAV_STATE_STANDBY
+        self.items, self.current, self.state = [], 0, mavlink.MISSION_STATE_NO_MISSION
+        self.began = []  # when each mission was begun, and how many items it had
+        self.reached = []  # the items that were reached
+        self.commands = []  # all that were carried out, with their first parameters
+        # Faults
+        self.refuses_upload = None  # a MAV_MISSION_RESULT for the first item
+        self.results = {}  # of commands, by their numbers
+        self.deaf_to = set()  # types of messages and numbers of commands that it ignores
+        self.silent = False
+        self.tells_state = True  # of its mission, as newer autopilots do
+        self.tells_reached = True
+        self.keeps = lambda items: items  # what it keeps of an upload
+        self._out, self._at = [], None
+        self._upload = None
+        self._waits_until, self._jumps = None, {}
+        self._beat_at = self._position_at = -1.0
+
+    # From the ground station
+
+    def hear(self, now, message):
+        kind = message.get_type()
+        if (
+            self.silent
+            or kind in self.deaf_to
+            or getattr(message, "target_system", self.system) not in (0, self.system)
+        ):
+            return []
+        self._advance(now)
+        hear = getattr(self, "_hear_" + kind.lower(), None)
+        if hear is not None:
+            hear(now, message)
+        return self._take()
+
+    def _take(self):
+        out, self._out = self._out, []
+        return out
+
+    def _hear_mission_count(self, now, message):
+        self._upload = {
+            "from": (message.get_srcSystem(), message.get_srcComponent()),
+            "count": message.count,
+            "items": [],
+            "asked": now,
+            "begun": now,
+            "heard": now,
+        }
+        self._request(now)
+
+    def _request(self, now):
+        upload = self._upload
+        upload["asked"] = now
+        self._out.append(mavlink.MAVLink_mission_request_int_message(*upload["from"], len(upload["items"])))
+
+    def _hear_mission_item_int(self, now, message):
+        upload, sender = self._upload, (message.get_srcSystem(), message.get_srcComponent())
+        if upload is None:
+            self._acknowledge(sender, mavlink.MAV_MISSION_ERROR)
+        elif message.seq != len(upload["items"]):
+            self._acknowledge(sender, mavlink.MAV_MISSION_INVALID_SEQUENCE)
+        elif self.refuses_upload is not None:
+            self._upload = None
+            self._acknowledge(sender, self.refuses_upload)
+        else:
+            upload["items"].append(message)
+            upload["heard"] = now
+            if len(upload["items"]) < upload["count"]:
+                self._request(now)
+            else:
+                self._upload = None
+                self.items = self.keeps(upload["items"])
+                self._rewind()
+                self._acknowledge(sender, mavlink.MAV_MISSION_ACCEPTED)
+
+    def _hear_mission_ack(self, now, message):
+        if message.type == mavlink.MAV_MISSION_OPERATION_CANCELLED:
+            self._upload = None
+
+    def _acknowledge(self, to, result):
+        self._out.append(mavlink.MAVLink_mission_ack_message(*to, result))
+
+    def _hear_mission_request_list(self, now, message):
+        self._out.append(
+            mavlink.MAVLink_mission_count_message(
+                message.get_srcSystem(), message.get_srcComponent(), len(self.items)
+            )
+        )
+
+    def _hear_mission_request_int(self, now, message):
+        to = message.get_srcSystem(), message.get_srcComponent()
+        if message.seq >= len(self.items):
+            self._acknowledge(to, mavlink.MAV_MISSION_INVALID_SEQUENCE)
+            return
+        i = self.items[message.seq]
+        self._out.append(
+            mavlink.MAVLink_mission_item_int_message(
+                *to,
+                i.seq,
+                i.frame,
+                i.command,
+                0,
+                i.autocontinue,
+                i.param1,
+                i.param2,
+                i.param3,
+                i.param4,
+                i.x,
+                i.y,
+                i.z
+            )
+        )
+
+    def _hear_mission_set_current(self, now, message):
+        self._rewind(is_new=False)
+
+    def _hear_command_long(self, now, message):
+        command = message.command
+        if command in self.deaf_to:
+            return
+        result = self.results.get(command)
+        if result is None:
+            result = self._carry_out(now, command, message)
+            if result == mavlink.MAV_RESULT_ACCEPTED:
+                self.commands.append((command, message.param1, message.param2))
+        self._out.append(
+            mavlink.MAVLink_command_ack_message(
+                command, result, 0, 0, message.get_srcSystem(), message.get_srcComponent()
+            )
+        )
+
+    def _carry_out(self, now, command, message):
+        if command == mavlink.MAV_CMD_DO_SET_MODE:
+            px4 = self.autopilot == modes.PX4
+            number = int(message.param2) << 16 | int(message.param3) << 24 if px4 else int(message.param2)
+            self._enter(now, modes.name_of(self.autopilot, self.frame, number))
+        elif command == mavlink.MAV_CMD_COMPONENT_ARM_DISARM:
+            self.armed = message.param1 == 1
+            self._begin(now)
+            self._beat(now)
+        elif command == mavlink.MAV_CMD_DO_SET_MISSION_CURRENT:
+            self._rewind(is_new=False)
+        elif command not in (mavlink.MAV_CMD_SET_MESSAGE_INTERVAL, mavlink.MAV_CMD_MISSION_START):
+            return mavlink.MAV_RESULT_UNSUPPORTED
+        return mavlink.MAV_RESULT_ACCEPTED
+
+    # What others do to it
+
+    def pilot(self, now, mode):
+        self._advance(now)
+        self._enter(now, mode)
+        return self._take()
+
+    def failsafe(self, now, text, mode):
+        self._advance(now)
+        self.status = mavlink.MAV_STATE_CRITICAL
+        self._out.append(mavlink.MAVLink_statustext_message(mavlink.MAV_SEVERITY_CRITICAL, text.encode()))
+        self._enter(now, mode)
+        return self._take()
+
+    def disarm(self, now):
+        self._advance(now)
+        self.armed = False
+        self._beat(now)
+        return self._take()
+
+    # Its mission
+
+    @property
+    def _first(self):
+        return 0 if self.autopilot == modes.PX4 else 1
+
+    def _rewind(self, is_new=True):
+        self.current, self._waits_until, self._jumps = self._first, None, {}
+        if is_new or self.state != mavlink.MISSION_STATE_ACTIVE:
+            there = len(self.items) > self._first
+            self.state = mavlink.MISSION_STATE_NOT_STARTED if there else mavlink.MISSION_STATE_NO_MISSION
+        self._news()
+
+    def _enter(self, now, mode):
+        self.mode = mode
+        if mode == self.modes.mission:
+            self._begin(now)
+        elif self.state == mavlink.MISSION_STATE_ACTIVE:
+            self.state = mavlink.MISSION_STATE_PAUSED
+        self._beat(now)
+
+    def _begin(self, now):
+        runs = self.armed and self.mode == self.modes.mission and len(self.items) > self._first
+        if runs and self.state in (mavlink.MISSION_STATE_NOT_STARTED, mavlink.MISSION_STATE_PAUSED):
+            if self.state == mavlink.MISSION_STATE_NOT_STARTED:
+                self.began.append((now, len(self.items) - self._first))
+            self.state, self._at = mavlink.MISSION_STATE_ACTIVE, now
+            self._news()
+
+    def _news(self):
+        total = max(0, len(self.items) - self._first)
+        state = self.state if self.tells_state else 0
+        self._out.append(
+            mavlink.MAVLink_mission_current_message(self.current, total if self.tells_state else 0, state)
+        )
+
+    def _advance(self, now):
+        """Flies on until `now`."""
+        if self._at is None:
+            self._at = now
+        guard = 0
+        while self.state == mavlink.MISSION_STATE_ACTIVE and self.armed and guard < 10000:
+            guard += 1
+            if not self._step(now):
+                break
+        self._at = now
+
+    def _step(self, now):
+        """Whether the current item was fulfilled before `now`."""
+        item = self.items[self.current]
+        if item.command == mavlink.MAV_CMD_DO_JUMP:
+            return self._jump(item)
+        goal = (item.x / 1e7, item.y / 1e7) if item.command < 80 and (item.x, item.y) != (0, 0) else None
+        if item.command == mavlink.MAV_CMD_NAV_RETURN_TO_LAUNCH:
+            goal = self.home
+        if goal is not None and self._waits_until is None:
+            far = geo.distance(self.place, goal)
+            takes = far / self.speed
+            if self._at + takes > now:
+                north, east = geo.offset(self.place, goal)
+                share = (now - self._at) * self.speed / far
+                self.place = geo.displace(self.place, north * share, east * share)
+                return False
+            self._at, self.place, self.altitude = self._at + takes, goal, item.z
+        if item.command == mavlink.MAV_CMD_NAV_LOITER_UNLIM:
+            return False
+        holds = {mavlink.MAV_CMD_NAV_LOITER_TIME, mavlink.MAV_CMD_NAV_DELAY, mavlink.MAV_CMD_NAV_WAYPOINT}
+        seconds = item.param1 if item.command in holds and math.isfinite(item.param1) else 0.0
+        if self._waits_until is None:
+            self._waits_until = self._at + seconds
+        if self._waits_until > now:
+            return False
+        self._at, self._waits_until = max(self._at, self._waits_until), None
+        self._fulfilled(item)
+        return True
+
+    def _jump(self, item):
+        done = self._jumps.get(self.current, 0)
+        if 0 <= item.param2 <= done:
+            self._next()
+        else:
+            self._jumps[self.current] = done + 1
+            self.current = int(item.param1)
+            self._news()
+        return True
+
+    def _fulfilled(self, item):
+        self.reached.append(self.current)
+        if self.tells_reached and item.command <= _DONE_AT_ONCE:
+            self._out.append(mavlink.MAVLink_mission_item_reached_message(self.current))
+        if (
+            item.command in (mavlink.MAV_CMD_NAV_LAND, mavlink.MAV_CMD_NAV_RETURN_TO_LAUNCH)
+            and self.frame == "copter"
+        ):
+            self.altitude, self.armed = 0.0, False
+        self._next()
+
+    def _next(self):
+        if self.current + 1 < len(self.items):
+            self.current += 1
+        else:
+            self.state = mavlink.MISSION_STATE_COMPLETE
+            if self.modes.after and self.armed:
+                self.mode = self.modes.after[0]
+            self._beat(self._at)
+        self._news()
+
+    # What it says
+
+    def _beat(self, now):
+        main, sub = modes.parameters_of(self.autopilot, self.frame, self.mode)
+        custom = main << 16 | sub << 24 if self.autopilot == modes.PX4 else main
+        base = mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED | (mavlink.MAV_MODE_FLAG_SAFETY_ARMED if self.armed else 0)
+        status = self.status
+        if status == mavlink.MAV_STATE_STANDBY and self.armed:
+            status = mavlink.MAV_STATE_ACTIVE
+        self._out.append(mavlink.MAVLink_heartbeat_message(self.type, self.autopilot, base, custom, status, 3))
+
+    def tick(self, now):
+        self._advance(now)
+        if self.silent:
+            self._out = []
+            return []
+        if now - self._beat_at >= 1:
+            self._beat_at = now
+            self._beat(now)
+            self._news()
+            self._sense(now)
+        upload = self._upload
+        if upload is not None:
+            px4 = self.autopilot == modes.PX4
+            if now - upload["heard"] > (5 if px4 else 8):
+                self._upload = None
+                self._acknowledge(upload["from"], mavlink.MAV_MISSION_OPERATION_CANCELLED)
+            elif now - upload["asked"] > (0.25 if px4 else 1.0):
+                self._request(now)
+        return self._take()
+
+    def _sense(self, now):
+        latitude, longitude = round(self.place[0] * 1e7), round(self.place[1] * 1e7)
+        millimetres = round(self.altitude * 1000)
+        moves = self.state == mavlink.MISSION_STATE_ACTIVE and self.armed
+        speed = round(self.speed * 100) if moves else 0
+        self._out += [
+            mavlink.MAVLink_global_position_int_message(
+                round(now * 1000) & 0xFFFFFFFF, latitude, longitude, millimetres, millimetres, speed, 0, 0, 65535
+            ),
+            mavlink.MAVLink_sys_status_message(0, 0, 0, 0, 12000, -1, self.battery, 0, 0, 0, 0, 0, 0),
+            mavlink.MAVLink_home_position_message(
+                round(self.home[0] * 1e7), round(self.home[1] * 1e7), 0, 0, 0, 0, [1, 0, 0, 0], 0, 0, 0
+            ),
+            mavlink.MAVLink_extended_sys_state_message(
+                0, mavlink.MAV_LANDED_STATE_ON_GROUND if self.altitude <= 0 else mavlink.MAV_LANDED_STATE_IN_AIR
+            ),
+        ]

@@ -1,0 +1,74 @@
+"""A vehicle that nobody here wrote: the vehicle's side of MAVSDK 4.1, in C++, which speaks as PX4 does.
+
+    mavsdk_vehicle.py PORT
+
+It flies a mission by saying that each item is complete, ten a second. Ends when its input ends.
+"""
+
+import os
+import sys
+import threading
+import time
+
+from mavsdk.component_type import ComponentType
+from mavsdk.mavsdk import Configuration, Mavsdk
+from mavsdk.plugins.action_server import ActionServer, AllowableFlightModes, FlightMode
+from mavsdk.plugins.mission_raw_server import MissionRawServer
+from mavsdk.plugins.telemetry_server import Battery, Heading, Position, TelemetryServer, VelocityNed
+
+
+class Flight:
+    def __init__(self):
+        self.items, self.armed, self.mode = [], False, FlightMode.HOLD
+
+    def flies(self):
+        return self.armed and self.mode == FlightMode.MISSION and self.items
+
+
+def main(port):
+    mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.AUTOPILOT))
+    mavsdk.add_any_connection(f"udpout://127.0.0.1:{port}")
+    component = mavsdk.server_component()
+    action, telemetry, missions = ActionServer(component), TelemetryServer(component), MissionRawServer(component)
+    flight = Flight()
+
+    def mission(result, plan, _):
+        flight.items = list(plan.mission_items)
+        print("mission", [item.command for item in flight.items], file=sys.stderr, flush=True)
+
+    def mode(result, wanted, _):
+        flight.mode = wanted
+        print("mode", wanted, file=sys.stderr, flush=True)
+
+    def arm(result, wanted, _):
+        flight.armed = bool(wanted.arm)
+        print("arm", flight.armed, file=sys.stderr, flush=True)
+
+    missions.subscribe_incoming_mission(mission)
+    action.subscribe_flight_mode_change(mode)
+    action.subscribe_arm_disarm(arm)
+    action.set_allowable_flight_modes(AllowableFlightModes(True, True, True))
+    action.set_armable(True, True)
+    action.set_disarmable(True, True)
+    action.set_flight_mode_internal(FlightMode.HOLD)
+    ended = threading.Event()
+    threading.Thread(target=lambda: (os.read(0, 1), ended.set()), daemon=True).start()
+    left = None
+    while not ended.is_set():
+        telemetry.publish_position(Position(41.185, -8.706, 30.0, 30.0), VelocityNed(0, 0, 0), Heading(0))
+        if flight.flies():
+            left = len(flight.items) if left is None else left
+            if left > 0:
+                missions.set_current_item_complete()
+                left -= 1
+            else:
+                # As PX4 does after the last item. MAVSDK's vehicle refuses this mode from a ground station.
+                flight.mode = FlightMode.HOLD
+                action.set_flight_mode_internal(FlightMode.HOLD)
+        else:
+            left = None
+        time.sleep(0.1)
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]))

@@ -1,0 +1,345 @@
+"""Stored missions, inline plans: what they become, and what is refused with which words."""
+
+import math
+import os
+import tempfile
+import unittest
+
+from dolphin_mavlink import geo, mission, plans
+from dolphin_mavlink.mission import Item, Unreadable
+from dolphin_mavlink.shell import read_missions
+from tests.support import HARBOUR, waypoint, way
+
+UAV = plans.For("x8", "plane", False, HARBOUR, HARBOUR, 53.0, True)
+COPTER = plans.For("c1", "copter", True, HARBOUR, HARBOUR, None, True)
+SUB = plans.For("s1", "sub", False, HARBOUR, HARBOUR, None, True)
+BOAT = plans.For("b1", "boat", False, HARBOUR, HARBOUR, None, True)
+HERE = {"latitude": HARBOUR[0], "longitude": HARBOUR[1], "height": 0}
+
+PLAN = """{"fileType": "Plan", "version": 1, "mission": {"items": [
+  {"type": "SimpleItem", "command": 22, "frame": 3, "params": [0, 0, 0, null, 41.185, -8.706, 30]},
+  {"type": "ComplexItem", "complexItemType": "survey", "TransectStyleComplexItem": {"Items": [
+    {"type": "SimpleItem", "command": 16, "frame": 3, "params": [0, 0, 0, null, 41.186, -8.706, 30]},
+    {"type": "SimpleItem", "command": 206, "frame": 2, "params": [25, 0, 1, 0, 0, 0, 0], "autoContinue": true}]}},
+  {"type": "SimpleItem", "command": 177, "frame": 2, "params": [2, 3, 0, 0, 0, 0, 0], "autoContinue": true},
+  {"type": "SimpleItem", "command": 20, "frame": 2, "params": [0, 0, 0, 0, 0, 0, 0], "autoContinue": true}]}}"""
+WAYPOINTS = """QGC WPL 110
+0\t1\t0\t16\t0\t0\t0\t0\t41.185\t-8.706\t0\t1
+1\t0\t3\t22\t0\t0\t0\t0\t41.185\t-8.706\t30\t1
+2\t0\t3\t16\t5\t0\t0\t0\t41.186\t-8.706\t30\t1
+"""
+
+
+def read(plan, whom=UAV, stored=None):
+    def find(name):
+        if stored is None or name not in stored:
+            raise Unreadable(f"there is no mission '{name}'")
+        return stored[name]
+
+    return plans.compile_plan(plan, find, whom)
+
+
+def maneuver(kind, **more):
+    m = {
+        "id": "1." + kind,
+        "maneuver": kind,
+        "latitude": HARBOUR[0],
+        "longitude": HARBOUR[1],
+        "height": 0,
+        "z": 30,
+        "zUnit": "altitude",
+        "speed": 18,
+        "speedUnit": "m/s",
+        "payload": [],
+    }
+    return {**m, **more}
+
+
+def inline(*maneuvers, vehicles=()):
+    return {
+        "name": "p",
+        "language": "imcPlan",
+        "body": {"description": "", "vehicles": list(vehicles), "maneuvers": list(maneuvers)},
+    }
+
+
+def items(*words):
+    entries = [
+        {
+            "item": w[0],
+            "arguments": list(w[1:]) if not isinstance(w[-1], Named) else list(w[1:-1]),
+            "named": w[-1] if isinstance(w[-1], Named) else {},
+        }
+        for w in words
+    ]
+    return {"name": "m", "language": "mission", "body": {"items": entries}}
+
+
+class Named(dict):
+    pass
+
+
+class Files(unittest.TestCase):
+    def test_a_plan_of_qgroundcontrol(self):
+        found = mission.of_file("a.plan", PLAN)
+        self.assertEqual([i.command for i in found], [22, 16, 206, 177, 20])
+        self.assertEqual((found[1].x, found[1].y, found[1].z, found[1].frame), (411860000, -87060000, 30.0, 6))
+        self.assertEqual(found[3].params[:2], (2.0, 3.0))
+
+    def test_waypoints(self):
+        found = mission.of_file("a.waypoints", WAYPOINTS)
+        self.assertEqual([(i.command, i.params[0]) for i in found], [(22, 0.0), (16, 5.0)])
+
+    def test_unreadable_ones_say_why(self):
+        for name, text, why in (
+            ("a.plan", "{", "it is no plan of QGroundControl"),
+            ("a.plan", "[]", "it is no plan of QGroundControl"),
+            ("a.plan", '{"mission": {"items": []}}', "it has no items"),
+            ("a.plan", '{"mission": {"items": [3]}}', "an item is no object"),
+            (
+                "a.plan",
+                '{"mission": {"items": [{"command": 16, "frame": 3, "params": [1]}]}}',
+                "item 1 has not seven parameters",
+            ),
+            (
+                "a.plan",
+                '{"mission": {"items": [{"command": 16, "frame": 3, "params": [0,0,0,0,91,0,0]}]}}',
+                "item 1 is at 91, 0, which is no place",
+            ),
+            (
+                "a.plan",
+                '{"mission": {"items": [{"type": "ComplexItem", "complexItemType": "survey"}]}}',
+                "its item of type survey lists no items: save it anew",
+            ),
+            ("a.waypoints", "", "its first line is not QGC WPL 110"),
+            ("a.waypoints", WAYPOINTS + "1 2\n", "item 3 has 2 columns instead of 12"),
+            ("a.waypoints", WAYPOINTS.replace("41.186", "north"), "item 2 has a column that is no number"),
+        ):
+            with self.assertRaises(Unreadable) as caught:
+                mission.of_file(name, text)
+            self.assertEqual(str(caught.exception), why)
+
+    def test_a_directory(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in (
+                ("a.plan", PLAN),
+                ("b.waypoints", WAYPOINTS),
+                ("b.plan", PLAN),
+                ("c.plan", "{"),
+                ("d.txt", ""),
+            ):
+                with open(os.path.join(folder, name), "w") as file:
+                    file.write(text)
+            found = read_missions(folder)
+            self.assertEqual(len(found["a"]), 5)
+            self.assertEqual(found["b"], f"{folder} has it twice, as .plan and as .waypoints")
+            self.assertEqual(found["c"], "c.plan: it is no plan of QGroundControl")
+            self.assertNotIn("d", found)
+
+    def test_what_may_come_back_otherwise(self):
+        sent = waypoint(10, 10, params=(5.0, 0.0, 0.0, math.nan))
+        self.assertIsNone(mission.difference(sent, Item(16, 3, (5.0, 2.0, 1.0, 0.0), sent.x + 1, sent.y, 30.01)))
+        self.assertEqual(mission.difference(sent, Item(17, 3)), "command 17 instead of 16")
+        self.assertIn("parameter 1", mission.difference(sent, waypoint(10, 10, params=(7.0, 0.0, 0.0, 0.0))))
+        self.assertIn("instead of", mission.difference(sent, waypoint(11, 10, params=sent.params)))
+        self.assertIn("height", mission.difference(sent, waypoint(10, 10, 31.0, params=sent.params)))
+
+    def test_jumps_that_lead_nowhere(self):
+        jump = Item(177, params=(9.0, 1.0, 0.0, 0.0))
+        with self.assertRaises(plans.Refused) as caught:
+            read({"name": "a"}, stored={"a": (*way(2), jump)})
+        self.assertEqual(caught.exception.problems, ["item 3 jumps to item 9, and there are 3"])
+
+
+class Inline(unittest.TestCase):
+    def commands(self, plan, whom=UAV):
+        return [i.command for i in read(plan, whom).items]
+
+    def refused(self, plan, whom=UAV):
+        with self.assertRaises(plans.Refused) as caught:
+            read(plan, whom)
+        return caught.exception.problems
+
+    def test_maneuvers(self):
+        rows = maneuver(
+            "rows",
+            bearing=0,
+            crossAngle=0,
+            width=40,
+            length=200,
+            horizontalStep=20,
+            curveOffset=15,
+            alternation=100,
+            squareCurve=True,
+            firstCurveRight=False,
+        )
+        path = maneuver("followPath", points=[[0, 0, 0], [100, 0, 5]])
+        loiter = maneuver("loiter", radius=80, duration=120, direction="counter-clockwise")
+        self.assertEqual(self.commands(inline(maneuver("launch"), maneuver("goTo"), loiter)), [178, 22, 16, 19])
+        found = read(inline(loiter)).items[1]
+        self.assertEqual(found.params, (120.0, 0.0, -80.0, 0.0))
+        self.assertEqual([i.z for i in read(inline(path)).items[1:]], [30.0, 25.0])
+        corners = [tuple(round(c) for c in geo.offset(HARBOUR, i.place)) for i in read(inline(rows)).items[1:]]
+        self.assertEqual(
+            corners,
+            [(-15, 0), (0, 0), (215, 0), (215, -20), (200, -20), (-15, -20), (-15, -40), (0, -40), (215, -40)],
+        )
+        self.assertTrue(read(inline(maneuver("skeeping", radius=20, duration=0))).endless)
+
+    def test_the_speed_is_set_when_it_changes(self):
+        plan = inline(maneuver("goTo"), maneuver("goTo"), maneuver("goTo", speed=50, speedUnit="percent"))
+        self.assertEqual(self.commands(plan), [178, 16, 16, 178, 16])
+        self.assertEqual(read(plan).items[3].params, (1.0, -1.0, 50.0, 0.0))
+
+    def test_heights(self):
+        height = inline(maneuver("goTo", zUnit="height", z=100))
+        self.assertEqual((read(height).items[1].z, read(height).items[1].frame), (47.0, mission.GLOBAL))
+        self.assertIn("does not tell how far the ellipsoid", self.refused(height, COPTER)[0])
+        depth = inline(maneuver("goTo", zUnit="depth", z=5))
+        self.assertEqual(read(depth, SUB).items[1].z, -5.0)
+        self.assertEqual(
+            self.refused(depth),
+            ["maneuver 1.goTo: an aircraft does not dive to a depth of 5 m: give z in Z.Units.ALTITUDE, or 0"],
+        )
+        self.assertEqual(
+            self.refused(depth, BOAT),
+            ["maneuver 1.goTo: a USV does not dive to a depth of 5 m: give z in Z.Units.ALTITUDE, or 0"],
+        )
+
+    def test_what_does_not_fit_is_refused_with_all_its_reasons(self):
+        plan = inline(
+            maneuver("yoyo", amplitude=10, pitch=15),
+            maneuver("goTo", speedUnit="rpm"),
+            maneuver("goTo", payload=[{"name": "Sidescan", "parameters": {}}]),
+            maneuver("loiter", radius=20, duration=10, direction="into-wind-or-current"),
+        )
+        self.assertEqual(
+            self.refused(plan),
+            [
+                "maneuver 1.yoyo: MAVLink has no yoyo",
+                "maneuver 1.goTo: MAVLink knows no revolutions per minute: give the speed in metres a second, "
+                "or in percent",
+                "maneuver 1.goTo: MAVLink has no way to switch on 'Sidescan'",
+                "maneuver 1.loiter: MAVLink has no loiter into the wind or current",
+            ],
+        )
+        self.assertEqual(self.refused(inline(maneuver("goTo"), vehicles=["x9"])), ["only x9 may run it"])
+
+    def test_a_camera(self):
+        plan = inline(maneuver("goTo", payload=[{"name": "Camera", "parameters": {"rate": "2"}}]))
+        self.assertEqual(self.commands(plan), [178, 2000, 16, 2001])
+        self.assertEqual(read(plan).items[1].params[1], 0.5)
+
+
+class Missions(unittest.TestCase):
+    def found(self, *words, whom=COPTER):
+        return read(items(*words), whom, {"s": way(2)})
+
+    def refused(self, *words, whom=COPTER):
+        with self.assertRaises(plans.Refused) as caught:
+            self.found(*words, whom=whom)
+        return caught.exception.problems
+
+    def test_a_flight(self):
+        found = self.found(
+            ("name", "photos"),
+            ("arm", True),
+            ("takeOff", 30),
+            ("speed", 5),
+            ("move", Named(north=10)),
+            ("capturePhoto",),
+            ("moveFromHome", 100, 50),
+            ("goPos", HERE, Named(altitude=40)),
+            ("captureUntilStop", 2),
+            ("loiterTurns", 2, Named(radius=20)),
+            ("stopCapturing",),
+            ("loiterTime", 30),
+            ("delay", 5),
+            ("jumpToItem", 3, 2),
+            ("returnHomeAndLand",),
+        )
+        self.assertTrue(found.arm)
+        self.assertEqual(
+            [i.command for i in found.items], [22, 178, 16, 2000, 16, 16, 2000, 18, 2001, 19, 93, 177, 16, 21]
+        )
+        self.assertEqual(found.items[11].params[:2], (3.0, 2.0))
+        north, east = geo.offset(HARBOUR, found.items[2].place)
+        self.assertAlmostEqual(north, 10, 1)
+        self.assertAlmostEqual(east, 0, 1)
+        self.assertEqual(found.items[5].z, 40.0)
+
+    def test_every_word(self):
+        area = [
+            {**HERE, "latitude": HARBOUR[0] + a, "longitude": HARBOUR[1] + b}
+            for a, b in ((0, 0), (0.002, 0), (0.002, 0.002), (0, 0.002))
+        ]
+        examples = {
+            "name": ("x",),
+            "arm": (True,),
+            "stored": ("s",),
+            "speed": (3,),
+            "altitude": (20,),
+            "home": (HERE,),
+            "takeOff": (20,),
+            "takeOffWithYaw": (20, 90),
+            "move": (1, 2, 3),
+            "moveFromHome": (1, 2),
+            "goPos": (HERE,),
+            "returnHome": (),
+            "returnHomeAndLoiter": (10,),
+            "returnHomeAndLand": (),
+            "landingPoint": (HERE,),
+            "moveAndLoiter": (5, 5),
+            "loiterPos": (HERE,),
+            "loiterTurns": (2,),
+            "loiterTime": (9,),
+            "delay": (3,),
+            "capturePhoto": (),
+            "captureSeveralPhotos": (3, 2),
+            "captureUntilStop": (2,),
+            "stopCapturing": (),
+            "jumpToItem": (1,),
+            "surveyArea": (area, 30),
+        }
+        self.assertEqual(set(examples), set(plans._WORDS))
+        for word, arguments in examples.items():
+            found = self.found(("takeOff", 10), (word, *arguments))
+            self.assertGreaterEqual(len(found.items), 1, word)
+
+    def test_a_survey_covers_its_area(self):
+        area = [
+            {**HERE, "latitude": HARBOUR[0] + a, "longitude": HARBOUR[1] + b}
+            for a, b in ((0, 0), (0.002, 0), (0.002, 0.002), (0, 0.002))
+        ]
+        lines = self.found(("altitude", 30), ("surveyArea", area, Named(spacing=20, bearing=0))).items
+        offsets = [geo.offset(HARBOUR, i.place) for i in lines]
+        self.assertEqual(len(lines) % 2, 0)
+        easts = sorted({round(east) for _, east in offsets})
+        self.assertLessEqual(max(b - a for a, b in zip(easts, easts[1:])), 21)
+        self.assertAlmostEqual(max(north for north, _ in offsets), 222, delta=2)
+
+    def test_refusals(self):
+        for words, problems in (
+            ([("fly",)], ["'fly' is no item of missions"]),
+            ([("takeOff",)], ["item 1, takeOff: lacks altitude"]),
+            ([("takeOff", "high")], ["item 1, takeOff: altitude is no number that would do"]),
+            ([("takeOff", 1, 2)], ["item 1, takeOff: takes altitude, not 2 arguments"]),
+            ([("takeOff", Named(height=3))], ["item 1, takeOff: has no argument 'height': it has altitude"]),
+            ([("goPos", HERE)], ["item 1, goPos: how high? Give altitude: metres above home, or begin with takeOff"]),
+            ([("takeOff", 5), ("goPos", 4)], ["item 2, goPos: position is no position"]),
+            ([("takeOff", 5), ("jumpToItem", 7)], ["jumpToItem 7: there are 2 items"]),
+            ([("arm", 1)], ["item 1, arm: arm is true or false"]),
+            ([("arm", True)], ["it has no items"]),
+            ([("stored", "t")], ["there is no mission 't'"]),
+        ):
+            self.assertEqual(self.refused(*words), problems)
+        self.assertEqual(self.refused(("takeOff", 5), whom=BOAT), ["item 1: a USV neither takes off nor lands"])
+
+    def test_another_language(self):
+        with self.assertRaises(plans.Refused) as caught:
+            read({"name": "x", "language": "prose", "body": {}})
+        self.assertEqual(caught.exception.problems, ["plans in prose are not known here"])
+
+
+if __name__ == "__main__":
+    unittest.main()

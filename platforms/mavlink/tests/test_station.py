@@ -1,0 +1,218 @@
+"""The platform protocol, and whom the station believes."""
+
+import json
+import unittest
+
+from dolphin_mavlink.station import Options, Station
+from dolphin_mavlink.wire import Wire, mavlink
+from sim.network import Network
+from sim.vehicle import SimVehicle
+from tests.support import HARBOUR, Case, one, stored, way
+
+
+class Protocol(Case):
+    def test_greeting(self):
+        _, wires = one()
+        hello = wires.reports[0]
+        self.assertEqual((hello["kind"], hello["protocol"], hello["name"]), ("hello", 1, "mavlink"))
+        self.assertEqual(hello["plans"], ["name", "imcPlan", "mission"])
+
+    def test_another_version(self):
+        station = Station(Options())
+        station.order(0.0, {"kind": "hello", "protocol": 2})
+        kinds = [what[1]["kind"] if what[0] == "report" else what[0] for what in station.take()]
+        self.assertEqual(kinds, ["error", "quit"])
+
+    def test_pings(self):
+        _, wires = one()
+        wires.order(kind="ping", id=7)
+        self.assertEqual(wires.reports[-1], {"kind": "pong", "id": 7})
+
+    def test_vehicles(self):
+        kinds = [("copter", "UAV"), ("plane", "UAV"), ("rover", "UGV"), ("boat", "USV"), ("sub", "UUV")]
+        vehicles = [SimVehicle(n, kind, n % 2 == 0, HARBOUR) for n, (kind, _) in enumerate(kinds, 1)]
+        wires = Network(vehicles, options=Options(names={3: "x8-02"}, payloads={"mav-1": ["DVL", "camera"]}))
+        wires.run(3)
+        names = ["mav-1", "mav-2", "x8-02", "mav-4", "mav-5"]
+        for name, (_, kind) in zip(names, kinds):
+            seen = wires.vehicle_said(name)
+            self.assertEqual((seen["type"], seen["link"], seen["unready"]), (kind, True, None))
+            self.assertAlmostEqual(seen["latitude"], HARBOUR[0], 6)
+            self.assertEqual(seen["battery"], 0.9)
+        self.assertEqual(wires.vehicle_said("mav-1")["payload"], ["DVL", "camera"])
+
+    def test_an_unknown_battery_is_unknown(self):
+        wires = Network([SimVehicle(1, battery=-1)])
+        wires.run(3)
+        self.assertIsNone(wires.vehicle_said("mav-1")["battery"])
+
+    def test_a_camera_that_is_a_component_of_its_own(self):
+        vehicle, wires = one()
+        camera = SimVehicle(1)
+        camera.component = 100
+        beat = mavlink.MAVLink_heartbeat_message(mavlink.MAV_TYPE_CAMERA, mavlink.MAV_AUTOPILOT_INVALID, 0, 0, 4, 3)
+        wires._wires[1]._codec.srcComponent = 100
+        wires.say(vehicle, [beat])
+        wires._wires[1]._codec.srcComponent = 1
+        wires.run(2)
+        self.assertEqual(wires.vehicle_said("mav-1")["payload"], ["camera"])
+
+    def test_links(self):
+        vehicle, wires = one()
+        vehicle.silent = True
+        wires.run(8)
+        self.assertFalse(wires.vehicle_said("mav-1")["link"])
+        vehicle.silent = False
+        wires.run(2)
+        self.assertTrue(wires.vehicle_said("mav-1")["link"])
+
+    def test_a_start_that_comes_twice_is_one(self):
+        vehicle, wires = one()
+        wires.start("r", "mav-1", stored())
+        wires.start("r", "mav-1", stored())
+        self.ends(wires, "r", "done")
+        wires.start("r", "mav-1", stored())
+        self.assertEqual(wires.reports[-1], {"kind": "done", "request": "r"})
+        self.assertEqual(len(vehicle.began), 1)
+
+    def test_stops_of_what_is_over_or_unknown(self):
+        _, wires = one()
+        wires.stop("nothing")
+        self.assertEqual(wires.reports[-1], {"kind": "stopped", "request": "nothing"})
+        wires.start("r", "mav-1", {"name": "nowhere"})
+        refused = wires.reports[-1]
+        self.assertEqual((refused["kind"], refused["why"]), ("failed", "there is no mission 'nowhere' in missions"))
+        wires.stop("r")
+        self.assertEqual(wires.reports[-1], refused)
+
+    def test_a_vehicle_that_nobody_heard(self):
+        _, wires = one()
+        wires.start("r", "mav-9", stored())
+        self.ends(wires, "r", "failed", "no mav-9 was heard for 60 seconds")
+
+    def test_resuming_without_a_note(self):
+        _, wires = one()
+        wires.order(kind="resume", request="r", vehicle="mav-1", plan=stored(), timeout=60, notes=[])
+        self.ends(wires, "r", "absent")
+
+    def test_checks_move_nothing(self):
+        vehicle, wires = one()
+        wires.order(kind="check", id=3, plan=stored(), vehicle="mav-1")
+        self.assertEqual(wires.reports[-1], {"kind": "checked", "id": 3, "problems": []})
+        wires.order(kind="check", id=4, plan={"name": "servey"})
+        self.assertEqual(wires.reports[-1]["problems"], ["there is no mission 'servey': did you mean 'survey'?"])
+        wires.run(5)
+        self.assertEqual(vehicle.items, [])
+
+    def test_orders_that_are_malformed(self):
+        _, wires = one()
+        for line in (
+            None,
+            7,
+            [],
+            {},
+            {"kind": 4},
+            {"kind": "nonsense"},
+            {"kind": "start"},
+            {"kind": "ping"},
+            {"kind": "stop", "request": []},
+            {
+                "kind": "start",
+                "request": "x",
+                "vehicle": "mav-1",
+                "timeout": 60,
+                "plan": {"name": 4, "language": "mission", "body": 3},
+            },
+        ):
+            wires.station.order(wires.now, line)
+        wires._act()
+        wires.run(2)
+        self.assertEqual(wires.end_of("x")["why"], "the plan is malformed")
+
+    def test_the_end(self):
+        vehicle, wires = one()
+        wires.order(kind="close")
+        self.assertEqual(wires.reports[-1], {"kind": "quiet"})
+        vehicle, wires = one()
+        wires.start("r", "mav-1", stored())
+        wires.order(kind="close")
+        wires.run(3)
+        self.assertEqual(wires.said("quiet"), [])
+        wires.run(3)
+        self.assertEqual(wires.reports[-1]["kind"], "quiet")
+
+
+class Trust(Case):
+    """Nobody else ends our task."""
+
+    def flying(self):
+        vehicle, wires = one(items=way(40))
+        wires.start("r", "mav-1", stored())
+        self.assertTrue(wires.run(20, lambda: wires.said("taken")))
+        wires.run(2)
+        return vehicle, wires
+
+    def forged(self, system):
+        ends = [
+            mavlink.MAVLink_mission_item_reached_message(40),
+            mavlink.MAVLink_mission_current_message(40, 40, 5),
+            mavlink.MAVLink_heartbeat_message(2, 3, 1, 5, 4, 3),
+            mavlink.MAVLink_heartbeat_message(2, 3, 129, 5, 5, 3),
+            mavlink.MAVLink_mission_ack_message(255, 190, 5),
+            mavlink.MAVLink_command_ack_message(176, 4, 0, 0, 255, 190),
+            mavlink.MAVLink_mission_current_message(40, 3, 5),
+            mavlink.MAVLink_statustext_message(1, b"Failsafe"),
+        ]
+        wire = Wire(system, 1)
+        for _ in range(200):
+            wire.encode(ends[0])
+        return [wire.encode(message) for message in ends * 3]
+
+    def test_a_foreign_system_cannot_end_our_task(self):
+        for address in (("link", "other"), ("link", 1)):
+            for system in (2, 3, 200):
+                vehicle, wires = self.flying()
+                for data in self.forged(system):
+                    wires.inject(data, address)
+                wires.run(2)
+                self.assertIsNone(wires.end_of("r"))
+
+    def test_nor_can_its_own_number_from_elsewhere(self):
+        vehicle, wires = self.flying()
+        for data in self.forged(1):
+            wires.inject(data, "elsewhere")
+        wires.run(2)
+        self.assertIsNone(wires.end_of("r"))
+        logs = [r["text"] for r in wires.said("log")]
+        self.assertEqual(logs, ["another system has number 1 too: what it says is ignored"])
+
+    def test_nor_can_answers_to_another_station(self):
+        vehicle, wires = one(items=way(100), delay=0.05)
+        wires.start("r", "mav-1", stored())
+        wires.run(1)
+        wires.say(vehicle, [mavlink.MAVLink_mission_ack_message(254, 190, mavlink.MAV_MISSION_NO_SPACE)])
+        self.ends(wires, "r", "done")
+
+    def test_with_a_key_only_what_is_signed_is_believed(self):
+        vehicle = SimVehicle(1)
+        wires = Network([vehicle], options=Options(stored={"survey": way(3)}), key="dolphins")
+        wires.run(3)
+        wires.start("r", "mav-1", stored())
+        self.ends(wires, "r", "done")
+        stranger = Network([SimVehicle(1)], key="dolphins")
+        stranger._wires[1] = Wire(1, 1)
+        stranger.run(5)
+        self.assertEqual(stranger.said("vehicle"), [])
+
+    def test_a_vehicle_moves_to_another_address_once_it_was_silent(self):
+        vehicle, wires = one()
+        wires.inject(self.forged(1)[2], "elsewhere")
+        self.assertEqual(wires.station._vehicles[1].address, ("link", 1))
+        vehicle.silent = True
+        wires.run(12)
+        wires.inject(self.forged(1)[2], ("link", 1, "new"))
+        self.assertEqual(wires.station._vehicles[1].address, ("link", 1, "new"))
+
+
+if __name__ == "__main__":
+    unittest.main()

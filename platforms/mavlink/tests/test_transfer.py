@@ -1,0 +1,120 @@
+"""MAVLink's mission protocol over bad links, in virtual time."""
+
+import unittest
+
+from dolphin_mavlink.transfer import RoundTrip, Upload, numbered
+from dolphin_mavlink.wire import mavlink
+from tests.support import Case, one, seeds, stored, way
+
+BAD = {"loss": 0.3, "doubled": 0.1, "reordered": 0.2}
+
+
+class Lossy(Case):
+    def test_missions_of_20_items_with_a_third_lost(self):
+        """50 missions: each is flown once, and done."""
+        for seed in seeds(50):
+            px4 = seed % 2 == 1
+            with self.subTest(seed=seed):
+                vehicle, wires = one(px4=px4, items=way(20), seed=seed, loss=0.3)
+                wires.run(20, lambda: "link" in wires.vehicle_said("mav-1"))
+                wires.start("r", "mav-1", stored())
+                end = wires.run_to_end("r")
+                self.assertIsNotNone(end)
+                self.assertEqual(end["kind"], "done", end)
+                self.assertEqual(len(vehicle.began), 1)
+                self.assertEqual(len(vehicle.reached), 20)
+
+    def test_one_after_another_on_a_bad_link(self):
+        """Which also doubles and reorders. No word on the mission before ends the one that runs; a late copy of an
+        order may, and that is said."""
+        ended = []
+        for seed in seeds(10):
+            vehicle, wires = one(px4=seed % 2 == 1, items=way(4), seed=seed, **BAD)
+            wires.run(20, lambda: "link" in wires.vehicle_said("mav-1"))
+            for n in range(4):
+                wires.start(f"r{n}", "mav-1", stored())
+                end = wires.run_to_end(f"r{n}")
+                ended.append(end["kind"])
+                if end["kind"] != "done":
+                    self.assertIn("by its pilot, or by a late copy of an order", end["why"], seed)
+                    break
+                self.assertEqual((len(vehicle.began), len(vehicle.reached)), (n + 1, 4 * n + 4), seed)
+        self.assertGreaterEqual(ended.count("done"), 0.9 * len(ended))
+
+
+class RoundTrips(Case):
+    def measure(self, px4):
+        delay = 0.05
+        vehicle, wires = one(px4=px4, items=way(100), delay=delay)
+        asked = wires.now
+        wires.start("r", "mav-1", stored())
+        self.assertTrue(wires.run(120, lambda: vehicle.state == mavlink.MISSION_STATE_NOT_STARTED, step=0.005))
+        uploaded = wires.now
+        self.assertTrue(wires.run(120, lambda: wires.said("note") and vehicle.began, step=0.005))
+        return (uploaded - asked) / (2 * delay) / 100, (wires.now - asked) / (2 * delay) / 100
+
+    def test_an_upload_of_100_items_takes_1_5_round_trips_an_item_at_most(self):
+        upload, everything = self.measure(px4=False)
+        self.assertLessEqual(upload, 1.1)
+        self.assertLessEqual(everything, 1.5, "with the download, the arming and the start")
+
+    def test_px4_is_asked_for_one_item_at_a_time(self):
+        upload, everything = self.measure(px4=True)
+        self.assertLessEqual(upload, 1.1)
+        self.assertLessEqual(everything, 2.3)
+
+
+class Uploads(unittest.TestCase):
+    def setUp(self):
+        self.upload = Upload((1, 1), numbered(way(3), None), RoundTrip())
+        self.upload.begin(0.0)
+
+    def ask(self, now, seq):
+        return [m.seq for m in self.upload.hear(now, mavlink.MAVLink_mission_request_int_message(255, 190, seq))]
+
+    def acknowledge(self, result):
+        self.upload.hear(9.0, mavlink.MAVLink_mission_ack_message(255, 190, result))
+        return self.upload.result
+
+    def test_each_item_is_sent_when_it_is_asked_for(self):
+        self.assertEqual([self.ask(1.0, 0), self.ask(2.0, 1), self.ask(3.0, 2)], [[0], [1], [2]])
+        self.assertEqual(self.acknowledge(mavlink.MAV_MISSION_ACCEPTED), "accepted")
+
+    def test_a_request_and_its_copy_are_one(self):
+        self.assertEqual([self.ask(1.0, 0), self.ask(1.01, 0), self.ask(2.0, 0)], [[0], [], [0]])
+
+    def test_a_request_for_an_item_that_is_none(self):
+        self.assertEqual(self.ask(1.0, 3), [])
+
+    def test_what_is_not_answered_is_repeated(self):
+        self.ask(0.1, 0)
+        self.assertEqual([m.seq for m in self.upload.tick(2.0)], [0])
+        self.assertEqual(self.upload.tick(2.01), [])
+
+    def test_an_acceptance_before_the_last_item_is_another_one(self):
+        self.ask(1.0, 0)
+        self.assertIsNone(self.acknowledge(mavlink.MAV_MISSION_ACCEPTED))
+
+    def test_an_invalid_sequence_answers_an_item_that_came_twice(self):
+        self.ask(1.0, 0)
+        self.assertIsNone(self.acknowledge(mavlink.MAV_MISSION_INVALID_SEQUENCE))
+
+    def test_an_error_after_the_last_item_leaves_it_open(self):
+        for seq in range(3):
+            self.ask(1.0 + seq, seq)
+        self.assertEqual(self.acknowledge(mavlink.MAV_MISSION_ERROR), "unclear")
+
+    def test_a_transfer_that_the_vehicle_gave_up(self):
+        self.ask(1.0, 0)
+        self.assertEqual(self.acknowledge(mavlink.MAV_MISSION_OPERATION_CANCELLED), "again")
+
+    def test_acknowledgements_of_fences_are_others(self):
+        for seq in range(3):
+            self.ask(1.0 + seq, seq)
+        fence = mavlink.MAVLink_mission_ack_message(255, 190, 0, mavlink.MAV_MISSION_TYPE_FENCE)
+        self.upload.hear(9.0, fence)
+        self.assertIsNone(self.upload.result)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -143,6 +143,8 @@ AnsweredWith(text) == << "answered", text >>
 NobodyAnswers(m) == << "nobody answers", m >>
 Replied(y) == << "replied", y >>
 HostFailed(m) == << "host failed", m >>
+(* Somebody posts k:x; whether it is certain that somebody does, sooner or later. *)
+Posted(k, x, isCertain) == << "input", k, x, isCertain >>
 Interruption == << "interruption" >>
 
 (* The timer of pick and pause. *)
@@ -716,6 +718,14 @@ TimersOf(kappa) ==
 
 INTERRUPT(kappa) ==
   EndedBy(Step("INTERRUPT", "interrupt", Interruption, Shared, Ends(Interrupted), << >>), TimersOf(kappa))
+
+(* {2 Inputs} *)
+
+(* Whatever the control is, but an end. *)
+INPUT(kappa, k, x, isCertain) ==
+  [ Transition("INPUT", "input " \o PairText(<< k, x >>), Posted(k, x, isCertain), kappa,
+               [ Shared EXCEPT !.N = Post(@, k, x) ], << >>)
+    EXCEPT !.deeds = << [ did |-> "post", pairs |-> << << k, x >> >> ] >> ]
 
 ScriptSteps(M) ==
   LET of(m, S) ==

@@ -143,6 +143,7 @@ Take_EXECUTE(ts) == \E j \in Taking("EXECUTE", ts) : Unmarked(ts[j])
 Take_EXECUTE_DONE(ts) == \E j \in Taking("EXECUTE-DONE", ts) : Unmarked(ts[j])
 Take_EXECUTE_ERR(ts) == \E j \in Taking("EXECUTE-ERR", ts) : Unmarked(ts[j])
 Take_ALLOC_ERR(ts) == \E j \in Taking("ALLOC-ERR", ts) : Unmarked(ts[j])
+Take_INPUT(ts) == \E j \in Taking("INPUT", ts) : Unmarked(ts[j])
 Take_END(ts) == \E j \in Taking("END", ts) : Unmarked(ts[j])
 Take_HALT(ts) == \E j \in Taking("HALT", ts) : Unmarked(ts[j])
 Take_FAULT(ts) == \E j \in Taking("FAULT", ts) : Unmarked(ts[j])
@@ -165,7 +166,7 @@ NextByRule ==
      \/ Take_RELEASE(ts) \/ Take_SET_TIMEOUT(ts) \/ Take_PICK(ts) \/ Take_PICK_BIND(ts) \/ Take_PICK_ERR(ts)
      \/ Take_ASK(ts) \/ Take_ANSWER(ts) \/ Take_ANSWER_ERR(ts) \/ Take_PAUSE(ts) \/ Take_RESUME(ts)
      \/ Take_CALL(ts) \/ Take_REPLY(ts) \/ Take_CALL_ERR(ts) \/ Take_EXECUTE(ts) \/ Take_EXECUTE_DONE(ts)
-     \/ Take_EXECUTE_ERR(ts) \/ Take_ALLOC_ERR(ts) \/ Take_END(ts) \/ Take_HALT(ts) \/ Take_FAULT(ts)
+     \/ Take_EXECUTE_ERR(ts) \/ Take_ALLOC_ERR(ts) \/ Take_INPUT(ts) \/ Take_END(ts) \/ Take_HALT(ts) \/ Take_FAULT(ts)
      \/ Take_INTERRUPT(ts)
 
 -----------------------------------------------------------------------------
@@ -200,7 +201,7 @@ StateText(kappa, S, environment) ==
        Each(InOrder(DOMAIN S.N.bag), LAMBDA pair : << pair, S.N.bag[pair] >>),
        environment.failed, environment.losses, InOrder(environment.lost), InOrder(environment.late),
        Each(InOrder(Prompts), LAMBDA prompt : environment.asked[prompt]),
-       Each(InOrder(Calls), LAMBDA call : environment.called[call]) >> } })
+       Each(InOrder(Calls), LAMBDA call : environment.called[call]), environment.sent >> } })
 
 (* {2 Effects} *)
 

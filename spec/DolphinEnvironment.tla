@@ -17,11 +17,14 @@ CONSTANTS
   HostReplies(_, _), \* to a call, made at this place: likewise what the host may reply, <<"value", y>>, or why it
                  \* fails, <<"failure", m>>
   Calls,         \* the calls whose replies depend on how often they were made
+  Inputs,        \* what people and programs may post, a sequence of records: the key; the rounds of what may be posted
+                 \* the first time, the second ..., the last for all later times; how many times at most; whether it is
+                 \* certain to come so often, sooner or later
   Interruptions  \* whether the program may be interrupted
 
 VARIABLE
   outside  \* what the environment remembers: how many failures and losses there were, who is lost, who was late, how
-           \* often each question was asked and each call made
+           \* often each question was asked, each call made and each input posted
 
 vars == << control, store, A, B, N, outside >>
 
@@ -33,6 +36,7 @@ EnvironmentOK ==
   /\ MayBeLate \subseteq Identifiers
   /\ Prompts \subseteq STRING /\ Calls \subseteq STRING
   /\ Interruptions \in BOOLEAN
+  /\ \A i \in DOMAIN Inputs : Inputs[i].rounds # << >> /\ Inputs[i].times \in Nat /\ Inputs[i].certain \in BOOLEAN
 
 ASSUME EnvironmentOK
 
@@ -192,6 +196,18 @@ ReplyTransitions(M, call, times) ==
      ELSE Each(given, on)
 
 -----------------------------------------------------------------------------
+(* {1 Inputs} *)
+
+InputTransitions(kappa) ==
+  LET of(i) ==
+        LET input == Inputs[i]
+            after == [ outside EXCEPT !.sent[i] = @ + 1 ]
+        IN IF outside.sent[i] = input.times THEN << >>
+           ELSE Each(ThisTime(input.rounds, outside.sent[i]),
+                     LAMBDA x : Remembering(INPUT(kappa, input.key, x, input.certain), after))
+  IN Flatten(<< >> \o [ i \in DOMAIN Inputs |-> of(i) ])
+
+-----------------------------------------------------------------------------
 (* {1 The whole system} *)
 
 Unnoticed(t) == Remembering(t, outside)
@@ -208,6 +224,7 @@ TransitionsFrom(kappa) ==
      [] kappa.at = "wait" -> WaitTransitions(kappa.M, kappa.request)
      [] kappa.at = "exec" -> ExecutingTransitions(kappa.M, kappa.r)
      [] kappa.at = "end" -> << >>)
+  \o (IF kappa.at = "end" THEN << >> ELSE InputTransitions(kappa))
   \o (IF Interruptions /\ kappa.at # "end" THEN << Unnoticed(INTERRUPT(kappa)) >> ELSE << >>)
 
 (* All that may happen now. *)
@@ -228,14 +245,14 @@ Init ==
   /\ B = << >>
   /\ N = NoTuples
   /\ outside = [ failed |-> 0, losses |-> 0, lost |-> { }, late |-> { }, asked |-> [ prompt \in Prompts |-> 0 ],
-                  called |-> [ call \in Calls |-> 0 ] ]
+                  called |-> [ call \in Calls |-> 0 ], sent |-> << >> \o [ i \in DOMAIN Inputs |-> 0 ] ]
 
 Next == \E j \in DOMAIN Transitions : Becomes(Transitions[j])
 
 (* {2 Events by kind} *)
 
-(* Nobody need ever interrupt. *)
-IsOwed(event) == event # Interruption
+(* Nobody need ever interrupt, or post what is not certain. *)
+IsOwed(event) == event # Interruption /\ (event[1] = "input" => event[4])
 IsProgram(event) == event = Program
 IsTimer(event) == event[1] = "expired"
 IsEndOf(v, event) == event[1] \in { "done", "failed" } /\ event[2] = v
@@ -276,6 +293,7 @@ TypeOK ==
   /\ outside.failed \in Nat
   /\ outside.losses \in Nat
   /\ outside.lost \subseteq Identifiers
+  /\ \A i \in DOMAIN Inputs : outside.sent[i] \in 0 .. Inputs[i].times
   /\ outside.late \subseteq MayBeLate
 
 AllocationWithinBound == DOMAIN A \subseteq Range(B)

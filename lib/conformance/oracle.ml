@@ -132,8 +132,10 @@ let has_ended (c : Configuration.t) =
 
 let awaited g world c = List.filter (is_awaited g world c) (Transition.awaited c)
 
-let of_awaited c events : json =
+let of_awaited (g : given) c events : json =
   let all = List.concat_map (patterns c) events in
+  let input key = [ ("event", `String "input"); ("key", `String key) ] in
+  let all = if has_ended c then all else all @ List.map input g.program.inputs in
   let all = if has_ended c then all else all @ [ [ ("event", `String "interruption") ] ] in
   `List (List.map (fun members -> `Assoc members) all)
 
@@ -170,7 +172,7 @@ let step_of g world c events =
   let* delivered = Results.map (deliver g world c) (Option.value events ~default:(plain there)) in
   let caused, refused = List.partition_map Fun.id delivered in
   let refused = if refused = [] then [] else [ ("refused", `List refused) ] in
-  Ok ([ ("transitions", `List (internal @ caused)); ("awaited", of_awaited c there) ] @ refused)
+  Ok ([ ("transitions", `List (internal @ caused)); ("awaited", of_awaited g c there) ] @ refused)
 
 let step g found =
   let bad result = error (fun why -> Bad_request why) result in

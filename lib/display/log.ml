@@ -99,6 +99,7 @@ let of_label (s : Transition.t) =
   | Pause seconds -> by_program ("pauses for " ^ Wording.duration seconds)
   | Call what -> by_program ("calls " ^ what)
   | Reply what -> by_program ("is told " ^ what)
+  | Input (k, x) -> by_program (Format.asprintf "gets %a" Value.pp_tuple (k, x))
   | Start _ | Silent | Pick _ | Bind _ | No_vehicles _ | Ask _ | Answer _ | No_answer | Resume | No_reply _
   | Execute | Cannot_execute _ | End | Halt _ | Fault _ | Interrupt -> []
 
@@ -118,8 +119,8 @@ let told_by_label (label : Label.t) =
   | Did d -> if has_effect d then 1 else 0
   | Check ds | Act ds | Cut ds -> List.length (List.filter has_effect ds)
   | Start _ | Done _ | Fail _ | Time_out | Set_time _ | Broken _ | Silent | Pick _ | Bind _ | No_vehicles _ | Ask _
-  | Answer _ | No_answer | Pause _ | Resume | Call _ | Reply _ | No_reply _ | Execute | Cannot_execute _ | End
-  | Halt _ | Fault _ | Interrupt -> 0
+  | Answer _ | No_answer | Pause _ | Resume | Call _ | Reply _ | No_reply _ | Input _ | Execute | Cannot_execute _
+  | End | Halt _ | Fault _ | Interrupt -> 0
 
 let of_effect ~stuck l : Effect.t -> happening list = function
   | Start (v, p) -> [ of_vehicle v ("starts " ^ Phrase.one_line p.name) ]

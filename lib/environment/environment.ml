@@ -2,11 +2,14 @@ open Dolphin_semantics
 
 type ending = Succeeds | May_fail | Fails
 
+type input = { key : string; rounds : Core.value list list; times : int; certain : bool }
+
 type options = {
   endings : Core.vehicle -> string -> ending;
   may_be_late : Core.vehicle -> bool;
   answers : string -> string list list;
   replies : string -> (Core.value, string) result list list;
+  inputs : input list;
   faults : Faults.t;
 }
 
@@ -16,6 +19,7 @@ let clear = function Ok x -> x | Error fault -> raise (Unclear fault)
 
 let default =
   { endings = (fun _ _ -> Succeeds); may_be_late = (fun _ -> true); answers = (fun _ -> []); replies = (fun _ -> []);
+    inputs = [];
     faults = Faults.none }
 
 let ending options v name =
@@ -48,9 +52,10 @@ type t = {
   late : Core.vehicle list;  (* those that were late, or missing, at some time *)
   asked : (string * int) list;  (* by prompt *)
   called : (string * int) list;  (* by name of the call *)
+  sent : (int * int) list;  (* how often, by place among the inputs *)
 }
 
-let initial = { failed = 0; losses = 0; lost = []; late = []; asked = []; called = [] }
+let initial = { failed = 0; losses = 0; lost = []; late = []; asked = []; called = []; sent = [] }
 
 let compare a b =
   let both first second = if first <> 0 then first else second () in
@@ -63,12 +68,14 @@ let compare a b =
         both (Int.compare a.losses b.losses) (fun () ->
             both (compare_vehicles a.lost b.lost) (fun () ->
                 both (compare_vehicles a.late b.late) (fun () ->
-                    both (compare_times a.asked b.asked) (fun () -> compare_times a.called b.called)))))
+                    both (compare_times a.asked b.asked) (fun () ->
+                        both (compare_times a.called b.called) (fun () -> Stdlib.compare a.sent b.sent))))))
 
 let hash e =
   let mix h x = (h * 31) + Hashtbl.hash x in
   let times h (_, n) = (h * 31) + n in
   let counted = List.fold_left times (List.fold_left times ((e.failed * 7) + e.losses) e.asked) e.called in
+  let counted = List.fold_left (fun h (i, n) -> (h * 31) + (i * 7) + n) counted e.sent in
   List.fold_left mix (List.fold_left mix counted e.lost) e.late
 
 let lost e = e.lost
@@ -148,6 +155,32 @@ let after_refusal options program ~before e (c : Configuration.t) why =
   | Waiting (_, Ask prompt) when times prompt before.asked < List.length (options.answers prompt) - 1 ->
     answered options program e prompt
   | Waiting _ | Script _ | Executing _ | Ended _ -> [ (Ok (Transition.Nobody_answers why), e) ]
+
+(* {1 Inputs} *)
+
+let sent e i = Option.value (List.assoc_opt i e.sent) ~default:0
+
+(* Those that the program declares and that may still come, each with its place. *)
+let pending options (program : Core.program) e =
+  let may_come (i, input) = List.mem input.key program.inputs && sent e i < input.times in
+  if options.inputs = [] || program.inputs = [] then []
+  else List.filter may_come (List.mapi (fun i input -> (i, input)) options.inputs)
+
+let owes options program e = List.exists (fun (_, input) -> input.certain) (pending options program e)
+
+let inputs options program e =
+  let of_input (i, input) =
+    let n = sent e i in
+    let e = { e with sent = List.sort Stdlib.compare ((i, n + 1) :: List.remove_assoc i e.sent) } in
+    let round = List.nth input.rounds (min n (List.length input.rounds - 1)) in
+    List.map (fun x -> (input.key, x, e)) round
+  in
+  List.concat_map of_input (pending options program e)
+
+(* The pairs that may still come. *)
+let upcoming options program e =
+  let pairs (_, input) = List.concat_map (List.map (fun x -> (input.key, x))) input.rounds in
+  List.concat_map pairs (pending options program e)
 
 (* {1 Transitions} *)
 
@@ -244,6 +277,12 @@ let interruption options program world e c () =
     | Ok t -> Seq.return (t, e) ()
     | Error _ -> Seq.Nil
 
+let posts options program world e c : (Transition.t * t) Seq.t =
+  let post (k, x, e) =
+    match Transition.accept program world c (Input (k, x)) with Ok t -> Some (t, e) | Error _ -> None
+  in
+  List.to_seq (List.filter_map post (inputs options program e))
+
 let choices options program world e (c : Configuration.t) =
   let by_itself () =
     match c.control with
@@ -251,7 +290,8 @@ let choices options program world e (c : Configuration.t) =
     | Script _ | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) | Executing _ | Ended _ ->
       in_world options program world e c ()
   in
-  Seq.append by_itself (interruption options program world e c)
+  let from_outside () = Seq.append (posts options program world e c) (interruption options program world e c) () in
+  Seq.append by_itself from_outside
 
 let rec find p (choices : _ Seq.t) =
   match choices () with
@@ -259,5 +299,7 @@ let rec find p (choices : _ Seq.t) =
   | Cons (choice, _) when p choice -> Some choice
   | Cons (_, rest) -> find p rest
 
-let is_interruption (t : Transition.t) = Label.equal t.label Interrupt
-let is_stuck choices = Option.is_none (find (fun (t, _) -> not (is_interruption t)) choices)
+let is_voluntary (t : Transition.t) = match t.label with Interrupt | Input _ -> true | _ -> false
+
+let is_stuck options program e choices =
+  Option.is_none (find (fun (t, _) -> not (is_voluntary t)) choices) && not (owes options program e)

@@ -7,6 +7,16 @@ open Dolphin_semantics
 (** How a platform task may end. *)
 type ending = Succeeds | May_fail | Fails
 
+(** Pairs that somebody may post with one key. *)
+type input = {
+  key : string;
+  rounds : Core.value list list;
+  (** for the first time, the second and so on: what may be posted then; the last item is for all later times. At least
+      one item, each with at least one value *)
+  times : int;  (** how often in one run, at most *)
+  certain : bool;  (** as often as that, sooner or later; otherwise perhaps never *)
+}
+
 type options = {
   endings : Core.vehicle -> string -> ending;
   (** of a vehicle's run of the plan with this name, without {!Faults} *)
@@ -17,6 +27,7 @@ type options = {
   replies : string -> (Core.value, string) result list list;
   (** likewise, by the name of a call ({!Machine.name_of_call}): what the supplier may reply, or why it does not. Tasks
       come from the place of the call. Where there is none, the call fails ({!no_reply}). *)
+  inputs : input list;  (** those with keys that the program does not declare do not count *)
   faults : Faults.t;
 }
 
@@ -30,7 +41,7 @@ val clear : ('a, Fault.t) result -> 'a
     @raise Unclear *)
 
 val default : options
-(** Tasks succeed, nothing is lost, nobody is late, nobody answers or replies, and nobody interrupts. *)
+(** Tasks succeed, nothing is lost, nobody is late, nobody answers, replies, posts or interrupts. *)
 
 val ending : options -> Core.vehicle -> string -> ending
 (** [ending o v name] is how [v] may end the plan of this name, faults included. *)
@@ -76,18 +87,28 @@ val task_ends : options -> t -> Core.vehicle -> Core.platform_task -> (Transitio
 val endings_remember : options -> bool
 (** Whether the memory after an end that [task_ends] gives may differ from that before it although the task succeeds. *)
 
+val inputs : options -> Core.program -> t -> (string * Core.value * t) list
+(** [inputs o p e] is what may be posted, each pair with the memory after it. *)
+
+val upcoming : options -> Core.program -> t -> (string * Core.value) list
+(** [upcoming o p e] is all pairs that may be posted now or later. *)
+
+val owes : options -> Core.program -> t -> bool
+(** Whether some input is certain that has not come as often as it will. *)
+
 val choices : options -> Core.program -> World.t -> t -> Configuration.t -> (Transition.t * t) Seq.t
 (** [choices o p w e c] is every transition of [c], computed on demand: its own, leftmost first, then those on events,
-    in the order of [Transition.awaited], and last the interruption, if there are any. What a transition takes for
-    granted, of sensors and of who is there, is among its [assumed].
+    in the order of [Transition.awaited], the inputs, and last the interruption, if there are any. What a transition
+    takes for     granted, of sensors and of who is there, is among its [assumed].
     @raise Unclear (each time it is gone through) if [w] is open and the outcomes of a step cannot be listed. *)
 
 val find : ('choice -> bool) -> 'choice Seq.t -> 'choice option
 (** [find p choices] is the first of [choices] for which [p] holds, if there is one. The others after it are not
     computed. *)
 
-val is_interruption : Transition.t -> bool
+val is_voluntary : Transition.t -> bool
+(** Whether it is an interruption or an input. *)
 
-val is_stuck : (Transition.t * 'state) Seq.t -> bool
-(** [is_stuck choices] is whether there is nothing among them but interruptions: nobody need ever interrupt, so a
-    program that waits for nothing else is stuck. *)
+val is_stuck : options -> Core.program -> t -> (Transition.t * 'state) Seq.t -> bool
+(** [is_stuck o p e choices] is whether there is nothing among [choices], those of a state with memory [e], but
+    interruptions, and inputs that are not certain: nobody need ever interrupt, or post. *)

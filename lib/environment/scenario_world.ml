@@ -27,6 +27,9 @@ let answers given (scenario : Scenario.t) prompt =
 
 let is_unsteady (v : Scenario.vehicle) = v.joins > 0. || v.leaves <> None || v.drops <> []
 
+let input (i : Scenario.input) : Environment.input =
+  { key = i.key; rounds = i.rounds; times = i.times; certain = i.after <> None }
+
 let environment ~answers:given ~faults (scenario : Scenario.t) =
   let unsteady = List.filter is_unsteady scenario.vehicles in
   let late = List.map (fun (v : Scenario.vehicle) -> v.id) (if unsteady = [] then scenario.vehicles else unsteady) in
@@ -35,5 +38,6 @@ let environment ~answers:given ~faults (scenario : Scenario.t) =
     may_be_late = (fun v -> List.mem v late);
     answers = answers given scenario;
     replies = (fun call -> Option.value (Scenario.rounds scenario call) ~default:[]);
+    inputs = List.map input scenario.inputs;
     faults;
   }

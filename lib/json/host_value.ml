@@ -173,3 +173,15 @@ let parse ?(deepest = 2 * deepest) text =
     match Yojson.Safe.from_string text with
     | json -> Ok json
     | exception Yojson.Json_error why -> Error (String.concat " " (String.split_on_char '\n' why))
+
+let rec is_data : Core.value -> bool = function
+  | Null | Boolean _ | Integer _ | Number _ | String _ | Position _ | Area _ | Vehicles _ -> true
+  | List xs -> Array.for_all is_data xs
+  | Map entries -> List.for_all (fun (_, x) -> is_data x) entries
+  | Task _ | Host _ | Wildcard | Symbol _ | Range _ | Closure _ | Settings _ | Reading _ | Unknown _ -> false
+
+let data_of_json json =
+  match of_json ~site:Fault.unknown_site json with
+  | Ok x when is_data x -> Ok x
+  | Ok _ -> Error "tasks and objects cannot be posted"
+  | Error why -> Error why

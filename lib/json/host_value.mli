@@ -21,6 +21,12 @@ val of_json : site:Core.site -> Yojson.Safe.t -> (Core.value, string) result
 (** [of_json ~site json] is the value that [json] stands for; its tasks come from [site]. A whole number is an integer
     if it is written as one and fits. *)
 
+val data_of_json : Yojson.Safe.t -> (Core.value, string) result
+(** [data_of_json json] is likewise what the outside may post: a value without tasks and objects of the host. *)
+
+val is_data : Core.value -> bool
+(** Whether there are no tasks and objects of the host in it. *)
+
 val parse : ?deepest:int -> string -> (Yojson.Safe.t, string) result
 (** [parse text] is the JSON value that [text] is, or what is wrong. Nesting is bounded, by [deepest] (200 by
     default), so that no text exhausts the stack. *)

@@ -73,4 +73,4 @@ let event ~now (e : Platform.event) =
   | Timer timer -> Log.debug (fun m -> m "%.3f timer %d fired" now timer)
   | Task_done v -> Log.debug (fun m -> m "%.3f %s is done" now v)
   | Task_failed (v, why) -> Log.debug (fun m -> m "%.3f %s failed: %s" now v why)
-  | Vehicle _ | Quiet -> ()
+  | Vehicle _ | Input _ | Quiet -> ()

@@ -22,7 +22,7 @@ let add (event : Platform.event) b =
       | rest -> rest
     in
     { b with events = List.rev (event :: without (List.rev b.events)) }
-  | Task_done _ | Task_failed _ | Timer _ | Quiet -> { b with events = b.events @ [ event ] }
+  | Task_done _ | Task_failed _ | Timer _ | Input _ | Quiet -> { b with events = b.events @ [ event ] }
 
 let told v b = Option.map (fun t -> t.state) (Names.find_opt v b.last)
 
@@ -48,9 +48,9 @@ let keep p b = { b with events = List.filter p b.events }
 let without_task v =
   keep (function
       | Platform.Task_done w | Task_failed (w, _) -> w <> v
-      | Vehicle _ | Timer _ | Quiet -> true)
+      | Vehicle _ | Timer _ | Input _ | Quiet -> true)
 
 let without_timer timer =
   keep (function
       | Platform.Timer other -> other <> timer
-      | Vehicle _ | Task_done _ | Task_failed _ | Quiet -> true)
+      | Vehicle _ | Task_done _ | Task_failed _ | Input _ | Quiet -> true)

@@ -77,7 +77,7 @@ let without fits d = { d with ready = List.filter (fun n -> not (fits n)) (all_n
 
 let is_end_of v = function
   | Told (Platform.Task_done w | Task_failed (w, _)) -> v = w
-  | Told (Vehicle _ | Timer _ | Quiet) | Changed _ -> false
+  | Told (Vehicle _ | Timer _ | Input _ | Quiet) | Changed _ -> false
 
 let rec take d =
   match d.ready, d.news with

@@ -13,6 +13,7 @@ type occurrence =
   | Loss of Core.vehicle                        (* the link has been silent for too long *)
   | Expiry of Residual.timer
   | Beat                                        (* telemetry *)
+  | Posting of string * Core.value              (* somebody posts a pair *)
 
 (* What a vehicle does for the program. *)
 type activity =
@@ -243,6 +244,7 @@ let happen f = function
   | Loss id -> lost id f
   | Expiry timer -> Some (Platform.Timer timer), { f with timers = Int_map.remove timer f.timers }
   | Beat -> None, beat f
+  | Posting (k, x) -> Some (Platform.Input (k, x)), f
 
 (* {1 Time} *)
 
@@ -315,7 +317,15 @@ let create ~seed (s : Scenario.t) =
     | next :: _ -> snd (schedule next (Link v.id) f)
     | [] -> f
   in
-  List.fold_left add empty s.vehicles
+  let post f (i : Scenario.input) =
+    let nth f n =
+      match i.after with
+      | None -> f
+      | Some seconds -> snd (schedule (seconds *. float_of_int (n + 1)) (Posting (i.key, Scenario.posted i n)) f)
+    in
+    List.fold_left nth f (List.init i.times Fun.id)
+  in
+  List.fold_left post (List.fold_left add empty s.vehicles) s.inputs
 
 (* {1 Displays} *)
 

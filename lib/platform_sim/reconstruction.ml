@@ -11,7 +11,7 @@ let without v states = List.filter (fun (s : World.vehicle_state) -> s.id <> v) 
 
 let put_aside s : Platform.event -> state = function
   | Vehicle state -> { s with unsaid = state :: without state.id s.unsaid }
-  | (Task_done _ | Task_failed _ | Timer _) as event -> { s with untold = event :: s.untold }
+  | (Task_done _ | Task_failed _ | Timer _ | Input _) as event -> { s with untold = event :: s.untold }
   | Quiet -> s
 
 (* Whatever happens before [time]. *)
@@ -49,34 +49,49 @@ let same (event : Transition.event) (told : Platform.event) =
   | Vehicle_done v, Task_done w -> v = w
   | Vehicle_failed (v, why), Task_failed (w, why') -> v = w && why = why'
   | Timer_expired timer, Timer timer' -> timer = timer'
+  | Input (k, x), Input (k', x') -> k = k' && Value.compare x x' = 0
   | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _
-      | Interruption ),
-      (Vehicle _ | Task_done _ | Task_failed _ | Timer _ | Quiet) ) -> false
+      | Input _ | Interruption ),
+      (Vehicle _ | Task_done _ | Task_failed _ | Timer _ | Input _ | Quiet) ) -> false
 
 let happen time (event : Transition.event) s =
+  let rec less_first = function
+    | told :: others when same event told -> others
+    | told :: others -> told :: less_first others
+    | [] -> []
+  in
+  let told ~last =
+    if List.exists (same event) s.untold then Some { s with untold = less_first s.untold }
+    else until ~last (same event) s
+  in
   let comes what =
-    if List.exists (same event) s.untold then
-      Ok { s with untold = List.filter (fun told -> not (same event told)) s.untold }
-    else
-      match until ~last:(time +. tolerance) (same event) s with
-      | Some s -> Ok s
-      | None -> Error (Printf.sprintf "%s at %g s did not happen with this fleet and this seed" what time)
+    match told ~last:(time +. tolerance) with
+    | Some s -> Ok s
+    | None -> Error (Printf.sprintf "%s at %g s did not happen with this fleet and this seed" what time)
   in
   match event with
   | Vehicle_done v | Vehicle_failed (v, _) -> comes ("the end of a task of " ^ v)
   | Timer_expired _ -> comes "the end of a timer"
+  | Input _ -> Ok (Option.value (told ~last:time) ~default:s)  (* of the fleet, or else of somebody *)
   | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Interruption -> Ok s
 
 let command ~announce_period s : Effect.t -> state = function
   | Start (v, task) -> { s with f = Fleet.start v task s.f }
   | Stop v ->
-    let others = function Platform.Task_done w | Task_failed (w, _) -> v <> w | Vehicle _ | Timer _ | Quiet -> true in
+    let others = function
+      | Platform.Task_done w | Task_failed (w, _) -> v <> w
+      | Vehicle _ | Timer _ | Input _ | Quiet -> true
+    in
     { s with f = Fleet.stop v s.f; untold = List.filter others s.untold }
   | Set_timer (timer, seconds) -> { s with f = Fleet.set_timer timer seconds s.f }
   | Look_for { timeout; _ } ->
     { s with f = Fleet.set_timer Residual.script_timer (Option.value timeout ~default:announce_period) s.f }
   | Cancel_timer timer ->
-    { s with f = Fleet.cancel_timer timer s.f; untold = List.filter (( <> ) (Platform.Timer timer)) s.untold }
+    let others = function
+      | Platform.Timer timer' -> timer <> timer'
+      | Vehicle _ | Task_done _ | Task_failed _ | Input _ | Quiet -> true
+    in
+    { s with f = Fleet.cancel_timer timer s.f; untold = List.filter others s.untold }
   | Bind vs -> { s with f = Fleet.bind vs s.f }
   | Release vs -> { s with f = Fleet.release vs s.f }
   | Set_connection_timeout (vs, seconds) -> { s with f = Fleet.set_connection_timeout vs seconds s.f }

@@ -68,7 +68,9 @@ module Make (Time : Time) = struct
   let set_timer p timer seconds = command p (Fleet.set_timer timer seconds)
 
   let cancel_timer p timer =
-    undo p (( = ) (Platform.Timer timer));
+    undo p (function
+        | Platform.Timer timer' -> timer = timer'
+        | Vehicle _ | Task_done _ | Task_failed _ | Input _ | Quiet -> false);
     command p (Fleet.cancel_timer timer)
 
   let bind p vehicles = command p (Fleet.bind vehicles)
@@ -76,7 +78,9 @@ module Make (Time : Time) = struct
   let start p vehicle task = command p (Fleet.start vehicle task)
 
   let stop p vehicle =
-    undo p (function Platform.Task_done v | Task_failed (v, _) -> v = vehicle | Vehicle _ | Timer _ | Quiet -> false);
+    undo p (function
+        | Platform.Task_done v | Task_failed (v, _) -> v = vehicle
+        | Vehicle _ | Timer _ | Input _ | Quiet -> false);
     command p (Fleet.stop vehicle)
 
   let set_connection_timeout p vehicles seconds = command p (Fleet.set_connection_timeout vehicles seconds)

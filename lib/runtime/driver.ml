@@ -39,7 +39,11 @@ let afresh program order =
 let most_without_pause = 100
 
 (* What happens outside. *)
-type news = Seen of World.vehicle_state | Event of (Transition.event, Transition.refusal) result | Nothing_more
+type news =
+  | Seen of World.vehicle_state
+  | Posted of Inputs.item
+  | Event of (Transition.event, Transition.refusal) result
+  | Nothing_more
 
 module Make (P : Platform.S) = struct
   type t = {
@@ -50,12 +54,15 @@ module Make (P : Platform.S) = struct
     observer : Observer.t;
     always_telemetry : bool;
     interruption : news Lwt.t;
+    inputs : Inputs.t;
     mutable configuration : Configuration.t;
     mutable world : World.t;
     mutable telemetry : bool;  (* as the platform was told last *)
     mutable upcoming : news Lwt.t option;  (* the platform's next event, if it was asked for *)
     mutable reply : news Lwt.t option;  (* from the console or the host, if it is awaited *)
     mutable unknown : Fault.t list;  (* what was told to be *)
+    mutable posted : news Lwt.t option;  (* the next input, if it was asked for *)
+    mutable input_before : bool;  (* whether the latest piece of news was an input *)
     mutable since_pause : int;  (* transitions and events since others had their turn *)
   }
 
@@ -151,27 +158,49 @@ module Make (P : Platform.S) = struct
         | Task_done v -> Event (Ok (Vehicle_done v))
         | Task_failed (v, why) -> Event (Ok (Vehicle_failed (v, why)))
         | Timer timer -> Event (Ok (Timer_expired timer))
+        | Input (k, x) -> Event (Ok (Input (k, x)))
         | Quiet -> Nothing_more
       in
       let promise = P.next s.platform >|= news in
       s.upcoming <- Some promise;
       promise
 
+  let next_of_inputs s =
+    match s.posted with
+    | Some promise -> promise
+    | None ->
+      let promise = Inputs.next s.inputs >|= fun item -> Posted item in
+      s.posted <- Some promise;
+      promise
+
+  (* Nobody can post what the program does not declare. *)
+  let inputs_of s = if s.program.inputs = [] then [] else [ next_of_inputs s ]
+
   let forget s promise =
     let unless p = if p == promise then None else Some p in
     s.upcoming <- Option.bind s.upcoming unless;
-    s.reply <- Option.bind s.reply unless
+    s.reply <- Option.bind s.reply unless;
+    s.posted <- Option.bind s.posted unless
 
-  (* The next piece of news: of several that are there, an interruption before a reply before the platform's. *)
+  (* The next piece of news: of several that are there, an interruption before a reply before inputs and the platform's,
+     which take turns: nobody can keep the vehicles' news away by posting. *)
   let next_news s =
     let platform = if P.virtual_time && s.reply <> None then [] else [ next_of_platform s ] in
-    let sources = (s.interruption :: Option.to_list s.reply) @ platform in
+    let inputs = inputs_of s in
+    let others = if s.input_before then platform @ inputs else inputs @ platform in
+    let sources = (s.interruption :: Option.to_list s.reply) @ others in
     let rec first_of = function
       | promise :: _ when is_resolved promise -> forget s promise; promise
       | _ :: others -> first_of others
       | [] -> Lwt.choose sources >>= fun _ -> first_of sources
     in
     first_of sources
+
+  (* Whoever posted hears of it after the journal. *)
+  let take_input s (item : Inputs.item) =
+    let taken = deliver s (Input (item.key, item.value)) in
+    Inputs.tell item taken;
+    taken
 
   let switch_telemetry s on =
     if on <> s.telemetry then begin
@@ -186,16 +215,19 @@ module Make (P : Platform.S) = struct
       match s.configuration.control with
       | Waiting _ | Executing _ | Ended _ -> ()
       | Script _ -> (
-          let promise = next_of_platform s in
-          match Lwt.state promise with
-          | Sleep | Fail _ -> ()
-          | Return news ->
-            forget s promise;
-            (match news with
-             | Seen state -> see s state
-             | Event event -> ignore (deliver_if_any s event)
-             | Nothing_more -> ());
-            catch_up s)
+          match List.find_opt is_resolved (inputs_of s @ [ next_of_platform s ]) with
+          | None -> ()
+          | Some promise -> (
+              match Lwt.state promise with
+              | Sleep | Fail _ -> ()
+              | Return news ->
+                forget s promise;
+                (match news with
+                 | Seen state -> see s state
+                 | Posted item -> ignore (take_input s item)
+                 | Event event -> ignore (deliver_if_any s event)
+                 | Nothing_more -> ());
+                catch_up s))
 
   (* {1 The run} *)
 
@@ -238,7 +270,9 @@ module Make (P : Platform.S) = struct
     let sensitive = Transition.depends_on_sensors s.program c in
     match c.control with
     | Executing (_, r)
-      when (not sensitive) && Vehicle_map.is_empty c.shared.allocation && Transition.awaited c = [] ->
+      when (not sensitive) && s.program.inputs = []
+           && Vehicle_map.is_empty c.shared.allocation
+           && Transition.awaited c = [] ->
       interrupt s;
       Lwt.return (Stuck r)
     | Script _ | Waiting _ | Executing _ | Ended _ ->
@@ -248,7 +282,10 @@ module Make (P : Platform.S) = struct
 
   (* News that cannot enable a transition do not make the driver look for one. *)
   and wait ~sensitive s =
-    next_news s >>= function
+    next_news s >>= fun news ->
+    s.input_before <- (match news with Posted _ -> true | Seen _ | Event _ | Nothing_more -> false);
+    match news with
+    | Posted item -> continue s (if take_input s item then advance else wait ~sensitive)
     | Seen state -> see s state; continue s (if sensitive then advance else wait ~sensitive)
     | Event event -> continue s (if deliver_if_any s event then advance else wait ~sensitive)
     | Nothing_more -> (
@@ -269,6 +306,11 @@ module Make (P : Platform.S) = struct
   let finish s =
     Option.iter Lwt.cancel s.upcoming;
     Option.iter Lwt.cancel s.reply;
+    Option.iter Lwt.cancel s.posted;
+    (match Option.map Lwt.state s.posted with
+     | Some (Return (Posted item)) -> Inputs.tell item false
+     | Some (Return (Seen _ | Event _ | Nothing_more) | Sleep | Fail _) | None -> ());
+    Inputs.close s.inputs;
     P.close s.platform
 
   (* The end of a run that an exception broke: vehicles are stopped as by an interruption, as far as possible. *)
@@ -280,13 +322,14 @@ module Make (P : Platform.S) = struct
         | Error (Not_awaited | Bad_answer _) -> ());
     Lwt.catch (fun () -> finish s) (fun _ -> Lwt.return_unit)
 
-  let run platform ~always_telemetry ~observer ~call ~console ~interruption ~(beginning : beginning) program =
+  let run platform ~always_telemetry ~observer ~call ~inputs ~console ~interruption ~(beginning : beginning) program =
     let s =
-      { platform; program; console; call; observer; always_telemetry;
+      { platform; program; console; call; observer; always_telemetry; inputs;
         interruption = (Lwt.protected interruption >|= fun () -> Event (Ok Interruption));
         configuration = beginning.configuration;
         world = beginning.world;
-        telemetry = false; upcoming = None; reply = None; unknown = []; since_pause = 0 }
+        telemetry = false; upcoming = None; reply = None; posted = None; input_before = false; unknown = [];
+        since_pause = 0 }
     in
     let whole () =
       switch_telemetry s always_telemetry;
@@ -299,9 +342,10 @@ module Make (P : Platform.S) = struct
 end
 
 let run (type platform) (module P : Platform.S with type t = platform) (platform : platform)
-    ?(always_telemetry = false) ?(observer = Observer.nobody) ?(host = no_host) ?beginning ~console ~interruption
-    program =
+    ?(always_telemetry = false) ?(observer = Observer.nobody) ?(host = no_host) ?inputs ?beginning ~console
+    ~interruption program =
   let module Driver = Make (P) in
-  Driver.run platform ~always_telemetry ~observer ~call:host ~console ~interruption
+  let inputs = match inputs with Some inputs -> inputs | None -> Inputs.create () in
+  Driver.run platform ~always_telemetry ~observer ~call:host ~inputs ~console ~interruption
     ~beginning:(Option.value beginning ~default:(afresh program P.order))
     program

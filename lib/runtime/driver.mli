@@ -41,6 +41,7 @@ val run :
   ?always_telemetry:bool ->
   ?observer:Observer.t ->
   ?host:call ->
+  ?inputs:Inputs.t ->
   ?beginning:beginning ->
   console:Console.t ->
   interruption:unit Lwt.t ->
@@ -50,7 +51,8 @@ val run :
     the outcome. When [interruption] resolves, the program is interrupted, whatever it is doing.
 
     The platform's telemetry is on while it may matter to the program, or with [~always_telemetry:true] (by default
-    false), for displays, all the time. Without [host], calls to the host process fail.
+    false), for displays, all the time. Without [host], calls to the host process fail. What is posted to [inputs] the
+    run takes as it comes, and a flood of it does not keep the platform's events away.
 
     The run begins with the program, or as [beginning] says, and [platform] is one that stands as it did then: what the
     program has started and not ended runs, its timers too. A question that was not answered, or a call of the host

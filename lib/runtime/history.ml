@@ -25,7 +25,7 @@ let part ~vehicles ~timers history =
     | Saw state -> keep (vehicles state.id)
     | Noted (v, _) | Happened (Vehicle_done v | Vehicle_failed (v, _)) -> keep (vehicles v)
     | Happened (Timer_expired _) -> keep timers
-    | Happened (Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Interruption) -> Some e
+    | Happened (Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _ | Interruption) -> Some e
     | Asked effects -> Some { e with what = Asked (List.filter_map effect_of effects) }
   in
   List.filter_map entry history
@@ -80,7 +80,7 @@ let outstanding ~announce_period history =
     | Noted (v, note) -> with_task v (fun c -> { c with notes = note :: c.notes }) s
     | Happened (Vehicle_done v | Vehicle_failed (v, _)) -> { s with tasks = List.remove_assoc v s.tasks }
     | Happened (Timer_expired timer) -> { s with timers = List.remove_assoc timer s.timers }
-    | Happened (Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Interruption) -> s
+    | Happened (Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _ | Interruption) -> s
     | Asked effects -> List.fold_left (ask ~announce_period time) s effects
   in
   List.fold_left add nothing history

@@ -12,6 +12,7 @@ let pp_event ppf : Transition.event -> unit = function
   | Nobody_answers why -> Fmt.pf ppf "no answer: %s" why
   | Replied x -> Fmt.pf ppf "the host replies %a" Value.pp x
   | Host_failed why -> Fmt.pf ppf "the host fails: %s" why
+  | Input (k, x) -> Fmt.pf ppf "input %s: %a" k Value.pp x
   | Interruption -> Fmt.string ppf "interruption"
 
 let transition ~time ~cause (t : Transition.t) =

@@ -12,6 +12,8 @@ type event =
   | Task_failed of Core.vehicle * string
   (* In the vehicle's own words: it failed, refused, or its link was lost for longer than its connection timeout. *)
   | Timer of Residual.timer
+  | Input of string * Core.value
+  (* Somebody posts a pair: only a platform that plays the people too knows. *)
   | Quiet
   (* Nothing will ever happen again by itself, and no position or battery will change: only a platform of virtual time
      can know. *)

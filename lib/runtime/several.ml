@@ -133,6 +133,7 @@ let event s i : Platform.event -> Platform.event option = function
   | Vehicle state -> see s i state
   | (Task_done v | Task_failed (v, _)) as event -> if owner s v = i then Some event else None
   | Timer _ as event -> if i = 0 then Some event else None
+  | Input _ as event -> Some event
   | Quiet -> None
 
 let upcoming s i =

@@ -50,5 +50,19 @@ type reply = {
   (** for the first call, the second and so on, at least one: what it may reply then, at least one *)
 }
 
-type t = { vehicles : vehicle list; plans : plan list; answers : answer list; replies : reply list }
-(** Vehicles, plans, prompts and calls are unique by their names, and in the order of the file. *)
+(** What people or programs post with [key] while a run goes on. *)
+type input = {
+  key : string;
+  rounds : Dolphin_semantics.Core.value list list;  (** for the first time, the second and so on, as of {!reply} *)
+  times : int;  (** how often, at least 1 *)
+  after : float option;  (** seconds since the start, or since the time before; [None]: nobody knows when, if at all *)
+}
+
+type t = {
+  vehicles : vehicle list;
+  plans : plan list;
+  answers : answer list;
+  replies : reply list;
+  inputs : input list;
+}
+(** Vehicles, plans, prompts and calls are unique by their names; all are in the order of the file. *)

@@ -107,6 +107,7 @@ type state = {
   plans : plan named list;
   answers : answer named list;
   replies : reply named list;
+  inputs : input list;
   unplaced : int;                               (* vehicles without a position *)
   faults : Diagnostic.t list;
 }
@@ -169,9 +170,39 @@ let usage = function
   | "vehicle" -> "vehicle takes an id and a block of settings, as in vehicle 'x8-02', { type 'UAV' }"
   | "plan" -> "plan takes a name and a block of settings, as in plan 'survey1', { duration 3.min, 9.min }"
   | "answer" -> "answer takes a prompt and a value, as in answer 'Radius of the area? (km)', 2"
+  | "input" -> "input takes a key and a value, as in input 'abort', true, or input 'target', 1, 2, after 5.min"
   | _ -> "reply takes a call of the supplier and a value, as in reply 'queue.await', task('survey1')"
 
-let entries = [ "vehicle"; "plan"; "answer"; "reply" ]
+(* [after 5.min] and [times 3] may stand behind the values. *)
+let input state (word : string located) key values =
+  let read (rounds, times, after, faults) (e : expression) =
+    let fault at message = (rounds, times, after, Diagnostic.error at message :: faults) in
+    match e.it with
+    | Call { callee = { it = Variable "after"; _ }; arguments = [ Positional time ] } -> (
+        match Result.bind (Literal.read time) (fun it -> Setting.time { it; at = time.at }) with
+        | Ok _ when after <> None -> fault e.at "after stands twice"
+        | Ok seconds -> (rounds, times, Some seconds, faults)
+        | Error d -> (rounds, times, after, d :: faults))
+    | Call { callee = { it = Variable "times"; _ }; arguments = [ Positional { it = Integer n; at } ] } ->
+      if n < 1 then fault at "an input comes at least once"
+      else if times <> None then fault e.at "times stands twice"
+      else (rounds, Some n, after, faults)
+    | Call { callee = { it = Variable "times"; _ }; _ } -> fault e.at "times takes a whole number, as in times 3"
+    | Call { callee = { it = Variable "after"; _ }; _ } -> fault e.at "after takes a time, as in after 5.min"
+    | _ -> (
+        match Reply.data e with
+        | Ok round -> (round :: rounds, times, after, faults)
+        | Error d -> (rounds, times, after, d :: faults))
+  in
+  let rounds, times, after, faults = List.fold_left read ([], None, None, []) values in
+  if faults <> [] then add_faults state faults
+  else if rounds = [] then add_fault state (Diagnostic.error word.at (usage "input"))
+  else
+    let rounds = List.rev rounds in
+    let times = Option.value times ~default:(List.length rounds) in
+    { state with inputs = { key; rounds; times; after } :: state.inputs }
+
+let entries = [ "vehicle"; "plan"; "answer"; "reply"; "input" ]
 
 let entry state (word : string located) arguments =
   let misused state = add_fault state (Diagnostic.error word.at (usage word.it)) in
@@ -187,12 +218,13 @@ let entry state (word : string located) arguments =
       plan state { it = name; at } body
     | "answer", { it = String prompt; at } :: (_ :: _ as values) -> answer state { it = prompt; at } values
     | "reply", { it = String call; at } :: (_ :: _ as values) -> reply state { it = call; at } values
-    | ("vehicle" | "plan" | "answer" | "reply"), _ -> misused state
+    | "input", { it = String key; at = _ } :: values -> input state word key values
+    | ("vehicle" | "plan" | "answer" | "reply" | "input"), _ -> misused state
     | other, _ ->
       let hint =
         match Diagnostic.suggest other entries with
         | Some near -> Printf.sprintf "did you mean '%s'?" near
-        | None -> "a fleet consists of vehicle, plan, answer and reply"
+        | None -> "a fleet consists of vehicle, plan, answer, reply and input"
       in
       add_fault state (Diagnostic.error word.at (Printf.sprintf "there is no '%s' in a fleet" other) ~hint)
 
@@ -203,7 +235,7 @@ let statement state (s : statement) =
   | Expression { it = Variable word; at } -> entry state { it = word; at } []
   | _ ->
     add_fault state
-      (Diagnostic.error s.at "only vehicle, plan, answer and reply may stand in a fleet"
+      (Diagnostic.error s.at "only vehicle, plan, answer, reply and input may stand in a fleet"
          ~hint:"as in vehicle 'x8-02', { type 'UAV' }")
 
 (* {1 All together} *)
@@ -229,7 +261,8 @@ let rec take n = function
 
 let read ~file source =
   let* program = Parse.program ~file source in
-  let start = { source; vehicles = []; plans = []; answers = []; replies = []; unplaced = 0; faults = [] } in
+  let start = { source; vehicles = []; plans = []; answers = []; replies = []; inputs = []; unplaced = 0;
+                faults = [] } in
   let state = List.fold_left statement start program in
   let faults =
     repeated "vehicle" (fun (v : vehicle) -> v.id) state.vehicles
@@ -241,7 +274,7 @@ let read ~file source =
   if faults = [] then
     Ok
       { Entry.vehicles = entries state.vehicles; plans = entries state.plans; answers = entries state.answers;
-        replies = entries state.replies }
+        replies = entries state.replies; inputs = List.rev state.inputs }
   else Error (take Parse.most_faults (List.sort Diagnostic.compare faults))
 
 let names_at word ~file source =

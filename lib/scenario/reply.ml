@@ -141,6 +141,16 @@ let read (e : expression) =
       | Some [] | None -> error e.at "either takes replies, as in either(true, false)")
   | _ -> Result.map (fun reply -> [ reply ]) (one e)
 
+let data (e : expression) =
+  let datum reply =
+    match reply with
+    | Ok x when Dolphin_json.Host_value.is_data x -> Ok x
+    | Ok _ -> error e.at "what is posted has no tasks and objects in it"
+    | Error _ -> error e.at "fails is no input"
+  in
+  let* replies = read e in
+  List.fold_right (fun reply rest -> Result.bind (datum reply) (fun x -> Result.map (List.cons x) rest)) replies (Ok [])
+
 let equal (a : t) (b : t) =
   match a, b with
   | Ok x, Ok y -> Value.compare x y = 0

@@ -12,6 +12,10 @@ val read : Ast.expression -> (t list, Diagnostic.t) result
     [object('queue')], [task('survey')], also spelt [imcPlan], [vehicles('x8-02', ...)]. Tasks are from
     {!Fault.unknown_site}. *)
 
+val data : Ast.expression -> (Core.value list, Diagnostic.t) result
+(** [data e] is the values that [e] leaves the choice of, at least one, for an input: as {!read}, but without tasks,
+    objects and [fails]. *)
+
 val equal : t -> t -> bool
 (** Of replies that {!read} gives. *)
 

@@ -8,9 +8,14 @@ let replies_at = Fleet_parser.replies_at
 
 let equal_reply (a : reply) (b : reply) = a.call = b.call && List.equal (List.equal Reply.equal) a.rounds b.rounds
 
+let equal_input (a : input) (b : input) =
+  let equal_value x y = Value.compare x y = 0 in
+  a.key = b.key && a.times = b.times && a.after = b.after && List.equal (List.equal equal_value) a.rounds b.rounds
+
 (* The rest is plain data without functions or cycles, and without numbers that are none. *)
 let equal (a : t) (b : t) =
   a.vehicles = b.vehicles && a.plans = b.plans && a.answers = b.answers && List.equal equal_reply a.replies b.replies
+  && List.equal equal_input a.inputs b.inputs
 
 let beside program = Filename.remove_extension program ^ ".fleet"
 
@@ -29,8 +34,13 @@ let rec nth n = function
   | x :: rest -> if n <= 0 then Some x else nth (n - 1) rest
 
 let answer s prompt n = Option.bind (List.find_opt (fun a -> a.prompt = prompt) s.answers) (fun a -> nth n a.texts)
-let rounds s call = Option.map (fun r -> r.rounds) (List.find_opt (fun r -> r.call = call) s.replies)
+
+let rounds s call =
+  Option.map (fun (r : reply) -> r.rounds) (List.find_opt (fun (r : reply) -> r.call = call) s.replies)
+
 let reply s call n = Option.map List.hd (Option.bind (rounds s call) (nth n))
+
+let posted i n = List.hd (List.nth i.rounds (min n (List.length i.rounds - 1)))
 
 let silences v =
   let before = if v.joins > 0. then [ (0., v.joins) ] else [] in
@@ -113,11 +123,19 @@ let pp_answer ppf a = Format.fprintf ppf "answer %a, %s@\n" pp_text a.prompt (St
 
 let pp_reply ppf r = Format.fprintf ppf "reply %a, %a@\n" pp_text r.call Fmt.(list ~sep:(any ", ") Reply.pp) r.rounds
 
+let pp_input ppf i =
+  let round ppf values = Reply.pp ppf (List.map Result.ok values) in
+  Format.fprintf ppf "input %a, %a" pp_text i.key Fmt.(list ~sep:(any ", ") round) i.rounds;
+  if i.times <> List.length i.rounds then Format.fprintf ppf ", times %d" i.times;
+  Option.iter (Format.fprintf ppf ", after %a" pp_time) i.after;
+  Format.fprintf ppf "@\n"
+
 let pp ppf (s : t) =
   List.iter (pp_vehicle ppf) s.vehicles;
   List.iter (pp_plan ppf) s.plans;
   List.iter (pp_answer ppf) s.answers;
-  List.iter (pp_reply ppf) s.replies
+  List.iter (pp_reply ppf) s.replies;
+  List.iter (pp_input ppf) s.inputs
 
 (* {1 The default} *)
 
@@ -133,4 +151,4 @@ let default =
         underwater "noptilus-2" (at 41.18600 (-8.70720));
         underwater "noptilus-3" (at 41.18400 (-8.70760));
         vehicle "x8-02" "UAV" [ "Camera" ] (at 41.18450 (-8.70500)) 0.4 ];
-    plans = []; answers = []; replies = [] }
+    plans = []; answers = []; replies = []; inputs = [] }

@@ -53,6 +53,9 @@ val reply : t -> string -> int -> Reply.t option
 val rounds : t -> string -> Reply.t list list option
 (** [rounds s call] is all that it may reply. *)
 
+val posted : input -> int -> Dolphin_semantics.Core.value
+(** [posted i n] is what is posted for the [n]-th time, from 0: the first of what may be posted then. *)
+
 val silences : vehicle -> (float * float) list
 (** [silences v] is the spans of time, from and until, in which nothing is heard of [v]: before it joins, while its link
     drops, and after it leaves, until [infinity]. They are in order and apart: none empty, none touches the next. *)

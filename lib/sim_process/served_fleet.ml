@@ -63,7 +63,7 @@ let event f : Platform.event -> t * Report.t list = function
   | Vehicle state -> see state f
   | Task_done v -> ended v Done f
   | Task_failed (v, why) -> ended v (Failed why) f
-  | Timer _ | Quiet -> (f, [])
+  | Timer _ | Input _ | Quiet -> (f, [])
 
 let due f = Fleet.due f.fleet
 

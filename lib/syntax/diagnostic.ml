@@ -7,10 +7,10 @@ type code =
   | Waits_in_task | Handler_only
   | Captured_local | Not_assignable | Defined_twice | Reserved_name
   | Wildcard_value
-  | Misplaced_jump | Misplaced_when | Misplaced_setting | Misplaced_function
+  | Misplaced_jump | Misplaced_when | Misplaced_setting | Misplaced_function | Misplaced_input
   | Deed_in_answer
   | Vehicle_twice
-  | Unused_task | No_effect | Assigned_condition | Wide_value | Unknown_plan
+  | Unused_task | No_effect | Assigned_condition | Wide_value | Unknown_plan | Unread_input
 
 let codes =
   [ (Syntax, "syntax"); (Unknown_name, "unknown-name"); (Unknown_unit, "unknown-unit");
@@ -21,9 +21,10 @@ let codes =
     (Not_assignable, "not-assignable"); (Defined_twice, "defined-twice"); (Reserved_name, "reserved-name");
     (Wildcard_value, "wildcard-value"); (Misplaced_jump, "misplaced-jump"); (Misplaced_when, "misplaced-when");
     (Misplaced_setting, "misplaced-setting"); (Misplaced_function, "misplaced-function");
+    (Misplaced_input, "misplaced-input");
     (Deed_in_answer, "deed-in-answer"); (Vehicle_twice, "vehicle-twice"); (Unused_task, "unused-task");
     (No_effect, "no-effect"); (Assigned_condition, "assigned-condition"); (Wide_value, "wide-value");
-    (Unknown_plan, "unknown-plan") ]
+    (Unknown_plan, "unknown-plan"); (Unread_input, "unread-input") ]
 
 let code_name code = List.assoc code codes
 

@@ -19,7 +19,7 @@ type code =
   | Reserved_name  (** a name of the language, defined by the program *)
   | Wildcard_value  (** [_] where a value is needed *)
   | Misplaced_jump  (** [break], [continue], [return] *)
-  | Misplaced_when | Misplaced_setting | Misplaced_function
+  | Misplaced_when | Misplaced_setting | Misplaced_function | Misplaced_input
   | Deed_in_answer  (** an answer may only compute *)
   | Vehicle_twice  (** one vehicle, needed twice at once *)
   | Unused_task  (** a warning *)
@@ -27,6 +27,7 @@ type code =
   | Assigned_condition  (** a warning: a condition whose value is that of an assignment *)
   | Wide_value  (** a warning: the value of a pair has a condition in it that may be meant to stand beside it *)
   | Unknown_plan  (** a warning: the fleet says nothing of it *)
+  | Unread_input  (** a warning: what the outside posts with this key is never looked at *)
 
 val codes : (code * string) list
 (** Every code with its name, which does not change: ["unknown-name"]. *)

@@ -113,6 +113,18 @@ let counted names rounds =
   let several name = List.compare_length_with (rounds name) 1 > 0 in
   Tla.Set (List.map (fun name -> Tla.String name) (List.filter several names))
 
+(* {1 Inputs} *)
+
+let inputs translation (program : Core.program) (environment : Environment.options) =
+  let of_input (i : Environment.input) =
+    let value x = Translation.reply translation ~at:(Tla.Integer 0) x in
+    Tla.Record
+      [ ("key", String i.key); ("rounds", in_rounds value i.rounds); ("times", Integer i.times);
+        ("certain", Boolean i.certain) ]
+  in
+  let is_declared (i : Environment.input) = List.mem i.key program.inputs in
+  Tla.Tuple (List.map of_input (List.filter is_declared environment.inputs))
+
 (* {1 The module} *)
 
 (* TLC computes anew, at each use, what a configuration puts in the place of a constant; other definitions it computes
@@ -121,7 +133,7 @@ let tables = [ "Fleet"; "Code"; "Lambdas"; "LambdaNames"; "Places"; "Distances";
 
 let small =
   [ "Main"; "GlobalNames"; "OrderedKeys"; "Prompts"; "Failures"; "Losses"; "Latecomers"; "MayBeLate"; "Calls";
-    "SiteOf"; "Ending"; "Answers"; "HostReplies" ]
+    "Inputs"; "SiteOf"; "Ending"; "Answers"; "HostReplies" ]
 
 let definition ppf name e = Format.fprintf ppf "%s == %a@.@." name Tla.pp e
 
@@ -144,6 +156,7 @@ let text program world (environment : Environment.options) plans prompts calls t
   let fleet = List.map (fun s -> (vehicle translation world s, None)) (World.vehicles world) in
   let answers = answers translation program environment prompts in
   let replies = replies translation environment calls in
+  let inputs = inputs translation program environment in
   let b = Buffer.create 10_000 in
   let ppf = Format.formatter_of_buffer b in
   Format.pp_set_margin ppf 1_000_000;
@@ -163,6 +176,7 @@ let text program world (environment : Environment.options) plans prompts calls t
   definition ppf "MCPlans" (Translation.plans translation);
   definition ppf "MCPrompts" (counted prompts environment.answers);
   definition ppf "MCCalls" (counted calls environment.replies);
+  definition ppf "MCInputs" inputs;
   definition ppf "MCFailures" (match environment.faults.fail with Never -> Tla.Integer (-1) | most -> limit most);
   definition ppf "MCLosses" (limit environment.faults.loss);
   definition ppf "MCLatecomers" (limit environment.faults.join);

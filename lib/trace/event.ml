@@ -10,7 +10,11 @@ type t =
   | No_answer of string
   | Reply of Yojson.Safe.t
   | No_reply of string
+  | Input of { key : string; value : Yojson.Safe.t }
   | Interruption
+
+let json_of x =
+  match Host_value.to_json x with Ok json -> json | Error why -> invalid_arg ("Event.of_event: " ^ why)
 
 let of_event : Transition.event -> t = function
   | Vehicle_done v -> Done v
@@ -18,11 +22,9 @@ let of_event : Transition.event -> t = function
   | Timer_expired timer -> Timer timer
   | Answered { text; _ } -> Answer text
   | Nobody_answers why -> No_answer why
-  | Replied x -> (
-      match Host_value.to_json x with
-      | Ok json -> Reply json
-      | Error why -> invalid_arg ("Event.of_event: " ^ why))
+  | Replied x -> Reply (json_of x)
   | Host_failed why -> No_reply why
+  | Input (key, x) -> Input { key; value = json_of x }
   | Interruption -> Interruption
 
 type fault = No_value of string | Refused of Transition.refusal
@@ -44,6 +46,10 @@ let to_event program c : t -> (Transition.event, fault) result = function
       | Ok x -> Ok (Replied x)
       | Error why -> Error (No_value why))
   | No_reply why -> Ok (Host_failed why)
+  | Input { key; value } -> (
+      match Host_value.data_of_json value with
+      | Ok x -> Ok (Input (key, x))
+      | Error why -> Error (No_value why))
   | Interruption -> Ok Interruption
 
 let members h : members =
@@ -56,6 +62,7 @@ let members h : members =
   | No_answer why -> event "no-answer" [ ("why", `String why) ]
   | Reply json -> event "reply" [ ("value", json) ]
   | No_reply why -> event "no-reply" [ ("why", `String why) ]
+  | Input { key; value } -> event "input" [ ("key", `String key); ("value", value) ]
   | Interruption -> event "interruption" []
 
 let of_members found =
@@ -71,6 +78,10 @@ let of_members found =
   | "no-answer" -> Result.map (fun why -> No_answer why) (get text "why" found)
   | "reply" -> Result.map (fun json -> Reply json) (get any "value" found)
   | "no-reply" -> Result.map (fun why -> No_reply why) (get text "why" found)
+  | "input" ->
+    let* key = get text "key" found in
+    let* value = get any "value" found in
+    Ok (Input { key; value })
   | "interruption" -> Ok Interruption
   | other -> Error (Printf.sprintf "there are no events of kind %S" other)
 
@@ -85,4 +96,5 @@ let pp ppf h =
   | No_answer _ -> print "no answer"
   | Reply json -> print "the host's reply %s" (Canonical.to_string json)
   | No_reply _ -> print "no reply of the host"
+  | Input { key; value } -> print "the input %s: %s" key (Canonical.to_string value)
   | Interruption -> print "an interruption"

@@ -10,6 +10,7 @@ type t =
   | No_answer of string
   | Reply of Yojson.Safe.t  (** a value as {!Dolphin_json.Host_value} writes it *)
   | No_reply of string
+  | Input of { key : string; value : Yojson.Safe.t }
   | Interruption
 
 val of_event : Transition.event -> t

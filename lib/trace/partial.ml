@@ -36,6 +36,32 @@ let inside prefix label =
   let fits = length > n && String.sub label 0 n = prefix && label.[length - 1] = ')' in
   if fits then Some (String.sub label n (length - n - 1)) else None
 
+(* The value that [text] is as an answer to a question. *)
+let value_of p text =
+  let start = Configuration.initial p.program in
+  let answered event =
+    match start.control with
+    | Script m -> (
+        let c = { start with control = Waiting (m, Ask "") } in
+        match Transition.accept p.program p.world c event with
+        | Ok { next = { control = Script { focus = Give x; _ }; _ }; _ } -> Some x
+        | Ok _ | Error _ -> None)
+    | Waiting _ | Executing _ | Ended _ -> None
+  in
+  Option.bind (Result.to_option (Answer.event p.program text)) answered
+
+(* The input that [label] tells of. *)
+let input p label : Transition.event option =
+  let of_key key =
+    let prefix = Printf.sprintf "input %s:" key in
+    let n = String.length prefix in
+    if String.length label <= n || String.sub label 0 n <> prefix then None
+    else
+      let text = String.sub label n (String.length label - n) in
+      Option.map (fun x -> Transition.Input (key, x)) (value_of p text)
+  in
+  List.find_map of_key p.program.inputs
+
 (* The events that may make a transition of [c] with this label; without, those that may have been hidden. *)
 let events p (c : Configuration.t) label =
   let ends v =
@@ -64,7 +90,8 @@ let events p (c : Configuration.t) label =
         | Some label -> Option.to_list (Option.map (fun why -> Transition.Host_failed why) (inside "no-reply(" label)))
   in
   let interruption = if label = Some "interrupt" then [ Transition.Interruption ] else [] in
-  List.concat_map of_awaited (Transition.awaited c) @ interruption
+  let posted = Option.to_list (Option.bind label (input p)) in
+  List.concat_map of_awaited (Transition.awaited c) @ posted @ interruption
 
 let on p c event = Result.to_option (Transition.accept p.program p.world c event)
 

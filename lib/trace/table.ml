@@ -59,6 +59,8 @@ let of_cause : Event.t option -> _ = function
   | Some (No_answer why) -> [ (Program, "gets no answer: " ^ why) ]
   | Some (Reply json) -> [ (Program, "is told " ^ Dolphin_json.Canonical.to_string json) ]
   | Some (No_reply why) -> [ (Program, "gets no reply: " ^ why) ]
+  | Some (Input { key; value }) ->
+    [ (Program, Printf.sprintf "gets %s: %s" key (Dolphin_json.Canonical.to_string value)) ]
   | Some Interruption -> [ (Program, "is interrupted") ]
   | Some (Timer _) | None -> []
 

@@ -32,6 +32,7 @@ let candidates program (c : Configuration.t) (t : Transition.t) : Transition.eve
   | No_answer -> [ Nobody_answers "none is given" ]
   | Reply _ -> (match t.next.control with Script { focus = Give x; _ } -> [ Replied x ] | _ -> [])
   | No_reply why -> [ Host_failed why ]
+  | Input (k, x) -> [ Input (k, x) ]
   | Interrupt -> [ Interruption ]
   | _ -> List.filter_map of_awaited (Transition.awaited c)
 

@@ -125,6 +125,7 @@ ModelPrompts == { "how many?" }
 (* The supplier replies, or fails. *)
 ModelHostReplies(call, at) == << << << "value", String("yes") >>, << "failure", "no" >> >> >>
 ModelCalls == { }
+ModelInputs == << >>
 
 (* Plans succeed, but for some. *)
 ModelEnding(v, p) == CASE p = "risky" -> "may fail" [] p = "doomed" -> "fails" [] OTHER -> "succeeds"

@@ -79,7 +79,8 @@ let codes_are_documented () =
     from 0
   in
   let is_of_programs : Dolphin_syntax.Diagnostic.code -> bool = function
-    | Deed_in_answer | Unused_task | No_effect | Assigned_condition | Wide_value | Unknown_plan -> false
+    | Deed_in_answer | Unused_task | No_effect | Assigned_condition | Wide_value | Unknown_plan | Unread_input ->
+      false
     | _ -> true
   in
   let codes = List.filter (fun (code, _) -> is_of_programs code) Dolphin_syntax.Diagnostic.codes in

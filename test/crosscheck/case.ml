@@ -47,10 +47,12 @@ let environments =
     ("with a loss", with_losses (At_most 1));
     ("with latecomers", with_latecomers Any_number);
     ("with all faults once", all_once);
+    ("with inputs", { answering with inputs = Test_support.Posts.inputs });
     ("with interruptions", interrupted answering) ]
 
 let of_generated name world environment ast =
-  { name; source = Generate.print ast; program = Generate.compile ast; world; environment; plans = [];
+  let program = Test_support.Posts.declared environment (Generate.compile ast) in
+  { name; source = Generate.print ast; program; world; environment; plans = [];
     prompts = [ "how many?" ]; calls = Calls.names }
 
 let generated title programs world ~seed n =

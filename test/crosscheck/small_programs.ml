@@ -215,6 +215,23 @@ let interruptions =
   let one (name, source) (kind, environment) = { (program (name ^ kind) source) with environment } in
   List.concat_map (fun program -> List.map (one program) kinds) programs
 
+(* Where pairs may come from outside at any time; one of them comes for certain. *)
+let inputs =
+  let posting = { answering with inputs = Test_support.Posts.inputs } in
+  let programs =
+    [ ("posted while it waits", "input 'x', 'y'\nx = ask 'how many?'\npause 3.seconds\nif (poll(x: 2)) { halt 'two' }");
+      ("posted while vehicles run",
+       "input 'x', 'y'\n" ^ two ^ "execute until { poll x: 3 } run (task('p')[a] | waitFor { consume y: 1 } then task('q')[b])");
+      ("posted, the oldest first",
+       "input 'x'\npost x: 9\nexecute condition { consume x: _ } >> condition { consume x: 2 } >> condition { consume x: _ }");
+      ("nobody need post", "input 'x'\nexecute condition { consume x: 1 }");
+      ("what is not declared is not posted", "input 'y'\nexecute condition { consume x: 1 }") ]
+  in
+  let one (name, source) = { (program name source) with environment = posting } in
+  List.map one programs
+  @ [ { (program "posted until it is interrupted" "input 'y'\npause 1") with
+        environment = interrupted { answering with inputs = Test_support.Posts.inputs } } ]
+
 let failing =
   [ of_text "a plan that always fails" (two ^ "execute watch (task('p')[a] | task('q')[b]) onError { ignore() }")
       Generate.world
@@ -274,4 +291,4 @@ let faults =
   in
   List.concat_map (fun program -> List.map (one program) kinds) programs
 
-let all = tasks @ failing @ questions @ calls @ interruptions @ sensors @ loops @ ends @ faults
+let all = tasks @ failing @ questions @ calls @ inputs @ interruptions @ sensors @ loops @ ends @ faults

@@ -7,6 +7,7 @@ open Dolphin_syntax
 open Dolphin_environment
 open Dolphin_explore
 module Generate = Test_support.Generate
+module Posts = Test_support.Posts
 module Calls = Test_support.Calls
 module Property = Dolphin_explore.Property
 
@@ -31,6 +32,8 @@ let environments =
     ("with latecomers", { answering with faults = { Faults.none with join = Any_number }; may_be_late = (fun v -> v <> "a") });
     ( "with all of it, once",
       { answering with faults = { Faults.none with fail = At_most 1; loss = At_most 1; join = At_most 1 } } );
+    ("with inputs", { answering with inputs = Posts.inputs });
+    ("with a failure and an input", { (Environment.failing ~failures:1 answering) with inputs = Posts.once });
     ("with interruptions", { answering with faults = { Faults.none with interrupt = true } });
     ("with failures and interruptions", { answering with faults = { Faults.none with fail = Any_number; interrupt = true } })
   ]
@@ -97,7 +100,7 @@ let verdict_agrees program world environment reference (property, verdict) =
 let unsettled = ref 0
 
 let agrees ((ast, world), looped, (_, environment)) =
-  let program = Generate.compile (if looped then for_ever ast else ast) in
+  let program = Posts.declared environment (Generate.compile (if looped then for_ever ast else ast)) in
   match Reference.explore ~limit environment program world with
   | None ->
     incr skipped;

@@ -25,7 +25,7 @@ module Platform = struct
     let translate : Dolphin_runtime.Platform.event -> Dolphin_runtime.Platform.event = function
       | Task_failed (v, why) ->
         Task_failed (v, if begins "connection lost" why then Environment.loss else Environment.failure)
-      | (Vehicle _ | Task_done _ | Timer _ | Quiet) as event -> event
+      | (Vehicle _ | Task_done _ | Timer _ | Input _ | Quiet) as event -> event
     in
     Lwt.map translate (next p)
 end
@@ -209,7 +209,8 @@ let fleet =
   let answers = [ { Scenario.prompt = "how many?"; texts = [ "1"; "2" ] } ] in
   let reply call : Scenario.reply = { call; rounds = Calls.replies call } in
   let replies = List.map reply Calls.names in
-  return { Scenario.vehicles = List.map (fun v -> draining (steadily v)) vehicles; plans; answers; replies }
+  let vehicles = List.map (fun v -> draining (steadily v)) vehicles in
+  return { Scenario.vehicles; plans; answers; replies; inputs = [] }
 
 let random_case =
   QCheck2.Gen.(

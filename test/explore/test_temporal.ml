@@ -43,7 +43,8 @@ let same (c, e) (c', e') = Configuration.equal c c' && Environment.compare e e' 
 let is_run program world options (run : Search.run) =
   let there = after program world options run.steps [ (Configuration.initial program, Environment.initial) ] in
   if run.cycle = [] then 
-    List.exists (fun (c, e) -> Environment.is_stuck (Environment.choices options program world e c)) there
+    let is_stuck (c, e) = Environment.is_stuck options program e (Environment.choices options program world e c) in
+    List.exists is_stuck there
   else
     let comes_back state = List.exists (same state) (after program world options run.cycle [ state ]) in
     List.exists comes_back there
@@ -52,7 +53,7 @@ let is_run program world options (run : Search.run) =
 
 let propositions =
   [ "start"; "done"; "fail"; "start(p)"; "done(p)"; "start(q, a)"; "done(q)"; "bind"; "bind(b)"; "message"; "post";
-    "post(x)"; "post(x: 1)"; "consume"; "consume(y)"; "timeout"; "execute"; "pick"; "end"; "halt"; "error"; "interrupt"; "ended";
+    "post(x)"; "post(x: 1)"; "input"; "input(x: 1)"; "consume"; "consume(y)"; "timeout"; "execute"; "pick"; "end"; "halt"; "error"; "interrupt"; "ended";
     "running(p)"; "running(p, a)"; "running(q)"; "running(q, b)"; "bound(a)"; "bound(c)"; "poll(x: _)"; "poll(x: 1)";
     "poll(y: 2)"; "{running('p') && running('q')}"; "{running('p', 'a') || poll(z: _)}" ]
 
@@ -76,6 +77,7 @@ let environments =
     ("with latecomers", { answering with faults = { Faults.none with join = Any_number }; may_be_late = (fun v -> v <> "a") });
     ( "with all of it, once",
       { answering with faults = { Faults.none with fail = At_most 1; loss = At_most 1; join = At_most 1 } } );
+    ("with inputs", { answering with inputs = Test_support.Posts.once });
     ("with interruptions", { answering with faults = { Faults.none with interrupt = true } });
     ("with failures and interruptions", { answering with faults = { Faults.none with fail = Any_number; interrupt = true } }) ]
 
@@ -118,7 +120,8 @@ let at program world =
 let graph_of program (g : Reference.t) : _ Product_search.graph =
   let configuration i = g.states.(i).configuration in
   let successors i =
-    let stays = if Environment.is_stuck (List.to_seq g.edges.(i)) then [ (i, (None, configuration i)) ] else [] in
+    let is_stuck = Environment.is_stuck g.options g.program g.states.(i).outside (List.to_seq g.edges.(i)) in
+    let stays = if is_stuck then [ (i, (None, configuration i)) ] else [] in
     stays @ List.map (fun ((t : Transition.t), j) -> (j, (Some t, t.next))) g.edges.(i)
   in
   { start = (0, (None, Configuration.initial program)); successors }
@@ -144,7 +147,7 @@ let agrees_on program world environment at plain (f, verdict) =
   | Unreached _ | Inconclusive _ -> false
 
 let agrees ((ast, world), looped, (_, environment), formulas) =
-  let program = Generate.compile (if looped then for_ever ast else ast) in
+  let program = Test_support.Posts.declared environment (Generate.compile (if looped then for_ever ast else ast)) in
   match Reference.explore ~limit environment program world with
   | None | (exception Environment.Unclear _) -> note "are skipped"; true
   | Some reference ->

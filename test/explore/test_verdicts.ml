@@ -30,6 +30,10 @@ let check ?options property source expected () =
 let failing = { options with environment = Environment.failing options.environment }
 let interrupted =
   { options with environment = { options.environment with faults = { Faults.none with interrupt = true } } }
+let posting ~certain =
+  let input = { (List.hd Posts.once) with certain } in
+  { options with environment = { options.environment with inputs = [ input ] } }
+
 let supplied = { options with environment = { options.environment with replies = Calls.replies } }
 let pick = "va = pick { id 'a' }\nvb = pick { id 'b' }\n"
 
@@ -72,6 +76,19 @@ let verdicts : (string * (unit -> unit)) list =
      check ~options:interrupted No_deadlock "execute condition { consume x:1 }" "violated in 1");
     ("interrupted in a script that waits for nobody",
      check ~options:interrupted No_error "x = ask 'how many?'" "violated in 2");
+    ("an input that need not come",
+     check ~options:(posting ~certain:false) No_deadlock "input 'x'\nexecute condition { consume x:1 }" "violated in 1");
+    ("an input that comes",
+     check ~options:(posting ~certain:true) No_deadlock "input 'x'\nexecute condition { consume x:1 }" "holds");
+    ("an input that comes once",
+     check ~options:(posting ~certain:true) No_deadlock "input 'x'\nexecute condition { consume x:1 } >> condition { consume x:1 }"
+       "violated in 3");
+    ("an input that is not declared",
+     check ~options:(posting ~certain:true) No_deadlock "execute condition { consume x:1 }" "violated in 1");
+    ("an input that nobody took",
+     check ~options:(posting ~certain:false) No_leftover "input 'x'\npause 1" "violated in 4");
+    ("a loop until an input comes",
+     check ~options:(posting ~certain:true) Termination "input 'x'\nwhile (!poll(x:1)) { pause 1 }" "for ever 1+2");
     ("a loop that only an interruption ends",
      check ~options:interrupted Termination "while (true) { execute action { } }" "for ever 1+2");
     ("vehicles that are not there", check Vehicles "v = pick { type 'UAV' }" "violated in 2");

@@ -119,7 +119,25 @@ let stubborn =
       ( "what stands beside a branch that runs first does not matter",
         {|(not (Footprint.conflict ~possible:true f (future t y x))) && not|},
         {|(not (Footprint.conflict ~possible:true f (future t y x)) || true) && not|} );
+      ( "inputs make no difference to what is chosen",
+        {|exists_taken (meets_inputs t) taken|},
+        {|exists_taken (meets_inputs t) taken && false|} );
     ]
+
+let inputs =
+  in_file "lib/environment/environment.ml" ~noticed_by:"explore/test_verdicts"
+    [
+      ( "each input is certain",
+        {|List.exists (fun (_, input) -> input.certain) (pending|},
+        {|List.exists (fun (_, input) -> input.certain || true) (pending|} );
+      ( "an input comes again and again",
+        {|sent e i < input.times in|},
+        {|min 0 (sent e i) < input.times in|} );
+    ]
+  @ in_file "lib/semantics/rules/transition.ml" ~noticed_by:"semantics/test_rules"
+    [ ( "whoever waits gets no inputs",
+        {|  | Input (k, x), (Script _ | Waiting _ | Executing _) when|},
+        {|  | Input (k, x), (Script _ | Executing _) when|} ) ]
 
 let automorphism =
   in_file "lib/explore/symmetry/automorphism.ml" ~noticed_by:"reduction/test_traps"
@@ -532,7 +550,7 @@ let pick_rules_in_traps =
 let all =
   List.concat
     [ footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups; quotient; expansion;
-      vehicle_orbits; canonical_vehicles; name_flow; liveness; environment; attendance; task_rules; local_step;
-      run_code; answers_in_words; confirm; unknown;
+      vehicle_orbits; canonical_vehicles; name_flow; liveness; environment; inputs; attendance; task_rules;
+      local_step; run_code; answers_in_words; confirm; unknown;
       pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
       conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps ]

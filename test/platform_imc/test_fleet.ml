@@ -32,7 +32,7 @@ let rec take_all now run =
       (match event with
        | Task_done v -> tell now run (v ^ " done")
        | Task_failed (v, why) -> tell now run (Printf.sprintf "%s failed: %s" v why)
-       | Vehicle _ | Timer _ | Quiet -> run)
+       | Vehicle _ | Timer _ | Input _ | Quiet -> run)
 
 let after now run (station, outputs) =
   let output run : Station.output -> run = function

@@ -68,7 +68,7 @@ let verdicts run =
        match event with
        | Task_done v -> Some (Printf.sprintf "%.3f %s done" time v)
        | Task_failed (v, why) -> Some (Printf.sprintf "%.3f %s failed: %s" time v why)
-       | Vehicle _ | Timer _ | Quiet -> None)
+       | Vehicle _ | Timer _ | Input _ | Quiet -> None)
     (List.rev run.events)
 
 let requests run =

@@ -34,4 +34,5 @@ let show : Dolphin_runtime.Platform.event -> string = function
   | Task_done v -> v ^ " done"
   | Task_failed (v, why) -> v ^ " failed: " ^ why
   | Timer timer -> Printf.sprintf "timer %d" timer
+  | Input (k, _) -> "input " ^ k
   | Quiet -> "quiet"

@@ -68,6 +68,7 @@ let hear e event =
   | Timer timer ->
     require "a timer that was set" (List.mem timer e.timers);
     { e with timers = without timer e.timers }
+  | Input _ -> raise (Broken "nobody posts here")
   | Quiet -> raise (Broken "the fleet itself does not say that it is quiet")
 
 let step e =

@@ -21,7 +21,7 @@ let until time f =
 
 let after time f = snd (until time f)
 let line (time, event) = Printf.sprintf "%g %s" time (show event)
-let is_news = function Platform.Vehicle _ -> false | Task_done _ | Task_failed _ | Timer _ | Quiet -> true
+let is_news = function Platform.Vehicle _ -> false | Task_done _ | Task_failed _ | Timer _ | Input _ | Quiet -> true
 let check name expected happened = Alcotest.(check (list string)) name expected (List.map line happened)
 let news happened = List.filter (fun (_, event) -> is_news event) happened
 let check_news name expected happened = check name expected (news happened)
@@ -311,7 +311,7 @@ let mission ?(n = 10) ~seed s =
       match event with
       | Vehicle { connected = true; id; _ } when not (List.mem_assoc id left) -> again id
       | Task_done id | Task_failed (id, _) -> again id
-      | Vehicle _ | Timer _ | Quiet -> go left reversed f
+      | Vehicle _ | Timer _ | Input _ | Quiet -> go left reversed f
   in
   go [] [] (Fleet.create ~seed s)
 

@@ -55,7 +55,7 @@ let load () =
          let n = Hashtbl.find left id - 1 in
          Hashtbl.replace left id n;
          if n > 0 then Virtual.start p id (task "survey")
-       | Vehicle _ | Task_failed _ | Timer _ | Quiet -> ());
+       | Vehicle _ | Task_failed _ | Timer _ | Input _ | Quiet -> ());
       go (events + 1)
   in
   let began = elapsed () in

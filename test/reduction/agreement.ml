@@ -28,7 +28,7 @@ let shows options program world property (run : Search.run) =
   let start = [ (Configuration.initial program, Environment.initial) ] in
   let there = follow options program world start run.steps in
   let stuck (c, e) =
-    (Environment.is_stuck (Environment.choices options program world e c))
+    (Environment.is_stuck options program e (Environment.choices options program world e c))
     && match c.Configuration.control with Ended _ -> false | Script _ | Waiting _ | Executing _ -> true
   in
   match (property : Property.t) with
@@ -74,7 +74,7 @@ let outcome (c : Configuration.t) ~stuck outcomes =
 
 let all_outcomes (g : Reference.t) =
   let found = ref Outcomes.empty in
-  let is_stuck i = Environment.is_stuck (List.to_seq g.edges.(i)) in
+  let is_stuck i = Environment.is_stuck g.options g.program g.states.(i).outside (List.to_seq g.edges.(i)) in
   let state i (s : Reference.state) = found := outcome s.configuration ~stuck:(is_stuck i) !found in
   Array.iteri state g.states;
   !found
@@ -86,8 +86,13 @@ let reduced_outcomes environment program world =
     if i = State_graph.count graph then found
     else begin
       let interruptions = if environment.Environment.faults.interrupt then 1 else 0 in
-      let stuck = State_graph.expand graph i <= interruptions in
-      from (i + 1) (outcome (fst (State_graph.state graph i)) ~stuck found)
+      let n = State_graph.expand graph i in
+      let c, e = State_graph.state graph i in
+      let stuck =
+        if environment.inputs = [] then n <= interruptions
+        else Environment.is_stuck environment program e (Environment.choices environment program world e c)
+      in
+      from (i + 1) (outcome c ~stuck found)
     end
   in
   from 0 Outcomes.empty

@@ -6,6 +6,7 @@ open Dolphin_syntax
 open Dolphin_environment
 open Dolphin_explore
 module Generate = Test_support.Generate
+module Posts = Test_support.Posts
 module Calls = Test_support.Calls
 
 let number name default = match Sys.getenv_opt name with Some n -> int_of_string n | None -> default
@@ -74,6 +75,10 @@ let environments =
     ("with losses", { answering with faults = { Faults.none with loss = Any_number } });
     ("with a failure and a loss", { answering with faults = { Faults.none with fail = At_most 1; loss = At_most 1 } });
     ("with latecomers", { answering with faults = { Faults.none with join = Any_number }; may_be_late = (fun v -> v = "b") });
+    ("with inputs", { answering with inputs = Posts.inputs });
+    ("with an input", { answering with inputs = Posts.once });
+    ("with a failure and an input", { (Environment.failing ~failures:1 answering) with inputs = Posts.once });
+    ("with losses and an input", { answering with faults = { Faults.none with loss = Any_number }; inputs = Posts.once });
     ("with interruptions", { answering with faults = { Faults.none with interrupt = true } });
     ("with a failure and interruptions", { answering with faults = { Faults.none with fail = At_most 1; interrupt = true } }) ]
 
@@ -99,7 +104,7 @@ let reduced = ref 0
 let broken = Hashtbl.create 7
 
 let agrees ((ast, world), (_, environment)) =
-  let program = Generate.compile ast in
+  let program = Posts.declared environment (Generate.compile ast) in
   match Agreement.check ~limit ~reductions:[ Partial_order; All ] environment program world with
   | Error what -> QCheck2.Test.fail_report what
   | Ok None ->

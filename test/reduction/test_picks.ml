@@ -26,6 +26,7 @@ let environments =
     ("with losses", { answering with faults = { Faults.none with loss = Any_number } });
     ("with a loss", { answering with faults = { Faults.none with loss = At_most 1 } });
     ("with a latecomer", { answering with faults = { Faults.none with join = At_most 1 } });
+    ("with an input", { answering with inputs = Test_support.Posts.once });
     ("with interruptions", { answering with faults = { Faults.none with interrupt = true } });
     ("vehicle b may fail", failing (fun v _ -> v = "b"));
     ("plan t may fail", failing (fun _ p -> p = "t"));
@@ -47,6 +48,7 @@ let agrees ((p : Picking.t), (_, environment)) =
     incr invalid;
     true
   | Ok program -> (
+      let program = Test_support.Posts.declared environment program in
       let world = snd p.world in
       let invariants = Option.to_list (Result.to_option (Condition.of_string program p.invariant)) in
       match Agreement.check_peers ~limit ~invariants environment program world with

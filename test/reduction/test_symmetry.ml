@@ -23,6 +23,7 @@ let environments =
     ("with losses", { answering with faults = { Faults.none with loss = Any_number } });
     ("vehicle a may fail", failing (fun v _ -> v = "a"));
     ("plan p3 may fail", failing (fun _ p -> p = "p3"));
+    ("with an input", { answering with inputs = Test_support.Posts.once });
     ("with interruptions", { answering with faults = { Faults.none with interrupt = true } });
     ("with failures and interruptions", { answering with faults = { Faults.none with fail = Any_number; interrupt = true } }) ]
 
@@ -38,7 +39,7 @@ let smaller = ref 0
 let broken = Hashtbl.create 7
 
 let agrees (ast, (_, environment)) =
-  let program = Generate.compile ast in
+  let program = Test_support.Posts.declared environment (Generate.compile ast) in
   match Agreement.check ~limit ~reductions:[ All; Symmetry ] environment program Generate.world with
   | Error what -> QCheck2.Test.fail_report what
   | Ok None ->

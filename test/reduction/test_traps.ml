@@ -13,6 +13,9 @@ c = pick { id 'c' }
 let plain = Environment.default
 let failing = Environment.failing plain
 
+(* [x: 1] may be posted once, at any time. *)
+let posting = { plain with inputs = Test_support.Posts.once }
+
 let check ?(environment = plain) ?(world = world) text =
   match Agreement.check environment (Pure_run.compile_exn (picks ^ text)) world with
   | Ok (Some found) -> found
@@ -50,6 +53,21 @@ let traps =
             if (position(a) in area(location(41.1852, -8.7048), 400)) { ignore() } })
               | (during 2 run action { message 'm' })
           onError { ignore() }) | (watch task('p')[c] onError { 1 / 0 })|};
+    breaks "an input between two looks" ~environment:posting [ No_deadlock; No_halt ]
+      {|input 'x'
+        g = 0
+        t = action { if (!poll(x: 1)) { g = 1 } } >> action { if (poll(x: 1) && g == 1) { halt 'h' } }
+        execute t | task('p')[a]
+        execute condition { consume x: 1 }|};
+    breaks "an input for a guard that waits" ~environment:posting [ No_deadlock; No_halt ]
+      {|input 'x'
+        execute until { consume x: 1 } run (task('p')[a] >> action { halt 'h' })
+        execute condition { false }|};
+    breaks "an input that a branch waits for" ~environment:posting [ No_deadlock; No_leftover ]
+      {|input 'x'
+        post y: 1
+        execute allOf { when { consume y: 1 } then task('p')[a]
+                        when { consume x: 1 } then action { post z: 1 } }|};
     breaks "a poll for absence" [ No_halt ]
       {|execute (task('p')[a] >> action { if (!poll(x: 1)) { halt 'too early' } }) | (task('q')[b] >> action { post x: 1 })
         consume x: 1|};

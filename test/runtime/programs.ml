@@ -52,4 +52,5 @@ let program ?(reads_sensors = false) ?(globals = 0) script =
     functions = [];
     main = lambda "script" 0 (block script);
     ordered_keys = [];
+    inputs = [];
     reads_sensors }

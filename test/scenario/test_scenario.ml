@@ -90,6 +90,26 @@ let replies () =
   Alcotest.(check (option (list int))) "choices" (Some [ 1; 2; 1 ]) (counts "many");
   Alcotest.(check (option (list int))) "no choices" None (counts "none")
 
+let inputs () =
+  let s = reads "input 'a', true, after 5.min\ninput 'k', 1, either('x', [2]), times 4\ninput 'a', false" in
+  let posted (i : Scenario.input) = Fmt.str "%s %a" i.key Dolphin_semantics.Value.pp (Scenario.posted i 3) in
+  Alcotest.(check (list string)) "posted" [ "a true"; "k 'x'"; "a false" ] (List.map posted s.inputs);
+  Alcotest.(check (list int)) "times" [ 1; 4; 1 ] (List.map (fun (i : Scenario.input) -> i.times) s.inputs);
+  let wrong text expected =
+    match Scenario.read ~file:"x" text with
+    | Ok _ -> Alcotest.failf "%s is read" text
+    | Error ds ->
+      Alcotest.(check string) text expected (String.concat "; " (List.map (fun (d : Diagnostic.t) -> d.message) ds))
+  in
+  wrong "input 'a'" "input takes a key and a value, as in input 'abort', true, or input 'target', 1, 2, after 5.min";
+  wrong "input 'a', after 3" "input takes a key and a value, as in input 'abort', true, or input 'target', 1, 2, after 5.min";
+  wrong "input 'a', 1, times 0" "an input comes at least once";
+  wrong "input 'a', 1, times 1.5" "times takes a whole number, as in times 3";
+  wrong "input 'a', 1, after 'x'" "expected a time, as in 30.seconds, found the text 'x'";
+  wrong "input 'a', 1, after 1, after 2" "after stands twice";
+  wrong "input 'a', fails" "fails is no input";
+  wrong "input 'a', [task('p')]" "what is posted has no tasks and objects in it"
+
 let replies_at () =
   let lines = List.map (fun (call, at) -> (call, Location.line at)) in
   Alcotest.(check (list (pair string int)))
@@ -208,7 +228,14 @@ let scenario =
   in
   let* vehicles = distinct vehicle and* plans = distinct plan in
   let* answers = distinct answer and* replies = distinct reply in
-  return { Scenario.vehicles; plans; answers; replies }
+  let input =
+    let datum = oneofl Dolphin_semantics.Core.[ Boolean true; Integer 2; String "x"; List [| Integer 1; Null |] ] in
+    let* key = name and* rounds = list_size (int_range 1 3) (list_size (int_range 1 3) datum) in
+    let* times = int_range 1 4 and* after = opt (map float_of_int (int_bound 1000)) in
+    return { Scenario.key; rounds; times; after }
+  in
+  let* inputs = list_size (int_bound 3) input in
+  return { Scenario.vehicles; plans; answers; replies; inputs }
 
 let shown_scenario s = Fmt.str "%a" Scenario.pp s
 
@@ -235,7 +262,7 @@ let () =
         ("bad", golden "bad" false);
         ( "entries",
           [ case "defaults" defaults; case "default fleet" default_fleet; case "beside a program" beside;
-            case "answers" answers; case "replies" replies; case "places of replies" replies_at;
+            case "answers" answers; case "replies" replies; case "inputs" inputs; case "places of replies" replies_at;
             case "silences" silences; case "states at the start" states;
             case "who knows a plan" knowing; case "units" units ] );
         ("laws", laws) ]

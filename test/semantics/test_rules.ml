@@ -239,6 +239,9 @@ let script : example list =
     example Fault "the script breaks" (pick_v ^ "x = 1 / 0") "fault(division by zero)" "FAULT"
       "failed: division by zero"
       [ "release noptilus-1"; "end: division by zero" ];
+    example Input "at any moment" ("input 'a'\n" ^ task "during 5 run %p") "input a:1" "INPUT"
+      "during 5 run p[noptilus-1]..." [];
+    example Input "while it waits" "input 'a'\npause 3" "input a:1" "INPUT" "waiting" [];
     example Interrupt "at any moment" (task "during 5 run %p") "interrupt" "INTERRUPT" "interrupted"
       [ "cancel timer 1"; "stop noptilus-1"; released; "end: interrupted" ] ]
 

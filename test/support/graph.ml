@@ -21,8 +21,10 @@ let outcomes ?(failures = true) ?(interruption = false) program world c =
   let events = List.filter_map (success_of program) awaited in
   let failed = if failures then List.filter_map failure_of awaited else [] in
   let stopped = if interruption then [ Transition.Interruption ] else [] in
+  let is_new k = not (Tuples.poll k (Integer 1) c.shared.tuples) in
+  let posted = List.map (fun k -> Transition.Input (k, Integer 1)) (List.filter is_new program.Core.inputs) in
   let accepted e = Result.to_option (Transition.accept program world c e) in
-  List.of_seq (Transition.internal program world c) @ List.filter_map accepted (events @ failed @ stopped)
+  List.of_seq (Transition.internal program world c) @ List.filter_map accepted (events @ failed @ posted @ stopped)
 
 exception Too_many
 

@@ -19,5 +19,7 @@ let load = function
 
 let load_for ~program named = load (choose ~program named)
 
-let nobody = { path = None; source = ""; scenario = { vehicles = []; plans = []; answers = []; replies = [] } }
+let nobody =
+  { path = None; source = "";
+    scenario = { vehicles = []; plans = []; answers = []; replies = []; inputs = [] } }
 let header f = Option.map (fun path -> Dolphin_trace.Header.source ~path f.source) f.path

@@ -30,7 +30,7 @@ let violated : Event.violation -> string = function
 (* Whether a run shows what is said to be violated: where labels leave a choice, such a run is wanted. *)
 let shows name options program world ((c, e) : Dolphin_explore.Labelled.state) (steps : Transition.t list) =
   match List.assoc_opt name properties, List.rev steps with
-  | Some No_deadlock, _ -> Environment.is_stuck (Environment.choices options program world e c)
+  | Some No_deadlock, _ -> Environment.is_stuck options program e (Environment.choices options program world e c)
   | Some ((No_error | Assertions | Vehicles | No_halt | No_leftover) as p), last :: _ ->
     Property.broken_by_end last.rules c = Some p
   | (Some _ | None), _ -> true

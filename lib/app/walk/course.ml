@@ -23,6 +23,8 @@ let choices_of { program; world; options } state =
 
 let choices r = choices_of r.world r.now
 
+let is_stuck r = Environment.is_stuck r.world.options r.world.program r.now.outside (choices r)
+
 (* {1 Moves} *)
 
 let after ((t : Transition.t), outside) = { configuration = t.next; outside }

@@ -33,6 +33,10 @@ val choices : t -> choice Seq.t
 (** What may happen now, computed on demand.
     @raise Environment.Unclear each time it is gone through, if nobody could list that. *)
 
+val is_stuck : t -> bool
+(** Whether nothing is owed in the state where the run is: {!Environment.is_stuck}.
+    @raise Environment.Unclear as {!choices} *)
+
 val is_next : t -> choice -> bool
 (** [is_next r x] is whether [x] is the first step ahead. *)
 

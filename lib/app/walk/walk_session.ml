@@ -115,7 +115,7 @@ let is_stuck r =
   match (Course.configuration r).control with
   | Ended _ -> false
   | Script _ | Waiting _ | Executing _ -> (
-      match Environment.is_stuck (Course.choices r) with stuck -> stuck | exception Environment.Unclear _ -> false)
+      match Course.is_stuck r with stuck -> stuck | exception Environment.Unclear _ -> false)
 
 let title r =
   let ahead = List.length (Course.ahead r) in

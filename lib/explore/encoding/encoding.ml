@@ -43,6 +43,7 @@ let create ?(find_symmetry = fun _ _ -> None) ?(canonical = fun c outside -> (c,
 
 let layouts t = t.layouts
 let shareds t = t.shareds
+let outside t n = (Surroundings.Numbers.value t.shareds n).Surroundings.outside
 let count_shareds t = Surroundings.Numbers.count t.shareds
 let check_fit t = if not (Layouts.fits t.layouts ~shared:(count_shareds t)) then raise Layouts.Outgrown
 let widen t ~reserved = Layouts.widen t.layouts ~reserved ~shared:(count_shareds t)

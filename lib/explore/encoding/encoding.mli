@@ -14,6 +14,9 @@ val create :
     default. [canonical c e] is the form in which [c] with [e] is kept if it executes nothing: itself by default. *)
 
 val layouts : t -> Layouts.t
+val outside : t -> int -> Environment.t
+(** [outside t n] is what the environment remembers in what is shared with number [n]. *)
+
 val shareds : t -> Surroundings.Numbers.t
 
 val check_fit : t -> unit

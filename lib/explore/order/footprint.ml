@@ -75,6 +75,11 @@ let union f f' =
       ignores = f.ignores || f'.ignores;
     }
 
+let of_posts (program : Core.program) pairs =
+  let is_queue k = List.mem k program.ordered_keys in
+  let posts = Pairs.of_list (List.map (fun (k, x) -> (k, if is_queue k then None else Some (Value.normal x))) pairs) in
+  { empty with posts; queues = Pairs.filter (fun (k, _) -> is_queue k) posts }
+
 let reads_nothing f =
   Pairs.is_empty f.takes && Pairs.is_empty f.needs && Pairs.is_empty f.tests && Globals.is_empty f.reads
   && not f.anything

@@ -3,7 +3,11 @@ open Step_footprints
 type move = { level : int; over : bool }
 type status = Impossible | Moves of move | Ends | Depends of { moves : move list; ends : bool }
 type component = { place : Layout.place; analysis : Step_footprints.t }
-type t = { components : component array; status : int -> int -> status }
+type t = {
+  components : component array;
+  posts : Footprint.t;  (* of all that may come from outside *)
+  status : int -> int -> status;
+}
 
 let moves_of t x k =
   match t.status x k with Moves move -> [ move ] | Depends { moves; _ } -> moves | Impossible | Ends -> []
@@ -62,6 +66,11 @@ let conflict t x y =
   in
   (not (Footprint.touches_nothing f)) && exists_step t x clash
 
+(* Whether an input may make a difference to a step of [x]. *)
+let meets_inputs t x =
+  let clash k = Footprint.conflict ~possible:(surely_moves t x k) (touches t x k) t.posts in
+  (not (Footprint.touches_nothing t.posts)) && exists_step t x clash
+
 (* Whether a step of [x] would cut off [y], which may leave a trace before. *)
 let cuts_off t x y =
   let cut k = List.exists (is_cut_off t.components.(x).place t.components.(y).place) (moves_of t x k) in
@@ -105,7 +114,12 @@ let key t x =
 
 (* {1 Sets} *)
 
-(* The smallest set that has a key of [seed] and all that it depends on, if [seed] has a key. *)
+let exists_taken p taken =
+  let rec from x = x < Array.length taken && ((taken.(x) && p x) || from (x + 1)) in
+  from 0
+
+(* The smallest set that has a key of [seed] and all that it depends on, if [seed] has a key. There is none if it would
+   depend on inputs. *)
 let closure t seed =
   let along others =
     let n = Array.length t.components in
@@ -125,7 +139,9 @@ let closure t seed =
     done;
     taken
   in
-  Option.map along (key t seed)
+  match Option.map along (key t seed) with
+  | Some taken when exists_taken (meets_inputs t) taken -> None
+  | found -> found
 
 (* Whether some step would end the run here, and perhaps not later. Those that end it whatever is shared are outcomes:
    nothing follows them. *)
@@ -170,6 +186,7 @@ let branch_first t =
   let fits x k f =
     surely_moves t x k
     && (not (Array.exists Fun.id t.components.(x).analysis.cut_by_error))
+    && (not (Footprint.conflict ~possible:true f t.posts))
     && others x (fun y -> (not (Footprint.conflict ~possible:true f (future t y x))) && not (may_cut_off t y x))
   in
   let rec from x k =
@@ -202,8 +219,8 @@ let smallest t =
   Array.iteri try_seed t.components;
   Option.map snd !best
 
-let choose components status =
-  let t = { components; status } in
+let choose components ~posts status =
+  let t = { components; posts; status } in
   if some_end_depends t then None
   else
     match independent t with

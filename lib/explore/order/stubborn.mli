@@ -16,7 +16,8 @@ type status =
 (** A component, or a nest with its cuts: where it stands, and what its steps may do. *)
 type component = { place : Layout.place; analysis : Step_footprints.t }
 
-val choose : component array -> (int -> int -> status) -> (int -> int -> bool) option
-(** [choose components status] is which of the steps that move are enough, or [None] if all are needed. A step is given
-    by the index of its component, and its index in [footprints] there. [status] is asked only as far as needed. Steps
+val choose : component array -> posts:Footprint.t -> (int -> int -> status) -> (int -> int -> bool) option
+(** [choose components ~posts status] is which of the steps that move are enough, or [None] if all are needed. A step
+    is given by the index of its component, and its index in [footprints] there. [status] is asked only as far as
+    needed. [posts] is the footprint of all inputs that may still come: if all steps are needed, so are these. Steps
     that end the run are to be taken in any case, as far as they end it. *)

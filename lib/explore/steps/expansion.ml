@@ -20,6 +20,8 @@ type t = {
   labelling : Labelling.t option;
   places : Script_graph.t;
   over : int By_number.t;  (* by frame and shared state: the configuration after the task *)
+  posted : (int * int) list By_number.t;  (* by shared state: those after each input, with their actions *)
+  upcoming : Footprint.t By_number.t;  (* by shared state: all that may still be posted *)
   interrupted : (int * int) By_number.t;  (* by shared state: the configuration, and the action *)
   mutable successor : int array;  (* scratch: a successor of another layout *)
   mutable representative : int array;  (* scratch: of a successor *)
@@ -36,6 +38,8 @@ let create options components encoding steps quotient labelling =
     labelling;
     places = Script_graph.create ();
     over = By_number.create 64;
+    posted = By_number.create 16;
+    upcoming = By_number.create 16;
     interrupted = By_number.create 16;
     successor = [| 0 |];
     representative = [| 0 |];
@@ -167,6 +171,13 @@ let go_to x (place : Layout.place) target ~action shared =
     key.(word) <- key.(word) - moved
   | Gone | Becomes _ | Ends _ -> go x place target action shared
 
+(* Only what is shared changes. *)
+let share x ~action shared =
+  let key = x.key and moved = Layouts.first x.expansion.layouts 0 (shared - x.shared) in
+  key.(0) <- key.(0) + moved;
+  visit x.expansion x.visitor x.layout key action;
+  key.(0) <- key.(0) - moved
+
 (* {1 Steps that depend on what is shared} *)
 
 let outcome x step = Memoised_steps.outcome x.expansion.steps step x.shared
@@ -195,6 +206,51 @@ let take_ends x place step =
   let ends = List.filter Memoised_steps.ends_run (outcome :: outcome.others) in
   List.iter (take_outcome x place) ends;
   List.length ends
+
+(* {1 Inputs} *)
+
+let program t = Components.program t.components
+
+let upcoming t shared =
+  if t.options.inputs = [] then Footprint.empty
+  else
+    match By_number.find_opt t.upcoming shared with
+    | Some known -> known
+    | None ->
+      let outside = Encoding.outside t.encoding shared and program = program t in
+      let found = Footprint.of_posts program (Environment.upcoming t.options program outside) in
+      By_number.add t.upcoming shared found;
+      found
+
+let posted t shared =
+  let { Surroundings.shared; outside } = Surroundings.Numbers.value (Encoding.shareds t.encoding) shared in
+  let post (k, x, outside) =
+    let observed : Proposition.observed = { label = Input (k, x); effects = []; ending = None } in
+    let action labelling = Valuation.action_observed (Labelling.valuations labelling) observed in
+    let number = Surroundings.Numbers.number (Encoding.shareds t.encoding) in
+    let after = number (Surroundings.make (Shared.post k x shared) outside) in
+    (after, Option.fold ~none:Valuation.nothing ~some:action t.labelling)
+  in
+  List.map post (Environment.inputs t.options (program t) outside)
+
+let inputs x =
+  let t = x.expansion in
+  if t.options.inputs = [] then 0
+  else begin
+    let found =
+      match By_number.find_opt t.posted x.shared with
+      | Some known -> known
+      | None ->
+        let found = posted t x.shared in
+        By_number.add t.posted x.shared found;
+        Encoding.check_fit t.encoding;
+        found
+    in
+    List.iter (fun (shared, action) -> share x ~action shared) found;
+    List.length found
+  end
+
+(* {1 Interruptions} *)
 
 let interruption x =
   let observed : Proposition.observed = { label = Interrupt; effects = []; ending = Some Interrupted } in

@@ -40,6 +40,12 @@ val take_dependent : source -> Layout.place -> Component.step -> int
 val take_ends : source -> Layout.place -> Component.step -> int
 (** Likewise, but only as far as the step ends the run. *)
 
+val inputs : source -> int
+(** [inputs x] takes each input that may come. The result is how many transitions that makes. *)
+
+val upcoming : t -> int -> Footprint.t
+(** [upcoming t s] is the footprint of all inputs that may come in shared state [s], or later. *)
+
 val interrupt : source -> int
 (** [interrupt x] takes the interruption, if there are any. Nothing follows it, and it breaks nothing: whatever states
     are explored, verdicts are the same with it. The result is how many transitions that makes. *)

@@ -34,6 +34,7 @@ let choices t outside c =
 let canonical t c outside =
   match t.vehicles with Some vehicles -> Canonical_vehicles.canonical vehicles c outside | None -> (c, outside)
 
+let owes t outside = Environment.owes t.options t.program outside
 let has_vehicle_symmetry t = t.vehicles <> None
 
 (* {1 Where nothing executes} *)
@@ -44,7 +45,7 @@ let expand_script t number (visitor : via System.visitor) =
   let go ((next : Transition.t), outside) =
     visitor.tick ();
     incr taken;
-    if not (Environment.is_interruption next) then goes_on := true;
+    if not (Environment.is_voluntary next) then goes_on := true;
     Coverage.transition (Components.coverage t.components) c next;
     let action labelling = Valuation.action (Labelling.valuations labelling) next in
     let action = Option.fold ~none:Valuation.nothing ~some:action t.labelling in
@@ -52,7 +53,7 @@ let expand_script t number (visitor : via System.visitor) =
     Expansion.follows t.expansion number place
   in
   Seq.iter go (choices t outside c);
-  if not !goes_on then visitor.rest ();
+  if not (!goes_on || owes t outside) then visitor.rest ();
   !taken
 
 (* {1 All steps} *)
@@ -177,7 +178,8 @@ let components t (x : Expansion.source) =
 let expand_some t (x : Expansion.source) =
   let components = components t x in
   let status c k = local_status t x (snd components.(c)).(k) in
-  let choice = Stubborn.choose (Array.map fst components) status in
+  let posts = Expansion.upcoming t.expansion x.shared in
+  let choice = Stubborn.choose (Array.map fst components) ~posts status in
   let taken = ref 0 in
   let go c ({ Stubborn.place; analysis }, steps) =
     let take k step =
@@ -196,7 +198,7 @@ let expand_some t (x : Expansion.source) =
   in
   Array.iteri go components;
   Encoding.check_fit t.encoding;
-  !taken
+  if choice = None then (!taken, Expansion.inputs x) else (!taken, 0)
 
 (* {1 The system} *)
 
@@ -223,9 +225,14 @@ let transitions t key (visitor : via System.visitor) =
   | number ->
     let layout = Layouts.layout t.layouts number and shared = Layouts.shared t.layouts key.(0) in
     let x : Expansion.source = { expansion = t.expansion; key; layout; shared; visitor } in
-    let taken = if Reduction.by_order t.reduction then expand_some t x else expand_all t x in
-    if taken = 0 then visitor.rest ();
-    taken + Expansion.interrupt x
+    let taken, posted =
+      if Reduction.by_order t.reduction then expand_some t x
+      else
+        let taken = expand_all t x in
+        (taken, Expansion.inputs x)
+    in
+    if taken = 0 && not (owes t (Encoding.outside t.encoding shared)) then visitor.rest ();
+    taken + posted + Expansion.interrupt x
 
 let expand t key visitor =
   match transitions t key visitor with

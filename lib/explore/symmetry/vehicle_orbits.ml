@@ -70,9 +70,22 @@ let key (options : Environment.options) world (flow : Name_flow.t) (s : World.ve
   let alone = if is_odd || List.mem s.id flow.texts then Some s.id else None in
   ((s.kind, s.payload, s.connected), place, battery, endings, alone)
 
+(* Vehicles and texts among what may be posted. *)
+let posted (options : Environment.options) =
+  let rec names : Core.value -> string list = function
+    | Vehicles vs -> vs
+    | String text -> [ text ]
+    | List xs -> List.concat_map names (Array.to_list xs)
+    | Map entries -> List.concat_map (fun (_, x) -> names x) entries
+    | Null | Boolean _ | Integer _ | Number _ | Wildcard | Symbol _ | Range _ | Position _ | Area _ | Task _ | Closure _
+    | Host _ | Settings _ | Reading _ | Unknown _ -> []
+  in
+  let of_input (i : Environment.input) = List.concat_map names (List.concat i.rounds) in
+  List.concat_map of_input options.inputs
+
 let find (options : Environment.options) program ~asked world =
   let flow = Name_flow.of_program program ~asked:(List.map Condition.closure asked) in
-  let flow = { flow with texts = List.concat_map Condition.vehicles asked @ flow.texts } in
+  let flow = { flow with texts = List.concat_map Condition.vehicles asked @ posted options @ flow.texts } in
   let is_independent = flow.names = None && not (World.is_open world && flow.readings <> None) in
   if Faults.is_possible options.faults.join || not (is_independent && flow.picks) then none
   else

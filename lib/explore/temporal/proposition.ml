@@ -7,6 +7,7 @@ type action =
   | Says of string option
   | Posts of string option * Core.value option
   | Consumes of string option * Core.value option
+  | Inputs of string option * Core.value option
   | Simple of string
 
 type t = Action of action | State of Condition.t | Ended_now
@@ -89,6 +90,7 @@ let of_string program text =
     | "message" -> Ok (Action (Says (Option.map (fun inner -> unquoted (String.trim inner)) inner)))
     | "post" -> of_pair (fun (k, x) -> Posts (k, x))
     | "consume" -> of_pair (fun (k, x) -> Consumes (k, x))
+    | "input" -> of_pair (fun (k, x) -> Inputs (k, x))
     | "running" | "bound" -> condition (Printf.sprintf "%s(%s)" name (quoted (names inner)))
     | "poll" -> condition text
     | "ended" when inner = None -> Ok Ended_now
@@ -136,6 +138,8 @@ let holds_after_action action t =
   | Says text, _ -> List.exists (function Effect.Say said -> is text said | _ -> false) t.effects
   | Posts (key, x), _ -> List.exists (function Code.Posted ps -> exists_pair key x ps | _ -> false) (deeds t)
   | Consumes (key, x), _ -> List.exists (function Code.Consumed ps -> exists_pair key x ps | _ -> false) (deeds t)
+  | Inputs (key, x), Input (k, y) -> exists_pair key x [ (k, y) ]
+  | Inputs _, _ -> false
   | Simple "error", _ -> (match t.ending with Some (Failed _) -> true | Some _ | None -> false)
   | Simple "halt", _ -> (match t.ending with Some (Halted _) -> true | Some _ | None -> false)
   | Simple name, label -> (

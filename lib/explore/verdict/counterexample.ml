@@ -67,7 +67,8 @@ let onwards tick x states =
         let n = List.length taken in
         States.add seen state n;
         let choices = choices x state in
-        match if Environment.is_stuck choices then None else Environment.find (fun _ -> true) choices with
+        let is_stuck = Environment.is_stuck x.options x.program (snd state) choices in
+        match if is_stuck then None else Environment.find (fun _ -> true) choices with
         | Some ((t : Transition.t), outside) -> go (t.next, outside) (t :: taken)
         | None -> (n, List.rev taken))
   in

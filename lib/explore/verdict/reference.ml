@@ -3,7 +3,10 @@ open Dolphin_environment
 
 type state = { configuration : Configuration.t; outside : Environment.t }
 
-type t = { states : state array; edges : (Transition.t * int) list array; depths : int array }
+type t = {
+  options : Environment.options;
+  program : Core.program;
+  states : state array; edges : (Transition.t * int) list array; depths : int array }
 
 module Table = Hashtbl.Make (struct
     type t = state
@@ -35,7 +38,7 @@ let explore ?(limit = 100_000) options program world =
     match Queue.take_opt queue with
     | None ->
       let array xs = Array.of_list (List.rev !xs) in
-      { states = array states; edges = array edges; depths = array depths }
+      { options; program; states = array states; edges = array edges; depths = array depths }
     | Some (s, depth) ->
       let edge ((t : Transition.t), outside) = (t, number (depth + 1) { configuration = t.next; outside }) in
       let choices = Environment.choices options program world s.outside s.configuration in
@@ -118,7 +121,7 @@ let broken g =
     match s.configuration.control with
     | Ended _ -> ()
     | Script _ | Waiting _ | Executing _ ->
-      if Environment.is_stuck (List.to_seq g.edges.(i)) then note No_deadlock g.depths.(i)
+      if Environment.is_stuck g.options g.program s.outside (List.to_seq g.edges.(i)) then note No_deadlock g.depths.(i)
   in
   Array.iteri state g.states;
   if is_cyclic g then Option.iter (note Termination) (shortest_lasso g);

@@ -7,6 +7,8 @@ open Dolphin_environment
 type state = { configuration : Configuration.t; outside : Environment.t }
 
 type t = {
+  options : Environment.options;
+  program : Core.program;
   states : state array;  (** breadth first; the initial one is number 0 *)
   edges : (Transition.t * int) list array;  (** by state: its transitions, in order, with the state each leads to *)
   depths : int array;  (** by state: the fewest transitions that lead there *)

@@ -17,6 +17,7 @@ type arguments =
   | Execute
   | Set_connection_timeout
   | Confirm
+  | Input
   | Assert
 
 type place = Anywhere | Script_only | Handler_only
@@ -39,6 +40,7 @@ let table : (string * t) list =
     ("setConnectionTimeout", other Set_connection_timeout);
     ("ask", these Ask [ Any ] ~place:Script_only);
     ("confirm", { (other Confirm ~place:Script_only) with result = Truth });
+    ("input", other Input);
     ("message", these Message [ Any ] ~result:Other);
     ("println", these Message [ Any ] ~result:Other);
     ("pause", these Pause [ Number ] ~place:Script_only ~result:Other);

@@ -52,6 +52,20 @@ let confirm env at arguments =
       ~hint:"write confirm 'Retrieve now?'";
     null env at
 
+let input env at arguments =
+  let wrong at = error env Wrong_kind at "input takes keys in quotes" ~hint:"write input 'abort'" in
+  let key = function
+    | Ast.Positional { it = String key; at } when key <> "" ->
+      if List.exists (fun (other : string Ast.located) -> other.it = key) (Scope.inputs env.program) then
+        error env Defined_twice at "input '%s' is declared twice" key
+      else Scope.note_input env.program { Ast.it = key; at }
+    | Ast.Positional { at; _ } -> wrong at
+    | Ast.Named (k, _) -> wrong k.Ast.at
+  in
+  if arguments = [] then wrong at;
+  List.iter key arguments;
+  null env at
+
 let number_of_arguments least most =
   match least, most with
   | 0, 0 -> "no arguments"
@@ -63,9 +77,13 @@ let pairs env at name operation arguments =
   let value = function
     | Ast.Named (k, { it = Wildcard; at }) when name <> "post" ->
       if name = "consume" then Scope.note_ordered_key env.program k.Ast.it;
+      Scope.note_looked_at env.program (Some k.Ast.it);
       constant env at Wildcard
     | Ast.Named (k, e) ->
-      if name <> "post" then check_value env name k e;
+      if name <> "post" then begin
+        check_value env name k e;
+        Scope.note_looked_at env.program (Some k.Ast.it)
+      end;
       elaborate env e
     | Ast.Positional e ->
       error env No_pairs e.at "%s takes pairs of key and value" name
@@ -152,11 +170,16 @@ let to_builtin env at name (builtin : Builtins.t) arguments =
       match arguments with
       | [ Ast.Positional e ] ->
         check_kind env name String e;
+        Scope.note_looked_at env.program (match e.it with String key -> Some key | _ -> None);
         apply env at (Builtin (operation [])) [ elaborate env e ]
       | arguments -> pairs env at name operation arguments)
   | Execute -> execute env at arguments
   | Set_connection_timeout -> set_connection_timeout env at arguments
   | Confirm -> confirm env at arguments
+  | Input ->
+    error env Misplaced_input at
+      "input declares what the outside may post: it stands by itself at the top of the program";
+    null env at
   | Assert -> assertion_task env at arguments
 
 let builder_in_parentheses env at name arguments =

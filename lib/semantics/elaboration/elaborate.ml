@@ -65,6 +65,17 @@ let fill (env : Checks.env) (lambda : lambda) purpose parameters at body =
   lambda.code <- Checks.statements { env with code } at body;
   lambda.slots <- Scope.slots code
 
+(* What the outside posts with such a key, nobody sees. *)
+let report_unread_inputs program =
+  let report (key : string Ast.located) =
+    if not (Scope.is_looked_at program key.it) then
+      Scope.report program
+        (Diagnostic.warning Unread_input key.at
+           (Printf.sprintf "the program neither consumes nor polls '%s'" key.it)
+           ~hint:(Printf.sprintf "as in until { poll %s: true } run T" key.it))
+  in
+  List.iter report (Scope.inputs program)
+
 let is_error (d : Diagnostic.t) = match d.severity with Error -> true | Warning -> false
 
 let is_supplier (e : Ast.expression) =
@@ -94,6 +105,7 @@ let program ~source_name (ast : Ast.program) =
     defined;
   report_unknown program;
   report_blocking program;
+  report_unread_inputs program;
   List.iter (Scope.report program) (Parallel_check.program ast @ Effect_check.program ast);
   let reports = Scope.reports program in
   if List.exists is_error reports then Error reports
@@ -106,6 +118,7 @@ let program ~source_name (ast : Ast.program) =
         functions = List.map (fun ((name : string Ast.located), lambda, _, _, _) -> (name.it, lambda)) defined;
         main;
         ordered_keys = Scope.ordered_keys program;
+        inputs = List.map (fun (k : string Ast.located) -> k.it) (Scope.inputs program);
         reads_sensors = Scope.reads_sensors program;
       },
         reports )

@@ -19,6 +19,8 @@ type program = {
   mutable lambdas : int;
   mutable reports : Diagnostic.t list;
   mutable ordered_keys : string list;
+  mutable inputs : string Ast.located list;  (* latest first *)
+  mutable looked_at : string list option;  (* the keys that code consumes or polls; [None]: any *)
   mutable texts : Location.t list;  (* where a text is wanted *)
   mutable reads_sensors : bool;
   mutable calls : call list;
@@ -52,6 +54,8 @@ let create ?(first_site = 0) ?(variables = []) ?(suppliers = []) ~functions ~glo
       lambdas = 0;
       reports = [];
       ordered_keys = [];
+      inputs = [];
+      looked_at = Some [];
       texts = [];
       reads_sensors = false;
       calls = [];
@@ -97,6 +101,14 @@ let note_ordered_key program key =
   if not (List.mem key program.ordered_keys) then program.ordered_keys <- key :: program.ordered_keys
 
 let ordered_keys program = List.sort String.compare program.ordered_keys
+let note_input program key = program.inputs <- key :: program.inputs
+let inputs program = List.rev program.inputs
+
+let note_looked_at program key =
+  program.looked_at <-
+    (match key, program.looked_at with Some key, Some keys -> Some (key :: keys) | None, _ | _, None -> None)
+
+let is_looked_at program key = match program.looked_at with Some keys -> List.mem key keys | None -> true
 let note_text program at = program.texts <- at :: program.texts
 let wants_text program at = List.memq at program.texts
 let note_sensor program = program.reads_sensors <- true

@@ -59,6 +59,18 @@ val note_ordered_key : program -> string -> unit
 val ordered_keys : program -> string list
 (** Those that were noted. *)
 
+val note_input : program -> string Ast.located -> unit
+(** [input 'k'] declares this key. *)
+
+val inputs : program -> string Ast.located list
+(** Those that were noted, in the order of the text. *)
+
+val note_looked_at : program -> string option -> unit
+(** Code consumes or polls pairs with this key; [None]: with a key that it computes. *)
+
+val is_looked_at : program -> string -> bool
+(** Whether code may consume or poll pairs with this key. *)
+
 val note_sensor : program -> unit
 (** Something looks at a position or a battery. *)
 

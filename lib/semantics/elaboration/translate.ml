@@ -179,6 +179,9 @@ and statement env (s : Ast.statement) : expression =
   | Expression { it = Call { callee = { it = Variable "assert"; _ }; arguments }; _ }
     when not (is_hidden env "assert") ->
     Calls.assertion env at arguments
+  | Expression { it = Call { callee = { it = Variable "input"; _ }; arguments }; _ }
+    when Scope.at_top env.code && not (is_hidden env "input") ->
+    Calls.input env at arguments
   | Expression e ->
     let e = Option.value (regroup env e) ~default:e in
     warn_of_unused_task env e;

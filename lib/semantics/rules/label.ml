@@ -28,6 +28,7 @@ type t =
   | End
   | Halt of string
   | Fault of string
+  | Input of string * value
   | Interrupt
 
 let pp_tuples = Fmt.(list ~sep:(any ", ") Value.pp_tuple)
@@ -76,6 +77,7 @@ let pp ppf l =
   | Halt "" -> Format.pp_print_string ppf "halt"
   | Halt message -> text "halt" message
   | Fault message -> text "fault" message
+  | Input (k, x) -> Format.fprintf ppf "input %a" pp_tuples [ (k, x) ]
   | Interrupt -> Format.pp_print_string ppf "interrupt"
 
 (* Labels are plain data, but for the values of tuples, which may hold closures: those are compared by text. *)

@@ -30,6 +30,7 @@ type t =
   | End
   | Halt of string
   | Fault of string
+  | Input of string * value  (** a pair that the outside posted *)
   | Interrupt
 
 val compare : t -> t -> int

@@ -8,6 +8,7 @@ type event =
   | Nobody_answers of string
   | Replied of value
   | Host_failed of string
+  | Input of string * value
   | Interruption
 
 type outcome = Goes_on of Residual.t | Over | Ends of Configuration.ending
@@ -153,7 +154,7 @@ let on_event program world s (Task_rules.Step { offer; continue }) (event : even
   | Vehicle_failed (v, why), End_of (_, v') when v = v' -> go (without_tasks [ v ] s) (continue (Error why))
   | Timer_expired timer, Expiry_of timer' when timer = timer' -> go s (continue ())
   | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _
-      | Host_failed _ | Interruption ),
+      | Host_failed _ | Input _ | Interruption ),
       (Start _ | Perform _ | Check _ | Refute _ | Measure _ | End_of _ | Expiry_of _) ) -> Decided None
 
 (* {1 In configurations} *)

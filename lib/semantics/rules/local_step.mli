@@ -18,6 +18,7 @@ type event =
   | Nobody_answers of string  (** why *)
   | Replied of value  (** by the host *)
   | Host_failed of string  (** why *)
+  | Input of string * value
   | Interruption
 
 (** What becomes of the residual. *)

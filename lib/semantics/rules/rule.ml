@@ -15,6 +15,7 @@ type t =
   | Pause | Resume
   | Call | Reply | Call_err
   | Execute | Execute_done | Execute_err | Alloc_err
+  | Input
   | End | Halt | Fault | Interrupt
 
 let all =
@@ -24,7 +25,7 @@ let all =
     Until_err; Idle_end; During_set; During_cut; Within_cut; During_1; During_2; During_err; Watch_1; Watch_2;
     Watch_ignore; Watch_propagate; Watch_halt; Script; Post; Consume; Message; Release; Set_timeout; Pick; Pick_bind;
     Pick_err; Ask; Answer; Answer_err; Pause; Resume; Call; Reply; Call_err; Execute; Execute_done; Execute_err;
-    Alloc_err; End; Halt; Fault; Interrupt ]
+    Alloc_err; Input; End; Halt; Fault; Interrupt ]
 
 let name = function
   | Start -> "START" | Done -> "DONE" | Fail -> "FAIL"
@@ -50,6 +51,7 @@ let name = function
   | Call -> "CALL" | Reply -> "REPLY" | Call_err -> "CALL-ERR"
   | Execute -> "EXECUTE" | Execute_done -> "EXECUTE-DONE" | Execute_err -> "EXECUTE-ERR"
   | Alloc_err -> "ALLOC-ERR"
+  | Input -> "INPUT"
   | End -> "END" | Halt -> "HALT" | Fault -> "FAULT" | Interrupt -> "INTERRUPT"
 
 let of_name text = List.find_opt (fun rule -> name rule = text) all

@@ -21,6 +21,7 @@ type t =
   | Pause | Resume
   | Call | Reply | Call_err
   | Execute | Execute_done | Execute_err | Alloc_err
+  | Input
   | End | Halt | Fault | Interrupt
 
 val all : t list

@@ -13,6 +13,9 @@ type t = {
 val initial : program -> t
 (** [initial p] is that of a run of [p] that begins: empty. *)
 
+val post : string -> value -> t -> t
+(** [post k x s] is [s] with one pair [k:x] more in N. *)
+
 val compare : t -> t -> int
 (** A total order, of which {!equal} is the equality. *)
 

@@ -9,6 +9,7 @@ type event = Local_step.event =
   | Nobody_answers of string
   | Replied of value
   | Host_failed of string
+  | Input of string * value
   | Interruption
 
 type t = Conclusion.t = {
@@ -49,7 +50,7 @@ let executing_event program world s m r event =
   in
   match event with
   | Vehicle_done v | Vehicle_failed (v, _) -> first (Task_rules.steps_of_vehicle v r)
-  | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Interruption ->
+  | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _ | Interruption ->
     first (Task_rules.steps r)
 
 let on_event program world ({ control; shared = s } as c : Configuration.t) event =
@@ -57,6 +58,8 @@ let on_event program world ({ control; shared = s } as c : Configuration.t) even
   | _, Ended _ -> Decision.Decided (Error Not_awaited)
   | Interruption, (Script _ | Waiting _ | Executing _) ->
     Decided (Ok (Conclusion.ending ~timers:(Configuration.timers c) [ Interrupt ] Interrupt s Interrupted))
+  | Input (k, x), (Script _ | Waiting _ | Executing _) when List.mem k program.inputs ->
+    Decided (Ok (Conclusion.make Input (Input (k, Value.canonical x)) control (Shared.post k x s)))
   | (Vehicle_done _ | Vehicle_failed _ | Timer_expired _), Executing (m, r) ->
     executing_event program world s m r event
   | Timer_expired timer, Waiting (m, Pick pick) when timer = Residual.script_timer ->
@@ -72,7 +75,7 @@ let on_event program world ({ control; shared = s } as c : Configuration.t) even
     let call = Machine.name_of_call ~subject ~member in
     Decided (Ok (Script_rules.fail Call_err (No_reply why) (Printf.sprintf "%s: %s" call why) s m))
   | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _
-      | Host_failed _ ),
+      | Host_failed _ | Input _ ),
       (Script _ | Waiting _ | Executing _) ) -> Decided (Error Not_awaited)
 
 (* {1 In closed worlds} *)

@@ -14,6 +14,7 @@ type event = Local_step.event =
   | Nobody_answers of string  (** why *)
   | Replied of value  (** by the host *)
   | Host_failed of string  (** why *)
+  | Input of string * value  (** a pair of N that the outside posts *)
   | Interruption
 
 type t = Conclusion.t = {
@@ -42,12 +43,13 @@ val internal : program -> World.t -> Configuration.t -> t Seq.t
     {!internal_all}. *)
 
 val accept : program -> World.t -> Configuration.t -> event -> (t, refusal) result
-(** [accept p w c e] is the transition of [c] on [e]. [Interruption] is accepted wherever the program has not ended.
-    What depends on something that [w] leaves open is not accepted: see {!accept_all}. *)
+(** [accept p w c e] is the transition of [c] on [e]. [Interruption] is accepted wherever the program has not ended,
+    and so is [Input (k, x)] if [p] declares the key [k]. What depends on something that [w] leaves open is not
+    accepted: see {!accept_all}. *)
 
 val awaited : Configuration.t -> awaited list
-(** [awaited c] is what [c] has transitions for, leftmost first, besides [Interruption]. The time-out of a [pick] is
-    among them, but not accepted while the pick can be met: then it must be. *)
+(** [awaited c] is what [c] has transitions for, leftmost first, besides inputs and [Interruption]. The time-out of a
+    [pick] is among them, but not accepted while the pick can be met: then it must be. *)
 
 val depends_on_sensors : program -> Configuration.t -> bool
 (** [depends_on_sensors p c] is whether the positions and batteries of the world may matter to [c] or to what follows:

@@ -175,5 +175,6 @@ type program = {
   functions : (string * lambda) list;
   main : lambda;
   ordered_keys : string list;                   (* keys that some [consume k: _] takes the oldest of *)
+  inputs : string list;                         (* keys of the pairs that the outside may post *)
   reads_sensors : bool;                         (* some code may read positions or batteries *)
 }

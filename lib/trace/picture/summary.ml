@@ -132,7 +132,7 @@ let see b (s : World.vehicle_state) =
 let errors (s : Step.t) (cause : Event.t option) =
   match cause with
   | Some (Failed { vehicle; why }) -> [ Printf.sprintf "%s: %s" vehicle why ]
-  | Some (Done _ | Timer _ | Answer _ | No_answer _ | Reply _ | No_reply _ | Interruption) | None ->
+  | Some (Done _ | Timer _ | Answer _ | No_answer _ | Reply _ | No_reply _ | Input _ | Interruption) | None ->
     let is_broken = String.length s.label > 7 && String.sub s.label 0 7 = "broken(" in
     if is_broken then [ String.sub s.label 7 (String.length s.label - 8) ] else []
 
@@ -141,7 +141,7 @@ let take b (s : Step.t) =
   (match b.cause with
    | Some (Done v) -> end_task b v Done
    | Some (Failed { vehicle; why }) -> end_task b vehicle (Failed why)
-   | Some (Timer _ | Answer _ | No_answer _ | Reply _ | No_reply _ | Interruption) | None -> ());
+   | Some (Timer _ | Answer _ | No_answer _ | Reply _ | No_reply _ | Input _ | Interruption) | None -> ());
   List.iter (fun text -> note (Erred text)) (errors s b.cause);
   b.cause <- None;
   List.iter (fun pair -> note (Consumed pair)) s.consumed;

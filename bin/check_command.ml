@@ -18,7 +18,7 @@ let run path fleet =
   let chosen = Fleet_file.choose ~program:path fleet in
   let fleet = checked chosen (Fleet_file.load chosen) in
   let of_plans = match program, fleet with
-    | Some p, Some f -> Plan_names.misspelt p.program f.scenario
+    | Some p, Some f -> Dolphin_service.Plan_names.misspelt p.program f.scenario
     | _, _ -> []
   in
   Option.iter

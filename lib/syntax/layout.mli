@@ -11,5 +11,8 @@ val arrange : source:string -> Brackets.t -> Token.t array
 val builder : string -> Ast.builder option
 (** [builder x] is the builder that the name [x] stands for before a brace. *)
 
+val is_incomplete : Grammar.token -> bool
+(** [is_incomplete t] is whether no statement can end with [t], so that the next line belongs to it. *)
+
 val continues : Grammar.token -> bool
 (** [continues t] is whether no statement can begin with [t], so that it belongs to the line before. *)

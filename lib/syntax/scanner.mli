@@ -8,3 +8,6 @@ type raw = {
 val scan : file:string -> string -> raw
 (** [scan ~file source] is the raw tokens of [source], in which every name is [NAME], every opening brace is
     [LBRACE], and [until] and [during] are [UNTIL] and [DURING]. *)
+
+val words : string list
+(** The words that are no names, in order. *)

@@ -65,6 +65,9 @@ let keywords =
       "then", THEN; "run", RUN; "onError", ON_ERROR ];
   table
 
+let words =
+  List.sort String.compare (Hashtbl.fold (fun word _ words -> if word = "_" then words else word :: words) keywords [])
+
 let word text =
   match Hashtbl.find_opt keywords text with
   | Some token -> token

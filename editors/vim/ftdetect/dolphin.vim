@@ -1,0 +1,1 @@
+autocmd BufRead,BufNewFile *.dol,*.dolphin,*.fleet set filetype=dolphin

@@ -1,0 +1,241 @@
+type kind = Word | Procedure | Block | Setting | Maneuver | Member | Constant | Fleet_word
+type entry = { name : string; kind : kind; form : string; text : string }
+
+let entry kind (name, form, text) = { name; kind; form; text }
+
+let words =
+  List.map (entry Word)
+    [ "def", "def x = e",
+      "A local variable, which ends with its block; at the top of a program the same as `x = e`. `def \
+       f(x) { ... }` defines a function.";
+      "if", "if (c) { ... } else { ... }", "Runs the first block if the condition holds, else the second.";
+      "else", "if (c) { ... } else { ... }", "What runs if the condition does not hold.";
+      "while", "while (c) { ... }", "Repeats the block as long as the condition holds.";
+      "for", "for (x in xs) { ... }", "Goes through lists, ranges, vehicle sets, strings and maps.";
+      "in", "x in xs", "Whether x is among the elements of xs; in `for`, what the loop goes through.";
+      "return", "return e", "Ends a function or closure with the value e.";
+      "break", "break", "Ends the innermost loop.";
+      "continue", "continue", "Goes on with the next round of the innermost loop.";
+      "true", "true", "The truth value.";
+      "false", "false", "The truth value.";
+      "null", "null", "No value.";
+      "when", "when { C } then T", "In allOf and oneOf: T runs once C holds, which is judged and taken in one step.";
+      "then", "when { C } then T", "What runs when the condition holds.";
+      "waitFor", "waitFor { C } then T", "T, which starts as soon as C holds.";
+      "watch", "watch T onError { err -> ... }",
+      "T; an error in it stops it and runs the code, which may `ignore()`, `propagate()` or `halt()`.";
+      "onError", "watch T onError { err -> ... }", "What is done about an error of the watched task.";
+      "run", "during D run T", "The task to which a limit belongs.";
+      "until", "until { C } run T", "T, which is stopped and done when C holds. Also `T until { C }`.";
+      "assure", "assure { C } run T", "T, which is stopped and fails when C does not hold. Also `T assure { C }`.";
+      "during", "during D run T", "T, which is stopped and done after the time D. Also `T during D`.";
+      "within", "within D run T",
+      "T, which is stopped and fails if it is not done after the time D. Also `T within D`." ]
+
+let procedures =
+  List.map (entry Procedure)
+    [ "task", "task('name')", "The platform's plan of this name, as a task.";
+      "imcPlan", "imcPlan('name')", "The plan of this name, as a task; `imcPlan { ... }` describes one.";
+      "action", "action { ... }", "A task without a vehicle that runs code at once, in one step.";
+      "condition", "condition { C }", "A task without a vehicle that is done when C holds.";
+      "idle", "idle(10.seconds)", "A task without a vehicle that is done after this time.";
+      "assert", "assert { C }, 'text'",
+      "The program ends with the text if C does not hold. As part of a task, a task that is done at once.";
+      "execute", "execute v1: T1, v2: T2",
+      "Allocates the parts of the tasks to vehicles, runs them, and waits until they are done. Also \
+       `execute T`, on any of the vehicles picked.";
+      "release", "release vs", "Gives the vehicles back: others may pick them.";
+      "setConnectionTimeout", "setConnectionTimeout vs, 2.min",
+      "How long nothing may be heard of the vehicles before their tasks fail.";
+      "ask", "ask 'prompt'", "Asks people a question; its value is what the answer computes.";
+      "confirm", "confirm 'prompt'", "Asks a question that takes yes or no.";
+      "message", "message x", "Shows a value to people.";
+      "println", "println x", "Shows a value to people, as `message`.";
+      "pause", "pause 2.min", "Makes the script wait.";
+      "halt", "halt 'why'", "Ends the program: what runs is stopped, and all vehicles are released.";
+      "post", "post k: x", "Puts pairs into the tuple space.";
+      "consume", "consume k: x",
+      "Takes pairs out of the tuple space, all of them or none, and is true if it took them. `_` is any value.";
+      "poll", "poll k: x",
+      "Whether the pairs are in the tuple space; takes nothing. `poll 'k'` asks for any pair of that key.";
+      "position", "position(v)", "Where the vehicle is now.";
+      "battery", "battery(v)", "What is left in the vehicle's battery, from 0 to 1.";
+      "location", "location(latitude, longitude)", "A position, in degrees; a third number is its height in metres.";
+      "area", "area(centre, radius)", "A disc around a position, its radius in metres. Also `centre ^ radius`.";
+      "ignore", "ignore()", "In `onError`: the watched task counts as done.";
+      "propagate", "propagate()", "In `onError`: the error climbs on.";
+      "getSupplier", "getSupplier()", "The object of the outside process that `--supplier` starts." ]
+
+let blocks =
+  List.map (entry Block)
+    [ "pick", "pick { count 3; type 'UUV' }", "Binds vehicles to the program and gives them as a set.";
+      "imcPlan", "imcPlan { goTo speed: 1.2 }", "An inline plan: settings, and maneuvers in their order.";
+      "pos", "pos { lat 41.18; lon 8.7.west }", "A position.";
+      "allOf", "allOf { when { C } then T ... }", "Each task runs once its condition holds; done when all are.";
+      "oneOf", "oneOf { when { C } then T ... }", "The task whose condition holds first runs; the others never do.";
+      "choose", "choose { when { C } then T ... }", "Another word for `oneOf`." ]
+
+let of_pick =
+  List.map (entry Setting)
+    [ "id", "id 'x8-02'", "This vehicle.";
+      "type", "type 'UUV'", "Vehicles of this type.";
+      "payload", "payload 'DVL', 'Sidescan'", "Vehicles that carry all of these devices.";
+      "region", "region centre, radius", "Vehicles that are in this area now. Also `region area`.";
+      "count", "count 3", "How many; `_` is all that there are. 1 by default.";
+      "timeout", "timeout 30.seconds", "How long to look for them; 0 is not at all." ]
+
+let of_position =
+  List.map (entry Setting)
+    [ "lat", "lat 41.18", "Degrees north.";
+      "latitude", "latitude 41.18", "Degrees north.";
+      "lon", "lon 8.7.west", "Degrees east.";
+      "longitude", "longitude 8.7.west", "Degrees east.";
+      "height", "height 10", "Metres above the ellipsoid.";
+      "hae", "hae 10", "Metres above the ellipsoid." ]
+
+let of_plan =
+  List.map (entry Setting)
+    [ "planName", "planName 'name'", "The plan's name.";
+      "description", "description 'text'", "What the plan is for.";
+      "vehicles", "vehicles 'id', ...", "Who may run the plan.";
+      "locate", "locate latitude, longitude", "Where the next maneuver is. Also `locate position`.";
+      "move", "move north, east", "Moves the place of the next maneuver, in metres.";
+      "speed", "speed 1.5, Speed.Units.METERS_PS", "The speed of the maneuvers that follow.";
+      "z", "z 2, Z.Units.DEPTH", "The depth, altitude or height of the maneuvers that follow." ]
+
+let maneuvers =
+  List.map (entry Maneuver)
+    [ "goTo", "goTo()", "Goes to the place.";
+      "loiter", "loiter radius: 20, duration: 60, direction: 'VDEP'", "Circles around the place.";
+      "skeeping", "skeeping radius: 20, duration: 60", "Keeps its station.";
+      "yoyo", "yoyo max_depth: 20, min_depth: 2, pitch: 15.degrees", "Goes to the place, up and down on the way.";
+      "popup", "popup duration: 180, currPos: true", "Comes to the surface for a fix.";
+      "rows", "rows width: 100, length: 200, hstep: 27", "Covers a rectangle by parallel rows.";
+      "followPath", "followPath points: [[north, east], ...]", "Goes along points, in metres from the place.";
+      "compassCalibration", "compassCalibration radius: 5, duration: 300", "Circles to calibrate the compass.";
+      "launch", "launch()", "Leaves the launcher." ]
+
+let settings : Dolphin_syntax.Ast.builder -> entry list = function
+  | Pick -> of_pick
+  | Pos -> of_position
+  | Imc_plan -> of_plan @ maneuvers
+  | All_of | One_of -> List.filter (fun e -> e.name = "when") words
+
+let members =
+  List.map (entry Member)
+    [ "size", "xs.size()", "How many elements or characters there are.";
+      "isEmpty", "xs.isEmpty()", "Whether there is none.";
+      "contains", "xs.contains(x)", "Whether x is in it.";
+      "each", "xs.each { ... }", "Runs the code for each element.";
+      "eachWithIndex", "xs.eachWithIndex { x, i -> ... }", "Runs the code for each element and its index, from 0.";
+      "collect", "xs.collect { ... }", "The values that the code gives for each element.";
+      "findAll", "xs.findAll { ... }", "The elements for which the code is true.";
+      "find", "xs.find { ... }", "The first element for which the code is true, or null.";
+      "any", "xs.any { ... }", "Whether the code is true for any element.";
+      "every", "xs.every { ... }", "Whether the code is true for all elements.";
+      "count", "xs.count { ... }", "For how many elements the code is true.";
+      "inject", "xs.inject(start) { sum, x -> ... }", "What the code makes of the start and each element in turn.";
+      "get", "xs.get(i)", "The element at an index from 0, or of a key.";
+      "first", "xs.first()", "The first element.";
+      "last", "xs.last()", "The last element.";
+      "head", "xs.head()", "The first element.";
+      "tail", "xs.tail()", "All but the first element.";
+      "take", "xs.take(n)", "The first n.";
+      "drop", "xs.drop(n)", "All but the first n.";
+      "indexOf", "xs.indexOf(x)", "Where x stands, from 0; -1 if it does not.";
+      "reverse", "xs.reverse()", "In reverse order.";
+      "sort", "xs.sort { key }", "In order, by the key that the code gives.";
+      "unique", "xs.unique()", "Each value once.";
+      "sum", "xs.sum()", "The sum.";
+      "max", "xs.max()", "The largest; `max { }` by a key.";
+      "min", "xs.min()", "The least; `min { }` by a key.";
+      "join", "xs.join(', ')", "A string of all, with the text between them.";
+      "toList", "xs.toList()", "A list of the elements.";
+      "add", "xs.add(x)", "Gives the variable xs with x at its end.";
+      "addAll", "xs.addAll(ys)", "Gives the variable xs with all of ys at its end.";
+      "remove", "xs.remove(i)", "Gives the variable xs without the element at i; of a map, without a key.";
+      "clear", "xs.clear()", "Empties the variable.";
+      "containsKey", "m.containsKey(k)", "Whether the map has the key.";
+      "keys", "m.keys()", "The keys of a map.";
+      "values", "m.values()", "The values of a map.";
+      "put", "m.put(k, x)", "Gives the map in the variable x under the key k.";
+      "toUpperCase", "s.toUpperCase()", "In capital letters.";
+      "toLowerCase", "s.toLowerCase()", "In small letters.";
+      "trim", "s.trim()", "Without blanks at its ends.";
+      "startsWith", "s.startsWith(t)", "Whether it begins with t.";
+      "endsWith", "s.endsWith(t)", "Whether it ends with t.";
+      "replace", "s.replace(t, u)", "With u for each t.";
+      "split", "s.split(t)", "The parts between the t.";
+      "substring", "s.substring(i, j)", "The characters from i to before j.";
+      "toInteger", "s.toInteger()", "The whole number that it spells; of a number, its whole part.";
+      "toDouble", "s.toDouble()", "The number that it spells.";
+      "abs", "n.abs()", "Without its sign.";
+      "round", "n.round(digits)", "Rounded to so many digits, or to a whole number.";
+      "times", "n.times { ... }", "Runs the code n times.";
+      "id", "v.id", "The vehicle's id, or the plan's name.";
+      "ids", "vs.ids", "The ids of the vehicles.";
+      "type", "v.type", "The vehicle's type.";
+      "position", "v.position", "Where the vehicle is now.";
+      "battery", "v.battery", "What is left in the vehicle's battery, from 0 to 1.";
+      "payload", "v.payload", "The vehicle's devices.";
+      "latitude", "p.latitude", "Degrees north.";
+      "longitude", "p.longitude", "Degrees east.";
+      "height", "p.height", "Metres above the ellipsoid.";
+      "distance", "p.distance(q)", "Metres from p to q.";
+      "bearing", "p.bearing(q)", "Degrees from the north.";
+      "displace", "p.displace(north, east)", "The position so many metres away.";
+      "centre", "a.centre", "The centre of an area.";
+      "radius", "a.radius", "The radius of an area in metres.";
+      "name", "t.name", "The name of a plan.";
+      "call", "f.call(...)", "The value of the closure." ]
+
+let units =
+  let text unit =
+    match Dolphin_semantics.Operators.unit_factor unit with
+    | Some factor -> Printf.sprintf "A number of this unit is that number times %g." factor
+    | None -> "A unit." in
+  List.map (fun unit -> entry Constant (unit, "2." ^ unit, text unit)) Dolphin_semantics.Operators.unit_names
+
+let constants =
+  let constant name = entry Constant (name, name, "A constant.") in
+  let math name = entry Procedure ("Math." ^ name, Printf.sprintf "Math.%s(...)" name, "A function of numbers.") in
+  List.map constant Dolphin_semantics.Builtins.constants @ List.map math Dolphin_semantics.Builtins.math_names
+
+let fleet_entries =
+  List.map (entry Fleet_word)
+    [ "vehicle", "vehicle 'id', { type 'UUV' }", "A vehicle of the world.";
+      "plan", "plan 'name', { duration 3.min }", "How a plan ends, and how long it takes.";
+      "answer", "answer 'prompt', e1, e2", "What people answer to a prompt, one after another.";
+      "reply", "reply 'call', r1, r2", "What a supplier replies to a call, one after another." ]
+
+let of_vehicle =
+  List.map (entry Setting)
+    [ "type", "type 'UUV'", "The vehicle's type.";
+      "payload", "payload 'DVL', 'Sidescan'", "Its devices.";
+      "at", "at 41.185, -8.706", "Where it is; several are all places where it is ever seen.";
+      "speed", "speed 1.5", "Metres per second.";
+      "battery", "battery 80.percent", "What is in its battery; `unknown` if it does not tell.";
+      "drain", "drain 10.percent", "What an hour's work takes from the battery.";
+      "charge", "charge 50.percent", "What an hour's rest gives the battery.";
+      "joins", "joins 30.seconds", "When it comes.";
+      "leaves", "leaves 10.min", "When it goes.";
+      "drops", "drops 2.min, 30.seconds", "When its link falls silent, and for how long." ]
+
+let of_fleet_plan =
+  List.map (entry Setting)
+    [ "duration", "duration 3.min, 9.min", "How long it takes: a time, or the shortest and the longest.";
+      "mayFail", "mayFail 20.percent", "It fails now and then.";
+      "fails", "fails", "It always fails.";
+      "at", "at 41.186, -8.705", "Where it is run.";
+      "only", "only 'UAV', 'x8-02'", "Types and ids of the vehicles that know it." ]
+
+let fleet_settings = function
+  | "vehicle" -> of_vehicle
+  | "plan" -> of_fleet_plan
+  | _ -> []
+
+let all =
+  words @ procedures @ blocks @ of_pick @ of_position @ of_plan @ maneuvers @ constants @ members @ units
+  @ fleet_entries @ of_vehicle @ of_fleet_plan
+
+let find name = List.filter (fun entry -> entry.name = name) all

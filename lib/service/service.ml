@@ -1,0 +1,289 @@
+open Dolphin_syntax
+module Elaborate = Dolphin_semantics.Elaborate
+module Scenario = Dolphin_scenario.Scenario
+
+type span = Occurrences.span = { start : int; stop : int }
+type fleet = { path : string; text : string }
+
+type t = {
+  file : string;
+  source : string;
+  fleet : fleet option;
+  scenario : Scenario.t option;                 (* what the fleet says, if it can be read *)
+  ast : (Ast.program, Diagnostic.t list) result;
+  bindings : Occurrences.binding list;
+}
+
+let is_fleet file = Filename.check_suffix file ".fleet"
+
+let read ~file ?fleet source =
+  let ast = Parse.program ~file source in
+  let scenario = Option.bind fleet (fun { path; text } -> Result.to_option (Scenario.read ~file:path text)) in
+  let bindings =
+    match ast with
+    | Ok ast when not (is_fleet file) -> Occurrences.of_program ~source ast
+    | Ok _ | Error _ -> [] in
+  { file; source; fleet; scenario; ast; bindings }
+
+let source d = d.source
+
+(* {1 Diagnostics} *)
+
+let of_program d ast =
+  match Elaborate.program ~source_name:d.file ast with
+  | Error found -> found
+  | Ok (program, warnings) ->
+    warnings @ Option.fold d.scenario ~none:[] ~some:(Plan_names.misspelt program)
+
+let diagnostics d =
+  let found =
+    match d.ast with
+    | Error found -> found
+    | Ok _ when is_fleet d.file ->
+      (match Scenario.read ~file:d.file d.source with Ok _ -> [] | Error found -> found)
+    | Ok ast -> of_program d ast in
+  List.stable_sort Diagnostic.compare found
+
+(* {1 Names and strings of the text} *)
+
+let is_letter c =
+  match c with
+  | 'a' .. 'z' | 'A' .. 'Z' | '0' .. '9' | '_' -> true
+  | c -> Char.code c >= 0x80
+
+(* The name at [offset], or just before it. *)
+let name_at source offset =
+  let length = String.length source in
+  let rec back i = if i > 0 && is_letter source.[i - 1] then back (i - 1) else i in
+  let rec on i = if i < length && is_letter source.[i] then on (i + 1) else i in
+  let offset = max 0 (min offset length) in
+  let start = back offset and stop = on offset in
+  if start < stop then Some ({ start; stop }, String.sub source start (stop - start)) else None
+
+(* The string in quotes on one line around [offset]. *)
+let text_at source offset =
+  let length = String.length source in
+  let is_quote c = c = '\'' || c = '"' in
+  let rec back i =
+    if i = 0 || source.[i - 1] = '\n' then None else if is_quote source.[i - 1] then Some i else back (i - 1) in
+  let rec on i =
+    if i >= length || source.[i] = '\n' then None else if is_quote source.[i] then Some i else on (i + 1) in
+  match back (min offset length), on offset with
+  | Some start, Some stop when source.[start - 1] = source.[stop] ->
+    Some ({ start; stop }, String.sub source start (stop - start))
+  | _, _ -> None
+
+let after_point source { start; _ } = start > 0 && source.[start - 1] = '.'
+
+(* {1 Completion} *)
+
+type item_kind = Keyword | Function | Variable | Setting | Member | Constant | Text
+type item = { label : string; kind : item_kind; form : string; text : string }
+
+let kind_of_entry : Reference.kind -> item_kind = function
+  | Word -> Keyword
+  | Procedure | Block | Maneuver -> Function
+  | Setting -> Setting
+  | Member -> Member
+  | Constant -> Constant
+  | Fleet_word -> Keyword
+
+let item_of_entry (e : Reference.entry) =
+  { label = e.name; kind = kind_of_entry e.kind; form = e.form; text = e.text }
+
+let own_item d name =
+  match List.find_opt (fun (b : Occurrences.binding) -> b.name = name) d.bindings with
+  | Some { kind = Function parameters; _ } ->
+    let form = Printf.sprintf "%s(%s)" name (String.concat ", " parameters) in
+    { label = name; kind = Function; form; text = "A function of this program." }
+  | Some { kind = Global _ | Local _ | Parameter; _ } | None ->
+    { label = name; kind = Variable; form = name; text = "A name of this program." }
+
+let names_of_fleet d =
+  let named text name = { label = name; kind = Text; form = Printf.sprintf "'%s'" name; text } in
+  match d.scenario with
+  | None -> []
+  | Some s ->
+    List.map (fun (p : Scenario.plan) -> named "A plan of the fleet." p.name) s.plans
+    @ List.map (fun (v : Scenario.vehicle) -> named (Printf.sprintf "A vehicle of type %s." v.kind) v.id) s.vehicles
+
+(* What may follow [owner] and a point: what is called [owner.x], up to the next point. *)
+let constants_of owner =
+  let inside = owner ^ "." in
+  let n = String.length inside in
+  let member (e : Reference.entry) =
+    if String.length e.name > n && String.sub e.name 0 n = inside then
+      let rest = String.sub e.name n (String.length e.name - n) in
+      Some { (item_of_entry e) with label = List.hd (String.split_on_char '.' rest) }
+    else None in
+  let once items item = if List.exists (fun other -> other.label = item.label) items then items else item :: items in
+  List.rev (List.fold_left once [] (List.filter_map member Reference.constants))
+
+let arguments_of_maneuver name =
+  let argument x = { label = x; kind = Setting; form = x ^ ": "; text = "An argument of " ^ name ^ "." } in
+  match List.assoc_opt name Dolphin_semantics.Plan_builder.vocabulary with
+  | Some names -> List.map argument names
+  | None -> []
+
+let entries = List.map item_of_entry
+
+let in_program d (s : Surroundings.t) =
+  let own = List.filter (fun x -> x <> s.prefix) (Surroundings.assigned d.source) in
+  let settings =
+    match s.builder, s.call with
+    | Some Imc_plan, Some call -> arguments_of_maneuver call
+    | Some builder, None -> entries (Reference.settings builder)
+    | Some _, Some _ | None, _ -> [] in
+  settings @ List.map (own_item d) own @ entries (Reference.procedures @ Reference.blocks @ Reference.words)
+
+let in_fleet (s : Surroundings.t) =
+  match s.block, s.call with
+  | Some block, None -> entries (Reference.fleet_settings block)
+  | None, None -> entries Reference.fleet_entries
+  | _, Some _ -> []
+
+let complete d offset =
+  let s = Surroundings.at d.source offset in
+  let items =
+    if s.comment then []
+    else if s.text then names_of_fleet d
+    else
+      match s.owner with
+      | Number -> entries Reference.units
+      | Named owner ->
+        (match constants_of owner with
+         | [] -> entries Reference.members @ entries Reference.units
+         | constants -> constants)
+      | Value -> entries Reference.members
+      | Nothing -> if is_fleet d.file then in_fleet s else in_program d s in
+  { start = offset - String.length s.prefix; stop = offset }, items
+
+let format d = Formatting.program ~file:d.file d.source
+
+(* {1 Hover} *)
+
+let line_at source { start; _ } =
+  let first = match String.rindex_from_opt source (max 0 (start - 1)) '\n' with
+    | Some n when start > 0 -> n + 1
+    | Some _ | None -> 0 in
+  let last = Option.value (String.index_from_opt source start '\n') ~default:(String.length source) in
+  String.trim (String.sub source first (last - first))
+
+let quoted form text = Printf.sprintf "```dolphin\n%s\n```\n%s" form text
+
+(* What the value of [e] surely is. *)
+let described (e : Ast.expression option) =
+  match Option.map (fun (e : Ast.expression) -> e.it) e with
+  | Some (Builder (Pick, _)) -> "A vehicle set"
+  | Some (Builder (Imc_plan, _)) -> "A task"
+  | Some (Builder (Pos, _)) -> "A position"
+  | Some (Builder ((All_of | One_of), _)
+         | Call { callee = { it = Variable ("task" | "imcPlan" | "action" | "condition" | "idle"); _ }; _ }
+         | Binary (Sequence, _, _)) -> "A task"
+  | Some (Integer _ | Number _) -> "A number"
+  | Some (String _ | Template _) -> "A string"
+  | Some (List _) -> "A list"
+  | Some (Map _) -> "A map"
+  | Some (Closure _) -> "A closure"
+  | _ -> "A variable"
+
+let hover_binding d (b : Occurrences.binding) =
+  let line = 1 + (Text_position.of_offset d.source b.definition.start).line in
+  match b.kind with
+  | Function parameters ->
+    quoted (Printf.sprintf "def %s(%s)" b.name (String.concat ", " parameters))
+      (Printf.sprintf "A function of line %d." line)
+  | Global value -> quoted (line_at d.source b.definition) (Printf.sprintf "%s of line %d." (described value) line)
+  | Local value ->
+    quoted (line_at d.source b.definition) (Printf.sprintf "%s of line %d, a local." (described value) line)
+  | Parameter -> quoted b.name (Printf.sprintf "A parameter, of line %d." line)
+
+type place = { file : string; source : string; span : span }
+
+(* Where the fleet has an entry for [name]. *)
+let in_fleet_file d name =
+  let entry { path; text } =
+    let is_entry ({ it; _ } : Ast.statement) =
+      match it with
+      | Expression
+          { it = Call { callee = { it = Variable ("vehicle" | "plan"); _ }; arguments = Positional e :: _ }; _ }
+        when e.it = String name -> Some { start = e.at.start.pos_cnum; stop = e.at.stop.pos_cnum }
+      | _ -> None in
+    match Parse.program ~file:path text with
+    | Ok program ->
+      Option.map (fun span -> { file = path; source = text; span }) (List.find_map is_entry program)
+    | Error _ -> None
+  in
+  Option.bind d.fleet entry
+
+let hover d offset =
+  match Occurrences.at d.bindings offset, text_at d.source offset, name_at d.source offset with
+  | Some b, _, Some (span, x) when x = b.name -> Some (span, hover_binding d b)
+  | _, Some (span, text), _ when in_fleet_file d text <> None ->
+    Option.map (fun place -> span, quoted (line_at place.source place.span) "As the fleet has it.")
+      (in_fleet_file d text)
+  | _, _, Some (span, x) ->
+    let suits (e : Reference.entry) =
+      match e.kind with
+      | Member | Constant -> after_point d.source span
+      | Word | Procedure | Block | Setting | Maneuver | Fleet_word -> not (after_point d.source span) in
+    let entries = List.filter suits (Reference.find x) in
+    if entries = [] then None
+    else
+      Some (span, String.concat "\n\n" (List.map (fun (e : Reference.entry) -> quoted e.form e.text) entries))
+  | _, _, None -> None
+
+(* {1 Definitions and uses} *)
+
+let definition d offset =
+  match Occurrences.at d.bindings offset, text_at d.source offset with
+  | Some b, _ -> Some { file = d.file; source = d.source; span = b.definition }
+  | None, Some (_, text) -> in_fleet_file d text
+  | None, None -> None
+
+let references d offset =
+  match Occurrences.at d.bindings offset with
+  | Some b -> b.definition :: List.filter (fun use -> use <> b.definition) b.uses
+  | None -> []
+
+let replaced source spans x =
+  let buffer = Buffer.create (String.length source) in
+  let last =
+    List.fold_left
+      (fun from { start; stop } ->
+         Buffer.add_string buffer (String.sub source from (start - from));
+         Buffer.add_string buffer x;
+         stop)
+      0 spans in
+  Buffer.add_string buffer (String.sub source last (String.length source - last));
+  Buffer.contents buffer
+
+(* Which uses belong together: of all uses in the order of the text, the number of the binding. *)
+let structure bindings =
+  let uses =
+    List.concat (List.mapi (fun i (b : Occurrences.binding) -> List.map (fun u -> u.start, i) b.uses) bindings) in
+  List.map snd (List.sort compare uses)
+
+let rename d offset x =
+  match Occurrences.at d.bindings offset with
+  | None -> Error "there is no variable or function of the program here"
+  | Some _ when not (Surroundings.is_name x) -> Error (Printf.sprintf "'%s' is not a name" x)
+  | Some b ->
+    let renamed = read ~file:d.file ?fleet:d.fleet (replaced d.source b.uses x) in
+    let errors d = List.filter (fun (f : Diagnostic.t) -> f.severity = Error) (diagnostics d) in
+    if structure renamed.bindings <> structure d.bindings then
+      Error (Printf.sprintf "the name '%s' is taken: the program would mean something else" x)
+    else
+      match errors d, errors renamed with
+      | [], f :: _ -> Error f.message
+      | _, _ -> Ok b.uses
+
+type symbol = { name : string; is_function : bool; at : span }
+
+let symbols d =
+  let symbol (b : Occurrences.binding) =
+    match b.kind with
+    | Function _ -> Some { name = b.name; is_function = true; at = b.definition }
+    | Global _ -> Some { name = b.name; is_function = false; at = b.definition }
+    | Local _ | Parameter -> None in
+  List.filter_map symbol d.bindings

@@ -1,0 +1,31 @@
+(** What stands around a place of a text under way, which need not be a program yet: for completing it. *)
+
+(** What a name after a point is looked for in. *)
+type owner =
+  | Nothing  (** There is no point. *)
+  | Number  (** [2.km] *)
+  | Named of string  (** [Location.APDL], [Speed.Units.RPM]: the names before the point *)
+  | Value  (** of any other expression *)
+
+type t = {
+  prefix : string;  (** The part of a name that ends here; [""] if none does. *)
+  owner : owner;
+  builder : Ast.builder option;  (** The block of settings around, if it is the innermost brace. *)
+  block : string option;  (** The name of the command whose block this is, as [vehicle] in [vehicle 'a', { ... }]. *)
+  call : string option;  (** The name of the call or command whose arguments these are. *)
+  text : bool;  (** Whether this is in a string. *)
+  comment : bool;  (** Whether this is in a comment. *)
+}
+
+val at : string -> int -> t
+(** [at source offset] is what stands around byte [offset] of [source]: only the text before it is looked at. *)
+
+val assigned : string -> string list
+(** [assigned source] is the names that [source] seems to give a value to or define, each once, in the order of the
+    text. *)
+
+val words : string list
+(** The words of the language's constructs. *)
+
+val is_name : string -> bool
+(** [is_name x] is whether [x] is one name, and no word of a construct. *)

@@ -1,0 +1,131 @@
+open Dolphin_service
+module Builtins = Dolphin_semantics.Builtins
+
+let read source = Service.read ~file:"m.dol" source
+
+(* The program, with the offset of the mark [#] in it, which is taken out. *)
+let marked text =
+  let at = String.index text '#' in
+  read (String.sub text 0 at ^ String.sub text (at + 1) (String.length text - at - 1)), at
+
+let texts d spans =
+  List.map (fun ({ start; stop } : Service.span) -> String.sub (Service.source d) start (stop - start)) spans
+
+let case name f = Alcotest.test_case name `Quick f
+let strings = Alcotest.(list string)
+let ints = Alcotest.(list int)
+
+(* {1 Places} *)
+
+let positions () =
+  let text = "a\xF0\x9F\x90\xACb\n\xC3\xA9x" in
+  let back n = Text_position.to_offset text (Text_position.of_offset text n) in
+  Alcotest.(check ints) "characters" [ 0; 1; 5; 6; 7; 9; 10 ] (List.map back [ 0; 1; 5; 6; 7; 9; 10 ]);
+  Alcotest.(check int) "UTF-16" 3 (Text_position.of_offset text 5).character;
+  Alcotest.(check int) "beyond a line" 6 (Text_position.to_offset text { line = 0; character = 99 });
+  Alcotest.(check int) "beyond the text" 10 (Text_position.to_offset text { line = 9; character = 0 })
+
+(* {1 Names} *)
+
+let references text expected () =
+  let d, at = marked text in
+  Alcotest.(check ints) text expected (List.map (fun (s : Service.span) -> s.start) (Service.references d at))
+
+let rename text x expected () =
+  let d, at = marked text in
+  let found =
+    match Service.rename d at x with
+    | Ok spans -> "Ok " ^ String.concat " " (List.map (fun (s : Service.span) -> string_of_int s.start) spans)
+    | Error why -> why in
+  Alcotest.(check string) text expected found
+
+let names =
+  [ case "a local hides a global" (references "x = 1\nif (x) { def #x = 2; message x }\nmessage x" [ 19; 34 ]);
+    case "a global" (references "#x = 1\nif (x) { def x = 2; message x }\nmessage x" [ 0; 10; 46 ]);
+    case "a function may come later" (references "message #f(1)\ndef f(n) { n }" [ 17; 8 ]);
+    case "a parameter" (references "def f(n) { #n + n }" [ 6; 11; 15 ]);
+    case "a closure's parameter" (references "x = [1].collect { y -> #y + 1 }" [ 18; 23 ]);
+    case "vehicles of execute" (references "#v = pick { type 'UUV' }\nexecute v: imcPlan('a')" [ 0; 32 ]);
+    case "a setting is no variable" (references "#count = 2\nv = pick { count count }" [ 0; 27 ]);
+    case "a hole of a string" (references "#x = 1\nmessage \"a ${x} $x\"" [ 0; 19; 23 ]);
+    case "a procedure's name as a variable" (references "#battery = battery(v)\nmessage battery" [ 0; 29 ]);
+    case "in parentheses" (references "#x = 1\ny = (x) + ((x))" [ 0; 11; 18 ]);
+    case "nothing" (references "message # 1" []);
+    case "renaming" (rename "#x = 1\nmessage x" "y" "Ok 0 14");
+    case "into a name that is there" (rename "#x = 1\ny = x" "y" "the name 'y' is taken: the program would mean something else");
+    case "into one that would be captured" (rename "#x = 1\nf = { y -> x + y }" "y" "the name 'y' is taken: the program would mean something else");
+    case "into a word" (rename "#x = 1" "while" "'while' is not a name") ]
+
+(* {1 Completion} *)
+
+let completes ?(absent = []) text present () =
+  let d, at = marked text in
+  let labels = List.map (fun (i : Service.item) -> i.label) (snd (Service.complete d at)) in
+  List.iter (fun x -> Alcotest.(check bool) (x ^ " in " ^ text) true (List.mem x labels)) present;
+  List.iter (fun x -> Alcotest.(check bool) (x ^ " not in " ^ text) false (List.mem x labels)) absent
+
+let completion =
+  [ case "names" (completes "boats = pick { }\nexe#" [ "execute"; "boats"; "imcPlan"; "while" ]);
+    case "in a text that is no program" (completes "def tow(x) {\n  execute (\n  #" [ "tow"; "execute" ]);
+    case "settings" (completes "v = pick {\n  ty#" [ "type"; "payload"; "region" ]);
+    case "maneuvers" (completes "p = imcPlan { speed 1; # }" [ "goTo"; "loiter"; "locate" ]);
+    case "their arguments" (completes "p = imcPlan { loiter # }" [ "radius"; "duration" ] ~absent:[ "goTo" ]);
+    case "a new line is a new statement" (completes "p = imcPlan {\n  loiter radius: 2\n  #" [ "goTo" ] ~absent:[ "radius" ]);
+    case "but not after a comma" (completes "p = imcPlan {\n  loiter radius: 2,\n  #" [ "duration" ] ~absent:[ "goTo" ]);
+    case "units" (completes "pause 2.#" [ "km"; "minutes" ] ~absent:[ "execute" ]);
+    case "constants" (completes "x = Location.#" [ "APDL" ]);
+    case "constants of two points" (completes "x = Speed.Units.R#" [ "RPM" ]);
+    case "members" (completes "x = [1].#" [ "size"; "collect" ] ~absent:[ "execute" ]);
+    case "not in comments" (completes "x = 1 // exe #" [] ~absent:[ "execute" ]) ]
+
+(* {1 The reference} *)
+
+(* Each name of the language has an entry: lib/service/reference.ml. *)
+let documented () =
+  let missing kind names entries =
+    let known = List.map (fun (e : Reference.entry) -> e.name) entries in
+    List.filter_map (fun x -> if List.mem x known then None else Some (kind ^ " " ^ x)) names in
+  let builders : Dolphin_syntax.Ast.builder list = [ Pick; Imc_plan; Pos ] in
+  Alcotest.(check strings) "without an entry" []
+    (missing "word" Dolphin_syntax.Surroundings.words Reference.words
+     @ missing "procedure" Builtins.names Reference.procedures
+     @ missing "block" Builtins.builder_names Reference.blocks
+     @ List.concat_map (fun b -> missing "setting" (Builtins.settings b) (Reference.settings b)) builders
+     @ missing "setting of a vehicle" Dolphin_scenario.Fleet_parser.vehicle_settings (Reference.fleet_settings "vehicle")
+     @ missing "setting of a plan" Dolphin_scenario.Fleet_parser.plan_settings (Reference.fleet_settings "plan"))
+
+(* {1 Everything, everywhere} *)
+
+let read_file path =
+  let channel = open_in_bin path in
+  let text = really_input_string channel (in_channel_length channel) in
+  close_in channel;
+  text
+
+let examples =
+  let folders = [ "../../examples"; "../../examples/missions" ] in
+  let files folder = List.map (Filename.concat folder) (List.sort compare (Array.to_list (Sys.readdir folder))) in
+  let is_source path = Filename.check_suffix path ".dol" || Filename.check_suffix path ".fleet" in
+  List.map read_file (List.filter is_source (List.concat_map files folders))
+
+(* Any question about any part of a program is answered; what is named somewhere is found from there. *)
+let answered (text, (length, at)) =
+  let text = String.sub text 0 (length mod (String.length text + 1)) in
+  let d = read text in
+  let at = at mod (String.length text + 1) in
+  ignore (Service.diagnostics d, Service.complete d at, Service.hover d at, Service.definition d at, Service.symbols d);
+  let uses = Service.references d at in
+  List.length (List.sort_uniq compare (texts d uses)) <= 1
+  && List.for_all (fun (s : Service.span) -> Service.references d s.start = uses) uses
+
+let anywhere =
+  let open QCheck2.Gen in
+  Test_support.Property.case "any part of any example" ~count:300
+    ~print:(fun (text, (length, at)) -> Printf.sprintf "%d of %d:\n%s" at length text)
+    (pair (oneofl examples) (pair (int_bound 5000) (int_bound 5000)))
+    answered
+
+let () =
+  Alcotest.run "service"
+    [ "places", [ case "there and back" positions ]; "names", names; "completion", completion;
+      "reference", [ case "is whole" documented ]; "everywhere", [ anywhere ] ]

@@ -13,7 +13,18 @@ let checked path = function
      | Some _, [] | None, _ -> ());
     None
 
-let run path fleet =
+(* What adapters say of the plans that a run of the program gives vehicles. *)
+let checked_plans program fleet = function
+  | [] -> Some ()
+  | adapters ->
+    let found, _ = Inline_plans.of_run program fleet ~seed:0 ~answers:[] in
+    let tell verdicts =
+      List.iter (fun v -> List.iter print_endline (Adapter_check.lines v)) verdicts;
+      if List.for_all Adapter_check.is_fine verdicts then Some () else None
+    in
+    Option.bind (checked None (Adapter_check.ask adapters found)) tell
+
+let run path fleet adapters =
   let program = checked (Some path) (Program_file.load path) in
   let chosen = Fleet_file.choose ~program:path fleet in
   let fleet = checked chosen (Fleet_file.load chosen) in
@@ -29,7 +40,8 @@ let run path fleet =
     program;
   Option.iter (fun (f : Fleet_file.t) -> Option.iter (fun path -> verdict path []) f.path) fleet;
   match program, fleet with
-  | Some _, Some _ -> Exit_status.Done
+  | Some program, Some fleet ->
+    if checked_plans program fleet adapters = None then Exit_status.Bad_input else Done
   | None, _ | _, None -> Exit_status.Bad_input
 
 let man =
@@ -38,6 +50,8 @@ let man =
         of arguments and kinds of literals, what belongs to the script inside of a task's code, one vehicle needed \
         twice at once. It shows each fault with its line and, if known, what would be right. $(b,exec) checks \
         the same before it starts.";
+    `P "With $(b,--platform) adapters are asked what keeps their vehicles from running the program's plans: those that \
+        vehicles are given in a run on the simulated fleet. Nothing moves.";
     `P "The fleet that the program would run with is checked too, and plans that the program seems to misspell.";
     `S Manpage.s_files;
     `I ("$(i,PROG) with the ending $(b,.fleet)", "The fleet, unless $(b,--fleet) names another.");
@@ -50,4 +64,4 @@ let command =
     Cmd.info "check" ~docs:Options.s_write ~doc:"find what is wrong with a program, without running it" ~man
       ~exits:(Options.exits [ Done; Bad_input; Bug ])
   in
-  Cmd.v info Term.(const run $ Options.program $ Options.fleet)
+  Cmd.v info Term.(const run $ Options.program $ Options.fleet $ Platform_options.checking)

@@ -3,13 +3,16 @@ open Dolphin_app
 
 let ( let* ) = Result.bind
 
-let run () options definition as_json once seconds =
+let run () options adapters definition as_json once seconds =
   Report.result
     (let* definition = Definition_file.load definition in
      let options = Imc_options.with_names definition options in
      let interruption = Interruption.make () in
      Interruption.on_signals ~again:Exit_status.exit_interrupted interruption;
-     let* () = Network_view.run options definition interruption ~as_json ~once ~seconds in
+     let* () =
+       if adapters <> [] then Adapter_view.run adapters interruption ~as_json ~once ~seconds
+       else Network_view.run options definition interruption ~as_json ~once ~seconds
+     in
      Ok Exit_status.Done)
 
 let as_json =
@@ -37,6 +40,7 @@ let man =
         of them but their lists of entities.";
     `P "With $(b,--json) and $(b,--imc-xml) each system has $(b,messages) too: an object for each kind of message that \
         it sends, with its number ($(b,id)), how many came ($(b,count)) and what the last one said.";
+    `P "With $(b,--platform) it shows the vehicles of adapters instead, which it orders nothing.";
     `S Manpage.s_options;
     `S Imc_options.s_network;
     `S Manpage.s_exit_status;
@@ -52,4 +56,5 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Verbosity.setup $ Imc_options.options $ Imc_options.definition $ as_json $ once $ seconds)
+      const run $ Verbosity.setup $ Imc_options.options $ Platform_options.looking $ Imc_options.definition
+      $ as_json $ once $ seconds)

@@ -42,16 +42,30 @@ let print_all found outcome : Exit_status.t =
   List.iter (fun f -> print_endline (line f)) found;
   Done
 
-let run () path name fleet seed answers definition =
+(* What adapters say of the plans; one that gets them prints them as it gets them. *)
+let print_checked adapters name found =
+  let is_wanted (f : Inline_plans.found) = name = None || name = Some f.name in
+  let chosen = List.filter is_wanted found in
+  match name, chosen with
+  | Some name, [] -> Error (Error.Bad_input (Printf.sprintf "no vehicle is given a plan '%s'" name))
+  | (Some _ | None), _ ->
+    let* verdicts = Adapter_check.ask adapters chosen in
+    if name <> None then
+      List.iter (fun f -> print_endline (Yojson.Safe.pretty_to_string (Adapter_check.to_json f))) chosen;
+    List.iter (fun v -> List.iter print_endline (Adapter_check.lines v)) verdicts;
+    Ok (if List.for_all Adapter_check.is_fine verdicts then Exit_status.Done else Failed)
+
+let run () path name fleet seed answers adapters definition =
   Report.result
     (let* program = Program_file.load path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
      let* definition = Definition_file.load definition in
      Report.diagnostics ~source:program.source program.warnings;
      let found, outcome = Inline_plans.of_run program fleet ~seed ~answers in
-     match name with
-     | Some name -> Ok (print_named definition name found outcome)
-     | None -> Ok (print_all found outcome))
+     match adapters, name with
+     | _ :: _, _ -> tell_end outcome; print_checked adapters name found
+     | [], Some name -> Ok (print_named definition name found outcome)
+     | [], None -> Ok (print_all found outcome))
 
 let plan_name =
   let doc = "The plan's name, as $(b,planName) gives it. Without it, the plans that vehicles are given are listed." in
@@ -73,6 +87,8 @@ let man =
         time, as $(mname) $(b,exec) does without $(b,--imc), and the plans are those that vehicles are given in that \
         run. A plan that is not started in it is not found: another fleet, seed or answer may lead to it. If vehicles \
         are given different plans of one name, all are printed.";
+    `P "With $(b,--platform) the plans are not printed for IMC: adapters are asked what keeps their vehicles from \
+        running them, and nothing moves.";
     `S Manpage.s_arguments;
     `S Manpage.s_options;
     `S Imc_options.s_network;
@@ -89,4 +105,4 @@ let command =
   Cmd.v info
     Term.(
       const run $ Verbosity.setup $ Options.program $ plan_name $ Options.fleet $ seed $ answers
-      $ Imc_options.definition)
+      $ Platform_options.checking $ Imc_options.definition)

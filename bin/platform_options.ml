@@ -2,6 +2,17 @@ open Cmdliner
 
 let s_platforms = "PLATFORMS"
 
+let checking =
+  let doc =
+    "Ask the adapter that the command $(docv) starts what keeps its vehicles from running the plans; nothing moves. \
+     May be repeated: a plan is fine if one of them can run it. $(i,docs/platform.md) tells more."
+  in
+  Arg.(value & opt_all string [] & info [ "platform" ] ~docv:"CMD" ~doc)
+
+let looking =
+  let doc = "Show the vehicles that the adapter $(docv) speaks for, not those that speak IMC. May be repeated." in
+  Arg.(value & opt_all string [] & info [ "platform" ] ~docv:"CMD" ~doc)
+
 let adapters =
   let doc =
     "Run on the vehicles that the command $(docv) speaks for: an adapter, a process that speaks the platform protocol \

@@ -3,5 +3,11 @@
 val s_platforms : string
 (** The section of manuals. *)
 
+val checking : string list Cmdliner.Term.t
+(** [--platform CMD] of commands that only ask adapters about plans. *)
+
+val looking : string list Cmdliner.Term.t
+(** [--platform CMD] of commands that only look at vehicles. *)
+
 val adapters : string list Cmdliner.Term.t
 (** [--platform CMD], which may be repeated. *)

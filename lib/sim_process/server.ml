@@ -16,6 +16,7 @@ type t = {
   output : Buffer.t;
   mutable writing : unit Lwt.t;
   mutable fleet : Served_fleet.t;
+  mutable is_greeted : bool;
   mutable is_over : bool;
 }
 
@@ -37,8 +38,9 @@ let rec flush s =
     >>= fun () -> flush s
   end
 
+(* Nothing is said before the greeting: whoever greets is told of all vehicles, and asks about requests. *)
 let tell s reports =
-  List.iter (fun report -> Buffer.add_string s.output (Report.to_line report)) reports;
+  if s.is_greeted then List.iter (fun report -> Buffer.add_string s.output (Report.to_line report)) reports;
   match Lwt.state s.writing with Sleep -> () | Return () | Fail _ -> s.writing <- flush s
 
 (* {1 Orders and time} *)
@@ -53,7 +55,11 @@ let obey s (order : Order.t) =
   catch_up s;
   let time = s.now () in
   if Served_fleet.changes order s.fleet then Option.iter (fun memory -> Memory.add memory ~time order) s.memory;
-  (match order with Hello _ -> tell s (Served_fleet.greeting :: Served_fleet.everyone s.fleet) | _ -> ());
+  (match order with
+   | Hello _ ->
+     s.is_greeted <- true;
+     tell s (Served_fleet.greeting :: Served_fleet.everyone s.fleet)
+   | _ -> ());
   change s (Served_fleet.order ~now:time order s.fleet);
   if order = Close then s.is_over <- true
 
@@ -73,15 +79,12 @@ let until_due s speed =
   | None -> fst (Lwt.task ())
   | Some time -> Lwt_unix.sleep (Float.max 0. (Float.min longest_sleep ((time -. s.now ()) /. speed)))
 
-(* Nothing is said of vehicles before the greeting. *)
 let rec serve s speed lines line =
-  let greeted = match line with `Greeted line | `New line -> line in
-  let time = match line with `Greeted _ -> [ (until_due s speed >|= fun () -> `Time) ] | `New _ -> [] in
-  Lwt.pick ((Lwt.protected greeted >|= fun line -> `Line line) :: time) >>= function
+  Lwt.pick [ (Lwt.protected line >|= fun line -> `Line line); (until_due s speed >|= fun () -> `Time) ] >>= function
   | `Time -> catch_up s; serve s speed lines line
   | `Line read ->
     read_order s read;
-    if s.is_over then s.writing else serve s speed lines (`Greeted (Lines.next lines))
+    if s.is_over then s.writing else serve s speed lines (Lines.next lines)
 
 (* The fleet as it is now, after what it was ordered before this process. *)
 let rebuilt settings ~now orders =
@@ -113,7 +116,7 @@ let run settings =
     let fleet = rebuilt settings ~now:at orders in
     let s =
       { now = (fun () -> clock () *. settings.speed); memory; output = Buffer.create 4096; writing = Lwt.return_unit;
-        fleet; is_over = false }
+        fleet; is_greeted = false; is_over = false }
     in
     let lines = Lines.make ~limit:Report.longest_line Lwt_unix.stdin in
-    serve s settings.speed lines (`New (Lines.next lines)) >|= fun () -> Ok ()
+    serve s settings.speed lines (Lines.next lines) >|= fun () -> Ok ()

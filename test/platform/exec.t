@@ -92,3 +92,60 @@ Two platforms in one run; a vehicle that both offer cannot be picked.
   twice.dol:2:5: error: could not pick 1 vehicle of type 'UGV': rover-1 is offered by rover and by sim
     2 | v = pick { type 'UGV'; timeout 0.1.seconds }
       |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+
+Who is there, and what keeps them from running a program's plans.
+
+  $ dolphin fleet --once --platform ../../examples/adapter.py
+  VEHICLE  TYPE  PLATFORM  POSITION            BATTERY  SPEED  PAYLOAD  LINK  READY
+  rover-1  UGV   rover     41.18500, -8.70600  -        -      -        yes   yes
+  $ dolphin fleet --once --json --platform ../../examples/adapter.py
+  [{"id":"rover-1","platform":"rover","type":"UGV","latitude":41.185,"longitude":-8.706,"height":0.0,"battery":null,"speed":null,"payload":[],"linked":true,"available":true,"unready":null}]
+  $ cat > inline.dol <<'END'
+  > v = pick { type 'UUV' }
+  > execute v: imcPlan {
+  >     planName 'look'
+  >     locate 41.185, -8.706
+  >     goTo payload: 'Camera'
+  > }
+  > END
+  $ dolphin plan inline.dol --platform "dolphin sim slow.fleet --platform"
+  look: sim runs it
+  $ dolphin plan inline.dol --platform ../../examples/adapter.py
+  look: rover: it takes no plans in imcPlan
+  [1]
+  $ dolphin plan inline.dol look --platform ../../examples/adapter.py --platform "dolphin sim slow.fleet --platform"
+  {
+    "name": "look",
+    "language": "imcPlan",
+    "body": {
+      "description": "",
+      "vehicles": [],
+      "maneuvers": [
+        {
+          "id": "1.Goto",
+          "maneuver": "goTo",
+          "latitude": 41.185,
+          "longitude": -8.706,
+          "height": 0.0,
+          "z": 2.0,
+          "zUnit": "depth",
+          "speed": 900.0,
+          "speedUnit": "rpm",
+          "payload": [
+            { "name": "Camera", "parameters": { "Active": "true" } }
+          ]
+        }
+      ]
+    }
+  }
+  look: sim runs it
+  $ dolphin check inline.dol --platform ../../examples/adapter.py
+  inline.dol: no errors
+  look: rover: it takes no plans in imcPlan
+  [2]
+  $ dolphin check rover.dol --platform ../../examples/adapter.py
+  rover.dol: no errors
+  rover.fleet: no errors
+  short: rover runs it
+  nonsense: rover: undefined plan 'nonsense'
+  [2]

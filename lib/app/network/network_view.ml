@@ -1,8 +1,6 @@
-open Dolphin_display
 open Dolphin_platform_imc
 open Dolphin_semantics
 open Lwt.Infix
-module Phrase = Dolphin_trace.Phrase
 
 (* {1 One system} *)
 
@@ -70,70 +68,22 @@ let row network definition (s : Station.system) =
 
 let heads = [ "VEHICLE"; "TYPE"; "IMC"; "ADDRESS"; "POSITION"; "MODE"; "BATTERY"; "PAYLOAD"; "PLAN"; "HEARD"; "READY" ]
 
-let table network definition sights =
-  let rows = heads :: List.map (fun s -> List.map Phrase.one_line (row network definition s)) sights in
-  let wider = List.map2 (fun width cell -> max width (Phrase.width cell)) in
-  let widths = List.fold_left wider (List.map (fun _ -> 0) heads) rows in
-  let rec trimmed text =
-    let n = String.length text in
-    if n > 0 && text.[n - 1] = ' ' then trimmed (String.sub text 0 (n - 1)) else text
-  in
-  List.map (fun cells -> trimmed (String.concat "  " (List.map2 Phrase.pad widths cells))) rows
-
-(* {1 Printing} *)
-
 let lines network definition ~json:as_json =
   match Udp_platform.systems network with
   | sights when as_json -> [ Yojson.Safe.to_string (`List (List.map (json network definition) sights)) ]
   | [] -> [ "no system was heard of" ]
-  | sights -> table network definition sights
+  | sights -> Listing.table heads (List.map (row network definition) sights)
 
-let print lines =
-  List.iter print_endline lines;
-  flush stdout
-
-let wait interruption seconds = Lwt.pick [ Interruption.promise interruption; Lwt_unix.sleep seconds ]
-
-let is_over network interruption ~until = Interruption.happened interruption || Udp_platform.now network >= until
-
-(* A table that changes, on a terminal. *)
-let watch network definition interruption ~until =
-  let screen = Screen.make ~live:true ~on_closed:(fun _ -> Interruption.interrupt interruption) Unix.stdout in
-  let head () = Printf.sprintf "%s hears, Ctrl-C ends" (Udp_platform.name_on_network network) in
-  let board ~rows ~columns =
-    let all = head () :: lines network definition ~json:false in
-    List.map (fun line -> fst (Phrase.split columns line)) (List.filteri (fun i _ -> i < rows) all)
-  in
-  Screen.show screen board;
-  let rec go () =
-    if is_over network interruption ~until then Lwt.return_unit
-    else begin
-      Screen.changed screen;
-      wait interruption 1. >>= go
-    end
-  in
-  go () >|= fun () -> Screen.close screen
-
-(* A line of JSON each second. *)
-let rec report network definition interruption ~until =
-  if is_over network interruption ~until then Lwt.return_unit
-  else
-    wait interruption 1. >>= fun () ->
-    print (lines network definition ~json:true);
-    report network definition interruption ~until
-
-let show network definition interruption ~as_json ~once ~seconds =
-  let until = Option.value seconds ~default:infinity in
-  if once || not (as_json || Terminal.is_live ()) then
-    let patience = Option.value seconds ~default:(Udp_platform.announce_period network) in
-    wait interruption patience >|= fun () -> print (lines network definition ~json:as_json)
-  else if as_json then report network definition interruption ~until
-  else watch network definition interruption ~until >|= fun () -> print (lines network definition ~json:false)
+let listing network definition =
+  { Listing.head = (fun () -> Printf.sprintf "%s hears, Ctrl-C ends" (Udp_platform.name_on_network network));
+    lines = lines network definition;
+    patience = Udp_platform.announce_period network }
 
 let run options definition interruption ~as_json ~once ~seconds =
   match Udp_platform.open_ { options with Udp_platform.records = definition <> None && as_json } with
   | Error why -> Error (Error.Unavailable why)
   | Ok network ->
     Lwt_main.run
-      (show network definition interruption ~as_json ~once ~seconds >>= fun () -> Udp_platform.close network);
+      (Listing.show (listing network definition) interruption ~as_json ~once ~seconds >>= fun () ->
+       Udp_platform.close network);
     Ok ()

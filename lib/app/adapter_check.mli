@@ -1,0 +1,20 @@
+(** Plans of a program, asked of adapters before anything moves ([docs/platform.md]). *)
+
+type verdict = {
+  found : Inline_plans.found;
+  answers : (string * string list) list;  (** by the name of the platform, what it finds wrong with the plan *)
+}
+
+val is_fine : verdict -> bool
+(** Some platform finds nothing wrong. *)
+
+val ask : string list -> Inline_plans.found list -> (verdict list, Error.t) result
+(** [ask commands plans] starts the adapters [commands], asks each about each of [plans], and ends them. The error says
+    which adapter cannot be spoken to, or does not answer. *)
+
+val lines : verdict -> string list
+(** What to print of it: ["survey: mavlink runs it"], ["survey: mavlink: maneuver 2.YoYo: an aircraft does not dive"].
+*)
+
+val to_json : Inline_plans.found -> Yojson.Safe.t
+(** The plan as adapters get it. *)

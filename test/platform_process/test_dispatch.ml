@@ -1,0 +1,407 @@
+open Dolphin_platform_protocol
+open Dolphin_platform_process
+open Dolphin_runtime
+module D = Dispatch
+
+(* {1 A dispatch, its time and what came out of it} *)
+
+type world = { mutable d : D.t; mutable now : float; mutable out : D.output list (* latest first *) }
+
+let take_outputs w =
+  let out = List.rev w.out in
+  w.out <- [];
+  out
+
+let step w f =
+  let d, out = f ~now:w.now w.d in
+  w.d <- d;
+  w.out <- List.rev_append out w.out;
+  (* The disk is quick here. *)
+  List.iter
+    (function
+      | D.Keep_before (_, _, request) ->
+        let d, out = D.durable ~now:w.now request w.d in
+        w.d <- d;
+        w.out <- List.rev_append out w.out
+      | Send _ | Keep _ | Keep_and_tell _ | Remark _ | Give_up _ -> ())
+    out
+
+let report w r = step w (fun ~now d -> D.report ~now r d)
+let greeting = { Report.version = 1; name = "x"; adapter = None; plans = [ "name" ]; announce = 1.; patience = 10. }
+let born w = step w (fun ~now d -> D.born ~now greeting d)
+let died w = step w (fun ~now d -> D.died ~now d)
+let start w v name =
+  step w (fun ~now d -> D.start ~now v { name; plan = None; task_site = 0 } d)
+let stop w v = step w (fun ~now d -> D.stop ~now v d)
+
+(* Time passes, and whatever is due happens when it is; pings are answered. *)
+let pass w seconds =
+  let until = w.now +. seconds in
+  let rec go () =
+    let due = D.due w.d in
+    if due <= until then begin
+      w.now <- Float.max w.now due;
+      step w (fun ~now d -> D.tick ~now d);
+      report w (Pong 0);
+      go ()
+    end
+  in
+  go ();
+  w.now <- until
+
+let sight ?(link = true) ?unready v =
+  Report.Vehicle
+    { (Report.nothing v) with
+      kind = Some "UUV"; place = Some (41., -8.); link = Some link; unready = Some unready }
+
+let fresh () =
+  let w = { d = D.create ~platform:"x" ~prefix:"r"; now = 0.; out = [] } in
+  born w;
+  report w (sight "v");
+  ignore (take_outputs w);
+  w
+
+let shown = function
+  | D.Send order -> (
+      match order with
+      | Start { request; vehicle; plan; _ } ->
+        let name = match plan with `Assoc (("name", `String name) :: _) -> name | _ -> "?" in
+        Some (Printf.sprintf "start %s %s %s" request vehicle name)
+      | Stop { request; vehicle } -> Some (Printf.sprintf "stop %s %s" request vehicle)
+      | Resume { request; vehicle; notes; _ } ->
+        Some (Printf.sprintf "resume %s %s %s" request vehicle (Yojson.Safe.to_string (`List notes)))
+      | Kept id -> Some (Printf.sprintf "kept %d" id)
+      | Hello _ | Telemetry _ | Hold _ | Release _ | Timeout _ | Ping _ | Check _ | Close -> None)
+  | Remark (v, text) -> Some (Printf.sprintf "remark %s: %s" (Option.value v ~default:"-") text)
+  | Give_up why -> Some ("give up: " ^ why)
+  | Keep _ | Keep_before _ | Keep_and_tell _ -> None
+
+let rec events w =
+  match D.take w.d with
+  | None -> []
+  | Some (event, d) ->
+    w.d <- d;
+    let text =
+      match event with
+      | Platform.Vehicle { id; connected; unready; _ } ->
+        Printf.sprintf "%s %s" id
+          (match connected, unready with false, _ -> "lost" | true, None -> "ready" | true, Some why -> why)
+      | Task_done v -> v ^ " done"
+      | Task_failed (v, why) -> Printf.sprintf "%s failed: %s" v why
+      | Timer timer -> Printf.sprintf "timer %d" timer
+      | Quiet -> "quiet"
+    in
+    text :: events w
+
+let check_out w what expected =
+  Alcotest.(check (list string)) what expected (List.filter_map shown (take_outputs w))
+
+let check_events w what expected = Alcotest.(check (list string)) what expected (events w)
+
+(* {1 Tests} *)
+
+let completion () =
+  let w = fresh () in
+  check_events w "the vehicle is there" [ "v ready" ];
+  start w "v" "p";
+  check_out w "ordered" [ "start r-1 v p" ];
+  report w (Request ("r-1", Taken));
+  report w (Request ("r-1", Done));
+  report w (Request ("r-1", Done));
+  report w (Request ("r-1", Failed "late"));
+  check_events w "one end" [ "v done" ];
+  Alcotest.(check bool) "quiet" true (D.quiet w.d)
+
+let stop_then_start () =
+  let w = fresh () in
+  start w "v" "p";
+  report w (Request ("r-1", Taken));
+  stop w "v";
+  start w "v" "q";
+  check_out w "the next start waits for the end" [ "start r-1 v p"; "stop r-1 v" ];
+  report w (Request ("r-1", Stopped));
+  check_out w "and comes then" [ "start r-2 v q" ];
+  ignore (events w);
+  report w (Request ("r-2", Done));
+  check_events w "only the second is told" [ "v done" ]
+
+let prepared_end () =
+  let w = fresh () in
+  ignore (events w);
+  start w "v" "p";
+  report w (Request ("r-1", Done));
+  stop w "v";
+  check_events w "no event follows a stop" []
+
+let not_yet_durable () =
+  let w = fresh () in
+  ignore (events w);
+  (* Without the disk's word nothing is ordered, and a stop needs no order either. *)
+  let d, _ = D.start ~now:0. "v" { name = "p"; plan = None; task_site = 0 } w.d in
+  w.d <- d;
+  stop w "v";
+  let d, out = D.durable ~now:0. "r-1" w.d in
+  w.d <- d;
+  Alcotest.(check int) "nothing is sent" 0 (List.length out);
+  check_out w "nor a stop" [];
+  Alcotest.(check bool) "quiet" true (D.quiet w.d)
+
+let silence () =
+  let w = fresh () in
+  ignore (events w);
+  start w "v" "p";
+  report w (Request ("r-1", Taken));
+  report w (sight ~link:false "v");
+  pass w 59.;
+  check_events w "not yet" [ "v lost" ];
+  pass w 2.;
+  check_events w "too long" [ "v failed: no word from the vehicle for 60 seconds" ];
+  check_out w "it is to stop" [ "start r-1 v p"; "stop r-1 v" ];
+  Alcotest.(check (list (pair string string))) "may still run" [ ("v", "p") ] (D.unsettled w.d)
+
+let link_returns () =
+  let w = fresh () in
+  ignore (events w);
+  start w "v" "p";
+  report w (Request ("r-1", Taken));
+  report w (sight ~link:false "v");
+  pass w 50.;
+  report w (sight "v");
+  report w (sight ~link:false "v");
+  pass w 50.;
+  check_events w "counted anew" [ "v lost" ];
+  report w (sight "v");
+  report w (Request ("r-1", Done));
+  check_events w "as if nothing had happened" [ "v ready"; "v done" ]
+
+let no_answer () =
+  let w = fresh () in
+  ignore (events w);
+  start w "v" "p";
+  pass w 9.;
+  check_events w "not yet" [];
+  pass w 2.;
+  check_events w "the patience of the greeting" [ "v failed: no answer to the order to start for 10 seconds" ];
+  check_out w "stopped" [ "start r-1 v p"; "stop r-1 v" ]
+
+let stop_without_answer () =
+  let w = fresh () in
+  ignore (events w);
+  start w "v" "p";
+  report w (Request ("r-1", Taken));
+  stop w "v";
+  start w "v" "q";
+  ignore (take_outputs w);
+  pass w 61.;
+  check_out w "given up, told, and the next one ordered"
+    [ "remark v: may still run plan p: the stop has had no answer for 60 seconds"; "start r-2 v q" ];
+  report w (Request ("r-2", Done));
+  Alcotest.(check (list (pair string string))) "named at the end" [ ("v", "p") ] (D.unsettled w.d);
+  report w (Request ("r-1", Stopped));
+  Alcotest.(check (list (pair string string))) "until it is certain" [] (D.unsettled w.d)
+
+let unknown () =
+  let w = fresh () in
+  ignore (events w);
+  start w "v" "p";
+  ignore (take_outputs w);
+  report w (Request ("r-1", Unknown "no answer to the upload"));
+  report w (Request ("r-1", Unknown "no answer to the upload"));
+  check_events w "failed once" [ "v failed: no answer to the upload" ];
+  check_out w "and stopped" [ "stop r-1 v" ];
+  report w (Request ("r-1", Done));
+  check_events w "what it did does not matter" [];
+  Alcotest.(check bool) "quiet" true (D.quiet w.d)
+
+let death () =
+  let w = fresh () in
+  ignore (events w);
+  start w "v" "p";
+  report w (Request ("r-1", Taken));
+  report w (Note { request = "r-1"; note = `Assoc [ ("a", `Int 1) ]; id = None });
+  report w (Note { request = "r-1"; note = `Assoc [ ("b", `Int 2) ]; id = None });
+  ignore (take_outputs w);
+  died w;
+  check_events w "its vehicles lose their link" [ "v lost" ];
+  stop w "v";
+  check_out w "nobody is there to be told" [];
+  start w "v" "q";
+  born w;
+  check_out w "asked, with its notes, and stopped" [ "resume r-1 v [{\"b\":2},{\"a\":1}]"; "stop r-1 v" ];
+  report w (sight "v");
+  report w (Request ("r-1", Absent));
+  check_out w "absent is an end, where it was to be stopped" [ "start r-2 v q" ];
+  check_events w "it is back" [ "v ready" ]
+
+let death_and_absent () =
+  let w = fresh () in
+  ignore (events w);
+  start w "v" "p";
+  died w;
+  born w;
+  ignore (take_outputs w);
+  report w (Request ("r-1", Absent));
+  check_out w "ordered again, as the same request" [ "start r-1 v p" ]
+
+let death_for_long () =
+  let w = fresh () in
+  start w "v" "p";
+  report w (Request ("r-1", Taken));
+  ignore (events w);
+  died w;
+  pass w 61.;
+  check_events w "the connection timeout counts" [ "v lost"; "v failed: no word from the vehicle for 60 seconds" ]
+
+let start_while_dead () =
+  let w = fresh () in
+  ignore (events w);
+  died w;
+  start w "v" "p";
+  check_out w "nothing is sent" [];
+  born w;
+  check_out w "it was never ordered: it is ordered now" [ "start r-1 v p" ]
+
+let silent_adapter () =
+  let w = fresh () in
+  let rec go n =
+    if n > 0 then begin
+      w.now <- D.due w.d;
+      step w (fun ~now d -> D.tick ~now d);
+      go (n - 1)
+    end
+  in
+  go 4;
+  check_out w "three pings without a word" [ "give up: it has said nothing for 15 seconds" ]
+
+let strangers () =
+  let w = { d = D.create ~platform:"x" ~prefix:"r"; now = 0.; out = [] } in
+  born w;
+  report w (Vehicle { (Report.nothing "v") with link = Some true });
+  report w (Request ("nobody's", Done));
+  check_out w "told" [ "remark -: the first report of v has no type: it is ignored" ];
+  report w (Vehicle { (Report.nothing "v") with link = Some true; kind = Some "UAV" });
+  check_events w "no program sees it without a position" [];
+  report w (Vehicle { (Report.nothing "v") with place = Some (1., 2.); unready = Some (Some "is on the ground") });
+  check_events w "now it does" [ "v is on the ground" ]
+
+(* {2 Resumption} *)
+
+let asked plan request : Yojson.Safe.t =
+  `Assoc [ ("platform", `String "x"); ("asked", `String plan); ("request", `String request) ]
+
+let note kind request : Yojson.Safe.t = `Assoc [ ("platform", `String "x"); (kind, `String request) ]
+let task name : Dolphin_semantics.Core.platform_task = { name; plan = None; task_site = 0 }
+let entry what : History.entry = { time = 1.; what }
+
+let resumed history =
+  let d = D.resume ~now:100. ~announce_period:1. (List.map entry history) (D.create ~platform:"x" ~prefix:"s") in
+  let w = { d; now = 100.; out = [] } in
+  born w;
+  w
+
+let resume_cases () =
+  let start : History.what = Asked [ Start ("v", task "p") ] and stop : History.what = Asked [ Stop "v" ] in
+  let noted json : History.what = Noted ("v", json) in
+  let check what history expected =
+    let w = resumed history in
+    step w (fun ~now d -> D.tick ~now d);
+    (* What a new request needs is durable at once. *)
+    check_out w what expected
+  in
+  check "asked: what became of it?" [ start; noted (asked "p" "r-1") ] [ "resume r-1 v []" ];
+  check "asked and stopped" [ start; noted (asked "p" "r-1"); stop ] [ "resume r-1 v []"; "stop r-1 v" ];
+  check "stopped, and that was confirmed" [ start; noted (asked "p" "r-1"); stop; noted (note "over" "r-1") ] [];
+  check "ended" [ start; noted (asked "p" "r-1"); Happened (Vehicle_done "v") ] [];
+  check "never asked: asked now" [ start ] [ "start s-1 v p" ];
+  check "never asked, and not wanted" [ start; stop ] [];
+  check "the stop of the one before is not confirmed"
+    [ start; noted (asked "p" "r-1"); stop; Asked [ Start ("v", task "q") ] ]
+    [ "resume r-1 v []"; "stop r-1 v" ];
+  check "it is confirmed"
+    [ start; noted (asked "p" "r-1"); stop; Asked [ Start ("v", task "q") ]; noted (note "over" "r-1") ]
+    [ "start s-1 v q" ];
+  check "a task that failed, and may still run"
+    [ start; noted (asked "p" "r-1");
+      noted
+        (`Assoc
+           [ ("platform", `String "x"); ("unsettled", `String "r-1"); ("plan", `Assoc [ ("name", `String "p") ]) ]);
+      Happened (Vehicle_failed ("v", "silence")) ]
+    [ "resume r-1 v []"; "stop r-1 v" ]
+
+(* {2 At random} *)
+
+(* However reports come, each start that is not stopped has one end, and none that was stopped has. *)
+type action = Start | Stop | Word of string * Report.word | Die | Pass of float | Link of bool
+
+let actions =
+  let open QCheck2.Gen in
+  let request = map (Printf.sprintf "r-%d") (int_range 1 6) in
+  let word =
+    oneofl
+      [ Report.Taken; Done; Failed "no"; Stopped; Unknown "who knows"; Absent;
+        Progress { share = Some 0.5; remaining = None } ]
+  in
+  let action =
+    frequency
+      [ (3, return Start); (2, return Stop); (8, map2 (fun r w -> Word (r, w)) request word); (1, return Die);
+        (2, map (fun s -> Pass s) (float_range 0. 70.)); (2, map (fun link -> Link link) bool) ]
+  in
+  list_size (int_range 1 40) action
+
+let print_action = function
+  | Start -> "start"
+  | Stop -> "stop"
+  | Word (r, word) -> Yojson.Safe.to_string (Report.to_json (Request (r, word)))
+  | Die -> "die or be born"
+  | Pass s -> Printf.sprintf "pass %g" s
+  | Link on -> Printf.sprintf "link %b" on
+
+let is_end event = event = "v done" || (String.length event > 8 && String.sub event 0 8 = "v failed")
+
+let one_end_each actions =
+  let w = fresh () in
+  let running = ref false and is_alive = ref true in
+  (* Whether at most one end was told, of what runs. *)
+  let see () =
+    match List.filter is_end (events w) with
+    | [] -> true
+    | [ _ ] when !running -> running := false; true
+    | _ -> false
+  in
+  let act = function
+    | Start -> if not !running then begin start w "v" "p"; running := true end
+    | Stop -> stop w "v"; running := false
+    | Word (r, word) -> report w (Request (r, word))
+    | Die -> (if !is_alive then died w else born w); is_alive := not !is_alive
+    | Pass s -> pass w s
+    | Link link -> report w (sight ~link "v")
+  in
+  let one action = act action; see () in
+  let all_but_the_last = List.for_all one actions in
+  (* After a silence that is long enough nothing is owed. *)
+  report w (sight ~link:false "v");
+  pass w 200.;
+  all_but_the_last && see () && not !running
+
+let random =
+  Test_support.Property.case ~count:3000 "each start has one end, unless it is stopped"
+    ~print:(fun actions -> String.concat "; " (List.map print_action actions))
+    actions one_end_each
+
+let case name f = Alcotest.test_case name `Quick f
+
+let () =
+  Alcotest.run "platform_process"
+    [ ( "dispatch",
+        [ case "a plan runs to its end, which is told once" completion; case "a start waits for a stop" stop_then_start;
+          case "a stop takes back an end that waits to be told" prepared_end;
+          case "nothing is ordered before the disk has it" not_yet_durable;
+          case "a link that is lost for too long" silence; case "a link that returns" link_returns;
+          case "a start without an answer" no_answer; case "a stop without an answer" stop_without_answer;
+          case "what is not certain" unknown; case "a vehicle without type or position" strangers ] );
+      ( "deaths",
+        [ case "the adapter dies, and is asked" death; case "what never reached it is ordered again" death_and_absent;
+          case "it is dead for long" death_for_long; case "a start meanwhile" start_while_dead;
+          case "it is silent" silent_adapter ] );
+      ("resumption", [ case "what the journal says" resume_cases ]);
+      ("random", [ random ]) ]

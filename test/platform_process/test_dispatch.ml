@@ -89,6 +89,7 @@ let rec events w =
       | Task_done v -> v ^ " done"
       | Task_failed (v, why) -> Printf.sprintf "%s failed: %s" v why
       | Timer timer -> Printf.sprintf "timer %d" timer
+      | Input (k, _) -> "input " ^ k
       | Quiet -> "quiet"
     in
     text :: events w

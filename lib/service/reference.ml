@@ -48,6 +48,8 @@ let procedures =
       "setConnectionTimeout", "setConnectionTimeout vs, 2.min",
       "How long nothing may be heard of the vehicles before their tasks fail.";
       "ask", "ask 'prompt'", "Asks people a question; its value is what the answer computes.";
+      "input", "input 'key', ...",
+      "At the top: pairs with these keys may be posted from outside at any time.";
       "confirm", "confirm 'prompt'", "Asks a question that takes yes or no.";
       "message", "message x", "Shows a value to people.";
       "println", "println x", "Shows a value to people, as `message`.";
@@ -206,6 +208,7 @@ let fleet_entries =
     [ "vehicle", "vehicle 'id', { type 'UUV' }", "A vehicle of the world.";
       "plan", "plan 'name', { duration 3.min }", "How a plan ends, and how long it takes.";
       "answer", "answer 'prompt', e1, e2", "What people answer to a prompt, one after another.";
+      "input", "input 'key', x1, x2", "What may be posted with a key from outside, one value after another.";
       "reply", "reply 'call', r1, r2", "What a supplier replies to a call, one after another." ]
 
 let of_vehicle =

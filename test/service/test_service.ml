@@ -102,6 +102,19 @@ let read_file path =
   close_in channel;
   text
 
+(* The words of the language are in the files by which editors highlight it. *)
+let highlighted () =
+  let is_letter c = match c with 'a' .. 'z' | 'A' .. 'Z' | '0' .. '9' | '_' -> true | _ -> false in
+  let words text = String.split_on_char ' ' (String.map (fun c -> if is_letter c then c else ' ') text) in
+  let missing path =
+    let known = words (read_file path) in
+    List.filter_map
+      (fun x -> if List.mem x known then None else Some (path ^ " lacks " ^ x))
+      (Dolphin_syntax.Surroundings.words @ Builtins.names @ Builtins.builder_names) in
+  Alcotest.(check strings) "lacking" []
+    (List.concat_map missing
+       [ "../../editors/vim/syntax/dolphin.vim"; "../../editors/vscode/syntaxes/dolphin.tmLanguage.json" ])
+
 let examples =
   let folders = [ "../../examples"; "../../examples/missions" ] in
   let files folder = List.map (Filename.concat folder) (List.sort compare (Array.to_list (Sys.readdir folder))) in
@@ -128,4 +141,4 @@ let anywhere =
 let () =
   Alcotest.run "service"
     [ "places", [ case "there and back" positions ]; "names", names; "completion", completion;
-      "reference", [ case "is whole" documented ]; "everywhere", [ anywhere ] ]
+      "reference", [ case "is whole" documented; case "is highlighted" highlighted ]; "everywhere", [ anywhere ] ]

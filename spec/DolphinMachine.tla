@@ -680,18 +680,52 @@ ExecuteFor(m, names, xs) ==
        [] parts = << >> -> Faulty(m, "nothing to execute")
        [] OTHER -> Execute(m, SideBySide(Each(parts, LAMBDA part : part[2])))
 
-Pairs(keys, xs) == << >> \o [ i \in DOMAIN xs |-> << keys[i], Canonical(xs[i]) >> ]
+(* A key is a name, or nothing: then it is the value before its own. *)
+RECURSIVE Pairs(_, _)
+Pairs(keys, xs) ==
+  CASE keys = << >> -> << >>
+    [] Head(keys) # << >> -> << << Head(keys)[1], Canonical(Head(xs)) >> >> \o Pairs(Tail(keys), Tail(xs))
+    [] OTHER -> << << Text(Canonical(Head(xs))), Canonical(xs[2]) >> >> \o Pairs(Tail(keys), Tail(Tail(xs)))
+
+IsKey(x) == IsString(x) \/ IsNumber(x)
+
+(* The values that stand for keys and are none. *)
+RECURSIVE WrongKeys(_, _)
+WrongKeys(keys, xs) ==
+  CASE keys = << >> -> << >>
+    [] Head(keys) # << >> -> WrongKeys(Tail(keys), Tail(xs))
+    [] OTHER -> (IF IsKey(Head(xs)) THEN << >> ELSE << Head(xs) >>) \o WrongKeys(Tail(keys), Tail(Tail(xs)))
+
+WrongKey(keys, xs) == Expected("a string as a key", WrongKeys(keys, xs)[1])
+
+RECURSIVE InSomeOrder(_)
+InSomeOrder(bag) ==
+  IF bag = EmptyBag THEN << >>
+  ELSE LET pair == CHOOSE pair \in BagToSet(bag) : TRUE
+       IN << pair[2] >> \o InSomeOrder(bag (-) SetToBag({ pair }))
+
+(* The values of the pairs of k: those of a queue in their order. *)
+ValuesOf(N, k) ==
+  IF k \in OrderedKeys THEN N.queue[k]
+  ELSE InSomeOrder([ pair \in { p \in BagToSet(N.bag) : p[1] = k } |-> N.bag[pair] ])
 
 DoPost(m, pairs) ==
   IF \E i \in DOMAIN pairs : pairs[i][2] = Wildcard THEN Faulty(m, "only consume and poll take the wildcard _")
   ELSE Did([ m EXCEPT !.N = PostAll(@, pairs) ], [ did |-> "post", pairs |-> pairs ], Null)
 
+Codes(pairs) == SelectSeq(pairs, LAMBDA pair : Is(pair[2], "closure"))
+
+CodeAsValue(m, k) == Faulty(m, "a pattern is written behind its key, as in consume " \o k \o ": { x -> ... }")
+
 DoConsume(m, pairs) ==
   LET found == TakeAll(m.N, pairs, << >>)
-  IN IF found = << >> THEN Result(m, False)
+  IN IF Codes(pairs) # << >> THEN CodeAsValue(m, Codes(pairs)[1][1])
+     ELSE IF found = << >> THEN Result(m, False)
      ELSE Did([ m EXCEPT !.N = found[1].N ], [ did |-> "consume", pairs |-> found[1].taken ], True)
 
-DoPoll(m, pairs) == Result(m, Boolean(\A i \in DOMAIN pairs : IsThere(m.N, pairs[i][1], pairs[i][2])))
+DoPoll(m, pairs) ==
+  IF Codes(pairs) # << >> THEN CodeAsValue(m, Codes(pairs)[1][1])
+  ELSE Result(m, Boolean(\A i \in DOMAIN pairs : IsThere(m.N, pairs[i][1], pairs[i][2])))
 
 DoRelease(m, x) ==
   LET common == Intersection(x[2], m.B)
@@ -715,8 +749,15 @@ Refuted(m, text) == Stop(m, << "faulted", [ message |-> text, at |-> m.at, asser
 Procedure(m, op, xs) ==
   LET name == op.op
       x == xs[1]
-  IN CASE name = "post" -> DoPost(m, Pairs(op.keys, xs))
+  IN CASE name \in { "post", "consume", "poll" } /\ WrongKeys(op.keys, xs) # << >> -> Settle(m, WrongKey(op.keys, xs))
+       [] name = "post" /\ op.keys = << >> ->
+            IF Is(x, "map") THEN DoPost(m, Each(x[2], LAMBDA entry : << entry[1], Canonical(entry[2]) >>))
+            ELSE Settle(m, Expected("pairs, as in post ready: 1, or a map", x))
+       [] name = "post" -> DoPost(m, Pairs(op.keys, xs))
        [] name = "consume" -> DoConsume(m, Pairs(op.keys, xs))
+       [] name = "valuesOf" ->
+            IF IsKey(x) THEN Result(m, List(ValuesOf(m.N, Text(Canonical(x)))))
+            ELSE Settle(m, Expected("a string as a key", x))
        [] name = "poll" ->
             CASE op.keys # << >> -> DoPoll(m, Pairs(op.keys, xs))
               [] IsString(x) -> DoPoll(m, << << x[2], Wildcard >> >>)

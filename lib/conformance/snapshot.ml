@@ -57,7 +57,7 @@ let state nodes (p : Core.program) (json : json) : Configuration.t =
     in
     let add store (i, x) = Store.set i x store in
     let run map (v, p) = Vehicle_map.add v p map in
-    let none = Tuples.empty (Keys p.ordered_keys) in
+    let none = Tuples.empty p.ordered_keys in
     let control = Control_data.control nodes control in
     let shared : Shared.t =
       { store = List.fold_left add Store.empty (list variable store);

@@ -206,7 +206,7 @@ let entries = [ "vehicle"; "plan"; "answer"; "reply"; "input" ]
 
 let entry state (word : string located) arguments =
   let misused state = add_fault state (Diagnostic.error word.at (usage word.it)) in
-  let positional = List.filter_map (function Positional e -> Some e | Named _ -> None) arguments in
+  let positional = List.filter_map (function Positional e -> Some e | Named _ | Keyed _ -> None) arguments in
   if List.length positional < List.length arguments then misused state
   else
     match word.it, positional with

@@ -20,7 +20,7 @@ let rec each read = function
     Result.map (fun ys -> y :: ys) (each read rest)
 
 let positional arguments =
-  let value = function Positional e -> Some e | Named _ -> None in
+  let value = function Positional e -> Some e | Named _ | Keyed _ -> None in
   let values = List.filter_map value arguments in
   if List.compare_lengths values arguments = 0 then Some values else None
 
@@ -100,6 +100,7 @@ and location place arguments =
   let coordinate = function
     | Positional e -> Result.map (fun it -> { it; at = e.at }) (Literal.read e)
     | Named (name, _) -> error name.at "values have no names here"
+    | Keyed (k, _) -> error k.at "values have no names here"
   in
   let* coordinates = each coordinate arguments in
   match Setting.position coordinates with

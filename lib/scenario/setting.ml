@@ -109,6 +109,7 @@ let rec elements = function
   | Positional { it = List xs; at = _ } -> List.concat_map (fun x -> elements (Positional x)) xs
   | Positional e -> [ Result.map (fun it -> { it; at = e.at }) (Literal.read e) ]
   | Named (name, _) -> [ error name.at "values have no names here" ]
+  | Keyed (k, _) -> [ error k.at "values have no names here" ]
 
 let rec collect = function
   | [] -> Ok []

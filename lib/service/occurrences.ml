@@ -102,6 +102,9 @@ and call env callee arguments =
    | Some _ | None -> expression env callee);
   let argument = function
     | Positional e -> expression env e
+    | Keyed (k, e) ->
+      expression env k;
+      expression env e
     | Named (k, e) ->
       if Option.fold name ~none:false ~some:names_vehicles && k.it <> "_" then use env k.it k.at;
       expression env e in

@@ -73,6 +73,7 @@ and key =
 and argument =
   | Positional of expression
   | Named of string located * expression        (* [k: e]; the key [_] is spelt ["_"] *)
+  | Keyed of expression * expression            (* [(e): e'], ["r$i": e'], of pairs of N *)
 
 and closure = {
   parameters : string located list option;      (* [None]: no arrow, so the parameter is [it] *)

@@ -40,6 +40,7 @@ and key = function
 and argument = function
   | Positional e -> Positional (expression e)
   | Named (x, e) -> Named (name x, expression e)
+  | Keyed (k, e) -> Keyed (expression k, expression e)
 
 and closure { parameters; body } = { parameters = Option.map (List.map name) parameters; body = program body }
 

@@ -280,6 +280,8 @@ let greedy_bracket place =
     Some ("unexpected ','", Printf.sprintf "parentheses behind %s hold all its arguments: %s" f (call f))
   | COMMA, NAME f, LBRACKET when opener = first + 1 ->
     Some ("unexpected ','", Printf.sprintf "brackets behind %s are for one of its elements: %s" f (call f))
+  | COLON, NAME (("post" | "consume" | "poll" | "count") as f), LPAREN when before place 1 = RPAREN ->
+    Some ("unexpected ':'", Printf.sprintf "parentheses behind %s hold all its pairs: %s" f (call f))
   | COLON, (NAME "execute" | COMMAND "execute"), _ when before place 1 = RBRACKET || before place 1 = RPAREN ->
     Some ("unexpected ':'", "before a ':' stands a name: give these vehicles one, or write execute (task)[vehicles]")
   | _ -> None

@@ -173,6 +173,11 @@ argument_item:
 command_argument:
   | a = argument_item { a }
   | k = argument_key; COLON; e = item { Named_item (k, e) }
+  | k = computed_key; COLON; e = item { Keyed_item (k, e) }
+
+computed_key:
+  | t = template { t }
+  | e = parenthesised { e }
 
 argument_key:
   | k = NAME | k = STRING { located $loc k }

@@ -23,10 +23,12 @@ let settle { base; limits } = apply base limits
 type argument_item =
   | Positional_item of item
   | Named_item of string located * item
+  | Keyed_item of expression * item
 
 let argument = function
   | Positional_item item -> Positional (settle item)
   | Named_item (name, item) -> Named (name, settle item)
+  | Keyed_item (key, item) -> Keyed (key, settle item)
 
 let is_execute callee =
   match callee.it with
@@ -42,6 +44,7 @@ let command place callee arguments =
       match last with
       | Positional_item { base; limits } -> Positional_item (item base), (base, limits)
       | Named_item (name, { base; limits }) -> Named_item (name, item base), (base, limits)
+      | Keyed_item (key, { base; limits }) -> Keyed_item (key, item base), (base, limits)
     in
     let base, limits = limits in
     { base = call { whole with stop = base.at.stop } (bare :: rest); limits }

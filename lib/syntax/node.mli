@@ -22,6 +22,7 @@ val settle : item -> expression
 type argument_item =
   | Positional_item of item
   | Named_item of string located * item
+  | Keyed_item of expression * item
 
 val argument : argument_item -> argument
 (** [argument a] is [a], settled. *)

@@ -26,7 +26,7 @@ let is_plain name = Layout.builder name = None && not (Foreign.is_word name)
 
 let is_closure = function
   | Positional { it = Closure _; _ } -> true
-  | Positional _ | Named _ -> false
+  | Positional _ | Named _ | Keyed _ -> false
 
 (* Whether [e] is spelt with a call at its start, of a name with one argument. *)
 let rec begins_with_call e =
@@ -230,6 +230,11 @@ and argument out = function
   | Named (name, e) ->
     put out (key_name name.it);
     put out ": ";
+    expression out whole e
+  | Keyed (k, e) ->
+    put out "(";
+    bare out k;
+    put out "): ";
     expression out whole e
 
 and call out callee arguments =

@@ -8,7 +8,9 @@ type node = Expression_node of expression | Statement_node of statement
 let expressions es = List.rev_map (fun e -> Expression_node e) es
 let statements ss = List.rev_map (fun s -> Statement_node s) ss
 
-let argument = function Positional e | Named (_, e) -> Expression_node e
+let argument = function
+  | Positional e | Named (_, e) -> [ Expression_node e ]
+  | Keyed (k, e) -> [ Expression_node k; Expression_node e ]
 
 let part = function Literal _ -> None | Hole e -> Some (Expression_node e)
 
@@ -28,7 +30,7 @@ let children_of_expression e =
   | Unary (_, e) | Increment { target = e; _ } | Member { subject = e; _ } -> expressions [ e ]
   | Binary (_, a, b) | Elvis (a, b) | Index (a, b) | During (_, a, b) -> expressions [ a; b ]
   | Conditional (a, b, c) -> expressions [ a; b; c ]
-  | Call { callee; arguments } -> Expression_node callee :: List.rev_map argument arguments
+  | Call { callee; arguments } -> Expression_node callee :: List.concat_map argument arguments
   | When (c, t) | Wait_for (c, t) | Until (_, c, t) | Watch (t, c) -> Expression_node t :: statements c.body
 
 let children_of_statement s =

@@ -170,7 +170,8 @@ let text program world (environment : Environment.options) plans prompts calls t
   definition ppf "MCLambdaNames" (Translation.lambda_names translation);
   definition ppf "MCMain" (Tla.Tuple [ String "closure"; Integer main; Tuple [] ]);
   definition ppf "MCGlobalNames" (Tla.strings (Array.to_list program.global_names));
-  definition ppf "MCOrderedKeys" (Tla.Set (List.map (fun k -> Tla.String k) program.ordered_keys));
+  let ordered = match program.ordered_keys with Keys keys -> keys | No_key | Every_key -> [] in
+  definition ppf "MCOrderedKeys" (Tla.Set (List.map (fun k -> Tla.String k) ordered));
   definition ppf "MCPlaces" (Translation.places translation);
   definition ppf "MCDistances" (Translation.distances translation);
   definition ppf "MCPlans" (Translation.plans translation);

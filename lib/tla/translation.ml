@@ -167,7 +167,13 @@ and operation t ~known site op : Tla.t =
 and procedure t site builtin : Tla.t =
   let record name fields = Tla.Record (("op", Tla.String name) :: fields) in
   let plain name = record name [] in
-  let keyed name keys = record name [ ("keys", Tla.strings keys) ] in
+  let keyed name keys =
+    let key = function Some k -> Tla.Tuple [ Tla.String k ] | None -> Tla.Tuple [] in
+    if List.mem None keys && t.program.ordered_keys = Every_key then
+      refuse t site "a computed key, where some consume takes the oldest pair of one"
+        ~hint:"the models know which keys are queues: name the key where _ or a pattern takes a pair";
+    record name [ ("keys", Tuple (List.map key keys)) ]
+  in
   match builtin with
   | Platform_task -> plain "task"
   | Make_action -> plain "action"
@@ -190,6 +196,7 @@ and procedure t site builtin : Tla.t =
   | Post keys -> keyed "post" keys
   | Consume keys -> keyed "consume" keys
   | Poll keys -> keyed "poll" keys
+  | Values_of -> plain "valuesOf"
   | Position_of -> note_sensor t site "position"; plain "position"
   | Battery_of -> note_sensor t site "battery"; plain "battery"
   | Area_of -> plain "area"

@@ -56,6 +56,16 @@ let all =
       file = machine;
       pattern = {|Taken(N, k, x) == IF x = Wildcard THEN Head(N.queue[k]) ELSE x|};
       replacement = {|Taken(N, k, x) == IF x = Wildcard THEN Last(N.queue[k]) ELSE x|} };
+    { name = "a pattern takes the newest pair";
+      file = machine;
+      pattern = {|  IF k \in OrderedKeys THEN N.queue[k]
+  ELSE InSomeOrder|};
+      replacement = {|  IF k \in OrderedKeys THEN << >> \o [ i \in DOMAIN N.queue[k] |-> N.queue[k][Len(N.queue[k]) + 1 - i] ]
+  ELSE InSomeOrder|} };
+    { name = "a computed key is the first one";
+      file = machine;
+      pattern = {|<< << Text(Canonical(Head(xs))), Canonical(xs[2]) >> >>|};
+      replacement = {|<< << "x", Canonical(xs[2]) >> >>|} };
     { name = "N is a set";
       file = machine;
       pattern = {|  ELSE [ N EXCEPT !.bag = @ (+) |};

@@ -29,6 +29,20 @@ let tasks =
        "execute watch (action { message 'a'; post k: 1; 1 / 0 }) onError { message 'b'; ignore() }");
       ("a guard that is false did nothing",
        "post k: 1\nexecute condition { consume k: 1; false } | condition { poll k: 1 }");
+      ("patterns take the oldest that satisfies them",
+       "post x: 3, x: 1, x: 2, y: 'a'\n\
+        execute waitFor { consume x: { it < 3 }, y: 'a' } then action { message count(x: _) }\n\
+        execute waitFor { poll(x: { it > 2 }) && consume(x: { k -> k != 3 }) } then action { message count(x: { it == 3 }) }\n\
+        if (consume(x: { it > 3 })) { message 'never' }");
+      ("patterns of two that wait, and a part",
+       "post x: 1, x: 2\n\
+        execute (condition { consume x: { it > 1 } } | condition { consume x: _ } | action { post x: 3 }) \
+        >> condition { count(x: _) == 1 }");
+      ("keys that are computed",
+       "for (i in 1..2) { post \"r$i\": i, ('x'): i }\npost([a: 1, b: 2])\nk = 'r2'\n\
+        execute condition { consume((k): 2, ('x'): 1) } >> action { message poll((k): _) }\n\
+        z = null\nexecute watch action { post((z): 1) } onError { e -> message e; ignore() }\n\
+        f = { it > 1 }\nexecute watch action { consume(x: f) } onError { e -> message e; ignore() }");
       ("what ?: takes",
        "a = pick { id 'a' }\nfor (x in [null, false, 0, 0.5, '', [], [:], a - a, a]) { post y: (x ?: 'other') }\n\
         b = battery(a) ?: 1\nif (b < 0.3) { message 'low' }");

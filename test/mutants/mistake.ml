@@ -11,6 +11,13 @@ let footprint =
         {|
       || Pairs.meet f.posts f'.tests|},
         {||} );
+      ( "patterns test nothing",
+        {|  | Builtin (Values_of | Poll []), [ e ] -> (|},
+        {|  | Builtin Values_of, _ -> breaking
+  | Builtin (Poll []), [ e ] -> (|} );
+      ( "keys that are computed touch nothing",
+        {|Option.fold ~none:anything ~some:f (pairs|},
+        {|Option.fold ~none:breaking ~some:f (pairs|} );
       ( "tests do not conflict with posts",
         {|
       || Pairs.meet f.tests f'.posts|},
@@ -55,8 +62,8 @@ let footprint =
       | _, _ -> breaking)
   | (Method _|} );
       ( "a consume is no test",
-        {|{ empty with takes = pairs keys; tests = pairs keys }|},
-        {|{ empty with takes = pairs keys; needs = pairs keys }|} );
+        {|{ empty with takes = pairs; tests = pairs }|},
+        {|{ empty with takes = pairs; needs = pairs }|} );
       ( "functions that are called touch nothing",
         {|union breaking (expression code [] seen lambda.code)|},
         {|ignore (expression code [] seen lambda.code); breaking|} );
@@ -254,8 +261,10 @@ let name_flow =
     k lor text
 |} );
       ( "vehicles may be keys of maps",
-        {|if List.mem None keys && has vehicles k then uses_name w at;|},
-        {|if List.mem None keys && has vehicles k && has code k then uses_name w at;|} );
+        {|if List.mem None keys && has vehicles k then uses_name w at;
+    map|},
+        {|if List.mem None keys && has vehicles k && has code k then uses_name w at;
+    map|} );
       ( "methods that sort see no names",
         {|if has vehicles (k lor results) then uses_name w at;|},
         {|if has vehicles (k lor results) && has code k then uses_name w at;|} );

@@ -71,6 +71,28 @@ let traps =
     breaks "a poll for absence" [ No_halt ]
       {|execute (task('p')[a] >> action { if (!poll(x: 1)) { halt 'too early' } }) | (task('q')[b] >> action { post x: 1 })
         consume x: 1|};
+    breaks "a pattern that tells pairs apart" [ No_halt ]
+      {|execute (task('p')[a] >> action { if (count(x: { it > 1 }) == 1) { halt 'one' } }) | (task('q')[b] >> action { post x: 2 } >> action { post x: 3 })
+        consume x: 2, x: 3|};
+    breaks "a pattern takes the oldest" [ No_halt ]
+      {|execute (task('p')[a] >> action { post x: 1 }) | (task('q')[b] >> action { post x: 2 })
+        if (consume(x: { it > 0 }) && poll(x: 1)) { halt 'second' }
+        consume x: _|};
+    breaks "a guard with a pattern that a post does not meet" [ No_deadlock ]
+      {|execute condition { consume x: { it > 1 } } | action { post x: 1 }|};
+    breaks "a key that is computed" [ No_halt ]
+      {|k = 'x' + 1
+        execute (task('p')[a] >> action { if (!poll(x1: 1)) { halt 'too early' } })
+            | (task('q')[b] >> action { post((k): 1) })
+        consume x1: 1|};
+    breaks "a key that is computed, of what others wait for" [ No_halt ]
+      {|k = 'x' + 1
+        execute (until { poll x1: 1 } run (task('p')[a] >> action { halt 'late' })) | action { post((k): 1) }
+        consume x1: 1|};
+    breaks "a key that is computed, which ends a task" [ No_deadlock ]
+      {|k = 'x' + 1
+        post x1: 1
+        execute condition { consume x1: 1 } | action { consume((k): 1) }|};
     breaks "a negated guard" [ No_deadlock ]
       {|execute (task('p')[a] >> condition { !poll(x: 1) }) | action { post x: 1 }
         consume x: 1|};

@@ -51,6 +51,6 @@ let program ?(reads_sensors = false) ?(globals = 0) script =
     global_names = Array.init globals (Printf.sprintf "g%d");
     functions = [];
     main = lambda "script" 0 (block script);
-    ordered_keys = [];
+    ordered_keys = No_key;
     inputs = [];
     reads_sensors }

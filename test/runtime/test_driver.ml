@@ -140,7 +140,7 @@ let busy_scripts_hear () =
 
 let deadlock () =
   let mock = Mock_platform.make two_vehicles in
-  let wait key = call Make_condition [ code (call (Consume [ key ]) [ number 1. ]) ] in
+  let wait key = call Make_condition [ code (call (Consume [ Some key ]) [ number 1. ]) ] in
   let outcome =
     run mock (program [ pick_all (); call Execute [ parallel (task "a") (sequence (wait "x") (task "b")) ] ])
   in
@@ -154,8 +154,8 @@ let deadlock () =
 let no_deadlock () =
   let mock = Mock_platform.make two_vehicles in
   let one = number 1. in
-  let post = call Make_action [ code (call (Post [ "x" ]) [ one ]) ] in
-  let wait = call Make_condition [ code (call (Consume [ "x" ]) [ one ]) ] in
+  let post = call Make_action [ code (call (Post [ Some "x" ]) [ one ]) ] in
+  let wait = call Make_condition [ code (call (Consume [ Some "x" ]) [ one ]) ] in
   let late = sequence (call Make_idle [ number 5. ]) post in
   run mock (program [ pick_all (); call Execute [ parallel (sequence wait (task "b")) late ] ]) |> outcome_is "end";
   log_is mock

@@ -35,12 +35,30 @@ let post k x = call "post" [ named k (integer x) ]
 
 let key = oneofl [ "x"; "y"; "z" ]
 let number = oneofl [ 1; 2 ]
-let posting = map2 post key number
+
+(* The same key, written out or computed. *)
+let keyed k e =
+  frequency
+    [ (12, return (named k e)); (1, return (Keyed (string k, e)));
+      (1, return (Keyed (binary Add (string "") (string k), e))) ]
+
+let posting =
+  let* k = key and* x = number in
+  map (fun pair -> call "post" [ pair ]) (keyed k (integer x))
+
+let pattern =
+  let it = variable "it" in
+  let* test = oneofl [ binary Greater it (integer 1); binary Less it (integer 2); binary Equal it it ] in
+  return (expression (Closure (code [ statement test ])))
 
 let taking name =
   let* k = key in
-  let* x = frequency [ (3, map integer number); (1, return (expression Wildcard)) ] in
-  return (call name [ named k x ])
+  let wanted = frequency [ (4, return (expression Wildcard)); (3, pattern) ] in
+  let* by_number = frequencyl [ (3, true); (1, false) ] in
+  if by_number then
+    let* x = number in
+    map (fun pair -> call name [ pair ]) (keyed k (integer x))
+  else map (fun x -> call name [ named k x ]) wanted
 
 let counted = assign "g" (binary Add (variable "g") (integer 1))
 let this body = map (fun body -> code (List.map statement body)) body

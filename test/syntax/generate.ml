@@ -82,7 +82,8 @@ and node fuel =
 and argument fuel =
   oneof
     [ map (fun e -> Positional e) (expression fuel);
-      map2 (fun k e -> Named (k, e)) (located key_name) (expression fuel) ]
+      map2 (fun k e -> Named (k, e)) (located key_name) (expression fuel);
+      map2 (fun k e -> Keyed (k, e)) (expression (fuel / 2)) (expression fuel) ]
 
 and closure fuel =
   map2 (fun parameters body -> { parameters; body })

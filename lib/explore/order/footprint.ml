@@ -75,8 +75,11 @@ let union f f' =
       ignores = f.ignores || f'.ignores;
     }
 
+let is_ordered (program : Core.program) k =
+  match program.ordered_keys with No_key -> false | Keys keys -> List.mem k keys | Every_key -> true
+
 let of_posts (program : Core.program) pairs =
-  let is_queue k = List.mem k program.ordered_keys in
+  let is_queue k = is_ordered program k in
   let posts = Pairs.of_list (List.map (fun (k, x) -> (k, if is_queue k then None else Some (Value.normal x))) pairs) in
   { empty with posts; queues = Pairs.filter (fun (k, _) -> is_queue k) posts }
 
@@ -163,13 +166,30 @@ let breaking = { empty with breaks = true }
 let anything = { empty with anything = true; breaks = true; halts = true; ignores = true }
 let all fs = List.fold_left union empty fs
 
+(* With the values' expressions; nothing if a key is computed, and not known. *)
+let rec keyed scope keys arguments =
+  match keys, arguments with
+  | Some k :: keys, e :: arguments -> Option.map (fun rest -> (k, e) :: rest) (keyed scope keys arguments)
+  | None :: keys, k :: e :: arguments -> (
+      match value scope k with
+      | Some (String k) -> Option.map (fun rest -> (k, e) :: rest) (keyed scope keys arguments)
+      | Some _ | None -> None)
+  | _, _ -> Some []
+
 let pairs code scope keys arguments =
-  let pair k e =
+  let pair (k, e) =
     match value scope e with
     | Some Wildcard | None -> (k, None)
-    | Some x -> if List.mem k code.program.ordered_keys then (k, None) else (k, Some (Value.normal x))
+    | Some x -> if is_ordered code.program k then (k, None) else (k, Some (Value.normal x))
   in
-  Pairs.of_list (List.map2 pair keys arguments)
+  Option.map (fun found -> Pairs.of_list (List.map pair found)) (keyed scope keys arguments)
+
+(* Lists of values of N, whose methods [findAll] and [size] call nothing but their arguments. *)
+let rec lists_values e =
+  match e.node with
+  | Apply (Builtin Values_of, _) -> true
+  | Apply (Method ("findAll", _), [ e; { node = Make_closure _; _ } ]) -> lists_values e
+  | _ -> false
 
 (* [seen] is the functions and closures that are in the union already, or will be. *)
 let rec expression code scope seen e =
@@ -205,19 +225,21 @@ and body code seen c = expression code (captured c) seen c.lambda.code
 and captured c = List.mapi (fun i slot -> (slot, c.captured.(i))) (Array.to_list c.lambda.captures)
 
 and applied code scope operation arguments =
-  let pairs keys = pairs code scope keys arguments in
+  let with_pairs keys f = Option.fold ~none:anything ~some:f (pairs code scope keys arguments) in
   match operation, arguments with
+  | Builtin (Post []), _ -> anything
   | Builtin (Post keys), arguments ->
     let is_pair e = match value scope e with Some Wildcard | None -> false | Some _ -> true in
-    let posts = pairs keys in
-    let queues = Pairs.filter (fun (k, _) -> List.mem k code.program.ordered_keys) posts in
-    { empty with posts; queues; breaks = not (List.for_all is_pair arguments) }
-  | Builtin (Consume keys), _ -> { empty with takes = pairs keys; tests = pairs keys }
-  | Builtin (Poll []), [ e ] -> (
+    with_pairs keys (fun posts ->
+        let queues = Pairs.filter (fun (k, _) -> is_ordered code.program k) posts in
+        { empty with posts; queues; breaks = not (List.for_all is_pair arguments) })
+  | Builtin (Consume keys), _ -> with_pairs keys (fun pairs -> { empty with takes = pairs; tests = pairs })
+  | Builtin (Values_of | Poll []), [ e ] -> (
       match value scope e with
       | Some (String k) -> { empty with tests = Pairs.singleton (k, None) }
       | Some _ | None -> anything)
-  | Builtin (Poll keys), _ -> { empty with tests = pairs keys }
+  | Builtin (Poll keys), _ -> with_pairs keys (fun tests -> { empty with tests })
+  | Method (("findAll" | "size"), _), e :: _ when lists_values e -> breaking
   | Builtin Message, [ _ ] -> empty
   | Builtin (Halt | Assert), _ -> { empty with halts = true }
   | Builtin Ignore, _ -> { breaking with ignores = true }
@@ -252,7 +274,9 @@ and needed code scope keys arguments ~taken =
   let pairs = pairs code scope keys arguments in
   let before = all (List.map (expression code scope (ref [])) arguments) in
   if Pairs.is_empty before.tests && Pairs.is_empty before.takes && not before.anything then
-    Some (union before { empty with needs = pairs; takes = (if taken then pairs else Pairs.empty) })
+    Option.map
+      (fun pairs -> union before { empty with needs = pairs; takes = (if taken then pairs else Pairs.empty) })
+      pairs
   else None
 
 let known code kind c find =

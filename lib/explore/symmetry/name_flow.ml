@@ -41,7 +41,7 @@ let rec of_value = function
 
 (* {1 What is known so far} *)
 
-type place = Variable of int | Slot of int * int  (** of a lambda *) | Result of int
+type place = Variable of int | Slot of int * int  (** of a lambda *) | Result of int | Posted
 
 type knowledge = {
   contents : (place, int) Hashtbl.t;
@@ -255,6 +255,19 @@ and applied w lambda at operation arguments =
                 | Make_watch)
       | Make_branch ),
       es ) -> values es land vehicles
+  | Builtin (Post keys), es ->
+    let k = values es in
+    if List.mem None keys && has vehicles k then uses_name w at;
+    add w Posted (if keys = [] then k lor text else k);
+    nothing
+  | Builtin (Consume keys | Poll keys), es ->
+    if List.mem None keys && has vehicles (values es) then uses_name w at else ignore (values es);
+    nothing
+  | Builtin Values_of, es ->
+    ignore (values es);
+    let k = content w Posted in
+    if has vehicles k then uses_name w at;
+    k
   | Builtin Position_of, es -> ignore (values es); reads_places w; reading
   | Builtin Battery_of, es -> ignore (values es); reads_batteries w; reading
   | Add_setting (name, _), so_far :: es ->

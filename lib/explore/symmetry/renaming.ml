@@ -140,6 +140,6 @@ let control f : Configuration.control -> Configuration.control =
 let tuples (program : program) f ~unordered n =
   let queues, others = List.partition (fun (k, _) -> Tuples.is_ordered k n) (Tuples.bindings n) in
   let rename n (k, xs) = List.fold_left (fun n x -> Tuples.post k (value f x) n) n xs in
-  let renamed = List.fold_left rename (Tuples.empty (Keys program.ordered_keys)) queues in
+  let renamed = List.fold_left rename (Tuples.empty program.ordered_keys) queues in
   unordered ();
   List.fold_left rename renamed others

@@ -111,9 +111,10 @@ and all w es =
 
 and applied w operation arguments =
   match operation, arguments with
-  | Builtin (Post keys | Consume keys | Poll (_ :: _ as keys)), _ ->
+  | Builtin (Post (_ :: _ as keys) | Consume keys | Poll (_ :: _ as keys)), _ ->
+    let written = function Some k -> k | None -> raise Opaque in
     plain w operation;
-    List.iter2 (named w) keys arguments
+    List.iter2 (named w) (List.map written keys) arguments
   | Builtin (Message | Halt | Assert), [ e ] ->
     plain w operation;
     text w e

@@ -40,6 +40,7 @@ let rec replace ask (e : Ast.expression) : Ast.expression =
   let argument : Ast.argument -> Ast.argument = function
     | Positional e -> Positional (go e)
     | Named (k, e) -> Named (k, go e)
+    | Keyed (k, e) -> Keyed (go k, go e)
   in
   let it : Ast.expression_node =
     match e.it with

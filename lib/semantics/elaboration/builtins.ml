@@ -10,10 +10,11 @@ let describe = function
   | Vehicles -> "a vehicle set"
   | Position -> "a position"
 
+type pairs = Post | Consume | Poll | Count
+
 type arguments =
   | These of { required : kind list; optional : kind list; operation : Core.builtin }
-  | Pairs of (string list -> Core.builtin)
-  | Pairs_or_key of (string list -> Core.builtin)
+  | Pairs of pairs
   | Execute
   | Set_connection_timeout
   | Confirm
@@ -45,9 +46,9 @@ let table : (string * t) list =
     ("println", these Message [ Any ] ~result:Other);
     ("pause", these Pause [ Number ] ~place:Script_only ~result:Other);
     ("halt", these Halt [] ~optional:[ Any ] ~result:Other);
-    ("post", other (Pairs (fun keys -> Core.Post keys)));
-    ("consume", { (other (Pairs (fun keys -> Core.Consume keys))) with result = Truth });
-    ("poll", { (other (Pairs_or_key (fun keys -> Core.Poll keys))) with result = Truth });
+    ("post", other (Pairs Post));
+    ("consume", { (other (Pairs Consume)) with result = Truth });
+    ("poll", { (other (Pairs Poll)) with result = Truth });
     ("position", these Position_of [ Vehicles ] ~result:Position ~reads_sensors:true);
     ("battery", these Battery_of [ Vehicles ] ~result:Number ~reads_sensors:true);
     ("location", these Location_of [ Number; Number ] ~optional:[ Number ] ~result:Position);

@@ -15,11 +15,12 @@ type kind =
 val describe : kind -> string
 (** ["a number"]; {!Other} and {!Any} are ["a value"]. *)
 
+type pairs = Post | Consume | Poll | Count
+
 (** What a function's arguments are. *)
 type arguments =
   | These of { required : kind list; optional : kind list; operation : Core.builtin }
-  | Pairs of (string list -> Core.builtin)  (** [post ready: 1]: named arguments, at least one *)
-  | Pairs_or_key of (string list -> Core.builtin)  (** [poll]: pairs, or one key *)
+  | Pairs of pairs  (** [post ready: 1]: pairs of N; see {!Pairs} *)
   | Execute
   | Set_connection_timeout
   | Confirm  (** a prompt, put to people until they say yes or no *)

@@ -3,6 +3,18 @@ open Checks
 open Closures
 
 let values env = List.map (fun a -> elaborate env (value_of a))
+let is_named = function Ast.Named _ -> true | Positional _ | Keyed _ -> false
+let name_of = function Ast.Named (k, _) -> Some k.Ast.it | Positional _ | Keyed _ -> None
+
+(* Only pairs of N have keys that are computed. *)
+let without_keys env arguments =
+  let argument = function
+    | Ast.Keyed (k, e) ->
+      error env No_pairs k.at "only post, consume, poll and count take keys that are computed";
+      Ast.Positional e
+    | (Positional _ | Named _) as a -> a
+  in
+  List.map argument arguments
 
 (* [if (!C()) ...]: the text is computed only if the condition does not hold. *)
 let assertion env at arguments =
@@ -20,11 +32,12 @@ let assertion env at arguments =
   | [ Ast.Positional { it = Closure c; at = closure_at }; Ast.Positional text ] ->
     let test = holds c closure_at in
     expression env at (If (test, null env at, failing [ elaborate env text ]))
-  | Ast.Positional first :: _ :: _ :: _ ->
+  | first :: _ :: _ :: _ ->
+    let first = value_of first in
     error env Wrong_arity first.at "assert takes code and a text, not %d arguments" (List.length arguments);
     null env at
   | [ _; Ast.Named (k, _) ] -> error env Unknown_argument k.at "assert takes no argument by name"; null env at
-  | (Ast.Positional { at = first; _ } | Ast.Named (_, { at = first; _ })) :: _ -> not_code first; null env at
+  | first :: _ -> not_code (value_of first).at; null env at
   | [] -> not_code at; null env at
 
 (* As an operand, an assertion is a task: [action { assert { C }, TEXT }]. *)
@@ -59,7 +72,7 @@ let input env at arguments =
       if List.exists (fun (other : string Ast.located) -> other.it = key) (Scope.inputs env.program) then
         error env Defined_twice at "input '%s' is declared twice" key
       else Scope.note_input env.program { Ast.it = key; at }
-    | Ast.Positional { at; _ } -> wrong at
+    | Ast.Positional { at; _ } | Keyed ({ at; _ }, _) -> wrong at
     | Ast.Named (k, _) -> wrong k.Ast.at
   in
   if arguments = [] then wrong at;
@@ -73,43 +86,21 @@ let number_of_arguments least most =
   | least, most when least = most -> Printf.sprintf "%d arguments" least
   | least, most -> Printf.sprintf "%d to %d arguments" least most
 
-let pairs env at name operation arguments =
-  let value = function
-    | Ast.Named (k, { it = Wildcard; at }) when name <> "post" ->
-      if name = "consume" then Scope.note_ordered_key env.program k.Ast.it;
-      Scope.note_looked_at env.program (Some k.Ast.it);
-      constant env at Wildcard
-    | Ast.Named (k, e) ->
-      if name <> "post" then begin
-        check_value env name k e;
-        Scope.note_looked_at env.program (Some k.Ast.it)
-      end;
-      elaborate env e
-    | Ast.Positional e ->
-      error env No_pairs e.at "%s takes pairs of key and value" name
-        ~hint:(Printf.sprintf "write %s key: value" name);
-      elaborate env e
-  in
-  let keys = List.filter_map (function Ast.Named (k, _) -> Some k.Ast.it | Ast.Positional _ -> None) arguments in
-  if arguments = [] then
-    error env No_pairs at "%s takes pairs of key and value" name ~hint:(Printf.sprintf "write %s key: value" name);
-  apply env at (Builtin (operation keys)) (List.map value arguments)
-
 let execute env at arguments =
   match arguments with
   | [ Ast.Positional e ] ->
     check_kind env "execute" Task e;
     apply env at (Builtin Execute) [ elaborate env e ]
-  | _ :: _ when List.for_all (function Ast.Named _ -> true | Ast.Positional _ -> false) arguments ->
+  | _ :: _ when List.for_all is_named arguments ->
     let part = function
       | Ast.Named ({ it = "_"; _ }, e) -> [ elaborate env e ]
       | Ast.Named (k, e) ->
         check_kind env "execute" Task e;
         let vehicles = Names.elaborate env k.it k.at in
         [ vehicles; elaborate env e ]
-      | Ast.Positional e -> [ elaborate env e ]
+      | Ast.Positional e | Keyed (_, e) -> [ elaborate env e ]
     in
-    let names = List.filter_map (function Ast.Named (k, _) -> Some k.Ast.it | Ast.Positional _ -> None) arguments in
+    let names = List.filter_map name_of arguments in
     apply env at (Builtin (Execute_for names)) (List.concat_map part arguments)
   | _ ->
     error env Wrong_arity at "execute takes one task, or tasks by the vehicles that run them"
@@ -126,13 +117,13 @@ let set_connection_timeout env at arguments =
     check_kind env "setConnectionTimeout" Number e;
     let v = elaborate env v in
     apply env at (Builtin Set_connection_timeout) [ v; elaborate env e ]
-  | _ :: _ when List.for_all (function Ast.Named _ -> true | Ast.Positional _ -> false) arguments ->
+  | _ :: _ when List.for_all is_named arguments ->
     let one = function
       | Ast.Named (k, e) ->
         check_kind env "setConnectionTimeout" Number e;
         let v = Names.elaborate env k.it k.at in
         apply env at (Builtin Set_connection_timeout) [ v; elaborate env e ]
-      | Ast.Positional e -> elaborate env e
+      | Ast.Positional e | Keyed (_, e) -> elaborate env e
     in
     block env at (List.map one arguments)
   | _ ->
@@ -159,20 +150,13 @@ let to_builtin env at name (builtin : Builtins.t) arguments =
     let argument i a =
       (match a with
        | Ast.Named (k, _) -> error env Unknown_argument k.Ast.at "%s takes no argument by name" name
-       | Ast.Positional e -> if i < most then check_kind env name (List.nth kinds i) e);
+       | Positional e | Keyed (_, e) -> if i < most then check_kind env name (List.nth kinds i) e);
       match value_of a with
       | { it = Closure c; at } when operation = Make_action || operation = Make_condition -> task_code env at name c
       | e -> elaborate env e
     in
     apply env at (Builtin operation) (List.mapi argument arguments)
-  | Pairs operation -> pairs env at name operation arguments
-  | Pairs_or_key operation -> (
-      match arguments with
-      | [ Ast.Positional e ] ->
-        check_kind env name String e;
-        Scope.note_looked_at env.program (match e.it with String key -> Some key | _ -> None);
-        apply env at (Builtin (operation [])) [ elaborate env e ]
-      | arguments -> pairs env at name operation arguments)
+  | Pairs construct -> Pairs.elaborate env at name construct arguments
   | Execute -> execute env at arguments
   | Set_connection_timeout -> set_connection_timeout env at arguments
   | Confirm -> confirm env at arguments
@@ -185,10 +169,10 @@ let to_builtin env at name (builtin : Builtins.t) arguments =
 let builder_in_parentheses env at name arguments =
   let setting = function
     | Ast.Named (k, e) -> Format.asprintf "%s: %a" k.Ast.it Dolphin_syntax.Print.expression e
-    | Ast.Positional e -> Format.asprintf "%a" Dolphin_syntax.Print.expression e
+    | Positional e | Keyed (_, e) -> Format.asprintf "%a" Dolphin_syntax.Print.expression e
   in
   let hint =
-    if arguments <> [] && List.for_all (function Ast.Named _ -> true | Ast.Positional _ -> false) arguments then
+    if arguments <> [] && List.for_all is_named arguments then
       Some (Printf.sprintf "write %s { %s }" name (String.concat "; " (List.map setting arguments)))
     else Option.map (fun example -> "write " ^ example) (Builtins.example_of_builder name)
   in
@@ -211,7 +195,7 @@ let by_name env at name (callee : Ast.expression) arguments =
   match Scope.find_local env.code name, Scope.find_function env.program name, Builtins.find name with
   | Some _, _, _ -> called_value ()
   | None, Some lambda, _ ->
-    let positional = List.filter (function Ast.Positional _ -> true | Ast.Named _ -> false) arguments in
+    let positional = List.filter (fun a -> not (is_named a)) arguments in
     let n = List.length positional + if List.length positional < List.length arguments then 1 else 0 in
     if n <> lambda.parameters then
       error env Wrong_arity at "%s takes %d argument%s, not %d" name lambda.parameters
@@ -261,11 +245,26 @@ let to_method env at subject name safe arguments =
   end
   else on (elaborate env subject)
 
+(* [count] is no reserved name. *)
+let counts env name arguments =
+  name = "count" && arguments <> []
+  && List.for_all (function Ast.Named _ | Keyed _ -> true | Positional _ -> false) arguments
+  && not (is_hidden env name)
+
+let takes_pairs env (callee : Ast.expression) arguments =
+  match callee.it with
+  | Variable name when counts env name arguments -> true
+  | Variable name when not (is_hidden env name) -> (
+      match Builtins.find name with Some { arguments = Pairs _; _ } -> true | Some _ | None -> false)
+  | _ -> false
+
 let call env at (callee : Ast.expression) arguments =
+  let arguments = if takes_pairs env callee arguments then arguments else without_keys env arguments in
   match callee.it with
   | Variable name -> (
       match in_settings env name with
       | Some slot when Scope.find_local env.code name = None -> Setting_blocks.add env at slot name arguments
+      | Some _ | None when counts env name arguments -> Pairs.elaborate env at name Count arguments
       | Some _ | None -> by_name env at name callee arguments)
   | Member { subject = { it = Variable "Math"; _ }; name; _ } when not (is_hidden env "Math") ->
     if not (Builtins.math name.it) then

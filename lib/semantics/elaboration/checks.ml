@@ -110,9 +110,9 @@ let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expressio
 (* {1 Places of names} *)
 
 let keys_of arguments =
-  List.map (function Ast.Positional _ -> None | Ast.Named (name, _) -> Some name.Ast.it) arguments
+  List.map (function Ast.Positional _ | Keyed _ -> None | Named (name, _) -> Some name.Ast.it) arguments
 
-let value_of = function Ast.Positional e | Ast.Named (_, e) -> e
+let value_of = function Ast.Positional e | Named (_, e) | Keyed (_, e) -> e
 
 (* "Speed.Units.RPM" of the members that spell it. *)
 let rec dotted (e : Ast.expression) =

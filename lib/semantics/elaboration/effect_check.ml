@@ -21,6 +21,7 @@ let rec computes p (e : expression) =
   let argument = function
     | Positional { it = Closure _; _ } -> false
     | Positional e | Named (_, e) -> computes p e
+    | Keyed (k, e) -> computes p k && computes p e
   in
   match e.it with
   | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Closure _ -> true

@@ -23,7 +23,11 @@ and expression f acc (e : expression) =
   | Unary (_, e) | Increment { target = e; _ } | Member { subject = e; _ } -> go acc e
   | Conditional (a, b, c) -> go (go (go acc a) b) c
   | Call { callee; arguments } ->
-    List.fold_left (fun acc -> function Positional e | Named (_, e) -> go acc e) (go acc callee) arguments
+    let argument acc = function
+      | Positional e | Named (_, e) -> go acc e
+      | Keyed (k, e) -> go (go acc k) e
+    in
+    List.fold_left argument (go acc callee) arguments
   | Builder (_, statements) -> body acc statements
   | When (c, e) | Wait_for (c, e) | Until (_, c, e) -> go (body acc c.body) e
   | Watch (e, c) -> body (go acc e) c.body

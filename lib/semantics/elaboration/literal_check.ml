@@ -25,7 +25,7 @@ let context : Code.context =
     { id = 0; label = ""; parameters = 0; implicit = false; captures = [||]; slots = 0; code; lambda_site = 0 }
   in
   let program =
-    { source_name = ""; locations = [||]; global_names = [||]; functions = []; main; ordered_keys = []; inputs = [];
+    { source_name = ""; locations = [||]; global_names = [||]; functions = []; main; ordered_keys = No_key; inputs = [];
       reads_sensors = false }
   in
   let tuples = Tuples.empty No_key in

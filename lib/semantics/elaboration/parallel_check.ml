@@ -73,7 +73,7 @@ let at_expression singles acc (e : expression) =
   | Call { callee = { it = Variable "execute"; _ }; arguments } ->
     let narrow = function
       | Named (k, e) when List.mem k.it singles && width e > 1 -> Some (too_narrow k.at k.it (width e))
-      | Named _ | Positional _ -> None
+      | Named _ | Positional _ | Keyed _ -> None
     in
     List.filter_map narrow arguments @ named_clashes singles arguments @ acc
   | _ -> acc

@@ -21,6 +21,7 @@ type program = {
   mutable ordered_keys : string list;
   mutable inputs : string Ast.located list;  (* latest first *)
   mutable looked_at : string list option;  (* the keys that code consumes or polls; [None]: any *)
+  mutable all_ordered : bool;
   mutable texts : Location.t list;  (* where a text is wanted *)
   mutable reads_sensors : bool;
   mutable calls : call list;
@@ -56,6 +57,7 @@ let create ?(first_site = 0) ?(variables = []) ?(suppliers = []) ~functions ~glo
       ordered_keys = [];
       inputs = [];
       looked_at = Some [];
+      all_ordered = false;
       texts = [];
       reads_sensors = false;
       calls = [];
@@ -100,7 +102,6 @@ let unknown program =
 let note_ordered_key program key =
   if not (List.mem key program.ordered_keys) then program.ordered_keys <- key :: program.ordered_keys
 
-let ordered_keys program = List.sort String.compare program.ordered_keys
 let note_input program key = program.inputs <- key :: program.inputs
 let inputs program = List.rev program.inputs
 
@@ -109,6 +110,14 @@ let note_looked_at program key =
     (match key, program.looked_at with Some key, Some keys -> Some (key :: keys) | None, _ | _, None -> None)
 
 let is_looked_at program key = match program.looked_at with Some keys -> List.mem key keys | None -> true
+
+let note_all_ordered program = program.all_ordered <- true
+
+let ordered_keys program : Tuple_space.order =
+  match program.all_ordered, program.ordered_keys with
+  | true, _ -> Every_key
+  | false, [] -> No_key
+  | false, keys -> Keys (List.sort String.compare keys)
 let note_text program at = program.texts <- at :: program.texts
 let wants_text program at = List.memq at program.texts
 let note_sensor program = program.reads_sensors <- true

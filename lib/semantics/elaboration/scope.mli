@@ -56,7 +56,10 @@ val unknown : program -> (string * Location.t) list
 val note_ordered_key : program -> string -> unit
 (** [consume k: _] takes the oldest pair of this key: its order must be kept. *)
 
-val ordered_keys : program -> string list
+val note_all_ordered : program -> unit
+(** Likewise of a key that is computed. *)
+
+val ordered_keys : program -> Tuple_space.order
 (** Those that were noted. *)
 
 val note_input : program -> string Ast.located -> unit

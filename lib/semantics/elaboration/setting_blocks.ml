@@ -9,10 +9,10 @@ let check_named_settings env name arguments =
       | Ast.Named (k, _) when not (List.mem k.Ast.it allowed) ->
         error env Unknown_argument k.Ast.at "'%s' has no argument '%s'" name k.Ast.it
           ?hint:(did_you_mean k.Ast.it allowed)
-      | Ast.Named _ | Ast.Positional _ -> ())
+      | Ast.Named _ | Positional _ | Keyed _ -> ())
     arguments
 
-let is_named = function Ast.Named _ -> true | Ast.Positional _ -> false
+let is_named = function Ast.Named _ | Keyed _ -> true | Positional _ -> false
 
 let add env at slot name arguments =
   let outside f = Scope.inside_settings env.code None f in
@@ -36,7 +36,7 @@ let add env at slot name arguments =
      List.iter
        (function
          | Ast.Named (k, _) -> error env Unknown_argument k.Ast.at "'%s' takes no argument by name" name
-         | Ast.Positional _ -> ())
+         | Ast.Positional _ | Keyed _ -> ())
        arguments);
   set_local env at slot
     (apply env at (Add_setting (name, keys_of arguments)) (local env at slot :: arguments'))

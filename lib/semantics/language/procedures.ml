@@ -54,7 +54,35 @@ let blocking context name request =
   | Task_code | Handler _ ->
     Wrong (Printf.sprintf "%s belongs to the script: code inside of a task cannot wait" name)
 
-let pair keys arguments = List.map2 (fun k x -> (k, Value.canonical x)) keys arguments
+(* The pairs of an operation, or the argument that is no key. *)
+let rec pairs keys arguments =
+  let pair k x keys arguments = Result.map (fun rest -> (k, Value.canonical x) :: rest) (pairs keys arguments) in
+  match keys, arguments with
+  | Some k :: keys, x :: arguments -> pair k x keys arguments
+  | None :: keys, k :: x :: arguments -> (
+      match k with
+      | String k -> pair k x keys arguments
+      | Integer _ | Number _ -> pair (Value.to_string (Value.canonical k)) x keys arguments
+      | k -> Error k)
+  | _, _ -> Ok []
+
+let with_pairs keys arguments f =
+  match pairs keys arguments with Ok pairs -> f pairs | Error k -> expected "a string as a key" k
+
+(* Code as a value of [consume] and [poll]: elaboration has seen to that which is written there. *)
+let with_wanted keys arguments f =
+  let is_code = function _, Closure _ -> true | _, _ -> false in
+  with_pairs keys arguments (fun pairs ->
+      match List.find_opt is_code pairs with
+      | Some (k, _) -> Wrong (Printf.sprintf "a pattern is written behind its key, as in consume %s: { x -> ... }" k)
+      | None -> f pairs)
+
+let post context pairs =
+  if List.exists (function _, Wildcard -> true | _, _ -> false) pairs then
+    Wrong "only consume and poll take the wildcard _"
+  else
+    let tuples = List.fold_left (fun n (k, x) -> Tuples.post k x n) context.tuples pairs in
+    Done (Posted pairs, { context with tuples }, Null)
 
 let consume context pairs =
   let take taken (k, x) =
@@ -77,6 +105,9 @@ let poll context pairs =
     | x -> Tuples.poll k x context.tuples
   in
   Value (Boolean (List.for_all there pairs))
+
+let values_of context pairs =
+  List (Array.of_list (List.concat_map (fun (k, _) -> Tuples.values k context.tuples) pairs))
 
 let sense context sensor vs =
   match Methods.one_vehicle context.world vs with
@@ -179,17 +210,14 @@ let apply context at operation arguments =
       | None -> expected "a time after pause, as in pause 12.seconds" x)
   | Halt, [] -> Stop ""
   | Halt, [ x ] -> Stop (Value.to_string x)
-  | Post keys, arguments ->
-    let pairs = pair keys arguments in
-    if List.exists (function _, Wildcard -> true | _, _ -> false) pairs then
-      Wrong "only consume and poll take the wildcard _"
-    else
-      let tuples = List.fold_left (fun n (k, x) -> Tuples.post k x n) context.tuples pairs in
-      Done (Posted pairs, { context with tuples }, Null)
-  | Consume keys, arguments -> consume context (pair keys arguments)
+  | Post [], [ Map entries ] -> post context (List.map (fun (k, x) -> (k, Value.canonical x)) entries)
+  | Post [], [ x ] -> expected "pairs, as in post ready: 1, or a map" x
+  | Post keys, arguments -> with_pairs keys arguments (post context)
+  | Consume keys, arguments -> with_wanted keys arguments (consume context)
+  | Values_of, [ x ] -> with_pairs [ None ] [ x; Null ] (fun pairs -> Value (values_of context pairs))
   | Poll [], [ String k ] -> poll context [ (k, Wildcard) ]
   | Poll [], [ x ] -> expected "a key, as in poll 'ready', or pairs, as in poll(ready: 1)" x
-  | Poll keys, arguments -> poll context (pair keys arguments)
+  | Poll keys, arguments -> with_wanted keys arguments (poll context)
   | Position_of, [ Vehicles vs ] -> sense context Position vs
   | Battery_of, [ Vehicles vs ] -> sense context Battery vs
   | (Position_of | Battery_of), [ x ] -> expected "a vehicle" x
@@ -214,5 +242,5 @@ let apply context at operation arguments =
   | Is_host, [ x ] -> Value (Boolean (match x with Host _ -> true | _ -> false))
   | Math name, arguments -> mathematics name arguments
   | ( ( Execute | Release | Set_connection_timeout | Ask | Message | Pause | Halt | Position_of | Battery_of
-      | Location_of | Area_of | Assert | Ignore | Propagate | Get_supplier | Is_host | Is_there ),
+      | Location_of | Area_of | Assert | Ignore | Propagate | Get_supplier | Is_host | Is_there | Values_of ),
       _ ) -> Wrong (Printf.sprintf "wrong number of arguments, %d" (List.length arguments))

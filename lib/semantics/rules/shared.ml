@@ -8,7 +8,7 @@ type t = {
 }
 
 let initial program =
-  { store = Store.empty; allocation = Vehicle_map.empty; bound = []; tuples = Tuples.empty (Keys program.ordered_keys) }
+  { store = Store.empty; allocation = Vehicle_map.empty; bound = []; tuples = Tuples.empty program.ordered_keys }
 
 let post k x s = { s with tuples = Tuples.post k (Value.canonical x) s.tuples }
 let compare_platform_task p p' = Value.compare_task (Platform p) (Platform p')

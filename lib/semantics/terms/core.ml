@@ -139,9 +139,10 @@ and builtin =
   | Message
   | Pause
   | Halt
-  | Post of string list
-  | Consume of string list
-  | Poll of string list                         (* [[]]: [poll 'k'] *)
+  | Post of string option list                  (* a key each; [None]: an argument before its value; [[]]: a map *)
+  | Consume of string option list
+  | Poll of string option list                  (* [[]]: [poll 'k'] *)
+  | Values_of                                   (* made by elaboration: of the pairs of a key, as a list *)
   | Position_of
   | Battery_of
   | Location_of
@@ -174,7 +175,7 @@ type program = {
   global_names : string array;
   functions : (string * lambda) list;
   main : lambda;
-  ordered_keys : string list;                   (* keys that some [consume k: _] takes the oldest of *)
+  ordered_keys : Tuple_space.order;             (* keys that some [_] or pattern of [consume] takes the oldest of *)
   inputs : string list;                         (* keys of the pairs that the outside may post *)
   reads_sensors : bool;                         (* some code may read positions or batteries *)
 }

@@ -35,6 +35,8 @@ module type S = sig
 
   val poll_any : string -> t -> bool
 
+  val values : string -> t -> value list
+
   val bindings : t -> (string * value list) list
 
   val equal : t -> t -> bool
@@ -144,6 +146,8 @@ module Make (Value : VALUE) = struct
     | Queued queue -> List.map snd (By_arrival.bindings queue)
 
   let bindings n = List.map (fun (k, pairs) -> (k, values pairs)) (By_key.bindings n.pairs)
+
+  let values k n = match By_key.find_opt k n.pairs with Some pairs -> values pairs | None -> []
 
   (* [compare_seq compare_element a b] orders sequences lexicographically. *)
   let rec compare_seq compare_element a b =

@@ -66,6 +66,9 @@ module type S = sig
   val poll_any : string -> t -> bool
   (** [poll_any k n] is whether [n] has a pair with key [k]. *)
 
+  val values : string -> t -> value list
+  (** [values k n] is the values of the pairs of [k]: oldest first if [k] is ordered, else in their order. *)
+
   val bindings : t -> (string * value list) list
   (** The keys that have pairs, ascending, each with its values, as often as they are there: the oldest first, as
       they were posted, if the key is ordered; ascending and normal if not. *)

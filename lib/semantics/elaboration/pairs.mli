@@ -1,0 +1,7 @@
+(** Pairs of N: [post], [consume], [poll] and [count]. What a pattern [{ x -> ... }] takes is found with the values of
+    its key ({!Core.Values_of}), so patterns need no rule of their own. *)
+
+val elaborate :
+  Checks.env -> Dolphin_syntax.Location.t -> string -> Builtins.pairs -> Dolphin_syntax.Ast.argument list ->
+  Core.expression
+(** [elaborate env at name construct arguments] is the call of [construct], which the program spells [name]. *)

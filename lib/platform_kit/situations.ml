@@ -30,8 +30,16 @@ let foreign : Yojson.Safe.t =
 let start_order ?(timeout = 60.) request vehicle plan : Order.t = Start { request; vehicle; plan; timeout }
 let stop_order request vehicle : Order.t = Stop { request; vehicle }
 
-let resume_order request vehicle plan : Order.t =
-  Resume { request; vehicle; plan = by_name plan; timeout = 60.; notes = [] }
+let resume_order ?(notes = []) request vehicle plan : Order.t =
+  Resume { request; vehicle; plan = by_name plan; timeout = 60.; notes }
+
+(* What the adapter of [t] gave to be kept about a request, latest first. *)
+let notes_of t r =
+  let add notes : Report.t -> Yojson.Safe.t list = function
+    | Note { request; note; _ } when String.equal request r -> note :: notes
+    | _ -> notes
+  in
+  List.fold_left add [] (Talk.reports t)
 
 let of_word : Report.word -> string = function
   | Taken -> "taken" | Progress _ -> "progress" | Done -> "done" | Failed why -> "failed (" ^ why ^ ")"
@@ -308,8 +316,9 @@ let died_while_running plans ~started command die =
   Talk.send t (start_order r v (by_name plans.long));
   taken t plans r >>= fun () ->
   die t >>= fun () ->
+  let resume = resume_order ~notes:(notes_of t r) r v plans.long in
   again { plans with vehicle = Some v } ~started command >>= fun (t, _) ->
-  Talk.send t (resume_order r v plans.long);
+  Talk.send t resume;
   word t plans r >>= fun said -> Lwt.return (t, v, r, said)
 
 let killed_while_running plans ~started command =
@@ -334,8 +343,9 @@ let killed_after_its_end plans ~started command =
   with_vehicle plans ~started command >>= fun (t, v) ->
   runs_to_its_end t plans v plans.short >>= fun r ->
   Talk.kill t >>= fun () ->
+  let resume = resume_order ~notes:(notes_of t r) r v plans.short in
   again { plans with vehicle = Some v } ~started command >>= fun (t, _) ->
-  Talk.send t (resume_order r v plans.short);
+  Talk.send t resume;
   word t plans r >>= function
   | (Done | Unknown _) as said -> Lwt.return_some (Printf.sprintf "it says '%s'" (of_word said))
   | other -> wrong "a plan that was done before the adapter died is '%s' after it" (of_word other)
@@ -375,8 +385,9 @@ let close plans ~started command =
   Talk.ends_within t 1.5 >>= fun ended ->
   if not ended then wrong "it has said 'quiet', and has not ended after 1.5 s"
   else
+    let resume = resume_order ~notes:(notes_of t r) r v plans.long in
     again { plans with vehicle = Some v } ~started command >>= fun (t, _) ->
-    Talk.send t (resume_order r v plans.long);
+    Talk.send t resume;
     word t plans r >>= function
     | Taken -> wrong "it was closed, and the vehicle runs on"
     | Done | Absent | Progress _ as said -> wrong "it was closed, and a plan that ran is '%s'" (of_word said)

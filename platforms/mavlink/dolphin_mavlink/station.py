@@ -15,7 +15,7 @@ import difflib
 
 from . import modes, plans, version
 from . import mission as missions
-from .execution import Execution
+from .execution import TRANSFER, Execution
 from .transfer import RoundTrip
 from .vehicle import MOVE_SILENCE, Vehicle, is_autopilot
 from .wire import mavlink, version_of
@@ -24,6 +24,8 @@ PROTOCOL = 1
 ANNOUNCE = 5
 PATIENCE = 120
 CLOSING = 5.0
+UNHEARD = 10.0  # seconds in which a vehicle may be heard that a start is for
+RESUMING = 10.0  # seconds in which orders to resume may come
 REMEMBERED = 1000  # so many ended requests are known
 _WANTED = [
     ("GLOBAL_POSITION_INT", 33, 1.0),
@@ -72,6 +74,7 @@ class Station:
         self._foreign = set()
         self._trips = {}
         self._telemetry, self._greeted, self._closing, self._heartbeat_at = False, False, None, None
+        self._resumes_until = 0.0
         self._notes = 0
 
     def take(self):
@@ -112,12 +115,12 @@ class Station:
             return
         before = vehicle.mode, vehicle.armed
         if not self._is_for_us(message) or not vehicle.hear(now, message):
-            self._show(now, vehicle)
             return
         request = self._request_on(vehicle)
         if request is not None and request.execution is not None:
             self._do(now, request, request.execution.hear(now, message))
-        self._show(now, vehicle, before != (vehicle.mode, vehicle.armed))
+        if message.get_type() not in TRANSFER:
+            self._show(now, vehicle, before != (vehicle.mode, vehicle.armed))
 
     def _believed(self, now, vehicle, address):
         """A vehicle that is there is not suddenly elsewhere: it moves only after it was silent."""
@@ -173,6 +176,7 @@ class Station:
             self._out.append(("quit",))
             return
         self._greeted = True
+        self._resumes_until = now + RESUMING if line.get("resumes") is True else now
         self._report(
             {
                 "kind": "hello",
@@ -237,8 +241,9 @@ class Station:
         request = self._requests[name]
         vehicle = self._find(request.vehicle)
         if vehicle is None:
-            if not request.resumes and now - request.since >= request.timeout:
-                why = f"no {request.vehicle} was heard for {request.timeout:g} seconds"
+            patience = min(request.timeout, UNHEARD)
+            if not request.resumes and now - request.since >= patience:
+                why = f"no {request.vehicle} was heard for {patience:g} seconds"
                 self._end(now, name, {"kind": "failed", "why": why})
             return
         try:
@@ -272,6 +277,8 @@ class Station:
 
     def _order_close(self, now, line):
         self._closing = now
+        for name, request in list(self._requests.items()):
+            self._order_stop(now, {"request": name})
         self._quit_if_quiet(now)
 
     # Requests
@@ -367,6 +374,7 @@ class Station:
 
     def _quit_if_quiet(self, now):
         if self._closing is not None and (not self._requests or now - self._closing >= CLOSING):
+            self._closing = None
             self._report({"kind": "quiet"})
             self._out.append(("quit",))
 
@@ -377,7 +385,9 @@ class Station:
         if not self._greeted:
             return
         name = self.name_of(vehicle.system)
-        has_plan = self._request_on(vehicle) is not None
+        # Of what a vehicle flies it is not known yet whether it is ours, if orders to resume may follow.
+        may_be_ours = vehicle.mode == vehicle.modes.mission and now < self._resumes_until
+        has_plan = may_be_ours or self._request_on(vehicle) is not None
         payload = self._options.payloads.get(name, vehicle.devices)
         report = {
             "type": modes.TYPES[vehicle.frame],

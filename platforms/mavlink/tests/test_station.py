@@ -88,7 +88,7 @@ class Protocol(Case):
     def test_a_vehicle_that_nobody_heard(self):
         _, wires = one()
         wires.start("r", "mav-9", stored())
-        self.ends(wires, "r", "failed", "no mav-9 was heard for 60 seconds")
+        self.ends(wires, "r", "failed", "no mav-9 was heard for 10 seconds")
 
     def test_resuming_without_a_note(self):
         _, wires = one()
@@ -133,8 +133,17 @@ class Protocol(Case):
         vehicle, wires = one()
         wires.order(kind="close")
         self.assertEqual(wires.reports[-1], {"kind": "quiet"})
-        vehicle, wires = one()
+        vehicle, wires = one(items=way(30))
         wires.start("r", "mav-1", stored())
+        wires.run(5)
+        wires.order(kind="close")
+        wires.run(1)
+        self.assertEqual([r["kind"] for r in wires.reports[-2:]], ["stopped", "quiet"])
+        self.assertEqual(vehicle.mode, "BRAKE")
+        vehicle, wires = one(items=way(30))
+        wires.start("r", "mav-1", stored())
+        wires.run(5)
+        wires.down = True
         wires.order(kind="close")
         wires.run(3)
         self.assertEqual(wires.said("quiet"), [])

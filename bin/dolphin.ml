@@ -26,8 +26,8 @@ let command =
     [ Check_command.command; Conform_command.command; Doctor_command.command; Exec_command.command;
       Explore_command.command; Fleet_command.command; Fmt_command.command; Lsp_command.command; Lts_command.command;
       New_command.command; Parse_command.command; Plan_command.command; Platform_command.command;
-      Runs_command.command; Sim_command.command; Step_command.command; Tla_command.command;
-      Trace_command.command; Walk_command.command ]
+      Post_command.command; Runs_command.command; Sim_command.command; Step_command.command;
+      Tla_command.command; Trace_command.command; Walk_command.command ]
 
 (* [--sim] alone would take the next argument for its fleet. *)
 let arguments =

@@ -78,12 +78,12 @@ let journal_of ~path ~is_simulated ~keep ~follow ~resumed journal =
       Ok None
 
 let run () show path sim fleet network adapters definition speed seed answers supplier supplier_timeout journal keep
-    drawing recorded resumed changed =
+    drawing recorded resumed changed no_socket =
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
   let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
   let settings : Run.settings =
     { network; adapters; speed; seed; answers; supplier; supplier_timeout;
-      recording = { journal; drawing; follower = None } }
+      socket = not no_socket; recording = { journal; drawing; follower = None } }
   in
   let is_simulated = Run.is_simulated settings in
   Report.result
@@ -187,6 +187,13 @@ let resumed =
   in
   Arg.(value & opt (some string) None & info [ "resume" ] ~docv:"RUN" ~doc)
 
+let no_socket =
+  let doc =
+    "Have no socket beside the journal: nobody can post to the run, follow or stop it from outside. Only runs whose \
+     time passes by itself, on vehicles of a network or with $(b,--speed), have one."
+  in
+  Arg.(value & flag & info [ "no-socket" ] ~doc)
+
 let changed =
   let doc =
     "With $(b,--resume): resume although the program has changed since, if what happened so far is also the beginning \
@@ -264,4 +271,4 @@ let command =
     Term.(
       const run $ Verbosity.setup $ show $ Options.program $ sim $ fleet $ Imc_options.chosen
       $ Platform_options.adapters $ Imc_options.definition $ speed $ seed $ answers $ supplier
-      $ supplier_timeout $ journal $ keep $ drawing $ follow $ resumed $ changed)
+      $ supplier_timeout $ journal $ keep $ drawing $ follow $ resumed $ changed $ no_socket)

@@ -172,6 +172,8 @@ let sync r =
   in
   Option.map sync r.file
 
+let journal r = Option.map (fun file -> file.path) r.file
+
 let observer r : Dolphin_runtime.Observer.t =
   match r.recorder with
   | None -> Dolphin_runtime.Observer.nobody

@@ -36,6 +36,9 @@ val note : t -> time:float -> vehicle:string -> Yojson.Safe.t -> unit
 val sync : t -> (unit -> unit Lwt.t) option
 (** Resolves once all that was kept before is on the disk, and may fail with {!Broken}; [None]: there is no journal. *)
 
+val journal : t -> string option
+(** The path of the journal, if there is one. *)
+
 val observer : t -> Dolphin_runtime.Observer.t
 (** To be told of the run before anybody else. It may raise {!Broken}. *)
 

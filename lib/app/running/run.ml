@@ -14,12 +14,13 @@ type settings = {
   answers : string list;
   supplier : string option;
   supplier_timeout : float option;
+  socket : bool;
   recording : Recording.settings;
 }
 
 let simulated =
   { network = None; adapters = []; speed = None; seed = None; answers = []; supplier = None; supplier_timeout = None;
-    recording = Recording.nothing }
+    socket = false; recording = Recording.nothing }
 
 let choice (s : settings) : Networks.choice = { imc = s.network; adapters = s.adapters }
 let is_simulated s = not (Networks.is_any (choice s))
@@ -31,7 +32,11 @@ type estimate = Networks.estimate = {
   remaining : float option;
 }
 
-type view = { now : unit -> float; estimates : unit -> estimate list }
+type view = {
+  now : unit -> float;
+  estimates : unit -> estimate list;
+  post : string -> Core.value -> bool Lwt.t;
+}
 
 type front = {
   replayed : Entry.t -> Replay.t -> unit;
@@ -188,6 +193,26 @@ let watching_picks r unmet : Observer.t =
   in
   { Observer.nobody with transition }
 
+(* {1 The socket} *)
+
+(* A run whose time passes by itself has one, beside its journal. *)
+let open_socket r recording ~interruption ~inputs ~now ~virtual_time =
+  match Recording.journal recording with
+  | Some journal when r.settings.socket && not virtual_time -> (
+      let stop () = Interruption.interrupt interruption in
+      match Run_socket.open_ { program = r.program; inputs; now; stop } ~journal with
+      | Ok socket -> Some socket
+      | Error why -> r.front.notice why; None)
+  | Some _ | None -> None
+
+let telling_followers socket : Observer.t =
+  match socket with
+  | None -> Observer.nobody
+  | Some socket ->
+    { Observer.nobody with
+      transition = (fun ~time:_ ~cause:_ _ -> Run_socket.journal_grew socket);
+      news = (fun ~time:_ _ -> Run_socket.journal_grew socket) }
+
 (* {1 The run} *)
 
 let beginning resumed news : Driver.beginning option =
@@ -201,21 +226,24 @@ let was_stuck (resumed : Resumed.t) = Replay.was_stuck resumed.past.replay
 
 let drive r recording host ~interruption (Platform ((module P), { platform; estimates; news })) =
   let now () = P.now platform in
-  r.front.opened { now; estimates };
+  let inputs = Inputs.create () in
+  let socket = open_socket r recording ~interruption ~inputs ~now ~virtual_time:P.virtual_time in
+  r.front.opened { now; estimates; post = Inputs.post inputs };
   let console =
     Questions.console r.front.person ~answered:(History.answers (history r)) ~answers:r.settings.answers
       ~scenario:r.scenario
   in
   let unmet = ref None in
   let observer =
-    List.fold_left Observer.both (Recording.observer recording) [ r.front.observer; watching_picks r unmet ]
+    List.fold_left Observer.both (Recording.observer recording)
+      [ telling_followers socket; r.front.observer; watching_picks r unmet ]
   in
   let run () =
     Driver.run (module P) platform
       ~always_telemetry:(r.front.wants_telemetry || Recording.is_wanted r.settings.recording)
       ~observer
       ~host:(match host with Some host -> Host.call host | None -> Replies.call ~past:(history r) r.scenario)
-      ?beginning:(beginning r.resumed news) ~console ~interruption:(Interruption.promise interruption)
+      ~inputs ?beginning:(beginning r.resumed news) ~console ~interruption:(Interruption.promise interruption)
       r.program.program
   in
   let close () = Option.fold host ~none:Lwt.return_unit ~some:Host.close in
@@ -226,8 +254,9 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
     Result.map (fun () -> outcome) (Recording.finish recording ~time:(now ()) ~stuck)
   in
   let unavailable why = Lwt.return (Error (Error.Unavailable why)) in
+  let close_socket () = Option.fold socket ~none:Lwt.return_unit ~some:Run_socket.close in
   Lwt.catch
-    (fun () -> Lwt.finalize run close >|= finish)
+    (fun () -> Lwt.finalize (fun () -> Lwt.finalize run close >|= finish) close_socket)
     (function
       | Recording.Broken why -> unavailable (why ^ "; the run was ended as by Ctrl-C")
       | Unix.Unix_error (error, call, _) ->

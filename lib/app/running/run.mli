@@ -17,6 +17,7 @@ type settings = {
   answers : string list;  (** to the first questions of the program *)
   supplier : string option;  (** a command; [None]: the fleet replies to calls *)
   supplier_timeout : float option;  (** seconds for each reply; [None]: any time *)
+  socket : bool;  (** whether the run has a socket beside its journal, if its time passes by itself: {!Run_socket} *)
   recording : Recording.settings;
 }
 
@@ -38,6 +39,7 @@ type estimate = Networks.estimate = {
 type view = {
   now : unit -> float;  (** the time of the run, in seconds since its start *)
   estimates : unit -> estimate list;  (** of the vehicles that give one *)
+  post : string -> Dolphin_semantics.Core.value -> bool Lwt.t;  (** {!Inputs.post} *)
 }
 
 type front = {

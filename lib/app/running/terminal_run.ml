@@ -19,6 +19,7 @@ type t = {
   mutable configuration : Configuration.t;
   mutable world : World.t;
   mutable view : Run.view;
+  mutable keyboard : Keyboard.t option;  (* if somebody may type *)
 }
 
 (* That nobody reads the log any more is no trouble: whoever did has gone, as [head] does. *)
@@ -101,14 +102,29 @@ let rec refresh t =
 (* What is typed at a terminal stands there already. *)
 let echo text = if Unix.isatty Unix.stdin then None else Some text
 
+(* Whoever types a line that answers no question means an input. *)
+let offer t text =
+  let program = t.program.program in
+  let post (key, x) =
+    match Typed_input.declared program key with
+    | Error why -> remark t why
+    | Ok () -> Lwt.async (fun () -> Lwt.map ignore (t.view.post key x))
+  in
+  if program.inputs <> [] && String.trim text <> "" then
+    match Typed_input.read text with Ok pairs -> List.iter post pairs | Error why -> remark t why
+
 let person t : Questions.person =
   let typed = Console.scripted ~output:ignore ~answers:[] () in
   let answer prompt =
-    typed.ask prompt >|= fun reply ->
+    Option.fold t.keyboard ~none:(typed.ask prompt) ~some:Keyboard.answer >|= fun reply ->
     Result.iter (fun text -> Screen.answered t.screen (echo text)) reply;
     reply
   in
-  { asked = (fun prompt -> Screen.ask t.screen (Log.question t.log ~time:(t.view.now ()) prompt));
+  let asked prompt =
+    Option.iter Keyboard.settle t.keyboard;
+    Screen.ask t.screen (Log.question t.log ~time:(t.view.now ()) prompt)
+  in
+  { asked;
     answer;
     answered = (fun text -> Screen.answered t.screen (Some text));
     refused = (fun why -> remark t ("cannot take this answer: " ^ why)) }
@@ -137,6 +153,7 @@ let front t ~notice ~again : Run.front =
     Interruption.on_signals ~again t.interruption;
     stop_on_request t;
     t.view <- view;
+    if Unix.isatty Unix.stdin then t.keyboard <- Some (Keyboard.start ~other:(offer t));
     Screen.show t.screen (board t)
   in
   { replayed = replayed t; notice; opened; remark = remark t;
@@ -158,7 +175,8 @@ let make show program interruption ~on_closed =
     log = Log.start; board = Status.start; outcome = Outcome.start;
     configuration = Configuration.initial program.program;
     world = World.empty;
-    view = { now = (fun () -> 0.); estimates = (fun () -> []) } }
+    view = { now = (fun () -> 0.); estimates = (fun () -> []); post = (fun _ _ -> Lwt.return_false) };
+    keyboard = None }
 
 let run ~notice ~again show program f =
   let interruption = Interruption.make () in

@@ -1,0 +1,3 @@
+(** [dolphin post]. *)
+
+val command : Exit_status.t Cmdliner.Cmd.t

@@ -1,0 +1,265 @@
+open Dolphin_json
+open Dolphin_runtime
+open Lwt.Infix
+
+let version = 1
+let beside journal = journal ^ ".sock"
+let longest_request = 65_536
+let most_clients = 100
+
+type run = {
+  program : Program_file.t;
+  inputs : Inputs.t;
+  now : unit -> float;
+  stop : unit -> unit;
+}
+
+type t = {
+  run : run;
+  path : string;
+  listening : Lwt_unix.file_descr;
+  journal : Unix.file_descr option;  (* never closed: that would give the lock of the journal away *)
+  grown : unit Lwt_condition.t;
+  mutable over : bool;
+  mutable clients : int;
+  mutable owed : int;  (* requests that were read and not replied to *)
+  mutable followers : unit Lwt.t list;
+}
+
+(* {1 Requests} *)
+
+type json = Yojson.Safe.t
+
+let reply ?id members : json =
+  `Assoc ((match id with Some id -> [ ("id", id) ] | None -> []) @ members)
+
+let wrong ?id code message =
+  reply ?id [ ("error", `Assoc [ ("code", `String code); ("message", `String message) ]) ]
+
+let done_ ?id members = reply ?id (("ok", `Bool true) :: members)
+
+let post t ?id found =
+  match List.assoc_opt "key" found, List.assoc_opt "value" found with
+  | Some (`String key), Some json -> (
+      match Typed_input.declared t.run.program.program key, Host_value.data_of_json json with
+      | Error why, _ -> Lwt.return (wrong ?id "not-declared" why)
+      | Ok (), Error why -> Lwt.return (wrong ?id "bad-value" why)
+      | Ok (), Ok x -> (
+          Inputs.post t.run.inputs key x >|= function
+          | true -> done_ ?id [ ("time", `Float (t.run.now ())) ]
+          | false -> wrong ?id "ended" "the run has ended"))
+  | _, _ -> Lwt.return (wrong ?id "bad-request" "post needs a key, a text, and a value")
+
+let status t ?id () =
+  let { Program_file.path; program; _ } = t.run.program in
+  done_ ?id
+    [ ("protocol", `String "dolphin-run"); ("version", `Int version); ("program", `String path);
+      ("time", `Float (t.run.now ())); ("inputs", `List (List.map (fun k -> `String k) program.inputs)) ]
+
+let usage = "a request is an object with a request, as in {\"request\": \"status\"}"
+
+(* What a line asks for; [follow] is begun by whoever writes the reply. *)
+let perform t (line : Lines.line) =
+  let bad ?id code message = Lwt.return (`Reply (wrong ?id code message)) in
+  match line with
+  | End_of_input -> Lwt.return `Over
+  | Too_long -> bad "bad-request" (Printf.sprintf "the line is longer than %d bytes" longest_request)
+  | Line text -> (
+      match Host_value.parse text with
+      | Error why -> bad "no-json" ("this is no JSON: " ^ why)
+      | Ok (`Assoc found) -> (
+          let id = List.assoc_opt "id" found in
+          match List.assoc_opt "request" found with
+          | Some (`String "post") -> post t ?id found >|= fun reply -> `Reply reply
+          | Some (`String "status") -> Lwt.return (`Reply (status t ?id ()))
+          | Some (`String "stop") ->
+            t.run.stop ();
+            Lwt.return (`Reply (done_ ?id []))
+          | Some (`String "follow") when t.journal = None -> bad ?id "no-journal" "the journal is no file"
+          | Some (`String "follow") -> Lwt.return (`Follow (done_ ?id []))
+          | Some (`String other) ->
+            bad ?id "unknown-request"
+              (Printf.sprintf "there is no request '%s': there are post, status, follow and stop" other)
+          | Some _ | None -> bad ?id "bad-request" usage)
+      | Ok _ -> bad "bad-request" usage)
+
+(* {1 Clients} *)
+
+type client = { socket : Lwt_unix.file_descr; lines : Lines.t; writing : Lwt_mutex.t }
+
+let rec write_from fd text first =
+  let left = Bytes.length text - first in
+  if left = 0 then Lwt.return_unit
+  else Lwt_unix.write fd text first left >>= fun n -> write_from fd text (first + n)
+
+let write client text = Lwt_mutex.with_lock client.writing (fun () -> write_from client.socket (Bytes.of_string text) 0)
+let say client json = write client (Yojson.Safe.to_string json ^ "\n")
+
+(* The whole lines of the journal from [offset] on, at most so many bytes of them, and where they end. A line that is
+   longer than that is read in one piece. *)
+let rec journal_from fd offset size =
+  let buffer = Bytes.create size in
+  ignore (Unix.lseek fd offset SEEK_SET);
+  let n = Unix.read fd buffer 0 size in
+  match Bytes.rindex_from_opt buffer (n - 1) '\n' with
+  | Some last -> (Bytes.sub_string buffer 0 (last + 1), offset + last + 1)
+  | None when n = size -> journal_from fd offset (2 * size)
+  | None -> ("", offset)
+  | exception Invalid_argument _ -> ("", offset)
+
+let page = 65_536
+
+(* Each follower reads the journal at its own pace, so one that never reads costs nothing. *)
+let rec follow t client fd offset =
+  match journal_from fd offset page with
+  | "", _ when t.over -> Lwt.return_unit
+  | "", _ -> Lwt_condition.wait t.grown >>= fun () -> follow t client fd offset
+  | lines, offset -> write client lines >>= fun () -> follow t client fd offset
+
+let quietly f = Lwt.catch f (fun _ -> Lwt.return_unit)
+
+let start_following t client =
+  match t.journal with
+  | None -> ()
+  | Some fd ->
+    let whole () =
+      follow t client fd 0 >|= fun () -> Lwt_unix.shutdown client.socket SHUTDOWN_SEND
+    in
+    t.followers <- quietly whole :: t.followers
+
+let reply_to t client line =
+  t.owed <- t.owed + 1;
+  let replied () =
+    perform t line >>= function
+    | `Over -> Lwt.return_false
+    | `Reply json -> say client json >|= fun () -> true
+    | `Follow json -> say client json >|= fun () -> start_following t client; true
+  in
+  Lwt.finalize replied (fun () -> t.owed <- t.owed - 1; Lwt.return_unit)
+
+let rec serve t client =
+  Lines.next client.lines >>= reply_to t client >>= fun goes_on -> if goes_on then serve t client else Lwt.return_unit
+
+let admit t socket =
+  let client = { socket; lines = Lines.make ~limit:longest_request socket; writing = Lwt_mutex.create () } in
+  let leave () =
+    t.clients <- t.clients - 1;
+    quietly (fun () -> Lwt_unix.close socket)
+  in
+  t.clients <- t.clients + 1;
+  let whole () =
+    if t.clients > most_clients then say client (wrong "too-many" "too many programs are connected to this run")
+    else serve t client
+  in
+  Lwt.async (fun () -> Lwt.finalize (fun () -> quietly whole) leave)
+
+(* Where descriptors have run out, others may be closed meanwhile. *)
+let rec accept t =
+  Lwt.catch
+    (fun () -> Lwt_unix.accept ~cloexec:true t.listening >|= fun (socket, _) -> admit t socket)
+    (function
+      | Unix.Unix_error ((EMFILE | ENFILE | ECONNABORTED | ENOBUFS | ENOMEM), _, _) -> Lwt_unix.sleep 0.1
+      | error -> Lwt.fail error)
+  >>= fun () -> accept t
+
+(* {1 Opening and closing} *)
+
+(* Nobody else may even see it: the mask is there before the socket is. *)
+let bind path =
+  let fd = Lwt_unix.socket ~cloexec:true PF_UNIX SOCK_STREAM 0 in
+  let mask = Unix.umask 0o177 in
+  let restore () = ignore (Unix.umask mask) in
+  match
+    if Sys.file_exists path then Unix.unlink path;
+    Unix.bind (Lwt_unix.unix_file_descr fd) (ADDR_UNIX path)
+  with
+  | () ->
+    restore ();
+    Lwt_unix.listen fd 100;
+    Ok fd
+  | exception (Unix.Unix_error _ as error) ->
+    restore ();
+    Unix.close (Lwt_unix.unix_file_descr fd);
+    let why =
+      match error with
+      | Unix.Unix_error (ENAMETOOLONG, _, _) -> "its path is too long"
+      | Unix.Unix_error (error, _, _) -> Unix.error_message error
+      | error -> Printexc.to_string error
+    in
+    Error (Printf.sprintf "%s: nobody can post to this run: %s" path why)
+
+(* The journal is locked by now, so a socket that is there is that of a console that died. *)
+let open_ run ~journal =
+  let path = beside journal in
+  let start listening =
+    let is_file = (Unix.stat journal).st_kind = S_REG in
+    let journal = if is_file then Some (Unix.openfile journal [ O_RDONLY; O_CLOEXEC ] 0) else None in
+    let t =
+      { run; path; listening; journal; grown = Lwt_condition.create (); over = false; clients = 0; owed = 0;
+        followers = [] }
+    in
+    Lwt.async (fun () -> quietly (fun () -> accept t));
+    t
+  in
+  Result.map start (bind path)
+
+let journal_grew t = Lwt_condition.broadcast t.grown ()
+
+(* How long clients that read slowly may take for what is left. *)
+let patience = 0.5
+
+let rec replied t = if t.owed = 0 then Lwt.return_unit else Lwt_unix.sleep 0.01 >>= fun () -> replied t
+
+let close t =
+  t.over <- true;
+  journal_grew t;
+  Lwt.pick [ Lwt.join (replied t :: t.followers); Lwt_unix.sleep patience ] >>= fun () ->
+  (try Unix.unlink t.path with Unix.Unix_error _ -> ());
+  quietly (fun () -> Lwt_unix.close t.listening)
+
+(* {1 Clients} *)
+
+type connection = { input : in_channel; output : out_channel }
+
+let connect ~journal =
+  let fd = Unix.socket ~cloexec:true PF_UNIX SOCK_STREAM 0 in
+  match Unix.connect fd (ADDR_UNIX (beside journal)) with
+  | () -> Ok { input = Unix.in_channel_of_descr fd; output = Unix.out_channel_of_descr fd }
+  | exception Unix.Unix_error (error, _, _) ->
+    Unix.close fd;
+    Error
+      (match error with
+       | ENOENT | ECONNREFUSED -> journal ^ ": this run does not go on, or has no socket"
+       | error -> Printf.sprintf "%s: %s" (beside journal) (Unix.error_message error))
+
+let ask c request =
+  match
+    output_string c.output (Yojson.Safe.to_string (`Assoc request) ^ "\n");
+    flush c.output;
+    input_line c.input
+  with
+  | exception (End_of_file | Sys_error _) -> Error "the run has ended"
+  | line -> (
+      match Yojson.Safe.from_string line with
+      | exception Yojson.Json_error _ -> Error ("this is no reply: " ^ line)
+      | `Assoc [ ("error", `Assoc why) ] -> (
+          match List.assoc_opt "message" why with Some (`String text) -> Error text | Some _ | None -> Error line)
+      | json -> Ok json)
+
+let post c key x =
+  match Host_value.to_json x with
+  | Error why -> Error why
+  | Ok json -> (
+      match ask c [ ("request", `String "post"); ("key", `String key); ("value", json) ] with
+      | Ok (`Assoc found) -> (
+          match List.assoc_opt "time" found with Some (`Float time) -> Ok time | Some _ | None -> Ok 0.)
+      | Ok _ -> Ok 0.
+      | Error why -> Error why)
+
+let rec copy c out =
+  match input_line c.input with
+  | line ->
+    output_string out (line ^ "\n");
+    flush out;
+    copy c out
+  | exception (End_of_file | Sys_error _) -> ()

@@ -1,0 +1,44 @@
+(** The socket of a run, beside its journal: how other programs post to the run, follow and stop it. docs/socket.md has
+    the protocol. Whoever connects, and whatever they send, the run goes on as without them, but for what they post. *)
+
+open Dolphin_semantics
+open Dolphin_runtime
+
+val beside : string -> string
+(** [beside journal] is where the socket of the run with this journal is. *)
+
+(** What clients may do. *)
+type run = {
+  program : Program_file.t;
+  inputs : Inputs.t;
+  now : unit -> float;
+  stop : unit -> unit;  (** as Ctrl-C does *)
+}
+
+type t
+
+val open_ : run -> journal:string -> (t, string) result
+(** [open_ run ~journal] serves clients from now on, of the user only: the socket has mode 0600. The journal is locked
+    by this process. The error is a sentence: the run goes on without. *)
+
+val journal_grew : t -> unit
+(** Followers are told. *)
+
+val close : t -> unit Lwt.t
+(** [close s] gives followers what is left of the journal, as far as they read on, and removes the socket. *)
+
+(** {1:clients Clients} *)
+
+type connection
+
+val connect : journal:string -> (connection, string) result
+(** [connect ~journal] is a connection to the run with this journal, or a sentence why there is none. *)
+
+val ask : connection -> (string * Yojson.Safe.t) list -> (Yojson.Safe.t, string) result
+(** [ask c request] is the reply to [request]; the error is what it says is wrong. *)
+
+val post : connection -> string -> Core.value -> (float, string) result
+(** [post c key x] posts a pair: at which time of the run it was taken. *)
+
+val copy : connection -> out_channel -> unit
+(** [copy c out] copies what comes, line by line, until the other end is done. *)

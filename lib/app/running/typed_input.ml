@@ -1,0 +1,46 @@
+open Dolphin_syntax
+open Dolphin_semantics
+module Reply = Dolphin_scenario.Reply
+
+let ( let* ) = Result.bind
+let usage = "what is posted is a key and a value, as in abort: true"
+
+let why (d : Diagnostic.t) =
+  match d.hint with Some hint -> Printf.sprintf "%s (%s)" d.message hint | None -> d.message
+
+let value (e : Ast.expression) =
+  match e.it with
+  | Variable name -> Error (Printf.sprintf "'%s' is no value: a text stands in quotes, '%s'" name name)
+  | _ -> (
+      match Reply.data e with
+      | Ok [ x ] -> Ok x
+      | Ok _ -> Error "one value is posted at a time"
+      | Error d -> Error (why d))
+
+let pair : Ast.argument -> (string * Core.value, string) result = function
+  | Named (key, e) -> Result.map (fun x -> (key.it, x)) (value e)
+  | Positional { it = Variable key; _ } -> Ok (key, Boolean true)
+  | Positional _ | Keyed _ -> Error usage
+
+let rec pairs = function
+  | [] -> Ok []
+  | argument :: rest ->
+    let* first = pair argument in
+    Result.map (List.cons first) (pairs rest)
+
+let read text =
+  match Parse.program ~file:"input" ("post(" ^ text ^ "\n)") with
+  | Ok [ { it = Expression { it = Call { callee = { it = Variable "post"; _ }; arguments = _ :: _ as found }; _ }; _ } ]
+    -> pairs found
+  | Ok _ | Error _ -> Error usage
+
+let declared (program : Core.program) key =
+  if List.mem key program.inputs then Ok ()
+  else
+    let known =
+      match Diagnostic.suggest key program.inputs, program.inputs with
+      | Some near, _ -> Printf.sprintf ": did you mean '%s'?" near
+      | None, [] -> ", nor any other"
+      | None, keys -> ", only " ^ String.concat ", " (List.map (Printf.sprintf "'%s'") keys)
+    in
+    Error (Printf.sprintf "the program declares no input '%s'%s" key known)

@@ -29,8 +29,22 @@ let source d = d.source
 
 (* {1 Diagnostics} *)
 
-let of_program d ast =
-  match Elaborate.program ~source_name:d.file ast with
+let read_file path =
+  match open_in_bin path with
+  | exception Sys_error why -> Error why
+  | channel ->
+    Fun.protect ~finally:(fun () -> close_in_noerr channel) @@ fun () ->
+    (match really_input_string channel (in_channel_length channel) with
+     | text -> Ok text
+     | exception (Sys_error _ | End_of_file) -> Error (path ^ " cannot be read"))
+
+(* Of what is wrong in files that it includes, it is for their own documents to tell. *)
+let of_program d =
+  let own found = List.filter (fun (f : Diagnostic.t) -> Location.file f.at = d.file) found in
+  let _, parsed = Include.program ~read:read_file ~file:d.file d.source in
+  own
+  @@
+  match Result.bind parsed (Elaborate.program ~source_name:d.file) with
   | Error found -> found
   | Ok (program, warnings) ->
     warnings @ Option.fold d.scenario ~none:[] ~some:(Plan_names.misspelt program)
@@ -41,7 +55,7 @@ let diagnostics d =
     | Error found -> found
     | Ok _ when is_fleet d.file ->
       (match Scenario.read ~file:d.file d.source with Ok _ -> [] | Error found -> found)
-    | Ok ast -> of_program d ast in
+    | Ok _ -> of_program d in
   List.stable_sort Diagnostic.compare found
 
 (* {1 Names and strings of the text} *)

@@ -24,7 +24,9 @@ let no_fleet path =
 let load path =
   let* source = Text_file.read path in
   let* () = no_fleet path in
-  let* ast = wrong source (Parse.program ~file:path source) in
+  let read path = Result.map_error (fun e -> String.concat "; " (Error.sentences e)) (Text_file.read path) in
+  let { Include.text = source; _ }, parsed = Include.program ~read ~file:path source in
+  let* ast = wrong source parsed in
   let* program, warnings = wrong source (Dolphin_semantics.Elaborate.program ~source_name:path ast) in
   Ok { path; source; program; warnings }
 

@@ -4,13 +4,14 @@ open Dolphin_syntax
 
 type t = {
   path : string;
-  source : string;  (** the text *)
+  source : string;  (** the text, and behind it that of the files that it includes *)
   program : Dolphin_semantics.Core.program;
   warnings : Diagnostic.t list;
 }
 
 val load : string -> (t, Error.t) result
-(** [load path] is the program in the file [path], parsed and elaborated. *)
+(** [load path] is the program in the file [path], parsed and elaborated, with what it includes
+    ({!Dolphin_syntax.Include}). *)
 
 val parse : string -> (Ast.program, Error.t) result
 (** [parse path] is the syntax tree of the program in the file [path], which need not elaborate. *)

@@ -16,6 +16,7 @@ let declare_function program ((name : string Ast.located), lambda, _, _, _) =
 
 let hint_for_unknown program name at names =
   if Scope.wants_text program at then Some (Printf.sprintf "a text stands in quotes: '%s'" name)
+  else if name = "include" then Some "include 'lib.dol' stands at the top of a file, outside of all braces"
   else if Builtins.math name then Some (Printf.sprintf "write Math.%s" name)
   else if Builtins.constant ("Math." ^ name) <> None then Some (Printf.sprintf "write Math.%s" name)
   else

@@ -1,0 +1,17 @@
+(** Programs of several files: [include 'lib.dol'] at the top of a program stands for the statements of that file, which
+    is named relative to the file that includes it. A file is included once, where it is named first. *)
+
+type whole = {
+  text : string;
+  (** all that was read, one file after the other: offsets of locations are offsets in it, lines and columns are those
+      of the files *)
+  files : string list;  (** the files, that of the program first *)
+}
+
+val program :
+  read:(string -> (string, string) result) ->
+  file:string ->
+  string ->
+  whole * (Ast.program, Diagnostic.t list) result
+(** [program ~read ~file source] is as {!Parse.program}, with what it includes. [read path] is the text of a file, or
+    why it cannot be read. *)

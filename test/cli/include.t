@@ -1,0 +1,95 @@
+A program may include others. A file is named relative to the one that includes it, and is read once.
+
+  $ mkdir lib
+  $ cat > mission.dol <<'END'
+  > include 'lib/surveys.dol'
+  > include './lib/../lib/limits.dol'
+  > v = pick { type 'UUV' }
+  > message "$rounds rounds"
+  > execute survey('east')[v]
+  > broken()
+  > END
+  $ cat > lib/surveys.dol <<'END'
+  > include 'limits.dol'
+  > def survey(name) { waitFor { rounds > 2 } then imcPlan('survey_' + name) }
+  > END
+  $ cat > lib/limits.dol <<'END'
+  > // Said once.
+  > message 'limits'
+  > rounds = 3
+  > def broken() {
+  >     1 / 0
+  > }
+  > END
+  $ cat > one.fleet <<'END'
+  > vehicle 'a', { type 'UUV' }
+  > plan 'survey_east', { duration 1.min }
+  > END
+
+Errors name the file and the line that they are of, at run time too.
+
+  $ dolphin exec mission.dol --fleet one.fleet --journal mission.run
+     0:00  program     says: limits
+     0:00  program     picks a
+     0:00  program     says: 3 rounds
+     0:00  program     sees that a condition holds
+     0:00  a           starts survey_east
+     1:00  a           ends survey_east
+     1:00  program     releases a
+     1:00  program     fails: division by zero
+  lib/limits.dol:5:5: error: division by zero
+    5 |     1 / 0
+      |     ^^^^^
+  [1]
+  $ dolphin trace check mission.dol mission.run
+  mission.run: a run, of 9 transitions in 1:00; failed: division by zero
+
+What a journal was written with, is what was included as well.
+
+  $ sed -i 's/rounds = 3/rounds = 4/' lib/limits.dol
+  $ dolphin trace check mission.dol mission.run
+  dolphin: mission.dol is not the text that this run was of, or has changed since: places are not compared
+  mission.run: line 6 is none of a run: transition 3, at 4:1: message '3 rounds'
+    no transition is like this one; the nearest differs: "label" should be "message '4 rounds'", not "message '3 rounds'"
+    enabled then: message '4 rounds'
+    awaited then: nothing
+    before it: 3 transitions of a run
+  [1]
+
+  $ echo "x = nope" >> lib/limits.dol
+  $ dolphin check mission.dol
+  lib/limits.dol:7:5: error: unknown name 'nope'
+    7 | x = nope
+      |     ^^^^
+  mission.dol: 1 error
+  [2]
+
+Cycles, missing files, and words that are no name of a file are told.
+
+  $ echo "include 'other.dol'" > cycle.dol
+  $ echo "include 'cycle.dol'" > other.dol
+  $ dolphin check cycle.dol
+  other.dol:1:9: error: files that include each other: cycle.dol includes other.dol includes cycle.dol
+    1 | include 'cycle.dol'
+      |         ^^^^^^^^^^^
+  cycle.dol: 1 error
+  [2]
+  $ printf "include 'nowhere.dol'\ninclude lib\n" > missing.dol
+  $ dolphin check missing.dol
+  missing.dol:1:9: error: cannot be included: nowhere.dol: No such file or directory
+    1 | include 'nowhere.dol'
+      |         ^^^^^^^^^^^^^
+  missing.dol:2:1: error: include takes the name of a file
+    2 | include lib
+      | ^^^^^^^^^^^
+      hint: write include 'lib.dol'
+  missing.dol: 2 errors
+  [2]
+  $ printf "if (true) { include 'lib/limits.dol' }\n" > inside.dol
+  $ dolphin check inside.dol
+  inside.dol:1:13: error: unknown name 'include'
+    1 | if (true) { include 'lib/limits.dol' }
+      |             ^^^^^^^
+      hint: include 'lib.dol' stands at the top of a file, outside of all braces
+  inside.dol: 1 error
+  [2]

@@ -215,6 +215,10 @@ class Station:
 
     def _order_start(self, now, line):
         known = self._known(line["request"])
+        if known is not None and known.last is not None and known.last["kind"] == "absent":
+            # It was never started: it is ordered again, with the same request.
+            del self._over[line["request"]]
+            known = None
         if known is not None:
             if known.last is not None:
                 self._report(known.last)

@@ -49,6 +49,7 @@ def main():
     parser.add_argument("--armed", action="store_true", help="they are armed already, and in the air")
     parser.add_argument("--place", default="41.185,-8.706", metavar="LATITUDE,LONGITUDE", help="where they are")
     parser.add_argument("--first", type=int, default=1, metavar="NUMBER", help="the first one's system number")
+    parser.add_argument("--began", metavar="FILE", help="a line for each mission begun: how many items it has")
     parser.add_argument("--key", metavar="PHRASE", help="messages are signed by this pass phrase")
     parser.add_argument("vehicles", nargs="+", metavar="KIND[:px4]", help="copter, plane, rover, boat or sub")
     given = parser.parse_args()
@@ -61,10 +62,11 @@ def main():
         where = geo.displace(place, 0, 20 * n)
         vehicle = SimVehicle(given.first + n, kind, autopilot == "px4", where, speed, given.armed)
         peers.append(Peer(vehicle, (host or "127.0.0.1", int(port)), given.key))
-    fly(peers)
+    fly(peers, given.began)
 
 
-def fly(peers):
+def fly(peers, began=None):
+    told = 0
     selector = selectors.DefaultSelector()
     for peer in peers:
         selector.register(peer.socket, selectors.EVENT_READ, peer)
@@ -86,6 +88,11 @@ def fly(peers):
             ticked = now
             for peer in peers:
                 peer.send(peer.vehicle.tick(now))
+            begun = [items for peer in peers for _, items in peer.vehicle.began]
+            if began is not None and len(begun) > told:
+                with open(began, "a", encoding="utf-8") as file:
+                    file.writelines(f"{items}\n" for items in begun[told:])
+                told = len(begun)
 
 
 if __name__ == "__main__":

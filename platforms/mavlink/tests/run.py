@@ -25,5 +25,7 @@ def main():
 
 
 if __name__ == "__main__":
+    if os.environ.get("DOLPHIN"):
+        os.environ["DOLPHIN"] = os.path.abspath(os.environ["DOLPHIN"])
     os.chdir(HERE)
     sys.exit(main())

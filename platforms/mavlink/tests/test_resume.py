@@ -41,7 +41,6 @@ class Console:
             if not ends or ends[-1]["kind"] != "absent":
                 return ends[-1] if ends else None
             done_before = len(ends)
-            self.wires.station._over.clear()
             self.wires.start(request, "mav-1", plan)
         return None
 

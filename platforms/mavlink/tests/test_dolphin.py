@@ -1,0 +1,109 @@
+"""Programs of Dolphin on vehicles that speak MAVLink, with the command itself: the environment variable DOLPHIN."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+from tests.test_process import FOLDER, free_port
+
+DOLPHIN = os.environ.get("DOLPHIN")
+EXAMPLE = os.path.join(FOLDER, "example")
+RENDEZVOUS = os.path.join(FOLDER, "..", "..", "examples", "rendezvous.dol")
+TWO_FLIGHTS = "v = pick { id 'x8-02'; timeout 20.seconds }\nexecute v: task('rv1') >> task('rv2')\nmessage 'Done!'\n"
+
+
+@unittest.skipUnless(DOLPHIN, "DOLPHIN is not set")
+class Programs(unittest.TestCase):
+    def setUp(self):
+        self.port = free_port()
+        self.adapter = (
+            f"{os.path.join(FOLDER, 'dolphin-mavlink')} --udp {self.port} --name 1=x8-02 "
+            f"--missions {os.path.join(EXAMPLE, 'missions')}"
+        )
+        self.environment = dict(os.environ, DOLPHIN_MAVLINK=sys.executable, PYTHONPATH=FOLDER)
+        options = ["--to", f"127.0.0.1:{self.port}", "--time", "10", "--place=41.184,-8.707", "--armed"]
+        self.began = os.path.join(tempfile.mkdtemp(), "began")
+        self.spawn([sys.executable, "-B", "-m", "sim", *options, "--began", self.began, "plane"])
+
+    def spawn(self, command, **more):
+        process = subprocess.Popen(command, env=self.environment, stdin=subprocess.PIPE, **more)
+
+        def end():
+            process.kill()
+            process.wait(5)
+            process.stdin.close()
+
+        self.addCleanup(end)
+        return process
+
+    def flights(self):
+        """How many items each mission had that was begun, in order."""
+        with open(self.began, encoding="utf-8") as file:
+            return [int(line) for line in file]
+
+    def test_submarines_of_imc_and_a_plane_of_mavlink_in_one_program(self):
+        ports = "42500-42504"
+        fleet = os.path.join(EXAMPLE, "uuvs.fleet")
+        imc = ["--imc", "--discovery-ports", ports, "--port", "42510", "--announce", "1", "--contact", "1"]
+        self.spawn([DOLPHIN, "sim", fleet, *imc, "--speed", "60", "--for", "100"], stdout=subprocess.DEVNULL)
+        command = [DOLPHIN, "exec", RENDEZVOUS, "--imc-loopback", "--imc-discovery-ports", ports, "--answer", "2"]
+        run = subprocess.run(
+            [*command, "--platform", self.adapter], env=self.environment, capture_output=True, text=True, timeout=90
+        )
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        ended = sorted(re.findall(r"(\S+) +ends ((?:survey|sk|rv)\d)", run.stdout), key=lambda e: e[1])
+        self.assertEqual(
+            [plan for _, plan in ended], ["rv1", "rv2", "rv3", "sk1", "sk2", "sk3", "survey1", "survey2", "survey3"]
+        )
+        self.assertEqual({vehicle for vehicle, plan in ended if plan.startswith("rv")}, {"x8-02"})
+        self.assertIn("says: Done!", run.stdout)
+        self.assertEqual(self.flights(), [2, 2, 2])
+
+    def test_a_console_that_is_killed_and_resumed(self):
+        """At moments of its run, one after another (DOLPHIN_KILLS: how many): each mission is flown once."""
+        for number in range(int(os.environ.get("DOLPHIN_KILLS", "2"))):
+            with self.subTest(number=number), tempfile.TemporaryDirectory() as folder:
+                program, journal = os.path.join(folder, "two.dol"), os.path.join(folder, "run")
+                with open(program, "w", encoding="utf-8") as file:
+                    file.write(TWO_FLIGHTS)
+                before = len(self.flights()) if os.path.exists(self.began) else 0
+                command = [DOLPHIN, "exec", program, "--platform", self.adapter]
+                log = open(os.path.join(folder, "log"), "w+", encoding="utf-8")
+                self.addCleanup(log.close)
+                first = self.spawn([*command, "--journal", journal], stdout=log, start_new_session=True)
+                wait_for(lambda: "starts rv1" in open(log.name, encoding="utf-8").read())
+                time.sleep(0.37 * (number % 27))
+                first.send_signal(signal.SIGKILL)
+                first.wait(5)
+                if "program     ends" in open(log.name, encoding="utf-8").read():
+                    continue
+                resumed = subprocess.run(
+                    [DOLPHIN, "exec", "--resume", journal, program, "--platform", self.adapter],
+                    env=self.environment,
+                    capture_output=True,
+                    text=True,
+                    timeout=90,
+                )
+                if resumed.returncode == 0:
+                    self.assertIn("says: Done!", resumed.stdout)
+                    self.assertEqual(len(self.flights()) - before, 2)
+                else:
+                    why = "does not fly the mission that it was to begin"
+                    self.assertIn(why, resumed.stdout + resumed.stderr)
+
+
+def wait_for(holds):
+    end = time.monotonic() + 30
+    while not holds():
+        if time.monotonic() > end:
+            raise AssertionError("not within 30 s")
+        time.sleep(0.02)
+
+
+if __name__ == "__main__":
+    unittest.main()

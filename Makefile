@@ -1,5 +1,9 @@
 # What takes more than building and testing. The rest: dune build, dune test.
-.PHONY: nightly tlc crosscheck refinement mutate mutate-code coverage
+.PHONY: site nightly tlc crosscheck refinement mutate mutate-code coverage
+
+# The documentation as a site, searchable, its links checked: _build/site/html.
+site:
+	@scripts/site
 
 # All that is too slow for every change, a line each; ONLY="mutate peers" picks. scripts/nightly tells more.
 nightly:

@@ -64,7 +64,7 @@ class Execution:
         self._transfer, self._uploads = None, 0
         self._next_after_note = None
         self._mode_before, self._asked_mode, self._mode_asked = None, None, False
-        self._began_at = self._stage_at = self._asked_at = 0.0
+        self._stage_at = self._asked_at = 0.0
         self._beats = 0
         self._was_active, self._current, self._reached = False, None, False
         self._complete_since, self._near_since = None, None
@@ -80,12 +80,12 @@ class Execution:
     # What the station calls
 
     def begin(self, now):
-        self._began_at = self._stage_at = self._asked_at = now
+        self._stage_at = self._asked_at = now
         return self._try(now)
 
     def resume(self, now):
         """Finds out what became of a mission that an adapter before this one has begun, or was about to begin."""
-        self._began_at = self._stage_at = self._asked_at = now
+        self._stage_at = self._asked_at = now
         self._resumes, self._mode_asked = True, True
         return self._try(now)
 

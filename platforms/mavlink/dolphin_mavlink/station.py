@@ -18,7 +18,7 @@ from . import mission as missions
 from .execution import TRANSFER, Execution
 from .transfer import RoundTrip
 from .vehicle import MOVE_SILENCE, Vehicle, is_autopilot
-from .wire import mavlink, version_of
+from .wire import mavlink
 
 PROTOCOL = 1
 ANNOUNCE = 5

@@ -5,7 +5,7 @@ import heapq
 import random
 
 from dolphin_mavlink.station import Options, Station
-from dolphin_mavlink.wire import Wire, version_of
+from dolphin_mavlink.wire import Wire
 
 
 class Network:

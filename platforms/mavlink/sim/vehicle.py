@@ -46,7 +46,7 @@ class SimVehicle:
         self._out, self._at = [], None
         self._upload = None
         self._waits_until, self._jumps = None, {}
-        self._beat_at = self._position_at = -1.0
+        self._beat_at = -1.0
 
     # From the ground station
 

@@ -14,7 +14,7 @@ from mavsdk.component_type import ComponentType
 from mavsdk.mavsdk import Configuration, Mavsdk
 from mavsdk.plugins.action_server import ActionServer, AllowableFlightModes, FlightMode
 from mavsdk.plugins.mission_raw_server import MissionRawServer
-from mavsdk.plugins.telemetry_server import Battery, Heading, Position, TelemetryServer, VelocityNed
+from mavsdk.plugins.telemetry_server import Heading, Position, TelemetryServer, VelocityNed
 
 
 class Flight:

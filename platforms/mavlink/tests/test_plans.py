@@ -6,6 +6,7 @@ import tempfile
 import unittest
 
 from dolphin_mavlink import geo, mission, plans
+from dolphin_mavlink import words as language
 from dolphin_mavlink.mission import Item, Unreadable
 from dolphin_mavlink.shell import read_missions
 from tests.support import HARBOUR, waypoint, way
@@ -301,7 +302,7 @@ class Missions(unittest.TestCase):
             "jumpToItem": (1,),
             "surveyArea": (area, 30),
         }
-        self.assertEqual(set(examples), set(plans._WORDS))
+        self.assertEqual(set(examples), set(language.WORDS))
         for word, arguments in examples.items():
             found = self.found(("takeOff", 10), (word, *arguments))
             self.assertGreaterEqual(len(found.items), 1, word)

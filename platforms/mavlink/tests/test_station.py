@@ -1,6 +1,5 @@
 """The platform protocol, and whom the station believes."""
 
-import json
 import unittest
 
 from dolphin_mavlink.station import Options, Station

@@ -1,5 +1,5 @@
-"""`mission { ... }`: a language of plans for vehicles whose plans are missions of items. Heights are metres above the home
-position, distances metres, times seconds. What cannot be done is refused with all its reasons."""
+"""`mission { ... }`: a language of plans for vehicles whose plans are missions of items. Heights are metres above the
+home position, distances metres, times seconds. What cannot be done is refused with all its reasons."""
 
 import dataclasses
 import math

@@ -39,7 +39,7 @@ let on_terminal show (s : Run.settings) program run : Exit_status.t =
       match outcome with
       | Ended Completed -> Done
       | Ended Interrupted -> Interrupted
-      | Ended (Halted _ | Failed _) | Stuck _ -> Failed)
+      | Ended (Halted _ | Failed _) | Stuck _ | Spins _ -> Failed)
 
 let follow (program : Program_file.t) (fleet : Fleet_file.t) path =
   let status : Dolphin_semantics.Configuration.ending option -> Exit_status.t = function

@@ -11,7 +11,7 @@ let show definition plan = print_endline (Yojson.Safe.pretty_to_string (Inline_p
 
 let tell_end : Driver.outcome -> unit = function
   | Ended Completed -> ()
-  | (Ended (Halted _ | Failed _ | Interrupted) | Stuck _) as outcome ->
+  | (Ended (Halted _ | Failed _ | Interrupted) | Stuck _ | Spins _) as outcome ->
     let why = Format.asprintf "%a" Driver.pp_outcome outcome in
     Report.complain ("the run that the plans are taken from did not complete: " ^ why)
 

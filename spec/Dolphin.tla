@@ -70,12 +70,15 @@ AllOf(runs, choices) ==
     [] runs = << >> /\ Len(choices) = 1 -> [ op |-> "oneOf", choices |-> choices ]
     [] OTHER -> [ op |-> "allOf", runs |-> runs, choices |-> choices ]
 
+(* repeat(r; t, n): r is the round that runs, << >> between two; n, in again.left, is how many are to come, or << >>. *)
+Repeat(r, again) == IF again.left = << 0 >> THEN r ELSE [ again EXCEPT !.runs = << r >> ]
+
 (* act(r): r when its turn has come; its timers start. *)
 RECURSIVE Act(_)
 Act(r) ==
   CASE r.op = "seq" -> [ r EXCEPT !.first = Act(@) ]
     [] r.op = "par" -> [ r EXCEPT !.branches = Each(@, Act) ]
-    [] r.op = "allOf" -> [ r EXCEPT !.runs = Each(@, Act) ]
+    [] r.op \in { "allOf", "repeat" } -> [ r EXCEPT !.runs = Each(@, Act) ]
     [] r.op \in { "until", "watch" } -> [ r EXCEPT !.body = Act(@) ]
     [] r.op = "during" -> IF Is(r.time, "closure") THEN r ELSE [ r EXCEPT !.started = TRUE, !.body = Act(@) ]
     [] OTHER -> r
@@ -86,7 +89,7 @@ Running(r) ==
   CASE r.op = "running" -> << r.v >>
     [] r.op = "seq" -> Running(r.first)
     [] r.op = "par" -> Flatten(Each(r.branches, Running))
-    [] r.op = "allOf" -> Flatten(Each(r.runs, Running))
+    [] r.op \in { "allOf", "repeat" } -> Flatten(Each(r.runs, Running))
     [] r.op \in { "until", "watch" } -> Running(r.body)
     [] r.op = "during" -> IF r.started THEN Running(r.body) ELSE << >>
     [] OTHER -> << >>
@@ -97,7 +100,7 @@ Timers(r) ==
   CASE r.op = "idle" -> << [ i |-> r.timer, time |-> r.time ] >>
     [] r.op = "seq" -> Timers(r.first)
     [] r.op = "par" -> Flatten(Each(r.branches, Timers))
-    [] r.op = "allOf" -> Flatten(Each(r.runs, Timers))
+    [] r.op \in { "allOf", "repeat" } -> Flatten(Each(r.runs, Timers))
     [] r.op \in { "until", "watch" } -> Timers(r.body)
     [] r.op = "during" -> IF r.started THEN << [ i |-> r.timer, time |-> r.time ] >> \o Timers(r.body) ELSE << >>
     [] OTHER -> << >>
@@ -128,6 +131,11 @@ IsResidual(r, active) ==
             /\ r.started => active /\ ~Is(r.time, "closure")
             /\ IsResidual(r.body, active /\ r.started)
        [] r.op = "watch" -> Is(r.handler, "closure") /\ IsResidual(r.body, active)
+       [] r.op = "repeat" ->
+            /\ Len(r.runs) <= 1 /\ (\A j \in DOMAIN r.runs : IsResidual(r.runs[j], active))
+            /\ r.runs = << >> => active /\ r.until # << >>
+            /\ r.left = << >> \/ r.left[1] > 0
+            /\ (\A j \in DOMAIN r.until : Is(r.until[j], "closure")) /\ IsResidual(r.each, FALSE)
        [] OTHER -> FALSE
 
 -----------------------------------------------------------------------------
@@ -399,6 +407,28 @@ InWatch(s, h) ==
     [] IsErr(s) -> Handled(s, h)
     [] OTHER -> << s >>
 
+(* {2 Rounds} *)
+
+(* s, by which the next round begins. *)
+Again(s, rule, r) ==
+  LET round == Act(r.each)
+      left == IF r.left = << >> THEN << >> ELSE << r.left[1] - 1 >>
+  IN Entering(By(s, rule, Next_(Repeat(round, [ r EXCEPT !.left = left ]))), round)
+
+REPEAT_1(s, r) == By(s, "REPEAT-1", Next_([ r EXCEPT !.runs = << s.out[2] >> ]))
+REPEAT_2(s, r) ==
+  IF r.until = << >> THEN Again(s, "REPEAT-2", r) ELSE By(s, "REPEAT-2", Next_([ r EXCEPT !.runs = << >> ]))
+REPEAT_UNTIL(run) == CodeStep("REPEAT-UNTIL", Labelled("check", run.deeds), run, Done_)
+REPEAT_AGAIN(S, r) ==
+  Again([ Step("", "check", Program, S, Done_, << >>) EXCEPT !.rules = << >> ], "REPEAT-AGAIN", r)
+REPEAT_ERR(s) == By(s, "REPEAT-ERR", s.out)
+
+InRepeat(s, r) ==
+  CASE GoesOn(s) -> REPEAT_1(s, r)
+    [] IsDone(s) -> REPEAT_2(s, r)
+    [] IsErr(s) -> REPEAT_ERR(s)
+    [] OTHER -> s
+
 (* {2 All steps of r} *)
 
 (* The code that r looks at: of an action, a condition, guards, a duration that is not known yet. *)
@@ -407,6 +437,7 @@ CodeOf(r) ==
     [] r.op = "oneOf" \/ (r.op = "allOf" /\ r.runs = << >>) -> Each(r.choices, LAMBDA b : b.guard)
     [] r.op = "until" -> << r.guard >>
     [] r.op = "during" /\ ~r.started -> << r.time >>
+    [] r.op = "repeat" /\ r.runs = << >> -> r.until
     [] OTHER -> << >>
 
 (* What r does when its j-th code is faulty. *)
@@ -417,6 +448,7 @@ WithFault(r, s) ==
     [] r.op = "allOf" -> ALLOF_ERR(s)
     [] r.op = "oneOf" -> ONEOF_ERR(s)
     [] r.op = "until" -> UNTIL_ERR(s, << r.body >>)
+    [] r.op = "repeat" -> REPEAT_ERR(s)
 
 (* ... when it gave a value; guards that are not true do nothing. *)
 WithValue(S, r, j, run) ==
@@ -427,6 +459,7 @@ WithValue(S, r, j, run) ==
             ELSE WithFault(r, Broken(Knowing(S, run.S.sees), NoTime(run.value, r.time), run.deeds)) >>
     [] r.op = "until" /\ r.fails # << >> ->
          IF Truth(run.value) THEN << >> ELSE << ASSURE_CUT(Knowing(S, run.S.sees), r) >>
+    [] r.op = "repeat" -> << IF Truth(run.value) THEN REPEAT_UNTIL(run) ELSE REPEAT_AGAIN(Knowing(S, run.S.sees), r) >>
     [] ~Truth(run.value) -> << >>
     [] r.op = "condition" -> << CONDITION(run) >>
     [] r.op = "allOf" -> << ALLOF_WHEN(run, r.choices, j) >>
@@ -477,6 +510,7 @@ Steps(S, r, E) ==
     [] r.op = "until" -> In(Steps(S, r.body, E), LAMBDA s : InUntil(s, r))
     [] r.op = "idle" -> ExpiresOn(S, r, E)
     [] r.op = "during" /\ r.started -> ExpiresOn(S, r, E) \o In(Steps(S, r.body, E), LAMBDA s : InDuring(s, r))
+    [] r.op = "repeat" /\ r.runs # << >> -> In(Steps(S, r.runs[1], E), LAMBDA s : InRepeat(s, r))
     [] r.op = "watch" ->
          Each(Steps(S, r.body, E), LAMBDA outcomes : Flatten(Each(outcomes, LAMBDA s : InWatch(s, r.handler))))
     [] OTHER -> << >>
@@ -492,7 +526,7 @@ Leaves(t, allowed) ==
     [] t.op = "on" ->
          Leaves(t.body, << IF allowed = << >> THEN t.vehicles ELSE Intersection(t.vehicles, allowed[1]) >>)
     [] t.op \in { "allOf", "oneOf" } -> Flatten(Each(t.branches, LAMBDA b : Leaves(b.body, allowed)))
-    [] t.op \in { "until", "during", "watch" } -> Leaves(t.body, allowed)
+    [] t.op \in { "until", "during", "watch", "repeat" } -> Leaves(t.body, allowed)
     [] OTHER -> << >>
 
 LeafCount(t) == Len(Leaves(t, << >>))
@@ -508,7 +542,7 @@ Exclusive(t, n) ==
     [] t.op \in { "allOf", "oneOf" } ->
          UNION { LET before == Flatten(Each(SubSeq(t.branches, 1, j - 1), LAMBDA b : Leaves(b.body, << >>)))
                  IN Exclusive(t.branches[j].body, n + Len(before)) : j \in DOMAIN t.branches }
-    [] t.op \in { "on", "until", "during", "watch" } -> Exclusive(t.body, n)
+    [] t.op \in { "on", "until", "during", "watch", "repeat" } -> Exclusive(t.body, n)
     [] OTHER -> { }
 
 (* What v lacks for p, or nothing. *)
@@ -560,7 +594,7 @@ TimerCount(t) ==
     [] t.op \in { "allOf", "oneOf" } ->
          LET counts[j \in 0 .. Len(t.branches)] == IF j = 0 THEN 0 ELSE counts[j - 1] + TimerCount(t.branches[j].body)
          IN counts[Len(t.branches)]
-    [] t.op \in { "on", "until", "watch" } -> TimerCount(t.body)
+    [] t.op \in { "on", "until", "watch", "repeat" } -> TimerCount(t.body)
     [] OTHER -> 0
 
 RECURSIVE Assigned(_, _, _, _)
@@ -584,6 +618,10 @@ Assigned(t, f, n, i) ==
          [ op |-> "during", timer |-> i + 1, time |-> t.time, started |-> FALSE, fails |-> t.fails,
            body |-> Assigned(t.body, f, n, i + 1) ]
     [] t.op = "watch" -> [ op |-> "watch", body |-> Assigned(t.body, f, n, i), handler |-> t.handler ]
+    [] t.op = "repeat" ->
+         LET each == Assigned(t.body, f, n, i)
+             left == IF t.rounds = << >> THEN << >> ELSE << t.rounds[1] - 1 >>
+         IN [ op |-> "repeat", runs |-> << each >>, left |-> left, until |-> t.until, each |-> each, at |-> t.at ]
     [] t.op \in { "action", "condition" } -> t
 
 NoCandidate(leaf) ==

@@ -650,6 +650,33 @@ MakeTask(op, at, xs) ==
 
 TaskNames == { "action", "condition", "waitFor", "until", "assure", "watch", "idle", "during", "within" }
 
+(* Whether t is done without any wait. *)
+RECURSIVE NeverWaits(_)
+NeverWaits(t) ==
+  CASE t.op = "action" -> TRUE
+    [] t.op \in { "seq", "par" } -> NeverWaits(t.left) /\ NeverWaits(t.right)
+    [] t.op \in { "on", "until", "watch", "repeat" } -> NeverWaits(t.body)
+    [] t.op = "during" -> ~Is(t.time, "closure") /\ NeverWaits(t.body)
+    [] OTHER -> FALSE
+
+(* op says which of n, t, c there are in xs: n rounds, of t, until c. *)
+MakeRepeat(op, at, xs) ==
+  LET j == IF op.counted THEN 2 ELSE 1
+      t == xs[j]
+      until == IF op.asked THEN << xs[j + 1] >> ELSE << >>
+      n == Canonical(xs[1])
+      repeat(rounds) ==
+        TaskValue([ op |-> "repeat", rounds |-> rounds, until |-> until, body |-> t[2], at |-> at ])
+  IN CASE ~Is(t, "task") -> Expected("a task to repeat", t)
+       [] ~op.counted /\ ~op.asked /\ NeverWaits(t[2]) ->
+            Bad("a round of this repeat never waits: it would go round for ever, and nothing else would happen")
+       [] ~op.counted -> Ok(repeat(<< >>))
+       [] ~IsNumber(n) -> Expected("how many rounds there are, as in repeat 3, T", n)
+       [] ~Is(n, "integer") \/ Less(n, Integer(1)) ->
+            Bad("repeat takes a whole number of rounds, 1 or more, not " \o Text(n))
+       [] n = Integer(1) -> Ok(t)
+       [] OTHER -> Ok(repeat(<< Numerator(n) >>))
+
 PlatformTask(m, x) ==
   CASE ~IsString(x) -> Settle(m, Expected("the name of a plan, a string", x))
     [] x[2] = "" -> Faulty(m, "a plan's name may not be empty")
@@ -763,6 +790,7 @@ Procedure(m, op, xs) ==
               [] IsString(x) -> DoPoll(m, << << x[2], Wildcard >> >>)
               [] OTHER -> Settle(m, Expected("a key, as in poll 'ready', or pairs, as in poll(ready: 1)", x))
        [] name = "task" -> PlatformTask(m, x)
+       [] name = "repeat" -> Settle(m, MakeRepeat(op, m.at, xs))
        [] name \in TaskNames -> Settle(m, MakeTask(name, m.at, xs))
        [] name = "execute" ->
             IF Is(x, "task") THEN Execute(m, x[2]) ELSE Settle(m, Expected("a task to execute", x))

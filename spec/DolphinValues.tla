@@ -259,6 +259,10 @@ TaskText(t, level) ==
              name == IF t.fails = << >> THEN "during " ELSE "within "
          IN Parenthesised(0, level, name \o time \o " run " \o TaskText(t.body, 1))
     [] t.op = "watch" -> Parenthesised(0, level, "watch " \o TaskText(t.body, 1) \o " onError { ... }")
+    [] t.op = "repeat" ->
+         LET rounds == IF t.rounds = << >> THEN "" ELSE ToString(t.rounds[1]) \o ", "
+             until == IF t.until = << >> THEN "" ELSE " until { ... }"
+         IN Parenthesised(0, level, "repeat " \o rounds \o TaskText(t.body, 1) \o until)
 
 AreaText(x) == Places[x[2]] \o " ^ " \o ShortText(Number(x[3], x[4])) \o " m"
 

@@ -25,6 +25,9 @@ let rec of_residual budget (r : Residual.t) : json =
     let parts = [ `Int timer; of_duration budget duration; `Bool started; part body ] in
     (match on_cut with Completes -> tagged "during" parts | Fails site -> tagged "within" (`Int site :: parts))
   | Watch (a, c) -> tagged "watch" [ part a; code c ]
+  | Repeat { round; again = { left; until; each; site } } ->
+    let left = of_option (fun n : json -> `Int n) left in
+    tagged "repeat" [ `Int site; of_option part round; left; of_option code until; part each ]
 
 let rec residual nodes (json : json) : Residual.t =
   let part = residual nodes and code = closure nodes in
@@ -50,6 +53,11 @@ let rec residual nodes (json : json) : Residual.t =
   | `List [ `String "during"; timer; d; started; body ] -> during Completes timer d started body
   | `List [ `String "within"; site; timer; d; started; body ] -> during (Fails (whole site)) timer d started body
   | `List [ `String "watch"; a; c ] -> Watch (part a, code c)
+  | `List [ `String "repeat"; site; round; left; until; each ] ->
+    let again : Residual.again =
+      { left = option whole left; until = option code until; each = part each; site = whole site }
+    in
+    Repeat { round = option part round; again }
   | json -> wrong "a residual" json
 
 (* {1 Machines} *)

@@ -63,6 +63,9 @@ and of_task budget (t : task) : json =
   | During (Completes, d, a) -> tagged "during" [ of_duration budget d; part a ]
   | During (Fails site, d, a) -> tagged "within" [ `Int site; of_duration budget d; part a ]
   | Watch (a, c) -> tagged "watch" [ part a; code c ]
+  | Repeat { rounds; until; body; site } ->
+    let rounds = of_option (fun n : json -> `Int n) rounds in
+    tagged "repeat" [ `Int site; rounds; of_option code until; part body ]
 
 and of_branch budget (b : branch) : json = `List [ of_closure budget b.guard; of_task budget b.body ]
 
@@ -137,6 +140,8 @@ and task nodes (json : json) : task =
   | `List [ `String "during"; d; a ] -> During (Completes, duration nodes d, part a)
   | `List [ `String "within"; site; d; a ] -> During (Fails (whole site), duration nodes d, part a)
   | `List [ `String "watch"; a; c ] -> Watch (part a, code c)
+  | `List [ `String "repeat"; site; rounds; until; body ] ->
+    Repeat { rounds = option whole rounds; until = option code until; body = part body; site = whole site }
   | json -> wrong "a task" json
 
 and branch nodes json : branch =

@@ -86,6 +86,8 @@ let of_label (s : Transition.t) =
   | Done (v, name) -> [ of_vehicle v ("ends " ^ Phrase.one_line name) ]
   | Fail (v, name, why) ->
     [ of_vehicle ~how:Trouble v (Printf.sprintf "fails in %s: %s" (Phrase.one_line name) why) ]
+  | Check [] when List.mem Rule.Repeat_again s.rules -> by_program "begins a further round: its condition does not hold"
+  | Check [] when List.mem Rule.Repeat_until s.rules -> by_program "begins no further round: its condition holds"
   | Check [] -> by_program "sees that a condition holds"
   | Cut _ when List.mem Rule.Assure_cut s.rules -> by_program "sees that the condition of assure does not hold"
   | Cut ds -> by_program "sees that the condition of until holds" @ List.map of_deed ds

@@ -1,18 +1,19 @@
 open Dolphin_semantics
 open Lwt.Infix
 
-type outcome = Ended of Configuration.ending | Stuck of Residual.t
+type outcome = Ended of Configuration.ending | Stuck of Residual.t | Spins of Core.site
 
 let guards r =
   let guard (Task_rules.Step { offer; _ }) =
     match offer with
     | Check closure -> Some closure
-    | Start _ | Perform _ | Refute _ | Measure _ | End_of _ | Expiry_of _ -> None
+    | Start _ | Perform _ | Refute _ | Decide _ | Measure _ | End_of _ | Expiry_of _ -> None
   in
   List.of_seq (Seq.filter_map guard (Task_rules.steps r))
 
 let pp_outcome ppf = function
   | Ended ending -> Effect.pp ppf (End ending)
+  | Spins _ -> Format.pp_print_string ppf "stuck: the rounds of a repeat follow each other without a wait"
   | Stuck r -> Format.fprintf ppf "stuck: nothing can make these guards true any more: %a" Residual.pp r
 
 type call =
@@ -37,6 +38,16 @@ let afresh program order =
 
 (* So many transitions and events may pass before others get their turn. *)
 let most_without_pause = 100
+
+(* So many rounds of a repeat may begin without any event. *)
+let most_rounds = 10_000
+
+let begins_round (t : Transition.t) =
+  List.exists (function Rule.Repeat_2 | Repeat_again -> true | _ -> false) t.rules
+
+let first_repeat r =
+  let site (r : Residual.t) = match r with Repeat { again = { left = None; site; _ }; _ } -> Some site | _ -> None in
+  Residual.fold_active (fun found r -> if found = None then site r else found) None r
 
 (* What happens outside. *)
 type news =
@@ -64,6 +75,7 @@ module Make (P : Platform.S) = struct
     mutable posted : news Lwt.t option;  (* the next input, if it was asked for *)
     mutable input_before : bool;  (* whether the latest piece of news was an input *)
     mutable since_pause : int;  (* transitions and events since others had their turn *)
+    mutable rounds : int;  (* of repeats that began since the last event *)
   }
 
   let is_resolved promise = match Lwt.state promise with Lwt.Sleep -> false | Return _ | Fail _ -> true
@@ -113,6 +125,7 @@ module Make (P : Platform.S) = struct
 
   let take s ~cause (t : Transition.t) =
     s.since_pause <- (match t.label with Silent -> most_without_pause | _ -> s.since_pause + 1);
+    s.rounds <- (if cause <> None then 0 else if begins_round t then s.rounds + 1 else s.rounds);
     let time = P.now s.platform in
     Log.transition ~time ~cause t;
     s.observer.transition ~time ~cause t;
@@ -258,6 +271,9 @@ module Make (P : Platform.S) = struct
     match s.configuration.control with
     | Ended ending -> Lwt.return (Ended ending)
     | Script _ | Waiting _ | Executing _ when is_resolved s.interruption -> interrupt s; advance s
+    | Executing (_, r) when s.rounds >= most_rounds ->
+      interrupt s;
+      Lwt.return (Spins (Option.value (first_repeat r) ~default:Fault.unknown_site))
     | Script _ | Waiting _ | Executing _ -> (
         match Transition.internal s.program s.world s.configuration () with
         | Seq.Cons (t, _) -> take s ~cause:None t; continue s advance
@@ -329,7 +345,7 @@ module Make (P : Platform.S) = struct
         configuration = beginning.configuration;
         world = beginning.world;
         telemetry = false; upcoming = None; reply = None; posted = None; input_before = false; unknown = [];
-        since_pause = 0 }
+        since_pause = 0; rounds = 0 }
     in
     let whole () =
       switch_telemetry s always_telemetry;

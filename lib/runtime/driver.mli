@@ -12,6 +12,9 @@ type outcome =
   | Stuck of Residual.t
   (** A deadlock: no task runs, no timer runs, no sensor matters, and every guard that the residual waits for is
       false, now and for ever. The run was interrupted: vehicles are released. *)
+  | Spins of Core.site
+  (** 10,000 rounds of the [repeat] there, or of others, followed each other without any event. The run was
+      interrupted. *)
 
 val guards : Residual.t -> Core.closure list
 (** [guards r] is the code of the guards and conditions that [r] waits for, leftmost first. *)

@@ -93,6 +93,10 @@ let rec expression env e =
   | When (c, e) | Wait_for (c, e) | Until (_, c, e) -> closure env c; expression env e
   | During (_, a, b) -> expression env a; expression env b
   | Watch (e, c) -> expression env e; closure env c
+  | Repeat { rounds; body; until } ->
+    Option.iter (expression env) rounds;
+    expression env body;
+    Option.iter (closure env) until
 
 and call env callee arguments =
   let name = match callee.it with Variable x -> Some x | _ -> None in

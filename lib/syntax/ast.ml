@@ -63,6 +63,8 @@ and expression_node =
   | Until of on_cut * closure * expression      (* [until { C } run T]; [assure { C } run T] *)
   | During of on_cut * expression * expression  (* [during D run T], [T during D]; [within D run T], [T within D] *)
   | Watch of expression * closure               (* [watch T onError { ... }] *)
+  | Repeat of { rounds : expression option; body : expression; until : closure option }
+  (* [repeat T], [repeat N, T], [repeat T until { C }] *)
 
 and template_part = Literal of string | Hole of expression
 

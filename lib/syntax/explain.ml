@@ -131,8 +131,8 @@ let rest_of_statement place i =
     Each rule gives a message and a hint, or leaves the place to the next rule. *)
 
 let is_word = function
-  | DEF | IF | ELSE | WHILE | FOR | IN | RETURN | BREAK | CONTINUE | WHEN | WATCH | WAIT_FOR | UNTIL _ | DURING _
-  | AFTER_UNTIL _ | AFTER_DURING _ | THEN | RUN | ON_ERROR | TRUE | FALSE | NULL -> true
+  | DEF | IF | ELSE | WHILE | FOR | IN | RETURN | BREAK | CONTINUE | WHEN | WATCH | WAIT_FOR | REPEAT
+  | UNTIL _ | DURING _ | AFTER_UNTIL _ | AFTER_DURING _ | THEN | RUN | ON_ERROR | TRUE | FALSE | NULL -> true
   | _ -> false
 
 (* Whether the place is among the parameters of a function or of a closure. *)

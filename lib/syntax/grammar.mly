@@ -18,7 +18,7 @@ let expression place it = located place it
 %token <string> TEXT
 %token WILDCARD TRUE FALSE NULL
 %token DEF IF ELSE WHILE FOR IN RETURN BREAK CONTINUE
-%token WHEN WATCH WAIT_FOR THEN RUN ON_ERROR
+%token WHEN WATCH WAIT_FOR REPEAT THEN RUN ON_ERROR
 %token <Ast.on_cut> UNTIL DURING         (* [until] and [during] complete; [assure] and [within] fail *)
 %token <Ast.on_cut> AFTER_UNTIL AFTER_DURING    (* after a task: [T until { C }], [T during D] *)
 %token LPAREN RPAREN LBRACKET RBRACKET RBRACE
@@ -35,7 +35,9 @@ let expression place it = located place it
 %token AMPERSAND CARET BAR AND OR NOT
 %token EOF
 
-(* From loosest to tightest. *)
+(* From loosest to tightest. A comma behind [repeat N] is its own. *)
+%nonassoc repeated
+%nonassoc COMMA
 %nonassoc no_else
 %nonassoc ELSE
 %nonassoc whole_expression
@@ -219,6 +221,10 @@ expression:
     { expression $loc (During (on_cut, settle d, settle t)) }
   | WATCH; t = item; ON_ERROR; c = closure
     { expression $loc (Watch (settle t, c)) }
+  | REPEAT; t = item                                                         %prec repeated
+    { repeat $loc None t }
+  | REPEAT; n = item; COMMA; t = item
+    { repeat $loc (Some (settle n)) t }
 
 %inline operator:
   | POWER { Power }

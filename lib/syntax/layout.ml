@@ -8,8 +8,8 @@ let is_incomplete = function
   | LESS_EQUAL | GREATER | GREATER_EQUAL | EQUAL | NOT_EQUAL | AMPERSAND | CARET | BAR | AND | OR | IN | NOT
   | COMMA | COLON | ARROW | DOT | SAFE_DOT | QUESTION | ELVIS | ASSIGN | ASSIGN_OPERATOR _
   | LPAREN | LBRACKET | LBRACE | TRAILING | BLOCK | HOLE_OPEN | SEPARATOR | BUILDER _ | COMMAND _
-  | DEF | IF | ELSE | WHILE | FOR | WHEN | WATCH | WAIT_FOR | UNTIL _ | DURING _ | AFTER_UNTIL _ | AFTER_DURING _
-  | THEN | RUN | ON_ERROR -> true
+  | DEF | IF | ELSE | WHILE | FOR | WHEN | WATCH | WAIT_FOR | REPEAT | UNTIL _ | DURING _ | AFTER_UNTIL _
+  | AFTER_DURING _ | THEN | RUN | ON_ERROR -> true
   | NAME _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | TEMPLATE_CLOSE | HOLE_CLOSE | TEXT _ | WILDCARD
   | TRUE | FALSE | NULL | RETURN | BREAK | CONTINUE | RPAREN | RBRACKET | RBRACE | STEP _ | EOF -> false
 
@@ -21,8 +21,8 @@ let continues = function
   | RPAREN | RBRACKET | RBRACE | HOLE_CLOSE | SEPARATOR | EOF -> true
   | NAME _ | COMMAND _ | BUILDER _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | TEMPLATE_CLOSE
   | HOLE_OPEN | TEXT _ | WILDCARD | TRUE | FALSE | NULL | DEF | IF | WHILE | FOR | RETURN | BREAK | CONTINUE
-  | WHEN | WATCH | WAIT_FOR | UNTIL _ | DURING _ | AFTER_UNTIL _ | AFTER_DURING _ | LPAREN | LBRACKET | LBRACE
-  | TRAILING | BLOCK | ARROW | ASSIGN | ASSIGN_OPERATOR _ | STEP _ | PLUS | MINUS | NOT -> false
+  | WHEN | WATCH | WAIT_FOR | REPEAT | UNTIL _ | DURING _ | AFTER_UNTIL _ | AFTER_DURING _ | LPAREN | LBRACKET
+  | LBRACE | TRAILING | BLOCK | ARROW | ASSIGN | ASSIGN_OPERATOR _ | STEP _ | PLUS | MINUS | NOT -> false
 
 (* Whether an operand can end with [token]. *)
 let ends_operand = function
@@ -36,8 +36,8 @@ let takes_closure = function
   | _ -> false
 
 let is_word = function
-  | DEF | IF | ELSE | WHILE | FOR | IN | RETURN | BREAK | CONTINUE | WHEN | WATCH | WAIT_FOR | UNTIL _ | DURING _
-  | THEN | RUN | ON_ERROR -> true
+  | DEF | IF | ELSE | WHILE | FOR | IN | RETURN | BREAK | CONTINUE | WHEN | WATCH | WAIT_FOR | REPEAT
+  | UNTIL _ | DURING _ | THEN | RUN | ON_ERROR -> true
   | _ -> false
 
 let builder = function
@@ -94,7 +94,7 @@ let begins_expression state i =
 let begins_argument state i =
   match raw_token state i with
   | NAME _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | WILDCARD | TRUE | FALSE | NULL | WHEN | WATCH
-  | WAIT_FOR | NOT -> true
+  | WAIT_FOR | REPEAT | NOT -> true
   | UNTIL _ | DURING _ -> is_key state i || begins_expression state i
   | token -> is_word token && is_key state i
 
@@ -110,7 +110,7 @@ let mark_header state i kind =
   let mark i = if raw_token state i = LPAREN then state.header.(state.partner.(i)) <- true in
   match kind with
   | IF | WHILE | FOR -> mark (i + 1)
-  | DEF -> mark (i + 2)
+  | DEF -> if same_line state (i + 2) then mark (i + 2)
   | _ -> ()
 
 (* Whether parameters and an arrow follow the brace at [i]. *)

@@ -65,6 +65,14 @@ let rec starts_with_minus e =
   | Number x -> x < 0.
   | _ -> false
 
+(* Whether a comma behind [e] would belong to a [repeat] at its end. *)
+let rec takes_comma e =
+  match e.it with
+  | Repeat { rounds = None; _ } -> true
+  | Repeat { rounds = Some _; body = t; until = None } | When (_, t) | Wait_for (_, t) | Until (_, _, t)
+  | During (_, _, t) -> takes_comma t
+  | _ -> false
+
 (* Whether [e] is spelt with a brace at its start. *)
 let rec starts_with_brace e =
   match e.it with
@@ -133,7 +141,7 @@ and bare out e =
   | Wildcard -> put out "_"
   | List es ->
     put out "[";
-    separated out ", " (expression out whole) es;
+    separated out ", " (element out) es;
     put out "]"
   | Map [] -> put out "[:]"
   | Map entries ->
@@ -193,6 +201,13 @@ and bare out e =
     expression out conditional t;
     put out " onError ";
     closure out c
+  | Repeat { rounds; body; until = condition } ->
+    let first n = expression out conditional n; put out ", " in
+    let last c = put out (" " ^ until Completes ^ " "); closure out c in
+    put out "repeat ";
+    Option.iter first rounds;
+    expression out (if condition = None then whole else conditional) body;
+    Option.iter last condition
 
 and binary out level a operator b =
   expression out level a;
@@ -223,19 +238,22 @@ and entry out (key, e) =
       put out ")"
   end;
   put out ": ";
-  expression out whole e
+  element out e
 
 and argument out = function
-  | Positional e -> expression out whole e
+  | Positional e -> element out e
   | Named (name, e) ->
     put out (key_name name.it);
     put out ": ";
-    expression out whole e
+    element out e
   | Keyed (k, e) ->
     put out "(";
     bare out k;
     put out "): ";
-    expression out whole e
+    element out e
+
+(* A comma may follow. *)
+and element out e = expression out (if takes_comma e then whole + 1 else whole) e
 
 and call out callee arguments =
   expression out postfix callee;

@@ -60,7 +60,7 @@ let keywords =
     [ "_", WILDCARD; "true", TRUE; "false", FALSE; "null", NULL;
       "def", DEF; "if", IF; "else", ELSE; "while", WHILE; "for", FOR; "in", IN;
       "return", RETURN; "break", BREAK; "continue", CONTINUE;
-      "when", WHEN; "watch", WATCH; "waitFor", WAIT_FOR;
+      "when", WHEN; "watch", WATCH; "waitFor", WAIT_FOR; "repeat", REPEAT;
       "until", UNTIL Completes; "assure", UNTIL Fails; "during", DURING Completes; "within", DURING Fails;
       "then", THEN; "run", RUN; "onError", ON_ERROR ];
   table

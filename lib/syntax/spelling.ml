@@ -28,7 +28,7 @@ let range = level_of_operator Sequence
 
 let level e =
   match e.it with
-  | When _ | Wait_for _ | Until _ | During _ | Watch _ -> whole
+  | When _ | Wait_for _ | Until _ | During _ | Watch _ | Repeat _ -> whole
   | Conditional _ | Elvis _ -> conditional
   | Binary (operator, _, _) -> level_of_operator operator
   | Range _ -> range

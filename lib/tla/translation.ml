@@ -185,6 +185,7 @@ and procedure t site builtin : Tla.t =
   | Make_during Completes -> plain "during"
   | Make_during Fails -> plain "within"
   | Make_watch -> plain "watch"
+  | Make_repeat { counted; asked } -> record "repeat" [ ("counted", Boolean counted); ("asked", Boolean asked) ]
   | Execute -> plain "execute"
   | Execute_for vehicles -> record "executeFor" [ ("names", Tla.strings vehicles) ]
   | Release -> plain "release"

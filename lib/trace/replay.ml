@@ -76,7 +76,7 @@ let false_guards r =
       | Check c ->
         let alone = { r.configuration with control = Executing (m, Condition c) } in
         if Transition.internal r.program r.world alone () = Seq.Nil then located c else None
-      | Start _ | Perform _ | Refute _ | Measure _ | End_of _ | Expiry_of _ -> None
+      | Start _ | Perform _ | Refute _ | Decide _ | Measure _ | End_of _ | Expiry_of _ -> None
     in
     first most_shown (Seq.filter_map is_false (Task_rules.internal_steps residual))
 

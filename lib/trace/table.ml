@@ -72,6 +72,7 @@ let of_label (s : Step.t) =
   in
   if s.label = "timeout" then [ (Program, "time is up") ]
   else if s.label = "check" then [ (Program, "a condition holds") ]
+  else if starts "check" && List.mem "REPEAT-AGAIN" s.rules then [ (Program, "another round") ]
   else if starts "cut" && List.mem "ASSURE-CUT" s.rules then [ (Program, "assure: the condition does not hold") ]
   else if starts "cut" then [ (Program, "until: the condition holds") ]
   else if starts "broken(" then [ (Program, "error: " ^ String.sub s.label 7 (String.length s.label - 8)) ]

@@ -47,6 +47,9 @@ DuringRun(e, t) == Plain("during", << e, t >>)
 WithinRun(e, t) == Plain("within", << e, t >>)
 WatchOnError(t, j) == Plain("watch", << t, Closure(j) >>)
 
+RepeatTimes(n, t) == Apply([ op |-> "repeat", counted |-> TRUE, asked |-> FALSE ], << NumberOf(n), t >>)
+RepeatUntil(t, j) == Apply([ op |-> "repeat", counted |-> FALSE, asked |-> TRUE ], << t, Closure(j) >>)
+
 (* allOf { ... } and oneOf { ... }: guards by number, with their tasks. *)
 Branches(whens) ==
   LET first[j \in 0 .. Len(whens)] ==

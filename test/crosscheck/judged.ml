@@ -16,7 +16,7 @@ let violated_here (c : Case.t) =
   let violated (property, (verdict : Search.verdict)) =
     match verdict with
     | Violated _ when List.exists (fun (_, p) -> p = property) properties -> Some (Property.name property)
-    | Violated _ | Holds | Unreached _ | Inconclusive _ -> None
+    | Violated _ | Holds | By_design _ | Unreached _ | Inconclusive _ -> None
   in
   List.filter_map violated o.verdicts
 

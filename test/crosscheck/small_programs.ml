@@ -56,6 +56,18 @@ let tasks =
         if (poll(x: 1)) { message 'there' }");
       ("within a time, and not",
        two ^ "execute watch ((task('p')[a] | task('q')[b]) within 10.seconds) onError { why -> message why; ignore() }");
+      ("rounds by number, of parts that run together",
+       two ^ "execute repeat 2, (task('p')[a] | (task('q')[b] >> idle(1.seconds)))");
+      ("rounds until a condition holds, which takes what it asks for",
+       "execute repeat (action { post k: 1 } >> idle(1.seconds)) until { consume k: 1, k: 1 }\n\
+        if (poll(k: 1)) { message 'left' }");
+      ("rounds at most so many, and a condition that breaks",
+       "execute watch (repeat 3, (idle(1.seconds) >> action { post k: 1 }) until { consume(k: 1, k: 1) ? 1 / 0 : false })\n\
+        onError { ignore() }");
+      ("endless rounds that a time ends, with errors inside",
+       two ^ "execute during 9.seconds run repeat ((watch task('p')[a] onError { ignore() }) | task('q')[b])");
+      ("no rounds, or half a one",
+       "n = 0\nif (poll(k: 1)) { execute repeat n, idle(1.seconds) }\nexecute repeat n + 0.5, idle(1.seconds)");
       ("within a time given by code", "execute idle(1.seconds) within { post asked: 1; consume asked: 1; 3 }");
       ("an error leaves out what would follow",
        two ^ "execute watch (task('p')[a] >> task('q')[b] >> task('q')[a]) onError { ignore() }");

@@ -87,15 +87,17 @@ let broken = Hashtbl.create 7
 
 let note property = Hashtbl.replace broken property (1 + Option.value (Hashtbl.find_opt broken property) ~default:0)
 
-let verdict_agrees program world environment reference (property, verdict) =
+let verdict_agrees program world environment ~goes_round reference (property, verdict) =
   match (verdict : Search.verdict), List.assoc_opt property reference with
+  | (Holds | By_design _), None when goes_round && property = Property.Termination -> true
+  | Violated run, None when goes_round && property = Property.Termination -> is_run program world environment run
   | Holds, None -> true
   | Unreached _, None -> property = Property.All_reached
   | Violated run, Some length ->
     note property;
     let shown = List.length run.steps + List.length run.cycle in
     (shown = length || (property = Property.Termination && shown >= length)) && is_run program world environment run
-  | (Holds | Violated _ | Unreached _ | Inconclusive _), (Some _ | None) -> false
+  | (Holds | By_design _ | Violated _ | Unreached _ | Inconclusive _), (Some _ | None) -> false
 
 let unsettled = ref 0
 
@@ -120,7 +122,7 @@ let agrees ((ast, world), looped, (_, environment)) =
     same "steps deep" (Reference.depth reference) o.depth;
     let shown = Reference.broken reference in
     let agree v =
-      verdict_agrees program world environment shown v
+      verdict_agrees program world environment ~goes_round:(Reference.goes_round reference) shown v
       || QCheck2.Test.fail_reportf "%a" (Search.pp_verdict program) v
     in
     List.for_all agree o.verdicts

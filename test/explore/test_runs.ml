@@ -73,7 +73,7 @@ let run ~seed scenario program =
     Driver.run (module Platform) platform ~observer ~host:(host scenario) ~console:(console scenario)
       ~interruption:(fst (Lwt.wait ())) program
   in
-  (match Lwt_main.run (whole ()) with Ended _ | Stuck _ -> () | exception Enough -> ());
+  (match Lwt_main.run (whole ()) with Ended _ | Stuck _ | Spins _ -> () | exception Enough -> ());
   List.rev !taken
 
 (* {1 The graph} *)

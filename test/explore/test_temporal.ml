@@ -23,7 +23,9 @@ let for_ever (program : Ast.program) =
   first @ [ { it = Ast.While (Generate.expression (Boolean true), rest); at = Location.none } ]
 
 let is_violated (o : Search.outcome) property =
-  match List.assoc property o.verdicts with Search.Violated _ -> true | Holds | Unreached _ | Inconclusive _ -> false
+  match List.assoc property o.verdicts with
+  | Search.Violated _ -> true
+  | Holds | By_design _ | Unreached _ | Inconclusive _ -> false
 
 (* The states that a run may be in, after its steps and after its cycle: each transition leads on from where the one
    before led to. *)
@@ -144,7 +146,7 @@ let agrees_on program world environment at plain (f, verdict) =
   | Violated run ->
     note (if run.cycle = [] then "are violated by a run that ends" else "are violated by a run without end");
     (not expected) && is_run program world environment run && not (Linear.holds at (word_of program run) f)
-  | Unreached _ | Inconclusive _ -> false
+  | Unreached _ | By_design _ | Inconclusive _ -> false
 
 let agrees ((ast, world), looped, (_, environment), formulas) =
   let program = Test_support.Posts.declared environment (Generate.compile (if looped then for_ever ast else ast)) in
@@ -205,7 +207,7 @@ let agrees_with_properties (ast, looped, failing) =
     | Holds -> not (List.exists (is_violated o) properties)
     | Violated run ->
       (List.exists (is_violated o) properties || o.stopped <> None) && is_run program Generate.world environment run
-    | Unreached _ -> false
+    | Unreached _ | By_design _ -> false
   in
   List.for_all (fun a -> agree a || QCheck2.Test.fail_reportf "%s" (fst a)) agreements
 

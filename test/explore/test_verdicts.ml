@@ -21,6 +21,8 @@ let text verdict =
   | Violated { steps; cycle = [] } -> Printf.sprintf "violated in %d" (List.length steps)
   | Violated { steps; cycle } -> Printf.sprintf "for ever %d+%d" (List.length steps) (List.length cycle)
   | Unreached pieces -> "unreached: " ^ String.concat ", " (List.map (fun (p : Coverage.piece) -> p.what) pieces)
+  | By_design { repeats; left_by } ->
+    Printf.sprintf "by design, by %d, until %s" (List.length repeats) (String.concat ", " left_by)
   | Inconclusive _ -> "inconclusive"
 
 let check ?options property source expected () =

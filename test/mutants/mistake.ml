@@ -355,6 +355,12 @@ let task_rules =
       ( "WATCH-PROPAGATE ignores the error",
         {|let propagated fault = change c.label Rule.Watch_propagate (Failed fault) in|},
         {|let propagated (_ : Fault.t) = change c.label Rule.Watch_propagate Finished in|} );
+      ( "REPEAT-2 sets no timers",
+        {|{ change with outcome; timers = change.timers @ timers; rounds }|},
+        {|{ change with outcome; timers = (if timers = [] then timers else change.timers); rounds }|} );
+      ( "REPEAT-AGAIN counts no round",
+        {|repeat { again with left = Option.map pred again.left } round|},
+        {|repeat { again with left = (if again.until = None then Option.map pred again.left else again.left) } round|} );
       ( "UNTIL-CUT leaves the body running",
         {|let cut change = undoing (Cut [ body ]) change in|},
         {|let cut change = if body = body then change else undoing (Cut [ body ]) change in|} );

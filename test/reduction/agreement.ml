@@ -109,15 +109,28 @@ let same_outcomes program environment world graph =
 
 (* {1 Verdicts} *)
 
-let agrees options program world reference unreached (property, verdict) =
+(* What the search of all states says of termination is the measure where rounds may go on for ever. *)
+let terminates_alike (whole : Search.verdict) (verdict : Search.verdict) =
+  match whole, verdict with
+  | Holds, Holds | Violated _, Violated _ -> true
+  | By_design { repeats; _ }, By_design { repeats = repeats'; _ } -> repeats = repeats'
+  | (Holds | Violated _ | By_design _ | Unreached _ | Inconclusive _), _ -> false
+
+let agrees ?termination options program world reference unreached (property, verdict) =
   let wrong what = Error (Printf.sprintf "%s: %s" (Property.name property) what) in
-  match (verdict : Search.verdict), List.mem_assoc property reference with
-  | Holds, false when property <> All_reached || unreached = [] -> Ok ()
-  | Unreached pieces, _ when pieces = unreached -> Ok ()
-  | Violated run, true -> if shows options program world property run then Ok () else wrong "this is no such run"
-  | (Holds | Violated _), _ -> wrong "another verdict"
-  | Unreached _, _ -> wrong "other pieces are reached"
-  | Inconclusive _, _ -> wrong "inconclusive"
+  match (verdict : Search.verdict), termination with
+  | Violated run, Some whole when property = Property.Termination && terminates_alike whole verdict ->
+    if shows options program world property run then Ok () else wrong "this is no such run"
+  | _, Some whole when property = Property.Termination ->
+    if terminates_alike whole verdict then Ok () else wrong "another verdict"
+  | _, _ ->
+    match (verdict : Search.verdict), List.mem_assoc property reference with
+    | Holds, false when property <> All_reached || unreached = [] -> Ok ()
+    | Unreached pieces, _ when pieces = unreached -> Ok ()
+    | Violated run, true -> if shows options program world property run then Ok () else wrong "this is no such run"
+    | (Holds | By_design _ | Violated _), _ -> wrong "another verdict"
+    | Unreached _, _ -> wrong "other pieces are reached"
+    | Inconclusive _, _ -> wrong "inconclusive"
 
 let check_graph ~reductions environment program world graph =
   let reference = Reference.broken graph in
@@ -126,7 +139,10 @@ let check_graph ~reductions environment program world graph =
   let unreached =
     match List.assoc Property.All_reached whole.verdicts with
     | Unreached pieces -> pieces
-    | Holds | Violated _ | Inconclusive _ -> []
+    | Holds | By_design _ | Violated _ | Inconclusive _ -> []
+  in
+  let termination =
+    if Reference.goes_round graph then List.assoc_opt Property.Termination whole.verdicts else None
   in
   let is_as_short (property, verdict) =
     match (verdict : Search.verdict), List.assoc_opt property reference with
@@ -139,7 +155,7 @@ let check_graph ~reductions environment program world graph =
     let reduced = search reduction in
     let each found verdict =
       let* () = found in
-      if is_as_short verdict then agrees environment program world reference unreached verdict
+      if is_as_short verdict then agrees ?termination environment program world reference unreached verdict
       else Error "there is a shorter run"
     in
     match List.fold_left each (Ok ()) reduced.verdicts with
@@ -229,7 +245,7 @@ let same_invariant program environment world condition =
     if List.compare_lengths run.steps run'.steps <> 0 then wrong "another length"
     else if List.exists is_broken (follow environment program world start run'.steps) then Ok ()
     else wrong "this is no such run"
-  | (Holds | Violated _ | Inconclusive _ | Unreached _), _ -> wrong "another verdict"
+  | (Holds | By_design _ | Violated _ | Inconclusive _ | Unreached _), _ -> wrong "another verdict"
 
 let check_peers ?limit ?(invariants = []) environment program world =
   match explored ?limit environment program world with

@@ -2,6 +2,7 @@
 
 open Dolphin_environment
 module Pure_run = Test_support.Pure_run
+module Search = Dolphin_explore.Search
 
 let world = Test_support.Generate.world
 
@@ -290,6 +291,54 @@ let traps =
   ]
 
 (* Copies that are not interchangeable, or not all the way. *)
+(* Rounds: what is not in a set with a step that closes one must not be put off for ever. *)
+let rounds =
+  let terminates name expected text =
+    let test () =
+      let verdict reduction =
+        let options = { Search.default with reduction; search_again = 0 } in
+        let found = Search.run options (Pure_run.compile_exn text) world in
+        match List.assoc Dolphin_explore.Property.Termination found.verdicts with
+        | Holds -> "holds"
+        | Violated _ -> "violated"
+        | By_design { repeats; _ } -> Printf.sprintf "by design: %d" (List.length repeats)
+        | Unreached _ | Inconclusive _ -> "inconclusive"
+      in
+      let each reduction = Alcotest.(check string) name expected (verdict reduction) in
+      List.iter each [ Whole; Partial_order; Symmetry; All ]
+    in
+    Alcotest.test_case name `Quick test
+  in
+  let halts = breaks in
+  [
+    halts "beside endless rounds" [ No_halt ]
+      "execute (repeat idle(1)) | (idle(2) >> action { halt 'x' })";
+    halts "beside rounds that are in the set of another" [ No_halt ]
+      "execute (repeat (idle(1) >> action { post x: 1; consume x: 1 })) | (idle(2) >> action { if (poll(x: 2)) { post y: 1 }; halt 'x' })";
+    terminates "an endless repeat" "by design: 1" "execute repeat idle(1)";
+    terminates "two of them" "by design: 2" "execute (repeat idle(1)) | (repeat idle(2))";
+    terminates "a time ends all rounds" "holds" "execute (repeat idle(1)) during 5";
+    terminates "a time for each round ends none" "by design: 1" "execute repeat (idle(1) during 5)";
+    terminates "nor does it if the round fails then" "by design: 1" "execute repeat (idle(1) within 5)";
+    terminates "a failure of all rounds does" "holds" "execute watch ((repeat idle(1)) within 5) onError { ignore() }";
+    terminates "a condition that comes to hold beside it" "holds"
+      "execute (repeat idle(1) until { poll stop: 1 }) | (idle(2) >> action { post stop: 1 })";
+    terminates "a condition that never holds" "violated" "execute repeat idle(1) until { poll stop: 1 }";
+    terminates "a condition around, that comes to hold" "holds"
+      "execute (until { poll stop: 1 } run repeat idle(1)) | (idle(2) >> action { post stop: 1 })";
+    terminates "a condition around, that holds now and then" "by design: 2"
+      "execute (until { poll x: 1 } run repeat idle(1)) | (repeat (idle(2) >> action { post x: 1 } >> idle(3) >> condition { consume x: 1 }))";
+    terminates "rounds inside of rounds, which end" "by design: 1" "execute repeat (repeat 2, (idle(1) | idle(2)))";
+    terminates "rounds inside of rounds, which do not" "violated"
+      "execute repeat (idle(1) >> (repeat idle(2) until { poll stop: 1 }))";
+    terminates "rounds without any wait" "violated"
+      "post a: 1\nexecute (repeat waitFor { consume a: 1 } then action { post a: 1 }) | (repeat idle(1))";
+    terminates "a loop of the script around rounds that end" "violated"
+      "while (true) { execute (repeat idle(1)) during 5 }";
+    terminates "a part that waits beside the rounds" "by design: 1"
+      "execute (repeat idle(1)) | condition { poll never: 1 }";
+  ]
+
 let copies =
   [
     breaks "the script asks for one of the copies' pairs" [ No_halt ]
@@ -507,4 +556,4 @@ let one_group =
 
 let () =
   Alcotest.run "reduction by hand"
-    [ ("semantics", semantics); ("traps", traps); ("copies", copies); ("savings", savings); ("one group", one_group) ]
+    [ ("semantics", semantics); ("traps", traps); ("rounds", rounds); ("copies", copies); ("savings", savings); ("one group", one_group) ]

@@ -61,7 +61,7 @@ let drive recorder platform beginning =
   Recorder.finish recorder ~time:(Udp_platform.now platform) ~stuck:false;
   match outcome with
   | Ended Completed -> 0
-  | Ended _ | Stuck _ -> Format.eprintf "%a@." Driver.pp_outcome outcome; 1
+  | Ended _ | Stuck _ | Spins _ -> Format.eprintf "%a@." Driver.pp_outcome outcome; 1
 
 let keep_with recorder ~time vehicle note =
   Recorder.write (Option.get !recorder) ~time (fun ~time -> Note { time; vehicle; note })

@@ -119,10 +119,12 @@ let timers_of (c : Configuration.t) =
 
 let expires (l : Label.t) = match l with Time_out | Resume | Bind _ | No_vehicles _ -> true | _ -> false
 
-(* A timer that was set runs until it is cancelled, once, or expires. *)
+(* A timer that was set runs until it is cancelled, once, or expires; where it expires, a round may set it again. *)
 let timers_balance _ (s : Walk.step) =
+  let expired = ref (expires s.transition.label) in
   let start timer pending =
-    if List.mem timer pending then fail "%s: timer %d runs already" (shown s) timer else timer :: pending
+    if List.mem timer pending && !expired then (expired := false; pending)
+    else if List.mem timer pending then fail "%s: timer %d runs already" (shown s) timer else timer :: pending
   in
   let carry pending (e : Effect.t) =
     match e with

@@ -74,6 +74,11 @@ let set vs = List.fold_left (binary Add) (variable (List.hd vs)) (List.map varia
 
 let on t vs = expression (Index (t, set vs))
 let propagate = [ statement (call "propagate" []) ]
+let repeat ?rounds ?until body =
+  expression (Repeat { rounds = Option.map (fun n -> expression (Integer n)) rounds; body; until })
+
+(* A round without end must wait. *)
+let waiting t = binary Sequence t (call "idle" [ Positional (expression (Integer 1)) ])
 let ignored t = watch t [ statement (call "ignore" []) ]
 let never = code [ statement (expression (Boolean false)) ]
 let always = code [ statement (expression (Boolean true)) ]
@@ -109,6 +114,17 @@ let laws =
       (fun x -> branches One_of [ (x.g, x.a >> x.c); (never, x.b >> x.c) ]);
     law "the branches of oneOf commute" (fun x -> branches One_of [ (x.g, x.a); (never, x.b); (x.g, x.c) ])
       (fun x -> branches One_of [ (x.g, x.c); (x.g, x.a); (never, x.b) ]);
+    law "repeat 1, T is T" (fun x -> repeat ~rounds:1 x.a) (fun x -> x.a);
+    law "repeat n, T is T >> repeat n - 1, T" (fun x -> repeat ~rounds:3 x.a) (fun x -> x.a >> repeat ~rounds:2 x.a);
+    law "repeat m, repeat n, T is repeat m * n, T" (fun x -> repeat ~rounds:2 (repeat ~rounds:2 x.c))
+      (fun x -> repeat ~rounds:4 x.c);
+    law "repeat T is T >> repeat T" (fun x -> repeat (waiting x.c)) (fun x -> waiting x.c >> repeat (waiting x.c));
+    law "repeat (T >> T') is T >> repeat (T' >> T)" (fun x -> repeat (x.c >> waiting x.b))
+      (fun x -> x.c >> repeat (waiting x.b >> x.c));
+    law "repeat repeat T is repeat T" (fun x -> repeat (repeat (waiting x.c))) (fun x -> repeat (waiting x.c));
+    law "repeat repeat n, T is repeat T" (fun x -> repeat (repeat ~rounds:2 (waiting x.c)))
+      (fun x -> repeat (waiting x.c));
+    law "nothing follows repeat T" (fun x -> repeat (waiting x.c) >> x.a) (fun x -> repeat (waiting x.c));
     law "the branches of allOf commute" (fun x -> branches All_of [ (x.g, x.a); (x.g, x.c) ])
       (fun x -> branches All_of [ (x.g, x.c); (x.g, x.a) ]) ]
 

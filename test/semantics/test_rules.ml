@@ -184,7 +184,25 @@ let tasks : example list =
       [ "say in"; "say division by zero" ];
     example Watch_halt "the program ends" (task "(watch (during 5 run %p) onError { message 'm'; halt 'enough' }) | %q")
       "fail(noptilus-1, p, broken)" "FAIL, DURING-ERR, WATCH-HALT" "halted: enough"
-      [ "cancel timer 1"; "say m"; "stop noptilus-2"; released; "end: halted enough" ] ]
+      [ "cancel timer 1"; "say m"; "stop noptilus-2"; released; "end: halted enough" ];
+    example Repeat_1 "the round goes on" (task "repeat 2, %p") "start(noptilus-1, p)" "START, REPEAT-1"
+      "repeat (p[noptilus-1]...; 1, p[noptilus-1])" [ "start p on noptilus-1" ];
+    example Repeat_2 "the next round begins in the same step, with its timers" (task "repeat %p")
+      "done(noptilus-1, p)" "DONE, REPEAT-2" "repeat (p[noptilus-1]; p[noptilus-1])" [];
+    example Repeat_2 "the last round is no repeat any more" (task "repeat 2, idle(5)") "timeout" "IDLE-END, REPEAT-2"
+      "idle(5)" [ "set timer 1 to 5 s" ];
+    example Repeat_2 "the condition is to be asked" (task "repeat %p until { poll a: 1 }") "done(noptilus-1, p)"
+      "DONE, REPEAT-2" "repeat (p[noptilus-1] until { repeat })" [];
+    example Repeat_until "what the condition did remains"
+      (task "repeat action { post a: 1 } until { consume a: 1 }") "check(consume a:1)"
+      "REPEAT-UNTIL, EXECUTE-DONE" "script" [];
+    example Repeat_again "what the condition did is undone"
+      (task "repeat idle(5) until { message 'm'; consume(a: 1) }") "check" "REPEAT-AGAIN"
+      "repeat (idle(5); idle(5) until { repeat })" [ "set timer 1 to 5 s" ];
+    example Repeat_err "the round fails" (task "watch (repeat %p) onError { ignore() }") "fail(noptilus-1, p, broken)"
+      "FAIL, REPEAT-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [];
+    example Repeat_err "the condition breaks" (task "watch (repeat %p until { 1 / 0 }) onError { ignore() }")
+      "broken(division by zero)" "REPEAT-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [] ]
 
 let nothing_there =
   "could not pick 1 vehicle of type 'ROV': noptilus-1 is a UUV; noptilus-2 is a UUV; noptilus-3 is a UUV; \

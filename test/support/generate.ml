@@ -169,6 +169,17 @@ let leaf ~sensing = function
 
 let on_cut = frequencyl [ (3, Completes); (1, Fails) ]
 
+(* With a number of rounds, with a condition, with both, without end. A round without end waits at least for a timer. *)
+let repeated ~sensing t =
+  let guard = guard_of ~sensing in
+  let counted n until = expression (Repeat { rounds = Option.map integer n; body = t; until }) in
+  frequency
+    [ (4, map (fun n -> counted (Some n) None) (int_range 1 3)); (2, map (fun g -> counted None (Some g)) guard);
+      (1, map2 (fun n g -> counted (Some n) (Some g)) (int_range 1 3) guard);
+      (1,
+       let body = binary Sequence t (call "idle" [ Positional (integer 1) ]) in
+       return (expression (Repeat { rounds = None; body; until = None }))) ]
+
 (* [vehicles] shared out to two branches. *)
 let shared_out vehicles =
   let* lefts = flatten_l (List.map (fun _ -> bool) vehicles) in
@@ -184,7 +195,7 @@ let rec task_of ~sensing ~vehicles ~depth : expression Gen.t =
     let* shape =
       frequencyl
         [ (2, `Leaf); (5, `Sequence); (5, `Parallel); (2, `All_of); (2, `One_of); (1, `Wait_for); (2, `Until);
-          (2, `During); (4, `Watch); (1, `Allocated) ]
+          (2, `During); (4, `Watch); (1, `Allocated); (2, `Repeat) ]
     in
     match shape with
     | `Leaf -> leaf vehicles
@@ -199,6 +210,7 @@ let rec task_of ~sensing ~vehicles ~depth : expression Gen.t =
     | `Until -> map3 (fun e c t -> expression (Until (e, c, t))) on_cut guard (part ())
     | `During -> map3 (fun e d t -> expression (During (e, d, t))) on_cut duration (part ())
     | `Watch -> map2 (fun t c -> expression (Watch (t, c))) (part ()) (handler ~sensing)
+    | `Repeat -> Gen.bind (part ()) (repeated ~sensing)
     | `Allocated ->
       let all = match vehicles with [] -> [ "va" ] | vehicles -> vehicles in
       let set = List.map variable all in
@@ -223,12 +235,14 @@ let branch guard t = statement (expression (When (guard, t)))
 let in_context ~sensing vehicles t =
   let leaf = leaf ~sensing and guard = guard_of ~sensing in
   let* shape =
-    frequencyl [ (3, `Until); (2, `During); (4, `Watch); (2, `Before); (1, `After); (2, `All_of); (1, `One_of) ]
+    frequencyl
+      [ (3, `Until); (2, `During); (4, `Watch); (2, `Before); (1, `After); (2, `All_of); (1, `One_of); (1, `Repeat) ]
   in
   match shape with
   | `Until -> map2 (fun e c -> expression (Until (e, c, t))) on_cut guard
   | `During -> map2 (fun e d -> expression (During (e, d, t))) on_cut duration
   | `Watch -> map (fun c -> expression (Watch (t, c))) (handler ~sensing)
+  | `Repeat -> repeated ~sensing t
   | `Before -> map (binary Sequence t) (leaf vehicles)
   | `After -> map (fun first -> binary Sequence first t) (leaf vehicles)
   | `One_of -> map (fun g -> expression (Builder (One_of, [ branch g t ]))) guard

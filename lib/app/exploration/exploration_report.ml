@@ -9,7 +9,7 @@ let mebibytes bytes = bytes / 1024 / 1024
 let print_verdict program (property, (verdict : Search.verdict), remark) =
   match verdict with
   | (Holds | Inconclusive _) when remark -> ()
-  | Holds | Violated _ | Unreached _ | Inconclusive _ ->
+  | Holds | Violated _ | By_design _ | Unreached _ | Inconclusive _ ->
     Format.printf "%s%a@." (if remark then "note: " else "") (Search.pp_verdict program) (property, verdict)
 
 let print_counts (o : Search.outcome) =
@@ -50,7 +50,7 @@ let print_violation (program : Program_file.t) (property, (verdict : Search.verd
   match verdict with
   | Violated run when not remark -> print_run program property run
   | Unreached pieces when not remark -> print_unreached program.program property pieces
-  | Holds | Inconclusive _ | Violated _ | Unreached _ -> ()
+  | Holds | By_design _ | Inconclusive _ | Violated _ | Unreached _ -> ()
 
 let print ~strict (program : Program_file.t) (o : Search.outcome) =
   let with_remark (property, verdict) = (property, verdict, Exploration.is_remark property && not strict) in
@@ -85,6 +85,10 @@ let to_json (program : Core.program) (o : Search.outcome) : Yojson.Safe.t =
       match (verdict : Search.verdict) with
       | Holds -> ("holds", [])
       | Violated run -> ("violated", json_of_run run)
+      | By_design { repeats; left_by } ->
+        let at site = `String (Format.asprintf "%a" Dolphin_syntax.Location.pp program.locations.(site)) in
+        let what = List.map (fun text -> `String text) left_by in
+        ("by design not", [ ("repeats", `List (List.map at repeats)); ("ended by", `List what) ])
       | Unreached pieces ->
         let piece (p : Dolphin_explore.Coverage.piece) =
           let at = Format.asprintf "%a" Dolphin_syntax.Location.pp program.locations.(p.site) in

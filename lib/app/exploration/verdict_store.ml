@@ -61,7 +61,10 @@ let rec make_directory path =
   end
 
 let is_conclusive (o : Search.outcome) =
-  let is_open = function _, Search.Inconclusive _ -> true | _, (Holds | Violated _ | Unreached _) -> false in
+  let is_open = function
+    | _, Search.Inconclusive _ -> true
+    | _, (Holds | Violated _ | By_design _ | Unreached _) -> false
+  in
   o.stopped = None && not (List.exists is_open o.verdicts)
 
 (* Renamed when it is whole: another process never sees a part of it. *)

@@ -58,6 +58,12 @@ let explain (program : Program_file.t) : Driver.outcome -> Error.t option = func
   | Ended (Completed | Halted _ | Interrupted) -> None
   | Ended (Failed fault) ->
     Some (Error.Bad_text { source = program.source; found = [ Program_file.diagnostic program fault ] })
+  | Spins site ->
+    let message =
+      "the program is stuck in rounds of this repeat: they follow each other, and none waits for anything that happens"
+    in
+    let found = [ Program_file.diagnostic program (Fault.make site message) ] in
+    Some (Error.Bad_text { source = program.source; found })
   | Stuck residual -> (
       let guard (c : Core.closure) =
         let at = program.program.locations.(c.lambda.lambda_site) in
@@ -249,7 +255,7 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
   let close () = Option.fold host ~none:Lwt.return_unit ~some:Host.close in
   let finish (outcome : Driver.outcome) =
     let stuck =
-      match outcome with Stuck _ -> true | Ended _ -> Option.fold r.resumed ~none:false ~some:was_stuck in
+      match outcome with Stuck _ -> true | Spins _ | Ended _ -> Option.fold r.resumed ~none:false ~some:was_stuck in
     Option.iter r.front.notice !unmet;
     Result.map (fun () -> outcome) (Recording.finish recording ~time:(now ()) ~stuck)
   in

@@ -239,6 +239,16 @@ module Make (S : System.S) = struct
 
   let arrivals t i = arrivals_with ignore t i
 
+  let rec visiting t i expand =
+    let arrived = ref ignore in
+    let visit key _ _ = !arrived (States.find t.states key) in
+    fetch t i;
+    match expand t.key arrived { System.visit; tick = ignore; rest = ignore } with
+    | found -> found
+    | exception S.Outgrown ->
+      widen t;
+      visiting t i expand
+
   (* {1 Verdicts} *)
 
   let unless_stopped t verdict =

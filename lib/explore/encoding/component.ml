@@ -70,6 +70,7 @@ and outcome = {
   action : int;
   level : int;  (* whose place [target] takes: that of what the step belongs to (0), of the nest around it (1), ... *)
   target : target;
+  rounds : Task_rules.round list;  (* that begin *)
   others : outcome list;  (* what else it does, if sensors show something else *)
 }
 
@@ -81,6 +82,7 @@ and step = {
   kin : family option;  (* of the component *)
   dependence : dependence;
   successor : target;  (* if it goes well *)
+  begins : Task_rules.round list;  (* the rounds that begin if it goes well *)
   mutable free_action : int;  (* the action of a [Free] step, or -1 while nobody has asked *)
   mutable outcomes : outcome array;  (* memoised by {!Memoised_steps}, by the number of what is shared *)
 }

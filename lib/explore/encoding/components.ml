@@ -22,6 +22,7 @@ type t = {
   mutable paths : int;
   mutable families : int;
   mutable serial : int;
+  mutable goes_round : bool;
   mutable outgrown : bool;
 }
 
@@ -45,6 +46,7 @@ let create ?(foreseen = 2_048) options program world =
     paths = 1;
     families = 0;
     serial = 0;
+    goes_round = false;
     outgrown = false;
   }
 
@@ -53,6 +55,8 @@ let program t = t.program
 let world t = t.world
 let coverage t = t.coverage
 let root t = t.root
+let goes_round t = t.goes_round
+let note_rounds t rounds = if rounds <> [] then t.goes_round <- true
 
 (* {1 Trees} *)
 
@@ -158,11 +162,14 @@ and target_of t path family residual =
    {!Memoised_steps}. *)
 and compile t home kin index (Step { offer; continue } as source : Task_rules.step) =
   let dependent event =
-    { index; source; event; home; kin; dependence = Dependent; successor = Gone; free_action = -1; outcomes = [||] }
+    { index; source; event; home; kin; dependence = Dependent; successor = Gone; begins = []; free_action = -1;
+      outcomes = [||] }
   in
   let certain event dependence change =
-    let settled successor = { (dependent event) with dependence; successor } in
-    match (change : Task_rules.change).outcome with
+    let begins = (change : Task_rules.change).rounds in
+    let settled successor = { (dependent event) with dependence; successor; begins } in
+    note_rounds t begins;
+    match change.outcome with
     | Next r -> settled (target_of t home kin r)
     | Finished -> settled Gone
     | Failed _ | Handling _ -> dependent event
@@ -171,7 +178,7 @@ and compile t home kin index (Step { offer; continue } as source : Task_rules.st
   | Start _ -> [ certain None Free (continue ()) ]
   | Perform closure -> [ certain None (Guarded (guard t false closure)) (continue (Ok [])) ]
   | Check closure -> [ certain None (Guarded (guard t true closure)) (continue (Ok [])) ]
-  | Refute _ | Measure _ -> [ dependent None ]
+  | Refute _ | Decide _ | Measure _ -> [ dependent None ]
   | Expiry_of timer -> [ certain (Some (Timer_expired timer)) Free (continue ()) ]
   | End_of (task, v) ->
     let on_event (event, _) =
@@ -201,6 +208,7 @@ let cover t steps =
     | Perform c -> Coverage.run t.coverage c
     | Check c -> Coverage.run t.coverage c
     | Refute c -> Coverage.run t.coverage c
+    | Decide c -> Coverage.run t.coverage c
     | Measure c -> Coverage.run t.coverage c
     | End_of _ | Expiry_of _ -> ()
   in

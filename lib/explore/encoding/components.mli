@@ -20,6 +20,13 @@ val coverage : t -> Coverage.t
 val children : t -> Component.path -> Residual.t -> Component.component Component.tree list
 (** [children t p r] is what [r], at [p], is made of. *)
 
+val goes_round : t -> bool
+(** Whether some step that was worked out begins a round of a [repeat] without a number of rounds: only then may there
+    be cycles while a task executes. *)
+
+val note_rounds : t -> Dolphin_semantics.Task_rules.round list -> unit
+(** [note_rounds t rs] notes that a step begins [rs]. *)
+
 val root : t -> Component.path
 
 val reach : t -> Component.component -> unit

@@ -49,6 +49,11 @@ let rec future c (r : Residual.t) =
   | During { on_cut = Fails _; duration = Seconds _; body; _ } -> union breaking (future c body)
   | During { duration = Given_by d; body; _ } -> all [ breaking; Footprint.of_code c.code d; future c body ]
   | Watch (r, handler) -> handled c (future c r) handler
+  | Repeat { again; _ } -> rounds c again (* what is left of the round that runs is in each round *)
+
+and rounds c (again : Residual.again) =
+  let asked = Option.fold again.until ~none:Footprint.empty ~some:(Footprint.of_code c.code) in
+  union asked (future c again.each)
 
 and of_branch c (b : Residual.branch) = union (Footprint.of_guard c.code b.guard) (future c b.body)
 
@@ -78,6 +83,7 @@ let footprint c { source = Step { offer; continue } as source; event; _ } =
     | Perform a, _ -> Footprint.of_code c.code a
     | Check g, _ -> Footprint.of_guard c.code g
     | Refute g, _ -> of_refuted c g
+    | Decide g, _ -> Footprint.of_code c.code g
     | Measure d, _ -> union breaking (Footprint.of_code c.code d)
   in
   if f.breaks then List.fold_left (handled c) f (handlers source) else f
@@ -94,7 +100,7 @@ let rec is_settled c (r : Residual.t) =
   | Idle _ -> true
   | Sequence (r, rest) -> List.for_all (is_settled c) (r :: rest)
   | Parallel rs -> List.for_all (is_settled c) rs
-  | Condition _ | All_of _ | One_of _ | Until _ | During _ | Watch _ -> false
+  | Condition _ | All_of _ | One_of _ | Until _ | During _ | Watch _ | Repeat _ -> false
 
 let only_takes (f : Footprint.t) =
   Footprint.(Pairs.is_empty f.posts && Pairs.is_empty f.tests && Globals.is_empty f.writes && not f.anything)
@@ -123,7 +129,8 @@ let rec first_branches c around (r : Residual.t) =
   | Watch (r, handler) when not ((Footprint.of_code c.code handler).ignores && (future c r).breaks) ->
     first_branches c (union around (Footprint.of_code c.code handler)) r
   | All_of (None, bs) -> branches_first c around bs
-  | Parallel _ | Ready _ | Running _ | Action _ | Condition _ | One_of _ | Until _ | Idle _ | During _ | Watch _ -> []
+  | Parallel _ | Ready _ | Running _ | Action _ | Condition _ | One_of _ | Until _ | Idle _ | During _ | Watch _
+  | Repeat _ -> []
 
 (* {1 Components} *)
 
@@ -131,7 +138,7 @@ let rec first_branches c around (r : Residual.t) =
 let handlers_of c contexts =
   let handler = function
     | Residual.Watched_by handler -> Some (Footprint.of_code c.code handler)
-    | Before _ | Branch_of _ | Body_until _ | Body_during _ -> None
+    | Before _ | Branch_of _ | Body_until _ | Body_during _ | Round_of _ -> None
   in
   List.filter_map handler contexts
 
@@ -139,6 +146,7 @@ let following c contexts =
   let following = function
     | Residual.Before rest -> all (List.map (future c) rest)
     | Branch_of bs -> all (List.map (of_branch c) bs)
+    | Round_of again -> rounds c again
     | Body_until _ | Body_during _ | Watched_by _ -> Footprint.empty
   in
   all (List.map following contexts)

@@ -1,6 +1,6 @@
 open Step_footprints
 
-type move = { level : int; over : bool }
+type move = { level : int; over : bool; closes : bool }
 type status = Impossible | Moves of move | Ends | Depends of { moves : move list; ends : bool }
 type component = { place : Layout.place; analysis : Step_footprints.t }
 type t = {
@@ -38,7 +38,7 @@ let future t y x =
   c.analysis.futures.(apart c.place t.components.(x).place)
 
 (* Whether a step of the component at [own] that moves so cuts off what stands at [place]. *)
-let is_cut_off own place { level; _ } = (level > 0 || is_nest own) && contains (Layout.above own level) place
+let is_cut_off own place ({ level; _ } : move) = (level > 0 || is_nest own) && contains (Layout.above own level) place
 
 (* Whether a step of [y] may ever cut off [x]. *)
 let may_cut_off t y x =
@@ -86,7 +86,7 @@ let is_in_the_way t x k y =
   let own = t.components.(x) and other = t.components.(y) in
   let f = own.analysis.footprints.(k) in
   let is_idle_cut (f : Footprint.t) = Footprint.leaves_no_trace f && (not f.breaks) && not f.halts in
-  let ends_nest { level; over } =
+  let ends_nest { level; over; _ } =
     let place = Layout.above own.place level in
     over && is_nest other.place && other.place != place && contains other.place place
   in
@@ -153,6 +153,14 @@ let some_end_depends t =
   let rec from x = x < Array.length t.components && (exists_step t x (depends x) || from (x + 1)) in
   from 0
 
+(* Whether some step of [x] may close a cycle here. *)
+let may_close t x = exists_step t x (fun k -> List.exists (fun { closes; _ } -> closes) (moves_of t x k))
+
+(* A set that may close a cycle is not enough: what is not in it could be put off for ever. *)
+let is_open t taken =
+  let rec from x = x = Array.length taken || ((not (taken.(x) && may_close t x)) && from (x + 1)) in
+  from 0
+
 (* Such a component depends on no other, unless it is cut off. *)
 let is_independent t x = Array.for_all Footprint.touches_nothing t.components.(x).analysis.footprints
 
@@ -170,7 +178,7 @@ let independent t =
     if x = n then None
     else
       match if is_independent t x then closure t x else None with
-      | Some taken when is_single taken -> Some taken
+      | Some taken when is_single taken && is_open t taken -> Some taken
       | Some _ | None -> from (x + 1)
   in
   from 0
@@ -206,8 +214,9 @@ let smallest t =
   let best = ref None and seeds = ref 0 in
   let try_seed x _ =
     let is_best = match !best with Some (n, _) -> n = 1 | None -> false in
-    if (not is_best) && !seeds < most_seeds then
+    if (not is_best) && !seeds < most_seeds && not (may_close t x) then
       match closure t x with
+      | Some taken when not (is_open t taken) -> incr seeds
       | None -> ()
       | Some taken -> (
           incr seeds;

@@ -2,8 +2,8 @@
     docs/explorer.md proves it. *)
 
 (** What a step changes: the component itself (level 0), or the nest so many levels above. That is replaced, or is
-    [over]. *)
-type move = { level : int; over : bool }
+    [over]. If a round of a [repeat] without a number of rounds begins, the step [closes] a cycle, perhaps. *)
+type move = { level : int; over : bool; closes : bool }
 
 (** What a step does where it stands. *)
 type status =

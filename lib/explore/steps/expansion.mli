@@ -37,6 +37,9 @@ val go_to : source -> Layout.place -> Component.target -> action:int -> int -> u
 val take_dependent : source -> Layout.place -> Component.step -> int
 (** [take_dependent x p step] takes [step] of what stands at [p]. The result is how many transitions that makes. *)
 
+val take_outcome : source -> Layout.place -> Component.outcome -> unit
+(** [take_outcome x p o] visits what the possible outcome [o] of a step of what stands at [p] leads to. *)
+
 val take_ends : source -> Layout.place -> Component.step -> int
 (** Likewise, but only as far as the step ends the run. *)
 

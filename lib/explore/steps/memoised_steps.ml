@@ -34,7 +34,7 @@ let outside_after t (Task_rules.Step { offer; _ }) event outside =
   match offer with
   | End_of (task, v) ->
     List.assoc_opt event (Environment.task_ends (Components.options t.components) outside v task)
-  | Start _ | Perform _ | Check _ | Refute _ | Measure _ | Expiry_of _ -> Some outside
+  | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Measure _ | Expiry_of _ -> Some outside
 
 type taken = { local : Local_step.t; level : int; certain : bool }
 
@@ -88,13 +88,20 @@ let guarded t step guard s =
        | _ :: _, _ -> special);
   guard.results.(s)
 
+let is_settled t step s =
+  match step.dependence with
+  | Free -> true
+  | Guarded guard -> guarded t step guard s >= 0
+  | Dependent -> false
+
 let action t step s =
   if step.free_action < 0 then
     step.free_action <- (match taken t step s with { local; _ } :: _, _ -> observed t local | [], _ -> 0);
   step.free_action
 
 let unknown_outcome =
-  { possible = false; certain = true; shared = -1; action = 0; level = 0; target = Gone; others = [] }
+  { possible = false; certain = true; shared = -1; action = 0; level = 0; target = Gone; rounds = [];
+    others = [] }
 
 let find t step s =
   let found, outside = taken t step s in
@@ -106,7 +113,8 @@ let find t step s =
       | Ends ending -> Ends (Encoding.script_number t.encoding [] (Conclusion.ended local.after ending) outside)
     in
     let shared = shared_after t local outside and action = observed t local in
-    { possible = true; certain; shared; action; level; target; others }
+    Components.note_rounds t.components local.rounds;
+    { possible = true; certain; shared; action; level; target; rounds = local.rounds; others }
   in
   match found with
   | [] -> { unknown_outcome with possible = false }

@@ -21,6 +21,9 @@ val guarded : t -> Component.step -> Component.guard -> int -> int
 (** [guarded t step guard s] is the result of [guard] in shared state [s]: the shared state after it, or one of the
     above. *)
 
+val is_settled : t -> Component.step -> int -> bool
+(** [is_settled t step s] is whether [step] goes on in shared state [s] to its [successor]. *)
+
 val action : t -> Component.step -> int -> int
 (** [action t step s] is the number of the action of [step], which is [Free], and possible in shared state [s]. *)
 

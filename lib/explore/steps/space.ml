@@ -127,10 +127,10 @@ let expand_all t (x : Expansion.source) =
 (* {1 Steps that are enough} *)
 
 let local_status t (x : Expansion.source) step : Stubborn.status =
-  let move level target : Stubborn.move =
-    { level; over = (match target with Gone -> true | Stays _ | Becomes _ | Ends _ -> false) }
+  let move level target rounds : Stubborn.move =
+    { level; over = (match target with Gone -> true | Stays _ | Becomes _ | Ends _ -> false); closes = rounds <> [] }
   in
-  let of_outcome (outcome : outcome) = move outcome.level outcome.target in
+  let of_outcome (outcome : outcome) = move outcome.level outcome.target outcome.rounds in
   let dependent () : Stubborn.status =
     match Memoised_steps.outcome t.steps step x.shared with
     | { possible = false; _ } -> Impossible
@@ -140,11 +140,13 @@ let local_status t (x : Expansion.source) step : Stubborn.status =
       Depends { moves = List.map of_outcome moves; ends = ends <> [] }
   in
   match step.dependence with
-  | Free -> Moves (move 0 step.successor)
+  | Free -> Moves (move 0 step.successor step.begins)
   | Dependent -> dependent ()
   | Guarded guard ->
     let result = Memoised_steps.guarded t.steps step guard x.shared in
-    if result >= 0 then Moves (move 0 step.successor) else if result = special then dependent () else Impossible
+    if result >= 0 then Moves (move 0 step.successor step.begins)
+    else if result = special then dependent ()
+    else Impossible
 
 (* Nothing is observed where steps are left out. *)
 let take_step t (x : Expansion.source) place step =
@@ -200,6 +202,113 @@ let expand_some t (x : Expansion.source) =
   Encoding.check_fit t.encoding;
   if choice = None then (!taken, Expansion.inputs x) else (!taken, 0)
 
+(* {1 Steps one by one} *)
+
+type possible = { at : int list; name : int list; stays : bool; step : Component.step }
+type layers = (int list * Residual.again) list
+
+let inside = -1
+
+(* The contexts, innermost first, of what stands at [at]: each with its place, and the place inside of all. *)
+let layers_of at contexts =
+  let layer (at, layers) context = (at @ [ inside ], (at, context) :: layers) in
+  List.fold_left layer (at, []) (List.rev contexts)
+
+(* The place of [place], and the layers around it, the innermost first. *)
+let rec place_of (layout : Layout.t) (place : Layout.place) =
+  let among places =
+    let rec count n = function p :: rest -> if p == place then n else count (n + 1) rest | [] -> n in
+    count 0 places
+  in
+  match place.around with
+  | None -> ([ among layout.top ], [])
+  | Some nest ->
+    let at, layers = place_of layout nest in
+    let contexts = match nest.inside with Some path -> path.contexts | None -> [] in
+    let at, more = layers_of at contexts in
+    (at @ [ among nest.children ], more @ layers)
+
+(* Code of an action, and what ends a task, is never waited for in vain; a guard may be. *)
+let stays (Task_rules.Step { offer; _ }) =
+  match offer with
+  | Start _ | Perform _ | Decide _ | Measure _ | End_of _ | Expiry_of _ -> true
+  | Check _ | Refute _ -> false
+
+let may_cut = function
+  | Residual.Body_until _ | Body_during _ -> true
+  | Before _ | Branch_of _ | Watched_by _ | Round_of _ -> false
+
+let repeats layers =
+  let repeat (at, context) = match context with Residual.Round_of again -> Some (at, again) | _ -> None in
+  List.filter_map repeat layers
+
+(* The steps of what stands at [place], by index: where each of them is, and its name there; and the repeats around. *)
+let positions (layout : Layout.t) key (place : Layout.place) =
+  let at, around = place_of layout place in
+  let cuts layers = List.filter_map (fun (at, context) -> if may_cut context then Some at else None) layers in
+  match place.inside with
+  | Some path ->
+    let _, layers = layers_of at path.contexts in
+    let cuts = Array.of_list (cuts layers) in
+    ((fun index -> (cuts.(index), [])), repeats (layers @ around))
+  | None ->
+    let component = Encoding.component layout key place.from in
+    let contexts, leaf = Residual.decompose component.residual in
+    let inner, layers = layers_of at contexts in
+    let cuts = Array.of_list (List.rev (cuts layers)) in
+    let n = Array.length cuts in
+    let asked = match leaf with Repeat { again; _ } -> [ (inner, again) ] | _ -> [] in
+    let name index = [ component.family.number; component.local; index - n ] in
+    let position index = if index < n then (cuts.(index), []) else (inner, name index) in
+    (position, asked @ repeats (layers @ around))
+
+let inputs_at t outside = List.map (fun (k, _, _) -> k) (Environment.inputs t.options t.program outside)
+
+let examine t key ~possible ~taken visitor =
+  let layout = Layouts.layout t.layouts (Layouts.number t.layouts key.(0)) in
+  let shared = Layouts.shared t.layouts key.(0) in
+  let x : Expansion.source = { expansion = t.expansion; key; layout; shared; visitor } in
+  let components = components t x in
+  let status c k = local_status t x (snd components.(c)).(k) in
+  let posts = Expansion.upcoming t.expansion x.shared in
+  let choice =
+    if Reduction.by_order t.reduction then Stubborn.choose (Array.map fst components) ~posts status else None
+  in
+  let follow here place ~is_chosen ~may_end (step : Component.step) layers =
+    let each (outcome : outcome) =
+      if is_chosen || Memoised_steps.ends_run outcome then begin
+        taken here outcome.rounds layers;
+        Expansion.take_outcome x place outcome
+      end
+    in
+    if not (Memoised_steps.is_settled t.steps step x.shared) then begin
+      if is_chosen || may_end then
+        let outcome = Memoised_steps.outcome t.steps step x.shared in
+        List.iter each (outcome :: outcome.others)
+    end
+    else if is_chosen then begin
+      taken here step.begins layers;
+      ignore (take_step t x place step)
+    end
+  in
+  let go c ({ Stubborn.place; analysis }, steps) =
+    let position, layers = positions layout key place in
+    let take k (step : Component.step) =
+      let status = status c k in
+      Encoding.check_fit t.encoding;
+      match status with
+      | Impossible -> ()
+      | Moves _ | Ends | Depends _ ->
+        let at, name = position step.index in
+        let here = { at; name; stays = stays step.source; step } in
+        let is_chosen = match choice with None -> true | Some chosen -> chosen c k in
+        possible here;
+        follow here place ~is_chosen ~may_end:analysis.ends.(k) step layers
+    in
+    Array.iteri take steps
+  in
+  Array.iteri go components
+
 (* {1 The system} *)
 
 let words t = Layouts.words t.layouts
@@ -239,19 +348,23 @@ let expand t key visitor =
   | taken -> taken
   | exception Environment.Unclear fault -> raise (Limits.Stop (unsettled t.program fault))
 
-let is_anchor t word = Layouts.number t.layouts word = 0
+let goes_round t = Components.goes_round t.components
+let executes t word = Layouts.number t.layouts word > 0
+let is_anchor t word = goes_round t || not (executes t word)
 
 let broken t word =
   if Layouts.number t.layouts word > 0 then None else Encoding.broken t.encoding (Layouts.shared t.layouts word)
 
 let is_end t word =
-  is_anchor t word
+  (not (executes t word))
   &&
   match (fst (Encoding.script t.encoding (Layouts.shared t.layouts word))).control with
   | Ended _ -> true
   | Script _ | Waiting _ | Executing _ -> false
 
-let may_cycle t = Expansion.may_cycle t.expansion
+let may_cycle_in_script t = Expansion.may_cycle t.expansion
+
+let may_cycle t = goes_round t || Expansion.may_cycle t.expansion
 
 let valuation t action key =
   Option.fold ~none:0 ~some:(fun labelling -> Labelling.valuation labelling t.encoding action key) t.labelling
@@ -261,7 +374,7 @@ let valuation t action key =
 let state t key = Encoding.read t.encoding key
 
 let shared t key =
-  if is_anchor t key.(0) then None else Some (Layouts.shared t.layouts key.(0))
+  if executes t key.(0) then Some (Layouts.shared t.layouts key.(0)) else None
 
 type view = Exact of Configuration.t * Environment.t | Up_to of Task_group.t * Task_group.state
 

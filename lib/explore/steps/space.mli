@@ -53,6 +53,41 @@ val canonical : t -> Configuration.t -> Environment.t -> Configuration.t * Envir
 val has_vehicle_symmetry : t -> bool
 (** Whether states of the script represent others. *)
 
+(** {1:rounds Rounds}
+
+    While a task executes, there are cycles only where a [repeat] goes round. *)
+
+val goes_round : t -> bool
+(** Whether some step begins a round of a [repeat] without a number of rounds. *)
+
+val executes : t -> int -> bool
+(** [executes t word] is whether a task executes in the states with this first word. *)
+
+val may_cycle_in_script : t -> bool
+(** As {!may_cycle}, of cycles that go through the script. *)
+
+(** A step that is possible in a state of a task. [at] is where in the task: from the outside in, the place among those
+    side by side, or {!inside} for what is inside of a context. With its [name] this is no other step of the state, and
+    the same in all states until it is taken or cut off, or the part of the task that it belongs to is over. Until then
+    it [stays] possible, whatever others do, unless it is a guard. *)
+type possible = { at : int list; name : int list; stays : bool; step : Component.step }
+
+val inside : int
+
+type layers = (int list * Dolphin_semantics.Residual.again) list
+(** The repeats around a step, the innermost first, each with its place. *)
+
+val examine :
+  t -> int array -> possible:(possible -> unit) -> 
+  taken:(possible -> Dolphin_semantics.Task_rules.round list -> layers -> unit) ->
+  via Dolphin_checker.System.visitor -> unit
+(** [examine t key ~possible ~taken v] is [expand t key v] for a state in which a task executes, where [possible] is
+    called for each step that is possible in it, and [taken] before what a step that is followed leads to is visited,
+    with the rounds that begin, and the repeats around. Interruptions and inputs are left out: neither is on a cycle. *)
+
+val inputs_at : t -> Environment.t -> string list
+(** [inputs_at t e] is the keys of the inputs that may come where the environment remembers [e]. *)
+
 (** {1:findings What was found on the way} *)
 
 val used_task_symmetry : t -> bool

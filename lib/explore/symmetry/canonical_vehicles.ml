@@ -218,7 +218,8 @@ let rec check_plans r (t : Residual.t) =
   | Parallel rs -> List.iter (check_plans r) rs
   | All_of (a, bs) -> Option.iter (check_plans r) a; branches bs
   | One_of bs -> branches bs
-  | Until (_, _, a) | During { body = a; _ } | Watch (a, _) -> check_plans r a
+  | Until (_, _, a) | During { body = a; _ } | Watch (a, _) | Repeat { again = { each = a; _ }; _ } ->
+    check_plans r a
 
 let choices r outside (c : Configuration.t) =
   let world =

@@ -252,7 +252,7 @@ and applied w lambda at operation arguments =
     end;
     values [ t; code ] land vehicles
   | ( ( Builtin (Platform_task | Make_action | Make_condition | Make_wait_for | Make_until _ | Make_idle | Make_during _
-                | Make_watch)
+                | Make_watch | Make_repeat _)
       | Make_branch ),
       es ) -> values es land vehicles
   | Builtin (Post keys), es ->

@@ -30,6 +30,7 @@ let reach_orbit t g r =
     | Perform c -> reach (Task_isomorphism.Code c.lambda.id)
     | Check c -> reach (Task_isomorphism.Code c.lambda.id)
     | Refute c -> reach (Task_isomorphism.Code c.lambda.id)
+    | Decide c -> reach (Task_isomorphism.Code c.lambda.id)
     | Measure c -> reach (Task_isomorphism.Code c.lambda.id)
     | End_of _ | Expiry_of _ -> ()
   in

@@ -61,6 +61,9 @@ and task r t =
   | Watch (a, c) ->
     let a = task r a in
     Watch (a, closure r c)
+  | Repeat x ->
+    let until = Option.map (closure r) x.until in
+    Repeat { x with until; body = task r x.body }
 
 and branch r b =
   let guard = closure r b.guard in
@@ -91,6 +94,10 @@ let rec residual r (t : Residual.t) : Residual.t =
   | Watch (a, c) ->
     let a = go a in
     Watch (a, closure r c)
+  | Repeat { round; again } ->
+    let until = Option.map (closure r) again.until in
+    let round = Option.map go round in
+    Repeat { round; again = { again with until; each = go again.each } }
 
 and residual_branch r (b : Residual.branch) : Residual.branch =
   let guard = closure r b.guard in

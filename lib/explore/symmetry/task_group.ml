@@ -171,6 +171,9 @@ let rec image_of_residual g p (r : Residual.t) : Residual.t =
   | During ({ duration = Given_by c; _ } as d) -> During { d with duration = Given_by (code c); body = go d.body }
   | During ({ duration = Seconds _; _ } as d) -> During { d with body = go d.body }
   | Watch (a, c) -> Watch (go a, image_of_closure g p ~handler:true c)
+  | Repeat { round; again } ->
+    let again = { again with until = Option.map code again.until; each = go again.each } in
+    Repeat { round = Option.map go round; again }
 
 (* The image of [x], which has no blocks but [blocks]; memoised. *)
 let image known x blocks (p : permutation) find =

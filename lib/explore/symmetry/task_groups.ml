@@ -173,15 +173,17 @@ let check_fixed f e group tuples =
     Spaces.add group.fixed tuples ()
   end
 
+(* Where a task may go round for ever, whether a run is fair depends on which part of the task does what. *)
 let find f r ({ shared; _ } : Surroundings.t) =
-  let { number; footprint } = task f r shared.tuples in
-  let of_execution footprint =
-    let e = { Symmetry.task = r; constant = constant footprint shared } in
-    let group = group f number e shared.tuples in
-    check_fixed f e group shared.tuples;
-    Option.map snd group.group
-  in
-  Option.bind footprint of_execution
+  if Residual.may_go_round r then None else
+    let { number; footprint } = task f r shared.tuples in
+    let of_execution footprint =
+      let e = { Symmetry.task = r; constant = constant footprint shared } in
+      let group = group f number e shared.tuples in
+      check_fixed f e group shared.tuples;
+      Option.map snd group.group
+    in
+    Option.bind footprint of_execution
 
 (* {1 What was found} *)
 

@@ -26,6 +26,9 @@ let rec fold f acc (r : Residual.t) =
   | During { duration = Seconds _; body; _ } -> fold f acc body
   | During { duration = Given_by c; body; _ } -> fold f (f acc (Of_code (false, c))) body
   | Watch (a, c) -> fold f (f acc (Of_code (true, c))) a
+  | Repeat { again = { until; each; _ }; _ } ->
+    (* What is left of the round that runs is in [each]. *)
+    fold f (Option.fold until ~none:acc ~some:(fun c -> f acc (Of_code (false, c)))) each
 
 and fold_branch f acc (b : Residual.branch) = fold f (f acc (Of_code (false, b.guard))) b.body
 
@@ -73,6 +76,10 @@ let rec spell s (r : Residual.t) =
     let time = match duration with Seconds x -> Printf.sprintf "%h" x | Given_by c -> code s ~handler:false c in
     Printf.sprintf "%s(%b,%s,%s)" (Value.during on_cut) started time (spell s body)
   | Watch (a, c) -> "watch(" ^ code s ~handler:true c ^ "," ^ spell s a ^ ")"
+  | Repeat { round; again = { left; until; each; _ } } ->
+    let optional f x = Option.fold x ~none:"" ~some:f in
+    Printf.sprintf "repeat(%s,%s,%s,%s)" (optional string_of_int left) (optional (code s ~handler:false) until)
+      (optional (spell s) round) (spell s each)
 
 and spell_branch s (b : Residual.branch) = code s ~handler:false b.guard ^ "?" ^ spell s b.body
 
@@ -109,6 +116,12 @@ let matched context ~rename r r' =
     in
     List.iter find xs
   in
+  let both f x x' =
+    match x, x' with
+    | None, None -> ()
+    | Some x, Some x' -> f x x'
+    | None, Some _ | Some _, None -> raise_notrace Different
+  in
   let rec go (r : Residual.t) (r' : Residual.t) =
     match r, r' with
     | Ready (p, v), Ready (p', v') | Running (p, v), Running (p', v') ->
@@ -136,8 +149,12 @@ let matched context ~rename r r' =
       when d.started = d'.started && ends_alike d.on_cut d'.on_cut ->
       same_code ~handler:false c c';
       go d.body d'.body
+    | Repeat { round; again }, Repeat { round = round'; again = again' } when again.left = again'.left ->
+      both (same_code ~handler:false) again.until again'.until;
+      both go round round';
+      go again.each again'.each
     | ( ( Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _
-        | Idle _ | During _ | Watch _ ),
+        | Idle _ | During _ | Watch _ | Repeat _ ),
         _ ) -> raise_notrace Different
   and branch (b : Residual.branch) (b' : Residual.branch) =
     same_code ~handler:false b.guard b'.guard;

@@ -29,6 +29,7 @@ let of_builtin = function
   | Post _ -> Some "post"
   | Set_connection_timeout -> Some "setConnectionTimeout"
   | Platform_task | Make_action | Make_condition | Make_wait_for | Make_until _ | Make_idle | Make_during _ | Make_watch
+  | Make_repeat _
   | Halt | Consume _ | Poll _ | Values_of | Position_of | Battery_of | Location_of | Area_of | Ignore | Propagate
   | Get_supplier | Assert | Is_host | Is_there | Math _ -> None
 
@@ -40,6 +41,7 @@ let code_of = function
   | Builtin (Make_until on_cut) -> Some (Dolphin_syntax.Print.until on_cut)
   | Builtin (Make_during on_cut) -> Some (Dolphin_syntax.Print.during on_cut)
   | Builtin Make_watch -> Some "onError"
+  | Builtin (Make_repeat _) -> Some "repeat"
   | Make_branch -> Some "when"
   | _ -> None
 

@@ -106,6 +106,14 @@ let is_cyclic g =
   List.iter remove ends;
   !removed < n
 
+let goes_round g =
+  let may (s : state) =
+    match s.configuration.control with
+    | Executing (_, r) -> Residual.may_go_round r
+    | Script _ | Waiting _ | Ended _ -> false
+  in
+  Array.exists may g.states
+
 let broken g =
   let found = Hashtbl.create 7 in
   let note property depth =
@@ -124,7 +132,7 @@ let broken g =
       if Environment.is_stuck g.options g.program s.outside (List.to_seq g.edges.(i)) then note No_deadlock g.depths.(i)
   in
   Array.iteri state g.states;
-  if is_cyclic g then Option.iter (note Termination) (shortest_lasso g);
+  if is_cyclic g && not (goes_round g) then Option.iter (note Termination) (shortest_lasso g);
   List.filter_map
     (fun p -> Option.map (fun depth -> (p, depth)) (Hashtbl.find_opt found p))
     Property.all

@@ -20,6 +20,9 @@ val explore : ?limit:int -> Environment.options -> Core.program -> World.t -> t 
 val transitions : t -> int
 val depth : t -> int
 
+val goes_round : t -> bool
+(** Whether some task has a [repeat] without a number of rounds, so that fairness matters to termination. *)
+
 val broken : t -> (Property.t * int) list
 (** The properties of {!Property.all} that are broken, except [All_reached]: each with the fewest transitions after
     which this shows. [Termination] shows where a state is met again. *)

@@ -28,6 +28,7 @@ type run = { steps : Transition.t list; cycle : Transition.t list; shortest : bo
 type verdict =
   | Holds
   | Violated of run
+  | By_design of { repeats : Core.site list; left_by : string list }
   | Unreached of Coverage.piece list
   | Inconclusive of Limits.bound
 
@@ -64,13 +65,42 @@ let of_verdict run : _ Breadth_first.verdict -> verdict = function
 
 (* {1 Verdicts} *)
 
-let termination graph ~shortest =
+let termination_of_script graph ~shortest =
   let run ({ stem; around } : Breadth_first.lasso) =
     let steps, cycle = Replay.around graph ~stem around in
     let is_as_short = List.compare_lengths stem steps > 0 && List.compare_lengths around cycle > 0 in
     { steps; cycle; shortest = shortest && is_as_short }
   in
   of_verdict run (State_graph.termination graph ~exact:(State_graph.is_exact graph))
+
+(* Where a task may go round for ever. *)
+let rec termination_of_rounds x (options : options) graph =
+  let shown ({ stem; around } : Fair_cycles.lasso) =
+    let steps, cycle = Replay.around graph ~stem around in
+    Violated { steps; cycle; shortest = false }
+  in
+  let all = not (Reduction.by_order options.reduction) in
+  match State_graph.stopped graph with
+  | Some bound -> Inconclusive bound
+  | None -> (
+      match Fair_cycles.judge x.program graph ~all with
+      | Ends -> Holds
+      | Goes_on lasso | Spins lasso -> shown lasso
+      | By_design { repeats; left_by } -> By_design { repeats; left_by }
+      | Unsure -> in_all_states x options
+      | exception Limits.Stop bound -> Inconclusive bound
+      | exception Out_of_memory -> Inconclusive No_memory)
+
+(* What partial order leaves out may be what is fair. *)
+and in_all_states x options =
+  let options = { options with reduction = Whole; invariants = [] } in
+  let graph = graph ~phase:"looking for cycles" { x with symmetry = Symmetry.none } options in
+  State_graph.run graph;
+  termination_of_rounds x options graph
+
+let termination x options graph ~shortest =
+  if Space.goes_round (State_graph.system graph) then termination_of_rounds x options graph
+  else termination_of_script graph ~shortest
 
 let run_through graph ~shortest states = { steps = Replay.through graph states; cycle = []; shortest }
 
@@ -87,15 +117,15 @@ let unreached graph program : verdict =
   | None, [] -> Holds
   | None, pieces -> Unreached pieces
 
-let verdicts (options : options) graph invariants program =
+let verdicts x (options : options) graph invariants =
   let shortest = not (Reduction.by_order options.reduction) in
   let run = run_through graph ~shortest in
   let verdict = function
     | Property.No_deadlock -> of_verdict run (State_graph.no_deadlock graph)
     | (No_error | Assertions | Vehicles | No_halt | No_leftover) as property ->
       of_verdict run (State_graph.never graph property)
-    | Termination -> termination graph ~shortest
-    | All_reached -> unreached graph program
+    | Termination -> termination x options graph ~shortest
+    | All_reached -> unreached graph x.program
     | Invariant _ | Formula _ -> invalid_arg "Search.verdicts"
   in
   let given i = (Property.Invariant (Condition.to_string (Invariant.condition i)), invariant graph ~shortest i) in
@@ -109,7 +139,8 @@ let shown graph = function
 (* What a reduced search finds broken, the first of all states may show by a shortest run. *)
 let with_shortest_runs x (options : options) verdicts =
   let is_sought = function
-    | (Property.Termination | Invariant _ | Formula _), _ | _, (Holds | Unreached _ | Inconclusive _) -> false
+    | (Property.Termination | Invariant _ | Formula _), _ -> false
+    | _, (Holds | By_design _ | Unreached _ | Inconclusive _) -> false
     | _, Violated { shortest; _ } -> not shortest
   in
   match List.map fst (List.filter is_sought verdicts) with
@@ -175,7 +206,7 @@ let without_formulas x (options : options) =
   let graph = graph x options and invariants = List.map (Invariant.create x.program x.world) options.invariants in
   let look i = List.iter (fun invariant -> Invariant.check invariant graph i) invariants in
   State_graph.run ~look graph;
-  let verdicts = with_shortest_runs x options (verdicts options graph invariants x.program) in
+  let verdicts = with_shortest_runs x options (verdicts x options graph invariants) in
   let space = State_graph.system graph in
   let reduction =
     if Space.used_task_symmetry space then options.reduction else Reduction.without_symmetry options.reduction
@@ -224,6 +255,14 @@ let pp_verdict (program : Core.program) ppf (property, verdict) =
   print "%a: " Property.pp property;
   match verdict with
   | Holds -> print "holds"
+  | By_design { repeats; left_by } ->
+    let at ppf site =
+      match Fault.location program (Fault.make site "") with
+      | Some at -> Format.fprintf ppf "repeat at %a" Dolphin_syntax.Location.pp at
+      | None -> Format.pp_print_string ppf "a repeat"
+    in
+    let left_by = if left_by = [] then "nothing that may happen here" else String.concat ", " left_by in
+    print "by design not: %a; ended by %s" (Fmt.list ~sep:(Fmt.any ", ") at) repeats left_by
   | Violated { steps = run; cycle = [] } when property = Assertions -> (
       print "violated after %s: " (steps (List.length run));
       match (List.nth run (List.length run - 1)).next.control with

@@ -22,7 +22,8 @@ let rec assignments wanted acc (s : statement) =
 let assignments_inside wanted acc (e : expression) =
   let hide acc (x : string located) = String_map.add x.it false acc in
   match e.it with
-  | Closure c | When (c, _) | Wait_for (c, _) | Until (_, c, _) | Watch (_, c) ->
+  | Closure c | When (c, _) | Wait_for (c, _) | Until (_, c, _) | Watch (_, c)
+  | Repeat { until = Some c; _ } ->
     let acc = List.fold_left (assignments wanted) acc c.body in
     List.fold_left hide acc (Option.value c.parameters ~default:[])
   | Builder (_, body) -> List.fold_left (assignments wanted) acc body

@@ -42,7 +42,8 @@ let rec kind_of (e : Ast.expression) : Builtins.kind =
   | Integer _ | Number _ -> Number
   | String _ | Template _ -> String
   | Closure _ -> Closure
-  | Builder ((Imc_plan | All_of | One_of), _) | Wait_for _ | Until _ | During _ | Watch _ -> Task
+  | Builder ((Imc_plan | All_of | One_of), _) | Wait_for _ | Until _ | During _ | Watch _
+  | Repeat _ -> Task
   | Builder (Pick, _) -> Vehicles
   | Builder (Pos, _) -> Position
   | Boolean _ | Unary (Not, _)
@@ -162,6 +163,14 @@ let check_parameters program (parameters : string Ast.located list) =
     x.it :: seen
   in
   ignore (List.fold_left check [] parameters)
+
+(* Whether this task surely is done without any wait. *)
+let rec never_waits env (e : Ast.expression) =
+  match e.it with
+  | Call { callee = { it = Variable (("action" | "assert") as name); _ }; _ } -> not (is_hidden env name)
+  | Binary ((Sequence | Parallel), a, b) -> never_waits env a && never_waits env b
+  | Until (_, _, t) | During (_, _, t) | Watch (t, _) | Repeat { body = t; _ } -> never_waits env t
+  | _ -> false
 
 (* Parentheses belong to the location of what they enclose. *)
 let rec before_condition (e : Ast.expression) =

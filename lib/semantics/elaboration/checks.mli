@@ -98,6 +98,9 @@ val check_value : env -> string -> string Ast.located -> Ast.expression -> unit
 (** [check_value env f k e] warns of a pair [k: e] of [f], which is [consume] or [poll], if [e] is a condition without
     parentheses around it: [1 && x]. *)
 
+val never_waits : env -> Dolphin_syntax.Ast.expression -> bool
+(** [never_waits env t] is whether the task [t] surely is done without any wait: it is made of actions. *)
+
 val check_parameters : Scope.program -> string Ast.located list -> unit
 (** Reports a parameter that has the name of one before it. *)
 

@@ -43,6 +43,7 @@ let rec computes p (e : expression) =
   | Call { callee = { it = Member { subject; name; _ }; _ }; arguments } ->
     (not p.has_host) && List.mem name.it computing && computes p subject && List.for_all argument arguments
   | Wait_for (_, t) | Until (_, _, t) | Watch (t, _) -> computes p t
+  | Repeat { rounds; body; _ } -> all (body :: Option.to_list rounds)
   | Increment _ | Call _ | Builder _ | When _ -> false
 
 let hint (e : expression) =
@@ -51,7 +52,8 @@ let hint (e : expression) =
   | Call { callee = { it = Member { subject = { it = Variable x; _ }; name; _ }; _ }; _ }
     when List.mem name.it [ "sort"; "reverse"; "unique"; "take"; "drop"; "tail"; "trim"; "replace" ] ->
     Some (Printf.sprintf "values never change: write %s = %s.%s(...)" x x name.it)
-  | Binary ((Sequence | Parallel), _, _) | Until _ | During _ | Watch _ | Wait_for _ -> Some "execute runs a task"
+  | Binary ((Sequence | Parallel), _, _) | Until _ | During _ | Watch _ | Wait_for _ | Repeat _ ->
+    Some "execute runs a task"
   | _ -> None
 
 (* Whether [Translate] tells of it, as a task that is not executed. *)
@@ -78,7 +80,8 @@ and statement p ~top ~value acc (s : statement) =
 let inside p acc (e : expression) =
   let code acc (c : closure) = body p ~top:false ~value:true acc c.body in
   match e.it with
-  | Closure c | When (c, _) | Wait_for (c, _) | Until (_, c, _) | Watch (_, c) -> code acc c
+  | Closure c | When (c, _) | Wait_for (c, _) | Until (_, c, _) | Watch (_, c)
+  | Repeat { until = Some c; _ } -> code acc c
   | _ -> acc
 
 let program (ast : Dolphin_syntax.Ast.program) =

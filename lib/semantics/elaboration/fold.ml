@@ -31,3 +31,6 @@ and expression f acc (e : expression) =
   | Builder (_, statements) -> body acc statements
   | When (c, e) | Wait_for (c, e) | Until (_, c, e) -> go (body acc c.body) e
   | Watch (e, c) -> body (go acc e) c.body
+  | Repeat { rounds; body = e; until } ->
+    let acc = go (Option.fold rounds ~none:acc ~some:(go acc)) e in
+    Option.fold until ~none:acc ~some:(fun c -> body acc c.body)

@@ -12,7 +12,8 @@ let rec value (e : Ast.expression) =
   | Member { subject; name; safe = false } ->
     Option.bind (value subject) (fun x -> Result.to_option (Operators.in_unit x name.it))
   | Template _ | Variable _ | Wildcard | List _ | Map _ | Range _ | Closure _ | Binary _ | Conditional _ | Elvis _
-  | Increment _ | Call _ | Member _ | Index _ | Builder _ | When _ | Wait_for _ | Until _ | During _ | Watch _ -> None
+  | Increment _ | Call _ | Member _ | Index _ | Builder _ | When _ | Wait_for _ | Until _ | During _ | Watch _
+  | Repeat _ -> None
 
 let all es =
   let values = List.filter_map value es in
@@ -41,6 +42,11 @@ let fault_of_time what e =
   match Option.bind (value e) Value.to_number with
   | Some seconds when not (seconds >= 0. && seconds < infinity) ->
     Some (Printf.sprintf "%s takes a time of 0 seconds or more, not %g" what seconds)
+  | Some _ | None -> None
+
+let fault_of_rounds e =
+  match value e with
+  | Some n when Value.to_number n <> None -> Result.fold ~ok:(fun _ -> None) ~error:Option.some (Procedures.rounds n)
   | Some _ | None -> None
 
 let fault_of_pick setting positional =

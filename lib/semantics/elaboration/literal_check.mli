@@ -17,5 +17,8 @@ val fault : builtin -> value list -> string option
 val fault_of_time : string -> Ast.expression -> string option
 (** [fault_of_time what e] is what is wrong with [e] as a time for [what]. *)
 
+val fault_of_rounds : Ast.expression -> string option
+(** [fault_of_rounds e] is what is wrong with [e] as a number of rounds. *)
+
 val fault_of_pick : string -> value list -> string option
 (** [fault_of_pick s xs] is what is wrong with [xs] as arguments of the setting [s] of [pick]. *)

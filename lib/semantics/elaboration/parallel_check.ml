@@ -22,16 +22,16 @@ let rec width (e : expression) =
   | Builder (Imc_plan, _) | Call { callee = { it = Variable ("task" | "imcPlan"); _ }; _ } -> 1
   | Binary (Parallel, a, b) -> width a + width b
   | Binary (Sequence, a, b) -> max (width a) (width b)
-  | Binary (Divide, a, _) | Index (a, _) | Until (_, _, a) | During (_, _, a) | Watch (a, _) | Wait_for (_, a) ->
-    width a
+  | Binary (Divide, a, _) | Index (a, _) | Until (_, _, a) | During (_, _, a) | Watch (a, _) | Wait_for (_, a)
+  | Repeat { body = a; _ } -> width a
   | _ -> 0
 
 (* The single vehicles that a task surely runs on, each with the place that says so. *)
 let rec surely singles (e : expression) =
   match e.it with
   | Index (a, { it = Variable v; at }) when List.mem v singles && width a > 0 -> [ (v, at) ]
-  | Index (a, _) | Binary (Divide, a, _) | Until (_, _, a) | During (_, _, a) | Watch (a, _) | Wait_for (_, a) ->
-    surely singles a
+  | Index (a, _) | Binary (Divide, a, _) | Until (_, _, a) | During (_, _, a) | Watch (a, _) | Wait_for (_, a)
+  | Repeat { body = a; _ } -> surely singles a
   | Binary ((Sequence | Parallel), a, b) -> surely singles a @ surely singles b
   | _ -> []
 

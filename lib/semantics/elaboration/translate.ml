@@ -28,7 +28,8 @@ let first_operand (e : Ast.expression) : (Ast.expression * (Ast.expression -> As
   | During (e, d, t) when begins t -> Some (t, fun t -> During (e, d, t))
   | Until (e, c, t) when begins t -> Some (t, fun t -> Until (e, c, t))
   | Null | Boolean _ | Integer _ | Number _ | String _ | Template _ | Variable _ | Wildcard | List _ | Map _ | Closure _
-  | Unary _ | Increment _ | Builder _ | When _ | Wait_for _ | Until _ | During _ | Watch _ -> None
+  | Unary _ | Increment _ | Builder _ | When _ | Wait_for _ | Until _ | During _ | Watch _
+  | Repeat _ -> None
 
 (* [execute (a | b) >> c] executes all of [(a | b) >> c]: a procedure that gives nothing is no operand, so what follows
    its parenthesis belongs to its argument. *)
@@ -105,6 +106,7 @@ let rec elaborate env (e : Ast.expression) : expression =
   | Until (Fails, guard, t) -> assure env at guard t
   | During (on_cut, d, t) -> during env at on_cut d t
   | Watch (t, handler) -> watch env at t handler
+  | Repeat { rounds; body; until } -> repeat env at rounds body until
 
 and truth env (e : Ast.expression) =
   apply env e.at (Unary Not) [ apply env e.at (Unary Not) [ elaborate env e ] ]
@@ -163,6 +165,23 @@ and watch env at t (handler : Ast.closure) =
      error env Wrong_parameters second.at "the code of onError takes one parameter, the error"
    | Some ([] | [ _ ]) | None -> ());
   apply env at (Builtin Make_watch) [ t; closure env at Scope.Handler "onError" handler ]
+
+and repeat env at rounds body until =
+  let of_rounds (n : Ast.expression) =
+    if known_kind env n = Task then
+      error env Wrong_kind n.at "before the comma of repeat stands how many rounds there are, this is a task"
+        ~hint:"put repeat and its task in parentheses, if the comma is not its own"
+    else check_kind env "repeat" Number n;
+    Option.iter (fun fault -> error env Wrong_value n.at "%s" fault) (Literal_check.fault_of_rounds n);
+    elaborate env n
+  in
+  check_kind env "repeat" Task body;
+  if rounds = None && until = None && never_waits env body then error env Wrong_value at "%s" Procedures.spins;
+  let n = Option.map of_rounds rounds in
+  let t = elaborate env body in
+  let c = Option.map (task_code env at "repeat") until in
+  let operation = Make_repeat { counted = rounds <> None; asked = until <> None } in
+  apply env at (Builtin operation) (Option.to_list n @ [ t ] @ Option.to_list c)
 
 (* {1 Statements} *)
 

@@ -7,7 +7,40 @@ let expected what x = of_result (Operators.expected what x)
 
 let on_cut at : Dolphin_syntax.Ast.on_cut -> on_cut = function Completes -> Completes | Fails -> Fails at
 
+let rounds x =
+  match Value.canonical x with
+  | Integer n when n >= 1 -> Ok n
+  | x when Value.to_number x = None -> Operators.expected "how many rounds there are, as in repeat 3, T" x
+  | x -> Error (Printf.sprintf "repeat takes a whole number of rounds, 1 or more, not %s" (Value.to_string x))
+
+let spins = "a round of this repeat never waits: it would go round for ever, and nothing else would happen"
+
+(* Whether a task is done without any wait. *)
+let rec never_waits = function
+  | Action _ -> true
+  | Sequence (a, b) | Parallel (a, b) -> never_waits a && never_waits b
+  | Allocated (a, _) | Until (_, _, a) | During (_, Seconds _, a) | Watch (a, _) | Repeat { body = a; _ } ->
+    never_waits a
+  | Platform _ | Condition _ | All_of _ | One_of _ | Idle _ | During (_, Given_by _, _) -> false
+
+let repeat at n body until =
+  let made rounds =
+    if rounds = None && until = None && never_waits body then Wrong spins
+    else if rounds = Some 1 then Value (Task body)
+    else Value (Task (Repeat { rounds; until; body; site = at }))
+  in
+  match Option.map rounds n with
+  | None -> made None
+  | Some (Ok n) -> made (Some n)
+  | Some (Error message) -> Wrong message
+
 let make_task at = function
+  | Make_repeat { counted = false; asked = false }, [ Task t ] -> repeat at None t None
+  | Make_repeat { counted = true; asked = false }, [ n; Task t ] -> repeat at (Some n) t None
+  | Make_repeat { counted = false; asked = true }, [ Task t; Closure c ] -> repeat at None t (Some c)
+  | Make_repeat { counted = true; asked = true }, [ n; Task t; Closure c ] -> repeat at (Some n) t (Some c)
+  | Make_repeat { counted = true; _ }, (_ :: x :: _) | Make_repeat { counted = false; _ }, (x :: _) ->
+    expected "a task to repeat" x
   | Platform_task, [ String "" ] -> Wrong "a plan's name may not be empty"
   | Platform_task, [ x ] -> expected "the name of a plan, a string" x
   | Make_action, [ Closure c ] -> Value (Task (Action c))
@@ -180,7 +213,7 @@ let apply context at operation arguments =
   | Platform_task, [ String name ] when name <> "" ->
     Value (Task (Platform { name; plan = None; task_site = at }))
   | ( ( Platform_task | Make_action | Make_condition | Make_wait_for | Make_until _ | Make_idle | Make_during _
-      | Make_watch ),
+      | Make_watch | Make_repeat _ ),
       _ ) -> make_task at (operation, arguments)
   | Execute, [ Task t ] -> blocking context "execute" (Execute t)
   | Execute, [ x ] -> expected "a task to execute" x

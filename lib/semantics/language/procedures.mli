@@ -10,6 +10,12 @@ val blocking : Code.context -> string -> Code.request -> Code.outcome
 (** [blocking context name request] waits for [request] in the script, and is a fault elsewhere, where [name] cannot
     stand. *)
 
+val rounds : value -> (int, string) result
+(** [rounds x] is how many rounds of a [repeat] the value [x] says. *)
+
+val spins : string
+(** What is wrong with an endless [repeat] of what surely never waits. *)
+
 val of_result : (value, string) result -> Code.outcome
 (** The value, or the text of the fault. *)
 

@@ -18,7 +18,7 @@ let rec tree_of allowed t : leaf Assignment.tree =
   | Allocated (a, vs) -> tree_of (restrict allowed vs) a
   | All_of branches | One_of branches ->
     Shared (List.map (fun (b : Core.branch) -> tree_of allowed b.body) branches)
-  | Until (_, _, a) | During (_, _, a) | Watch (a, _) -> tree_of allowed a
+  | Until (_, _, a) | During (_, _, a) | Watch (a, _) | Repeat { body = a; _ } -> tree_of allowed a
 
 let rec map_tree f : 'a Assignment.tree -> ('b Assignment.tree, 'e) result = function
   | Leaf x -> Result.map (fun y -> Assignment.Leaf y) (f x)
@@ -147,6 +147,9 @@ let rec residual next_vehicle next_timer t : Residual.t =
     let timer = next_timer () in
     During { on_cut; timer; duration; started = false; body = recurse a }
   | Watch (a, c) -> Watch (recurse a, c)
+  | Repeat { rounds; until; body; site } ->
+    let each = recurse body in
+    Residual.repeat { left = Option.map pred rounds; until; each; site } each
 
 and branch next_vehicle next_timer (b : Core.branch) : Residual.branch =
   { guard = b.guard; body = residual next_vehicle next_timer b.body }
@@ -165,7 +168,7 @@ let is_too_large t =
         (match t with
          | Platform _ | Action _ | Condition _ | Idle _ -> from (count + 1) rest
          | Sequence (a, b) | Parallel (a, b) -> down [ a; b ]
-         | Allocated (a, _) | Until (_, _, a) | During (_, _, a) | Watch (a, _) -> down [ a ]
+         | Allocated (a, _) | Until (_, _, a) | During (_, _, a) | Watch (a, _) | Repeat { body = a; _ } -> down [ a ]
          | All_of bs | One_of bs -> down (List.map (fun (b : Core.branch) -> b.body) bs))
   in
   from 0 [ (0, t) ]

@@ -19,6 +19,7 @@ type t = {
   derivation : Rule.t list;
   named : Label.t;
   asked : Effect.t list;
+  rounds : Task_rules.round list;
 }
 
 let equal_outcome a b =
@@ -50,7 +51,7 @@ let rec settle program world s derivation asked (change : Task_rules.change) =
   let derivation = derivation @ change.rules in
   let s = without_tasks (List.concat stopped) s in
   let asked = asked @ List.concat undone @ Conclusion.timers_started change.timers in
-  let come_to outcome = { after = s; outcome; derivation; named = change.label; asked } in
+  let come_to outcome = { after = s; outcome; derivation; named = change.label; asked; rounds = change.rounds } in
   match change.outcome with
   | Next r -> Decision.Decided (come_to (Goes_on r))
   | Finished -> Decided (come_to Over)
@@ -60,7 +61,8 @@ let rec settle program world s derivation asked (change : Task_rules.change) =
       match outcome, mode with
       | Halts (message, s, deeds), _ ->
         let derivation = derivation @ [ Rule.Watch_halt ] and asked = asked @ Run_code.effects deeds in
-        Decision.Decided { after = s; outcome = Ends (Halted message); derivation; named = change.label; asked }
+        let ending = Ends (Halted message) in
+        Decision.Decided { after = s; outcome = ending; derivation; named = change.label; asked; rounds = [] }
       | Faulty (fault, said), _ when Fault.is_assertion fault ->
         let asked = asked @ Run_code.effects said in
         Decided { (come_to (Ends (Failed fault))) with derivation = derivation @ [ Rule.Assert_err ]; asked }
@@ -91,7 +93,7 @@ let seconds_of (code : closure) x =
    code of every step. *)
 let coded program world s code ~fails ~gives =
   let ends rule label ending s asked =
-    let local = { after = s; outcome = Ends ending; derivation = [ rule ]; named = label; asked } in
+    let local = { after = s; outcome = Ends ending; derivation = [ rule ]; named = label; asked; rounds = [] } in
     Decision.Decided (Some (kept program world local))
   in
   let ran { Run_code.world; outcome; _ } =
@@ -138,6 +140,17 @@ let internal program world (s : Shared.t) (Task_rules.Step { offer; continue }) 
           if Value.truth x || Unknown.is x then Decision.Decided None else go world s (continue (Ok ())))
     in
     coded program world s guard ~gives ~fails
+  | Decide guard ->
+    let fails world said fault =
+      if Fault.is_unknown fault then Decision.Decided None else failed world said (continue (Error fault))
+    in
+    let gives world x after deeds =
+      settled guard x (fun x ->
+          if Unknown.is x then Decision.Decided None
+          else if Value.truth x then go world ~asked:(Run_code.effects deeds) after (continue (Ok (true, deeds)))
+          else go world s (continue (Ok (false, []))))
+    in
+    coded program world s guard ~gives ~fails
   | Measure code ->
     let gives world x after deeds =
       settled code x (fun x ->
@@ -155,7 +168,7 @@ let on_event program world s (Task_rules.Step { offer; continue }) (event : even
   | Timer_expired timer, Expiry_of timer' when timer = timer' -> go s (continue ())
   | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _
       | Host_failed _ | Input _ | Interruption ),
-      (Start _ | Perform _ | Check _ | Refute _ | Measure _ | End_of _ | Expiry_of _) ) -> Decided None
+      (Start _ | Perform _ | Check _ | Refute _ | Decide _ | Measure _ | End_of _ | Expiry_of _) ) -> Decided None
 
 (* {1 In configurations} *)
 
@@ -165,7 +178,7 @@ let next m outcome shared : Configuration.t =
   | Over -> { control = Script (Machine.give Null m); shared }
   | Ends ending -> Conclusion.ended shared ending
 
-let conclude m r { after; outcome; derivation; named; asked } : Conclusion.t =
+let conclude m r { after; outcome; derivation; named; asked; rounds = _ } : Conclusion.t =
   let go_on rules : Conclusion.t =
     { rules; label = named; next = next m outcome after; effects = asked; assumed = [] }
   in

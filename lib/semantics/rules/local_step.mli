@@ -33,6 +33,7 @@ type t = {
   derivation : Rule.t list;
   named : Label.t;
   asked : Effect.t list;
+  rounds : Task_rules.round list;  (** that begin *)
 }
 
 val internal : program -> World.t -> Shared.t -> Task_rules.step -> t option Decision.t

@@ -17,6 +17,9 @@ type t =
   | Idle of { timer : timer; seconds : float }
   | During of { on_cut : on_cut; timer : timer; duration : duration; started : bool; body : t }
   | Watch of t * closure
+  | Repeat of { round : t option; again : again }
+
+and again = { left : int option; until : closure option; each : t; site : site }
 
 and branch = { guard : closure; body : t }
 
@@ -24,7 +27,7 @@ and branch = { guard : closure; body : t }
 
 let rank = function
   | Ready _ -> 0 | Running _ -> 1 | Action _ -> 2 | Condition _ -> 3 | Sequence _ -> 4 | Parallel _ -> 5
-  | All_of _ -> 6 | One_of _ -> 7 | Until _ -> 8 | Idle _ -> 9 | During _ -> 10 | Watch _ -> 11
+  | All_of _ -> 6 | One_of _ -> 7 | Until _ -> 8 | Idle _ -> 9 | During _ -> 10 | Watch _ -> 11 | Repeat _ -> 12
 
 let rec compare r r' =
   if r == r' then 0
@@ -49,11 +52,20 @@ let rec compare r r' =
           Order.both (Bool.compare a.started b.started) (fun () ->
               Order.both (compare_duration a.duration b.duration) (fun () ->
                   Order.both (Value.compare_on_cut a.on_cut b.on_cut) (fun () -> compare a.body b.body))))
+    | Repeat a, Repeat b ->
+      Order.both (Option.compare compare a.round b.round) (fun () -> compare_again a.again b.again)
     | ( ( Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _
-        | Idle _ | During _ | Watch _ ),
+        | Idle _ | During _ | Watch _ | Repeat _ ),
         _ ) -> Int.compare (rank r) (rank r')
 
 and compare_branch b b' = Order.both (Value.compare_closure b.guard b'.guard) (fun () -> compare b.body b'.body)
+
+and compare_again a b =
+  if a == b then 0
+  else
+    Order.both (Option.compare Int.compare a.left b.left) (fun () ->
+        Order.both (Option.compare Value.compare_closure a.until b.until) (fun () ->
+            Order.both (Int.compare a.site b.site) (fun () -> compare a.each b.each)))
 
 and compare_duration d d' =
   match d, d' with
@@ -77,6 +89,9 @@ let rec hash r =
   | Until (_, c, a) | Watch (a, c) -> Order.mix (Order.mix h (Value.hash_closure c)) (hash a)
   | Idle { timer; _ } -> Order.mix h timer
   | During { timer; started; body; _ } -> Order.mix (Order.mix (Order.mix h timer) (Bool.to_int started)) (hash body)
+  | Repeat { round; again = { left; each; _ } } ->
+    let round = match round with Some r -> hash r | None -> 1 in
+    Order.mix (Order.mix (Order.mix h round) (Option.value left ~default:0)) (hash each)
 
 let rec pp ppf r =
   let separated text pp = Format.pp_print_list ~pp_sep:(fun ppf () -> Format.pp_print_string ppf text) pp in
@@ -97,6 +112,11 @@ let rec pp ppf r =
   | During { on_cut; duration = Given_by c; body; _ } ->
     Format.fprintf ppf "%s { %s } run %a" (Value.during on_cut) c.lambda.label pp body
   | Watch (a, _) -> Format.fprintf ppf "watch %a" pp a
+  | Repeat { round; again = { left; until; each; _ } } ->
+    let round ppf = match round with Some r -> Format.fprintf ppf "%a; " pp r | None -> () in
+    let left = Option.fold left ~none:"" ~some:(Printf.sprintf "%d, ") in
+    let until = Option.fold until ~none:"" ~some:(fun c -> Printf.sprintf " until { %s }" c.lambda.label) in
+    Format.fprintf ppf "repeat (%t%s%a%s)" round left pp each until
 
 and pp_branch ppf b = Format.fprintf ppf "when { %s } then %a" b.guard.lambda.label pp b.body
 
@@ -120,9 +140,15 @@ let all_of running remaining =
   | None, [ last ] -> One_of [ last ]
   | (Some _ | None), remaining -> All_of (running, remaining)
 
+let repeat again round =
+  match again.left with Some 0 -> round | Some _ | None -> Repeat { round = Some round; again }
+
 let rec activate r =
   match r with
-  | Ready _ | Running _ | Action _ | Condition _ | All_of (None, _) | One_of _ -> (r, [])
+  | Ready _ | Running _ | Action _ | Condition _ | All_of (None, _) | One_of _ | Repeat { round = None; _ } -> (r, [])
+  | Repeat { round = Some a; again } ->
+    let a, timers = activate a in
+    (Repeat { round = Some a; again }, timers)
   | Idle { timer; seconds } -> (r, [ (timer, seconds) ])
   | Sequence (a, rest) ->
     let a, timers = activate a in
@@ -148,19 +174,19 @@ let rec activate r =
 
 let rec exists_active p r =
   match r with
-  | Sequence (a, _) | Watch (a, _) -> exists_active p a
+  | Sequence (a, _) | Watch (a, _) | Repeat { round = Some a; _ } -> exists_active p a
   | Parallel rs -> List.exists (exists_active p) rs
   | Ready _ | Running _ | Action _ | Condition _ | Idle _ | One_of _ | All_of (None, _) | During { started = false; _ }
-    -> p r
+  | Repeat { round = None; _ } -> p r
   | All_of (Some a, _) | Until (_, _, a) | During { body = a; _ } -> p r || exists_active p a
 
 let rec fold_active f acc r =
   let acc = f acc r in
   match r with
   | Ready _ | Running _ | Action _ | Condition _ | Idle _ | One_of _ | All_of (None, _) -> acc
-  | During { started = false; _ } -> acc
-  | Sequence (a, _) | All_of (Some a, _) | Until (_, _, a) | Watch (a, _) | During { body = a; _ } ->
-    fold_active f acc a
+  | During { started = false; _ } | Repeat { round = None; _ } -> acc
+  | Sequence (a, _) | All_of (Some a, _) | Until (_, _, a) | Watch (a, _) | During { body = a; _ }
+  | Repeat { round = Some a; _ } -> fold_active f acc a
   | Parallel rs -> List.fold_left (fold_active f) acc rs
 
 let collect f r = List.rev (fold_active (fun found r -> match f r with Some x -> x :: found | None -> found) [] r)
@@ -171,7 +197,17 @@ let timers =
   collect (function
       | Idle { timer; _ } | During { started = true; timer; _ } -> Some timer
       | Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _
-      | During { started = false; _ } | Watch _ -> None)
+      | During { started = false; _ } | Watch _ | Repeat _ -> None)
+
+let rec may_go_round r =
+  match r with
+  | Ready _ | Running _ | Action _ | Condition _ | Idle _ -> false
+  | Sequence (a, rest) -> may_go_round a || List.exists may_go_round rest
+  | Parallel rs -> List.exists may_go_round rs
+  | All_of (a, bs) -> Option.fold a ~none:false ~some:may_go_round || List.exists (fun b -> may_go_round b.body) bs
+  | One_of bs -> List.exists (fun b -> may_go_round b.body) bs
+  | Until (_, _, a) | During { body = a; _ } | Watch (a, _) -> may_go_round a
+  | Repeat { again = { left; each; _ }; _ } -> left = None || may_go_round each
 
 (* {1 Contexts} *)
 
@@ -181,6 +217,7 @@ type context =
   | Body_until of on_cut * closure
   | Body_during of on_cut * timer * duration
   | Watched_by of closure
+  | Round_of of again
 
 let opened = function
   | Sequence (a, rest) -> Some (Before rest, a)
@@ -189,7 +226,9 @@ let opened = function
   | During { duration = Given_by _; started = false; _ } -> None
   | During { on_cut; timer; duration; body; _ } -> Some (Body_during (on_cut, timer, duration), body)
   | Watch (a, handler) -> Some (Watched_by handler, a)
-  | Ready _ | Running _ | Action _ | Condition _ | Parallel _ | All_of (None, _) | One_of _ | Idle _ -> None
+  | Repeat { round = Some a; again } -> Some (Round_of again, a)
+  | Ready _ | Running _ | Action _ | Condition _ | Parallel _ | All_of (None, _) | One_of _ | Idle _
+  | Repeat { round = None; _ } -> None
 
 let within context r =
   match context, r with
@@ -199,6 +238,7 @@ let within context r =
   | Body_until (on_cut, condition), r -> Until (on_cut, condition, r)
   | Body_during (on_cut, timer, duration), body -> During { on_cut; timer; duration; started = true; body }
   | Watched_by handler, r -> Watch (r, handler)
+  | Round_of again, r -> Repeat { round = Some r; again }
 
 let decompose r =
   let rec from contexts r =

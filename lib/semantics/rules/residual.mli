@@ -26,6 +26,12 @@ type t =
   | Idle of { timer : timer; seconds : float }
   | During of { on_cut : on_cut; timer : timer; duration : duration; started : bool; body : t }
   | Watch of t * closure
+  | Repeat of { round : t option; again : again }
+  (** the round that runs; [None] between two rounds, where the condition is to be asked *)
+
+(** How a [repeat] goes on: [left] rounds are to come, at least one, or no number of them; none once [until] holds;
+    [each] is a round that is about to run; [site] is its place in the program. *)
+and again = { left : int option; until : closure option; each : t; site : site }
 
 and branch = { guard : closure; body : t }
 
@@ -50,6 +56,9 @@ val all_of : t option -> branch list -> t
 (** [all_of running remaining] is the [allOf] whose branch [running] has begun; [remaining] are those to come. There
     is one at least. *)
 
+val repeat : again -> t -> t
+(** [repeat a r] is the [repeat] of which the round [r] runs, with [a.left] rounds to come: [r] if there is none. *)
+
 val activate : t -> t * (timer * float) list
 (** [activate r] is [r] about to run, and the timers that start with it, with their seconds. A [during] whose time is
     given by code starts in a step of its own. *)
@@ -62,9 +71,16 @@ val running : t -> vehicle list
 val timers : t -> timer list
 (** [timers r] is the timers of [r] that have started. *)
 
+val fold_active : ('a -> t -> 'a) -> 'a -> t -> 'a
+(** [fold_active f x r] is [f (... (f x r1) ...) rn] for the nodes of [r] that have begun, from the outside in, left to
+    right. *)
+
 val exists_active : (t -> bool) -> t -> bool
 (** [exists_active p r] is whether [p] holds of a node of [r] that has begun and may have steps of its own: of no
     [Sequence], [Parallel], [Watch]. *)
+
+val may_go_round : t -> bool
+(** [may_go_round r] is whether [r] has a [repeat] without a number of rounds. Without one, every step leaves less. *)
 
 (** {1:contexts Contexts}
 
@@ -78,6 +94,7 @@ type context =
   | Body_until of on_cut * closure
   | Body_during of on_cut * timer * duration  (** the timer runs *)
   | Watched_by of closure
+  | Round_of of again
 
 val opened : t -> (context * t) option
 (** [opened r] is the outermost context of [r], and what is in it, if anything in it has begun. *)

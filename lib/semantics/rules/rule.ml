@@ -9,6 +9,7 @@ type t =
   | Idle_end
   | During_set | During_cut | Within_cut | During_1 | During_2 | During_err
   | Watch_1 | Watch_2 | Watch_ignore | Watch_propagate | Watch_halt
+  | Repeat_1 | Repeat_2 | Repeat_until | Repeat_again | Repeat_err
   | Script | Post | Consume | Message | Release | Set_timeout
   | Pick | Pick_bind | Pick_err
   | Ask | Answer | Answer_err
@@ -23,7 +24,8 @@ let all =
     Par_err;
     Allof_when; Allof_1; Allof_2; Allof_err; Oneof_when; Oneof_err; Until_cut; Assure_cut; Until_1; Until_2;
     Until_err; Idle_end; During_set; During_cut; Within_cut; During_1; During_2; During_err; Watch_1; Watch_2;
-    Watch_ignore; Watch_propagate; Watch_halt; Script; Post; Consume; Message; Release; Set_timeout; Pick; Pick_bind;
+    Watch_ignore; Watch_propagate; Watch_halt; Repeat_1; Repeat_2; Repeat_until; Repeat_again; Repeat_err;
+    Script; Post; Consume; Message; Release; Set_timeout; Pick; Pick_bind;
     Pick_err; Ask; Answer; Answer_err; Pause; Resume; Call; Reply; Call_err; Execute; Execute_done; Execute_err;
     Alloc_err; Input; End; Halt; Fault; Interrupt ]
 
@@ -43,6 +45,8 @@ let name = function
   | During_err -> "DURING-ERR"
   | Watch_1 -> "WATCH-1" | Watch_2 -> "WATCH-2" | Watch_ignore -> "WATCH-IGNORE"
   | Watch_propagate -> "WATCH-PROPAGATE" | Watch_halt -> "WATCH-HALT"
+  | Repeat_1 -> "REPEAT-1" | Repeat_2 -> "REPEAT-2" | Repeat_until -> "REPEAT-UNTIL"
+  | Repeat_again -> "REPEAT-AGAIN" | Repeat_err -> "REPEAT-ERR"
   | Script -> "SCRIPT" | Post -> "POST" | Consume -> "CONSUME" | Message -> "MESSAGE" | Release -> "RELEASE"
   | Set_timeout -> "SET-TIMEOUT"
   | Pick -> "PICK" | Pick_bind -> "PICK-BIND" | Pick_err -> "PICK-ERR"

@@ -8,11 +8,14 @@ type _ offer =
   | Perform : closure -> (Code.deed list, Fault.t) result offer
   | Check : closure -> (Code.deed list, Fault.t) result offer
   | Refute : closure -> (unit, Fault.t) result offer
+  | Decide : closure -> (bool * Code.deed list, Fault.t) result offer
   | Measure : closure -> (float, Fault.t) result offer
   | End_of : platform_task * vehicle -> (unit, string) result offer
   | Expiry_of : timer -> unit offer
 
 type undoing = Cancel of timer | Cut of t list
+
+type round = Endless of again | Asked of again
 
 type outcome =
   | Next of t
@@ -31,12 +34,13 @@ and change = {
   rules : Rule.t list;
   timers : (timer * float) list;
   undone : undoing list;
+  rounds : round list;
 }
 
 type step = Step : { offer : 'reply offer; continue : 'reply -> change } -> step
 
 (* An axiom. *)
-let change label rule outcome = { label; outcome; rules = [ rule ]; timers = []; undone = [] }
+let change label rule outcome = { label; outcome; rules = [ rule ]; timers = []; undone = []; rounds = [] }
 
 (* [enter label rule around r] is the change to [r], which begins now. *)
 let enter label rule around r =
@@ -136,7 +140,23 @@ let around_watch handler =
   in
   { (around ~next:(within (Watched_by handler)) (Rule.Watch_1, Rule.Watch_2, Rule.Watch_propagate)) with on_failed }
 
+(* The next round begins, and with it its timers. *)
+let next_round again next change =
+  let round, timers = activate again.each in
+  let outcome = Next (repeat { again with left = Option.map pred again.left } round) in
+  let rounds = if again.left = None then change.rounds @ [ next ] else change.rounds in
+  { change with outcome; timers = change.timers @ timers; rounds }
+
+let around_round again =
+  let on_finished c =
+    match again.until with
+    | None -> next_round again (Endless again) (add Rule.Repeat_2 Finished c)
+    | Some _ -> add Rule.Repeat_2 (Next (Repeat { round = None; again })) c
+  in
+  { (around ~next:(within (Round_of again)) (Rule.Repeat_1, Rule.Repeat_2, Rule.Repeat_err)) with on_finished }
+
 let around_context = function
+  | Round_of again -> around_round again
   | Before rest -> around_sequence rest
   | Branch_of remaining -> around_branch remaining
   | Body_until (on_cut, condition) -> around_until on_cut condition
@@ -164,7 +184,7 @@ let too_late = function
 let cut context body =
   let cut change = undoing (Cut [ body ]) change in
   match context with
-  | Before _ | Branch_of _ | Watched_by _ -> None
+  | Before _ | Branch_of _ | Watched_by _ | Round_of _ -> None
   | Body_until (Completes, condition) ->
     let continue = function
       | Ok deeds -> cut (change (Label.Cut deeds) Rule.Until_cut Finished)
@@ -232,6 +252,14 @@ let choose_of_all before b after =
 
 let choose_one b = check b.guard ~holds:(fun label -> enter label Rule.Oneof_when Fun.id b.body) ~error:Rule.Oneof_err
 
+let ask_again again condition =
+  let continue = function
+    | Ok (true, deeds) -> change (Label.Check deeds) Rule.Repeat_until Finished
+    | Ok (false, _) -> next_round again (Asked again) (change (Label.Check []) Rule.Repeat_again Finished)
+    | Error fault -> broke Rule.Repeat_err fault
+  in
+  Step { offer = Decide condition; continue }
+
 let idle_end timer =
   Step { offer = Expiry_of timer; continue = (fun () -> change Label.Time_out Rule.Idle_end Finished) }
 
@@ -272,7 +300,9 @@ let rec steps_at relevant r : step Seq.t =
   | Idle { timer; _ } -> Seq.return (idle_end timer)
   | During { on_cut; duration = Given_by code; started = false; timer; body } ->
     Seq.return (set_during on_cut timer code body)
-  | Sequence _ | All_of (Some _, _) | Until _ | During _ | Watch _ -> (
+  | Repeat { round = None; again = { until = Some condition; _ } as again } -> Seq.return (ask_again again condition)
+  | Repeat { round = None; again = { until = None; _ } } -> invalid_arg "Task_rules: no condition to ask"
+  | Sequence _ | All_of (Some _, _) | Until _ | During _ | Watch _ | Repeat { round = Some _; _ } -> (
       match opened r with
       | None -> Seq.empty
       | Some (context, body) -> (
@@ -284,10 +314,10 @@ let rec steps_at relevant r : step Seq.t =
 let steps = steps_at (fun _ -> true)
 
 let may_step_alone = function
-  | Running _ | Idle _ | During { duration = Seconds _; _ } | Sequence _ | Parallel _ | All_of (Some _, _) | Watch _ ->
-    false
-  | Ready _ | Action _ | Condition _ | All_of (None, _) | One_of _ | Until _ | During { duration = Given_by _; _ } ->
-    true
+  | Running _ | Idle _ | During { duration = Seconds _; _ } | Sequence _ | Parallel _ | All_of (Some _, _) | Watch _
+  | Repeat { round = Some _; _ } -> false
+  | Ready _ | Action _ | Condition _ | All_of (None, _) | One_of _ | Until _ | During { duration = Given_by _; _ }
+  | Repeat { round = None; _ } -> true
 
 let internal_steps = steps_at may_step_alone
 let steps_of_vehicle v = steps_at (function Running (_, v') -> String.equal v v' | _ -> false)
@@ -301,5 +331,6 @@ let broken (Step { offer; continue }) (fault : Fault.t) : change option =
   | Perform _ -> Some (continue (Error fault))
   | Check _ -> Some (continue (Error fault))
   | Refute _ -> Some (continue (Error fault))
+  | Decide _ -> Some (continue (Error fault))
   | Measure _ -> Some (continue (Error fault))
   | End_of _ -> Some (continue (Error fault.message))

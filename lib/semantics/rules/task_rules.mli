@@ -14,6 +14,8 @@ type _ offer =
   | Perform : closure -> (Code.deed list, Fault.t) result offer  (** to run this action: what it did *)
   | Check : closure -> (Code.deed list, Fault.t) result offer  (** that this guard is true: what it did *)
   | Refute : closure -> (unit, Fault.t) result offer  (** that this guard is not true; what its code did is undone *)
+  | Decide : closure -> (bool * Code.deed list, Fault.t) result offer
+  (** whether this guard is true, and what it did; if not, what its code did is undone *)
   | Measure : closure -> (float, Fault.t) result offer  (** the seconds that this code gives *)
   | End_of : platform_task * vehicle -> (unit, string) result offer  (** that the vehicle reports the end *)
   | Expiry_of : timer -> unit offer  (** that the timer expires *)
@@ -22,6 +24,10 @@ type _ offer =
 type undoing =
   | Cancel of timer
   | Cut of t list  (** residuals that were cut off: their timers are cancelled, then their vehicles stop *)
+
+(** A further round that begins, of a [repeat] without a number of rounds: it has no end of its own, or its condition
+    was asked and does not hold. *)
+type round = Endless of again | Asked of again
 
 type outcome =
   | Next of t
@@ -41,6 +47,7 @@ and change = {
   rules : Rule.t list;  (** the derivation, innermost rule first; after a handler, what follows it *)
   timers : (timer * float) list;  (** that start *)
   undone : undoing list;  (** in the order of the derivation, innermost rule first *)
+  rounds : round list;  (** that begin: without these, every step leaves less of the residual *)
 }
 
 type step = Step : { offer : 'reply offer; continue : 'reply -> change } -> step

@@ -68,6 +68,8 @@ and task =
   | Idle of float                               (* seconds *)
   | During of on_cut * duration * task
   | Watch of task * closure
+  | Repeat of { rounds : int option; until : closure option; body : task; site : site }
+  (* [None]: no number of rounds, no condition; never one round *)
 
 and branch = { guard : closure; body : task }
 
@@ -131,6 +133,7 @@ and builtin =
   | Make_idle
   | Make_during of Dolphin_syntax.Ast.on_cut
   | Make_watch
+  | Make_repeat of { counted : bool; asked : bool }  (* how many rounds, the task, the condition *)
   | Execute
   | Execute_for of string list                  (* [execute v1: T1, ...]; names for messages, ["_"] no vehicles *)
   | Release

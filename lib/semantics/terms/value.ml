@@ -14,6 +14,7 @@ let rank = function
 let rank_task = function
   | Platform _ -> 0 | Action _ -> 1 | Condition _ -> 2 | Sequence _ -> 3 | Parallel _ -> 4 | Allocated _ -> 5
   | All_of _ -> 6 | One_of _ -> 7 | Until _ -> 8 | Idle _ -> 9 | During _ -> 10 | Watch _ -> 11
+  | Repeat _ -> 12
 
 let rec compare x y =
   if x == y then 0
@@ -68,8 +69,12 @@ and compare_task t t' =
     | Idle d, Idle d' -> Float.compare d d'
     | During (e, d, a), During (e', d', a') ->
       Order.both (compare_on_cut e e') (fun () -> Order.both (compare_duration d d') (fun () -> compare_task a a'))
+    | Repeat a, Repeat b ->
+      Order.both (Option.compare Int.compare a.rounds b.rounds) (fun () ->
+          Order.both (Option.compare compare_closure a.until b.until) (fun () ->
+              Order.both (Int.compare a.site b.site) (fun () -> compare_task a.body b.body)))
     | ( ( Platform _ | Action _ | Condition _ | Sequence _ | Parallel _ | Allocated _ | All_of _ | One_of _
-        | Until _ | Idle _ | During _ | Watch _ ),
+        | Until _ | Idle _ | During _ | Watch _ | Repeat _ ),
         _ ) -> Int.compare (rank_task t) (rank_task t')
 
 and compare_branch b b' =
@@ -140,6 +145,7 @@ and hash_task left depth t =
     | Until (_, c, a) | Watch (a, c) -> Order.mix (Order.mix (rank_task t) (hash_code left c)) (part a)
     | Idle d -> Order.mix 9 (Hashtbl.hash d)
     | During (_, _, a) -> Order.mix 10 (part a)
+    | Repeat { rounds; body; _ } -> Order.mix (Order.mix 12 (Option.value rounds ~default:0)) (part body)
 
 let hash x = hash_value (ref hashed_parts) x
 let hash_closure c = hash_code (ref hashed_parts) c
@@ -370,6 +376,10 @@ and print_task left level ppf t =
     | During (e, Seconds d, a) -> prefixed (Printf.sprintf "%s %s.seconds" (during e) (amount d)) a
     | During (e, Given_by _, a) -> prefixed (during e ^ " { ... }") a
     | Watch (a, _) -> parenthesised 0 (fun ppf -> Format.fprintf ppf "watch %a onError { ... }" (task 1) a)
+    | Repeat { rounds; until; body; _ } ->
+      let first = Option.fold rounds ~none:"" ~some:(Printf.sprintf "%d, ") in
+      let last = if until = None then "" else " until { ... }" in
+      parenthesised 0 (fun ppf -> Format.fprintf ppf "repeat %s%a%s" first (task 1) body last)
 
 let to_string x = Format.asprintf "%a" (print ~bare:true) x
 let pp ppf x = print ~bare:false ppf x

@@ -1,0 +1,291 @@
+open Dolphin_semantics
+open Dolphin_ltl
+
+type lasso = { stem : int list; around : int list }
+
+type verdict =
+  | Ends
+  | Goes_on of lasso
+  | Spins of lasso
+  | By_design of { repeats : Core.site list; left_by : string list }
+  | Unsure
+
+(* {1 The part of the graph in which tasks execute} *)
+
+(* Of a step, by its number: see {!Space.possible}. [renews] is the places of the repeats that begin a round. *)
+type edge = { into : int; by : int; is_event : bool; rounds : Task_rules.round list; renews : int list list }
+
+(* The steps that are possible, and where those lead that are followed. *)
+type node = { possible : int list; edges : edge list }
+
+type t = {
+  program : Core.program;
+  graph : State_graph.t;
+  numbers : (int list, int) Hashtbl.t;
+  steps : (int, Space.possible) Hashtbl.t;  (* by number *)
+  nodes : (int, node) Hashtbl.t;  (* by state *)
+}
+
+let number t (p : Space.possible) =
+  let id = p.at @ (-2 :: p.name) in
+  match Hashtbl.find_opt t.numbers id with
+  | Some n -> n
+  | None ->
+    let n = Hashtbl.length t.numbers in
+    Hashtbl.add t.numbers id n;
+    Hashtbl.add t.steps n p;
+    n
+
+(* Where the rounds that begin are, among the [layers]: no two of these are equal. *)
+let places_of rounds layers =
+  let place (Task_rules.Endless again | Asked again) =
+    let is_it (_, (again' : Residual.again)) =
+      again'.site = again.site && (again'.each == again.each || Residual.equal again'.each again.each)
+    in
+    Option.map fst (List.find_opt is_it layers)
+  in
+  List.filter_map place rounds
+
+let examined t i =
+  State_graph.visiting t.graph i (fun key arrived visitor ->
+      let found = ref [] and edges = ref [] in
+      let possible p = found := number t p :: !found in
+      let taken (p : Space.possible) rounds layers =
+        let by = number t p and is_event = p.step.event <> None and renews = places_of rounds layers in
+        arrived := fun into -> edges := { into; by; is_event; rounds; renews } :: !edges
+      in
+      Space.examine (State_graph.system t.graph) key ~possible ~taken visitor;
+      { possible = List.sort_uniq Int.compare !found; edges = List.rev !edges })
+
+let node t i =
+  match Hashtbl.find_opt t.nodes i with
+  | Some node -> node
+  | None ->
+    let node = examined t i in
+    Hashtbl.add t.nodes i node;
+    node
+
+let executes t i = Space.executes (State_graph.system t.graph) (State_graph.load t.graph i).(0)
+let successors t keeps i = List.filter (fun e -> keeps e && executes t e.into) (node t i).edges
+
+(* {1 Components} *)
+
+type place = { mutable low : int; at : int; mutable rest : edge list }
+
+(* The strongly connected components that have a cycle, of the graph of the edges that [keeps] holds of (Tarjan). *)
+let components t ~tick keeps states =
+  let places = Hashtbl.create 1_000 and on_path = Hashtbl.create 100 in
+  let path = Stack.create () and frames = Stack.create () and found = ref [] in
+  let enter i =
+    tick ();
+    let place = { low = Hashtbl.length places; at = Hashtbl.length places; rest = successors t keeps i } in
+    Hashtbl.add places i place;
+    Hashtbl.add on_path i ();
+    Stack.push i path;
+    Stack.push i frames
+  in
+  let rec members i acc =
+    let j = Stack.pop path in
+    Hashtbl.remove on_path j;
+    if j = i then j :: acc else members i (j :: acc)
+  in
+  let leave i place =
+    ignore (Stack.pop frames);
+    (match Stack.top_opt frames with
+     | Some above ->
+       let above = Hashtbl.find places above in
+       above.low <- min above.low place.low
+     | None -> ());
+    if place.low = place.at then
+      match members i [] with
+      | [ j ] when not (List.exists (fun e -> e.into = j) (successors t keeps j)) -> ()
+      | component -> found := component :: !found
+  in
+  let step i =
+    let place = Hashtbl.find places i in
+    match place.rest with
+    | [] -> leave i place
+    | e :: rest -> (
+        place.rest <- rest;
+        match Hashtbl.find_opt places e.into with
+        | None -> enter e.into
+        | Some other -> if Hashtbl.mem on_path e.into then place.low <- min place.low other.at)
+  in
+  let explore i =
+    if not (Hashtbl.mem places i) then begin
+      enter i;
+      while not (Stack.is_empty frames) do
+        step (Stack.top frames)
+      done
+    end
+  in
+  List.iter explore states;
+  !found
+
+(* {1 Fairness} *)
+
+type fairness = Fair | Perhaps | Unfair
+
+let inside members =
+  let set = Hashtbl.create 100 in
+  List.iter (fun i -> Hashtbl.replace set i ()) members;
+  Hashtbl.mem set
+
+let rec begins_with prefix xs =
+  match prefix, xs with
+  | [], _ -> true
+  | x :: prefix, y :: xs -> Int.equal x y && begins_with prefix xs
+  | _ :: _, [] -> false
+
+(* The steps that are possible in every state of the component, and in no round that ends there: a fair run around takes
+   each of them. *)
+let owed t edges members =
+  let renewed = List.concat_map (fun i -> List.concat_map (fun e -> e.renews) (edges i)) members in
+  let renewed = List.sort_uniq Stdlib.compare renewed in
+  let is_renewed k =
+    let at = (Hashtbl.find t.steps k).at in
+    List.exists (fun repeat -> begins_with (repeat @ [ Space.inside ]) at) renewed
+  in
+  let common n i = List.filter (fun k -> List.mem k (node t i).possible) n in
+  match members with
+  | [] -> []
+  | first :: rest -> List.fold_left common (List.filter (fun k -> not (is_renewed k)) (node t first).possible) rest
+
+let kept_inside t keeps members =
+  let is_in = inside members in
+  fun i -> List.filter (fun e -> is_in e.into) (successors t keeps i)
+
+let fairness t keeps members =
+  let edges = kept_inside t keeps members in
+  let taken = Hashtbl.create 100 in
+  List.iter (fun i -> List.iter (fun e -> Hashtbl.replace taken e.by ()) (edges i)) members;
+  match List.filter (fun k -> not (Hashtbl.mem taken k)) (owed t edges members) with
+  | [] -> Fair
+  | missing -> if List.exists (fun k -> (Hashtbl.find t.steps k).stays) missing then Unfair else Perhaps
+
+(* {1 Cycles to be shown} *)
+
+let cycle_graph edges : edge Cycles.graph =
+  { successors = (fun i -> List.map (fun e -> (e.into, e)) (edges i)); sets = 0; is_in = (fun _ _ -> false) }
+
+let rec last = function [ x ] -> x | _ :: rest -> last rest | [] -> invalid_arg "Fair_cycles.last"
+
+(* A way around the component that takes all steps that are owed, as far as the component does, and comes to a state in
+   which another is not possible. *)
+let lasso t keeps members =
+  let edges = kept_inside t keeps members and start = List.fold_left min max_int members in
+  let graph = cycle_graph edges in
+  let to_goal from goal =
+    if goal from then []
+    else
+      match Cycles.way graph ~within:(fun _ -> true) ~goal (graph.successors from) with
+      | Some way -> List.map fst way
+      | None -> invalid_arg "Fair_cycles.lasso: no component"
+  in
+  let is_taken k = List.exists (fun i -> List.exists (fun e -> e.by = k) (edges i)) members in
+  let owed = List.filter is_taken (owed t edges members) in
+  let go_on (from, cycle) k =
+    let takes i = List.find_opt (fun e -> e.by = k) (edges i) in
+    let way = to_goal from (fun i -> takes i <> None) in
+    let at = match way with [] -> from | way -> last way in
+    match takes at with
+    | Some e -> (e.into, cycle @ way @ [ e.into ])
+    | None -> invalid_arg "Fair_cycles.lasso: a step that nobody takes"
+  in
+  let elsewhere (from, cycle) k =
+    let way = to_goal from (fun i -> not (List.mem k (node t i).possible)) in
+    ((match way with [] -> from | way -> last way), cycle @ way)
+  in
+  let everywhere k = List.for_all (fun i -> List.mem k (node t i).possible) members in
+  let sometimes = List.filter (fun k -> not (everywhere k)) (node t start).possible in
+  let from, cycle = List.fold_left elsewhere (List.fold_left go_on (start, []) owed) sometimes in
+  let back =
+    if from = start && cycle <> [] then []
+    else
+      match Cycles.way graph ~within:(fun _ -> true) ~goal:(Int.equal start) (graph.successors from) with
+      | Some way -> List.map fst way
+      | None -> invalid_arg "Fair_cycles.lasso: no way back"
+  in
+  { stem = State_graph.path t.graph start; around = start :: (cycle @ back) }
+
+(* {1 Cycles of the script} *)
+
+let script_cycle t ~tick =
+  if not (Space.may_cycle_in_script (State_graph.system t.graph)) then None
+  else
+    let arrivals i = List.map (fun (a : State_graph.arrival) -> (a.into, ())) (State_graph.arrivals t.graph i) in
+    let graph : unit Cycles.graph =
+      { successors = arrivals; sets = 1; is_in = (fun i _ -> not (executes t i)) }
+    in
+    let lasso component =
+      let rec exact i = if Cycles.mem component i && not (executes t i) then i else exact (i + 1) in
+      let start = exact (Cycles.first component) in
+      let within i = Cycles.mem component i in
+      match Cycles.way graph ~within ~goal:(Int.equal start) (arrivals start) with
+      | Some way -> { stem = State_graph.path t.graph start; around = start :: List.map fst way }
+      | None -> invalid_arg "Fair_cycles.script_cycle: a state that is on no cycle"
+    in
+    Option.map lasso (Cycles.find ~tick graph [ 0 ])
+
+(* {1 Verdicts} *)
+
+let is_endless e = List.exists (function Task_rules.Endless _ -> true | Asked _ -> false) e.rounds
+
+let left_by t members =
+  let is_in = inside members in
+  let told e =
+    let p = Hashtbl.find t.steps e.by in
+    match p.step.source, p.step.event with
+    | Step { offer = End_of (task, v); _ }, Some (Vehicle_failed (_, why)) ->
+      Some (Printf.sprintf "%s failing on %s: %s" task.name v why)
+    | Step { offer = Check c; _ }, _ | Step { offer = Refute c; _ }, _ | Step { offer = Decide c; _ }, _ ->
+      let at = Fault.location t.program (Fault.make c.lambda.lambda_site "") in
+      Option.map (Format.asprintf "the condition at %a" Dolphin_syntax.Location.pp) at
+    | Step _, _ -> None
+  in
+  let leaving i = List.filter (fun e -> not (is_in e.into)) (node t i).edges in
+  let inputs =
+    match members with
+    | [] -> []
+    | i :: _ -> Space.inputs_at (State_graph.system t.graph) (snd (State_graph.state t.graph i))
+  in
+  let inputs = List.map (Printf.sprintf "the input '%s'") inputs in
+  List.sort_uniq String.compare (inputs @ List.filter_map told (List.concat_map leaving members))
+
+let by_design t members =
+  let edges = kept_inside t (fun _ -> true) members in
+  let endless = function Task_rules.Endless again -> Some again.site | Asked _ -> None in
+  let rounds = List.concat_map (fun e -> e.rounds) (List.concat_map edges members) in
+  let repeats = List.filter_map endless rounds in
+  (List.sort_uniq Int.compare repeats, left_by t members)
+
+let judge program graph ~all:whole =
+  let t = { program; graph; numbers = Hashtbl.create 100; steps = Hashtbl.create 100; nodes = Hashtbl.create 1_000 } in
+  let tick = State_graph.ticker graph "looking for cycles" in
+  let states = List.filter (executes t) (List.init (State_graph.count graph) Fun.id) in
+  let of_kind keeps =
+    let judged members =
+      match fairness t keeps members with
+      | Perhaps when whole -> (Unfair, members)
+      | fairness -> (fairness, members)
+    in
+    List.map judged (components t ~tick keeps states)
+  in
+  let without_event e = not e.is_event and without_endless e = not (is_endless e) and all _ = true in
+  match script_cycle t ~tick, components t ~tick without_event states with
+  | Some lasso, _ -> Goes_on lasso
+  | None, members :: _ -> Spins (lasso t without_event members)
+  | None, [] -> (
+      let asked = of_kind without_endless in
+      match List.assoc_opt Fair asked with
+      | Some members -> Goes_on (lasso t without_endless members)
+      | None when List.mem_assoc Perhaps asked -> Unsure
+      | None -> (
+          let endless = of_kind all in
+          let design (fairness, members) = if fairness = Fair then Some (by_design t members) else None in
+          let designs = List.filter_map design endless in
+          match designs with
+          | [] -> if List.mem_assoc Perhaps endless then Unsure else Ends
+          | designs ->
+            let together f = List.sort_uniq Stdlib.compare (List.concat_map f designs) in
+            By_design { repeats = together fst; left_by = together snd }))

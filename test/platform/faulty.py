@@ -74,6 +74,11 @@ def on_report(report):
         ended.add(request)
     if FAULT == "mute" and kind == "hello" or FAULT == "never quiet" and kind == "quiet":
         return []
+    if FAULT == "prints" and kind == "taken":
+        print("armed, waiting for the link", flush=True)
+    if FAULT == "dies" and kind == "taken" and not os.path.exists("died"):
+        open("died", "w").close()
+        os._exit(4)
     if FAULT == "typeless" and kind == "vehicle":
         del report["type"]
     if FAULT == "doubled ends" and kind == "done":

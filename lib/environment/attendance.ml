@@ -11,10 +11,11 @@ type company = {
   silent : Core.vehicle list;  (* those of them that are lost *)
   unsure : Core.vehicle list;  (* others of them that may be late or missing *)
   is_new : Core.vehicle -> bool;  (* whether to be late is something new, which counts *)
+  alike : Core.vehicle -> Core.vehicle option;  (* the same of all that may be exchanged with each other *)
   most_new : int;  (* how many of these there may be *)
 }
 
-let company (faults : Faults.t) ~may_be_late ~lost ~late ~bound world (pick : Settings.pick) =
+let company ?(alike = fun _ -> None) (faults : Faults.t) ~may_be_late ~lost ~late ~bound world (pick : Settings.pick) =
   let is_wanted (s : World.vehicle_state) =
     Settings.accepts { pick.filter with region = None } s && not (List.mem s.id bound)
   in
@@ -37,64 +38,84 @@ let company (faults : Faults.t) ~may_be_late ~lost ~late ~bound world (pick : Se
     | At_most n -> min new_ones (max 0 (n - List.length late))
     | Any_number -> new_ones
   in
-  { wanted; always = ids (List.filter (is_seen_in List.for_all) states); silent; unsure; is_new; most_new }
+  { wanted; always = ids (List.filter (is_seen_in List.for_all) states); silent; unsure; is_new; alike; most_new }
 
 let unsure company = company.unsure
 let without vs = List.filter (fun v -> not (List.mem v vs))
 let number_of_new company vs = List.length (List.filter company.is_new vs)
 
-(* The sublists of [n] elements of [vs] of which [news] are new, the first ones first. It never searches in vain. *)
-let rec sublists company n news vs : Core.vehicle list Seq.t =
-  fun () ->
-  let there = number_of_new company vs in
-  match vs with
-  | _ when news < 0 || news > n || news > there || n - news > List.length vs - there -> Seq.Nil
-  | _ when n = 0 -> Seq.return [] ()
-  | [] -> Seq.Nil
-  | v :: rest ->
-    let with_v = sublists company (n - 1) (if company.is_new v then news - 1 else news) rest in
-    Seq.append (Seq.map (List.cons v) with_v) (sublists company n news rest) ()
-
 let up_to n : int Seq.t = Seq.unfold (fun i -> if i > n then None else Some (i, i + 1)) 0
 let costs company = up_to company.most_new
-let subsets company news vs = Seq.flat_map (fun n -> sublists company n news vs) (up_to (List.length vs))
+(* {1 Lists of vehicles}
 
-(* The lists of at most [most] different elements of [vs] of which [news] are new; likewise. *)
-let rec arrangements company most news vs : Core.vehicle list Seq.t =
+   What is bound is those that come in the order of the fleet, and then those that are late. In one way only, if those
+   that are late are as few as can be: the first of them comes before the last of the others in the fleet. So a list is
+   made vehicle by vehicle, and from the first one on that comes before the one ahead of it in the fleet, all are late.
+   Of vehicles that are alike, the first that is left is next: the list that has others in its place is an image of
+   it. *)
+
+type list_of_bound = {
+  on_time : Core.vehicle list;  (* latest first, as are [coming] *)
+  coming : Core.vehicle list;
+  left : Core.vehicle list;  (* in the order of the fleet *)
+  passed : Core.vehicle list;  (* those of [left] that come before the last that is on time *)
+}
+
+let nobody company = { on_time = []; coming = []; left = company.wanted; passed = [] }
+let length l = List.length l.on_time + List.length l.coming
+
+(* Those of [vs] of which none that is alike comes before. *)
+let first_of_alike company vs =
+  let add (found, classes) v =
+    match company.alike v with
+    | None -> (v :: found, classes)
+    | Some c when List.mem c classes -> (found, classes)
+    | Some c -> (v :: found, c :: classes)
+  in
+  List.rev (fst (List.fold_left add ([], []) vs))
+
+let is_unsure company v = List.mem v company.unsure
+
+let rec until v = function u :: rest when not (String.equal u v) -> u :: until v rest | _ -> []
+
+(* [l] with one more vehicle, in each way. *)
+let longer company l =
+  let add v =
+    let is_late = l.coming <> [] || List.mem v l.passed in
+    let left = without [ v ] l.left in
+    if not is_late then Some { l with on_time = v :: l.on_time; left; passed = until v l.left }
+    else if is_unsure company v then Some { l with coming = v :: l.coming; left; passed = without [ v ] l.passed }
+    else None
+  in
+  List.filter_map add (first_of_alike company l.left)
+
+(* The lists of at most [most] vehicles, each after its beginnings; none that begins with one of which [is_hopeless]. *)
+let rec lists company ~is_hopeless most l : list_of_bound Seq.t =
   fun () ->
-  if news < 0 || news > min most (number_of_new company vs) then Seq.Nil
+  if is_hopeless l then Seq.Nil
   else
-    let from v =
-      let news = if company.is_new v then news - 1 else news in
-      Seq.map (List.cons v) (arrangements company (most - 1) news (without [ v ] vs))
+    let longer_ones () =
+      if most = 0 then Seq.Nil
+      else Seq.flat_map (lists company ~is_hopeless (most - 1)) (List.to_seq (longer company l)) ()
     in
-    let longer = if most = 0 then Seq.empty else Seq.flat_map from (List.to_seq vs) in
-    if news = 0 then Seq.Cons ([], longer) else longer ()
+    Seq.Cons (l, longer_ones)
 
-(* [f before v] of each [v] of [vs] that comes after [mark], with those before it. *)
-let after mark f vs : 'a Seq.t =
-  let rec go before passed vs () =
-    match vs with
-    | [] -> Seq.Nil
-    | v :: rest when String.equal v mark -> go before true rest ()
-    | v :: rest ->
-      let later = go (v :: before) passed rest in
-      if passed then Seq.append (f (List.rev before) v) later () else later ()
-  in
-  go [] false vs
-
-(* A pick of [n] vehicles binds some that come in the order of the fleet, and then some that are late. In one way only,
-   if those that are late are as few as can be: the first of them comes before the last of the others in the fleet. *)
 let with_latecomers company n news : (Core.vehicle list * Core.vehicle list) Seq.t =
-  let on_time_company = { company with is_new = (fun _ -> false) } in
-  let with_coming = function
-    | [] -> Seq.empty
-    | first :: others as coming ->
-      let rest = n - List.length coming - 1 in
-      let on_time before v = Seq.map (fun vs -> (vs @ [ v ], coming)) (sublists on_time_company rest 0 before) in
-      after first on_time (without others company.wanted)
+  let is_hopeless l =
+    let found = number_of_new company l.coming and missing = n - length l in
+    let may_be_late = List.filter (is_unsure company) l.left in
+    (* So many of those that are passed need not be bound. *)
+    let spare = List.length l.left - missing in
+    spare < 0
+    || found > news
+    || found + number_of_new company l.passed - spare > news
+    || found + min missing (number_of_new company may_be_late) < news
+    || (l.coming = [] && (missing = 0 || may_be_late = []))
+    || (l.coming <> [] && List.length may_be_late < missing)
   in
-  Seq.flat_map with_coming (arrangements company (n - 1) news company.unsure)
+  let whole l = if length l = n then Some (List.rev l.on_time, List.rev l.coming) else None in
+  let is_right (_, coming) = number_of_new company coming = news in
+  Seq.filter is_right (Seq.filter_map whole (lists company ~is_hopeless n (nobody company)))
 
 (* Too few of [n] come if so many are missing: those first whose absence counts for nothing. *)
 let too_few company n =
@@ -103,20 +124,19 @@ let too_few company n =
   let may_miss = List.filter (fun v -> List.mem v company.always) (company.silent @ known @ unknown) in
   if least <= 0 || least > List.length may_miss then None else Some (List.filteri (fun i _ -> i < least) may_miss)
 
-(* Who comes to a pick of all vehicles, and in which order; the vehicles that are late are again as few as can be. *)
+(* Who comes to a pick of all vehicles, and in which order. Those that are left are missing, and may be. *)
 let of_all company news =
-  let with_missing missing =
-    let there = without missing company.wanted in
-    let matters = function
-      | [] -> true
-      | first :: others -> after first (fun _ _ -> Seq.return ()) (without others there) () <> Seq.Nil
-    in
-    let unsure = without missing company.unsure in
-    let coming = arrangements company (List.length unsure) (news - number_of_new company missing) unsure in
-    Seq.map (fun coming -> { coming; missing }) (Seq.filter matters coming)
+  let may_miss v = is_unsure company v || List.mem v company.silent in
+  let is_hopeless l =
+    number_of_new company l.coming > news
+    || not (List.for_all may_miss l.passed)
+    || (l.coming <> [] && not (List.for_all may_miss l.left))
   in
-  let with_silent silent =
-    let absent = Seq.flat_map (fun news -> subsets company news company.unsure) (up_to news) in
-    Seq.flat_map (fun unsure -> with_missing (silent @ unsure)) absent
+  let attendance l =
+    let silent, absent = List.partition (fun v -> List.mem v company.silent) l.left in
+    let missing = silent @ absent in
+    let counted = number_of_new company l.coming + number_of_new company missing in
+    if counted = news && List.for_all may_miss l.left then Some { coming = List.rev l.coming; missing } else None
   in
-  Seq.flat_map with_silent (subsets company 0 company.silent)
+  let most = List.length company.wanted in
+  Seq.filter_map attendance (lists company ~is_hopeless most (nobody company))

@@ -12,6 +12,7 @@ type company
 (** The vehicles that a pick may look for. *)
 
 val company :
+  ?alike:(Core.vehicle -> Core.vehicle option) ->
   Faults.t ->
   may_be_late:(Core.vehicle -> bool) ->
   lost:Core.vehicle list ->
@@ -20,8 +21,10 @@ val company :
   World.t ->
   Settings.pick ->
   company
-(** [company faults ~may_be_late ~lost ~late ~bound w q] is those that [q] may look for in [w] while [bound] are in B.
-    The [lost] may be missing, others only as [faults] has it; [late] are those that were late before. *)
+(** [company ~alike faults ~may_be_late ~lost ~late ~bound w q] is those that [q] may look for in [w] while [bound] are
+    in B. The [lost] may be missing, others only as [faults] has it; [late] are those that were late before. Two
+    vehicles for which [alike] is the same [Some] may be exchanged: of what differs only in these, one is given. They
+    are of the same kind, may both be late, neither is lost or was late, and no other stands between them in [w]. *)
 
 val unsure : company -> Core.vehicle list
 (** Those that are not lost, and may be late or missing. *)

@@ -11,6 +11,7 @@ type options = {
   replies : string -> (Core.value, string) result list list;
   inputs : input list;
   faults : Faults.t;
+  who_is_lost_matters : bool;
 }
 
 exception Unclear of Fault.t
@@ -19,8 +20,7 @@ let clear = function Ok x -> x | Error fault -> raise (Unclear fault)
 
 let default =
   { endings = (fun _ _ -> Succeeds); may_be_late = (fun _ -> true); answers = (fun _ -> []); replies = (fun _ -> []);
-    inputs = [];
-    faults = Faults.none }
+    inputs = []; faults = Faults.none; who_is_lost_matters = true }
 
 let ending options v name =
   match options.endings v name, options.faults.fail with
@@ -79,9 +79,14 @@ let hash e =
   List.fold_left mix (List.fold_left mix counted e.lost) e.late
 
 let lost e = e.lost
+let late e = e.late
 
+(* Who is lost and was late comes first, then who is lost: so the order in which [f] meets them does not depend on their
+   names, but among those of which the same is remembered. *)
 let renamed f e =
   let all vs = List.sort String.compare (List.map f vs) in
+  let both = List.filter (fun v -> List.mem v e.late) e.lost in
+  List.iter (fun v -> ignore (f v : Core.vehicle)) (both @ e.lost);
   { e with lost = all e.lost; late = all e.late }
 
 let add v vs = List.sort_uniq String.compare (v :: vs)
@@ -91,7 +96,14 @@ let less v vs = List.filter (fun v' -> not (String.equal v v')) vs
 
 let failure = "failure"
 let loss = "connection lost"
-let endings_remember options = Faults.is_possible options.faults.loss
+(* Where losses are counted, another loss of a lost vehicle is none. *)
+let endings_remember options =
+  match options.faults.loss with
+  | Never | At_most 0 -> false
+  | At_most _ -> true
+  | Any_number -> options.who_is_lost_matters
+
+let forgetting_losses options = { options with who_is_lost_matters = false }
 
 let task_ends options e v (p : Core.platform_task) : (Transition.event * t) list =
   let is_lost = List.mem v e.lost in
@@ -105,7 +117,8 @@ let task_ends options e v (p : Core.platform_task) : (Transition.event * t) list
     | May_fail, At_most most when e.failed < most -> [ succeeded; failed { heard with failed = e.failed + 1 } ]
     | May_fail, At_most _ -> [ succeeded ]
   in
-  let lost e = [ (Transition.Vehicle_failed (v, loss), { e with lost = add v e.lost }) ] in
+  let after_loss e = if endings_remember options then { e with lost = add v e.lost } else e in
+  let lost e = [ (Transition.Vehicle_failed (v, loss), after_loss e) ] in
   match options.faults.loss with
   | _ when is_lost -> ends @ lost e
   | Any_number -> ends @ lost e
@@ -228,11 +241,30 @@ let once world choices () =
   let choices = Seq.filter is_first choices in
   if World.is_open world then Transition.distinct fst choices () else choices ()
 
-let picking options program world e (c : Configuration.t) (pick : Settings.pick) =
-  let company =
-    Attendance.company options.faults ~may_be_late:options.may_be_late ~lost:e.lost ~late:e.late ~bound:c.shared.bound
-      world pick
+(* [world] without those vehicles that are never among the first [n] of theirs that are left. *)
+let hiding alike n world (pick : Settings.pick) bound =
+  let seen = Hashtbl.create 8 in
+  let is_hidden (s : World.vehicle_state) =
+    match alike s.id with
+    | Some c when Settings.accepts { pick.filter with region = None } s && not (List.mem s.id bound) ->
+      let before = Option.value (Hashtbl.find_opt seen c) ~default:0 in
+      Hashtbl.replace seen c (before + 1);
+      before >= n
+    | Some _ | None -> false
   in
+  let missing (s : World.vehicle_state) = if is_hidden s then Some (World.Missing s.id) else None in
+  match List.filter_map missing (World.vehicles world) with
+  | [] -> world
+  | hidden -> World.suppose hidden world
+
+(* Where late vehicles are remembered, it matters which of those that are alike was late. *)
+let picking ?alike options program world e (c : Configuration.t) (pick : Settings.pick) =
+  let company_in world =
+    let alike = match options.faults.join with At_most _ -> None | Never | Any_number -> alike in
+    Attendance.company ?alike options.faults ~may_be_late:options.may_be_late ~lost:e.lost ~late:e.late
+      ~bound:c.shared.bound world pick
+  in
+  let company = company_in world in
   let remember (a : Attendance.t) ((t : Transition.t), e) =
     let is_picked v = List.mem v t.next.shared.bound && not (List.mem v c.shared.bound) in
     let lost = List.filter (fun v -> not (is_picked v)) e.lost in
@@ -248,18 +280,22 @@ let picking options program world e (c : Configuration.t) (pick : Settings.pick)
     let with_assumed ((t : Transition.t), e) = remember a ({ t with assumed = assumed @ t.assumed }, e) in
     Seq.map with_assumed transitions
   in
-  let attended a = given a (in_world options program (World.suppose (assumed a) world) e c) in
-  let of_number n news =
-    let bound (on_time, coming) =
-      given { coming; missing = [] } (internal program (World.only (on_time @ coming) world) e c)
-    in
-    let failed =
-      match Attendance.too_few company n with
-      | Some missing when Attendance.number_of_new company missing = news -> attended { coming = []; missing }
-      | Some _ | None -> Seq.empty
-    in
-    let as_it_is = if news = 0 then attended { coming = []; missing = [] } else Seq.empty in
-    Seq.append as_it_is (Seq.append (Seq.flat_map bound (Attendance.with_latecomers company n news)) failed)
+  let attended_in world a = given a (in_world options program (World.suppose (assumed a) world) e c) in
+  let attended = attended_in world in
+  let of_number n =
+    let shown = Option.fold ~none:world ~some:(fun alike -> hiding alike n world pick c.shared.bound) alike in
+    let seen = if shown == world then company else company_in shown in
+    fun news ->
+      let bound (on_time, coming) =
+        given { coming; missing = [] } (internal program (World.only (on_time @ coming) world) e c)
+      in
+      let failed =
+        match Attendance.too_few company n with
+        | Some missing when Attendance.number_of_new company missing = news -> attended { coming = []; missing }
+        | Some _ | None -> Seq.empty
+      in
+      let as_it_is = if news = 0 then attended_in shown { coming = []; missing = [] } else Seq.empty in
+      Seq.append as_it_is (Seq.append (Seq.flat_map bound (Attendance.with_latecomers seen n news)) failed)
   in
   let with_new news =
     match pick.count with
@@ -283,10 +319,10 @@ let posts options program world e c : (Transition.t * t) Seq.t =
   in
   List.to_seq (List.filter_map post (inputs options program e))
 
-let choices options program world e (c : Configuration.t) =
+let choices ?alike options program world e (c : Configuration.t) =
   let by_itself () =
     match c.control with
-    | Waiting (_, Pick pick) -> picking options program world e c pick ()
+    | Waiting (_, Pick pick) -> picking ?alike options program world e c pick ()
     | Script _ | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) | Executing _ | Ended _ ->
       in_world options program world e c ()
   in

@@ -29,6 +29,9 @@ type options = {
       come from the place of the call. Where there is none, the call fails ({!no_reply}). *)
   inputs : input list;  (** those with keys that the program does not declare do not count *)
   faults : Faults.t;
+  who_is_lost_matters : bool;
+  (** whether the program may look for vehicles after a loss. If not, it makes no difference who is lost, and it is not
+      remembered unless losses are counted. *)
 }
 
 exception Unclear of Fault.t
@@ -45,6 +48,9 @@ val default : options
 
 val ending : options -> Core.vehicle -> string -> ending
 (** [ending o v name] is how [v] may end the plan of this name, faults included. *)
+
+val forgetting_losses : options -> options
+(** [forgetting_losses o] is [o] where it does not matter who is lost. *)
 
 val failing : ?failures:int -> options -> options
 (** [failing options] is [options] with failures of every task that may succeed, at most [failures] in one run. *)
@@ -65,6 +71,9 @@ val hash : t -> int
 
 val lost : t -> Core.vehicle list
 (** The vehicles whose connection was lost and of which nothing was heard since, in ascending order. *)
+
+val late : t -> Core.vehicle list
+(** The vehicles that were late, or missing, at some time, as far as that is remembered, in ascending order. *)
 
 val renamed : (Core.vehicle -> Core.vehicle) -> t -> t
 (** [renamed f e] is [e] with each vehicle [v] in it as [f v]; [f] is injective. *)
@@ -96,10 +105,13 @@ val upcoming : options -> Core.program -> t -> (string * Core.value) list
 val owes : options -> Core.program -> t -> bool
 (** Whether some input is certain that has not come as often as it will. *)
 
-val choices : options -> Core.program -> World.t -> t -> Configuration.t -> (Transition.t * t) Seq.t
+val choices :
+  ?alike:(Core.vehicle -> Core.vehicle option) -> options -> Core.program -> World.t -> t -> Configuration.t ->
+  (Transition.t * t) Seq.t
 (** [choices o p w e c] is every transition of [c], computed on demand: its own, leftmost first, then those on events,
     in the order of [Transition.awaited], the inputs, and last the interruption, if there are any. What a transition
-    takes for     granted, of sensors and of who is there, is among its [assumed].
+    takes for granted, of sensors and of who is there, is among its [assumed]. At a pick, of those that differ only by
+    exchanging vehicles that are [alike] ({!Attendance.company}) one is given.
     @raise Unclear (each time it is gone through) if [w] is open and the outcomes of a step cannot be listed. *)
 
 val find : ('choice -> bool) -> 'choice Seq.t -> 'choice option

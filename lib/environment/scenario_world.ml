@@ -40,4 +40,5 @@ let environment ~answers:given ~faults (scenario : Scenario.t) =
     replies = (fun call -> Option.value (Scenario.rounds scenario call) ~default:[]);
     inputs = List.map input scenario.inputs;
     faults;
+    who_is_lost_matters = true;
   }

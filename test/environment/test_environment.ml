@@ -192,6 +192,17 @@ let lost_again =
                       if (bad % 10 == 0 || i > bad.toString().size()) { bad = bad * 10 } }
     if (bad == 1101) { halt 'lost, lost, back, lost' }|}
 
+let any_loss = { plain with faults = { Faults.none with loss = Any_number } }
+
+let lost =
+  {|failed = false
+    v = pick { type 'UUV' ; id 'a' }
+    execute watch task('p')[v] onError { failed = true ; ignore() }
+|}
+
+(* [before], a task that may be lost, [after]. *)
+let again before after = before ^ "\nexecute watch task('p')[vs] onError { ignore() }\n" ^ after
+
 let ends =
   [
     breaks "two failures of one" (failing 1) [] (tasks_that_end_badly 2);
@@ -205,6 +216,24 @@ let ends =
         execute watch task('p')[v] onError { ignore() }
         release v
         v = pick { id 'a' ; timeout 1.seconds }|};
+    breaks "nobody is missing who is not looked for" any_loss [ No_halt ] (lost ^ "if (failed) { halt 'lost' }");
+    breaks "lost, and looked for" any_loss missing (lost ^ "release v\nv = pick { id 'a' ; timeout 1.seconds }");
+    breaks "lost, and looked for in a loop" any_loss missing
+      (again "for (i in 1..2) { vs = pick { id 'a' ; timeout 1.seconds }" "release vs }");
+    breaks "lost, and looked for while it goes on" any_loss missing
+      (again "i = 0\nwhile (i < 2) { i = i + 1 ; vs = pick { id 'a' ; timeout 1.seconds }" "release vs }");
+    breaks "lost, and looked for by a function" any_loss missing
+      ("def look() { return pick { id 'a' ; timeout 1.seconds } }\n" ^ lost ^ "release v\nv = look()");
+    breaks "lost by a function" any_loss missing
+      ("def fly(v) { execute watch task('p')[v] onError { ignore() } }\nv = pick { id 'a' }\nfly(v)\nrelease v\n\
+        v = pick { id 'a' ; timeout 1.seconds }");
+    breaks "lost by a function that looks for it" any_loss missing
+      (again "def turn() {\nvs = pick { id 'a' ; timeout 1.seconds }" "release vs }\nturn()\nturn()");
+    breaks "lost, and looked for after an early end of a loop" any_loss missing
+      (again "vs = pick { id 'a' }\nwhile (true) {" "release vs\nbreak }\nv = pick { id 'a' ; timeout 1.seconds }");
+    breaks "lost in one of two branches, and looked for" any_loss missing
+      (again "vs = pick { id 'a' }\nif (vs.size() == 1) {" "} else { ws = pick { id 'b' } }\nrelease vs\n\
+                                                            v = pick { id 'a' ; timeout 1.seconds }");
     breaks "one that is back may not" (losing 1) []
       {|v = pick { type 'UUV' ; id 'a' }
         lost = false

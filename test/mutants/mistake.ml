@@ -216,8 +216,11 @@ let vehicle_orbits =
         {|if is_odd || List.mem s.id flow.texts then|},
         {|if is_odd then|} );
       ( "payloads do not matter",
-        {|((s.kind, s.payload, s.connected),|},
-        {|((s.kind, s.connected),|} );
+        {|((s.kind, s.payload, s.connected, may_be_late),|},
+        {|((s.kind, s.connected, may_be_late),|} );
+      ( "it does not matter who may be late",
+        {|Faults.is_possible options.faults.join && options.may_be_late s.id in|},
+        {|Faults.is_possible options.faults.join && false && options.may_be_late s.id in|} );
     ]
 
 let canonical_vehicles =
@@ -281,6 +284,36 @@ let liveness =
         {|if may_call operation && false then Variables.union called live else live|} );
     ]
 
+let later_picks =
+  in_file "lib/explore/symmetry/later_picks.ml" ~noticed_by:"environment/test_environment"
+    [
+      ( "nothing is looked for after a task",
+        {|    if next then note ();
+|},
+        {||} );
+      ( "functions look for nobody",
+        {|    next || called.picks
+|},
+        {|    next
+|} );
+      ( "functions execute nothing",
+        {|if called.executes && (next || called.picks) then note ();|},
+        {|if called.executes && false then note ();|} );
+      ( "a loop has one turn",
+        {|    round (round false)
+|},
+        {|    round false
+|} );
+      ( "a range is gone through once",
+        {|{ exits with next = round (round false) }|},
+        {|{ exits with next = round false }|} );
+      ( "nothing follows a break",
+        {|  | Break -> exits.break
+|},
+        {|  | Break -> false
+|} );
+    ]
+
 let environment =
   in_file "lib/environment/environment.ml" ~noticed_by:"environment/test_environment"
     [
@@ -310,6 +343,19 @@ let environment =
         {|| No_vehicles _ when !too_few_came -> true|} );
     ]
 
+let picks =
+  in_file "lib/environment/environment.ml" ~noticed_by:"reduction/test_picks"
+    [
+      ( "which of those alike was late is not remembered",
+        {|let alike = match options.faults.join with At_most _ -> None | Never|},
+        {|let alike = match options.faults.join with At_most 0 -> None | At_most _ | Never|} );
+      ( "one too few of those alike are looked at",
+        {|      before >= n
+|},
+        {|      before >= n - 1
+|} );
+    ]
+
 let attendance =
   in_file "lib/environment/attendance.ml" ~noticed_by:"environment/test_environment"
     [
@@ -320,8 +366,8 @@ let attendance =
         {|let least = List.length company.always - (n - 1) in|},
         {|let least = List.length company.always - (n - 2) in|} );
       ( "latecomers come in the order of the fleet",
-        {|if passed then Seq.append (f (List.rev before) v) later () else later ()|},
-        {|if passed && false then Seq.append (f (List.rev before) v) later () else later ()|} );
+        {|else if is_unsure company v then Some|},
+        {|else if is_unsure company v && false then Some|} );
       ( "vehicles outside of the region are missed",
         {|always = ids (List.filter (is_seen_in List.for_all) states)|},
         {|always = ids (List.filter (is_seen_in List.exists) states)|} );
@@ -565,7 +611,7 @@ let pick_rules_in_traps =
 let all =
   List.concat
     [ footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups; quotient; expansion;
-      vehicle_orbits; canonical_vehicles; name_flow; liveness; environment; inputs; attendance; task_rules;
-      local_step; run_code; answers_in_words; confirm; unknown;
+      vehicle_orbits; canonical_vehicles; name_flow; liveness; later_picks; environment; picks; inputs; attendance;
+      task_rules; local_step; run_code; answers_in_words; confirm; unknown;
       pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
       conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps ]

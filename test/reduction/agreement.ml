@@ -80,6 +80,7 @@ let all_outcomes (g : Reference.t) =
   !found
 
 let reduced_outcomes environment program world =
+  let environment = Later_picks.forgetting program environment in
   let graph = State_graph.create Limits.none (Space.create ~reduction:Partial_order environment program world) in
   let rec from i found =
     if i = State_graph.count graph then State_graph.flush graph;

@@ -18,6 +18,11 @@ let reading = { supplied with answers = (fun _ -> [ [ "p"; "q[0].id == 'b'" ] ])
 let failing fails : Environment.options =
   { answering with endings = (fun v p -> if fails v p then May_fail else Succeeds) }
 
+let late join may_be_late : Environment.options =
+  { answering with may_be_late; faults = { Faults.none with join } }
+
+let every : Faults.t = { Faults.none with fail = Any_number; join = Any_number }
+
 let environments =
   [ ("as planned", answering);
     ("with answers that read variables", reading);
@@ -27,6 +32,11 @@ let environments =
     ("with a loss", { answering with faults = { Faults.none with loss = At_most 1 } });
     ("with a latecomer", { answering with faults = { Faults.none with join = At_most 1 } });
     ("with an input", { answering with inputs = Test_support.Posts.once });
+    ("with latecomers", late Faults.Any_number (fun _ -> true));
+    ("with latecomers, of which some are always there", late Faults.Any_number (fun v -> v = "a" || v = "c"));
+    ("with two of those late", late (Faults.At_most 2) (fun v -> v = "a" || v = "c"));
+    ("with all faults", { answering with faults = { every with loss = Any_number } });
+    ("with all faults, and losses counted", { answering with faults = { every with loss = At_most 2 } });
     ("with interruptions", { answering with faults = { Faults.none with interrupt = true } });
     ("vehicle b may fail", failing (fun v _ -> v = "b"));
     ("plan t may fail", failing (fun _ p -> p = "t"));

@@ -118,7 +118,8 @@ let by_what_they_are =
     keeps "a plan that fails on one, with a name that is computed"
       ~environment:{ plain with endings = (fun v p -> if v = "c" && p = "p" then Fails else Succeeds) }
       [ No_error ] (one ^ "execute task('P'.toLowerCase())[v]");
-    tells "one that may be late" ~environment:{ plain with faults = { Faults.none with join = At_most 1 }; may_be_late = (fun v -> v = "c") }
+    keeps "one that may be late"
+      ~environment:{ plain with faults = { Faults.none with join = At_most 1 }; may_be_late = (fun v -> v = "a") }
       [ Vehicles ] (one ^ "w = pick { count 2; type 'UUV'; timeout 1.seconds }");
   ]
 

@@ -101,10 +101,13 @@ let sayings r name (c : Configuration.t) =
    which the same is said can be exchanged. *)
 let named_by_pairs r name c outside =
   let compare_pair (k, x) (k', x') = match String.compare k k' with 0 -> Value.compare x x' | order -> order in
-  let compare (_, lost, pairs) (_, lost', pairs') =
-    match Bool.compare lost lost' with 0 -> List.compare compare_pair pairs pairs' | order -> order
+  let compare (_, remembered, pairs) (_, remembered', pairs') =
+    match Stdlib.compare (remembered : bool * bool) remembered' with
+    | 0 -> List.compare compare_pair pairs pairs'
+    | order -> order
   in
-  let add v pairs found = (v, List.mem v (Environment.lost outside), List.sort compare_pair pairs) :: found in
+  let remembered v = (List.mem v (Environment.lost outside), List.mem v (Environment.late outside)) in
+  let add v pairs found = (v, remembered v, List.sort compare_pair pairs) :: found in
   List.map (fun (v, _, _) -> v) (List.sort compare (Hashtbl.fold add (sayings r name c) []))
 
 let canonical r c outside =
@@ -174,13 +177,16 @@ let picking r outside (c : Configuration.t) (pick : Settings.pick) =
     in
     List.iter check (by_orbit r free)
   end;
-  match pick.count with
-  | All -> r.world
-  | Exactly n ->
-    let rest vs = List.filteri (fun i _ -> i >= n) (List.filter (fun v -> is_movable r v && not (is_known v)) vs) in
-    let hidden = List.concat_map rest (by_orbit r free) in
-    if hidden <> [] then r.used <- true;
-    World.suppose (List.map (fun v -> World.Missing v) hidden) r.world
+  let alike v = if is_movable r v && not (is_known v) then Some (first r v) else None in
+  let exchanged vs =
+    let others = List.filter (fun v -> alike v <> None) vs in
+    match pick.count, r.options.faults.join with
+    | (Exactly _ | All), Any_number -> List.compare_length_with others 1 > 0
+    | Exactly n, (Never | At_most _) -> List.compare_length_with others n > 0
+    | All, (Never | At_most _) -> false
+  in
+  if List.exists exchanged (by_orbit r free) then r.used <- true;
+  alike
 
 (* Answers are code from outside of the program: they must read no variable. *)
 let check_answers r prompt =
@@ -222,14 +228,14 @@ let rec check_plans r (t : Residual.t) =
     check_plans r a
 
 let choices r outside (c : Configuration.t) =
-  let world =
+  let alike =
     match c.control with
-    | Waiting (_, Pick pick) -> picking r outside c pick
-    | Waiting (_, Ask prompt) -> check_answers r prompt; r.world
+    | Waiting (_, Pick pick) -> Some (picking r outside c pick)
+    | Waiting (_, Ask prompt) -> check_answers r prompt; None
     | Waiting (_, Host_call { subject; member; _ }) ->
       check_replies r (Machine.name_of_call ~subject ~member);
-      r.world
-    | Script _ | Waiting (_, (Pause _ | Execute _)) | Executing _ | Ended _ -> r.world
+      None
+    | Script _ | Waiting (_, (Pause _ | Execute _)) | Executing _ | Ended _ -> None
   in
   let check ((t : Transition.t), _ as choice) =
     (match c.control, t.next.control with
@@ -237,4 +243,4 @@ let choices r outside (c : Configuration.t) =
      | _, _ -> ());
     choice
   in
-  Seq.map check (Environment.choices r.options r.program world outside c)
+  Seq.map check (Environment.choices ?alike r.options r.program r.world outside c)

@@ -68,7 +68,8 @@ let key (options : Environment.options) world (flow : Name_flow.t) (s : World.ve
   let endings = List.map (Environment.ending options s.id) flow.texts in
   let is_odd = World.is_open world && (flow.places || flow.batteries) && not (is_plain s.id) in
   let alone = if is_odd || List.mem s.id flow.texts then Some s.id else None in
-  ((s.kind, s.payload, s.connected), place, battery, endings, alone)
+  let may_be_late = Faults.is_possible options.faults.join && options.may_be_late s.id in
+  ((s.kind, s.payload, s.connected, may_be_late), place, battery, endings, alone)
 
 (* Vehicles and texts among what may be posted. *)
 let posted (options : Environment.options) =
@@ -87,7 +88,7 @@ let find (options : Environment.options) program ~asked world =
   let flow = Name_flow.of_program program ~asked:(List.map Condition.closure asked) in
   let flow = { flow with texts = List.concat_map Condition.vehicles asked @ posted options @ flow.texts } in
   let is_independent = flow.names = None && not (World.is_open world && flow.readings <> None) in
-  if Faults.is_possible options.faults.join || not (is_independent && flow.picks) then none
+  if not (is_independent && flow.picks) then none
   else
     let states = World.vehicles world in
     let keys = Hashtbl.create 16 in

@@ -231,7 +231,15 @@ let rec explore x (options : options) =
   | found -> found
   | exception Symmetry.Broken symmetry -> explore { x with symmetry } options
 
+(* What nobody can tell is not remembered, unless the graph is asked for as it is defined. *)
+let relevant program (options : options) =
+  match options.reduction with
+  | Whole -> options
+  | Partial_order | Symmetry | All ->
+    { options with environment = Later_picks.forgetting program options.environment }
+
 let run (options : options) program world =
+  let options = relevant program options in
   let symmetry =
     if Reduction.by_symmetry options.reduction then
       Symmetry.find options.environment program ~asked:options.invariants world

@@ -9,8 +9,8 @@ open Dolphin_checker
 type options = {
   environment : Environment.options;
   reduction : Reduction.t;
-  (** where there are invariants, only the symmetry of vehicles is used; where connections may be lost, no symmetry of
-      tasks: states that it identifies may differ in which vehicle is lost *)
+  (** where there are invariants, only the symmetry of vehicles is used; where it matters which vehicle is lost
+      ({!Later_picks}), no symmetry of tasks: states that it identifies may differ in that *)
   compress : bool;  (** keep states in less memory, in more time *)
   search_again : int;
   (** so many of all states are visited for a shortest run, if a reduced search found a violation *)

@@ -1,0 +1,89 @@
+open Dolphin_semantics
+open Dolphin_environment
+open Core
+
+(* Whether a pick may come, by the way in which an expression is left. *)
+type exits = { next : bool; break : bool; continue : bool; return : bool }
+
+let over = { next = false; break = false; continue = false; return = false }
+
+(* What code that others call has in it, wherever it is called. *)
+type called = { mutable picks : bool; mutable executes : bool }
+
+let is_execute = function Builtin (Execute | Execute_for _) -> true | _ -> false
+let is_pick = function Build (Pick, _) -> true | _ -> false
+
+let called_code (program : program) =
+  let found = { picks = false; executes = false } and seen = ref [] in
+  let rec expression ~main e =
+    let go = expression ~main in
+    match e.node with
+    | Constant (Closure c) -> lambda c.lambda
+    | Make_closure (l, _) -> lambda l
+    | Constant _ | Global _ | Local _ | Break | Continue -> ()
+    | Set_local (_, e) | Set_global (_, e) | Return e -> go e
+    | Apply (operation, es) ->
+      if not main then begin
+        if is_pick operation then found.picks <- true;
+        if is_execute operation then found.executes <- true
+      end;
+      List.iter go es
+    | Block es -> List.iter go es
+    | If (a, b, c) -> List.iter go [ a; b; c ]
+    | While (a, b) | For (_, a, b) -> go a; go b
+  and lambda l =
+    if not (List.memq l !seen) then begin
+      seen := l :: !seen;
+      expression ~main:false l.code
+    end
+  in
+  expression ~main:true program.main.code;
+  List.iter (fun (_, l) -> lambda l) program.functions;
+  found
+
+(* Unlike [||], whose right side may not be gone through. *)
+let either a b = a || b
+
+(* Whether a pick may come from the beginning of [e] on; [note ()] where one may come after an [execute]. *)
+let rec before called note e exits =
+  let before = before called note in
+  match e.node with
+  | Constant _ | Local _ | Global _ | Make_closure _ -> exits.next
+  | Set_local (_, e) | Set_global (_, e) -> before e exits
+  | Apply (operation, es) -> all called note es { exits with next = applied called note operation exits.next }
+  | If (test, yes, no) -> before test { exits with next = either (before yes exits) (before no exits) }
+  | Block es -> all called note es exits
+  | While (test, body) ->
+    let round again =
+      let inside = { exits with next = again; continue = again; break = exits.next } in
+      before test { exits with next = either (before body inside) exits.next }
+    in
+    round (round false)
+  | For (_, range, body) ->
+    let round again =
+      either (before body { exits with next = again; continue = again; break = exits.next }) exits.next in
+    before range { exits with next = round (round false) }
+  | Return e -> before e { exits with next = exits.return }
+  | Break -> exits.break
+  | Continue -> exits.continue
+
+and all called note es exits = List.fold_right (fun e next -> before called note e { exits with next }) es exits.next
+
+and applied called note operation next =
+  if is_execute operation then begin
+    if next then note ();
+    next
+  end
+  else if Liveness.may_call operation then begin
+    if called.executes && (next || called.picks) then note ();
+    next || called.picks
+  end
+  else next || is_pick operation
+
+let may_follow (program : program) =
+  let found = ref false in
+  ignore (before (called_code program) (fun () -> found := true) program.main.code over : bool);
+  !found
+
+let forgetting program options =
+  if may_follow program then options else Environment.forgetting_losses options

@@ -552,7 +552,7 @@ The orders in which vehicles come are counted out one after another, also by a p
 
   $ for i in 1 2 3 4 5 6 7 8 9; do echo "vehicle 'uuv-$i', { type 'UUV' }"; done > nine.fleet
   $ echo 'v = pick { count 9 }' > nine.dol
-  $ (ulimit -s 512; explore nine.dol --fleet nine.fleet --faults join --max-states 3000 | grep -v inconclusive)
+  $ (ulimit -s 512; explore nine.dol --fleet nine.fleet --faults join --reduction por --max-states 3000 | grep -v inconclusive)
   vehicles for all tasks: violated after 2 steps: vehicles are missing
   3001 states, 1 transitions, depth 1; reduced by partial order
   

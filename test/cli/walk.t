@@ -272,18 +272,18 @@ Many choices are listed when they are asked for, and taken by their number.
   > vehicle 'e', { type 'UUV' }
   > END
   $ printf '\n40\n' | dolphin walk many.dol --faults join | tail -n 16
-    18  program picks a, b, e, d (many.dol:1)
-         if d comes late
-    19  program picks a, c, e, d (many.dol:1)
-         if d comes late
-    20  program picks b, c, e, d (many.dol:1)
-         if d comes late
+    18  program picks b, d, e, c (many.dol:1)
+         if c comes late
+    19  program picks c, d, e, a (many.dol:1)
+         if a comes late
+    20  program picks c, d, e, b (many.dol:1)
+         if b comes late
         and more, which 'more' shows
   1> 40
   
   state 2
   A         -
-  B         a, e, b, d
+  B         b, e, a, d
   N         -
   script    many.dol:1
      1  program end

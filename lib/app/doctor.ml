@@ -66,6 +66,9 @@ let runs () =
 let tlc () =
   match Dolphin_tlc.Installation.find Sys.getenv_opt with
   | Ok { java; jar } -> well "TLC" (Printf.sprintf "%s, by %s" jar java)
+  | Error (No_jar _) ->
+    missing "TLC" "its archive, tla2tools.jar, was not found"
+      "only dolphin tla --run wants it, where --tlc names the archive, or 'make tlc' fetches it"
   | Error trouble ->
     missing "TLC" (Format.asprintf "@[<h>%a@]" Dolphin_tlc.Installation.pp_trouble trouble)
       "only dolphin tla --run wants it: explore checks programs without"

@@ -210,6 +210,15 @@ let missing_word place =
         missing "run" (Printf.sprintf "%s, or %s" first after)
       | _ -> None
 
+(* [within = 4]: until and assure lack a brace. *)
+let assigned_word place =
+  match before place 1, this place with
+  | (DURING on_cut | AFTER_DURING on_cut), (ASSIGN | ASSIGN_OPERATOR _) ->
+    let word = Spelling.during on_cut in
+    let message = Printf.sprintf "'%s' is a word of the language: no variable has this name" word in
+    Some (message, "write " ^ fst (timed on_cut))
+  | _ -> None
+
 let missing_brace place =
   match before place 1, construct (before place 1) with
   | _, Some (word, form) -> Some (Printf.sprintf "a '{' is missing after '%s'" word, "write " ^ form)
@@ -318,8 +327,8 @@ let stray place =
   | _ -> None
 
 let rules = [
-  missing_parenthesis; missing_brace; missing_parameters; negative_argument; greedy_bracket; assignment; missing_word;
-  misplaced_word; command; unit_without_point; stray;
+  missing_parenthesis; assigned_word; missing_brace; missing_parameters; negative_argument; greedy_bracket; assignment;
+  missing_word; misplaced_word; command; unit_without_point; stray;
 ]
 
 let fault ~source ~tokens ~index ~acceptable =

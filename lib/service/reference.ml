@@ -25,6 +25,7 @@ let words =
       "watch", "watch T onError { err -> ... }",
       "T; an error in it stops it and runs the code, which may `ignore()`, `propagate()` or `halt()`.";
       "onError", "watch T onError { err -> ... }", "What is done about an error of the watched task.";
+      "repeat", "repeat T", "T, again and again.";
       "run", "during D run T", "The task to which a limit belongs.";
       "until", "until { C } run T", "T, which is stopped and done when C holds. Also `T until { C }`.";
       "assure", "assure { C } run T", "T, which is stopped and fails when C does not hold. Also `T assure { C }`.";

@@ -5,7 +5,7 @@ endif
 syntax keyword dolphinConditional if else
 syntax keyword dolphinRepeat while for in break continue
 syntax keyword dolphinStatement def return
-syntax keyword dolphinOperatorWord when then watch onError waitFor run until assure during within allOf oneOf choose
+syntax keyword dolphinOperatorWord when then watch onError waitFor repeat run until assure during within allOf oneOf choose
 syntax keyword dolphinBoolean true false
 syntax keyword dolphinConstant null _
 syntax keyword dolphinTask task imcPlan action condition idle assert pick pos

@@ -63,14 +63,12 @@ module Make (Time : Time) = struct
   let announce_period _ = announce_period
 
   (* Of what was told early, nothing is told any more that a command has undone. *)
-  let undo p told = p.early <- List.filter (fun event -> not (told event)) p.early
+  let undo p overtaken = p.early <- List.filter (fun event -> not (overtaken event)) p.early
 
   let set_timer p timer seconds = command p (Fleet.set_timer timer seconds)
 
   let cancel_timer p timer =
-    undo p (function
-        | Platform.Timer timer' -> timer = timer'
-        | Vehicle _ | Task_done _ | Task_failed _ | Input _ | Quiet -> false);
+    undo p (Overtaken.by_cancel timer);
     command p (Fleet.cancel_timer timer)
 
   let bind p vehicles = command p (Fleet.bind vehicles)
@@ -78,9 +76,7 @@ module Make (Time : Time) = struct
   let start p vehicle task = command p (Fleet.start vehicle task)
 
   let stop p vehicle =
-    undo p (function
-        | Platform.Task_done v | Task_failed (v, _) -> v = vehicle
-        | Vehicle _ | Timer _ | Input _ | Quiet -> false);
+    undo p (Overtaken.by_stop vehicle);
     command p (Fleet.stop vehicle)
 
   let set_connection_timeout p vehicles seconds = command p (Fleet.set_connection_timeout vehicles seconds)

@@ -69,7 +69,8 @@ module Make (P : Platform.S) = struct
     mutable configuration : Configuration.t;
     mutable world : World.t;
     mutable telemetry : bool;  (* as the platform was told last *)
-    mutable upcoming : news Lwt.t option;  (* the platform's next event, if it was asked for *)
+    mutable upcoming : (Platform.event Lwt.t * news Lwt.t) option;
+    (* the platform's next event, if it was asked for, as it is told and as it is read *)
     mutable reply : news Lwt.t option;  (* from the console or the host, if it is awaited *)
     mutable unknown : Fault.t list;  (* what was told to be *)
     mutable posted : news Lwt.t option;  (* the next input, if it was asked for *)
@@ -94,11 +95,16 @@ module Make (P : Platform.S) = struct
     let reply = function Ok x -> Event (Ok (Replied x)) | Error why -> Event (Ok (Host_failed why)) in
     s.reply <- Some (s.call ~site ~subject ~member ~arguments >|= reply)
 
+  (* Of the platform's next event, which it has told already perhaps, though an input was read first. *)
+  let drop s overtaken =
+    let is_overtaken (told, _) = match Lwt.state told with Lwt.Return e -> overtaken e | Fail _ | Sleep -> false in
+    if Option.fold s.upcoming ~none:false ~some:is_overtaken then s.upcoming <- None
+
   let carry_out s : Effect.t -> unit = function
     | Start (v, p) -> P.start s.platform v p
-    | Stop v -> P.stop s.platform v
+    | Stop v -> drop s (Overtaken.by_stop v); P.stop s.platform v
     | Set_timer (timer, seconds) -> P.set_timer s.platform timer seconds
-    | Cancel_timer timer -> P.cancel_timer s.platform timer
+    | Cancel_timer timer -> drop s (Overtaken.by_cancel timer); P.cancel_timer s.platform timer
     | Look_for pick ->
       let seconds = Option.value pick.timeout ~default:(P.announce_period s.platform) in
       P.set_timer s.platform Residual.script_timer seconds
@@ -164,7 +170,7 @@ module Make (P : Platform.S) = struct
 
   let next_of_platform s =
     match s.upcoming with
-    | Some promise -> promise
+    | Some (_, promise) -> promise
     | None ->
       let news : Platform.event -> news = function
         | Vehicle state -> Seen state
@@ -174,8 +180,9 @@ module Make (P : Platform.S) = struct
         | Input (k, x) -> Event (Ok (Input (k, x)))
         | Quiet -> Nothing_more
       in
-      let promise = P.next s.platform >|= news in
-      s.upcoming <- Some promise;
+      let told = P.next s.platform in
+      let promise = told >|= news in
+      s.upcoming <- Some (told, promise);
       promise
 
   let next_of_inputs s =
@@ -191,7 +198,7 @@ module Make (P : Platform.S) = struct
 
   let forget s promise =
     let unless p = if p == promise then None else Some p in
-    s.upcoming <- Option.bind s.upcoming unless;
+    s.upcoming <- Option.bind s.upcoming (fun (_, read as both) -> if read == promise then None else Some both);
     s.reply <- Option.bind s.reply unless;
     s.posted <- Option.bind s.posted unless
 
@@ -320,7 +327,7 @@ module Make (P : Platform.S) = struct
       | Waiting (_, (Pick _ | Pause _ | Execute _)) | Script _ | Executing _ | Ended _ -> ()
 
   let finish s =
-    Option.iter Lwt.cancel s.upcoming;
+    Option.iter (fun (_, promise) -> Lwt.cancel promise) s.upcoming;
     Option.iter Lwt.cancel s.reply;
     Option.iter Lwt.cancel s.posted;
     (match Option.map Lwt.state s.posted with

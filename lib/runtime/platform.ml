@@ -56,7 +56,8 @@ module type S = sig
       [Task_failed (v, why)] follows, unless {!stop} comes first. *)
 
   val stop : t -> Core.vehicle -> unit
-  (** [stop p v] stops what [v] runs for the program. No event about that task follows. *)
+  (** [stop p v] stops what [v] runs for the program. No event about that task follows: {!next} tells none, and who has
+      been told one and not read it yet drops it ({!Overtaken}). *)
 
   val set_connection_timeout : t -> Core.vehicle list option -> float -> unit
   (** For these vehicles, or for all, present and future; seconds. *)

@@ -50,7 +50,16 @@ let announce_period s =
 let set_timer s timer seconds =
   first s { each = (fun (type p) (module P : Platform.S with type t = p) p -> P.set_timer p timer seconds) }
 
+(* Of the events that platforms have told and nobody has read yet. *)
+let drop s overtaken =
+  let drop one =
+    let is_overtaken told = match Lwt.state told with Lwt.Return e -> overtaken e | Fail _ | Sleep -> false in
+    if Option.fold one.upcoming ~none:false ~some:is_overtaken then one.upcoming <- None
+  in
+  Array.iter drop s.parts
+
 let cancel_timer s timer =
+  drop s (Overtaken.by_cancel timer);
   first s { each = (fun (type p) (module P : Platform.S with type t = p) p -> P.cancel_timer p timer) }
 
 let telemetry s on =
@@ -87,7 +96,9 @@ let release s vehicles =
 let start s v task =
   at s (owner s v) { each = (fun (type p) (module P : Platform.S with type t = p) p -> P.start p v task) }
 
-let stop s v = at s (owner s v) { each = (fun (type p) (module P : Platform.S with type t = p) p -> P.stop p v) }
+let stop s v =
+  drop s (Overtaken.by_stop v);
+  at s (owner s v) { each = (fun (type p) (module P : Platform.S with type t = p) p -> P.stop p v) }
 
 let set_connection_timeout s vehicles seconds =
   let set vehicles =

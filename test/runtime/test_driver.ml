@@ -20,14 +20,14 @@ let quiet = fst (console_of ())
 
 let deadline = 60.
 
-let start (module P : Platform.S with type t = Mock_platform.t) ?observer ?host ?(console = quiet)
+let start (module P : Platform.S with type t = Mock_platform.t) ?observer ?host ?inputs ?(console = quiet)
     ?(interruption = never) ?always_telemetry mock program =
   Lwt_unix.with_timeout deadline (fun () ->
-      Driver.run (module P) mock ?always_telemetry ?observer ?host ~console ~interruption program)
+      Driver.run (module P) mock ?always_telemetry ?observer ?host ?inputs ~console ~interruption program)
 
 let run ?(platform = (module Mock_platform.Virtual : Platform.S with type t = Mock_platform.t)) ?observer ?host
-    ?console ?interruption ?always_telemetry mock program =
-  Lwt_main.run (start platform ?observer ?host ?console ?interruption ?always_telemetry mock program)
+    ?inputs ?console ?interruption ?always_telemetry mock program =
+  Lwt_main.run (start platform ?observer ?host ?inputs ?console ?interruption ?always_telemetry mock program)
 
 let outcome_is expected outcome = Alcotest.(check string) "outcome" expected (Fmt.str "%a" Driver.pp_outcome outcome)
 let log_is mock expected = Alcotest.(check (list string)) "log" expected (Mock_platform.log mock)
@@ -238,6 +238,39 @@ let without_host () =
   run mock (program [ call Get_supplier [] ])
   |> outcome_is "end: getSupplier: there is no host process to call: name one with --supplier"
 
+(* {1 Inputs} *)
+
+(* Somebody posts an input when the end of the first task, or its timer, is in the driver's hands already, and the input
+   cuts the task off. That event is of a task that no longer runs: it is not the end of what runs next on the same
+   vehicle, by the same timer. *)
+let overtaken text ~event ~expected () =
+  let inputs = Inputs.create () in
+  let module Together = struct
+    include Mock_platform.Paced
+
+    let next m =
+      Mock_platform.Virtual.next m >|= fun told ->
+      if told = event then ignore (Inputs.post inputs "abort" (Boolean true));
+      told
+  end
+  in
+  let mock = Mock_platform.make [ Mock_platform.seen 0. "v1" ] in
+  let program = Test_support.Pure_run.compile_exn ("input 'abort'\nv = pick { count 1 }\n" ^ text) in
+  run ~platform:(module Together) ~inputs mock program |> outcome_is "end";
+  log_is mock expected
+
+let overtaken_end =
+  overtaken "execute until { consume abort: true } run task('a')\nexecute task('b')"
+    ~event:(Platform.Task_done "v1")
+    ~expected:
+      [ "0 telemetry true"; "0 bind v1"; "0 start v1 a"; "0 telemetry false"; "10 stop v1"; "10 start v1 b";
+        "20 release v1"; "20 close" ]
+
+let overtaken_timer =
+  overtaken "execute until { consume abort: true } run (idle 5.seconds)\nexecute idle 7.seconds"
+    ~event:(Platform.Timer 1)
+    ~expected:[ "0 telemetry true"; "0 bind v1"; "0 telemetry false"; "12 release v1"; "12 close" ]
+
 (* {1 Interruption} *)
 
 let interrupted_at_once () =
@@ -362,6 +395,8 @@ let tests =
     case "a pick gives up after the announce period" gives_up_looking;
     case "a pick may look at once" looks_at_once;
     case "during and idle take their time" cuts_off;
+    case "an end that an input has overtaken is not taken for the next task's" overtaken_end;
+    case "nor is a timer" overtaken_timer;
     case "an error stops the siblings" stops_siblings;
     case "a handled error does not" handles_failures;
     case "telemetry is on while it matters" telemetry_while_it_matters;

@@ -1,0 +1,7 @@
+let by_stop v : Platform.event -> bool = function
+  | Task_done v' | Task_failed (v', _) -> v' = v
+  | Vehicle _ | Timer _ | Input _ | Quiet -> false
+
+let by_cancel timer : Platform.event -> bool = function
+  | Timer timer' -> timer' = timer
+  | Vehicle _ | Task_done _ | Task_failed _ | Input _ | Quiet -> false

@@ -1,0 +1,11 @@
+(** Events that a command has overtaken: they are of what the program has ended meanwhile. A vehicle that is stopped may
+    be started again before such an event is read, and it would then be taken for one of the new task. So whoever holds
+    events that were not read yet drops these. *)
+
+open Dolphin_semantics
+
+val by_stop : Core.vehicle -> Platform.event -> bool
+(** [by_stop v e] is whether [e] is the end of a task of [v]. *)
+
+val by_cancel : Residual.timer -> Platform.event -> bool
+(** [by_cancel timer e] is whether [e] is the expiry of [timer]. *)

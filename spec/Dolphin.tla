@@ -7,7 +7,8 @@
 (* k, x a pair of N; g a guard; i a timer; m a message; M the script's machine;   *)
 (* l a label; w a world. Its kappa and sigma are the variables control and store. *)
 (* S is the shared part <store, A, B, N>, with what sensors have shown in the     *)
-(* step.                                                                          *)
+(* step, with the residuals beside the part that takes it, and with the whole     *)
+(* residual.                                                                      *)
 (*                                                                                *)
 (* Steps(S, r, E) is the steps of the residual r: those that need no event, and   *)
 (* those on the events E; the leftmost first. A step is a sequence of its         *)
@@ -34,7 +35,7 @@ VARIABLES
   B,        \* the bound vehicles, in the order in which they were picked
   N         \* the tuple space
 
-Shared == [ store |-> store, A |-> A, B |-> B, N |-> N, sees |-> NothingSeen ]
+Shared == [ store |-> store, A |-> A, B |-> B, N |-> N, sees |-> NothingSeen, beside |-> << >>, whole |-> << >> ]
 
 (* kappa *)
 Script(M) == [ at |-> "script", M |-> M ]
@@ -79,7 +80,7 @@ Act(r) ==
   CASE r.op = "seq" -> [ r EXCEPT !.first = Act(@) ]
     [] r.op = "par" -> [ r EXCEPT !.branches = Each(@, Act) ]
     [] r.op \in { "allOf", "repeat" } -> [ r EXCEPT !.runs = Each(@, Act) ]
-    [] r.op \in { "until", "watch" } -> [ r EXCEPT !.body = Act(@) ]
+    [] r.op \in { "until", "watch", "hold" } -> [ r EXCEPT !.body = Act(@) ]
     [] r.op = "during" -> IF Is(r.time, "closure") THEN r ELSE [ r EXCEPT !.started = TRUE, !.body = Act(@) ]
     [] OTHER -> r
 
@@ -90,7 +91,7 @@ Running(r) ==
     [] r.op = "seq" -> Running(r.first)
     [] r.op = "par" -> Flatten(Each(r.branches, Running))
     [] r.op \in { "allOf", "repeat" } -> Flatten(Each(r.runs, Running))
-    [] r.op \in { "until", "watch" } -> Running(r.body)
+    [] r.op \in { "until", "watch", "hold" } -> Running(r.body)
     [] r.op = "during" -> IF r.started THEN Running(r.body) ELSE << >>
     [] OTHER -> << >>
 
@@ -101,13 +102,20 @@ Timers(r) ==
     [] r.op = "seq" -> Timers(r.first)
     [] r.op = "par" -> Flatten(Each(r.branches, Timers))
     [] r.op \in { "allOf", "repeat" } -> Flatten(Each(r.runs, Timers))
-    [] r.op \in { "until", "watch" } -> Timers(r.body)
+    [] r.op \in { "until", "watch", "hold" } -> Timers(r.body)
     [] r.op = "during" -> IF r.started THEN << [ i |-> r.timer, time |-> r.time ] >> \o Timers(r.body) ELSE << >>
     [] OTHER -> << >>
+
+(* So deep are closures in tasks that closures give. *)
+Deepest == 100
 
 -----------------------------------------------------------------------------
 (* r is the residual of a task whose vehicles are in B, in normal form; what runs in it is in A, and only an active part
    has begun. *)
+(* No vehicle, and no timer, is in both. *)
+AreApart(r1, r2) ==
+  HeldBy(<< r1 >>) \cap HeldBy(<< r2 >>) = { } /\ NumbersIn(<< r1 >>) \cap NumbersIn(<< r2 >>) = { }
+
 RECURSIVE IsResidual(_, _)
 IsResidual(r, active) ==
   LET areChoices(bs) == \A j \in DOMAIN bs : Is(bs[j].guard, "closure") /\ IsResidual(bs[j].body, FALSE)
@@ -120,6 +128,7 @@ IsResidual(r, active) ==
        [] r.op = "par" ->
             /\ Len(r.branches) > 1
             /\ \A j \in DOMAIN r.branches : r.branches[j].op # "par" /\ IsResidual(r.branches[j], active)
+            /\ \A i, j \in DOMAIN r.branches : i = j \/ AreApart(r.branches[i], r.branches[j])
        [] r.op = "allOf" ->
             /\ Len(r.runs) <= 1 /\ (\A j \in DOMAIN r.runs : active /\ IsResidual(r.runs[j], active))
             /\ Len(r.choices) > (IF r.runs = << >> THEN 1 ELSE 0) /\ areChoices(r.choices)
@@ -136,6 +145,10 @@ IsResidual(r, active) ==
             /\ r.runs = << >> => active /\ r.until # << >>
             /\ r.left = << >> \/ r.left[1] > 0
             /\ (\A j \in DOMAIN r.until : Is(r.until[j], "closure")) /\ IsResidual(r.each, FALSE)
+       [] r.op = "made" -> Is(r.code, "closure") /\ r.place \in Nat \ { 0 } /\ r.depth \in 0 .. Deepest
+       [] r.op = "unallocated" -> active /\ r.place \in Nat \ { 0 } /\ r.depth \in 1 .. Deepest
+       [] r.op = "hold" ->
+            active /\ r.vehicles # << >> /\ Range(r.vehicles) \subseteq Range(B) /\ IsResidual(r.body, active)
        [] OTHER -> FALSE
 
 -----------------------------------------------------------------------------
@@ -203,6 +216,182 @@ PickText(q) ==
   \o (IF q.type = << >> THEN "" ELSE " of type '" \o q.type[1] \o "'")
   \o (IF q.payload = << >> THEN "" ELSE " with payload " \o Join(q.payload, ", "))
   \o (IF q.region = << >> THEN "" ELSE " in region " \o Text(q.region[1]))
+
+-----------------------------------------------------------------------------
+(* {1 Allocation} *)
+
+(* The platform tasks of t from left to right, each with the vehicles that the T[V] around it leave: << >> for all. *)
+RECURSIVE Leaves(_, _)
+Leaves(t, allowed) ==
+  CASE t.op = "platform" -> << [ p |-> t, allowed |-> allowed ] >>
+    [] t.op \in { "seq", "par" } -> Leaves(t.left, allowed) \o Leaves(t.right, allowed)
+    [] t.op = "on" ->
+         Leaves(t.body, << IF allowed = << >> THEN t.vehicles ELSE Intersection(t.vehicles, allowed[1]) >>)
+    [] t.op \in { "allOf", "oneOf" } -> Flatten(Each(t.branches, LAMBDA b : Leaves(b.body, allowed)))
+    [] t.op \in { "until", "during", "watch", "repeat" } -> Leaves(t.body, allowed)
+    [] OTHER -> << >>
+
+LeafCount(t) == Len(Leaves(t, << >>))
+
+(* The pairs of platform tasks, by number after the n-th, that are in different branches of a |. *)
+RECURSIVE Exclusive(_, _)
+Exclusive(t, n) ==
+  CASE t.op = "seq" -> Exclusive(t.left, n) \cup Exclusive(t.right, n + LeafCount(t.left))
+    [] t.op = "par" ->
+         LET middle == n + LeafCount(t.left)
+             right == middle + LeafCount(t.right)
+         IN Exclusive(t.left, n) \cup Exclusive(t.right, middle) \cup ((n + 1 .. middle) \X (middle + 1 .. right))
+    [] t.op \in { "allOf", "oneOf" } ->
+         UNION { LET before == Flatten(Each(SubSeq(t.branches, 1, j - 1), LAMBDA b : Leaves(b.body, << >>)))
+                 IN Exclusive(t.branches[j].body, n + Len(before)) : j \in DOMAIN t.branches }
+    [] t.op \in { "on", "until", "during", "watch", "repeat" } -> Exclusive(t.body, n)
+    [] OTHER -> { }
+
+(* What v lacks for p, or nothing. *)
+Lack(p, v) ==
+  LET missing == SelectSeq(Plans[p.plan].devices, LAMBDA d : ~Carries(VehicleOf(v), << d >>))
+  IN CASE ~IsKnown(v) -> << "nothing is known of it" >>
+       [] p.plan = 0 -> << >>
+       [] Plans[p.plan].vehicles # << >> /\ v \notin Range(Plans[p.plan].vehicles) ->
+            << "the plan is for other vehicles" >>
+       [] missing # << >> -> << "it lacks " \o Join(missing, ", ") >>
+       [] OTHER -> << >>
+
+Permitted(leaf, v) == leaf.allowed = << >> \/ v \in Range(leaf.allowed[1])
+
+(* The places in B of those that can run it. *)
+Candidates(leaf) == { j \in DOMAIN B : Permitted(leaf, B[j]) /\ Lack(leaf.p, B[j]) = << >> }
+
+(* How much farther it is from v to where p begins than from the nearest place of a vehicle, in millimetres. *)
+Farther(p, v, sees) ==
+  IF p.plan = 0 \/ ~IsKnown(v) THEN 0 ELSE Plans[p.plan].farther[FoundAt(VehicleOf(v), sees)]
+
+(* f[n] is the place in B of the vehicle of the n-th platform task. *)
+RECURSIVE Feasible(_, _, _)
+Feasible(leaves, exclusive, n) ==
+  IF n = 0 THEN { << >> }
+  ELSE { f \in { Append(f, j) : f \in Feasible(leaves, exclusive, n - 1), j \in Candidates(leaves[n]) } :
+           \A i \in 1 .. n - 1 : << i, n >> \in exclusive => f[i] # f[n] }
+
+RECURSIVE Total(_, _, _)
+Total(leaves, f, sees) ==
+  IF f = << >> THEN 0
+  ELSE Farther(leaves[Len(f)].p, B[Last(f)], sees) + Total(leaves, SubSeq(f, 1, Len(f) - 1), sees)
+
+LeastBy(F, Measure(_)) == LET least == Minimum({ Measure(f) : f \in F }) IN { f \in F : Measure(f) = least }
+
+RECURSIVE FirstInPickOrder(_, _)
+FirstInPickOrder(F, n) ==
+  IF Cardinality(F) = 1 THEN Only(F) ELSE FirstInPickOrder(LeastBy(F, LAMBDA f : f[n]), n + 1)
+
+Best(leaves, F, sees) ==
+  FirstInPickOrder(LeastBy(LeastBy(F, LAMBDA f : Cardinality(Range(f))), LAMBDA f : Total(leaves, f, sees)), 1)
+
+(* t with its vehicles, and timers numbered from left to right: after the n-th platform task and the i-th timer. Code
+   that makes a task has a number among the timers of the executed task, which tasks made there keep. *)
+RECURSIVE TimerCount(_, _)
+TimerCount(t, first) ==
+  CASE t.op = "idle" -> 1
+    [] t.op = "made" -> IF first THEN 1 ELSE 0
+    [] t.op = "during" -> 1 + TimerCount(t.body, first)
+    [] t.op \in { "seq", "par" } -> TimerCount(t.left, first) + TimerCount(t.right, first)
+    [] t.op \in { "allOf", "oneOf" } ->
+         LET counts[j \in 0 .. Len(t.branches)] ==
+               IF j = 0 THEN 0 ELSE counts[j - 1] + TimerCount(t.branches[j].body, first)
+         IN counts[Len(t.branches)]
+    [] t.op \in { "on", "until", "watch", "repeat" } -> TimerCount(t.body, first)
+    [] OTHER -> 0
+
+(* So many timers for a task made at a place of the executed task: none of those that are used. *)
+Generation == 1000000
+
+RECURSIVE FreshFrom(_, _, _)
+FreshFrom(i, used, count) ==
+  CASE count = 0 -> << >>
+    [] i \in used -> FreshFrom(i + Generation, used, count)
+    [] OTHER -> << i >> \o FreshFrom(i + Generation, used, count - 1)
+FreshTimers(place, used, count) == FreshFrom(place + Generation, used, count)
+
+(* What the parts of a task get besides vehicles: q.numbers, if it is made at its turn, are its timers. *)
+Executed == [ allowed |-> << >>, place |-> 0, depth |-> 0, numbers |-> << >> ]
+IsExecuted(q) == q.place = 0
+TimerOf(i, q) == IF IsExecuted(q) THEN i ELSE q.numbers[i]
+
+RECURSIVE Assigned(_, _, _, _, _)
+Assigned(t, f, n, i, q) ==
+  CASE t.op = "platform" -> [ op |-> "ready", p |-> t, v |-> B[f[n + 1]] ]
+    [] t.op = "seq" ->
+         Sequence(Assigned(t.left, f, n, i, q),
+                  Parts(Assigned(t.right, f, n + LeafCount(t.left), i + TimerCount(t.left, IsExecuted(q)), q)))
+    [] t.op = "par" ->
+         Parallel(<< Assigned(t.left, f, n, i, q),
+                     Assigned(t.right, f, n + LeafCount(t.left), i + TimerCount(t.left, IsExecuted(q)), q) >>)
+    [] t.op = "on" ->
+         LET both == IF q.allowed = << >> THEN t.vehicles ELSE Intersection(q.allowed[1], t.vehicles)
+         IN Assigned(t.body, f, n, i, [ q EXCEPT !.allowed = << both >> ])
+    [] t.op = "made" ->
+         [ op |-> "made", code |-> t.code, given |-> << >>, allowed |-> q.allowed, depth |-> q.depth,
+           place |-> IF IsExecuted(q) THEN i + 1 ELSE q.place ]
+    [] t.op \in { "allOf", "oneOf" } ->
+         LET before(j) == [ op |-> "allOf", branches |-> SubSeq(t.branches, 1, j - 1) ]
+             branch(j) == [ guard |-> t.branches[j].guard,
+                            body |-> Assigned(t.branches[j].body, f, n + LeafCount(before(j)),
+                                              i + TimerCount(before(j), IsExecuted(q)), q) ]
+             choices == << >> \o [ j \in DOMAIN t.branches |-> branch(j) ]
+         IN IF t.op = "oneOf" THEN [ op |-> "oneOf", choices |-> choices ] ELSE AllOf(<< >>, choices)
+    [] t.op = "until" -> [ t EXCEPT !.body = Assigned(@, f, n, i, q) ]
+    [] t.op = "idle" -> [ op |-> "idle", timer |-> TimerOf(i + 1, q), time |-> t.time ]
+    [] t.op = "during" ->
+         [ op |-> "during", timer |-> TimerOf(i + 1, q), time |-> t.time, started |-> FALSE, fails |-> t.fails,
+           body |-> Assigned(t.body, f, n, i + 1, q) ]
+    [] t.op = "watch" -> [ op |-> "watch", body |-> Assigned(t.body, f, n, i, q), handler |-> t.handler ]
+    [] t.op = "repeat" ->
+         LET each == Assigned(t.body, f, n, i, q)
+             left == IF t.rounds = << >> THEN << >> ELSE << t.rounds[1] - 1 >>
+         IN [ op |-> "repeat", runs |-> << each >>, left |-> left, until |-> t.until, each |-> each, at |-> t.at ]
+    [] t.op \in { "action", "condition" } -> t
+
+NoCandidate(leaf) ==
+  LET permitted == SelectSeq(B, LAMBDA v : Permitted(leaf, v))
+      why(v) == v \o ": " \o Lack(leaf.p, v)[1]
+      reason == CASE B = << >> -> "no vehicle is bound to the program: pick one first"
+                  [] leaf.allowed = << << >> >> -> "the vehicle set given to it is empty"
+                  [] permitted = << >> ->
+                       "none of the vehicles given to it is bound to the program: " \o Join(leaf.allowed[1], ", ")
+                  [] OTHER -> Join(Each(permitted, why), "; ")
+  IN Fault("no vehicle can run task '" \o leaf.p.name \o "': " \o reason, leaf.p.at)
+
+(* As few tasks as can be that cannot all have vehicles. *)
+Conflict(leaves, exclusive) ==
+  LET numbers == 1 .. Len(leaves)
+      ordered(X) == SelectSeq([ n \in numbers |-> n ], LAMBDA n : n \in X)
+      excludes(X) == { << i, j >> \in (1 .. Cardinality(X)) \X (1 .. Cardinality(X)) :
+                         i < j /\ << ordered(X)[i], ordered(X)[j] >> \in exclusive }
+      impossible(X) == Feasible(Each(ordered(X), LAMBDA n : leaves[n]), excludes(X), Cardinality(X)) = { }
+      few == LeastBy({ X \in SUBSET numbers : impossible(X) }, Cardinality)
+      those == FirstInPickOrder({ ordered(X) : X \in few }, 1)
+      competing == SelectSeq([ j \in DOMAIN B |-> j ], LAMBDA j : \E n \in Range(those) : j \in Candidates(leaves[n]))
+  IN Fault("tasks " \o Join(Each(those, LAMBDA n : "'" \o leaves[n].p.name \o "'"), ", ")
+           \o " run side by side and need different vehicles, but there is only "
+           \o Join(Each(competing, LAMBDA j : B[j]), ", "), leaves[those[1]].p.at)
+
+(* Whether it matters to the allocation of t where vehicles are. *)
+DependsOnPlaces(t) == \E leaf \in Range(Leaves(t, << >>)) : leaf.p.plan # 0
+
+(* alloc(t, V) for those V that are allowed, where vehicles are where they were seen: <<"ok", r and the vehicles that it
+   has>>, or <<"wrong", fault>>. *)
+AllocWithin(t, allowed, q, sees) ==
+  LET leaves == Leaves(t, allowed)
+      hopeless == SelectSeq(leaves, LAMBDA leaf : Candidates(leaf) = { })
+      exclusive == Exclusive(t, 0)
+      feasible == Feasible(leaves, exclusive, Len(leaves))
+  IN CASE hopeless # << >> -> Bad(NoCandidate(hopeless[1]))
+       [] feasible = { } -> Bad(Conflict(leaves, exclusive))
+       [] OTHER -> Only({ Ok([ r |-> Assigned(t, f, 0, 0, q),
+                               vehicles |-> SelectSeq(B, LAMBDA v : \E j \in Range(f) : B[j] = v) ]) :
+                          f \in { Best(leaves, feasible, sees) } })
+
+Alloc(t, sees) == AllocWithin(t, << >>, Executed, sees)
 
 -----------------------------------------------------------------------------
 (* {1 Steps of residuals} *)
@@ -318,8 +507,15 @@ InParallel(s, rs, j) ==
 
 (* {2 Branches with guards} *)
 
+(* Code in the place of a branch's task gets the values that the guard took. *)
+ValuesTaken(ds) ==
+  Flatten(Each(ds, LAMBDA d : IF d.did = "consume" THEN Each(d.pairs, LAMBDA pair : pair[2]) ELSE << >>))
+
+Given(r, ds) ==
+  IF r.op = "made" THEN IF Lambdas[r.code[2]].parameters > 0 THEN [ r EXCEPT !.given = ValuesTaken(ds) ] ELSE r ELSE r
+
 ALLOF_WHEN(run, bs, j) ==
-  LET r == Act(bs[j].body)
+  LET r == Act(Given(bs[j].body, run.deeds))
   IN Entering(CodeStep("ALLOF-WHEN", Labelled("check", run.deeds), run, Next_(AllOf(<< r >>, Without(bs, j)))), r)
 ALLOF_1(s, bs) == By(s, "ALLOF-1", Next_(AllOf(<< s.out[2] >>, bs)))
 ALLOF_2(s, bs) == By(s, "ALLOF-2", Next_(AllOf(<< >>, bs)))
@@ -332,7 +528,8 @@ InAllOf(s, bs) ==
     [] OTHER -> s
 
 ONEOF_WHEN(run, b) ==
-  LET r == Act(b.body) IN Entering(CodeStep("ONEOF-WHEN", Labelled("check", run.deeds), run, Next_(r)), r)
+  LET r == Act(Given(b.body, run.deeds))
+  IN Entering(CodeStep("ONEOF-WHEN", Labelled("check", run.deeds), run, Next_(r)), r)
 ONEOF_ERR(s) == By(s, "ONEOF-ERR", s.out)
 
 (* {2 Until and assure} *)
@@ -429,6 +626,68 @@ InRepeat(s, r) ==
     [] IsErr(s) -> REPEAT_ERR(s)
     [] OTHER -> s
 
+(* {2 Tasks made at their turn} *)
+
+Unallocated(r, t) ==
+  [ op |-> "unallocated", task |-> t, allowed |-> r.allowed, place |-> r.place, depth |-> r.depth + 1 ]
+
+(* Why the code of r made no task, though it ran: << >>, if it did. *)
+WhyNotMade(S, r, run) ==
+  LET lambda == Lambdas[r.code[2]]
+      n == Len(r.given)
+      text == "{ " \o LambdaNames[r.code[2]] \o " }"
+      many(i) == ToString(i) \o " value" \o (IF i = 1 THEN "" ELSE "s")
+  IN CASE lambda.parameters > n /\ ~lambda.implicit ->
+            << text \o " takes " \o many(lambda.parameters) \o ", and its guard took "
+               \o (IF n = 0 THEN "none" ELSE many(n)) >>
+       [] r.depth >= Deepest ->
+            << "closures in tasks that closures give nest more than " \o ToString(Deepest)
+               \o " deep: what goes on and on is a repeat" >>
+       [] run.deeds # << >> \/ run.S.store # S.store ->
+            << text \o " makes a task, so it may only compute: it may not post, consume, assign or say anything" >>
+       [] ~IsTask(run.value) -> << text \o ": " \o Sentence(Expected("a task", run.value)) >>
+       [] OTHER -> << >>
+
+MAKE(S, r, run) ==
+  Step("MAKE", "make", Program, Knowing(S, run.S.sees), Next_(Unallocated(r, TaskOf(run.value))), << >>)
+MAKE_ERR(s) == By(s, "MAKE-ERR", s.out)
+
+Hold(V, r) == IF V = << >> THEN r ELSE [ op |-> "hold", vehicles |-> V, body |-> r ]
+
+ALLOCATE(S, found) ==
+  LET r == Act(found.r)
+  IN Entering(Step("ALLOCATE", "allocate(" \o Join(found.vehicles, ", ") \o ")", Program, S,
+                   Next_(Hold(found.vehicles, r)), << >>), r)
+ALLOCATE_ERR(S, fault) ==
+  Step("ALLOCATE-ERR", "cannot-execute(" \o fault.message \o ")", Program, S, Err(fault), << >>)
+
+HOLD_1(s, r) == By(s, "HOLD-1", Next_([ r EXCEPT !.body = s.out[2] ]))
+HOLD_2(s) == By(s, "HOLD-2", Done_)
+HOLD_ERR(s) == By(s, "HOLD-ERR", s.out)
+
+InHold(s, r) ==
+  CASE GoesOn(s) -> HOLD_1(s, r)
+    [] IsDone(s) -> HOLD_2(s)
+    [] IsErr(s) -> HOLD_ERR(s)
+    [] OTHER -> s
+
+(* alloc(t, V) for those V of B that nobody holds; an error, if not even all of B would do; or it waits. *)
+AllocateSteps(S, r) ==
+  LET held == HeldBy(S.beside)
+      free == SelectSeq(B, LAMBDA v : v \notin held)
+      within(V) == << IF r.allowed = << >> THEN V ELSE Intersection(r.allowed[1], V) >>
+      q == [ allowed |-> r.allowed, place |-> r.place, depth |-> r.depth,
+             numbers |-> FreshTimers(r.place, NumbersIn(S.whole), TimerCount(r.task, FALSE)) ]
+      in(V, sees) == AllocWithin(r.task, within(V), q, sees)
+      outcome(S2, found, any) ==
+        CASE IsOk(found) -> << ALLOCATE(S2, found[2]) >>
+          [] IsOk(any) -> << >>
+          [] OTHER -> << ALLOCATE_ERR(S2, any[2]) >>
+      at(sees) == Only({ outcome(Knowing(S, sees), found, AllocWithin(r.task, r.allowed, q, sees)) :
+                         found \in { in(free, sees) } })
+      outcomes == Flatten(Each(Placings(S.sees, IF DependsOnPlaces(r.task) THEN B ELSE << >>), at))
+  IN IF outcomes = << >> THEN << >> ELSE << outcomes >>
+
 (* {2 All steps of r} *)
 
 (* The code that r looks at: of an action, a condition, guards, a duration that is not known yet. *)
@@ -438,6 +697,7 @@ CodeOf(r) ==
     [] r.op = "until" -> << r.guard >>
     [] r.op = "during" /\ ~r.started -> << r.time >>
     [] r.op = "repeat" /\ r.runs = << >> -> r.until
+    [] r.op = "made" -> << r.code >>
     [] OTHER -> << >>
 
 (* What r does when its j-th code is faulty. *)
@@ -449,11 +709,16 @@ WithFault(r, s) ==
     [] r.op = "oneOf" -> ONEOF_ERR(s)
     [] r.op = "until" -> UNTIL_ERR(s, << r.body >>)
     [] r.op = "repeat" -> REPEAT_ERR(s)
+    [] r.op = "made" -> MAKE_ERR(s)
 
 (* ... when it gave a value; guards that are not true do nothing. *)
 WithValue(S, r, j, run) ==
   CASE r.op = "action" -> << ACTION_(run) >>
     [] IsReading(run.value) -> Assert(FALSE, OpenHere(run.value[3], -CodeOf(r)[j][2]))
+    [] r.op = "made" ->
+         LET why == WhyNotMade(S, r, run)
+         IN << IF why = << >> THEN MAKE(S, r, run)
+               ELSE WithFault(r, Broken(Knowing(S, run.S.sees), Fault(why[1], -r.code[2]), << >>)) >>
     [] r.op = "during" ->
          << IF IsTime(run.value) THEN DURING_SET(run, r, Time(run.value))
             ELSE WithFault(r, Broken(Knowing(S, run.S.sees), NoTime(run.value, r.time), run.deeds)) >>
@@ -474,7 +739,8 @@ WithCode(S, r, j, run) ==
 
 CodeSteps(S, r) ==
   LET codes == CodeOf(r)
-      of(j) == Flatten(Each(RunCode(S, "task", codes[j], << >>), LAMBDA run : WithCode(S, r, j, run)))
+      given == IF r.op = "made" THEN r.given ELSE << >>
+      of(j) == Flatten(Each(RunCode(S, "task", codes[j], given), LAMBDA run : WithCode(S, r, j, run)))
   IN IF codes = << >> THEN << >>
      ELSE SelectSeq(<< >> \o [ j \in DOMAIN codes |-> of(j) ], LAMBDA outcomes : outcomes # << >>)
 
@@ -505,161 +771,18 @@ Steps(S, r, E) ==
     [] r.op = "seq" -> In(Steps(S, r.first, E), LAMBDA s : InSequence(s, r.rest))
     [] r.op = "par" ->
          Flatten([ j \in DOMAIN r.branches |->
-                   In(Steps(S, r.branches[j], E), LAMBDA s : InParallel(s, r.branches, j)) ])
+                   In(Steps([ S EXCEPT !.beside = @ \o Without(r.branches, j) ], r.branches[j], E),
+                      LAMBDA s : InParallel(s, r.branches, j)) ])
     [] r.op = "allOf" /\ r.runs # << >> -> In(Steps(S, r.runs[1], E), LAMBDA s : InAllOf(s, r.choices))
     [] r.op = "until" -> In(Steps(S, r.body, E), LAMBDA s : InUntil(s, r))
+    [] r.op = "unallocated" -> AllocateSteps(S, r)
+    [] r.op = "hold" -> In(Steps(S, r.body, E), LAMBDA s : InHold(s, r))
     [] r.op = "idle" -> ExpiresOn(S, r, E)
     [] r.op = "during" /\ r.started -> ExpiresOn(S, r, E) \o In(Steps(S, r.body, E), LAMBDA s : InDuring(s, r))
     [] r.op = "repeat" /\ r.runs # << >> -> In(Steps(S, r.runs[1], E), LAMBDA s : InRepeat(s, r))
     [] r.op = "watch" ->
          Each(Steps(S, r.body, E), LAMBDA outcomes : Flatten(Each(outcomes, LAMBDA s : InWatch(s, r.handler))))
     [] OTHER -> << >>
-
------------------------------------------------------------------------------
-(* {1 Allocation} *)
-
-(* The platform tasks of t from left to right, each with the vehicles that the T[V] around it leave: << >> for all. *)
-RECURSIVE Leaves(_, _)
-Leaves(t, allowed) ==
-  CASE t.op = "platform" -> << [ p |-> t, allowed |-> allowed ] >>
-    [] t.op \in { "seq", "par" } -> Leaves(t.left, allowed) \o Leaves(t.right, allowed)
-    [] t.op = "on" ->
-         Leaves(t.body, << IF allowed = << >> THEN t.vehicles ELSE Intersection(t.vehicles, allowed[1]) >>)
-    [] t.op \in { "allOf", "oneOf" } -> Flatten(Each(t.branches, LAMBDA b : Leaves(b.body, allowed)))
-    [] t.op \in { "until", "during", "watch", "repeat" } -> Leaves(t.body, allowed)
-    [] OTHER -> << >>
-
-LeafCount(t) == Len(Leaves(t, << >>))
-
-(* The pairs of platform tasks, by number after the n-th, that are in different branches of a |. *)
-RECURSIVE Exclusive(_, _)
-Exclusive(t, n) ==
-  CASE t.op = "seq" -> Exclusive(t.left, n) \cup Exclusive(t.right, n + LeafCount(t.left))
-    [] t.op = "par" ->
-         LET middle == n + LeafCount(t.left)
-             right == middle + LeafCount(t.right)
-         IN Exclusive(t.left, n) \cup Exclusive(t.right, middle) \cup ((n + 1 .. middle) \X (middle + 1 .. right))
-    [] t.op \in { "allOf", "oneOf" } ->
-         UNION { LET before == Flatten(Each(SubSeq(t.branches, 1, j - 1), LAMBDA b : Leaves(b.body, << >>)))
-                 IN Exclusive(t.branches[j].body, n + Len(before)) : j \in DOMAIN t.branches }
-    [] t.op \in { "on", "until", "during", "watch", "repeat" } -> Exclusive(t.body, n)
-    [] OTHER -> { }
-
-(* What v lacks for p, or nothing. *)
-Lack(p, v) ==
-  LET missing == SelectSeq(Plans[p.plan].devices, LAMBDA d : ~Carries(VehicleOf(v), << d >>))
-  IN CASE ~IsKnown(v) -> << "nothing is known of it" >>
-       [] p.plan = 0 -> << >>
-       [] Plans[p.plan].vehicles # << >> /\ v \notin Range(Plans[p.plan].vehicles) ->
-            << "the plan is for other vehicles" >>
-       [] missing # << >> -> << "it lacks " \o Join(missing, ", ") >>
-       [] OTHER -> << >>
-
-Permitted(leaf, v) == leaf.allowed = << >> \/ v \in Range(leaf.allowed[1])
-
-(* The places in B of those that can run it. *)
-Candidates(leaf) == { j \in DOMAIN B : Permitted(leaf, B[j]) /\ Lack(leaf.p, B[j]) = << >> }
-
-(* How much farther it is from v to where p begins than from the nearest place of a vehicle, in millimetres. *)
-Farther(p, v, sees) ==
-  IF p.plan = 0 \/ ~IsKnown(v) THEN 0 ELSE Plans[p.plan].farther[FoundAt(VehicleOf(v), sees)]
-
-(* f[n] is the place in B of the vehicle of the n-th platform task. *)
-RECURSIVE Feasible(_, _, _)
-Feasible(leaves, exclusive, n) ==
-  IF n = 0 THEN { << >> }
-  ELSE { f \in { Append(f, j) : f \in Feasible(leaves, exclusive, n - 1), j \in Candidates(leaves[n]) } :
-           \A i \in 1 .. n - 1 : << i, n >> \in exclusive => f[i] # f[n] }
-
-RECURSIVE Total(_, _, _)
-Total(leaves, f, sees) ==
-  IF f = << >> THEN 0
-  ELSE Farther(leaves[Len(f)].p, B[Last(f)], sees) + Total(leaves, SubSeq(f, 1, Len(f) - 1), sees)
-
-LeastBy(F, Measure(_)) == LET least == Minimum({ Measure(f) : f \in F }) IN { f \in F : Measure(f) = least }
-
-RECURSIVE FirstInPickOrder(_, _)
-FirstInPickOrder(F, n) ==
-  IF Cardinality(F) = 1 THEN Only(F) ELSE FirstInPickOrder(LeastBy(F, LAMBDA f : f[n]), n + 1)
-
-Best(leaves, F, sees) ==
-  FirstInPickOrder(LeastBy(LeastBy(F, LAMBDA f : Cardinality(Range(f))), LAMBDA f : Total(leaves, f, sees)), 1)
-
-(* t with its vehicles, and timers numbered from left to right: after the n-th platform task and the i-th timer. *)
-RECURSIVE TimerCount(_)
-TimerCount(t) ==
-  CASE t.op = "idle" -> 1
-    [] t.op = "during" -> 1 + TimerCount(t.body)
-    [] t.op \in { "seq", "par" } -> TimerCount(t.left) + TimerCount(t.right)
-    [] t.op \in { "allOf", "oneOf" } ->
-         LET counts[j \in 0 .. Len(t.branches)] == IF j = 0 THEN 0 ELSE counts[j - 1] + TimerCount(t.branches[j].body)
-         IN counts[Len(t.branches)]
-    [] t.op \in { "on", "until", "watch", "repeat" } -> TimerCount(t.body)
-    [] OTHER -> 0
-
-RECURSIVE Assigned(_, _, _, _)
-Assigned(t, f, n, i) ==
-  CASE t.op = "platform" -> [ op |-> "ready", p |-> t, v |-> B[f[n + 1]] ]
-    [] t.op = "seq" ->
-         Sequence(Assigned(t.left, f, n, i), Parts(Assigned(t.right, f, n + LeafCount(t.left), i + TimerCount(t.left))))
-    [] t.op = "par" ->
-         Parallel(<< Assigned(t.left, f, n, i), Assigned(t.right, f, n + LeafCount(t.left), i + TimerCount(t.left)) >>)
-    [] t.op = "on" -> Assigned(t.body, f, n, i)
-    [] t.op \in { "allOf", "oneOf" } ->
-         LET before(j) == [ op |-> "allOf", branches |-> SubSeq(t.branches, 1, j - 1) ]
-             branch(j) == [ guard |-> t.branches[j].guard,
-                            body |-> Assigned(t.branches[j].body, f, n + LeafCount(before(j)),
-                                              i + TimerCount(before(j))) ]
-             choices == << >> \o [ j \in DOMAIN t.branches |-> branch(j) ]
-         IN IF t.op = "oneOf" THEN [ op |-> "oneOf", choices |-> choices ] ELSE AllOf(<< >>, choices)
-    [] t.op = "until" -> [ t EXCEPT !.body = Assigned(@, f, n, i) ]
-    [] t.op = "idle" -> [ op |-> "idle", timer |-> i + 1, time |-> t.time ]
-    [] t.op = "during" ->
-         [ op |-> "during", timer |-> i + 1, time |-> t.time, started |-> FALSE, fails |-> t.fails,
-           body |-> Assigned(t.body, f, n, i + 1) ]
-    [] t.op = "watch" -> [ op |-> "watch", body |-> Assigned(t.body, f, n, i), handler |-> t.handler ]
-    [] t.op = "repeat" ->
-         LET each == Assigned(t.body, f, n, i)
-             left == IF t.rounds = << >> THEN << >> ELSE << t.rounds[1] - 1 >>
-         IN [ op |-> "repeat", runs |-> << each >>, left |-> left, until |-> t.until, each |-> each, at |-> t.at ]
-    [] t.op \in { "action", "condition" } -> t
-
-NoCandidate(leaf) ==
-  LET permitted == SelectSeq(B, LAMBDA v : Permitted(leaf, v))
-      why(v) == v \o ": " \o Lack(leaf.p, v)[1]
-      reason == CASE B = << >> -> "no vehicle is bound to the program: pick one first"
-                  [] leaf.allowed = << << >> >> -> "the vehicle set given to it is empty"
-                  [] permitted = << >> ->
-                       "none of the vehicles given to it is bound to the program: " \o Join(leaf.allowed[1], ", ")
-                  [] OTHER -> Join(Each(permitted, why), "; ")
-  IN Fault("no vehicle can run task '" \o leaf.p.name \o "': " \o reason, leaf.p.at)
-
-(* As few tasks as can be that cannot all have vehicles. *)
-Conflict(leaves, exclusive) ==
-  LET numbers == 1 .. Len(leaves)
-      ordered(X) == SelectSeq([ n \in numbers |-> n ], LAMBDA n : n \in X)
-      excludes(X) == { << i, j >> \in (1 .. Cardinality(X)) \X (1 .. Cardinality(X)) :
-                         i < j /\ << ordered(X)[i], ordered(X)[j] >> \in exclusive }
-      impossible(X) == Feasible(Each(ordered(X), LAMBDA n : leaves[n]), excludes(X), Cardinality(X)) = { }
-      few == LeastBy({ X \in SUBSET numbers : impossible(X) }, Cardinality)
-      those == FirstInPickOrder({ ordered(X) : X \in few }, 1)
-      competing == SelectSeq([ j \in DOMAIN B |-> j ], LAMBDA j : \E n \in Range(those) : j \in Candidates(leaves[n]))
-  IN Fault("tasks " \o Join(Each(those, LAMBDA n : "'" \o leaves[n].p.name \o "'"), ", ")
-           \o " run side by side and need different vehicles, but there is only "
-           \o Join(Each(competing, LAMBDA j : B[j]), ", "), leaves[those[1]].p.at)
-
-(* Whether it matters to the allocation of t where vehicles are. *)
-DependsOnPlaces(t) == \E leaf \in Range(Leaves(t, << >>)) : leaf.p.plan # 0
-
-(* alloc(t, B) where vehicles are where they were seen: <<"ok", r>>, or <<"wrong", fault>>. *)
-Alloc(t, sees) ==
-  LET leaves == Leaves(t, << >>)
-      hopeless == SelectSeq(leaves, LAMBDA leaf : Candidates(leaf) = { })
-      exclusive == Exclusive(t, 0)
-      feasible == Feasible(leaves, exclusive, Len(leaves))
-  IN CASE hopeless # << >> -> Bad(NoCandidate(hopeless[1]))
-       [] feasible = { } -> Bad(Conflict(leaves, exclusive))
-       [] OTHER -> Ok(Assigned(t, Best(leaves, feasible, sees), 0, 0))
 
 -----------------------------------------------------------------------------
 (* {1 Transitions of configurations} *)
@@ -730,7 +853,7 @@ ALLOC_ERR(S, fault) ==
   EndStep("ALLOC-ERR", "cannot-execute(" \o fault.message \o ")", Program, S, FailedFor("vehicles", fault))
 
 ExecuteSteps(m, S, t) ==
-  LET step(allocated) == IF IsOk(allocated) THEN EXECUTE(m, S, allocated[2]) ELSE ALLOC_ERR(S, allocated[2])
+  LET step(allocated) == IF IsOk(allocated) THEN EXECUTE(m, S, allocated[2].r) ELSE ALLOC_ERR(S, allocated[2])
   IN Each(Placings(S.sees, IF DependsOnPlaces(t) THEN B ELSE << >>),
           LAMBDA sees : Only({ step(allocated) : allocated \in { Alloc(t, sees) } }))
 
@@ -880,5 +1003,5 @@ ExecutingSteps(M, r, E) ==
       alone(outcomes) == Len(outcomes) = 1
       all(steps) == IF \A j \in DOMAIN steps : alone(steps[j]) THEN Each(steps, LAMBDA outcomes : in(outcomes[1]))
                     ELSE Flatten(Each(steps, LAMBDA outcomes : Different(Each(outcomes, in))))
-  IN Only({ all(steps) : steps \in { Steps(Shared, r, E) } })
+  IN Only({ all(steps) : steps \in { Steps([ Shared EXCEPT !.whole = << r >> ], r, E) } })
 ==============================================================================

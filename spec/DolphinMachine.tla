@@ -121,6 +121,30 @@ KeptInStore(store) ==
   LET kept(i) == IF store[i] = << >> THEN << >> ELSE << KeptBy(GlobalNames[i], store[i][1]) >>
   IN << >> \o [ i \in DOMAIN store |-> kept(i) ]
 
+(* {1 What is held} *)
+
+(* All nodes of the residuals rs, those to come included. *)
+RECURSIVE Nodes(_)
+Nodes(rs) ==
+  LET below(r) ==
+        CASE r.op = "seq" -> << r.first >> \o r.rest
+          [] r.op = "par" -> r.branches
+          [] r.op = "allOf" -> r.runs \o Each(r.choices, LAMBDA b : b.body)
+          [] r.op = "repeat" -> Append(r.runs, r.each)
+          [] r.op = "oneOf" -> Each(r.choices, LAMBDA b : b.body)
+          [] r.op \in { "until", "during", "watch", "hold" } -> << r.body >>
+          [] OTHER -> << >>
+  IN Flatten(Each(rs, LAMBDA r : << r >> \o Nodes(below(r))))
+
+(* The vehicles that they name: on which their platform tasks run, or which they hold. *)
+HeldBy(rs) ==
+  UNION { CASE r.op \in { "ready", "running" } -> { r.v }
+            [] r.op = "hold" -> Range(r.vehicles)
+            [] OTHER -> { } : r \in Range(Nodes(rs)) }
+
+(* The timers that they name. *)
+NumbersIn(rs) == { r.timer : r \in { r \in Range(Nodes(rs)) : r.op \in { "idle", "during" } } }
+
 (* {1 Machines} *)
 
 (* M is a record: its focus, an expression to evaluate or a value to give to the stack; its locals; its stack of frames,
@@ -164,7 +188,7 @@ Going == << "going" >>
 
 Started(M, S, mode, fuel) ==
   [ focus |-> M.focus, locals |-> M.locals, stack |-> M.stack, at |-> M.at,
-    store |-> S.store, B |-> S.B, N |-> S.N, sees |-> S.sees,
+    store |-> S.store, B |-> S.B, N |-> S.N, sees |-> S.sees, beside |-> S.beside,
     mode |-> mode, verdict |-> "propagate", deeds |-> << >>, fuel |-> fuel, stop |-> Going ]
 
 (* Slots are counted from 0 here, arguments from the last one backwards. *)
@@ -285,8 +309,9 @@ ReadBranches(branches, ss) ==
   IF ss = << >> THEN Ok(branches)
   ELSE LET s == Head(ss)
            is == s.name = "when" /\ Len(s.positional) = 2 /\ Is(s.positional[1], "closure")
-       IN CASE is /\ Is(s.positional[2], "task") ->
-                 ReadBranches(Append(branches, [ guard |-> s.positional[1], body |-> s.positional[2][2] ]), Tail(ss))
+       IN CASE is /\ IsTask(s.positional[2]) ->
+                 LET branch == [ guard |-> s.positional[1], body |-> TaskOf(s.positional[2]) ]
+                 IN ReadBranches(Append(branches, branch), Tail(ss))
             [] is -> << "at", s.at, Expected("a task after then", s.positional[2]) >>
             [] OTHER -> SettingWrong(s, "only when { ... } then TASK may stand here")
 
@@ -628,22 +653,23 @@ MakeTask(op, at, xs) ==
        [] op = "condition" ->
             IF Is(x, "closure") THEN Ok(TaskValue([ op |-> "condition", code |-> x ])) ELSE Expected("code { ... }", x)
        [] op = "waitFor" ->
-            IF Is(y, "task") THEN Ok(TaskValue([ op |-> "oneOf", branches |-> << [ guard |-> x, body |-> y[2] ] >> ]))
+            IF IsTask(y)
+            THEN Ok(TaskValue([ op |-> "oneOf", branches |-> << [ guard |-> x, body |-> TaskOf(y) ] >> ]))
             ELSE Expected("a task", y)
        [] op \in { "until", "assure" } ->
             LET fails == IF op = "assure" THEN << at >> ELSE << >>
-            IN IF Is(y, "task") THEN Ok(TaskValue([ op |-> "until", guard |-> x, fails |-> fails, body |-> y[2] ]))
+            IN IF IsTask(y) THEN Ok(TaskValue([ op |-> "until", guard |-> x, fails |-> fails, body |-> TaskOf(y) ]))
                ELSE Expected("a task", y)
        [] op = "watch" ->
-            IF Is(x, "task") THEN Ok(TaskValue([ op |-> "watch", body |-> x[2], handler |-> y ]))
+            IF IsTask(x) THEN Ok(TaskValue([ op |-> "watch", body |-> TaskOf(x), handler |-> y ]))
             ELSE Expected("a task after watch", x)
        [] op = "idle" ->
             IF IsTime(x) THEN Ok(TaskValue([ op |-> "idle", time |-> Time(x) ]))
             ELSE TimeWanted("idle", "a time after idle, as in idle(10.seconds)", x)
        [] op \in { "during", "within" } ->
             LET fails == IF op = "within" THEN << at >> ELSE << >>
-                during(time) == Ok(TaskValue([ op |-> "during", time |-> time, fails |-> fails, body |-> y[2] ]))
-            IN CASE ~Is(y, "task") -> Expected("a task", y)
+                during(time) == Ok(TaskValue([ op |-> "during", time |-> time, fails |-> fails, body |-> TaskOf(y) ]))
+            IN CASE ~IsTask(y) -> Expected("a task", y)
                  [] Is(x, "closure") -> during(x)
                  [] IsTime(x) -> during(Time(x))
                  [] OTHER -> TimeWanted(op, "a time after " \o op \o ", as in " \o op \o " 10.minutes run T", x)
@@ -666,15 +692,15 @@ MakeRepeat(op, at, xs) ==
       until == IF op.asked THEN << xs[j + 1] >> ELSE << >>
       n == Canonical(xs[1])
       repeat(rounds) ==
-        TaskValue([ op |-> "repeat", rounds |-> rounds, until |-> until, body |-> t[2], at |-> at ])
-  IN CASE ~Is(t, "task") -> Expected("a task to repeat", t)
-       [] ~op.counted /\ ~op.asked /\ NeverWaits(t[2]) ->
+        TaskValue([ op |-> "repeat", rounds |-> rounds, until |-> until, body |-> TaskOf(t), at |-> at ])
+  IN CASE ~IsTask(t) -> Expected("a task to repeat", t)
+       [] ~op.counted /\ ~op.asked /\ NeverWaits(TaskOf(t)) ->
             Bad("a round of this repeat never waits: it would go round for ever, and nothing else would happen")
        [] ~op.counted -> Ok(repeat(<< >>))
        [] ~IsNumber(n) -> Expected("how many rounds there are, as in repeat 3, T", n)
        [] ~Is(n, "integer") \/ Less(n, Integer(1)) ->
             Bad("repeat takes a whole number of rounds, 1 or more, not " \o Text(n))
-       [] n = Integer(1) -> Ok(t)
+       [] n = Integer(1) -> Ok(TaskValue(TaskOf(t)))
        [] OTHER -> Ok(repeat(<< Numerator(n) >>))
 
 PlatformTask(m, x) ==
@@ -688,11 +714,11 @@ ForEach(names, xs) ==
   CASE xs = << >> -> << >>
     [] names = << >> -> << Bad("more tasks than names") >>
     [] Head(names) = "_" ->
-         << IF Is(Head(xs), "task") THEN Ok(Head(xs)[2]) ELSE Expected("a task after _:", Head(xs)) >>
+         << IF IsTask(Head(xs)) THEN Ok(TaskOf(Head(xs))) ELSE Expected("a task after _:", Head(xs)) >>
          \o ForEach(Tail(names), Tail(xs))
     [] ~Is(Head(xs), "vehicles") -> << Expected("'" \o Head(names) \o "' to name a vehicle set", Head(xs)) >>
-    [] ~Is(xs[2], "task") -> << Expected("a task after " \o Head(names) \o ":", xs[2]) >>
-    [] OTHER -> << Ok([ op |-> "on", body |-> xs[2][2], vehicles |-> Head(xs)[2] ]) >>
+    [] ~IsTask(xs[2]) -> << Expected("a task after " \o Head(names) \o ":", xs[2]) >>
+    [] OTHER -> << Ok([ op |-> "on", body |-> TaskOf(xs[2]), vehicles |-> Head(xs)[2] ]) >>
                 \o ForEach(Tail(names), SubSeq(xs, 3, Len(xs)))
 
 RECURSIVE SideBySide(_)
@@ -773,6 +799,9 @@ Verdict(m, verdict) ==
 
 Refuted(m, text) == Stop(m, << "faulted", [ message |-> text, at |-> m.at, assertion |-> TRUE ] >>)
 
+(* Those of V that nobody holds, from where the code stands. *)
+Idle(m, V) == LET held == HeldBy(m.beside) IN SelectSeq(V, LAMBDA v : v \in Range(m.B) /\ v \notin held)
+
 Procedure(m, op, xs) ==
   LET name == op.op
       x == xs[1]
@@ -791,9 +820,10 @@ Procedure(m, op, xs) ==
               [] OTHER -> Settle(m, Expected("a key, as in poll 'ready', or pairs, as in poll(ready: 1)", x))
        [] name = "task" -> PlatformTask(m, x)
        [] name = "repeat" -> Settle(m, MakeRepeat(op, m.at, xs))
+       [] name = "idle" /\ Is(x, "vehicles") -> Result(m, Vehicles(Idle(m, x[2])))
        [] name \in TaskNames -> Settle(m, MakeTask(name, m.at, xs))
        [] name = "execute" ->
-            IF Is(x, "task") THEN Execute(m, x[2]) ELSE Settle(m, Expected("a task to execute", x))
+            IF IsTask(x) THEN Execute(m, TaskOf(x)) ELSE Settle(m, Expected("a task to execute", x))
        [] name = "executeFor" -> ExecuteFor(m, op.names, xs)
        [] name = "message" -> Did(m, [ did |-> "message", text |-> Text(x) ], Null)
        [] name = "release" -> DoRelease(m, x)

@@ -263,6 +263,7 @@ TaskText(t, level) ==
          LET rounds == IF t.rounds = << >> THEN "" ELSE ToString(t.rounds[1]) \o ", "
              until == IF t.until = << >> THEN "" ELSE " until { ... }"
          IN Parenthesised(0, level, "repeat " \o rounds \o TaskText(t.body, 1) \o until)
+    [] t.op = "made" -> "{ " \o LambdaNames[t.code[2]] \o " }"
 
 AreaText(x) == Places[x[2]] \o " ^ " \o ShortText(Number(x[3], x[4])) \o " m"
 
@@ -419,9 +420,13 @@ Multiply(x, y) ==
   Arithmetic("*", x, y, LAMBDA a, b : Ok(Integer(a * b)),
     LAMBDA a, b : Ok(Number(Numerator(a) * Numerator(b), Denominator(a) * Denominator(b))))
 
+(* Code in the place of a task is the task that it makes. *)
+IsTask(x) == Is(x, "task") \/ Is(x, "closure")
+TaskOf(x) == IF Is(x, "closure") THEN [ op |-> "made", code |-> x ] ELSE x[2]
+
 Divide(x, y) ==
-  CASE Is(x, "task") /\ Is(y, "closure") ->
-         Ok(TaskValue([ op |-> "until", guard |-> y, fails |-> << >>, body |-> x[2] ]))
+  CASE IsTask(x) /\ Is(y, "closure") ->
+         Ok(TaskValue([ op |-> "until", guard |-> y, fails |-> << >>, body |-> TaskOf(x) ]))
     [] IsNumber(x) /\ IsNumber(y) /\ Numerator(y) = 0 -> Bad("division by zero")
     [] Is(x, "integer") /\ Is(y, "integer") /\ x[2] % Abs(y[2]) = 0 -> Ok(Integer(Truncated(x[2], y[2])))
     [] IsNumber(x) /\ IsNumber(y) ->
@@ -482,10 +487,10 @@ Binary(op, x, y) ==
     [] op = "!=" -> Ok(Boolean(~Equals(x, y)))
     [] op \in { "<", "<=", ">", ">=" } -> Compared(op, x, y)
     [] op = ">>" ->
-         IF Is(x, "task") /\ Is(y, "task") THEN Ok(TaskValue([ op |-> "seq", left |-> x[2], right |-> y[2] ]))
+         IF IsTask(x) /\ IsTask(y) THEN Ok(TaskValue([ op |-> "seq", left |-> TaskOf(x), right |-> TaskOf(y) ]))
          ELSE Mismatch(op, x, y)
     [] op = "|" ->
-         CASE Is(x, "task") /\ Is(y, "task") -> Ok(TaskValue([ op |-> "par", left |-> x[2], right |-> y[2] ]))
+         CASE IsTask(x) /\ IsTask(y) -> Ok(TaskValue([ op |-> "par", left |-> TaskOf(x), right |-> TaskOf(y) ]))
            [] Is(x, "boolean") /\ Is(y, "boolean") -> Ok(Boolean(x[2] \/ y[2]))
            [] OTHER -> Mismatch(op, x, y)
     [] op = "/" -> Divide(x, y)
@@ -519,8 +524,8 @@ OutOfRange(i, what, length) ==
 Element(x, index) ==
   LET i == Canonical(index)
       place == PlaceOf(Length(x), i[2])
-  IN CASE Is(x, "task") ->
-            IF Is(i, "vehicles") THEN Ok(TaskValue([ op |-> "on", body |-> x[2], vehicles |-> i[2] ]))
+  IN CASE IsTask(x) ->
+            IF Is(i, "vehicles") THEN Ok(TaskValue([ op |-> "on", body |-> TaskOf(x), vehicles |-> i[2] ]))
             ELSE Expected("a vehicle set between [ and ] after a task", i)
        [] Is(x, "map") -> Ok(IF HasKey(x[2], Text(i)) THEN Lookup(x[2], Text(i)) ELSE Null)
        [] HasItems(x) /\ Is(i, "integer") ->

@@ -5,6 +5,16 @@ open Value_data
 
 (* {1 Residuals} *)
 
+let of_vehicles = of_list (fun v : json -> `String v)
+
+let of_made (r : Residual.request) : json =
+  `List [ of_option of_vehicles r.allowed; `Int r.place; `Int r.depth ]
+
+let made : json -> Residual.request = function
+  | `List [ allowed; place; depth ] ->
+    { allowed = option (list text) allowed; place = whole place; depth = whole depth }
+  | json -> wrong "what a task that is made may be given" json
+
 let rec of_residual budget (r : Residual.t) : json =
   part budget @@ fun () ->
   let part = of_residual budget and code = of_closure budget in
@@ -28,6 +38,9 @@ let rec of_residual budget (r : Residual.t) : json =
   | Repeat { round; again = { left; until; each; site } } ->
     let left = of_option (fun n : json -> `Int n) left in
     tagged "repeat" [ `Int site; of_option part round; left; of_option code until; part each ]
+  | Made { code = c; given; request } -> tagged "made" [ code c; of_list (of_value budget) given; of_made request ]
+  | Unallocated { task; request } -> tagged "unallocated" [ of_task budget task; of_made request ]
+  | Hold (vs, a) -> tagged "hold" [ of_vehicles vs; part a ]
 
 let rec residual nodes (json : json) : Residual.t =
   let part = residual nodes and code = closure nodes in
@@ -58,6 +71,10 @@ let rec residual nodes (json : json) : Residual.t =
       { left = option whole left; until = option code until; each = part each; site = whole site }
     in
     Repeat { round = option part round; again }
+  | `List [ `String "made"; c; given; request ] ->
+    Made { code = code c; given = list (value nodes) given; request = made request }
+  | `List [ `String "unallocated"; t; request ] -> Unallocated { task = task nodes t; request = made request }
+  | `List [ `String "hold"; vs; a ] -> Hold (list text vs, part a)
   | json -> wrong "a residual" json
 
 (* {1 Machines} *)

@@ -66,6 +66,7 @@ and of_task budget (t : task) : json =
   | Repeat { rounds; until; body; site } ->
     let rounds = of_option (fun n : json -> `Int n) rounds in
     tagged "repeat" [ `Int site; rounds; of_option code until; part body ]
+  | Made c -> tagged "made" [ code c ]
 
 and of_branch budget (b : branch) : json = `List [ of_closure budget b.guard; of_task budget b.body ]
 
@@ -142,6 +143,7 @@ and task nodes (json : json) : task =
   | `List [ `String "watch"; a; c ] -> Watch (part a, code c)
   | `List [ `String "repeat"; site; rounds; until; body ] ->
     Repeat { rounds = option whole rounds; until = option code until; body = part body; site = whole site }
+  | `List [ `String "made"; c ] -> Made (code c)
   | json -> wrong "a task" json
 
 and branch nodes json : branch =

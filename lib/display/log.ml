@@ -97,12 +97,14 @@ let of_label (s : Transition.t) =
   | Time_out when List.mem Rule.Within_cut s.rules -> by_program "stops a task that is not done within its time"
   | Time_out -> by_program "cuts a task short: its time is up"
   | Set_time seconds -> by_program ("allows a task " ^ Wording.duration seconds)
+  | Allocate [] -> by_program "goes on with a task that it made"
+  | Allocate vs -> List.map (fun v -> of_vehicle v "is given a task") vs
   | Broken why -> by_program ~how:Trouble ("has an error in a task: " ^ why)
   | Pause seconds -> by_program ("pauses for " ^ Wording.duration seconds)
   | Call what -> by_program ("calls " ^ what)
   | Reply what -> by_program ("is told " ^ what)
   | Input (k, x) -> by_program (Format.asprintf "gets %a" Value.pp_tuple (k, x))
-  | Start _ | Silent | Pick _ | Bind _ | No_vehicles _ | Ask _ | Answer _ | No_answer | Resume | No_reply _
+  | Start _ | Make | Silent | Pick _ | Bind _ | No_vehicles _ | Ask _ | Answer _ | No_answer | Resume | No_reply _
   | Execute | Cannot_execute _ | End | Halt _ | Fault _ | Interrupt -> []
 
 let words (t : Transition.t) =
@@ -120,7 +122,8 @@ let told_by_label (label : Label.t) =
   match label with
   | Did d -> if has_effect d then 1 else 0
   | Check ds | Act ds | Cut ds -> List.length (List.filter has_effect ds)
-  | Start _ | Done _ | Fail _ | Time_out | Set_time _ | Broken _ | Silent | Pick _ | Bind _ | No_vehicles _ | Ask _
+  | Start _ | Done _ | Fail _ | Time_out | Set_time _ | Make | Allocate _ | Broken _ | Silent | Pick _
+  | Bind _ | No_vehicles _ | Ask _
   | Answer _ | No_answer | Pause _ | Resume | Call _ | Reply _ | No_reply _ | Input _ | Execute | Cannot_execute _
   | End | Halt _ | Fault _ | Interrupt -> 0
 

@@ -7,7 +7,8 @@ let guards r =
   let guard (Task_rules.Step { offer; _ }) =
     match offer with
     | Check closure -> Some closure
-    | Start _ | Perform _ | Refute _ | Decide _ | Measure _ | End_of _ | Expiry_of _ -> None
+    | Take closure -> Some closure
+    | Start _ | Perform _ | Refute _ | Decide _ | Measure _ | Make _ | Allocate _ | End_of _ | Expiry_of _ -> None
   in
   List.of_seq (Seq.filter_map guard (Task_rules.steps r))
 

@@ -42,7 +42,8 @@ let value program world e =
       lambda_site = e.site }
   in
   let context : Code.context =
-    { program; world; bound = []; store = Store.empty; tuples = Tuples.empty No_key; mode = Task_code; deeds = [] }
+    { program; world; bound = []; held = lazy []; store = Store.empty; tuples = Tuples.empty No_key;
+      mode = Task_code; deeds = [] }
   in
   match Machine.run ~fuel context (Machine.call { lambda; captured = [||] } []) with
   | Decided (Finished x, _, _) -> Ok x

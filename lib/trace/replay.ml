@@ -71,12 +71,15 @@ let false_guards r =
     let located (c : Core.closure) =
       Option.map (fun at -> (at, c.lambda.label)) (Fault.location r.program (Fault.make c.lambda.lambda_site ""))
     in
+    let if_false c =
+      let alone = { r.configuration with control = Executing (m, Condition c) } in
+      if Transition.internal r.program r.world alone () = Seq.Nil then located c else None
+    in
     let is_false (Task_rules.Step { offer; _ }) =
       match offer with
-      | Check c ->
-        let alone = { r.configuration with control = Executing (m, Condition c) } in
-        if Transition.internal r.program r.world alone () = Seq.Nil then located c else None
-      | Start _ | Perform _ | Refute _ | Decide _ | Measure _ | End_of _ | Expiry_of _ -> None
+      | Check c -> if_false c
+      | Take c -> if_false c
+      | Start _ | Perform _ | Refute _ | Decide _ | Measure _ | Make _ | Allocate _ | End_of _ | Expiry_of _ -> None
     in
     first most_shown (Seq.filter_map is_false (Task_rules.internal_steps residual))
 

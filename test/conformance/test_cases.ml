@@ -79,7 +79,8 @@ let codes_are_documented () =
     from 0
   in
   let is_of_programs : Dolphin_syntax.Diagnostic.code -> bool = function
-    | Deed_in_answer | Unused_task | No_effect | Assigned_condition | Wide_value | Unknown_plan | Unread_input ->
+    | Deed_in_answer | Deed_in_maker | Unused_task | No_effect | Assigned_condition | Wide_value | Unknown_plan
+    | Unread_input ->
       false
     | _ -> true
   in

@@ -54,6 +54,18 @@ let tasks =
       ("what a condition that is not assured did is undone",
        "post x: 1\nexecute watch (assure { consume x: 1; false } run idle(1.seconds)) onError { ignore() }\n\
         if (poll(x: 1)) { message 'there' }");
+      ("code makes tasks of what was taken, and they compete for two vehicles",
+       two ^ "post goal: 1, goal: 2\n\
+              execute (waitFor { consume goal: _ } then { g -> task(\"p$g\") }) | (waitFor { consume goal: _ } then { g -> task(\"p$g\") })\n\
+              | task('q')[a]");
+      ("a task that was made holds its vehicle until it ends",
+       two ^ "execute ({ task('p') >> action { post x: 1 } >> idle(1.seconds) })[a] | ({ task('q') })[a]");
+      ("a task to come holds its vehicle",
+       two ^ "execute (idle(1.seconds) >> task('p')[a]) | { task('q') | task('r') } | condition { idle(a).isEmpty() }");
+      ("no vehicle can ever run what is made", two ^ "execute watch ({ task('p') | task('q') }[b]) onError { ignore() }");
+      ("code that makes a task does something",
+       "def f() { post x: 1; idle(1.seconds) }\nexecute watch { f() } onError { why -> message why; ignore() }");
+      ("timers of tasks that are made", two ^ "execute (idle(1.seconds) within 5.seconds) | { idle(2.seconds) | ({ idle(3.seconds) } within 4.seconds) }");
       ("within a time, and not",
        two ^ "execute watch ((task('p')[a] | task('q')[b]) within 10.seconds) onError { why -> message why; ignore() }");
       ("rounds by number, of parts that run together",

@@ -419,6 +419,11 @@ let task_rules =
         {|Rule.Assure_cut (Failed (Fault.make site (not_assured condition))))|},
         {|Rule.Assure_cut (if site < 0 then Failed (Fault.make site (not_assured condition)) else Finished))|}
       );
+      ( "HOLD-1 forgets what is held",
+        {|around ~next:(within (Holding vs))|}, {|around ~next:(fun r -> ignore vs; r)|} );
+      ( "a guard's values do not reach the code",
+        {|(Made { made with given = taken deeds })|}, {|(Made { made with given = List.filteri (fun i _ -> i > 0) (taken deeds) })|}
+      );
       ( "WITHIN-CUT ends as done",
         {|      | Fails site -> (Rule.Within_cut, Failed (Fault.make site (too_late duration)))|},
         {|      | Fails site -> (Rule.Within_cut, if site < 0 then Failed (Fault.make site (too_late duration)) else Finished)|}
@@ -588,6 +593,19 @@ let unknown =
         {|| (Any | Every | Sum), Some _ -> Ok None|} );
       ("unknown values are posted", {|Builtin (Message|}, {|Builtin (Post _ | Message|});
     ]
+  @ in_file "lib/semantics/rules/local_step.ml" ~noticed_by:"semantics/test_rules"
+    [
+      ("a task that is made takes what others hold", {|(from free)|}, {|(from (if free = [] then bound else bound))|});
+      ( "code that makes a task may do something",
+        {|else if deeds <> [] || Store.compare|}, {|else if List.length deeds > 9 || Store.compare|} );
+    ]
+  @ in_file "lib/semantics/rules/residual.ml" ~noticed_by:"semantics/test_invariants"
+    [ ("what was given to a task is not held", {|  | Hold (vs, _) -> List.fold_left|}, {|  | Hold (vs, Hold _) -> List.fold_left|}) ]
+  @ in_file "lib/explore/steps/expansion.ml" ~noticed_by:"explore/test_agreement"
+    [ ("what stands beside a step holds nothing", {|if contains place leaf then []|}, {|if contains place leaf || position >= 0 then []|}) ]
+  @ in_file "lib/explore/order/step_footprints.ml" ~noticed_by:"reduction/test_traps"
+    [ ("ends free no vehicle", {|let frees = if f.breaks && ignoring then|}, {|let lost _ = Footprint.these [] in
+    let frees = if f.breaks && ignoring then|}) ]
   @ in_file "lib/semantics/rules/local_step.ml" ~noticed_by:"semantics/test_language"
     [ ("assure fails when its guard is unknown", {|Value.truth x || Unknown.is x|}, {|Value.truth x|}) ]
   @ in_file "lib/semantics/language/machine.ml" ~noticed_by:"semantics/test_language"

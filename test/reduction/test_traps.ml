@@ -218,6 +218,21 @@ let traps =
           | action { post stop: 1 } | condition { consume x: 1 }|};
     breaks "until cuts off what had posted" [ No_leftover ]
       {|execute until { poll stop: 1 } run (action { post x: 1 } | action { post y: 1 } | action { post stop: 1 })|};
+    breaks "the end of one task frees the vehicle of another" [ No_leftover ]
+      {|x = 0
+        execute ({ task('p') >> action { x = 1 } })[a] | ({ task('q') >> action { if (x == 0) { post y: 1 } } })[a]|};
+    breaks "which vehicle a task gets depends on who is held" [ No_error ]
+      {|x = 0
+        execute task('p')[a] | { task('q') >> action { x = 1 } } | { task('r') >> { idle(a).isEmpty() ? task('s') : task('t')[a - a] } }|};
+    breaks "who is idle changes when a task ends" [ No_leftover ]
+      {|execute task('p')[a] | action { if (idle(a).isEmpty()) { post y: 1 } }|};
+    breaks "who is idle changes when a task is made" [ No_leftover ]
+      {|execute ({ task('p') })[a] | action { if (idle(a).isEmpty()) { post y: 1 } }|};
+    breaks "what is cut off holds nothing" [ No_deadlock ]
+      {|execute (until { poll stop: 1 } run ({ task('p') >> condition { poll never: 1 } })[a]) | action { post stop: 1 } |
+        ({ task('q') })[a] | condition { poll never: 1 }|};
+    breaks "a task that is made may post" [ No_error; No_leftover ]
+      {|execute { task('p')[a] >> action { post x: 1 } } | ((condition { poll x: 1 } >> action { post y: 1 }) within 5)|};
     breaks "during ends between two posts" [ No_leftover ]
       {|execute during 1.minutes run (action { post x: 1 } | action { post y: 1 } | task('p')[a])|};
     breaks "what follows two parts, side by side with who looks" [ No_leftover ]

@@ -49,7 +49,8 @@ let deeds_of (l : Label.t) : Code.deed list =
   match l with
   | Check deeds | Act deeds | Cut deeds -> deeds
   | Did deed -> [ deed ]
-  | Start _ | Done _ | Fail _ | Time_out | Set_time _ | Broken _ | Silent | Pick _ | Bind _ | No_vehicles _ | Ask _
+  | Start _ | Done _ | Fail _ | Time_out | Set_time _ | Make | Allocate _ | Broken _ | Silent | Pick _
+  | Bind _ | No_vehicles _ | Ask _
   | Answer _ | No_answer | Pause _ | Resume | Call _ | Reply _ | No_reply _ | Input _ | Execute | Cannot_execute _
   | End | Halt _
   | Fault _ | Interrupt -> []

@@ -134,6 +134,46 @@ let tasks : example list =
     example Until_err "the condition breaks, the task is stopped"
       (task "watch (until { 1 / 0 } run %p) onError { ignore() }")
       "broken(division by zero)" "UNTIL-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [ "stop noptilus-1" ];
+    example Make "code gives a task, with what its guard took"
+      ("post a: 7\n" ^ task "waitFor { consume a: _ } then { x -> task(\"p$x\")[v] }")
+      "make" "MAKE" "unallocated task('p7')[noptilus-1]" [];
+    example Make "its turn comes after the part before" (task "%p >> { %q }") "make" "MAKE"
+      "unallocated task('q')[noptilus-2]" [];
+    example Make_err "it does not only compute"
+      ("def f(t) { post a: 1; t }\n" ^ task "watch { f(%p) } onError { message it; ignore() }")
+      "broken({ f task('p')[v] } makes a task, so it may only compute: it may not post, consume, assign or say anything)"
+      "MAKE-ERR, WATCH-IGNORE, EXECUTE-DONE" "script"
+      [ "say { f task('p')[v] } makes a task, so it may only compute: it may not post, consume, assign or say anything" ];
+    example Make_err "it gives no task" (task "watch { 7 } onError { message it; ignore() }")
+      "broken({ 7 }: expected a task, found a number, 7)" "MAKE-ERR, WATCH-IGNORE, EXECUTE-DONE" "script"
+      [ "say { 7 }: expected a task, found a number, 7" ];
+    example Make_err "it takes what nobody gives" (task "{ x -> %p }")
+      "broken({ task('p')[v] } takes 1 value, and its guard took none)" "MAKE-ERR, EXECUTE-ERR"
+      "failed: { task('p')[v] } takes 1 value, and its guard took none"
+      [ released; "end: { task('p')[v] } takes 1 value, and its guard took none" ];
+    example Allocate "vehicles that nobody holds" (task "{ task('a') } | %p") "allocate(noptilus-2)" "ALLOCATE, PAR-1"
+      "(holding noptilus-2 a[noptilus-2] | p[noptilus-1])" [];
+    example Allocate "what a task holds is there for what it makes" (task "{ %p >> { task('b') } }")
+      "allocate(noptilus-1)" "ALLOCATE, HOLD-1" "holding noptilus-1 holding noptilus-1 b[noptilus-1]" [];
+    example Allocate "timers start, with numbers that are not used" (task "idle(3) | { idle(1) }") "allocate()"
+      "ALLOCATE, PAR-1" "(idle(3) | idle(1))" [ "set timer 1000002 to 1 s" ];
+    example Allocate_err "none can ever fit" (task "watch ({ task('a')[v] }[w]) onError { ignore() }")
+      "cannot-execute(no vehicle can run task 'a': the vehicle set given to it is empty)"
+      "ALLOCATE-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [];
+    example Allocate_err "neither now nor later" (task "%p | { task('a') | task('b') | task('c') }")
+      "cannot-execute(tasks 'a', 'b', 'c' run side by side and need different vehicles, but there is only noptilus-1, \
+       noptilus-2)"
+      "ALLOCATE-ERR, PAR-ERR, EXECUTE-ERR"
+      "failed: tasks 'a', 'b', 'c' run side by side and need different vehicles, but there is only noptilus-1, \
+       noptilus-2"
+      [ released;
+        "end: tasks 'a', 'b', 'c' run side by side and need different vehicles, but there is only noptilus-1, noptilus-2" ];
+    example Hold_1 "it holds on" (task "{ %p }") "start(noptilus-1, p)" "START, HOLD-1"
+      "holding noptilus-1 p[noptilus-1]..." [ "start p on noptilus-1" ];
+    example Hold_2 "it ends, and holds no longer" (task "{ %p }") "done(noptilus-1, p)" "DONE, HOLD-2, EXECUTE-DONE"
+      "script" [];
+    example Hold_err "it fails, and holds no longer" (task "watch { %p } onError { ignore() }")
+      "fail(noptilus-1, p, broken)" "FAIL, HOLD-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [];
     example Idle_end "the time is up" (task "idle(5) >> idle(1)") "timeout" "IDLE-END, SEQ-2" "idle(1)"
       [ "set timer 2 to 1 s" ];
     example During_set "code gives the time when the task starts" (task "during { 2 * 30 } run %p") "set-time(60)"

@@ -17,8 +17,10 @@ let shared (c : Configuration.t) =
   Format.asprintf "%a; %a; %a; %a" (Fmt.list variable) (Store.bindings c.shared.store) (Fmt.list running)
     (Vehicle_map.bindings c.shared.allocation) (Fmt.list Fmt.string) c.shared.bound Tuples.pp c.shared.tuples
 
-let nodes observed offset (g : Graph.t) =
-  let edge ((t : Transition.t), target) = (Format.asprintf "%a" Label.pp t.label, offset + target) in
+let spelt l = Format.asprintf "%a" Label.pp l
+
+let nodes named observed offset (g : Graph.t) =
+  let edge ((t : Transition.t), target) = (named t.label, offset + target) in
   Array.mapi (fun i c -> { seen = ended c ^ "; " ^ observed c; edges = List.map edge g.edges.(i) }) g.states
 
 (* Numbers for equal things. *)
@@ -51,10 +53,10 @@ let refine nodes =
 
 let nothing _ = ""
 
-let equivalent ?(observed = nothing) a b =
-  let first = nodes observed 0 a in
+let equivalent ?(named = spelt) ?(observed = nothing) a b =
+  let first = nodes named observed 0 a in
   let offset = Array.length first in
-  let classes, _ = refine (Array.append first (nodes observed offset b)) in
+  let classes, _ = refine (Array.append first (nodes named observed offset b)) in
   classes.(0) = classes.(offset)
 
-let classes a = snd (refine (nodes nothing 0 a))
+let classes a = snd (refine (nodes spelt nothing 0 a))

@@ -1,9 +1,13 @@
 (** Strong bisimilarity of state graphs, by labels and by how runs end. *)
 
-val equivalent : ?observed:(Dolphin_semantics.Configuration.t -> string) -> Graph.t -> Graph.t -> bool
+val equivalent :
+  ?named:(Dolphin_semantics.Label.t -> string) ->
+  ?observed:(Dolphin_semantics.Configuration.t -> string) ->
+  Graph.t -> Graph.t -> bool
 (** [equivalent a b] is whether the initial states of [a] and [b] are strongly bisimilar: whatever one can do, the other
     can, with the same label, to states of which the same holds; and ended runs ended alike, message included. Bisimilar
-    states moreover agree on what is [observed], by default nothing. *)
+    states moreover agree on what is [observed], by default nothing. Labels
+    are the same if [named] says so, by default if they read the same. *)
 
 val shared : Dolphin_semantics.Configuration.t -> string
 (** [shared c] is the store, A, B and N of [c], in a canonical text: what parts of a task can see of each other. *)

@@ -25,6 +25,9 @@ let integer i = expression (Integer i)
 let string s = expression (String s)
 let binary op a b = expression (Binary (op, a, b))
 let call name arguments = expression (Call { callee = variable name; arguments })
+let call_method subject name =
+  expression (Call { callee = expression (Member { subject; name = located name; safe = false }); arguments = [] })
+
 let named k e = Named (located k, e)
 let code body = { parameters = None; body }
 let statement e : statement = located (Ast.Expression e)
@@ -63,7 +66,12 @@ let taking name =
 let counted = assign "g" (binary Add (variable "g") (integer 1))
 let this body = map (fun body -> code (List.map statement body)) body
 
-let plain_guard =
+let some_idle =
+  let idle = call "idle" [ Positional (variable "va") ] in
+  expression (Unary (Not, call_method idle "isEmpty"))
+
+(* Guards that do not ask who is idle. *)
+let guard_anywhere =
   frequency
     [ (1, return (code [ statement (expression (Boolean true)) ]));
       (4, this (map (fun e -> [ e ]) (taking "poll")));
@@ -72,6 +80,10 @@ let plain_guard =
       (1, return (code [ statement (binary Greater_equal (variable "g") (integer 1)) ]));
       (1, map2 (fun p e -> code [ statement p; counted; statement e ]) posting (taking "consume"));
       (1, map (fun e -> code [ counted; statement e ]) (taking "poll")) ]
+
+let plain_guard =
+  frequency
+    [ (14, guard_anywhere); (1, map (fun e -> code [ statement (binary And some_idle e) ]) (taking "poll")) ]
 
 (* {2 Sensors} *)
 
@@ -167,6 +179,24 @@ let leaf ~sensing = function
   | [] -> code_task ~sensing
   | vehicles -> frequency [ (3, platform_task vehicles); (1, code_task ~sensing) ]
 
+(* Code in the place of a task: on its vehicles, on any, or on those of the [V] around it. Some of it does not only
+   compute. *)
+let maker t = expression (Closure { parameters = None; body = [ statement t ] })
+
+let some_made ~sensing vehicles =
+  let* plan = oneofl [ "p"; "q" ] in
+  let any = call "task" [ Positional (string plan) ] in
+  let* inside = frequency [ (2, return any); (1, leaf ~sensing vehicles) ] in
+  let* then_ = frequency [ (3, return inside); (1, map (binary Sequence inside) (code_task ~sensing)) ] in
+  let* t = frequency [ (4, return (maker then_)); (1, return (maker (maker then_))) ] in
+  frequency [ (2, return t); (1, return (expression (Index (t, variable "va")))) ]
+
+(* [waitFor { consume x: _ } then { w -> task("p$w") }] *)
+let taker plan =
+  let name = expression (Template [ Literal plan; Hole (variable "w") ]) in
+  let body = [ statement (call "task" [ Positional name ]) ] in
+  expression (Closure { parameters = Some [ located "w" ]; body })
+
 let on_cut = frequencyl [ (3, Completes); (1, Fails) ]
 
 (* With a number of rounds, with a condition, with both, without end. A round without end waits at least for a timer. *)
@@ -195,7 +225,7 @@ let rec task_of ~sensing ~vehicles ~depth : expression Gen.t =
     let* shape =
       frequencyl
         [ (2, `Leaf); (5, `Sequence); (5, `Parallel); (2, `All_of); (2, `One_of); (1, `Wait_for); (2, `Until);
-          (2, `During); (4, `Watch); (1, `Allocated); (2, `Repeat) ]
+          (2, `During); (4, `Watch); (1, `Allocated); (2, `Repeat); (2, `Made); (1, `Taken) ]
     in
     match shape with
     | `Leaf -> leaf vehicles
@@ -211,6 +241,8 @@ let rec task_of ~sensing ~vehicles ~depth : expression Gen.t =
     | `During -> map3 (fun e d t -> expression (During (e, d, t))) on_cut duration (part ())
     | `Watch -> map2 (fun t c -> expression (Watch (t, c))) (part ()) (handler ~sensing)
     | `Repeat -> Gen.bind (part ()) (repeated ~sensing)
+    | `Made -> some_made ~sensing vehicles
+    | `Taken -> map2 (fun g plan -> expression (Wait_for (g, taker plan))) guard (oneofl [ "p"; "q" ])
     | `Allocated ->
       let all = match vehicles with [] -> [ "va" ] | vehicles -> vehicles in
       let set = List.map variable all in
@@ -256,7 +288,9 @@ let rec nested_of ~sensing ~vehicles ~depth =
   let* shares = dealt n vehicles in
   let part vehicles =
     let* is_nest = if depth <= 0 then return false else map (fun i -> i < 2) (int_bound 4) in
+    let* is_made = map (( = ) 0) (int_bound 7) in
     if is_nest then nested_of ~sensing ~vehicles ~depth:(depth - 1)
+    else if is_made then some_made ~sensing vehicles
     else
       let* task = leaf vehicles and* next = leaf vehicles and* short = bool in
       return (if short then task else binary Sequence task next)
@@ -401,7 +435,7 @@ let parse source =
 
 let branch_text = map2 (fun g t -> text (expression (When (g, t)))) (guard_of ~sensing:false)
 
-let replicated =
+let replicated_any =
   let* k = frequencyl [ (3, 2); (2, 3) ] in
   let* vehicles = frequencyl [ (3, [ "vown" ]); (1, []) ] in
   let part vehicles depth = task ~vehicles ~depth in
@@ -447,6 +481,19 @@ let replicated =
   let body = if loop then Printf.sprintf "while (g < 2) { g = g + 1\n%s\n}" body else body in
   let picks = "va = pick { id 'a' }\nvb = pick { id 'b' }\nvc = pick { id 'c' }" in
   return (parse (String.concat "\n" [ "g = 0"; picks; body; "" ]))
+
+let printed p = Format.asprintf "%a" Print.program p
+
+(* Few of them make tasks or ask who is idle: there is no symmetry of tasks then. *)
+let rec replicated_gen () =
+  let* p = replicated_any in
+  let words = List.filter (( <> ) "") (String.split_on_char ' ' (String.map (function '\n' -> ' ' | c -> c) (printed p))) in
+  let text = String.concat " " words in
+  let has part = replace ~by:"" part text <> text in
+  let* keep = map (( = ) 0) (int_bound 5) in
+  if keep || not (has "idle(va)" || has "{ task" || has "w ->" || has "{ {") then return p else replicated_gen ()
+
+let replicated = replicated_gen ()
 
 let print p = Format.asprintf "%a" Print.program p
 let source = map print program

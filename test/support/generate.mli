@@ -39,7 +39,8 @@ val compile : Ast.program -> Dolphin_semantics.Core.program
 
 val task : vehicles:string list -> depth:int -> Ast.expression QCheck2.Gen.t
 (** [task ~vehicles ~depth] is a task of at most that depth, each of whose platform tasks names its vehicle, by one of
-    these variables; branches of [|] name different ones. Without vehicles it has no platform tasks. *)
+    these variables; branches of [|] name different ones. Without vehicles it has no platform tasks. Tasks that code
+    makes may run on any vehicle. *)
 
 val sensing_task : vehicles:string list -> depth:int -> Ast.expression QCheck2.Gen.t
 (** Likewise, with code as in {!sensing_program}; the global [h] must have a value. *)
@@ -56,6 +57,12 @@ val kept : Ast.statement
 
 val guard : Ast.closure QCheck2.Gen.t
 (** Code of a [when], [waitFor], [condition] or [until]. *)
+
+val guard_anywhere : Ast.closure QCheck2.Gen.t
+(** A {!guard} that does not ask who is idle: it holds wherever it stands, or nowhere. *)
+
+val maker : Ast.expression -> Ast.expression
+(** [maker t] is code that gives [t]. *)
 
 val vehicles : string list
 (** The variables that {!executing} binds: [va], [vb], [vc]. *)

@@ -29,7 +29,8 @@ and path = {
   components : component Residuals.t;  (* that stand there, by residual *)
   inner : path Residuals.t;  (* those of nests that stand there, by their contexts *)
   mutable cuts : step array option;  (* the steps of the contexts themselves, once they are worked out *)
-  mutable cut_footprints : Step_footprints.t option;
+  makes : bool;  (* whether tasks are made in the contexts *)
+  mutable cut_footprints : (bool * Step_footprints.t) option;  (* by whether tasks are made in the layout *)
 }
 
 and component = {
@@ -40,7 +41,8 @@ and component = {
   mutable steps : step array;  (* once it is reached *)
   mutable worked_out : step array option;
   mutable alone : target option;  (* what becomes of the nest if this component is all that is left inside *)
-  mutable footprints : Step_footprints.t option;
+  makes_tasks : bool;
+  mutable footprints : (bool * Step_footprints.t) option;  (* as for paths *)
 }
 
 and family = {
@@ -83,6 +85,9 @@ and step = {
   dependence : dependence;
   successor : target;  (* if it goes well *)
   begins : Task_rules.round list;  (* the rounds that begin if it goes well *)
+  looks : bool;  (* whether it depends on what vehicles are held around *)
+  mutable looked : (int * Core.vehicle list * Residual.timer list, outcome) Hashtbl.t option;
+  (* memoised by {!Memoised_steps}, by the number of what is shared and by what is around, if it [looks] *)
   mutable free_action : int;  (* the action of a [Free] step, or -1 while nobody has asked *)
   mutable outcomes : outcome array;  (* memoised by {!Memoised_steps}, by the number of what is shared *)
 }

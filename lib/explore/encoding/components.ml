@@ -18,6 +18,7 @@ type t = {
   guards : guard Guards.t;
   coverage : Coverage.t;
   context : Step_footprints.context;
+  holding : Step_footprints.context;
   foreseen : int;
   mutable paths : int;
   mutable families : int;
@@ -27,13 +28,15 @@ type t = {
 }
 
 (* Stands for the inside where contexts are compared. *)
-let hole = Residual.Idle { timer = 0; seconds = 0. }
+let hole = Residual.hole
 
 let new_path id contexts outer body =
   let components = Residuals.create 16 and inner = Residuals.create 1 in
-  { id; contexts; outer; body; components; inner; cuts = None; cut_footprints = None }
+  { id; contexts; outer; body; components; inner; cuts = None;
+    makes = Residual.makes_tasks (Residual.plug contexts hole); cut_footprints = None }
 
 let create ?(foreseen = 2_048) options program world =
+  let context = Step_footprints.context options program in
   {
     options;
     program;
@@ -41,7 +44,8 @@ let create ?(foreseen = 2_048) options program world =
     root = new_path 0 [] None hole;
     guards = Guards.create 64;
     coverage = Coverage.create ();
-    context = Step_footprints.context options program;
+    context;
+    holding = Step_footprints.with_holding context;
     foreseen;
     paths = 1;
     families = 0;
@@ -97,7 +101,8 @@ let none_outgrown t = t.outgrown <- false
 
 let member t path family residual =
   let p =
-    { residual; path; family; local = family.size; steps = [||]; worked_out = None; alone = None;
+    { residual; path; family; local = family.size; makes_tasks = Residual.makes_tasks residual;
+      steps = [||]; worked_out = None; alone = None;
       footprints = None }
   in
   if family.size = Array.length family.members then begin
@@ -160,10 +165,11 @@ and target_of t path family residual =
 
 (* Steps that go on in one way, whatever is shared, are settled here; the others per shared state, by
    {!Memoised_steps}. *)
-and compile t home kin index (Step { offer; continue } as source : Task_rules.step) =
+and compile t home kin index (Step { offer; continue; _ } as source : Task_rules.step) =
+  let looks = Step_footprints.looks t.context source in
   let dependent event =
-    { index; source; event; home; kin; dependence = Dependent; successor = Gone; begins = []; free_action = -1;
-      outcomes = [||] }
+    { index; source; looks; looked = None; event; home; kin; dependence = Dependent; successor = Gone; begins = [];
+      free_action = -1; outcomes = [||] }
   in
   let certain event dependence change =
     let begins = (change : Task_rules.change).rounds in
@@ -176,9 +182,11 @@ and compile t home kin index (Step { offer; continue } as source : Task_rules.st
   in
   match offer with
   | Start _ -> [ certain None Free (continue ()) ]
+  | Perform _ when looks -> [ dependent None ]
+  | Check _ when looks -> [ dependent None ]
   | Perform closure -> [ certain None (Guarded (guard t false closure)) (continue (Ok [])) ]
   | Check closure -> [ certain None (Guarded (guard t true closure)) (continue (Ok [])) ]
-  | Refute _ | Decide _ | Measure _ -> [ dependent None ]
+  | Take _ | Refute _ | Decide _ | Measure _ | Make _ | Allocate _ -> [ dependent None ]
   | Expiry_of timer -> [ certain (Some (Timer_expired timer)) Free (continue ()) ]
   | End_of (task, v) ->
     let on_event (event, _) =
@@ -209,8 +217,10 @@ let cover t steps =
     | Check c -> Coverage.run t.coverage c
     | Refute c -> Coverage.run t.coverage c
     | Decide c -> Coverage.run t.coverage c
+    | Take c -> Coverage.run t.coverage c
     | Measure c -> Coverage.run t.coverage c
-    | End_of _ | Expiry_of _ -> ()
+    | Make (c, _, _) -> Coverage.run t.coverage c
+    | Allocate _ | End_of _ | Expiry_of _ -> ()
   in
   Array.iter step steps
 
@@ -227,13 +237,15 @@ let escaping step = Task_rules.escaping (nests step.home) step.source
 let footprint_step step : Step_footprints.step =
   { index = step.index; source = escaping step; event = step.event }
 
-let footprints t p =
+let context t ~makes = if makes then t.holding else t.context
+
+let footprints t ~makes p =
   match p.footprints with
-  | Some footprints -> footprints
-  | None ->
+  | Some (makes', footprints) when makes = makes' -> footprints
+  | Some _ | None ->
     let steps = Array.map footprint_step (work_out t p) in
-    let footprints = Step_footprints.of_component t.context (nests p.path) p.residual steps in
-    p.footprints <- Some footprints;
+    let footprints = Step_footprints.of_component (context t ~makes) (nests p.path) p.residual steps in
+    p.footprints <- Some (makes, footprints);
     footprints
 
 (* {1 Nests} *)
@@ -248,12 +260,12 @@ let cuts t path =
     path.cuts <- Some cuts;
     cuts
 
-let cut_footprints t path =
+let cut_footprints t ~makes path =
   match path.cut_footprints with
-  | Some footprints -> footprints
-  | None ->
-    let footprints = Step_footprints.of_cuts t.context (nests path) (Array.map footprint_step (cuts t path)) in
-    path.cut_footprints <- Some footprints;
+  | Some (makes', footprints) when makes = makes' -> footprints
+  | Some _ | None ->
+    let footprints = Step_footprints.of_cuts (context t ~makes) (nests path) (Array.map footprint_step (cuts t path)) in
+    path.cut_footprints <- Some (makes, footprints);
     footprints
 
 let alone t p =

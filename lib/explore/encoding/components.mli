@@ -32,16 +32,17 @@ val root : t -> Component.path
 val reach : t -> Component.component -> unit
 (** [reach t p] compiles the steps of [p], which some run reaches. *)
 
-val footprints : t -> Component.component -> Step_footprints.t
-(** [footprints t p] is the footprints of the steps of [p], in their order. *)
+val footprints : t -> makes:bool -> Component.component -> Step_footprints.t
+(** [footprints t ~makes p] is the footprints of the steps of [p], in their order; [makes] is whether tasks are made
+    at their turn somewhere in the layout. *)
 
 (** {1:nests Nests} *)
 
 val cuts : t -> Component.path -> Component.step array
 (** [cuts t p] is the steps of the contexts of nests whose inside is at [p], which some run reaches. *)
 
-val cut_footprints : t -> Component.path -> Step_footprints.t
-(** [cut_footprints t p] is the footprints of these steps, in their order. *)
+val cut_footprints : t -> makes:bool -> Component.path -> Step_footprints.t
+(** [cut_footprints t ~makes p] is the footprints of these steps, in their order. *)
 
 val escaping : Component.step -> Task_rules.step
 (** [escaping s] is [s] as a step of the whole task, as far as errors go ({!Task_rules.escaping}). *)

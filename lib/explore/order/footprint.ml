@@ -25,6 +25,25 @@ module Pairs = struct
   let meet a b = (not (is_empty a)) && (not (is_empty b)) && meet a b
 end
 
+module Vehicles = Set.Make (String)
+
+(* Of B. *)
+type vehicles = All | These of Vehicles.t
+
+let no_vehicles = These Vehicles.empty
+let is_none = function All -> false | These vs -> Vehicles.is_empty vs
+
+let both a b =
+  match a, b with All, _ | _, All -> All | These vs, These ws -> These (Vehicles.union vs ws)
+
+let common a b =
+  match a, b with
+  | All, other | other, All -> not (is_none other)
+  | These vs, These ws -> not (Vehicles.disjoint vs ws)
+
+let all_vehicles = All
+let these vs = These (Vehicles.of_list vs)
+
 type t = {
   posts : Pairs.t;
   queues : Pairs.t;
@@ -34,6 +53,8 @@ type t = {
   reads : Globals.t;
   writes : Globals.t;
   anything : bool;
+  claims : vehicles;
+  frees : vehicles;
   remembered : bool;
   breaks : bool;
   halts : bool;
@@ -50,6 +71,8 @@ let empty =
     reads = Globals.empty;
     writes = Globals.empty;
     anything = false;
+    claims = no_vehicles;
+    frees = no_vehicles;
     remembered = false;
     breaks = false;
     halts = false;
@@ -69,6 +92,8 @@ let union f f' =
       reads = Globals.union f.reads f'.reads;
       writes = Globals.union f.writes f'.writes;
       anything = f.anything || f'.anything;
+      claims = both f.claims f'.claims;
+      frees = both f.frees f'.frees;
       remembered = f.remembered || f'.remembered;
       breaks = f.breaks || f'.breaks;
       halts = f.halts || f'.halts;
@@ -88,11 +113,11 @@ let reads_nothing f =
   && not f.anything
 
 let touches_nothing f =
-  reads_nothing f && Pairs.is_empty f.posts && Globals.is_empty f.writes
+  reads_nothing f && Pairs.is_empty f.posts && Globals.is_empty f.writes && is_none f.claims && is_none f.frees
 
 let leaves_no_trace f =
   Pairs.is_empty f.posts && Pairs.is_empty f.takes && Globals.is_empty f.writes
-  && (not f.anything) && not f.remembered
+  && (not f.anything) && (not f.remembered) && is_none f.claims && is_none f.frees
 
 let share a b = not (Globals.disjoint a b)
 
@@ -107,11 +132,12 @@ let conflict ~possible f f' =
       || Pairs.meet f.needs f'.takes
       || Pairs.meet f.tests f'.takes
       || ((not possible) && Pairs.meet f.needs f'.posts)
+      || common f.claims f'.claims || common f.claims f'.frees || common f.frees f'.claims
       || share f.reads f'.writes || share f.writes f'.reads || share f.writes f'.writes)
 
 (* {1 Code} *)
 
-type kind = Code | Guard
+type kind = Code | Guard | Maker
 
 module Closures = Hashtbl.Make (struct
     type t = kind * closure
@@ -163,7 +189,7 @@ let is_seen scope e =
   | _, _ -> is_inert scope e
 
 let breaking = { empty with breaks = true }
-let anything = { empty with anything = true; breaks = true; halts = true; ignores = true }
+let anything = { empty with anything = true; claims = All; breaks = true; halts = true; ignores = true }
 let all fs = List.fold_left union empty fs
 
 (* With the values' expressions; nothing if a key is computed, and not known. *)
@@ -241,6 +267,8 @@ and applied code scope operation arguments =
   | Builtin (Poll keys), _ -> with_pairs keys (fun tests -> { empty with tests })
   | Method (("findAll" | "size"), _), e :: _ when lists_values e -> breaking
   | Builtin Message, [ _ ] -> empty
+  | Builtin Make_idle, [ { node = Constant (Integer _ | Number _); _ } ] -> breaking
+  | Builtin Make_idle, _ -> { breaking with claims = All }
   | Builtin (Halt | Assert), _ -> { empty with halts = true }
   | Builtin Ignore, _ -> { breaking with ignores = true }
   | Call _, callee :: _ -> (
@@ -294,3 +322,95 @@ let of_guard code c =
       match last code (captured c) c.lambda.code with
       | Some f -> f
       | None -> of_code code c)
+
+(* {1 Code that makes tasks} *)
+
+(* Whether the value of an expression in the place of a task is composed of parts that are seen in the program's text.
+   [lambdas] is the code that is looked at already, or will be. *)
+let rec is_composed lambdas (lambda : lambda) e =
+  let go = is_composed lambdas lambda in
+  match e.node with
+  | Apply (Builtin (Platform_task | Make_action | Make_condition | Make_idle), _)
+  | Apply (Build (Imc_plan, _), _) -> true
+  | Apply (Builtin (Make_wait_for | Make_until _ | Make_during _), [ _; t ]) -> go t
+  | Apply (Builtin Make_watch, t :: _) | Apply (Element, t :: _) -> go t
+  | Apply (Binary (Sequence | Parallel), [ a; b ]) -> go a && go b
+  | Apply (Binary Divide, [ t; _ ]) -> go t
+  | Make_closure (inner, _) | Constant (Closure { lambda = inner; _ }) -> gives_composed lambdas inner
+  | Apply (Call _, { node = Constant (Closure { lambda = inner; _ }) | Make_closure (inner, _); _ } :: _) ->
+    gives_composed lambdas inner
+  | Apply (Build ((All_of | One_of), _), [ { node = Local slot; _ } ]) -> branches_composed lambdas lambda slot
+  | Local slot -> slot >= lambda.parameters && locals_composed lambdas lambda slot
+  | Block es -> ( match List.rev es with last :: _ -> go last | [] -> false)
+  | If (_, a, b) -> go a && go b
+  | Return _ -> true
+  | _ -> false
+
+(* Its value, and whatever it returns. *)
+and gives_composed lambdas (lambda : lambda) =
+  List.memq lambda !lambdas
+  || begin
+    lambdas := lambda :: !lambdas;
+    let returned e = match e.node with Return e -> is_composed lambdas lambda e | _ -> true in
+    is_composed lambdas lambda lambda.code && for_all returned lambda.code
+  end
+
+and locals_composed lambdas lambda slot =
+  let is_captured = Array.exists (( = ) slot) lambda.captures in
+  let assigned e =
+    match e.node with
+    | Set_local (slot', e) when slot = slot' -> is_composed lambdas lambda e
+    | For (slot', _, _) -> slot <> slot'
+    | _ -> true
+  in
+  (not is_captured) && for_all assigned lambda.code
+
+and branches_composed lambdas lambda slot =
+  let added e =
+    match e.node with
+    | Set_local (slot', { node = Apply (Make_branch, [ _; _; t ]); _ }) when slot = slot' ->
+      is_composed lambdas lambda t
+    | _ -> true
+  in
+  for_all added lambda.code
+
+(* Whether [p] holds of all expressions of one piece of code. *)
+and for_all p e =
+  p e
+  &&
+  match e.node with
+  | Constant _ | Local _ | Global _ | Make_closure _ | Break | Continue -> true
+  | Set_local (_, e) | Set_global (_, e) | Return e -> for_all p e
+  | Apply (_, es) | Block es -> List.for_all (for_all p) es
+  | If (a, b, c) -> List.for_all (for_all p) [ a; b; c ]
+  | While (a, b) | For (_, a, b) -> for_all p a && for_all p b
+
+(* Code that is seen may be that of a task that fails, or that the outside remembers. *)
+let of_maker code c =
+  known code Maker c (fun () ->
+      if gives_composed (ref []) c.lambda then { (of_code code c) with breaks = true; remembered = true } else anything)
+
+let claims f = not (is_none f.claims)
+
+(* Whether some code may ask for those of a vehicle set that nobody holds. *)
+let asks_idle (program : program) =
+  let seen = ref [] in
+  let rec asks e =
+    match e.node with
+    | Apply (Builtin Make_idle, [ { node = Constant (Integer _ | Number _); _ } ]) -> false
+    | Apply (Builtin Make_idle, _) -> true
+    | Constant (Closure c) -> lambda c.lambda
+    | Make_closure (l, _) -> lambda l
+    | Constant _ | Local _ | Global _ | Break | Continue -> false
+    | Set_local (_, e) | Set_global (_, e) | Return e -> asks e
+    | Apply (_, es) | Block es -> List.exists asks es
+    | If (a, b, c) -> List.exists asks [ a; b; c ]
+    | While (a, b) | For (_, a, b) -> asks a || asks b
+  and lambda l =
+    (not (List.memq l !seen))
+    && begin
+      seen := l :: !seen;
+      asks l.code
+    end
+  in
+  lambda program.main || List.exists (fun (_, l) -> lambda l) program.functions

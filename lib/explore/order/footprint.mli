@@ -15,6 +15,12 @@ module Pairs : sig
   (** [meet a b] is whether some pair may be in both. *)
 end
 
+(** Some of B. *)
+type vehicles
+
+val these : Core.vehicle list -> vehicles
+val all_vehicles : vehicles
+
 type t = {
   posts : Pairs.t;
   queues : Pairs.t;  (** those of [posts] whose order matters *)
@@ -24,6 +30,8 @@ type t = {
   reads : Globals.t;
   writes : Globals.t;
   anything : bool;  (** nothing is known: code that cannot be seen may be called *)
+  claims : vehicles;  (** that it may come to hold, or looks whether they are held *)
+  frees : vehicles;  (** that may be held no longer after it *)
   remembered : bool;  (** the outside may remember it, for a later [pick] *)
   breaks : bool;  (** it may be faulty, or fail *)
   halts : bool;  (** it may end the run, by [halt] or an assertion that fails *)
@@ -61,3 +69,12 @@ val of_code : code -> Core.closure -> t
 
 val of_guard : code -> Core.closure -> t
 (** Of code that does something only where its value is true. *)
+
+val of_maker : code -> Core.closure -> t
+(** Of code that makes a task, and of that task. *)
+
+val claims : t -> bool
+(** [claims f] is whether it depends on which vehicles are held. *)
+
+val asks_idle : Core.program -> bool
+(** [asks_idle p] is whether some code of [p] may ask which vehicles nobody holds. *)

@@ -11,9 +11,13 @@ type t = {
 }
 
 type step = { index : int; source : Task_rules.step; event : Transition.event option }
-type context = { options : Environment.options; code : Footprint.code }
+type context = { options : Environment.options; code : Footprint.code; makes : bool; asks_idle : bool }
 
-let context options program = { options; code = Footprint.code program }
+(* {1 Tasks made at their turn} *)
+
+let context options program =
+  { options; code = Footprint.code program; makes = false; asks_idle = Footprint.asks_idle program }
+let with_holding c = { c with makes = true }
 let union = Footprint.union
 let all = List.fold_left union Footprint.empty
 let breaking = { Footprint.empty with breaks = true }
@@ -26,6 +30,9 @@ let of_refuted c g =
   let none = Footprint.empty in
   union { f with posts = none.posts; queues = none.queues; takes = none.takes; writes = none.writes } breaking
 
+(* What is free matters only where tasks are made, or asked for who is idle. *)
+let freed c vs = if c.makes || c.asks_idle then Footprint.these vs else Footprint.these []
+
 let ending c (p : platform_task) v =
   let remembered = Environment.endings_remember c.options in
   { Footprint.empty with remembered; breaks = Environment.may_fail c.options v p.name }
@@ -35,7 +42,7 @@ let handled c (f : Footprint.t) handler = if f.breaks then union f (Footprint.of
 
 let rec future c (r : Residual.t) =
   match r with
-  | Ready (p, v) | Running (p, v) -> ending c p v
+  | Ready (p, v) | Running (p, v) -> { (ending c p v) with frees = freed c [ v ] }
   | Action a -> Footprint.of_code c.code a
   | Condition g -> Footprint.of_guard c.code g
   | Sequence (r, rest) -> all (List.map (future c) (r :: rest))
@@ -50,10 +57,37 @@ let rec future c (r : Residual.t) =
   | During { duration = Given_by d; body; _ } -> all [ breaking; Footprint.of_code c.code d; future c body ]
   | Watch (r, handler) -> handled c (future c r) handler
   | Repeat { again; _ } -> rounds c again (* what is left of the round that runs is in each round *)
+  | Made { code; request; _ } -> union (Footprint.of_maker c.code code) (claiming request)
+  | Unallocated { task; request } -> union (claiming request) (of_term c task)
+  | Hold (vs, r) -> union { Footprint.empty with frees = freed c vs } (future c r)
 
 and rounds c (again : Residual.again) =
   let asked = Option.fold again.until ~none:Footprint.empty ~some:(Footprint.of_code c.code) in
   union asked (future c again.each)
+
+(* What a task that is made may claim is free after it. *)
+and claiming (request : Residual.request) =
+  let vehicles = Option.fold ~none:Footprint.all_vehicles ~some:Footprint.these request.allowed in
+  { breaking with claims = vehicles; frees = vehicles }
+
+and of_term c (t : task) =
+  match t with
+  | Platform _ -> { breaking with remembered = true }
+  | Action a -> Footprint.of_code c.code a
+  | Condition g -> Footprint.of_guard c.code g
+  | Sequence (a, b) | Parallel (a, b) -> union (of_term c a) (of_term c b)
+  | Allocated (a, _) -> of_term c a
+  | All_of bs | One_of bs ->
+    all (List.map (fun (b : Core.branch) -> union (Footprint.of_guard c.code b.guard) (of_term c b.body)) bs)
+  | Until (Completes, g, a) -> union (Footprint.of_guard c.code g) (of_term c a)
+  | Until (Fails _, g, a) -> union (of_refuted c g) (of_term c a)
+  | Idle _ -> Footprint.empty
+  | During (_, Seconds _, a) -> union breaking (of_term c a)
+  | During (_, Given_by d, a) -> all [ breaking; Footprint.of_code c.code d; of_term c a ]
+  | Watch (a, handler) -> handled c (of_term c a) handler
+  | Made code -> Footprint.of_maker c.code code
+  | Repeat { until; body; _ } ->
+    union (Option.fold until ~none:Footprint.empty ~some:(Footprint.of_code c.code)) (of_term c body)
 
 and of_branch c (b : Residual.branch) = union (Footprint.of_guard c.code b.guard) (future c b.body)
 
@@ -73,7 +107,7 @@ let handlers source =
   in
   Option.fold ~none:[] ~some:of_change (Task_rules.broken source error)
 
-let footprint c { source = Step { offer; continue } as source; event; _ } =
+let footprint c { source = Step { offer; continue; _ } as source; event; _ } =
   let f =
     match offer, event with
     | End_of (p, v), Some (Vehicle_failed _) -> ending c p v
@@ -84,9 +118,45 @@ let footprint c { source = Step { offer; continue } as source; event; _ } =
     | Check g, _ -> Footprint.of_guard c.code g
     | Refute g, _ -> of_refuted c g
     | Decide g, _ -> Footprint.of_code c.code g
+    | Take g, _ -> Footprint.of_guard c.code g
     | Measure d, _ -> union breaking (Footprint.of_code c.code d)
+    | Make (code, _, _), _ -> union breaking (Footprint.of_code c.code code)
+    | Allocate (_, request), _ -> claiming request
   in
   if f.breaks then List.fold_left (handled c) f (handlers source) else f
+
+(* {2 What is held no longer after a step} *)
+
+let concerns_holding c = c.makes || c.asks_idle
+
+(* If all goes well: what the residual [r], in contexts that hold [outer], names no longer. *)
+let lost r outer { source = Step { offer; continue; _ }; _ } =
+  let of_change (change : Task_rules.change) =
+    match change.outcome with
+    | Next r' ->
+      let after = Residual.named r' in
+      Footprint.these (List.filter (fun v -> not (List.mem v after)) (Residual.named r))
+    | Finished -> Footprint.these (Residual.named r @ outer)
+    | Failed _ | Handling _ -> Footprint.all_vehicles
+  in
+  match offer with
+  | Start _ -> of_change (continue ())
+  | Perform _ -> of_change (continue (Ok []))
+  | Check _ -> of_change (continue (Ok []))
+  | Take _ -> of_change (continue (Ok []))
+  | End_of _ -> of_change (continue (Ok ()))
+  | Measure _ -> of_change (continue (Ok 0.))
+  | Expiry_of _ -> of_change (continue ())
+  | Make _ | Allocate _ -> Footprint.these []
+  | Decide _ -> Footprint.these (Residual.named r @ outer)
+  | Refute _ -> Footprint.all_vehicles
+
+(* [f], the footprint of [step], with what it frees. An error that is ignored frees whatever it cuts off. *)
+let with_lost c ~ignoring lost step (f : Footprint.t) =
+  if not (concerns_holding c) then f
+  else
+    let frees = if f.breaks && ignoring then Footprint.all_vehicles else lost step in
+    union f { Footprint.empty with frees }
 
 (* {1 Branches that may run first} *)
 
@@ -100,7 +170,8 @@ let rec is_settled c (r : Residual.t) =
   | Idle _ -> true
   | Sequence (r, rest) -> List.for_all (is_settled c) (r :: rest)
   | Parallel rs -> List.for_all (is_settled c) rs
-  | Condition _ | All_of _ | One_of _ | Until _ | During _ | Watch _ | Repeat _ -> false
+  | Condition _ | All_of _ | One_of _ | Until _ | During _ | Watch _ | Repeat _ | Made _ | Unallocated _
+  | Hold _ -> false
 
 let only_takes (f : Footprint.t) =
   Footprint.(Pairs.is_empty f.posts && Pairs.is_empty f.tests && Globals.is_empty f.writes && not f.anything)
@@ -125,12 +196,12 @@ let branches_first c around (bs : Residual.branch list) =
 (* Those of an [allOf] that waits, where errors cannot be ignored; [around] as above. *)
 let rec first_branches c around (r : Residual.t) =
   match r with
-  | Sequence (r, _) | All_of (Some r, _) -> first_branches c around r
+  | Sequence (r, _) | All_of (Some r, _) | Hold (_, r) -> first_branches c around r
   | Watch (r, handler) when not ((Footprint.of_code c.code handler).ignores && (future c r).breaks) ->
     first_branches c (union around (Footprint.of_code c.code handler)) r
   | All_of (None, bs) -> branches_first c around bs
   | Parallel _ | Ready _ | Running _ | Action _ | Condition _ | One_of _ | Until _ | Idle _ | During _ | Watch _
-  | Repeat _ -> []
+  | Repeat _ | Made _ | Unallocated _ -> []
 
 (* {1 Components} *)
 
@@ -138,7 +209,7 @@ let rec first_branches c around (r : Residual.t) =
 let handlers_of c contexts =
   let handler = function
     | Residual.Watched_by handler -> Some (Footprint.of_code c.code handler)
-    | Before _ | Branch_of _ | Body_until _ | Body_during _ | Round_of _ -> None
+    | Before _ | Branch_of _ | Body_until _ | Body_during _ | Round_of _ | Holding _ -> None
   in
   List.filter_map handler contexts
 
@@ -147,13 +218,16 @@ let following c contexts =
     | Residual.Before rest -> all (List.map (future c) rest)
     | Branch_of bs -> all (List.map (of_branch c) bs)
     | Round_of again -> rounds c again
+    | Holding vs -> { Footprint.empty with frees = freed c vs }
     | Body_until _ | Body_during _ | Watched_by _ -> Footprint.empty
   in
   all (List.map following contexts)
 
 (* [first] is what the component itself may do. An error may reach any handler around. *)
-let analyse c nests first branches steps =
+let analyse c nests (first : Footprint.t) branches ~lost steps =
   let around = all (List.concat_map (handlers_of c) nests) in
+  let ignoring = around.ignores || first.ignores in
+  let first = with_lost c ~ignoring (fun () -> Footprint.these []) () first in
   let with_handlers (f : Footprint.t) = if f.breaks then union f around else f in
   let further futures contexts =
     match futures with
@@ -163,7 +237,7 @@ let analyse c nests first branches steps =
   let futures = Array.of_list (List.rev (List.fold_left further (further [] []) nests)) in
   let ignores (f : Footprint.t) = f.ignores in
   let cut_by_error level contexts = futures.(level).breaks && List.exists ignores (handlers_of c contexts) in
-  let footprints = Array.map (footprint c) steps in
+  let footprints = Array.map (fun step -> with_lost c ~ignoring lost step (footprint c step)) steps in
   let may_end (f : Footprint.t) = f.breaks || f.halts in
   {
     footprints;
@@ -175,7 +249,15 @@ let analyse c nests first branches steps =
 
 let of_component c nests r steps =
   let around = all (List.concat_map (handlers_of c) nests) in
-  analyse c nests (future c r) (first_branches c around r) steps
+  let named = function
+    | Residual.Before rest -> List.concat_map Residual.named rest
+    | Branch_of bs -> List.concat_map (fun (b : Residual.branch) -> Residual.named b.body) bs
+    | Holding vs -> vs
+    | Round_of again -> Residual.named again.each
+    | Body_until _ | Body_during _ | Watched_by _ -> []
+  in
+  let outer = if concerns_holding c then List.concat_map (List.concat_map named) nests else [] in
+  analyse c nests (future c r) (first_branches c around r) ~lost:(lost r outer) steps
 
 let of_cuts c nests steps =
   match nests with
@@ -183,4 +265,25 @@ let of_cuts c nests steps =
   | contexts :: nests ->
     let f = all (following c contexts :: Array.to_list (Array.map (footprint c) steps)) in
     let first = if f.breaks then all (f :: handlers_of c contexts) else f in
-    analyse c nests first [] steps
+    let lost _ = Footprint.all_vehicles in
+    let first = if concerns_holding c then union first { Footprint.empty with frees = lost () } else first in
+    analyse c nests first [] ~lost steps
+
+(* {1 Steps that look at what is held} *)
+
+let looks c (Task_rules.Step { offer; _ } as source) =
+  let claims code = Footprint.claims (Footprint.of_code c.code code) in
+  let code_claims =
+    match offer with
+    | Allocate _ -> true
+    | _ when not c.asks_idle -> false
+    | Perform a -> claims a
+    | Check g -> claims g
+    | Take g -> claims g
+    | Refute g -> claims g
+    | Decide g -> claims g
+    | Measure d -> claims d
+    | Make (code, _, _) -> claims code
+    | Start _ | End_of _ | Expiry_of _ -> false
+  in
+  code_claims || (c.asks_idle && List.exists claims (handlers source))

@@ -27,6 +27,13 @@ type context
 
 val context : Environment.options -> Core.program -> context
 
+val with_holding : context -> context
+(** [with_holding c] is [c] for tasks in which tasks are made at their turn: footprints say what is held and freed. In
+    others nothing depends on that, unless code asks who is idle. *)
+
+val looks : context -> Task_rules.step -> bool
+(** [looks c step] is whether [step] may depend on which vehicles are held around it. *)
+
 val of_residual : context -> Residual.t -> Footprint.t
 (** [of_residual c r] is of all that steps of [r] and of what becomes of it may do. *)
 

@@ -180,7 +180,27 @@ let share x ~action shared =
 
 (* {1 Steps that depend on what is shared} *)
 
-let outcome x step = Memoised_steps.outcome x.expansion.steps step x.shared
+(* What is around [place], as far as vehicles are held there and timers are numbered. *)
+let around x (place : Layout.place) =
+  let layout = x.layout in
+  let contains (outer : Layout.place) (inner : Layout.place) = outer.from <= inner.from && inner.upto <= outer.upto in
+  let leaf position (leaf : Layout.place) =
+    if contains place leaf then []
+    else [ Residual.Beside [ (Encoding.component layout x.key position).residual ] ]
+  in
+  let nest (nest : Layout.place) =
+    match nest.inside with
+    | Some inside when nest != place && contains nest place ->
+      List.map (fun context -> Residual.Inside context) inside.contexts
+    | Some inside when not (contains place nest) -> [ Residual.Beside [ Residual.plug inside.contexts Residual.hole ] ]
+    | Some _ | None -> []
+  in
+  List.concat (Array.to_list (Array.mapi leaf layout.leaves))
+  @ List.concat_map nest (Array.to_list layout.nests)
+
+let outcome x place step =
+  if step.looks then Memoised_steps.look x.expansion.steps step ~around:(around x place) x.shared
+  else Memoised_steps.outcome x.expansion.steps step x.shared
 
 let take_outcome x place (outcome : outcome) =
   match outcome.target with
@@ -190,7 +210,7 @@ let take_outcome x place (outcome : outcome) =
     go_to x (Layout.above place outcome.level) target ~action:outcome.action outcome.shared
 
 let take_dependent x place step =
-  let outcome = outcome x step in
+  let outcome = outcome x place step in
   if not outcome.possible then 0
   else begin
     take_outcome x place outcome;
@@ -202,7 +222,7 @@ let take_dependent x place step =
   end
 
 let take_ends x place step =
-  let outcome = outcome x step in
+  let outcome = outcome x place step in
   let ends = List.filter Memoised_steps.ends_run (outcome :: outcome.others) in
   List.iter (take_outcome x place) ends;
   List.length ends

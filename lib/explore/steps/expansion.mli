@@ -34,6 +34,9 @@ type source = {
 val go_to : source -> Layout.place -> Component.target -> action:int -> int -> unit
 (** [go_to x p target ~action s] visits [x] with [target] for what stands at [p], in shared state [s]. *)
 
+val outcome : source -> Layout.place -> Component.step -> Component.outcome
+(** [outcome x p step] is what [step] of what stands at [p] does. *)
+
 val take_dependent : source -> Layout.place -> Component.step -> int
 (** [take_dependent x p step] takes [step] of what stands at [p]. The result is how many transitions that makes. *)
 

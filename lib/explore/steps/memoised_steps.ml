@@ -34,14 +34,15 @@ let outside_after t (Task_rules.Step { offer; _ }) event outside =
   match offer with
   | End_of (task, v) ->
     List.assoc_opt event (Environment.task_ends (Components.options t.components) outside v task)
-  | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Measure _ | Expiry_of _ -> Some outside
+  | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _
+  | Expiry_of _ -> Some outside
 
 type taken = { local : Local_step.t; level : int; certain : bool }
 
 (* What [step] does, and at which level: several things, if it depends on sensors that may show this or that. *)
-let taken t step s =
+let taken ?(around = []) t step s =
   let { Surroundings.shared; outside } = Surroundings.Numbers.value (Encoding.shareds t.encoding) s in
-  let source = Components.escaping step in
+  let source = Task_rules.among around (Components.escaping step) in
   let take () =
     match step.event with
     | None -> Local_step.internal (program t) (world t) shared source
@@ -103,8 +104,8 @@ let unknown_outcome =
   { possible = false; certain = true; shared = -1; action = 0; level = 0; target = Gone; rounds = [];
     others = [] }
 
-let find t step s =
-  let found, outside = taken t step s in
+let find ?around t step s =
+  let found, outside = taken ?around t step s in
   let outcome others { local; level; certain } =
     let target =
       match local.outcome with
@@ -119,6 +120,23 @@ let find t step s =
   match found with
   | [] -> { unknown_outcome with possible = false }
   | first :: rest -> outcome (List.map (outcome []) rest) first
+
+let look t step ~around s =
+  let table =
+    match step.looked with
+    | Some table -> table
+    | None ->
+      let table = Hashtbl.create 16 in
+      step.looked <- Some table;
+      table
+  in
+  let key = (s, Residual.held around, Residual.timers_around around) in
+  match Hashtbl.find_opt table key with
+  | Some outcome -> outcome
+  | None ->
+    let outcome = find ~around t step s in
+    Hashtbl.add table key outcome;
+    outcome
 
 let outcome t step s =
   if s >= Array.length step.outcomes then step.outcomes <- grown step.outcomes (s + 1) unknown_outcome;

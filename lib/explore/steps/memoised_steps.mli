@@ -30,4 +30,7 @@ val action : t -> Component.step -> int -> int
 val outcome : t -> Component.step -> int -> Component.outcome
 (** [outcome t step s] is what [step] does in shared state [s]. *)
 
+val look : t -> Component.step -> around:Residual.surrounding list -> int -> Component.outcome
+(** [look t step ~around s] is what [step], which looks at what is held around, does in shared state [s]. *)
+
 val ends_run : Component.outcome -> bool

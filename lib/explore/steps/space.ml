@@ -126,13 +126,13 @@ let expand_all t (x : Expansion.source) =
 
 (* {1 Steps that are enough} *)
 
-let local_status t (x : Expansion.source) step : Stubborn.status =
+let local_status t (x : Expansion.source) place step : Stubborn.status =
   let move level target rounds : Stubborn.move =
     { level; over = (match target with Gone -> true | Stays _ | Becomes _ | Ends _ -> false); closes = rounds <> [] }
   in
   let of_outcome (outcome : outcome) = move outcome.level outcome.target outcome.rounds in
   let dependent () : Stubborn.status =
-    match Memoised_steps.outcome t.steps step x.shared with
+    match Expansion.outcome x place step with
     | { possible = false; _ } -> Impossible
     | { certain = true; _ } as outcome -> if Memoised_steps.ends_run outcome then Ends else Moves (of_outcome outcome)
     | { certain = false; _ } as outcome ->
@@ -163,13 +163,20 @@ let take_step t (x : Expansion.source) place step =
 
 (* Components and nests, with their steps. *)
 let components t (x : Expansion.source) =
+  let makes_in (nest : Layout.place) =
+    match nest.inside with Some path -> path.makes | None -> false
+  in
+  let makes_at i = (Encoding.component x.layout x.key i).makes_tasks in
+  let positions = Array.length x.layout.leaves in
+  let rec some_from i = i < positions && (makes_at i || some_from (i + 1)) in
+  let makes = some_from 0 || Array.exists makes_in x.layout.nests in
   let component position place =
     let component = component_at t x position in
-    ({ Stubborn.place; analysis = Components.footprints t.components component }, component.steps)
+    ({ Stubborn.place; analysis = Components.footprints t.components ~makes component }, component.steps)
   in
   let nest (place : Layout.place) =
     let steps = cuts t place in
-    let of_path path = ({ Stubborn.place; analysis = Components.cut_footprints t.components path }, steps) in
+    let of_path path = ({ Stubborn.place; analysis = Components.cut_footprints t.components ~makes path }, steps) in
     if Array.length steps = 0 then None else Option.map of_path place.inside
   in
   Array.append
@@ -179,7 +186,10 @@ let components t (x : Expansion.source) =
 (* As [expand_all]. Which steps are enough depends on nothing but the configuration. *)
 let expand_some t (x : Expansion.source) =
   let components = components t x in
-  let status c k = local_status t x (snd components.(c)).(k) in
+  let status c k =
+    let { Stubborn.place; _ }, steps = components.(c) in
+    local_status t x place steps.(k)
+  in
   let posts = Expansion.upcoming t.expansion x.shared in
   let choice = Stubborn.choose (Array.map fst components) ~posts status in
   let taken = ref 0 in
@@ -231,12 +241,12 @@ let rec place_of (layout : Layout.t) (place : Layout.place) =
 (* Code of an action, and what ends a task, is never waited for in vain; a guard may be. *)
 let stays (Task_rules.Step { offer; _ }) =
   match offer with
-  | Start _ | Perform _ | Decide _ | Measure _ | End_of _ | Expiry_of _ -> true
-  | Check _ | Refute _ -> false
+  | Start _ | Perform _ | Decide _ | Measure _ | Make _ | End_of _ | Expiry_of _ -> true
+  | Check _ | Take _ | Refute _ | Allocate _ -> false
 
 let may_cut = function
   | Residual.Body_until _ | Body_during _ -> true
-  | Before _ | Branch_of _ | Watched_by _ | Round_of _ -> false
+  | Before _ | Branch_of _ | Watched_by _ | Round_of _ | Holding _ -> false
 
 let repeats layers =
   let repeat (at, context) = match context with Residual.Round_of again -> Some (at, again) | _ -> None in
@@ -269,7 +279,10 @@ let examine t key ~possible ~taken visitor =
   let shared = Layouts.shared t.layouts key.(0) in
   let x : Expansion.source = { expansion = t.expansion; key; layout; shared; visitor } in
   let components = components t x in
-  let status c k = local_status t x (snd components.(c)).(k) in
+  let status c k =
+    let { Stubborn.place; _ }, steps = components.(c) in
+    local_status t x place steps.(k)
+  in
   let posts = Expansion.upcoming t.expansion x.shared in
   let choice =
     if Reduction.by_order t.reduction then Stubborn.choose (Array.map fst components) ~posts status else None
@@ -283,7 +296,7 @@ let examine t key ~possible ~taken visitor =
     in
     if not (Memoised_steps.is_settled t.steps step x.shared) then begin
       if is_chosen || may_end then
-        let outcome = Memoised_steps.outcome t.steps step x.shared in
+        let outcome = Expansion.outcome x place step in
         List.iter each (outcome :: outcome.others)
     end
     else if is_chosen then begin

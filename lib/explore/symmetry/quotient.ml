@@ -31,8 +31,10 @@ let reach_orbit t g r =
     | Check c -> reach (Task_isomorphism.Code c.lambda.id)
     | Refute c -> reach (Task_isomorphism.Code c.lambda.id)
     | Decide c -> reach (Task_isomorphism.Code c.lambda.id)
+    | Take c -> reach (Task_isomorphism.Code c.lambda.id)
     | Measure c -> reach (Task_isomorphism.Code c.lambda.id)
-    | End_of _ | Expiry_of _ -> ()
+    | Make (c, _, _) -> reach (Task_isomorphism.Code c.lambda.id)
+    | Allocate _ | End_of _ | Expiry_of _ -> ()
   in
   Seq.iter step (Task_rules.steps r)
 

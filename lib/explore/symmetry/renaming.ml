@@ -64,6 +64,7 @@ and task r t =
   | Repeat x ->
     let until = Option.map (closure r) x.until in
     Repeat { x with until; body = task r x.body }
+  | Made c -> Made (closure r c)
 
 and branch r b =
   let guard = closure r b.guard in
@@ -98,6 +99,17 @@ let rec residual r (t : Residual.t) : Residual.t =
     let until = Option.map (closure r) again.until in
     let round = Option.map go round in
     Repeat { round; again = { again with until; each = go again.each } }
+  | Made { code; given; request = q } ->
+    let code = closure r code in
+    Made { code; given = List.map (value_by r) given; request = made r q }
+  | Unallocated { task = t; request = q } ->
+    let t = task r t in
+    Unallocated { task = t; request = made r q }
+  | Hold (vs, a) ->
+    let vs = List.map r.f vs in
+    Hold (vs, go a)
+
+and made r (q : Residual.request) = { q with allowed = Option.map (List.map r.f) q.allowed }
 
 and residual_branch r (b : Residual.branch) : Residual.branch =
   let guard = closure r b.guard in

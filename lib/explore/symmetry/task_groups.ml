@@ -108,7 +108,10 @@ let task f r tuples =
   | Some task -> task
   | None ->
     let number = Residuals.length f.tasks in
-    let is_symmetric = automorphisms f r number [ tuples ] <> None || automorphisms f r number [] <> None in
+    (* Where tasks are made, or code asks who is idle, it matters which vehicle holds what. *)
+    let claims = Footprint.claims (Step_footprints.of_residual f.footprints r) in
+    let has tuples = automorphisms f r number tuples <> None in
+    let is_symmetric = (not claims) && (has [ tuples ] || has []) in
     if not is_symmetric then note_no_group f r;
     let footprint = if is_symmetric then Some (Step_footprints.of_residual f.footprints r) else None in
     let task = { number; footprint } in

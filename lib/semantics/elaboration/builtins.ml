@@ -34,7 +34,7 @@ let table : (string * t) list =
     ("imcPlan", these Platform_task [ String ] ~result:Task);
     ("action", these Make_action [ Closure ] ~result:Task);
     ("condition", these Make_condition [ Closure ] ~result:Task);
-    ("idle", these Make_idle [ Number ] ~result:Task);
+    ("idle", these Make_idle [ Number ] ~result:Any);
     ("assert", { (other Assert) with result = Task });
     ("execute", other Execute ~place:Script_only);
     ("release", these Release [ Vehicles ] ~place:Script_only ~result:Other);
@@ -70,6 +70,9 @@ let is_deed name =
   match find name with
   | Some { place = Anywhere; result = Other | Truth; _ } -> true
   | Some _ | None -> false
+
+(* What may not stand in code that only computes, and may in that of other tasks. *)
+let changes name = List.mem name [ "post"; "consume"; "message"; "println"; "setConnectionTimeout"; "halt" ]
 
 let math_names =
   [ "abs"; "max"; "min"; "round"; "floor"; "ceil"; "sqrt"; "exp"; "log"; "log10"; "sin"; "cos"; "tan"; "asin"; "acos";

@@ -43,6 +43,9 @@ val is_of_script : string -> bool
 val is_deed : string -> bool
 (** Whether this is a procedure that code of tasks calls for what it does: [message], [post] ... *)
 
+val changes : string -> bool
+(** Whether this is a procedure that code may not call that only computes, and code of tasks may. *)
+
 val names : string list
 (** Of all procedures. *)
 

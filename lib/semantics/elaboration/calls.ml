@@ -90,15 +90,15 @@ let execute env at arguments =
   match arguments with
   | [ Ast.Positional e ] ->
     check_kind env "execute" Task e;
-    apply env at (Builtin Execute) [ elaborate env e ]
+    apply env at (Builtin Execute) [ task_operand env e ]
   | _ :: _ when List.for_all is_named arguments ->
     let part = function
-      | Ast.Named ({ it = "_"; _ }, e) -> [ elaborate env e ]
+      | Ast.Named ({ it = "_"; _ }, e) -> [ task_operand env e ]
       | Ast.Named (k, e) ->
         check_kind env "execute" Task e;
         let vehicles = Names.elaborate env k.it k.at in
-        [ vehicles; elaborate env e ]
-      | Ast.Positional e | Keyed (_, e) -> [ elaborate env e ]
+        [ vehicles; task_operand env e ]
+      | Ast.Positional e | Keyed (_, e) -> [ task_operand env e ]
     in
     let names = List.filter_map name_of arguments in
     apply env at (Builtin (Execute_for names)) (List.concat_map part arguments)
@@ -150,6 +150,7 @@ let to_builtin env at name (builtin : Builtins.t) arguments =
     let argument i a =
       (match a with
        | Ast.Named (k, _) -> error env Unknown_argument k.Ast.at "%s takes no argument by name" name
+       | Ast.Positional e when operation = Make_idle && known_kind env e = Vehicles -> ()
        | Positional e | Keyed (_, e) -> if i < most then check_kind env name (List.nth kinds i) e);
       match value_of a with
       | { it = Closure c; at } when operation = Make_action || operation = Make_condition -> task_code env at name c

@@ -53,7 +53,10 @@ let rec kind_of (e : Ast.expression) : Builtins.kind =
     Number
   | Unary (Negate, e) -> kind_of e
   | Binary ((Sequence | Parallel | Divide), a, _) when kind_of a = Task -> Task
+  | Binary (Sequence, { it = Closure _; _ }, _) | Index ({ it = Closure _; _ }, _) -> Task
   | Index (a, _) when kind_of a = Task -> Task
+  | Call { callee = { it = Variable "idle"; _ }; arguments = [ Positional e ] } -> (
+      match kind_of e with Number -> Task | Vehicles -> Vehicles | _ -> Any)
   | Call { callee = { it = Variable name; _ }; _ } -> (
       match Builtins.find name with Some builtin -> builtin.result | None -> Any)
   | Variable _ | Wildcard | Binary _ | Conditional _ | Elvis _ | Increment _ | Call _ | Member _ | Index _
@@ -61,7 +64,7 @@ let rec kind_of (e : Ast.expression) : Builtins.kind =
 
 let could_be (wanted : Builtins.kind) (found : Builtins.kind) =
   match wanted, found with
-  | Any, _ | _, Any -> true
+  | Any, _ | _, Any | Task, Closure -> true
   | (Number | String | Truth | Closure | Task | Vehicles | Position | Other), _ -> wanted = found
 
 let is_hidden env name =
@@ -92,7 +95,6 @@ let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expressio
     let hint =
       match e.it with
       | String name -> Some (Printf.sprintf "a plan is named by task('%s')" name)
-      | Closure _ -> Some "code becomes a task by action { ... } or condition { ... }"
       | Call { callee = { it = Variable name; _ }; _ } when Builtins.is_deed name && not (is_hidden env name) ->
         Some (Format.asprintf "what is done in a task is an action: action { %a }" Dolphin_syntax.Print.expression e)
       | Call { callee = { it = Variable name; _ }; _ } when Builtins.is_of_script name && not (is_hidden env name) ->
@@ -233,7 +235,13 @@ let check_supplier env (subject : Ast.expression) member =
     check_in_script env (Printf.sprintf "%s.%s" name member.Ast.it) subject.at
   | _ -> ()
 
+let check_in_maker env what at =
+  if Scope.purpose env.code = Maker then
+    error env Deed_in_maker at "%s may not stand here: code in the place of a task makes it, and may only compute" what
+      ~hint:"what is done in a task is an action { ... }"
+
 let check_place env (builtin : Builtins.t) name at =
+  if Builtins.changes name then check_in_maker env name at;
   if builtin.reads_sensors then Scope.note_sensor env.program;
   match builtin.place with
   | Anywhere -> ()
@@ -241,7 +249,7 @@ let check_place env (builtin : Builtins.t) name at =
   | Handler_only -> (
       match Scope.purpose env.code with
       | Handler | Named_function _ | Plain -> ()
-      | Main | Task_code _ -> error env Handler_only at "%s() belongs in onError { ... }" name)
+      | Main | Task_code _ | Maker -> error env Handler_only at "%s() belongs in onError { ... }" name)
 
 let sensor_members =
   [ "position"; "battery"; "getPosition"; "getBattery"; "latitude"; "longitude"; "getType"; "type" ]

@@ -113,6 +113,9 @@ val builder_name : Ast.builder -> string
 val check_in_script : env -> string -> Location.t -> unit
 (** Reports what belongs to the script if it stands in code of a task or in an answer. *)
 
+val check_in_maker : env -> string -> Location.t -> unit
+(** Reports this deed, if the code around is in the place of a task. *)
+
 val check_place : env -> Builtins.t -> string -> Location.t -> unit
 (** Reports a procedure that may not stand here, and notes what the program uses. *)
 

@@ -55,8 +55,13 @@ let text_of (c : Ast.closure) =
   let text = String.concat " " words in
   if String.length text <= 60 then text else String.sub text 0 57 ^ "..."
 
-let told_code env at construct (c : Ast.closure) =
-  let code = task_code env at construct c in
+let told (c : Ast.closure) code =
   match code.node with
   | Make_closure (lambda, captured) -> { code with node = Make_closure ({ lambda with label = text_of c }, captured) }
   | _ -> code
+
+let told_code env at construct c = told c (task_code env at construct c)
+
+(* An operand that is a task; code in its place makes it. *)
+let task_operand env (e : Ast.expression) =
+  match e.it with Closure c -> told c (closure env e.at Scope.Maker "task" c) | _ -> elaborate env e

@@ -23,3 +23,6 @@ val task_code : env -> Location.t -> string -> Ast.closure -> expression
 
 val told_code : env -> Location.t -> string -> Ast.closure -> expression
 (** [told_code env at construct c] is {!task_code}, labelled with the text of [c], for messages. *)
+
+val task_operand : env -> Ast.expression -> expression
+(** [task_operand env e] is [e] in the place of a task: code there makes the task, and may only compute. *)

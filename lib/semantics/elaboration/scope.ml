@@ -2,7 +2,7 @@ module Ast = Dolphin_syntax.Ast
 module Location = Dolphin_syntax.Location
 module Diagnostic = Dolphin_syntax.Diagnostic
 
-type purpose = Main | Named_function of string | Plain | Task_code of string | Handler
+type purpose = Main | Named_function of string | Plain | Task_code of string | Maker | Handler
 
 type global = { index : int; mutable assigned : bool; mutable uses : Location.t list }
 
@@ -144,6 +144,7 @@ let purpose code = code.purpose
 let rec in_task code =
   match code.purpose, code.outer with
   | Task_code construct, _ -> Some construct
+  | Maker, _ -> Some "a made task"
   | Handler, _ -> Some "onError"
   | (Main | Named_function _ | Plain), Some outer -> in_task outer
   | (Main | Named_function _ | Plain), None -> None
@@ -218,8 +219,8 @@ let visible_names code =
 let rec function_of code =
   match code.purpose, code.outer with
   | Named_function name, _ -> Some name
-  | (Main | Plain | Task_code _ | Handler), Some outer -> function_of outer
-  | (Main | Plain | Task_code _ | Handler), None -> None
+  | (Main | Plain | Task_code _ | Maker | Handler), Some outer -> function_of outer
+  | (Main | Plain | Task_code _ | Maker | Handler), None -> None
 
 (* What a closure inside of a function does counts as the function's doing, unless it is code of a task. *)
 let note_blocking code what =

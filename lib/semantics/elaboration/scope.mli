@@ -99,6 +99,7 @@ type purpose =
   | Named_function of string
   | Plain  (** a closure of the script *)
   | Task_code of string  (** of this construct: ["action"] *)
+  | Maker  (** code in the place of a task, which makes it *)
   | Handler
 
 type code

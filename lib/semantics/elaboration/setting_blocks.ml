@@ -71,7 +71,7 @@ let when_then env at guard t =
     check_kind env "then" Task t;
     Scope.inside_settings env.code None (fun () ->
         let guard = task_code env at "when" guard in
-        let t = elaborate env t in
+        let t = task_operand env t in
         set_local env at slot (apply env at Make_branch [ local env at slot; guard; t ]))
   | Some ((Pick | Imc_plan | Pos), _) | None ->
     error env Misplaced_when at "when { ... } then belongs in allOf { ... } or oneOf { ... }"

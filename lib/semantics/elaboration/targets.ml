@@ -22,6 +22,7 @@ let assign_variable env at name name_at e =
     else if Builtins.is_reserved name then
       error env Not_assignable name_at "'%s' is a name of the language and cannot be assigned" name
         ~hint:"choose another name";
+    check_in_maker env ("an assignment to '" ^ name ^ "'") name_at;
     expression env at (Set_global (Scope.assigned_global env.program name, e))
 
 let rec assign env at (target : Ast.expression) e =

@@ -85,11 +85,20 @@ let rec elaborate env (e : Ast.expression) : expression =
   | Binary (Append, target, e) when Targets.is_path target ->
     Targets.update env at target (fun current -> apply env at (Binary Append) [ current; elaborate env e ])
   | Binary (Divide, t, { it = Closure c; at = closure_at }) ->
-    let t = elaborate env t in
+    let t = task_operand env t in
     apply env at (Binary Divide) [ t; task_code env closure_at "until" c ]
   | Binary (op, a, b) ->
     check_operator env op a b;
-    if check_subtraction env e then apply env at (Binary op) (List.map (elaborate env) [ a; b ]) else null env at
+    let operand =
+      match op, known_kind env a with
+      | Sequence, _ | Parallel, (Task | Closure) -> task_operand env
+      | _, _ -> elaborate env
+    in
+    if check_subtraction env e then begin
+      let a = operand a in
+      apply env at (Binary op) [ a; operand b ]
+    end
+    else null env at
   | Conditional (test, yes, no) ->
     condition env at test (fun () -> elaborate env yes) (fun () -> elaborate env no)
   | Elvis (e, otherwise) -> elvis env at e otherwise
@@ -98,7 +107,8 @@ let rec elaborate env (e : Ast.expression) : expression =
   | Member { subject; name; safe } -> Names.member env e subject name safe
   | Index (subject, index) ->
     check_index env subject index;
-    apply env at Element (List.map (elaborate env) [ subject; index ])
+    let subject = task_operand env subject in
+    apply env at Element [ subject; elaborate env index ]
   | Builder (builder, body) -> Setting_blocks.build env at builder body
   | When (guard, t) -> Setting_blocks.when_then env at guard t
   | Wait_for (guard, t) -> guarded env at Make_wait_for "waitFor" guard t
@@ -137,12 +147,12 @@ and elaborate_map env at entries =
 and guarded env at operation construct guard t =
   check_kind env construct Task t;
   let guard = task_code env at construct guard in
-  apply env at (Builtin operation) [ guard; elaborate env t ]
+  apply env at (Builtin operation) [ guard; task_operand env t ]
 
 and assure env at guard t =
   check_kind env "assure" Task t;
   let guard = told_code env at "assure" guard in
-  apply env at (Builtin (Make_until Fails)) [ guard; elaborate env t ]
+  apply env at (Builtin (Make_until Fails)) [ guard; task_operand env t ]
 
 and during env at on_cut (d : Ast.expression) t =
   let word = Dolphin_syntax.Print.during on_cut in
@@ -155,11 +165,11 @@ and during env at on_cut (d : Ast.expression) t =
       Option.iter (fun fault -> error env Wrong_value d.at "%s" fault) (Literal_check.fault_of_time word d);
       elaborate env d
   in
-  apply env at (Builtin (Make_during on_cut)) [ d; elaborate env t ]
+  apply env at (Builtin (Make_during on_cut)) [ d; task_operand env t ]
 
 and watch env at t (handler : Ast.closure) =
   check_kind env "watch" Task t;
-  let t = elaborate env t in
+  let t = task_operand env t in
   (match handler.parameters with
    | Some (_ :: second :: _) ->
      error env Wrong_parameters second.at "the code of onError takes one parameter, the error"
@@ -178,7 +188,7 @@ and repeat env at rounds body until =
   check_kind env "repeat" Task body;
   if rounds = None && until = None && never_waits env body then error env Wrong_value at "%s" Procedures.spins;
   let n = Option.map of_rounds rounds in
-  let t = elaborate env body in
+  let t = task_operand env body in
   let c = Option.map (task_code env at "repeat") until in
   let operation = Make_repeat { counted = rounds <> None; asked = until <> None } in
   apply env at (Builtin operation) (Option.to_list n @ [ t ] @ Option.to_list c)

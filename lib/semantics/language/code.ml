@@ -26,6 +26,7 @@ type context = {
   program : program;
   world : World.t;
   bound : vehicle list;                         (* B, in pick order *)
+  held : vehicle list Lazy.t;                   (* what is held from where the code stands *)
   store : Store.t;
   tuples : Tuples.t;                            (* N *)
   mode : mode;

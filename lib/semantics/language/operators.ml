@@ -136,6 +136,12 @@ let concatenate x y =
 let append xs ys =
   if Array.length xs + Array.length ys > Value.most_items then too_long "a list" else Ok (List (Array.append xs ys))
 
+(* Code in the place of a task is the task that it makes. *)
+let as_task = function
+  | Task t -> t
+  | Closure c -> Made c
+  | _ -> invalid_arg "Operators.as_task"
+
 let binary (op : Ast.binary) x y =
   match op, x, y with
   | Add, (String _ as x), y | Add, x, (String _ as y) -> concatenate x y
@@ -151,6 +157,7 @@ let binary (op : Ast.binary) x y =
   | Subtract, x, y -> arithmetic op subtract ( -. ) x y
   | Multiply, x, y -> arithmetic op multiply ( *. ) x y
   | Power, x, y -> arithmetic op integer_power Float.pow x y
+  | Divide, Closure t, Closure c -> Ok (Task (Until (Completes, c, Made t)))
   | Divide, Task t, Closure c -> Ok (Task (Until (Completes, c, t)))
   | Divide, x, y -> (
       match x, y, Value.to_number x, Value.to_number y with
@@ -164,11 +171,11 @@ let binary (op : Ast.binary) x y =
       | Integer a, Integer b, _, _ -> Ok (Integer (a mod b))
       | _, _, Some a, Some b -> Ok (Number (Float.rem a b))
       | _, _, _, _ -> mismatch op x y)
-  | Sequence, Task a, Task b -> Ok (Task (Sequence (a, b)))
+  | Sequence, ((Task _ | Closure _) as a), ((Task _ | Closure _) as b) -> Ok (Task (Sequence (as_task a, as_task b)))
   | Sequence, x, y -> mismatch op x y
   | Append, List xs, y -> append xs [| y |]
   | Append, x, y -> mismatch op x y
-  | Parallel, Task a, Task b -> Ok (Task (Parallel (a, b)))
+  | Parallel, ((Task _ | Closure _) as a), ((Task _ | Closure _) as b) -> Ok (Task (Parallel (as_task a, as_task b)))
   | Parallel, Boolean a, Boolean b -> Ok (Boolean (a || b))
   | Parallel, x, y -> mismatch op x y
   | Intersect, Vehicles vs, Vehicles ws -> Ok (Vehicles (intersection vs ws))
@@ -196,7 +203,8 @@ let index_of length i =
 let element x i =
   match x, Value.canonical i with
   | Task t, Vehicles vs -> Ok (Task (Allocated (t, vs)))
-  | Task _, i -> expected "a vehicle set between [ and ] after a task" i
+  | Closure c, Vehicles vs -> Ok (Task (Allocated (Made c, vs)))
+  | (Task _ | Closure _), i -> expected "a vehicle set between [ and ] after a task" i
   | Map entries, k -> Ok (Option.value (List.assoc_opt (Value.to_string k) entries) ~default:Null)
   | Range (first, last), Integer i -> (
       let length = abs (last - first) + 1 in

@@ -21,7 +21,7 @@ let rec never_waits = function
   | Sequence (a, b) | Parallel (a, b) -> never_waits a && never_waits b
   | Allocated (a, _) | Until (_, _, a) | During (_, Seconds _, a) | Watch (a, _) | Repeat { body = a; _ } ->
     never_waits a
-  | Platform _ | Condition _ | All_of _ | One_of _ | Idle _ | During (_, Given_by _, _) -> false
+  | Platform _ | Condition _ | All_of _ | One_of _ | Idle _ | During (_, Given_by _, _) | Made _ -> false
 
 let repeat at n body until =
   let made rounds =
@@ -34,7 +34,14 @@ let repeat at n body until =
   | Some (Ok n) -> made (Some n)
   | Some (Error message) -> Wrong message
 
-let make_task at = function
+(* Code in the place of a task is the task that it makes. *)
+let as_task operation i x =
+  match operation, i, x with
+  | Make_watch, 0, Closure c | (Make_wait_for | Make_until _ | Make_during _), 1, Closure c -> Task (Made c)
+  | Make_repeat { counted; _ }, _, Closure c when i = if counted then 1 else 0 -> Task (Made c)
+  | _, _, x -> x
+
+let make_task context at = function
   | Make_repeat { counted = false; asked = false }, [ Task t ] -> repeat at None t None
   | Make_repeat { counted = true; asked = false }, [ n; Task t ] -> repeat at (Some n) t None
   | Make_repeat { counted = false; asked = true }, [ Task t; Closure c ] -> repeat at None t (Some c)
@@ -51,6 +58,9 @@ let make_task at = function
   | (Make_wait_for | Make_until _), ([ Closure _; x ] | [ x; _ ]) -> expected "a task" x
   | Make_watch, [ Task t; Closure c ] -> Value (Task (Watch (t, c)))
   | Make_watch, (x :: _) -> expected "a task after watch" x
+  | Make_idle, [ Vehicles vs ] ->
+    let is_idle v = List.mem v context.bound && not (List.mem v (Lazy.force context.held)) in
+    Value (Vehicles (List.filter is_idle vs))
   | Make_idle, [ x ] -> (
       match Value.to_number x with
       | Some seconds when seconds >= 0. && seconds < infinity -> Value (Task (Idle seconds))
@@ -69,6 +79,9 @@ let make_task at = function
 
 let rec allocate_each names arguments tasks =
   match names, arguments with
+  | "_" :: names, Closure c :: arguments -> allocate_each names arguments (Made c :: tasks)
+  | _ :: names, Vehicles vs :: Closure c :: arguments ->
+    allocate_each names arguments (Allocated (Made c, vs) :: tasks)
   | "_" :: names, Task t :: arguments -> allocate_each names arguments (t :: tasks)
   | _ :: names, Vehicles vs :: Task t :: arguments -> allocate_each names arguments (Allocated (t, vs) :: tasks)
   | "_" :: _, x :: _ -> Error (Operators.expected "a task after _:" x)
@@ -214,7 +227,8 @@ let apply context at operation arguments =
     Value (Task (Platform { name; plan = None; task_site = at }))
   | ( ( Platform_task | Make_action | Make_condition | Make_wait_for | Make_until _ | Make_idle | Make_during _
       | Make_watch | Make_repeat _ ),
-      _ ) -> make_task at (operation, arguments)
+      _ ) -> make_task context at (operation, List.mapi (as_task operation) arguments)
+  | Execute, [ Closure c ] -> blocking context "execute" (Execute (Made c))
   | Execute, [ Task t ] -> blocking context "execute" (Execute t)
   | Execute, [ x ] -> expected "a task to execute" x
   | Execute_for names, arguments -> (

@@ -123,6 +123,7 @@ let branches site settings =
   let read s =
     match s.setting, s.positional with
     | "when", [ Closure guard; Task body ] -> Ok { guard; body }
+    | "when", [ Closure guard; Closure c ] -> Ok { guard; body = Made c }
     | "when", [ Closure _; x ] -> fault s (Operators.instead_of "a task after then" x)
     | _, _ -> fault s "only when { ... } then TASK may stand here"
   in

@@ -12,7 +12,7 @@ let restrict allowed vs =
 let rec tree_of allowed t : leaf Assignment.tree =
   match t with
   | Platform task -> Leaf { task; allowed }
-  | Action _ | Condition _ | Idle _ -> Shared []
+  | Action _ | Condition _ | Idle _ | Made _ -> Shared []
   | Sequence (a, b) -> Shared [ tree_of allowed a; tree_of allowed b ]
   | Parallel (a, b) -> Disjoint [ tree_of allowed a; tree_of allowed b ]
   | Allocated (a, vs) -> tree_of (restrict allowed vs) a
@@ -125,11 +125,22 @@ let conflict bound leaves competing vehicles =
        (String.concat ", " (List.map (fun leaf -> Printf.sprintf "'%s'" leaf.task.name) competing))
        (names (List.map (fun i -> bound.(i)) vehicles)))
 
-(* The task with the vehicles, taken from left to right, and timers numbered from left to right. *)
-let rec residual next_vehicle next_timer t : Residual.t =
-  let recurse = residual next_vehicle next_timer in
+(* What the parts of a task get, from left to right. *)
+type supply = {
+  next_vehicle : unit -> vehicle;
+  next_timer : unit -> Residual.timer;
+  next_place : unit -> Residual.timer;  (* of code that makes a task *)
+  depth : int;  (* of such code *)
+}
+
+(* The task with what [supply] gives; [allowed] is by the [T[V]] around it. *)
+let rec residual supply allowed t : Residual.t =
+  let recurse = residual supply allowed in
   match t with
-  | Platform p -> Ready (p, next_vehicle ())
+  | Platform p -> Ready (p, supply.next_vehicle ())
+  | Made code ->
+    let place = supply.next_place () in
+    Made { code; given = []; request = { allowed; place; depth = supply.depth } }
   | Action c -> Action c
   | Condition c -> Condition c
   | Sequence (a, b) ->
@@ -138,21 +149,21 @@ let rec residual next_vehicle next_timer t : Residual.t =
   | Parallel (a, b) ->
     let a = recurse a in
     Residual.parallel [ a; recurse b ]
-  | Allocated (a, _) -> recurse a
-  | All_of branches -> Residual.all_of None (List.map (branch next_vehicle next_timer) branches)
-  | One_of branches -> One_of (List.map (branch next_vehicle next_timer) branches)
+  | Allocated (a, vs) -> residual supply (restrict allowed vs) a
+  | All_of branches -> Residual.all_of None (List.map (branch supply allowed) branches)
+  | One_of branches -> One_of (List.map (branch supply allowed) branches)
   | Until (on_cut, c, a) -> Until (on_cut, c, recurse a)
-  | Idle seconds -> Idle { timer = next_timer (); seconds }
+  | Idle seconds -> Idle { timer = supply.next_timer (); seconds }
   | During (on_cut, duration, a) ->
-    let timer = next_timer () in
+    let timer = supply.next_timer () in
     During { on_cut; timer; duration; started = false; body = recurse a }
   | Watch (a, c) -> Watch (recurse a, c)
   | Repeat { rounds; until; body; site } ->
     let each = recurse body in
     Residual.repeat { left = Option.map pred rounds; until; each; site } each
 
-and branch next_vehicle next_timer (b : Core.branch) : Residual.branch =
-  { guard = b.guard; body = residual next_vehicle next_timer b.body }
+and branch supply allowed (b : Core.branch) : Residual.branch =
+  { guard = b.guard; body = residual supply allowed b.body }
 
 let most_parts = 1_000_000
 let deepest = 10_000
@@ -166,7 +177,7 @@ let is_too_large t =
       else
         let down ts = from (count + 1) (List.rev_append (List.rev_map (fun t -> (depth + 1, t)) ts) rest) in
         (match t with
-         | Platform _ | Action _ | Condition _ | Idle _ -> from (count + 1) rest
+         | Platform _ | Action _ | Condition _ | Idle _ | Made _ -> from (count + 1) rest
          | Sequence (a, b) | Parallel (a, b) -> down [ a; b ]
          | Allocated (a, _) | Until (_, _, a) | During (_, _, a) | Watch (a, _) | Repeat { body = a; _ } -> down [ a ]
          | All_of bs | One_of bs -> down (List.map (fun (b : Core.branch) -> b.body) bs))
@@ -180,19 +191,34 @@ let counter () =
 let too_large =
   Printf.sprintf "the task has more than %d parts, or is nested more than %d deep" most_parts deepest
 
-let allocate_small world bound t =
+(* [supply next_vehicle] gives what else the parts get. The vehicles are those that are used, in pick order. *)
+let allocate_small world bound ~allowed ~supply t =
   let bound = Array.of_list bound in
-  let tree = tree_of None t in
+  let tree = tree_of allowed t in
   let tasks = Array.of_list (leaves tree []) in
   let solved candidates =
     match Assignment.solve ~vehicles:(Array.length bound) candidates with
     | Ok vehicles ->
       let next = counter () in
-      Ok (residual (fun () -> bound.(vehicles.(next () - 1))) (counter ()) t)
+      let used = List.sort_uniq Int.compare (Array.to_list vehicles) in
+      let supply = supply (fun () -> bound.(vehicles.(next () - 1))) in
+      Ok (List.map (Array.get bound) used, residual supply allowed t)
     | Error (No_candidate i) -> Error (no_candidate world bound tasks.(i))
     | Error (Conflict { leaves; vehicles }) -> Error (conflict bound tasks leaves vehicles)
   in
   Result.map solved (map_tree (candidates_once world bound) tree)
 
+let allocate_with world bound ~allowed ~supply t =
+  if is_too_large t then Ok (Error (Fault.make Fault.unknown_site too_large))
+  else allocate_small world bound ~allowed ~supply t
+
 let allocate world bound t =
-  if is_too_large t then Ok (Error (Fault.make Fault.unknown_site too_large)) else allocate_small world bound t
+  let next = counter () in
+  let supply next_vehicle = { next_vehicle; next_timer = next; next_place = next; depth = 0 } in
+  Result.map (Result.map snd) (allocate_with world bound ~allowed:None ~supply t)
+
+let allocate_made world bound ~timers (request : Residual.request) t =
+  let supply next_vehicle =
+    { next_vehicle; next_timer = timers (); next_place = (fun () -> request.place); depth = request.depth }
+  in
+  allocate_with world bound ~allowed:request.allowed ~supply t

@@ -1,4 +1,5 @@
-(** alloc(T, V): the vehicles of a task's parts, decided when [execute] starts. See docs/semantics.md, "Allocation". *)
+(** alloc(T, V): the vehicles of a task's parts, decided when [execute] starts, or when a task is made. See
+    docs/semantics.md, "Allocation". *)
 
 open Core
 
@@ -9,3 +10,9 @@ val allocate : World.t -> vehicle list -> task -> ((Residual.t, Fault.t) result,
     vehicles, then the least total straight-line distance from the vehicles' positions in [w] to the plans' reference
     positions, then by pick order. The fault says which task lacks what. If [w] leaves open where a
     vehicle is, the question asks for it. *)
+
+val allocate_made :
+  World.t -> vehicle list -> timers:(unit -> unit -> Residual.timer) -> Residual.request -> task ->
+  ((vehicle list * Residual.t, Fault.t) result, World.question) result
+(** [allocate_made w b ~timers request t] is the vehicles of [b] that [t] gets, in pick order, and what is left of [t],
+    as {!allocate} has it, within what [request] allows. [timers ()] gives the numbers of its timers. *)

@@ -80,6 +80,21 @@ let pp program ppf c =
    | Ended e -> pp_ending program ppf e);
   Format.fprintf ppf "; %a" (Shared.pp program) c.shared
 
+(* Whether no vehicle is named twice in what stands side by side. *)
+let rec are_apart r =
+  match (r : Residual.t) with
+  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Made _ | Unallocated _ -> true
+  | Parallel rs ->
+    let names = List.concat_map Residual.named rs in
+    List.length (List.sort_uniq String.compare names) = List.length names && List.for_all are_apart rs
+  | Sequence (a, rest) -> List.for_all are_apart (a :: rest)
+  | All_of (a, bs) -> List.for_all are_apart (Option.to_list a) && are_apart (One_of bs)
+  | One_of bs -> List.for_all (fun (b : Residual.branch) -> are_apart b.body) bs
+  | Until (_, _, a) | Watch (a, _) | Hold (_, a) | During { body = a; _ } -> are_apart a
+  | Repeat { round; again } -> List.for_all are_apart (again.each :: Option.to_list round)
+
+let is_apart c = match c.control with Executing (_, r) -> are_apart r | Script _ | Waiting _ | Ended _ -> true
+
 let invariant c =
   let running = match c.control with Executing (_, r) -> Residual.running r | Script _ | Waiting _ | Ended _ -> [] in
   let allocated = List.map fst (Vehicle_map.bindings c.shared.allocation) in
@@ -87,6 +102,7 @@ let invariant c =
   if List.exists (fun v -> not (List.mem v c.shared.bound)) allocated then Error "A has a vehicle that is not in B"
   else if List.length (List.sort_uniq String.compare running) <> List.length running then
     Error "a vehicle runs two tasks"
+  else if not (is_apart c) then Error "two tasks side by side hold one vehicle"
   else if List.sort String.compare running <> allocated then Error "A is not what the control runs"
   else if ended && c.shared.bound <> [] then Error "B is not empty after the end"
   else Ok ()

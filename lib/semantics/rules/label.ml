@@ -9,6 +9,8 @@ type t =
   | Cut of Code.deed list
   | Time_out
   | Set_time of float
+  | Make
+  | Allocate of vehicle list
   | Broken of string
   | Did of Code.deed
   | Silent
@@ -57,6 +59,8 @@ let pp ppf l =
   | Cut ds -> deeds "cut" ds
   | Time_out -> Format.pp_print_string ppf "timeout"
   | Set_time seconds -> Format.fprintf ppf "set-time(%s)" (Value.amount seconds)
+  | Make -> Format.pp_print_string ppf "make"
+  | Allocate vs -> text "allocate" (String.concat ", " vs)
   | Broken why -> text "broken" why
   | Did deed -> pp_deed ppf deed
   | Silent -> Format.pp_print_string ppf "script"

@@ -11,6 +11,8 @@ type t =
   | Cut of Code.deed list  (** by an [until] or [assure] *)
   | Time_out  (** of [during], [within] or [idle] *)
   | Set_time of float  (** seconds that [during] or [within] starts with, given by code *)
+  | Make  (** code gave a task *)
+  | Allocate of vehicle list  (** these vehicles, which nobody held, to a task that was made *)
   | Broken of string  (** code inside of a task that failed *)
   | Did of Code.deed  (** by the script *)
   | Silent

@@ -46,7 +46,7 @@ let undo : Task_rules.undoing -> vehicle list * Effect.t list = function
 
 (* [settle s derivation asked change] carries a change of the residual over to the shared part [s], handlers of errors
    included. [asked] are the effects so far. *)
-let rec settle program world s derivation asked (change : Task_rules.change) =
+let rec settle held program world s derivation asked (change : Task_rules.change) =
   let stopped, undone = List.split (List.map undo change.undone) in
   let derivation = derivation @ change.rules in
   let s = without_tasks (List.concat stopped) s in
@@ -67,13 +67,13 @@ let rec settle program world s derivation asked (change : Task_rules.change) =
         let asked = asked @ Run_code.effects said in
         Decided { (come_to (Ends (Failed fault))) with derivation = derivation @ [ Rule.Assert_err ]; asked }
       | Faulty (fault, said), _ ->
-        settle program world s derivation (asked @ Run_code.effects said) (propagated fault)
+        settle held program world s derivation (asked @ Run_code.effects said) (propagated fault)
       | Gives (_, s, deeds), Handler Ignored ->
-        settle program world s derivation (asked @ Run_code.effects deeds) (ignored ())
+        settle held program world s derivation (asked @ Run_code.effects deeds) (ignored ())
       | Gives (_, s, deeds), (Handler Propagated | Script | Task_code) ->
-        settle program world s derivation (asked @ Run_code.effects deeds) (propagated fault)
+        settle held program world s derivation (asked @ Run_code.effects deeds) (propagated fault)
     in
-    Decision.bind (Run_code.handler program world s handler fault) handled
+    Decision.bind (Run_code.handler ~held program world s handler fault) handled
 
 (* {1 Steps} *)
 
@@ -91,7 +91,7 @@ let seconds_of (code : closure) x =
 
 (* Code of a step: what it [gives] or [fails] with, or the end of the program. Rules HALT and ASSERT-ERR are here, for
    code of every step. *)
-let coded program world s code ~fails ~gives =
+let coded ?given held program world s code ~fails ~gives =
   let ends rule label ending s asked =
     let local = { after = s; outcome = Ends ending; derivation = [ rule ]; named = label; asked; rounds = [] } in
     Decision.Decided (Some (kept program world local))
@@ -104,25 +104,57 @@ let coded program world s code ~fails ~gives =
     | Halts (message, s, deeds) -> ends Halt (Halt message) (Halted message) s (Run_code.effects deeds)
     | Gives (x, s, deeds) -> gives world x s deeds
   in
-  Decision.bind (Run_code.atomic program world s code) ran
+  Decision.bind (Run_code.atomic ~held ?given program world s code) ran
 
 (* [f] of a value, which must not be a reading. *)
 let settled (code : closure) x f =
   match Reading.settled code.lambda.lambda_site x with Ok x -> f x | Error fault -> Decision.Unclear fault
 
-let internal program world (s : Shared.t) (Task_rules.Step { offer; continue }) =
+(* {2 Tasks made at their turn} *)
+
+(* So deep are closures in tasks that closures made. *)
+let deepest = 100
+
+(* The task that [code] gives, if all went well: it computed the value [x], without a deed, and left the store alone. *)
+let made (code : closure) given (request : Residual.request) (s : Shared.t) (after : Shared.t) x deeds =
+  let fault format = Printf.ksprintf (fun m -> Error (Fault.make code.lambda.lambda_site m)) format in
+  let many n = Printf.sprintf "%d value%s" n (if n = 1 then "" else "s") in
+  let n = List.length given and { parameters; implicit; label; _ } = code.lambda in
+  if parameters > n && not implicit then
+    fault "{ %s } takes %s, and its guard took %s" label (many parameters) (if n = 0 then "none" else many n)
+  else if request.depth >= deepest then
+    fault "closures in tasks that closures give nest more than %d deep: what goes on and on is a repeat" deepest
+  else if deeds <> [] || Store.compare after.store s.store <> 0 then
+    fault "{ %s } makes a task, so it may only compute: it may not post, consume, assign or say anything" label
+  else
+    match x with
+    | Task t -> Ok t
+    | Closure c -> Ok (Made c)
+    | x -> fault "{ %s }: %s" label (Operators.instead_of "a task" x)
+
+(* Vehicles that nobody holds for [task]; [None] if it waits for some. *)
+let allocated world bound held task (request : Residual.request) around =
+  let place = request.place and used = lazy (Residual.timers_around around) in
+  let timers () = Residual.fresh_timers place (Lazy.force used) in
+  let from bound = Allocation.allocate_made world bound ~timers { request with place } task in
+  let free = List.filter (fun v -> not (List.mem v (Lazy.force held))) bound in
+  let waits_or_fails = function
+    | Ok (_ : vehicle list * Residual.t) -> Ok None
+    | Error fault -> Ok (Some (Error fault))
+  in
+  Result.bind (from free) (function
+      | Ok found -> Ok (Some (Ok found))
+      | Error fault when List.compare_lengths free bound = 0 -> Ok (Some (Error fault))
+      | Error _ -> Result.bind (from bound) waits_or_fails)
+
+let internal program world (s : Shared.t) (Task_rules.Step { offer; continue; around }) =
+  let held = lazy (Residual.held around) in
+  let coded ?given = coded ?given held in
   let go ?(asked = []) world s change =
-    Decision.map (fun local -> Some (kept program world local)) (settle program world s [] asked change)
+    Decision.map (fun local -> Some (kept program world local)) (settle held program world s [] asked change)
   in
   let failed world said change = go world ~asked:(Run_code.effects said) s change in
-  match offer with
-  | End_of _ | Expiry_of _ -> Decision.Decided None
-  | Start (p, v) ->
-    go world ~asked:[ Start (v, p) ] { s with allocation = Vehicle_map.add v p s.allocation } (continue ())
-  | Perform code ->
-    let gives world _ s deeds = go world ~asked:(Run_code.effects deeds) s (continue (Ok deeds)) in
-    coded program world s code ~gives ~fails:(fun world said fault -> failed world said (continue (Error fault)))
-  | Check guard ->
+  let if_true guard continue =
     let fails world said fault =
       if Fault.is_unknown fault then Decision.Decided None else failed world said (continue (Error fault))
     in
@@ -131,6 +163,28 @@ let internal program world (s : Shared.t) (Task_rules.Step { offer; continue }) 
           if Value.truth x then go world ~asked:(Run_code.effects deeds) s (continue (Ok deeds)) else Decided None)
     in
     coded program world s guard ~gives ~fails
+  in
+  match offer with
+  | End_of _ | Expiry_of _ -> Decision.Decided None
+  | Start (p, v) ->
+    go world ~asked:[ Start (v, p) ] { s with allocation = Vehicle_map.add v p s.allocation } (continue ())
+  | Perform code ->
+    let gives world _ s deeds = go world ~asked:(Run_code.effects deeds) s (continue (Ok deeds)) in
+    coded program world s code ~gives ~fails:(fun world said fault -> failed world said (continue (Error fault)))
+  | Check guard -> if_true guard continue
+  | Take guard -> if_true guard continue
+  | Make (code, given, request) ->
+    let gives world x after deeds =
+      settled code x (fun x -> go world s (continue (made code given request s after x deeds)))
+    in
+    coded ~given program world s code ~gives ~fails:(fun world said fault -> failed world said (continue (Error fault)))
+  | Allocate (task, request) ->
+    let look world = Result.map (fun found -> (world, found)) (allocated world s.bound held task request around) in
+    let go_on = function
+      | _, None -> Decision.Decided None
+      | world, Some found -> go world s (continue found)
+    in
+    Decision.bind (Decision.look world look) go_on
   | Refute guard ->
     let fails world said fault =
       if Fault.is_unknown fault then Decision.Decided None else failed world said (continue (Error fault))
@@ -160,15 +214,20 @@ let internal program world (s : Shared.t) (Task_rules.Step { offer; continue }) 
     in
     coded program world s code ~gives ~fails:(fun world said fault -> failed world said (continue (Error fault)))
 
-let on_event program world s (Task_rules.Step { offer; continue }) (event : event) =
-  let go s change = Decision.map (fun local -> Some (kept program world local)) (settle program world s [] [] change) in
+let on_event program world s (Task_rules.Step { offer; continue; around }) (event : event) =
+  let held = lazy (Residual.held around) in
+  let go s change =
+    Decision.map (fun local -> Some (kept program world local)) (settle held program world s [] [] change)
+  in
   match event, offer with
   | Vehicle_done v, End_of (_, v') when v = v' -> go (without_tasks [ v ] s) (continue (Ok ()))
   | Vehicle_failed (v, why), End_of (_, v') when v = v' -> go (without_tasks [ v ] s) (continue (Error why))
   | Timer_expired timer, Expiry_of timer' when timer = timer' -> go s (continue ())
   | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _
       | Host_failed _ | Input _ | Interruption ),
-      (Start _ | Perform _ | Check _ | Refute _ | Decide _ | Measure _ | End_of _ | Expiry_of _) ) -> Decided None
+      (Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _ | End_of _
+      | Expiry_of _) ) ->
+    Decided None
 
 (* {1 In configurations} *)
 

@@ -18,16 +18,22 @@ type t =
   | During of { on_cut : on_cut; timer : timer; duration : duration; started : bool; body : t }
   | Watch of t * closure
   | Repeat of { round : t option; again : again }
+  | Made of { code : closure; given : value list; request : request }
+  | Unallocated of { task : task; request : request }
+  | Hold of vehicle list * t
 
 and again = { left : int option; until : closure option; each : t; site : site }
 
 and branch = { guard : closure; body : t }
+
+and request = { allowed : vehicle list option; place : timer; depth : int }
 
 (* {1 Order} *)
 
 let rank = function
   | Ready _ -> 0 | Running _ -> 1 | Action _ -> 2 | Condition _ -> 3 | Sequence _ -> 4 | Parallel _ -> 5
   | All_of _ -> 6 | One_of _ -> 7 | Until _ -> 8 | Idle _ -> 9 | During _ -> 10 | Watch _ -> 11 | Repeat _ -> 12
+  | Made _ -> 13 | Unallocated _ -> 14 | Hold _ -> 15
 
 let rec compare r r' =
   if r == r' then 0
@@ -54,8 +60,15 @@ let rec compare r r' =
                   Order.both (Value.compare_on_cut a.on_cut b.on_cut) (fun () -> compare a.body b.body))))
     | Repeat a, Repeat b ->
       Order.both (Option.compare compare a.round b.round) (fun () -> compare_again a.again b.again)
+    | Made a, Made b ->
+      Order.both (Value.compare_closure a.code b.code) (fun () ->
+          Order.both (Order.list Value.compare a.given b.given) (fun () -> compare_request a.request b.request))
+    | Unallocated a, Unallocated b ->
+      Order.both (Value.compare_task a.task b.task) (fun () -> compare_request a.request b.request)
+    | Hold (vs, a), Hold (vs', a') ->
+      Order.both (List.compare String.compare vs vs') (fun () -> compare a a')
     | ( ( Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _
-        | Idle _ | During _ | Watch _ | Repeat _ ),
+        | Idle _ | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ ),
         _ ) -> Int.compare (rank r) (rank r')
 
 and compare_branch b b' = Order.both (Value.compare_closure b.guard b'.guard) (fun () -> compare b.body b'.body)
@@ -66,6 +79,11 @@ and compare_again a b =
     Order.both (Option.compare Int.compare a.left b.left) (fun () ->
         Order.both (Option.compare Value.compare_closure a.until b.until) (fun () ->
             Order.both (Int.compare a.site b.site) (fun () -> compare a.each b.each)))
+
+and compare_request a b =
+  Order.both (Int.compare a.place b.place) (fun () ->
+      Order.both (Int.compare a.depth b.depth) (fun () ->
+          Option.compare (List.compare String.compare) a.allowed b.allowed))
 
 and compare_duration d d' =
   match d, d' with
@@ -92,6 +110,11 @@ let rec hash r =
   | Repeat { round; again = { left; each; _ } } ->
     let round = match round with Some r -> hash r | None -> 1 in
     Order.mix (Order.mix (Order.mix h round) (Option.value left ~default:0)) (hash each)
+  | Made { code; given; request } ->
+    let h = Order.mix (Order.mix h request.place) (Value.hash_closure code) in
+    List.fold_left (fun h x -> Order.mix h (Value.hash x)) h given
+  | Unallocated { task; request } -> Order.mix (Order.mix h request.place) (Value.hash (Task task))
+  | Hold (vs, a) -> List.fold_left (fun h v -> Order.mix h (Hashtbl.hash v)) (Order.mix h (hash a)) vs
 
 let rec pp ppf r =
   let separated text pp = Format.pp_print_list ~pp_sep:(fun ppf () -> Format.pp_print_string ppf text) pp in
@@ -117,6 +140,9 @@ let rec pp ppf r =
     let left = Option.fold left ~none:"" ~some:(Printf.sprintf "%d, ") in
     let until = Option.fold until ~none:"" ~some:(fun c -> Printf.sprintf " until { %s }" c.lambda.label) in
     Format.fprintf ppf "repeat (%t%s%a%s)" round left pp each until
+  | Made { code; _ } -> Format.fprintf ppf "{ %s }" code.lambda.label
+  | Unallocated { task; _ } -> Format.fprintf ppf "unallocated %a" Value.pp (Task task)
+  | Hold (vs, a) -> Format.fprintf ppf "holding %s %a" (String.concat ", " vs) pp a
 
 and pp_branch ppf b = Format.fprintf ppf "when { %s } then %a" b.guard.lambda.label pp b.body
 
@@ -143,12 +169,18 @@ let all_of running remaining =
 let repeat again round =
   match again.left with Some 0 -> round | Some _ | None -> Repeat { round = Some round; again }
 
+let holding vs r = match vs with [] -> r | _ :: _ -> Hold (vs, r)
+
 let rec activate r =
   match r with
-  | Ready _ | Running _ | Action _ | Condition _ | All_of (None, _) | One_of _ | Repeat { round = None; _ } -> (r, [])
+  | Ready _ | Running _ | Action _ | Condition _ | All_of (None, _) | One_of _ | Made _ | Unallocated _
+  | Repeat { round = None; _ } -> (r, [])
   | Repeat { round = Some a; again } ->
     let a, timers = activate a in
     (Repeat { round = Some a; again }, timers)
+  | Hold (vs, a) ->
+    let a, timers = activate a in
+    (Hold (vs, a), timers)
   | Idle { timer; seconds } -> (r, [ (timer, seconds) ])
   | Sequence (a, rest) ->
     let a, timers = activate a in
@@ -174,18 +206,18 @@ let rec activate r =
 
 let rec exists_active p r =
   match r with
-  | Sequence (a, _) | Watch (a, _) | Repeat { round = Some a; _ } -> exists_active p a
+  | Sequence (a, _) | Watch (a, _) | Hold (_, a) | Repeat { round = Some a; _ } -> exists_active p a
   | Parallel rs -> List.exists (exists_active p) rs
   | Ready _ | Running _ | Action _ | Condition _ | Idle _ | One_of _ | All_of (None, _) | During { started = false; _ }
-  | Repeat { round = None; _ } -> p r
+  | Made _ | Unallocated _ | Repeat { round = None; _ } -> p r
   | All_of (Some a, _) | Until (_, _, a) | During { body = a; _ } -> p r || exists_active p a
 
 let rec fold_active f acc r =
   let acc = f acc r in
   match r with
-  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | One_of _ | All_of (None, _) -> acc
+  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | One_of _ | All_of (None, _) | Made _ | Unallocated _ -> acc
   | During { started = false; _ } | Repeat { round = None; _ } -> acc
-  | Sequence (a, _) | All_of (Some a, _) | Until (_, _, a) | Watch (a, _) | During { body = a; _ }
+  | Sequence (a, _) | All_of (Some a, _) | Until (_, _, a) | Watch (a, _) | Hold (_, a) | During { body = a; _ }
   | Repeat { round = Some a; _ } -> fold_active f acc a
   | Parallel rs -> List.fold_left (fold_active f) acc rs
 
@@ -197,16 +229,18 @@ let timers =
   collect (function
       | Idle { timer; _ } | During { started = true; timer; _ } -> Some timer
       | Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _
-      | During { started = false; _ } | Watch _ | Repeat _ -> None)
+      | During { started = false; _ } | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ -> None)
 
 let rec may_go_round r =
   match r with
   | Ready _ | Running _ | Action _ | Condition _ | Idle _ -> false
+  (* What code makes is not known: it may be without end. *)
+  | Made _ | Unallocated _ -> true
   | Sequence (a, rest) -> may_go_round a || List.exists may_go_round rest
   | Parallel rs -> List.exists may_go_round rs
   | All_of (a, bs) -> Option.fold a ~none:false ~some:may_go_round || List.exists (fun b -> may_go_round b.body) bs
   | One_of bs -> List.exists (fun b -> may_go_round b.body) bs
-  | Until (_, _, a) | During { body = a; _ } | Watch (a, _) -> may_go_round a
+  | Until (_, _, a) | During { body = a; _ } | Watch (a, _) | Hold (_, a) -> may_go_round a
   | Repeat { again = { left; each; _ }; _ } -> left = None || may_go_round each
 
 (* {1 Contexts} *)
@@ -218,6 +252,7 @@ type context =
   | Body_during of on_cut * timer * duration
   | Watched_by of closure
   | Round_of of again
+  | Holding of vehicle list
 
 let opened = function
   | Sequence (a, rest) -> Some (Before rest, a)
@@ -227,8 +262,9 @@ let opened = function
   | During { on_cut; timer; duration; body; _ } -> Some (Body_during (on_cut, timer, duration), body)
   | Watch (a, handler) -> Some (Watched_by handler, a)
   | Repeat { round = Some a; again } -> Some (Round_of again, a)
-  | Ready _ | Running _ | Action _ | Condition _ | Parallel _ | All_of (None, _) | One_of _ | Idle _
-  | Repeat { round = None; _ } -> None
+  | Hold (vs, a) -> Some (Holding vs, a)
+  | Ready _ | Running _ | Action _ | Condition _ | Parallel _ | All_of (None, _) | One_of _ | Idle _ | Made _
+  | Unallocated _ | Repeat { round = None; _ } -> None
 
 let within context r =
   match context, r with
@@ -239,6 +275,7 @@ let within context r =
   | Body_during (on_cut, timer, duration), body -> During { on_cut; timer; duration; started = true; body }
   | Watched_by handler, r -> Watch (r, handler)
   | Round_of again, r -> Repeat { round = Some r; again }
+  | Holding vs, r -> Hold (vs, r)
 
 let decompose r =
   let rec from contexts r =
@@ -247,3 +284,71 @@ let decompose r =
   from [] r
 
 let plug contexts r = List.fold_left (fun r context -> within context r) r contexts
+
+(* {1 What is held} *)
+
+let rec fold_all f acc r =
+  let acc = f acc r in
+  let all = List.fold_left (fold_all f) and branches = List.fold_left (fun acc (b : branch) -> fold_all f acc b.body) in
+  match r with
+  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Made _ | Unallocated _ -> acc
+  | Sequence (a, rest) -> all (fold_all f acc a) rest
+  | Parallel rs -> all acc rs
+  | All_of (running, bs) -> branches (all acc (Option.to_list running)) bs
+  | One_of bs -> branches acc bs
+  | Until (_, _, a) | Watch (a, _) | Hold (_, a) | During { body = a; _ } -> fold_all f acc a
+  | Repeat { round; again } -> all acc (again.each :: Option.to_list round)
+
+module Vehicle_set = Set.Make (String)
+module Timer_set = Set.Make (Int)
+
+let add_named found = function
+  | Ready (_, v) | Running (_, v) -> Vehicle_set.add v found
+  | Hold (vs, _) -> List.fold_left (fun found v -> Vehicle_set.add v found) found vs
+  | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _ | Idle _ | During _ | Watch _
+  | Repeat _ | Made _ | Unallocated _ -> found
+
+let add_timer found = function
+  | Idle { timer; _ } | During { timer; _ } -> Timer_set.add timer found
+  | Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _ | Watch _
+  | Repeat _ | Made _ | Unallocated _ | Hold _ -> found
+
+let named r = Vehicle_set.elements (fold_all add_named Vehicle_set.empty r)
+
+let makes_tasks r =
+  let makes found = function
+    | Made _ | Unallocated _ | Hold _ -> true
+    | Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _ | Idle _
+    | During _ | Watch _ | Repeat _ -> found
+  in
+  fold_all makes false r
+
+type surrounding = Beside of t list | Inside of context
+
+let hole = Idle { timer = script_timer; seconds = 0. }
+
+let held around =
+  let beside found = function
+    | Beside rs -> List.fold_left (fold_all add_named) found rs
+    | Inside _ -> found
+  in
+  Vehicle_set.elements (List.fold_left beside Vehicle_set.empty around)
+
+let timers_around around =
+  let add found = function
+    | Beside rs -> List.fold_left (fold_all add_timer) found rs
+    | Inside context -> fold_all add_timer found (within context hole)
+  in
+  Timer_set.elements (Timer_set.remove script_timer (List.fold_left add Timer_set.empty around))
+
+(* {1 Numbers of timers} *)
+
+let generation = 1_000_000
+
+let fresh_timers place used =
+  let last = ref place in
+  let rec next () =
+    last := !last + generation;
+    if List.mem !last used then next () else !last
+  in
+  next

@@ -29,11 +29,23 @@ type t =
   | Repeat of { round : t option; again : again }
   (** the round that runs; [None] between two rounds, where the condition is to be asked *)
 
+  | Made of { code : closure; given : value list; request : request }
+  (** code that gives a task once its turn comes, with its arguments *)
+  | Unallocated of { task : task; request : request }  (** a task that waits for vehicles *)
+  | Hold of vehicle list * t  (** holds these vehicles, one at least, until it ends *)
+
+and branch = { guard : closure; body : t }
+
 (** How a [repeat] goes on: [left] rounds are to come, at least one, or no number of them; none once [until] holds;
     [each] is a round that is about to run; [site] is its place in the program. *)
 and again = { left : int option; until : closure option; each : t; site : site }
 
-and branch = { guard : closure; body : t }
+and request = {
+  allowed : vehicle list option;  (** by the [T[V]] around it; [None]: all of B *)
+  place : timer;  (** its place in the executed task, among the timers *)
+  depth : int;  (** how many closures made it, one in the task of the other *)
+}
+(** What a task that is made at its turn may be given. *)
 
 val compare : t -> t -> int
 (** A total order, with {!equal} and {!hash}; code is compared by its place in the program and by what it captured. *)
@@ -58,6 +70,9 @@ val all_of : t option -> branch list -> t
 
 val repeat : again -> t -> t
 (** [repeat a r] is the [repeat] of which the round [r] runs, with [a.left] rounds to come: [r] if there is none. *)
+
+val holding : vehicle list -> t -> t
+(** [holding vs r] is [r], which holds [vs] until it ends. *)
 
 val activate : t -> t * (timer * float) list
 (** [activate r] is [r] about to run, and the timers that start with it, with their seconds. A [during] whose time is
@@ -95,6 +110,7 @@ type context =
   | Body_during of on_cut * timer * duration  (** the timer runs *)
   | Watched_by of closure
   | Round_of of again
+  | Holding of vehicle list
 
 val opened : t -> (context * t) option
 (** [opened r] is the outermost context of [r], and what is in it, if anything in it has begun. *)
@@ -108,3 +124,32 @@ val decompose : t -> context list * t
 
 val plug : context list -> t -> t
 (** [plug ks r] is [r] in the contexts [ks], the innermost first. *)
+
+(** {1:held What is held} *)
+
+val fold_all : ('a -> t -> 'a) -> 'a -> t -> 'a
+(** [fold_all f x r] folds [f] over all nodes of [r], those to come included. *)
+
+val named : t -> vehicle list
+(** [named r] is the vehicles that [r] names: that its platform tasks run on, those to come included, or that it holds;
+    in alphabetical order. *)
+
+val makes_tasks : t -> bool
+(** [makes_tasks r] is whether tasks are made at their turn in [r], were made, or are to be. *)
+
+(** What is around a residual: what stands beside it in a [Parallel], or a context. *)
+type surrounding = Beside of t list | Inside of context
+
+val held : surrounding list -> vehicle list
+(** [held around] is the vehicles that are held from what [around] is around: those named beside it. What follows it,
+    the other branches of an [allOf] and what holds it are never active beside it, so they hold nothing from it. *)
+
+val timers_around : surrounding list -> timer list
+(** [timers_around around] is the timers that [around] names, those to come included. *)
+
+val hole : t
+(** Stands for the inside of contexts: it names no vehicle and no timer. *)
+
+val fresh_timers : timer -> timer list -> unit -> timer
+(** [fresh_timers place used] gives new timers, one after the other, for a task made at [place], where those [used] are
+    taken. They differ from all timers of tasks made at other places, and of the executed task. *)

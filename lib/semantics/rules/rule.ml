@@ -10,6 +10,7 @@ type t =
   | During_set | During_cut | Within_cut | During_1 | During_2 | During_err
   | Watch_1 | Watch_2 | Watch_ignore | Watch_propagate | Watch_halt
   | Repeat_1 | Repeat_2 | Repeat_until | Repeat_again | Repeat_err
+  | Make | Make_err | Allocate | Allocate_err | Hold_1 | Hold_2 | Hold_err
   | Script | Post | Consume | Message | Release | Set_timeout
   | Pick | Pick_bind | Pick_err
   | Ask | Answer | Answer_err
@@ -20,14 +21,13 @@ type t =
   | End | Halt | Fault | Interrupt
 
 let all =
-  [ Start; Done; Fail; Action; Action_err; Condition; Condition_err; Assert_err; Seq_1; Seq_2; Seq_err; Par_1; Par_2;
-    Par_err;
-    Allof_when; Allof_1; Allof_2; Allof_err; Oneof_when; Oneof_err; Until_cut; Assure_cut; Until_1; Until_2;
-    Until_err; Idle_end; During_set; During_cut; Within_cut; During_1; During_2; During_err; Watch_1; Watch_2;
-    Watch_ignore; Watch_propagate; Watch_halt; Repeat_1; Repeat_2; Repeat_until; Repeat_again; Repeat_err;
-    Script; Post; Consume; Message; Release; Set_timeout; Pick; Pick_bind;
-    Pick_err; Ask; Answer; Answer_err; Pause; Resume; Call; Reply; Call_err; Execute; Execute_done; Execute_err;
-    Alloc_err; Input; End; Halt; Fault; Interrupt ]
+  [ Start; Done; Fail; Action; Action_err; Condition; Condition_err; Assert_err; Seq_1; Seq_2; Seq_err; Par_1;
+    Par_2; Par_err; Allof_when; Allof_1; Allof_2; Allof_err; Oneof_when; Oneof_err; Until_cut; Assure_cut; Until_1;
+    Until_2; Until_err; Idle_end; During_set; During_cut; Within_cut; During_1; During_2; During_err; Watch_1;
+    Watch_2; Watch_ignore; Watch_propagate; Watch_halt; Repeat_1; Repeat_2; Repeat_until; Repeat_again; Repeat_err;
+    Make; Make_err; Allocate; Allocate_err; Hold_1; Hold_2; Hold_err; Script; Post; Consume; Message; Release;
+    Set_timeout; Pick; Pick_bind; Pick_err; Ask; Answer; Answer_err; Pause; Resume; Call; Reply; Call_err; Execute;
+    Execute_done; Execute_err; Alloc_err; Input; End; Halt; Fault; Interrupt ]
 
 let name = function
   | Start -> "START" | Done -> "DONE" | Fail -> "FAIL"
@@ -47,6 +47,8 @@ let name = function
   | Watch_propagate -> "WATCH-PROPAGATE" | Watch_halt -> "WATCH-HALT"
   | Repeat_1 -> "REPEAT-1" | Repeat_2 -> "REPEAT-2" | Repeat_until -> "REPEAT-UNTIL"
   | Repeat_again -> "REPEAT-AGAIN" | Repeat_err -> "REPEAT-ERR"
+  | Make -> "MAKE" | Make_err -> "MAKE-ERR" | Allocate -> "ALLOCATE" | Allocate_err -> "ALLOCATE-ERR"
+  | Hold_1 -> "HOLD-1" | Hold_2 -> "HOLD-2" | Hold_err -> "HOLD-ERR"
   | Script -> "SCRIPT" | Post -> "POST" | Consume -> "CONSUME" | Message -> "MESSAGE" | Release -> "RELEASE"
   | Set_timeout -> "SET-TIMEOUT"
   | Pick -> "PICK" | Pick_bind -> "PICK-BIND" | Pick_err -> "PICK-ERR"

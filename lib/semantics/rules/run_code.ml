@@ -10,8 +10,10 @@ type result = { world : World.t; outcome : outcome; mode : Code.mode }
 (* Atomic code that evaluates more expressions counts as endless. *)
 let fuel = 2_000_000
 
-let context program world (s : Shared.t) mode : Code.context =
-  { program; world; bound = s.bound; store = s.store; tuples = s.tuples; mode; deeds = [] }
+let nobody = lazy []
+
+let context ?(held = nobody) program world (s : Shared.t) mode : Code.context =
+  { program; world; bound = s.bound; held; store = s.store; tuples = s.tuples; mode; deeds = [] }
 
 let after (context : Code.context) (s : Shared.t) = { s with store = context.store; tuples = context.tuples }
 
@@ -31,7 +33,7 @@ let is_said : Code.deed -> bool = function
 let said deeds = List.filter is_said deeds
 let effects deeds = List.filter_map action_of deeds
 
-let run program world s mode closure arguments =
+let run held program world s mode closure arguments =
   let result (stop, _, (context : Code.context)) =
     let deeds = List.rev context.deeds in
     let outcome =
@@ -47,9 +49,9 @@ let run program world s mode closure arguments =
     in
     { world = context.world; outcome; mode = context.mode }
   in
-  Decision.map result (Machine.run ~fuel (context program world s mode) (Machine.call closure arguments))
+  Decision.map result (Machine.run ~fuel (context ~held program world s mode) (Machine.call closure arguments))
 
-let atomic program world s closure = run program world s Task_code closure []
+let atomic ?(held = nobody) ?(given = []) program world s closure = run held program world s Task_code closure given
 
-let handler program world s closure (fault : Fault.t) =
-  run program world s (Handler Propagated) closure [ String fault.message ]
+let handler ~held program world s closure (fault : Fault.t) =
+  run held program world s (Handler Propagated) closure [ String fault.message ]

@@ -13,13 +13,15 @@ type result = {
   mode : Code.mode;  (** a handler's has its verdict *)
 }
 
-val atomic : program -> World.t -> Shared.t -> closure -> result Decision.t
-(** [atomic p w s code] runs [code] of a task, which takes no arguments, to its end. *)
+val atomic :
+  ?held:vehicle list Lazy.t -> ?given:value list -> program -> World.t -> Shared.t -> closure -> result Decision.t
+(** [atomic ~held ~given p w s code] runs [code] of a task to its end, with arguments [given], none by default. The
+    vehicles [held] are held from where it stands; by default, none. *)
 
-val handler : program -> World.t -> Shared.t -> closure -> Fault.t -> result Decision.t
-(** [handler p w s code fault] runs the [onError] code [code] for [fault]. *)
+val handler : held:vehicle list Lazy.t -> program -> World.t -> Shared.t -> closure -> Fault.t -> result Decision.t
+(** [handler ~held p w s code fault] runs the [onError] code [code] for [fault]. *)
 
-val context : program -> World.t -> Shared.t -> Code.mode -> Code.context
+val context : ?held:vehicle list Lazy.t -> program -> World.t -> Shared.t -> Code.mode -> Code.context
 (** What the machine sees of a shared part. *)
 
 val after : Code.context -> Shared.t -> Shared.t

@@ -9,7 +9,10 @@ type _ offer =
   | Check : closure -> (Code.deed list, Fault.t) result offer
   | Refute : closure -> (unit, Fault.t) result offer
   | Decide : closure -> (bool * Code.deed list, Fault.t) result offer
+  | Take : closure -> (Code.deed list, Fault.t) result offer
   | Measure : closure -> (float, Fault.t) result offer
+  | Make : closure * value list * request -> (task, Fault.t) result offer
+  | Allocate : task * request -> (vehicle list * t, Fault.t) result offer
   | End_of : platform_task * vehicle -> (unit, string) result offer
   | Expiry_of : timer -> unit offer
 
@@ -37,7 +40,9 @@ and change = {
   rounds : round list;
 }
 
-type step = Step : { offer : 'reply offer; continue : 'reply -> change } -> step
+type step = Step : { offer : 'reply offer; continue : 'reply -> change; around : surrounding list } -> step
+
+let alone offer continue = Step { offer; continue; around = [] }
 
 (* An axiom. *)
 let change label rule outcome = { label; outcome; rules = [ rule ]; timers = []; undone = []; rounds = [] }
@@ -77,6 +82,13 @@ let rec lift around change =
   | Handling _ -> after_handling (lift around) change
 
 let with_change f (Step step) = Step { step with continue = (fun reply -> f (step.continue reply)) }
+
+(* [s] as a step of what is [around], which makes of its changes what [f] does. *)
+let composed f surroundings (Step step) =
+  let continue reply = f (step.continue reply) in
+  Step { step with continue; around = List.rev_append surroundings step.around }
+
+let among around (Step step) = Step { step with around = step.around @ around }
 
 (* The usual whole: [next] rebuilds it, and it ends as its part ends. *)
 let around ~next (step, finished, failed) =
@@ -155,6 +167,9 @@ let around_round again =
   in
   { (around ~next:(within (Round_of again)) (Rule.Repeat_1, Rule.Repeat_2, Rule.Repeat_err)) with on_finished }
 
+let around_hold vs =
+  around ~next:(within (Holding vs)) (Rule.Hold_1, Rule.Hold_2, Rule.Hold_err)
+
 let around_context = function
   | Round_of again -> around_round again
   | Before rest -> around_sequence rest
@@ -162,6 +177,7 @@ let around_context = function
   | Body_until (on_cut, condition) -> around_until on_cut condition
   | Body_during (on_cut, timer, duration) -> around_during on_cut timer duration
   | Watched_by handler -> around_watch handler
+  | Holding vs -> around_hold vs
 
 let change_within context change = lift (around_context context) change
 let change_within_all contexts change = List.fold_left (fun c context -> change_within context c) change contexts
@@ -184,19 +200,19 @@ let too_late = function
 let cut context body =
   let cut change = undoing (Cut [ body ]) change in
   match context with
-  | Before _ | Branch_of _ | Watched_by _ | Round_of _ -> None
+  | Before _ | Branch_of _ | Watched_by _ | Round_of _ | Holding _ -> None
   | Body_until (Completes, condition) ->
     let continue = function
       | Ok deeds -> cut (change (Label.Cut deeds) Rule.Until_cut Finished)
       | Error fault -> cut (broke Rule.Until_err fault)
     in
-    Some (Step { offer = Check condition; continue })
+    Some (alone (Check condition) continue)
   | Body_until (Fails site, condition) ->
     let continue = function
       | Ok () -> cut (change (Label.Cut []) Rule.Assure_cut (Failed (Fault.make site (not_assured condition))))
       | Error fault -> cut (broke Rule.Until_err fault)
     in
-    Some (Step { offer = Refute condition; continue })
+    Some (alone (Refute condition) continue)
   | Body_during (on_cut, timer, duration) ->
     let rule, outcome =
       match on_cut with
@@ -204,19 +220,20 @@ let cut context body =
       | Fails site -> (Rule.Within_cut, Failed (Fault.make site (too_late duration)))
     in
     let continue () = cut (change Label.Time_out rule outcome) in
-    Some (Step { offer = Expiry_of timer; continue })
+    Some (alone (Expiry_of timer) continue)
 
 let rec cuts contexts body =
   match contexts with
   | [] -> []
   | context :: outer ->
-    let further = with_change (change_within_all outer) in
+    let inside = List.map (fun context -> Inside context) outer in
+    let further = composed (change_within_all outer) inside in
     Option.to_list (Option.map further (cut context body)) @ cuts outer (within context body)
 
 (* {1 Steps of each operator} *)
 
 let start p v =
-  Step { offer = Start (p, v); continue = (fun () -> change (Start (v, p.name)) Rule.Start (Next (Running (p, v)))) }
+  alone (Start (p, v)) (fun () -> change (Start (v, p.name)) Rule.Start (Next (Running (p, v))))
 
 let await_end p v =
   let continue = function
@@ -225,14 +242,14 @@ let await_end p v =
       let fault = Fault.make p.task_site (Printf.sprintf "%s failed on %s: %s" p.name v why) in
       change (Fail (v, p.name, why)) Rule.Fail (Failed fault)
   in
-  Step { offer = End_of (p, v); continue }
+  alone (End_of (p, v)) continue
 
 let perform code =
   let continue = function
     | Ok deeds -> change (Label.Act deeds) Rule.Action Finished
     | Error fault -> broke Rule.Action_err fault
   in
-  Step { offer = Perform code; continue }
+  alone (Perform code) continue
 
 (* The step of [guard]: the change is [holds] of its label, or the error by rule [error]. *)
 let check guard ~holds ~error =
@@ -240,17 +257,51 @@ let check guard ~holds ~error =
     | Ok deeds -> holds (Label.Check deeds)
     | Error fault -> broke error fault
   in
-  Step { offer = Check guard; continue }
+  alone (Check guard) continue
 
 let wait_for guard =
   check guard ~holds:(fun label -> change label Rule.Condition Finished) ~error:Rule.Condition_err
 
+(* The values that the guard took, in their order. *)
+let taken deeds =
+  let values : Code.deed -> value list = function
+    | Consumed pairs -> List.map snd pairs
+    | Posted _ | Said _ | Released _ | Set_connection_timeout _ -> []
+  in
+  List.concat_map values deeds
+
+(* The step of a branch, by rule [enters]: code in the place of its task gets what the guard took. *)
+let choose (b : branch) around ~enters ~error =
+  match b.body with
+  | Made made when made.code.lambda.parameters > 0 ->
+    let continue = function
+      | Ok deeds -> enter (Label.Check deeds) enters around (Made { made with given = taken deeds })
+      | Error fault -> broke error fault
+    in
+    alone (Take b.guard) continue
+  | body -> check b.guard ~holds:(fun label -> enter label enters around body) ~error
+
 let choose_of_all before b after =
   let remaining = List.rev_append before after in
-  let holds label = enter label Rule.Allof_when (fun r -> all_of (Some r) remaining) b.body in
-  check b.guard ~holds ~error:Rule.Allof_err
+  choose b (fun r -> all_of (Some r) remaining) ~enters:Rule.Allof_when ~error:Rule.Allof_err
 
-let choose_one b = check b.guard ~holds:(fun label -> enter label Rule.Oneof_when Fun.id b.body) ~error:Rule.Oneof_err
+let choose_one b = choose b Fun.id ~enters:Rule.Oneof_when ~error:Rule.Oneof_err
+
+let make code given request =
+  let continue = function
+    | Ok task ->
+      let request = { request with depth = request.depth + 1 } in
+      change Label.Make Rule.Make (Next (Unallocated { task; request }))
+    | Error fault -> broke Rule.Make_err fault
+  in
+  alone (Make (code, given, request)) continue
+
+let allocate task request =
+  let continue = function
+    | Ok (vs, r) -> enter (Label.Allocate vs) Rule.Allocate (holding vs) r
+    | Error (fault : Fault.t) -> change (Cannot_execute fault.message) Rule.Allocate_err (Failed fault)
+  in
+  alone (Allocate (task, request)) continue
 
 let ask_again again condition =
   let continue = function
@@ -258,10 +309,10 @@ let ask_again again condition =
     | Ok (false, _) -> next_round again (Asked again) (change (Label.Check []) Rule.Repeat_again Finished)
     | Error fault -> broke Rule.Repeat_err fault
   in
-  Step { offer = Decide condition; continue }
+  alone (Decide condition) continue
 
 let idle_end timer =
-  Step { offer = Expiry_of timer; continue = (fun () -> change Label.Time_out Rule.Idle_end Finished) }
+  alone (Expiry_of timer) (fun () -> change Label.Time_out Rule.Idle_end Finished)
 
 let set_during on_cut timer code body =
   let continue = function
@@ -271,7 +322,7 @@ let set_during on_cut timer code body =
       let next = During { on_cut; timer; duration = Seconds seconds; started = true; body } in
       { (change (Set_time seconds) Rule.During_set (Next next)) with timers = (timer, seconds) :: timers }
   in
-  Step { offer = Measure code; continue }
+  alone (Measure code) continue
 
 (* [each ~relevant f xs] is [f before x after] for each relevant [x] of [xs]; [before] is reversed. *)
 let each ~relevant f xs =
@@ -293,7 +344,9 @@ let rec steps_at relevant r : step Seq.t =
   | Action code -> Seq.return (perform code)
   | Condition guard -> Seq.return (wait_for guard)
   | Parallel rs ->
-    let branch before r after = Seq.map (with_change (lift (around_parallel before after))) (steps_at relevant r) in
+    let branch before r after =
+      Seq.map (composed (lift (around_parallel before after)) [ Beside before; Beside after ]) (steps_at relevant r)
+    in
     each ~relevant:(exists_active relevant) branch rs
   | All_of (None, branches) -> every choose_of_all branches
   | One_of branches -> every (fun _ b _ -> choose_one b) branches
@@ -302,11 +355,13 @@ let rec steps_at relevant r : step Seq.t =
     Seq.return (set_during on_cut timer code body)
   | Repeat { round = None; again = { until = Some condition; _ } as again } -> Seq.return (ask_again again condition)
   | Repeat { round = None; again = { until = None; _ } } -> invalid_arg "Task_rules: no condition to ask"
-  | Sequence _ | All_of (Some _, _) | Until _ | During _ | Watch _ | Repeat { round = Some _; _ } -> (
+  | Made { code; given; request } -> Seq.return (make code given request)
+  | Unallocated { task; request } -> Seq.return (allocate task request)
+  | Sequence _ | All_of (Some _, _) | Until _ | During _ | Watch _ | Hold _ | Repeat { round = Some _; _ } -> (
       match opened r with
       | None -> Seq.empty
       | Some (context, body) -> (
-          let inside = Seq.map (with_change (change_within context)) (steps_at relevant body) in
+          let inside = Seq.map (composed (change_within context) [ Inside context ]) (steps_at relevant body) in
           match cut context body with
           | None -> inside
           | Some cut -> fun () -> Seq.Cons (cut, inside)))
@@ -315,14 +370,14 @@ let steps = steps_at (fun _ -> true)
 
 let may_step_alone = function
   | Running _ | Idle _ | During { duration = Seconds _; _ } | Sequence _ | Parallel _ | All_of (Some _, _) | Watch _
-  | Repeat { round = Some _; _ } -> false
-  | Ready _ | Action _ | Condition _ | All_of (None, _) | One_of _ | Until _ | During { duration = Given_by _; _ }
-  | Repeat { round = None; _ } -> true
+  | Hold _ | Repeat { round = Some _; _ } -> false
+  | Made _ | Unallocated _ | Ready _ | Action _ | Condition _ | All_of (None, _) | One_of _ | Until _
+  | During { duration = Given_by _; _ } | Repeat { round = None; _ } -> true
 
 let internal_steps = steps_at may_step_alone
 let steps_of_vehicle v = steps_at (function Running (_, v') -> String.equal v v' | _ -> false)
 
-let broken (Step { offer; continue }) (fault : Fault.t) : change option =
+let broken (Step { offer; continue; _ }) (fault : Fault.t) : change option =
   match offer with
   | Start _ -> None
   | Expiry_of _ -> (
@@ -332,5 +387,8 @@ let broken (Step { offer; continue }) (fault : Fault.t) : change option =
   | Check _ -> Some (continue (Error fault))
   | Refute _ -> Some (continue (Error fault))
   | Decide _ -> Some (continue (Error fault))
+  | Take _ -> Some (continue (Error fault))
   | Measure _ -> Some (continue (Error fault))
+  | Make _ -> Some (continue (Error fault))
+  | Allocate _ -> Some (continue (Error fault))
   | End_of _ -> Some (continue (Error fault.message))

@@ -16,7 +16,12 @@ type _ offer =
   | Refute : closure -> (unit, Fault.t) result offer  (** that this guard is not true; what its code did is undone *)
   | Decide : closure -> (bool * Code.deed list, Fault.t) result offer
   (** whether this guard is true, and what it did; if not, what its code did is undone *)
+  | Take : closure -> (Code.deed list, Fault.t) result offer  (** as [Check]; what comes of it depends on the deeds *)
   | Measure : closure -> (float, Fault.t) result offer  (** the seconds that this code gives *)
+  | Make : closure * value list * request -> (task, Fault.t) result offer
+  (** the task that this code gives of these values *)
+  | Allocate : task * request -> (vehicle list * t, Fault.t) result offer
+  (** vehicles for this task that nobody holds: these, and what is left of the task *)
   | End_of : platform_task * vehicle -> (unit, string) result offer  (** that the vehicle reports the end *)
   | Expiry_of : timer -> unit offer  (** that the timer expires *)
 
@@ -50,7 +55,8 @@ and change = {
   rounds : round list;  (** that begin: without these, every step leaves less of the residual *)
 }
 
-type step = Step : { offer : 'reply offer; continue : 'reply -> change } -> step
+type step = Step : { offer : 'reply offer; continue : 'reply -> change; around : surrounding list } -> step
+(** [around] is what is around the part that takes the step. *)
 
 val steps : t -> step Seq.t
 (** [steps r] is all that [r] can do, leftmost first, computed on demand. *)
@@ -60,6 +66,9 @@ val internal_steps : t -> step Seq.t
 
 val steps_of_vehicle : vehicle -> t -> step Seq.t
 (** [steps_of_vehicle v r] is [steps r], without some of those that do not wait for the end of a task of [v]. *)
+
+val among : surrounding list -> step -> step
+(** [among around s] is [s], with [around] around it too. *)
 
 val broken : step -> Fault.t -> change option
 (** [broken s fault] is the change by [s] if it fails: if what it needs goes wrong, with [fault] if it runs code, or by

@@ -156,7 +156,7 @@ let awaited (c : Configuration.t) =
       match offer with
       | End_of (_, v) -> Some (End_of v)
       | Expiry_of timer -> Some (Expiry_of timer)
-      | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Measure _ -> None
+      | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _ -> None
     in
     List.of_seq (Seq.filter_map event (Task_rules.steps r))
 
@@ -169,8 +169,11 @@ let unknown program world (c : Configuration.t) =
   in
   let of_step (Task_rules.Step { offer; _ }) =
     match offer with
-    | Check guard | Refute guard | Decide guard -> of_guard guard
-    | Start _ | Perform _ | Measure _ | End_of _ | Expiry_of _ -> None
+    | Check guard -> of_guard guard
+    | Take guard -> of_guard guard
+    | Refute guard -> of_guard guard
+    | Decide guard -> of_guard guard
+    | Start _ | Perform _ | Measure _ | Make _ | Allocate _ | End_of _ | Expiry_of _ -> None
   in
   match c.control with
   | Executing (_, r) when program.reads_sensors -> List.of_seq (Seq.filter_map of_step (Task_rules.steps r))

@@ -70,6 +70,7 @@ and task =
   | Watch of task * closure
   | Repeat of { rounds : int option; until : closure option; body : task; site : site }
   (* [None]: no number of rounds, no condition; never one round *)
+  | Made of closure                             (* the task that this code gives, once its turn comes *)
 
 and branch = { guard : closure; body : task }
 
@@ -130,7 +131,7 @@ and builtin =
   | Make_condition
   | Make_wait_for
   | Make_until of Dolphin_syntax.Ast.on_cut
-  | Make_idle
+  | Make_idle                                   (* of a time; of a vehicle set: those of it that nobody holds *)
   | Make_during of Dolphin_syntax.Ast.on_cut
   | Make_watch
   | Make_repeat of { counted : bool; asked : bool }  (* how many rounds, the task, the condition *)

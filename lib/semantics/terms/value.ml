@@ -14,7 +14,7 @@ let rank = function
 let rank_task = function
   | Platform _ -> 0 | Action _ -> 1 | Condition _ -> 2 | Sequence _ -> 3 | Parallel _ -> 4 | Allocated _ -> 5
   | All_of _ -> 6 | One_of _ -> 7 | Until _ -> 8 | Idle _ -> 9 | During _ -> 10 | Watch _ -> 11
-  | Repeat _ -> 12
+  | Repeat _ -> 12 | Made _ -> 13
 
 let rec compare x y =
   if x == y then 0
@@ -57,7 +57,7 @@ and compare_task t t' =
     | Platform p, Platform p' ->
       Order.both (String.compare p.name p'.name) (fun () ->
           Order.both (Int.compare p.task_site p'.task_site) (fun () -> Option.compare Plan.compare p.plan p'.plan))
-    | Action c, Action c' | Condition c, Condition c' -> compare_closure c c'
+    | Action c, Action c' | Condition c, Condition c' | Made c, Made c' -> compare_closure c c'
     | Sequence (a, b), Sequence (a', b') | Parallel (a, b), Parallel (a', b') ->
       Order.both (compare_task a a') (fun () -> compare_task b b')
     | Allocated (a, vs), Allocated (a', vs') ->
@@ -74,7 +74,7 @@ and compare_task t t' =
           Order.both (Option.compare compare_closure a.until b.until) (fun () ->
               Order.both (Int.compare a.site b.site) (fun () -> compare_task a.body b.body)))
     | ( ( Platform _ | Action _ | Condition _ | Sequence _ | Parallel _ | Allocated _ | All_of _ | One_of _
-        | Until _ | Idle _ | During _ | Watch _ | Repeat _ ),
+        | Until _ | Idle _ | During _ | Watch _ | Repeat _ | Made _ ),
         _ ) -> Int.compare (rank_task t) (rank_task t')
 
 and compare_branch b b' =
@@ -137,7 +137,7 @@ and hash_task left depth t =
   else
     match t with
     | Platform p -> Hashtbl.hash p.name
-    | Action c | Condition c -> Order.mix (rank_task t) (hash_code left c)
+    | Action c | Condition c | Made c -> Order.mix (rank_task t) (hash_code left c)
     | Sequence (a, b) | Parallel (a, b) -> Order.mix (Order.mix (rank_task t) (part a)) (part b)
     | Allocated (a, vs) -> Order.mix (part a) (Hashtbl.hash vs)
     | All_of bs | One_of bs ->
@@ -380,6 +380,7 @@ and print_task left level ppf t =
       let first = Option.fold rounds ~none:"" ~some:(Printf.sprintf "%d, ") in
       let last = if until = None then "" else " until { ... }" in
       parenthesised 0 (fun ppf -> Format.fprintf ppf "repeat %s%a%s" first (task 1) body last)
+    | Made c -> print "{ %s }" c.lambda.label
 
 let to_string x = Format.asprintf "%a" (print ~bare:true) x
 let pp ppf x = print ~bare:false ppf x

@@ -250,7 +250,7 @@ Usage.
   $ dolphin fly hello.dol > told.txt 2>&1
   [2]
   $ head -1 told.txt | sed 's/, must be .*//'
-  dolphin: unknown command 'fly', did you mean 'tla'?
+  dolphin: unknown command 'fly', did you mean either 'tla' or 'fmt'?
   $ dolphin exec hello.dol --sped 2
   dolphin: unknown option '--sped', did you mean either '--speed' or '--seed'?
   Usage: dolphin exec [OPTION]… PROG

@@ -7,15 +7,19 @@
   > END
   $ dolphin tla mission.dol -o out/model
   $ ls out/model
+  Abstract.tla
   Coverage.cfg
   Dolphin.tla
   DolphinChecking.tla
   DolphinEnvironment.tla
   DolphinMachine.tla
+  DolphinRefinement.tla
   DolphinValues.tla
   Graph.cfg
   MC.cfg
   MC.tla
+  MCRefinement.tla
+  Refinement.cfg
   Told.cfg
   $ head -3 out/model/MC.tla
   ---- MODULE MC ----
@@ -52,6 +56,7 @@
     Latecomers <- MCLatecomers
     MayBeLate <- MCMayBeLate
     Calls <- MCCalls
+    Inputs <- MCInputs
     SiteOf <- MCSiteOf
     Ending <- MCEnding
     Answers <- MCAnswers

@@ -310,7 +310,7 @@ let later_picks =
       ( "nothing follows a break",
         {|  | Break -> exits.break
 |},
-        {|  | Break -> false
+        {|  | Break -> ignore exits.break; false
 |} );
     ]
 

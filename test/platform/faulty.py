@@ -12,6 +12,7 @@ base = subprocess.Popen(COMMAND, shell=True, stdin=subprocess.PIPE, stdout=subpr
 lock = threading.RLock()
 vehicle_of, taken, ended, resumed = {}, set(), set(), set()  # of requests
 starts = 0
+just_started = None  # the request of the order before this one, if it was a start
 
 
 def tell(**report):
@@ -30,8 +31,9 @@ def running():
 
 def on_order(order):
     """Whether the order is kept from the good adapter."""
-    global starts
+    global starts, just_started
     kind, request = order["kind"], order.get("request")
+    before, just_started = just_started, request if kind == "start" else None
     if FAULT == "fragile" and kind == "dance":
         os._exit(1)
     if FAULT == "deaf" and kind == "ping" and running():
@@ -52,7 +54,7 @@ def on_order(order):
             return True
         if FAULT == "ignores strangers" and request not in vehicle_of:
             return True
-        if FAULT == "stops too early" and request not in taken:
+        if FAULT == "stops too early" and request == before:
             return True
     if kind == "resume":
         if FAULT == "forgetful":

@@ -83,8 +83,9 @@ Each situation finds an adapter out that is wrong there.
     stop-stranger    answers the stop of a request that it never heard of
         the end of REQUEST did not come within 2 s
   $ find_out stop-at-once 'stops too early'
-  stops too early: status 0
-  1 of 1 situations passed
+  stops too early: status 1
+    stop-at-once     stops a plan before it has said that it took it, and is free then
+        the end of REQUEST did not come within 2 s
   $ find_out refusal 'refuses without words'
   refuses without words: status 1
     refusal          refuses what it cannot do, in words, and is free then

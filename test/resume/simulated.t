@@ -85,7 +85,7 @@ So is another fleet, another seed, a network; and what does not go together.
   dolphin: c.run: a run goes on with the seed that it began with: leave out --seed
   [2]
   $ dolphin exec --resume c.run ../../examples/rendezvous.dol --imc-loopback
-  dolphin: c.run: this run was on a simulated fleet: leave out --imc
+  dolphin: c.run: this run was on a simulated fleet: leave out --imc and --platform
   [2]
   $ dolphin exec ../../examples/rendezvous.dol --force-prefix
   dolphin: --force-prefix goes with --resume

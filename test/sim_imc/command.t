@@ -27,7 +27,7 @@ Ctrl-C, or a request to terminate.
 Usage.
 
   $ dolphin sim two.fleet
-  dolphin: say --imc: IMC is the only protocol that simulated vehicles speak on a network
+  dolphin: say --imc or --platform: which protocol the simulated vehicles are to speak
   [2]
   $ sim none.fleet
   dolphin: none.fleet: No such file or directory

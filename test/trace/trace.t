@@ -102,7 +102,7 @@ A tuple that was never posted.
   $ dolphin trace check ../../examples/rendezvous.dol other.run
   other.run: line 220 is none of a run: transition 12, at 26:1: act(post ready:4)
     no transition is like this one; the nearest differs: "label" should be "act(post ready:2)", not "act(post ready:4)"
-    false then: when at 32:14, when at 34:14, when at 36:14
+    false then: when at 32:17, when at 34:17, when at 36:17
     enabled then: act(post ready:2)
     awaited then: the end of noptilus-1's task, the end of noptilus-3's task
     before it: 12 transitions of a run
@@ -115,7 +115,7 @@ A condition that did not hold: nothing was posted.
   $ dolphin trace check ../../examples/rendezvous.dol early.run
   early.run: line 218 is none of a run: transition 11, at 26:1: check(consume ready:2)
     nothing could happen by itself, so check(consume ready:2) could not
-    false then: when at 32:14, when at 34:14, when at 36:14
+    false then: when at 32:17, when at 34:17, when at 36:17
     enabled then: nothing
     awaited then: the end of noptilus-1's task, the end of noptilus-2's task, the end of noptilus-3's task
     before it: 11 transitions of a run
@@ -125,9 +125,9 @@ An event that nobody waited for.
 
   $ sed 's/"event":"done","vehicle":"noptilus-2"/"event":"done","vehicle":"x8-02"/' rendezvous.run > nobody.run
   $ dolphin trace check ../../examples/rendezvous.dol nobody.run
-  nobody.run: line 219 is none of a run: transition 11, at 18:3: done(noptilus-2, survey2)
+  nobody.run: line 219 is none of a run: transition 11, at 18:5: done(noptilus-2, survey2)
     the end of x8-02's task makes no transition: it was not awaited
-    false then: when at 32:14, when at 34:14, when at 36:14
+    false then: when at 32:17, when at 34:17, when at 36:17
     enabled then: nothing
     awaited then: the end of noptilus-1's task, the end of noptilus-2's task, the end of noptilus-3's task
     before it: 11 transitions of a run

@@ -800,7 +800,7 @@ Verdict(m, verdict) ==
 Refuted(m, text) == Stop(m, << "faulted", [ message |-> text, at |-> m.at, assertion |-> TRUE ] >>)
 
 (* Those of V that nobody holds, from where the code stands. *)
-Idle(m, V) == LET held == HeldBy(m.beside) IN SelectSeq(V, LAMBDA v : v \in Range(m.B) /\ v \notin held)
+IdleOf(m, V) == LET held == HeldBy(m.beside) IN SelectSeq(V, LAMBDA v : v \in Range(m.B) /\ v \notin held)
 
 Procedure(m, op, xs) ==
   LET name == op.op
@@ -820,7 +820,7 @@ Procedure(m, op, xs) ==
               [] OTHER -> Settle(m, Expected("a key, as in poll 'ready', or pairs, as in poll(ready: 1)", x))
        [] name = "task" -> PlatformTask(m, x)
        [] name = "repeat" -> Settle(m, MakeRepeat(op, m.at, xs))
-       [] name = "idle" /\ Is(x, "vehicles") -> Result(m, Vehicles(Idle(m, x[2])))
+       [] name = "idle" /\ Is(x, "vehicles") -> Result(m, Vehicles(IdleOf(m, x[2])))
        [] name \in TaskNames -> Settle(m, MakeTask(name, m.at, xs))
        [] name = "execute" ->
             IF IsTask(x) THEN Execute(m, TaskOf(x)) ELSE Settle(m, Expected("a task to execute", x))

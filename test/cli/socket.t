@@ -118,7 +118,7 @@ On a terminal, a line that is typed is an input; one that was typed before a que
   > END
   $ : > typescript
   $ (echo 'go: north'; echo 'stay: 1'; echo 'go: 2'; while ! grep -q 'asks: How many' typescript; do sleep 0.1; done
-  >  sleep 0.2; echo 3; sleep 0.2) | \
+  >  sleep 0.2; echo 3; for i in $(seq 100); do grep -q 'program  *ends' typescript && break; sleep 0.1; done) | \
   >   TERM=xterm script -qf -c 'dolphin exec typed.dol --speed 1' typescript > /dev/null
   $ tr -d '\r' < typescript | grep -ao 'program  .*' | sed 's/ *$//'
   program     'north' is no value: a text stands in quotes, 'north'

@@ -231,6 +231,13 @@ let traps =
     breaks "what is cut off holds nothing" [ No_deadlock ]
       {|execute (until { poll stop: 1 } run ({ task('p') >> condition { poll never: 1 } })[a]) | action { post stop: 1 } |
         ({ task('q') })[a] | condition { poll never: 1 }|};
+    breaks "a task that is made bit by bit may post" [ No_error; No_leftover ]
+      {|execute {
+          def t = task('p')[a]
+          t = oneOf { when { true } then t }
+          t = t >> action { post x: 1 }
+          t
+        } | ((condition { poll x: 1 } >> action { post y: 1 }) within 5)|};
     breaks "a task that is made may post" [ No_error; No_leftover ]
       {|execute { task('p')[a] >> action { post x: 1 } } | ((condition { poll x: 1 } >> action { post y: 1 }) within 5)|};
     breaks "during ends between two posts" [ No_leftover ]

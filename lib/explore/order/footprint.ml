@@ -325,10 +325,12 @@ let of_guard code c =
 
 (* {1 Code that makes tasks} *)
 
-(* Whether the value of an expression in the place of a task is composed of parts that are seen in the program's text.
-   [lambdas] is the code that is looked at already, or will be. *)
-let rec is_composed lambdas (lambda : lambda) e =
-  let go = is_composed lambdas lambda in
+(* Code and locals that are looked at already, or will be: what is composed of itself has nothing else in it. *)
+type looked = { mutable lambdas : lambda list; mutable locals : (lambda * int) list }
+
+(* Whether the value of an expression in the place of a task is composed of parts that are seen in the program's text. *)
+let rec is_composed looked (lambda : lambda) e =
+  let go = is_composed looked lambda in
   match e.node with
   | Apply (Builtin (Platform_task | Make_action | Make_condition | Make_idle), _)
   | Apply (Build (Imc_plan, _), _) -> true
@@ -336,40 +338,44 @@ let rec is_composed lambdas (lambda : lambda) e =
   | Apply (Builtin Make_watch, t :: _) | Apply (Element, t :: _) -> go t
   | Apply (Binary (Sequence | Parallel), [ a; b ]) -> go a && go b
   | Apply (Binary Divide, [ t; _ ]) -> go t
-  | Make_closure (inner, _) | Constant (Closure { lambda = inner; _ }) -> gives_composed lambdas inner
+  | Make_closure (inner, _) | Constant (Closure { lambda = inner; _ }) -> gives_composed looked inner
   | Apply (Call _, { node = Constant (Closure { lambda = inner; _ }) | Make_closure (inner, _); _ } :: _) ->
-    gives_composed lambdas inner
-  | Apply (Build ((All_of | One_of), _), [ { node = Local slot; _ } ]) -> branches_composed lambdas lambda slot
-  | Local slot -> slot >= lambda.parameters && locals_composed lambdas lambda slot
+    gives_composed looked inner
+  | Apply (Build ((All_of | One_of), _), [ { node = Local slot; _ } ]) -> branches_composed looked lambda slot
+  | Local slot -> slot >= lambda.parameters && locals_composed looked lambda slot
   | Block es -> ( match List.rev es with last :: _ -> go last | [] -> false)
   | If (_, a, b) -> go a && go b
   | Return _ -> true
   | _ -> false
 
 (* Its value, and whatever it returns. *)
-and gives_composed lambdas (lambda : lambda) =
-  List.memq lambda !lambdas
+and gives_composed looked (lambda : lambda) =
+  List.memq lambda looked.lambdas
   || begin
-    lambdas := lambda :: !lambdas;
-    let returned e = match e.node with Return e -> is_composed lambdas lambda e | _ -> true in
-    is_composed lambdas lambda lambda.code && for_all returned lambda.code
+    looked.lambdas <- lambda :: looked.lambdas;
+    let returned e = match e.node with Return e -> is_composed looked lambda e | _ -> true in
+    is_composed looked lambda lambda.code && for_all returned lambda.code
   end
 
-and locals_composed lambdas lambda slot =
+and locals_composed looked lambda slot =
   let is_captured = Array.exists (( = ) slot) lambda.captures in
   let assigned e =
     match e.node with
-    | Set_local (slot', e) when slot = slot' -> is_composed lambdas lambda e
+    | Set_local (slot', e) when slot = slot' -> is_composed looked lambda e
     | For (slot', _, _) -> slot <> slot'
     | _ -> true
   in
-  (not is_captured) && for_all assigned lambda.code
+  List.exists (fun (l, s) -> l == lambda && s = slot) looked.locals
+  || begin
+    looked.locals <- (lambda, slot) :: looked.locals;
+    (not is_captured) && for_all assigned lambda.code
+  end
 
-and branches_composed lambdas lambda slot =
+and branches_composed looked lambda slot =
   let added e =
     match e.node with
     | Set_local (slot', { node = Apply (Make_branch, [ _; _; t ]); _ }) when slot = slot' ->
-      is_composed lambdas lambda t
+      is_composed looked lambda t
     | _ -> true
   in
   for_all added lambda.code
@@ -388,7 +394,8 @@ and for_all p e =
 (* Code that is seen may be that of a task that fails, or that the outside remembers. *)
 let of_maker code c =
   known code Maker c (fun () ->
-      if gives_composed (ref []) c.lambda then { (of_code code c) with breaks = true; remembered = true } else anything)
+      let is_seen = gives_composed { lambdas = []; locals = [] } c.lambda in
+      if is_seen then { (of_code code c) with breaks = true; remembered = true } else anything)
 
 let claims f = not (is_none f.claims)
 

@@ -328,7 +328,7 @@ let of_guard code c =
 (* Code and locals that are looked at already, or will be: what is composed of itself has nothing else in it. *)
 type looked = { mutable lambdas : lambda list; mutable locals : (lambda * int) list }
 
-(* Whether the value of an expression in the place of a task is composed of parts that are seen in the program's text. *)
+(* Whether the value of an expression in the place of a task is composed of parts that the program's text shows. *)
 let rec is_composed looked (lambda : lambda) e =
   let go = is_composed looked lambda in
   match e.node with

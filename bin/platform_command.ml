@@ -39,7 +39,7 @@ let run command short long vehicle patience only junit =
      let failed = List.filter (fun (v : Kit.verdict) -> v.wrong <> None) verdicts in
      Printf.printf "%d of %d situations passed\n%!" (List.length verdicts - List.length failed) (List.length verdicts);
      let* () = Option.fold junit ~none:(Ok ()) ~some:(fun path -> write path (Kit.to_junit ~command verdicts)) in
-     Ok (if failed = [] then Exit_status.Done else Exit_status.Violated))
+     Ok (if failed = [] then Exit_status.Done else Failed))
 
 (* {1 The command line} *)
 
@@ -86,11 +86,12 @@ let man =
            \  dolphin platform check 'dolphin sim kit.fleet --platform --state kit.state' --only killed" ]
   @ Options.see_also
 
+let exits =
+  Cmd.Exit.info (Exit_status.code Failed) ~doc:"the adapter does something wrong in some situation."
+  :: Options.exits [ Done; Bad_input; Platform_trouble; Bug ]
+
 let check =
-  let info =
-    Cmd.info "check" ~doc:"judge an adapter by situations that it must get right" ~man
-      ~exits:(Options.exits [ Done; Violated; Bad_input; Platform_trouble; Bug ])
-  in
+  let info = Cmd.info "check" ~doc:"judge an adapter by situations that it must get right" ~man ~exits in
   Cmd.v info Term.(const run $ adapter $ short $ long $ vehicle $ patience $ only $ junit)
 
 let command =
@@ -100,4 +101,4 @@ let command =
           judges them." ]
     @ Options.see_also
   in
-  Cmd.group (Cmd.info "platform" ~docs:Options.s_others ~doc:"judge adapters of vehicles" ~man) [ check ]
+  Cmd.group (Cmd.info "platform" ~docs:Options.s_others ~doc:"judge adapters of vehicles" ~man ~exits) [ check ]

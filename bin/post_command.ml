@@ -77,7 +77,7 @@ let command =
   in
   let info =
     Cmd.info "post" ~docs:Options.s_run ~doc:"post to a run that goes on, follow it or stop it" ~man
-      ~exits:(Options.exits [ Done; Bad_input; Bug ])
+      ~exits:(Options.exits [ Done; Bad_input; Platform_trouble; Bug ])
   in
   let run setup name words what = run setup name words ~what in
   Cmd.v info Term.(const run $ Verbosity.setup $ run_name $ words $ what)

@@ -20,11 +20,17 @@ let print rows =
     List.fold_left (List.map2 (fun width cell -> max width (Phrase.width cell))) (List.map (fun _ -> 0) heads) rows in
   List.iter (fun cells -> print_endline (String.trim (String.concat "  " (List.map2 Phrase.pad widths cells)))) rows
 
+let tell = function
+  | [] -> print_endline "no run has been kept: dolphin exec --keep keeps one"
+  | runs -> print (List.map row runs)
+
 let list () =
-  (match Run_folder.list () with
-   | [] -> print_endline "no run has been kept: dolphin exec --keep keeps one"
-   | runs -> print (List.map row runs));
-  Exit_status.Done
+  Report.result
+    (Result.map
+       (fun runs ->
+          tell runs;
+          Exit_status.Done)
+       (Run_folder.list ()))
 
 (* {1 Show} *)
 
@@ -46,7 +52,7 @@ let show_command =
       `P "$(tname) prints where the journal of the run $(i,RUN) is, and shows it as $(mname) $(b,trace show) does." ]
     @ Options.see_also
   in
-  let exits = Options.exits [ Done; Bad_input; Bug ] in
+  let exits = Options.exits [ Done; Bad_input; Platform_trouble; Bug ] in
   Cmd.v (Cmd.info "show" ~doc:"show a run" ~man ~exits) Term.(const show $ Trace_command.transitions $ run)
 
 (* {1 All} *)
@@ -54,7 +60,7 @@ let show_command =
 let list_term = Term.(const list $ const ())
 
 let list_command =
-  let exits = Options.exits [ Done; Bug ] in
+  let exits = Options.exits [ Done; Platform_trouble; Bug ] in
   Cmd.v (Cmd.info "list" ~doc:"list the runs, as without a command" ~man:Options.see_also ~exits) list_term
 
 let command =
@@ -69,6 +75,6 @@ let command =
       `Pre "  $(mname) exec mission.dol --keep\n  $(mname) $(tname)\n  $(mname) $(tname) show" ]
     @ Options.see_also
   in
-  let exits = Options.exits [ Done; Bug ] in
+  let exits = Options.exits [ Done; Platform_trouble; Bug ] in
   let info = Cmd.info "runs" ~docs:Options.s_runs ~doc:"list and show the runs that were kept" ~man ~exits in
   Cmd.group ~default:list_term info [ list_command; show_command ]

@@ -32,6 +32,20 @@ One that broke off is told from one that ended.
   dolphin: there is no run '1998': see dolphin runs
   [2]
 
+Where nothing names the folder (a relative path does not), or it cannot be read, nobody knows what was kept.
+
+  $ XDG_STATE_HOME=state env -u HOME dolphin runs
+  dolphin: runs have no folder: the environment has neither HOME nor XDG_STATE_HOME, an absolute path
+  [3]
+  $ XDG_STATE_HOME=state env -u HOME dolphin post latest go
+  dolphin: runs have no folder: the environment has neither HOME nor XDG_STATE_HOME, an absolute path
+  [3]
+  $ mkdir -p other/dolphin
+  $ touch other/dolphin/runs
+  $ XDG_STATE_HOME=$PWD/other dolphin runs show
+  dolphin: $TESTCASE_ROOT/other/dolphin/runs: Not a directory
+  [3]
+
 A folder that cannot be made is told before the run.
 
   $ XDG_STATE_HOME=$PWD/mission.dol/state dolphin exec mission.dol --keep

@@ -14,7 +14,9 @@ let folder () =
   match variable "XDG_STATE_HOME", variable "HOME" with
   | Some state, _ when not (Filename.is_relative state) -> Ok (runs state)
   | _, Some home -> Ok (runs (Filename.concat (Filename.concat home ".local") "state"))
-  | _, None -> Error (Error.Unavailable "journals have no home: the environment has neither XDG_STATE_HOME nor HOME")
+  | _, None ->
+    let why = "runs have no folder: the environment has neither HOME nor XDG_STATE_HOME, an absolute path" in
+    Error (Error.Unavailable why)
 
 let rec make path =
   if not (Sys.file_exists path) then begin
@@ -81,19 +83,25 @@ let read path channel =
     Ok { name = Filename.remove_extension (Filename.basename path); path; header; time; state }
   | Line _ | Torn _ | End_of_file | Wrong _ -> Error (Error.Bad_input (path ^ ": this is no journal"))
 
+let files folder =
+  if not (Sys.file_exists folder) then Ok []
+  else
+    match Sys.readdir folder with
+    | files -> Ok (Array.to_list files)
+    | exception Sys_error why -> Error (Error.Unavailable why)
+
 let list () =
-  match Result.map (fun folder -> (folder, Sys.readdir folder)) (folder ()) with
-  | Error _ | (exception Sys_error _) -> []
-  | Ok (folder, files) ->
-    let journals = List.filter (fun file -> Filename.check_suffix file ending) (Array.to_list files) in
-    let run file =
-      let path = Filename.concat folder file in
-      Result.to_option (Text_file.with_channel path (read path))
-    in
-    List.filter_map run (List.sort (fun a b -> compare b a) journals)
+  let* folder = folder () in
+  let* files = files folder in
+  let journals = List.filter (fun file -> Filename.check_suffix file ending) files in
+  let run file =
+    let path = Filename.concat folder file in
+    Result.to_option (Text_file.with_channel path (read path))
+  in
+  Ok (List.filter_map run (List.sort (fun a b -> compare b a) journals))
 
 let find name =
-  let runs = list () in
+  let* runs = list () in
   let begins (run : run) =
     String.length run.name >= String.length name && String.sub run.name 0 (String.length name) = name in
   match runs, List.find_opt (fun run -> run.name = name) runs, List.filter begins runs with

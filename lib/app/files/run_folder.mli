@@ -24,9 +24,10 @@ val fresh : program:string -> (string, Error.t) result
 val writable : unit -> (string, Error.t) result
 (** The folder, which may be yet to be made, if it can be written to. *)
 
-val list : unit -> run list
-(** The runs in the folder, latest first. Files that are no journals are left out. *)
+val list : unit -> (run list, Error.t) result
+(** The runs in the folder, latest first. Files that are no journals are left out; a folder that is not there yet has
+    none. The error, {!Error.Unavailable}, says why nobody knows: nothing names the folder, or it cannot be read. *)
 
 val find : string -> (string, Error.t) result
 (** [find name] is the path of the run of this name, or of the only one whose name begins so; [find "latest"] is that of
-    the latest. *)
+    the latest. The error says that there is no such run, or several, or is that of {!list}. *)

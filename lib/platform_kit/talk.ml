@@ -8,8 +8,7 @@ exception Wrong of string
 type t = {
   child : Child.t;
   lines : Lines.t;
-  unwritten : Buffer.t;
-  mutable is_writing : bool;
+  writer : Writer.t;
   mutable paused : unit Lwt.t;
   mutable resume : unit Lwt.u option;
   mutable all : Report.t list;  (* latest first *)
@@ -30,31 +29,9 @@ let note t mark text =
 
 (* {1 Writing} *)
 
-let rec write_all fd bytes start length =
-  if length = 0 then Lwt.return_unit
-  else Lwt_unix.write fd bytes start length >>= fun n -> write_all fd bytes (start + n) (length - n)
-
-let rec flush t =
-  if Buffer.length t.unwritten = 0 then begin
-    t.is_writing <- false;
-    Lwt.return_unit
-  end
-  else begin
-    let bytes = Buffer.to_bytes t.unwritten in
-    Buffer.clear t.unwritten;
-    Lwt.catch
-      (fun () -> write_all (Child.input t.child) bytes 0 (Bytes.length bytes))
-      (fun _ -> Lwt.return_unit)
-    >>= fun () -> flush t
-  end
-
 let send_text t text =
   note t "<" text;
-  Buffer.add_string t.unwritten (text ^ "\n");
-  if not t.is_writing then begin
-    t.is_writing <- true;
-    Lwt.async (fun () -> flush t)
-  end
+  Writer.send t.writer (text ^ "\n")
 
 let send t order = send_text t (Yojson.Safe.to_string (Order.to_json order))
 
@@ -99,9 +76,9 @@ let start command =
   | Error why -> raise (Wrong ("it cannot be started: " ^ why))
   | Ok child ->
     let t =
-      { child; lines = Lines.make ~limit:Report.longest_line (Child.output child); unwritten = Buffer.create 4096;
-        is_writing = false; paused = Lwt.return_unit; resume = None; all = []; open_ = []; first = None; faults = [];
-        said = []; is_over = false; changed = Lwt_condition.create () }
+      { child; lines = Lines.make ~limit:Report.longest_line (Child.output child);
+        writer = Writer.make (Child.input child); paused = Lwt.return_unit; resume = None; all = []; open_ = [];
+        first = None; faults = []; said = []; is_over = false; changed = Lwt_condition.create () }
     in
     Lwt.async (fun () -> Lwt.catch (fun () -> read t) (fun _ -> Lwt.return_unit));
     t

@@ -6,8 +6,7 @@ module Order = Dolphin_platform_protocol.Order
 type t = {
   child : Child.t;
   lines : Lines.t;
-  unwritten : Buffer.t;
-  mutable is_writing : bool;
+  writer : Writer.t;
 }
 
 type line = Report of Report.t | Garbage of string
@@ -17,33 +16,8 @@ let greeting_patience = 10.
 (* How long the exit of one that closed its output is waited for, and what one that is gone wrote. *)
 let aftermath = 1.
 
-(* {1 Writing} *)
-
-let rec write_all fd bytes start length =
-  if length = 0 then Lwt.return_unit
-  else Lwt_unix.write fd bytes start length >>= fun n -> write_all fd bytes (start + n) (length - n)
-
 (* That it reads no more shows in that it is gone. *)
-let rec flush a =
-  if Buffer.length a.unwritten = 0 then begin
-    a.is_writing <- false;
-    Lwt.return_unit
-  end
-  else begin
-    let bytes = Buffer.to_bytes a.unwritten in
-    Buffer.clear a.unwritten;
-    Lwt.catch
-      (fun () -> write_all (Child.input a.child) bytes 0 (Bytes.length bytes))
-      (function Unix.Unix_error _ -> Lwt.return_unit | error -> Lwt.fail error)
-    >>= fun () -> flush a
-  end
-
-let send a line =
-  Buffer.add_string a.unwritten line;
-  if not a.is_writing then begin
-    a.is_writing <- true;
-    Lwt.async (fun () -> flush a)
-  end
+let send a line = Writer.send a.writer line
 
 (* {1 Reading} *)
 
@@ -110,7 +84,7 @@ let start ~command hello =
   | Error why -> Lwt.return (Error ("cannot be started: " ^ why))
   | Ok child -> (
       let lines = Lines.make ~limit:Report.longest_line (Child.output child) in
-      let a = { child; lines; unwritten = Buffer.create 4096; is_writing = false } in
+      let a = { child; lines; writer = Writer.make (Child.input child) } in
       greet a hello >>= function
       | Ok greeting -> Lwt.return (Ok (a, greeting))
       | Error why -> Child.close child >|= fun () -> Error why)

@@ -79,12 +79,9 @@ let hung_up h =
       (Lwt_unix.sleep aftermath >|= fun () -> Error "the host process closed its output") ]
 
 let send h text =
-  let input = Child.input h.child in
-  let rec from start =
-    if start >= String.length text then Lwt.return (Ok ())
-    else Lwt_unix.write_string input text start (String.length text - start) >>= fun n -> from (start + n)
-  in
-  Lwt.catch (fun () -> from 0) (function Unix.Unix_error _ -> hung_up h | other -> Lwt.fail other)
+  Lwt.catch
+    (fun () -> Writer.write (Child.input h.child) text >|= Result.ok)
+    (function Unix.Unix_error _ -> hung_up h | other -> Lwt.fail other)
 
 let receive h =
   Lines.next h.replies >>= function

@@ -87,12 +87,7 @@ let perform t (line : Lines.line) =
 
 type client = { socket : Lwt_unix.file_descr; lines : Lines.t; writing : Lwt_mutex.t }
 
-let rec write_from fd text first =
-  let left = Bytes.length text - first in
-  if left = 0 then Lwt.return_unit
-  else Lwt_unix.write fd text first left >>= fun n -> write_from fd text (first + n)
-
-let write client text = Lwt_mutex.with_lock client.writing (fun () -> write_from client.socket (Bytes.of_string text) 0)
+let write client text = Lwt_mutex.with_lock client.writing (fun () -> Writer.write client.socket text)
 let say client json = write client (Yojson.Safe.to_string json ^ "\n")
 
 (* The whole lines of the journal from [offset] on, at most so many bytes of them, and where they end. A line that is

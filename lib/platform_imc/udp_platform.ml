@@ -40,12 +40,7 @@ type t = {
   buffer : Bytes.t;
   mutable station : Station.t;
   mutable write_ahead : (Service.address * string) Write_ahead.t option;  (* if requests wait for the disk *)
-  mutable armed : float;  (* when the timer rings *)
-  mutable rearm : unit Lwt.u option;
-  mutable waiting : unit Lwt.u option;  (* [next] *)
-  mutable closing : unit Lwt.u option;  (* [close], until all is quiet *)
-  mutable failure : exn option;
-  mutable closed : bool;
+  shell : Shell.t;
   mutable unsent : int;
 }
 
@@ -83,7 +78,7 @@ let announce p bytes =
     p.speakers
 
 let send_to p ((address : Service.address), bytes) =
-  if not p.closed then send p (data_socket p) bytes address.host address.port
+  if not (Shell.is_closed p.shell) then send p (data_socket p) bytes address.host address.port
 
 let carry_out p : Station.output -> unit = function
   | Send { address; bytes } -> (
@@ -103,8 +98,6 @@ let carry_out p : Station.output -> unit = function
 
 (* {1 The state and its changes} *)
 
-let wake waiting = Option.iter (fun u -> Lwt.wakeup_later u ()) waiting
-
 let change p (station, outputs) =
   Network_log.changed ~now:(now p) p.station station;
   p.station <- station;
@@ -112,21 +105,10 @@ let change p (station, outputs) =
 
 (* After some changes: whoever waits for what they brought goes on. *)
 let settle p =
-  if Station.waiting p.station then begin
-    let waiting = p.waiting in
-    p.waiting <- None;
-    wake waiting
-  end;
-  if p.closing <> None && Station.quiet ~now:(now p) p.station then begin
-    let closing = p.closing in
-    p.closing <- None;
-    wake closing
-  end;
-  if Station.due p.station < p.armed then begin
-    let rearm = p.rearm in
-    p.rearm <- None;
-    wake rearm
-  end
+  Shell.settle p.shell
+    ~has_event:(Station.waiting p.station)
+    ~quiet:(fun () -> Station.quiet ~now:(now p) p.station)
+    ~due:(Station.due p.station)
 
 let command p f =
   change p (f p.station);
@@ -139,25 +121,16 @@ let quietly p f = command p (fun s -> (f s, []))
 (* So many datagrams are taken before others have their turn. *)
 let most_at_once = 512
 
-(* Once something cannot be kept any more, the run is over: {!next} fails. The network is served all the same, so that
-   stops are seen through. *)
-let fail p error =
-  if p.failure = None && not p.closed then begin
-    p.failure <- Some error;
-    wake p.waiting;
-    p.waiting <- None
-  end
-
 let write_ahead p sync =
   let settled vehicles =
     let time = now p in
     p.station <- Station.leaves ~now:time ~at:time vehicles p.station
   in
   let leave vehicles messages = List.iter (send_to p) messages; settled vehicles in
-  let failed vehicles error = settled vehicles; fail p error in
+  let failed vehicles error = settled vehicles; Shell.fail p.shell error in
   Write_ahead.make ~sync ~leave ~failed
 
-let absorb p changed = try change p changed with error -> fail p error
+let absorb p changed = try change p changed with error -> Shell.fail p.shell error
 
 (* How many were there. *)
 let drain p fd =
@@ -185,7 +158,7 @@ let flood = 1000.
 
 let rec receive p fd ~since ~count =
   Lwt_unix.wait_read fd >>= fun () ->
-  if p.closed then Lwt.return_unit
+  if Shell.is_closed p.shell then Lwt.return_unit
   else
     let count = count + drain p fd and time = now p in
     let elapsed = time -. since in
@@ -196,23 +169,12 @@ let rec receive p fd ~since ~count =
 
 (* {1 Time} *)
 
-let longest_sleep = 3600.
-
-let rec watch p =
-  if p.closed then Lwt.return_unit
-  else
-    let time = now p in
-    if Station.due p.station <= time then begin
-      p.armed <- infinity;
-      absorb p (Station.tick ~now:time p.station);
-      settle p
-    end;
-    let due = Station.due p.station in
-    let rang, rearm = Lwt.task () in
-    p.armed <- due;
-    p.rearm <- Some rearm;
-    let seconds = Float.max 0.0005 (Float.min longest_sleep (due -. now p)) in
-    Lwt.pick [ rang; Lwt_unix.sleep seconds ] >>= fun () -> watch p
+let watch p =
+  let tick ~now =
+    absorb p (Station.tick ~now p.station);
+    settle p
+  in
+  Shell.watch p.shell ~now:(fun () -> now p) ~due:(fun () -> Station.due p.station) ~tick
 
 (* {1 Opening} *)
 
@@ -227,7 +189,7 @@ let settings options ~port ~hosts ~time : Station.settings =
     first_request = Random.State.int random 0x10000;
     payload = options.payload; types = options.types; type_names = options.type_names; records = options.records }
 
-let guard p thread = Lwt.async (fun () -> Lwt.catch thread (fun error -> fail p error; Lwt.return_unit))
+let guard p thread = Lwt.async (fun () -> Lwt.catch thread (fun error -> Shell.fail p.shell error; Lwt.return_unit))
 
 let make ?(time = 0.) ?outstanding options =
   let loopback = Unix.inet_addr_loopback in
@@ -252,8 +214,7 @@ let make ?(time = 0.) ?outstanding options =
     { options; settings; now = Clock.stopwatch ~at:time options.clock;
       data = Lwt_unix.of_unix_file_descr ~blocking:false data;
       announcements; speakers = List.filter_map Sockets.speaker interfaces; port;
-      buffer = Bytes.create 65536; station; write_ahead = None; armed = infinity; rearm = None; waiting = None;
-      closing = None; failure = None; closed = false; unsent = 0 }
+      buffer = Bytes.create 65536; station; write_ahead = None; shell = Shell.make (); unsent = 0 }
   in
   p.write_ahead <- Option.map (write_ahead p) options.sync;
   guard p (fun () -> receive p p.data ~since:0. ~count:0);
@@ -293,24 +254,19 @@ let telemetry p on = quietly p (Station.telemetry ~now:(now p) on)
 
 (* {1 Events} *)
 
-let rec next p =
-  match p.failure, Station.take p.station with
-  | _, Some (event, station) ->
-    p.station <- station;
-    Network_log.event ~now:(now p) event;
-    Lwt.return event
-  | Some error, None -> Lwt.fail error
-  | None, None ->
-    let promise, waiting = Lwt.task () in
-    p.waiting <- Some waiting;
-    promise >>= fun () -> next p
+let next p =
+  Shell.next p.shell (fun () ->
+      match Station.take p.station with
+      | None -> None
+      | Some (event, station) ->
+        p.station <- station;
+        Network_log.event ~now:(now p) event;
+        Some event)
 
 (* {1 Closing} *)
 
 let release_sockets p =
-  p.closed <- true;
-  wake p.rearm;
-  p.rearm <- None;
+  Shell.close p.shell;
   List.iter Sockets.close_quietly p.speakers;
   Lwt.catch (fun () -> Lwt_unix.close p.data) (fun _ -> Lwt.return_unit) >>= fun () ->
   Lwt.catch (fun () -> Lwt_unix.close p.announcements) (fun _ -> Lwt.return_unit)
@@ -326,8 +282,7 @@ let tell_unsettled p text =
 let wait_for_stops p =
   if Station.quiet ~now:(now p) p.station then Lwt.return_unit
   else begin
-    let quiet, closing = Lwt.task () in
-    p.closing <- Some closing;
+    let quiet = Shell.until_quiet p.shell in
     let patience = p.options.close_patience in
     let patience = if Station.owes_stop p.station then Float.max patience longest_silence else patience in
     let tell () =
@@ -341,7 +296,7 @@ let wait_for_stops p =
   end
 
 let close p =
-  if p.closed then Lwt.return_unit
+  if Shell.is_closed p.shell then Lwt.return_unit
   else begin
     command p (Station.stop_all ~now:(now p));
     wait_for_stops p >>= fun () ->

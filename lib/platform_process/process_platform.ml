@@ -33,14 +33,9 @@ type t = {
   mutable dispatch : Dispatch.t;
   mutable adapter : Adapter.t option;
   mutable write_ahead : unit Write_ahead.t option;
-  mutable armed : float;  (* when the timer rings *)
-  mutable rearm : unit Lwt.u option;
-  mutable waiting : unit Lwt.u option;  (* [next] *)
-  mutable closing : unit Lwt.u option;  (* [close], until all is quiet *)
+  shell : Shell.t;
   mutable checks : (int * string list Lwt.u) list;
   mutable checked : int;
-  mutable failure : exn option;
-  mutable is_over : bool;
   mutable said_quiet : unit Lwt.u option;
 }
 
@@ -58,8 +53,6 @@ let restart_delays = [ 1.; 2.; 4.; 8.; 16.; 30. ]
 (* One that lived so long and died is started again as if it had never died. *)
 let long_life = 60.
 
-let wake waiting = Option.iter (fun u -> Lwt.wakeup_later u ()) waiting
-
 (* {1 Outputs} *)
 
 let send p order =
@@ -69,13 +62,6 @@ let send p order =
     let line = Order.to_line order in
     Log.debug (fun m -> m "%.3f %s < %s" (now p) p.platform (String.trim line));
     Adapter.send adapter line
-
-let fail p error =
-  if p.failure = None && not p.is_over then begin
-    p.failure <- Some error;
-    wake p.waiting;
-    p.waiting <- None
-  end
 
 let told p why = p.options.note None (Printf.sprintf "platform %s: %s" p.platform why)
 
@@ -106,27 +92,16 @@ and change p (dispatch, outputs) =
 and durable p request = change p (Dispatch.durable ~now:(now p) request p.dispatch)
 
 let settle p =
-  if p.waiting <> None && Dispatch.waiting p.dispatch then begin
-    let waiting = p.waiting in
-    p.waiting <- None;
-    wake waiting
-  end;
-  if p.closing <> None && Dispatch.quiet p.dispatch then begin
-    let closing = p.closing in
-    p.closing <- None;
-    wake closing
-  end;
-  if Dispatch.due p.dispatch < p.armed then begin
-    let rearm = p.rearm in
-    p.rearm <- None;
-    wake rearm
-  end
+  Shell.settle p.shell
+    ~has_event:(Dispatch.waiting p.dispatch)
+    ~quiet:(fun () -> Dispatch.quiet p.dispatch)
+    ~due:(Dispatch.due p.dispatch)
 
 let command p f =
   change p (f p.dispatch);
   settle p
 
-let absorb p f = try command p f with error -> fail p error
+let absorb p f = try command p f with error -> Shell.fail p.shell error
 
 let write_ahead p sync =
   let become_durable keys =
@@ -134,10 +109,10 @@ let write_ahead p sync =
       let rest = String.sub key 1 (String.length key - 1) in
       if key.[0] = 'r' then durable p rest else send p (Kept (int_of_string rest))
     in
-    (try List.iter one keys with error -> fail p error);
+    (try List.iter one keys with error -> Shell.fail p.shell error);
     settle p
   in
-  Write_ahead.make ~sync ~leave:(fun keys _ -> become_durable keys) ~failed:(fun _ error -> fail p error)
+  Write_ahead.make ~sync ~leave:(fun keys _ -> become_durable keys) ~failed:(fun _ error -> Shell.fail p.shell error)
 
 (* {1 Reports} *)
 
@@ -154,29 +129,17 @@ let hear p = function
             Lwt.wakeup_later waiting problems
           | None -> ())
       | Quiet ->
-        wake p.said_quiet;
+        Option.iter (fun u -> Lwt.wakeup_later u ()) p.said_quiet;
         p.said_quiet <- None
       | Hello _ | Trouble _ | Vehicle _ | Gone _ | Pong _ | Request _ | Note _ | Log _ -> ())
 
 (* {1 Time} *)
 
-let longest_sleep = 3600.
-
-let rec watch p =
-  if p.is_over then Lwt.return_unit
-  else begin
-    let time = now p in
-    if Dispatch.due p.dispatch <= time then begin
-      p.armed <- infinity;
-      absorb p (Dispatch.tick ~now:time)
-    end;
-    let due = Dispatch.due p.dispatch in
-    let rang, rearm = Lwt.task () in
-    p.armed <- due;
-    p.rearm <- Some rearm;
-    let seconds = Float.max 0.0005 (Float.min longest_sleep (due -. now p)) in
-    Lwt.pick [ rang; Lwt_unix.sleep seconds ] >>= fun () -> watch p
-  end
+let watch p =
+  Shell.watch p.shell
+    ~now:(fun () -> now p)
+    ~due:(fun () -> Dispatch.due p.dispatch)
+    ~tick:(fun ~now -> absorb p (Dispatch.tick ~now))
 
 (* {1 The adapter's life} *)
 
@@ -190,7 +153,7 @@ let rec live p adapter ~delays =
   Adapter.listen adapter (hear p) >>= fun why ->
   p.adapter <- None;
   Adapter.close adapter >>= fun () ->
-  if p.is_over then Lwt.return_unit
+  if Shell.is_closed p.shell then Lwt.return_unit
   else begin
     told p (Printf.sprintf "the adapter %s; its vehicles have lost their link" why);
     absorb p (Dispatch.died ~now:(now p));
@@ -200,20 +163,20 @@ let rec live p adapter ~delays =
 and revive p ~delays =
   let delay, later = match delays with [ last ] -> (last, delays) | first :: later -> (first, later) | [] -> (1., []) in
   Lwt_unix.sleep delay >>= fun () ->
-  if p.is_over then Lwt.return_unit
+  if Shell.is_closed p.shell then Lwt.return_unit
   else
     Adapter.start ~command:p.options.command (hello p.options ~resumes:true) >>= function
     | Error why ->
       told p (Printf.sprintf "the adapter, started again, %s" why);
       revive p ~delays:later
-    | Ok (adapter, _) when p.is_over -> Adapter.close adapter
+    | Ok (adapter, _) when Shell.is_closed p.shell -> Adapter.close adapter
     | Ok (adapter, greeting) ->
       p.adapter <- Some adapter;
       told p "the adapter runs again";
       absorb p (Dispatch.born ~now:(now p) greeting);
       live p adapter ~delays:later
 
-let guard p thread = Lwt.async (fun () -> Lwt.catch thread (fun error -> fail p error; Lwt.return_unit))
+let guard p thread = Lwt.async (fun () -> Lwt.catch thread (fun error -> Shell.fail p.shell error; Lwt.return_unit))
 
 (* {1 Opening} *)
 
@@ -232,8 +195,7 @@ let make options ~time ~resume adapter (greeting : Report.greeting) =
   let dispatch = resume ~announce_period:greeting.announce ~platform dispatch in
   let p =
     { options; platform; greeting; now = Clock.stopwatch ~at:time options.clock; dispatch; adapter = Some adapter;
-      write_ahead = None; armed = infinity; rearm = None; waiting = None; closing = None; checks = []; checked = 0;
-      failure = None; is_over = false; said_quiet = None }
+      write_ahead = None; shell = Shell.make (); checks = []; checked = 0; said_quiet = None }
   in
   p.write_ahead <- Option.map (write_ahead p) options.sync;
   absorb p (Dispatch.born ~now:(now p) greeting);
@@ -266,16 +228,13 @@ let telemetry p on = command p (Dispatch.telemetry on)
 
 (* {1 Events} *)
 
-let rec next p =
-  match p.failure, Dispatch.take p.dispatch with
-  | _, Some (event, dispatch) ->
-    p.dispatch <- dispatch;
-    Lwt.return event
-  | Some error, None -> Lwt.fail error
-  | None, None ->
-    let promise, waiting = Lwt.task () in
-    p.waiting <- Some waiting;
-    promise >>= fun () -> next p
+let next p =
+  Shell.next p.shell (fun () ->
+      match Dispatch.take p.dispatch with
+      | None -> None
+      | Some (event, dispatch) ->
+        p.dispatch <- dispatch;
+        Some event)
 
 (* {1 Checking plans} *)
 
@@ -295,11 +254,7 @@ let within seconds promise = Lwt.pick [ promise; Lwt_unix.sleep seconds ]
 
 let wait_for_stops p =
   if Dispatch.quiet p.dispatch then Lwt.return_unit
-  else begin
-    let quiet, closing = Lwt.task () in
-    p.closing <- Some closing;
-    within p.options.close_patience quiet
-  end
+  else within p.options.close_patience (Shell.until_quiet p.shell)
 
 let say_goodbye p adapter =
   let quiet, said_quiet = Lwt.task () in
@@ -308,7 +263,7 @@ let say_goodbye p adapter =
   within p.options.close_patience quiet >>= fun () -> Adapter.close adapter
 
 let close p =
-  if p.is_over then Lwt.return_unit
+  if Shell.is_closed p.shell then Lwt.return_unit
   else begin
     command p (Dispatch.stop_all ~now:(now p));
     wait_for_stops p >>= fun () ->
@@ -316,9 +271,7 @@ let close p =
       p.options.note (Some v) (Printf.sprintf "may still run plan %s: it was not heard to have stopped" plan)
     in
     List.iter tell (Dispatch.unsettled p.dispatch);
-    p.is_over <- true;
-    wake p.rearm;
-    p.rearm <- None;
+    Shell.close p.shell;
     match p.adapter with None -> Lwt.return_unit | Some adapter -> say_goodbye p adapter
   end
 

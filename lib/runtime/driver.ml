@@ -98,8 +98,8 @@ module Make (P : Platform.S) = struct
 
   (* Of the platform's next event, which it has told already perhaps, though an input was read first. *)
   let drop s overtaken =
-    let is_overtaken (told, _) = match Lwt.state told with Lwt.Return e -> overtaken e | Fail _ | Sleep -> false in
-    if Option.fold s.upcoming ~none:false ~some:is_overtaken then s.upcoming <- None
+    let still (told, _ as both) = if Overtaken.unless overtaken told then Some both else None in
+    s.upcoming <- Option.bind s.upcoming still
 
   let carry_out s : Effect.t -> unit = function
     | Start (v, p) -> P.start s.platform v p

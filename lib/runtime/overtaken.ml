@@ -5,3 +5,6 @@ let by_stop v : Platform.event -> bool = function
 let by_cancel timer : Platform.event -> bool = function
   | Timer timer' -> timer' = timer
   | Vehicle _ | Task_done _ | Task_failed _ | Input _ | Quiet -> false
+
+let unless overtaken told =
+  match Lwt.state told with Lwt.Return e -> not (overtaken e) | Fail _ | Sleep -> true

@@ -9,3 +9,7 @@ val by_stop : Core.vehicle -> Platform.event -> bool
 
 val by_cancel : Residual.timer -> Platform.event -> bool
 (** [by_cancel timer e] is whether [e] is the expiry of [timer]. *)
+
+val unless : (Platform.event -> bool) -> Platform.event Lwt.t -> bool
+(** [unless overtaken told] is whether [told] is still to be read: it has not resolved to an event that is
+    [overtaken]. *)

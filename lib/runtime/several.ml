@@ -52,11 +52,8 @@ let set_timer s timer seconds =
 
 (* Of the events that platforms have told and nobody has read yet. *)
 let drop s overtaken =
-  let drop one =
-    let is_overtaken told = match Lwt.state told with Lwt.Return e -> overtaken e | Fail _ | Sleep -> false in
-    if Option.fold one.upcoming ~none:false ~some:is_overtaken then one.upcoming <- None
-  in
-  Array.iter drop s.parts
+  let still told = if Overtaken.unless overtaken told then Some told else None in
+  Array.iter (fun one -> one.upcoming <- Option.bind one.upcoming still) s.parts
 
 let cancel_timer s timer =
   drop s (Overtaken.by_cancel timer);

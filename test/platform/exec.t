@@ -36,7 +36,7 @@ Adapters that cannot be spoken to: no run begins.
 
   $ for adapter in ./missing true 'echo {}' "echo '{\"kind\":\"hello\",\"protocol\":2,\"name\":\"x\"}'" \
   >   "echo '{\"kind\":\"error\",\"why\":\"no serial port\"}'" "echo '{\"kind\":\"pong\",\"id\":1}'"; do
-  >   dolphin exec two.dol --journal none.run --platform "$adapter" 2>&1 | grep -v /bin/sh; rm none.run
+  >   dolphin exec two.dol --journal none.run --platform "$adapter" 2>&1 | grep -v /bin/sh; test ! -e none.run || echo begun
   > done
   dolphin: the adapter './missing' ended with exit status 127 before it greeted
   dolphin: the adapter 'true' ended with exit status 0 before it greeted
@@ -44,6 +44,21 @@ Adapters that cannot be spoken to: no run begins.
   dolphin: the adapter 'echo '{"kind":"hello","protocol":2,"name":"x"}'' speaks version 2 of the platform protocol, and we version 1
   dolphin: the adapter 'echo '{"kind":"error","why":"no serial port"}'' says: no serial port
   dolphin: the adapter 'echo '{"kind":"pong","id":1}'' does not greet as the platform protocol has it: its first line is no 'hello'
+
+Of journals that are there nothing is lost, nor is a run resumed.
+
+  $ cp two.run before.run
+  $ dolphin exec two.dol --journal two.run --platform false 2>&1 | sed 's/ended.*//'
+  dolphin: the adapter 'false' 
+  $ sed '/"label":"start(/q' before.run > cut.run
+  $ cp cut.run before-cut.run
+  $ dolphin exec two.dol --resume cut.run --platform false 2>&1 | sed 's/ended.*//'
+  dolphin: the adapter 'false' 
+  $ dolphin exec two.dol --resume cut.run --journal copy.run --platform false 2>&1 | sed 's/ended.*//'
+  dolphin: the adapter 'false' 
+  $ cmp two.run before.run && cmp cut.run before-cut.run && ls copy.run
+  ls: cannot access 'copy.run': No such file or directory
+  [2]
 
 The example of the page.
 

@@ -18,13 +18,13 @@ let utc_now () =
 let is_wanted s = s.journal <> None || s.drawing <> None || s.follower <> None
 
 (* What a journal is written to. *)
-type file = { path : string; channel : out_channel }
+type file = { path : string; channel : out_channel; is_new : bool }
 
 type t = {
   settings : settings;
   file : file option;
   summary : Summary.builder;
-  recorder : Recorder.t option;  (* if anything is to be kept *)
+  recorder : Recorder.t option Lazy.t;  (* if anything is to be kept; forced, it has begun the journal *)
 }
 
 let trouble path why = Printf.sprintf "the journal cannot be written: %s: %s" path why
@@ -69,95 +69,102 @@ let open_mode path : Unix.open_flag =
 
 (* Nothing of the file is lost before it is ours. *)
 let open_file path =
+  let is_new = not (Sys.file_exists path) in
   match Unix.openfile path [ open_mode path; O_CREAT; O_CLOEXEC ] 0o666 with
   | fd ->
     lock path fd;
-    fd
+    let channel = Unix.out_channel_of_descr fd in
+    set_binary_mode_out channel true;
+    { path; channel; is_new }
   | exception Unix.Unix_error (error, _, _) -> raise (Broken (trouble path (Unix.error_message error)))
 
 (* Whoever types a command once more after the console died must not lose what vehicles may still be doing. The channel
    is never closed: to close any of its file would give the lock away. *)
-let spare_unfinished path fd =
+let spare_unfinished { path; channel; _ } =
+  let fd = Unix.descr_of_out_channel channel in
   if (Unix.fstat fd).st_kind = S_REG && Journal.breaks_off (Unix.in_channel_of_descr fd) then
     raise
       (Broken
          (Printf.sprintf "%s: this is the journal of a run that broke off: go on with it by --resume %s, or remove it"
             path path))
 
-let channel_of path fd =
-  let channel = Unix.out_channel_of_descr fd in
-  set_binary_mode_out channel true;
-  { path; channel }
-
 let truncate fd length =
   match Unix.ftruncate fd length with
   | () -> ignore (Unix.lseek fd length SEEK_SET)
   | exception Unix.Unix_error _ -> ()  (* pipes and devices have no length *)
 
-let with_recorder settings file summary make =
-  let write entry =
-    Option.iter (fun file -> write_line file entry) file;
-    if settings.drawing <> None then Summary.add summary entry;
-    Option.iter (fun follow -> follow entry) settings.follower
-  in
-  { settings; file; summary; recorder = (if is_wanted settings then Some (make write) else None) }
+let guarded make =
+  match make () with
+  | r -> Ok r
+  | exception (Broken why | Sys_error why) -> Error (Error.Unavailable why)
 
-let guarded settings header make =
+(* The journal's file is ours from now on. What it has stays until it is begun: by [clear], which is given it, and by
+   what [make] writes. *)
+let opened settings header summary ~check ~clear make =
+  let with_file () =
+    let open_checked path =
+      let file = open_file path in
+      check file;
+      file
+    in
+    let file = Option.map open_checked settings.journal in
+    let write entry =
+      Option.iter (fun file -> write_line file entry) file;
+      if settings.drawing <> None then Summary.add summary entry;
+      Option.iter (fun follow -> follow entry) settings.follower
+    in
+    let begun () =
+      Option.iter (fun file -> clear (Unix.descr_of_out_channel file.channel)) file;
+      if is_wanted settings then Some (make write) else None
+    in
+    { settings; file; summary; recorder = Lazy.from_fun begun }
+  in
   match would_overwrite settings header, Option.fold settings.drawing ~none:(Ok ()) ~some:Drawing.check with
   | Some path, _ -> Error (Error.Unavailable (path ^ ": the run was to be written over its own program or fleet"))
   | None, (Error _ as trouble) -> trouble
-  | None, Ok () -> (
-      match make () with
-      | r -> Ok r
-      | exception (Broken why | Sys_error why) -> Error (Error.Unavailable why))
+  | None, Ok () -> guarded with_file
 
 let start settings header program =
-  let begun path =
-    let fd = open_file path in
-    spare_unfinished path fd;
-    truncate fd 0;
-    channel_of path fd
-  in
-  guarded settings header (fun () ->
-      let file = Option.map begun settings.journal in
-      with_recorder settings file (Summary.create ()) (Recorder.make program header))
+  opened settings header (Summary.create ()) ~check:spare_unfinished ~clear:(fun fd -> truncate fd 0)
+    (Recorder.make program header)
 
-(* Opens [path], with the lines of [run] that are resumed in it. *)
-let continued (run : Resumed.t) path =
-  let kept = run.past.kept in
-  let copy fd =
-    let text = Bytes.create 65536 in
-    let input = open_in_bin run.path in
-    let rec go left =
-      if left > 0 then
-        match Stdlib.input input text 0 (min left (Bytes.length text)) with
-        | 0 -> ()
-        | n -> ignore (Unix.write fd text 0 n); go (left - n)
-    in
-    Fun.protect ~finally:(fun () -> close_in_noerr input) (fun () -> go kept)
+(* The lines of [run] that are resumed, in a file of its own. *)
+let copy (run : Resumed.t) fd =
+  let text = Bytes.create 65536 in
+  let input = open_in_bin run.path in
+  let rec go left =
+    if left > 0 then
+      match Stdlib.input input text 0 (min left (Bytes.length text)) with
+      | 0 -> ()
+      | n -> ignore (Unix.write fd text 0 n); go (left - n)
   in
-  let fd = open_file path in
-  if same_file path run.path then truncate fd kept
-  else begin
-    spare_unfinished path fd;
-    truncate fd 0;
-    copy fd
-  end;
-  channel_of path fd
+  Fun.protect ~finally:(fun () -> close_in_noerr input) (fun () -> go run.past.kept)
 
 let resume settings program ~source (run : Resumed.t) =
-  let settings = { settings with journal = Some (Option.value settings.journal ~default:run.path) } in
-  guarded settings run.past.header (fun () ->
-      let file = Option.map (continued run) settings.journal in
-      let seen = Resumption.seen run.past and replay = run.past.replay in
-      let r = with_recorder settings file run.summary (Recorder.resume program replay ~seen) in
-      let line ~time = Entry.Resumed { time; program = source; at = utc_now () } in
-      Option.iter (fun recorder -> Recorder.write recorder ~time:(Replay.time replay) line) r.recorder;
-      r)
+  let path = Option.value settings.journal ~default:run.path in
+  let replay = run.past.replay in
+  let is_same = same_file path run.path in
+  let check file = if not is_same then spare_unfinished file in
+  let clear fd =
+    if is_same then truncate fd run.past.kept
+    else begin
+      truncate fd 0;
+      copy run fd
+    end
+  in
+  let make write =
+    let recorder = Recorder.resume program replay ~seen:(Resumption.seen run.past) write in
+    Recorder.write recorder ~time:(Replay.time replay)
+      (fun ~time -> Entry.Resumed { time; program = source; at = utc_now () });
+    recorder
+  in
+  opened { settings with journal = Some path } run.past.header run.summary ~check ~clear make
+
+let begin_ r = guarded (fun () -> ignore (Lazy.force r.recorder))
 
 let note r ~time ~vehicle note =
   let line ~time = Entry.Note { time; vehicle; note } in
-  Option.iter (fun recorder -> Recorder.write recorder ~time line) r.recorder
+  Option.iter (fun recorder -> Recorder.write recorder ~time line) (Lazy.force r.recorder)
 
 let sync r =
   let sync file =
@@ -175,16 +182,21 @@ let sync r =
 let journal r = Option.map (fun file -> file.path) r.file
 
 let observer r : Dolphin_runtime.Observer.t =
-  match r.recorder with
+  match Lazy.force r.recorder with
   | None -> Dolphin_runtime.Observer.nobody
   | Some recorder -> { transition = Recorder.transition recorder; news = Recorder.news recorder;
                        unknown = Dolphin_runtime.Observer.nobody.unknown }
 
-let close r = Option.iter (fun file -> close_out_noerr file.channel) r.file
+let close r =
+  let give_up file =
+    close_out_noerr file.channel;
+    if file.is_new && not (Lazy.is_val r.recorder) then try Sys.remove file.path with Sys_error _ -> ()
+  in
+  Option.iter give_up r.file
 
 let finish r ~time ~stuck =
   let close () =
-    Option.iter (fun recorder -> Recorder.finish recorder ~time ~stuck) r.recorder;
+    Option.iter (fun recorder -> Recorder.finish recorder ~time ~stuck) (Lazy.force r.recorder);
     Option.iter (fun file -> protected file.path (fun () -> close_out file.channel)) r.file
   in
   match close () with

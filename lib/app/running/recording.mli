@@ -23,12 +23,17 @@ exception Broken of string
 (** The journal cannot be written any more: why, in a sentence without a full stop. *)
 
 val start : settings -> Header.t -> Dolphin_semantics.Core.program -> (t, Error.t) result
-(** [start s header program] begins the journal. The error says why that is not possible: it would overwrite the program
-    or the fleet, or the journal of a run that broke off, or another console writes it. *)
+(** [start s header program] opens the journal's file, which stays as it is until {!begin_}. The error says why that is
+    not possible: it would overwrite the program or the fleet, or the journal of a run that broke off, or another
+    console writes it. *)
 
 val resume : settings -> Dolphin_semantics.Core.program -> source:Header.source -> Resumed.t -> (t, Error.t) result
-(** [resume s program ~source run] continues the journal of [run], in its own file, or if [s] names another one, in a
-    copy. [source] is the program's file. It fails as {!start} does. *)
+(** [resume s program ~source run] opens the journal that goes on with [run]: its own file, or if [s] names another one,
+    a copy. [source] is the program's file. It fails as {!start} does. *)
+
+val begin_ : t -> (unit, Error.t) result
+(** [begin_ r] begins the journal, if nothing of it has been written yet: with its header, or where it broke off. The
+    error, {!Error.Unavailable}, says why it cannot be written. *)
 
 val note : t -> time:float -> vehicle:string -> Yojson.Safe.t -> unit
 (** [note r ~time ~vehicle json] keeps what the platform wants to find again of a vehicle. It may raise {!Broken}. *)
@@ -43,7 +48,8 @@ val observer : t -> Dolphin_runtime.Observer.t
 (** To be told of the run before anybody else. It may raise {!Broken}. *)
 
 val close : t -> unit
-(** [close r] gives the journal's file up, as it is. It may be called again, and after {!finish}. *)
+(** [close r] gives the journal's file up, as it is; where it was not there before and the journal was not begun, it is
+    removed. It may be called again, and after {!finish}. *)
 
 val finish : t -> time:float -> stuck:bool -> (unit, Error.t) result
 (** [finish r ~time ~stuck] ends the journal of a run that is over, and draws it. The error, {!Error.Unavailable}, says

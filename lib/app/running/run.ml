@@ -115,6 +115,8 @@ let start_host r =
      | Ok host -> Ok (Some host)
      | Error why -> Error (Error.Unavailable ("the supplier cannot be started: " ^ why)))
 
+let close_host = Option.fold ~none:Lwt.return_unit ~some:Host.close
+
 let header r (fleet : Fleet_file.t) : Header.t =
   { program = Program_file.header r.program;
     fleet = Fleet_file.header fleet;
@@ -252,7 +254,6 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
       ~inputs ?beginning:(beginning r.resumed news) ~console ~interruption:(Interruption.promise interruption)
       r.program.program
   in
-  let close () = Option.fold host ~none:Lwt.return_unit ~some:Host.close in
   let finish (outcome : Driver.outcome) =
     let stuck =
       match outcome with Stuck _ -> true | Spins _ | Ended _ -> Option.fold r.resumed ~none:false ~some:was_stuck in
@@ -262,7 +263,7 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
   let unavailable why = Lwt.return (Error (Error.Unavailable why)) in
   let close_socket () = Option.fold socket ~none:Lwt.return_unit ~some:Run_socket.close in
   Lwt.catch
-    (fun () -> Lwt.finalize (fun () -> Lwt.finalize run close >|= finish) close_socket)
+    (fun () -> Lwt.finalize (fun () -> Lwt.finalize run (fun () -> close_host host) >|= finish) close_socket)
     (function
       | Recording.Broken why -> unavailable (why ^ "; the run was ended as by Ctrl-C")
       | Unix.Unix_error (error, call, _) ->
@@ -271,10 +272,15 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
 
 let ( let*? ) result f = match result with Ok x -> f x | Error _ as error -> Lwt.return error
 
+(* The journal begins when nothing stands against the run any more. *)
 let on_platform r recording ~interruption (Platform ((module P), fleet) as platform) =
+  let give_up error = P.close fleet.platform >|= fun () -> error in
   match start_host r with
-  | Ok host -> drive r recording host ~interruption platform
-  | Error _ as error -> P.close fleet.platform >|= fun () -> error
+  | Error _ as error -> give_up error
+  | Ok host -> (
+      match Recording.begin_ recording with
+      | Ok () -> drive r recording host ~interruption platform
+      | Error _ as error -> close_host host >>= fun () -> give_up error)
 
 let go r ~interruption recording =
   Sys.set_signal Sys.sigpipe Signal_ignore;

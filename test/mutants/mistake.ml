@@ -618,6 +618,13 @@ let unknown =
       | _, _ -> evaluate context fuel no locals stack calls)|} );
     ]
 
+let driver =
+  in_file "lib/runtime/driver.ml" ~noticed_by:"runtime/test_runtime"
+    [
+      ("an end that a stop has overtaken is read", {|drop s (Overtaken.by_stop v); |}, {||});
+      ("an expiry that a cancellation has overtaken is read", {|drop s (Overtaken.by_cancel timer); |}, {||});
+    ]
+
 let pick_rules_in_traps =
   in_file "lib/semantics/rules/pick_rules.ml" ~noticed_by:"reduction/test_traps"
     [
@@ -632,4 +639,4 @@ let all =
       vehicle_orbits; canonical_vehicles; name_flow; liveness; later_picks; environment; picks; inputs; attendance;
       task_rules; local_step; run_code; answers_in_words; confirm; unknown;
       pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
-      conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps ]
+      conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps; driver ]

@@ -134,9 +134,9 @@ let made (code : closure) given (request : Residual.request) (s : Shared.t) (aft
 
 (* Vehicles that nobody holds for [task]; [None] if it waits for some. *)
 let allocated world bound held task (request : Residual.request) around =
-  let place = request.place and used = lazy (Residual.timers_around around) in
-  let timers () = Residual.fresh_timers place (Lazy.force used) in
-  let from bound = Allocation.allocate_made world bound ~timers { request with place } task in
+  let used = lazy (Residual.timers_around around) in
+  let timers () = Residual.fresh_timers request.place (Lazy.force used) in
+  let from bound = Allocation.allocate_made world bound ~timers request task in
   let free = List.filter (fun v -> not (List.mem v (Lazy.force held))) bound in
   let waits_or_fails = function
     | Ok (_ : vehicle list * Residual.t) -> Ok None
@@ -153,16 +153,16 @@ let internal program world (s : Shared.t) (Task_rules.Step { offer; continue; ar
   let go ?(asked = []) world s change =
     Decision.map (fun local -> Some (kept program world local)) (settle held program world s [] asked change)
   in
-  let failed world said change = go world ~asked:(Run_code.effects said) s change in
+  let fails continue world said fault = go world ~asked:(Run_code.effects said) s (continue (Error fault)) in
+  let guard_fails continue world said fault =
+    if Fault.is_unknown fault then Decision.Decided None else fails continue world said fault
+  in
   let if_true guard continue =
-    let fails world said fault =
-      if Fault.is_unknown fault then Decision.Decided None else failed world said (continue (Error fault))
-    in
     let gives world x s deeds =
       settled guard x (fun x ->
           if Value.truth x then go world ~asked:(Run_code.effects deeds) s (continue (Ok deeds)) else Decided None)
     in
-    coded program world s guard ~gives ~fails
+    coded program world s guard ~gives ~fails:(guard_fails continue)
   in
   match offer with
   | End_of _ | Expiry_of _ -> Decision.Decided None
@@ -170,14 +170,14 @@ let internal program world (s : Shared.t) (Task_rules.Step { offer; continue; ar
     go world ~asked:[ Start (v, p) ] { s with allocation = Vehicle_map.add v p s.allocation } (continue ())
   | Perform code ->
     let gives world _ s deeds = go world ~asked:(Run_code.effects deeds) s (continue (Ok deeds)) in
-    coded program world s code ~gives ~fails:(fun world said fault -> failed world said (continue (Error fault)))
+    coded program world s code ~gives ~fails:(fails continue)
   | Check guard -> if_true guard continue
   | Take guard -> if_true guard continue
   | Make (code, given, request) ->
     let gives world x after deeds =
       settled code x (fun x -> go world s (continue (made code given request s after x deeds)))
     in
-    coded ~given program world s code ~gives ~fails:(fun world said fault -> failed world said (continue (Error fault)))
+    coded ~given program world s code ~gives ~fails:(fails continue)
   | Allocate (task, request) ->
     let look world = Result.map (fun found -> (world, found)) (allocated world s.bound held task request around) in
     let go_on = function
@@ -186,33 +186,27 @@ let internal program world (s : Shared.t) (Task_rules.Step { offer; continue; ar
     in
     Decision.bind (Decision.look world look) go_on
   | Refute guard ->
-    let fails world said fault =
-      if Fault.is_unknown fault then Decision.Decided None else failed world said (continue (Error fault))
-    in
     let gives world x _ _ =
       settled guard x (fun x ->
           if Value.truth x || Unknown.is x then Decision.Decided None else go world s (continue (Ok ())))
     in
-    coded program world s guard ~gives ~fails
+    coded program world s guard ~gives ~fails:(guard_fails continue)
   | Decide guard ->
-    let fails world said fault =
-      if Fault.is_unknown fault then Decision.Decided None else failed world said (continue (Error fault))
-    in
     let gives world x after deeds =
       settled guard x (fun x ->
           if Unknown.is x then Decision.Decided None
           else if Value.truth x then go world ~asked:(Run_code.effects deeds) after (continue (Ok (true, deeds)))
           else go world s (continue (Ok (false, []))))
     in
-    coded program world s guard ~gives ~fails
+    coded program world s guard ~gives ~fails:(guard_fails continue)
   | Measure code ->
     let gives world x after deeds =
       settled code x (fun x ->
           match seconds_of code x with
           | Ok seconds -> go world ~asked:(Run_code.effects deeds) after (continue (Ok seconds))
-          | Error fault -> failed world (Run_code.said deeds) (continue (Error fault)))
+          | Error fault -> fails continue world (Run_code.said deeds) fault)
     in
-    coded program world s code ~gives ~fails:(fun world said fault -> failed world said (continue (Error fault)))
+    coded program world s code ~gives ~fails:(fails continue)
 
 let on_event program world s (Task_rules.Step { offer; continue; around }) (event : event) =
   let held = lazy (Residual.held around) in

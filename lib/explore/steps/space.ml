@@ -183,21 +183,25 @@ let components t (x : Expansion.source) =
     (Array.mapi component x.layout.leaves)
     (Array.of_list (List.filter_map nest (Array.to_list x.layout.nests)))
 
-(* As [expand_all]. Which steps are enough depends on nothing but the configuration. *)
+let status_in t x components c k =
+  let { Stubborn.place; _ }, steps = components.(c) in
+  local_status t x place steps.(k)
+
+(* Which steps of [components] are enough, which depends on nothing but the configuration. *)
+let choose t (x : Expansion.source) components =
+  let posts = Expansion.upcoming t.expansion x.shared in
+  Stubborn.choose (Array.map fst components) ~posts (status_in t x components)
+
+(* As [expand_all]. *)
 let expand_some t (x : Expansion.source) =
   let components = components t x in
-  let status c k =
-    let { Stubborn.place; _ }, steps = components.(c) in
-    local_status t x place steps.(k)
-  in
-  let posts = Expansion.upcoming t.expansion x.shared in
-  let choice = Stubborn.choose (Array.map fst components) ~posts status in
+  let choice = choose t x components in
   let taken = ref 0 in
   let go c ({ Stubborn.place; analysis }, steps) =
     let take k step =
       let is_chosen = match choice with None -> true | Some chosen -> chosen c k in
       if is_chosen || analysis.ends.(k) then begin
-        let status = status c k in
+        let status = status_in t x components c k in
         Encoding.check_fit t.encoding;
         match status with
         | Impossible -> ()
@@ -279,14 +283,7 @@ let examine t key ~possible ~taken visitor =
   let shared = Layouts.shared t.layouts key.(0) in
   let x : Expansion.source = { expansion = t.expansion; key; layout; shared; visitor } in
   let components = components t x in
-  let status c k =
-    let { Stubborn.place; _ }, steps = components.(c) in
-    local_status t x place steps.(k)
-  in
-  let posts = Expansion.upcoming t.expansion x.shared in
-  let choice =
-    if Reduction.by_order t.reduction then Stubborn.choose (Array.map fst components) ~posts status else None
-  in
+  let choice = if Reduction.by_order t.reduction then choose t x components else None in
   let follow here place ~is_chosen ~may_end (step : Component.step) layers =
     let each (outcome : outcome) =
       if is_chosen || Memoised_steps.ends_run outcome then begin
@@ -307,7 +304,7 @@ let examine t key ~possible ~taken visitor =
   let go c ({ Stubborn.place; analysis }, steps) =
     let position, layers = positions layout key place in
     let take k (step : Component.step) =
-      let status = status c k in
+      let status = status_in t x components c k in
       Encoding.check_fit t.encoding;
       match status with
       | Impossible -> ()

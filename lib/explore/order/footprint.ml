@@ -401,23 +401,12 @@ let claims f = not (is_none f.claims)
 
 (* Whether some code may ask for those of a vehicle set that nobody holds. *)
 let asks_idle (program : program) =
-  let seen = ref [] in
-  let rec asks e =
+  let found = ref false in
+  let visit e =
     match e.node with
-    | Apply (Builtin Make_idle, [ { node = Constant (Integer _ | Number _); _ } ]) -> false
-    | Apply (Builtin Make_idle, _) -> true
-    | Constant (Closure c) -> lambda c.lambda
-    | Make_closure (l, _) -> lambda l
-    | Constant _ | Local _ | Global _ | Break | Continue -> false
-    | Set_local (_, e) | Set_global (_, e) | Return e -> asks e
-    | Apply (_, es) | Block es -> List.exists asks es
-    | If (a, b, c) -> List.exists asks [ a; b; c ]
-    | While (a, b) | For (_, a, b) -> asks a || asks b
-  and lambda l =
-    (not (List.memq l !seen))
-    && begin
-      seen := l :: !seen;
-      asks l.code
-    end
+    | Apply (Builtin Make_idle, [ { node = Constant (Integer _ | Number _); _ } ]) -> ()
+    | Apply (Builtin Make_idle, _) -> found := true
+    | _ -> ()
   in
-  lambda program.main || List.exists (fun (_, l) -> lambda l) program.functions
+  Code_walk.iter visit (program.main :: List.map snd program.functions);
+  !found

@@ -13,32 +13,16 @@ type called = { mutable picks : bool; mutable executes : bool }
 let is_execute = function Builtin (Execute | Execute_for _) -> true | _ -> false
 let is_pick = function Build (Pick, _) -> true | _ -> false
 
-let called_code (program : program) =
-  let found = { picks = false; executes = false } and seen = ref [] in
-  let rec expression ~main e =
-    let go = expression ~main in
+let called_code program =
+  let found = { picks = false; executes = false } in
+  let visit e =
     match e.node with
-    | Constant (Closure c) -> lambda c.lambda
-    | Make_closure (l, _) -> lambda l
-    | Constant _ | Global _ | Local _ | Break | Continue -> ()
-    | Set_local (_, e) | Set_global (_, e) | Return e -> go e
-    | Apply (operation, es) ->
-      if not main then begin
-        if is_pick operation then found.picks <- true;
-        if is_execute operation then found.executes <- true
-      end;
-      List.iter go es
-    | Block es -> List.iter go es
-    | If (a, b, c) -> List.iter go [ a; b; c ]
-    | While (a, b) | For (_, a, b) -> go a; go b
-  and lambda l =
-    if not (List.memq l !seen) then begin
-      seen := l :: !seen;
-      expression ~main:false l.code
-    end
+    | Apply (operation, _) ->
+      if is_pick operation then found.picks <- true;
+      if is_execute operation then found.executes <- true
+    | _ -> ()
   in
-  expression ~main:true program.main.code;
-  List.iter (fun (_, l) -> lambda l) program.functions;
+  Code_walk.iter_called visit program;
   found
 
 (* Unlike [||], whose right side may not be gone through. *)

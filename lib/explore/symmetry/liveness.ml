@@ -15,34 +15,16 @@ type t = {
 
 (* {1 Code that others call} *)
 
-(* The variables that [lambdas], and the code that they make or hold, read. Of [main], only the code that it makes or
-   holds counts. *)
-let read_by ?main lambdas =
-  let read = ref Variables.empty and seen = ref [] in
-  let rec expression ~main e =
-    let go = expression ~main in
-    match e.node with
-    | Global i -> if not main then read := Variables.add (`Global i) !read
-    | Constant (Closure c) -> lambda c.lambda
-    | Make_closure (l, _) -> lambda l
-    | Constant _ | Local _ | Break | Continue -> ()
-    | Set_local (_, e) | Set_global (_, e) | Return e -> go e
-    | Apply (_, es) | Block es -> List.iter go es
-    | If (a, b, c) -> List.iter go [ a; b; c ]
-    | While (a, b) | For (_, a, b) -> go a; go b
-  and lambda l =
-    if not (List.memq l !seen) then begin
-      seen := l :: !seen;
-      expression ~main:false l.code
-    end
-  in
-  Option.iter (fun (l : lambda) -> expression ~main:true l.code) main;
-  List.iter lambda lambdas;
+(* The globals that the code reads which [walk] goes through. *)
+let read_by walk =
+  let read = ref Variables.empty in
+  let visit e = match e.node with Global i -> read := Variables.add (`Global i) !read | _ -> () in
+  walk visit;
   !read
 
-let of_program (program : program) ~asked =
-  let called = read_by ~main:program.main (List.map snd program.functions) in
-  let own = read_by (List.map (fun (c : closure) -> c.lambda) asked) in
+let of_program program ~asked =
+  let called = read_by (fun visit -> Code_walk.iter_called visit program) in
+  let own = read_by (fun visit -> Code_walk.iter visit (List.map (fun (c : closure) -> c.lambda) asked)) in
   { called; asked = (if asked = [] then Variables.empty else Variables.union called own) }
 
 let may_call = function

@@ -1,0 +1,30 @@
+open Core
+
+(* [visit] of the expressions of one piece of code; [enter] of the code that it makes or holds. *)
+let rec walk ~visit ~enter e =
+  let go = walk ~visit ~enter in
+  visit e;
+  match e.node with
+  | Constant (Closure { lambda; _ }) | Make_closure (lambda, _) -> enter lambda
+  | Constant _ | Local _ | Global _ | Break | Continue -> ()
+  | Set_local (_, e) | Set_global (_, e) | Return e -> go e
+  | Apply (_, es) | Block es -> List.iter go es
+  | If (a, b, c) -> List.iter go [ a; b; c ]
+  | While (a, b) | For (_, a, b) -> go a; go b
+
+let entering visit =
+  let seen = ref [] in
+  let rec enter lambda =
+    if not (List.memq lambda !seen) then begin
+      seen := lambda :: !seen;
+      walk ~visit ~enter lambda.code
+    end
+  in
+  enter
+
+let iter visit lambdas = List.iter (entering visit) lambdas
+
+let iter_called visit (program : program) =
+  let enter = entering visit in
+  walk ~visit:ignore ~enter program.main.code;
+  List.iter (fun (_, lambda) -> enter lambda) program.functions

@@ -1,0 +1,10 @@
+(** Walks over the expressions of code, with the code that it makes or holds: each piece once. *)
+
+open Core
+
+val iter : (expression -> unit) -> lambda list -> unit
+(** [iter f ls] is [f] of the expressions of [ls], and of the code that they make or hold. *)
+
+val iter_called : (expression -> unit) -> program -> unit
+(** [iter_called f p] is [f] of the expressions of code that others call: the functions of [p], and the closures that
+    these and the script make or hold. *)

@@ -191,6 +191,13 @@ let introduce ~now (n : Node.t) s =
   let presence, is_due = Presence.met ~now s.presence in
   ({ s with presence }, if is_due then Announce (announcement ~now s) :: directly else directly)
 
+(* A system with several links, which is heard from each of them in turn, is where it was. *)
+let is_elsewhere ~(before : Node.t) (n : Node.t) =
+  match before.address, n.address with
+  | _, None -> false
+  | None, Some _ -> true
+  | Some was, Some address -> address.port <> was.port || not (Node.belongs address.host before)
+
 let announced ~now ~from (p : Packet.t) (a : Message.Announce.t) s =
   let accept n s =
     tell ~now n { s with systems = Systems.announced n s.systems; accepted = s.accepted + 1 }
@@ -207,8 +214,7 @@ let announced ~now ~from (p : Packet.t) (a : Message.Announce.t) s =
         match Node.announce ~now ~from p a before with
         | None -> drop "foreign address" s
         | Some n ->
-          let is_elsewhere = n.address <> before.address && n.address <> None in
-          if is_elsewhere then introduce ~now n (accept n s) else (accept n s, []))
+          if is_elsewhere ~before n then introduce ~now n (accept n s) else (accept n s, []))
 
 let name_of id s =
   match Systems.find_id id s.systems with Some n -> n.name | None -> Printf.sprintf "system 0x%04x" id

@@ -137,4 +137,27 @@ let between =
       in
       ignore (List.fold_left one (other ()) lives))
 
-let tests = ("claims", [ claims; repeated; conflict; strange; resting; between ])
+(* They would answer each other without end. *)
+let several_links =
+  case "a console that is heard from each of its addresses is met once" (fun () ->
+      let services port = Printf.sprintf "imc+udp://127.0.0.1:%d/;imc+udp://192.0.2.2:%d/" port port in
+      let announce (s, greetings) (now, from, port) =
+        let content =
+          Message.Announce
+            { Message.Announce.default with sys_name = "ccu-8"; sys_type = Ccu; services = services port } in
+        let packet = Packet.make ~src:theirs ~dst:Header.nobody ~timestamp:now content in
+        let s, outputs = Station.datagram ~now ~from (Result.get_ok (Packet.encode packet)) s in
+        let is_greeting : Station.output -> bool = function
+          | Announce _ | Announce_to _ -> true
+          | Send _ | Keep _ | Remark _ -> false
+        in
+        (s, List.exists is_greeting outputs :: greetings)
+      in
+      let lan = Unix.inet_addr_of_string "192.0.2.2" in
+      let heard =
+        [ (0., loopback, 6003); (0.1, lan, 6003); (1., loopback, 6003); (2., lan, 6003); (3., lan, 6004) ] in
+      let _, greetings =
+        List.fold_left announce (Station.create (settings ours "ccu-7" "rendezvous.dol" 6001), []) heard in
+      Alcotest.(check (list bool)) "greeted" [ true; false; false; false; true ] (List.rev greetings))
+
+let tests = ("claims", [ claims; repeated; conflict; strange; several_links; resting; between ])

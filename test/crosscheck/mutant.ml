@@ -307,10 +307,10 @@ let all =
       file = rules;
       pattern = {|Posted(k, x, isCertain), kappa,|};
       replacement = {|Posted(k, x, isCertain), IF kappa.at = "wait" THEN Script(GoOn(kappa.M, Null)) ELSE kappa,|} };
-    { name = "an input comes again and again";
+    { name = "an input comes once too often";
       file = environment;
-      pattern = {|      after == [ outside EXCEPT !.sent[i] = @ + 1 ]|};
-      replacement = {|      after == [ outside EXCEPT !.sent[i] = (@ + 1) % input.times ]|} };
+      pattern = {|IF outside.sent[i] = input.times THEN|};
+      replacement = {|IF outside.sent[i] > input.times THEN|} };
     { name = "nobody posts while the script runs";
       file = environment;
       pattern = {|IF kappa.at = "end" THEN << >> ELSE InputTransitions|};

@@ -87,12 +87,15 @@ let shortest_lasso g =
   in
   List.fold_left better None (List.init (Array.length g.states) Fun.id)
 
-(* Removing states without successors, or only such as are removed, leaves nothing if there is no cycle. *)
-let is_cyclic g =
+(* Removing states without successors, or only such as are removed, leaves nothing if there is no cycle of states with
+   [within]. *)
+let is_cyclic ?(within = fun _ -> true) g =
   let n = Array.length g.states in
-  let missing = Array.map List.length g.edges in
+  let edge i (_, j) = within g.states.(i) && within g.states.(j) in
+  let edges = Array.mapi (fun i -> List.filter (edge i)) g.edges in
+  let missing = Array.map List.length edges in
   let before = Array.make n [] in
-  Array.iteri (fun i -> List.iter (fun (_, j) -> before.(j) <- i :: before.(j))) g.edges;
+  Array.iteri (fun i -> List.iter (fun (_, j) -> before.(j) <- i :: before.(j))) edges;
   let removed = ref 0 in
   let rec remove i =
     incr removed;
@@ -102,17 +105,14 @@ let is_cyclic g =
     in
     List.iter less before.(i)
   in
-  let ends = List.filter (fun i -> g.edges.(i) = []) (List.init n Fun.id) in
+  let ends = List.filter (fun i -> edges.(i) = []) (List.init n Fun.id) in
   List.iter remove ends;
   !removed < n
 
-let goes_round g =
-  let may (s : state) =
-    match s.configuration.control with
-    | Executing (_, r) -> Residual.may_go_round r
-    | Script _ | Waiting _ | Ended _ -> false
-  in
-  Array.exists may g.states
+let executes s =
+  match s.configuration.control with Executing _ -> true | Script _ | Waiting _ | Ended _ -> false
+
+let goes_round g = is_cyclic ~within:executes g
 
 let broken g =
   let found = Hashtbl.create 7 in

@@ -21,7 +21,8 @@ val transitions : t -> int
 val depth : t -> int
 
 val goes_round : t -> bool
-(** Whether some task has a [repeat] without a number of rounds, so that fairness matters to termination. *)
+(** Whether some cycle stays within a task, which a [repeat] without a number of rounds makes: fairness says whether it
+    breaks termination. *)
 
 val broken : t -> (Property.t * int) list
 (** The properties of {!Property.all} that are broken, except [All_reached]: each with the fewest transitions after

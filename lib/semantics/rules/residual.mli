@@ -95,7 +95,8 @@ val exists_active : (t -> bool) -> t -> bool
     [Sequence], [Parallel], [Watch]. *)
 
 val may_go_round : t -> bool
-(** [may_go_round r] is whether [r] has a [repeat] without a number of rounds. Without one, every step leaves less. *)
+(** [may_go_round r] is whether [r] has a [repeat] without a number of rounds, or code in the place of a task, which may
+    make one. Without either, every step leaves less. *)
 
 (** {1:contexts Contexts}
 

@@ -41,7 +41,7 @@ What is wrong with a pair is told, and nothing is posted:
 Twenty followers and one that never reads; a thousand inputs; wrong lines, each answered by an error:
 
   $ python3 clients.py counts.run.sock follow 20 > followed &
-  $ while ! grep -q following followed; do sleep 0.05; done
+  $ while ! grep -qs following followed; do sleep 0.05; done
   $ python3 clients.py counts.run.sock post 1000
   1000
   $ python3 clients.py counts.run.sock garbage 1000
@@ -114,19 +114,24 @@ On a terminal, a line that is typed is an input; one that was typed before a que
   > input 'go'
   > execute condition { consume go: 2 }
   > x = ask 'How many?'
-  > message "$x went"
+  > y = ask 'How far?'
+  > z = ask 'How deep?'
+  > message "$x, $y, $z"
   > END
   $ : > typescript
-  $ (echo 'go: north'; echo 'stay: 1'; echo 'go: 2'; while ! grep -q 'asks: How many' typescript; do sleep 0.1; done
-  >  sleep 0.2; echo 3; for i in $(seq 100); do grep -q 'program  *ends' typescript && break; sleep 0.1; done) | \
-  >   TERM=xterm script -qf -c 'dolphin exec typed.dol --speed 1' typescript > /dev/null
+  $ shown () { for i in $(seq 300); do grep -q "$1" typescript && break; sleep 0.1; done; sleep 0.2; }
+  $ (echo 'go: north'; echo 'stay: 1'; echo 'go: 2'; shown 'asks: How many'; echo 3; shown 'asks: How far'; echo 40
+  >  shown 'asks: How deep'; echo 5; shown 'program  *ends') | \
+  >   TERM=xterm timeout 60 script -qf -c 'dolphin exec typed.dol --speed 1' typescript > /dev/null
   $ tr -d '\r' < typescript | grep -ao 'program  .*' | sed 's/ *$//'
   program     'north' is no value: a text stands in quotes, 'north'
   program     the program declares no input 'stay', only 'go'
   program     gets go:2
   program     consumes go:2
   program     asks: How many? 3
-  program     says: 3 went
+  program     asks: How far? 40
+  program     asks: How deep? 5
+  program     says: 3, 40, 5
   program     ends
 
 Requests and replies are as the schema says.

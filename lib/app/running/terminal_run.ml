@@ -116,7 +116,7 @@ let offer t text =
 let person t : Questions.person =
   let typed = Console.scripted ~output:ignore ~answers:[] () in
   let answer prompt =
-    Option.fold t.keyboard ~none:(typed.ask prompt) ~some:Keyboard.answer >|= fun reply ->
+    (match t.keyboard with Some keyboard -> Keyboard.answer keyboard | None -> typed.ask prompt) >|= fun reply ->
     Result.iter (fun text -> Screen.answered t.screen (echo text)) reply;
     reply
   in

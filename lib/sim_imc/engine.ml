@@ -41,14 +41,15 @@ type t = {
   last_outcome : Message.Plan_control_state.Last_outcome.t;
   last_error : (string * float) option;
   blocks : (float * float) list;                (* still to come *)
-  known : Specification.t String_map.t;         (* that came with a START *)
+  known : (Specification.t, string) result String_map.t;  (* that came with a START, or why they cannot be flown *)
+  stores : int;                                 (* so many came *)
   starts : int;
 }
 
 type outcome = outgoing list * Activity.t list * t
 
-let entity = 55
-let supervisor = 75
+let entity = Log_book.engine
+let supervisor = Log_book.supervisor
 let calibration = 3.
 let recovery = 0.9
 
@@ -58,7 +59,7 @@ let most_known = 256
 let create (settings : settings) =
   { settings; body = Vehicle.make settings.vehicle; mode = Ready; loaded = ""; statistics = None;
     last_outcome = None; last_error = None; blocks = List.sort compare settings.blocks; known = String_map.empty;
-    starts = 0 }
+    stores = 0; starts = 0 }
 
 (* {1 State} *)
 
@@ -129,16 +130,15 @@ let reply e ~by ~op ~request ~plan type_ info =
   in
   { from = entity; to_ = by; message = Plan_control reply }
 
-(* An entry of its log book, as DUNE makes them. *)
-let log ~at e ?(type_ = Message.Log_book_entry.Type.Info) text =
-  let entry : Message.Log_book_entry.t =
-    { type_; htime = e.settings.epoch +. at; context = "Plan.Engine"; text }
-  in
-  { from = entity; to_ = all; message = Log_book_entry entry }
+let log ~at e line =
+  { from = Log_book.entity line; to_ = all; message = Log_book.to_message ~time:(e.settings.epoch +. at) line }
 
-let log_request ~at e plan = log ~at e (Printf.sprintf "request -- Start Plan (%s)" plan)
-let log_beginning ~at e plan = log ~at e (Printf.sprintf "plan initializing: %s" plan)
-let log_answer ~at e ?type_ plan info = log ~at e ?type_ (Printf.sprintf "reply -- Start Plan (%s) -- %s" plan info)
+(* [before] has become another state by something that tells the rest. *)
+let with_mode ~at before (said, activities, e) =
+  let mode e = (vehicle_state e).op_mode in
+  let changed = if mode e = mode before then [] else [ log ~at e (Log_book.mode (mode e)) ] in
+  said @ changed, activities, e
+
 let reply_to_start e (r : run) type_ info = reply e ~by:r.by ~op:Start ~request:r.request ~plan:r.plan type_ info
 let requested (r : run) : Activity.request = { plan = r.plan; number = r.request; by = r.by.system; sent = r.sent }
 
@@ -158,9 +158,14 @@ let take_off ~at (run : run) e =
   let maneuver = Flight.maneuver run.flight 0. in
   let e = { e with body; loaded = run.plan; mode = Executing { run; since = at; maneuver; ends; outcome } } in
   let executing = Printf.sprintf "%s: executing maneuver" maneuver.id in
-  ( [ say_vehicle e; say_control ~at e; reply_to_start e run Success executing; log_answer ~at e run.plan executing ],
+  ( [ say_vehicle e; say_control ~at e; reply_to_start e run Success executing;
+      log ~at e (Log_book.executing ~maneuver:maneuver.id);
+      log ~at e (Log_book.answered ~request:`Start ~plan:run.plan executing) ],
     [ Activity.Started { request = requested run; inline = run.inline; instead = run.instead } ],
     e )
+
+let beginning ~at ~initializing ~plan e =
+  [ log ~at e (Log_book.start_requested ~plan); initializing; log ~at e (Log_book.initializing ~plan) ]
 
 let refused ~at ~(request : Activity.request) ~by ~instead e why =
   let was_running = running e <> None in
@@ -168,9 +173,10 @@ let refused ~at ~(request : Activity.request) ~by ~instead e why =
   let e = { (rest ~at Ready e) with last_outcome = Failure } in
   let failure = reply e ~by ~op:Start ~request:request.number ~plan:request.plan Failure why in
   let states = say_control ~at e :: (if was_running then [ say_vehicle e ] else []) in
-  let before = [ log_request ~at e request.plan; initializing; log_beginning ~at e request.plan ] in
-  let answer = log_answer ~at e ~type_:Error request.plan why in
-  before @ (failure :: answer :: states), [ Activity.Refused { request; why; instead } ], e
+  let answer = Log_book.answered ~error:true ~request:`Start ~plan:request.plan why in
+  ( beginning ~at ~initializing ~plan:request.plan e
+    @ (failure :: log ~at e answer :: log ~at e (Log_book.refused ~why) :: states),
+    [ Activity.Refused { request; why; instead } ], e )
 
 (* [e] is still as before the START. *)
 let accepted ~at ~calibrate (run : run) e =
@@ -178,7 +184,7 @@ let accepted ~at ~calibrate (run : run) e =
   let statistics = Flight.statistics ~name:run.plan run.flight in
   let e = { e with statistics = Some (Message.Plan_statistics statistics); starts = e.starts + 1 } in
   let loaded = reply_to_start e run Success "plan loaded" in
-  let before = [ log_request ~at e run.plan; initializing; log_beginning ~at e run.plan ] in
+  let before = beginning ~at ~initializing ~plan:run.plan e in
   if calibrate then
     let e = rest ~at (Calibrating { run; until = at +. calibration }) e in
     before @ [ loaded; say_vehicle e ], [], e
@@ -188,76 +194,104 @@ let accepted ~at ~calibrate (run : run) e =
 
 (* {1 START} *)
 
-type source = Inline of Specification.t | By_name of Specification.t option
-
 let scenario_plan e name = List.find_opt (fun (p : Scenario.plan) -> p.name = name) e.settings.plans
 
-let find e (c : Message.t Message.Plan_control.t) =
+(* The plan that comes with a START. *)
+let brought (c : Message.t Message.Plan_control.t) =
+  match c.arg with
+  | Some (Plan_specification s) -> Some (Specification.read s)
+  | Some (Maneuver m) -> Some (Specification.read (Specification.of_maneuver ~plan:c.plan_id m))
+  | Some _ | None -> None
+
+(* It is kept though it cannot be flown. *)
+let store ~at ~by name plan e =
+  let is_known = String_map.mem name e.known in
+  let info = if is_known then "OK (updated)" else "OK (new entry)" in
+  let entry : Message.Plan_db_information.t =
+    { Message.Plan_db_information.default with
+      plan_id = name; change_time = e.settings.epoch +. at; change_sid = by.system }
+  in
+  let is_room = is_known || String_map.cardinal e.known < most_known in
+  let known = if is_room then String_map.add name plan e.known else e.known in
+  let e = { e with known; stores = e.stores + 1 } in
+  let reply : Message.t =
+    Plan_db
+      { type_ = Success; op = Set; request_id = e.stores land 0xFFFF; plan_id = name;
+        arg = Some (Plan_db_information entry); info }
+  in
+  let to_ = { system = Header.nobody; entity = Log_book.database } in
+  ( [ log ~at e (Log_book.storing ~plan:name); { from = Log_book.database; to_; message = reply };
+      log ~at e (Log_book.stored ~plan:name ~info) ],
+    e )
+
+(* What it flies, if it is known; [plan] came with the START. *)
+let find ~plan e (c : Message.t Message.Plan_control.t) =
   let name = c.plan_id in
   let entry = scenario_plan e name in
   let known = match entry with Some p -> Scenario.knows p e.settings.vehicle | None -> true in
-  let read s = Result.map (fun s -> Inline s) (Specification.read s) in
-  match e.settings.refuses, c.arg with
-  | Some why, _ -> Error why
-  | None, Some (Plan_specification _ | Maneuver _) when not known -> Error "plan is not for this vehicle"
-  | None, Some (Plan_specification s) -> read s
-  | None, Some (Maneuver m) -> read (Specification.of_maneuver ~plan:name m)
-  | None, Some _ -> Error "argument is neither a plan nor a maneuver"
-  | None, None when name = "" -> Error "undefined plan id"
-  | None, None -> (
+  match e.settings.refuses, plan, c.arg with
+  | Some why, _, _ -> Error why
+  | None, Some _, _ when not known -> Error "plan is not for this vehicle"
+  | None, Some plan, _ -> Result.map Option.some plan
+  | None, None, Some _ -> Error "argument is neither a plan nor a maneuver"
+  | None, None, None when name = "" -> Error "undefined plan id"
+  | None, None, None -> (
       match String_map.find_opt name e.known with
-      | Some s when known -> Ok (By_name (Some s))
+      | Some plan when known -> Result.map Option.some plan
       | Some _ -> Error "undefined plan"
-      | None when known && (entry <> None || not e.settings.strict) -> Ok (By_name None)
+      | None when known && (entry <> None || not e.settings.strict) -> Ok None
       | None -> Error "undefined plan")
 
-let remember name s e =
-  let is_room = String_map.mem name e.known || String_map.cardinal e.known < most_known in
-  if is_room then { e with known = String_map.add name s e.known } else e
+let start_found ~at ~by ~(request : Activity.request) ~instead ~inline (c : Message.t Message.Plan_control.t) e =
+  function
+  | Error why -> refused ~at ~request ~by ~instead e why
+  | Ok specification ->
+    let name = c.plan_id in
+    let draw = Draw.share ~seed:e.settings.seed ~vehicle:e.settings.vehicle.id ~start:e.starts in
+    let flight =
+      Flight.make ~draw (scenario_plan e name) e.settings.vehicle (position ~at e) ~name specification
+    in
+    let calibrate = Message.Plan_control.Flags.(mem calibrate c.flags) in
+    let run = { plan = name; request = c.request_id; by; sent = request.sent; inline; instead; flight } in
+    accepted ~at ~calibrate run e
 
 let start ~at ~by ~(request : Activity.request) (c : Message.t Message.Plan_control.t) e =
   let name = c.plan_id in
-  let instead = Option.map (fun (run : run) -> run.plan) (running e) in
   match e.mode with
   | Blocked _ ->
     let why = "vehicle is blocked" in
     [ reply e ~by ~op:Start ~request:c.request_id ~plan:name Failure why ],
     [ Activity.Refused { request; why; instead = None } ], e
-  | Ready | Calibrating _ | Executing _ -> (
-      match find e c with
-      | Error why -> refused ~at ~request ~by ~instead e why
-      | Ok source ->
-        let inline, specification, e =
-          match source with
-          | Inline s -> true, Some s, remember name s e
-          | By_name s -> false, s, e
-        in
-        let draw = Draw.share ~seed:e.settings.seed ~vehicle:e.settings.vehicle.id ~start:e.starts in
-        let flight =
-          Flight.make ~draw (scenario_plan e name) e.settings.vehicle (position ~at e) ~name specification
-        in
-        let calibrate = Message.Plan_control.Flags.(mem calibrate c.flags) in
-        let run = { plan = name; request = c.request_id; by; sent = request.sent; inline; instead; flight } in
-        accepted ~at ~calibrate run e)
+  | Ready | Calibrating _ | Executing _ ->
+    let instead = Option.map (fun (run : run) -> run.plan) (running e) in
+    let plan = brought c in
+    let stored, e = match plan with Some plan -> store ~at ~by name plan e | None -> [], e in
+    let said, activities, e =
+      start_found ~at ~by ~request ~instead ~inline:(plan <> None) c e (find ~plan e c) in
+    stored @ said, activities, e
 
 (* {1 STOP, Abort, others} *)
 
 let stop ~at ~by ~request (c : Message.t Message.Plan_control.t) e =
-  let answer type_ info = reply e ~by ~op:Stop ~request:c.request_id ~plan:c.plan_id type_ info in
+  let plan = c.plan_id in
+  let answer type_ info = reply e ~by ~op:Stop ~request:c.request_id ~plan type_ info in
+  let asked = log ~at e (Log_book.stop_requested ~plan) in
+  let answered ?error info = log ~at e (Log_book.answered ?error ~request:`Stop ~plan info) in
   match running e with
   | None ->
-    [ answer Failure "no plan is running, request ignored" ], [ Activity.Stopped { request; plan = None } ], e
+    let why = "no plan is running, request ignored" in
+    [ asked; answer Failure why; answered ~error:true why ], [ Activity.Stopped { request; plan = None } ], e
   | Some run ->
     let e = { (rest ~at Ready e) with last_outcome = Failure } in
-    [ answer Success "OK"; say_vehicle e; say_control ~at e ],
+    [ asked; answer Success "OK"; answered "OK"; say_vehicle e; log ~at e Log_book.stopped; say_control ~at e ],
     [ Activity.Stopped { request; plan = Some run.plan } ], e
 
 let request ~at ~sent ~by (c : Message.t Message.Plan_control.t) e =
   let request : Activity.request = { plan = c.plan_id; number = c.request_id; by = by.system; sent } in
   match c.type_, c.op with
   | Request, Start when c.plan_id = "dislodge" -> [], [ Activity.Ignored { request; why = "plan dislodge" } ], e
-  | Request, Start -> start ~at ~by ~request c e
-  | Request, Stop -> stop ~at ~by ~request c e
+  | Request, Start -> with_mode ~at e (start ~at ~by ~request c e)
+  | Request, Stop -> with_mode ~at e (stop ~at ~by ~request c e)
   | Request, ((Load | Get | Other _) as op) ->
     let why = "operation is not supported" in
     [ reply e ~by ~op ~request:c.request_id ~plan:c.plan_id Failure why ], [ Activity.Ignored { request; why } ], e
@@ -270,7 +304,13 @@ let give_up ~at ~why mode e =
     match run with Some _ -> Failure | None -> e.last_outcome
   in
   let e = { (rest ~at mode e) with last_outcome; last_error = Some (why, at) } in
-  let failure = match run with Some run -> [ reply_to_start e run Failure why ] | None -> [] in
+  let failure =
+    match run with
+    | Some run ->
+      [ reply_to_start e run Failure why;
+        log ~at e (Log_book.answered ~error:true ~request:`Start ~plan:run.plan why) ]
+    | None -> []
+  in
   failure @ [ say_control ~at e; say_vehicle e ], run, e
 
 let abort ~at ~by ~name e =
@@ -280,8 +320,9 @@ let abort ~at ~by ~name e =
     | Blocked b when b.until > at +. recovery -> Blocked b
     | Ready | Blocked _ | Calibrating _ | Executing _ -> Blocked { until = at +. recovery; operation = Error }
   in
-  let said, run, e = give_up ~at ~why mode e in
-  said, [ Activity.Aborted { by = by.system; plan = Option.map (fun (r : run) -> r.plan) run } ], e
+  let said, run, after = give_up ~at ~why mode e in
+  let aborted = Activity.Aborted { by = by.system; plan = Option.map (fun (r : run) -> r.plan) run } in
+  with_mode ~at e (log ~at e (Log_book.aborted ~why) :: said, [ aborted ], after)
 
 (* {1 What happens by itself} *)
 
@@ -312,7 +353,8 @@ let ended ~at (run : run) outcome e =
   | Ok () ->
     let is_done = say_done e in
     let e = { (rest ~at Ready e) with last_outcome = Success } in
-    ( [ is_done; reply_to_start e run Success "plan completed"; say_control ~at e; say_vehicle e ],
+    ( [ is_done; reply_to_start e run Success "plan completed"; log ~at e Log_book.completed; say_control ~at e;
+        say_vehicle e ],
       [ Activity.Completed (requested run) ], e )
   | Error why ->
     let said, _, e = give_up ~at ~why Ready e in
@@ -323,20 +365,21 @@ let mode_changes ~at e =
   | Ready -> [], [], e
   | Blocked _ ->
     let e = { e with mode = Ready } in
-    [ say_vehicle e; say_control ~at e ], [ Activity.Unblocked ], e
+    [ say_vehicle e; log ~at e Log_book.ready; say_control ~at e ], [ Activity.Unblocked ], e
   | Calibrating { run; until = _ } -> take_off ~at run e
   | Executing x when x.ends <= at -> ended ~at x.run x.outcome e
   | Executing x ->
     let is_done = say_done e in
     let maneuver = Flight.maneuver x.run.flight (Float.max x.maneuver.ends (at -. x.since)) in
     let e = { e with mode = Executing { x with maneuver } } in
-    [ is_done; say_vehicle e; say_control ~at e ], [], e
+    [ is_done; say_vehicle e; log ~at e (Log_book.executing ~maneuver:maneuver.id); say_control ~at e ], [], e
 
 let rec advance ~at e =
   match due e with
   | None -> [], [], e
   | Some time when time > at -> [], [], e
   | Some time ->
-    let said, activities, e = if block_due e <= mode_due e then block ~at:time e else mode_changes ~at:time e in
+    let change = if block_due e <= mode_due e then block else mode_changes in
+    let said, activities, e = with_mode ~at:time e (change ~at:time e) in
     let more_said, more_activities, e = advance ~at e in
     said @ more_said, activities @ more_activities, e

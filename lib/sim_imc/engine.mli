@@ -7,7 +7,9 @@
       ["plan completed"], PlanControlState READY with outcome SUCCESS, VehicleState SERVICE.
     - A START that is refused: INITIALIZING, a FAILURE reply, READY, both with the plan id before, outcome FAILURE.
     - Any START ends the plan that is running, accepted or not; of that one there is no further reply.
-    - A plan that comes with a START is kept, and known by its name from then on.
+    - A plan that comes with a START is kept, refused or not, and known by its name from then on; a reply of PlanDB says
+      so.
+    - The log book tells of all this, see {!Log_book}.
     - With the flag CALIBRATE the plan begins 3 s later; until then the state is INITIALIZING.
     - STOP: a SUCCESS reply, READY, outcome FAILURE; without a plan a FAILURE reply.
     - Abort: a FAILURE reply to the START of the plan that was running, VehicleState ERROR, BLOCKED; after 0.9 s SERVICE

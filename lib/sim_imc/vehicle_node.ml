@@ -35,7 +35,7 @@ let mission v time = time *. v.settings.speed
 
 (* {1 Streams} *)
 
-let period = function Control -> 0.35 | Supervision | Navigation -> 0.5 | Life | Fuel -> 1.
+let period = function Control -> 0.35 | Supervision -> 0.5 | Navigation -> 0.55 | Life | Fuel -> 1.
 let all_streams = [ Supervision; Control; Navigation; Life; Fuel ]
 
 let navigation ~at v =

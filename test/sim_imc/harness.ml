@@ -81,6 +81,8 @@ let count s message =
 
 (* {1 Stories} *)
 
+let kind text = String.sub text 0 (String.index text ' ')
+
 let line (p : Packet.t) =
   match p.content with
   | Message (Plan_control_state s) ->
@@ -96,18 +98,25 @@ let line (p : Packet.t) =
     Some
       (Printf.sprintf "reply %s %s %d '%s' %s"
          (Message.Plan_control.Type.name c.type_) (Message.Plan_control.Op.name c.op) c.request_id c.plan_id c.info)
+  | Message (Log_book_entry { context = ("Plan.Engine" | "Plan.DB" | "Supervisors.Vehicle") as context; text; type_; _ })
+    -> Some (Printf.sprintf "log %s: %s: %s" context (Message.Log_book_entry.Type.name type_) text)
+  | Message (Plan_db d) ->
+    Some
+      (Printf.sprintf "store %s %s %d '%s' %s" (Message.Plan_db.Type.name d.type_) (Message.Plan_db.Op.name d.op)
+         d.request_id d.plan_id d.info)
   | Message _ | Unknown _ -> None
 
-let kind text = String.sub text 0 (String.index text ' ')
+let is_repeated text = List.mem (kind text) [ "state"; "vehicle" ]
 
 (* Repeated states are no news. *)
 let summarise packets =
   let add (lines, last) p =
     match line p with
     | None -> lines, last
-    | Some text when kind text <> "reply" && List.assoc_opt (kind text) last = Some text -> lines, last
+    | Some text when is_repeated text && List.assoc_opt (kind text) last = Some text -> lines, last
     | Some text -> text :: lines, (kind text, text) :: List.remove_assoc (kind text) last
   in
   List.rev (fst (List.fold_left add ([], []) packets))
 
-let summary s = summarise (List.map (fun h -> h.packet) (heard s))
+let story s = summarise (List.map (fun h -> h.packet) (heard s))
+let summary s = List.filter (fun line -> not (List.mem (kind line) [ "log"; "store" ])) (story s)

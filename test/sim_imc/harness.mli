@@ -66,4 +66,11 @@ val summary : t -> string list
 (** What matters of {!heard}, a line for each change of PlanControlState and VehicleState and for each reply. *)
 
 val summarise : Packet.t list -> string list
-(** {!summary} of any packets. *)
+(** {!summary} of any packets, and a line for each line of the log book about plans and for each reply of the plan
+    database. *)
+
+val story : t -> string list
+(** {!summarise} of {!heard}. *)
+
+val kind : string -> string
+(** The first word of such a line. *)

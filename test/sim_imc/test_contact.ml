@@ -62,7 +62,7 @@ let rates () =
   Harness.until s 10.;
   about "PlanControlState" 29 (Harness.count s control);
   about "VehicleState" 21 (Harness.count s supervision);
-  about "EstimatedState" 21 (Harness.count s navigation);
+  about "EstimatedState" 19 (Harness.count s navigation);
   about "Heartbeat" 11 (Harness.count s Heartbeat - 1);
   about "FuelLevel" 11 (Harness.count s fuel)
 

@@ -63,7 +63,7 @@ let replay () =
   s
 
 (* By message: what of different messages is sent within a millisecond comes in one order or the other. *)
-let of_kind kind lines = List.filter (fun line -> String.length line > 5 && String.sub line 0 5 = kind) lines
+let of_kind kind lines = List.filter (fun line -> Harness.kind line = kind) lines
 
 (* The names that the two consoles go by. *)
 let renamed line =
@@ -72,10 +72,45 @@ let renamed line =
 
 let same kind () =
   let real = List.map renamed (of_kind kind (Harness.summarise (Lazy.force answers))) in
-  let ours = of_kind kind (Harness.summary (replay ())) in
+  let ours = of_kind kind (Harness.story (replay ())) in
   Alcotest.(check (list string)) "as the vehicle" real ours
+
+(* Each writer's lines by themselves: two write at once. *)
+let log_of writer () =
+  let of_writer lines =
+    let prefix = "log " ^ writer in
+    let n = String.length prefix in
+    List.filter (fun line -> String.length line > n && String.sub line 0 n = prefix) lines
+  in
+  let real = List.map renamed (of_writer (Harness.summarise (Lazy.force answers))) in
+  Alcotest.(check (list string)) "as the vehicle" real (of_writer (Harness.story (replay ())))
+
+(* The usual time between two messages of a kind: half of those times are shorter. *)
+let period packets message =
+  let is_it (p : Packet.t) = Packet.id p = Message.id message in
+  let times = List.filter_map (fun (p : Packet.t) -> if is_it p then Some p.timestamp else None) packets in
+  let rec gaps = function x :: (y :: _ as rest) -> (y -. x) :: gaps rest | [ _ ] | [] -> [] in
+  let gaps = List.sort Float.compare (gaps (List.sort Float.compare times)) in
+  List.nth gaps (List.length gaps / 2)
+
+let periods () =
+  let ours = List.map (fun (h : Harness.heard) -> h.packet) (Harness.heard (replay ())) in
+  let ours = List.filter (fun (p : Packet.t) -> p.src = Harness.vehicle) ours in
+  let compare_one (name, message) =
+    Alcotest.(check (float 0.02)) name (period (Lazy.force answers) message) (period ours message)
+  in
+  List.iter compare_one
+    [ "Announce", Message.Announce Message.Announce.default; "Heartbeat", Heartbeat;
+      "PlanControlState", Plan_control_state Message.Plan_control_state.default;
+      "VehicleState", Vehicle_state Message.Vehicle_state.default;
+      "EstimatedState", Estimated_state Message.Estimated_state.default ]
 
 let tests =
   [ Alcotest.test_case "replies" `Quick (same "reply");
     Alcotest.test_case "plan control states" `Quick (same "state");
-    Alcotest.test_case "vehicle states" `Quick (same "vehic") ]
+    Alcotest.test_case "vehicle states" `Quick (same "vehicle");
+    Alcotest.test_case "plans that are stored" `Quick (same "store");
+    Alcotest.test_case "log book of the plan engine" `Quick (log_of "Plan.Engine");
+    Alcotest.test_case "log book of the plan database" `Quick (log_of "Plan.DB");
+    Alcotest.test_case "log book of the supervisor" `Quick (log_of "Supervisors.Vehicle");
+    Alcotest.test_case "periods" `Quick periods ]

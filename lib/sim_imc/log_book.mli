@@ -1,0 +1,54 @@
+(** What a vehicle writes into its log book about plans, as DUNE 2026.01 was measured to. It sends each line to whoever
+    listens. *)
+
+open Dolphin_imc
+
+type line
+
+val entity : line -> int
+(** Who wrote it. *)
+
+val to_message : time:float -> line -> Message.t
+(** [to_message ~time l] is [l], written at [time], in seconds since 1970. *)
+
+(** {1:engine The plan engine} *)
+
+val engine : int
+(** Its entity: 55. *)
+
+val start_requested : plan:string -> line
+val stop_requested : plan:string -> line
+val initializing : plan:string -> line
+
+val executing : maneuver:string -> line
+(** A maneuver begins, each of a plan's. *)
+
+val answered : ?error:bool -> request:[ `Start | `Stop ] -> plan:string -> string -> line
+(** [answered ~request ~plan info] is the reply with [info] to a request, as an error if it is one (not at first). *)
+
+val refused : why:string -> line
+(** What follows the answer to a START that is refused: whether the plan could not be loaded or not be read. *)
+
+val completed : line
+val stopped : line
+
+val ready : line
+(** The engine takes plans again after it was BLOCKED. *)
+
+(** {1:others Others} *)
+
+val supervisor : int
+(** The entity of the vehicle's supervisor: 75. *)
+
+val mode : Message.Vehicle_state.Op_mode.t -> line
+(** The vehicle is now in this mode. *)
+
+val aborted : why:string -> line
+
+val database : int
+(** The entity of the plan database: 54. *)
+
+val storing : plan:string -> line
+(** A plan came with a START. *)
+
+val stored : plan:string -> info:string -> line

@@ -100,6 +100,7 @@ let capabilities : json =
       "completionProvider", `Assoc [ "triggerCharacters", `List [ `String "."; `String "'" ] ];
       "hoverProvider", yes; "definitionProvider", yes; "referencesProvider", yes; "documentHighlightProvider", yes;
       "documentSymbolProvider", yes; "documentFormattingProvider", yes;
+      "inlayHintProvider", yes;
       "renameProvider", `Assoc [ "prepareProvider", yes ] ]
 
 let item_kind : Service.item_kind -> int = function
@@ -152,6 +153,26 @@ let symbols d : json =
         "selectionRange", range ] in
   `List (List.map symbol (Service.symbols d))
 
+(* A hint stands before its task, as the names of parameters do: "noptilus-1, noptilus-2: imcPlan(...)". *)
+let allocations d parameters : json =
+  let source = Service.source d in
+  let offset name or_else =
+    match int_at [ "range"; name; "line" ] parameters, int_at [ "range"; name; "character" ] parameters with
+    | Some line, Some character -> Text_position.to_offset source { line = max 0 line; character = max 0 character }
+    | _ -> or_else
+  in
+  let first = offset "start" 0 and last = offset "end" (String.length source) in
+  let named = function
+    | a :: b :: c :: (_ :: _ :: _ as others) ->
+      Printf.sprintf "%s, %s, %s and %d more" a b c (List.length others)
+    | vehicles -> String.concat ", " vehicles
+  in
+  let hint (at, vehicles) : json =
+    `Assoc
+      [ "position", position source at; "label", `String (named vehicles ^ ":"); "paddingRight", `Bool true;
+        "tooltip", `String ("Allocated, when all goes well: " ^ String.concat ", " vehicles) ] in
+  `List (List.map hint (List.filter (fun (at, _) -> first <= at && at <= last) (Service.allocations d)))
+
 let formatting d : json =
   let source = Service.source d in
   match Service.format d with
@@ -186,6 +207,7 @@ let of_document s id name parameters =
     | "textDocument/references" -> answer id (references uri d offset parameters)
     | "textDocument/documentHighlight" -> answer id (highlights d offset)
     | "textDocument/documentSymbol" -> answer id (symbols d)
+    | "textDocument/inlayHint" -> answer id (allocations d parameters)
     | "textDocument/formatting" -> answer id (formatting d)
     | "textDocument/rename" -> renaming id uri d offset parameters
     | "textDocument/prepareRename" -> answer id (prepared d offset)

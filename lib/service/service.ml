@@ -38,13 +38,16 @@ let read_file path =
      | text -> Ok text
      | exception (Sys_error _ | End_of_file) -> Error (path ^ " cannot be read"))
 
+let elaborated d =
+  let _, parsed = Include.program ~read:read_file ~file:d.file d.source in
+  Result.bind parsed (Elaborate.program ~source_name:d.file)
+
 (* Of what is wrong in files that it includes, it is for their own documents to tell. *)
 let of_program d =
   let own found = List.filter (fun (f : Diagnostic.t) -> Location.file f.at = d.file) found in
-  let _, parsed = Include.program ~read:read_file ~file:d.file d.source in
   own
   @@
-  match Result.bind parsed (Elaborate.program ~source_name:d.file) with
+  match elaborated d with
   | Error found -> found
   | Ok (program, warnings) ->
     warnings @ Option.fold d.scenario ~none:[] ~some:(Plan_names.misspelt program)
@@ -301,3 +304,12 @@ let symbols d =
     | Global _ -> Some { name = b.name; is_function = false; at = b.definition }
     | Local _ | Parameter -> None in
   List.filter_map symbol d.bindings
+
+let allocations (d : t) =
+  let own ((at : Location.t), vehicles) =
+    if Location.file at = d.file then Some (at.start.pos_cnum, vehicles) else None
+  in
+  match d.scenario, elaborated d with
+  | Some scenario, Ok (program, _) when not (is_fleet d.file) ->
+    List.filter_map own (Allocations.of_program program scenario)
+  | _ -> []

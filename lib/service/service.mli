@@ -54,3 +54,8 @@ type symbol = { name : string; is_function : bool; at : span }
 
 val symbols : t -> symbol list
 (** The functions and global variables, in the order of the text. *)
+
+val allocations : t -> (int * string list) list
+(** The tasks of the program that vehicles of its fleet start in a run in which all goes well: where each begins, in the
+    order of the text, and its vehicles in the order of their starts. Empty for a program without a fleet, or with
+    errors. *)

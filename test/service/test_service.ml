@@ -94,6 +94,30 @@ let documented () =
      @ missing "setting of a vehicle" Dolphin_scenario.Fleet_parser.vehicle_settings (Reference.fleet_settings "vehicle")
      @ missing "setting of a plan" Dolphin_scenario.Fleet_parser.plan_settings (Reference.fleet_settings "plan"))
 
+(* {1 Allocations} *)
+
+let fleet = { Service.path = "m.fleet"; text = "vehicle 'a', { type 'UUV' }\nvehicle 'b', { type 'UUV' }\n" }
+
+(* "vehicles: the task", for each hint. *)
+let hints ?fleet text expected () =
+  let hint (at, vehicles) =
+    String.concat ", " vehicles ^ ": " ^ List.hd (String.split_on_char ')' (String.sub text at (String.length text - at))) in
+  let d = Service.read ~file:"m.dol" ?fleet text in
+  Alcotest.(check strings) text expected (List.map hint (Service.allocations d))
+
+let team = "v = pick { count 2; type 'UUV' }\n"
+
+let allocations =
+  [ case "side by side" (hints ~fleet (team ^ "execute task('s') | task('t')") [ "a: task('s'"; "b: task('t'" ]);
+    case "one after the other"
+      (hints ~fleet (team ^ "w = v[1]\nexecute w: task('s') >> task('t')") [ "b: task('s'"; "b: task('t'" ]);
+    case "in a loop" (hints ~fleet (team ^ "for (x in v) { execute x: task('s') }") [ "a, b: task('s'" ]);
+    case "what is not reached" (hints ~fleet (team ^ "if (false) { execute task('s') }") []);
+    case "without an end" (hints ~fleet (team ^ "execute repeat task('s')") [ "a: task('s'" ]);
+    case "nothing to pick" (hints ~fleet "v = pick { type 'UAV' }\nexecute task('s')" []);
+    case "no fleet" (hints (team ^ "execute task('s')") []);
+    case "a fault" (hints ~fleet (team ^ "execute task('s') | x") []) ]
+
 (* {1 Everything, everywhere} *)
 
 let read_file path =
@@ -124,9 +148,10 @@ let examples =
 (* Any question about any part of a program is answered; what is named somewhere is found from there. *)
 let answered (text, (length, at)) =
   let text = String.sub text 0 (length mod (String.length text + 1)) in
-  let d = read text in
+  let d = Service.read ~file:"m.dol" ~fleet text in
   let at = at mod (String.length text + 1) in
   ignore (Service.diagnostics d, Service.complete d at, Service.hover d at, Service.definition d at, Service.symbols d);
+  ignore (Service.allocations d);
   let uses = Service.references d at in
   List.length (List.sort_uniq compare (texts d uses)) <= 1
   && List.for_all (fun (s : Service.span) -> Service.references d s.start = uses) uses
@@ -140,5 +165,5 @@ let anywhere =
 
 let () =
   Alcotest.run "service"
-    [ "places", [ case "there and back" positions ]; "names", names; "completion", completion;
+    [ "places", [ case "there and back" positions ]; "names", names; "completion", completion; "allocations", allocations;
       "reference", [ case "is whole" documented; case "is highlighted" highlighted ]; "everywhere", [ anywhere ] ]

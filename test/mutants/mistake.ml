@@ -633,10 +633,24 @@ let pick_rules_in_traps =
         {|not (Vehicle_set.mem v.id bound && false) in|} );
     ]
 
+let fair_cycles =
+  in_file "lib/explore/verdict/fair_cycles.ml" ~noticed_by:"explore/test_fairness"
+    [
+      ( "what is possible is owed in the next round too",
+        {|List.filter (fun k -> not (is_renewed k)) (node t first).possible|},
+        {|List.filter (fun k -> not (is_renewed k && false)) (node t first).possible|} );
+      ( "all of the repeat that goes on is renewed",
+        {|begins_with (repeat @ [ Space.inside ]) at) renewed|},
+        {|begins_with [] at && repeat <> []) renewed|} );
+      ( "nothing is owed",
+        {|List.filter (fun k -> not (Hashtbl.mem taken k)) (owed t edges members)|},
+        {|List.filter (fun k -> not (Hashtbl.mem taken k) && false) (owed t edges members)|} );
+    ]
+
 let all =
   List.concat
     [ footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups; quotient; expansion;
       vehicle_orbits; canonical_vehicles; name_flow; liveness; later_picks; environment; picks; inputs; attendance;
       task_rules; local_step; run_code; answers_in_words; confirm; unknown;
       pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
-      conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps; driver ]
+      conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps; driver; fair_cycles ]

@@ -24,8 +24,8 @@ let checked_plans program fleet = function
     in
     Option.bind (checked None (Adapter_check.ask adapters found)) tell
 
-let run path fleet adapters =
-  let program = checked (Some path) (Program_file.load path) in
+let run path set fleet adapters =
+  let program = checked (Some path) (Program_file.load ~set path) in
   let chosen = Fleet_file.choose ~program:path fleet in
   let fleet = checked chosen (Fleet_file.load chosen) in
   let of_plans = match program, fleet with
@@ -64,4 +64,4 @@ let command =
     Cmd.info "check" ~docs:Options.s_write ~doc:"find what is wrong with a program, without running it" ~man
       ~exits:(Options.exits [ Done; Bad_input; Bug ])
   in
-  Cmd.v info Term.(const run $ Options.program $ Options.fleet $ Platform_options.checking)
+  Cmd.v info Term.(const run $ Options.program $ Options.set $ Options.fleet $ Platform_options.checking)

@@ -22,12 +22,13 @@ let command =
     Cmd.info "dolphin" ~version:Version.number ~doc:"orchestrate tasks of autonomous vehicles" ~man
       ~exits:(Options.exits [ Done; Failed; Bad_input; Platform_trouble; Bug; Interrupted ])
   in
-  Cmd.group info
+  let commands =
     [ Check_command.command; Conform_command.command; Doctor_command.command; Exec_command.command;
       Explore_command.command; Fleet_command.command; Fmt_command.command; Lsp_command.command; Lts_command.command;
       New_command.command; Parse_command.command; Plan_command.command; Platform_command.command;
       Post_command.command; Runs_command.command; Sim_command.command; Step_command.command;
-      Tla_command.command; Trace_command.command; Walk_command.command ]
+      Tla_command.command; Trace_command.command; Walk_command.command ] in
+  Cmd.group info (Help_command.command ~others:(List.map Cmd.name commands) :: commands)
 
 (* [--sim] alone would take the next argument for its fleet. *)
 let arguments =

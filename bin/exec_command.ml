@@ -77,7 +77,14 @@ let journal_of ~path ~is_simulated ~keep ~follow ~resumed journal =
       Report.complain (Format.asprintf "this run has no journal, and cannot be resumed: %a" Error.pp e);
       Ok None
 
-let run () show path sim fleet network adapters definition speed seed answers supplier supplier_timeout journal keep
+(* What the parameters were set to in the run that is taken up again. *)
+let settings_before ~follow ~resumed =
+  match follow, resumed with
+  | Some path, _ -> Witness_file.settings path
+  | None, Some path -> Journal_file.settings path
+  | None, None -> None
+
+let run () show path set sim fleet network adapters definition speed seed answers supplier supplier_timeout journal keep
     drawing recorded resumed changed no_socket =
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
   let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
@@ -87,7 +94,7 @@ let run () show path sim fleet network adapters definition speed seed answers su
   in
   let is_simulated = Run.is_simulated settings in
   Report.result
-    (let* program = Program_file.load path in
+    (let* program = Program_file.load_recorded ~set ~recorded:(settings_before ~follow:recorded ~resumed) path in
      let* fleet = if resumed = None then fleet_of ~path ~sim ~named ~is_simulated else Ok Fleet_file.nobody in
      let* () =
        match contradiction settings ~sim ~follow:recorded ~resumed ~changed with
@@ -269,6 +276,6 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Verbosity.setup $ show $ Options.program $ sim $ fleet $ Imc_options.chosen
+      const run $ Verbosity.setup $ show $ Options.program $ Options.set $ sim $ fleet $ Imc_options.chosen
       $ Platform_options.adapters $ Imc_options.definition $ speed $ seed $ answers $ supplier
       $ supplier_timeout $ journal $ keep $ drawing $ follow $ resumed $ changed $ no_socket)

@@ -52,12 +52,12 @@ let write_files files program fleet ~strict outcome =
   let sarif = write files.sarif (fun path -> Sarif.write ~strict ~version:Version.number program path outcome) in
   List.fold_left (fun found next -> if Result.is_error found then found else next) trace [ junit; sarif ]
 
-let run path fleet answers faults strict json files cache reduction compress invariants formulas max_states max_depth
-    max_memory timeout =
+let run path set fleet answers faults strict json files cache reduction compress invariants formulas max_states
+    max_depth max_memory timeout =
   let settings : Exploration.settings =
     { answers; faults; reduction; compress; max_states; max_depth; max_memory; timeout; invariants; formulas } in
   Report.result
-    (let* program = Program_file.load path in
+    (let* program = Program_file.load ~set path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
      Report.diagnostics ~source:program.source program.warnings;
      let* outcome = find_or_explore settings program fleet ~json ~cache in
@@ -238,5 +238,5 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ Options.fleet $ answers $ faults $ strict $ json $ files $ cache $ reduction
-      $ compress $ invariants $ formulas $ max_states $ max_depth $ max_memory $ timeout)
+      const run $ Options.program $ Options.set $ Options.fleet $ answers $ faults $ strict $ json $ files
+      $ cache $ reduction $ compress $ invariants $ formulas $ max_states $ max_depth $ max_memory $ timeout)

@@ -20,8 +20,8 @@ let compare_graphs left right =
     Format.printf "not bisimilar@.%a@." Compare.pp_difference difference;
     Exit_status.Violated
 
-let run path other fleet answers faults limit format quotient output =
-  let world : State_graph.world = { fleet; answers; faults; limit } in
+let run path other set fleet answers faults limit format quotient output =
+  let world : State_graph.world = { set; fleet; answers; faults; limit } in
   Report.result
     (let* graph = State_graph.load world path in
      match other, quotient with
@@ -84,6 +84,5 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ graph $ compare_with $ Options.fleet $ Explore_command.answers $ Explore_command.faults $ limit
-      $ format
-      $ quotient $ output)
+      const run $ graph $ compare_with $ Options.set $ Options.fleet $ Explore_command.answers $ Explore_command.faults
+      $ limit $ format $ quotient $ output)

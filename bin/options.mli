@@ -8,6 +8,9 @@ val program : string Term.t
 val fleet : string option Term.t
 (** [--fleet FLEET]. *)
 
+val set : (string * string) list Term.t
+(** [--set NAME=VALUE], each time that it is given. *)
+
 val drawing : Dolphin_app.Drawing.t Arg.conv
 (** The name of a picture. *)
 

@@ -55,9 +55,9 @@ let print_checked adapters name found =
     List.iter (fun v -> List.iter print_endline (Adapter_check.lines v)) verdicts;
     Ok (if List.for_all Adapter_check.is_fine verdicts then Exit_status.Done else Failed)
 
-let run () path name fleet seed answers adapters definition =
+let run () path name set fleet seed answers adapters definition =
   Report.result
-    (let* program = Program_file.load path in
+    (let* program = Program_file.load ~set path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
      let* definition = Definition_file.load definition in
      Report.diagnostics ~source:program.source program.warnings;
@@ -104,5 +104,5 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Verbosity.setup $ Options.program $ plan_name $ Options.fleet $ seed $ answers
+      const run $ Verbosity.setup $ Options.program $ plan_name $ Options.set $ Options.fleet $ seed $ answers
       $ Platform_options.checking $ Imc_options.definition)

@@ -48,10 +48,10 @@ let perform jar task program ({ files; environment; world } : Tla_model.t) =
     Result.map Exit_status.of_verdict
       (Tlc_compare.run installation ~directory ~limit ~coverage files environment program world)
 
-let run path fleet answers faults directory check compare strict limit jar workers distributed coverage =
+let run path set fleet answers faults directory check compare strict limit jar workers distributed coverage =
   Report.result
     (let* task = task directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverage in
-     let* program = Program_file.load path in
+     let* program = Program_file.load ~set path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
      let* model = Tla_model.make ~answers ~faults program fleet in
      perform jar task program model)
@@ -117,6 +117,7 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ Options.fleet $ Explore_command.answers $ Explore_command.faults $ directory
+      const run $ Options.program $ Options.set $ Options.fleet $ Explore_command.answers $ Explore_command.faults
+      $ directory
       $ check $ compare $ strict $ limit $ Tlc_options.jar $ Tlc_options.workers $ Tlc_options.distributed
       $ Tlc_options.coverage)

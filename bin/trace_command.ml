@@ -30,11 +30,11 @@ let status path : Verdict.t -> (Exit_status.t, Error.t) result = function
   | Unknown _ -> Ok Inconclusive
   | Unreadable { number; why } -> Error (Journal_file.wrong path ~number why)
 
-let check program_path path fleet most =
+let check program_path set path fleet most =
   Report.result
-    (let* p = Program_file.load program_path in
-     let* world = world_of fleet in
+    (let* world = world_of fleet in
      Journal_file.with_reader path (fun reader ->
+         let* p = Program_file.load_recorded ~set ~recorded:(Journal_file.settings_of reader) program_path in
          let hash = (Program_file.header p).hash in
          let header, verdict = Verdict.check ~world ~most p.program ~hash reader in
          Option.iter (tell_change program_path p) header;
@@ -72,7 +72,7 @@ let check_command =
     @ Options.see_also
   in
   let info = Cmd.info "check" ~doc:"tell whether a journal is one of a run of a program" ~man ~exits:check_exits in
-  Cmd.v info Term.(const check $ Options.program $ journal 1 $ known $ most)
+  Cmd.v info Term.(const check $ Options.program $ Options.set $ journal 1 $ known $ most)
 
 (* {1 Show} *)
 

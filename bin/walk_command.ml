@@ -17,9 +17,9 @@ let read prompt =
   | line -> echo line; Some line
   | exception End_of_file -> print_newline (); None
 
-let run path fleet answers faults trace =
+let run path set fleet answers faults trace =
   Report.result
-    (let* program = Program_file.load path in
+    (let* program = Program_file.load_recorded ~set ~recorded:(Option.bind trace Witness_file.settings) path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
      Report.diagnostics ~source:program.source program.warnings;
      let* () = Walk_session.run ~read ~print:print_endline ~columns program fleet ~answers ~faults ~trace in
@@ -56,4 +56,6 @@ let command =
       ~exits:(Options.exits [ Done; Bad_input; Bug ])
   in
   Cmd.v info
-    Term.(const run $ Options.program $ Options.fleet $ Explore_command.answers $ Explore_command.faults $ trace)
+    Term.(
+      const run $ Options.program $ Options.set $ Options.fleet $ Explore_command.answers $ Explore_command.faults
+      $ trace)

@@ -142,6 +142,10 @@ and statement env s =
       env
     end
     else local env (Local value) x
+  | Parameter { name; value; description = _ } ->
+    expression env value;
+    assign env (Some value) name.it name.at;
+    env
   | Function { name; parameters; body } ->
     define env (global env name.it) (Function (List.map (fun x -> x.it) parameters)) name.it name.at;
     let inner = List.fold_left (fun env x -> local env Parameter x) { env with locals = [] } parameters in

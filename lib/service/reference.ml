@@ -8,6 +8,8 @@ let words =
     [ "def", "def x = e",
       "A local variable, which ends with its block; at the top of a program the same as `x = e`. `def \
        f(x) { ... }` defines a function.";
+      "parameter", "parameter n = e, 'what it is'",
+      "A global that whoever starts the program may give another value, by `--set n=e`; `dolphin help` lists them.";
       "if", "if (c) { ... } else { ... }", "Runs the first block if the condition holds, else the second.";
       "else", "if (c) { ... } else { ... }", "What runs if the condition does not hold.";
       "while", "while (c) { ... }", "Repeats the block as long as the condition holds.";

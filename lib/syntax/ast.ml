@@ -90,6 +90,8 @@ and statement_node =
   (* [x = e], [xs[i] = e], [m.k = e]; [operator] is [Some Add] in [x += e]. *)
   | Define of string located * expression option        (* [def x = e] *)
   | Function of { name : string located; parameters : string located list; body : statement list }
+  | Parameter of { name : string located; value : expression; description : string located option }
+  (* [parameter n = 3, 'how many'] *)
   | If of expression * statement list * statement list
   | While of expression * statement list
   | For of string located * expression * statement list  (* [for (x in e) { ... }] *)

@@ -8,6 +8,7 @@ type code =
   | Captured_local | Not_assignable | Defined_twice | Reserved_name
   | Wildcard_value
   | Misplaced_jump | Misplaced_when | Misplaced_setting | Misplaced_function | Misplaced_input
+  | Misplaced_parameter
   | Deed_in_answer
   | Deed_in_maker
   | Vehicle_twice
@@ -22,7 +23,7 @@ let codes =
     (Not_assignable, "not-assignable"); (Defined_twice, "defined-twice"); (Reserved_name, "reserved-name");
     (Wildcard_value, "wildcard-value"); (Misplaced_jump, "misplaced-jump"); (Misplaced_when, "misplaced-when");
     (Misplaced_setting, "misplaced-setting"); (Misplaced_function, "misplaced-function");
-    (Misplaced_input, "misplaced-input");
+    (Misplaced_input, "misplaced-input"); (Misplaced_parameter, "misplaced-parameter");
     (Deed_in_answer, "deed-in-answer"); (Deed_in_maker, "deed-in-maker");
     (Vehicle_twice, "vehicle-twice"); (Unused_task, "unused-task");
     (No_effect, "no-effect"); (Assigned_condition, "assigned-condition"); (Wide_value, "wide-value");

@@ -308,6 +308,14 @@ let unit_without_point place =
           Printf.sprintf "a unit stands behind a point: %s.%s" (text_of place (place.index - 1)) unit)
   | _ -> None
 
+(* [parameter n = 3, how many]. *)
+let described_parameter place =
+  match kind place (statement place), this place with
+  | PARAMETER, (NAME _ | COMMAND _ | STRING _ | TEMPLATE_OPEN | INTEGER _ | NUMBER _) ->
+    Some (Printf.sprintf "unexpected %s" (spelt place place.index),
+          "behind the value of a parameter may stand a ',' and what it is, in quotes: parameter n = 3, 'how many'")
+  | _ -> None
+
 let stray place =
   match this place, before place 1 with
   | (LBRACE | TRAILING), (STRING _ | TEMPLATE_CLOSE | INTEGER _ | NUMBER _) ->
@@ -328,7 +336,8 @@ let stray place =
 
 let rules = [
   missing_parenthesis; assigned_word; missing_brace; missing_parameters; negative_argument; greedy_bracket; assignment;
-  missing_word; misplaced_word; command; unit_without_point; stray;
+  missing_word; misplaced_word; command; unit_without_point;
+  described_parameter; stray;
 ]
 
 let fault ~source ~tokens ~index ~acceptable =

@@ -17,6 +17,7 @@ let expression place it = located place it
 %token TEMPLATE_OPEN TEMPLATE_CLOSE HOLE_OPEN HOLE_CLOSE
 %token <string> TEXT
 %token WILDCARD TRUE FALSE NULL
+%token PARAMETER                         (* before [n = 3] at the start of a statement *)
 %token DEF IF ELSE WHILE FOR IN RETURN BREAK CONTINUE
 %token WHEN WATCH WAIT_FOR REPEAT THEN RUN ON_ERROR
 %token <Ast.on_cut> UNTIL DURING         (* [until] and [during] complete; [assure] and [within] fail *)
@@ -94,6 +95,8 @@ simple_statement:
     { located $loc (Define (x, Some value)) }
   | DEF; name = name; LPAREN; parameters = parameters; RPAREN; BLOCK; body = statements; RBRACE
     { located $loc (Function { name; parameters; body }) }
+  | PARAMETER; name = name; ASSIGN; value = item; description = option(description)
+    { located $loc (Parameter { name; value = settle value; description }) }
   | IF; LPAREN; condition = chain; RPAREN; body = body                       %prec no_else
     { located $loc (If (condition, body, [])) }
   | IF; LPAREN; condition = chain; RPAREN; body = body; ELSE; otherwise = body
@@ -113,6 +116,9 @@ simple_statement:
     { located $loc Continue }
   | x = name; COLON; e = chain
     { located $loc (Setting (x, e)) }
+
+description:
+  | COMMA; text = STRING { located $loc(text) text }
 
 body:
   | BLOCK; body = statements; RBRACE { body }

@@ -8,7 +8,7 @@ let is_incomplete = function
   | LESS_EQUAL | GREATER | GREATER_EQUAL | EQUAL | NOT_EQUAL | AMPERSAND | CARET | BAR | AND | OR | IN | NOT
   | COMMA | COLON | ARROW | DOT | SAFE_DOT | QUESTION | ELVIS | ASSIGN | ASSIGN_OPERATOR _
   | LPAREN | LBRACKET | LBRACE | TRAILING | BLOCK | HOLE_OPEN | SEPARATOR | BUILDER _ | COMMAND _
-  | DEF | IF | ELSE | WHILE | FOR | WHEN | WATCH | WAIT_FOR | REPEAT | UNTIL _ | DURING _ | AFTER_UNTIL _
+  | PARAMETER | DEF | IF | ELSE | WHILE | FOR | WHEN | WATCH | WAIT_FOR | REPEAT | UNTIL _ | DURING _ | AFTER_UNTIL _
   | AFTER_DURING _ | THEN | RUN | ON_ERROR -> true
   | NAME _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | TEMPLATE_CLOSE | HOLE_CLOSE | TEXT _ | WILDCARD
   | TRUE | FALSE | NULL | RETURN | BREAK | CONTINUE | RPAREN | RBRACKET | RBRACE | STEP _ | EOF -> false
@@ -20,7 +20,7 @@ let continues = function
   | COMMA | COLON | DOT | SAFE_DOT | QUESTION | ELVIS | THEN | RUN | ON_ERROR | ELSE
   | RPAREN | RBRACKET | RBRACE | HOLE_CLOSE | SEPARATOR | EOF -> true
   | NAME _ | COMMAND _ | BUILDER _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | TEMPLATE_CLOSE
-  | HOLE_OPEN | TEXT _ | WILDCARD | TRUE | FALSE | NULL | DEF | IF | WHILE | FOR | RETURN | BREAK | CONTINUE
+  | HOLE_OPEN | TEXT _ | WILDCARD | TRUE | FALSE | NULL | PARAMETER | DEF | IF | WHILE | FOR | RETURN | BREAK | CONTINUE
   | WHEN | WATCH | WAIT_FOR | REPEAT | UNTIL _ | DURING _ | AFTER_UNTIL _ | AFTER_DURING _ | LPAREN | LBRACKET
   | LBRACE | TRAILING | BLOCK | ARROW | ASSIGN | ASSIGN_OPERATOR _ | STEP _ | PLUS | MINUS | NOT -> false
 
@@ -133,6 +133,12 @@ let brace state i =
   | last when takes_closure last && same_line -> TRAILING, Value
   | _ -> LBRACE, Value
 
+(* Whether [parameter] at [i] declares one: [parameter n = 3], at the start of a statement. *)
+let declares_parameter state i =
+  (match state.last with SEPARATOR | BLOCK | LBRACE | TRAILING | ARROW -> true | _ -> false)
+  && same_line state (i + 1)
+  && match raw_token state (i + 1), raw_token state (i + 2) with NAME _, ASSIGN -> true | _, _ -> false
+
 (* What the token at [i] is, given those before and after it. *)
 let classify state i (token : Token.t) =
   match token.token with
@@ -140,6 +146,7 @@ let classify state i (token : Token.t) =
   | word when is_word word && (after_point state || is_key state i) -> NAME (Token.text ~source:state.source token)
   | UNTIL on_cut when ends_operand state.last && not state.last_is_header -> AFTER_UNTIL on_cut
   | DURING on_cut when ends_operand state.last && not state.last_is_header -> AFTER_DURING on_cut
+  | NAME "parameter" when declares_parameter state i -> PARAMETER
   | NAME x as name ->
     if after_point state || raw_token state (i + 1) <> LBRACE then
       if same_line state (i + 1) && begins_argument state (i + 1) && state.last <> DEF then COMMAND x else name

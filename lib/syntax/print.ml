@@ -7,7 +7,7 @@ open Spelling
 let is_short body =
   let simple s =
     match s.it with
-    | Expression _ | Assign _ | Define _ | Return _ | Break | Continue | Setting _ -> true
+    | Expression _ | Assign _ | Define _ | Parameter _ | Return _ | Break | Continue | Setting _ -> true
     | Function _ | If _ | While _ | For _ | Block _ -> false
   in
   let rec within budget = function
@@ -85,7 +85,7 @@ let rec starts_with_brace e =
 let is_block s =
   match s.it with
   | Block _ -> true
-  | Function _ | Expression _ | Assign _ | Define _ | If _ | While _ | For _ | Return _ | Break | Continue
+  | Function _ | Expression _ | Assign _ | Define _ | Parameter _ | If _ | While _ | For _ | Return _ | Break | Continue
   | Setting _ -> false
 
 type out = { buffer : Buffer.t; indent : int }
@@ -319,6 +319,10 @@ and statement out s =
     let parameters = List.map (fun name -> name.it) parameters in
     put out (Printf.sprintf "def %s(%s) " name.it (String.concat ", " parameters));
     body out statements
+  | Parameter { name; value; description } ->
+    put out (Printf.sprintf "parameter %s = " name.it);
+    element out value;
+    Option.iter (fun text -> put out ", "; expression out whole { it = String text.it; at = text.at }) description
   | If (condition, yes, no) -> conditional_statement out condition yes no
   | While (condition, statements) ->
     put out "while (";
@@ -419,7 +423,7 @@ let during = Spelling.during
 let is_function s =
   match s.it with
   | Function _ -> true
-  | Expression _ | Assign _ | Define _ | If _ | While _ | For _ | Return _ | Break | Continue | Block _
+  | Expression _ | Assign _ | Define _ | Parameter _ | If _ | While _ | For _ | Return _ | Break | Continue | Block _
   | Setting _ -> false
 
 let program ppf statements =

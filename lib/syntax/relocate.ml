@@ -55,6 +55,8 @@ and statement_node f = function
   | Define (x, e) -> Define (name f x, Option.map (expression f) e)
   | Function { name = x; parameters; body } ->
     Function { name = name f x; parameters = List.map (name f) parameters; body = program f body }
+  | Parameter { name = x; value; description } ->
+    Parameter { name = name f x; value = expression f value; description = Option.map (name f) description }
   | If (c, yes, no) -> If (expression f c, program f yes, program f no)
   | While (c, body) -> While (expression f c, program f body)
   | For (x, e, body) -> For (name f x, expression f e, program f body)

@@ -39,6 +39,7 @@ let children_of_expression e =
 let children_of_statement s =
   match s.it with
   | Expression e | Define (_, Some e) | Return (Some e) | Setting (_, e) -> expressions [ e ]
+  | Parameter { value; _ } -> expressions [ value ]
   | Assign { target; operator = _; value } -> expressions [ target; value ]
   | Define (_, None) | Return None | Break | Continue -> []
   | Function { body; _ } | Block body -> statements body

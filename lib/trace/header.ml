@@ -1,6 +1,6 @@
 open Dolphin_json.Field
 
-type source = { path : string; hash : string }
+type source = { path : string; hash : string; set : (string * string) list }
 
 type t = {
   program : source;
@@ -14,8 +14,12 @@ type t = {
 
 let format = "dolphin-journal"
 let version = 1
-let source ~path text = { path; hash = Digest.to_hex (Digest.string text) }
-let of_source s : Yojson.Safe.t = `Assoc [ ("path", `String s.path); ("md5", `String s.hash) ]
+let source ?(set = []) ~path text = { path; hash = Digest.to_hex (Digest.string text); set }
+
+let of_source s : Yojson.Safe.t =
+  let of_setting (x, text) = (x, `String text) in
+  let set = if s.set = [] then [] else [ ("set", `Assoc (List.map of_setting s.set)) ] in
+  `Assoc ([ ("path", `String s.path); ("md5", `String s.hash) ] @ set)
 
 (* {1 Times} *)
 
@@ -55,11 +59,20 @@ let to_json h : Yojson.Safe.t =
          ("started", `String h.started) ]
      @ of_order h.order)
 
+let to_settings json =
+  let add settings (x, value) =
+    let* settings = settings in
+    Result.map (fun text -> (x, text) :: settings) (text value)
+  in
+  let* found = members json in
+  Result.map List.rev (List.fold_left add (Ok []) found)
+
 let to_source json =
   let* found = members json in
   let* path = get text "path" found in
   let* hash = get text "md5" found in
-  Ok { path; hash }
+  let* set = optional to_settings ~default:[] "set" found in
+  Ok { path; hash; set }
 
 let check_format json =
   match json with

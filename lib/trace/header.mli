@@ -4,6 +4,7 @@
 type source = {
   path : string;
   hash : string;  (** the MD5 digest of its text, in hexadecimal *)
+  set : (string * string) list;  (** of a program: parameters that were set, each with the text of its value *)
 }
 
 type t = {
@@ -16,11 +17,11 @@ type t = {
   started : string;  (** by the clock of the console, in UTC: ["2026-03-01T12:00:00Z"] *)
 }
 
-val source : path:string -> string -> source
-(** [source ~path text] is the file [path] whose contents are [text]. *)
+val source : ?set:(string * string) list -> path:string -> string -> source
+(** [source ~set ~path text] is the file [path] whose contents are [text]; nothing is [set] by default. *)
 
 val of_source : source -> Yojson.Safe.t
-(** Its path and its hash. *)
+(** Its path, its hash, and what was set. *)
 
 val to_source : Yojson.Safe.t -> (source, string) result
 (** What {!of_source} writes. *)

@@ -1,3 +1,9 @@
+type item =
+  | Line of { number : int; entry : Entry.t }
+  | Torn of int
+  | End_of_file
+  | Wrong of { number : int; why : string }
+
 type t = {
   input : bytes -> int -> int -> int;
   chunk : bytes;
@@ -6,12 +12,14 @@ type t = {
   line : Buffer.t;  (* what chunks before this one had of the line *)
   mutable number : int;
   mutable whole : int;  (* bytes of the lines that had an end *)
+  mutable ahead : item option;  (* read already, for [peek] *)
 }
 
 let longest = 16 * 1024 * 1024
 
 let make input =
-  { input; chunk = Bytes.create 65536; from = 0; until = 0; line = Buffer.create 1024; number = 0; whole = 0 }
+  { input; chunk = Bytes.create 65536; from = 0; until = 0; line = Buffer.create 1024; number = 0; whole = 0;
+    ahead = None }
 
 let of_channel channel = make (input channel)
 
@@ -24,12 +32,6 @@ let of_string text =
     n
   in
   make input
-
-type item =
-  | Line of { number : int; entry : Entry.t }
-  | Torn of int
-  | End_of_file
-  | Wrong of { number : int; why : string }
 
 (* Bytes of the chunk up to its first line break, if it has one. *)
 let in_chunk r =
@@ -61,7 +63,7 @@ let rec read r =
 
 let whole r = r.whole
 
-let next r =
+let read_next r =
   r.number <- r.number + 1;
   let number = r.number in
   let wrong why = Wrong { number; why } in
@@ -79,6 +81,16 @@ let next r =
     (* What is left of a line never is a whole line of JSON. *)
     let first = "this is no journal, or not even its first line was written to its end" in
     entry text ~otherwise:(fun _ -> if number = 1 then wrong first else Torn number)
+
+let next r =
+  match r.ahead with
+  | Some item -> r.ahead <- None; item
+  | None -> read_next r
+
+let peek r =
+  let item = next r in
+  r.ahead <- Some item;
+  item
 
 let breaks_off channel =
   let r = of_channel channel in

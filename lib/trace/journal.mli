@@ -17,6 +17,9 @@ type item =
 val next : t -> item
 (** The first line is a header, and no other one is: else it is [Wrong]. *)
 
+val peek : t -> item
+(** [peek r] is [next r], and {!next} gives it once more. *)
+
 val whole : t -> int
 (** [whole r] is the number of bytes of the lines read so far, without a torn last one. *)
 

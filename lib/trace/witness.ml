@@ -129,14 +129,6 @@ let follow program world witness =
 
 (* {1 Lines} *)
 
-let of_source (s : Header.source) : Yojson.Safe.t = `Assoc [ ("path", `String s.path); ("md5", `String s.hash) ]
-
-let to_source json : (Header.source, string) result =
-  let* found = members json in
-  let* path = get text "path" found in
-  let* hash = get text "md5" found in
-  Ok { Header.path; hash }
-
 let json_of_assumption (a : World.assumption) : Yojson.Safe.t =
   match a with
   | Late v -> `Assoc [ ("late", `String v) ]
@@ -193,8 +185,8 @@ let to_lines witness =
     `Assoc
       [ ("format", `String format);
         ("version", `Int version);
-        ("program", of_source witness.program);
-        ("fleet", of_option of_source witness.fleet);
+        ("program", Header.of_source witness.program);
+        ("fleet", of_option Header.of_source witness.fleet);
         ("property", `String witness.property);
         ("steps", `Int (List.length witness.steps));
         ("cycle", `Int (List.length witness.cycle)) ]
@@ -208,8 +200,8 @@ let of_header json =
     if its_version <> version then
       Error (Printf.sprintf "this run is of version %d; version %d is known here" its_version version)
     else
-      let* program = get to_source "program" found in
-      let* fleet = get (nullable to_source) "fleet" found in
+      let* program = get Header.to_source "program" found in
+      let* fleet = get (nullable Header.to_source) "fleet" found in
       let* property = get text "property" found in
       let* n = get whole "steps" found in
       let* m = get whole "cycle" found in

@@ -26,6 +26,6 @@
   $ dolphin exec --help=plain | grep -c '^EXAMPLES\|^FILES\|^OPTIONS\|^DESCRIPTION'
   4
   $ dolphin --help=plain | sed -n '/^WRITE A PROGRAM/,/^EXAMPLES/p' | grep '^       \(check\|exec\|parse\) '
-         check [--fleet=FLEET] [--platform=CMD] [OPTION]… PROG
+         check [--fleet=FLEET] [--platform=CMD] [--set=NAME=VALUE] [OPTION]…
          parse [OPTION]… PROG
          exec [OPTION]… PROG

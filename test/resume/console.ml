@@ -13,7 +13,7 @@ let program, hash =
     List.iter (Format.eprintf "%a@." (Dolphin_syntax.Diagnostic.pp ~source:Mission.source)) ds;
     failwith "the program of the kill tests is wrong"
 
-let source = { Header.path = "mission.dol"; hash }
+let source = { Header.path = "mission.dol"; hash; set = [] }
 let started = "2026-03-01T12:00:00Z"
 
 let header : Header.t =

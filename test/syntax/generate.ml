@@ -7,7 +7,8 @@ open QCheck2.Gen
 let bare it = { it; at = Location.none }
 
 let names =
-  [ "a"; "b"; "v1"; "task"; "pick"; "imcPlan"; "pos"; "allOf"; "type"; "execute"; "count"; "é"; "x_1"; "choose" ]
+  [ "a"; "b"; "v1"; "task"; "pick"; "imcPlan"; "pos"; "allOf"; "type"; "execute"; "count"; "é"; "x_1"; "choose";
+    "parameter" ]
 let variable_name = oneofl names
 let key_name = oneofl ([ "run"; "if"; "else"; "in"; "_"; "true"; "a b"; "it's"; ""; "when" ] @ names)
 let setting_name = oneofl ([ "run"; "if"; "else"; "then"; "in"; "onError" ] @ names)
@@ -97,6 +98,7 @@ and statement_node fuel =
   let x = located variable_name in
   let simple =
     [ 5, map (fun e -> Expression e) e; 1, map2 (fun x e -> Define (x, e)) x (opt e);
+      1, map3 (fun name value description -> Parameter { name; value; description }) x e (opt (located text));
       1, map (fun e -> Return e) (opt e); 1, oneofl [ Break; Continue ];
       1, map2 (fun x e -> Setting (x, e)) (located setting_name) e;
       2, map3 (fun x operator value -> Assign { target = bare (Variable x); operator; value }) variable_name

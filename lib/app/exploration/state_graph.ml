@@ -4,6 +4,7 @@ module Reference = Dolphin_explore.Reference
 module Scenario_world = Dolphin_environment.Scenario_world
 
 type world = {
+  set : (string * string) list;
   fleet : string option;
   answers : string list;
   faults : Dolphin_environment.Faults.t;
@@ -28,7 +29,7 @@ let explored ~limit environment (program : Program_file.t) world =
   | exception Dolphin_environment.Environment.Unclear fault -> Error (Program_file.unsettled program fault)
 
 let of_program w path =
-  let* program = Program_file.load path in
+  let* program = Program_file.load ~set:w.set path in
   let* fleet = Fleet_file.load_for ~program:path w.fleet in
   let environment = Scenario_world.environment ~answers:w.answers ~faults:w.faults fleet.scenario in
   let* space = explored ~limit:w.limit environment program (Scenario_world.world fleet.scenario) in

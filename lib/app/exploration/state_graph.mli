@@ -1,6 +1,7 @@
 (** State graphs of programs, for other tools, and graphs compared. *)
 
 type world = {
+  set : (string * string) list;  (** parameters of the program *)
   fleet : string option;  (** the file; [None]: the one beside the program, or the built-in one *)
   answers : string list;  (** what may be answered; [[]]: what the fleet answers *)
   faults : Dolphin_environment.Faults.t;

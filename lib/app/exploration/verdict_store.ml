@@ -25,7 +25,7 @@ let make (settings : Exploration.settings) (program : Program_file.t) (fleet : F
   match directory (), executable () with
   | None, _ | _, None -> None
   | Some directory, Some executable ->
-    let inputs = (executable, settings, program.path, program.source, fleet.path, fleet.source) in
+    let inputs = (executable, settings, program.path, program.source, program.set, fleet.path, fleet.source) in
     Some { directory; inputs = Marshal.to_string inputs [ No_sharing ] }
 
 let path t = Filename.concat t.directory (Digest.to_hex (Digest.string t.inputs))

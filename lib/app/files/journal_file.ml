@@ -18,3 +18,12 @@ let iter f path =
         | Wrong { number; why } -> Error (wrong path ~number why)
       in
       go ())
+
+let settings_of reader =
+  match Journal.peek reader with
+  | Line { entry = Header { program; _ }; _ } -> Some program.set
+  | Line _ | Torn _ | End_of_file | Wrong _ -> None
+
+let settings path =
+  let of_channel channel = Ok (settings_of (Journal.of_channel channel)) in
+  Option.join (Result.to_option (Text_file.with_channel path of_channel))

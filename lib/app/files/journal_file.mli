@@ -11,3 +11,10 @@ val iter : (Entry.t -> unit) -> string -> (unit, Error.t) result
 
 val wrong : string -> number:int -> string -> Error.t
 (** [wrong path ~number why] is {!Error.Bad_input}: [why] line [number] of [path] is not a line of a journal. *)
+
+val settings_of : Journal.t -> (string * string) list option
+(** [settings_of reader] is the parameters that the run was started with, of a journal of which nothing was read yet;
+    [None] if it has no header. *)
+
+val settings : string -> (string * string) list option
+(** [settings path] is that of the journal in the file [path]; [None], too, if it cannot be read. *)

@@ -3,6 +3,8 @@ open Dolphin_syntax
 type t = {
   path : string;
   source : string;
+  parameters : Parameters.t list;
+  set : (string * string) list;
   program : Dolphin_semantics.Core.program;
   warnings : Diagnostic.t list;
 }
@@ -21,16 +23,25 @@ let no_fleet path =
       (Error.Bad_input
          (Printf.sprintf "%s: this is a fleet: name a program, and the fleet by --fleet %s" path path))
 
-let load path =
+let load ?(set = []) path =
   let* source = Text_file.read path in
   let* () = no_fleet path in
   let read path = Result.map_error (fun e -> String.concat "; " (Error.sentences e)) (Text_file.read path) in
   let { Include.text = source; _ }, parsed = Include.program ~read ~file:path source in
   let* ast = wrong source parsed in
+  let parameters = Parameters.of_program ast in
+  let* ast = Result.map_error (fun why -> Error.Bad_input why) (Parameters.set set ast) in
   let* program, warnings = wrong source (Dolphin_semantics.Elaborate.program ~source_name:path ast) in
-  Ok { path; source; program; warnings }
+  Ok { path; source; parameters; set; program; warnings }
 
-let header p = Dolphin_trace.Header.source ~path:p.path p.source
+let load_recorded ~set ~recorded path =
+  match set, recorded with
+  | [], Some recorded -> load ~set:recorded path
+  | _ :: _, Some recorded when recorded <> set ->
+    Error (Error.Bad_input "the recorded run has parameters of its own: leave out --set")
+  | _, (Some _ | None) -> load ~set path
+
+let header p = Dolphin_trace.Header.source ~set:p.set ~path:p.path p.source
 
 let diagnostic p (fault : Dolphin_semantics.Fault.t) =
   let at = Option.value (Dolphin_semantics.Fault.location p.program fault) ~default:Location.none in

@@ -5,19 +5,26 @@ open Dolphin_syntax
 type t = {
   path : string;
   source : string;  (** the text, and behind it that of the files that it includes *)
+  parameters : Parameters.t list;  (** with the values that the text gives them *)
+  set : (string * string) list;  (** those that were set, each with the text of its value *)
   program : Dolphin_semantics.Core.program;
   warnings : Diagnostic.t list;
 }
 
-val load : string -> (t, Error.t) result
-(** [load path] is the program in the file [path], parsed and elaborated, with what it includes
-    ({!Dolphin_syntax.Include}). *)
+val load : ?set:(string * string) list -> string -> (t, Error.t) result
+(** [load ~set path] is the program in the file [path], parsed and elaborated, with what it includes
+    ({!Dolphin_syntax.Include}) and its parameters [set] ({!Dolphin_syntax.Parameters.set}); none by default. *)
+
+val load_recorded :
+  set:(string * string) list -> recorded:(string * string) list option -> string -> (t, Error.t) result
+(** [load_recorded ~set ~recorded path] is the program as a run had it that recorded what its parameters were set to,
+    if there is one; to set others is an error. *)
 
 val parse : string -> (Ast.program, Error.t) result
 (** [parse path] is the syntax tree of the program in the file [path], which need not elaborate. *)
 
 val header : t -> Dolphin_trace.Header.source
-(** The program as journals name it: by its path and the digest of its text. *)
+(** The program as journals name it: by its path, the digest of its text, and what was set. *)
 
 val diagnostic : t -> Dolphin_semantics.Fault.t -> Diagnostic.t
 (** [diagnostic p fault] is the fault of a run of [p], with its place in the text if it has one. *)

@@ -32,3 +32,6 @@ let read path =
     Result.map_error (fun why -> Error.Bad_input (Printf.sprintf "%s: %s" path why)) (Witness.of_lines lines)
   in
   Result.bind (Text_file.read path) of_text
+
+let settings path =
+  Option.map (fun (found : Witness.t) -> found.program.set) (Result.to_option (read path))

@@ -15,3 +15,6 @@ val write : Program_file.t -> Fleet_file.t -> string -> run -> (unit, Error.t) r
 
 val read : string -> (Dolphin_trace.Witness.t, Error.t) result
 (** [read path] is the run that the file [path] records. The error is {!Error.Bad_input}: there is none. *)
+
+val settings : string -> (string * string) list option
+(** [settings path] is the parameters that the run in the file [path] was found with; [None] if it cannot be read. *)

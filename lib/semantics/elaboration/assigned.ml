@@ -6,6 +6,7 @@ let rec assignments wanted acc (s : statement) =
   let note name once = String_map.update name (function None -> Some once | Some _ -> Some false) acc in
   match s.it with
   | Assign { target = { it = Variable name; _ }; value; operator } -> note name (operator = None && wanted value)
+  | Parameter { name; value; _ } -> note name.it (wanted value)
   | Define (name, Some e) -> note name.it (wanted e)
   | Define (name, None) | For (name, _, []) -> note name.it false
   | For (name, _, body) -> List.fold_left (assignments wanted) (note name.it false) body

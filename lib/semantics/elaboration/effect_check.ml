@@ -74,7 +74,7 @@ and statement p ~top ~value acc (s : statement) =
   | While (_, b) | For (_, _, b) -> within ~value:false acc b
   | Block b -> within ~value acc b
   | Function { body = b; _ } -> within ~value:true acc b
-  | Expression _ | Assign _ | Define _ | Return _ | Break | Continue | Setting _ -> acc
+  | Expression _ | Assign _ | Define _ | Parameter _ | Return _ | Break | Continue | Setting _ -> acc
 
 (* The code inside of expressions. *)
 let inside p acc (e : expression) =

@@ -1,6 +1,7 @@
 module Ast = Dolphin_syntax.Ast
 module Location = Dolphin_syntax.Location
 module Diagnostic = Dolphin_syntax.Diagnostic
+module Parameters = Dolphin_syntax.Parameters
 open Core
 
 (* Functions may be used before the line that defines them. *)
@@ -14,9 +15,26 @@ let declare_function program ((name : string Ast.located), lambda, _, _, _) =
       ~hint:"choose another name"
   else Scope.add_function program name.it lambda
 
+(* A parameter is set once, by the program or by whoever starts it. *)
+let declare_parameters program (ast : Ast.program) =
+  let declare names (s : Ast.statement) =
+    match s.it with
+    | Parameter { name; _ } ->
+      let wrong code message = Scope.report program (Diagnostic.error ~code name.at message) in
+      if List.mem name.it names then wrong Defined_twice (Printf.sprintf "parameter '%s' is declared twice" name.it)
+      else if Scope.find_function program name.it <> None then
+        wrong Defined_twice (Printf.sprintf "'%s' is a function, and cannot be a parameter too" name.it)
+      else if Builtins.is_reserved name.it then
+        wrong Reserved_name (Printf.sprintf "'%s' is a name of the language and cannot be a parameter" name.it);
+      name.it :: names
+    | _ -> names
+  in
+  ignore (List.fold_left declare [] ast)
+
 let hint_for_unknown program name at names =
   if Scope.wants_text program at then Some (Printf.sprintf "a text stands in quotes: '%s'" name)
   else if name = "include" then Some "include 'lib.dol' stands at the top of a file, outside of all braces"
+  else if name = "parameter" then Some "a parameter has a value: parameter n = 3, 'what it is'"
   else if Builtins.math name then Some (Printf.sprintf "write Math.%s" name)
   else if Builtins.constant ("Math." ^ name) <> None then Some (Printf.sprintf "write Math.%s" name)
   else
@@ -84,7 +102,9 @@ let is_supplier (e : Ast.expression) =
 
 let program ~source_name (ast : Ast.program) =
   let program =
-    Scope.create ~variables:(Assigned.names ast) ~suppliers:(Assigned.once is_supplier ast) ~functions:[] ~globals:[] ()
+    Scope.create ~variables:(Assigned.names ast) ~suppliers:(Assigned.once is_supplier ast)
+      ~parameters:(List.map (fun (p : Parameters.t) -> p.name) (Parameters.of_program ast))
+      ~functions:[] ~globals:[] ()
   in
   let defined =
     List.filter_map
@@ -96,6 +116,7 @@ let program ~source_name (ast : Ast.program) =
       ast
   in
   List.iter (declare_function program) defined;
+  declare_parameters program ast;
   let at = match ast with first :: _ -> first.at | [] -> Location.none in
   let main = shell program at "the program" 0 in
   let env = Translate.env program (Scope.code program Main None) ~answer:false in

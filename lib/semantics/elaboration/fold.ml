@@ -3,6 +3,7 @@ open Dolphin_syntax.Ast
 let rec statement f acc (s : statement) =
   match s.it with
   | Expression e | Setting (_, e) | Return (Some e) | Define (_, Some e) -> expression f acc e
+  | Parameter { value; _ } -> expression f acc value
   | Assign { target; value; _ } -> expression f (expression f acc target) value
   | Function { body; _ } | Block body -> List.fold_left (statement f) acc body
   | If (e, yes, no) -> List.fold_left (statement f) (expression f acc e) (yes @ no)

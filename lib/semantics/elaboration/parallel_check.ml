@@ -11,7 +11,8 @@ let picks_one body =
            match arguments with [ Positional { it = Integer 1; _ } ] -> true | _ -> false)
        | Setting ({ it = "count"; _ }, e) -> e.it = Integer 1
        | Expression _ | Setting _ -> true
-       | Assign _ | Define _ | Function _ | If _ | While _ | For _ | Return _ | Break | Continue | Block _ -> false)
+       | Assign _ | Define _ | Parameter _ | Function _ | If _ | While _ | For _ | Return _ | Break | Continue
+       | Block _ -> false)
     body
 
 (* {1 Tasks} *)

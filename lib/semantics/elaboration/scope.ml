@@ -10,6 +10,7 @@ type call = { caller : string option; in_task : string option; callee : string; 
 
 type program = {
   variables : string list;
+  parameters : string list;
   suppliers : string list;
   functions : (string, Core.lambda) Hashtbl.t;
   table : (string, global) Hashtbl.t;
@@ -42,10 +43,11 @@ let assigned_global program name =
   global.assigned <- true;
   global.index
 
-let create ?(first_site = 0) ?(variables = []) ?(suppliers = []) ~functions ~globals () =
+let create ?(first_site = 0) ?(variables = []) ?(parameters = []) ?(suppliers = []) ~functions ~globals () =
   let program =
     {
       variables;
+      parameters;
       suppliers;
       functions = Hashtbl.create 16;
       table = Hashtbl.create 64;
@@ -121,6 +123,7 @@ let ordered_keys program : Tuple_space.order =
 let note_text program at = program.texts <- at :: program.texts
 let wants_text program at = List.memq at program.texts
 let note_sensor program = program.reads_sensors <- true
+let is_parameter program name = List.mem name program.parameters
 let is_supplier program name = List.mem name program.suppliers
 let reads_sensors program = program.reads_sensors
 

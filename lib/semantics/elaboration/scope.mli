@@ -11,14 +11,15 @@ type program
 val create :
   ?first_site:Core.site ->
   ?variables:string list ->
+  ?parameters:string list ->
   ?suppliers:string list ->
   functions:(string * Core.lambda) list ->
   globals:string list ->
   unit ->
   program
 (** [functions] and [globals] exist already, as for an answer to [ask]; sites are numbered from [first_site] on, by
-    default from 0. [variables] are names that the text gives a value to somewhere; [suppliers], the names of variables
-    that surely are the supplier. *)
+    default from 0. [variables] are names that the text gives a value to somewhere; [parameters], the program's
+    parameters; [suppliers], the names of variables that surely are the supplier. *)
 
 val site : program -> Location.t -> Core.site
 (** A new site there. *)
@@ -87,6 +88,8 @@ val wants_text : program -> Location.t -> bool
 
 val is_assigned : program -> string -> bool
 (** Whether something gives a value to a variable of this name. *)
+
+val is_parameter : program -> string -> bool
 
 val is_supplier : program -> string -> bool
 (** Whether the variable is one of the [suppliers]. *)

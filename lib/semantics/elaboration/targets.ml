@@ -8,6 +8,8 @@ let rec is_path (e : Ast.expression) =
   | Index (e, _) | Member { subject = e; safe = false; _ } -> is_path e
   | _ -> false
 
+let set_global env at name e = expression env at (Set_global (Scope.assigned_global env.program name, e))
+
 let assign_variable env at name name_at e =
   match Scope.find_local env.code name with
   | Some (Own slot) -> set_local env at slot e
@@ -21,9 +23,12 @@ let assign_variable env at name name_at e =
       error env Not_assignable name_at "'%s' is a function and cannot be assigned" name
     else if Builtins.is_reserved name then
       error env Not_assignable name_at "'%s' is a name of the language and cannot be assigned" name
-        ~hint:"choose another name";
+        ~hint:"choose another name"
+    else if Scope.is_parameter env.program name then
+      error env Not_assignable name_at "'%s' is a parameter and keeps its value" name
+        ~hint:"give what changes another name";
     check_in_maker env ("an assignment to '" ^ name ^ "'") name_at;
-    expression env at (Set_global (Scope.assigned_global env.program name, e))
+    set_global env at name e
 
 let rec assign env at (target : Ast.expression) e =
   match target.it with

@@ -13,6 +13,9 @@ val assign : env -> Location.t -> Ast.expression -> expression -> expression
 val assign_variable : env -> Location.t -> string -> Location.t -> expression -> expression
 (** [assign_variable env at name name_at e] is the same for the variable [name], which stands at [name_at]. *)
 
+val set_global : env -> Location.t -> string -> expression -> expression
+(** [set_global env at name e] gives the global [name] the value of [e], unchecked. *)
+
 val update : env -> Location.t -> Ast.expression -> (expression -> expression) -> expression
 (** [update env at target f] gives [target] the value of [f e], [e] being what it was. *)
 

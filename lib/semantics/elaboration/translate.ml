@@ -224,6 +224,15 @@ and statement env (s : Ast.statement) : expression =
     let e = match value with Some e -> elaborate env e | None -> null env at in
     if Scope.at_top env.code then Targets.assign_variable env at name.it name.at e
     else set_local env at (Scope.define env.code name.it) e
+  | Parameter { name; value; description = _ } ->
+    let e = elaborate env value in
+    if not (Scope.at_top env.code) then
+      error env Misplaced_parameter name.at "parameters stand at the top of the program, not inside of a block"
+    else if not (Dolphin_syntax.Parameters.is_value value) then
+      error env Wrong_value value.at "the value of a parameter is a number, a text, true, false, null, a place, or a \
+                                      list or map of these"
+        ~hint:(Printf.sprintf "for what the program computes: %s = ..." name.it);
+    Targets.set_global env at name.it e
   | Function { name; _ } ->
     if not (Scope.at_top env.code) then
       error env Misplaced_function name.at "functions are defined at the top of the program, not inside of a block"

@@ -1,0 +1,44 @@
+open Cmdliner
+open Dolphin_app
+
+let ( let* ) = Result.bind
+
+let is_program topic = Filename.extension topic <> "" || Sys.file_exists topic
+
+let of_program path =
+  Report.result
+    (let* program = Program_file.load path in
+     List.iter print_endline (Program_help.lines program);
+     Ok Exit_status.Done)
+
+let run commands topic =
+  match topic with
+  | Some topic when is_program topic -> `Ok (of_program topic)
+  | None -> `Help (`Auto, None)
+  | Some topic when List.mem topic commands -> `Help (`Auto, Some topic)
+  | Some topic ->
+    let hint = Option.map (Printf.sprintf ": did you mean '%s'?") (Dolphin_syntax.Diagnostic.suggest topic commands) in
+    Report.complain
+      (Printf.sprintf "'%s' is neither a command nor a file%s" topic (Option.value hint ~default:""));
+    `Ok Exit_status.Bad_input
+
+let topic =
+  let doc = "A program, a file such as $(i,mission.dol); or a command, whose manual is shown." in
+  Arg.(value & pos 0 (some string) None & info [] ~docv:"PROG" ~doc)
+
+let man =
+  [ `S Manpage.s_description;
+    `P "$(tname) tells what whoever starts the program $(i,PROG) wants to know: the comment that it begins with; its \
+        parameters, with their values, which $(b,--set) of other commands replaces; the inputs that can be posted to \
+        it.";
+    `S Manpage.s_examples;
+    `Pre "  $(mname) $(tname) examples/parameters.dol\n  $(mname) exec examples/parameters.dol --set rounds=3\n\
+         \  $(mname) $(tname) exec" ]
+  @ Options.see_also
+
+let command ~others =
+  let info =
+    Cmd.info "help" ~docs:Options.s_run ~doc:"tell what a program's parameters and inputs are" ~man
+      ~exits:(Options.exits [ Done; Bad_input; Bug ])
+  in
+  Cmd.v info Term.(ret (const (run ("help" :: others)) $ topic))

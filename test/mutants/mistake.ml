@@ -404,17 +404,15 @@ let task_rules =
       ( "REPEAT-2 sets no timers",
         {|{ change with outcome; timers = change.timers @ timers; rounds }|},
         {|{ change with outcome; timers = (if timers = [] then timers else change.timers); rounds }|} );
-      ( "REPEAT-AGAIN counts no round",
+      ( "a round counts twice",
         {|repeat { again with left = Option.map pred again.left } round|},
-        {|repeat { again with left = (if again.until = None then Option.map pred again.left else again.left) } round|} );
+        {|repeat { again with left = Option.map (fun n -> max 0 (n - 2)) again.left } round|} );
       ( "UNTIL-CUT leaves the body running",
         {|let cut change = undoing (Cut [ body ]) change in|},
         {|let cut change = if body = body then change else undoing (Cut [ body ]) change in|} );
       ( "UNTIL has no cut",
-        {|    Some (Step { offer = Check condition; continue })
-  | Body_until (Fails|},
-        {|    if true then None else Some (Step { offer = Check condition; continue })
-  | Body_until (Fails|} );
+        {|    Some (alone (Check condition) continue)|},
+        {|    if true then None else Some (alone (Check condition) continue)|} );
       ( "ASSURE-CUT ends as done",
         {|Rule.Assure_cut (Failed (Fault.make site (not_assured condition))))|},
         {|Rule.Assure_cut (if site < 0 then Failed (Fault.make site (not_assured condition)) else Finished))|}
@@ -429,20 +427,16 @@ let task_rules =
         {|      | Fails site -> (Rule.Within_cut, if site < 0 then Failed (Fault.make site (too_late duration)) else Finished)|}
       );
       ( "ONEOF-WHEN does not begin its body",
-        {|holds:(fun label -> enter label Rule.Oneof_when Fun.id b.body)|},
-        {|holds:(fun label -> change label Rule.Oneof_when (Next b.body))|} );
+        {|  | body -> check b.guard ~holds:(fun label -> enter label enters around body) ~error|},
+        {|  | body -> check b.guard ~holds:(fun label -> change label enters (Next (around body))) ~error|} );
       ( "DURING-SET sets no timer",
-        {|with timers = (timer, seconds) :: timers }
-  in
-  Step|},
-        {|with timers = List.tl ((timer, seconds) :: timers) }
-  in
-  Step|} );
+        {|Rule.During_set (Next next)) with timers = (timer, seconds) :: timers }|},
+        {|Rule.During_set (Next next)) with timers = List.tl ((timer, seconds) :: timers) }|} );
       ( "ALLOF-WHEN takes away the branches before",
         {|let remaining = List.rev_append before after in
-  let holds|},
+  choose b|},
         {|let remaining = List.rev_append (List.filter (fun _ -> false) before) after in
-  let holds|} );
+  choose b|} );
     ]
 
 let local_step =
@@ -532,8 +526,8 @@ let local_step_in_walks =
   in_file "lib/semantics/rules/local_step.ml" ~noticed_by:"semantics/test_invariants"
     [
       ( "a false guard lets go on",
-        {|if Value.truth x then go world|},
-        {|if Value.truth x || true then go world|} );
+        {|if Value.truth x then go world ~asked:(Run_code.effects deeds) s (continue|},
+        {|if Value.truth x || true then go world ~asked:(Run_code.effects deeds) s (continue|} );
       ( "DONE leaves the vehicle in A",
         {|go (without_tasks [ v ] s) (continue (Ok ()))|},
         {|go (without_tasks [] s) (continue (Ok ()))|} );
@@ -599,13 +593,16 @@ let unknown =
       ( "code that makes a task may do something",
         {|else if deeds <> [] || Store.compare|}, {|else if List.length deeds > 9 || Store.compare|} );
     ]
-  @ in_file "lib/semantics/rules/residual.ml" ~noticed_by:"semantics/test_invariants"
-    [ ("what was given to a task is not held", {|  | Hold (vs, _) -> List.fold_left|}, {|  | Hold (vs, Hold _) -> List.fold_left|}) ]
+  @ in_file "lib/semantics/rules/residual.ml" ~noticed_by:"semantics/test_rules"
+    [ ("what was given to a task is not held", 
+       {|  | Hold (vs, _) -> List.fold_left (fun found v -> Vehicle_set.add v found) found vs|},
+       {|  | Hold (_, _) -> found|} ) ]
   @ in_file "lib/explore/steps/expansion.ml" ~noticed_by:"explore/test_agreement"
     [ ("what stands beside a step holds nothing", {|if contains place leaf then []|}, {|if contains place leaf || position >= 0 then []|}) ]
   @ in_file "lib/explore/order/step_footprints.ml" ~noticed_by:"reduction/test_traps"
-    [ ("ends free no vehicle", {|let frees = if f.breaks && ignoring then|}, {|let lost _ = Footprint.these [] in
-    let frees = if f.breaks && ignoring then|}) ]
+    [ ("ends free no vehicle", 
+       {|let frees = if f.breaks && ignoring then Footprint.all_vehicles else lost step in|},
+       {|let frees = if f.breaks && ignoring then Footprint.all_vehicles else (ignore (lost step); Footprint.empty.frees) in|} ) ]
   @ in_file "lib/semantics/rules/local_step.ml" ~noticed_by:"semantics/test_language"
     [ ("assure fails when its guard is unknown", {|Value.truth x || Unknown.is x|}, {|Value.truth x|}) ]
   @ in_file "lib/semantics/language/machine.ml" ~noticed_by:"semantics/test_language"

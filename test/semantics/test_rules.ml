@@ -155,6 +155,8 @@ let tasks : example list =
       "(holding noptilus-2 a[noptilus-2] | p[noptilus-1])" [];
     example Allocate "what a task holds is there for what it makes" (task "{ %p >> { task('b') } }")
       "allocate(noptilus-1)" "ALLOCATE, HOLD-1" "holding noptilus-1 holding noptilus-1 b[noptilus-1]" [];
+    example Allocate "what a task was given it holds until it ends" (task "{ task('a') >> idle(3) } | { task('b') }")
+      "allocate(noptilus-2)" "ALLOCATE, PAR-1" "(holding noptilus-1 idle(3) | holding noptilus-2 b[noptilus-2])" [];
     example Allocate "timers start, with numbers that are not used" (task "idle(3) | { idle(1) }") "allocate()"
       "ALLOCATE, PAR-1" "(idle(3) | idle(1))" [ "set timer 1000002 to 1 s" ];
     example Allocate_err "none can ever fit" (task "watch ({ task('a')[v] }[w]) onError { ignore() }")
@@ -229,6 +231,8 @@ let tasks : example list =
       "repeat (p[noptilus-1]...; 1, p[noptilus-1])" [ "start p on noptilus-1" ];
     example Repeat_2 "the next round begins in the same step, with its timers" (task "repeat %p")
       "done(noptilus-1, p)" "DONE, REPEAT-2" "repeat (p[noptilus-1]; p[noptilus-1])" [];
+    example Repeat_2 "each round counts once" (task "repeat 3, idle(5)") "timeout" "IDLE-END, REPEAT-2"
+      "repeat (idle(5); 1, idle(5))" [ "set timer 1 to 5 s" ];
     example Repeat_2 "the last round is no repeat any more" (task "repeat 2, idle(5)") "timeout" "IDLE-END, REPEAT-2"
       "idle(5)" [ "set timer 1 to 5 s" ];
     example Repeat_2 "the condition is to be asked" (task "repeat %p until { poll a: 1 }") "done(noptilus-1, p)"

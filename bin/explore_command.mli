@@ -6,4 +6,14 @@ val answers : string list Cmdliner.Term.t
 val faults : Dolphin_environment.Faults.t Cmdliner.Term.t
 (** [--faults]. *)
 
+(** {1 Bounds} *)
+
+val max_states : int option Cmdliner.Term.t
+val max_depth : int option Cmdliner.Term.t
+
+val max_memory : int option Cmdliner.Term.t
+(** In bytes. *)
+
+val timeout : float option Cmdliner.Term.t
+
 val command : Exit_status.t Cmdliner.Cmd.t

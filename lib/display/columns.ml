@@ -64,10 +64,11 @@ let place row =
   | Some at -> Printf.sprintf "%s:%d" (Filename.basename (Location.file at)) (Location.line at)
   | None -> ""
 
+let is_shown (t : Transition.t) = match t.label with Silent -> t.assumed <> [] | _ -> true
+
 let rows program ~source run =
   let add (before, rows) (t : Transition.t) =
-    let is_shown = match t.label with Silent -> t.assumed <> [] | _ -> true in
-    let rows = if is_shown then row program ~source before t :: rows else rows in
+    let rows = if is_shown t then row program ~source before t :: rows else rows in
     (Some t.next, rows)
   in
   List.rev (snd (List.fold_left add (None, []) run))
@@ -75,8 +76,11 @@ let rows program ~source run =
 let shortened widest text =
   if Phrase.width text <= widest then text else fst (Phrase.split (widest - 3) text) ^ "..."
 
-(* As a table whose cells have at most [widest] characters, with a last column of [words] characters, if any. *)
-let table ~first ~widest ~words rows =
+let width_of_all texts = List.fold_left (fun width text -> max width (Phrase.width text)) 0 texts
+
+(* As a table whose cells have at most [widest] characters, with a last column of [words] characters, if any; each row
+   has its text of [heads]. *)
+let table ~heads ~widest ~words rows =
   let shortened_to = shortened in
   let shortened = shortened widest in
   let actors =
@@ -89,7 +93,7 @@ let table ~first ~widest ~words rows =
       (Phrase.width actor) rows
   in
   let widths = List.map width actors in
-  let number = String.length (string_of_int (first + List.length rows)) in
+  let number = width_of_all heads in
   let wider_place width row = max width (Phrase.width (place row)) in
   let widest_place = List.fold_left wider_place (Phrase.width "where") rows in
   let print head cells where said =
@@ -99,26 +103,33 @@ let table ~first ~widest ~words rows =
     let rec trimmed n = if n > 0 && line.[n - 1] = ' ' then trimmed (n - 1) else String.sub line 0 n in
     trimmed (String.length line)
   in
-  let body i row =
+  let body n row =
     let cell actor = if actor = row.actor then shortened row.text else "" in
-    let n = string_of_int (first + i) in
     let assumed a =
       String.make (number + 3) ' ' ^ "if " ^ Phrase.one_line (Format.asprintf "%a" World.pp_assumption a)
     in
-    let head = String.make (number - String.length n) ' ' ^ n in
+    let head = String.make (number - Phrase.width n) ' ' ^ n in
     print head (List.map cell actors) (place row) row.words :: List.map assumed row.assumed
   in
-  print "" actors "where" "in words" :: List.concat (List.mapi body rows)
+  print "" actors "where" "in words" :: List.concat (List.map2 body heads rows)
 
 let least_words = 24
 let narrowest = 12
-let width lines = List.fold_left (fun width line -> max width (Phrase.width line)) 0 lines
+let width = width_of_all
 
 (* What the log says is not known to the reader of a narrow table, but names of vehicles and tasks must be. *)
-let lines ?(first = 1) ?columns ~source program run =
+let lines ?(first = 1) ?heads ?columns ~source program run =
   let rows = rows program ~source run in
   let without_assumed = List.map (fun row -> { row with assumed = [] }) rows in
-  let table = table ~first in
+  let is_row (t, _) = is_shown t in
+  let heads =
+    match heads with
+    | Some heads -> List.map snd (List.filter is_row (List.combine run heads))
+    | None ->
+      let width = String.length (string_of_int (first + List.length rows)) in
+      List.mapi (fun i _ -> Printf.sprintf "%*d" width (first + i)) rows
+  in
+  let table = table ~heads in
   match columns with
   | None -> table ~widest ~words:None rows
   | Some columns ->

@@ -28,8 +28,10 @@ val row : Core.program -> source:string -> Configuration.t option -> Transition.
 val place : row -> string
 (** [place row] is where the program says so: ["mission.dol:9"], or [""]. *)
 
-val lines : ?first:int -> ?columns:int -> source:string -> Core.program -> Transition.t list -> string list
+val lines :
+  ?first:int -> ?heads:string list -> ?columns:int -> source:string -> Core.program -> Transition.t list -> string list
 (** [lines ~source program run] is the table of [run]; [source] is the text of [program]. Silent transitions have no
-    row. Rows are numbered from [first], by default 1; of long texts the beginning is shown. What a transition takes for
-    granted of an open world stands below it. The table is made to fit into [columns], if it is given: with what the log
-    says of guards and timers in a last column, if there is room for it. *)
+    row. Rows are numbered from [first], by default 1, or have [heads] instead, a text for each transition; of long
+    texts the beginning is shown. What a transition takes for granted of an open world stands below it. The table is
+    made to fit into [columns], if it is given: with what the log says of guards and timers in a last column, if there
+    is room for it. *)

@@ -209,19 +209,22 @@ let events options program e (c : Configuration.t) (awaited : Transition.awaited
   | Expiry_of timer, _ -> [ (Ok (Transition.Timer_expired timer), e) ]
   | (Answer | Reply), (Script _ | Waiting _ | Executing _ | Ended _) -> []
 
-let internal program world e c : (Transition.t * t) Seq.t =
-  fun () -> Seq.map (fun t -> (t, e)) (clear (Transition.internal_all program world c)) ()
+type choice = { transition : Transition.t; outside : t; on : Transition.event option }
 
-let in_world options program world e c : (Transition.t * t) Seq.t =
+let internal program world e c : choice Seq.t =
+  let by_itself transition = { transition; outside = e; on = None } in
+  fun () -> Seq.map by_itself (clear (Transition.internal_all program world c)) ()
+
+let in_world options program world e c : choice Seq.t =
   let rec accept before (event, e) =
-    let of_result : _ -> (Transition.t * t) list = function
-      | Ok t -> [ (t, e) ]
+    let of_result on : _ -> choice list = function
+      | Ok transition -> [ { transition; outside = e; on } ]
       | Error Transition.Not_awaited -> []
       | Error (Bad_answer why) -> List.concat_map (accept e) (after_refusal options program ~before e c why)
     in
     match event with
-    | Ok event -> List.concat_map of_result (clear (Transition.accept_all program world c event))
-    | Error refusal -> of_result (Error refusal)
+    | Ok event -> List.concat_map (of_result (Some event)) (clear (Transition.accept_all program world c event))
+    | Error refusal -> of_result None (Error refusal)
   in
   let on_event event = List.to_seq (List.concat_map (accept e) (events options program e c event)) in
   Seq.append (internal program world e c) (Seq.flat_map on_event (List.to_seq (Transition.awaited c)))
@@ -232,14 +235,14 @@ let in_world options program world e c : (Transition.t * t) Seq.t =
    Other transitions come twice only where sensors are open. *)
 let once world choices () =
   let too_few_came = ref false in
-  let is_first ((t : Transition.t), _) =
-    match t.label with
+  let is_first { transition; _ } =
+    match transition.label with
     | No_vehicles _ when !too_few_came -> false
     | No_vehicles _ -> too_few_came := true; true
     | _ -> true
   in
   let choices = Seq.filter is_first choices in
-  if World.is_open world then Transition.distinct fst choices () else choices ()
+  if World.is_open world then Transition.distinct (fun c -> c.transition) choices () else choices ()
 
 (* [world] without those vehicles that are never among the first [n] of theirs that are left. *)
 let hiding alike n world (pick : Settings.pick) bound =
@@ -265,19 +268,22 @@ let picking ?alike options program world e (c : Configuration.t) (pick : Setting
       ~bound:c.shared.bound world pick
   in
   let company = company_in world in
-  let remember (a : Attendance.t) ((t : Transition.t), e) =
-    let is_picked v = List.mem v t.next.shared.bound && not (List.mem v c.shared.bound) in
+  let remember (a : Attendance.t) { transition; outside = e; on } =
+    let is_picked v = List.mem v transition.next.shared.bound && not (List.mem v c.shared.bound) in
     let lost = List.filter (fun v -> not (is_picked v)) e.lost in
     let noted = List.filter (fun v -> List.mem v (Attendance.unsure company)) (a.coming @ a.missing) in
     let noted = match options.faults.join with At_most _ -> noted | Never | Any_number -> [] in
-    (t, { e with lost; late = List.fold_left (fun vs v -> add v vs) e.late noted })
+    { transition; on; outside = { e with lost; late = List.fold_left (fun vs v -> add v vs) e.late noted } }
   in
   let assumed (a : Attendance.t) =
     List.map (fun v -> World.Late v) a.coming @ List.map (fun v -> World.Missing v) a.missing
   in
   let given a transitions =
     let assumed = assumed a in
-    let with_assumed ((t : Transition.t), e) = remember a ({ t with assumed = assumed @ t.assumed }, e) in
+    let with_assumed choice =
+      let t = choice.transition in
+      remember a { choice with transition = { t with assumed = assumed @ t.assumed } }
+    in
     Seq.map with_assumed transitions
   in
   let attended_in world a = given a (in_world options program (World.suppose (assumed a) world) e c) in
@@ -310,16 +316,19 @@ let interruption options program world e c () =
   if not options.faults.interrupt then Seq.Nil
   else
     match Transition.accept program world c Interruption with
-    | Ok t -> Seq.return (t, e) ()
+    | Ok transition -> Seq.return { transition; outside = e; on = Some Interruption } ()
     | Error _ -> Seq.Nil
 
-let posts options program world e c : (Transition.t * t) Seq.t =
-  let post (k, x, e) =
-    match Transition.accept program world c (Input (k, x)) with Ok t -> Some (t, e) | Error _ -> None
+let posts options program world e c : choice Seq.t =
+  let post (k, x, outside) =
+    let event = Transition.Input (k, x) in
+    match Transition.accept program world c event with
+    | Ok transition -> Some { transition; outside; on = Some event }
+    | Error _ -> None
   in
   List.to_seq (List.filter_map post (inputs options program e))
 
-let choices ?alike options program world e (c : Configuration.t) =
+let choices_on ?alike options program world e (c : Configuration.t) =
   let by_itself () =
     match c.control with
     | Waiting (_, Pick pick) -> picking ?alike options program world e c pick ()
@@ -328,6 +337,9 @@ let choices ?alike options program world e (c : Configuration.t) =
   in
   let from_outside () = Seq.append (posts options program world e c) (interruption options program world e c) () in
   Seq.append by_itself from_outside
+
+let choices ?alike options program world e c =
+  Seq.map (fun { transition; outside; _ } -> (transition, outside)) (choices_on ?alike options program world e c)
 
 let rec find p (choices : _ Seq.t) =
   match choices () with

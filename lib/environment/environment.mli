@@ -105,6 +105,18 @@ val upcoming : options -> Core.program -> t -> (string * Core.value) list
 val owes : options -> Core.program -> t -> bool
 (** Whether some input is certain that has not come as often as it will. *)
 
+(** A transition that may happen. *)
+type choice = {
+  transition : Transition.t;
+  outside : t;  (** what is remembered after it *)
+  on : Transition.event option;  (** the event that it answers; [None]: the program's own *)
+}
+
+val choices_on :
+  ?alike:(Core.vehicle -> Core.vehicle option) -> options -> Core.program -> World.t -> t -> Configuration.t ->
+  choice Seq.t
+(** [choices_on o p w e c] is {!choices}, each with its event. *)
+
 val choices :
   ?alike:(Core.vehicle -> Core.vehicle option) -> options -> Core.program -> World.t -> t -> Configuration.t ->
   (Transition.t * t) Seq.t

@@ -6,6 +6,9 @@ val print : Program_file.t -> steps:Transition.t list -> cycle:Transition.t list
 (** In columns (see {!Dolphin_display.Columns}), as many as the terminal or [COLUMNS] has; the cycle, if any, is what
     comes after it for ever. Below stand the tuples that are left then. *)
 
+val columns : unit -> int option
+(** How many columns there are: of the terminal on standard output, or else of [COLUMNS]. *)
+
 val text : Program_file.t -> steps:Transition.t list -> cycle:Transition.t list -> string
 (** What {!print} prints, in as many columns as it takes. *)
 

@@ -1,0 +1,79 @@
+open Cmdliner
+open Dolphin_app
+
+let ( let* ) = Result.bind
+
+let analyse settings program fleet ~json =
+  let live = Unix.isatty Unix.stderr && not json in
+  let interrupted = ref false in
+  Sys.set_signal Sys.sigint (Signal_handle (fun _ -> interrupted := true));
+  let progress =
+    if live then fun p -> Printf.eprintf "\r%s\027[K%!" (Progress_lines.line p)
+    else if json then ignore
+    else Progress_lines.every_ten_seconds prerr_endline
+  in
+  let outcome = Time_analysis.run ~interrupted:(fun () -> !interrupted) ~progress settings program fleet in
+  if live then Printf.eprintf "\r\027[K%!";
+  outcome
+
+let status : Time_analysis.Timing.verdict -> Exit_status.t = function
+  | Holds -> Done
+  | Violated -> Violated
+  | Inconclusive -> Inconclusive
+
+let run path set fleet answers faults deadline json max_states max_depth max_memory timeout =
+  let settings : Time_analysis.settings =
+    { answers; faults; deadline; max_states; max_depth; max_memory; timeout } in
+  Report.result
+    (let* program = Program_file.load ~set path in
+     let* fleet = Fleet_file.load_for ~program:path fleet in
+     Report.diagnostics ~source:program.source program.warnings;
+     let outcome = analyse settings program fleet ~json in
+     if json then print_endline (Yojson.Safe.to_string (Time_report.to_json ?deadline program outcome))
+     else Time_report.print ?deadline program outcome;
+     Ok (status (Time_analysis.Timing.verdict ?deadline outcome)))
+
+let deadline =
+  let doc =
+    "Whether all runs are over $(docv) after the start: a number of seconds, or a time as programs write it, such as \
+     $(b,40.min). If not, a run that breaks it is shown."
+  in
+  let parse text =
+    match Time_analysis.duration text with Ok ms -> Ok ms | Error why -> Error (`Msg why) in
+  let print ppf ms = Dolphin_time.Bounds.pp_time ppf ms in
+  Arg.(value & opt (some (conv ~docv:"TIME" (parse, print))) None & info [ "deadline" ] ~docv:"TIME" ~doc)
+
+let man =
+  [ `S Manpage.s_description;
+    `P "$(tname) says how long $(i,PROG) takes with the fleet: when its runs are over, at the earliest and at the \
+        latest, and when each task may start and end. It follows every run, as $(mname) $(b,explore) does, with a \
+        clock for everything that is awaited. Each of the times that it prints is that of some run: it is exact, \
+        however many runs there are.";
+    `P "Tasks take as long as the fleet says: $(b,plan 'survey1', { duration 4.min, 7.min }). Plans that are described \
+        in the program take as long as their way does at the vehicle's speed, ten percent less or more, and their \
+        stays. Timers ($(b,idle), $(b,during), $(b,within), $(b,pause), time-outs of $(b,pick)) take exactly their \
+        time. What the program does by itself, answers and replies take none. Vehicles are there when they are picked.";
+    `P "With $(b,--faults), a task fails at any time until it would be done; a vehicle that is not heard of fails its \
+        task when its connection timeout is over; one that is late comes until the time-out of the $(b,pick).";
+    `P "It prints a run that ends last, in columns with times, and the durations that its end depends on. If some run \
+        never ends, it prints that: a run to a place from which it goes round for ever, or in which nothing happens \
+        any more. If nobody knows how long something takes, it says what.";
+    `P "How far it is stands on standard error. A bound that is met, or Ctrl-C, makes the answer inconclusive.";
+    `S Manpage.s_arguments;
+    `S Manpage.s_options;
+    `S Manpage.s_exit_status;
+    `S Manpage.s_examples;
+    `Pre "  $(mname) $(tname) examples/rendezvous.dol\n  $(mname) $(tname) examples/rendezvous.dol --deadline 20.min" ]
+  @ Options.see_also
+
+let command =
+  let info =
+    Cmd.info "time" ~docs:Options.s_prove ~doc:"know how long a program takes, at most and at least" ~man
+      ~exits:(Options.exits [ Done; Violated; Bad_input; Inconclusive; Platform_trouble; Bug ])
+  in
+  let json = Arg.(value & flag & info [ "json" ] ~doc:"Print the result as one JSON object.") in
+  Cmd.v info
+    Term.(
+      const run $ Options.program $ Options.set $ Options.fleet $ Explore_command.answers $ Explore_command.faults
+      $ deadline $ json
+      $ Explore_command.max_states $ Explore_command.max_depth $ Explore_command.max_memory $ Explore_command.timeout)

@@ -1,0 +1,32 @@
+module Timing = Dolphin_time.Timing
+module Scenario_world = Dolphin_environment.Scenario_world
+
+type settings = {
+  answers : string list;
+  faults : Dolphin_environment.Faults.t;
+  deadline : int option;
+  max_states : int option;
+  max_depth : int option;
+  max_memory : int option;
+  timeout : float option;
+}
+
+let run ~interrupted ~progress s (program : Program_file.t) (fleet : Fleet_file.t) =
+  let limits : Dolphin_checker.Limits.t =
+    { max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; memory_left = Memory.left;
+      timeout = s.timeout; clock = Unix.gettimeofday; interrupted; progress }
+  in
+  Timing.run ?deadline:s.deadline limits
+    { environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
+      program = program.program; world = Scenario_world.world fleet.scenario;
+      durations = Dolphin_time.Durations.of_scenario fleet.scenario }
+
+let duration text =
+  let wrong = Error (Printf.sprintf "'%s' is no time such as 40.min or 90.seconds" text) in
+  match Dolphin_syntax.Parse.expression ~file:"time" text with
+  | Error _ -> wrong
+  | Ok e -> (
+      match Dolphin_scenario.Literal.read e with
+      | Ok (Number (n, (None | Some Time))) when n >= 0. ->
+        Option.to_result (Dolphin_time.Bounds.milliseconds n) ~none:(Printf.sprintf "'%s' is too long" text)
+      | Ok (Number _ | Text _ | Position _ | Unknown) | Error _ -> wrong)

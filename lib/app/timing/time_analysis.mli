@@ -1,0 +1,22 @@
+(** How early and how late the runs of a program in a file do what they do, with a fleet. *)
+
+module Timing = Dolphin_time.Timing
+
+type settings = {
+  answers : string list;
+  faults : Dolphin_environment.Faults.t;
+  deadline : int option;  (** milliseconds *)
+  max_states : int option;
+  max_depth : int option;
+  max_memory : int option;
+  timeout : float option;
+}
+
+val run :
+  interrupted:(unit -> bool) -> progress:(Dolphin_checker.Limits.progress -> unit) -> settings -> Program_file.t ->
+  Fleet_file.t -> Timing.outcome
+(** [interrupted] and [progress] are as in {!Dolphin_checker.Limits}. *)
+
+val duration : string -> (int, string) result
+(** [duration text] is the milliseconds that [text] spells, as fleets do: ["40.min"], ["90.seconds"], seconds without a
+    unit; or what is wrong with it. *)

@@ -1,0 +1,194 @@
+open Dolphin_semantics
+open Dolphin_time
+module Timing = Dolphin_time.Timing
+module Columns = Dolphin_display.Columns
+module Phrase = Dolphin_trace.Phrase
+
+let time ms = Format.asprintf "%a" Bounds.pp_time ms
+let location (p : Program_file.t) site = Fault.location p.program (Fault.make site "")
+let at p site = Option.map (Fmt.str "%a" Dolphin_syntax.Location.pp) (location p site)
+
+(* {1 Names} *)
+
+let ending : Timed_system.ending -> string = function
+  | Completed -> "completed"
+  | Halted -> "halted"
+  | Failed -> "failed"
+  | Interrupted -> "interrupted"
+
+let moment : Timed_system.moment -> string = function
+  | Starts -> "starts"
+  | Ends -> "ends"
+  | Fails -> "fails"
+  | Stopped -> "stopped"
+
+let moments : Timed_system.moment list = [ Starts; Ends; Fails; Stopped ]
+
+(* What is awaited, and for whom it is to say how long it takes. *)
+let item (p : Program_file.t) (pending : Timed.pending) =
+  match pending.item, pending.task with
+  | Task v, Some task ->
+    let place = match at p task.task_site with Some place -> place ^ ": " | None -> "" in
+    Printf.sprintf "%s%s on %s" place task.name v
+  | Task v, None -> v
+  | Timer 0, _ -> "a timer of the program"
+  | Timer i, _ -> Printf.sprintf "timer %d" i
+  | Answer, _ -> "an answer"
+  | Reply, _ -> "a reply"
+  | Posting k, _ -> Printf.sprintf "a pair with the key %s" k
+
+let hint (pending : Timed.pending) =
+  match pending.item, pending.task with
+  | Task _, Some { plan = None; name; _ } -> Printf.sprintf "; in the fleet: plan '%s', { duration 3.min, 9.min }" name
+  | Task _, Some { plan = Some _; _ } -> "; nobody knows where the vehicle is when it starts"
+  | Posting k, _ -> Printf.sprintf "; in the fleet: input '%s', with after" k
+  | (Task _ | Timer _ | Answer | Reply), _ -> ""
+
+(* {1 For people} *)
+
+let window (w : Timing.window) =
+  match w.latest with
+  | At latest when latest = w.earliest -> time latest
+  | At latest -> Printf.sprintf "%s to %s" (time w.earliest) (time latest)
+  | Unbounded -> Printf.sprintf "%s or later" (time w.earliest)
+
+let print_ending (e, (w : Timing.window)) =
+  let latest = match w.latest with At n -> time n ^ " at the latest" | Unbounded -> "no latest time" in
+  Printf.printf "%s: %s at the earliest, %s\n" (ending e) (time w.earliest) latest
+
+let print_table rows =
+  let widths =
+    List.fold_left (List.map2 (fun width cell -> max width (Phrase.width cell)))
+      (List.map (fun _ -> 0) (List.hd rows)) rows
+  in
+  let print row =
+    let line = String.concat "  " (List.map2 Phrase.pad widths row) in
+    let rec trimmed n = if n > 0 && line.[n - 1] = ' ' then trimmed (n - 1) else String.sub line 0 n in
+    print_endline (trimmed (String.length line))
+  in
+  List.iter print rows
+
+let print_tasks (p : Program_file.t) (o : Timing.outcome) =
+  let used = List.filter (fun m -> List.exists (fun (_, ws) -> List.mem_assoc m ws) o.tasks) moments in
+  let row ((task : Timing.task), windows) =
+    let cell m = Option.fold ~none:"" ~some:window (List.assoc_opt m windows) in
+    let place at =
+      Printf.sprintf "%s:%d" (Filename.basename (Dolphin_syntax.Location.file at)) (Dolphin_syntax.Location.line at) in
+    let line = Option.fold ~none:"" ~some:place (location p task.site) in
+    (Phrase.one_line task.name :: Phrase.one_line task.vehicle :: List.map cell used) @ [ line ]
+  in
+  if o.tasks <> [] then
+    print_table ((("task" :: "vehicle" :: List.map moment used) @ [ "where" ]) :: List.map row o.tasks)
+
+let print_columns (p : Program_file.t) (run : Timing.run) =
+  let heads = if run.dates = [] then None else Some (List.map time run.dates) in
+  let columns = Run_columns.columns () in
+  let lines ?first ?heads steps =
+    List.iter print_endline (Columns.lines ?first ?heads ?columns ~source:p.source p.program steps)
+  in
+  lines ?heads run.steps;
+  if run.cycle <> [] then begin
+    print_endline "and from there, again and again:";
+    lines ~first:(List.length run.steps + 1) run.cycle
+  end
+
+let print_chain p (run : Timing.run) =
+  let link (l : Schedule.link) = Printf.sprintf "%s (%s)" (item p l.pending) (time l.lasts) in
+  if run.chain <> [] then
+    Printf.printf "its end depends on: %s\n" (String.concat ", then " (List.map link run.chain))
+
+let print_run ?deadline p (o : Timing.outcome) =
+  match o.endless, o.late, o.last with
+  | Some (run, why), _, _ ->
+    let what =
+      match why with
+      | `Cycle -> "a run that may go on for ever"
+      | `In_no_time -> "a run that may go round for ever in no time"
+      | `Stuck -> "a run in which nothing happens any more"
+    in
+    Printf.printf "\n%s:\n" what;
+    print_columns p run;
+    if why = `Stuck then Run_columns.print_waiting p run.steps
+  | None, Some run, _ ->
+    Printf.printf "\na run that is not over at the deadline%s:\n"
+      (Option.fold ~none:"" ~some:(fun n -> ", " ^ time n) deadline);
+    print_columns p run;
+    print_chain p run
+  | None, None, Some ({ dates = _ :: _; _ } as run) when o.stopped = None ->
+    Printf.printf "\na run that ends last:\n";
+    print_columns p run;
+    print_chain p run
+  | None, None, (Some _ | None) -> ()
+
+let print_deadline ?deadline (o : Timing.outcome) =
+  let say n =
+    let verdict =
+      match Timing.verdict ~deadline:n o with
+      | Holds -> "holds"
+      | Violated -> "violated"
+      | Inconclusive -> "inconclusive"
+    in
+    Printf.printf "deadline %s: %s\n" (time n) verdict
+  in
+  Option.iter say deadline
+
+let print_unknown p (o : Timing.outcome) =
+  List.iter (fun u -> Printf.printf "nobody knows how long it takes: %s%s\n" (item p u) (hint u)) o.unknown
+
+let print ?deadline p (o : Timing.outcome) =
+  (match o.stopped with
+   | Some bound -> 
+     Format.printf "inconclusive: %a; times are of the runs until then@." Dolphin_checker.Limits.pp_bound bound
+   | None -> ());
+  List.iter print_ending o.endings;
+  if o.endings = [] && o.stopped = None then print_endline "no run ends";
+  print_deadline ?deadline o;
+  print_unknown p o;
+  print_tasks p o;
+  Printf.printf "%d states, depth %d, %.2f s, %d MiB\n" o.states o.depth o.seconds (o.bytes / 1024 / 1024);
+  print_run ?deadline p o
+
+(* {1 For programs} *)
+
+let seconds ms : Yojson.Safe.t = if ms mod 1000 = 0 then `Int (ms / 1000) else `Float (float ms /. 1000.)
+
+let json_of_window (w : Timing.window) : Yojson.Safe.t =
+  let latest = match w.latest with At n -> seconds n | Unbounded -> `Null in
+  `Assoc [ ("earliest", seconds w.earliest); ("latest", latest) ]
+
+let json_of_run p (run : Timing.run) : Yojson.Safe.t =
+  let label (t : Transition.t) = `String (Format.asprintf "%a" Label.pp t.label) in
+  let link (l : Schedule.link) = `Assoc [ ("what", `String (item p l.pending)); ("seconds", seconds l.lasts) ] in
+  `Assoc
+    [ ("run", `List (List.map label run.steps)); ("dates", `List (List.map seconds run.dates));
+      ("cycle", `List (List.map label run.cycle)); ("chain", `List (List.map link run.chain)) ]
+
+let to_json ?deadline p (o : Timing.outcome) : Yojson.Safe.t =
+  let task ((t : Timing.task), windows) =
+    let window m = Option.map (fun w -> (moment m, json_of_window w)) (List.assoc_opt m windows) in
+    let site = Option.fold ~none:`Null ~some:(fun s -> `String s) (at p t.site) in
+    `Assoc
+      ([ ("task", `String t.name); ("vehicle", `String t.vehicle); ("at", site) ] @ List.filter_map window moments)
+  in
+  let optional name f x = match x with Some x -> [ (name, f x) ] | None -> [] in
+  let verdict =
+    match Timing.verdict ?deadline o with
+    | Holds -> "holds"
+    | Violated -> "violated"
+    | Inconclusive -> "inconclusive"
+  in
+  let endless (run, why) : Yojson.Safe.t =
+    let why = match why with `Cycle -> "cycle" | `In_no_time -> "cycle in no time" | `Stuck -> "stuck" in
+    `Assoc [ ("why", `String why); ("run", json_of_run p run) ]
+  in
+  `Assoc
+    ([ ("verdict", `String verdict) ]
+     @ optional "deadline" seconds deadline
+     @ [ ("ends", `Assoc (List.map (fun (e, w) -> (ending e, json_of_window w)) o.endings));
+         ("tasks", `List (List.map task o.tasks));
+         ("unknown", `List (List.map (fun u -> `String (item p u)) o.unknown)) ]
+     @ optional "last" (json_of_run p) o.last
+     @ optional "first" (json_of_run p) o.first
+     @ optional "endless" endless o.endless
+     @ optional "bound" (fun b -> `String (Format.asprintf "%a" Dolphin_checker.Limits.pp_bound b)) o.stopped
+     @ [ ("states", `Int o.states); ("depth", `Int o.depth); ("seconds", `Float o.seconds); ("bytes", `Int o.bytes) ])

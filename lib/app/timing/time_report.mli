@@ -1,0 +1,10 @@
+(** What [dolphin time] says. *)
+
+module Timing = Dolphin_time.Timing
+
+val print : ?deadline:int -> Program_file.t -> Timing.outcome -> unit
+(** For people: when runs are over and when tasks start and end, the run that ends last or breaks the [deadline], in
+    columns with times, what its end depends on, and what nobody knows. *)
+
+val to_json : ?deadline:int -> Program_file.t -> Timing.outcome -> Yojson.Safe.t
+(** The same for programs; times in seconds. *)

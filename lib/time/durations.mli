@@ -1,0 +1,23 @@
+(** How long what a program waits for may take. *)
+
+open Dolphin_semantics
+
+type t = {
+  task : Core.vehicle -> Dolphin_geo.Position.t option -> Core.platform_task -> Bounds.t;
+  (** from the start of a task until it is done, on a vehicle that is at this place then, if that is known *)
+  announced : Bounds.t;  (** a [pick] without a time-out *)
+  silence : Bounds.t;  (** how long nothing is heard of a vehicle before its task fails, unless the program says so *)
+  posted : string -> Bounds.t;  (** until a pair with this key is posted, from the start or the time before *)
+  place : Core.vehicle -> Dolphin_geo.Position.t option;  (** at the start *)
+}
+(** Answers and replies come at once. *)
+
+val tolerance : float
+(** 0.1: the way between two places takes by so much less or more than the vehicle's speed says. *)
+
+val moves : Core.platform_task -> Dolphin_geo.Position.t option
+(** [moves p] is where [p] leaves its vehicle, if that is elsewhere than where it was. *)
+
+val of_scenario : Dolphin_scenario.Scenario.t -> t
+(** [of_scenario s] is what [s] says: [duration] of plans by name, [speed] of vehicles for plans that are described in
+    the program, [after] of inputs; some time, where it says nothing. *)

@@ -1,0 +1,18 @@
+(** Dates for the steps of a run: all as late, or as early, as the run allows. *)
+
+(** What a date depends on: the duration of what was awaited. *)
+type link = {
+  pending : Timed.pending;
+  from : int;  (** it began with this step, from 1; 0: at the start *)
+  until : int;  (** and ended with this one, or would have *)
+  lasts : int;  (** milliseconds *)
+}
+
+type t = {
+  dates : int array;  (** of each step, in milliseconds since the start *)
+  chain : link list;  (** what the last date depends on: durations, one after the other, that add up to it *)
+}
+
+val make : Timed_system.goal -> Timed.options -> Timed.state -> Timed.step list -> t option
+(** [make goal o s steps] is the dates of the run [steps] from the initial state [s]. [None] if its end has no latest
+    date. *)

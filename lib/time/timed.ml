@@ -1,0 +1,250 @@
+open Dolphin_semantics
+open Dolphin_environment
+
+type options = {
+  environment : Environment.options;
+  program : Core.program;
+  world : World.t;
+  durations : Durations.t;
+}
+
+type item = Task of Core.vehicle | Timer of Residual.timer | Answer | Reply | Posting of string
+type pending = { item : item; bounds : Bounds.t; task : Core.platform_task option }
+
+type state = {
+  configuration : Configuration.t;
+  outside : Environment.t;
+  pending : pending list;
+  elsewhere : (Core.vehicle * Dolphin_geo.Position.t option) list;
+  patience : (Core.vehicle option * Bounds.t) list;
+}
+
+(* {1 States} *)
+
+let compare_pending a b = Stdlib.compare (a.item, a.bounds) (b.item, b.bounds)
+
+let compare a b =
+  let both first second = if first <> 0 then first else second () in
+  both (List.compare compare_pending a.pending b.pending) (fun () ->
+      both (Environment.compare a.outside b.outside) (fun () ->
+          both (Stdlib.compare (a.elsewhere, a.patience) (b.elsewhere, b.patience)) (fun () ->
+              Configuration.compare a.configuration b.configuration)))
+
+let equal a b =
+  List.compare_lengths a.pending b.pending = 0
+  && List.for_all2 (fun p q -> compare_pending p q = 0) a.pending b.pending
+  && Environment.compare a.outside b.outside = 0
+  && Stdlib.compare (a.elsewhere, a.patience) (b.elsewhere, b.patience) = 0
+  && Configuration.equal a.configuration b.configuration
+
+let hash s = (Configuration.hash s.configuration * 31) + Environment.hash s.outside
+
+(* {1 What is awaited} *)
+
+let of_awaited : Transition.awaited -> item = function
+  | End_of v -> Task v
+  | Expiry_of timer -> Timer timer
+  | Answer -> Answer
+  | Reply -> Reply
+
+let of_event : Transition.event -> item option = function
+  | Vehicle_done v | Vehicle_failed (v, _) -> Some (Task v)
+  | Timer_expired timer -> Some (Timer timer)
+  | Answered _ | Nobody_answers _ -> Some Answer
+  | Replied _ | Host_failed _ -> Some Reply
+  | Input (k, _) -> Some (Posting k)
+  | Interruption -> None
+
+let place o elsewhere v =
+  match List.assoc_opt v elsewhere with Some place -> place | None -> o.durations.place v
+
+(* What begins with an effect. *)
+let begun o elsewhere : Effect.t -> pending option =
+  let timer timer bounds = Some { item = Timer timer; bounds; task = None } in
+  function
+  | Start (v, p) -> Some { item = Task v; bounds = o.durations.task v (place o elsewhere v) p; task = Some p }
+  | Set_timer (i, seconds) -> timer i (Bounds.exactly seconds)
+  | Look_for pick ->
+    timer Residual.script_timer (Option.fold ~none:o.durations.announced ~some:Bounds.exactly pick.timeout)
+  | Ask _ -> Some { item = Answer; bounds = Bounds.at_once; task = None }
+  | Call_host _ -> Some { item = Reply; bounds = Bounds.at_once; task = None }
+  | Stop _ | Cancel_timer _ | Bind _ | Release _ | Set_connection_timeout _ | Say _ | End _ -> None
+
+(* Pairs may be posted until the end. *)
+let postings o (c : Configuration.t) outside =
+  match c.control with
+  | Ended _ -> []
+  | Script _ | Waiting _ | Executing _ ->
+    let key (k, _, _) = k in
+    List.sort_uniq String.compare (List.map key (Environment.inputs o.environment o.program outside))
+
+let awaited o c outside =
+  List.map of_awaited (Transition.awaited c) @ List.map (fun k -> Posting k) (postings o c outside)
+
+let in_order = List.sort_uniq Stdlib.compare
+
+(* [before] is what is awaited before a transition that answers [over] and asks for [effects], which leads to [c]: what
+   is awaited there, and of it what has begun with the transition. *)
+let pending o elsewhere ~before ~over effects c outside =
+  let now = List.filter_map (begun o elsewhere) effects in
+  let latest item = List.fold_left (fun found p -> if p.item = item then Some p else found) None now in
+  let find item =
+    match latest item with
+    | Some p -> (p, true)
+    | None -> (
+        match List.find_opt (fun p -> p.item = item && over <> Some item) before with
+        | Some p -> (p, false)
+        | None ->
+          let bounds = match item with Posting k -> o.durations.posted k | Answer -> Bounds.at_once | _ -> Some_time in
+          ({ item; bounds; task = None }, true))
+  in
+  List.split (List.map find (in_order (awaited o c outside)))
+
+let fresh pending is_fresh =
+  List.filter_map Fun.id (List.map2 (fun p fresh -> if fresh then Some p.item else None) pending is_fresh)
+
+let initial o =
+  let configuration = Configuration.initial o.program and outside = Environment.initial in
+  let pending, _ = pending o [] ~before:[] ~over:None [] configuration outside in
+  { configuration; outside; pending; elsewhere = []; patience = [] }
+
+(* {1 Where vehicles are} *)
+
+let moved elsewhere v place = List.sort Stdlib.compare ((v, place) :: List.remove_assoc v elsewhere)
+
+let is_away before item =
+  List.exists (fun p -> p.item = item && Option.bind p.task Durations.moves <> None) before
+
+let elsewhere_after s (t : Transition.t) (event : Transition.event option) =
+  let stop elsewhere : Effect.t -> _ = function
+    | Stop v when is_away s.pending (Task v) -> moved elsewhere v None
+    | _ -> elsewhere
+  in
+  let elsewhere =
+    match event with
+    | Some (Vehicle_done v) -> (
+        match Option.bind (Vehicle_map.find_opt v s.configuration.shared.allocation) Durations.moves with
+        | Some place -> moved s.elsewhere v (Some place)
+        | None -> s.elsewhere)
+    | Some (Vehicle_failed (v, _)) when is_away s.pending (Task v) -> moved s.elsewhere v None
+    | Some _ | None -> s.elsewhere
+  in
+  List.fold_left stop elsewhere t.effects
+
+(* {1 Silent links} *)
+
+(* The latest word on a vehicle, or on all; of no matter where nothing is lost. *)
+let patience_after o s (t : Transition.t) =
+  let set patience : Effect.t -> _ = function
+    | Set_connection_timeout (None, seconds) -> [ (None, Bounds.exactly seconds) ]
+    | Set_connection_timeout (Some vs, seconds) ->
+      let set patience v = (Some v, Bounds.exactly seconds) :: List.remove_assoc (Some v) patience in
+      List.sort Stdlib.compare (List.fold_left set patience vs)
+    | _ -> patience
+  in
+  if Faults.is_possible o.environment.faults.loss then List.fold_left set s.patience t.effects else []
+
+let patience o s v =
+  match List.assoc_opt (Some v) s.patience with
+  | Some bounds -> bounds
+  | None -> Option.value (List.assoc_opt None s.patience) ~default:o.durations.silence
+
+(* {1 Steps} *)
+
+type step = {
+  transition : Transition.t;
+  next : state;
+  due : (item * Bounds.t) option;
+  fresh : item list;
+  urgent : bool;
+}
+
+(* A guard that holds if a sensor shows this or that may go on not to hold. *)
+let may_wait (t : Transition.t) =
+  t.assumed <> []
+  && match t.rules with (Condition | Allof_when | Oneof_when | Until_cut | Assure_cut) :: _ -> true | _ -> false
+
+let comes_late (t : Transition.t) = List.exists (function World.Late _ -> true | _ -> false) t.assumed
+
+let bounds_of s item =
+  match List.find_opt (fun p -> p.item = item) s.pending with Some p -> p.bounds | None -> Some_time
+
+(* What comes within [bounds] if the link is heard of all the time, and else so much later. *)
+let put_off (silence : Bounds.t) (bounds : Bounds.t) : Bounds.t =
+  match bounds, silence with
+  | Within { least; most }, Within n -> Within { least; most = most + n.most }
+  | (Within _ | Some_time | Never), _ -> Some_time
+
+(* When the task of [v] is done, has failed, or is given up because nothing is heard of [v]. The order to a vehicle that
+   is lost waits for the link. *)
+let ends_of o s v =
+  let silence = patience o s v in
+  let heard bounds = if List.mem v (Environment.lost s.outside) then put_off silence bounds else bounds in
+  let done_ = heard (bounds_of s (Task v)) in
+  let failed = Bounds.from_the_start done_ in
+  let lost : Bounds.t =
+    match put_off silence failed, silence with
+    | Within { most; _ }, Within { least; _ } -> Within { least; most }
+    | bounds, _ -> bounds
+  in
+  (done_, failed, lost)
+
+let due o s (choice : Environment.choice) =
+  let is_pick = match s.configuration.control with Waiting (_, Pick _) -> true | _ -> false in
+  let with_bounds change = Option.map (fun item -> (item, change (bounds_of s item))) in
+  match choice.on with
+  | Some (Vehicle_done v) -> let bounds, _, _ = ends_of o s v in Some (Task v, bounds)
+  | Some (Vehicle_failed (v, why)) ->
+    let _, failed, lost = ends_of o s v in
+    Some (Task v, if why = Environment.loss then lost else failed)
+  | Some event -> with_bounds Fun.id (of_event event)
+  | None when is_pick && comes_late choice.transition ->
+    with_bounds Bounds.from_the_start (Some (Timer Residual.script_timer))
+  | None when is_pick -> Some (Timer Residual.script_timer, Bounds.at_once)
+  | None -> None
+
+let step o s (choice : Environment.choice) =
+  let t = choice.transition in
+  let over = Option.bind choice.on of_event in
+  let elsewhere = elsewhere_after s t choice.on in
+  let pending, is_fresh = pending o elsewhere ~before:s.pending ~over t.effects t.next choice.outside in
+  { transition = t; due = due o s choice;
+    urgent = choice.on = None && (not (may_wait t)) && not (comes_late t);
+    fresh = fresh pending is_fresh;
+    next =
+      { configuration = t.next; outside = choice.outside; pending; elsewhere; patience = patience_after o s t } }
+
+(* What never happens is no step, and what may happen at once bounds nothing. *)
+let is_possible step = match step.due with Some (_, Never) -> false | Some (_, (Within _ | Some_time)) | None -> true
+
+let starts_without_moving step =
+  match step.transition.effects with [ Start (_, p) ] -> Durations.moves p = None | _ -> false
+
+let steps o s =
+  let choices =
+    Environment.choices_on o.environment o.program o.world s.outside s.configuration
+    |> Seq.map (step o s) |> Seq.filter is_possible |> List.of_seq
+  in
+  match List.filter (fun step -> step.urgent) choices with
+  | [] -> choices
+  | _ when List.exists (fun step -> comes_late step.transition) choices ->
+    List.map (fun step -> { step with urgent = false }) choices
+  | urgent -> (
+      match List.find_opt starts_without_moving urgent with Some start -> [ start ] | None -> urgent)
+
+let holds_up steps =
+  let most : Bounds.t -> int = function Within { most; _ } -> most | Some_time | Never -> max_int in
+  let bound found step =
+    match step.due with
+    | Some (item, bounds) ->
+      let before = Option.value (List.assoc_opt item found) ~default:0 in
+      (item, max before (most bounds)) :: List.remove_assoc item found
+    | None -> found
+  in
+  List.filter (fun (_, most) -> most < max_int) (List.fold_left bound [] steps)
+
+let is_stuck o s steps =
+  let c = s.configuration in
+  let is_over = match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false in
+  let must step = not (Environment.is_voluntary step.transition) in
+  (not is_over) && (not (List.exists must steps)) && not (Environment.owes o.environment o.program s.outside)

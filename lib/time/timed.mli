@@ -1,0 +1,64 @@
+(** Runs with time: the transition function with a clock for everything that is awaited. docs/semantics.md has the
+    rules; nothing here says what a transition does, only when it may be taken. *)
+
+open Dolphin_semantics
+open Dolphin_environment
+
+type options = {
+  environment : Environment.options;
+  program : Core.program;
+  world : World.t;
+  durations : Durations.t;
+}
+
+(** What is awaited. *)
+type item =
+  | Task of Core.vehicle
+  | Timer of Residual.timer
+  | Answer
+  | Reply
+  | Posting of string  (** of a pair with this key *)
+
+type pending = {
+  item : item;
+  bounds : Bounds.t;  (** from when it began *)
+  task : Core.platform_task option;  (** of a [Task] *)
+}
+
+(** A configuration without its clocks. *)
+type state = private {
+  configuration : Configuration.t;
+  outside : Environment.t;
+  pending : pending list;  (** in ascending order of [item] *)
+  elsewhere : (Core.vehicle * Dolphin_geo.Position.t option) list;
+  (** where vehicles are that are not where they were at the start; [None]: nobody knows *)
+  patience : (Core.vehicle option * Bounds.t) list;
+  (** how long the link of a vehicle, or of all others, may be silent, where the program said so; [[]] if none is lost
+  *)
+}
+
+val initial : options -> state
+
+val compare : state -> state -> int
+val equal : state -> state -> bool
+val hash : state -> int
+
+type step = {
+  transition : Transition.t;
+  next : state;
+  due : (item * Bounds.t) option;  (** when: so long after [item] began; [None]: at any moment *)
+  fresh : item list;  (** what begins with it, of [next.pending], in ascending order *)
+  urgent : bool;  (** whether no time passes while it is possible *)
+}
+
+val steps : options -> state -> step list
+(** [steps o s] is what may happen in [s]. If some step is urgent, only such; of [START]s only the first, unless it
+    matters where its vehicle is: docs/time.md says why that is enough.
+    @raise Environment.Unclear *)
+
+val holds_up : step list -> (item * int) list
+(** [holds_up steps] is until when time may pass in a state with [steps], none of which is urgent: not longer than so
+    many milliseconds after each [item] began. *)
+
+val is_stuck : options -> state -> step list -> bool
+(** [is_stuck o s steps] is whether [s], with [steps], is no end and nothing that must happen is left to happen. *)

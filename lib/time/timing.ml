@@ -1,0 +1,125 @@
+open Dolphin_semantics
+module Limits = Dolphin_checker.Limits
+module Search = Dolphin_checker.Breadth_first.Make (Timed_system)
+
+type date = Timed_system.date = At of int | Unbounded
+type window = { earliest : int; latest : date }
+
+type run = {
+  steps : Transition.t list;
+  dates : int list;
+  cycle : Transition.t list;
+  chain : Schedule.link list;
+}
+
+type task = Timed_system.task = { name : string; vehicle : Core.vehicle; site : Core.site }
+
+type outcome = {
+  endings : (Timed_system.ending * window) list;
+  tasks : (task * (Timed_system.moment * window) list) list;
+  last : run option;
+  first : run option;
+  endless : (run * [ `Cycle | `In_no_time | `Stuck ]) option;
+  unknown : Timed.pending list;
+  late : run option;
+  stopped : Limits.bound option;
+  states : int;
+  depth : int;
+  seconds : float;
+  bytes : int;
+}
+
+(* {1 Runs} *)
+
+let transitions = List.map (fun (s : Timed.step) -> s.transition)
+
+let run_to goal options system n =
+  let steps = Timed_system.run system n in
+  let schedule = Schedule.make goal options (Timed_system.start system) steps in
+  let dates, chain =
+    match schedule with Some { dates; chain } -> (Array.to_list dates, chain) | None -> ([], [])
+  in
+  { steps = transitions steps; dates; cycle = []; chain }
+
+let rec without n xs = match xs with _ :: rest when n > 0 -> without (n - 1) rest | xs -> xs
+
+let run_around system (c : Timed_system.cycle) =
+  let stem = Timed_system.run system c.from and whole = Timed_system.run system c.last in
+  let around = without (List.length stem) whole @ [ c.back ] in
+  { steps = transitions stem; dates = []; cycle = transitions around; chain = [] }
+
+let endless options system =
+  match Timed_system.cycle system, Timed_system.stuck system with
+  | Some c, _ -> Some (run_around system c, if c.in_no_time then `In_no_time else `Cycle)
+  | None, Some n -> Some ({ (run_to Latest options system n) with chain = [] }, `Stuck)
+  | None, None -> None
+
+(* The end that [is_better] than all others. *)
+let best is_better system =
+  let better found (_, (date, n)) =
+    match found with Some (known, _) when not (is_better date known) -> found | Some _ | None -> Some (date, n)
+  in
+  List.fold_left better None (Timed_system.endings system)
+
+let is_later a b =
+  match a, b with Unbounded, At _ -> true | At m, At n -> m > n | (At _ | Unbounded), Unbounded -> false
+
+let is_sooner a b = is_later b a
+
+(* {1 Both searches} *)
+
+let window earliest latest =
+  match earliest with At earliest -> Some { earliest; latest } | Unbounded -> None
+
+(* What is known under one name in both lists. *)
+let windows early late =
+  let both (name, latest) =
+    let earliest = List.assoc_opt name early in
+    Option.map (fun w -> (name, w)) (Option.bind earliest (fun earliest -> window earliest latest))
+  in
+  List.filter_map both late
+
+let run ?deadline limits options =
+  let started = limits.Limits.clock () in
+  let search goal phase =
+    let search = Search.create ~phase ~started limits (Timed_system.create goal options) in
+    Search.run search;
+    search
+  in
+  let late = search Latest "latest dates" in
+  let early = search Earliest "earliest dates" in
+  let late_system = Search.system late and early_system = Search.system early in
+  let dates system = List.map (fun (e, (date, _)) -> (e, date)) (Timed_system.endings system) in
+  let tasks =
+    let early = Timed_system.tasks early_system in
+    let both (task, moments) =
+      (task, windows (Option.value (List.assoc_opt task early) ~default:[]) moments)
+    in
+    List.map both (Timed_system.tasks late_system)
+  in
+  let last = best is_later late_system in
+  let is_late date = match deadline with Some deadline -> is_later date (At deadline) | None -> false in
+  let run_at goal system = Option.map (fun (_, n) -> run_to goal options system n) in
+  let last_run = run_at Latest late_system last in
+  { endings = windows (dates early_system) (dates late_system); tasks;
+    last = last_run; first = run_at Earliest early_system (best is_sooner early_system);
+    endless = endless options late_system;
+    unknown = Timed_system.unknown late_system;
+    late = (match last with Some (date, _) when is_late date -> last_run | Some _ | None -> None);
+    stopped = (match Search.stopped late with Some bound -> Some bound | None -> Search.stopped early);
+    states = Search.count late + Search.count early;
+    depth = max (Search.depth late) (Search.depth early);
+    seconds = limits.clock () -. started;
+    bytes = max (Search.memory late) (Search.memory early) }
+
+let latest o =
+  let later found (_, w) = match found with Some d when not (is_later w.latest d) -> found | _ -> Some w.latest in
+  List.fold_left later None o.endings
+
+type verdict = Holds | Violated | Inconclusive
+
+let verdict ?deadline o =
+  let is_late = match deadline, latest o with Some n, Some (At m) -> m > n | _ -> false in
+  if o.endless <> None || is_late then Violated
+  else if o.stopped <> None || latest o = Some Unbounded || latest o = None then Inconclusive
+  else Holds

@@ -1,0 +1,46 @@
+(** How early and how late a program's runs do what they do. *)
+
+open Dolphin_semantics
+
+type date = Timed_system.date = At of int | Unbounded  (** milliseconds since the start *)
+
+(** From the earliest to the latest date; both are reached by some run. *)
+type window = { earliest : int; latest : date }
+
+(** A run in which everything happens as late, or as early, as can be. *)
+type run = {
+  steps : Transition.t list;
+  dates : int list;  (** of each step, in milliseconds; [[]] if they have no latest dates *)
+  cycle : Transition.t list;  (** what comes after it, for ever *)
+  chain : Schedule.link list;  (** the durations that add up to its last date *)
+}
+
+type task = Timed_system.task = { name : string; vehicle : Core.vehicle; site : Core.site }
+
+type outcome = {
+  endings : (Timed_system.ending * window) list;  (** the ways in which runs end *)
+  tasks : (task * (Timed_system.moment * window) list) list;  (** all that run in some run *)
+  last : run option;  (** one that ends last, if all end *)
+  first : run option;  (** one that ends first *)
+  endless : (run * [ `Cycle | `In_no_time | `Stuck ]) option;  (** one that never ends *)
+  unknown : Timed.pending list;  (** what takes some time, nobody knows how long *)
+  late : run option;  (** one that is not over at the deadline *)
+  stopped : Dolphin_checker.Limits.bound option;
+  (** if there is a bound, dates are of the runs that were looked at *)
+  states : int;
+  depth : int;
+  seconds : float;
+  bytes : int;
+}
+
+val run : ?deadline:int -> Dolphin_checker.Limits.t -> Timed.options -> outcome
+(** [run ~deadline limits o] is what there is to know, within [limits]; [deadline] is in milliseconds. *)
+
+val latest : outcome -> date option
+(** [latest o] is when the last run is over; [None] if none that was looked at ends. *)
+
+type verdict = Holds | Violated | Inconclusive
+
+val verdict : ?deadline:int -> outcome -> verdict
+(** [verdict ~deadline o]: [Violated] if some run never ends, or ends after [deadline]; else [Inconclusive] if a bound
+    was met, or nobody knows when the last run is over; else [Holds]. *)

@@ -1,0 +1,54 @@
+(** Sets of clock values: conjunctions of bounds on clocks and on their differences, in whole milliseconds (difference
+    bound matrices). Clock 0 is the time since the start of the run, the {e date}; others are numbered from 1. All
+    bounds include their ends. A zone is never empty and always closed: each bound is as tight as the others make it. *)
+
+type t
+
+val start : t
+(** Only the date, which is 0. *)
+
+val clocks : t -> int
+(** How many clocks it has, the date included. *)
+
+val contains : t -> int array -> bool
+(** [contains z xs] is whether [z] has the valuation in which clock [i] is [xs.(i)]. *)
+
+val subset : t -> t -> bool
+(** [subset z z'] is whether each valuation of [z] is in [z'], which has as many clocks. *)
+
+val equal : t -> t -> bool
+
+val delayed : t -> t -> int
+(** [delayed z z'] is the most milliseconds by which all dates of [z] may be put off such that it is a {!subset} of
+    [z'], which has as many clocks: negative if there is no such number, and [max_int] if there is no most. *)
+
+val earliest_date : t -> int
+(** Of a zone that does not reach down. *)
+
+val latest_date : t -> int option
+(** [None]: no bound. *)
+
+(** {1:operations Operations}
+
+    Each as a set of valuations; [None] is the empty one. *)
+
+val delay : t -> t
+(** [delay z] is what [z] becomes by the passing of any time. *)
+
+val at_least : int -> int -> t -> t option
+(** [at_least i n z] is those of [z] with clock [i] at [n] or more. *)
+
+val at_most : int -> int -> t -> t option
+
+val rearranged : int option array -> t -> t
+(** [rearranged from z] has clock 0 of [z], and as clock [k + 1] clock [i] of [z] if [from.(k)] is [Some i], or a new
+    one at 0. *)
+
+val reaching_down : t -> t
+(** [reaching_down z] is [z] with each valuation for any earlier date too. *)
+
+val at_any_date : t -> t
+(** [at_any_date z] is [z] with each valuation for any other date. *)
+
+val reaching_up : t -> t
+(** [reaching_up z] is [z] with each valuation for any later date too. *)

@@ -1,0 +1,158 @@
+How long the paper's mission takes.
+
+  $ timeless() { sed 's/[0-9.]* s, [0-9]* MiB/T/'; }
+  $ dolphin time ../../examples/rendezvous.dol | timeless | head -12
+  completed: 15:55.125 at the earliest, 19:20.71 at the latest
+  task     vehicle     starts        ends                    where
+  survey1  noptilus-1  0:00          4:00 to 7:00            rendezvous.dol:18
+  survey2  noptilus-2  0:00          4:00 to 7:00            rendezvous.dol:18
+  survey3  noptilus-3  0:00          4:00 to 7:00            rendezvous.dol:18
+  sk1      noptilus-1  4:00 to 7:00  15:00.321 to 18:13.727  rendezvous.dol:20
+  sk2      noptilus-2  4:00 to 7:00  15:25.617 to 18:44.644  rendezvous.dol:20
+  sk3      noptilus-3  4:00 to 7:00  15:55.125 to 19:20.71   rendezvous.dol:20
+  rv1      x8-02       4:00 to 9:40  4:40 to 11:00           rendezvous.dol:33
+  rv2      x8-02       4:00 to 9:40  4:40 to 11:00           rendezvous.dol:35
+  rv3      x8-02       4:00 to 9:40  4:40 to 11:00           rendezvous.dol:37
+  879 states, depth 35, T
+
+A deadline that holds, and one that does not, with the run that breaks it.
+
+  $ cat > relay.dol << 'X'
+  > a = pick { id 'a' }
+  > b = pick { id 'b' }
+  > execute (task('survey')[a] >> action { post ready: 1 } >> task('home')[a])
+  >   | waitFor { consume ready: 1 } then task('visit')[b]
+  > X
+  $ cat > relay.fleet << 'X'
+  > vehicle 'a', { type 'UUV' }
+  > vehicle 'b', { type 'UAV' }
+  > plan 'survey', { duration 4.min, 7.min }
+  > plan 'home', { duration 90.seconds }
+  > plan 'visit', { duration 1.min, 2.min }
+  > X
+  $ dolphin time relay.dol --deadline 9.min | timeless
+  completed: 5:30 at the earliest, 9:00 at the latest
+  deadline 9:00: holds
+  task    vehicle  starts        ends          where
+  survey  a        0:00          4:00 to 7:00  relay.dol:3
+  home    a        4:00 to 7:00  5:30 to 8:30  relay.dol:3
+  visit   b        4:00 to 7:00  5:00 to 9:00  relay.dol:4
+  32 states, depth 14, T
+  
+  a run that ends last:
+         program                      a              b             where
+  0:00   pick(1 vehicle with id 'a')                               relay.dol:1
+  0:00   picks a                                                   relay.dol:1
+  0:00   pick(1 vehicle with id 'b')                               relay.dol:2
+  0:00   picks b                                                   relay.dol:2
+  0:00   execute                                                   relay.dol:3
+  0:00                                starts survey                relay.dol:3
+  7:00                                ends survey                  relay.dol:3
+  7:00   act(post ready:1)                                         relay.dol:3
+  7:00                                starts home                  relay.dol:3
+  7:00   check(consume ready:1)                                    relay.dol:3
+  7:00                                               starts visit  relay.dol:4
+  8:30                                ends home                    relay.dol:3
+  9:00                                               ends visit    relay.dol:4
+  9:00   end
+  its end depends on: relay.dol:3:10: survey on a (7:00), then relay.dol:4:39: visit on b (2:00)
+  $ dolphin time relay.dol --deadline 8.min | timeless
+  completed: 5:30 at the earliest, 9:00 at the latest
+  deadline 8:00: violated
+  task    vehicle  starts        ends          where
+  survey  a        0:00          4:00 to 7:00  relay.dol:3
+  home    a        4:00 to 7:00  5:30 to 8:30  relay.dol:3
+  visit   b        4:00 to 7:00  5:00 to 9:00  relay.dol:4
+  32 states, depth 14, T
+  
+  a run that is not over at the deadline, 8:00:
+         program                      a              b             where
+  0:00   pick(1 vehicle with id 'a')                               relay.dol:1
+  0:00   picks a                                                   relay.dol:1
+  0:00   pick(1 vehicle with id 'b')                               relay.dol:2
+  0:00   picks b                                                   relay.dol:2
+  0:00   execute                                                   relay.dol:3
+  0:00                                starts survey                relay.dol:3
+  7:00                                ends survey                  relay.dol:3
+  7:00   act(post ready:1)                                         relay.dol:3
+  7:00                                starts home                  relay.dol:3
+  7:00   check(consume ready:1)                                    relay.dol:3
+  7:00                                               starts visit  relay.dol:4
+  8:30                                ends home                    relay.dol:3
+  9:00                                               ends visit    relay.dol:4
+  9:00   end
+  its end depends on: relay.dol:3:10: survey on a (7:00), then relay.dol:4:39: visit on b (2:00)
+  $ dolphin time relay.dol --deadline 8.min > /dev/null
+  [1]
+  $ dolphin time relay.dol --deadline soon 2>&1 | head -1
+  dolphin: option '--deadline': 'soon' is no time such as 40.min or 90.seconds
+
+With failures, for programs.
+
+  $ dolphin time relay.dol --faults fail=1 --json | sed 's/"seconds":[0-9.e-]*,"bytes":[0-9]*//' | python3 -c '
+  > import json, sys
+  > o = json.loads(sys.stdin.read().replace(",}", "}"))
+  > print(o["verdict"], o["ends"])
+  > for t in o["tasks"]: print(t)
+  > print(o["last"]["dates"], o["last"]["chain"])'
+  holds {'completed': {'earliest': 330, 'latest': 540}, 'failed': {'earliest': 0, 'latest': 540}}
+  {'task': 'survey', 'vehicle': 'a', 'at': 'relay.dol:3:10', 'starts': {'earliest': 0, 'latest': 0}, 'ends': {'earliest': 240, 'latest': 420}, 'fails': {'earliest': 0, 'latest': 420}}
+  {'task': 'home', 'vehicle': 'a', 'at': 'relay.dol:3:59', 'starts': {'earliest': 240, 'latest': 420}, 'ends': {'earliest': 330, 'latest': 510}, 'fails': {'earliest': 240, 'latest': 510}, 'stopped': {'earliest': 240, 'latest': 510}}
+  {'task': 'visit', 'vehicle': 'b', 'at': 'relay.dol:4:39', 'starts': {'earliest': 240, 'latest': 420}, 'ends': {'earliest': 300, 'latest': 540}, 'fails': {'earliest': 240, 'latest': 540}, 'stopped': {'earliest': 240, 'latest': 510}}
+  [0, 0, 0, 0, 0, 0, 420, 420, 420, 420, 420, 510, 540, 540] [{'what': 'relay.dol:3:10: survey on a', 'seconds': 420}, {'what': 'relay.dol:4:39: visit on b', 'seconds': 120}]
+
+A plan of which the fleet does not say how long it takes.
+
+  $ sed -i "s/plan 'visit'.*/plan 'visit'/" relay.fleet
+  $ dolphin time relay.dol | timeless
+  completed: 5:30 at the earliest, no latest time
+  nobody knows how long it takes: relay.dol:4:39: visit on b; in the fleet: plan 'visit', { duration 3.min, 9.min }
+  task    vehicle  starts        ends           where
+  survey  a        0:00          4:00 to 7:00   relay.dol:3
+  home    a        4:00 to 7:00  5:30 to 8:30   relay.dol:3
+  visit   b        4:00 to 7:00  4:00 or later  relay.dol:4
+  32 states, depth 14, T
+
+A program that goes round for ever, and one that waits in vain.
+
+  $ cat > patrol.dol << 'X'
+  > a = pick { id 'a' }
+  > execute repeat task('home')[a]
+  > X
+  $ dolphin time patrol.dol --fleet relay.fleet | timeless
+  no run ends
+  task  vehicle  starts         ends           where
+  home  a        0:00 or later  1:30 or later  patrol.dol:2
+  12 states, depth 6, T
+  
+  a run that may go on for ever:
+      program                      where
+  1   pick(1 vehicle with id 'a')  patrol.dol:1
+  2   picks a                      patrol.dol:1
+  3   execute                      patrol.dol:2
+  and from there, again and again:
+      program  a            where
+  4            starts home  patrol.dol:2
+  5            ends home    patrol.dol:2
+  $ cat > vain.dol << 'X'
+  > a = pick { id 'a' }
+  > execute waitFor { consume ready: 1 } then task('home')[a]
+  > X
+  $ dolphin time vain.dol --fleet relay.fleet | timeless
+  no run ends
+  8 states, depth 3, T
+  
+  a run in which nothing happens any more:
+         program                      where
+  0:00   pick(1 vehicle with id 'a')  vain.dol:1
+  0:00   picks a                      vain.dol:1
+  0:00   execute                      vain.dol:2
+  waits for the condition at vain.dol:2:19, consume ready: 1
+
+A bound.
+
+  $ dolphin time relay.dol --max-states 5 | timeless
+  inconclusive: the bound on states was met; times are of the runs until then
+  12 states, depth 4, T
+  $ dolphin time relay.dol --max-states 5 > /dev/null
+  [3]

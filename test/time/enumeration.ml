@@ -1,0 +1,232 @@
+open Dolphin_semantics
+open Dolphin_environment
+open Dolphin_time
+
+type moment = Ended of Timed_system.ending | Task of Timing.task * Timed_system.moment
+type t = { dates : (moment * (int * int)) list; never_over : bool }
+
+(* What is awaited: a vehicle, a timer, an input, or what people and the supplier say. *)
+type awaited = Vehicle of string | Timer of int | Input of string | Word
+
+(* Since so many seconds something is awaited that comes from the first to the second number of seconds. *)
+type clock = { since : int; least : int; most : int }
+
+type state = {
+  c : Configuration.t;
+  e : Environment.t;
+  clocks : (awaited * clock) list;  (* in order *)
+  patience : (string option * int) list;
+  now : int;
+}
+
+module Table = Hashtbl.Make (struct
+    type t = state
+
+    let equal a b =
+      a.now = b.now && a.clocks = b.clocks && a.patience = b.patience && Environment.compare a.e b.e = 0
+      && Configuration.equal a.c b.c
+
+    let hash s = Hashtbl.hash (s.now, s.clocks, Configuration.hash s.c)
+  end)
+
+exception Too_much
+
+(* Whether a graph has a cycle: [successors.(i)] follow state [i]. *)
+let is_cyclic successors =
+  let n = Array.length successors in
+  let entered = Array.make n false and left = Array.make n false in
+  let rec visit i =
+    (entered.(i) && not left.(i))
+    || (not entered.(i)) && begin
+        entered.(i) <- true;
+        let found = List.exists visit successors.(i) in
+        left.(i) <- true;
+        found
+      end
+  in
+  List.exists visit (List.init n Fun.id)
+
+let in_seconds : Bounds.t -> int * int = function
+  | Within { least; most } -> (least / 1000, most / 1000)
+  | Some_time | Never -> raise_notrace Too_much
+
+let whole x = Float.to_int x
+
+let clock_of (o : Timed.options) (effect : Effect.t) =
+  let set what (least, most) = [ (what, { since = 0; least; most }) ] in
+  match effect with
+  | Start (v, p) -> set (Vehicle v) (in_seconds (o.durations.task v None p))
+  | Set_timer (i, n) -> set (Timer i) (whole n, whole n)
+  | Look_for { timeout = Some n; _ } -> set (Timer 0) (whole n, whole n)
+  | Look_for { timeout = None; _ } -> set (Timer 0) (in_seconds o.durations.announced)
+  | Ask _ | Call_host _ -> set Word (0, 0)
+  | _ -> []
+
+let inputs (o : Timed.options) c e =
+  match c.Configuration.control with
+  | Ended _ -> []
+  | _ ->
+    List.sort_uniq compare (List.map (fun (k, _, _) -> k) (Environment.inputs o.environment o.program e))
+
+let awaited o (c : Configuration.t) e =
+  let what : Transition.awaited -> awaited = function
+    | End_of v -> Vehicle v
+    | Expiry_of i -> Timer i
+    | Answer | Reply -> Word
+  in
+  List.map what (Transition.awaited c) @ List.map (fun k -> Input k) (inputs o c e)
+
+let over : Transition.event -> awaited option = function
+  | Vehicle_done v | Vehicle_failed (v, _) -> Some (Vehicle v)
+  | Timer_expired i -> Some (Timer i)
+  | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ -> Some Word
+  | Input (k, _) -> Some (Input k)
+  | Interruption -> None
+
+let posted (o : Timed.options) k =
+  match o.durations.posted k with
+  | Within { least; most } -> { since = 0; least = least / 1000; most = most / 1000 }
+  | Some_time | Never -> { since = 0; least = 0; most = max_int }
+
+let after o s (choice : Environment.choice) =
+  let t = choice.transition in
+  let kept = match Option.bind choice.on over with Some what -> List.remove_assoc what s.clocks | None -> s.clocks in
+  let set clocks effect =
+    let add clocks (what, clock) = (what, clock) :: List.remove_assoc what clocks in
+    List.fold_left add clocks (clock_of o effect)
+  in
+  let clocks = List.fold_left set kept t.effects in
+  let find what =
+    match what, List.assoc_opt what clocks with
+    | _, Some clock -> (what, clock)
+    | Input k, None -> (what, posted o k)
+    | _, None -> failwith "awaited, and never begun"
+  in
+  let set_patience patience : Effect.t -> _ = function
+    | Set_connection_timeout (None, n) -> [ (None, whole n) ]
+    | Set_connection_timeout (Some vs, n) ->
+      List.fold_left (fun patience v -> (Some v, whole n) :: List.remove_assoc (Some v) patience) patience vs
+    | _ -> patience
+  in
+  { c = t.next; e = choice.outside; now = s.now;
+    clocks = List.sort_uniq compare (List.map find (awaited o t.next choice.outside));
+    patience = List.sort compare (List.fold_left set_patience s.patience t.effects) }
+
+let patience (o : Timed.options) s v =
+  match List.assoc_opt (Some v) s.patience, List.assoc_opt None s.patience with
+  | Some n, _ | None, Some n -> n
+  | None, None -> snd (in_seconds o.durations.silence)
+
+let comes_late (t : Transition.t) = List.exists (function World.Late _ -> true | _ -> false) t.assumed
+
+(* From how many to how many seconds, of which clock. *)
+let due o s (choice : Environment.choice) =
+  let clock what = List.assoc what s.clocks in
+  let waits v = if List.mem v (Environment.lost s.e) then patience o s v else 0 in
+  match choice.on, s.c.control with
+  | Some (Vehicle_done v), _ ->
+    let c = clock (Vehicle v) in
+    Some (c, c.least, c.most + waits v)
+  | Some (Vehicle_failed (v, why)), _ ->
+    let c = clock (Vehicle v) and silence = patience o s v in
+    Some (if why = Environment.loss then (c, silence, c.most + waits v + silence) else (c, 0, c.most + waits v))
+  | Some event, _ -> Option.map (fun what -> let c = clock what in (c, c.least, c.most)) (over event)
+  | None, Waiting (_, Pick _) ->
+    let c = clock (Timer 0) in
+    Some (c, 0, if comes_late choice.transition then c.most else 0)
+  | None, _ -> None
+
+let all ?(states = 20_000) ?(seconds = 60) (o : Timed.options) =
+  let seen = Table.create 1_000 and queue = Queue.create () in
+  let edges = ref [] and following = ref [] in
+  let dates = Hashtbl.create 20 and never_over = ref false in
+  let note s moment =
+    let least, most = Option.value (Hashtbl.find_opt dates moment) ~default:(s.now, s.now) in
+    Hashtbl.replace dates moment (min least s.now, max most s.now)
+  in
+  let reach s =
+    if s.now > seconds || Table.length seen > states then raise_notrace Too_much;
+    if not (Table.mem seen s) then begin
+      Table.add seen s (Table.length seen);
+      Queue.add s queue
+    end;
+    following := Table.find seen s :: !following
+  in
+  let note_step s (t : Transition.t) =
+    let task v (p : Core.platform_task) : Timing.task = { name = p.name; vehicle = v; site = p.task_site } in
+    let running v moment =
+      Option.iter (fun p -> note s (Task (task v p, moment))) (Vehicle_map.find_opt v s.c.shared.allocation)
+    in
+    (match t.label with
+     | Done (v, _) -> running v Timed_system.Ends
+     | Fail (v, _, _) -> running v Fails
+     | _ -> ());
+    let effect : Effect.t -> unit = function
+      | Start (v, p) -> note s (Task (task v p, Timed_system.Starts))
+      | Stop v -> running v Stopped
+      | _ -> ()
+    in
+    List.iter effect t.effects
+  in
+  let note_end s =
+    match s.c.control with
+    | Ended Completed -> note s (Ended Completed)
+    | Ended (Halted _) -> note s (Ended Halted)
+    | Ended (Failed _) -> note s (Ended Failed)
+    | Ended Interrupted -> note s (Ended Interrupted)
+    | Script _ | Waiting _ | Executing _ -> ()
+  in
+  let expand s =
+    note_end s;
+    let choices = List.of_seq (Environment.choices_on o.environment o.program o.world s.e s.c) in
+    let timed = List.map (fun choice -> (choice, due o s choice)) choices in
+    let is_own ((choice : Environment.choice), _) = choice.on = None && not (comes_late choice.transition) in
+    let own = List.filter is_own timed in
+    let waits_for_others = List.exists (fun ((c : Environment.choice), _) -> comes_late c.transition) timed in
+    let possible = if own <> [] && not waits_for_others then own else timed in
+    let may_be_now (_, due) =
+      match due with
+      | Some (clock, least, most) -> clock.since >= least && clock.since <= most
+      | None -> true
+    in
+    let take ((choice : Environment.choice), _) =
+      note_step s choice.transition;
+      reach (after o s choice)
+    in
+    List.iter take (List.filter may_be_now possible);
+    (* A second passes, if for everything that is awaited something may still happen then. *)
+    let last clock =
+      List.fold_left
+        (fun last (_, due) -> match due with Some (c, _, most) when c == clock -> max last most | _ -> last)
+        (-1) possible
+    in
+    let may_wait (_, clock) = match last clock with -1 -> true | most -> clock.since < most in
+    if (own = [] || waits_for_others) && possible <> [] && List.for_all may_wait s.clocks then begin
+      let later (what, clock) = (what, { clock with since = clock.since + 1 }) in
+      if List.exists (fun (choice, _) -> not (Environment.is_voluntary choice.Environment.transition)) possible
+      || Environment.owes o.environment o.program s.e
+      then reach { s with now = s.now + 1; clocks = List.map later s.clocks }
+    end;
+    match s.c.control with
+    | Ended _ -> ()
+    | Script _ | Waiting _ | Executing _ ->
+      let is_step ((choice : Environment.choice), _) = not (Environment.is_voluntary choice.transition) in
+      if (not (List.exists is_step timed)) && not (Environment.owes o.environment o.program s.e) then never_over := true
+  in
+  let start =
+    let c = Configuration.initial o.program and e = Environment.initial in
+    { c; e; now = 0; patience = [];
+      clocks = List.sort compare (List.map (fun k -> (Input k, posted o k)) (inputs o c e)) }
+  in
+  match
+    reach start;
+    while not (Queue.is_empty queue) do
+      following := [];
+      expand (Queue.pop queue);
+      edges := !following :: !edges
+    done
+  with
+  | () ->
+    let never_over = !never_over || is_cyclic (Array.of_list (List.rev !edges)) in
+    Some { dates = List.sort compare (List.of_seq (Hashtbl.to_seq dates)); never_over }
+  | exception Too_much -> None

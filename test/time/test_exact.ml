@@ -1,0 +1,126 @@
+(* On random programs, the earliest and latest dates of ends and tasks are those of the enumeration second by second,
+   and some run never ends in one if it does in the other; each run that is shown, with its dates, is one of the timed
+   semantics. PROGRAMS in the environment is how many programs are tried, 600 by default. *)
+
+open Dolphin_semantics
+open Dolphin_environment
+open Dolphin_time
+module Generate = Test_support.Generate
+module Calls = Test_support.Calls
+module Posts = Test_support.Posts
+
+let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 600
+let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]); replies = Calls.replies }
+
+(* What need not come may come at any time, and no enumeration ends. *)
+let certain = List.map (fun (i : Environment.input) -> { i with certain = true }) Posts.inputs
+
+let environments =
+  [ ("as planned", answering);
+    ("with failures", Environment.failing answering);
+    ("with a failure", Environment.failing ~failures:1 answering);
+    ("with a loss", { answering with faults = { Faults.none with loss = At_most 1 } });
+    ("with losses", { answering with faults = { Faults.none with loss = Any_number } });
+    ( "with latecomers",
+      { answering with faults = { Faults.none with join = Any_number }; may_be_late = (fun v -> v <> "a") } );
+    ( "with all of it, once",
+      { answering with faults = { Faults.none with fail = At_most 1; loss = At_most 1; join = At_most 1 } } );
+    ("with inputs", { answering with inputs = certain });
+    ("with interruptions", { answering with faults = { Faults.none with interrupt = true } }) ]
+
+(* So many seconds, by the name of the plan and the vehicle: some exactly, some none, some that overlap. *)
+let durations seed : Durations.t =
+  let task v _ (p : Core.platform_task) =
+    let n = Hashtbl.hash (seed, v, p.name) in
+    let least = n mod 3 in
+    Bounds.Within { least = 1000 * least; most = 1000 * (least + (n / 3 mod 3)) }
+  in
+  let posted key = if key = "y" then Bounds.exactly 2. else Bounds.between 1. 2. in
+  { task; announced = Bounds.exactly 1.; silence = Bounds.exactly 2.; posted; place = (fun _ -> None) }
+
+let nested =
+  let open QCheck2.Gen in
+  let* depth = int_range 0 2 in
+  let* posts = oneofl [ []; [ ("x", 1) ]; [ ("y", 2); ("x", 2) ] ] in
+  let before = List.map (fun (k, x) -> Generate.statement (Generate.post k x)) posts in
+  map (Generate.executing ~before) (Generate.nested ~vehicles:Generate.vehicles ~depth)
+
+let case =
+  let open QCheck2.Gen in
+  let program = frequency [ (2, Generate.program); (1, Calls.within Generate.program); (3, nested) ] in
+  triple program (int_bound 1_000_000) (oneofl environments)
+
+let print (program, seed, (name, _)) = Printf.sprintf "%s, durations %d:\n%s" name seed (Generate.print program)
+
+let pp_moment ppf : Enumeration.moment -> unit = function
+  | Ended e ->
+    Format.pp_print_string ppf
+      (match e with Completed -> "completed" | Halted -> "halted" | Failed -> "failed" | Interrupted -> "interrupted")
+  | Task (t, m) ->
+    Format.fprintf ppf "%s on %s (%d) %s" t.name t.vehicle t.site
+      (match m with Starts -> "starts" | Ends -> "ends" | Fails -> "fails" | Stopped -> "is stopped")
+
+let skipped = ref 0 and endless = ref 0 and reduced = Hashtbl.create 7
+
+let seconds = function Timing.At n -> if n mod 1000 = 0 then n / 1000 else -1 | Unbounded -> max_int
+
+let found (o : Timing.outcome) =
+  let window (w : Timing.window) = (seconds (At w.earliest), seconds w.latest) in
+  let of_task (task, moments) =
+    List.map (fun (m, w) -> (Enumeration.Task (task, m), window w)) moments in
+  List.sort compare
+    (List.map (fun (e, w) -> (Enumeration.Ended e, window w)) o.endings @ List.concat_map of_task o.tasks)
+
+(* The run ends at the date that is said of its end, and its dates never go back. *)
+let is_dated (o : Timing.outcome) (run : Timing.run) later =
+  let rec in_order = function a :: (b :: _ as rest) -> a <= b && in_order rest | [ _ ] | [] -> true in
+  let last = List.nth run.dates (List.length run.dates - 1) in
+  let end_ (_, (w : Timing.window)) = if later then seconds w.latest else seconds (At w.earliest) in
+  let ends = List.map end_ o.endings in
+  let expected = List.fold_left (if later then max else min) (List.hd ends) ends in
+  in_order run.dates && last = 1000 * expected
+  && (run.chain = [] || (not later) || List.fold_left (fun n (l : Schedule.link) -> n + l.lasts) 0 run.chain >= last)
+
+let agrees (ast, seed, (_, environment)) =
+  let program = Posts.declared environment (Generate.compile ast) in
+  let options : Timed.options = { environment; program; world = Generate.world; durations = durations seed } in
+  match Enumeration.all options with
+  | None -> incr skipped; true
+  | Some expected ->
+    let o = Timing.run Dolphin_checker.Limits.none options in
+    let say what moments =
+      let one ppf (m, (a, b)) = Format.fprintf ppf "%a: %d to %d" pp_moment m a b in
+      Format.asprintf "%s: %a" what (Format.pp_print_list ~pp_sep:(fun ppf () -> Format.fprintf ppf "; ") one) moments
+    in
+    (* Where nothing happens any more, somebody may interrupt at any time. *)
+    let matters (moment, _) = not (expected.never_over && moment = Enumeration.Ended Interrupted) in
+    let found = List.filter matters (found o) and expected_dates = List.filter matters expected.dates in
+    if found <> expected_dates then
+      QCheck2.Test.fail_reportf "%s@.%s"
+        (say "expected" (List.filter (fun d -> not (List.mem d found)) expected_dates))
+        (say "found" (List.filter (fun d -> not (List.mem d expected_dates)) found));
+    if (o.endless <> None) <> expected.never_over then
+      QCheck2.Test.fail_report "some run never ends in one, and none in the other";
+    if o.endless <> None then incr endless;
+    let count (e, _) = Hashtbl.replace reduced e () in
+    List.iter count o.endings;
+    let dated later run = is_dated o run later || QCheck2.Test.fail_report "a run has other dates" in
+    let is_bounded = List.for_all (fun (_, (w : Timing.window)) -> w.latest <> Unbounded) o.endings in
+    let both = Option.fold ~none:true ~some:(dated true) o.last && Option.fold ~none:true ~some:(dated false) o.first in
+    (not is_bounded) || both
+
+let test_agreement () =
+  let test = QCheck2.Test.make ~count:programs ~print ~name:"zones and enumeration agree" case agrees in
+  Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
+  Printf.printf "%d skipped, %d with runs that never end\n" !skipped !endless
+
+(* Without programs that end in each way, agreement says little. *)
+let test_variety () =
+  Alcotest.(check int) "ways to end" 4 (Hashtbl.length reduced);
+  Alcotest.(check bool) "few are skipped" true (!skipped * 2 < programs);
+  Alcotest.(check bool) "some never end" true (!endless > 0)
+
+let () =
+  Alcotest.run "exact"
+    [ ("random programs", [ Alcotest.test_case "zones and enumeration" `Quick test_agreement;
+                            Alcotest.test_case "variety" `Quick test_variety ]) ]

@@ -1,0 +1,213 @@
+(* Dates that are known without a search: sums and maxima for tasks in series and side by side, and missions worked out
+   by hand. *)
+
+open Dolphin_time
+module Generate = Test_support.Generate
+module Scenario = Dolphin_scenario.Scenario
+module Environment = Dolphin_environment.Environment
+module Faults = Dolphin_environment.Faults
+module Scenario_world = Dolphin_environment.Scenario_world
+
+let read_file path =
+  let channel = open_in_bin path in
+  let text = really_input_string channel (in_channel_length channel) in
+  close_in channel;
+  text
+
+let fleet text =
+  match Scenario.read ~file:"test.fleet" text with
+  | Ok scenario -> scenario
+  | Error _ -> Alcotest.fail "the fleet is wrong"
+
+let outcome ?(faults = "") program scenario =
+  let faults = if faults = "" then Faults.none else Result.get_ok (Faults.of_string faults) in
+  Timing.run Dolphin_checker.Limits.none
+    { environment = Scenario_world.environment ~answers:[] ~faults scenario;
+      program = Test_support.Pure_run.compile_exn program; world = Scenario_world.world scenario;
+      durations = Durations.of_scenario scenario }
+
+let seconds (w : Timing.window) =
+  (float w.earliest /. 1000., match w.latest with At n -> float n /. 1000. | Unbounded -> infinity)
+
+let pp_window ppf (a, b) = Format.fprintf ppf "%g to %g" a b
+let window = Alcotest.testable pp_window ( = )
+
+let ends ?(ending = Timed_system.Completed) (o : Timing.outcome) =
+  match List.assoc_opt ending o.endings with Some w -> seconds w | None -> Alcotest.fail "no run ends so"
+
+let of_task (o : Timing.outcome) name moment =
+  let is_it ((t : Timing.task), _) = t.name = name in
+  match List.find_opt is_it o.tasks with
+  | Some (_, moments) -> seconds (List.assoc moment moments)
+  | None -> Alcotest.failf "no task %s" name
+
+(* {1 In series and side by side} *)
+
+type tree = Plan of string * int * int | Idle of int | Then of tree * tree | Beside of tree * tree
+
+let rec text = function
+  | Plan (v, least, most) -> Printf.sprintf "task('p_%d_%d')[%s]" least most v
+  | Idle n -> Printf.sprintf "idle(%d)" n
+  | Then (a, b) -> Printf.sprintf "(%s >> %s)" (text a) (text b)
+  | Beside (a, b) -> Printf.sprintf "(%s | %s)" (text a) (text b)
+
+let rec bounds = function
+  | Plan (_, least, most) -> (float least, float most)
+  | Idle n -> (float n, float n)
+  | Then (a, b) -> let (l, m), (l', m') = (bounds a, bounds b) in (l +. l', m +. m')
+  | Beside (a, b) -> let (l, m), (l', m') = (bounds a, bounds b) in (Float.max l l', Float.max m m')
+
+let rec plans = function
+  | Plan (_, least, most) -> [ (least, most) ]
+  | Idle _ -> []
+  | Then (a, b) | Beside (a, b) -> plans a @ plans b
+
+let tree =
+  let open QCheck2.Gen in
+  let leaf vs =
+    let plan v = map2 (fun least more -> Plan (v, least, least + more)) (int_range 0 20) (int_range 0 20) in
+    match vs with [] -> map (fun n -> Idle n) (int_range 0 20) | v :: _ -> plan v
+  in
+  let rec grow depth vs =
+    if depth = 0 then leaf vs
+    else
+      let less = grow (depth - 1) in
+      let beside = match vs with
+        | v :: rest -> map2 (fun a b -> Beside (a, b)) (less [ v ]) (less rest)
+        | [] -> map2 (fun a b -> Beside (a, b)) (less []) (less [])
+      in
+      oneof [ leaf vs; map2 (fun a b -> Then (a, b)) (less vs) (less vs); beside ]
+  in
+  grow 3 [ "a"; "b"; "c" ]
+
+let agrees tree =
+  let pick v = Printf.sprintf "%s = pick { id '%s' }\n" v v in
+  let vehicles = String.concat "" (List.map pick [ "a"; "b"; "c" ]) in
+  let vehicle v = Printf.sprintf "vehicle '%s', { type 'UUV' }\n" v in
+  let plan (least, most) = Printf.sprintf "plan 'p_%d_%d', { duration %d, %d }\n" least most least most in
+  let fleet_text =
+    String.concat "" (List.map vehicle [ "a"; "b"; "c" ] @ List.map plan (List.sort_uniq compare (plans tree))) in
+  let o = outcome (vehicles ^ "execute " ^ text tree ^ "\n") (fleet fleet_text) in
+  ends o = bounds tree && o.endless = None
+
+(* {1 Missions by hand} *)
+
+let example name =
+  let file ending = read_file (Filename.concat "../../examples" (name ^ ending)) in
+  (file ".dol", fleet (file ".fleet"))
+
+(* Each UUV surveys for 4 to 7 minutes, goes to the APDL and keeps station there for 10 minutes. The plane meets each
+   for 40 to 80 seconds once it is ready, one after the other: the first survey is over at 4:00 at the earliest, so a
+   visit begins then and ends at 4:40 at the earliest. At the latest all are ready at 7:00: the third visit begins at
+   7:00 + 2 * 1:20 = 9:40 and ends at 11:00. All is over when the last UUV has kept station, for a UUV has at least 10
+   minutes to go when it is ready, and the plane needs 4 at most. The UUV that has the longest way, noptilus-3, is the
+   last one at the latest and, as all need 4 minutes at least, at the earliest. *)
+let test_rendezvous () =
+  let program, scenario = example "rendezvous" in
+  let o = outcome program scenario in
+  let way id =
+    let v = List.find (fun (v : Scenario.vehicle) -> v.id = id) scenario.vehicles in
+    Dolphin_geo.Wgs84.distance v.position Dolphin_geo.Place.apdl /. v.speed
+  in
+  let longest = List.fold_left (fun n id -> Float.max n (way id)) 0. [ "noptilus-1"; "noptilus-2"; "noptilus-3" ] in
+  let down x = Float.floor (x *. 1000.) /. 1000. and up x = Float.ceil (x *. 1000.) /. 1000. in
+  let earliest = 240. +. 600. +. down (0.9 *. longest) and latest = 420. +. 600. +. up (1.1 *. longest) in
+  Alcotest.check window "completed" (earliest, latest) (ends o);
+  Alcotest.check window "a visit starts" (240., 580.) (of_task o "rv2" Starts);
+  Alcotest.check window "a visit ends" (280., 660.) (of_task o "rv2" Ends);
+  Alcotest.check window "a survey ends" (240., 420.) (of_task o "survey1" Ends)
+
+let two = "vehicle 'a', { type 'UUV' }\nvehicle 'b', { type 'UUV' }\n"
+let both = "va = pick { id 'a' }\nvb = pick { id 'b' }\n"
+
+(* The survey of 15 to 19 minutes in a window of 10: a run meets the limit and another handles it, always at 10:00. *)
+let test_within () =
+  let o = outcome (both ^ "execute task('survey')[va] within 10.min\n")
+      (fleet (two ^ "plan 'survey', { duration 8.min, 19.min }")) in
+  Alcotest.check window "in time" (480., 600.) (ends o);
+  Alcotest.check window "too late" (600., 600.) (ends ~ending:Failed o);
+  Alcotest.check window "stopped" (600., 600.) (of_task o "survey" Stopped)
+
+(* A race: whoever is first ends the other one. *)
+let test_until () =
+  let race = "task('slow')[va] | task('quick')[vb] >> action { post done: 1 }" in
+  let o = outcome (both ^ "execute until { poll done: 1 } run " ^ race ^ "\n")
+      (fleet (two ^ "plan 'slow', { duration 5, 9 }\nplan 'quick', { duration 3, 7 }")) in
+  Alcotest.check window "over" (3., 7.) (ends o);
+  Alcotest.check window "slow ends" (5., 7.) (of_task o "slow" Ends);
+  Alcotest.check window "slow is stopped" (3., 7.) (of_task o "slow" Stopped)
+
+(* A plan on a silent link fails 60 s after the link went, which is at its latest end at the latest; so says the program
+   at 10 s. *)
+let test_faults () =
+  let program = both ^ "execute task('p')[va]\n" and scenario = fleet (two ^ "plan 'p', { duration 5, 9 }") in
+  Alcotest.check window "a failure" (0., 9.) (ends ~ending:Failed (outcome ~faults:"fail" program scenario));
+  Alcotest.check window "a loss" (60., 69.) (ends ~ending:Failed (outcome ~faults:"loss" program scenario));
+  let told = both ^ "setConnectionTimeout va, 10\nexecute task('p')[va]\n" in
+  Alcotest.check window "a loss, told" (10., 19.) (ends ~ending:Failed (outcome ~faults:"loss" told scenario));
+  Alcotest.check window "others complete" (5., 9.) (ends (outcome ~faults:"fail,loss" told scenario))
+
+let is_endless (o : Timing.outcome) = match o.endless with
+  | Some (_, `Cycle) -> "a cycle" | Some (_, `In_no_time) -> "a cycle in no time" | Some (_, `Stuck) -> "stuck"
+  | None -> "all end"
+
+let test_endless () =
+  let scenario = fleet (two ^ "plan 'p', { duration 5, 9 }") in
+  let check name expected program =
+    Alcotest.(check string) name expected (is_endless (outcome (both ^ program) scenario)) in
+  check "rounds" "a cycle" "execute repeat task('p')[va]\n";
+  check "rounds until" "a cycle" "execute repeat task('p')[va] until { poll x: 1 }\n";
+  check "rounds of no time" "a cycle in no time" "execute repeat idle(0) until { poll x: 1 }\n";
+  check "a loop of the script" "a cycle" "while (true) { pause 1 }\n";
+  check "nobody posts" "stuck" "execute waitFor { consume x: 1 } then task('p')[va]\n";
+  check "rounds for a while" "all end" "execute (repeat task('p')[va]) during 60\n";
+  check "counted rounds" "all end" "execute repeat 5, task('p')[va]\n";
+  let timed program = ends (outcome (both ^ program) scenario) in
+  Alcotest.check window "rounds for a while" (60., 60.) (timed "execute (repeat task('p')[va]) during 60\n");
+  Alcotest.check window "counted rounds" (25., 45.) (timed "execute repeat 5, task('p')[va]\n");
+  let perhaps = "oneOf {\n when { true } then action { post x: 1 }\n when { true } then idle 0\n }" in
+  let program = both ^ "execute repeat (task('p')[va] >> " ^ perhaps ^ ") until { poll x: 1 }\n" in
+  Alcotest.check window "rounds until somebody likes" (5., infinity) (ends (outcome program scenario));
+  check "rounds until somebody likes" "a cycle"
+    ("execute repeat (task('p')[va] >> " ^ perhaps ^ ") until { poll x: 1 }\n")
+
+(* Nobody knows how long 'q' takes: what follows has no latest time, what stands beside it has. *)
+let test_unknown () =
+  let program = both ^ "execute task('q')[va] >> task('p')[va] | task('p')[vb]\n" in
+  let o = outcome program (fleet (two ^ "plan 'p', { duration 5, 9 }")) in
+  Alcotest.check window "completed" (5., infinity) (ends o);
+  Alcotest.(check int) "one is unknown" 1 (List.length o.unknown);
+  Alcotest.(check bool) "inconclusive" true (Timing.verdict o = Inconclusive);
+  Alcotest.(check bool) "no deadline can be told" true (Timing.verdict ~deadline:100_000 o = Inconclusive)
+
+let test_deadline () =
+  let o = outcome (both ^ "execute task('p')[va]\n") (fleet (two ^ "plan 'p', { duration 5, 9 }")) in
+  let verdict deadline = Timing.verdict ~deadline o in
+  Alcotest.(check bool) "held" true (verdict 9_000 = Holds);
+  Alcotest.(check bool) "broken by a millisecond" true (verdict 8_999 = Violated)
+
+(* [count _] takes its whole time-out; a vehicle that comes late may come until then. *)
+let test_picks () =
+  let scenario = fleet two in
+  Alcotest.check window "all" (30., 30.) (ends (outcome "vs = pick { count _; timeout 30 }\n" scenario));
+  Alcotest.check window "one" (0., 0.) (ends (outcome "vs = pick { count 2; timeout 30 }\n" scenario));
+  let late = outcome ~faults:"join" "vs = pick { count 2; timeout 30 }\n" scenario in
+  Alcotest.check window "late" (0., 30.) (ends late);
+  Alcotest.check window "missing" (30., 30.) (ends ~ending:Failed late)
+
+(* A vehicle whose plan was stopped half-way is nobody knows where, so nobody knows how long its way back takes. *)
+let test_places () =
+  let go = "imcPlan { planName 'go'\n goTo location: (location 41.19, -8.70)\n}" in
+  let o = outcome (both ^ "p = " ^ go ^ "\nexecute p[va] >> p[va]\n") (fleet (two ^ "plan 'x'")) in
+  Alcotest.(check int) "from a known place" 0 (List.length o.unknown);
+  let o = outcome (both ^ "p = " ^ go ^ "\nexecute (p[va] during 1) >> p[va]\n") (fleet (two ^ "plan 'x'")) in
+  Alcotest.(check int) "from an unknown one" 1 (List.length o.unknown)
+
+let () =
+  let case name f = Alcotest.test_case name `Quick f in
+  Alcotest.run "missions"
+    [ ("closed forms", [ Test_support.Property.case ~count:300 "in series and side by side" ~print:text tree agrees ]);
+      ("by hand",
+       [ case "the paper's mission" test_rendezvous; case "within" test_within; case "until" test_until;
+         case "faults" test_faults; case "runs without end" test_endless; case "unknown durations" test_unknown;
+         case "deadlines" test_deadline; case "picks" test_picks; case "places" test_places ]) ]

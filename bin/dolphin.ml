@@ -23,7 +23,8 @@ let command =
       ~exits:(Options.exits [ Done; Failed; Bad_input; Platform_trouble; Bug; Interrupted ])
   in
   let commands =
-    [ Check_command.command; Conform_command.command; Doctor_command.command; Exec_command.command;
+    [ Check_command.command; Conform_command.command; Console_command.command; Doctor_command.command;
+      Exec_command.command;
       Explore_command.command; Fleet_command.command; Fmt_command.command; Lsp_command.command; Lts_command.command;
       New_command.command; Parse_command.command; Plan_command.command; Platform_command.command;
       Post_command.command; Runs_command.command; Sim_command.command; Step_command.command; Time_command.command;

@@ -89,7 +89,7 @@ let run () show path set sim fleet network adapters definition speed seed answer
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
   let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
   let settings : Run.settings =
-    { network; adapters; speed; seed; answers; supplier; supplier_timeout;
+    { network; adapters; speed; seed; answers; people = false; supplier; supplier_timeout;
       socket = not no_socket; recording = { journal; drawing; follower = None } }
   in
   let is_simulated = Run.is_simulated settings in

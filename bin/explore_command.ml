@@ -12,12 +12,14 @@ let clear_progress () = Printf.eprintf "\r\027[K%!"
 
 let ( let* ) = Result.bind
 
-let explore settings program fleet ~json =
-  let live = Unix.isatty Unix.stderr && not json in
+let explore settings program fleet ~json ~period =
+  let live = Unix.isatty Unix.stderr && not json && period = None in
   let interrupted = ref false in
   Sys.set_signal Sys.sigint (Signal_handle (fun _ -> interrupted := true));
   let progress =
-    if live then show_progress else if json then ignore else Progress_lines.every_ten_seconds prerr_endline
+    match period with
+    | Some seconds -> Progress_lines.every seconds prerr_endline
+    | None -> if live then show_progress else if json then ignore else Progress_lines.every 10. prerr_endline
   in
   let outcome =
     Exploration.explore ~interrupted:(fun () -> !interrupted) ~progress settings program fleet in
@@ -25,14 +27,14 @@ let explore settings program fleet ~json =
   outcome
 
 (* As it is kept, if nothing has changed; or explored, and kept for the next time. *)
-let find_or_explore settings program fleet ~json ~cache =
+let find_or_explore settings program fleet ~json ~period ~cache =
   let store = if cache then Verdict_store.make settings program fleet else None in
   match Option.bind store Verdict_store.find with
   | Some outcome ->
     Report.complain "nothing has changed: these are the verdicts that were kept";
     Ok outcome
   | None ->
-    let* outcome = explore settings program fleet ~json in
+    let* outcome = explore settings program fleet ~json ~period in
     let keep store = Result.iter_error Report.tell (Verdict_store.keep store outcome) in
     Option.iter keep store;
     Ok outcome
@@ -52,15 +54,15 @@ let write_files files program fleet ~strict outcome =
   let sarif = write files.sarif (fun path -> Sarif.write ~strict ~version:Version.number program path outcome) in
   List.fold_left (fun found next -> if Result.is_error found then found else next) trace [ junit; sarif ]
 
-let run path set fleet answers faults strict json files cache reduction compress invariants formulas max_states
-    max_depth max_memory timeout =
+let run path set fleet answers faults strict json period files cache reduction compress invariants formulas
+    max_states max_depth max_memory timeout =
   let settings : Exploration.settings =
     { answers; faults; reduction; compress; max_states; max_depth; max_memory; timeout; invariants; formulas } in
   Report.result
     (let* program = Program_file.load ~set path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
      Report.diagnostics ~source:program.source program.warnings;
-     let* outcome = find_or_explore settings program fleet ~json ~cache in
+     let* outcome = find_or_explore settings program fleet ~json ~period ~cache in
      let written = write_files files program fleet ~strict outcome in
      Result.iter_error Report.tell written;
      if json then print_endline (Yojson.Safe.to_string (Exploration_report.to_json program.program outcome))
@@ -170,6 +172,13 @@ let files =
   let make trace junit sarif = { trace; junit; sarif } in
   Term.(const make $ trace $ junit $ sarif)
 
+let period =
+  let doc =
+    "Print how far the search has come on standard error, a line every $(docv) seconds. Without it, a terminal shows \
+     that all the time, and a log has a line every ten seconds, or none with $(b,--json)."
+  in
+  Arg.(value & opt (some (Options.positive ~docv:"SECONDS")) None & info [ "progress" ] ~docv:"SECONDS" ~doc)
+
 let cache =
   let doc =
     "Keep the verdicts, unless one is inconclusive, and print those that were kept if nothing has changed: neither \
@@ -238,5 +247,5 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ Options.set $ Options.fleet $ answers $ faults $ strict $ json $ files
+      const run $ Options.program $ Options.set $ Options.fleet $ answers $ faults $ strict $ json $ period $ files
       $ cache $ reduction $ compress $ invariants $ formulas $ max_states $ max_depth $ max_memory $ timeout)

@@ -10,7 +10,7 @@ let analyse settings program fleet ~json =
   let progress =
     if live then fun p -> Printf.eprintf "\r%s\027[K%!" (Progress_lines.line p)
     else if json then ignore
-    else Progress_lines.every_ten_seconds prerr_endline
+    else Progress_lines.every 10. prerr_endline
   in
   let outcome = Time_analysis.run ~interrupted:(fun () -> !interrupted) ~progress settings program fleet in
   if live then Printf.eprintf "\r\027[K%!";

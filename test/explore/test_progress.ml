@@ -7,7 +7,7 @@ let at elapsed : Dolphin_checker.Limits.progress =
 
 let printed times =
   let lines = ref [] in
-  let report = Progress_lines.every_ten_seconds (fun line -> lines := line :: !lines) in
+  let report = Progress_lines.every 10. (fun line -> lines := line :: !lines) in
   List.iter (fun elapsed -> report (at elapsed)) times;
   List.rev !lines
 

@@ -2,9 +2,7 @@ let line (p : Dolphin_checker.Limits.progress) =
   Printf.sprintf "%s: %d states, %.0f/s, frontier %d, depth %d, %d MiB, %.0f s" p.phase p.states p.rate p.frontier
     p.depth (p.memory / 1024 / 1024) p.elapsed
 
-let period = 10.
-
-let every_ten_seconds print =
+let every period print =
   let reported = ref 0. in
   fun (p : Dolphin_checker.Limits.progress) ->
     let periods = Float.floor (p.elapsed /. period) in

@@ -90,13 +90,13 @@ let files folder =
     | files -> Ok (Array.to_list files)
     | exception Sys_error why -> Error (Error.Unavailable why)
 
-let list () =
+let list ?except () =
   let* folder = folder () in
   let* files = files folder in
   let journals = List.filter (fun file -> Filename.check_suffix file ending) files in
   let run file =
     let path = Filename.concat folder file in
-    Result.to_option (Text_file.with_channel path (read path))
+    if except = Some path then None else Result.to_option (Text_file.with_channel path (read path))
   in
   Ok (List.filter_map run (List.sort (fun a b -> compare b a) journals))
 

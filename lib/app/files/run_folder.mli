@@ -24,8 +24,9 @@ val fresh : program:string -> (string, Error.t) result
 val writable : unit -> (string, Error.t) result
 (** The folder, which may be yet to be made, if it can be written to. *)
 
-val list : unit -> (run list, Error.t) result
-(** The runs in the folder, latest first. Files that are no journals are left out; a folder that is not there yet has
+val list : ?except:string -> unit -> (run list, Error.t) result
+(** The runs in the folder, latest first, but for the one with the path [except], which this process writes: to read it
+    would give its lock away. Files that are no journals are left out; a folder that is not there yet has
     none. The error, {!Error.Unavailable}, says why nobody knows: nothing names the folder, or it cannot be read. *)
 
 val find : string -> (string, Error.t) result

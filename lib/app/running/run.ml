@@ -12,6 +12,7 @@ type settings = {
   speed : float option;
   seed : int option;
   answers : string list;
+  people : bool;
   supplier : string option;
   supplier_timeout : float option;
   socket : bool;
@@ -19,7 +20,8 @@ type settings = {
 }
 
 let simulated =
-  { network = None; adapters = []; speed = None; seed = None; answers = []; supplier = None; supplier_timeout = None;
+  { network = None; adapters = []; speed = None; seed = None; answers = []; people = false;
+    supplier = None; supplier_timeout = None;
     socket = false; recording = Recording.nothing }
 
 let choice (s : settings) : Networks.choice = { imc = s.network; adapters = s.adapters }
@@ -239,7 +241,7 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
   r.front.opened { now; estimates; post = Inputs.post inputs };
   let console =
     Questions.console r.front.person ~answered:(History.answers (history r)) ~answers:r.settings.answers
-      ~scenario:r.scenario
+      ~scenario:(if r.settings.people then { r.scenario with answers = [] } else r.scenario)
   in
   let unmet = ref None in
   let observer =

@@ -15,6 +15,7 @@ type settings = {
   speed : float option;  (** of the simulation, times real time; [None]: as fast as it goes *)
   seed : int option;  (** of the simulation; [None]: 0, or that of the run that is resumed *)
   answers : string list;  (** to the first questions of the program *)
+  people : bool;  (** whether all other questions are for people, although the fleet has answers *)
   supplier : string option;  (** a command; [None]: the fleet replies to calls *)
   supplier_timeout : float option;  (** seconds for each reply; [None]: any time *)
   socket : bool;  (** whether the run has a socket beside its journal, if its time passes by itself: {!Run_socket} *)

@@ -1,0 +1,121 @@
+open Cmdliner
+open Dolphin_app
+open Lwt.Infix
+module Console = Dolphin_console.Console
+module Folder = Dolphin_console.Folder
+module Page = Dolphin_console.Page
+
+let ( let* ) = Result.bind
+let trouble result = Result.map_error (fun why -> Error.Bad_input why) result
+
+(* On a desktop; whoever has none is told the address. *)
+let open_browser address =
+  let is_set name = match Sys.getenv_opt name with Some "" | None -> false | Some _ -> true in
+  if Unix.isatty Unix.stdout && (is_set "DISPLAY" || is_set "WAYLAND_DISPLAY") then
+    try
+      let null = Unix.openfile "/dev/null" [ O_RDWR; O_CLOEXEC ] 0 in
+      ignore (Unix.create_process "xdg-open" [| "xdg-open"; address |] null null null);
+      Unix.close null
+    with Unix.Unix_error _ -> ()
+
+let last_words = "interrupted twice: ended at once; vehicles that were not told to stop yet run on"
+
+let serve settings ~port ~browser =
+  let* console =
+    Result.map_error
+      (fun why -> Error.Unavailable (Printf.sprintf "port %d cannot be had: %s" port why))
+      (Console.start settings ~port)
+  in
+  let address = Printf.sprintf "http://127.0.0.1:%d/" (Console.port console) in
+  Printf.printf "The console of %s is at %s\n%!" (Folder.root settings.folder) address;
+  if browser then open_browser address;
+  let interruption = Interruption.make () in
+  let again () =
+    if Console.busy console && not (Run.is_simulated settings.run) then Report.complain last_words;
+    Exit_status.exit_interrupted ()
+  in
+  Interruption.on_signals ~again interruption;
+  Lwt_main.run (Interruption.promise interruption >>= fun () -> Console.close console);
+  Ok Exit_status.Done
+
+(* A fleet that cannot be read is told of now, and not at the first run. *)
+let check_fleet = function None -> Ok () | Some path -> Result.map ignore (Fleet_file.load (Some path))
+
+let run () folder sim fleet network adapters definition supplier supplier_timeout port no_browser =
+  let fleet = match fleet, sim with Some _, _ -> fleet | None, sim -> sim in
+  Report.result
+    (let* folder = trouble (Folder.make folder) in
+     let* definition = Definition_file.load definition in
+     let network = Option.map (Imc_options.with_names definition) network in
+     let run = { Run.simulated with network; adapters; supplier; supplier_timeout } in
+     let* () =
+       if sim <> None && not (Run.is_simulated run) then
+         Error
+           (Error.Bad_input "vehicles of a network (--imc, --platform) are not simulated: --sim does not go with them")
+       else check_fleet fleet
+     in
+     let settings =
+       { Console.folder; run; fleet; dolphin = Sys.executable_name; page = Page.load (Page.folder ());
+         version = Version.number }
+     in
+     serve settings ~port ~browser:(not no_browser))
+
+let folder =
+  let doc = "The folder whose programs, fleets and journals are shown, by default the one that you are in." in
+  Arg.(value & pos 0 string "." & info [] ~docv:"DIR" ~doc)
+
+let sim =
+  let doc =
+    "Run programs on the simulated fleet that the file $(docv) describes, unless the page names another. By default \
+     each runs on that in the file beside it with the ending $(b,.fleet), or else on the built-in one."
+  in
+  Arg.(value & opt (some string) None & info [ "sim" ] ~docv:"FLEET" ~doc)
+
+let port =
+  let doc = "Serve port $(docv) of 127.0.0.1; 0 is any that is free." in
+  Arg.(value & opt int 8642 & info [ "port" ] ~docv:"PORT" ~doc)
+
+let no_browser =
+  let doc = "Open no browser." in
+  Arg.(value & flag & info [ "no-browser" ] ~doc)
+
+let supplier =
+  let doc = "The command that starts the supplier of each run, as in $(mname) $(b,exec)." in
+  Arg.(value & opt (some string) None & info [ "supplier" ] ~docv:"CMD" ~doc)
+
+let supplier_timeout =
+  let doc = "Give the supplier $(docv) seconds for each reply." in
+  Arg.(value & opt (some (Options.positive ~docv:"SECONDS")) None & info [ "supplier-timeout" ] ~docv:"SECONDS" ~doc)
+
+let man =
+  [ `S Manpage.s_description;
+    `P "$(tname) shows the programs, fleets and runs of the folder $(i,DIR) in a browser: a map, a timeline, the log, \
+        what the program waits for, an editor, the verdicts of $(mname) $(b,explore). Programs are run from there, on \
+        the simulated fleet, or with $(b,--imc) and $(b,--platform) on vehicles, and their questions answered.";
+    `P "A run belongs to the server: a page that is closed or loaded again changes nothing, and several pages see the \
+        same. One of them has the helm and commands. Every run has a journal, among those that $(mname) $(b,runs) \
+        lists; one whose console died is offered to be resumed.";
+    `P "Only this machine can connect. Pages of others in the same browser are refused, and so is whatever lies \
+        outside of $(i,DIR). Ctrl-C stops the run and ends the server when all vehicles are released.";
+    `P "The page is built apart from the command, by $(b,scripts/console); without it the programming interface is \
+        there all the same. The pages $(i,docs/console.md) and $(i,docs/api.md) tell more.";
+    `S Manpage.s_arguments;
+    `S Manpage.s_options;
+    `S Imc_options.s_network;
+    `S Platform_options.s_platforms;
+    `S Manpage.s_exit_status;
+    `S Manpage.s_environment;
+    `I ("$(b,DOLPHIN_CONSOLE)", "The folder of the built page, if it is elsewhere.");
+    `S Manpage.s_examples;
+    `Pre "  $(mname) $(tname) examples\n  $(mname) $(tname) missions --imc --port 9000" ]
+  @ Options.see_also
+
+let command =
+  let info =
+    Cmd.info "console" ~docs:Options.s_run ~doc:"show and steer runs in a browser" ~man
+      ~exits:(Options.exits [ Done; Bad_input; Platform_trouble; Bug; Interrupted ])
+  in
+  Cmd.v info
+    Term.(
+      const run $ Verbosity.setup $ folder $ sim $ Options.fleet $ Imc_options.chosen $ Platform_options.adapters
+      $ Imc_options.definition $ supplier $ supplier_timeout $ port $ no_browser)

@@ -1,0 +1,3 @@
+(** [dolphin console]. *)
+
+val command : Exit_status.t Cmdliner.Cmd.t

@@ -1,0 +1,463 @@
+open Dolphin_app
+open Dolphin_json
+open Field
+open Lwt.Infix
+module Request = Dolphin_http.Request
+module Response = Dolphin_http.Response
+module Scenario = Dolphin_scenario.Scenario
+module Service = Dolphin_service.Service
+
+(* {1 Replies} *)
+
+type json = Yojson.Safe.t
+
+(* Why a request is not done: a status of HTTP, a code that does not change, a sentence, perhaps more. *)
+type refusal = { status : int; code : string; message : string; more : members }
+
+let refusal ?(more = []) status code message = { status; code; message; more }
+let refuse ?more status code message = Error (refusal ?more status code message)
+let bad message = refuse 400 "bad-request" message
+
+let json ?(status = 200) (json : json) =
+  Response.text ~kind:"application/json" status (Canonical.to_string json ^ "\n")
+
+let of_refusal { status; code; message; more } =
+  json ~status (`Assoc [ ("error", `Assoc ([ ("code", `String code); ("message", `String message) ] @ more)) ])
+
+let of_result = function Ok found -> json found | Error r -> of_refusal r
+
+(* {1 Arguments} *)
+
+let needed result = Result.map_error (refusal 400 "bad-request") result
+
+let body (r : Request.t) =
+  match Host_value.parse r.body with
+  | Ok (`Assoc found) -> Ok found
+  | Ok _ -> bad "the body is no JSON object"
+  | Error why -> bad ("the body is no JSON: " ^ why)
+
+let get read name found = needed (get read name found)
+let optional read name found = needed (Field.optional (nullable read) ~default:None name found)
+
+let parameter r name =
+  Option.to_result ~none:(refusal 400 "bad-request" ("the query lacks " ^ name)) (Request.parameter r name)
+
+let folder h = (Hall.settings h).Hall.folder
+
+let file h path = Result.map_error (refusal 404 "not-found") (Folder.find (folder h) path)
+
+let of_error ~source e =
+  let message = match Error.sentences e with [] -> "the text has faults" | found -> String.concat "; " found in
+  refusal ~more:[ ("diagnostics", Documents.of_error ~source e) ] 422 "faults" message
+
+let text path = Result.map_error (fun e -> refusal 404 "not-found" (String.concat "; " (Error.sentences e)))
+    (Text_file.read path)
+
+(* A program, with the text that its diagnostics speak of. *)
+let program h ?(set = []) path =
+  let* full = file h path in
+  let* source = text full in
+  Result.map_error (of_error ~source) (Program_file.load ~set full)
+
+let fleet h ~program named =
+  let* named =
+    match named with
+    | Some path -> Result.map Option.some (file h path)
+    | None -> Ok (Hall.settings h).fleet
+  in
+  let path = Fleet_file.choose ~program named in
+  let source = Option.fold path ~none:"" ~some:(fun path -> Result.value (Text_file.read path) ~default:"") in
+  Result.map_error (of_error ~source) (Fleet_file.load path)
+
+(* The parameters that are set, each with the text of its value. *)
+let set found =
+  match List.assoc_opt "set" found with
+  | None | Some `Null -> Ok []
+  | Some json ->
+    let* pairs = needed (members json) in
+    let pair (name, json) = Result.map (fun value -> (name, value)) (needed (Field.text json)) in
+    Dolphin_results.Results.map pair pairs
+
+(* {1 Files} *)
+
+let hash text = Digest.to_hex (Digest.string text)
+
+let files h _ =
+  let of_kind kind =
+    let wanted (k, path) = if k = kind then Some (`String path) else None in
+    `List (List.filter_map wanted (Folder.list (folder h)))
+  in
+  Ok (`Assoc [ ("programs", of_kind Folder.Program); ("fleets", of_kind Fleet); ("journals", of_kind Journal) ])
+
+let read_file h r =
+  let* path = parameter r "path" in
+  let* full = file h path in
+  let* text = if Folder.kind full = Some Journal then bad "journals are told by replay" else text full in
+  Ok (`Assoc [ ("path", `String path); ("text", `String text); ("hash", `String (hash text)) ])
+
+let longest_text = 256 * 1024
+
+let short text =
+  if String.length text <= longest_text then Ok text
+  else refuse 413 "too-large" (Printf.sprintf "a text has at most %d bytes here" longest_text)
+
+(* Whoever saves tells what was read: what others changed meanwhile is not lost. *)
+let save h found =
+  let* path = get Field.text "path" found in
+  let* text = Result.bind (get Field.text "text" found) short in
+  let* before = optional Field.text "hash" found in
+  let* full = Result.map_error (refusal 404 "not-found") (Folder.place (folder h) path) in
+  let* () = if Folder.kind full = Some Journal then bad "journals are not edited" else Ok () in
+  let there = if Sys.file_exists full then Result.to_option (Text_file.read full) else None in
+  if Option.map hash there <> before then
+    refuse 409 "changed" "the file has changed since it was read"
+      ~more:[ ("hash", of_option (fun text -> `String (hash text)) there) ]
+  else
+    let written =
+      if there = None then Text_file.write full (fun channel -> output_string channel text)
+      else Source_file.replace full text
+    in
+    match written with
+    | Ok () -> Ok (`Assoc [ ("hash", `String (hash text)) ])
+    | Error e -> refuse 422 "not-saved" (String.concat "; " (Error.sentences e))
+
+(* {1 Texts under way} *)
+
+let document h found =
+  let* path = get Field.text "path" found in
+  let* full = Result.map_error (refusal 404 "not-found") (Folder.place (folder h) path) in
+  let* given = optional Field.text "text" found in
+  let* source = match given with Some text -> short text | None -> text full in
+  let of_fleet path = Option.map (fun text -> { Service.path; text }) (Result.to_option (Text_file.read path)) in
+  let fleet = Option.bind (Fleet_file.choose ~program:full (Hall.settings h).fleet) of_fleet in
+  Ok (Documents.service ~file:full ~fleet source)
+
+let check h found =
+  let* d = document h found in
+  Ok (`Assoc [ ("diagnostics", Documents.diagnostics d) ])
+
+let at_place f h found =
+  let* d = document h found in
+  let* at = get whole "at" found in
+  Ok (f d at)
+
+let format h found =
+  let* d = document h found in
+  Result.map_error (refusal 422 "faults") (Documents.format d)
+
+(* {1 What a program runs in} *)
+
+let position (p : Dolphin_geo.Position.t) : members =
+  [ ("latitude", Canonical.number p.latitude); ("longitude", Canonical.number p.longitude) ]
+
+let vehicle (v : Scenario.vehicle) : json =
+  `Assoc ([ ("vehicle", `String v.id); ("type", `String v.kind); ("payload", texts v.payload);
+            ("battery", Canonical.number v.battery) ] @ position v.position)
+
+let plan (p : Scenario.plan) : json =
+  `Assoc (("plan", `String p.name) :: Option.fold p.place ~none:[] ~some:position)
+
+let parameter_of (p : Dolphin_syntax.Parameters.t) : json =
+  let why = Option.fold p.description ~none:[] ~some:(fun text -> [ ("description", `String text) ]) in
+  `Assoc
+    ([ ("name", `String p.name); ("as", `String (Format.asprintf "%a" Dolphin_syntax.Parameters.pp p)) ] @ why)
+
+let world h r =
+  let* path = parameter r "program" in
+  let* program = program h path in
+  let* fleet = fleet h ~program:program.path (Request.parameter r "fleet") in
+  let fleet_path = Option.bind fleet.path (Folder.inside (folder h)) in
+  Ok
+    (`Assoc
+       [ ("inputs", texts program.program.inputs);
+         ("parameters", `List (List.map parameter_of program.parameters));
+         ("fleet", of_option (fun path -> `String path) fleet_path);
+         ("vehicles", `List (List.map vehicle fleet.scenario.vehicles));
+         ("plans", `List (List.map plan fleet.scenario.plans)) ])
+
+(* {1 Runs} *)
+
+let not_busy h =
+  if Hall.busy h then refuse 409 "busy" "a run goes on: one at a time" else Ok ()
+
+let unavailable e = refusal 503 "unavailable" (String.concat "; " (Error.sentences e))
+
+let started run : json = `Assoc [ ("run", `String (Live_run.id run)) ]
+
+let speed found =
+  let* speed = optional number "speed" found in
+  match speed with
+  | Some x when not (x > 0. && x <= 100_000.) -> bad "the speed is a number above 0, or null: as fast as it goes"
+  | speed -> Ok speed
+
+let start h found =
+  let* () = not_busy h in
+  let* path = get Field.text "program" found in
+  let* named = optional Field.text "fleet" found in
+  let* speed = speed found in
+  let* set = set found in
+  let* seed = optional whole "seed" found in
+  let* answers = optional (list Field.text) "answers" found in
+  let* people = optional truth "people" found in
+  let settings = (Hall.settings h).run in
+  let simulated = Run.is_simulated settings in
+  let* program = program h ~set path in
+  let* fleet = if simulated || named <> None then fleet h ~program:program.path named else Ok Fleet_file.nobody in
+  let* () =
+    if (not simulated) && speed <> None then bad "vehicles of a network are not simulated: their run has no speed"
+    else Ok ()
+  in
+  let* journal = Result.map_error unavailable (Run_folder.fresh ~program:program.path) in
+  let answers = Option.value answers ~default:[] and people = people = Some true in
+  let settings = { settings with speed; seed; answers; people; socket = true } in
+  let order = { Live_run.program; fleet; settings; journal } in
+  Ok (started (Hall.begin_run h (fun ~id ~changed -> Live_run.start ~id ~changed order)))
+
+let going_on h =
+  match Hall.run h with
+  | Some run when Live_run.goes_on run -> Ok run
+  | Some _ | None -> refuse 409 "no-run" "no run goes on"
+
+let stop h _ =
+  let* run = going_on h in
+  Live_run.stop run;
+  Ok (`Assoc [])
+
+let answer h found =
+  let* run = going_on h in
+  let* number = get whole "question" found in
+  let* text = get Field.text "text" found in
+  let* () = Result.map_error (refusal 409 "answered") (Live_run.answer run number text) in
+  Ok (`Assoc [])
+
+(* A pair, or pairs as people type them. *)
+let pairs found =
+  match List.assoc_opt "pairs" found with
+  | Some (`String text) -> needed (Typed_input.read text)
+  | Some _ -> bad "pairs is a text, as in \"target: [1, 2]\""
+  | None ->
+    let* key = get Field.text "key" found in
+    let* value = get any "value" found in
+    let* value = needed (Host_value.data_of_json value) in
+    Ok [ (key, value) ]
+
+let post h found =
+  match Result.bind (going_on h) (fun run -> Result.map (fun pairs -> (run, pairs)) (pairs found)) with
+  | Error r -> Lwt.return (Error r)
+  | Ok (run, pairs) ->
+    Live_run.post run pairs >|= function
+    | Ok time -> Ok (`Assoc [ ("time", Canonical.number time) ])
+    | Error why -> refuse 422 "not-posted" why
+
+(* {1 Runs that were} *)
+
+let own h = match Hall.run h with Some run when Live_run.goes_on run -> Some (Live_run.journal run) | _ -> None
+
+let all_runs h =
+  let listed = Result.map_error unavailable (Run_folder.list ?except:(own h) ()) in
+  let here (run : Run_folder.run) =
+    Option.map (fun path -> (path, run)) (Folder.inside (folder h) run.header.program.path) in
+  Result.map (List.filter_map here) listed
+
+let most_runs = 200
+
+let runs h _ =
+  let* all = all_runs h in
+  let of_run (path, (run : Run_folder.run)) : json =
+    let state =
+      match run.state with
+      | Ended ending -> ending.how
+      | Going_on -> "going on"
+      | Broken_off -> "broken off"
+    in
+    `Assoc
+      [ ("run", `String run.name); ("program", `String path); ("started", `String run.header.started);
+        ("time", Canonical.number run.time); ("platform", `String run.header.platform); ("state", `String state) ]
+  in
+  Ok (`Assoc [ ("runs", `List (List.map of_run (List.filteri (fun i _ -> i < most_runs) all))) ])
+
+let kept h name =
+  let* all = all_runs h in
+  let is_it (_, (run : Run_folder.run)) = run.name = name in
+  Option.to_result ~none:(refusal 404 "not-found" ("there is no such run: " ^ name)) (List.find_opt is_it all)
+
+let resume h found =
+  let* () = not_busy h in
+  let* name = get Field.text "run" found in
+  let* people = optional truth "people" found in
+  let* path, run = kept h name in
+  let* () = if run.state = Broken_off then Ok () else refuse 409 "not-broken-off" "this run has not broken off" in
+  let* program = program h ~set:run.header.program.set path in
+  let fleet = { Fleet_file.nobody with path = None } in
+  let settings = { (Hall.settings h).run with speed = run.header.speed; seed = None; people = people = Some true;
+                                              socket = true } in
+  let order = { Live_run.program; fleet; settings; journal = run.path } in
+  Ok (started (Hall.begin_run h (fun ~id ~changed -> Live_run.resume ~id ~changed order)))
+
+let longest_journal = 64 * 1024 * 1024
+
+let journal_path h r =
+  match Request.parameter r "run", Request.parameter r "path" with
+  | Some name, _ -> Result.map (fun (_, (run : Run_folder.run)) -> run.path) (kept h name)
+  | None, Some path ->
+    let* full = file h path in
+    if Folder.kind full = Some Journal then Ok full else bad "this is no journal"
+  | None, None -> bad "the query lacks run, or path"
+
+let replay h r =
+  let* path = journal_path h r in
+  let* () =
+    if (Unix.stat path).st_size > longest_journal then refuse 413 "too-large" "this journal is too long" else Ok () in
+  match Past_run.tell (folder h) ~id:"replay" path with
+  | Error e -> refuse 422 "no-journal" (String.concat "; " (Error.sentences e))
+  | Ok feed ->
+    let rec copy write offset =
+      match Feed.read feed offset with
+      | "", _ -> write "event: end\ndata: {}\n\n"
+      | text, offset -> write text >>= fun () -> copy write offset
+    in
+    let whole write = Lwt.finalize (fun () -> copy write 0) (fun () -> Feed.close feed; Lwt.return_unit) in
+    Ok (Response.stream ~kind:"text/event-stream" whole)
+
+(* {1 Explorations} *)
+
+let longest_exploration = 3600
+
+let explore h found =
+  let* path = get Field.text "program" found in
+  let* named = optional Field.text "fleet" found in
+  let* seconds = optional whole "seconds" found in
+  let* set = set found in
+  let seconds = Option.value seconds ~default:60 in
+  let* () =
+    if seconds >= 1 && seconds <= longest_exploration then Ok ()
+    else bad (Printf.sprintf "an exploration takes 1 to %d seconds" longest_exploration)
+  in
+  let* () =
+    match Hall.exploring h with
+    | Some e when Exploring.goes_on e -> refuse 409 "busy" "an exploration goes on: one at a time"
+    | Some _ | None -> Ok ()
+  in
+  let* program = program h ~set path in
+  let* fleet = fleet h ~program:program.path named in
+  let dolphin = (Hall.settings h).dolphin in
+  Hall.set_exploring h (Exploring.start ~dolphin ~changed:(fun () -> Hall.changed h) ~seconds program fleet);
+  Ok (`Assoc [])
+
+let exploration h _ = Ok (of_option Exploring.to_json (Hall.exploring h))
+
+let cancel h _ =
+  Option.iter Exploring.cancel (Hall.exploring h);
+  Ok (`Assoc [])
+
+(* {1 The helm} *)
+
+let client (r : Request.t) =
+  let name =
+    match Request.header r "x-dolphin-client", Request.parameter r "client" with
+    | Some name, _ | None, Some name -> name
+    | None, None -> "api"
+  in
+  if Helm.is_name name then Ok name else bad "a client's name has 1 to 64 letters, digits, points and dashes"
+
+let steer h client found =
+  let* what = get Field.text "want" found in
+  match what with
+  | "take" when not (Hall.watches h client) ->
+    refuse 409 "not-watching" "who has the helm looks on: GET /api/events?client=NAME"
+  | "take" -> Ok (Hall.set_helm h (Helm.ask (Hall.helm h) client))
+  | "give-up" -> Ok (Hall.set_helm h (Helm.give_up (Hall.helm h) client))
+  | _ -> bad "want is \"take\" or \"give-up\""
+
+let helm h r =
+  let* client = client r in
+  let* found = body r in
+  let* () = steer h client found in
+  let helm = Hall.helm h in
+  Ok (`Assoc [ ("holder", of_option (fun c -> `String c) (Helm.holder helm)); ("asking", texts (Helm.asking helm)) ])
+
+(* {1 Routes} *)
+
+type route =
+  | Look of (Hall.t -> Request.t -> (json, refusal) result)
+  | Compute of (Hall.t -> members -> (json, refusal) result)  (* changes nothing *)
+  | Command of (Hall.t -> members -> (json, refusal) result)  (* needs the helm *)
+  | Later of (Hall.t -> members -> (json, refusal) result Lwt.t)  (* likewise *)
+  | Helm
+  | Told of (Hall.t -> Request.t -> (Response.t, refusal) result)
+
+let most_watchers = 100
+
+let events h r =
+  let* client = client r in
+  if Hall.watchers h >= most_watchers then refuse 503 "too-many" "too many look on"
+  else
+    let last = match Request.header r "last-event-id" with Some id -> Some id | None -> Request.parameter r "last" in
+    Ok (Response.stream ~kind:"text/event-stream" (Hall.follow h ~client ~last))
+
+let table =
+  [ (("GET", "status"), Look (fun h _ -> Ok (Hall.status h)));
+    (("GET", "events"), Told events);
+    (("GET", "files"), Look files);
+    (("GET", "file"), Look read_file);
+    (("PUT", "file"), Command save);
+    (("POST", "check"), Compute check);
+    (("POST", "complete"), Compute (at_place Documents.complete));
+    (("POST", "hover"), Compute (at_place Documents.hover));
+    (("POST", "definition"), Compute (at_place Documents.definition));
+    (("POST", "format"), Compute format);
+    (("GET", "world"), Look world);
+    (("POST", "exploration"), Command explore);
+    (("GET", "exploration"), Look exploration);
+    (("DELETE", "exploration"), Command cancel);
+    (("POST", "run"), Command start);
+    (("POST", "run/stop"), Command stop);
+    (("POST", "run/answer"), Command answer);
+    (("POST", "run/post"), Later post);
+    (("POST", "run/resume"), Command resume);
+    (("GET", "runs"), Look runs);
+    (("GET", "replay"), Told replay);
+    (("POST", "helm"), Helm) ]
+
+let routes = List.map (fun ((verb, path), _) -> (verb, "/api/" ^ path)) table
+
+(* A command of whoever has the helm, or gets it by this. *)
+let with_helm h r f =
+  let allowed =
+    let* found = body r in
+    let* client = client r in
+    Result.map (fun () -> found) (Result.map_error (refusal 409 "no-helm") (Hall.command h client))
+  in
+  match allowed with
+  | Error r -> Lwt.return (of_refusal r)
+  | Ok found -> f found >|= of_result
+
+let perform h r = function
+  | Look f -> Lwt.return (of_result (f h r))
+  | Compute f -> Lwt.return (of_result (Result.bind (body r) (f h)))
+  | Command f -> with_helm h r (fun found -> Lwt.return (f h found))
+  | Later f -> with_helm h r (f h)
+  | Helm -> Lwt.return (of_result (helm h r))
+  | Told f -> Lwt.return (match f h r with Ok response -> response | Error r -> of_refusal r)
+
+let api h (r : Request.t) path =
+  let verb = if r.verb = "HEAD" then "GET" else r.verb in
+  match List.assoc_opt (verb, path) table with
+  | Some route -> perform h r route
+  | None when List.exists (fun ((_, known), _) -> known = path) table ->
+    Lwt.return (of_refusal (refusal 405 "bad-method" (verb ^ " is nothing that can be done here")))
+  | None -> Lwt.return (of_refusal (refusal 404 "not-found" "there is nothing of this name"))
+
+let protected (response : Response.t) = { response with headers = response.headers @ Access.headers }
+
+let reply h ~port (r : Request.t) =
+  let answered =
+    match Access.check ~port r, r.path, r.verb with
+    | Error (status, why), _, _ -> Lwt.return (of_refusal (refusal status "refused" why))
+    | Ok (), "api" :: path, _ -> api h r (String.concat "/" path)
+    | Ok (), path, ("GET" | "HEAD") ->
+      let none = of_refusal (refusal 404 "not-found" "there is nothing of this name") in
+      Lwt.return (Option.value (Page.find (Hall.settings h).page path) ~default:none)
+    | Ok (), _, _ -> Lwt.return (of_refusal (refusal 405 "bad-method" "pages can be read, and no more"))
+  in
+  answered >|= protected

@@ -1,0 +1,27 @@
+(** The server of [dolphin console]: runs of programs of a folder, for pages in browsers and for programs, by the
+    interface that [docs/api.md] describes. It has no logic of missions: it calls the libraries that the other commands
+    call. *)
+
+open Dolphin_app
+
+type settings = {
+  folder : Folder.t;
+  run : Run.settings;  (** what all runs have: the platforms, the supplier *)
+  fleet : string option;  (** a path; [None]: of each program the one beside it *)
+  dolphin : string;  (** the command, for what is done in a process of its own *)
+  page : Page.t;
+  version : string;  (** of Dolphin *)
+}
+
+type t
+
+val start : settings -> port:int -> (t, string) result
+(** [start s ~port] serves 127.0.0.1 from now on; port 0 is any free one. *)
+
+val port : t -> int
+
+val busy : t -> bool
+(** Whether a run goes on. *)
+
+val close : t -> unit Lwt.t
+(** Stops the run, if one goes on, waits until its vehicles are released, and ends. *)

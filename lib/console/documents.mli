@@ -1,0 +1,17 @@
+(** What the editor of a page asks about a text: {!Dolphin_service.Service} in JSON. Places are bytes here, and on the
+    wire code units of UTF-16, as browsers count. *)
+
+open Dolphin_service
+
+val service : file:string -> fleet:Service.fleet option -> string -> Service.t
+
+val diagnostics : Service.t -> Yojson.Safe.t
+(** A list; each has [from], [to], [line], [column], [severity], [message], [code], perhaps [hint]. *)
+
+val of_error : source:string -> Dolphin_app.Error.t -> Yojson.Safe.t
+(** Likewise what a use case says of the text [source]. *)
+
+val complete : Service.t -> int -> Yojson.Safe.t
+val hover : Service.t -> int -> Yojson.Safe.t
+val definition : Service.t -> int -> Yojson.Safe.t
+val format : Service.t -> (Yojson.Safe.t, string) result

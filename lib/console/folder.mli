@@ -1,0 +1,29 @@
+(** The folder that a console shows: its programs, fleets and journals. Nothing outside of it is read or written,
+    whatever path is asked for and whatever links there are. *)
+
+type t
+
+val make : string -> (t, string) result
+(** [make path] is the folder [path], or why there is none. *)
+
+val root : t -> string
+(** Its real path. *)
+
+type kind = Program | Fleet | Journal
+
+val kind : string -> kind option
+(** What a file is, by the end of its name: [.dol] or [.dolphin], [.fleet], [.run]. *)
+
+val list : t -> (kind * string) list
+(** Its files, by their paths from {!root}, in order: those in it and in the folders below it, at most 2,000. Links and
+    what begins with a [.] or a [_] are passed over. *)
+
+val find : t -> string -> (string, string) result
+(** [find f path] is the real path of the file [path] of [f]. The error says why it is not shown: it is elsewhere,
+    hidden, of no {!kind}, or no file. *)
+
+val place : t -> string -> (string, string) result
+(** [place f path] is likewise where the file [path] is or would be: its folder must be there. *)
+
+val inside : t -> string -> string option
+(** [inside f path] is the path from {!root} of the file with the path [path], if {!find} finds it. *)

@@ -1,0 +1,200 @@
+open Dolphin_app
+open Dolphin_json
+open Lwt.Infix
+
+type settings = {
+  folder : Folder.t;
+  run : Run.settings;
+  fleet : string option;
+  dolphin : string;
+  page : Page.t;
+  version : string;
+}
+
+type t = {
+  settings : settings;
+  instance : string;  (* another one for each start of a server *)
+  grown : unit Lwt_condition.t;
+  mutable run : Live_run.t option;
+  mutable runs : int;
+  mutable exploring : Exploring.t option;
+  mutable helm : Helm.t;
+  mutable watching : string list;  (* a client as often as it looks on *)
+}
+
+let make settings =
+  let instance =
+    Digest.to_hex (Digest.string (Printf.sprintf "%d %f" (Unix.getpid ()) (Unix.gettimeofday ()))) in
+  { settings; instance = String.sub instance 0 8; grown = Lwt_condition.create (); run = None; runs = 0;
+    exploring = None; helm = Helm.free; watching = [] }
+
+let settings h = h.settings
+let changed h = Lwt_condition.broadcast h.grown ()
+let run h = h.run
+let busy h = Option.fold h.run ~none:false ~some:Live_run.goes_on
+let exploring h = h.exploring
+let helm h = h.helm
+let watchers h = List.length h.watching
+
+let begin_run h start =
+  let before = h.run in
+  h.runs <- h.runs + 1;
+  let run = start ~id:(Printf.sprintf "%s-%d" h.instance h.runs) ~changed:(fun () -> changed h) in
+  h.run <- Some run;
+  Option.iter (fun run -> Feed.close (Live_run.feed run)) before;
+  changed h;
+  run
+
+let set_exploring h e =
+  h.exploring <- Some e;
+  changed h
+
+let set_helm h helm =
+  if helm <> h.helm then begin
+    h.helm <- helm;
+    changed h
+  end
+
+let watches h client = List.mem client h.watching
+
+let command h client =
+  let had helm = if watches h client then set_helm h helm in
+  Result.map had (Helm.command h.helm client)
+
+(* {1 The status} *)
+
+let path_of h path : Yojson.Safe.t =
+  match Folder.inside h.settings.folder path with Some path -> `String path | None -> `Null
+
+let of_run h run : Yojson.Safe.t =
+  let program = Live_run.program run in
+  match Live_run.to_json run with
+  | `Assoc members ->
+    `Assoc
+      (members
+       @ [ ("program", path_of h program.path);
+           ("journal", `String (Filename.remove_extension (Filename.basename (Live_run.journal run)))) ])
+  | json -> json
+
+(* Of an exploration only how it goes: its verdicts may be long. *)
+let of_exploring e : Yojson.Safe.t =
+  match Exploring.to_json e with
+  | `Assoc members -> `Assoc (List.filter (fun (name, _) -> name = "state" || name = "progress") members)
+  | json -> json
+
+let status h : Yojson.Safe.t =
+  `Assoc
+    [ ("server", `String "dolphin-console"); ("protocol", `Int 1); ("version", `String h.settings.version);
+      ("instance", `String h.instance); ("folder", `String (Folder.root h.settings.folder));
+      ("simulated", `Bool (Run.is_simulated h.settings.run));
+      ("run", Field.of_option (of_run h) h.run);
+      ("exploration", Field.of_option of_exploring h.exploring);
+      ("helm",
+       `Assoc
+         [ ("holder", Field.of_option (fun client -> `String client) (Helm.holder h.helm));
+           ("asking", Field.texts (Helm.asking h.helm)) ]);
+      ("watching", `Int (watchers h)) ]
+
+(* {1 Events} *)
+
+let event name json = Printf.sprintf "event: %s\ndata: %s\n\n" name (Canonical.to_string json)
+
+(* The status but for what changes all the time: that is told by the clock. *)
+let without_time : Yojson.Safe.t -> Yojson.Safe.t =
+  let without members = `Assoc (List.filter (fun (name, _) -> name <> "time") members) in
+  function
+  | `Assoc members ->
+    `Assoc
+      (List.map (fun (name, json) ->
+           match name, (json : Yojson.Safe.t) with
+           | "run", `Assoc run -> (name, without run)
+           | _, _ -> (name, json))
+          members)
+  | json -> json
+
+type reader = { mutable told : string; mutable run_id : string; mutable offset : int; mutable silent : int }
+
+let clock h : string option =
+  match h.run with
+  | Some run when Live_run.goes_on run ->
+    Some (event "clock" (`Assoc [ ("time", Canonical.number (Live_run.now run)) ]))
+  | Some _ | None -> None
+
+let next_of_run h reader =
+  match h.run with
+  | None -> None
+  | Some run when Live_run.id run <> reader.run_id ->
+    reader.run_id <- Live_run.id run;
+    reader.offset <- 0;
+    Some (event "run" (`Assoc [ ("id", `String reader.run_id) ]))
+  | Some run -> (
+      match Feed.read (Live_run.feed run) reader.offset with
+      | "", _ -> None
+      | text, offset -> reader.offset <- offset; Some text)
+
+let next_status h reader =
+  let status = event "status" (without_time (status h)) in
+  if status = reader.told then None
+  else begin
+    reader.told <- status;
+    Some status
+  end
+
+(* What is to be written next, if anything. That a run is over is told after all that happened in it. *)
+let next h reader =
+  if reader.told = "" then next_status h reader
+  else match next_of_run h reader with Some text -> Some text | None -> next_status h reader
+
+(* What happens within so many seconds is told at once. *)
+let collected = 0.01
+
+(* After so many silent seconds a comment finds out whether the client is still there. *)
+let most_silent = 15
+
+let wait h reader =
+  let news = Lwt_condition.wait h.grown >>= fun () -> Lwt_unix.sleep collected >|= fun () -> None in
+  let silence () =
+    reader.silent <- reader.silent + 1;
+    match clock h with
+    | Some text -> Some text
+    | None when reader.silent mod most_silent = 0 -> Some ": nothing new\n\n"
+    | None -> None
+  in
+  Lwt.pick [ news; (Lwt_unix.sleep 1. >|= silence) ]
+
+let rec tell h reader write =
+  match next h reader with
+  | Some text -> write text >>= fun () -> tell h reader write
+  | None -> (
+      wait h reader >>= function
+      | Some text -> write text >>= fun () -> tell h reader write
+      | None -> tell h reader write)
+
+(* {1 Who looks on} *)
+
+let rec without_one client = function
+  | [] -> []
+  | other :: rest when other = client -> rest
+  | other :: rest -> other :: without_one client rest
+
+(* A page that is loaded again comes back at once. *)
+let grace = 5.
+
+let leave h client =
+  h.watching <- without_one client h.watching;
+  changed h;
+  let give_up () = if not (List.mem client h.watching) then set_helm h (Helm.give_up h.helm client) in
+  Lwt.async (fun () -> Lwt_unix.sleep grace >|= give_up)
+
+let follow h ~client ~last write =
+  let run_id, offset =
+    match h.run, last with
+    | Some run, Some last when Feed.resumed (Live_run.feed run) last > 0 ->
+      (Live_run.id run, Feed.resumed (Live_run.feed run) last)
+    | (Some _ | None), _ -> ("", 0)
+  in
+  let reader = { told = ""; run_id; offset; silent = 0 } in
+  h.watching <- client :: h.watching;
+  changed h;
+  Lwt.finalize (fun () -> write "retry: 1000\n\n" >>= fun () -> tell h reader write)
+    (fun () -> leave h client; Lwt.return_unit)

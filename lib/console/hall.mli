@@ -1,0 +1,57 @@
+(** What a console knows and who looks on: the state that its requests share. *)
+
+open Dolphin_app
+
+type settings = {
+  folder : Folder.t;
+  run : Run.settings;
+  fleet : string option;
+  dolphin : string;
+  page : Page.t;
+  version : string;
+}
+
+type t
+
+val make : settings -> t
+val settings : t -> settings
+
+val changed : t -> unit
+(** Those who look on are told. *)
+
+(** {1 Runs and explorations} *)
+
+val run : t -> Live_run.t option
+(** The run that goes on, or the latest one. *)
+
+val busy : t -> bool
+
+val begin_run : t -> (id:string -> changed:(unit -> unit) -> Live_run.t) -> Live_run.t
+(** [begin_run h start] has the run that [start] gives in place of the one before, which is over. *)
+
+val exploring : t -> Exploring.t option
+val set_exploring : t -> Exploring.t -> unit
+
+(** {1 The helm} *)
+
+val helm : t -> Helm.t
+val set_helm : t -> Helm.t -> unit
+
+val command : t -> string -> (unit, string) result
+(** [command h client] is before a command of [client]: whoever looks on gets the helm by it if it is free, others may
+    command as long as nobody has it. *)
+
+val watches : t -> string -> bool
+(** Whether this client looks on. *)
+
+(** {1 Who looks on} *)
+
+val status : t -> Yojson.Safe.t
+(** All that stands beside the journal. *)
+
+val follow : t -> client:string -> last:string option -> (string -> unit Lwt.t) -> unit Lwt.t
+(** [follow h ~client ~last write] writes server-sent events for [client] until [write] fails: the {!status} whenever it
+    changes, and all messages of the run, from the one with the identity [last] on if that is of this run. A helm
+    whose holder does not look on any more is free soon after. *)
+
+val watchers : t -> int

@@ -1,0 +1,223 @@
+open Dolphin_app
+open Dolphin_runtime
+open Dolphin_json
+open Lwt.Infix
+
+type order = { program : Program_file.t; fleet : Fleet_file.t; settings : Run.settings; journal : string }
+type question = { number : int; prompt : string; refused : string option; give : (string, string) result Lwt.u }
+type state = Running | Stopping | Over of (Driver.outcome, Error.t) result
+
+type t = {
+  id : string;
+  order : order;
+  feed : Feed.t;
+  narrator : Narrator.t;
+  interruption : Interruption.t;
+  changed : unit -> unit;
+  finished : unit Lwt.t;
+  finish : unit Lwt.u;
+  opened : unit Lwt.t;  (* the view is valid *)
+  open_ : unit Lwt.u;
+  mutable view : Run.view;
+  mutable last : float;  (* the time of the latest news *)
+  mutable question : question option;
+  mutable questions : int;
+  mutable refused : string option;
+  mutable state : state;
+  mutable stale : bool;  (* what the program waits for is to be told *)
+}
+
+let id r = r.id
+let feed r = r.feed
+let journal r = r.order.journal
+let program r = r.order.program
+let goes_on r = match r.state with Running | Stopping -> true | Over _ -> false
+let now r = if goes_on r then Float.max r.last (r.view.now ()) else r.last
+let finished r = Lwt.protected r.finished
+
+(* {1 What is told} *)
+
+let tell_waiting r =
+  r.stale <- false;
+  Narrator.waiting r.narrator ~time:r.last
+
+(* Once for all that happens at once. *)
+let will_tell_waiting r =
+  if not r.stale then begin
+    r.stale <- true;
+    Lwt.async (fun () -> Lwt.pause () >|= fun () -> tell_waiting r; r.changed ())
+  end
+
+let observer r : Observer.t =
+  let transition ~time ~cause:_ t =
+    r.last <- time;
+    Narrator.transition r.narrator ~stuck:(not (Interruption.happened r.interruption)) ~time t;
+    will_tell_waiting r;
+    r.changed ()
+  in
+  let news ~time state =
+    r.last <- Float.max r.last time;
+    Narrator.news r.narrator ~time state;
+    will_tell_waiting r;
+    r.changed ()
+  in
+  let unknown ~time (fault : Dolphin_semantics.Fault.t) =
+    Narrator.remark r.narrator ~time ("this condition does not hold: " ^ fault.message)
+  in
+  { transition; news; unknown }
+
+let remark r text =
+  Narrator.remark r.narrator ~time:(now r) text;
+  r.changed ()
+
+(* {1 The person} *)
+
+let asked r prompt =
+  Narrator.question r.narrator ~time:(now r) prompt;
+  r.changed ()
+
+let wait_for_answer r prompt =
+  let answer, give = Lwt.task () in
+  r.questions <- r.questions + 1;
+  r.question <- Some { number = r.questions; prompt; refused = r.refused; give };
+  r.refused <- None;
+  r.changed ();
+  let forget () =
+    r.question <- None;
+    r.changed ();
+    Lwt.return_unit
+  in
+  Lwt.finalize (fun () -> answer) forget
+
+let person r : Questions.person =
+  { asked = asked r; answer = wait_for_answer r; answered = ignore;
+    refused =
+      (fun why ->
+         r.refused <- Some why;
+         remark r ("cannot take this answer: " ^ why)) }
+
+let answer r number text =
+  match r.question with
+  | Some q when q.number = number -> r.question <- None; Lwt.wakeup_later q.give (Ok text); Ok ()
+  | Some _ | None -> Error "this question is not open any more"
+
+(* {1 The run} *)
+
+let front r : Run.front =
+  { replayed =
+      (fun entry replay ->
+         r.last <- Dolphin_trace.Entry.time entry;
+         Narrator.replayed r.narrator entry replay);
+    notice = remark r;
+    opened = (fun view -> r.view <- view; Lwt.wakeup_later r.open_ ());
+    remark = remark r; observer = observer r; person = person r; wants_telemetry = true }
+
+let settings r = 
+  let follower entry = Narrator.entry r.narrator entry in
+  { r.order.settings with
+    recording = { journal = Some r.order.journal; drawing = None; follower = Some follower } }
+
+let over r outcome =
+  tell_waiting r;
+  (match outcome with Ok _ -> () | Error e -> List.iter (remark r) (Error.sentences e));
+  r.last <- Float.max r.last (r.view.now ());
+  r.state <- Over outcome;
+  r.changed ();
+  Lwt.wakeup_later r.finish ()
+
+let begin_ ~id ~changed order go =
+  let feed = Feed.create ~run:id in
+  let finished, finish = Lwt.wait () and opened, open_ = Lwt.wait () in
+  let view : Run.view =
+    { now = (fun () -> 0.); estimates = (fun () -> []); post = (fun _ _ -> Lwt.return_false) } in
+  let r =
+    { id; order; feed; narrator = Narrator.make order.program feed; interruption = Interruption.make (); changed;
+      finished; finish; opened; open_; view; last = 0.; question = None; questions = 0; refused = None; state = Running;
+      stale = false }
+  in
+  let whole () =
+    Lwt.catch
+      (fun () -> go (front r) ~interruption:r.interruption (settings r))
+      (fun error ->
+         Lwt.return (Error (Error.Unavailable ("this is a fault of dolphin itself: " ^ Printexc.to_string error))))
+    >|= over r
+  in
+  (* Whoever asked for it is told before it begins. *)
+  Lwt.async (fun () -> Lwt.pause () >>= whole);
+  r
+
+let start ~id ~changed order =
+  begin_ ~id ~changed order (fun front ~interruption settings ->
+      Run.start front ~interruption settings order.program order.fleet)
+
+let resume ~id ~changed order =
+  let fleet = order.fleet.path in
+  begin_ ~id ~changed order (fun front ~interruption settings ->
+      let settings = { settings with recording = { settings.recording with journal = None } } in
+      Run.resume front ~interruption settings ~changed:false ~fleet order.program order.journal)
+
+let stop r =
+  if goes_on r then begin
+    r.state <- Stopping;
+    Interruption.interrupt r.interruption;
+    r.changed ()
+  end
+
+let post r pairs =
+  let program = r.order.program.program in
+  let refused = List.find_map (fun (key, _) -> Result.fold (Typed_input.declared program key)
+                                  ~ok:(fun () -> None) ~error:Option.some) pairs in
+  let rec each = function
+    | [] -> Lwt.return (Ok (now r))
+    | (key, x) :: rest -> (
+        r.view.post key x >>= function
+        | true -> each rest
+        | false -> Lwt.return (Error "the run has ended"))
+  in
+  match refused with
+  | Some why -> Lwt.return (Error why)
+  | None when not (goes_on r) -> Lwt.return (Error "the run has ended")
+  | None -> Lwt.choose [ r.opened; finished r ] >>= fun () -> each pairs
+
+(* {1 In JSON} *)
+
+let sentence outcome = Format.asprintf "%a" Driver.pp_outcome outcome
+
+let of_outcome r outcome : Yojson.Safe.t =
+  let source = r.order.program.source in
+  let how, text, trouble =
+    match outcome with
+    | Error e ->
+      ("unavailable", String.concat "; " (Error.sentences e), Documents.of_error ~source e)
+    | Ok (outcome : Driver.outcome) ->
+      let how =
+        match outcome with
+        | Ended Completed -> "completed"
+        | Ended (Halted _) -> "halted"
+        | Ended (Failed _) -> "failed"
+        | Ended Interrupted -> "interrupted"
+        | Stuck _ | Spins _ -> "stuck"
+      in
+      let trouble = match Run.explain r.order.program outcome with
+        | Some e -> Documents.of_error ~source e | None -> `List [] in
+      (how, sentence outcome, trouble)
+  in
+  `Assoc [ ("how", `String how); ("text", `String text); ("diagnostics", trouble) ]
+
+let to_json r : Yojson.Safe.t =
+  let question q : Yojson.Safe.t =
+    `Assoc [ ("number", `Int q.number); ("prompt", `String q.prompt);
+             ("refused", Field.of_option (fun why -> `String why) q.refused) ]
+  in
+  let state, outcome =
+    match r.state with
+    | Running -> ("running", `Null)
+    | Stopping -> ("stopping", `Null)
+    | Over outcome -> ("over", of_outcome r outcome)
+  in
+  `Assoc
+    [ ("id", `String r.id); ("state", `String state); ("time", Canonical.number (now r));
+      ("speed", Field.of_option Canonical.number r.order.settings.speed);
+      ("simulated", `Bool (Run.is_simulated r.order.settings));
+      ("inputs", Field.texts r.order.program.program.inputs);
+      ("question", Field.of_option question r.question); ("outcome", outcome) ]

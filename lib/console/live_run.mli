@@ -1,0 +1,45 @@
+(** The run of a console: it belongs to the server, whoever looks on. *)
+
+open Dolphin_app
+
+type t
+
+(** What a run is started with. *)
+type order = {
+  program : Program_file.t;
+  fleet : Fleet_file.t;
+  settings : Run.settings;
+  journal : string;  (** that it is kept in *)
+}
+
+val start : id:string -> changed:(unit -> unit) -> order -> t
+(** [start ~id ~changed order] begins the run. [changed] is called whenever {!feed} or {!to_json} has changed. *)
+
+val resume : id:string -> changed:(unit -> unit) -> order -> t
+(** Likewise goes on with the run whose journal is [order.journal], and whose console died. *)
+
+val id : t -> string
+val feed : t -> Feed.t
+val journal : t -> string
+val program : t -> Program_file.t
+
+val goes_on : t -> bool
+
+val now : t -> float
+(** Its time, in seconds. *)
+
+val finished : t -> unit Lwt.t
+(** Resolves when it is over, and its vehicles are released. *)
+
+val stop : t -> unit
+(** As Ctrl-C does. *)
+
+val answer : t -> int -> string -> (unit, string) result
+(** [answer r n text] answers the question with the number [n]; or says why not: somebody else did. *)
+
+val post : t -> (string * Dolphin_semantics.Core.value) list -> (float, string) result Lwt.t
+(** [post r pairs] posts them, one after the other. It resolves when the run has taken them, and the journal has them:
+    to the time then. *)
+
+val to_json : t -> Yojson.Safe.t
+(** What stands beside the journal: how it goes on, its question, what may be posted. *)

@@ -1,0 +1,76 @@
+open Dolphin_semantics
+open Dolphin_trace
+open Dolphin_display
+module Program_file = Dolphin_app.Program_file
+module Canonical = Dolphin_json.Canonical
+module Location = Dolphin_syntax.Location
+
+type t = {
+  program : Program_file.t;
+  feed : Feed.t;
+  mutable log : Log.t;
+  mutable world : World.t;
+  mutable configuration : Configuration.t;
+  mutable told : Waiting.t list;  (* what it waited for when that was told last *)
+}
+
+let make (program : Program_file.t) feed =
+  { program; feed; log = Log.start; world = World.empty; configuration = Configuration.initial program.program;
+    told = [] }
+
+let tell n event json = Feed.add n.feed ~event (Canonical.to_string json)
+let entry n entry = Feed.add n.feed ~event:"journal" (Entry.to_string entry)
+
+let severity : Log.severity -> string = function
+  | Trouble -> "trouble"
+  | Said -> "said"
+  | Completed -> "completed"
+  | Ordinary -> "ordinary"
+
+let text n kind ~time ?(about = []) text =
+  tell n "log"
+    (`Assoc
+       [ ("time", Canonical.number time); ("severity", `String kind); ("about", Dolphin_json.Field.texts about);
+         ("text", `String text) ])
+
+let line n ~time (l : Log.line) = text n (severity l.severity) ~time ~about:l.about l.text
+
+let transition n ~stuck ~time (t : Transition.t) =
+  n.configuration <- t.next;
+  let log, lines = Log.transition ~stuck n.log ~time t in
+  n.log <- log;
+  List.iter (line n ~time) lines
+
+let news n ~time state =
+  n.world <- World.add state n.world;
+  let log, lines = Log.news n.log ~time state in
+  n.log <- log;
+  List.iter (line n ~time) lines
+
+let remark n ~time what = line n ~time (Log.remark n.log ~time what)
+let question n ~time prompt = text n "said" ~time (Log.question n.log ~time prompt)
+
+(* {1 What it waits for} *)
+
+let place (at : Location.t) = Printf.sprintf "%d:%d" (Location.line at) (Location.column at)
+
+let json_of_waiting ({ what; at; lacking } : Waiting.t) : Yojson.Safe.t =
+  let member name f = Option.fold ~none:[] ~some:(fun x -> [ (name, `String (f x)) ]) in
+  `Assoc ((("what", `String what) :: member "at" place at) @ member "lacking" Fun.id lacking)
+
+let waiting n ~time =
+  let { Program_file.program; source; _ } = n.program in
+  let now = Waiting.list program ~source n.world n.configuration in
+  if now <> n.told then begin
+    n.told <- now;
+    tell n "waiting" (`Assoc [ ("time", Canonical.number time); ("for", `List (List.map json_of_waiting now)) ])
+  end
+
+let replayed n (e : Entry.t) replay =
+  entry n e;
+  match e, Replay.latest replay with
+  | Vehicle { time; state }, _ -> news n ~time state
+  | Transition { time; _ }, Some (_, t) ->
+    transition n ~stuck:(Replay.was_stuck replay) ~time t;
+    waiting n ~time
+  | (Header _ | Partial _ | Label _ | Event _ | Transition _ | Note _ | Resumed _ | End _), _ -> ()

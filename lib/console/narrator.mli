@@ -1,0 +1,29 @@
+(** Tells a {!Feed} of a run: each line of its journal as it is, the lines of the log for people, and what the program
+    waits for. The same for a run that goes on, one that is resumed, and one that is over. *)
+
+open Dolphin_semantics
+open Dolphin_trace
+
+type t
+
+val make : Dolphin_app.Program_file.t -> Feed.t -> t
+(** [make program feed] tells [feed] of a run of [program] from its beginning. *)
+
+val entry : t -> Entry.t -> unit
+(** The next line of the journal: the message [journal]. *)
+
+val transition : t -> stuck:bool -> time:float -> Transition.t -> unit
+(** What the log says of it: messages [log], {!Dolphin_display.Log.transition}. *)
+
+val news : t -> time:float -> World.vehicle_state -> unit
+
+val remark : t -> time:float -> string -> unit
+(** What is unusual. *)
+
+val question : t -> time:float -> string -> unit
+
+val waiting : t -> time:float -> unit
+(** What the program waits for now, unless that has been told: the message [waiting]. *)
+
+val replayed : t -> Entry.t -> Replay.t -> unit
+(** A line of a journal with what it led to: {!entry}, and what the log says. *)

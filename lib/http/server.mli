@@ -1,0 +1,28 @@
+(** A server of HTTP/1.1 whose clients cannot make it wait, grow or stop: heads, bodies and connections are bounded in
+    size and time. It knows nothing of Dolphin. *)
+
+type limits = {
+  head : int;  (** bytes before the body *)
+  body : int;  (** bytes *)
+  connections : int;  (** at once; more are told so and closed *)
+  patience : float;  (** seconds for a whole head, a whole body, and for each piece that a client reads *)
+  idle : float;  (** seconds between requests of one connection *)
+}
+
+val limits : limits
+(** 16 KiB, 4 MiB, 400 connections, 10 seconds, 60 seconds. *)
+
+type t
+
+val start : ?limits:limits -> port:int -> (Request.t -> Response.t Lwt.t) -> (t, string) result
+(** [start ~limits ~port reply] serves the loopback address 127.0.0.1 from now on; port 0 is any free one. [reply] may
+    fail: the client is told that there is trouble in the server. The error says why the port cannot be had. From then
+    on SIGPIPE is ignored. *)
+
+val port : t -> int
+
+val connections : t -> int
+(** How many there are now. *)
+
+val close : t -> unit Lwt.t
+(** Takes no further connections and ends those that there are. *)

@@ -1,0 +1,61 @@
+The console of a folder, on a port of its own, and all that docs/openapi.json describes.
+
+  $ export XDG_STATE_HOME=$(mktemp -d)
+  $ cat > mission.dol << 'END'
+  > parameter n = 2, 'how many'
+  > input 'go'
+  > x = ask 'How many?'
+  > message "$x"
+  > execute condition { consume go: 'south' }
+  > END
+  $ echo "answer 'How many?', 2" > mission.fleet
+  $ echo 'message askk' > wrong.dol
+  $ serve() { dolphin console . --port "$1" --no-browser > "$2" & while ! grep -qs "is at" "$2"; do sleep 0.05; done; }
+  $ serve 0 served
+  $ console=$!
+  $ port=$(sed -n 's/.*:\([0-9]*\)\/$/\1/p' served)
+  $ python3 console_api.py ../../docs/openapi.json $port
+  explored: over ['no deadlock']
+  counterexample: ['ask(How many?)', 'answer(2)', "message '2'", 'execute']
+  kept: mission.dol interrupted
+  replayed to its end: True
+  not asked for: []
+  all as described
+
+A program of ten lines starts a run, watches it, posts to it:
+
+  $ sed "s/:8642/:$port/" ../../examples/client.py > client.py
+  $ python3 client.py mission.dol "go: 'south'" | sed 's/^ *[0-9:]* *//'
+  program     asks: How many?
+  program     says: 2
+  program     gets go:'south'
+  program     consumes go:'south'
+  program     ends
+  end
+
+The port is taken; there is no such folder:
+
+  $ dolphin console . --port $port 2>&1 | sed "s/$port/PORT/"
+  dolphin: port PORT cannot be had: Address already in use
+  $ dolphin console none
+  dolphin: none: No such file or directory
+  [2]
+
+The server is killed during a run, and the next one resumes it:
+
+  $ python3 resume.py start $port
+  How many?
+  $ kill -9 $console
+  $ wait $console 2> wait; rm served
+  $ serve $port served
+  $ console=$!
+  $ python3 resume.py resume $port
+  mission.dol broken off
+  How many?
+  completed
+  $ kill -INT $console
+  $ wait $console
+  $ dolphin runs | grep -o 'sim .*[a-z]'
+  sim       completed
+  sim       completed
+  sim       interrupted

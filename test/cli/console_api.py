@@ -1,0 +1,110 @@
+"""Asks a console for all that docs/openapi.json describes, and judges each reply by it.
+
+Usage: console_api.py OPENAPI PORT
+"""
+
+import json
+import os
+import sys
+import time
+import urllib.error
+import urllib.request
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "conformance"))
+import schema  # noqa: E402
+
+OPENAPI, PORT = sys.argv[1], sys.argv[2]
+DOCUMENT = schema.document(OPENAPI)
+ASKED = set()
+WRONG = []
+
+
+def ask(verb, path, body=None, query=""):
+    """The status and the reply, judged by the description of this operation."""
+    operation = DOCUMENT["paths"]["/api/" + path][verb.lower()]
+    ASKED.add((verb, "/api/" + path))
+    data = None if body is None else json.dumps(body).encode()
+    request = urllib.request.Request(f"http://127.0.0.1:{PORT}/api/{path}{query}", data,
+                                     {"Content-Type": "application/json"}, method=verb)
+    try:
+        with urllib.request.urlopen(request, timeout=20) as reply:
+            status, kind = reply.status, reply.headers["Content-Type"]
+            text = (reply.readline() if path == "events" else reply.read()).decode()
+    except urllib.error.HTTPError as error:
+        status, kind, text = error.code, error.headers["Content-Type"], error.read().decode()
+    told = operation["responses"].get(str(status), operation["responses"]["default"])["content"]
+    if kind not in told:
+        WRONG.append(f"{verb} {path}: {kind} is not described")
+        return status, text
+    if kind != "application/json":
+        return status, text
+    found = json.loads(text)
+    WRONG.extend(f"{verb} {path}: {why}" for why in schema.wrong(found, told[kind]["schema"], OPENAPI))
+    if body is not None and status < 400:
+        taken = operation["requestBody"]["content"]["application/json"]["schema"]
+        WRONG.extend(f"{verb} {path}, what was sent: {why}" for why in schema.wrong(body, taken, OPENAPI))
+    return status, found
+
+
+def until(path, holds):
+    for _ in range(400):
+        found = ask("GET", path)[1]
+        if holds(found):
+            return found
+        time.sleep(0.05)
+    raise SystemExit(f"{path} stays as it is: {found}")
+
+
+def main():
+    for path in ["status", "files", "runs", "exploration"]:
+        ask("GET", path)
+    ask("GET", "events", query="?client=api")
+    text = ask("GET", "file", query="?path=mission.dol")[1]
+    ask("PUT", "file", {"path": "mission.dol", "text": text["text"], "hash": text["hash"]})
+    ask("PUT", "file", {"path": "mission.dol", "text": "", "hash": "old"})
+    ask("GET", "file", query="?path=../mission.dol")
+    ask("GET", "file")
+    document = {"path": "mission.dol", "text": text["text"]}
+    for path in ["check", "format"]:
+        ask("POST", path, document)
+    ask("POST", "format", {"path": "mission.dol", "text": "(("})
+    for path in ["complete", "hover", "definition"]:
+        ask("POST", path, {**document, "at": 5})
+    ask("POST", "hover", {**document, "at": document["text"].index("message") + 1})
+    ask("POST", "definition", {**document, "at": document["text"].rindex("x")})
+    ask("GET", "world", query="?program=mission.dol")
+    ask("GET", "world", query="?program=none.dol")
+    ask("DELETE", "exploration", {})
+    ask("POST", "exploration", {"program": "mission.dol", "seconds": 20})
+    ask("POST", "exploration", {"program": "wrong.dol"})
+    found = until("exploration", lambda found: found["state"] != "running")
+    verdicts = found["result"]["verdicts"]
+    print("explored:", found["state"], [v["property"] for v in verdicts if v["verdict"] == "violated"])
+    print("counterexample:", [step["label"] for step in found["counterexample"]["steps"]])
+    ask("POST", "run", {"program": "wrong.dol"})
+    ask("POST", "run", {"program": "mission.dol", "set": {"m": "3"}})
+    ask("POST", "run", {"program": "mission.dol", "speed": 10, "seed": 1, "people": True, "set": {"n": "3"}})
+    until("status", lambda found: found["run"]["question"])
+    ask("POST", "run", {"program": "mission.dol"})
+    ask("POST", "run/answer", {"question": 1, "text": "3 +"})
+    until("status", lambda found: found["run"]["question"] and found["run"]["question"]["number"] == 2)
+    ask("POST", "run/answer", {"question": 2, "text": "3"})
+    ask("POST", "run/answer", {"question": 2, "text": "3"})
+    ask("POST", "run/post", {"key": "none", "value": 1})
+    ask("POST", "run/post", {"key": "go", "value": {"latitude": 41, "longitude": -8}})
+    ask("POST", "run/post", {"pairs": "go: 'north'"})
+    ask("POST", "helm", {"want": "take"})
+    ask("POST", "helm", {"want": "give-up"})
+    ask("POST", "run/stop", {})
+    until("status", lambda found: found["run"]["state"] == "over")
+    ask("POST", "run/resume", {"run": "none"})
+    run = ask("GET", "runs")[1]["runs"][0]
+    print("kept:", run["program"], run["state"])
+    told = ask("GET", "replay", query="?run=" + run["run"])[1]
+    print("replayed to its end:", told.endswith("event: end\ndata: {}\n\n"))
+    described = {(verb.upper(), path) for path, verbs in DOCUMENT["paths"].items() for verb in verbs}
+    print("not asked for:", sorted(described - ASKED))
+    print("\n".join(WRONG) or "all as described")
+
+
+main()

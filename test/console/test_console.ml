@@ -1,0 +1,363 @@
+open Lwt.Infix
+open Dolphin_console
+module Server = Dolphin_http.Server
+module Request = Dolphin_http.Request
+
+(* {1 A console of a folder} *)
+
+let mission = "input 'go'\nmessage 'begins'\nx = ask 'How many?'\nmessage x\nexecute condition { consume go: _ }\n"
+let short = "message 'one'\npause 2.seconds\nmessage 'two'\n"
+
+let write path text =
+  let channel = open_out_bin path in
+  output_string channel text;
+  close_out channel
+
+let rec remove path =
+  match (Unix.lstat path).st_kind with
+  | S_DIR -> Array.iter (fun name -> remove (Filename.concat path name)) (Sys.readdir path); Unix.rmdir path
+  | _ -> Unix.unlink path
+
+let in_folder f =
+  let home = Filename.temp_file "console" "" in
+  Unix.unlink home;
+  let folder = Filename.concat home "missions" in
+  List.iter (fun path -> Unix.mkdir path 0o755) [ home; folder; Filename.concat folder "sub" ];
+  Unix.putenv "XDG_STATE_HOME" (Filename.concat home "state");
+  write (Filename.concat folder "mission.dol") mission;
+  write (Filename.concat folder "short.dol") short;
+  write (Filename.concat folder "wrong.dol") "message askk\n";
+  write (Filename.concat folder "sub/other.fleet") "vehicle 'a', { type 'UUV' }\n";
+  write (Filename.concat folder "notes.txt") "private\n";
+  write (Filename.concat folder ".hidden.dol") "say 'private'\n";
+  write (Filename.concat home "outside.dol") "say 'private'\n";
+  Unix.symlink "../outside.dol" (Filename.concat folder "link.dol");
+  Unix.symlink ".." (Filename.concat folder "up");
+  Fun.protect ~finally:(fun () -> remove home) (fun () -> f folder)
+
+let settings folder : Console.settings =
+  { folder = Result.get_ok (Folder.make folder); run = Dolphin_app.Run.simulated; fleet = None; dolphin = "false";
+    page = Page.load None; version = "test" }
+
+let console f () =
+  in_folder (fun folder ->
+      let console = Result.get_ok (Console.start (settings folder) ~port:0) in
+      let whole () =
+        Lwt_unix.with_timeout 60. (fun () -> f folder (Console.port console)) in
+      Lwt_main.run (Lwt.finalize whole (fun () -> Console.close console)))
+
+let status = Alcotest.(check int)
+let text = Alcotest.(check string)
+let holds = Alcotest.(check bool)
+
+let member path json =
+  let one json name = match json with `Assoc _ -> Yojson.Safe.Util.member name json | _ -> `Null in
+  List.fold_left one json path
+
+let code reply = Yojson.Safe.Util.to_string (member [ "error"; "code" ] (Client.json reply))
+
+let refused what expected reply =
+  status what (fst expected) reply.Client.status;
+  text what (snd expected) (code reply)
+
+(* {1 Requests} *)
+
+let heads () =
+  let fault text =
+    match Request.of_head text with
+    | Ok (_, length) -> Printf.sprintf "%d" length
+    | Error (Malformed _) -> "malformed"
+    | Error Too_large -> "too large"
+    | Error (Unsupported _) -> "unsupported"
+  in
+  let check expected head = text (String.escaped head) expected (fault head) in
+  check "0" "GET / HTTP/1.1\r\nHost: a";
+  check "3" "POST /x HTTP/1.1\r\nContent-Length: 3";
+  check "malformed" "";
+  check "malformed" "GET";
+  check "malformed" "GET x HTTP/1.1";
+  check "malformed" "GET /%zz HTTP/1.1";
+  check "malformed" "GET /% HTTP/1.1";
+  check "malformed" "GET / HTTP/1.1\r\nno header";
+  check "malformed" "GET / HTTP/1.1\r\nHo st: a";
+  check "malformed" "GET / HTTP/1.1\r\nHost: a\001";
+  check "malformed" "POST / HTTP/1.1\r\nContent-Length: -1";
+  check "malformed" "POST / HTTP/1.1\r\nContent-Length: 1\r\nContent-Length: 2";
+  check "too large" "POST / HTTP/1.1\r\nContent-Length: 99999999999999999999";
+  check "unsupported" "POST / HTTP/1.1\r\nTransfer-Encoding: chunked";
+  check "unsupported" "GET / HTTP/2";
+  let path target =
+    match Request.of_head ("GET " ^ target ^ " HTTP/1.1") with
+    | Ok (r, _) -> String.concat "|" (r.path @ List.map (fun (name, x) -> name ^ "=" ^ x) r.query)
+    | Error _ -> "none"
+  in
+  text "decoded" "a|../b|c=d e" (path "/a//..%2fb?c=d+e");
+  text "no target" "none" (path "a")
+
+let who_may_ask _ port =
+  let ask ?verb ?body headers = Client.ask ?verb ?body ~headers ~port "/api/status" in
+  ask [] >>= fun r ->
+  status "as it is" 200 r.status;
+  let localhost = Printf.sprintf "localhost:%d" port in
+  ask [ ("Host", localhost); ("Origin", "http://" ^ localhost) ] >>= fun r ->
+  status "its own page" 200 r.status;
+  Lwt_list.iter_s
+    (fun (what, expected, headers) -> ask headers >|= refused what (expected, "refused"))
+    [ ("another name", 421, [ ("Host", "evil.example") ]);
+      ("another port", 421, [ ("Host", "127.0.0.1:1") ]);
+      ("a foreign page", 403, [ ("Origin", "http://evil.example") ]);
+      ("a page of no origin", 403, [ ("Origin", "null") ]);
+      ("a foreign page by another header", 403, [ ("Sec-Fetch-Site", "cross-site") ]) ]
+  >>= fun () ->
+  Client.ask ~headers:[ ("Content-Type", "text/plain") ] ~body:"{}" ~port "/api/run/stop" >>= fun r ->
+  refused "as a form sends it" (415, "refused") r;
+  Client.raw ~port "GET /api/status HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n" >|= fun reply ->
+  holds "two hosts" true (String.length reply > 12 && String.sub reply 9 3 = "400")
+
+(* {1 Files} *)
+
+let no_escape folder port =
+  let paths =
+    [ "../outside.dol"; "..%2foutside.dol"; "sub/../../outside.dol"; "link.dol"; "up/outside.dol"; ".hidden.dol";
+      "notes.txt"; "%2fetc%2fpasswd"; "mission.dol%00.fleet"; "sub"; ""; "up/missions/.hidden.dol"; "./mission.dol" ]
+  in
+  Lwt_list.iter_s
+    (fun path ->
+       Client.ask ~port ("/api/file?path=" ^ path) >>= fun r ->
+       refused path (404, "not-found") r;
+       let plain = Str.global_replace (Str.regexp_string "%2f") "/" path in
+       let body = Printf.sprintf {|{"path": "%s", "text": "x"}|} plain in
+       Client.ask ~verb:"PUT" ~body ~port "/api/file" >|= fun r ->
+       holds ("not saved: " ^ path) true (r.status >= 400))
+    paths
+  >>= fun () ->
+  text "outside as it was" "say 'private'\n"
+    (Result.get_ok (Dolphin_app.Text_file.read (Filename.concat folder "../outside.dol")));
+  Client.ask ~port "/api/files" >>= fun r ->
+  text "what is listed"
+    ({|{"programs":["mission.dol","short.dol","wrong.dol"],|} ^ {|"fleets":["sub/other.fleet"],"journals":[]}|})
+    (String.trim r.body);
+  Client.ask ~port "/../../etc/passwd" >|= fun r -> status "no page" 404 r.status
+
+let saving folder port =
+  let put body = Client.ask ~verb:"PUT" ~body ~port "/api/file" in
+  Client.ask ~port "/api/file?path=short.dol" >>= fun r ->
+  let hash = Yojson.Safe.Util.to_string (member [ "hash" ] (Client.json r)) in
+  let save = Printf.sprintf {|{"path": "short.dol", "text": "say 'new'\n", "hash": "%s"}|} hash in
+  put save >>= fun r ->
+  status "saved" 200 r.status;
+  text "the file" "say 'new'\n" (Result.get_ok (Dolphin_app.Text_file.read (Filename.concat folder "short.dol")));
+  put save >>= fun r ->
+  refused "it has changed since" (409, "changed") r;
+  put {|{"path": "fresh.dol", "text": "say 1\n", "hash": null}|} >>= fun r ->
+  status "a new one" 200 r.status;
+  put {|{"path": "none/fresh.dol", "text": "say 1\n"}|} >|= refused "no such folder" (404, "not-found")
+
+let texts _ port =
+  let check body = Client.ask ~body ~port "/api/check" in
+  check {|{"path": "short.dol", "text": "x = 'é'; message askk\n"}|} >>= fun r ->
+  text "a fault, in places as browsers count them"
+    ({|{"diagnostics":[{"from":17,"to":21,"line":1,"column":18,"severity":"error",|}
+     ^ {|"message":"unknown name 'askk'","code":"unknown-name","hint":"did you mean 'ask'?"}]}|})
+    (String.trim r.body);
+  check (Printf.sprintf {|{"path": "short.dol", "text": "%s"}|} (String.make 300_000 'a')) >>= fun r ->
+  refused "a long text" (413, "too-large") r;
+  Client.ask ~body:{|{"path": "short.dol", "text": "exec", "at": 4}|} ~port "/api/complete" >>= fun r ->
+  holds "completed" true
+    (List.exists (fun item -> member [ "label" ] item = `String "execute")
+       (Yojson.Safe.Util.to_list (member [ "items" ] (Client.json r))));
+  check "{" >>= fun r ->
+  refused "no JSON" (400, "bad-request") r;
+  check (String.make 5_000 '[') >|= refused "deep JSON" (400, "bad-request")
+
+(* {1 Runs} *)
+
+let is_over (m : Client.message) =
+  m.event = "status" && member [ "run"; "state" ] (Yojson.Safe.from_string m.data) = `String "over"
+
+let events name seen = List.filter (fun (m : Client.message) -> m.event = name) seen
+let data seen = List.map (fun (m : Client.message) -> m.data) seen
+let of_run seen = List.filter (fun (m : Client.message) -> m.id <> "") seen
+
+let a_run _ port =
+  Client.watch ~port "first" >>= fun first ->
+  Client.ask ~body:{|{"program": "short.dol"}|} ~port "/api/run" >>= fun r ->
+  status "started" 200 r.status;
+  Client.until first is_over >>= fun seen ->
+  let said = List.filter (fun line -> member [ "severity" ] (Yojson.Safe.from_string line) = `String "said")
+      (data (events "log" seen)) in
+  status "what it says" 2 (List.length said);
+  Client.watch ~port "late" >>= fun late ->
+  let last = (List.hd (List.rev (of_run seen))).id in
+  Client.until late (fun m -> m.id = last) >>= fun others ->
+  holds "who comes late sees the same" true (data (of_run seen) = data (of_run others));
+  let third = (List.nth (of_run seen) 2).id in
+  Client.watch ~last:third ~port "back" >>= fun back ->
+  Client.until back (fun m -> m.id = last) >>= fun rest ->
+  status "who comes back sees the rest" (List.length (of_run seen) - 3) (List.length (of_run rest));
+  Client.ask ~port "/api/runs" >>= fun r ->
+  let run = List.hd (Yojson.Safe.Util.to_list (member [ "runs" ] (Client.json r))) in
+  text "it is kept" {|"completed"|} (Yojson.Safe.to_string (member [ "state" ] run));
+  let name = Yojson.Safe.Util.to_string (member [ "run" ] run) in
+  Client.ask ~port ("/api/replay?run=" ^ name) >>= fun r ->
+  let lines = List.filter (fun line -> String.length line > 6 && String.sub line 0 6 = "data: ")
+      (String.split_on_char '\n' r.body) in
+  let journal = data (events "journal" seen) in
+  let told = List.map (fun line -> String.sub line 6 (String.length line - 6)) lines in
+  holds "and told again" true (List.for_all (fun line -> List.mem line told) journal);
+  Lwt_list.iter_s Client.leave [ first; late; back ]
+
+let question (m : Client.message) =
+  m.event = "status" && member [ "run"; "question" ] (Yojson.Safe.from_string m.data) <> `Null
+
+let answers_and_posts _ port =
+  let command ?(client = "first") path body =
+    Client.ask ~headers:[ ("X-Dolphin-Client", client) ] ~body ~port ("/api/" ^ path) in
+  Client.watch ~port "first" >>= fun first ->
+  Client.watch ~port "second" >>= fun second ->
+  command "run" {|{"program": "mission.dol", "speed": 10}|} >>= fun _ ->
+  Client.until first question >>= fun _ ->
+  Client.until second question >>= fun _ ->
+  command ~client:"second" "run/answer" {|{"question": 1, "text": "3"}|} >>= fun r ->
+  refused "another page has the helm" (409, "no-helm") r;
+  command "run/answer" {|{"question": 2, "text": "3"}|} >>= fun r ->
+  refused "no such question" (409, "answered") r;
+  command "run/answer" {|{"question": 1, "text": "3 +"}|} >>= fun r ->
+  status "no expression" 200 r.status;
+  let is_second m =
+    question m && member [ "run"; "question"; "number" ] (Yojson.Safe.from_string m.Client.data) = `Int 2 in
+  Client.until first is_second >>= fun seen ->
+  let again = Yojson.Safe.from_string (List.hd (List.rev seen)).data in
+  holds "is asked again, with the reason" true (member [ "run"; "question"; "refused" ] again <> `Null);
+  command "run/answer" {|{"question": 2, "text": "3"}|} >>= fun r ->
+  status "answered" 200 r.status;
+  command "run/answer" {|{"question": 2, "text": "4"}|} >>= fun r ->
+  refused "once" (409, "answered") r;
+  Client.until first (fun m -> m.event = "waiting") >>= fun _ ->
+  command "run" {|{"program": "short.dol"}|} >>= fun r ->
+  refused "one run at a time" (409, "busy") r;
+  command "run/post" {|{"key": "stop", "value": true}|} >>= fun r ->
+  refused "not declared" (422, "not-posted") r;
+  command "helm" {|{"want": "give-up"}|} >>= fun _ ->
+  command ~client:"second" "run/post" {|{"pairs": "go: 'north'"}|} >>= fun r ->
+  status "posted by the other" 200 r.status;
+  Client.until second is_over >>= fun seen ->
+  let ended = Yojson.Safe.from_string (List.hd (List.rev seen)).data in
+  text "how it ends" {|"completed"|} (Yojson.Safe.to_string (member [ "run"; "outcome"; "how" ] ended));
+  command ~client:"second" "run/stop" "{}" >>= fun r ->
+  refused "nothing to stop" (409, "no-run") r;
+  Lwt_list.iter_s Client.leave [ first; second ]
+
+let stopped _ port =
+  Client.watch ~port "first" >>= fun first ->
+  Client.ask ~body:{|{"program": "mission.dol", "answers": ["1"], "speed": 10}|} ~port "/api/run" >>= fun _ ->
+  Client.until first (fun m -> m.event = "waiting") >>= fun _ ->
+  Client.ask ~body:"{}" ~port "/api/run/stop" >>= fun _ ->
+  Client.until first is_over >>= fun seen ->
+  let ended = Yojson.Safe.from_string (List.hd (List.rev seen)).data in
+  text "interrupted" {|"interrupted"|} (Yojson.Safe.to_string (member [ "run"; "outcome"; "how" ] ended));
+  Client.leave first
+
+let faults _ port =
+  let start body = Client.ask ~body ~port "/api/run" in
+  start {|{"program": "wrong.dol"}|} >>= fun r ->
+  refused "a program with a fault" (422, "faults") r;
+  status "where" 1 (List.length (Yojson.Safe.Util.to_list (member [ "error"; "diagnostics" ] (Client.json r))));
+  start {|{"program": "none.dol"}|} >>= fun r ->
+  refused "none" (404, "not-found") r;
+  start {|{"program": "short.dol", "speed": -1}|} >>= fun r ->
+  refused "a speed" (400, "bad-request") r;
+  start {|{"program": 1}|} >>= fun r ->
+  refused "a number" (400, "bad-request") r;
+  Client.ask ~body:{|{"run": "none"}|} ~port "/api/run/resume" >>= fun r ->
+  refused "nothing to resume" (404, "not-found") r;
+  Client.ask ~verb:"DELETE" ~body:"{}" ~port "/api/status" >>= fun r ->
+  refused "a method" (405, "bad-method") r;
+  Client.ask ~port "/api/none" >|= refused "a path" (404, "not-found")
+
+(* {1 Bounds} *)
+
+let echo limits f () =
+  let reply (r : Request.t) =
+    Lwt.return (Dolphin_http.Response.text ~kind:"text/plain" 200 (string_of_int (String.length r.body))) in
+  let server = Result.get_ok (Server.start ~limits ~port:0 reply) in
+  Lwt_main.run (Lwt.finalize (fun () -> Lwt_unix.with_timeout 30. (fun () -> f server (Server.port server)))
+                  (fun () -> Server.close server))
+
+let begins expected reply =
+  let start = if String.length reply < 12 then reply else String.sub reply 9 3 in
+  text "status" expected start
+
+let bounds =
+  echo { Server.head = 500; body = 100; connections = 3; patience = 0.2; idle = 0.3 } (fun server port ->
+      Client.raw ~port ("GET /" ^ String.make 600 'x' ^ " HTTP/1.1\r\n\r\n") >>= fun reply ->
+      begins "413" reply;
+      Client.raw ~port (String.make 10_000 'x') >>= fun reply ->
+      begins "413" reply;
+      Client.raw ~port "POST / HTTP/1.1\r\nContent-Length: 101\r\n\r\n" >>= fun reply ->
+      begins "413" reply;
+      Client.raw ~port ("POST / HTTP/1.1\r\nConnection: close\r\nContent-Length: 100\r\n\r\n" ^ String.make 100 'x')
+      >>= fun reply ->
+      begins "200" reply;
+      Client.raw ~port "GET / HTTP/1.1\r\nslow" >>= fun reply ->
+      text "who is slow hears nothing" "" reply;
+      Client.raw ~port "" >>= fun reply ->
+      text "nor who is silent" "" reply;
+      Client.raw ~port "GET / HTTP/1.1\r\n\r\nGET / HTTP/1.1\r\nConnection: close\r\n\r\n" >>= fun reply ->
+      status "two requests at once" 2 (List.length (Str.full_split (Str.regexp_string "HTTP/1.1 200") reply) / 2);
+      Lwt_list.map_p (fun _ -> Client.raw ~port "GET / HTTP/1.1\r\nslow") (List.init 10 Fun.id) >>= fun replies ->
+      holds "too many are told so" true
+        (List.exists (fun reply -> String.length reply > 12 && String.sub reply 9 3 = "503") replies);
+      Lwt_unix.sleep 0.1 >|= fun () -> status "all are gone" 0 (Server.connections server))
+
+(* Bytes of a fixed seed, among them pieces of requests. *)
+let nonsense random =
+  let pieces =
+    [| "GET "; "POST /api/run"; " HTTP/1.1\r\n"; "Host: 127.0.0.1\r\n"; "\r\n"; "Content-Length: 5\r\n"; "%"; "{";
+       "\000" |]
+  in
+  let piece _ =
+    if Random.State.int random 3 = 0 then String.init 8 (fun _ -> Char.chr (Random.State.int random 256))
+    else pieces.(Random.State.int random (Array.length pieces)) in
+  String.concat "" (List.init (1 + Random.State.int random 8) piece) ^ "\r\n\r\n"
+
+let malformed _ port =
+  let random = Random.State.make [| 18 |] in
+  let one text =
+    Client.raw ~port text >|= fun reply ->
+    holds (String.escaped text) true (String.length reply < 12 || reply.[9] = '4' || reply.[9] = '5') in
+  let rec rounds n =
+    if n = 0 then Lwt.return_unit
+    else Lwt_list.iter_p one (List.init 50 (fun _ -> nonsense random ^ "x HTTP/9\r\n\r\n")) >>= fun () -> rounds (n - 1)
+  in
+  rounds 6 >>= fun () ->
+  Client.ask ~port "/api/status" >|= fun r ->
+  text "nothing happened" "null" (Yojson.Safe.to_string (member [ "run" ] (Client.json r)))
+
+(* {1 The helm} *)
+
+let the_helm () =
+  let helm h = match Helm.holder h with Some name -> name | None -> "nobody" in
+  let h = Result.get_ok (Helm.command Helm.free "a") in
+  text "by its first command" "a" (helm h);
+  holds "the other watches" true (Result.is_error (Helm.command h "b"));
+  let h = Helm.ask (Helm.ask h "b") "c" in
+  text "who asks waits" "a" (helm h);
+  let h = Helm.give_up h "a" in
+  text "who asked first" "b" (helm h);
+  let h = Helm.give_up h "c" in
+  text "who does not want it any more" "nobody" (helm (Helm.give_up h "b"));
+  List.iter (fun name -> holds name false (Helm.is_name name)) [ ""; "a b"; String.make 65 'a'; "a\n" ]
+
+let () =
+  let slow name f = Alcotest.test_case name `Quick f in
+  Alcotest.run "console"
+    [ ("http", [ slow "heads" heads; slow "bounds" bounds ]);
+      ("helm", [ slow "who has it" the_helm ]);
+      ("safe",
+       [ slow "who may ask" (console who_may_ask); slow "no escape from the folder" (console no_escape);
+         slow "malformed requests" (console malformed) ]);
+      ("files", [ slow "saving" (console saving); slow "texts under way" (console texts) ]);
+      ("runs",
+       [ slow "a run" (console a_run); slow "answers and posts" (console answers_and_posts);
+         slow "stopped" (console stopped); slow "faults" (console faults) ]) ]

@@ -126,7 +126,7 @@ let no_escape folder port =
        Client.ask ~port ("/api/file?path=" ^ path) >>= fun r ->
        refused path (404, "not-found") r;
        let decoded code text = Str.global_replace (Str.regexp_string code) text in
-       let plain = decoded "%00" {|\\\\u0000|} (decoded "%2f" "/" path) in
+       let plain = decoded "%00" {|\\u0000|} (decoded "%2f" "/" path) in
        let body = Printf.sprintf {|{"path": "%s", "text": "x"}|} plain in
        Client.ask ~verb:"PUT" ~body ~port "/api/file" >|= fun r ->
        holds ("not saved: " ^ path) true (r.status >= 400))

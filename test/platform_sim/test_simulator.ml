@@ -58,12 +58,7 @@ let load () =
        | Vehicle _ | Task_failed _ | Timer _ | Input _ | Quiet -> ());
       go (events + 1)
   in
-  let began = elapsed () in
-  let events = Lwt_main.run (go 0) in
-  let seconds = elapsed () -. began in
-  Alcotest.(check int) "events" (vehicles * ((2 * tasks) + 1)) events;
-  Printf.printf "%d events in %.3f s\n" events seconds;
-  Alcotest.(check bool) "within a second" true (seconds < 1.)
+  Alcotest.(check int) "events" (vehicles * ((2 * tasks) + 1)) (Lwt_main.run (go 0))
 
 (* {1 Real time} *)
 
@@ -75,7 +70,7 @@ let paced () =
   Paced.set_timer p 0 10.;
   check "timer" [ "timer 0" ] (Lwt_main.run (take next 1));
   let seconds = elapsed () -. began in
-  Alcotest.(check bool) "a tenth of a second" true (seconds >= 0.09 && seconds < 1.);
+  Alcotest.(check bool) "a tenth of a second" true (seconds >= 0.09);
   Alcotest.(check bool) "now" true (Paced.now p >= 10.)
 
 (* What is commanded while [next] waits may come before what it waits for. *)

@@ -54,12 +54,18 @@ let write_files files program fleet ~strict outcome =
   let sarif = write files.sarif (fun path -> Sarif.write ~strict ~version:Version.number program path outcome) in
   List.fold_left (fun found next -> if Result.is_error found then found else next) trace [ junit; sarif ]
 
-let run path set fleet answers faults strict json period files cache reduction compress invariants formulas
+let check_walks (s : Exploration.settings) =
+  if s.walks <> None && s.formulas <> [] then
+    Error (Error.Bad_input "random walks say nothing of a formula: give --sample or --ltl, not both")
+  else Ok ()
+
+let run path set fleet answers faults strict json period files cache reduction compress walks invariants formulas
     max_states max_depth max_memory timeout =
   let settings : Exploration.settings =
-    { answers; faults; reduction; compress; max_states; max_depth; max_memory; timeout; invariants; formulas } in
+    { answers; faults; reduction; compress; walks; max_states; max_depth; max_memory; timeout; invariants; formulas } in
   Report.result
-    (let* program = Program_file.load ~set path in
+    (let* () = check_walks settings in
+     let* program = Program_file.load ~set path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
      Report.diagnostics ~source:program.source program.warnings;
      let* outcome = find_or_explore settings program fleet ~json ~period ~cache in
@@ -207,6 +213,36 @@ let compress =
   in
   Arg.(value & flag & info [ "compress" ] ~doc)
 
+let positive =
+  let parse text =
+    match int_of_string_opt text with
+    | Some n when n > 0 -> Ok n
+    | Some _ | None -> Error (`Msg (Printf.sprintf "'%s' is no number from 1 on" text))
+  in
+  Arg.conv ~docv:"N" (parse, Format.pp_print_int)
+
+let walks =
+  let sample =
+    let doc =
+      "Follow $(docv) random walks in place of all runs, where there are too many to be explored. At each state one of \
+       its transitions is taken, any as likely as another, and what the others lead to is looked at, too. A walk ends \
+       with the run, or after $(b,--max-depth) transitions (10,000 by default). A violation that is found is one, with \
+       its run; all else is inconclusive, unless the walks have been everywhere. How much they may have missed is \
+       estimated. Not with $(b,--ltl)."
+    in
+    Arg.(value & opt (some positive) None & info [ "sample" ] ~docv:"WALKS" ~doc)
+  in
+  let seed =
+    let doc = "What $(b,--sample) draws depends on it. By default it is another one each time, and shown." in
+    Arg.(value & opt (some int) None & info [ "seed" ] ~docv:"N" ~doc)
+  in
+  let by_time () = int_of_float (Unix.gettimeofday () *. 1_000.) mod 1_000_000 in
+  let make number seed =
+    let seed = match seed with Some seed -> seed | None -> by_time () in
+    Option.map (fun number -> { Dolphin_explore.Search.number; seed }) number
+  in
+  Term.(const make $ sample $ seed)
+
 let json = Arg.(value & flag & info [ "json" ] ~doc:"Print the result as one JSON object.")
 
 let man =
@@ -248,4 +284,4 @@ let command =
   Cmd.v info
     Term.(
       const run $ Options.program $ Options.set $ Options.fleet $ answers $ faults $ strict $ json $ period $ files
-      $ cache $ reduction $ compress $ invariants $ formulas $ max_states $ max_depth $ max_memory $ timeout)
+      $ cache $ reduction $ compress $ walks $ invariants $ formulas $ max_states $ max_depth $ max_memory $ timeout)

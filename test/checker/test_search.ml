@@ -167,6 +167,59 @@ let test_wide () =
   check_int "all states" 100_001 (Search.count search);
   Alcotest.(check bool) "an end is no deadlock" true (Search.no_deadlock search = Holds)
 
+(* {1 Random walks} *)
+
+let sampled ?(limits = Limits.none) system ~walks ~seed =
+  let search = Search.create limits system in
+  Search.run_walks search ~walks ~seed;
+  search
+
+let summary search =
+  match Search.sample search with Some s -> s | None -> Alcotest.fail "there were walks"
+
+(* Walks that have been everywhere have all states, and say so. *)
+let test_everywhere () =
+  let search = sampled (philosophers 5) ~walks:1_000 ~seed:1 in
+  check_int "states" (tables 5) (Search.count search);
+  check_int "all are expanded" (tables 5) (Search.expanded search);
+  Alcotest.(check bool) "nothing is left out" true (Search.stopped search = None);
+  Alcotest.(check (float 0.)) "nothing is estimated" (float_of_int (tables 5)) (summary search).states;
+  let whole = searched (philosophers 5) in
+  check_int "transitions" (Search.transitions whole) (Search.transitions search)
+
+let test_some () =
+  let limits = { Limits.none with max_depth = Some 20 } in
+  let once seed = sampled ~limits (philosophers 12) ~walks:50 ~seed in
+  let search = once 7 and again = once 7 and other = once 8 in
+  Alcotest.(check bool) "it says so" true (Search.stopped search = Some Sampled);
+  Alcotest.(check bool) "nothing is said to hold" true (Search.never search Too_large = Inconclusive Sampled);
+  Alcotest.(check bool) "the same with the same seed" true (Search.sample search = Search.sample again);
+  Alcotest.(check bool) "not with another" true (Search.count search <> Search.count other);
+  let s = summary search in
+  check_int "walks" 50 s.walks;
+  Alcotest.(check bool) "each of 21 visits, or to a deadlock" true (s.steps > 50 * 12 && s.steps <= 50 * 21);
+  Alcotest.(check bool) "some are not visited" true (s.visited < Search.count search && Search.count search < tables 12);
+  Alcotest.(check bool) "a chance" true (0. < s.unvisited && s.unvisited < 1.);
+  Alcotest.(check bool) "an estimate" true (float_of_int s.visited < s.states)
+
+(* It counts its walks well: of 2 coins each walk visits the start and one of two ends. *)
+let test_estimates () =
+  let coin = Vectors.make ~is_end:true [ 0 ] (function [ 0 ] -> List.map (fun n -> [ n ]) [ 1; 2; 3; 4 ] | _ -> []) in
+  let s = summary (sampled coin ~walks:2 ~seed:3) in
+  check_int "visits" 4 s.steps;
+  let ends = s.visited - 1 in
+  let once = if ends = 2 then 2. else 0. and twice = if ends = 2 then 1. else 2. in
+  Alcotest.(check (float 1e-9)) "chance" (once /. 4.) s.unvisited;
+  let least = float_of_int s.visited +. (once *. (once -. 1.) /. (2. *. (twice +. 1.))) in
+  Alcotest.(check (float 1e-9)) "states" (Float.max 5. least) s.states
+
+(* A run that is shown leads from state to state, and to the one that it shows. *)
+let test_walked_path () =
+  let search = sampled (counter ~is_broken:(fun n -> n > 6) ()) ~walks:3 ~seed:1 in
+  match Search.never search Too_large with
+  | Violated path -> check_states "a run" (range 0 7) (numbers search path)
+  | Holds | Inconclusive _ -> Alcotest.fail "it is reached"
+
 (* {1 Formulas} *)
 
 let verdict system text =
@@ -205,6 +258,9 @@ let () =
           case "its cycle, after outgrowing" (test_cycle ~outgrown:true);
           case "a state that is reached" test_reached; case "bounds" test_bounds;
           case "a bound within an expansion" test_wide ] );
+      ( "random walks",
+        [ case "everywhere" test_everywhere; case "not everywhere" test_some; case "estimates" test_estimates;
+          case "a run that they show" test_walked_path ] );
       ( "formulas",
         [ case "F three" (test_holds (counter ()) "F three"); case "F G !three" (test_holds (counter ()) "F G !three");
           case "three or not" (test_holds (counter ()) "G (three | !three)");

@@ -737,3 +737,33 @@ Not if it is inconclusive, if the file is not as it was written, or where no fil
   0, dolphin: nothing has changed: these are the verdicts that were kept
   $ touch file; XDG_CACHE_HOME=$PWD/file verdict
   0, dolphin: $TESTCASE_ROOT/file/dolphin: Not a directory
+
+Random walks: the same ones with the same seed. Only where they have been everywhere is something said to hold.
+
+  $ explore ../../examples/rendezvous.dol --reduction none --sample 20 --seed 1
+  no deadlock: inconclusive, only random walks were followed
+  termination: inconclusive, only random walks were followed
+  no unhandled error: inconclusive, only random walks were followed
+  assertions: inconclusive, only random walks were followed
+  vehicles for all tasks: inconclusive, only random walks were followed
+  695 states, 928 transitions, depth 35
+  20 random walks (--seed 1): 720 visits to 323 states
+  estimated: the next visit is to a new state with a chance of 33.3%; about 1058 states or more
+  [3]
+  $ explore ../../examples/sequence.dol --sample 20 --seed 1
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  14 states, 13 transitions, depth 13; reduced by partial order
+  1 random walk (--seed 1): 14 visits to 14 states
+  $ explore deadlock.dol --sample 5 --seed 1 | head -1
+  no deadlock: violated after 6 steps: nothing can happen any more, and the program has not ended
+  $ dolphin explore ../../examples/sequence.dol --sample 20 --seed 1 --json | grep -o '"sample".*'
+  "sample":{"walks":1,"seed":1,"visits":14,"visited":14,"new":0.0,"estimate":14.0}}
+  $ dolphin explore ../../examples/sequence.dol --sample 0 2>&1 | head -1
+  dolphin: option '--sample': '0' is no number from 1 on
+  $ dolphin explore ../../examples/sequence.dol --sample 3 --ltl 'F ended'
+  dolphin: random walks say nothing of a formula: give --sample or --ltl, not both
+  [2]

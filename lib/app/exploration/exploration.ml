@@ -7,6 +7,7 @@ type settings = {
   faults : Dolphin_environment.Faults.t;
   reduction : Dolphin_explore.Reduction.t;
   compress : bool;
+  walks : Search.walks option;
   max_states : int option;
   max_depth : int option;
   max_memory : int option;
@@ -34,7 +35,7 @@ let explore ~interrupted ~progress s (program : Program_file.t) (fleet : Fleet_f
   let* formulas = read_all "--ltl" (Dolphin_explore.Temporal.of_string core) s.formulas in
   let options : Search.options =
     { environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
-      reduction = s.reduction; compress = s.compress;
+      reduction = s.reduction; compress = s.compress; walks = s.walks;
       search_again = Search.default.search_again;
       limits =
         { max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; memory_left = Memory.left;

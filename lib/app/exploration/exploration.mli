@@ -9,6 +9,7 @@ type settings = {
   faults : Dolphin_environment.Faults.t;
   reduction : Dolphin_explore.Reduction.t;
   compress : bool;  (** less memory, more time *)
+  walks : Dolphin_explore.Search.walks option;
   max_states : int option;
   max_depth : int option;  (** transitions *)
   max_memory : int option;  (** bytes; [None]: nine tenths of what is left to the process *)

@@ -22,6 +22,15 @@ let print_counts (o : Search.outcome) =
   Printf.printf "%d states, %d transitions, depth %d, %.2f s, %d MiB%s%s\n" o.states o.transitions o.depth o.seconds
     (mebibytes o.bytes) reduced for_formulas
 
+let percent share = Printf.sprintf "%.3g%%" (100. *. share)
+
+let print_sample (s : Dolphin_checker.Sample.summary) ~seen =
+  let walks = if s.walks = 1 then "walk" else "walks" in
+  Printf.printf "%d random %s (--seed %d): %d visits to %d states\n" s.walks walks s.seed s.steps s.visited;
+  if s.visited < seen then
+    Printf.printf "estimated: the next visit is to a new state with a chance of %s; about %.0f states or more\n"
+      (percent s.unvisited) s.states
+
 (* The call for which the fleet has no reply, if the run ends with one. *)
 let unanswered (run : Search.run) =
   match List.rev run.steps with
@@ -57,6 +66,7 @@ let print ~strict (program : Program_file.t) (o : Search.outcome) =
   let verdicts = List.map with_remark o.verdicts in
   List.iter (print_verdict program.program) verdicts;
   print_counts o;
+  Option.iter (print_sample ~seen:o.states) o.sample;
   List.iter (print_violation program) verdicts
 
 (* {1 For programs} *)
@@ -100,8 +110,15 @@ let to_json (program : Core.program) (o : Search.outcome) : Yojson.Safe.t =
     in
     `Assoc ([ ("property", name); ("verdict", `String result) ] @ more)
   in
+  let sample (s : Dolphin_checker.Sample.summary) =
+    `Assoc
+      [ ("walks", `Int s.walks); ("seed", `Int s.seed); ("visits", `Int s.steps); ("visited", `Int s.visited);
+        ("new", `Float s.unvisited); ("estimate", `Float s.states) ]
+  in
+  let samples = Option.fold ~none:[] ~some:(fun s -> [ ("sample", sample s) ]) o.sample in
   `Assoc
-    [ ("states", `Int o.states); ("transitions", `Int o.transitions); ("depth", `Int o.depth);
-      ("seconds", `Float o.seconds); ("bytes", `Int o.bytes); ("formula_states", `Int o.formula_states);
-      ("reductions", `List (List.map (fun name -> `String name) (Search.reductions o)));
-      ("verdicts", `List (List.map verdict o.verdicts)) ]
+    ([ ("states", `Int o.states); ("transitions", `Int o.transitions); ("depth", `Int o.depth);
+       ("seconds", `Float o.seconds); ("bytes", `Int o.bytes); ("formula_states", `Int o.formula_states);
+       ("reductions", `List (List.map (fun name -> `String name) (Search.reductions o)));
+       ("verdicts", `List (List.map verdict o.verdicts)) ]
+     @ samples)

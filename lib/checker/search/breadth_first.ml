@@ -23,6 +23,7 @@ module Make (S : System.S) = struct
     mutable violation : int;
     broken : (S.property, int) Hashtbl.t;
     mutable stopped : Limits.bound option;
+    mutable sample : Sample.t option;
     guard : Limits.guard;
     fresh : int -> int -> unit;
     visitor : S.via System.visitor;
@@ -32,7 +33,8 @@ module Make (S : System.S) = struct
   let stopped t = t.stopped
   let count t = States.count t.states
   let transitions t = t.transitions
-  let expanded t = t.next
+  let expanded t = match t.sample with Some sample -> Sample.visited sample | None -> t.next
+  let sample t = Option.map (Sample.summary ~seen:(count t)) t.sample
   let depth t = t.depth
   let memory t = States.bytes t.states + (8 * (Gc.quick_stat ()).heap_words)
   let found i = if i < 0 then None else Some i
@@ -46,6 +48,7 @@ module Make (S : System.S) = struct
   let note_violation t i = if t.violation < 0 then t.violation <- i
 
   let arrived t i word =
+    Option.iter (fun sample -> Sample.see sample i ~from:t.next) t.sample;
     (match t.monitor with
      | Some monitor when Monitor.is_certain monitor (word land mask t) -> note_violation t i
      | Some _ | None -> ());
@@ -91,7 +94,7 @@ module Make (S : System.S) = struct
 
   let push t key =
     worked t;
-    States.push t.states key ~parent:t.next ~fresh:t.fresh;
+    States.push t.states key ~parent:(if t.sample = None then t.next else 0) ~fresh:t.fresh;
     count_states t
 
   (* [put valuation] is for [key] with the monitor's set, if a violation is still possible. *)
@@ -155,7 +158,7 @@ module Make (S : System.S) = struct
     let rec t =
       { system; limits; phase; monitor; reserved = 0; states; key = [| 0 |]; from = Monitor.start; next = 0; depth = -1;
         level_end = 0; transitions = 0; work = 0; deadlock = -1; violation = -1; broken = Hashtbl.create 8;
-        stopped = None; guard; fresh = (fun i word -> arrived t i word);
+        stopped = None; sample = None; guard; fresh = (fun i word -> arrived t i word);
         visitor = { visit; tick = (fun () -> look_around ~by:256 t t.phase); rest = (fun () -> rest t) } }
     and visit key action _ = arrive t key action in
     let rec begin_with () =
@@ -187,8 +190,62 @@ module Make (S : System.S) = struct
       if Limits.exceeds t.limits.max_states (count t) then raise (Limits.Stop States)
     done
 
+  (* {1 Random walks} *)
+
+  (* Any of the transitions is as likely as another; each state that one leads to is seen. The result is where it goes
+     on, or -1. *)
+  let rec random_step t sample i =
+    t.next <- i;
+    fetch t i;
+    let chosen = Array.make (States.words t.states) 0 and n = ref 0 in
+    let visit key action _ =
+      arrive t key action;
+      incr n;
+      if Sample.draw sample !n = 0 then Array.blit key 0 chosen 0 (Array.length chosen)
+    in
+    match S.expand t.system t.key { t.visitor with visit } with
+    | taken ->
+      flush t;
+      if Sample.is_new sample i then t.transitions <- t.transitions + taken;
+      if !n = 0 then -1 else States.find t.states chosen
+    | exception S.Outgrown ->
+      flush t;
+      Limits.weigh t.guard ~used:(memory t) (States.bytes_to_rewrite t.states ~words:(States.words t.states + 1));
+      widen t;
+      random_step t sample i
+
+  let default_length = 10_000
+
+  let walk t sample look enough =
+    let most = Option.value t.limits.max_depth ~default:default_length in
+    let rec go i depth =
+      t.depth <- max t.depth depth;
+      worked t;
+      if Sample.is_new sample i then look i;
+      let next = random_step t sample i in
+      Sample.visit sample i;
+      if Limits.exceeds t.limits.max_states (count t) then raise (Limits.Stop States);
+      if next >= 0 && depth < most && not (enough ()) then go next (depth + 1)
+    in
+    Sample.begin_walk sample;
+    go 0 0
+
+  let is_all_visited t sample = Sample.visited sample = count t
+
+  let walk_all t sample walks look enough =
+    look_around t t.phase;
+    t.depth <- 0;
+    let rec from n =
+      if n < walks && not (enough () || is_all_visited t sample) then begin
+        walk t sample look enough;
+        from (n + 1)
+      end
+    in
+    from 0;
+    if not (is_all_visited t sample) then raise (Limits.Stop Sampled)
+
   (* Once there is no memory nothing can be added, not even what waits. *)
-  let run ?(look = ignore) ?(enough = fun () -> false) t =
+  let run_by expand_all t =
     let no_memory () =
       States.forget_waiting t.states;
       t.stopped <- Some No_memory
@@ -197,10 +254,19 @@ module Make (S : System.S) = struct
       t.stopped <- stopped;
       try flush t with Out_of_memory -> no_memory ()
     in
-    match expand_all t look enough with
+    match expand_all () with
     | () -> settle None
     | exception Limits.Stop bound -> settle (Some bound)
     | exception Out_of_memory -> no_memory ()
+
+  let run ?(look = ignore) ?(enough = fun () -> false) t = run_by (fun () -> expand_all t look enough) t
+
+  let run_walks ?(look = ignore) ?(enough = fun () -> false) t ~walks ~seed =
+    if t.monitor <> None then invalid_arg "Breadth_first.run_walks: a monitor";
+    let sample = Sample.create ~seed in
+    t.sample <- Some sample;
+    Sample.see sample 0 ~from:0;
+    run_by (fun () -> walk_all t sample walks look enough) t
 
   (* {1 States} *)
 
@@ -218,7 +284,8 @@ module Make (S : System.S) = struct
   let set t i = first_word t i land mask t
 
   let path t i =
-    let rec back i states = if i = 0 then 0 :: states else back (States.parent t.states i) (i :: states) in
+    let parent = match t.sample with Some sample -> Sample.from sample | None -> States.parent t.states in
+    let rec back i states = if i = 0 then 0 :: states else back (parent i) (i :: states) in
     back i []
 
   type arrival = { into : int; valuation : int; via : S.via }

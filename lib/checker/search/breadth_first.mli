@@ -38,6 +38,16 @@ module Make (S : System.S) : sig
       before state [i] is expanded, in order. What [S.expand], [look] and [enough] raise is raised, {!Limits.Stop}
       apart. *)
 
+  val run_walks : ?look:(int -> unit) -> ?enough:(unit -> bool) -> t -> walks:int -> seed:int -> unit
+  (** [run_walks t ~walks ~seed] is {!run} along random walks, as many as [walks], in place of all states: at each state
+      one of the transitions is taken, any as likely as another; the states that the others lead to are seen, but not
+      expanded. A walk ends where there is no transition, or after [max_depth] of them, 10,000 by default. Unless all
+      states have been expanded, it is stopped by {!Limits.Sampled} at the latest. [look i] is called before state [i]
+      is expanded first. There must be no monitor. *)
+
+  val sample : t -> Sample.summary option
+  (** What the random walks came to. *)
+
   val expand : t -> int -> int
   (** [expand t i] expands state [i], and is the number of its transitions: for tests, in place of {!run}. States come
       in order. *)

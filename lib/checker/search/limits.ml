@@ -31,7 +31,7 @@ let none =
     progress = ignore;
   }
 
-type bound = States | Depth | Memory | No_memory | Time | Interruption | Unsettled of string
+type bound = States | Depth | Memory | No_memory | Time | Interruption | Sampled | Unsettled of string
 
 exception Stop of bound
 
@@ -44,6 +44,7 @@ let pp_bound ppf bound =
      | No_memory -> "the machine has no more memory for it"
      | Time -> "the time was up"
      | Interruption -> "it was interrupted"
+     | Sampled -> "only random walks were followed"
      | Unsettled why -> why)
 
 let exceeds bound n = match bound with Some most -> n > most | None -> false

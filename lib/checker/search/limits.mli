@@ -34,6 +34,7 @@ type bound =
   | No_memory  (** the machine has no more *)
   | Time
   | Interruption
+  | Sampled  (** random walks have left out some states *)
   | Unsettled of string  (** something that was asked has no answer, for this reason *)
 
 exception Stop of bound

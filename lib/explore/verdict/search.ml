@@ -2,10 +2,13 @@ open Dolphin_semantics
 open Dolphin_environment
 open Dolphin_checker
 
+type walks = { number : int; seed : int }
+
 type options = {
   environment : Environment.options;
   reduction : Reduction.t;
   compress : bool;
+  walks : walks option;
   search_again : int;
   limits : Limits.t;
   invariants : Condition.t list;
@@ -17,6 +20,7 @@ let default =
     environment = Environment.default;
     reduction = Whole;
     compress = false;
+    walks = None;
     search_again = 100_000;
     limits = Limits.none;
     invariants = [];
@@ -43,6 +47,7 @@ type outcome = {
   stopped : Limits.bound option;
   reduction : Reduction.t;
   vehicle_symmetry : bool;
+  sample : Sample.summary option;
   verdicts : (Property.t * verdict) list;
 }
 
@@ -118,7 +123,7 @@ let unreached graph program : verdict =
   | None, pieces -> Unreached pieces
 
 let verdicts x (options : options) graph invariants =
-  let shortest = not (Reduction.by_order options.reduction) in
+  let shortest = options.walks = None && not (Reduction.by_order options.reduction) in
   let run = run_through graph ~shortest in
   let verdict = function
     | Property.No_deadlock -> of_verdict run (State_graph.no_deadlock graph)
@@ -205,7 +210,9 @@ let with_formulas x (options : options) found =
 let without_formulas x (options : options) =
   let graph = graph x options and invariants = List.map (Invariant.create x.program x.world) options.invariants in
   let look i = List.iter (fun invariant -> Invariant.check invariant graph i) invariants in
-  State_graph.run ~look graph;
+  (match options.walks with
+   | None -> State_graph.run ~look graph
+   | Some { number; seed } -> State_graph.run_walks ~look graph ~walks:number ~seed);
   let verdicts = with_shortest_runs x options (verdicts x options graph invariants) in
   let space = State_graph.system graph in
   let reduction =
@@ -222,6 +229,7 @@ let without_formulas x (options : options) =
     stopped = State_graph.stopped graph;
     reduction;
     vehicle_symmetry = Space.used_vehicle_symmetry space;
+    sample = State_graph.sample graph;
     verdicts;
   }
 

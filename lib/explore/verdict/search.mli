@@ -6,12 +6,15 @@ open Dolphin_checker
 
 (** {1:options Options} *)
 
+type walks = { number : int; seed : int }
+
 type options = {
   environment : Environment.options;
   reduction : Reduction.t;
   (** where there are invariants, only the symmetry of vehicles is used; where it matters which vehicle is lost
       ({!Later_picks}), no symmetry of tasks: states that it identifies may differ in that *)
   compress : bool;  (** keep states in less memory, in more time *)
+  walks : walks option;  (** random walks in place of all states; formulas are not judged by walks *)
   search_again : int;
   (** so many of all states are visited for a shortest run, if a reduced search found a violation *)
   limits : Limits.t;
@@ -53,6 +56,7 @@ type outcome = {
   reduction : Reduction.t;
   (** the one that was used in tasks: weaker than requested where the requested one would be unsound *)
   vehicle_symmetry : bool;  (** whether vehicle symmetry merged states of the script *)
+  sample : Sample.summary option;  (** what random walks came to *)
   verdicts : (Property.t * verdict) list;  (** for each of {!Property.all}, then for each invariant and formula *)
 }
 

@@ -563,6 +563,10 @@ Unit(name) ==
     [] name \in { "day", "days" } -> << 86400, 1 >>
     [] name \in { "south", "west" } -> << -1, 1 >>
     [] name = "percent" -> << 1, 100 >>
+    [] name \in { "nauticalMile", "nauticalMiles" } -> << 1852, 1 >>
+    [] name \in { "foot", "feet" } -> << 381, 1250 >>
+    [] name \in { "fathom", "fathoms" } -> << 1143, 625 >>
+    [] name \in { "knot", "knots" } -> << 463, 900 >>
     [] OTHER -> << 0, 0 >>
 
 InUnit(x, name) ==

@@ -175,6 +175,16 @@ let interpolate a b share =
   finite "interpolate" share;
   if share <= 0. then a else if share >= 1. then b else towards a b (share *. distance a b)
 
+let along path metres =
+  finite "along" metres;
+  let rec go metres (a : Position.t) = function
+    | [] -> a
+    | b :: rest ->
+      let length = distance a b in
+      if metres <= length then towards a b metres else go (metres -. length) b rest
+  in
+  match path with [] -> None | first :: rest -> Some (go metres first rest)
+
 type cartesian = { x : float; y : float; z : float }
 
 let cartesian (p : Position.t) =

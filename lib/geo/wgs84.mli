@@ -1,7 +1,8 @@
 (** Distances and movements over the ground, on the WGS84 ellipsoid.
 
     The ground is the ellipsoid itself: heights neither lengthen nor shorten a way. Ways are geodesics, the
-    shortest lines, by Vincenty's formulas (1975), whose error is below 1 mm at any distance. One exception:
+    shortest lines, by Vincenty's formulas (1975). On GeographicLib's test set their error is below 0.1 mm, and below
+    1 micrometre up to 10 km. One exception:
     between points so nearly opposite on the globe (more than some 19,900 km apart) that the inverse formula does
     not converge, the Earth is taken for a sphere of the mean radius, which errs by up to 0.6 %.
 
@@ -39,6 +40,10 @@ val towards : Position.t -> Position.t -> float -> Position.t
 
 val interpolate : Position.t -> Position.t -> float -> Position.t
 (** [interpolate a b share] is [towards a b (share * distance a b)]: [a] for 0 and less, [b] for 1 and more. *)
+
+val along : Position.t list -> float -> Position.t option
+(** [along ps metres] is the position after [metres] over the ground on the shortest ways from each of [ps] to the
+    next: the first of them if [metres] is not positive, the last if the way is not that long, [None] of none. *)
 
 (** {1:straight Straight lines}
 

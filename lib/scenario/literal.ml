@@ -1,7 +1,7 @@
 open Dolphin_syntax
 open Dolphin_semantics
 
-type dimension = Length | Time | Angle | Share
+type dimension = Length | Time | Speed | Angle | Share
 
 type t =
   | Number of float * dimension option
@@ -10,8 +10,9 @@ type t =
   | Unknown
 
 let dimension = function
-  | "m" | "meter" | "meters" | "metre" | "metres" | "km" | "kilometer" | "kilometers" | "kilometre" | "kilometres" ->
-    Some Length
+  | "m" | "meter" | "meters" | "metre" | "metres" | "km" | "kilometer" | "kilometers" | "kilometre" | "kilometres"
+  | "nauticalMile" | "nauticalMiles" | "foot" | "feet" | "fathom" | "fathoms" -> Some Length
+  | "knot" | "knots" -> Some Speed
   | "second" | "seconds" | "sec" | "ms" | "milliseconds" | "min" | "minute" | "minutes" | "hour" | "hours" | "day"
   | "days" -> Some Time
   | "degree" | "degrees" | "radian" | "radians" | "north" | "east" | "south" | "west" -> Some Angle
@@ -22,6 +23,7 @@ let describe = function
   | Number (n, None) -> Format.asprintf "the number %a" Value.pp (Value.canonical (Number n))
   | Number (_, Some Length) -> "a length"
   | Number (_, Some Time) -> "a time"
+  | Number (_, Some Speed) -> "a speed"
   | Number (_, Some Angle) -> "an angle"
   | Number (_, Some Share) -> "a percentage"
   | Text text -> Format.asprintf "the text %a" Value.pp (String text)

@@ -27,7 +27,7 @@ let time (value : value) =
   match value.it with
   | Number (n, (None | Some Time)) when n >= 0. -> Ok n
   | Number (n, (None | Some Time)) -> error value.at "a time is at least 0 seconds, not %g" n
-  | Number (_, Some (Length | Angle | Share)) | Text _ | Position _ | Unknown ->
+  | Number (_, Some (Length | Speed | Angle | Share)) | Text _ | Position _ | Unknown ->
     expected "a time, as in 30.seconds" value
 
 let share (value : value) =
@@ -37,7 +37,7 @@ let share (value : value) =
     error value.at "a share is from 0 to 1, not %g" n ~hint:(Printf.sprintf "did you mean %g.percent?" n)
   | Number (n, None) -> error value.at "a share is from 0 to 1, not %g" n
   | Number (n, Some Share) -> error value.at "a share is from 0 to 100.percent, not %g.percent" (n *. 100.)
-  | Number (_, Some (Length | Angle | Time)) | Text _ | Position _ | Unknown ->
+  | Number (_, Some (Length | Speed | Angle | Time)) | Text _ | Position _ | Unknown ->
     expected "a share, as in 80.percent" value
 
 let per_hour (value : value) =
@@ -47,26 +47,26 @@ let per_hour (value : value) =
   | Number (n, None) when n > 1. ->
     error value.at "a share is from 0 to 1, not %g" n ~hint:(Printf.sprintf "did you mean %g.percent?" n)
   | Number (_, (None | Some Share)) -> error value.at "a share is at least 0"
-  | Number (_, Some (Length | Angle | Time)) | Text _ | Position _ | Unknown ->
+  | Number (_, Some (Length | Speed | Angle | Time)) | Text _ | Position _ | Unknown ->
     expected "a share of the battery, as in 10.percent" value
 
 let speed (value : value) =
   match value.it with
-  | Number (n, None) when n > 0. -> Ok n
-  | Number (n, None) -> error value.at "a speed is more than 0 metres per second, not %g" n
-  | Number (_, Some _) | Text _ | Position _ | Unknown ->
-    expected "metres per second without a unit, as in 1.5" value
+  | Number (n, (None | Some Speed)) when n > 0. -> Ok n
+  | Number (n, (None | Some Speed)) -> error value.at "a speed is more than 0 metres per second, not %g" n
+  | Number (_, Some (Length | Time | Angle | Share)) | Text _ | Position _ | Unknown ->
+    expected "metres per second without a unit, as in 1.5, or knots" value
 
 let degrees what (value : value) =
   match value.it with
   | Number (n, (None | Some Angle)) -> Ok n
-  | Number (_, Some (Length | Time | Share)) | Text _ | Position _ | Unknown ->
+  | Number (_, Some (Length | Time | Speed | Share)) | Text _ | Position _ | Unknown ->
     expected (what ^ " in degrees") value
 
 let metres (value : value) =
   match value.it with
   | Number (n, (None | Some Length)) -> Ok n
-  | Number (_, Some (Angle | Time | Share)) | Text _ | Position _ | Unknown ->
+  | Number (_, Some (Angle | Speed | Time | Share)) | Text _ | Position _ | Unknown ->
     expected "a height in metres" value
 
 let coordinates (latitude : value) (longitude : value) height =

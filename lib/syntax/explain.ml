@@ -298,6 +298,8 @@ let greedy_bracket place =
 (* [pause 5 mins]. *)
 let misspelt_units = [
   "mins", "min"; "secs", "sec"; "s", "sec"; "msec", "ms"; "hrs", "hours"; "h", "hours"; "kms", "km"; "deg", "degrees";
+  "kn", "knots"; "kt", "knots"; "kts", "knots"; "ft", "feet"; "nm", "nauticalMiles"; "NM", "nauticalMiles";
+  "nmi", "nauticalMiles";
 ]
 
 let unit_without_point place =

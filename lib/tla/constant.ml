@@ -4,7 +4,7 @@ open Core
 let is_computation : operation -> bool = function
   | Unary _ | Binary _ | Make_list | Make_map _ | Make_range _ | Concatenate | Element | Property _ | Add_setting _
   | Build ((Pos | Imc_plan), _)
-  | Builtin (Location_of | Area_of | Math _) -> true
+  | Builtin (Location_of | Area_of | Math _ | Geometry _) -> true
   | Replace_element | Replace_member _ | Call _ | Method _
   | Build ((Pick | All_of | One_of), _)
   | Builtin _ | Make_branch -> false

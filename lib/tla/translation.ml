@@ -214,6 +214,10 @@ and procedure t site builtin : Tla.t =
     refuse t site "a location whose coordinates are not constants"
       ~hint:"the translator computes distances, so it must know the coordinates";
     plain "list"
+  | Geometry (name, _) ->
+    refuse t site "%s of values that are not constants: TLA+ has whole numbers only" name
+      ~hint:"the translator computes it once, so what it is of may not depend on variables";
+    plain "list"
   | Get_supplier -> plain "getSupplier"
 
 (* {1 Expressions} *)
@@ -230,7 +234,7 @@ and define t n site is fields =
 and expression t (e : expression) =
   match e.node with
   | Block [ start; body; { node = Apply (Build (Imc_plan, name), [ _ ]); site } ] -> plan t e.site start body name site
-  | Block [ _; _; { node = Apply (Build (Pos, _), _); _ } ] | Apply (Builtin (Location_of | Area_of | Math _), _)
+  | Block [ _; _; { node = Apply (Build (Pos, _), _); _ } ] | Apply (Builtin (Location_of | Area_of | Math _ | Geometry _), _)
     when Constant.is_closed e -> folded t e
   | Apply (Property name, _) when Supported.is_refused_property name && Constant.is_closed e -> folded t e
   | _ -> unfolded t e

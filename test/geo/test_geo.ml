@@ -108,6 +108,102 @@ let areas () =
   Alcotest.(check bool) "centre" true (Area.contains area { Place.apdl with height = 1e4 });
   Alcotest.(check bool) "outside" false (Area.contains area Place.feup)
 
+(* {1 GeographicLib's test set} *)
+
+let geodesics () =
+  let file = open_in "geodesics.txt" in
+  let rec lines found = match input_line file with line -> lines (line :: found) | exception End_of_file -> found in
+  let read line =
+    match List.map float_of_string (String.split_on_char ' ' line) with
+    | [ lat1; lon1; course1; lat2; lon2; course2; metres ] -> ((at lat1 lon1, course1), (at lat2 lon2, course2), metres)
+    | _ -> Alcotest.fail line
+  in
+  let all = List.map read (List.filter (fun line -> line <> "" && line.[0] <> '#') (lines [])) in
+  close_in file;
+  Alcotest.(check int) "lines" 100 (List.length all);
+  all
+
+(* How far apart two positions are, however near; the inverse formula is not what is judged here. *)
+let apart a b = Wgs84.straight (Wgs84.cartesian a) (Wgs84.cartesian b)
+
+let worst error lines = List.fold_left (fun most line -> Float.max most (error line)) 0. lines
+let within what accuracy found = if found > accuracy then Alcotest.failf "%s: an error of %g m" what found
+
+let on_the_test_set () =
+  let all = geodesics () in
+  let moved ((a, bearing), (b, _), metres) = apart b (Wgs84.move a ~bearing metres) in
+  within "move" 1e-4 (worst moved all);
+  let measured ((a, _), (b, _), metres) = Float.abs (Wgs84.distance a b -. metres) in
+  let converges (_, _, metres) = metres < 19_900_000. in
+  let far, others = List.partition (fun line -> not (converges line)) all in
+  within "distance" 1e-4 (worst measured others);
+  within "distance of opposite points" (0.006 *. 2e7) (worst measured far)
+
+(* The same geodesics, their first metres. *)
+let short_ways () =
+  let lengths = [ 0.5; 20.; 300.; 10_000. ] in
+  let error ((a, bearing), _, _) =
+    let one metres = Float.abs (Wgs84.distance a (Wgs84.move a ~bearing metres) -. metres) in
+    List.fold_left (fun most metres -> Float.max most (one metres)) 0. lengths
+  in
+  within "up to 10 km" 1e-6 (worst error (geodesics ()))
+
+let ways () =
+  let a = at 41.18 (-8.7) in
+  let b = Wgs84.move a ~bearing:90. 100. in
+  let c = Wgs84.move b ~bearing:0. 50. in
+  let check what expected way =
+    Alcotest.check (metres 1e-6) what 0. (apart expected (Option.get (Wgs84.along [ a; b; c ] way)))
+  in
+  check "before the start" a (-1.);
+  check "at the first corner" b 100.;
+  check "after it" (Wgs84.move b ~bearing:0. 20.) 120.;
+  check "beyond the end" c 1e9;
+  Alcotest.(check (option position)) "of nothing" None (Wgs84.along [] 1.)
+
+(* {1 Coordinates as texts} *)
+
+let read text = match Coordinates.of_string text with Ok p -> Fmt.str "%a" Position.pp p | Error why -> why
+
+let texts () =
+  let check expected texts = List.iter (fun text -> Alcotest.(check string) text expected (read text)) texts in
+  check "(41.185000, -8.706667)"
+    [ "41\xc2\xb011.1'N 8\xc2\xb042.4'W"; "41\xc2\xb011'6\"N, 8\xc2\xb042'24\"W";
+      "41\xc2\xb0 11\xe2\x80\xb2 6\xe2\x80\xb3 N  8\xc2\xb0 42\xe2\x80\xb2 24\xe2\x80\xb3 W"; "N 41 11.1 W 8 42.4";
+      "41 11.1 N 8 42.4 W"; "8\xc2\xb042.4'W 41\xc2\xb011.1'N"; "41d11m6s N 8d42m24s W"; "41\xc2\xb011'6''N 8\xc2\xb042'24''W";
+      "41.185, -8.7066666667"; "+41.185 -8.7066666667"; "41.185N 8.7066666667W"; "41\xc2\xb011.1', -8\xc2\xb042.4'" ];
+  check "(-0.500000, -0.250000)" [ "-0 30, -0 15"; "0 30 S 0 15 W"; "-0\xc2\xb030', -0\xc2\xb015'" ];
+  check "(33.300000, 44.400000)"
+    [ "38S 444140.545 3684706.356"; "38 north 444140.545 3684706.356"; "38n 444140.545, 3684706.356" ];
+  check "(-33.900000, 18.400000)" [ "34H 259583.222 6245888.045"; "34s 259583.222 6245888.045" ];
+  check "(41.185242, -8.704803)" [ "29T 524756.897 4559363.009" ];
+  check "(83.900000, 179.900000)" [ "60X 534390.831E 9317795.754N" ]
+
+let bad_texts () =
+  let check (text, why) =
+    Alcotest.(check string) text (Printf.sprintf "'%s' is no position: %s" text why) (read text)
+  in
+  List.iter check
+    [ ("", "a latitude and a longitude are missing, as in 41\xc2\xb011.1'N 8\xc2\xb042.4'W");
+      ("41.5", "a latitude and a longitude are missing, as in 41\xc2\xb011.1'N 8\xc2\xb042.4'W");
+      ("Porto", "what it says is not understood"); ("41 61 N 8 0 W", "minutes are below 60, not 61");
+      ("91 N 8 W", "latitude 91 is not from -90 to 90 degrees"); ("41N 8N", "it has no latitude and longitude, by its letters");
+      ("41N, 8", "both have a letter of N, S, E and W, or none has");
+      ("-41N 8W", "a sign and a letter of N, S, E and W exclude each other");
+      ("41.5 11.1 N 8 W", "only the last of degrees, minutes and seconds has a fraction");
+      ("41 11 6 3 N 8 W", "degrees, minutes and seconds come in this order, each once");
+      ("41'11\xc2\xb0N 8W", "degrees, minutes and seconds come in this order, each once");
+      ("41..5, 8", "a number of it cannot be read"); ("1, 2, 3", "a number is missing");
+      ("61T 524756 4559363", "UTM has the zones 1 to 60, not 61");
+      ("29T 4559363 524756", "eastings of UTM are from 100000 to 900000 m, not 4559363");
+      ( "34S 259583 6245888",
+        "the letter S of UTM is a band of latitudes, and these metres are not in it; write 34 south for the southern half" ) ];
+  Alcotest.(check string) "long" "a text of that length is no position" (read (String.make 10_000 '1'))
+
+(* Whatever a text says, reading it ends. *)
+let any_text = QCheck2.Gen.(string_size ~gen:(oneofl [ '4'; '1'; '.'; ' '; 'N'; 'W'; 's'; '-'; ','; '\''; '\xc2'; '\xb0' ]) (int_bound 12))
+let reads_anything text = match Coordinates.of_string text with Ok p -> Float.abs p.latitude <= 90. | Error _ -> true
+
 (* {1 Laws} *)
 
 let position_generator =
@@ -187,6 +283,11 @@ let () =
           case "beyond the pole" beyond_the_pole;
           case "areas" areas;
         ] );
+      ( "GeographicLib",
+        [ case "its test set" on_the_test_set; case "short ways" short_ways; case "along a way" ways ] );
+      ( "coordinates",
+        [ case "texts" texts; case "bad texts" bad_texts;
+          Test_support.Property.case ~count:5000 "any text" ~print:Fun.id any_text reads_anything ] );
       ( "laws",
         [
           law "a displacement is as long as asked for" displaced_that_far;

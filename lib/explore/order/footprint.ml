@@ -175,7 +175,9 @@ let rec is_inert (scope : scope) e =
       | Some x -> not (holds_code x)
       | None -> false)
   | Apply
-      ( Builtin (Post _ | Consume _ | Poll _ | Message | Math _ | Position_of | Battery_of | Location_of | Area_of),
+      ( Builtin
+          ( Post _ | Consume _ | Poll _ | Message | Math _ | Position_of | Battery_of | Location_of | Area_of
+          | Geometry _ ),
         _ )
   | Apply ((Unary _ | Make_range _ | Concatenate), _) -> true
   | Apply ((Binary _ | Make_list | Make_map _ | Element | Property _ | Method _), arguments) ->

@@ -14,6 +14,8 @@ type pairs = Post | Consume | Poll | Count
 
 type arguments =
   | These of { required : kind list; optional : kind list; operation : Core.builtin }
+  | Text_or of { required : kind list; optional : kind list; operation : Core.builtin }
+  | Geometry of { required : kind list; named : (string * kind) list }
   | Pairs of pairs
   | Execute
   | Set_connection_timeout
@@ -28,6 +30,13 @@ let these ?(place = Anywhere) ?(result = Any) ?(optional = []) ?(reads_sensors =
   { arguments = These { required; optional; operation }; place; result; reads_sensors }
 
 let other ?(place = Anywhere) arguments = { arguments; place; result = Other; reads_sensors = false }
+
+let location =
+  let arguments = Text_or { required = [ Number; Number ]; optional = [ Number ]; operation = Location_of } in
+  { arguments; place = Anywhere; result = Position; reads_sensors = false }
+
+let geometry ?(named = []) ~result required =
+  { arguments = Geometry { required; named }; place = Anywhere; result; reads_sensors = false }
 
 let table : (string * t) list =
   [ ("task", these Platform_task [ String ] ~result:Task);
@@ -51,8 +60,9 @@ let table : (string * t) list =
     ("poll", { (other (Pairs Poll)) with result = Truth });
     ("position", these Position_of [ Vehicles ] ~result:Position ~reads_sensors:true);
     ("battery", these Battery_of [ Vehicles ] ~result:Number ~reads_sensors:true);
-    ("location", these Location_of [ Number; Number ] ~optional:[ Number ] ~result:Position);
+    ("location", location);
     ("area", these Area_of [ Position; Number ] ~result:Other);
+    ("along", geometry [ Any; Number ] ~result:Position);
     ("ignore", these Ignore [] ~place:Handler_only ~result:Other);
     ("propagate", these Propagate [] ~place:Handler_only ~result:Other);
     ("getSupplier", these Get_supplier [] ~place:Script_only) ]
@@ -69,6 +79,11 @@ let is_of_script name =
 let is_deed name =
   match find name with
   | Some { place = Anywhere; result = Other | Truth; _ } -> true
+  | Some _ | None -> false
+
+let is_geometry name =
+  match find name with
+  | Some { arguments = Geometry _; _ } -> true
   | Some _ | None -> false
 
 (* What may not stand in code that only computes, and may in that of other tasks. *)

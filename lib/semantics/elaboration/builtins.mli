@@ -20,6 +20,8 @@ type pairs = Post | Consume | Poll | Count
 (** What a function's arguments are. *)
 type arguments =
   | These of { required : kind list; optional : kind list; operation : Core.builtin }
+  | Text_or of { required : kind list; optional : kind list; operation : Core.builtin }  (** or one text instead *)
+  | Geometry of { required : kind list; named : (string * kind) list }  (** named ones may be left out *)
   | Pairs of pairs  (** [post ready: 1]: pairs of N; see {!Pairs} *)
   | Execute
   | Set_connection_timeout
@@ -42,6 +44,9 @@ val is_of_script : string -> bool
 
 val is_deed : string -> bool
 (** Whether this is a procedure that code of tasks calls for what it does: [message], [post] ... *)
+
+val is_geometry : string -> bool
+(** Whether this is one of {!Geometry}'s functions, which variables that a program assigns hide. *)
 
 val changes : string -> bool
 (** Whether this is a procedure that code may not call that only computes, and code of tasks may. *)

@@ -138,8 +138,39 @@ let check_literals env at operation kinds arguments =
     let fault = Option.bind (Literal_check.all es) (Literal_check.fault operation) in
     Option.iter (fun fault -> error env Wrong_value at "%s" fault) fault
 
-let to_builtin env at name (builtin : Builtins.t) arguments =
+(* Its named arguments may be left out. *)
+let geometry env at name ~required ~named arguments =
+  let positional = List.filter (fun a -> not (is_named a)) arguments in
+  let count = List.length positional and wanted = List.length required in
+  if count <> wanted then
+    error env Wrong_arity at "%s takes %s, not %d" name (number_of_arguments wanted wanted) count
+  else List.iter2 (fun kind a -> check_kind env name kind (value_of a)) required positional;
+  let check seen = function
+    | Ast.Positional _ | Keyed _ -> seen
+    | Named (k, e) ->
+      (match List.assoc_opt k.Ast.it named with
+       | None when named = [] -> error env Unknown_argument k.at "%s takes no argument by name" name
+       | None ->
+         error env Unknown_argument k.at "%s has no argument '%s'" name k.it
+           ?hint:(did_you_mean k.it (List.map fst named))
+       | Some _ when List.mem k.it seen -> error env Defined_twice k.at "%s has its argument '%s' twice" name k.it
+       | Some kind -> check_kind env (Printf.sprintf "%s of %s" k.it name) kind e);
+      k.it :: seen
+  in
+  ignore (List.fold_left check [] arguments : string list);
+  apply env at (Builtin (Geometry (name, keys_of arguments))) (values env arguments)
+
+let rec to_builtin env at name (builtin : Builtins.t) arguments =
   match builtin.arguments with
+  | Text_or { required; optional; operation } ->
+    let these =
+      match arguments with
+      | [ Ast.Positional e ] when could_be String (known_kind env e) ->
+        Builtins.These { required = [ String ]; optional = []; operation }
+      | _ -> These { required; optional; operation }
+    in
+    to_builtin env at name { builtin with arguments = these } arguments
+  | Geometry { required; named } -> geometry env at name ~required ~named arguments
   | These { required; optional; operation } ->
     let count = List.length arguments and least = List.length required in
     let most = least + List.length optional in
@@ -204,6 +235,7 @@ let by_name env at name (callee : Ast.expression) arguments =
         n;
     Scope.note_call env.code name callee.at;
     called_value ()
+  | None, None, Some _ when Builtins.is_geometry name && Scope.is_assigned env.program name -> called_value ()
   | None, None, Some builtin ->
     check_place env builtin name callee.at;
     to_builtin env at name builtin arguments

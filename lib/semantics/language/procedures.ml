@@ -268,6 +268,9 @@ let apply context at operation arguments =
   | Position_of, [ Vehicles vs ] -> sense context Position vs
   | Battery_of, [ Vehicles vs ] -> sense context Battery vs
   | (Position_of | Battery_of), [ x ] -> expected "a vehicle" x
+  | Location_of, [ String text ] -> (
+      match Dolphin_geo.Coordinates.of_string text with Ok p -> Value (Position p) | Error why -> Wrong why)
+  | Location_of, [ x ] -> expected "a latitude and a longitude, or a text that gives both" x
   | Location_of, ([ _; _ ] | [ _; _; _ ]) -> (
       match numbers arguments with
       | Some (latitude :: longitude :: height) -> (
@@ -288,6 +291,7 @@ let apply context at operation arguments =
     Value (Boolean (is_number || Value.truth x))
   | Is_host, [ x ] -> Value (Boolean (match x with Host _ -> true | _ -> false))
   | Math name, arguments -> mathematics name arguments
+  | Geometry (name, keys), arguments -> of_result (Geometry.apply name keys arguments)
   | ( ( Execute | Release | Set_connection_timeout | Ask | Message | Pause | Halt | Position_of | Battery_of
       | Location_of | Area_of | Assert | Ignore | Propagate | Get_supplier | Is_host | Is_there | Values_of ),
       _ ) -> Wrong (Printf.sprintf "wrong number of arguments, %d" (List.length arguments))

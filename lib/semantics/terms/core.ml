@@ -158,6 +158,7 @@ and builtin =
   | Is_there                                    (* made by elaboration: whether [a ?: b] is [a] *)
   | Is_host                                     (* made by elaboration, for updates of what may be a host object *)
   | Math of string
+  | Geometry of string * string option list     (* [along] and the like; names of named arguments *)
 
 (** What a closure runs. The mutable fields are set once, by elaboration: functions may refer to themselves. *)
 and lambda = {

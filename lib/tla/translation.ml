@@ -234,7 +234,8 @@ and define t n site is fields =
 and expression t (e : expression) =
   match e.node with
   | Block [ start; body; { node = Apply (Build (Imc_plan, name), [ _ ]); site } ] -> plan t e.site start body name site
-  | Block [ _; _; { node = Apply (Build (Pos, _), _); _ } ] | Apply (Builtin (Location_of | Area_of | Math _ | Geometry _), _)
+  | Block [ _; _; { node = Apply (Build (Pos, _), _); _ } ]
+  | Apply (Builtin (Location_of | Area_of | Math _ | Geometry _), _)
     when Constant.is_closed e -> folded t e
   | Apply (Property name, _) when Supported.is_refused_property name && Constant.is_closed e -> folded t e
   | _ -> unfolded t e

@@ -83,7 +83,8 @@ let rec parts expected = function
         Error (Printf.sprintf "%s are below 60, not %.15g" (if mark = Minutes then "minutes" else "seconds") x)
       | Some (mark, left) ->
         let* others = parts left rest in
-        if others <> [] && not (Float.is_integer x) then Error "only the last of degrees, minutes and seconds has a fraction"
+        if others <> [] && not (Float.is_integer x) then
+          Error "only the last of degrees, minutes and seconds has a fraction"
         else Ok ((mark, x, signed) :: others))
   | (Mark _ | Hemisphere _ | Comma | Word _) :: _ -> Error "a number is missing"
 

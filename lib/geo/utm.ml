@@ -37,10 +37,9 @@ let tangent conformal =
   let complement = 1. -. (eccentricity *. eccentricity) in
   let rec improve t round =
     let c = of_tangent t in
-    let step =
-      (conformal -. c) /. sqrt (1. +. (c *. c)) *. (1. +. (complement *. t *. t)) /. (complement *. sqrt (1. +. (t *. t)))
-    in
-    if round = 0 || Float.abs step < 1e-15 *. Float.max 1. (Float.abs t) then t +. step else improve (t +. step) (round - 1)
+    let slope = complement *. sqrt (1. +. (t *. t)) *. sqrt (1. +. (c *. c)) /. (1. +. (complement *. t *. t)) in
+    let t' = t +. ((conformal -. c) /. slope) in
+    if round = 0 || Float.abs (t' -. t) < 1e-15 *. Float.max 1. (Float.abs t) then t' else improve t' (round - 1)
   in
   improve (conformal /. complement) 8
 

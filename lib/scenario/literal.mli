@@ -7,7 +7,7 @@ type dimension = Length | Time | Speed | Angle | Share
 
 type t =
   | Number of float * dimension option
-      (** in metres, seconds, metres per second, degrees or shares of 1; [None]: without a unit *)
+  (** in metres, seconds, metres per second, degrees or shares of 1; [None]: without a unit *)
   | Text of string
   | Position of Dolphin_geo.Position.t
   | Unknown  (** the word [unknown]: what a vehicle does not tell *)

@@ -66,7 +66,7 @@ let procedures =
       "position", "position(v)", "Where the vehicle is now.";
       "battery", "battery(v)", "What is left in the vehicle's battery, from 0 to 1.";
       "location", "location(latitude, longitude)", "A position, in degrees; a third number is its height in metres. \
-       Also `location \"41\xc2\xb011.1'N 8\xc2\xb042.4'W\"`.";
+                                                    Also `location \"41\xc2\xb011.1'N 8\xc2\xb042.4'W\"`.";
       "along", "along(path, d)", "The position d metres along a path, a list of positions.";
       "area", "area(centre, radius)", "A disc around a position, its radius in metres. Also `centre ^ radius`.";
       "ignore", "ignore()", "In `onError`: the watched task counts as done.";

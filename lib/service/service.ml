@@ -124,6 +124,15 @@ let names_of_fleet d =
     List.map (fun (p : Scenario.plan) -> named "A plan of the fleet." p.name) s.plans
     @ List.map (fun (v : Scenario.vehicle) -> named (Printf.sprintf "A vehicle of type %s." v.kind) v.id) s.vehicles
 
+let prelude_item (e : Prelude.entry) = { label = e.name; kind = Function; form = e.form; text = e.text }
+
+(* What a program that includes the prelude, if it does, has of it. *)
+let of_prelude d =
+  let includes quote =
+    let line = Printf.sprintf "include %c%s%c" quote Prelude.file quote in
+    List.exists (fun text -> String.trim text = line) (String.split_on_char '\n' d.source) in
+  if includes '\'' || includes '"' then Prelude.entries else []
+
 (* What may follow [owner] and a point: what is called [owner.x], up to the next point. *)
 let constants_of owner =
   let inside = owner ^ "." in
@@ -151,7 +160,8 @@ let in_program d (s : Surroundings.t) =
     | Some Imc_plan, Some call -> arguments_of_maneuver call
     | Some builder, None -> entries (Reference.settings builder)
     | Some _, Some _ | None, _ -> [] in
-  settings @ List.map (own_item d) own @ entries (Reference.procedures @ Reference.blocks @ Reference.words)
+  settings @ List.map (own_item d) own @ List.map prelude_item (of_prelude d)
+  @ entries (Reference.procedures @ Reference.blocks @ Reference.words)
 
 let in_fleet (s : Surroundings.t) =
   match s.block, s.call with
@@ -244,10 +254,12 @@ let hover d offset =
       match e.kind with
       | Member | Constant -> after_point d.source span
       | Word | Procedure | Block | Setting | Maneuver | Fleet_word -> not (after_point d.source span) in
-    let entries = List.filter suits (Reference.find x) in
-    if entries = [] then None
-    else
-      Some (span, String.concat "\n\n" (List.map (fun (e : Reference.entry) -> quoted e.form e.text) entries))
+    let told_by_language (e : Reference.entry) = quoted e.form e.text in
+    let told_by_prelude (e : Prelude.entry) = if e.name = x then Some (quoted e.form e.text) else None in
+    let found =
+      List.filter_map told_by_prelude (of_prelude d)
+      @ List.map told_by_language (List.filter suits (Reference.find x)) in
+    if found = [] then None else Some (span, String.concat "\n\n" found)
   | _, _, None -> None
 
 (* {1 Definitions and uses} *)

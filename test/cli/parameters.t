@@ -113,9 +113,9 @@ Journals keep them: the run is checked, and resumed, with what it was started wi
   $ head -1 all.run | grep -o '"set":{[^}]*}'
   "set":{"vehicles":"3","rounds":"1"}
   $ dolphin trace check parameters.dol all.run
-  all.run: a run, of 12 transitions in 8:00; completed
+  all.run: a run, of 11 transitions in 8:00; completed
   $ dolphin trace check parameters.dol - < all.run
-  -: a run, of 12 transitions in 8:00; completed
+  -: a run, of 11 transitions in 8:00; completed
   $ dolphin trace check parameters.dol all.run --set rounds=2
   dolphin: the recorded run has parameters of its own: leave out --set
   [2]
@@ -127,7 +127,7 @@ Journals keep them: the run is checked, and resumed, with what it was started wi
     tasks    3 done
     journal  part.run
   $ dolphin trace check parameters.dol part.run
-  part.run: a run, of 12 transitions in 8:00; completed
+  part.run: a run, of 11 transitions in 8:00; completed
   $ cat > early.dol <<'END'
   > parameter n = 1
   > v = pick { type 'UUV' }

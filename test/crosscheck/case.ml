@@ -82,7 +82,7 @@ let read path =
 let compiled path source =
   let explain ds = Format.asprintf "%a" (Fmt.list (Diagnostic.pp ~source)) ds in
   let result =
-    Result.bind (Parse.program ~file:path source) (fun ast -> Elaborate.program ~source_name:path ast)
+    Result.bind (Test_support.Pure_run.read ~file:path source) (fun ast -> Elaborate.program ~source_name:path ast)
   in
   match result with Ok (program, _) -> program | Error ds -> failwith (explain ds)
 

@@ -118,6 +118,19 @@ let allocations =
     case "no fleet" (hints (team ^ "execute task('s')") []);
     case "a fault" (hints ~fleet (team ^ "execute task('s') | x") []) ]
 
+(* {1 The prelude} *)
+
+let prelude () =
+  let labels text =
+    let d, at = marked text in
+    List.map (fun (i : Service.item) -> i.label) (snd (Service.complete d at)) in
+  let with_it = "include 'prelude'\nexecute ra#" and without = "message 1\nexecute ra#" in
+  Alcotest.(check (list bool)) "completed where it is included" [ true; false ]
+    [ List.mem "race" (labels with_it); List.mem "race" (labels without) ];
+  let d, at = marked "include \"prelude\"\nexecute ra#ce([task('p')])" in
+  let told = match Service.hover d at with Some (_, text) -> text | None -> "" in
+  Alcotest.(check string) "hover" "```dolphin\nrace(tasks)\n```" (String.sub told 0 (min 26 (String.length told)))
+
 (* {1 Everything, everywhere} *)
 
 let read_file path =
@@ -166,4 +179,5 @@ let anywhere =
 let () =
   Alcotest.run "service"
     [ "places", [ case "there and back" positions ]; "names", names; "completion", completion; "allocations", allocations;
+      "prelude", [ case "completion and hover" prelude ];
       "reference", [ case "is whole" documented; case "is highlighted" highlighted ]; "everywhere", [ anywhere ] ]

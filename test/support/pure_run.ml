@@ -2,8 +2,12 @@
 
 open Dolphin_semantics
 
+let read ~file source =
+  let nobody path = Error (path ^ ": there are no other files") in
+  snd (Dolphin_syntax.Include.program ~read:nobody ~file source)
+
 let compile source =
-  match Dolphin_syntax.Parse.program ~file:"test.dol" source with
+  match read ~file:"test.dol" source with
   | Error ds -> Error ds
   | Ok ast -> Result.map fst (Elaborate.program ~source_name:"test.dol" ast)
 

@@ -4,6 +4,9 @@ open Dolphin_semantics
 
 (** {1:compile From text} *)
 
+val read : file:string -> string -> (Dolphin_syntax.Ast.program, Dolphin_syntax.Diagnostic.t list) result
+(** [read ~file source] is the program that [source] spells, which may include the prelude. *)
+
 val compile : string -> (Core.program, Dolphin_syntax.Diagnostic.t list) result
 (** [compile source] is the core program of [source], whose file is called ["test.dol"]; or the errors. *)
 

@@ -32,7 +32,7 @@ let explain source ds =
 
 let compile name source =
   let elaborate = Elaborate.program ~source_name:name in
-  match Result.bind (Dolphin_syntax.Parse.program ~file:name source) elaborate with
+  match Result.bind (Test_support.Pure_run.read ~file:name source) elaborate with
   | Ok (program, _) -> program
   | Error ds -> explain source ds
 

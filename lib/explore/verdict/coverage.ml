@@ -84,4 +84,5 @@ let unreached t program =
   in
   expression ~script:true program.main.code;
   List.iter (fun (_, lambda) -> code lambda) program.functions;
-  List.sort_uniq Stdlib.compare !found
+  let is_own piece = Dolphin_syntax.Location.file program.locations.(piece.site) <> Dolphin_syntax.Prelude.file in
+  List.sort_uniq Stdlib.compare (List.filter is_own !found)

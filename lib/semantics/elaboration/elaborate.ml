@@ -100,7 +100,31 @@ let is_error (d : Diagnostic.t) = match d.severity with Error -> true | Warning 
 let is_supplier (e : Ast.expression) =
   match e.it with Call { callee = { it = Variable "getSupplier"; _ }; arguments = [] } -> true | _ -> false
 
+(* Without the functions of the prelude that nobody uses: they are none of the program's code. *)
+let without_unused_prelude (ast : Ast.program) =
+  let is_prelude (s : Ast.statement) = Location.file s.at = Dolphin_syntax.Prelude.file in
+  let named names (e : Ast.expression) = match e.it with Variable x -> x :: names | _ -> names in
+  let rec reach used names =
+    let of_function (s : Ast.statement) =
+      match s.it with
+      | Function { name; _ } when is_prelude s && List.mem name.it names && not (List.mem name.it used) ->
+        Some (name.it, s)
+      | _ -> None
+    in
+    match List.filter_map of_function ast with
+    | [] -> used
+    | found -> reach (List.map fst found @ used) (List.concat_map (fun (_, s) -> Fold.statement named [] s) found)
+  in
+  if not (List.exists is_prelude ast) then ast
+  else
+    let own = List.filter (fun s -> not (is_prelude s)) ast in
+    let used = reach [] (List.concat_map (Fold.statement named []) own) in
+    let is_kept (s : Ast.statement) =
+      match s.it with Function { name; _ } when is_prelude s -> List.mem name.it used | _ -> true in
+    List.filter is_kept ast
+
 let program ~source_name (ast : Ast.program) =
+  let ast = without_unused_prelude ast in
   let program =
     Scope.create ~variables:(Assigned.names ast) ~suppliers:(Assigned.once is_supplier ast)
       ~parameters:(List.map (fun (p : Parameters.t) -> p.name) (Parameters.of_program ast))

@@ -1,0 +1,21 @@
+(** Functions written in Dolphin that come with it, for programs that [include 'prelude']. *)
+
+val file : string
+(** ["prelude"]: the name that programs include it by, and that its places have. *)
+
+val text : string
+
+(** A function, as the comment above it tells of it. *)
+type entry = {
+  name : string;
+  form : string;  (** ["par(tasks)"] *)
+  text : string;  (** what it is: sentences *)
+  example : string;  (** statements, in which [vs] is three vehicles and [p], [q] and [r] are tasks *)
+  law : (string * string) option;  (** two tasks that are the same *)
+}
+
+val entries : entry list
+(** In the order of the text. *)
+
+val manual : string
+(** All of it as a page in Markdown. *)

@@ -1,0 +1,136 @@
+(* Each function of the prelude: its example runs, its law holds as strong bisimilarity, and what it says of itself
+   holds in all runs. *)
+
+open Dolphin_semantics
+open Dolphin_syntax
+open Test_support
+
+let given =
+  "include 'prelude'\n\
+   vs = pick { type 'UUV'; count 3 }\n\
+   p = imcPlan('p')\n\
+   q = imcPlan('q')\n\
+   r = imcPlan('r')\n"
+
+let compile body =
+  let read path = Error (path ^ ": there is no such file") in
+  let { Include.text; _ }, parsed = Include.program ~read ~file:"test.dol" (given ^ body ^ "\n") in
+  match Result.bind parsed (Elaborate.program ~source_name:"test.dol") with
+  | Ok (program, []) -> program
+  | Ok (_, found) | Error found -> failwith (Pure_run.explain text found)
+
+let graph ?failures body =
+  match Graph.explore ~limit:20_000 ?failures (compile body) Pure_run.fleet with
+  | Some graph -> graph
+  | None -> Alcotest.fail "more states than expected"
+
+let ends (g : Graph.t) =
+  let ends = ref [] in
+  Array.iteri (fun i edges -> if edges = [] then ends := g.states.(i) :: !ends) g.edges;
+  !ends
+
+(* A vehicle's failure, whichever vehicle's. *)
+let broken = "failed: a vehicle"
+
+let is_broken message =
+  let n = String.length message and suffix = ": broken" in
+  n > String.length suffix && String.sub message (n - String.length suffix) (String.length suffix) = suffix
+
+let how (c : Configuration.t) =
+  match c.control with
+  | Ended Completed -> "completed"
+  | Ended (Failed { message; _ }) when is_broken message -> broken
+  | Ended (Failed fault) -> "failed: " ^ fault.message
+  | Ended (Halted _ | Interrupted) -> "halted"
+  | _ -> "stuck"
+
+let outcomes ?failures body = List.sort_uniq compare (List.map how (ends (graph ?failures body)))
+
+(* {1 Examples and laws} *)
+
+(* Rounds without end have no last state. *)
+let example (e : Prelude.entry) =
+  let check () =
+    Alcotest.(check (list string)) "how runs end" [ "completed" ] (outcomes ~failures:false e.example) in
+  Alcotest.test_case (e.name ^ ": the example") `Quick check
+
+let law (e : Prelude.entry) =
+  let check (a, b) () =
+    let graph task = graph ("execute " ^ task) in
+    Alcotest.(check bool) "bisimilar" true
+      (Bisimulation.equivalent ~observed:Bisimulation.shared (graph a) (graph b)) in
+  Option.map (fun law -> Alcotest.test_case (e.name ^ ": the law") `Quick (check law)) e.law
+
+let told () =
+  let functions =
+    match Parse.program ~file:Prelude.file Prelude.text with
+    | Ok ast ->
+      List.filter_map (fun (s : Ast.statement) -> match s.it with Function { name; _ } -> Some name.it | _ -> None) ast
+    | Error _ -> []
+  in
+  Alcotest.(check (list string)) "each function has its comment" functions
+    (List.map (fun (e : Prelude.entry) -> e.name) Prelude.entries)
+
+(* {1 What they say of themselves} *)
+
+let holds ?(ends = [ "completed" ]) ?(failures = false) title body =
+  Alcotest.test_case title `Quick (fun () -> Alcotest.(check (list string)) "ends" ends (outcomes ~failures body))
+
+let leaves_nothing body () =
+  let is_empty (c : Configuration.t) = Tuples.is_empty c.shared.tuples in
+  Alcotest.(check bool) "N is empty at each end" true (List.for_all is_empty (ends (graph ~failures:false body)))
+
+let nothing title body = Alcotest.test_case title `Quick (leaves_nothing body)
+
+let meeting = "par([1, 2].collect { i -> action { came++ } >> barrier('x', 2) >> action { if (came < 2) { halt() } } >>\n\
+              \  barrier('x', 2) >> action { came = 0 } })"
+
+let with_failures team =
+  "bad = 0\nexecute " ^ team
+  ^ ", vs, ['p', 'q']) { g -> watch imcPlan(g) onError { bad++\n propagate() } }\nassert { bad == 0 }"
+
+let told_of_themselves =
+  [ holds "race: one is done, whichever" "n = 0\nexecute race([p >> action { n++ }, q >> action { n++ }])\nassert { n >= 1 }";
+    holds "race: not all need be done" ~ends:[ "completed"; "failed: assertion failed" ]
+      "n = 0\nexecute race([p >> action { n++ }, q >> action { n++ }])\nassert { n == 2 }";
+    holds "race: an error is one of the race" ~failures:true ~ends:[ "completed"; broken ] "execute race([p, q])";
+    holds "race: again and again" "n = 0\nwhile (n < 3) { execute race([p, q])\n n++ }";
+    holds "atLeast: so many are done"
+      "n = 0\nexecute atLeast(2, [p, q, r].collect { t -> t >> action { n++ } })\nassert { n >= 2 }";
+    holds "atLeast: after an error as before"
+      ~failures:true ~ends:[ "completed"; broken ]
+      "n = 0\n\
+       both = atLeast(2, [p, q].collect { t -> t >> action { n++ } })\n\
+       execute watch both onError { ignore() }\n\
+       n = 0\n\
+       execute both\n\
+       assert { n == 2 }";
+    holds "barrier: nobody goes on before all are there" ("came = 0\nexecute " ^ meeting);
+    holds "follower: after the leader"
+      "n = 0\n\
+       execute leader('a', [p, q].collect { t -> t >> action { n++ } }) |\n\
+      \  follower('a', [action { if (n < 1) { halt() } }, action { if (n < 2) { halt() } }])";
+    holds "team: each goal once"
+      "n = 0\nexecute team(1, 2, vs, ['p', 'q', 'r']) { g -> imcPlan(g) >> action { n++ } }\nassert { n == 3 }";
+    holds "team: goals of who fails are done by others" ~failures:true ~ends:[ "completed"; broken ]
+      "n = 0\nexecute team(1, 2, vs, ['p', 'q']) { g -> imcPlan(g) >> action { n++ } }\nassert { n == 2 }";
+    holds "team: one may be out, if one is enough" ~failures:true
+      ~ends:[ "completed"; broken; "failed: assertion failed" ] (with_failures "team(1, 2");
+    holds "team: nobody may be out, if two are needed" ~failures:true ~ends:[ "completed"; broken ]
+      (with_failures "team(2, 2");
+    nothing "race: leaves nothing" "execute race([p, q, r])";
+    nothing "barrier: leaves nothing" "execute par([p, q].collect { t -> t >> barrier('x', 2) })";
+    nothing "team: leaves nothing" "execute team(1, 2, vs, [p, q]) { g -> g }" ]
+
+let unused () =
+  let names (p : Core.program) = List.map fst p.functions in
+  Alcotest.(check (list string)) "functions" [] (names (compile "message 'x'"));
+  Alcotest.(check (list string)) "functions" [ "atLeast"; "par"; "race" ]
+    (List.sort compare (names (compile "execute race([p])")))
+
+let () =
+  Alcotest.run "prelude"
+    [ ("examples", List.map example Prelude.entries);
+      ("laws", List.filter_map law Prelude.entries);
+      ("what they say", told_of_themselves);
+      ("the file", [ Alcotest.test_case "each is told of" `Quick told; Alcotest.test_case "who is not used" `Quick unused ]) ]

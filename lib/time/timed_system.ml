@@ -134,12 +134,12 @@ let note_step t zone (before : Timed.state) (step : Timed.step) =
     Option.iter (fun p -> note_task t (date t zone) (task v p) moment) (Vehicle_map.find_opt v running)
   in
   (match tr.label with Done (v, _) -> note v Ends | Fail (v, _, _) -> note v Fails | _ -> ());
-  let effect : Effect.t -> unit = function
+  let carry : Effect.t -> unit = function
     | Start (v, p) -> note_task t (date t zone) (task v p) Starts
     | Stop v -> note v Stopped
     | _ -> ()
   in
-  List.iter effect tr.effects
+  List.iter carry tr.effects
 
 let ending : Configuration.ending -> ending = function
   | Completed -> Completed

@@ -52,9 +52,9 @@ let in_seconds : Bounds.t -> int * int = function
 
 let whole x = Float.to_int x
 
-let clock_of (o : Timed.options) (effect : Effect.t) =
+let clock_of (o : Timed.options) (deed : Effect.t) =
   let set what (least, most) = [ (what, { since = 0; least; most }) ] in
-  match effect with
+  match deed with
   | Start (v, p) -> set (Vehicle v) (in_seconds (o.durations.task v None p))
   | Set_timer (i, n) -> set (Timer i) (whole n, whole n)
   | Look_for { timeout = Some n; _ } -> set (Timer 0) (whole n, whole n)
@@ -91,9 +91,9 @@ let posted (o : Timed.options) k =
 let after o s (choice : Environment.choice) =
   let t = choice.transition in
   let kept = match Option.bind choice.on over with Some what -> List.remove_assoc what s.clocks | None -> s.clocks in
-  let set clocks effect =
+  let set clocks deed =
     let add clocks (what, clock) = (what, clock) :: List.remove_assoc what clocks in
-    List.fold_left add clocks (clock_of o effect)
+    List.fold_left add clocks (clock_of o deed)
   in
   let clocks = List.fold_left set kept t.effects in
   let find what =
@@ -161,12 +161,12 @@ let all ?(states = 20_000) ?(seconds = 60) (o : Timed.options) =
      | Done (v, _) -> running v Timed_system.Ends
      | Fail (v, _, _) -> running v Fails
      | _ -> ());
-    let effect : Effect.t -> unit = function
+    let deed : Effect.t -> unit = function
       | Start (v, p) -> note s (Task (task v p, Timed_system.Starts))
       | Stop v -> running v Stopped
       | _ -> ()
     in
-    List.iter effect t.effects
+    List.iter carry t.effects
   in
   let note_end s =
     match s.c.control with

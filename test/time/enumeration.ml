@@ -161,7 +161,7 @@ let all ?(states = 20_000) ?(seconds = 60) (o : Timed.options) =
      | Done (v, _) -> running v Timed_system.Ends
      | Fail (v, _, _) -> running v Fails
      | _ -> ());
-    let deed : Effect.t -> unit = function
+    let carry : Effect.t -> unit = function
       | Start (v, p) -> note s (Task (task v p, Timed_system.Starts))
       | Stop v -> running v Stopped
       | _ -> ()

@@ -139,14 +139,16 @@ IsResidual(r, active) ==
             /\ r.timer \in Nat \ { 0 }
             /\ r.started => active /\ ~Is(r.time, "closure")
             /\ IsResidual(r.body, active /\ r.started)
-       [] r.op = "watch" -> Is(r.handler, "closure") /\ IsResidual(r.body, active)
+       [] r.op = "watch" ->
+            /\ Is(r.handler, "closure") /\ IsResidual(r.body, active)
+            /\ \A j \in DOMAIN r.anew : r.anew[j].place \in Nat \ { 0 } /\ r.anew[j].depth \in 0 .. Deepest
        [] r.op = "repeat" ->
             /\ Len(r.runs) <= 1 /\ (\A j \in DOMAIN r.runs : IsResidual(r.runs[j], active))
             /\ r.runs = << >> => active /\ r.until # << >>
             /\ r.left = << >> \/ r.left[1] > 0
             /\ (\A j \in DOMAIN r.until : Is(r.until[j], "closure")) /\ IsResidual(r.each, FALSE)
        [] r.op = "made" -> Is(r.code, "closure") /\ r.place \in Nat \ { 0 } /\ r.depth \in 0 .. Deepest
-       [] r.op = "unallocated" -> active /\ r.place \in Nat \ { 0 } /\ r.depth \in 1 .. Deepest
+       [] r.op = "unallocated" -> active /\ r.place \in Nat \ { 0 } /\ r.depth \in 0 .. Deepest
        [] r.op = "hold" ->
             active /\ r.vehicles # << >> /\ Range(r.vehicles) \subseteq Range(B) /\ IsResidual(r.body, active)
        [] OTHER -> FALSE
@@ -287,19 +289,24 @@ FirstInPickOrder(F, n) ==
 Best(leaves, F, sees) ==
   FirstInPickOrder(LeastBy(LeastBy(F, LAMBDA f : Cardinality(Range(f))), LAMBDA f : Total(leaves, f, sees)), 1)
 
+(* Whether the handler of this watch may run its task anew, or another one in its place. *)
+Recovers(t) == Lambdas[t.handler[2]].recovers
+
 (* t with its vehicles, and timers numbered from left to right: after the n-th platform task and the i-th timer. Code
-   that makes a task has a number among the timers of the executed task, which tasks made there keep. *)
+   that makes a task, or that may recover, has a number among the timers of the executed task, which tasks made there
+   keep. *)
 RECURSIVE TimerCount(_, _)
 TimerCount(t, first) ==
   CASE t.op = "idle" -> 1
     [] t.op = "made" -> IF first THEN 1 ELSE 0
     [] t.op = "during" -> 1 + TimerCount(t.body, first)
+    [] t.op = "watch" -> (IF first /\ Recovers(t) THEN 1 ELSE 0) + TimerCount(t.body, first)
     [] t.op \in { "seq", "par" } -> TimerCount(t.left, first) + TimerCount(t.right, first)
     [] t.op \in { "allOf", "oneOf" } ->
          LET counts[j \in 0 .. Len(t.branches)] ==
                IF j = 0 THEN 0 ELSE counts[j - 1] + TimerCount(t.branches[j].body, first)
          IN counts[Len(t.branches)]
-    [] t.op \in { "on", "until", "watch", "repeat" } -> TimerCount(t.body, first)
+    [] t.op \in { "on", "until", "repeat" } -> TimerCount(t.body, first)
     [] OTHER -> 0
 
 (* So many timers for a task made at a place of the executed task: none of those that are used. *)
@@ -344,7 +351,12 @@ Assigned(t, f, n, i, q) ==
     [] t.op = "during" ->
          [ op |-> "during", timer |-> TimerOf(i + 1, q), time |-> t.time, started |-> FALSE, fails |-> t.fails,
            body |-> Assigned(t.body, f, n, i + 1, q) ]
-    [] t.op = "watch" -> [ op |-> "watch", body |-> Assigned(t.body, f, n, i, q), handler |-> t.handler ]
+    [] t.op = "watch" ->
+         LET place == IF IsExecuted(q) THEN i + 1 ELSE q.place
+             next == IF IsExecuted(q) /\ Recovers(t) THEN i + 1 ELSE i
+             request == [ task |-> t.body, allowed |-> q.allowed, place |-> place, depth |-> q.depth ]
+         IN [ op |-> "watch", body |-> Assigned(t.body, f, n, next, q), handler |-> t.handler,
+              anew |-> IF Recovers(t) THEN << request >> ELSE << >> ]
     [] t.op = "repeat" ->
          LET each == Assigned(t.body, f, n, i, q)
              left == IF t.rounds = << >> THEN << >> ELSE << t.rounds[1] - 1 >>
@@ -461,7 +473,7 @@ START(S, r) == Step("START", "start(" \o r.v \o ", " \o r.p.name \o ")", Program
 DONE(S, r) == Step("DONE", "done(" \o r.v \o ", " \o r.p.name \o ")", Done(r.v), WithoutA(S, { r.v }), Done_, << >>)
 
 FAIL(S, r, m) ==
-  LET fault == Fault(r.p.name \o " failed on " \o r.v \o ": " \o m, r.p.at)
+  LET fault == [ Fault(r.p.name \o " failed on " \o r.v \o ": " \o m, r.p.at) EXCEPT !.failed = << r.v, r.p.name >> ]
   IN Step("FAIL", "fail(" \o r.v \o ", " \o r.p.name \o ", " \o m \o ")", FailedOn(r.v, m),
           WithoutA(S, { r.v }), Err(fault), << >>)
 
@@ -580,28 +592,52 @@ NoTime(x, g) == Fault(LambdaNames[g[2]] \o " takes a time of 0 seconds or more, 
 
 (* {2 Errors} *)
 
-WATCH_1(s, h) == By(s, "WATCH-1", Next_([ op |-> "watch", body |-> s.out[2], handler |-> h ]))
+WATCH_1(s, r) == By(s, "WATCH-1", Next_([ r EXCEPT !.body = s.out[2] ]))
 WATCH_2(s) == By(s, "WATCH-2", Done_)
 WATCH_IGNORE(s) == By(s, "WATCH-IGNORE", Done_)
 WATCH_PROPAGATE(s, fault) == By(s, "WATCH-PROPAGATE", Err(fault))
 WATCH_HALT(s, m) == By(s, "WATCH-HALT", Ends(Halted(m)))
 
+(* What runs in the place of the task of r has no vehicles yet. *)
+Anew(r, t, deeper) ==
+  LET q == r.anew[1]
+  IN [ op |-> "unallocated", task |-> t, allowed |-> q.allowed, place |-> q.place, depth |-> q.depth + deeper ]
+
+WATCH_RETRY(s, r) == By(s, "WATCH-RETRY", Next_([ r EXCEPT !.body = Anew(r, r.anew[1].task, 0) ]))
+WATCH_INSTEAD(s, r, t) == By(s, "WATCH-INSTEAD", Next_(Anew(r, t, 1)))
+
+TooManyInstead(r) ==
+  Fault("tasks in the place of tasks that failed nest more than " \o ToString(Deepest) \o " deep", -r.handler[2])
+ForeignRetry(r) ==
+  Fault("retry() was called for another handler than that in whose text it stands", -r.handler[2])
+
+(* The error, with the vehicle and the task that failed, if it was one. *)
+ErrorOf(fault) ==
+  << String(fault.message) >>
+  \o (IF fault.failed = << >> THEN << Null, Null >>
+      ELSE << Vehicles(<< fault.failed[1] >>), String(fault.failed[2]) >>)
+
 (* The handler runs in the step that failed. *)
-Handled(s, h) ==
+Handled(s, r) ==
   LET after(run) ==
         Asking([ s EXCEPT !.S = run.S, !.deeds = @ \o run.deeds ], EffectsOf(run.deeds))
       by(run) ==
         CASE run.is = "halt" -> WATCH_HALT(after(run), run.value)
           [] run.is = "fault" /\ run.value.assertion -> ASSERT_ERR(after(run), run.value)
           [] run.is = "fault" -> WATCH_PROPAGATE(after(run), run.value)
+          [] r.anew # << >> /\ Is(run.value, "task") ->
+               IF r.anew[1].depth >= Deepest THEN WATCH_PROPAGATE(after(run), TooManyInstead(r))
+               ELSE WATCH_INSTEAD(after(run), r, TaskOf(run.value))
+          [] run.verdict = "retry" ->
+               IF r.anew = << >> THEN WATCH_PROPAGATE(after(run), ForeignRetry(r)) ELSE WATCH_RETRY(after(run), r)
           [] run.verdict = "ignore" -> WATCH_IGNORE(after(run))
           [] OTHER -> WATCH_PROPAGATE(after(run), s.out[2])
-  IN Each(RunCode(s.S, "handler", h, << String(s.out[2].message) >>), by)
+  IN Each(RunCode(s.S, "handler", r.handler, ErrorOf(s.out[2])), by)
 
-InWatch(s, h) ==
-  CASE GoesOn(s) -> << WATCH_1(s, h) >>
+InWatch(s, r) ==
+  CASE GoesOn(s) -> << WATCH_1(s, r) >>
     [] IsDone(s) -> << WATCH_2(s) >>
-    [] IsErr(s) -> Handled(s, h)
+    [] IsErr(s) -> Handled(s, r)
     [] OTHER -> << s >>
 
 (* {2 Rounds} *)
@@ -781,7 +817,7 @@ Steps(S, r, E) ==
     [] r.op = "during" /\ r.started -> ExpiresOn(S, r, E) \o In(Steps(S, r.body, E), LAMBDA s : InDuring(s, r))
     [] r.op = "repeat" /\ r.runs # << >> -> In(Steps(S, r.runs[1], E), LAMBDA s : InRepeat(s, r))
     [] r.op = "watch" ->
-         Each(Steps(S, r.body, E), LAMBDA outcomes : Flatten(Each(outcomes, LAMBDA s : InWatch(s, r.handler))))
+         Each(Steps(S, r.body, E), LAMBDA outcomes : Flatten(Each(outcomes, LAMBDA s : InWatch(s, r))))
     [] OTHER -> << >>
 
 -----------------------------------------------------------------------------

@@ -213,7 +213,8 @@ Machine(m) ==
 
 Stop(m, why) == [ m EXCEPT !.stop = why ]
 
-Fault(message, at) == [ message |-> message, at |-> at, assertion |-> FALSE ]
+(* failed: the vehicle and the platform task that failed; << >>, if it was none. *)
+Fault(message, at) == [ message |-> message, at |-> at, assertion |-> FALSE, failed |-> << >> ]
 Faulty(m, message) == Stop(m, << "faulted", Fault(message, m.at) >>)
 
 (* x is a reading, and more than a comparison depends on it. *)
@@ -795,9 +796,9 @@ DoSetTimeout(m, vehicles, x) ==
 
 Verdict(m, verdict) ==
   IF m.mode = "handler" THEN Result([ m EXCEPT !.verdict = verdict ], Null)
-  ELSE Faulty(m, "ignore() and propagate() belong in onError { ... }")
+  ELSE Faulty(m, "ignore(), propagate() and retry() belong in onError { ... }")
 
-Refuted(m, text) == Stop(m, << "faulted", [ message |-> text, at |-> m.at, assertion |-> TRUE ] >>)
+Refuted(m, text) == Stop(m, << "faulted", [ Fault(text, m.at) EXCEPT !.assertion = TRUE ] >>)
 
 (* Those of V that nobody holds, from where the code stands. *)
 IdleOf(m, V) == LET held == HeldBy(m.beside) IN SelectSeq(V, LAMBDA v : v \in Range(m.B) /\ v \notin held)
@@ -837,8 +838,10 @@ Procedure(m, op, xs) ==
             ELSE Settle(m, TimeWanted("pause", "a time after pause, as in pause 12.seconds", x))
        [] name = "halt" -> Stop(m, << "halted", IF xs = << >> THEN "" ELSE Text(x) >>)
        [] name = "assert" -> Refuted(m, IF xs = << >> THEN "assertion failed" ELSE "assertion failed: " \o Text(x))
+       [] name = "fail" -> Faulty(m, Text(x))
        [] name = "ignore" -> Verdict(m, "ignore")
        [] name = "propagate" -> Verdict(m, "propagate")
+       [] name = "retry" -> Verdict(m, "retry")
        [] name = "position" -> Settle(m, OneVehicleValue(x, PositionOf))
        [] name = "battery" -> Settle(m, OneVehicleValue(x, BatteryOf))
        [] name = "area" -> Settle(m, Around(x, xs[2]))
@@ -867,7 +870,7 @@ ArePositional(names) == \A i \in DOMAIN names : names[i] = ""
 (* These hand readings on, or tell of them, as they do with any values. *)
 TakesReadings(op, xs) ==
   \/ op.op = "call" /\ Is(xs[1], "closure") /\ ArePositional(op.names)
-  \/ op.op \in { "message", "halt", "assert", "isHost", "isThere" }
+  \/ op.op \in { "message", "halt", "assert", "fail", "isHost", "isThere" }
 
 IsAboutReadings(op, xs) == (\E i \in DOMAIN xs : IsReading(xs[i])) /\ ~TakesReadings(op, xs)
 

@@ -34,7 +34,9 @@ let rec of_residual budget (r : Residual.t) : json =
   | During { on_cut; timer; duration; started; body } ->
     let parts = [ `Int timer; of_duration budget duration; `Bool started; part body ] in
     (match on_cut with Completes -> tagged "during" parts | Fails site -> tagged "within" (`Int site :: parts))
-  | Watch (a, c) -> tagged "watch" [ part a; code c ]
+  | Watch (a, { code = c; anew = None }) -> tagged "watch" [ part a; code c ]
+  | Watch (a, { code = c; anew = Some (t, request) }) ->
+    tagged "watch" [ part a; code c; of_task budget t; of_made request ]
   | Repeat { round; again = { left; until; each; site } } ->
     let left = of_option (fun n : json -> `Int n) left in
     tagged "repeat" [ `Int site; of_option part round; left; of_option code until; part each ]
@@ -65,7 +67,9 @@ let rec residual nodes (json : json) : Residual.t =
   | `List [ `String "idle"; timer; seconds ] -> Idle { timer = whole timer; seconds = float seconds }
   | `List [ `String "during"; timer; d; started; body ] -> during Completes timer d started body
   | `List [ `String "within"; site; timer; d; started; body ] -> during (Fails (whole site)) timer d started body
-  | `List [ `String "watch"; a; c ] -> Watch (part a, code c)
+  | `List [ `String "watch"; a; c ] -> Watch (part a, { code = code c; anew = None })
+  | `List [ `String "watch"; a; c; t; request ] ->
+    Watch (part a, { code = code c; anew = Some (task nodes t, made request) })
   | `List [ `String "repeat"; site; round; left; until; each ] ->
     let again : Residual.again =
       { left = option whole left; until = option code until; each = part each; site = whole site }
@@ -223,7 +227,7 @@ let request nodes : json -> Code.request = function
 (* {1 Control} *)
 
 let of_fault (f : Fault.t) : json =
-  let cause = match f.cause with Code -> "code" | Assertion -> "assertion" | Unknown -> "unknown" in
+  let cause = match f.cause with Code | Task _ -> "code" | Assertion -> "assertion" | Unknown -> "unknown" in
   `List [ `String f.message; `Int f.site; `String cause ]
 
 let fault : json -> Fault.t = function

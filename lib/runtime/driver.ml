@@ -40,14 +40,18 @@ let afresh program order =
 (* So many transitions and events may pass before others get their turn. *)
 let most_without_pause = 100
 
-(* So many rounds of a repeat may begin without any event. *)
+(* So many rounds of a repeat, or of a task that runs anew, may begin without any event. *)
 let most_rounds = 10_000
 
 let begins_round (t : Transition.t) =
-  List.exists (function Rule.Repeat_2 | Repeat_again -> true | _ -> false) t.rules
+  List.exists (function Rule.Repeat_2 | Repeat_again | Watch_retry -> true | _ -> false) t.rules
 
 let first_repeat r =
-  let site (r : Residual.t) = match r with Repeat { again = { left = None; site; _ }; _ } -> Some site | _ -> None in
+  let site : Residual.t -> Core.site option = function
+    | Repeat { again = { left = None; site; _ }; _ } -> Some site
+    | Watch (Unallocated _, { code; anew = Some _ }) -> Some code.lambda.lambda_site
+    | _ -> None
+  in
   Residual.fold_active (fun found r -> if found = None then site r else found) None r
 
 (* What happens outside. *)

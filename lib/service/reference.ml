@@ -25,7 +25,7 @@ let words =
       "then", "when { C } then T", "What runs when the condition holds.";
       "waitFor", "waitFor { C } then T", "T, which starts as soon as C holds.";
       "watch", "watch T onError { err -> ... }",
-      "T; an error in it stops it and runs the code, which may `ignore()`, `propagate()` or `halt()`.";
+      "T; an error in it stops it and runs the code, which may `ignore()`, `propagate()`, `retry()` or `halt()`.";
       "onError", "watch T onError { err -> ... }", "What is done about an error of the watched task.";
       "repeat", "repeat T", "T, again and again.";
       "run", "during D run T", "The task to which a limit belongs.";
@@ -71,6 +71,8 @@ let procedures =
       "area", "area(centre, radius)", "A disc around a position, its radius in metres. Also `centre ^ radius`.";
       "ignore", "ignore()", "In `onError`: the watched task counts as done.";
       "propagate", "propagate()", "In `onError`: the error climbs on.";
+      "retry", "retry()", "In `onError`: the watched task runs once more, with vehicles that are free then.";
+      "fail", "fail 'why'", "An error with this text, which a `watch` around the task handles.";
       "getSupplier", "getSupplier()", "The object of the outside process that `--supplier` starts." ]
 
 let blocks =

@@ -202,8 +202,10 @@ and procedure t site builtin : Tla.t =
   | Battery_of -> note_sensor t site "battery"; plain "battery"
   | Area_of -> plain "area"
   | Assert -> plain "assert"
+  | Fail -> plain "fail"
   | Ignore -> plain "ignore"
   | Propagate -> plain "propagate"
+  | Retry -> plain "retry"
   | Is_there -> plain "isThere"
   | Is_host -> plain "isHost"
   | Math name ->
@@ -369,6 +371,7 @@ and lambda t (l : lambda) =
     let fields =
       [ ("label", Tla.String l.label); ("parameters", Tla.Integer l.parameters); ("implicit", Tla.Boolean l.implicit);
         ("captures", numbers (List.map succ (Array.to_list l.captures))); ("slots", Integer l.slots);
+        ("recovers", Tla.Boolean (Recovery.possible l));
         ("code", Integer code) ]
     in
     t.lambdas <- List.map (fun (l', n', x) -> if n' = n then (l', n, Tla.Record fields) else (l', n', x)) t.lambdas;

@@ -95,7 +95,7 @@ let tuple_changes (before : Configuration.t) (t : Transition.t) =
       balance posted consumed
     in
     let is_handling = function
-      | Rule.Watch_ignore | Watch_propagate | Watch_halt -> true
+      | Rule.Watch_ignore | Watch_propagate | Watch_halt | Watch_retry | Watch_instead -> true
       | _ -> false
     in
     let is_handled = List.exists is_handling t.rules in

@@ -69,6 +69,8 @@ Polling(k, e) == Apply([ op |-> "poll", keys |-> << k >> ], << e >>)
 Message(s) == Plain("message", << Constant(s) >>)
 Halt(s) == Plain("halt", << Constant(s) >>)
 Ignore == Plain("ignore", << >>)
+Retry == Plain("retry", << >>)
+Fail(s) == Plain("fail", << Constant(s) >>)
 Pause(n) == Plain("pause", << NumberOf(n) >>)
 Ask(s) == Plain("ask", << Constant(s) >>)
 ReleaseAll(e) == Plain("release", << e >>)
@@ -91,7 +93,8 @@ NodeOf(e, n) ==
        [] e.is = "while" -> [ is |-> e.is, test |-> part[1], body |-> part[2] ]
 
 LambdaAt(n, name, parameters) ==
-  [ label |-> name, parameters |-> parameters, implicit |-> TRUE, captures |-> << >>, slots |-> parameters, code |-> n ]
+  [ label |-> name, parameters |-> parameters, implicit |-> TRUE, captures |-> << >>, slots |-> parameters, code |-> n,
+    recovers |-> TRUE ]
 
 Pieces(body, closures) == << body, NumberOf(2) >> \o closures
 

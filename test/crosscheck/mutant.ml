@@ -154,6 +154,18 @@ let all =
       file = rules;
       pattern = {|[ q EXCEPT !.allowed = << both >> ]|};
       replacement = {|q|} };
+    { name = "a task that is tried again is not watched";
+      file = rules;
+      pattern = {|By(s, "WATCH-RETRY", Next_([ r EXCEPT !.body = Anew(r, r.anew[1].task, 0) ]))|};
+      replacement = {|By(s, "WATCH-RETRY", Next_(Anew(r, r.anew[1].task, 0)))|} };
+    { name = "a task in the place of another may have any vehicles";
+      file = rules;
+      pattern = {|[ op |-> "unallocated", task |-> t, allowed |-> q.allowed, place |-> q.place, depth|};
+      replacement = {|[ op |-> "unallocated", task |-> t, allowed |-> << >>, place |-> q.place, depth|} };
+    { name = "handlers are not told which vehicle failed";
+      file = rules;
+      pattern = {|      ELSE << Vehicles(<< fault.failed[1] >>), String(fault.failed[2]) >>)|};
+      replacement = {|      ELSE << Null, String(fault.failed[2]) >>)|} };
     { name = "WITHIN-CUT stops nothing";
       file = rules;
       pattern = {|Err(TooLate(r)), << >>), << r.body >>)|};

@@ -80,6 +80,19 @@ let tasks =
        two ^ "execute during 9.seconds run repeat ((watch task('p')[a] onError { ignore() }) | task('q')[b])");
       ("no rounds, or half a one",
        "n = 0\nif (poll(k: 1)) { execute repeat n, idle(1.seconds) }\nexecute repeat n + 0.5, idle(1.seconds)");
+      ("a task is tried again, as long as there is a pair",
+       two ^ "post again: 1, again: 2\n\
+              execute watch (task('p')[a] | idle(1.seconds)) onError { e -> if (consume(again: _)) retry() else ignore() }");
+      ("a task that is tried again takes what is free",
+       two ^ "execute (watch { task('p') } onError { e -> post lost: e.vehicle; retry() })[a + b] | task('q')[b] \n\
+              if (poll(lost: a)) { message 'a failed' }");
+      ("a task in the place of another, of which the error tells",
+       two ^ "execute watch task('p')[a] onError { e -> e.task == 'p' ? task('q')[b] >> idle(1.seconds) : idle(2.seconds) }");
+      ("code that fails, and an error of no vehicle",
+       two ^ "execute watch action { fail 'no' } onError { e -> e.vehicle ? task('p') : action { post k: 1 } }");
+      ("tasks in the place of tasks, timers in them",
+       two ^ "def deep(n) { watch (task('p') within 5.seconds) onError { n > 0 ? deep(n - 1) : idle(1.seconds) } }\n\
+              execute deep(2) | idle(3.seconds)");
       ("within a time given by code", "execute idle(1.seconds) within { post asked: 1; consume asked: 1; 3 }");
       ("an error leaves out what would follow",
        two ^ "execute watch (task('p')[a] >> task('q')[b] >> task('q')[a]) onError { ignore() }");

@@ -44,7 +44,9 @@ let body part =
       (3, map2 (Printf.sprintf "(%s >> %s)") (leaf part 1) (leaf part 2));
       (2, map (fun one -> Printf.sprintf "(%s | %s)" one named) (leaf part 1));
       (1, map2 (fun one g -> Printf.sprintf "(until { %s } run %s)" g one) (leaf part 1) guard);
-      (1, map (fun one -> Printf.sprintf "(%s during 5)" one) (leaf part 1)) ]
+      (1, map (fun one -> Printf.sprintf "(%s during 5)" one) (leaf part 1));
+      (2, map (Printf.sprintf "(watch %s onError { retry() })") (leaf part 1));
+      (1, map2 (Printf.sprintf "(watch %s onError { if (%s) retry() else ignore() })") (leaf part 1) guard) ]
 
 let part number =
   let open QCheck2.Gen in
@@ -118,7 +120,9 @@ let edge (g : Reference.t) i ((t : Transition.t), into) =
   let has rule = List.mem rule t.rules in
   let closes = has Rule.Repeat_2 || has Repeat_again in
   let is_endless found = function Residual.Repeat { again = { until = None; _ }; _ } -> true || found | _ -> found in
-  let endless = closes && Residual.fold_all is_endless false (List.nth before part) in
+  let endless =
+    has Watch_retry || (closes && Residual.fold_all is_endless false (List.nth before part))
+  in
   let inside = has Repeat_1 || has Repeat_2 in
   let step =
     match t.label, t.rules with
@@ -188,7 +192,7 @@ let judged (g : Reference.t) =
     List.exists (is_fair all edges) (components edges)
   in
   if components (kept (fun e -> not e.is_event)) <> [] then Goes_on
-  else if has_fair (fun e -> not (e.closes && e.endless)) then Goes_on
+  else if has_fair (fun e -> not e.endless) then Goes_on
   else if has_fair (fun _ -> true) then By_design
   else Ends
 

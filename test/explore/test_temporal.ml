@@ -210,7 +210,9 @@ let agrees_with_properties (ast, looped, failing) =
   let formulas = List.map (fun (text, _) -> read text) agreements in
   let o = Search.run { options with formulas } program Generate.world in
   let goes_round (run : Search.run) =
-    let closes_round (t : Transition.t) = List.exists (fun r -> r = Rule.Repeat_2 || r = Repeat_again) t.rules in
+    let closes_round (t : Transition.t) =
+      List.exists (fun r -> List.mem r [ Rule.Repeat_2; Repeat_again; Watch_retry ]) t.rules
+    in
     List.exists closes_round run.cycle
   in
   let agree (text, properties) =

@@ -76,8 +76,11 @@ let step_footprints =
         {|| Measure d, _ -> union breaking (Footprint.of_code c.code d)|},
         {|| Measure d, _ -> Footprint.of_code c.code d|} );
       ( "handlers touch nothing",
-        {|let handled c (f : Footprint.t) handler = if f.breaks then|},
-        {|let handled c (f : Footprint.t) handler = if f.breaks && f.halts then|} );
+        {|and handled c (f : Footprint.t) handler = if f.breaks then|},
+        {|and handled c (f : Footprint.t) handler = if f.breaks && f.halts then|} );
+      ( "what is tried again touches nothing",
+        {|  | Some (task, request) -> all [ handling c handler; recovering c handler.code request; of_term c task ]|},
+        {|  | Some (task, request) -> if task == task then handling c handler else recovering c handler.code request|} );
       ( "ends of tasks leave no trace outside",
         {|let remembered = Environment.endings_remember c.options in|},
         {|let remembered = false && Environment.endings_remember c.options in|} );
@@ -401,6 +404,13 @@ let task_rules =
       ( "WATCH-PROPAGATE ignores the error",
         {|let propagated fault = change c.label Rule.Watch_propagate (Failed fault) in|},
         {|let propagated (_ : Fault.t) = change c.label Rule.Watch_propagate Finished in|} );
+      ( "WATCH-RETRY keeps nobody to watch",
+        {|let outcome = Next (Watch (Unallocated { task; request }, handler)) in|},
+        {|let outcome = Next (Unallocated { task; request }) in|} );
+      ( "WATCH-INSTEAD goes no deeper",
+        {|    let request = { request with depth = request.depth + 1 } in
+    change label Rule.Watch_instead|},
+        {|    change label Rule.Watch_instead|} );
       ( "REPEAT-2 sets no timers",
         {|{ change with outcome; timers = change.timers @ timers; rounds }|},
         {|{ change with outcome; timers = (if timers = [] then timers else change.timers); rounds }|} );

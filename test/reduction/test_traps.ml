@@ -240,6 +240,14 @@ let traps =
         } | ((condition { poll x: 1 } >> action { post y: 1 }) within 5)|};
     breaks "a task that is made may post" [ No_error; No_leftover ]
       {|execute { task('p')[a] >> action { post x: 1 } } | ((condition { poll x: 1 } >> action { post y: 1 }) within 5)|};
+    breaks "a task that runs anew posts again" ~environment:failing [ No_leftover ]
+      {|execute (watch (action { post x: 1 } >> task('p')[a]) onError { if (consume(x: 1)) retry() else ignore() }) |
+          action { if (poll(x: 1)) { post y: 1 } }|};
+    breaks "a task in the place of another posts" ~environment:failing [ No_error; No_leftover ]
+      {|execute (watch task('p')[a] onError { action { post x: 1 } }) |
+          ((condition { poll x: 1 } >> action { post y: 1 }) within 5)|};
+    breaks "a task that runs anew has other vehicles" ~environment:failing [ No_leftover ]
+      {|execute (watch { task('p') } onError { retry() }) | action { if (!idle(a).isEmpty()) { post y: 1 } }|};
     breaks "during ends between two posts" [ No_leftover ]
       {|execute during 1.minutes run (action { post x: 1 } | action { post y: 1 } | task('p')[a])|};
     breaks "what follows two parts, side by side with who looks" [ No_leftover ]
@@ -315,15 +323,16 @@ let traps =
 (* Copies that are not interchangeable, or not all the way. *)
 (* Rounds: what is not in a set with a step that closes one must not be put off for ever. *)
 let rounds =
-  let terminates name expected text =
+  let terminates ?(environment = plain) name expected text =
     let test () =
       let verdict reduction =
-        let options = { Search.default with reduction; search_again = 0 } in
+        let options = { Search.default with reduction; search_again = 0; environment } in
+        let text = if environment == plain then text else picks ^ text in
         let found = Search.run options (Pure_run.compile_exn text) world in
         match List.assoc Dolphin_explore.Property.Termination found.verdicts with
         | Holds -> "holds"
         | Violated _ -> "violated"
-        | By_design { repeats; _ } -> Printf.sprintf "by design: %d" (List.length repeats)
+        | By_design { repeats; retries; _ } -> Printf.sprintf "by design: %d" (List.length (repeats @ retries))
         | Unreached _ | Inconclusive _ -> "inconclusive"
       in
       let each reduction = Alcotest.(check string) name expected (verdict reduction) in
@@ -357,6 +366,14 @@ let rounds =
       "post a: 1\nexecute (repeat waitFor { consume a: 1 } then action { post a: 1 }) | (repeat idle(1))";
     terminates "a loop of the script around rounds that end" "violated"
       "while (true) { execute (repeat idle(1)) during 5 }";
+    terminates "a retry of what breaks at once" "violated" "execute watch action { fail 'x' } onError { retry() }";
+    terminates "a retry of what fails for ever" ~environment:failing "by design: 1"
+      "execute watch task('p')[a] onError { retry() }";
+    terminates "retries that are counted" ~environment:failing "holds"
+      "post x: 1, x: 2\nexecute watch task('p')[a] onError { if (consume(x: _)) retry() else ignore() }";
+    terminates "a retry of what cannot fail" "holds" "a = pick { id 'a' }\nexecute watch task('p')[a] onError { retry() }";
+    terminates "a time around retries" ~environment:failing "holds"
+      "execute (watch task('p')[a] onError { retry() }) during 5";
     terminates "a part that waits beside the rounds" "by design: 1"
       "execute (repeat idle(1)) | condition { poll never: 1 }";
   ]

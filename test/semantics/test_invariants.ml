@@ -56,7 +56,8 @@ let deeds_of (l : Label.t) : Code.deed list =
   | Fault _ | Interrupt -> []
 
 (* Handlers, halting code and the code of [during] post and consume unseen by labels. *)
-let unseen = [ Rule.Watch_ignore; Watch_propagate; Watch_halt; Halt; During_set ]
+let unseen = [ Rule.Watch_ignore; Watch_propagate; Watch_halt; Watch_retry; Watch_instead; Halt;
+               During_set ]
 
 let tuples_are_conserved _ (s : Walk.step) =
   let texts = List.map (Format.asprintf "%a" Value.pp_tuple) in

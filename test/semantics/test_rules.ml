@@ -227,6 +227,22 @@ let tasks : example list =
     example Watch_halt "the program ends" (task "(watch (during 5 run %p) onError { message 'm'; halt 'enough' }) | %q")
       "fail(noptilus-1, p, broken)" "FAIL, DURING-ERR, WATCH-HALT" "halted: enough"
       [ "cancel timer 1"; "say m"; "stop noptilus-2"; released; "end: halted enough" ];
+    example Watch_retry "the task runs anew, allocated anew, what ran beside it is stopped"
+      (task "watch (%p | %q) onError { retry() }") "fail(noptilus-2, q, broken)" "FAIL, PAR-ERR, WATCH-RETRY"
+      "watch unallocated task('p')[noptilus-1] | task('q')[noptilus-2]" [ "stop noptilus-1" ];
+    example Watch_retry "only if the handler says so"
+      (task "watch %p onError { e -> message \"${e.task} of ${e.vehicle}: ${e.message}\"; if (e.task == 'p') retry() }")
+      "fail(noptilus-1, p, broken)" "FAIL, WATCH-RETRY" "watch unallocated task('p')[noptilus-1]"
+      [ "say p of noptilus-1: p failed on noptilus-1: broken" ];
+    example Watch_instead "another task in its place" (task "(watch %p onError { task('r') }) >> idle(5)")
+      "fail(noptilus-1, p, broken)" "FAIL, WATCH-INSTEAD, SEQ-1" "(unallocated task('r') >> idle(5))" [];
+    example Watch_instead "an error of code is of no vehicle"
+      (task "watch action { fail 'no' } onError { e -> e.vehicle ? %p : idle(e.task ? 1 : 5) }") "broken(no)"
+      "ACTION-ERR, WATCH-INSTEAD" "unallocated idle(5.seconds)" [];
+    example Allocate_err "of a task that runs anew: the handler's again"
+      (task "watch ({ task('a')[v - v] }) onError { e -> e.contains('empty') ? idle(5) : retry() }")
+      "cannot-execute(no vehicle can run task 'a': the vehicle set given to it is empty)" "ALLOCATE-ERR, WATCH-INSTEAD"
+      "unallocated idle(5.seconds)" [];
     example Repeat_1 "the round goes on" (task "repeat 2, %p") "start(noptilus-1, p)" "START, REPEAT-1"
       "repeat (p[noptilus-1]...; 1, p[noptilus-1])" [ "start p on noptilus-1" ];
     example Repeat_2 "the next round begins in the same step, with its timers" (task "repeat %p")

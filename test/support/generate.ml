@@ -138,14 +138,25 @@ let action_code ~sensing =
          (2, return (code [ statement (call "message" [ Positional (string "m") ]) ]));
          (2, this (map2 (fun a b -> [ a; b ]) posting posting));
          (1, map asserting (guard_of ~sensing));
-         (1, return (code [ statement division_by_zero ])) ])
+         (1, return (code [ statement division_by_zero ]));
+         (1, return (code [ statement (call "fail" [ Positional (string "f") ]) ])) ])
+
+(* Handlers that run the task anew, or another one in its place: always, or if a pair is there. *)
+let recovering =
+  let retry = statement (call "retry" []) in
+  let instead plan = statement (call "task" [ Positional (string plan) ]) in
+  let if_taken yes e = code [ located (If (e, [ yes ], [ statement (call "ignore" []) ])) ] in
+  frequency
+    [ (1, return (code [ retry ])); (3, map (if_taken retry) (taking "consume"));
+      (1, map (fun p -> code [ instead p ]) (oneofl [ "p"; "q" ]));
+      (1, map2 (fun p e -> if_taken (instead p) e) (oneofl [ "p"; "q" ]) (taking "consume")) ]
 
 let handler ~sensing =
   let no_arguments name = statement (call name []) in
   let sensed = if sensing then [ map (fun s -> code [ s ]) (deciding (call "ignore" [])) ] else [] in
   oneof
     (sensed
-     @ [ return (code [ no_arguments "ignore" ]);
+     @ [ recovering; recovering; return (code [ no_arguments "ignore" ]);
          return (code []);
          return (code [ no_arguments "propagate" ]);
          map (fun e -> code [ statement e; no_arguments "ignore" ]) posting;

@@ -142,7 +142,7 @@ let rules_have_models () =
   Alcotest.(check (list string)) "rules without a model" [] (List.map Rule.name missing)
 
 let models =
-  [ "Paper"; "Platform"; "CodeOfTasks"; "Sequence"; "Parallel"; "Branches"; "Until"; "Time"; "Errors"; "Rounds"; "Made";
+  [ "Paper"; "Platform"; "CodeOfTasks"; "Sequence"; "Parallel"; "Branches"; "Until"; "Time"; "Errors"; "Recovery"; "Rounds"; "Made";
     "Deeds"; "Picking"; "Sensors"; "Waiting"; "Executing"; "Inputs"; "Ends"; "SmallAbstract" ]
 
 (* [f run] where [run arguments] is the status of Java with TLC's classes in a directory with all models, and what it

@@ -95,10 +95,11 @@ let to_json (program : Core.program) (o : Search.outcome) : Yojson.Safe.t =
       match (verdict : Search.verdict) with
       | Holds -> ("holds", [])
       | Violated run -> ("violated", json_of_run run)
-      | By_design { repeats; left_by } ->
+      | By_design { repeats; retries; left_by } ->
         let at site = `String (Format.asprintf "%a" Dolphin_syntax.Location.pp program.locations.(site)) in
         let what = List.map (fun text -> `String text) left_by in
-        ("by design not", [ ("repeats", `List (List.map at repeats)); ("ended by", `List what) ])
+        let sites name found = (name, `List (List.map at found)) in
+        ("by design not", [ sites "repeats" repeats; sites "retries" retries; ("ended by", `List what) ])
       | Unreached pieces ->
         let piece (p : Dolphin_explore.Coverage.piece) =
           let at = Format.asprintf "%a" Dolphin_syntax.Location.pp program.locations.(p.site) in

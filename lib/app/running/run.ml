@@ -62,7 +62,7 @@ let explain (program : Program_file.t) : Driver.outcome -> Error.t option = func
     Some (Error.Bad_text { source = program.source; found = [ Program_file.diagnostic program fault ] })
   | Spins site ->
     let message =
-      "the program is stuck in rounds of this repeat: they follow each other, and none waits for anything that happens"
+      "the program is stuck in rounds that begin here: they follow each other, and none waits for anything that happens"
     in
     let found = [ Program_file.diagnostic program (Fault.make site message) ] in
     Some (Error.Bad_text { source = program.source; found })

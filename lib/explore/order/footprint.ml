@@ -272,7 +272,9 @@ and applied code scope operation arguments =
   | Builtin Make_idle, [ { node = Constant (Integer _ | Number _); _ } ] -> breaking
   | Builtin Make_idle, _ -> { breaking with claims = All }
   | Builtin (Halt | Assert), _ -> { empty with halts = true }
-  | Builtin Ignore, _ -> { breaking with ignores = true }
+  | Builtin (Ignore | Retry), _ -> { breaking with ignores = true }
+  | Builtin Make_watch, [ _; { node = Make_closure (handler, _); _ } ] ->
+    { breaking with ignores = Recovery.may_give handler }
   | Call _, callee :: _ -> (
       match callee.node, value scope callee with
       | Make_closure _, _ | _, Some (Closure _) -> breaking
@@ -336,8 +338,13 @@ let rec is_composed looked (lambda : lambda) e =
   match e.node with
   | Apply (Builtin (Platform_task | Make_action | Make_condition | Make_idle), _)
   | Apply (Build (Imc_plan, _), _) -> true
+  (* Values that are no tasks: of handlers. *)
+  | Constant Null
+  | Apply (Builtin (Ignore | Propagate | Retry | Fail | Halt | Message | Post _ | Consume _ | Poll _), _) -> true
   | Apply (Builtin (Make_wait_for | Make_until _ | Make_during _), [ _; t ]) -> go t
-  | Apply (Builtin Make_watch, t :: _) | Apply (Element, t :: _) -> go t
+  | Apply (Builtin Make_watch, [ t; { node = Make_closure (handler, _); _ } ]) ->
+    go t && ((not (Recovery.may_give handler)) || gives_composed looked handler)
+  | Apply (Element, t :: _) -> go t
   | Apply (Binary (Sequence | Parallel), [ a; b ]) -> go a && go b
   | Apply (Binary Divide, [ t; _ ]) -> go t
   | Make_closure (inner, _) | Constant (Closure { lambda = inner; _ }) -> gives_composed looked inner

@@ -37,8 +37,20 @@ let ending c (p : platform_task) v =
   let remembered = Environment.endings_remember c.options in
   { Footprint.empty with remembered; breaks = Environment.may_fail c.options v p.name }
 
-(* Of a task whose errors this handler gets. *)
-let handled c (f : Footprint.t) handler = if f.breaks then union f (Footprint.of_code c.code handler) else f
+(* Of this handler, in the step that fails. *)
+let handling c (handler : Residual.handler) =
+  let f = Footprint.of_code c.code handler.code in
+  if handler.anew = None then f else { f with ignores = true }
+
+(* What a task that is made may claim is free after it. *)
+let claiming (request : Residual.request) =
+  let vehicles = Option.fold ~none:Footprint.all_vehicles ~some:Footprint.these request.allowed in
+  { breaking with claims = vehicles; frees = vehicles }
+
+(* Of what a handler that may recover has run, but for the watched task itself. *)
+let recovering c (code : closure) request =
+  let given = if Recovery.may_give code.lambda then Footprint.of_maker c.code code else Footprint.empty in
+  all [ claiming request; given; { Footprint.empty with ignores = true } ]
 
 let rec future c (r : Residual.t) =
   match r with
@@ -65,10 +77,13 @@ and rounds c (again : Residual.again) =
   let asked = Option.fold again.until ~none:Footprint.empty ~some:(Footprint.of_code c.code) in
   union asked (future c again.each)
 
-(* What a task that is made may claim is free after it. *)
-and claiming (request : Residual.request) =
-  let vehicles = Option.fold ~none:Footprint.all_vehicles ~some:Footprint.these request.allowed in
-  { breaking with claims = vehicles; frees = vehicles }
+(* Of a task whose errors this handler gets. *)
+and handled c (f : Footprint.t) handler = if f.breaks then union f (of_handler c handler) else f
+
+and of_handler c (handler : Residual.handler) =
+  match handler.anew with
+  | None -> handling c handler
+  | Some (task, request) -> all [ handling c handler; recovering c handler.code request; of_term c task ]
 
 and of_term c (t : task) =
   match t with
@@ -84,7 +99,11 @@ and of_term c (t : task) =
   | Idle _ -> Footprint.empty
   | During (_, Seconds _, a) -> union breaking (of_term c a)
   | During (_, Given_by d, a) -> all [ breaking; Footprint.of_code c.code d; of_term c a ]
-  | Watch (a, handler) -> handled c (of_term c a) handler
+  | Watch (a, code) ->
+    let f = of_term c a in
+    if not f.breaks then f
+    else if not (Recovery.possible code.lambda) then union f (Footprint.of_code c.code code)
+    else all [ f; Footprint.of_code c.code code; recovering c code { allowed = None; place = 0; depth = 0 } ]
   | Made code -> Footprint.of_maker c.code code
   | Repeat { until; body; _ } ->
     union (Option.fold until ~none:Footprint.empty ~some:(Footprint.of_code c.code)) (of_term c body)
@@ -123,7 +142,7 @@ let footprint c { source = Step { offer; continue; _ } as source; event; _ } =
     | Make (code, _, _), _ -> union breaking (Footprint.of_code c.code code)
     | Allocate (_, request), _ -> claiming request
   in
-  if f.breaks then List.fold_left (handled c) f (handlers source) else f
+  if f.breaks then all (f :: List.map (handling c) (handlers source)) else f
 
 (* {2 What is held no longer after a step} *)
 
@@ -197,8 +216,8 @@ let branches_first c around (bs : Residual.branch list) =
 let rec first_branches c around (r : Residual.t) =
   match r with
   | Sequence (r, _) | All_of (Some r, _) | Hold (_, r) -> first_branches c around r
-  | Watch (r, handler) when not ((Footprint.of_code c.code handler).ignores && (future c r).breaks) ->
-    first_branches c (union around (Footprint.of_code c.code handler)) r
+  | Watch (r, handler) when not ((of_handler c handler).ignores && (future c r).breaks) ->
+    first_branches c (union around (of_handler c handler)) r
   | All_of (None, bs) -> branches_first c around bs
   | Parallel _ | Ready _ | Running _ | Action _ | Condition _ | One_of _ | Until _ | Idle _ | During _ | Watch _
   | Repeat _ | Made _ | Unallocated _ -> []
@@ -208,7 +227,7 @@ let rec first_branches c around (r : Residual.t) =
 (* What handlers among the contexts touch, and what starts when all in them is over. *)
 let handlers_of c contexts =
   let handler = function
-    | Residual.Watched_by handler -> Some (Footprint.of_code c.code handler)
+    | Residual.Watched_by handler -> Some (of_handler c handler)
     | Before _ | Branch_of _ | Body_until _ | Body_during _ | Round_of _ | Holding _ -> None
   in
   List.filter_map handler contexts
@@ -286,4 +305,4 @@ let looks c (Task_rules.Step { offer; _ } as source) =
     | Make (code, _, _) -> claims code
     | Start _ | End_of _ | Expiry_of _ -> false
   in
-  code_claims || (c.asks_idle && List.exists claims (handlers source))
+  code_claims || (c.asks_idle && List.exists (fun (h : Residual.handler) -> claims h.code) (handlers source))

@@ -11,12 +11,15 @@ let special = -3
 
 (* The handlers that ran: one for each rule of a handler in the derivation, the innermost first. *)
 let note_handlers t step (local : Local_step.t) =
-  let of_handler = function Rule.Watch_ignore | Watch_propagate | Watch_halt | Assert_err -> true | _ -> false in
+  let of_handler = function
+    | Rule.Watch_ignore | Watch_propagate | Watch_halt | Watch_retry | Watch_instead | Assert_err -> true
+    | _ -> false
+  in
   let settled = match local.derivation with Rule.Assert_err :: _ -> [] | rules -> List.filter of_handler rules in
   let rec note n (change : Task_rules.change) =
     match change.outcome with
     | Handling { handler; fault; propagated; _ } when n > 0 ->
-      Coverage.run (Components.coverage t.components) handler;
+      Coverage.run (Components.coverage t.components) handler.code;
       note (n - 1) (propagated fault)
     | Handling _ | Next _ | Finished | Failed _ -> ()
   in

@@ -224,10 +224,11 @@ let rec check_plans r (t : Residual.t) =
   | Parallel rs -> List.iter (check_plans r) rs
   | All_of (a, bs) -> Option.iter (check_plans r) a; branches bs
   | One_of bs -> branches bs
-  | Until (_, _, a) | During { body = a; _ } | Watch (a, _) | Hold (_, a)
+  | Until (_, _, a) | During { body = a; _ } | Watch (a, { anew = None; _ }) | Hold (_, a)
   | Repeat { again = { each = a; _ }; _ } -> check_plans r a
   (* Which plans such a task has is not known before it is made. *)
-  | Made _ | Unallocated _ -> fix r (List.map (fun (s : World.vehicle_state) -> s.id) (World.vehicles r.world))
+  | Made _ | Unallocated _ | Watch (_, { anew = Some _; _ }) ->
+    fix r (List.map (fun (s : World.vehicle_state) -> s.id) (World.vehicles r.world))
 
 let choices r outside (c : Configuration.t) =
   let alike =

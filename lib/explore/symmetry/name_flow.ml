@@ -248,7 +248,10 @@ and applied w lambda at operation arguments =
   | Builtin Make_watch, [ t; { node = Make_closure (handler, _); _ } as code ] ->
     if not (Hashtbl.mem w.handlers handler.id) then begin
       w.grown <- true;
-      Hashtbl.add w.handlers handler.id ()
+      Hashtbl.add w.handlers handler.id ();
+      (* The vehicle and the task of the error. *)
+      add w (Slot (handler.id, 1)) vehicles;
+      add w (Slot (handler.id, 2)) text
     end;
     values [ t; code ] land vehicles
   | ( ( Builtin (Platform_task | Make_action | Make_condition | Make_wait_for | Make_until _ | Make_idle | Make_during _
@@ -296,7 +299,7 @@ and built w builder k =
 and said w lambda e =
   let say = said w lambda in
   match e.node with
-  | Local 0 when Hashtbl.mem w.handlers lambda.id -> ()
+  | Local (0 | 1 | 2) when Hashtbl.mem w.handlers lambda.id && lambda.parameters > 0 -> ()
   | Apply ((Concatenate | Binary Add), es) -> List.iter say es
   | Apply ((Method (("getId" | "getIds" | "toString" | "join"), _) | Property ("id" | "ids")), es) -> List.iter say es
   | If (test, yes, no) ->

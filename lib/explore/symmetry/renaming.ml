@@ -92,9 +92,10 @@ let rec residual r (t : Residual.t) : Residual.t =
   | During d ->
     let duration = duration r d.duration in
     During { d with duration; body = go d.body }
-  | Watch (a, c) ->
+  | Watch (a, h) ->
     let a = go a in
-    Watch (a, closure r c)
+    let code = closure r h.code in
+    Watch (a, { code; anew = Option.map (fun (t, q) -> (task r t, made r q)) h.anew })
   | Repeat { round; again } ->
     let until = Option.map (closure r) again.until in
     let round = Option.map go round in

@@ -83,7 +83,7 @@ let constant w x =
   | _ -> raise Opaque
 
 let local w slot =
-  if w.handler && slot = 0 then w.reads_error := true;
+  if w.handler && slot < 3 then w.reads_error := true;
   print w "L%d" slot
 
 let rec expression w e =
@@ -118,7 +118,7 @@ and applied w operation arguments =
   | Builtin (Message | Halt | Assert), [ e ] ->
     plain w operation;
     text w e
-  | Builtin (Poll [] | Halt | Assert | Ignore | Propagate | Math _), _
+  | Builtin (Poll [] | Halt | Assert | Ignore | Propagate | Retry | Math _), _
   | (Unary _ | Binary _ | Make_list | Make_range _ | Concatenate | Element), _ ->
     plain w operation;
     all w arguments

@@ -170,11 +170,12 @@ let rec image_of_residual g p (r : Residual.t) : Residual.t =
   | Until (on_cut, c, a) -> Until (on_cut, code c, go a)
   | During ({ duration = Given_by c; _ } as d) -> During { d with duration = Given_by (code c); body = go d.body }
   | During ({ duration = Seconds _; _ } as d) -> During { d with body = go d.body }
-  | Watch (a, c) -> Watch (go a, image_of_closure g p ~handler:true c)
+  | Watch (a, { code; anew = None }) -> Watch (go a, { code = image_of_closure g p ~handler:true code; anew = None })
   | Repeat { round; again } ->
     let again = { again with until = Option.map code again.until; each = go again.each } in
     Repeat { round = Option.map go round; again }
-  | Made _ | Unallocated _ | Hold _ -> invalid_arg "Task_group: a task in which tasks are made has no group"
+  | Watch (_, { anew = Some _; _ }) | Made _ | Unallocated _ | Hold _ ->
+    invalid_arg "Task_group: a task in which tasks are made has no group"
 
 (* The image of [x], which has no blocks but [blocks]; memoised. *)
 let image known x blocks (p : permutation) find =

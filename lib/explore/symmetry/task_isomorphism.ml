@@ -25,7 +25,7 @@ let rec fold f acc (r : Residual.t) =
   | Idle _ -> acc
   | During { duration = Seconds _; body; _ } -> fold f acc body
   | During { duration = Given_by c; body; _ } -> fold f (f acc (Of_code (false, c))) body
-  | Watch (a, c) -> fold f (f acc (Of_code (true, c))) a
+  | Watch (a, h) -> fold f (f acc (Of_code (true, h.code))) a
   | Repeat { again = { until; each; _ }; _ } ->
     (* What is left of the round that runs is in [each]. *)
     fold f (Option.fold until ~none:acc ~some:(fun c -> f acc (Of_code (false, c)))) each
@@ -78,7 +78,7 @@ let rec spell s (r : Residual.t) =
   | During { on_cut; duration; started; body; _ } ->
     let time = match duration with Seconds x -> Printf.sprintf "%h" x | Given_by c -> code s ~handler:false c in
     Printf.sprintf "%s(%b,%s,%s)" (Value.during on_cut) started time (spell s body)
-  | Watch (a, c) -> "watch(" ^ code s ~handler:true c ^ "," ^ spell s a ^ ")"
+  | Watch (a, { code = c; _ }) -> "watch(" ^ code s ~handler:true c ^ "," ^ spell s a ^ ")"
   | Repeat { round; again = { left; until; each; _ } } ->
     let optional f x = Option.fold x ~none:"" ~some:f in
     Printf.sprintf "repeat(%s,%s,%s,%s)" (optional string_of_int left) (optional (code s ~handler:false) until)
@@ -144,8 +144,8 @@ let matched context ~rename r r' =
     | Until (e, c, a), Until (e', c', a') when ends_alike e e' ->
       same_code ~handler:false c c';
       go a a'
-    | Watch (a, c), Watch (a', c') ->
-      same_code ~handler:true c c';
+    | Watch (a, h), Watch (a', h') ->
+      same_code ~handler:true h.code h'.code;
       go a a'
     | Idle { seconds; _ }, Idle { seconds = seconds'; _ } when seconds = seconds' -> ()
     | During ({ duration = Seconds s; _ } as d), During ({ duration = Seconds s'; _ } as d')

@@ -7,7 +7,7 @@ type verdict =
   | Ends
   | Goes_on of lasso
   | Spins of lasso
-  | By_design of { repeats : Core.site list; left_by : string list }
+  | By_design of { repeats : Core.site list; retries : Core.site list; left_by : string list }
   | Unsure
 
 (* {1 The part of the graph in which tasks execute} *)
@@ -38,13 +38,15 @@ let number t (p : Space.possible) =
 
 (* Where the rounds that begin are, among the [layers]: no two of these are equal. *)
 let places_of rounds layers =
-  let place (Task_rules.Endless again | Asked again) =
+  let place (again : Residual.again) =
     let is_it (_, (again' : Residual.again)) =
       again'.site = again.site && (again'.each == again.each || Residual.equal again'.each again.each)
     in
     Option.map fst (List.find_opt is_it layers)
   in
-  List.filter_map place rounds
+  (* Where a task runs anew, it waits for vehicles in between: none of its steps is possible all along. *)
+  let of_round = function Task_rules.Endless again | Asked again -> place again | Retried _ -> None in
+  List.filter_map of_round rounds
 
 let examined t i =
   State_graph.visiting t.graph i (fun key arrived visitor ->
@@ -229,15 +231,18 @@ let script_cycle t ~tick =
 
 (* {1 Verdicts} *)
 
-let is_endless e = List.exists (function Task_rules.Endless _ -> true | Asked _ -> false) e.rounds
+let is_endless e = List.exists (function Task_rules.Endless _ | Retried _ -> true | Asked _ -> false) e.rounds
 
-let left_by t members =
+(* [done_too]: they go on while something fails, so that it is done may end them. *)
+let left_by t members ~done_too =
   let is_in = inside members in
   let told e =
     let p = Hashtbl.find t.steps e.by in
     match p.step.source, p.step.event with
     | Step { offer = End_of (task, v); _ }, Some (Vehicle_failed (_, why)) ->
       Some (Printf.sprintf "%s failing on %s: %s" task.name v why)
+    | Step { offer = End_of (task, v); _ }, Some (Vehicle_done _) when done_too ->
+      Some (Printf.sprintf "%s being done on %s" task.name v)
     | Step { offer = Check c; _ }, _ | Step { offer = Refute c; _ }, _ | Step { offer = Decide c; _ }, _ ->
       let at = Fault.location t.program (Fault.make c.lambda.lambda_site "") in
       Option.map (Format.asprintf "the condition at %a" Dolphin_syntax.Location.pp) at
@@ -254,10 +259,12 @@ let left_by t members =
 
 let by_design t members =
   let edges = kept_inside t (fun _ -> true) members in
-  let endless = function Task_rules.Endless again -> Some again.site | Asked _ -> None in
+  let endless = function Task_rules.Endless again -> Some again.site | Asked _ | Retried _ -> None in
+  let retried = function Task_rules.Retried site -> Some site | Endless _ | Asked _ -> None in
   let rounds = List.concat_map (fun e -> e.rounds) (List.concat_map edges members) in
-  let repeats = List.filter_map endless rounds in
-  (List.sort_uniq Int.compare repeats, left_by t members)
+  let found kind = List.sort_uniq Int.compare (List.filter_map kind rounds) in
+  let retries = found retried in
+  (found endless, retries, left_by t members ~done_too:(retries <> []))
 
 let judge program graph ~all:whole =
   let t = { program; graph; numbers = Hashtbl.create 100; steps = Hashtbl.create 100; nodes = Hashtbl.create 1_000 } in
@@ -288,4 +295,6 @@ let judge program graph ~all:whole =
           | [] -> if List.mem_assoc Perhaps endless then Unsure else Ends
           | designs ->
             let together f = List.sort_uniq Stdlib.compare (List.concat_map f designs) in
-            By_design { repeats = together fst; left_by = together snd }))
+            let repeats = together (fun (repeats, _, _) -> repeats) in
+            let retries = together (fun (_, retries, _) -> retries) in
+            By_design { repeats; retries; left_by = together (fun (_, _, left_by) -> left_by) }))

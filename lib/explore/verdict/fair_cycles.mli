@@ -6,10 +6,16 @@ type lasso = { stem : int list; around : int list }
 
 type verdict =
   | Ends  (** every fair run ends *)
-  | Goes_on of lasso  (** a fair run goes on for ever and begins no round of an endless [repeat] again and again *)
+  | Goes_on of lasso  (** a fair run goes on for ever and begins no round of an endless [repeat] again and
+                          again, nor runs a task anew *)
   | Spins of lasso  (** a run goes on for ever without any event *)
-  | By_design of { repeats : Dolphin_semantics.Core.site list; left_by : string list }
-  (** fair runs go on for ever, all by rounds of the endless [repeats], which may be [left_by] these *)
+  | By_design of {
+      repeats : Dolphin_semantics.Core.site list;
+      retries : Dolphin_semantics.Core.site list;
+      left_by : string list;
+    }
+  (** fair runs go on for ever, all by rounds of the endless [repeats] or by [retry()] of handlers, which may be
+      [left_by] these *)
   | Unsure  (** a search of all states has to tell: steps were left out by partial order *)
 
 val judge : Dolphin_semantics.Core.program -> State_graph.t -> all:bool -> verdict

@@ -32,7 +32,7 @@ type run = { steps : Transition.t list; cycle : Transition.t list; shortest : bo
 type verdict =
   | Holds
   | Violated of run
-  | By_design of { repeats : Core.site list; left_by : string list }
+  | By_design of { repeats : Core.site list; retries : Core.site list; left_by : string list }
   | Unreached of Coverage.piece list
   | Inconclusive of Limits.bound
 
@@ -91,7 +91,7 @@ let rec termination_of_rounds x (options : options) graph =
       match Fair_cycles.judge x.program graph ~all with
       | Ends -> Holds
       | Goes_on lasso | Spins lasso -> shown lasso
-      | By_design { repeats; left_by } -> By_design { repeats; left_by }
+      | By_design { repeats; retries; left_by } -> By_design { repeats; retries; left_by }
       | Unsure -> in_all_states x options
       | exception Limits.Stop bound -> Inconclusive bound
       | exception Out_of_memory -> Inconclusive No_memory)
@@ -271,14 +271,15 @@ let pp_verdict (program : Core.program) ppf (property, verdict) =
   print "%a: " Property.pp property;
   match verdict with
   | Holds -> print "holds"
-  | By_design { repeats; left_by } ->
-    let at ppf site =
+  | By_design { repeats; retries; left_by } ->
+    let at ppf (word, site) =
       match Fault.location program (Fault.make site "") with
-      | Some at -> Format.fprintf ppf "repeat at %a" Dolphin_syntax.Location.pp at
-      | None -> Format.pp_print_string ppf "a repeat"
+      | Some at -> Format.fprintf ppf "%s at %a" word Dolphin_syntax.Location.pp at
+      | None -> Format.fprintf ppf "a %s" word
     in
+    let all = List.map (fun site -> ("repeat", site)) repeats @ List.map (fun site -> ("retry", site)) retries in
     let left_by = if left_by = [] then "nothing that may happen here" else String.concat ", " left_by in
-    print "by design not: %a; ended by %s" (Fmt.list ~sep:(Fmt.any ", ") at) repeats left_by
+    print "by design not: %a; ended by %s" (Fmt.list ~sep:(Fmt.any ", ") at) all left_by
   | Violated { steps = run; cycle = [] } when property = Assertions -> (
       print "violated after %s: " (steps (List.length run));
       match (List.nth run (List.length run - 1)).next.control with

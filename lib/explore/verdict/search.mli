@@ -38,9 +38,9 @@ type verdict =
   | Holds
   | Violated of run  (** without reduction, or if [search_again] states show it, by a shortest run; for cycles, without
                           reduction, one with a shortest way to where it comes around *)
-  | By_design of { repeats : Core.site list; left_by : string list }
-  (** of termination: fair runs go on for ever only in rounds of these, each a [repeat] without end, which may be
-      [left_by] these events *)
+  | By_design of { repeats : Core.site list; retries : Core.site list; left_by : string list }
+  (** of termination: fair runs go on for ever only in rounds of these, each a [repeat] without end, or by [retry()] of
+      these handlers, which may be [left_by] these events *)
   | Unreached of Coverage.piece list
   | Inconclusive of Limits.bound
 

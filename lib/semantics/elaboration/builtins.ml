@@ -23,7 +23,7 @@ type arguments =
   | Input
   | Assert
 
-type place = Anywhere | Script_only | Handler_only
+type place = Anywhere | Script_only | Handler_only | In_handler
 type t = { arguments : arguments; place : place; result : kind; reads_sensors : bool }
 
 let these ?(place = Anywhere) ?(result = Any) ?(optional = []) ?(reads_sensors = false) operation required =
@@ -63,8 +63,10 @@ let table : (string * t) list =
     ("location", location);
     ("area", these Area_of [ Position; Number ] ~result:Other);
     ("along", geometry [ Any; Number ] ~result:Position);
+    ("fail", these Fail [ Any ] ~result:Other);
     ("ignore", these Ignore [] ~place:Handler_only ~result:Other);
     ("propagate", these Propagate [] ~place:Handler_only ~result:Other);
+    ("retry", these Retry [] ~place:In_handler ~result:Other);
     ("getSupplier", these Get_supplier [] ~place:Script_only) ]
 
 module String_map = Map.Make (String)

@@ -32,7 +32,8 @@ type arguments =
 type place =
   | Anywhere
   | Script_only  (** may wait, or changes B: not in code inside of a task *)
-  | Handler_only  (** in [onError] *)
+  | Handler_only  (** in [onError], and in functions that it calls *)
+  | In_handler  (** in the text of an [onError] *)
 
 type t = { arguments : arguments; place : place; result : kind; reads_sensors : bool }
 

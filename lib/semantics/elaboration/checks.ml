@@ -250,6 +250,9 @@ let check_place env (builtin : Builtins.t) name at =
       match Scope.purpose env.code with
       | Handler | Named_function _ | Plain -> ()
       | Main | Task_code _ | Maker -> error env Handler_only at "%s() belongs in onError { ... }" name)
+  | In_handler ->
+    if not (Scope.in_handler env.code) then
+      error env Handler_only at "%s() stands in the text of onError { ... }, and nowhere else" name
 
 let sensor_members =
   [ "position"; "battery"; "getPosition"; "getBattery"; "latitude"; "longitude"; "getType"; "type" ]

@@ -23,14 +23,24 @@ let make_lambda env at purpose label ~parameters ~implicit body =
   lambda.slots <- Scope.slots code;
   (lambda, List.map fst (Scope.captures code))
 
-let closure env at purpose label (c : Ast.closure) =
+let parameters_of at (c : Ast.closure) =
+  match c.parameters with Some parameters -> parameters | None -> [ { Ast.it = "it"; at } ]
+
+let closure_of env at purpose label parameters (c : Ast.closure) =
   let implicit = c.parameters = None in
-  let parameters =
-    match c.parameters with Some parameters -> parameters | None -> [ { Ast.it = "it"; at } ]
-  in
   let body env at = statements env at c.body in
   let lambda, captured = make_lambda env at purpose label ~parameters ~implicit body in
   expression env at (Make_closure (lambda, captured))
+
+let closure env at purpose label c = closure_of env at purpose label (parameters_of at c) c
+
+(* An error has fields: further parameters, that the program cannot name otherwise. *)
+let handler env at (c : Ast.closure) =
+  let fields (e : string Ast.located) =
+    List.map (fun field -> { e with it = Scope.field e.it field }) [ "vehicle"; "task" ]
+  in
+  let parameters = match parameters_of at c with [] -> [] | e :: _ -> e :: fields e in
+  closure_of env at Scope.Handler "onError" parameters c
 
 let conditions = [ "when"; "waitFor"; "until"; "assure"; "condition"; "assert" ]
 

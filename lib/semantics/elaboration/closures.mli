@@ -18,6 +18,10 @@ val make_lambda :
 val closure : env -> Location.t -> Scope.purpose -> string -> Ast.closure -> expression
 (** [closure env at purpose label c] makes the closure [c]; one that names no parameters has [it]. *)
 
+val handler : env -> Location.t -> Ast.closure -> expression
+(** [handler env at c] is the code [c] of an [onError]: its parameter is the error's message, and further ones, by
+    {!Scope.field}, the vehicle and the task that failed, or null. *)
+
 val task_code : env -> Location.t -> string -> Ast.closure -> expression
 (** [task_code env at construct c] is {!closure} for code of a task, which takes no parameters. *)
 

@@ -144,6 +144,12 @@ let code program purpose outer =
 
 let purpose code = code.purpose
 
+let rec in_handler code =
+  match code.purpose, code.outer with
+  | Handler, _ -> true
+  | Plain, Some outer -> in_handler outer
+  | (Main | Named_function _ | Plain | Task_code _ | Maker), _ -> false
+
 let rec in_task code =
   match code.purpose, code.outer with
   | Task_code construct, _ -> Some construct
@@ -189,6 +195,15 @@ let rec find_local code name =
             let slot = new_slot code in
             code.captured <- (name, (outer_slot, slot)) :: code.captured;
             Some (Captured slot)))
+
+let field name field = name ^ "." ^ field
+
+let rec has_fields code name =
+  let hidden = field name "vehicle" in
+  match List.find_opt (fun (n, _) -> String.equal n hidden || String.equal n name) code.names, code.outer with
+  | Some (n, _), _ -> String.equal n hidden
+  | None, Some outer -> has_fields outer name
+  | None, None -> false
 
 let captures code = List.rev_map snd code.captured
 let in_loop code = code.loops > 0

@@ -136,6 +136,15 @@ type local = Own of int | Captured of int
 val find_local : code -> string -> local option
 (** A local of this piece, or of a piece around it, which is then captured; by its slot in this piece. *)
 
+val field : string -> string -> string
+(** [field e f] is the local that has the field [f] of the error [e]: no name of a program. *)
+
+val has_fields : code -> string -> bool
+(** Whether the name is that of the error that a handler around gets. *)
+
+val in_handler : code -> bool
+(** Whether the piece is in the text of an [onError]. *)
+
 val captures : code -> (int * int) list
 (** For each captured value, its slot in the piece around and its slot here. *)
 

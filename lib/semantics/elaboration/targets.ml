@@ -12,6 +12,10 @@ let set_global env at name e = expression env at (Set_global (Scope.assigned_glo
 
 let assign_variable env at name name_at e =
   match Scope.find_local env.code name with
+  | Some (Own _) when Scope.has_fields env.code name ->
+    error env Not_assignable name_at "'%s' is the error that onError gets, and stays so" name
+      ~hint:"choose another name";
+    e
   | Some (Own slot) -> set_local env at slot e
   | Some (Captured _) ->
     error env Captured_local name_at

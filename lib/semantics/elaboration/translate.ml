@@ -104,6 +104,10 @@ let rec elaborate env (e : Ast.expression) : expression =
   | Elvis (e, otherwise) -> elvis env at e otherwise
   | Increment { target; by; prefix } -> Targets.increment env at target by prefix
   | Call { callee; arguments } -> Calls.call env at callee arguments
+  | Member { subject = { it = Variable error; _ }; name = { it = "message"; _ }; _ }
+    when Scope.has_fields env.code error -> elaborate env { e with it = Variable error }
+  | Member { subject = { it = Variable error; _ }; name = { it = ("vehicle" | "task") as field; _ }; _ }
+    when Scope.has_fields env.code error -> elaborate env { e with it = Variable (Scope.field error field) }
   | Member { subject; name; safe } -> Names.member env e subject name safe
   | Index (subject, index) ->
     check_index env subject index;
@@ -174,7 +178,7 @@ and watch env at t (handler : Ast.closure) =
    | Some (_ :: second :: _) ->
      error env Wrong_parameters second.at "the code of onError takes one parameter, the error"
    | Some ([] | [ _ ]) | None -> ());
-  apply env at (Builtin Make_watch) [ t; closure env at Scope.Handler "onError" handler ]
+  apply env at (Builtin Make_watch) [ t; Closures.handler env at handler ]
 
 and repeat env at rounds body until =
   let of_rounds (n : Ast.expression) =

@@ -13,8 +13,8 @@ type deed =
   | Released of vehicle list                    (* those that were bound *)
   | Set_connection_timeout of vehicle list option * float  (* for these vehicles, or for all; seconds *)
 
-(** How an error handler settles the error: [ignore()], or [propagate()], which is the default. *)
-type verdict = Ignored | Propagated
+(** How an error handler settles the error: [ignore()], [retry()], or [propagate()], which is the default. *)
+type verdict = Ignored | Propagated | Retried
 
 type mode =
   | Script                                      (* stops after every deed and may wait *)

@@ -219,7 +219,7 @@ let mathematics name arguments =
 let settle context verdict =
   match context.mode with
   | Handler _ -> Judged verdict
-  | Script | Task_code -> Wrong "ignore() and propagate() belong in onError { ... }"
+  | Script | Task_code -> Wrong "ignore(), propagate() and retry() belong in onError { ... }"
 
 let apply context at operation arguments =
   match operation, arguments with
@@ -282,8 +282,10 @@ let apply context at operation arguments =
   | Area_of, [ centre; radius ] -> of_result (Operators.binary Around centre radius)
   | Assert, [] -> Refuted "assertion failed"
   | Assert, [ x ] -> Refuted ("assertion failed: " ^ Value.to_string x)
+  | Fail, [ x ] -> Wrong (Value.to_string x)
   | Ignore, [] -> settle context Ignored
   | Propagate, [] -> settle context Propagated
+  | Retry, [] -> settle context Retried
   | Get_supplier, [] ->
     blocking context "getSupplier" (Host_call { subject = None; member = "getSupplier"; arguments = Some [] })
   | Is_there, [ x ] ->
@@ -293,5 +295,6 @@ let apply context at operation arguments =
   | Math name, arguments -> mathematics name arguments
   | Geometry (name, keys), arguments -> of_result (Geometry.apply name keys arguments)
   | ( ( Execute | Release | Set_connection_timeout | Ask | Message | Pause | Halt | Position_of | Battery_of
-      | Location_of | Area_of | Assert | Ignore | Propagate | Get_supplier | Is_host | Is_there | Values_of ),
+      | Location_of | Area_of | Assert | Fail | Ignore | Propagate | Retry | Get_supplier | Is_host | Is_there
+      | Values_of ),
       _ ) -> Wrong (Printf.sprintf "wrong number of arguments, %d" (List.length arguments))

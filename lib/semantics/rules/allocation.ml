@@ -157,7 +157,10 @@ let rec residual supply allowed t : Residual.t =
   | During (on_cut, duration, a) ->
     let timer = supply.next_timer () in
     During { on_cut; timer; duration; started = false; body = recurse a }
-  | Watch (a, c) -> Watch (recurse a, c)
+  | Watch (a, code) when Recovery.possible code.lambda ->
+    let place = supply.next_place () in
+    Watch (recurse a, { code; anew = Some (a, { allowed; place; depth = supply.depth }) })
+  | Watch (a, code) -> Watch (recurse a, { code; anew = None })
   | Repeat { rounds; until; body; site } ->
     let each = recurse body in
     Residual.repeat { left = Option.map pred rounds; until; each; site } each

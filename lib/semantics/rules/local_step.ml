@@ -44,6 +44,21 @@ let undo : Task_rules.undoing -> vehicle list * Effect.t list = function
     let stopped = List.concat_map Residual.running cut in
     (stopped, cancelled @ List.map (fun v -> Effect.Stop v) stopped)
 
+(* So deep are closures in tasks that closures made, and tasks in the place of those that failed. *)
+let deepest = 100
+
+(* The task [t] that a handler gives, in the place of its own. *)
+let instead (handler : Residual.handler) t propagated recovered =
+  match handler.anew with
+  | Some (_, request) when request.depth >= deepest ->
+    let at = handler.code.lambda.lambda_site in
+    propagated (Fault.make at (Printf.sprintf "tasks in the place of tasks that failed nest more than %d deep" deepest))
+  | Some _ | None -> recovered (Task_rules.Instead t)
+
+(* Code with [retry()] went by a variable to a handler that is not around it. *)
+let foreign_retry (handler : Residual.handler) =
+  Fault.make handler.code.lambda.lambda_site "retry() was called for another handler than that in whose text it stands"
+
 (* [settle s derivation asked change] carries a change of the residual over to the shared part [s], handlers of errors
    included. [asked] are the effects so far. *)
 let rec settle held program world s derivation asked (change : Task_rules.change) =
@@ -56,7 +71,7 @@ let rec settle held program world s derivation asked (change : Task_rules.change
   | Next r -> Decision.Decided (come_to (Goes_on r))
   | Finished -> Decided (come_to Over)
   | Failed fault -> Decided (come_to (Ends (Failed fault)))
-  | Handling { handler; fault; ignored; propagated } ->
+  | Handling { handler; fault; ignored; propagated; recovered } ->
     let handled { Run_code.world; outcome; mode } =
       match outcome, mode with
       | Halts (message, s, deeds), _ ->
@@ -68,12 +83,18 @@ let rec settle held program world s derivation asked (change : Task_rules.change
         Decided { (come_to (Ends (Failed fault))) with derivation = derivation @ [ Rule.Assert_err ]; asked }
       | Faulty (fault, said), _ ->
         settle held program world s derivation (asked @ Run_code.effects said) (propagated fault)
+      | Gives (Task t, s, deeds), Handler _ when handler.anew <> None ->
+        settle held program world s derivation (asked @ Run_code.effects deeds) (instead handler t propagated recovered)
+      | Gives (_, s, deeds), Handler Retried when handler.anew = None ->
+        settle held program world s derivation (asked @ Run_code.effects deeds) (propagated (foreign_retry handler))
+      | Gives (_, s, deeds), Handler Retried ->
+        settle held program world s derivation (asked @ Run_code.effects deeds) (recovered Anew)
       | Gives (_, s, deeds), Handler Ignored ->
         settle held program world s derivation (asked @ Run_code.effects deeds) (ignored ())
       | Gives (_, s, deeds), (Handler Propagated | Script | Task_code) ->
         settle held program world s derivation (asked @ Run_code.effects deeds) (propagated fault)
     in
-    Decision.bind (Run_code.handler ~held program world s handler fault) handled
+    Decision.bind (Run_code.handler ~held program world s handler.code fault) handled
 
 (* {1 Steps} *)
 
@@ -111,9 +132,6 @@ let settled (code : closure) x f =
   match Reading.settled code.lambda.lambda_site x with Ok x -> f x | Error fault -> Decision.Unclear fault
 
 (* {2 Tasks made at their turn} *)
-
-(* So deep are closures in tasks that closures made. *)
-let deepest = 100
 
 (* The task that [code] gives, if all went well: it computed the value [x], without a deed, and left the store alone. *)
 let made (code : closure) given (request : Residual.request) (s : Shared.t) (after : Shared.t) x deeds =

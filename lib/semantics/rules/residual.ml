@@ -16,13 +16,15 @@ type t =
   | Until of on_cut * closure * t
   | Idle of { timer : timer; seconds : float }
   | During of { on_cut : on_cut; timer : timer; duration : duration; started : bool; body : t }
-  | Watch of t * closure
+  | Watch of t * handler
   | Repeat of { round : t option; again : again }
   | Made of { code : closure; given : value list; request : request }
   | Unallocated of { task : task; request : request }
   | Hold of vehicle list * t
 
 and again = { left : int option; until : closure option; each : t; site : site }
+
+and handler = { code : closure; anew : (task * request) option }
 
 and branch = { guard : closure; body : t }
 
@@ -51,7 +53,7 @@ let rec compare r r' =
     | Until (e, c, a), Until (e', c', a') ->
       Order.both (Value.compare_on_cut e e') (fun () ->
           Order.both (Value.compare_closure c c') (fun () -> compare a a'))
-    | Watch (a, c), Watch (a', c') -> Order.both (Value.compare_closure c c') (fun () -> compare a a')
+    | Watch (a, h), Watch (a', h') -> Order.both (compare_handler h h') (fun () -> compare a a')
     | Idle a, Idle b -> Order.both (Int.compare a.timer b.timer) (fun () -> Float.compare a.seconds b.seconds)
     | During a, During b ->
       Order.both (Int.compare a.timer b.timer) (fun () ->
@@ -72,6 +74,13 @@ let rec compare r r' =
         _ ) -> Int.compare (rank r) (rank r')
 
 and compare_branch b b' = Order.both (Value.compare_closure b.guard b'.guard) (fun () -> compare b.body b'.body)
+
+and compare_handler h h' =
+  if h == h' then 0
+  else
+    Order.both (Value.compare_closure h.code h'.code) (fun () ->
+        let compare_anew (t, q) (t', q') = Order.both (compare_request q q') (fun () -> Value.compare_task t t') in
+        Option.compare compare_anew h.anew h'.anew)
 
 and compare_again a b =
   if a == b then 0
@@ -104,7 +113,7 @@ let rec hash r =
     let h = match a with Some a -> Order.mix h (hash a) | None -> h in
     List.fold_left (fun h b -> Order.mix h (Value.hash_closure b.guard)) h bs
   | One_of bs -> List.fold_left (fun h b -> Order.mix (Order.mix h (Value.hash_closure b.guard)) (hash b.body)) h bs
-  | Until (_, c, a) | Watch (a, c) -> Order.mix (Order.mix h (Value.hash_closure c)) (hash a)
+  | Until (_, c, a) | Watch (a, { code = c; _ }) -> Order.mix (Order.mix h (Value.hash_closure c)) (hash a)
   | Idle { timer; _ } -> Order.mix h timer
   | During { timer; started; body; _ } -> Order.mix (Order.mix (Order.mix h timer) (Bool.to_int started)) (hash body)
   | Repeat { round; again = { left; each; _ } } ->
@@ -240,7 +249,8 @@ let rec may_go_round r =
   | Parallel rs -> List.exists may_go_round rs
   | All_of (a, bs) -> Option.fold a ~none:false ~some:may_go_round || List.exists (fun b -> may_go_round b.body) bs
   | One_of bs -> List.exists (fun b -> may_go_round b.body) bs
-  | Until (_, _, a) | During { body = a; _ } | Watch (a, _) | Hold (_, a) -> may_go_round a
+  | Watch (a, { anew; _ }) -> anew <> None || may_go_round a
+  | Until (_, _, a) | During { body = a; _ } | Hold (_, a) -> may_go_round a
   | Repeat { again = { left; each; _ }; _ } -> left = None || may_go_round each
 
 (* {1 Contexts} *)
@@ -250,7 +260,7 @@ type context =
   | Branch_of of branch list
   | Body_until of on_cut * closure
   | Body_during of on_cut * timer * duration
-  | Watched_by of closure
+  | Watched_by of handler
   | Round_of of again
   | Holding of vehicle list
 
@@ -317,7 +327,7 @@ let named r = Vehicle_set.elements (fold_all add_named Vehicle_set.empty r)
 
 let makes_tasks r =
   let makes found = function
-    | Made _ | Unallocated _ | Hold _ -> true
+    | Made _ | Unallocated _ | Hold _ | Watch (_, { anew = Some _; _ }) -> true
     | Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _ | Idle _
     | During _ | Watch _ | Repeat _ -> found
   in

@@ -25,7 +25,7 @@ type t =
   | Until of on_cut * closure * t
   | Idle of { timer : timer; seconds : float }
   | During of { on_cut : on_cut; timer : timer; duration : duration; started : bool; body : t }
-  | Watch of t * closure
+  | Watch of t * handler
   | Repeat of { round : t option; again : again }
   (** the round that runs; [None] between two rounds, where the condition is to be asked *)
 
@@ -35,6 +35,10 @@ type t =
   | Hold of vehicle list * t  (** holds these vehicles, one at least, until it ends *)
 
 and branch = { guard : closure; body : t }
+
+(** The code that errors come to. If it may recover ({!Recovery}), [anew] is the watched task, and what its like may be
+    given. *)
+and handler = { code : closure; anew : (task * request) option }
 
 (** How a [repeat] goes on: [left] rounds are to come, at least one, or no number of them; none once [until] holds;
     [each] is a round that is about to run; [site] is its place in the program. *)
@@ -95,8 +99,8 @@ val exists_active : (t -> bool) -> t -> bool
     [Sequence], [Parallel], [Watch]. *)
 
 val may_go_round : t -> bool
-(** [may_go_round r] is whether [r] has a [repeat] without a number of rounds, or code in the place of a task, which may
-    make one. Without either, every step leaves less. *)
+(** [may_go_round r] is whether [r] has a [repeat] without a number of rounds, code in the place of a task, which may
+    make one, or a handler that may run its task anew. Without these, every step leaves less. *)
 
 (** {1:contexts Contexts}
 
@@ -109,7 +113,7 @@ type context =
   | Branch_of of branch list  (** [allOf(_; bs)] *)
   | Body_until of on_cut * closure
   | Body_during of on_cut * timer * duration  (** the timer runs *)
-  | Watched_by of closure
+  | Watched_by of handler
   | Round_of of again
   | Holding of vehicle list
 
@@ -136,7 +140,7 @@ val named : t -> vehicle list
     in alphabetical order. *)
 
 val makes_tasks : t -> bool
-(** [makes_tasks r] is whether tasks are made at their turn in [r], were made, or are to be. *)
+(** [makes_tasks r] is whether tasks are made at their turn in [r], were made, or are to be; by handlers too. *)
 
 (** What is around a residual: what stands beside it in a [Parallel], or a context. *)
 type surrounding = Beside of t list | Inside of context

@@ -9,6 +9,7 @@ type t =
   | Idle_end
   | During_set | During_cut | Within_cut | During_1 | During_2 | During_err
   | Watch_1 | Watch_2 | Watch_ignore | Watch_propagate | Watch_halt
+  | Watch_retry | Watch_instead
   | Repeat_1 | Repeat_2 | Repeat_until | Repeat_again | Repeat_err
   | Make | Make_err | Allocate | Allocate_err | Hold_1 | Hold_2 | Hold_err
   | Script | Post | Consume | Message | Release | Set_timeout
@@ -24,7 +25,8 @@ let all =
   [ Start; Done; Fail; Action; Action_err; Condition; Condition_err; Assert_err; Seq_1; Seq_2; Seq_err; Par_1;
     Par_2; Par_err; Allof_when; Allof_1; Allof_2; Allof_err; Oneof_when; Oneof_err; Until_cut; Assure_cut; Until_1;
     Until_2; Until_err; Idle_end; During_set; During_cut; Within_cut; During_1; During_2; During_err; Watch_1;
-    Watch_2; Watch_ignore; Watch_propagate; Watch_halt; Repeat_1; Repeat_2; Repeat_until; Repeat_again; Repeat_err;
+    Watch_2; Watch_ignore; Watch_propagate; Watch_halt; Watch_retry; Watch_instead; Repeat_1; Repeat_2; Repeat_until;
+    Repeat_again; Repeat_err;
     Make; Make_err; Allocate; Allocate_err; Hold_1; Hold_2; Hold_err; Script; Post; Consume; Message; Release;
     Set_timeout; Pick; Pick_bind; Pick_err; Ask; Answer; Answer_err; Pause; Resume; Call; Reply; Call_err; Execute;
     Execute_done; Execute_err; Alloc_err; Input; End; Halt; Fault; Interrupt ]
@@ -45,6 +47,7 @@ let name = function
   | During_err -> "DURING-ERR"
   | Watch_1 -> "WATCH-1" | Watch_2 -> "WATCH-2" | Watch_ignore -> "WATCH-IGNORE"
   | Watch_propagate -> "WATCH-PROPAGATE" | Watch_halt -> "WATCH-HALT"
+  | Watch_retry -> "WATCH-RETRY" | Watch_instead -> "WATCH-INSTEAD"
   | Repeat_1 -> "REPEAT-1" | Repeat_2 -> "REPEAT-2" | Repeat_until -> "REPEAT-UNTIL"
   | Repeat_again -> "REPEAT-AGAIN" | Repeat_err -> "REPEAT-ERR"
   | Make -> "MAKE" | Make_err -> "MAKE-ERR" | Allocate -> "ALLOCATE" | Allocate_err -> "ALLOCATE-ERR"

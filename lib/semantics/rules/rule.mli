@@ -14,6 +14,7 @@ type t =
   | Idle_end
   | During_set | During_cut | Within_cut | During_1 | During_2 | During_err
   | Watch_1 | Watch_2 | Watch_ignore | Watch_propagate | Watch_halt
+  | Watch_retry | Watch_instead
   | Repeat_1 | Repeat_2 | Repeat_until | Repeat_again | Repeat_err
   (* Tasks made at their turn *)
   | Make | Make_err | Allocate | Allocate_err | Hold_1 | Hold_2 | Hold_err

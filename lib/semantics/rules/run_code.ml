@@ -53,5 +53,11 @@ let run held program world s mode closure arguments =
 
 let atomic ?(held = nobody) ?(given = []) program world s closure = run held program world s Task_code closure given
 
+(* The error, with the vehicle and the task that failed, if it was one. *)
 let handler ~held program world s closure (fault : Fault.t) =
-  run held program world s (Handler Propagated) closure [ String fault.message ]
+  let vehicle, task =
+    match fault.cause with
+    | Task { vehicle; task } -> (Vehicles [ vehicle ], String task)
+    | Code | Assertion | Unknown -> (Null, Null)
+  in
+  run held program world s (Handler Propagated) closure [ String fault.message; vehicle; task ]

@@ -18,17 +18,20 @@ type _ offer =
 
 type undoing = Cancel of timer | Cut of t list
 
-type round = Endless of again | Asked of again
+type round = Endless of again | Asked of again | Retried of site
+
+type recovery = Anew | Instead of task
 
 type outcome =
   | Next of t
   | Finished
   | Failed of Fault.t
   | Handling of {
-      handler : closure;
+      handler : handler;
       fault : Fault.t;
       ignored : unit -> change;
       propagated : Fault.t -> change;
+      recovered : recovery -> change;
     }
 
 and change = {
@@ -72,7 +75,8 @@ let after_handling f change =
   | Next _ | Finished | Failed _ -> change
   | Handling h ->
     let ignored () = f (h.ignored ()) and propagated fault = f (h.propagated fault) in
-    { change with outcome = Handling { h with ignored; propagated } }
+    let recovered how = f (h.recovered how) in
+    { change with outcome = Handling { h with ignored; propagated; recovered } }
 
 let rec lift around change =
   match change.outcome with
@@ -144,11 +148,23 @@ let around_during on_cut timer duration =
     on_failed = (fun fault c -> undoing (Cancel timer) (plain.on_failed fault c));
   }
 
+(* What runs in the place of the task that failed has no vehicles yet. Run anew, the handler watches it again. *)
+let recover (handler : handler) label recovery =
+  match recovery, handler.anew with
+  | Anew, Some (task, request) ->
+    let outcome = Next (Watch (Unallocated { task; request }, handler)) in
+    { (change label Rule.Watch_retry outcome) with rounds = [ Retried handler.code.lambda.lambda_site ] }
+  | Instead task, Some (_, request) ->
+    let request = { request with depth = request.depth + 1 } in
+    change label Rule.Watch_instead (Next (Unallocated { task; request }))
+  | (Anew | Instead _), None -> invalid_arg "Task_rules: a handler that cannot recover"
+
 let around_watch handler =
   let on_failed fault c =
     let ignored () = change c.label Rule.Watch_ignore Finished in
     let propagated fault = change c.label Rule.Watch_propagate (Failed fault) in
-    { c with outcome = Handling { handler; fault; ignored; propagated } }
+    let recovered = recover handler c.label in
+    { c with outcome = Handling { handler; fault; ignored; propagated; recovered } }
   in
   { (around ~next:(within (Watched_by handler)) (Rule.Watch_1, Rule.Watch_2, Rule.Watch_propagate)) with on_failed }
 
@@ -239,7 +255,8 @@ let await_end p v =
   let continue = function
     | Ok () -> change (Label.Done (v, p.name)) Rule.Done Finished
     | Error why ->
-      let fault = Fault.make p.task_site (Printf.sprintf "%s failed on %s: %s" p.name v why) in
+      let message = Printf.sprintf "%s failed on %s: %s" p.name v why in
+      let fault = Fault.of_task p.task_site ~vehicle:v ~task:p.name message in
       change (Fail (v, p.name, why)) Rule.Fail (Failed fault)
   in
   alone (End_of (p, v)) continue

@@ -31,18 +31,22 @@ type undoing =
   | Cut of t list  (** residuals that were cut off: their timers are cancelled, then their vehicles stop *)
 
 (** A further round that begins, of a [repeat] without a number of rounds: it has no end of its own, or its condition
-    was asked and does not hold. *)
-type round = Endless of again | Asked of again
+    was asked and does not hold; or a watched task that runs anew, by [retry()] of the handler at that place. *)
+type round = Endless of again | Asked of again | Retried of site
+
+(** What a handler has run in the place of its task: that task anew, or the task that it gives. *)
+type recovery = Anew | Instead of task
 
 type outcome =
   | Next of t
   | Finished
   | Failed of Fault.t
   | Handling of {
-      handler : closure;
+      handler : handler;
       fault : Fault.t;
       ignored : unit -> change;  (** after [ignore()] *)
       propagated : Fault.t -> change;  (** after [propagate()], or if the handler itself breaks *)
+      recovered : recovery -> change;  (** if the handler may recover *)
     }
 
 (** What a step makes of a residual. *)

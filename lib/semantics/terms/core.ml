@@ -152,8 +152,10 @@ and builtin =
   | Location_of
   | Area_of
   | Assert                                      (* made by elaboration: the text of an assertion that fails *)
+  | Fail
   | Ignore
   | Propagate
+  | Retry
   | Get_supplier
   | Is_there                                    (* made by elaboration: whether [a ?: b] is [a] *)
   | Is_host                                     (* made by elaboration, for updates of what may be a host object *)

@@ -3,6 +3,7 @@
 type cause =
   | Code  (** of the program, or of a vehicle: an error, which [watch] may handle *)
   | Assertion  (** an assertion that fails ends the program, whatever is around it *)
+  | Task of { vehicle : Core.vehicle; task : string }  (** a platform task that failed, by its name: an error *)
   | Unknown  (** code needed what a vehicle has not told: of a guard, it does not hold; of other code, an error *)
 
 type t = {
@@ -19,6 +20,9 @@ val make : Core.site -> string -> t
 
 val assertion : Core.site -> string -> t
 (** [assertion site message] is an assertion that does not hold: no handler sees it. *)
+
+val of_task : Core.site -> vehicle:Core.vehicle -> task:string -> string -> t
+(** [of_task site ~vehicle ~task message] is an error of that platform task on that vehicle. *)
 
 val unknown : Core.site -> Core.unknown -> t
 (** [unknown site u] is that code at [site] needed [u]. *)

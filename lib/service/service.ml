@@ -129,7 +129,7 @@ let prelude_item (e : Prelude.entry) = { label = e.name; kind = Function; form =
 (* What a program that includes the prelude, if it does, has of it. *)
 let of_prelude d =
   let includes quote =
-    let line = Printf.sprintf "include %c%s%c" quote Prelude.file quote in
+    let line = Printf.sprintf "include %c%s%c" quote Prelude.name quote in
     List.exists (fun text -> String.trim text = line) (String.split_on_char '\n' d.source) in
   if includes '\'' || includes '"' then Prelude.entries else []
 

@@ -56,13 +56,13 @@ and part state chain file s =
   | None -> Ok [ s ]
   | Some (Error fault) -> Error [ fault ]
   | Some (Ok (name, at)) -> (
-      let path = if name = Prelude.file then name else beside file name in
+      let path = if name = Prelude.name then Prelude.file else beside file name in
       if List.mem path chain then
         let round = String.concat " includes " (List.rev (path :: chain)) in
         Error [ Diagnostic.error at (Printf.sprintf "files that include each other: %s" round) ]
       else if List.mem path state.files then Ok []
       else
-        match if name = Prelude.file then Ok Prelude.text else state.read path with
+        match if name = Prelude.name then Ok Prelude.text else state.read path with
         | Ok source -> statements state (path :: chain) path source
         | Error why -> Error [ Diagnostic.error at (Printf.sprintf "cannot be included: %s" why) ])
 

@@ -1,4 +1,5 @@
-let file = "prelude"
+let name = "prelude"
+let file = "<prelude>"
 let text = Prelude_text.text
 
 type entry = { name : string; form : string; text : string; example : string; law : (string * string) option }
@@ -52,7 +53,7 @@ let filled text =
   let last, lines = List.fold_left add ("", []) (String.split_on_char ' ' text) in
   String.concat "\n" (List.rev (last :: lines))
 
-let section { form; text; example; law; name = _ } =
+let section ({ form; text; example; law; name = _ } : entry) =
   let law = Option.fold law ~none:"" ~some:(fun (a, b) -> Printf.sprintf "\nLaw: `%s` is `%s`.\n" a b) in
   Printf.sprintf "## `%s`\n\n%s\n\n```groovy\n%s\n```\n%s" form (filled text) example law
 

@@ -1,7 +1,10 @@
 (** Functions written in Dolphin that come with it, for programs that [include 'prelude']. *)
 
+val name : string
+(** ["prelude"], by which programs include it. *)
+
 val file : string
-(** ["prelude"]: the name that programs include it by, and that its places have. *)
+(** ["<prelude>"], the file of its places. *)
 
 val text : string
 

@@ -93,3 +93,30 @@ Cycles, missing files, and words that are no name of a file are told.
       hint: include 'lib.dol' stands at the top of a file, outside of all braces
   inside.dol: 1 error
   [2]
+
+The prelude comes with the command. A program may have its name; a function that both define is told of.
+
+  $ cat > prelude <<'END'
+  > include 'prelude'
+  > execute par([action { message 1 }, action { message 2 }])
+  > execute par(3)
+  > END
+  $ dolphin exec prelude --fleet one.fleet
+     0:00  program     says: 1
+     0:00  program     says: 2
+     0:00  program     fails: a number has no method 'tail'
+  <prelude>:16:12: error: a number has no method 'tail'
+    16 |     return tasks.tail().inject(tasks[0]) { beside, t -> beside | t }
+       |            ^^^^^^^^^^^^
+  [1]
+  $ cat > race.dol <<'END'
+  > include 'prelude'
+  > def race(x) { x }
+  > END
+  $ dolphin check race.dol --fleet one.fleet
+  race.dol:2:5: error: function 'race' is defined twice
+    2 | def race(x) { x }
+      |     ^^^^
+  race.dol: 1 error
+  one.fleet: no errors
+  [2]

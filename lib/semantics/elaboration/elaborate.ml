@@ -118,7 +118,9 @@ let without_unused_prelude (ast : Ast.program) =
   if not (List.exists is_prelude ast) then ast
   else
     let own = List.filter (fun s -> not (is_prelude s)) ast in
-    let used = reach [] (List.concat_map (Fold.statement named []) own) in
+    let defined (s : Ast.statement) = match s.it with Function { name; _ } -> Some name.it | _ -> None in
+    (* One that the program defines too is kept, for that to be told. *)
+    let used = reach [] (List.filter_map defined own @ List.concat_map (Fold.statement named []) own) in
     let is_kept (s : Ast.statement) =
       match s.it with Function { name; _ } when is_prelude s -> List.mem name.it used | _ -> true in
     List.filter is_kept ast

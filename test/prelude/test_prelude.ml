@@ -105,6 +105,11 @@ let told_of_themselves =
        n = 0\n\
        execute both\n\
        assert { n == 2 }";
+    holds "retrying: so often, and then its error is told" ~failures:true ~ends:[ "completed"; broken ]
+      "n = 0\nexecute retrying(3, action { n++ } >> p)\nassert { n <= 3 }";
+    holds "retrying: each time that it may" ~failures:true
+      ~ends:[ "completed"; broken; "failed: assertion failed" ]
+      "n = 0\nexecute retrying(3, action { n++ } >> p)\nassert { n < 3 }";
     holds "barrier: nobody goes on before all are there" ("came = 0\nexecute " ^ meeting);
     holds "follower: after the leader"
       "n = 0\n\

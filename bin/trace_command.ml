@@ -30,10 +30,22 @@ let status path : Verdict.t -> (Exit_status.t, Error.t) result = function
   | Unknown _ -> Ok Inconclusive
   | Unreadable { number; why } -> Error (Journal_file.wrong path ~number why)
 
-let check program_path set path fleet most =
+(* What took longer or shorter than the fleet says. *)
+let check_times program_path set path fleet =
+  if path = "-" then Error (Error.Bad_input "--timed reads the journal twice, so it must be a file")
+  else
+    let* p = Program_file.load_recorded ~set ~recorded:(Journal_file.settings path) program_path in
+    let* fleet = Fleet_file.load_for ~program:program_path fleet in
+    let* findings = Time_check.check p fleet path in
+    List.iter print_endline findings;
+    Ok (if findings = [] then Exit_status.Done else Failed)
+
+let check program_path set path fleet most timed =
+  let times (status : Exit_status.t) =
+    match status with Done when timed -> check_times program_path set path fleet | status -> Ok status in
   Report.result
-    (let* world = world_of fleet in
-     Journal_file.with_reader path (fun reader ->
+    (let* world = if timed then Ok Dolphin_semantics.World.empty else world_of fleet in
+     Fun.flip Result.bind times @@ Journal_file.with_reader path (fun reader ->
          let* p = Program_file.load_recorded ~set ~recorded:(Journal_file.settings_of reader) program_path in
          let hash = (Program_file.header p).hash in
          let header, verdict = Verdict.check ~world ~most p.program ~hash reader in
@@ -44,7 +56,7 @@ let check program_path set path fleet most =
 
 let check_exits =
   [ Cmd.Exit.info 0 ~doc:"the journal is one of a run of the program, or of the beginning of one.";
-    Cmd.Exit.info 1 ~doc:"it is not.";
+    Cmd.Exit.info 1 ~doc:"it is not; with $(b,--timed), also that something took longer or shorter than it may.";
     Cmd.Exit.info 3 ~doc:"a partial trace leaves more possibilities open than $(b,--max-states) allows to visit." ]
   @ Options.exits [ Bad_input; Bug ]
 
@@ -57,6 +69,13 @@ let known =
 let most =
   let doc = "For a partial trace: visit at most $(docv) configurations between two lines." in
   Arg.(value & opt int Verdict.most & info [ "max-states" ] ~docv:"N" ~doc)
+
+let timed =
+  let doc =
+    "Also tell which tasks and timers of the run took longer or shorter than they may, by a second or more, with the \
+     fleet $(b,--fleet), by default the file beside $(i,PROG): the bounds are those of $(mname) $(b,time)."
+  in
+  Arg.(value & flag & info [ "timed" ] ~doc)
 
 let check_command =
   let man =
@@ -72,7 +91,7 @@ let check_command =
     @ Options.see_also
   in
   let info = Cmd.info "check" ~doc:"tell whether a journal is one of a run of a program" ~man ~exits:check_exits in
-  Cmd.v info Term.(const check $ Options.program $ Options.set $ journal 1 $ known $ most)
+  Cmd.v info Term.(const check $ Options.program $ Options.set $ journal 1 $ known $ most $ timed)
 
 (* {1 Show} *)
 

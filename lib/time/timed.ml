@@ -214,6 +214,8 @@ let step o s (choice : Environment.choice) =
     next =
       { configuration = t.next; outside = choice.outside; pending; elsewhere; patience = patience_after o s t } }
 
+let taken o s ~on transition = step o s { transition; outside = s.outside; on }
+
 (* What never happens is no step, and what may happen at once bounds nothing. *)
 let is_possible step = match step.due with Some (_, Never) -> false | Some (_, (Within _ | Some_time)) | None -> true
 

@@ -56,6 +56,10 @@ val steps : options -> state -> step list
     matters where its vehicle is: docs/time.md says why that is enough.
     @raise Environment.Unclear *)
 
+val taken : options -> state -> on:Transition.event option -> Transition.t -> step
+(** [taken o s ~on t] is the transition [t] of [s] as a step, whether or not it is among {!steps}; what the outside
+    remembers stays as it is. *)
+
 val holds_up : step list -> (item * int) list
 (** [holds_up steps] is until when time may pass in a state with [steps], none of which is urgent: not longer than so
     many milliseconds after each [item] began. *)

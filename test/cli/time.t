@@ -101,6 +101,22 @@ With failures, for programs.
   {'task': 'visit', 'vehicle': 'b', 'at': 'relay.dol:4:39', 'starts': {'earliest': 240, 'latest': 420}, 'ends': {'earliest': 300, 'latest': 540}, 'fails': {'earliest': 240, 'latest': 540}, 'stopped': {'earliest': 240, 'latest': 510}}
   [0, 0, 0, 0, 0, 0, 420, 420, 420, 420, 420, 510, 540, 540] [{'what': 'relay.dol:3:10: survey on a', 'seconds': 420}, {'what': 'relay.dol:4:39: visit on b', 'seconds': 120}]
 
+A run whose tasks took as long as they may, and the same with a fleet that says otherwise.
+
+  $ dolphin exec relay.dol --journal relay.run --seed 3 > /dev/null
+  $ dolphin trace check relay.dol relay.run --timed
+  relay.run: a run, of 14 transitions in 8:49; completed
+  $ sed "s/plan 'survey'.*/plan 'survey', { duration 1.min, 2.min }/; s/90.seconds/5.min/" relay.fleet > other.fleet
+  $ dolphin trace check relay.dol relay.run --timed --fleet other.fleet
+  relay.run: a run, of 14 transitions in 8:49; completed
+  6:59.112: relay.dol:3:10: survey on a was not over before 6:59.112, and takes 2:00 at most
+  8:29.112: relay.dol:3:59: home on a was over after 1:30, and takes 5:00 at least
+  [1]
+  $ dolphin trace check relay.dol - --timed < relay.run
+  -: a run, of 14 transitions in 8:49; completed
+  dolphin: --timed reads the journal twice, so it must be a file
+  [2]
+
 A plan of which the fleet does not say how long it takes.
 
   $ sed -i "s/plan 'visit'.*/plan 'visit'/" relay.fleet

@@ -6,5 +6,8 @@ val print : ?deadline:int -> Program_file.t -> Timing.outcome -> unit
 (** For people: when runs are over and when tasks start and end, the run that ends last or breaks the [deadline], in
     columns with times, what its end depends on, and what nobody knows. *)
 
+val item : Program_file.t -> Dolphin_time.Timed.pending -> string
+(** What is awaited: ["mission.dol:3:10: survey on noptilus-1"]. *)
+
 val to_json : ?deadline:int -> Program_file.t -> Timing.outcome -> Yojson.Safe.t
 (** The same for programs; times in seconds. *)

@@ -1,0 +1,36 @@
+open Dolphin_time
+module Replay = Dolphin_trace.Replay
+module Scenario_world = Dolphin_environment.Scenario_world
+
+let text p (f : Recorded.finding) =
+  let time = Fmt.to_to_string Bounds.pp_time in
+  let least, most =
+    match f.pending.bounds with Within { least; most } -> (least, most) | Some_time | Never -> (0, 0) in
+  let what = Time_report.item p f.pending in
+  if f.too_early then
+    Printf.sprintf "%s: %s was over after %s, and takes %s at least" (time f.seen) what (time (f.seen - f.began))
+      (time least)
+  else
+    Printf.sprintf "%s: %s was not over before %s, and takes %s at most" (time f.seen) what (time (f.seen - f.began))
+      (time most)
+
+let check (p : Program_file.t) (fleet : Fleet_file.t) path =
+  let options : Timed.options =
+    { environment = Scenario_world.environment ~answers:[] ~faults:Dolphin_environment.Faults.none fleet.scenario;
+      program = p.program; world = Scenario_world.still fleet.scenario;
+      durations = Durations.of_scenario fleet.scenario }
+  in
+  let replay = ref (Replay.start ~hash:(Program_file.header p).hash p.program) in
+  let recorded = ref (Recorded.start options) and findings = ref [] in
+  let take time (on, t) =
+    let date = Option.value (Bounds.milliseconds time) ~default:0 in
+    let next, found = Recorded.transition !recorded ~date ~on t in
+    recorded := next;
+    findings := List.rev_append (List.map (text p) found) !findings
+  in
+  let line entry =
+    match Replay.feed !replay entry with
+    | Ok next -> replay := next; Option.iter (take (Dolphin_trace.Entry.time entry)) (Replay.latest next)
+    | Error _ -> ()  (* told by who has checked that it is a run *)
+  in
+  Result.map (fun () -> List.rev !findings) (Journal_file.iter line path)

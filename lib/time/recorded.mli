@@ -1,0 +1,25 @@
+(** A run with dates, as a journal has it, compared with the bounds on its tasks and timers. That it is a run at all is
+    for others to say. *)
+
+open Dolphin_semantics
+
+type t
+
+(** Something that ended before it could, or went on for longer than it may. *)
+type finding = {
+  pending : Timed.pending;
+  began : int;  (** milliseconds since the start *)
+  seen : int;  (** when it ended, or when it should have *)
+  too_early : bool;
+}
+
+val tolerance : int
+(** 1,000: so many milliseconds are nothing, for links and clocks are not exact. *)
+
+val start : Timed.options -> t
+(** [start o] is before the first transition. *)
+
+val transition : t -> date:int -> on:Transition.event option -> Transition.t -> t * finding list
+(** [transition r ~date ~on t] is [r] after [t], on the event [on], [date] milliseconds after the start; and what is
+    wrong with it, each thing once. Tasks must end within their bounds, and fail by their end; if the link was lost, by
+    any time. Timers expire when they are due. *)

@@ -1,0 +1,86 @@
+// The console's interface: docs/api.md.
+
+export type Json = any;
+
+export interface Question { number: number; prompt: string; refused: string | null }
+export interface Diagnostic {
+  from: number; to: number; line: number; column: number; severity: "error" | "warning";
+  message: string; code: string; hint?: string;
+}
+export interface RunStatus {
+  id: string; state: "running" | "stopping" | "over"; speed: number | null; simulated: boolean; inputs: string[];
+  question: Question | null; outcome: { how: string; text: string; diagnostics: Diagnostic[] } | null;
+  program: string | null; journal: string;
+}
+export interface Status {
+  instance: string; folder: string; simulated: boolean; version: string; run: RunStatus | null;
+  exploration: { state: string; progress: string } | null;
+  helm: { holder: string | null; asking: string[] }; watching: number;
+}
+export interface LogLine { time: number; severity: string; about: string[]; text: string }
+export interface Waiting { time: number; for: { what: string; at?: string; lacking?: string }[] }
+
+// A page keeps its name when it is loaded again, and so its helm.
+export const client: string = sessionStorage.getItem("client") ?? "page-" + Math.random().toString(36).slice(2, 10);
+sessionStorage.setItem("client", client);
+
+export class Refusal extends Error {
+  constructor(public code: string, message: string, public diagnostics: Diagnostic[]) { super(message); }
+}
+
+export async function ask(verb: string, path: string, body?: Json): Promise<Json> {
+  const reply = await fetch("/api/" + path, {
+    method: verb,
+    headers: body === undefined ? {} : { "Content-Type": "application/json", "X-Dolphin-Client": client },
+    body: body === undefined ? undefined : JSON.stringify(body),
+  });
+  const found = await reply.json();
+  if (!reply.ok) throw new Refusal(found.error.code, found.error.message, found.error.diagnostics ?? []);
+  return found;
+}
+
+export const get = (path: string) => ask("GET", path);
+export const post = (path: string, body: Json = {}) => ask("POST", path, body);
+
+export interface Listener {
+  status(s: Status): void;
+  reset(id: string): void;
+  journal(line: Json): void;
+  log(line: LogLine): void;
+  waiting(w: Waiting): void;
+  clock(time: number): void;
+  link(up: boolean): void;
+}
+
+export function listen(l: Listener) {
+  const source = new EventSource("/api/events?client=" + client);
+  const on = (name: string, f: (data: Json) => void) =>
+    source.addEventListener(name, (e) => f(JSON.parse((e as MessageEvent).data)));
+  on("status", (s) => l.status(s));
+  on("run", (r) => l.reset(r.id));
+  on("journal", (line) => l.journal(line));
+  on("log", (line) => l.log(line));
+  on("waiting", (w) => l.waiting(w));
+  on("clock", (c) => l.clock(c.time));
+  source.onopen = () => l.link(true);
+  source.onerror = () => {
+    l.link(false);
+    // A server that was started again refuses nothing, but browsers give up on some errors.
+    if (source.readyState === EventSource.CLOSED) { source.close(); setTimeout(() => listen(l), 2000); }
+  };
+}
+
+// A run that was, message by message.
+export async function replay(query: string, l: Pick<Listener, "journal" | "log" | "waiting">) {
+  const reply = await fetch("/api/replay?" + query);
+  const text = await reply.text();
+  if (!reply.ok) throw new Refusal("replay", JSON.parse(text).error.message, []);
+  for (const message of text.split("\n\n")) {
+    const event = /^event: (.*)$/m.exec(message)?.[1], data = /^data: (.*)$/m.exec(message)?.[1];
+    if (!event || !data) continue;
+    const json = JSON.parse(data);
+    if (event === "journal") l.journal(json);
+    else if (event === "log") l.log(json);
+    else if (event === "waiting") l.waiting(json);
+  }
+}

@@ -1,0 +1,169 @@
+// The editor: colours, faults as one types, completion, what a name is. All that it knows the server's language service
+// says.
+
+import { EditorState, StateEffect, StateField } from "@codemirror/state";
+import { Decoration, type DecorationSet, EditorView, hoverTooltip, keymap, lineNumbers, highlightActiveLine, drawSelection } from "@codemirror/view";
+import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
+import { StreamLanguage, HighlightStyle, syntaxHighlighting, bracketMatching, indentUnit } from "@codemirror/language";
+import { linter, lintGutter, lintKeymap } from "@codemirror/lint";
+import { autocompletion, completionKeymap, type CompletionContext } from "@codemirror/autocomplete";
+import { search, searchKeymap, highlightSelectionMatches } from "@codemirror/search";
+import { tags } from "@lezer/highlight";
+import { type Diagnostic, post } from "./api";
+
+const words = new Set(("if else while for in return break continue function include input parameter execute pick when then until run watch during " +
+  "onError onInterrupt assure within repeat allOf oneOf action condition post consume poll release idle wait pause halt message ask confirm " +
+  "assert vehicle plan answer reply imcPlan choose waitFor").split(" "));
+const constants = new Set(["true", "false", "null", "_"]);
+
+const language = StreamLanguage.define<{ block: boolean }>({
+  name: "dolphin",
+  startState: () => ({ block: false }),
+  token(s, state) {
+    if (state.block) {
+      if (s.skipTo("*/")) { s.match("*/"); state.block = false; } else s.skipToEnd();
+      return "comment";
+    }
+    if (s.eatSpace()) return null;
+    if (s.match("//")) { s.skipToEnd(); return "comment"; }
+    if (s.match("/*")) { state.block = true; return "comment"; }
+    if (s.match(/^'(?:[^'\\]|\\.)*'?/) || s.match(/^"(?:[^"\\]|\\.)*"?/)) return "string";
+    if (s.match(/^\d+(\.\d+)?/)) return "number";
+    if (s.match(/^[A-Za-z_]\w*/)) {
+      const word = s.current();
+      return words.has(word) ? "keyword" : constants.has(word) ? "atom" : /^[A-Z]/.test(word) ? "typeName" : "variableName";
+    }
+    s.next();
+    return "operator";
+  },
+  languageData: { commentTokens: { line: "//", block: { open: "/*", close: "*/" } }, closeBrackets: { brackets: ["(", "[", "{", "'", '"'] } },
+});
+
+const colours = HighlightStyle.define([
+  { tag: tags.keyword, color: "var(--code-keyword)", fontWeight: "600" },
+  { tag: tags.string, color: "var(--code-string)" },
+  { tag: tags.comment, color: "var(--code-comment)", fontStyle: "italic" },
+  { tag: tags.number, color: "var(--code-number)" },
+  { tag: tags.atom, color: "var(--code-number)" },
+  { tag: tags.typeName, color: "var(--code-type)" },
+]);
+
+const look = EditorView.theme({
+  "&": { height: "100%", fontSize: "13px", color: "var(--text)", backgroundColor: "var(--panel)" },
+  ".cm-scroller": { fontFamily: "ui-monospace, 'DejaVu Sans Mono', monospace" },
+  ".cm-gutters": { backgroundColor: "var(--panel)", color: "var(--faint)", border: "none" },
+  ".cm-activeLine": { backgroundColor: "var(--hover)" },
+  ".cm-content": { caretColor: "var(--text)" },
+  ".cm-cursor": { borderLeftColor: "var(--text)" },
+  "&.cm-focused .cm-selectionBackground, .cm-selectionBackground": { backgroundColor: "var(--select) !important" },
+  ".cm-tooltip": { backgroundColor: "var(--panel)", color: "var(--text)", border: "1px solid var(--line)", maxWidth: "32rem" },
+  ".cm-tooltip .hover": { padding: "4px 8px", whiteSpace: "pre-wrap" },
+  ".cm-here": { backgroundColor: "var(--here)" },
+  ".cm-panels": { backgroundColor: "var(--panel)", color: "var(--text)" },
+  ".cm-tooltip-autocomplete ul li[aria-selected]": { backgroundColor: "var(--accent)", color: "#fff" },
+});
+
+// The line that the program stands at.
+const setHere = StateEffect.define<number | null>();
+const here = StateField.define<DecorationSet>({
+  create: () => Decoration.none,
+  update(shown, tr) {
+    shown = shown.map(tr.changes);
+    for (const e of tr.effects) if (e.is(setHere)) {
+      const n = e.value;
+      shown = n === null || n < 1 || n > tr.state.doc.lines ? Decoration.none
+        : Decoration.set([Decoration.line({ class: "cm-here" }).range(tr.state.doc.line(n).from)]);
+    }
+    return shown;
+  },
+  provide: (f) => EditorView.decorations.from(f),
+});
+
+export class Editor {
+  view: EditorView;
+  path = "";
+  private shownLine: number | null = null;
+
+  constructor(el: HTMLElement, private events: { changed: () => void; checked: (found: Diagnostic[]) => void; save: () => void }) {
+    const root = el.attachShadow({ mode: "open" });
+    const place = document.createElement("div");
+    const fill = new CSSStyleSheet();
+    fill.replaceSync(":host, div.place { height: 100%; display: block; }");
+    root.adoptedStyleSheets = [fill];
+    place.className = "place";
+    root.append(place);
+    this.view = new EditorView({ parent: place, root, state: this.state("") });
+  }
+
+  private state(text: string) {
+    return EditorState.create({ doc: text, extensions: [
+      lineNumbers(), history(), drawSelection(), highlightActiveLine(), bracketMatching(), highlightSelectionMatches(), search({ top: true }),
+      indentUnit.of("    "), language, syntaxHighlighting(colours), look, here, lintGutter(),
+      EditorView.contentAttributes.of({ "aria-label": "source of the program" }),
+      linter((view) => this.check(view), { delay: 300 }),
+      autocompletion({ override: [(c) => this.complete(c)] }),
+      hoverTooltip((view, at) => this.hover(view, at)),
+      keymap.of([{ key: "Mod-s", preventDefault: true, run: () => { this.events.save(); return true; } },
+        { key: "F12", run: (view) => { void this.define(view); return true; } },
+        ...completionKeymap, ...searchKeymap, ...lintKeymap, ...historyKeymap, ...defaultKeymap, indentWithTab]),
+      EditorView.updateListener.of((u) => { if (u.docChanged) this.events.changed(); }),
+    ] });
+  }
+
+  get text() { return this.view.state.doc.toString(); }
+
+  open(path: string, text: string) {
+    this.path = path;
+    this.shownLine = null;
+    this.view.setState(this.state(text));
+  }
+
+  replace(text: string) {
+    this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text } });
+  }
+
+  show(line: number | null, scroll: boolean) {
+    if (line === this.shownLine) return;
+    this.shownLine = line;
+    const effects: StateEffect<any>[] = [setHere.of(line)];
+    if (scroll && line !== null && line <= this.view.state.doc.lines)
+      effects.push(EditorView.scrollIntoView(this.view.state.doc.line(line).from, { y: "center" }));
+    this.view.dispatch({ effects });
+  }
+
+  private async check(view: EditorView) {
+    if (!this.path) return [];
+    let found: Diagnostic[];
+    try { found = (await post("check", { path: this.path, text: view.state.doc.toString() })).diagnostics; }
+    catch { return []; }  // without a server nobody knows
+    this.events.checked(found);
+    const end = view.state.doc.length;
+    return found.map((d) => ({ from: Math.min(d.from, end), to: Math.min(Math.max(d.to, d.from), end), severity: d.severity,
+      message: d.message + (d.hint ? `\n${d.hint}` : "") }));
+  }
+
+  private async complete(c: CompletionContext) {
+    if (!c.explicit && !c.matchBefore(/[\w.'"]$/)) return null;
+    const found = await post("complete", { path: this.path, text: c.state.doc.toString(), at: c.pos }).catch(() => null);
+    if (!found) return null;
+    return { from: found.from, to: c.pos, validFor: /^\w*$/,
+      options: found.items.map((i: any) => ({ label: i.label, type: i.kind, detail: i.form === i.label ? "" : i.form, info: i.text })) };
+  }
+
+  private async hover(view: EditorView, at: number) {
+    const found = await post("hover", { path: this.path, text: view.state.doc.toString(), at }).catch(() => null);
+    if (!found) return null;
+    return { pos: found.from, end: found.to, create: () => {
+      const dom = document.createElement("div");
+      dom.className = "hover";
+      dom.textContent = found.text.replace(/```\w*\n?/g, "").trim();
+      return { dom };
+    } };
+  }
+
+  private async define(view: EditorView) {
+    const found = await post("definition", { path: this.path, text: this.text, at: view.state.selection.main.head }).catch(() => null);
+    if (found && this.path.endsWith(found.file))
+      view.dispatch({ selection: { anchor: found.from, head: found.to }, scrollIntoView: true });
+  }
+}

@@ -1,0 +1,529 @@
+// The page: what the server tells is shown, and what a person wants is sent.
+
+import { type Diagnostic, type Json, type LogLine, type Status, Refusal, ask, client, get, listen, post, replay } from "./api";
+import { $, h } from "./dom";
+import { Editor } from "./editor";
+import { ChartMap, colour } from "./map";
+import { type Message, Run, clock, trouble } from "./model";
+import { timeline } from "./timeline";
+
+// A run that was, or one that explore found: gone through by steps.
+interface Past { title: string; messages: Message[]; index: number; steps: boolean }
+
+let status: Status | null = null;
+let live = new Run();
+let past: Past | null = null;
+let shown = live;
+let hash: string | null = null;
+let dirty = false;
+let linked = false;
+let dismissed = 0;
+const title = document.title;
+
+const map = new ChartMap($("map"), (id) => { $<HTMLSelectElement>("about").value = id; renderLog(true); });
+const editor = new Editor($("editor"), { changed: () => setDirty(true), checked: showFaults, save });
+
+// What cannot be done is said, and goes by itself.
+let notice = 0;
+function tell(text: string, bad = true) {
+  const banner = $("banner");
+  banner.textContent = text;
+  banner.className = bad ? "trouble" : "";
+  banner.hidden = false;
+  clearTimeout(notice);
+  notice = window.setTimeout(() => renderBanner(), 6000);
+}
+
+function attempt(f: () => Promise<unknown>) {
+  return () => void f().catch((e) => {
+    tell(e.message);
+    if (e instanceof Refusal && e.diagnostics.length) showFaults(e.diagnostics);
+  });
+}
+
+// {1 The program}
+
+const program = () => $<HTMLSelectElement>("program").value;
+
+async function loadFiles() {
+  const files = await get("files");
+  const option = (path: string) => h("option", { value: path }, path);
+  const before = program() || location.hash.slice(1);
+  $("program").replaceChildren(...files.programs.map(option));
+  $("fleet").replaceChildren(h("option", { value: "" }, "the one beside it"), ...files.fleets.map(option));
+  if (files.programs.includes(before)) $<HTMLSelectElement>("program").value = before;
+  if (program()) await openProgram();
+  else tell("There is no program in this folder.");
+}
+
+async function openProgram() {
+  const path = program();
+  location.hash = path;
+  const file = await get("file?path=" + encodeURIComponent(path));
+  hash = file.hash;
+  editor.open(path, file.text);
+  setDirty(false);
+  await loadWorld();
+}
+
+let parameters: { name: string; as: string; description?: string }[] = [];
+const settings = new Map<string, string>();
+
+async function loadWorld() {
+  const fleet = $<HTMLSelectElement>("fleet").value;
+  try {
+    const world = await get(`world?program=${encodeURIComponent(program())}` + (fleet ? `&fleet=${encodeURIComponent(fleet)}` : ""));
+    map.setPlaces(world.plans.filter((p: Json) => p.latitude !== undefined));
+    parameters = world.parameters ?? [];
+    settings.clear();
+    // Before anything runs, the fleet stands where it will.
+    if (!past && live.transitions === 0) {
+      live = shown = new Run();
+      map.reset();
+      for (const v of world.vehicles) live.add({ kind: "journal", line: { kind: "vehicle", time: 0, connected: true, ...v } });
+    }
+  } catch { parameters = []; map.setPlaces([]); }
+  renderNow();
+  changed();
+}
+
+function setDirty(value: boolean) {
+  dirty = value;
+  $<HTMLButtonElement>("save").disabled = !value;
+  $("editor-title").textContent = "Program" + (value ? " (not saved)" : "");
+}
+
+async function save() {
+  if (!dirty) return;
+  try {
+    hash = (await ask("PUT", "file", { path: editor.path, text: editor.text, hash })).hash;
+  } catch (e) {
+    if (!(e instanceof Refusal && e.code === "changed")) { tell((e as Error).message); return; }
+    if (!confirm("The file has changed on the disk since it was read. Write over it?")) return;
+    hash = (await get("file?path=" + encodeURIComponent(editor.path))).hash;
+    hash = (await ask("PUT", "file", { path: editor.path, text: editor.text, hash })).hash;
+  }
+  setDirty(false);
+  await loadWorld();
+}
+
+function showFaults(found: Diagnostic[]) {
+  const errors = found.filter((d) => d.severity === "error").length, warnings = found.length - errors;
+  const count = (n: number, what: string) => (n ? `${n} ${what}${n > 1 ? "s" : ""}` : "");
+  const text = [count(errors, "error"), count(warnings, "warning")].filter(Boolean).join(", ") || "no errors";
+  $("faults").replaceChildren(h("span", { class: errors ? "trouble" : "" }, text),
+    found.length ? h("span", { class: "first" }, ` line ${found[0].line}: ${found[0].message}`) : "");
+}
+
+// {1 Runs and explorations}
+
+async function startRun() {
+  await save();
+  const speed = $<HTMLSelectElement>("speed").value, fleet = $<HTMLSelectElement>("fleet").value;
+  leavePast();
+  await post("run", { program: program(), fleet: fleet || null, people: $<HTMLInputElement>("people").checked,
+    speed: status?.simulated && speed ? Number(speed) : null, set: Object.fromEntries(settings) });
+}
+
+async function explore() {
+  await save();
+  showTab("verdicts");
+  const fleet = $<HTMLSelectElement>("fleet").value;
+  await post("exploration", { program: program(), fleet: fleet || null, set: Object.fromEntries(settings) });
+}
+
+let explored: Json = null;
+
+function renderVerdicts() {
+  const el = $("verdicts"), e = status?.exploration;
+  if (!e) return el.replaceChildren(h("p", { class: "empty" }, "Explore looks at every run that the program can have in its fleet's world."));
+  if (e.state === "running")
+    return el.replaceChildren(h("p", {}, e.progress || "exploring"), h("progress", {}),
+      h("button", { click: attempt(() => ask("DELETE", "exploration", {})) }, "Cancel"));
+  if (!explored || explored.state !== e.state) return el.replaceChildren(h("p", { class: "empty" }, e.state));
+  if (explored.state === "failed") return el.replaceChildren(h("pre", { class: "trouble" }, explored.error));
+  if (explored.state === "cancelled") return el.replaceChildren(h("p", { class: "empty" }, "cancelled"));
+  const r = explored.result, cx = explored.counterexample;
+  const line = (v: Json) => h("li", { class: v.verdict.replace(/ .*/, "") }, h("b", {}, mark(v.verdict)), ` ${v.property}: ${v.verdict}`,
+    cx && cx.property === v.property ? h("button", { click: () => showCounterexample(cx) }, "Step through it") : null);
+  const named = cx && r.verdicts.some((v: Json) => v.property === cx.property);
+  el.replaceChildren(h("ul", { class: "verdicts" }, ...r.verdicts.map(line)),
+    cx && !named ? h("button", { click: () => showCounterexample(cx) }, `Step through: ${cx.property || "a run"}`) : "",
+    h("p", { class: "hint" }, `${r.states} states, ${r.transitions} transitions, ${r.seconds.toFixed(2)} s`));
+}
+
+const mark = (verdict: string) => (verdict === "holds" ? "✓" : verdict === "violated" ? "✗" : "–");
+
+function showCounterexample(cx: Json) {
+  const messages: Message[] = [];
+  for (const v of live.vehicles.values()) {
+    const s = v.samples[0];
+    if (s) messages.push({ kind: "journal", line: { kind: "vehicle", vehicle: v.id, type: v.kind, payload: v.payload,
+      time: 0, latitude: s.latitude, longitude: s.longitude, battery: s.battery, connected: true } });
+  }
+  for (const step of cx.steps) {
+    messages.push({ kind: "journal", line: step });
+    messages.push({ kind: "log", line: { time: step.i, severity: "ordinary", about: Object.keys(step.A ?? {}),
+      text: `${String(step.i + 1).padStart(5)}  ${step.words || step.label}` } });
+  }
+  openPast({ title: `Counterexample: ${cx.property}`, messages, index: messages.length, steps: true });
+}
+
+async function openReplay(name: string, what: string) {
+  const messages: Message[] = [];
+  await replay("run=" + encodeURIComponent(name), {
+    journal: (line) => messages.push({ kind: "journal", line }),
+    log: (line) => messages.push({ kind: "log", line }),
+    waiting: (waiting) => messages.push({ kind: "waiting", waiting }),
+  });
+  openPast({ title: `${what} of ${name.slice(0, 10)} ${name.slice(11, 13)}:${name.slice(13, 15)} UTC`, messages, index: messages.length, steps: false });
+}
+
+async function renderRuns() {
+  const runs = (await get("runs")).runs;
+  const row = (r: Json) => h("tr", {}, h("td", {}, r.program), h("td", {}, r.started.replace("T", " ").slice(0, 16)),
+    h("td", { class: "number" }, clock(r.time)), h("td", { class: r.state === "completed" ? "" : "trouble" }, r.state),
+    h("td", {}, h("button", { click: attempt(() => openReplay(r.run, r.program)) }, "Replay"),
+      r.state === "broken off" ? h("button", { class: "main", click: attempt(() => resume(r)) }, "Resume") : null));
+  $("runs").replaceChildren(runs.length
+    ? h("table", {}, h("thead", {}, h("tr", {}, ...["program", "started (UTC)", "time", "end", ""].map((t) => h("th", { scope: "col" }, t)))),
+        h("tbody", {}, ...runs.map(row)))
+    : h("p", { class: "empty" }, "No run of a program of this folder was kept yet."));
+  return runs;
+}
+
+async function resume(r: Json) {
+  leavePast();
+  await post("run/resume", { run: r.run, people: $<HTMLInputElement>("people").checked });
+}
+
+// A server that died in a run says so to whoever comes.
+async function offerToResume() {
+  if (status?.run?.state === "running" || status?.run?.state === "stopping") return;
+  const broken = (await renderRuns()).find((r: Json) => r.state === "broken off");
+  if (broken) { showTab("runs"); tell(`The console died in a run of ${broken.program}: it can be resumed.`); }
+}
+
+// {1 What was}
+
+function openPast(p: Past) {
+  past = p;
+  map.reset();
+  const slider = $<HTMLInputElement>("slider");
+  slider.max = String(p.messages.length);
+  seek(p.index);
+  $("slider-row").hidden = false;
+  renderBanner();
+}
+
+function leavePast() {
+  if (!past) return;
+  past = null;
+  shown = live;
+  map.reset();
+  $("slider-row").hidden = true;
+  renderBanner();
+  renderLog(true);
+  changed();
+}
+
+function seek(index: number) {
+  if (!past) return;
+  past.index = Math.max(0, Math.min(index, past.messages.length));
+  shown = new Run();
+  for (let i = 0; i < past.index; i++) shown.add(past.messages[i]);
+  $<HTMLInputElement>("slider").value = String(past.index);
+  $("step").textContent = past.steps ? `step ${shown.transitions}: ${shown.label}` : clock(shown.time);
+  editor.show(shown.at ? Number(shown.at.split(":")[0]) : null, true);
+  renderLog(true);
+  changed();
+}
+
+// To the next transition, or the one before.
+function step(by: number) {
+  if (!past) return;
+  const isStep = (m: Message) => m.kind === "journal" && m.line.kind === "transition";
+  let i = past.index;
+  if (by > 0) {
+    while (i < past.messages.length && !isStep(past.messages[i])) i++;
+    i++;
+    while (i < past.messages.length && past.messages[i].kind !== "journal") i++;
+  } else {
+    i--;
+    while (i > 0 && !isStep(past.messages[i])) i--;
+  }
+  seek(i);
+}
+
+// {1 The question}
+
+let asked: { number: number; run: string } | null = null;
+
+function renderQuestion() {
+  const q = status?.run?.question, dialog = $<HTMLDialogElement>("question");
+  document.title = q ? "● " + q.prompt : title;
+  if (!q || !status?.run) { asked = null; if (dialog.open) dialog.close(); return; }
+  if (dismissed === q.number && asked?.run === status.run.id) return;
+  if (asked?.number === q.number && asked.run === status.run.id && dialog.open) return;
+  asked = { number: q.number, run: status.run.id };
+  $("prompt").textContent = q.prompt;
+  $("refused").textContent = q.refused ?? "";
+  $<HTMLInputElement>("answer").value = "";
+  if (!dialog.open) dialog.showModal();
+  $<HTMLInputElement>("answer").focus();
+  if (document.hidden) beep();
+}
+
+function beep() {
+  try {
+    const audio = new AudioContext(), tone = audio.createOscillator(), gain = audio.createGain();
+    gain.gain.value = 0.05;
+    tone.connect(gain).connect(audio.destination);
+    tone.start();
+    tone.stop(audio.currentTime + 0.25);
+  } catch { /* a browser that nobody has touched yet is silent */ }
+}
+
+async function giveAnswer() {
+  const text = $<HTMLInputElement>("answer").value.trim();
+  if (asked && text) await post("run/answer", { question: asked.number, text });
+}
+
+// {1 What is shown}
+
+function list(name: string, items: (Node | string)[], empty: string) {
+  return h("div", { class: "fact" }, h("h3", {}, name), items.length ? h("ul", {}, ...items.map((i) => h("li", {}, i))) : h("p", { class: "empty" }, empty));
+}
+
+function goTo(at: string | undefined) { if (at) editor.show(Number(at.split(":")[0]), true); }
+
+let nowKey = "";
+function renderNow() {
+  const run = status?.run, going = !past && run !== null && run !== undefined && run.state !== "over";
+  const key = JSON.stringify([shown.waiting, shown.tuples, [...shown.allocation], [...shown.bound], run?.inputs, going, run?.question?.number,
+    run?.outcome?.text, parameters, past !== null, shown.ending, run?.id]);
+  if (key === nowKey) return;
+  nowKey = key;
+  const parts: Node[] = [];
+  if (!past && run?.state === "over" && run.outcome)
+    parts.push(h("p", { class: "outcome " + run.outcome.how }, `${run.program ?? "the run"}: ${run.outcome.text}`,
+      h("button", { click: attempt(() => openReplay(run.journal, run.program ?? "run")) }, "Replay")));
+  if (!past && run?.outcome?.diagnostics.length)
+    parts.push(...run.outcome.diagnostics.map((d) => h("button", { class: "link trouble", click: () => goTo(`${d.line}:${d.column}`) }, `line ${d.line}: ${d.message}`)));
+  if (going && run.question) parts.push(h("p", { class: "outcome asks" }, run.question.prompt,
+    h("button", { class: "main", click: () => { dismissed = 0; asked = null; renderQuestion(); } }, "Answer")));
+  if (going && run.inputs.length) parts.push(inputs(run.inputs));
+  if (!going && !past && parameters.length) parts.push(fields());
+  parts.push(list("Waits for", shown.waiting.map((w) => h("button", { class: "link", click: () => goTo(w.at) }, w.what,
+    w.lacking ? h("small", {}, ` ${w.lacking}`) : null, w.at ? h("small", {}, ` line ${w.at.split(":")[0]}`) : null)), going ? "nothing but its vehicles" : "nothing"));
+  parts.push(list("Tuple space N", shown.tuples, "empty"));
+  parts.push(list("Allocated A", [...shown.allocation].map(([v, p]) => `${v}: ${p}`), "none"));
+  parts.push(list("Bound B", shown.bound.size ? [[...shown.bound].join(", ")] : [], "none"));
+  const focused = document.activeElement?.id;
+  $("now").replaceChildren(...parts);
+  if (focused?.startsWith("input-") || focused?.startsWith("parameter-")) document.getElementById(focused)?.focus();
+}
+
+function inputs(keys: string[]) {
+  const send = (key: string) => attempt(async () => {
+    const field = $<HTMLInputElement>("input-" + key);
+    await post("run/post", { pairs: field.value.trim() ? `${key}: ${field.value}` : key });
+    field.value = "";
+  });
+  return h("div", { class: "fact" }, h("h3", {}, "Inputs"), ...keys.map((key) => h("form", { class: "input",
+    submit: (e: Event) => { e.preventDefault(); send(key)(); } },
+    h("label", { for: "input-" + key }, key), h("input", { id: "input-" + key, placeholder: "true", autocomplete: "off" }), h("button", {}, "Post"))));
+}
+
+function fields() {
+  return h("div", { class: "fact" }, h("h3", {}, "Parameters"), ...parameters.map((p) => {
+    const value = p.as.replace(/^[^=]*= /, "");
+    return h("div", { class: "input" }, h("label", { for: "parameter-" + p.name, title: p.description ?? "" }, p.name),
+      h("input", { id: "parameter-" + p.name, placeholder: value, autocomplete: "off",
+        input: (e: Event) => { const t = (e.target as HTMLInputElement).value.trim(); if (t) settings.set(p.name, t); else settings.delete(p.name); } }));
+  }));
+}
+
+function renderVehicles() {
+  const all = [...shown.vehicles.values()];
+  const index = new Map(all.map((v, i) => [v.id, i]));
+  const rows = all.map((v) => ({ v, t: trouble(shown, v) })).sort((a, b) => b.t.rank - a.t.rank || index.get(a.v.id)! - index.get(b.v.id)!);
+  const cells = ({ v, t }: (typeof rows)[0]) => {
+    const s = v.samples[v.samples.length - 1], task = v.tasks[v.tasks.length - 1];
+    const runs = task && task.until === null;
+    return h("tr", { class: t.rank > 0 ? "bad" : t.rank < 0 ? "idle" : "" },
+      h("td", {}, h("button", { class: "link", click: () => map.focus(v.id) }, dot(index.get(v.id)!), v.id)), h("td", {}, v.kind),
+      h("td", {}, t.rank > 0 ? t.text : runs ? task.plan : shown.bound.has(v.id) ? "–" : "not bound"),
+      h("td", { class: "number" }, runs ? (past?.steps ? "" : clock(shown.time - task.from)) : ""),
+      h("td", { class: "number" }, typeof s?.battery === "number" ? Math.round(s.battery * 100) + " %" : ""),
+      h("td", { class: "number" }, s ? `${s.latitude.toFixed(5)}, ${s.longitude.toFixed(5)}` : ""));
+  };
+  $("vehicles").replaceChildren(all.length
+    ? h("table", {}, h("thead", {}, h("tr", {}, ...["vehicle", "type", "task", "for", "battery", "position"].map((t) => h("th", { scope: "col" }, t)))),
+        h("tbody", {}, ...rows.map(cells)))
+    : h("p", { class: "empty" }, "No vehicle was heard of yet."));
+}
+
+function dot(i: number) {
+  const el = h("span", { class: "dot" });
+  el.style.background = colour(i);
+  return el;
+}
+
+// {2 The log}
+
+const ranks: Record<string, number> = { ordinary: 0, completed: 1, said: 1, trouble: 2 };
+const levels: Record<string, number> = { all: 0, said: 1, trouble: 2 };
+const mostLines = 1000;
+let logged = { run: live, count: 0 };
+
+function isWanted(line: LogLine) {
+  const about = $<HTMLSelectElement>("about").value;
+  return ranks[line.severity] >= levels[$<HTMLSelectElement>("level").value] && (!about || line.about.includes(about));
+}
+
+function renderLog(anew = false) {
+  const el = $("log");
+  if (anew || logged.run !== shown) { el.replaceChildren(); logged = { run: shown, count: 0 }; }
+  const atEnd = el.scrollTop + el.clientHeight >= el.scrollHeight - 30;
+  const added = shown.log.slice(Math.max(logged.count, shown.log.length - mostLines)).filter(isWanted);
+  logged.count = shown.log.length;
+  if (!added.length) return;
+  el.append(...added.map((l) => h("pre", { class: l.severity }, l.text)));
+  while (el.childElementCount > mostLines) el.firstElementChild!.remove();
+  if (atEnd || anew) el.scrollTop = el.scrollHeight;
+}
+
+function renderAbout() {
+  const select = $<HTMLSelectElement>("about"), ids = [...shown.vehicles.keys()];
+  if (select.options.length === ids.length + 1) return;
+  const before = select.value;
+  select.replaceChildren(h("option", { value: "" }, "everybody"), ...ids.map((id) => h("option", { value: id }, id)));
+  select.value = ids.includes(before) ? before : "";
+}
+
+// {2 The head}
+
+function renderBanner() {
+  const banner = $("banner");
+  banner.className = past ? "past" : "";
+  banner.hidden = !past;
+  if (past) banner.replaceChildren(past.title + " ", h("button", { click: leavePast }, "Back to now"));
+}
+
+function renderHead() {
+  const run = status?.run, going = run?.state === "running" || run?.state === "stopping";
+  $<HTMLButtonElement>("run").disabled = going || !linked || !program();
+  $<HTMLButtonElement>("stop").disabled = !going || run?.state === "stopping";
+  $("stop").textContent = run?.state === "stopping" ? "Stopping" : "Stop";
+  $<HTMLButtonElement>("explore").disabled = !linked || status?.exploration?.state === "running" || !program();
+  $<HTMLSelectElement>("speed").disabled = status !== null && !status.simulated;
+  $("link").textContent = !linked ? "no server" : going ? `${run.program ?? "a program"} ${clock(live.time)}` : "";
+  $("link").className = linked ? "" : "trouble";
+  const helm = status?.helm;
+  const mine = helm?.holder === client, asking = helm?.asking.includes(client);
+  $("helm").replaceChildren(
+    !helm || helm.holder === null ? "" : mine ? "you have the helm" : "another page has the helm",
+    helm?.holder && !mine && !asking ? h("button", { click: attempt(() => post("helm", { want: "take" })) }, "Ask for it") : "",
+    asking ? " (asked for)" : "",
+    mine && helm!.asking.length ? h("button", { class: "main", click: attempt(() => post("helm", { want: "give-up" })) }, "Hand it over") : "");
+}
+
+// What happens within a tenth of a second is drawn at once.
+let due = false;
+function changed() {
+  if (due) return;
+  due = true;
+  setTimeout(() => requestAnimationFrame(() => {
+    due = false;
+    map.render(shown);
+    renderVehicles();
+    renderNow();
+    renderAbout();
+    renderLog();
+    renderHead();
+    timeline($("timeline"), shown, past?.steps ?? false, goTo);
+  }), 100);
+}
+
+function showTab(name: string) {
+  for (const other of ["source", "verdicts", "runs"]) {
+    $(other).hidden = other !== name;
+    $("tab-" + other).setAttribute("aria-selected", String(other === name));
+  }
+  if (name === "runs") attempt(renderRuns)();
+}
+
+// {1 Beginning}
+
+let first = true;
+listen({
+  status(s) {
+    const ended = status?.run?.id === s.run?.id && status?.run?.state !== "over" && s.run?.state === "over";
+    const other = status !== null && status.instance !== s.instance;
+    const explorationOver = s.exploration && s.exploration.state !== "running" && status?.exploration?.state !== s.exploration.state;
+    status = s;
+    linked = true;
+    renderHead();
+    renderQuestion();
+    renderNow();
+    renderVerdicts();
+    if (explorationOver) attempt(async () => { explored = await get("exploration"); renderVerdicts(); })();
+    if (first || other) {
+      first = false;
+      attempt(async () => {
+        if (s.run?.program && !location.hash) location.hash = s.run.program;
+        await loadFiles();
+        await offerToResume();
+      })();
+    }
+    if (ended && !$("runs").hidden) attempt(renderRuns)();
+  },
+  reset() {
+    live = new Run();
+    if (!past) { shown = live; map.reset(); renderLog(true); }
+    dismissed = 0;
+    changed();
+  },
+  journal(line) { live.add({ kind: "journal", line }); if (!past) changed(); },
+  log(line) { live.add({ kind: "log", line }); if (!past) changed(); },
+  waiting(waiting) { live.add({ kind: "waiting", waiting }); if (!past) changed(); },
+  clock(time) { live.time = Math.max(live.time, time); if (!past) changed(); },
+  link(up) { linked = up; renderHead(); },
+});
+
+$("program").addEventListener("change", attempt(async () => {
+  if (dirty && !confirm("The text is not saved. Leave it?")) { $<HTMLSelectElement>("program").value = editor.path; return; }
+  if (status?.run?.state === "over" || !status?.run) { live = new Run(); if (!past) shown = live; }
+  explored = null;
+  await openProgram();
+}));
+$("fleet").addEventListener("change", attempt(loadWorld));
+$("run").addEventListener("click", attempt(startRun));
+$("stop").addEventListener("click", attempt(() => post("run/stop")));
+$("explore").addEventListener("click", attempt(explore));
+$("save").addEventListener("click", attempt(save));
+$("format").addEventListener("click", attempt(async () =>
+  editor.replace((await post("format", { path: editor.path, text: editor.text })).text)));
+$("level").addEventListener("change", () => renderLog(true));
+$("about").addEventListener("change", () => renderLog(true));
+$("copy").addEventListener("click", attempt(async () => {
+  await navigator.clipboard.writeText(shown.log.filter(isWanted).map((l) => l.text).join("\n"));
+  tell("The log was copied.", false);
+}));
+$("slider").addEventListener("input", (e) => seek(Number((e.target as HTMLInputElement).value)));
+$("back").addEventListener("click", () => step(-1));
+$("forward").addEventListener("click", () => step(1));
+$("give").addEventListener("click", (e) => { e.preventDefault(); attempt(giveAnswer)(); });
+$("later").addEventListener("click", () => { dismissed = asked?.number ?? 0; $<HTMLDialogElement>("question").close(); });
+$("question").addEventListener("cancel", () => { dismissed = asked?.number ?? 0; });
+for (const name of ["source", "verdicts", "runs"]) $("tab-" + name).addEventListener("click", () => showTab(name));
+document.querySelector(".tabs")!.addEventListener("keydown", (e) => {
+  const key = (e as KeyboardEvent).key, tabs = [...document.querySelectorAll<HTMLElement>(".tabs button")];
+  const i = tabs.indexOf(document.activeElement as HTMLElement);
+  if (key !== "ArrowRight" && key !== "ArrowLeft") return;
+  tabs[(i + (key === "ArrowRight" ? 1 : tabs.length - 1)) % tabs.length].focus();
+});
+window.addEventListener("resize", changed);
+window.addEventListener("beforeunload", (e) => { if (dirty) e.preventDefault(); });
+renderVerdicts();

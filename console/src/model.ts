@@ -1,0 +1,136 @@
+// A run as its messages tell of it: what happened is added up, nothing is decided.
+
+import type { Json, LogLine, Waiting } from "./api";
+
+export interface Task { plan: string; from: number; until: number | null; how: "runs" | "done" | "failed" | "stopped"; why?: string }
+export interface Sample { time: number; latitude: number; longitude: number; battery: number | null }
+export interface Vehicle {
+  id: string; kind: string; payload: string[]; connected: boolean; unready: string | null;
+  heard: number; samples: Sample[]; tasks: Task[]; silent: { from: number; until: number | null }[];
+}
+export interface Mark { time: number; kind: "posted" | "consumed" | "said" | "asked" | "failed" | "input"; text: string; at?: string }
+export type Message =
+  | { kind: "journal"; line: Json } | { kind: "log"; line: LogLine } | { kind: "waiting"; waiting: Waiting };
+
+const mostSamples = 2000;
+
+export class Run {
+  vehicles = new Map<string, Vehicle>();
+  allocation = new Map<string, string>();
+  bound = new Set<string>();
+  tuples: string[] = [];
+  marks: Mark[] = [];
+  log: LogLine[] = [];
+  waiting: Waiting["for"] = [];
+  time = 0;
+  at: string | null = null;
+  label = "";
+  transitions = 0;
+  ending: { how: string; message: string | null } | null = null;
+  private cause: Json = null;
+
+  vehicle(id: string): Vehicle {
+    let v = this.vehicles.get(id);
+    if (!v) {
+      v = { id, kind: "", payload: [], connected: true, unready: null, heard: 0, samples: [], tasks: [], silent: [] };
+      this.vehicles.set(id, v);
+    }
+    return v;
+  }
+
+  add(m: Message) {
+    if (m.kind === "log") this.log.push(m.line);
+    else if (m.kind === "waiting") this.waiting = m.waiting.for;
+    else this.journal(m.line);
+  }
+
+  private journal(line: Json) {
+    if (typeof line.time === "number") this.time = Math.max(this.time, line.time);
+    switch (line.kind) {
+      case "vehicle": return this.news(line);
+      case "event":
+        this.cause = line;
+        if (line.event === "input") this.mark("input", `${line.key}: ${JSON.stringify(line.value)}`);
+        return;
+      case "transition": return this.transition(line);
+      case "end": this.ending = { how: line.how ?? line.ending ?? "", message: line.message ?? null }; this.waiting = []; return;
+    }
+  }
+
+  private mark(kind: Mark["kind"], text: string, at?: string) { this.marks.push({ time: this.time, kind, text, at }); }
+
+  private news(line: Json) {
+    const v = this.vehicle(line.vehicle);
+    v.kind = line.type; v.payload = line.payload; v.unready = line.unready ?? null;
+    if (line.connected) {
+      v.heard = line.time;
+      const last = v.silent[v.silent.length - 1];
+      if (last && last.until === null) last.until = line.time;
+      v.samples.push({ time: line.time, latitude: line.latitude, longitude: line.longitude, battery: line.battery });
+      // The older half is thinned out: a track stays a track.
+      if (v.samples.length > mostSamples)
+        v.samples = v.samples.filter((_, i) => i % 2 === 0 || i > mostSamples * 0.9);
+    } else if (v.connected) v.silent.push({ from: line.time, until: null });
+    v.connected = line.connected;
+  }
+
+  private end(id: string, how: Task["how"], why?: string) {
+    const tasks = this.vehicle(id).tasks, task = tasks[tasks.length - 1];
+    if (task && task.until === null) { task.until = this.time; task.how = how; task.why = why; }
+  }
+
+  private transition(line: Json) {
+    this.transitions++;
+    this.at = line.at ?? this.at;
+    this.label = line.words || line.label;
+    const cause = this.cause;
+    this.cause = null;
+    if (cause?.event === "done") this.end(cause.vehicle, "done");
+    if (cause?.event === "failed") {
+      this.end(cause.vehicle, "failed", cause.why);
+      this.mark("failed", `${cause.vehicle}: ${cause.why}`, line.at);
+    }
+    // A run that was found has no events: its labels say what ended.
+    if (!cause) {
+      const ended = /^(done|failed)\(([^,)]*)/.exec(line.label);
+      if (ended) this.end(ended[2], ended[1] === "done" ? "done" : "failed");
+    }
+    for (const [id, plan] of Object.entries<string | null>(line.A ?? {})) {
+      if (plan === null) { this.end(id, "stopped"); this.allocation.delete(id); }
+      else {
+        this.end(id, "stopped");
+        this.allocation.set(id, plan);
+        this.vehicle(id).tasks.push({ plan, from: this.time, until: null, how: "runs" });
+      }
+    }
+    for (const id of line.B?.bound ?? []) { this.bound.add(id); this.vehicle(id); }
+    for (const id of line.B?.released ?? []) { this.bound.delete(id); this.end(id, "stopped"); }
+    for (const pair of line.N?.consumed ?? []) {
+      const i = this.tuples.indexOf(pair);
+      if (i >= 0) this.tuples.splice(i, 1);
+      this.mark("consumed", pair, line.at);
+    }
+    for (const pair of line.N?.posted ?? []) { this.tuples.push(pair); this.mark("posted", pair, line.at); }
+    for (const effect of line.effects ?? []) {
+      if (effect.say !== undefined) this.mark("said", effect.say, line.at);
+      if (effect.ask !== undefined) this.mark("asked", effect.ask, line.at);
+    }
+  }
+}
+
+// Who needs a look: the more, the higher.
+export function trouble(run: Run, v: Vehicle): { rank: number; text: string } {
+  const last = v.tasks[v.tasks.length - 1];
+  const battery = v.samples[v.samples.length - 1]?.battery;
+  if (!v.connected) return { rank: 4, text: "no link since " + clock(v.silent[v.silent.length - 1]?.from ?? 0) };
+  if (last?.how === "failed") return { rank: 3, text: `${last.plan} failed${last.why ? ": " + last.why : ""}` };
+  if (v.unready) return { rank: 2, text: v.unready };
+  if (typeof battery === "number" && battery < 0.2) return { rank: 1, text: "battery low" };
+  return { rank: run.bound.has(v.id) ? 0 : -1, text: "" };
+}
+
+export function clock(seconds: number): string {
+  const s = Math.floor(seconds % 60), m = Math.floor(seconds / 60) % 60, h = Math.floor(seconds / 3600);
+  const two = (n: number) => String(n).padStart(2, "0");
+  return h > 0 ? `${h}:${two(m)}:${two(s)}` : `${m}:${two(s)}`;
+}

@@ -55,7 +55,7 @@ The server is killed during a run, and the next one resumes it:
   completed
   $ kill -INT $console
   $ wait $console
-  $ dolphin runs | grep -o 'sim .*[a-z]'
+  $ dolphin runs | grep -o 'sim .*[a-z]' | sort
   sim       completed
   sim       completed
   sim       interrupted

@@ -31,7 +31,7 @@ if sys.argv[1] == "start":
     ask("run", {"program": "mission.dol", "speed": 10, "people": True})
     print(question()["prompt"])
 else:
-    run = ask("runs")["runs"][0]
+    run = next(run for run in ask("runs")["runs"] if run["state"] == "broken off")
     print(run["program"], run["state"])
     ask("run/resume", {"run": run["run"], "people": True})
     found = question()

@@ -36,7 +36,7 @@ let print_all found outcome : Exit_status.t =
   tell_end outcome;
   let line (f : Inline_plans.found) =
     match f.plan with
-    | Some plan -> Format.asprintf "%a" Dolphin_semantics.Plan.pp plan
+    | Some plan -> Format.asprintf "%a" Dolphin_semantics.Inline_plan.pp plan
     | None -> f.name ^ " (by name)"
   in
   List.iter (fun f -> print_endline (line f)) found;
@@ -82,7 +82,8 @@ let answers =
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) prints the inline plan $(i,NAME) of the program $(i,PROG) as IMC vehicles get it: a \
-        PlanSpecification, in JSON. Angles are in radians there, lengths in metres, times in seconds.";
+        PlanSpecification, in JSON. Angles are in radians there, lengths in metres, times in seconds. A mission of \
+        items is printed as adapters of $(b,--platform) get it.";
     `P "What a plan is depends on what the program computes. So the program is run, on simulated vehicles and in no \
         time, as $(mname) $(b,exec) does without $(b,--imc), and the plans are those that vehicles are given in that \
         run. A plan that is not started in it is not found: another fleet, seed or answer may lead to it. If vehicles \

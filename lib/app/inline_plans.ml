@@ -2,7 +2,7 @@ open Dolphin_semantics
 open Dolphin_runtime
 module Simulator = Dolphin_platform_sim.Simulator
 
-type found = { name : string; plan : Plan.t option }
+type found = { name : string; plan : Inline_plan.t option }
 
 (* A run in virtual time is over at once, unless it never is. *)
 let most_transitions = 200_000
@@ -33,8 +33,12 @@ let of_run (program : Program_file.t) (fleet : Fleet_file.t) ~seed ~answers =
   let outcome = Lwt_main.run run in
   (List.rev !found, outcome)
 
-let to_json definition plan =
-  let message = Dolphin_imc.Message.Plan_specification (Dolphin_platform_imc.Plan_message.of_plan plan) in
-  match definition with
-  | None -> Dolphin_imc.Message.to_json message
-  | Some d -> Dolphin_imc.Dynamic.message_to_json d message
+let to_json definition (plan : Inline_plan.t) =
+  match plan with
+  | Mission m ->
+    Dolphin_platform_protocol.Plan_body.to_json { name = m.name; plan = Some plan; task_site = 0 }
+  | Maneuvers p -> (
+      let message = Dolphin_imc.Message.Plan_specification (Dolphin_platform_imc.Plan_message.of_plan p) in
+      match definition with
+      | None -> Dolphin_imc.Message.to_json message
+      | Some d -> Dolphin_imc.Dynamic.message_to_json d message)

@@ -2,7 +2,7 @@
 
 open Dolphin_semantics
 
-type found = { name : string; plan : Plan.t option  (** [None]: vehicles know it by name *) }
+type found = { name : string; plan : Inline_plan.t option  (** [None]: vehicles know it by name *) }
 
 val of_run :
   Program_file.t -> Fleet_file.t -> seed:int -> answers:string list -> found list * Dolphin_runtime.Driver.outcome
@@ -10,6 +10,6 @@ val of_run :
     once, the first one first; and how that run ends. It takes no longer than it takes to compute, and is interrupted
     after 200,000 transitions. *)
 
-val to_json : Dolphin_imc.Definition.t option -> Plan.t -> Yojson.Safe.t
+val to_json : Dolphin_imc.Definition.t option -> Inline_plan.t -> Yojson.Safe.t
 (** [to_json definition plan] is the PlanSpecification that IMC vehicles get, by the user's definition of IMC if there
-    is one. *)
+    is one; of a mission, the plan that adapters get. *)

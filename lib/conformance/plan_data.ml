@@ -109,3 +109,38 @@ let of_json : json -> Plan.t = function
     if maneuvers = [] then wrong "a plan" json
     else { name = text name; description = text description; vehicles = list text vehicles; maneuvers }
   | json -> wrong "a plan" json
+
+(* {1 Missions} *)
+
+let of_argument : Mission_plan.argument -> json = function
+  | Number x -> tagged "number" [ of_float x ]
+  | Truth b -> tagged "boolean" [ `Bool b ]
+  | Text x -> tagged "string" [ `String x ]
+  | Place p -> tagged "position" [ of_position p ]
+  | Places ps -> tagged "positions" (List.map of_position ps)
+
+let argument : json -> Mission_plan.argument = function
+  | `List [ `String "number"; x ] -> Number (float x)
+  | `List [ `String "boolean"; b ] -> Truth (truth b)
+  | `List [ `String "string"; x ] -> Text (text x)
+  | `List [ `String "position"; p ] -> Place (position p)
+  | `List (`String "positions" :: ps) -> Places (List.map position ps)
+  | json -> wrong "an argument of a mission's item" json
+
+let of_item (i : Mission_plan.item) : json =
+  `List [ `String i.word; of_list (of_pair (fun k -> `String k) of_argument) i.arguments ]
+
+let item json : Mission_plan.item =
+  let word, arguments = pair text (list (pair text argument)) json in
+  { word; arguments }
+
+let of_inline : Inline_plan.t -> json = function
+  | Maneuvers p -> to_json p
+  | Mission m ->
+    let vehicles = of_list (fun v -> `String v) m.vehicles in
+    `Assoc [ ("mission", `List [ `String m.name; vehicles; of_list of_item m.items ]) ]
+
+let inline : json -> Inline_plan.t = function
+  | `Assoc [ ("mission", `List [ name; vehicles; items ]) ] ->
+    Mission { name = text name; vehicles = list text vehicles; items = list item items }
+  | json -> Maneuvers (of_json json)

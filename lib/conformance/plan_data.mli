@@ -1,9 +1,10 @@
 (** Inline plans, written down whole. *)
 
-val to_json : Dolphin_semantics.Plan.t -> Data.json
-(** The name of the plan, what it says of itself, and its maneuvers in order. *)
+val of_inline : Dolphin_semantics.Inline_plan.t -> Data.json
+(** Of a plan of maneuvers: its name, what it says of itself, and its maneuvers in order. Of a mission, in an object:
+    its name, its vehicles and its items in order. *)
 
-val of_json : Data.json -> Dolphin_semantics.Plan.t
+val inline : Data.json -> Dolphin_semantics.Inline_plan.t
 (** @raise Data.Wrong if it is none. *)
 
 val position : Data.json -> Dolphin_geo.Position.t

@@ -8,7 +8,7 @@ let of_vehicles = of_list of_text
 (* {1 Writing} *)
 
 let of_platform_task budget (p : platform_task) : json =
-  part budget @@ fun () -> `List [ `String p.name; `Int p.task_site; of_option Plan_data.to_json p.plan ]
+  part budget @@ fun () -> `List [ `String p.name; `Int p.task_site; of_option Plan_data.of_inline p.plan ]
 
 let rec of_value budget (x : value) : json =
   part budget @@ fun () ->
@@ -78,7 +78,7 @@ and of_duration budget = function
 
 let platform_task _ : json -> platform_task = function
   | `List [ name; site; plan ] ->
-    { name = text name; task_site = whole site; plan = option Plan_data.of_json plan }
+    { name = text name; task_site = whole site; plan = option Plan_data.inline plan }
   | json -> wrong "a platform task" json
 
 let rec value nodes (json : json) : value =

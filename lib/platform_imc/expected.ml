@@ -16,8 +16,11 @@ type t = intent Names.t
 let none = Names.empty
 let mem = Names.mem
 
-let order_of (task : Core.platform_task) : Execution.order =
-  { plan = task.name; specification = Option.map Plan_message.of_plan task.plan }
+let order_of (task : Core.platform_task) : (Execution.order, string) result =
+  match task.plan with
+  | None -> Ok { plan = task.name; specification = None }
+  | Some (Maneuvers plan) -> Ok { plan = task.name; specification = Some (Plan_message.of_plan plan) }
+  | Some (Mission _) -> Error "IMC vehicles take no missions of items: describe the plan by imcPlan { ... }"
 
 (* What is known to be over, or was never asked for, need not be halted. *)
 let halt v request x =
@@ -26,18 +29,24 @@ let halt v request x =
   | Some _ -> Names.add v (Halt request) x
 
 let resume ~deadline (outstanding : History.outstanding) =
+  (* What cannot be ordered never was. *)
   let request (c : History.commanded) =
-    { order = order_of c.task; notes = List.filter_map Durable_note.of_json c.notes }
+    match order_of c.task with
+    | Ok order -> Some { order; notes = List.filter_map Durable_note.of_json c.notes }
+    | Error _ -> None
   in
   (* The end of the request before may have been noted during this one. *)
   let before (c : History.commanded) =
     let is_over = function Durable_note.Over _ -> true | Asked _ | Taken _ | Runs _ -> false in
-    let with_ends r = { r with notes = List.filter is_over (request c).notes @ r.notes } in
-    Option.map with_ends (Option.map request c.before)
+    let later = Option.fold ~none:[] ~some:(fun r -> List.filter is_over r.notes) (request c) in
+    let with_ends r = { r with notes = later @ r.notes } in
+    Option.map with_ends (Option.bind c.before request)
   in
   let expect x (v, (c : History.commanded)) =
-    if c.is_stopped then halt v (request c) x
-    else Names.add v (Run { request = request c; before = before c; deadline = deadline v }) x
+    match request c with
+    | None -> Names.add v Nothing x
+    | Some request when c.is_stopped -> halt v request x
+    | Some request -> Names.add v (Run { request; before = before c; deadline = deadline v }) x
   in
   let bound = List.fold_left (fun x v -> Names.add v Nothing x) none outstanding.bound in
   List.fold_left expect bound outstanding.tasks

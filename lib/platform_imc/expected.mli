@@ -15,8 +15,9 @@ val resume : deadline:(Core.vehicle -> float) -> History.outstanding -> t
 val mem : Core.vehicle -> t -> bool
 (** Whether the vehicle is expected. *)
 
-val order_of : Core.platform_task -> Execution.order
-(** The order that the task is to a vehicle: an inline plan goes along, others are known by name. *)
+val order_of : Core.platform_task -> (Execution.order, string) result
+(** The order that the task is to a vehicle: a plan of maneuvers goes along, others are known by name. The error says
+    why IMC has no such order: for missions of items. *)
 
 val start : deadline:float -> Core.vehicle -> Execution.order -> t -> t
 (** [start ~deadline v order x]: [v], which is expected or will be, is to run [order], once what it runs is stopped. *)

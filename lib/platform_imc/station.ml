@@ -449,12 +449,12 @@ let check_order ~now (n : Node.t) (order : Execution.order) s =
 
 let start ~now vehicle task s =
   let s = { s with outbox = Outbox.without_task vehicle s.outbox } in
-  let order = Expected.order_of task in
-  match find vehicle s with
-  | None | Some _ when Expected.mem vehicle s.expected ->
+  match Expected.order_of task, find vehicle s with
+  | Error why, _ -> (push (Task_failed (vehicle, why)) s, [])
+  | Ok order, (None | Some _) when Expected.mem vehicle s.expected ->
     ({ s with expected = Expected.start ~deadline:(now +. timeout_of vehicle s) vehicle order s.expected }, [])
-  | None -> (push (Task_failed (vehicle, "no such vehicle was heard of")) s, [])
-  | Some n -> (
+  | Ok _, None -> (push (Task_failed (vehicle, "no such vehicle was heard of")) s, [])
+  | Ok order, Some n -> (
       match check_order ~now n order s with
       | Ok () -> command ~now (Start order) n s
       | Error why -> (push (Task_failed (vehicle, why)) s, []))

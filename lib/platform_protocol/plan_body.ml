@@ -55,6 +55,10 @@ let of_kind : Plan.kind -> string * (string * json) list = function
     let point (north, east, down) : json = `List [ of_float north; of_float east; of_float down ] in
     ("followPath", [ ("points", `List (List.map point points)) ])
 
+let of_place (p : Position.t) : json =
+  `Assoc
+    [ ("latitude", of_float p.latitude); ("longitude", of_float p.longitude); ("height", of_float p.height) ]
+
 let of_payload (d : Plan.payload) : json =
   `Assoc [ ("name", of_text d.name); ("parameters", `Assoc (List.map (fun (k, x) -> (k, of_text x)) d.parameters)) ]
 
@@ -73,13 +77,33 @@ let of_plan (p : Plan.t) : json =
     [ ("description", of_text p.description); ("vehicles", Field.texts p.vehicles);
       ("maneuvers", `List (List.map of_maneuver p.maneuvers)) ]
 
-let language (task : Core.platform_task) = match task.plan with None -> "name" | Some _ -> "imcPlan"
+let of_argument : Mission_plan.argument -> json = function
+  | Number x -> of_float x
+  | Truth b -> of_truth b
+  | Text text -> of_text text
+  | Place p -> of_place p
+  | Places ps -> `List (List.map of_place ps)
+
+let of_item (i : Mission_plan.item) : json =
+  let named = List.map (fun (name, x) -> (name, of_argument x)) i.arguments in
+  `Assoc [ ("item", of_text i.word); ("arguments", `List []); ("named", `Assoc named) ]
+
+let of_mission (m : Mission_plan.t) : json =
+  `Assoc [ ("vehicles", Field.texts m.vehicles); ("items", `List (List.map of_item m.items)) ]
+
+let language (task : Core.platform_task) =
+  match task.plan with
+  | None -> "name"
+  | Some (Maneuvers _) -> "imcPlan"
+  | Some (Mission _) -> "mission"
 
 let to_json (task : Core.platform_task) : json =
   let described =
     match task.plan with
     | None -> []
-    | Some plan -> [ ("language", of_text (language task)); ("body", of_plan plan) ]
+    | Some plan ->
+      let body = match plan with Maneuvers p -> of_plan p | Mission m -> of_mission m in
+      [ ("language", of_text (language task)); ("body", body) ]
   in
   `Assoc (("name", of_text task.name) :: described)
 
@@ -187,6 +211,32 @@ let plan ~name json : (Plan.t, string) result =
   if maneuvers = [] then Error "a plan has one maneuver at least"
   else Ok { Plan.name; description; vehicles; maneuvers }
 
+let argument json : (Mission_plan.argument, string) result =
+  let place json = Result.bind (members json) location in
+  match json with
+  | `Bool b -> Ok (Mission_plan.Truth b)
+  | `String text -> Ok (Mission_plan.Text text)
+  | `Assoc _ -> Result.map (fun p -> Mission_plan.Place p) (place json)
+  | `List places -> Result.map (fun ps -> Mission_plan.Places ps) (Results.map place places)
+  | _ -> Result.map (fun x -> Mission_plan.Number x) (number json)
+
+(* Dolphin names every argument. *)
+let item json : (Mission_plan.item, string) result =
+  let* members' = members json in
+  let* word = get Field.text "item" members' in
+  let within what = Result.map_error (fun why -> Printf.sprintf "item %s: %s" word why) what in
+  within
+    (let* unnamed = get (list argument) "arguments" members' in
+     let* named = get members "named" members' in
+     let* arguments = Results.map_values argument named in
+     if unnamed = [] then Ok { Mission_plan.word; arguments } else Error "its arguments have no names")
+
+let mission ~name json : (Mission_plan.t, string) result =
+  let* body = members json in
+  let* vehicles = get (list Field.text) "vehicles" body in
+  let* items = get (list item) "items" body in
+  if items = [] then Error "a mission has one item at least" else Ok { Mission_plan.name; vehicles; items }
+
 let of_json json : (Core.platform_task, string) result =
   let* members = members json in
   let* name = get Field.text "name" members in
@@ -194,6 +244,9 @@ let of_json json : (Core.platform_task, string) result =
   | None | Some `Null -> Ok { Core.name; plan = None; task_site = 0 }
   | Some (`String "imcPlan") ->
     let* plan = get (plan ~name) "body" members in
-    Ok { Core.name; plan = Some plan; task_site = 0 }
+    Ok { Core.name; plan = Some (Maneuvers plan); task_site = 0 }
+  | Some (`String "mission") ->
+    let* mission = get (mission ~name) "body" members in
+    Ok { Core.name; plan = Some (Mission mission); task_site = 0 }
   | Some (`String language) -> Error (Printf.sprintf "plans in the language '%s' are not known here" language)
   | Some _ -> Error "the language of a plan is a text"

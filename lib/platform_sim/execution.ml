@@ -20,11 +20,10 @@ let by_name draw (plan : Scenario.plan option) (vehicle : Scenario.vehicle) posi
   | Some { place = None; _ } | None ->
     Track.circuit position ~bearing:(360. *. draw Course) ~speed:vehicle.speed ~duration:drawn, drawn
 
-let inline (p : Plan.t) (vehicle : Scenario.vehicle) position =
-  let leg maneuver ({ waypoints; dwell; _ } : Plan.leg) : Track.leg =
-    let speed = Plan.metres_per_second maneuver ~default:vehicle.speed in
-    { waypoints; dwell; speed = (if speed > 0. then speed else vehicle.speed) } in
-  let track = Track.through position (List.rev (List.rev_map2 leg p.maneuvers (Plan.path p))) in
+let inline plan (vehicle : Scenario.vehicle) position =
+  let leg ({ waypoints; dwell; speed } : Inline_plan.leg) : Track.leg = { waypoints; dwell; speed } in
+  let path = Inline_plan.path ~from:position ~speed:vehicle.speed plan in
+  let track = Track.through position (List.rev (List.rev_map leg path)) in
   track, Track.duration track
 
 let fails draw (plan : Scenario.plan option) =
@@ -36,9 +35,9 @@ let fails draw (plan : Scenario.plan option) =
 let make ~draw plan (vehicle : Scenario.vehicle) position (task : Core.platform_task) =
   let known = match plan with Some p -> Scenario.knows p vehicle | None -> true in
   let allowed =
-    match task.plan with
-    | Some { vehicles = _ :: _ as vehicles; _ } -> List.mem vehicle.id vehicles
-    | Some { vehicles = []; _ } | None -> true
+    match Option.map Inline_plan.vehicles task.plan with
+    | Some (_ :: _ as vehicles) -> List.mem vehicle.id vehicles
+    | Some [] | None -> true
   in
   if not known then refuse position (Printf.sprintf "unknown plan '%s'" task.name)
   else if not allowed then refuse position (Printf.sprintf "plan '%s' is not for this vehicle" task.name)

@@ -79,6 +79,8 @@ let blocks =
   List.map (entry Block)
     [ "pick", "pick { count 3; type 'UUV' }", "Binds vehicles to the program and gives them as a set.";
       "imcPlan", "imcPlan { goTo speed: 1.2 }", "An inline plan: settings, and maneuvers in their order.";
+      "mission", "mission { takeOff 30; goPos p; returnHomeAndLand() }",
+      "A mission of items in their order, for vehicles such as those that speak MAVLink.";
       "pos", "pos { lat 41.18; lon 8.7.west }", "A position.";
       "allOf", "allOf { when { C } then T ... }", "Each task runs once its condition holds; done when all are.";
       "oneOf", "oneOf { when { C } then T ... }", "The task whose condition holds first runs; the others never do.";
@@ -124,10 +126,44 @@ let maneuvers =
       "compassCalibration", "compassCalibration radius: 5, duration: 300", "Circles to calibrate the compass.";
       "launch", "launch()", "Leaves the launcher." ]
 
+let of_mission =
+  List.map (entry Setting)
+    [ "name", "name 'photos'", "The mission's name.";
+      "vehicles", "vehicles 'id', ...", "Who may run the mission.";
+      "arm", "arm true", "The vehicle may be armed in order to begin.";
+      "speed", "speed 12", "Metres per second, from here on.";
+      "altitude", "altitude 40", "Metres above home, from here on." ]
+
+let items =
+  List.map (entry Maneuver)
+    [ "stored", "stored 'survey'", "Flies the stored mission of this name here.";
+      "home", "home p", "Where home is; without a position, here.";
+      "takeOff", "takeOff 30", "Takes off to this many metres above home.";
+      "takeOffWithYaw", "takeOffWithYaw 30, 90", "Takes off, and turns to this course.";
+      "goPos", "goPos p, altitude: 40, speed: 12", "Goes to a position. Also `goPos latitude, longitude`.";
+      "move", "move north, east, up", "Goes so many metres from where it is then. Also `move p, { north 10 }`.";
+      "moveFromHome", "moveFromHome north, east", "Goes to so many metres from home.";
+      "moveAndLoiter", "moveAndLoiter north, east, duration: 1.minute", "Goes there and circles.";
+      "returnHome", "returnHome()", "Goes home.";
+      "returnHomeAndLoiter", "returnHomeAndLoiter 1.minute", "Goes home and circles; 0 is without end.";
+      "returnHomeAndLand", "returnHomeAndLand()", "Goes home and lands.";
+      "landingPoint", "landingPoint p", "Lands there; without a position, where it is then.";
+      "loiterPos", "loiterPos p, duration: 1.minute, radius: 40", "Circles around a position, without end by default.";
+      "loiterTurns", "loiterTurns 3, p", "Circles so many times.";
+      "loiterTime", "loiterTime 1.minute, p", "Circles for so long.";
+      "delay", "delay 10.seconds", "Stays for so long.";
+      "capturePhoto", "capturePhoto()", "Takes a photo.";
+      "captureSeveralPhotos", "captureSeveralPhotos 10, 2.seconds", "Takes photos, with this time between two.";
+      "captureUntilStop", "captureUntilStop 2.seconds", "Takes photos until `stopCapturing`.";
+      "stopCapturing", "stopCapturing()", "Takes no more photos.";
+      "jumpToItem", "jumpToItem 2, 3", "Goes on with this item, so many times; -1 is always.";
+      "surveyArea", "surveyArea([p, q, r], 20, bearing: 45)", "Covers an area by lines so many metres apart." ]
+
 let settings : Dolphin_syntax.Ast.builder -> entry list = function
   | Pick -> of_pick
   | Pos -> of_position
   | Imc_plan -> of_plan @ maneuvers
+  | Mission -> of_mission @ items
   | All_of | One_of -> List.filter (fun e -> e.name = "when") words
 
 let members =
@@ -245,7 +281,8 @@ let fleet_settings = function
   | _ -> []
 
 let all =
-  words @ procedures @ blocks @ of_pick @ of_position @ of_plan @ maneuvers @ constants @ members @ units
+  words @ procedures @ blocks @ of_pick @ of_position @ of_plan @ maneuvers @ of_mission @ items
+  @ constants @ members @ units
   @ fleet_entries @ of_vehicle @ of_fleet_plan
 
 let find name = List.filter (fun entry -> entry.name = name) all

@@ -145,9 +145,9 @@ let constants_of owner =
   let once items item = if List.exists (fun other -> other.label = item.label) items then items else item :: items in
   List.rev (List.fold_left once [] (List.filter_map member Reference.constants))
 
-let arguments_of_maneuver name =
+let arguments_of_setting vocabulary name =
   let argument x = { label = x; kind = Setting; form = x ^ ": "; text = "An argument of " ^ name ^ "." } in
-  match List.assoc_opt name Dolphin_semantics.Plan_builder.vocabulary with
+  match List.assoc_opt name vocabulary with
   | Some names -> List.map argument names
   | None -> []
 
@@ -157,7 +157,8 @@ let in_program d (s : Surroundings.t) =
   let own = List.filter (fun x -> x <> s.prefix) (Surroundings.assigned d.source) in
   let settings =
     match s.builder, s.call with
-    | Some Imc_plan, Some call -> arguments_of_maneuver call
+    | Some Imc_plan, Some call -> arguments_of_setting Dolphin_semantics.Plan_builder.vocabulary call
+    | Some Mission, Some call -> arguments_of_setting Dolphin_semantics.Mission_builder.vocabulary call
     | Some builder, None -> entries (Reference.settings builder)
     | Some _, Some _ | None, _ -> [] in
   settings @ List.map (own_item d) own @ List.map prelude_item (of_prelude d)
@@ -202,7 +203,7 @@ let quoted form text = Printf.sprintf "```dolphin\n%s\n```\n%s" form text
 let described (e : Ast.expression option) =
   match Option.map (fun (e : Ast.expression) -> e.it) e with
   | Some (Builder (Pick, _)) -> "A vehicle set"
-  | Some (Builder (Imc_plan, _)) -> "A task"
+  | Some (Builder ((Imc_plan | Mission), _)) -> "A task"
   | Some (Builder (Pos, _)) -> "A position"
   | Some (Builder ((All_of | One_of), _)
          | Call { callee = { it = Variable ("task" | "imcPlan" | "action" | "condition" | "idle"); _ }; _ }

@@ -4,7 +4,8 @@ open Dolphin_semantics
 type maneuver = { id : string; kind : int; ends : float }
 type t = { execution : Execution.t; maneuvers : maneuver list }
 
-let task name plan : Core.platform_task = { name; plan; task_site = 0 }
+let task name plan : Core.platform_task =
+  { name; plan = Option.map (fun p -> Inline_plan.Maneuvers p) plan; task_site = 0 }
 
 (* Each maneuver as an execution of its own, from where the one before ends. *)
 let maneuvers ~draw vehicle position (s : Specification.t) =

@@ -26,7 +26,7 @@ let create ~seed ~is_remembered scenario =
 
 let greeting =
   Report.Hello
-    { version = Report.version; name = "sim"; adapter = None; plans = [ "name"; "imcPlan" ]; announce = 1.;
+    { version = Report.version; name = "sim"; adapter = None; plans = [ "name"; "imcPlan"; "mission" ]; announce = 1.;
       patience = 30. }
 
 (* {1 What happens} *)
@@ -96,8 +96,9 @@ let problems_on vehicle plan f =
       | Some vehicle ->
         let carries device =
           List.exists (fun own -> String.lowercase_ascii own = String.lowercase_ascii device) vehicle.payload in
-        let lacks = List.filter (fun device -> not (carries device)) (Plan.required_payload plan) in
-        let others = if plan.vehicles = [] || List.mem vehicle.id plan.vehicles then [] else [ vehicle.id ] in
+        let lacks = List.filter (fun device -> not (carries device)) (Inline_plan.required_payload plan) in
+        let allowed = Inline_plan.vehicles plan in
+        let others = if allowed = [] || List.mem vehicle.id allowed then [] else [ vehicle.id ] in
         List.map (Printf.sprintf "there is no %s on board") lacks
         @ List.map (Printf.sprintf "the plan is not for %s") others)
 

@@ -26,6 +26,7 @@ type binary =
 type builder =
   | Pick
   | Imc_plan
+  | Mission
   | Pos
   | All_of
   | One_of                                      (* also spelt [choose] *)

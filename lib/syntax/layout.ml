@@ -43,6 +43,7 @@ let is_word = function
 let builder = function
   | "pick" -> Some Ast.Pick
   | "imcPlan" -> Some Ast.Imc_plan
+  | "mission" -> Some Ast.Mission
   | "pos" -> Some Ast.Pos
   | "allOf" -> Some Ast.All_of
   | "oneOf" | "choose" -> Some Ast.One_of

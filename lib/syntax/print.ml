@@ -103,7 +103,7 @@ let ends_with_builder out =
   let ends word =
     let n = String.length word in
     length >= n && Buffer.sub out.buffer (length - n) n = word in
-  List.exists ends [ "pick"; "imcPlan"; "pos"; "allOf"; "oneOf"; "choose" ]
+  List.exists ends [ "pick"; "imcPlan"; "mission"; "pos"; "allOf"; "oneOf"; "choose" ]
 
 (* What comes between a statement and the next, before the end of the line. *)
 let finish_before out next = if is_block next && ends_with_builder out then put out ";"

@@ -67,6 +67,7 @@ let during = function Completes -> "during" | Fails -> "within"
 let builder = function
   | Pick -> "pick"
   | Imc_plan -> "imcPlan"
+  | Mission -> "mission"
   | Pos -> "pos"
   | All_of -> "allOf"
   | One_of -> "oneOf"

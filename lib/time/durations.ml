@@ -12,25 +12,32 @@ type t = {
 
 let tolerance = 0.1
 
+(* Where a way ends depends on where it begins if ways from different places end at different ones. *)
 let moves (p : Core.platform_task) =
-  let last place (leg : Plan.leg) = List.fold_left (fun _ waypoint -> Some waypoint) place leg.waypoints in
-  Option.bind p.plan (fun plan -> List.fold_left last None (Plan.path plan))
+  let last place (leg : Inline_plan.leg) = List.fold_left (fun _ waypoint -> Some waypoint) place leg.waypoints in
+  let ends plan from = List.fold_left last None (Inline_plan.path ~from ~speed:1. plan) in
+  match p.plan with
+  | None -> None
+  | Some plan -> (
+      match ends plan Place.apdl, ends plan Place.feup with
+      | None, None -> None
+      | Some here, Some there when Position.equal here there -> Some (Some here)
+      | (Some _ | None), (Some _ | None) -> Some None)
 
 (* {1 Inline plans} *)
 
 (* Seconds under way and seconds of staying, along a way that begins at [from]; [None]: from an unknown place. *)
-let along (v : Scenario.vehicle) from (plan : Plan.t) =
+let along (v : Scenario.vehicle) from plan =
   let stretch speed (here, seconds) towards =
     let metres = match here with Some here -> Wgs84.distance here towards | None -> nan in
     (Some towards, seconds +. (metres /. speed))
   in
-  let leg (here, moving, staying) maneuver (leg : Plan.leg) =
-    let speed = Plan.metres_per_second maneuver ~default:v.speed in
-    let speed = if speed > 0. then speed else v.speed in
-    let here, moving = List.fold_left (stretch speed) (here, moving) leg.waypoints in
+  let leg (here, moving, staying) (leg : Inline_plan.leg) =
+    let here, moving = List.fold_left (stretch leg.speed) (here, moving) leg.waypoints in
     (here, moving, staying +. leg.dwell)
   in
-  let _, moving, staying = List.fold_left2 leg (from, 0., 0.) plan.maneuvers (Plan.path plan) in
+  let path = Inline_plan.path ~from:(Option.value from ~default:Place.apdl) ~speed:v.speed plan in
+  let _, moving, staying = List.fold_left leg (from, 0., 0.) path in
   (moving, staying)
 
 let inline v from plan =

@@ -15,8 +15,9 @@ type t = {
 val tolerance : float
 (** 0.1: the way between two places takes by so much less or more than the vehicle's speed says. *)
 
-val moves : Core.platform_task -> Dolphin_geo.Position.t option
-(** [moves p] is where [p] leaves its vehicle, if that is elsewhere than where it was. *)
+val moves : Core.platform_task -> Dolphin_geo.Position.t option option
+(** [moves p] is where [p] leaves its vehicle, if that is elsewhere than where it was: [Some None] if that depends on
+    where it was. *)
 
 val of_scenario : Dolphin_scenario.Scenario.t -> t
 (** [of_scenario s] is what [s] says: [duration] of plans by name, [speed] of vehicles for plans that are described in

@@ -124,7 +124,7 @@ let elsewhere_after s (t : Transition.t) (event : Transition.event option) =
     match event with
     | Some (Vehicle_done v) -> (
         match Option.bind (Vehicle_map.find_opt v s.configuration.shared.allocation) Durations.moves with
-        | Some place -> moved s.elsewhere v (Some place)
+        | Some place -> moved s.elsewhere v place
         | None -> s.elsewhere)
     | Some (Vehicle_failed (v, _)) when is_away s.pending (Task v) -> moved s.elsewhere v None
     | Some _ | None -> s.elsewhere

@@ -3,7 +3,7 @@ open Core
 
 let is_computation : operation -> bool = function
   | Unary _ | Binary _ | Make_list | Make_map _ | Make_range _ | Concatenate | Element | Property _ | Add_setting _
-  | Build ((Pos | Imc_plan), _)
+  | Build ((Pos | Imc_plan | Mission), _)
   | Builtin (Location_of | Area_of | Math _ | Geometry _) -> true
   | Replace_element | Replace_member _ | Call _ | Method _
   | Build ((Pick | All_of | One_of), _)

@@ -158,7 +158,7 @@ and operation t ~known site op : Tla.t =
   | Build (Pick, _) -> record "build" [ ("builder", String "pick") ]
   | Build (All_of, _) -> record "build" [ ("builder", String "allOf") ]
   | Build (One_of, _) -> record "build" [ ("builder", String "oneOf") ]
-  | Build ((Pos | Imc_plan), _) ->
+  | Build ((Pos | Imc_plan | Mission), _) ->
     refuse t site "a position or plan whose settings are not constants"
       ~hint:"the translator computes it once, so its settings may not depend on variables";
     record "list" []
@@ -235,7 +235,8 @@ and define t n site is fields =
 
 and expression t (e : expression) =
   match e.node with
-  | Block [ start; body; { node = Apply (Build (Imc_plan, name), [ _ ]); site } ] -> plan t e.site start body name site
+  | Block [ start; body; { node = Apply (Build (((Imc_plan | Mission) as builder), name), [ _ ]); site } ] ->
+    plan t e.site builder start body name site
   | Block [ _; _; { node = Apply (Build (Pos, _), _); _ } ]
   | Apply (Builtin (Location_of | Area_of | Math _ | Geometry _), _)
     when Constant.is_closed e -> folded t e
@@ -288,13 +289,13 @@ and unfolded t (e : expression) =
 
 (* A plan is built once, here, so all its settings but the name must be constants. Of the lines of the block only
    planName is left to the program; the others are kept without their arguments. *)
-and plan t site start body default build_site =
+and plan t site builder start body default build_site =
   let n = reserve t site in
   let settings = ref [] in
   let setting (s : setting) = settings := s :: !settings in
   let start = expression t start in
   let body = plan_lines t setting body in
-  let number = plan_number t build_site (List.rev !settings) in
+  let number = plan_number t builder build_site (List.rev !settings) in
   let slot =
     match Hashtbl.find t.nodes start with
     | Tla.Record fields, _ -> List.assoc "slot" fields
@@ -342,17 +343,25 @@ and constant_setting t line site name names arguments =
       let named = List.filter_map (function Some k, x -> Some (k, x) | None, _ -> None) all in
       Some { setting = name; positional; named; setting_site = site }
 
-and plan_number t site settings =
-  match Plan_builder.build ~name:"plan" site settings with
+and plan_number t builder site settings =
+  let built =
+    match (builder : Dolphin_syntax.Ast.builder) with
+    | Mission -> Result.map (fun m -> Inline_plan.Mission m) (Mission_builder.build ~name:"plan" site settings)
+    | Imc_plan | Pick | Pos | All_of | One_of ->
+      Result.map (fun p -> Inline_plan.Maneuvers p) (Plan_builder.build ~name:"plan" site settings)
+  in
+  match built with
   | Error fault -> refuse t site "this plan cannot be built: %s" fault.message; 0
   | Ok plan ->
-    let reference = Wgs84.cartesian (Plan.reference plan) in
-    let millimetres p = Float.round (1000. *. Wgs84.straight (Wgs84.cartesian p) reference) in
+    let reference = Option.map Wgs84.cartesian (Inline_plan.reference plan) in
+    let metres p = Option.fold ~none:0. ~some:(Wgs84.straight (Wgs84.cartesian p)) reference in
+    let millimetres p = Float.round (1000. *. metres p) in
     let ways = List.map millimetres t.vehicles_at in
     let nearest = List.fold_left Float.min infinity ways in
     let farther way = Tla.Integer (int_of_float (Float.min (way -. nearest) (float_of_int (Tla.greatest / 1000)))) in
     let facts =
-      [ ("devices", Tla.strings (Plan.required_payload plan)); ("vehicles", Tla.strings plan.vehicles);
+      [ ("devices", Tla.strings (Inline_plan.required_payload plan));
+        ("vehicles", Tla.strings (Inline_plan.vehicles plan));
         ("farther", Tla.Tuple (List.map farther ways)) ]
     in
     t.plans <- Record facts :: t.plans;

@@ -79,6 +79,13 @@ plans = [imcPlan('named'),
     followPath points: [[1, 2], [3, 4, 5]]
     compassCalibration radius: 5
     launch()
+  },
+  mission {
+    name 'items'; arm true; vehicles 'noptilus-1'
+    takeOff 30
+    goPos Location.APDL, north: 10, speed: 2
+    surveyArea([Location.APDL, place, location(41.2, -8.7)], 500)
+    stored 'other'
   }]
 tasks = [action { post a: 1 }, condition { poll(a: 1) }, idle(1), plans[0] >> plans[1], plans[0][v], plans[0] | idle(2),
   allOf { when { true } then idle(1); when { true } then idle(2) }, oneOf { when { true } then idle(3) },

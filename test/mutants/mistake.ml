@@ -654,9 +654,23 @@ let fair_cycles =
         {|List.filter (fun k -> not (Hashtbl.mem taken k) && false) (owed t edges members)|} );
     ]
 
+let missions =
+  in_file "lib/semantics/language/mission_builder.ml" ~noticed_by:"plan/test_mission"
+    [
+      ("a place before metres is metres", {|lists_place && is_place first|}, {|lists_place && is_place first && false|});
+      ("what an item lacks is not told", {|p.is_required && not|}, {|p.is_required && false && not|});
+      ("jumps go anywhere", {|n > float_of_int count|}, {|n > 99. +. float_of_int count|});
+    ]
+  @ in_file "lib/semantics/terms/mission_plan.ml" ~noticed_by:"plan/test_mission"
+    [
+      ("photos need no camera", {|"captureUntilStop" ]|}, {|"captureUntilstop" ]|});
+      ("arm counts in jumps", {|[ "arm"; "altitude" ]|}, {|[ "altitude" ]|});
+      ("a jump is taken once more", {|taken >= times|}, {|taken > times|});
+    ]
+
 let all =
   List.concat
-    [ footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups; quotient; expansion;
+    [ missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups; quotient; expansion;
       vehicle_orbits; canonical_vehicles; name_flow; liveness; later_picks; environment; picks; inputs; attendance;
       task_rules; local_step; run_code; answers_in_words; confirm; unknown;
       pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;

@@ -32,6 +32,41 @@ A program on the simulated fleet behind the protocol. Times are left out of the 
   $ dolphin trace check two.dol two.run | sed 's/ in 0:0[0-9]//'
   two.run: a run, of 7 transitions; failed: bad failed on auv-1: plan failed
 
+A mission of items, as it is written and as the other side reads it.
+
+  $ cat > fly.dol <<'END'
+  > v = pick { type 'UUV' }
+  > execute v: mission {
+  >     name 'fly'; arm: true; vehicles 'auv-1', 'auv-2'
+  >     takeOff 30
+  >     goPos Location.APDL, altitude: 40
+  >     move Location.APDL, { north 10; west 5 }
+  >     surveyArea([Location.APDL, location(41.186, -8.7048), location(41.186, -8.7)], 50)
+  >     stored 'field'
+  >     returnHomeAndLand()
+  > }
+  > END
+  $ dolphin plan fly.dol fly --fleet slow.fleet > fly.json
+  $ python3 ../conformance/schema.py ../../conformance/schema/plan.schema.json fly.json
+  1 checked, 0 wrong
+  $ run fly.dol --journal fly.run --platform "$adapter"
+  program     picks auv-1
+  auv-1       starts fly
+  auv-1       ends fly
+  program     releases auv-1
+  program     ends
+  $ dolphin trace check fly.dol fly.run | sed 's/ in 0:0[0-9]//'
+  fly.run: a run, of 6 transitions; completed
+  $ dolphin check fly.dol --fleet slow.fleet --platform "$adapter"
+  fly.dol: no errors
+  slow.fleet: no errors
+  fly: sim runs it
+  $ dolphin check fly.dol --fleet slow.fleet --platform "../../examples/adapter.py"
+  fly.dol: no errors
+  slow.fleet: no errors
+  fly: rover: it takes no plans in mission
+  [2]
+
 Adapters that cannot be spoken to: no run begins.
 
   $ for adapter in ./missing true 'echo {}' "echo '{\"kind\":\"hello\",\"protocol\":2,\"name\":\"x\"}'" \

@@ -6,7 +6,7 @@ The simulated fleet passes the kit, with a hundred vehicles.
   > END
   $ for i in $(seq -w 100); do echo "vehicle 'auv-$i', { type 'UUV' }" >> kit.fleet; done
   $ dolphin platform check "dolphin sim kit.fleet --platform --state kit.state --speed 5" --junit kit.xml
-  ok    greeting         greets within 10 s, before all else (it is sim, and takes name, imcPlan)
+  ok    greeting         greets within 10 s, before all else (it is sim, and takes name, imcPlan, mission)
   ok    vehicles         reports a vehicle that is ready, at first with type and link (auv-001 is ready)
   ok    strange-orders   ignores orders and members that it does not know
   ok    completion       runs a plan to its end, and reports one end

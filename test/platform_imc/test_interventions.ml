@@ -22,6 +22,26 @@ let says ?(outcome = State.Last_outcome.None) state plan_id =
 (* What the vehicle sends on to all consoles of what Neptus asked it for. *)
 let asked op = Message.Plan_control { Message.Plan_control.default with type_ = Request; op; request_id = 77 }
 
+let missions =
+  Alcotest.test_case "a mission of items is refused, and nothing is sent" `Quick (fun () ->
+      let hear s (now, src, message) =
+        let packet = Packet.make ~src ~dst:Header.nobody ~timestamp:now message in
+        fst (Station.datagram ~now ~from:loopback (Result.get_ok (Packet.encode packet)) s)
+      in
+      let s = List.fold_left hear (Station.create settings)
+          [ (0., vehicle, announce "lauv-1" Uuv 6002); (0.5, vehicle, says Ready "q") ] in
+      let mission = { Dolphin_semantics.Mission_plan.name = "p"; vehicles = []; items = [] } in
+      let s, sent = Station.start ~now:1. "lauv-1" { name = "p"; plan = Some (Mission mission); task_site = 0 } s in
+      let rec failures s =
+        match Station.take s with
+        | Some (Task_failed (v, why), s) -> (v, why) :: failures s
+        | Some (_, s) -> failures s
+        | None -> []
+      in
+      Alcotest.(check int) "sent" 0 (List.length sent);
+      Alcotest.(check (list (pair string string))) "failed"
+        [ ("lauv-1", "IMC vehicles take no missions of items: describe the plan by imcPlan { ... }") ] (failures s))
+
 (* The failures of plan [p], which is started at 1 s, after these messages: when, from whom, to whom; and remarks. *)
 let play ?(payload = []) ?(before = []) messages =
   let remarks = ref [] in
@@ -83,7 +103,8 @@ let no_reason = "the plan ended without success, and the vehicle gave no reason"
 
 let tests =
   ( "interventions",
-    [ case "another console stops the plan" [ executes; (3., neptus, vehicle, asked Stop); fails ]
+    [ missions;
+      case "another console stops the plan" [ executes; (3., neptus, vehicle, asked Stop); fails ]
         [ "stopped by ccu-neptus" ];
       case "the vehicle's report overtakes the request" [ executes; fails; (3.3, neptus, vehicle, asked Stop) ]
         [ "stopped by ccu-neptus" ];

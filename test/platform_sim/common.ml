@@ -14,7 +14,8 @@ let crowd n =
   let vehicle i = Printf.sprintf "vehicle 'v%d', { type 'UUV' }" i in
   scenario (String.concat "\n" (List.init n vehicle))
 
-let task ?plan name = { Core.name; plan; task_site = 0 }
+let task ?plan name =
+  { Core.name; plan = Option.map (fun p -> Inline_plan.Maneuvers p) plan; task_site = 0 }
 
 let go_to ?speed ?dwell places =
   let speed = match speed with Some n -> (n, Plan.Metres_per_second) | None -> (1000., Plan.Revolutions_per_minute) in

@@ -70,6 +70,8 @@ let completion =
     case "settings" (completes "v = pick {\n  ty#" [ "type"; "payload"; "region" ]);
     case "maneuvers" (completes "p = imcPlan { speed 1; # }" [ "goTo"; "loiter"; "locate" ]);
     case "their arguments" (completes "p = imcPlan { loiter # }" [ "radius"; "duration" ] ~absent:[ "goTo" ]);
+    case "items of missions" (completes "p = mission { speed 1; # }" [ "goPos"; "takeOff"; "name" ] ~absent:[ "loiter"; "z" ]);
+    case "their arguments" (completes "p = mission { loiterTurns # }" [ "radius"; "turns" ] ~absent:[ "goPos" ]);
     case "a new line is a new statement" (completes "p = imcPlan {\n  loiter radius: 2\n  #" [ "goTo" ] ~absent:[ "radius" ]);
     case "but not after a comma" (completes "p = imcPlan {\n  loiter radius: 2,\n  #" [ "duration" ] ~absent:[ "goTo" ]);
     case "units" (completes "pause 2.#" [ "km"; "minutes" ] ~absent:[ "execute" ]);

@@ -9,7 +9,7 @@ syntax match dolphinStatement '\v^\s*\zsparameter\ze\s+\h\w*\s*\='
 syntax keyword dolphinOperatorWord when then watch onError waitFor repeat run until assure during within allOf oneOf choose
 syntax keyword dolphinBoolean true false
 syntax keyword dolphinConstant null _
-syntax keyword dolphinTask task imcPlan action condition idle assert pick pos
+syntax keyword dolphinTask task imcPlan mission action condition idle assert pick pos
 syntax keyword dolphinProcedure execute release setConnectionTimeout ask confirm message println pause halt post
 syntax keyword dolphinProcedure input consume poll position battery location area along fail ignore propagate retry getSupplier
 syntax keyword dolphinFleet vehicle plan answer reply

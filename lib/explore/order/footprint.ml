@@ -337,7 +337,7 @@ let rec is_composed looked (lambda : lambda) e =
   let go = is_composed looked lambda in
   match e.node with
   | Apply (Builtin (Platform_task | Make_action | Make_condition | Make_idle), _)
-  | Apply (Build (Imc_plan, _), _) -> true
+  | Apply (Build ((Imc_plan | Mission), _), _) -> true
   (* Values that are no tasks: of handlers. *)
   | Constant Null
   | Apply (Builtin (Ignore | Propagate | Retry | Fail | Halt | Message | Post _ | Consume _ | Poll _), _) -> true

@@ -291,7 +291,7 @@ and built w builder k =
   | Pick ->
     w.found <- { w.found with picks = true };
     vehicles
-  | Imc_plan -> reads_places w; nothing
+  | Imc_plan | Mission -> reads_places w; nothing
   | Pos -> nothing
   | All_of | One_of -> k land vehicles
 

@@ -71,7 +71,7 @@ let unreached t program =
       in
       Option.iter (fun what -> List.iter (code_for what) arguments) (code_of operation);
       (match operation with
-       | Builtin Platform_task | Build (Imc_plan, _) -> at_site e.site "task"
+       | Builtin Platform_task | Build ((Imc_plan | Mission), _) -> at_site e.site "task"
        | Builtin b when script -> Option.iter (at_site e.site) (of_builtin b)
        | Build (Pick, _) when script -> at_site e.site "pick"
        | _ -> ());

@@ -113,7 +113,7 @@ let is_reserved name =
 let constant name = List.assoc_opt name table_of_constants
 let constants = List.map fst table_of_constants
 let builders =
-  [ ("pick", "type 'UUV'"); ("pos", "lat 41.18; lon 8.7.west"); ("imcPlan", "goTo()");
+  [ ("pick", "type 'UUV'"); ("pos", "lat 41.18; lon 8.7.west"); ("imcPlan", "goTo()"); ("mission", "goPos p");
     ("allOf", "when { condition } then task"); ("oneOf", "when { condition } then task");
     ("choose", "when { condition } then task") ]
 
@@ -126,4 +126,5 @@ let settings : Dolphin_syntax.Ast.builder -> string list = function
   | Pick -> [ "id"; "type"; "payload"; "region"; "count"; "timeout" ]
   | Pos -> [ "lat"; "latitude"; "lon"; "longitude"; "height"; "hae" ]
   | Imc_plan -> List.map fst Plan_builder.vocabulary
+  | Mission -> List.map fst Mission_builder.vocabulary
   | All_of | One_of -> []

@@ -246,7 +246,7 @@ let by_name env at name (callee : Ast.expression) arguments =
     null env at
   | None, None, None ->
     (match Scope.settings env.code with
-     | Some (((Pick | Imc_plan | Pos) as builder), _) ->
+     | Some (((Pick | Imc_plan | Mission | Pos) as builder), _) ->
        error env Unknown_setting callee.at "%s has no setting '%s'" (builder_name builder) name
          ?hint:(did_you_mean name (Builtins.settings builder))
      | Some ((All_of | One_of), _) | None -> ());

@@ -42,7 +42,7 @@ let rec kind_of (e : Ast.expression) : Builtins.kind =
   | Integer _ | Number _ -> Number
   | String _ | Template _ -> String
   | Closure _ -> Closure
-  | Builder ((Imc_plan | All_of | One_of), _) | Wait_for _ | Until _ | During _ | Watch _
+  | Builder ((Imc_plan | Mission | All_of | One_of), _) | Wait_for _ | Until _ | During _ | Watch _
   | Repeat _ -> Task
   | Builder (Pick, _) -> Vehicles
   | Builder (Pos, _) -> Position
@@ -210,11 +210,12 @@ let check_repeated env (builder : Ast.builder) (body : Ast.statement list) =
   in
   match builder with
   | Pick -> ignore (List.fold_left check [] (List.filter_map setting body))
-  | Imc_plan | Pos | All_of | One_of -> ()
+  | Imc_plan | Mission | Pos | All_of | One_of -> ()
 
 let builder_name : Ast.builder -> string = function
   | Pick -> "pick"
   | Imc_plan -> "imcPlan"
+  | Mission -> "mission"
   | Pos -> "pos"
   | All_of -> "allOf"
   | One_of -> "oneOf"

@@ -49,6 +49,9 @@ let fault_of_rounds e =
   | Some n when Value.to_number n <> None -> Result.fold ~ok:(fun _ -> None) ~error:Option.some (Procedures.rounds n)
   | Some _ | None -> None
 
+let fault_of_mission setting arguments =
+  Mission_builder.literal_fault setting (List.map (fun (name, e) -> (name, value e)) arguments)
+
 let fault_of_pick setting positional =
   match Settings.pick [ { setting; positional; named = []; setting_site = 0 } ] with
   | Ok _ -> None

@@ -20,5 +20,9 @@ val fault_of_time : string -> Ast.expression -> string option
 val fault_of_rounds : Ast.expression -> string option
 (** [fault_of_rounds e] is what is wrong with [e] as a number of rounds. *)
 
+val fault_of_mission : string -> (string option * Dolphin_syntax.Ast.expression) list -> string option
+(** [fault_of_mission setting arguments] is what is wrong with an item of a mission, as far as its arguments, each with
+    its name if it has one, are literals: {!Mission_builder.literal_fault}. *)
+
 val fault_of_pick : string -> value list -> string option
 (** [fault_of_pick s xs] is what is wrong with [xs] as arguments of the setting [s] of [pick]. *)

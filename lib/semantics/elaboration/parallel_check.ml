@@ -20,7 +20,7 @@ let picks_one body =
 (* At least so many vehicles at once. *)
 let rec width (e : expression) =
   match e.it with
-  | Builder (Imc_plan, _) | Call { callee = { it = Variable ("task" | "imcPlan"); _ }; _ } -> 1
+  | Builder ((Imc_plan | Mission), _) | Call { callee = { it = Variable ("task" | "imcPlan"); _ }; _ } -> 1
   | Binary (Parallel, a, b) -> width a + width b
   | Binary (Sequence, a, b) -> max (width a) (width b)
   | Binary (Divide, a, _) | Index (a, _) | Until (_, _, a) | During (_, _, a) | Watch (a, _) | Wait_for (_, a)

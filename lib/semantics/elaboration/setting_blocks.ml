@@ -14,9 +14,42 @@ let check_named_settings env name arguments =
 
 let is_named = function Ast.Named _ | Keyed _ -> true | Positional _ -> false
 
+let negated (e : Ast.expression) : Ast.expression = { e with it = Unary (Negate, e) }
+
+(* [move p, { north 10; west 5 }] is [move p, north: 10, east: -5]. *)
+let offset_of (s : Ast.statement) =
+  let named (name : string Ast.located) e : Ast.argument option =
+    match name.it with
+    | "north" | "east" | "up" -> Some (Named (name, e))
+    | "south" -> Some (Named ({ name with it = "north" }, negated e))
+    | "west" -> Some (Named ({ name with it = "east" }, negated e))
+    | "down" -> Some (Named ({ name with it = "up" }, negated e))
+    | _ -> None
+  in
+  match s.it with
+  | Setting (name, e) -> named name e
+  | Expression { it = Call { callee = { it = Variable it; at }; arguments = [ Positional e ] }; _ } ->
+    named { it; at } e
+  | _ -> None
+
+let with_offset env (arguments : Ast.argument list) =
+  match List.rev arguments with
+  | Positional { it = Closure { body; _ }; at } :: before -> (
+      let offsets = List.map offset_of body in
+      match List.filter_map Fun.id offsets with
+      | _ :: _ as named when List.compare_lengths named offsets = 0 -> List.rev before @ named
+      | _ ->
+        error env Wrong_value at "where to is north, south, east, west, up or down, each with its metres"
+          ~hint:"as in move p, { north 10; east 5 }";
+        List.rev before)
+  | _ -> arguments
+
 let add env at slot name arguments =
+  let in_mission = match Scope.settings env.code with Some (Mission, _) -> true | Some _ | None -> false in
+  let arguments = if in_mission then with_offset env arguments else arguments in
   let outside f = Scope.inside_settings env.code None f in
-  let wants_text = List.mem name [ "id"; "type"; "payload"; "planName"; "description"; "vehicles" ] in
+  let wants_text =
+    List.mem name [ "id"; "type"; "payload"; "planName"; "name"; "description"; "vehicles"; "stored" ] in
   let argument = function
     | Ast.Positional { Ast.it = Variable _; at } as argument when wants_text ->
       Scope.note_text env.program at;
@@ -27,6 +60,14 @@ let add env at slot name arguments =
   let arguments' = outside (fun () -> List.map argument arguments) in
   (match Scope.settings env.code with
    | Some (Imc_plan, _) -> check_named_settings env name arguments
+   | Some (Mission, _) ->
+     let argument = function
+       | Ast.Named (k, e) -> (Some k.Ast.it, e)
+       | Positional e | Keyed (_, e) -> (None, e)
+     in
+     Option.iter
+       (fun fault -> error env Wrong_value at "%s" fault)
+       (Literal_check.fault_of_mission name (List.map argument arguments))
    | Some (Pick, _) when arguments <> [] && not (List.exists is_named arguments) ->
      let literal (e : Ast.expression) = match e.it with Wildcard -> Some Wildcard | _ -> Literal_check.value e in
      let values = List.filter_map literal (List.map value_of arguments) in
@@ -38,8 +79,9 @@ let add env at slot name arguments =
          | Ast.Named (k, _) -> error env Unknown_argument k.Ast.at "'%s' takes no argument by name" name
          | Ast.Positional _ | Keyed _ -> ())
        arguments);
+  let known_as = if in_mission && name = "name" then "planName" else name in
   set_local env at slot
-    (apply env at (Add_setting (name, keys_of arguments)) (local env at slot :: arguments'))
+    (apply env at (Add_setting (known_as, keys_of arguments)) (local env at slot :: arguments'))
 
 let setting env at (name : string Ast.located) e =
   match Scope.settings env.code, in_settings env name.it with
@@ -73,7 +115,7 @@ let when_then env at guard t =
         let guard = task_code env at "when" guard in
         let t = task_operand env t in
         set_local env at slot (apply env at Make_branch [ local env at slot; guard; t ]))
-  | Some ((Pick | Imc_plan | Pos), _) | None ->
+  | Some ((Pick | Imc_plan | Mission | Pos), _) | None ->
     error env Misplaced_when at "when { ... } then belongs in allOf { ... } or oneOf { ... }"
       ~hint:"a task that waits for one condition is waitFor { ... } then TASK";
     null env at

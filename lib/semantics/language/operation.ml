@@ -22,6 +22,8 @@ let make_map keys arguments =
   and add keys arguments map k x = Result.bind (Operators.replace_element map k x) (entries keys arguments) in
   entries keys arguments (Map [])
 
+let platform_task at plan = Task (Platform { name = Inline_plan.name plan; plan = Some plan; task_site = at })
+
 let build context at builder name arguments =
   match (builder : Dolphin_syntax.Ast.builder), arguments with
   | builder, [ Settings latest_first ] -> (
@@ -34,8 +36,9 @@ let build context at builder name arguments =
           | Error fault -> Wrong_at fault)
       | Imc_plan ->
         value
-          (fun plan -> Task (Platform { name = plan.Plan.name; plan = Some plan; task_site = at }))
-          (Plan_builder.build ~name at settings)
+          (fun plan -> platform_task at (Inline_plan.Maneuvers plan)) (Plan_builder.build ~name at settings)
+      | Mission ->
+        value (fun mission -> platform_task at (Inline_plan.Mission mission)) (Mission_builder.build ~name at settings)
       | Pos -> value Fun.id (Settings.position at settings)
       | All_of -> value (fun branches -> Task (All_of branches)) (Settings.branches at settings)
       | One_of -> value (fun branches -> Task (One_of branches)) (Settings.branches at settings))

@@ -253,19 +253,7 @@ let description s draft =
   | [ x ] -> wrong s "a string as description" x
   | [] | _ :: _ -> fault s "description takes one string"
 
-let vehicles s draft =
-  let rec name = function
-    | String _ as x ->
-      let* name = string s "a vehicle's name" x in
-      Ok [ name ]
-    | Vehicles vs -> Ok vs
-    | List xs -> all (Array.to_list xs)
-    | x -> wrong s "names of vehicles, as in vehicles 'lauv-noptilus-1', 'lauv-noptilus-2'" x
-  and all xs = Results.concat_map name xs in
-  let once names name = if List.mem name names then names else name :: names in
-  let* names = all s.positional in
-  if names = [] then fault s "vehicles lacks the names of vehicles"
-  else Ok { draft with vehicles = List.rev (List.fold_left once [] names) }
+let vehicles s draft = Result.map (fun vehicles -> { draft with vehicles }) (vehicle_names s)
 
 let locate s draft =
   let* location =

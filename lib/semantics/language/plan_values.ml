@@ -184,3 +184,18 @@ let devices s what = function
   | x ->
     let* payload = device s what x in
     Ok [ payload ]
+
+(* {1 Vehicles} *)
+
+let vehicle_names s =
+  let rec name = function
+    | String _ as x ->
+      let* name = string s "a vehicle's name" x in
+      Ok [ name ]
+    | Vehicles vs -> Ok vs
+    | List xs -> all (Array.to_list xs)
+    | x -> wrong s "names of vehicles, as in vehicles 'lauv-noptilus-1', 'lauv-noptilus-2'" x
+  and all xs = Results.concat_map name xs in
+  let once names name = if List.mem name names then names else name :: names in
+  let* names = all s.positional in
+  if names = [] then fault s "vehicles lacks the names of vehicles" else Ok (List.rev (List.fold_left once [] names))

@@ -79,3 +79,8 @@ val z : Plan.z_unit -> setting -> value list -> (float * Plan.z_unit, Fault.t) r
 val devices : Plan.payload list reader
 (** Devices, as strings or as maps with a [name]; one alone, or a list. Names of devices and parameters are capitalised
     as DUNE has them, and a device is active unless it says otherwise. *)
+
+(** {1:vehicles Vehicles} *)
+
+val vehicle_names : setting -> (string list, Fault.t) result
+(** [vehicle_names s] is the vehicles that the setting [vehicles] names, at least one, each once. *)

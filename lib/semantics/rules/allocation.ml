@@ -33,13 +33,14 @@ let rec leaves tree rest =
 (* What a vehicle, of which the world says [state], lacks for a task, or nothing. What the plan needs is looked up once
    for all vehicles. *)
 let lack task =
-  let requires = Option.map (fun plan -> (plan, Plan.required_payload plan)) task.plan in
+  let requires = Option.map (fun plan -> (plan, Inline_plan.required_payload plan)) task.plan in
   fun v state ->
     match state, requires with
     | None, _ -> Some "nothing is known of it"
     | Some _, None -> None
-    | Some state, Some ((plan : Plan.t), devices) ->
-      if plan.vehicles <> [] && not (List.mem v plan.vehicles) then Some "the plan is for other vehicles"
+    | Some state, Some (plan, devices) ->
+      let vehicles = Inline_plan.vehicles plan in
+      if vehicles <> [] && not (List.mem v vehicles) then Some "the plan is for other vehicles"
       else if World.carries devices state then None
       else
         let missing = List.filter (fun d -> not (World.carries [ d ] state)) devices in
@@ -60,7 +61,7 @@ let candidate_of world vehicle =
   { vehicle; state; place = lazy (Option.fold ~none:(Ok None) ~some:place state) }
 
 let cost task =
-  match Option.map (fun plan -> Wgs84.cartesian (Plan.reference plan)) task.plan with
+  match Option.map Wgs84.cartesian (Option.bind task.plan Inline_plan.reference) with
   | None -> fun _ -> Ok 0.
   | Some reference ->
     let from place = Option.fold ~none:0. ~some:(fun place -> Wgs84.straight place reference) place in

@@ -82,7 +82,7 @@ and duration = Seconds of float | Given_by of closure
 
 and platform_task = {
   name : string;                                (* the plan's identifier *)
-  plan : Plan.t option;                         (* [None]: the vehicle knows the plan by name *)
+  plan : Inline_plan.t option;                  (* [None]: the vehicle knows the plan by name *)
   task_site : site;
 }
 

@@ -56,7 +56,8 @@ and compare_task t t' =
     match t, t' with
     | Platform p, Platform p' ->
       Order.both (String.compare p.name p'.name) (fun () ->
-          Order.both (Int.compare p.task_site p'.task_site) (fun () -> Option.compare Plan.compare p.plan p'.plan))
+          Order.both (Int.compare p.task_site p'.task_site) (fun () ->
+              Option.compare Inline_plan.compare p.plan p'.plan))
     | Action c, Action c' | Condition c, Condition c' | Made c, Made c' -> compare_closure c c'
     | Sequence (a, b), Sequence (a', b') | Parallel (a, b), Parallel (a', b') ->
       Order.both (compare_task a a') (fun () -> compare_task b b')

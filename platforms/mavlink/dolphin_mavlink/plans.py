@@ -42,6 +42,7 @@ def compile_plan(plan, stored, whom):
         elif plan["language"] == "imcPlan":
             found = _of_imc_plan(plan["body"], whom)
         elif plan["language"] == "mission":
+            _check_vehicles(plan["body"].get("vehicles") or [], whom)
             found = Builder(stored, whom).mission(plan["body"]["items"])
         else:
             raise Refused([f"plans in {plan['language']} are not known here"])
@@ -61,12 +62,16 @@ def compile_plan(plan, stored, whom):
     return found
 
 
+def _check_vehicles(allowed, whom):
+    if allowed and whom.name is not None and whom.name not in allowed:
+        raise Refused([f"only {', '.join(allowed)} may run it"])
+
+
 # imcPlan
 
 
 def _of_imc_plan(body, whom):
-    if body["vehicles"] and whom.name is not None and whom.name not in body["vehicles"]:
-        raise Refused([f"only {', '.join(body['vehicles'])} may run it"])
+    _check_vehicles(body["vehicles"], whom)
     items, problems, speed = [], [], None
     for maneuver in body["maneuvers"]:
         try:

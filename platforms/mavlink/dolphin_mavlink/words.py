@@ -141,9 +141,14 @@ class Builder:
             Item(missions.TAKE_OFF, missions.RELATIVE, (0.0, 0.0, 0.0, yaw), *_scaled(self._place), self._altitude)
         )
 
-    def _move(self, a):
-        self._to(geo.displace(self._place, a.number("north", 0.0), a.number("east", 0.0)))
+    def _to_offset(self, a):
+        """To the position that is given, or from where it is then, and as far north, east and up as is said."""
+        start = a.place("position", None) or self._place
+        self._to(geo.displace(start, a.number("north", 0.0), a.number("east", 0.0)))
         self._rise(a)
+
+    def _move(self, a):
+        self._to_offset(a)
         self._go(missions.WAYPOINT, a)
 
     def _rise(self, a):
@@ -155,11 +160,12 @@ class Builder:
 
     def _move_from_home(self, a):
         self._to(geo.displace(self._home, a.number("north", 0.0), a.number("east", 0.0)))
+        self._rise(a)
         self._go(missions.WAYPOINT, a)
 
     def _go_to(self, a):
-        self._to(a.place("position"))
-        self._go(missions.WAYPOINT, a)
+        a.place("position")
+        self._move(a)
 
     def _return_home(self, a):
         self._to(self._home)
@@ -174,21 +180,20 @@ class Builder:
         self.items.append(located(missions.LAND, self._home, 0, missions.RELATIVE))
 
     def _land(self, a):
-        self._to(a.place("position", None) or self._place)
+        self._to_offset(a)
         self.items.append(located(missions.LAND, self._place, 0, missions.RELATIVE))
 
     def _move_and_loiter(self, a):
-        self._to(geo.displace(self._place, a.number("north", 0.0), a.number("east", 0.0)))
-        self._rise(a)
-        self._loiter(a)
-
-    def _loiter_at(self, a):
-        self._to(a.place("position", None) or self._place)
+        self._to_offset(a)
         self._loiter(a)
 
     def _loiter(self, a):
-        seconds, radius = a.number("duration", 0.0), a.number("radius", 0.0)
-        if seconds > 0:
+        seconds, turns, radius = a.number("duration", 0.0), a.number("turns", 0.0), a.number("radius", 0.0)
+        if seconds < 0 or turns < 0 or (seconds > 0 and turns > 0):
+            raise Misfit("it takes seconds or turns, above 0, not both")
+        if turns > 0:
+            self._go(missions.LOITER_TURNS, a, (turns, 0.0, radius, 0.0))
+        elif seconds > 0:
             self._go(missions.LOITER_TIME, a, (seconds, 0.0, radius, 0.0))
         else:
             self._go(missions.LOITER_UNLIMITED, a, (0.0, 0.0, radius, 0.0))
@@ -260,7 +265,8 @@ def _scaled(place):
 
 
 _WAY = ("altitude", "speed")
-_LOITER = ("duration", "radius", *_WAY)
+_LOITER = ("duration", "turns", "radius", *_WAY)
+_OFFSET = ("north", "east", "up")
 # Each word, its method, its positional arguments in order, and those that only have names.
 _LANGUAGE = [
     ("name", "settings_name", ("name",), ()),
@@ -271,15 +277,15 @@ _LANGUAGE = [
     ("home", "set_home", ("position",), ()),
     ("takeOff", "take_off", ("altitude",), ()),
     ("takeOffWithYaw", "take_off", ("altitude", "yaw"), ()),
-    ("move", "move", ("north", "east", "up"), _WAY),
-    ("moveFromHome", "move_from_home", ("north", "east"), _WAY),
-    ("goPos", "go_to", ("position",), _WAY),
+    ("move", "move", _OFFSET, ("position", *_WAY)),
+    ("moveFromHome", "move_from_home", _OFFSET, _WAY),
+    ("goPos", "go_to", ("position",), (*_OFFSET, *_WAY)),
     ("returnHome", "return_home", (), _WAY),
-    ("returnHomeAndLoiter", "return_home_and_loiter", ("duration",), _LOITER),
+    ("returnHomeAndLoiter", "return_home_and_loiter", ("duration",), _LOITER[1:]),
     ("returnHomeAndLand", "return_home_and_land", (), _WAY),
-    ("landingPoint", "land", ("position",), ()),
-    ("moveAndLoiter", "move_and_loiter", ("north", "east", "up"), _LOITER),
-    ("loiterPos", "loiter_at", ("position",), _LOITER),
+    ("landingPoint", "land", ("position",), ("north", "east")),
+    ("moveAndLoiter", "move_and_loiter", _OFFSET, ("position", *_LOITER)),
+    ("loiterPos", "move_and_loiter", ("position",), (*_OFFSET, *_LOITER)),
     ("loiterTurns", "loiter_turns", ("turns", "position"), ("radius", *_WAY)),
     ("loiterTime", "loiter_time", ("duration", "position"), ("radius", *_WAY)),
     ("delay", "delay", ("duration",), _WAY),

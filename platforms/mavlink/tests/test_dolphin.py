@@ -14,6 +14,7 @@ from tests.test_process import FOLDER, free_port
 DOLPHIN = os.environ.get("DOLPHIN")
 EXAMPLE = os.path.join(FOLDER, "example")
 RENDEZVOUS = os.path.join(FOLDER, "..", "..", "examples", "rendezvous.dol")
+PHOTOS = os.path.join(FOLDER, "..", "..", "examples", "photos.dol")
 TWO_FLIGHTS = "v = pick { id 'x8-02'; timeout 20.seconds }\nexecute v: task('rv1') >> task('rv2')\nmessage 'Done!'\n"
 
 
@@ -21,14 +22,20 @@ TWO_FLIGHTS = "v = pick { id 'x8-02'; timeout 20.seconds }\nexecute v: task('rv1
 class Programs(unittest.TestCase):
     def setUp(self):
         self.port = free_port()
+        self.environment = dict(os.environ, DOLPHIN_MAVLINK=sys.executable, PYTHONPATH=FOLDER)
+        self.began = os.path.join(tempfile.mkdtemp(), "began")
+
+    def fly(self, *arguments):
+        """Simulated vehicles, whose missions are told in `began`."""
+        options = ["--to", f"127.0.0.1:{self.port}", "--time", "10", "--began", self.began]
+        self.spawn([sys.executable, "-B", "-m", "sim", *options, *arguments])
+
+    def rendezvous_plane(self):
         self.adapter = (
             f"{os.path.join(FOLDER, 'dolphin-mavlink')} --udp {self.port} --name 1=x8-02 "
             f"--missions {os.path.join(EXAMPLE, 'missions')}"
         )
-        self.environment = dict(os.environ, DOLPHIN_MAVLINK=sys.executable, PYTHONPATH=FOLDER)
-        options = ["--to", f"127.0.0.1:{self.port}", "--time", "10", "--place=41.184,-8.707", "--armed"]
-        self.began = os.path.join(tempfile.mkdtemp(), "began")
-        self.spawn([sys.executable, "-B", "-m", "sim", *options, "--began", self.began, "plane"])
+        self.fly("--place=41.184,-8.707", "--armed", "plane")
 
     def spawn(self, command, **more):
         process = subprocess.Popen(command, env=self.environment, stdin=subprocess.PIPE, **more)
@@ -46,7 +53,34 @@ class Programs(unittest.TestCase):
         with open(self.began, encoding="utf-8") as file:
             return [int(line) for line in file]
 
+    def test_missions_of_the_program(self):
+        """They arm, and only who has a camera takes photos."""
+        self.fly("--place=41.1850,-8.7062", "copter", "copter:px4")
+        adapter = f"{os.path.join(FOLDER, 'dolphin-mavlink')} --udp {self.port} --payload mav-2=camera"
+        run = subprocess.run(
+            [DOLPHIN, "exec", PHOTOS, "--platform", adapter],
+            env=self.environment, capture_output=True, text=True, timeout=120,
+        )
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        for line in ("mav-2       ends survey", "mav-1       stops wait", "says: the field is photographed"):
+            self.assertIn(line, run.stdout)
+        self.assertEqual(len(self.flights()), 2)
+
+    def test_what_a_mission_lacks_is_told_before_anything_moves(self):
+        adapter = f"{os.path.join(FOLDER, 'dolphin-mavlink')} --udp {self.port}"
+        with tempfile.TemporaryDirectory() as folder:
+            program = os.path.join(folder, "low.dol")
+            with open(program, "w", encoding="utf-8") as file:
+                file.write("v = pick { type 'UAV' }\nexecute v: mission { name 'low'; goPos Location.APDL }\n")
+            run = subprocess.run(
+                [DOLPHIN, "check", program, "--platform", adapter],
+                env=self.environment, capture_output=True, text=True, timeout=60,
+            )
+        self.assertNotEqual(run.returncode, 0)
+        self.assertIn("low: mavlink: item 1, goPos: how high? Give altitude", run.stdout + run.stderr)
+
     def test_submarines_of_imc_and_a_plane_of_mavlink_in_one_program(self):
+        self.rendezvous_plane()
         ports = "42500-42504"
         fleet = os.path.join(EXAMPLE, "uuvs.fleet")
         imc = ["--imc", "--discovery-ports", ports, "--port", "42510", "--announce", "1", "--contact", "1"]
@@ -66,6 +100,7 @@ class Programs(unittest.TestCase):
 
     def test_a_console_that_is_killed_and_resumed(self):
         """At moments of its run, one after another (DOLPHIN_KILLS: how many): each mission is flown once."""
+        self.rendezvous_plane()
         for number in range(int(os.environ.get("DOLPHIN_KILLS", "2"))):
             with self.subTest(number=number), tempfile.TemporaryDirectory() as folder:
                 program, journal = os.path.join(folder, "two.dol"), os.path.join(folder, "run")

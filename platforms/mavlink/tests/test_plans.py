@@ -307,6 +307,31 @@ class Missions(unittest.TestCase):
             found = self.found(("takeOff", 10), (word, *arguments))
             self.assertGreaterEqual(len(found.items), 1, word)
 
+    def test_places_that_are_moved_and_turns(self):
+        found = self.found(
+            ("takeOff", 30),
+            ("move", Named(position=HERE, north=10, east=-5)),
+            ("goPos", Named(position=HERE, north=100)),
+            ("landingPoint", Named(position=HERE, east=20)),
+            ("moveAndLoiter", Named(position=HERE, turns=3, up=5)),
+            ("loiterPos", Named(position=HERE, duration=40, radius=-30)),
+        ).items
+        offsets = [tuple(round(c) for c in geo.offset(HARBOUR, i.place)) for i in found[1:]]
+        self.assertEqual(offsets, [(10, -5), (100, 0), (0, 20), (0, 0), (0, 0)])
+        self.assertEqual((found[4].command, found[4].params[0], found[4].z), (mission.LOITER_TURNS, 3.0, 35.0))
+        self.assertEqual((found[5].command, found[5].params), (mission.LOITER_TIME, (40.0, 0.0, -30.0, 0.0)))
+        self.assertEqual(
+            self.refused(("takeOff", 5), ("loiterPos", Named(turns=2, duration=5))),
+            ["item 2, loiterPos: it takes seconds or turns, above 0, not both"],
+        )
+
+    def test_whose_it_is(self):
+        plan = items(("takeOff", 5))
+        plan["body"]["vehicles"] = ["x9"]
+        with self.assertRaises(plans.Refused) as caught:
+            read(plan, COPTER)
+        self.assertEqual(caught.exception.problems, ["only x9 may run it"])
+
     def test_a_survey_covers_its_area(self):
         area = [
             {**HERE, "latitude": HARBOUR[0] + a, "longitude": HARBOUR[1] + b}

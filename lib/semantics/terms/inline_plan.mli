@@ -1,0 +1,28 @@
+(** What a program describes, in place of a plan's name: a plan of maneuvers or a mission of items. *)
+
+module Position = Dolphin_geo.Position
+
+type t =
+  | Maneuvers of Plan.t  (** [imcPlan { ... }] *)
+  | Mission of Mission_plan.t  (** [mission { ... }] *)
+
+val name : t -> string
+
+val vehicles : t -> string list
+(** The only ones that may run it; [[]]: any. *)
+
+val required_payload : t -> string list
+(** The devices that it needs, each once. *)
+
+val reference : t -> Position.t option
+(** Where it begins: allocation prefers vehicles near it. [None]: wherever the vehicle is. *)
+
+(** A part of the way: straight to each of [waypoints], then [dwell] seconds at the last, perhaps [infinity]. *)
+type leg = { waypoints : Position.t list; speed : float; dwell : float }
+
+val path : from:Position.t -> speed:float -> t -> leg list
+(** [path ~from ~speed p] is the way of a vehicle at [from], where what is not said in metres per second is [speed]:
+    that of {!Plan.path} or {!Mission_plan.path}. *)
+
+val compare : t -> t -> int
+val pp : Format.formatter -> t -> unit

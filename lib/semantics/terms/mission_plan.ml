@@ -1,0 +1,118 @@
+module Position = Dolphin_geo.Position
+module Wgs84 = Dolphin_geo.Wgs84
+
+type argument =
+  | Number of float
+  | Truth of bool
+  | Text of string
+  | Place of Position.t
+  | Places of Position.t list
+
+type item = { word : string; arguments : (string * argument) list }
+type t = { name : string; vehicles : string list; items : item list }
+
+let takes_photos item = List.mem item.word [ "capturePhoto"; "captureSeveralPhotos"; "captureUntilStop" ]
+let required_payload m = if List.exists takes_photos m.items then [ "Camera" ] else []
+
+let place_of item =
+  let place = function
+    | _, Place p | _, Places (p :: _) -> Some p
+    | _, (Number _ | Truth _ | Text _ | Places []) -> None
+  in
+  List.find_map place item.arguments
+
+let reference m = List.find_map place_of m.items
+let is_numbered item = not (List.mem item.word [ "arm"; "altitude" ])
+
+(* {1 The way} *)
+
+type leg = { item : string; waypoints : Position.t list; dwell : float; speed : float }
+
+let number name ~default item =
+  match List.assoc_opt name item.arguments with
+  | Some (Number x) -> x
+  | Some (Truth _ | Text _ | Place _ | Places _) | None -> default
+
+let place name ~default item =
+  match List.assoc_opt name item.arguments with
+  | Some (Place p) -> p
+  | Some (Number _ | Truth _ | Text _ | Places _) | None -> default
+
+let moved from item =
+  Wgs84.displace from ~north:(number "north" ~default:0. item) ~east:(number "east" ~default:0. item)
+
+type state = { here : Position.t; home : Position.t; now : float  (* its speed *) }
+
+(* Where a mission does not say how wide its circles are. *)
+let usual_radius = 50.
+
+let circles turns ~speed item =
+  let radius = match number "radius" ~default:0. item with 0. -> usual_radius | radius -> Float.abs radius in
+  turns *. 2. *. Float.pi *. radius /. speed
+
+(* Without a number of turns or seconds it never ends. *)
+let loitering ~speed item =
+  match number "turns" ~default:0. item, number "duration" ~default:0. item with
+  | 0., 0. -> infinity
+  | 0., seconds -> seconds
+  | turns, _ -> circles turns ~speed item
+
+let surveyed item =
+  match List.assoc_opt "area" item.arguments with
+  | Some (Places corners) ->
+    Dolphin_geo.Survey.lines corners ~spacing:(number "spacing" ~default:20. item)
+      ~bearing:(number "bearing" ~default:0. item)
+  | Some (Number _ | Truth _ | Text _ | Place _) | None -> []
+
+(* The state after [item], the places that it visits, and how long it stays at the last one. *)
+let carry_out item s =
+  let s = { s with now = number "speed" ~default:s.now item } in
+  let go p dwell = ({ s with here = p }, [ p ], dwell) in
+  let there = moved (place "position" ~default:s.here item) item in
+  match item.word with
+  | "speed" -> (s, [], 0.)
+  | "home" -> ({ s with home = place "position" ~default:s.here item }, [], 0.)
+  | "move" | "goPos" | "landingPoint" -> go there 0.
+  | "moveFromHome" -> go (moved s.home item) 0.
+  | "returnHome" | "returnHomeAndLand" -> go s.home 0.
+  | "returnHomeAndLoiter" -> go s.home (loitering ~speed:s.now item)
+  | "moveAndLoiter" | "loiterPos" | "loiterTurns" | "loiterTime" -> go there (loitering ~speed:s.now item)
+  | "delay" -> (s, [], number "duration" ~default:0. item)
+  | "surveyArea" -> (
+      match surveyed item with
+      | [] -> (s, [], 0.)
+      | places -> ({ s with here = List.nth places (List.length places - 1) }, places, 0.))
+  | _ -> (s, [], 0.)  (* what neither moves it nor takes time: taking off, photos, heights *)
+
+(* More than any vehicle's battery lasts for. *)
+let most_steps = 20_000
+
+(* [jumps] is how often each jump was taken. *)
+let path ~from ~speed m =
+  let items = Array.of_list (List.filter is_numbered m.items) in
+  let rec go i steps jumps s legs =
+    if i >= Array.length items then legs
+    else
+      let item = items.(i) in
+      let named = Printf.sprintf "%d.%s" (i + 1) item.word in
+      let stays = { item = named; waypoints = []; dwell = infinity; speed = s.now } in
+      if steps = most_steps then stays :: legs
+      else if item.word = "jumpToItem" then
+        let taken = Option.value (List.assoc_opt i jumps) ~default:0. in
+        let times = number "times" ~default:1. item in
+        if times >= 0. && taken >= times then go (i + 1) (steps + 1) (List.remove_assoc i jumps) s legs
+        else
+          let target = int_of_float (number "item" ~default:1. item) - 1 in
+          go target (steps + 1) ((i, taken +. 1.) :: List.remove_assoc i jumps) s legs
+      else
+        let s, waypoints, dwell = carry_out item s in
+        let dwell = if dwell = infinity && i = Array.length items - 1 then 0. else dwell in
+        go (i + 1) (steps + 1) jumps s ({ item = named; waypoints; dwell; speed = s.now } :: legs)
+  in
+  List.rev (go 0 0 [] { here = from; home = from; now = speed } [])
+
+(* Missions are plain data without functions or cycles. *)
+let compare (a : t) (b : t) = Stdlib.compare a b
+
+let pp ppf m =
+  Format.fprintf ppf "%s: %a" m.name Fmt.(list ~sep:(any ", ") string) (List.map (fun item -> item.word) m.items)

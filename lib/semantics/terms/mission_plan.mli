@@ -1,0 +1,52 @@
+(** Missions of items: what [mission { ... }] describes, for vehicles whose plans are such missions, as those that speak
+    MAVLink. Lengths are in metres, times in seconds, speeds in metres per second, angles in degrees, heights in metres
+    above the home position. *)
+
+module Position = Dolphin_geo.Position
+
+type argument =
+  | Number of float
+  | Truth of bool
+  | Text of string
+  | Place of Position.t
+  | Places of Position.t list
+
+type item = {
+  word : string;  (** ["goPos"] *)
+  arguments : (string * argument) list;  (** each by its name *)
+}
+
+type t = {
+  name : string;
+  vehicles : string list;  (** the only ones that may run it; [[]]: any *)
+  items : item list;  (** in order, at least one *)
+}
+
+val required_payload : t -> string list
+(** [required_payload m] is [["Camera"]] if an item takes photos, else [[]]. *)
+
+val reference : t -> Position.t option
+(** [reference m] is the first place that an item names; [None] if none does. *)
+
+val is_numbered : item -> bool
+(** Whether [jumpToItem] counts it: all items do something with the vehicle, but [arm] and [altitude]. *)
+
+(** {1:way The way that a vehicle goes} *)
+
+(** One item as a simulated vehicle carries it out. *)
+type leg = {
+  item : string;  (** its number and word, ["2.goPos"] *)
+  waypoints : Position.t list;  (** visited in order *)
+  dwell : float;  (** seconds at the last of them; [infinity] for an item without end *)
+  speed : float;
+}
+
+val path : from:Position.t -> speed:float -> t -> leg list
+(** [path ~from ~speed m] is the legs of a vehicle at [from], whose home is there and whose speed is [speed] until [m]
+    says otherwise: a leg for each item that is carried out, in order, jumps taken. Of a stored mission nothing is
+    known: it takes no time. Who circles without end as the last item is done once there; other missions that go on
+    for ever end with a dwell without end. *)
+
+val compare : t -> t -> int
+val pp : Format.formatter -> t -> unit
+(** The mission's name and its items' words. *)

@@ -53,6 +53,8 @@ let man =
         in the program take as long as their way does at the vehicle's speed, ten percent less or more, and their \
         stays. Timers ($(b,idle), $(b,during), $(b,within), $(b,pause), time-outs of $(b,pick)) take exactly their \
         time. What the program does by itself, answers and replies take none. Vehicles are there when they are picked.";
+    `P "Of each $(b,within) of the program it says whether it is kept, or when it is missed, with a run in which it \
+        is.";
     `P "With $(b,--faults), a task fails at any time until it would be done; a vehicle that is not heard of fails its \
         task when its connection timeout is over; one that is late comes until the time-out of the $(b,pick).";
     `P "It prints a run that ends last, in columns with times, and the durations that its end depends on. If some run \

@@ -41,6 +41,8 @@ type t = {
   mutable cycle : cycle option;
   mutable stuck : int option;
   mutable unknown : Timed.pending list;
+  mutable deadlines : Core.site list;  (* of [within], latest first *)
+  missed : (Core.site, date * int * Timed.step) Hashtbl.t;
 }
 
 (* {1 Places} *)
@@ -49,10 +51,20 @@ let clocks (s : Timed.state) =
   let has_clock (p : Timed.pending) = match p.bounds with Within _ -> true | Some_time | Never -> false in
   List.mapi (fun i (p : Timed.pending) -> (p.item, i + 1)) (List.filter has_clock s.pending)
 
+(* The [within] that have begun in a state, each with its timer. *)
+let deadlines_of (s : Timed.state) =
+  let deadline found (r : Residual.t) =
+    match r with During { on_cut = Fails site; timer; started = true; _ } -> (timer, site) :: found | _ -> found in
+  match s.configuration.control with
+  | Executing (_, r) -> Residual.fold_active deadline [] r
+  | Script _ | Waiting _ | Ended _ -> []
+
 let place t state =
   match Table.find_opt t.places state with
   | Some place -> place
   | None ->
+    let note (_, site) = if not (List.mem site t.deadlines) then t.deadlines <- site :: t.deadlines in
+    List.iter note (deadlines_of state);
     let place = { state; steps = lazy (Timed.steps t.options state); clocks = clocks state; here = [] } in
     Table.add t.places state place;
     place
@@ -141,6 +153,19 @@ let note_step t zone (before : Timed.state) (step : Timed.step) =
   in
   List.iter carry tr.effects
 
+(* [step] is taken from state [n]. *)
+let note_missed t n zone (before : Timed.state) (step : Timed.step) =
+  match step.due with
+  | Some (Timer timer, _) when List.mem Rule.Within_cut step.transition.rules ->
+    let date = date t zone in
+    let note site =
+      match Hashtbl.find_opt t.missed site with
+      | Some (known, _, _) when not (is_better t date known) -> ()
+      | Some _ | None -> Hashtbl.replace t.missed site (date, n, step)
+    in
+    Option.iter note (List.assoc_opt timer (deadlines_of before))
+  | Some _ | None -> ()
+
 let ending : Configuration.ending -> ending = function
   | Completed -> Completed
   | Halted _ -> Halted
@@ -219,7 +244,8 @@ let widen t ~reserved =
 
 let create goal options =
   { goal; options; places = Table.create 1_000; nodes = [||]; count = 0; reserved = 0; moments = Hashtbl.create 100;
-    tasks = []; endings = []; cycle = None; stuck = None; unknown = [] }
+    tasks = []; endings = []; cycle = None; stuck = None; unknown = []; deadlines = [];
+    missed = Hashtbl.create 8 }
 
 let visit t (v : via System.visitor) n = v.visit [| n lsl t.reserved |] 0 ()
 
@@ -244,6 +270,7 @@ let expand t key (v : via System.visitor) =
     | None -> taken
     | Some zone -> (
         note_step t zone before.state step;
+        note_missed t n zone before.state step;
         let place = place t step.next in
         match settled t place (rearranged before place step zone) with
         | Some zone -> visit t v (arrive t n step place zone); taken + 1
@@ -276,5 +303,12 @@ let run t n =
     match t.nodes.(n) with { step = Some step; parent; _ } -> back (step :: steps) parent | { step = None; _ } -> steps
   in
   back [] n
+
+let deadlines t =
+  let missed site =
+    let run (date, n, step) = (date, run t n @ [ step ]) in
+    (site, Option.map run (Hashtbl.find_opt t.missed site))
+  in
+  List.rev_map missed t.deadlines
 
 let start t = t.nodes.(0).place.state

@@ -54,4 +54,8 @@ val unknown : t -> Timed.pending list
 val run : t -> int -> Timed.step list
 (** [run t n] is the steps of the run to state [n]. *)
 
+val deadlines : t -> (Core.site * (date * Timed.step list) option) list
+(** The [within] that begin in some run, by their places, each with when it is missed, at the earliest or at the latest,
+    and a run until then; [None]: never. *)
+
 val start : t -> Timed.state

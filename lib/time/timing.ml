@@ -21,6 +21,7 @@ type outcome = {
   first : run option;
   endless : (run * [ `Cycle | `In_no_time | `Stuck ]) option;
   unknown : Timed.pending list;
+  deadlines : (Core.site * (window * run) option) list;
   late : run option;
   stopped : Limits.bound option;
   states : int;
@@ -33,13 +34,14 @@ type outcome = {
 
 let transitions = List.map (fun (s : Timed.step) -> s.transition)
 
-let run_to goal options system n =
-  let steps = Timed_system.run system n in
+let run_of goal options system steps =
   let schedule = Schedule.make goal options (Timed_system.start system) steps in
   let dates, chain =
     match schedule with Some { dates; chain } -> (Array.to_list dates, chain) | None -> ([], [])
   in
   { steps = transitions steps; dates; cycle = []; chain }
+
+let run_to goal options system n = run_of goal options system (Timed_system.run system n)
 
 let rec without n xs = match xs with _ :: rest when n > 0 -> without (n - 1) rest | xs -> xs
 
@@ -79,6 +81,20 @@ let windows early late =
   in
   List.filter_map both late
 
+(* Each [within], as both searches found it. *)
+let deadlines options early late =
+  let early = Timed_system.deadlines early in
+  let both (site, missed) =
+    let with_earliest (latest, steps) =
+      match Option.join (List.assoc_opt site early) with
+      | Some (earliest, _) ->
+        Option.map (fun window -> (window, run_of Timed_system.Latest options late steps)) (window earliest latest)
+      | None -> None
+    in
+    (site, Option.bind missed with_earliest)
+  in
+  List.map both (Timed_system.deadlines late)
+
 let run ?deadline limits options =
   let started = limits.Limits.clock () in
   let search goal phase =
@@ -105,6 +121,7 @@ let run ?deadline limits options =
     last = last_run; first = run_at Earliest early_system (best is_sooner early_system);
     endless = endless options late_system;
     unknown = Timed_system.unknown late_system;
+    deadlines = deadlines options early_system late_system;
     late = (match last with Some (date, _) when is_late date -> last_run | Some _ | None -> None);
     stopped = (match Search.stopped late with Some bound -> Some bound | None -> Search.stopped early);
     states = Search.count late + Search.count early;

@@ -24,6 +24,8 @@ type outcome = {
   first : run option;  (** one that ends first *)
   endless : (run * [ `Cycle | `In_no_time | `Stuck ]) option;  (** one that never ends *)
   unknown : Timed.pending list;  (** what takes some time, nobody knows how long *)
+  deadlines : (Core.site * (window * run) option) list;
+  (** the [within] of the program, each with when it is missed, and a run in which it is; [None]: it is kept *)
   late : run option;  (** one that is not over at the deadline *)
   stopped : Dolphin_checker.Limits.bound option;
   (** if there is a bound, dates are of the runs that were looked at *)

@@ -101,6 +101,29 @@ With failures, for programs.
   {'task': 'visit', 'vehicle': 'b', 'at': 'relay.dol:4:39', 'starts': {'earliest': 240, 'latest': 420}, 'ends': {'earliest': 300, 'latest': 540}, 'fails': {'earliest': 240, 'latest': 540}, 'stopped': {'earliest': 240, 'latest': 510}}
   [0, 0, 0, 0, 0, 0, 420, 420, 420, 420, 420, 510, 540, 540] [{'what': 'relay.dol:3:10: survey on a', 'seconds': 420}, {'what': 'relay.dol:4:39: visit on b', 'seconds': 120}]
 
+A task that may not be done within its time.
+
+  $ sed "s/task('survey')\[a\]/(task('survey')[a] within 5.min)/" relay.dol > within.dol
+  $ dolphin time within.dol --fleet relay.fleet | timeless
+  completed: 5:30 at the earliest, 7:00 at the latest
+  failed: 5:00 at the earliest, 5:00 at the latest
+  within.dol:3:10: within: missed, at 5:00
+  task    vehicle  starts        ends          stopped  where
+  survey  a        0:00          4:00 to 5:00  5:00     within.dol:3
+  home    a        4:00 to 5:00  5:30 to 6:30           within.dol:3
+  visit   b        4:00 to 5:00  5:00 to 7:00           within.dol:4
+  34 states, depth 14, T
+  
+  a run in which a task is not done within its time:
+         program                      a              where
+  0:00   pick(1 vehicle with id 'a')                 within.dol:1
+  0:00   picks a                                     within.dol:1
+  0:00   pick(1 vehicle with id 'b')                 within.dol:2
+  0:00   picks b                                     within.dol:2
+  0:00   execute                                     within.dol:3
+  0:00                                starts survey  within.dol:3
+  5:00   timeout                                     within.dol:3
+
 A run whose tasks took as long as they may, and the same with a fleet that says otherwise.
 
   $ dolphin exec relay.dol --journal relay.run --seed 3 > /dev/null

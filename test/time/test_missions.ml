@@ -126,7 +126,17 @@ let test_within () =
       (fleet (two ^ "plan 'survey', { duration 8.min, 19.min }")) in
   Alcotest.check window "in time" (480., 600.) (ends o);
   Alcotest.check window "too late" (600., 600.) (ends ~ending:Failed o);
-  Alcotest.check window "stopped" (600., 600.) (of_task o "survey" Stopped)
+  Alcotest.check window "stopped" (600., 600.) (of_task o "survey" Stopped);
+  let missed (o : Timing.outcome) =
+    List.map (fun (_, missed) -> Option.map (fun (w, _) -> seconds w) missed) o.deadlines in
+  let windows = Alcotest.(list (option window)) in
+  Alcotest.check windows "missed" [ Some (600., 600.) ] (missed o);
+  let two_of_them = "execute (task('survey')[va] within 19.min) >> (task('survey')[vb] within 10.min)\n" in
+  let o = outcome (both ^ two_of_them) (fleet (two ^ "plan 'survey', { duration 8.min, 19.min }")) in
+  Alcotest.check windows "the second is missed" [ Some (1140., 1140.); Some (1080., 1740.) ] (missed o);
+  let o = outcome (both ^ "execute task('survey')[va] within 20.min\n")
+      (fleet (two ^ "plan 'survey', { duration 8.min, 19.min }")) in
+  Alcotest.check windows "kept" [ None ] (missed o)
 
 (* A race: whoever is first ends the other one. *)
 let test_until () =

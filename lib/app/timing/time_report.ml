@@ -97,6 +97,8 @@ let print_chain p (run : Timing.run) =
   if run.chain <> [] then
     Printf.printf "its end depends on: %s\n" (String.concat ", then " (List.map link run.chain))
 
+let missed (o : Timing.outcome) = List.find_map (fun (_, missed) -> Option.map snd missed) o.deadlines
+
 let print_run ?deadline p (o : Timing.outcome) =
   match o.endless, o.late, o.last with
   | Some (run, why), _, _ ->
@@ -114,6 +116,10 @@ let print_run ?deadline p (o : Timing.outcome) =
       (Option.fold ~none:"" ~some:(fun n -> ", " ^ time n) deadline);
     print_columns p run;
     print_chain p run
+  | None, None, _ when missed o <> None ->
+    let run = Option.get (missed o) in
+    Printf.printf "\na run in which a task is not done within its time:\n";
+    print_columns p run
   | None, None, Some ({ dates = _ :: _; _ } as run) when o.stopped = None ->
     Printf.printf "\na run that ends last:\n";
     print_columns p run;
@@ -132,6 +138,15 @@ let print_deadline ?deadline (o : Timing.outcome) =
   in
   Option.iter say deadline
 
+let print_within p (o : Timing.outcome) (site, missed) =
+  let verdict =
+    match missed with
+    | Some (w, _) -> "missed, at " ^ window w
+    | None when o.stopped = None -> "kept"
+    | None -> "inconclusive"
+  in
+  Printf.printf "%s: within: %s\n" (Option.value (at p site) ~default:"") verdict
+
 let print_unknown p (o : Timing.outcome) =
   List.iter (fun u -> Printf.printf "nobody knows how long it takes: %s%s\n" (item p u) (hint u)) o.unknown
 
@@ -143,6 +158,7 @@ let print ?deadline p (o : Timing.outcome) =
   List.iter print_ending o.endings;
   if o.endings = [] && o.stopped = None then print_endline "no run ends";
   print_deadline ?deadline o;
+  List.iter (print_within p o) o.deadlines;
   print_unknown p o;
   print_tasks p o;
   Printf.printf "%d states, depth %d, %.2f s, %d MiB\n" o.states o.depth o.seconds (o.bytes / 1024 / 1024);
@@ -170,6 +186,15 @@ let to_json ?deadline p (o : Timing.outcome) : Yojson.Safe.t =
     `Assoc
       ([ ("task", `String t.name); ("vehicle", `String t.vehicle); ("at", site) ] @ List.filter_map window moments)
   in
+  let within (site, missed) =
+    let place = Option.fold ~none:`Null ~some:(fun s -> `String s) (at p site) in
+    let missed =
+      match missed with
+      | Some (w, run) -> [ ("missed", json_of_window w); ("run", json_of_run p run) ]
+      | None -> [ ("missed", `Null) ]
+    in
+    `Assoc (("at", place) :: missed)
+  in
   let optional name f x = match x with Some x -> [ (name, f x) ] | None -> [] in
   let verdict =
     match Timing.verdict ?deadline o with
@@ -186,6 +211,7 @@ let to_json ?deadline p (o : Timing.outcome) : Yojson.Safe.t =
      @ optional "deadline" seconds deadline
      @ [ ("ends", `Assoc (List.map (fun (e, w) -> (ending e, json_of_window w)) o.endings));
          ("tasks", `List (List.map task o.tasks));
+         ("within", `List (List.map within o.deadlines));
          ("unknown", `List (List.map (fun u -> `String (item p u)) o.unknown)) ]
      @ optional "last" (json_of_run p) o.last
      @ optional "first" (json_of_run p) o.first

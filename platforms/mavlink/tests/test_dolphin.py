@@ -15,6 +15,11 @@ DOLPHIN = os.environ.get("DOLPHIN")
 EXAMPLE = os.path.join(FOLDER, "example")
 RENDEZVOUS = os.path.join(FOLDER, "..", "..", "examples", "rendezvous.dol")
 PHOTOS = os.path.join(FOLDER, "..", "..", "examples", "photos.dol")
+WAYPOINTS = (
+    "QGC WPL 110\n0\t1\t0\t16\t0\t0\t0\t0\t41.184\t-8.707\t0\t1\n"
+    "1\t0\t3\t16\t0\t0\t0\t0\t41.1842\t-8.7068\t80\t1\n"
+    "2\t0\t3\t19\t{seconds}\t0\t60\t0\t41.1842\t-8.7068\t80\t1\n"
+)
 TWO_FLIGHTS = "v = pick { id 'x8-02'; timeout 20.seconds }\nexecute v: task('rv1') >> task('rv2')\nmessage 'Done!'\n"
 
 
@@ -78,6 +83,24 @@ class Programs(unittest.TestCase):
             )
         self.assertNotEqual(run.returncode, 0)
         self.assertIn("low: mavlink: item 1, goPos: how high? Give altitude", run.stdout + run.stderr)
+
+    def test_the_kit_of_situations(self):
+        """All of them at night; else those that take no time."""
+        self.fly("--place=41.184,-8.707", "--armed", "plane")
+        quick = ["completion", "start-twice", "stop", "refusal", "killed", "resume-twice"]
+        only = [] if "DOLPHIN_KILLS" in os.environ else [f"--only={name}" for name in quick]
+        with tempfile.TemporaryDirectory() as folder:
+            for name, seconds in (("short", 0), ("long", 36000)):
+                with open(os.path.join(folder, f"{name}.waypoints"), "w", encoding="utf-8") as file:
+                    file.write(WAYPOINTS.format(seconds=seconds))
+            adapter = f"{os.path.join(FOLDER, 'dolphin-mavlink')} --udp {self.port} --missions {folder}"
+            run = subprocess.run(
+                [DOLPHIN, "platform", "check", adapter, *only],
+                env=self.environment, capture_output=True, text=True, timeout=240,
+            )
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        number = len(only) or 20
+        self.assertIn(f"{number} of {number} situations passed", run.stdout)
 
     def test_submarines_of_imc_and_a_plane_of_mavlink_in_one_program(self):
         self.rendezvous_plane()

@@ -6,6 +6,7 @@ type input = { key : string; rounds : Core.value list list; times : int; certain
 
 type options = {
   endings : Core.vehicle -> string -> ending;
+  plans : string list;
   may_be_late : Core.vehicle -> bool;
   answers : string -> string list list;
   replies : string -> (Core.value, string) result list list;
@@ -19,7 +20,8 @@ exception Unclear of Fault.t
 let clear = function Ok x -> x | Error fault -> raise (Unclear fault)
 
 let default =
-  { endings = (fun _ _ -> Succeeds); may_be_late = (fun _ -> true); answers = (fun _ -> []); replies = (fun _ -> []);
+  { endings = (fun _ _ -> Succeeds); plans = []; may_be_late = (fun _ -> true); answers = (fun _ -> []);
+    replies = (fun _ -> []);
     inputs = []; faults = Faults.none; who_is_lost_matters = true }
 
 let ending options v name =

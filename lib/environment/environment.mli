@@ -20,6 +20,8 @@ type input = {
 type options = {
   endings : Core.vehicle -> string -> ending;
   (** of a vehicle's run of the plan with this name, without {!Faults} *)
+  plans : string list;
+  (** the names of plans whose [endings] may be others than those of all that are not named here *)
   may_be_late : Core.vehicle -> bool;  (** the vehicles that may be late, or missing, if any may *)
   answers : string -> string list list;
   (** by prompt, for the first time it is asked, the second and so on: what may be answered then. The last item is for

@@ -35,6 +35,7 @@ let environment ~answers:given ~faults (scenario : Scenario.t) =
   let late = List.map (fun (v : Scenario.vehicle) -> v.id) (if unsteady = [] then scenario.vehicles else unsteady) in
   {
     Environment.endings = ending scenario;
+    plans = List.map (fun (p : Scenario.plan) -> p.name) scenario.plans;
     may_be_late = (fun v -> List.mem v late);
     answers = answers given scenario;
     replies = (fun call -> Option.value (Scenario.rounds scenario call) ~default:[]);

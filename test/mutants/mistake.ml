@@ -668,10 +668,31 @@ let missions =
       ("a jump is taken once more", {|taken >= times|}, {|taken > times|});
     ]
 
+let alike_values =
+  in_file "lib/explore/symmetry/alike_values.ml" ~noticed_by:"reduction/test_alike_values"
+    [
+      ("plans of the fleet end as all others", {|if may_name code.plans parts || not|}, {|if (may_name code.plans parts && false) || not|});
+      ("a name may be empty", {| || not (List.exists is_text parts) then raise|}, {| && List.exists is_text parts then raise|});
+      ("a text of a value is posted", {|        | Some k, Value -> code.posted|}, {|        | Some k, (Value | Text) -> code.posted|});
+      ("pairs that are asked for are not looked into", {|    | Some k, _ -> [ k ]|}, {|    | Some _, _ -> []|});
+      ( "values posted where they are looked into stay alike",
+        {|      | Some posted when Keys.disjoint posted looked -> looked|},
+        {|      | Some posted when Keys.disjoint posted looked || not (Keys.is_empty taken) -> looked|} );
+      ("functions take nothing", {|      | Apply (Call _, _) -> raise Looked_at
+      | _ -> ()
+    in
+    Code_walk.iter visit [ lambda ];|}, {|      | _ -> ()
+    in
+    Code_walk.iter visit [ lambda ];|});
+      ("globals keep nothing", {|  | Set_global (_, e) -> nothing code e|}, {|  | Set_global (_, e) -> ignore (value_of code e); Other|});
+      ("handlers may do anything with an error's text", {|  check_handlers plans program;|}, {|  if false then check_handlers plans program;|});
+    ]
+
 let all =
   List.concat
     [ missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups; quotient; expansion;
       vehicle_orbits; canonical_vehicles; name_flow; liveness; later_picks; environment; picks; inputs; attendance;
       task_rules; local_step; run_code; answers_in_words; confirm; unknown;
       pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
-      conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps; driver; fair_cycles ]
+      conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps; driver; fair_cycles;
+      alike_values ]

@@ -24,7 +24,10 @@ let follow options program world states steps =
 
 let same (c, e) (c', e') = Configuration.equal c c' && Environment.compare e e' = 0
 
+(* Who is lost is not remembered where it makes no difference: a run goes round for ever, although it may lose another
+   vehicle the first time. *)
 let shows options program world property (run : Search.run) =
+  let options = Later_picks.forgetting program options in
   let start = [ (Configuration.initial program, Environment.initial) ] in
   let there = follow options program world start run.steps in
   let stuck (c, e) =

@@ -47,6 +47,7 @@ type outcome = {
   stopped : Limits.bound option;
   reduction : Reduction.t;
   vehicle_symmetry : bool;
+  alike_values : bool;
   sample : Sample.summary option;
   verdicts : (Property.t * verdict) list;
 }
@@ -229,6 +230,7 @@ let without_formulas x (options : options) =
     stopped = State_graph.stopped graph;
     reduction;
     vehicle_symmetry = Space.used_vehicle_symmetry space;
+    alike_values = false;
     sample = State_graph.sample graph;
     verdicts;
   }
@@ -246,8 +248,7 @@ let relevant program (options : options) =
   | Partial_order | Symmetry | All ->
     { options with environment = Later_picks.forgetting program options.environment }
 
-let run (options : options) program world =
-  let options = relevant program options in
+let judged (options : options) program world =
   let symmetry =
     if Reduction.by_symmetry options.reduction then
       Symmetry.find options.environment program ~asked:options.invariants world
@@ -258,12 +259,53 @@ let run (options : options) program world =
     if options.invariants = [] then (options, symmetry)
     else ({ options with reduction = Whole }, Symmetry.without_tasks symmetry)
   in
-  let x = { program; world; symmetry; started = options.limits.clock () } in
-  with_formulas x options (explore x options)
+  explore { program; world; symmetry; started = options.limits.clock () } options
+
+(* {1 Values that are alike} *)
+
+(* The runs of [program], which go in step with those of [image]. *)
+let in_step options program world ~image found =
+  let ends_alike (t : Transition.t) (real : Transition.t) =
+    Property.broken_by_end t.rules t.next = Property.broken_by_end real.rules real.next
+  in
+  let of_verdict (property, verdict) =
+    match verdict with
+    | Holds | By_design _ | Unreached _ | Inconclusive _ -> Some (property, verdict)
+    | Violated ({ steps; cycle; _ } as run) ->
+      let real ({ steps; cycle } : Lockstep.run) =
+        (property, Violated { steps; cycle; shortest = run.shortest && List.compare_lengths steps run.steps = 0 })
+      in
+      Option.map real (Lockstep.follow options.environment world program ~image ~ends_alike { steps; cycle })
+  in
+  let verdicts = List.map of_verdict found.verdicts in
+  if List.mem None verdicts then None
+  else Some { found with verdicts = List.filter_map Fun.id verdicts; alike_values = true }
+
+let judged_with_alike_values (options : options) program world =
+  let unified =
+    if Reduction.by_symmetry options.reduction && options.invariants = [] then
+      Alike_values.unify options.environment program
+    else None
+  in
+  match unified with
+  | None -> judged options program world
+  | Some image -> (
+      match in_step options program world ~image (judged options image world) with
+      | Some found -> found
+      | None -> judged options program world)
+
+let run (options : options) program world =
+  let options = relevant program options in
+  let started = options.limits.clock () in
+  let found = judged_with_alike_values options program world in
+  with_formulas { program; world; symmetry = Symmetry.none; started } options found
 
 (* {1 Text} *)
 
-let reductions o = Reduction.names o.reduction @ if o.vehicle_symmetry then [ "symmetry of vehicles" ] else []
+let reductions o =
+  Reduction.names o.reduction
+  @ (if o.vehicle_symmetry then [ "symmetry of vehicles" ] else [])
+  @ if o.alike_values then [ "symmetry of values" ] else []
 
 let pp_verdict (program : Core.program) ppf (property, verdict) =
   let print format = Format.fprintf ppf format in

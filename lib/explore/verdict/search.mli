@@ -56,6 +56,7 @@ type outcome = {
   reduction : Reduction.t;
   (** the one that was used in tasks: weaker than requested where the requested one would be unsound *)
   vehicle_symmetry : bool;  (** whether vehicle symmetry merged states of the script *)
+  alike_values : bool;  (** whether values of N that no step depends on were taken for one ({!Alike_values}) *)
   sample : Sample.summary option;  (** what random walks came to *)
   verdicts : (Property.t * verdict) list;  (** for each of {!Property.all}, then for each invariant and formula *)
 }
@@ -65,7 +66,8 @@ val run : options -> Core.program -> World.t -> outcome
     before a bound was met is one. *)
 
 val reductions : outcome -> string list
-(** Those that were used: {!Reduction.names}, and ["symmetry of vehicles"] for [vehicle_symmetry]. *)
+(** Those that were used: {!Reduction.names}, and ["symmetry of vehicles"] for [vehicle_symmetry],
+    ["symmetry of values"] for [alike_values]. *)
 
 val pp_verdict : Core.program -> Format.formatter -> Property.t * verdict -> unit
 (** One line, without the runs: ["no deadlock: violated after 12 steps"]. *)

@@ -1,0 +1,296 @@
+open Dolphin_semantics
+open Dolphin_environment
+open Core
+
+exception Looked_at
+
+module Keys = Set.Make (String)
+
+(* {1 What becomes of a value}
+
+   What an expression gives, as far as it depends on the value: nothing, the value itself, a text with it, or a task (or
+   its code). *)
+
+type given = Other | Value | Text | Task
+
+let both a b = if a = Other then b else if b = Other || a = b then a else raise Looked_at
+
+type code = {
+  slots : (int * given) list;
+  mutable returned : given;
+  mutable posted : Keys.t;  (* keys that the value is posted with *)
+  plans : string list;  (* plans that do not end as all others do *)
+  inside : lambda list;  (* what is being looked at *)
+}
+
+(* Whether a name of this form may be that of one of the plans. *)
+let may_name plans parts =
+  let fixed part = match part.node with Constant (String text) -> Some text | _ -> None in
+  let starts, ends =
+    match parts, List.rev parts with
+    | first :: _, last :: _ -> (fixed first, fixed last)
+    | _, _ -> (None, None)
+  in
+  let is_suffix suffix text =
+    let n = String.length suffix and m = String.length text in
+    n <= m && String.sub text (m - n) n = suffix
+  in
+  let is_it name =
+    Option.fold starts ~none:true ~some:(fun prefix -> String.starts_with ~prefix name)
+    && Option.fold ends ~none:true ~some:(fun suffix -> is_suffix suffix name)
+  in
+  List.exists is_it plans
+
+let rec value_of code e =
+  match e.node with
+  | Constant _ | Global _ | Break | Continue -> Other
+  | Local slot -> Option.value (List.assoc_opt slot code.slots) ~default:Other
+  | Set_local (slot, e) ->
+    if List.mem_assoc slot code.slots then raise Looked_at;
+    nothing code e
+  | Set_global (_, e) -> nothing code e
+  | If (a, b, c) ->
+    ignore (nothing code a);
+    both (value_of code b) (value_of code c)
+  | Block es -> List.fold_left (fun _ e -> value_of code e) Other es
+  | While (a, b) ->
+    ignore (nothing code a);
+    ignore (value_of code b);
+    Other
+  | For (slot, range, body) ->
+    if List.mem_assoc slot code.slots then raise Looked_at;
+    ignore (nothing code range);
+    ignore (value_of code body);
+    Other
+  | Return e ->
+    code.returned <- both code.returned (value_of code e);
+    Other
+  | Make_closure (lambda, captured) -> made code lambda captured ~argument:Other
+  | Apply (Builtin Make_watch, [ t; { node = Make_closure (lambda, captured); _ } ]) ->
+    let t = value_of code t and handler = made code lambda captured ~argument:Text in
+    task [ t; handler ]
+  | Apply (operation, arguments) -> applied code operation arguments (List.map (value_of code) arguments)
+
+and nothing code e = if value_of code e = Other then Other else raise Looked_at
+
+and task given =
+  if List.for_all (fun g -> g = Other || g = Task) given then List.fold_left both Other given else raise Looked_at
+
+
+(* Code with what it captures; it is run for what it does, or gives a task. *)
+and made code lambda captured ~argument =
+  let captured = List.map (fun slot -> Option.value (List.assoc_opt slot code.slots) ~default:Other) captured in
+  if List.for_all (( = ) Other) captured && argument = Other then Other
+  else begin
+    let inner = List.combine (Array.to_list lambda.captures) captured in
+    match body code lambda (List.init lambda.parameters (fun slot -> (slot, argument)) @ inner) with
+    | Other | Task -> if List.for_all (( = ) Other) captured then Other else Task
+    | Value | Text -> raise Looked_at
+  end
+
+and body code lambda slots =
+  if List.memq lambda code.inside then raise Looked_at;
+  let slots = List.filter (fun (_, given) -> given <> Other) slots in
+  let inner = { code with slots; returned = Other; inside = lambda :: code.inside } in
+  let last = value_of inner lambda.code in
+  code.posted <- Keys.union code.posted inner.posted;
+  both last inner.returned
+
+and applied code operation arguments given =
+  if List.for_all (( = ) Other) given then Other
+  else
+    match operation, arguments, given with
+    | Concatenate, _, _ -> if List.mem Task given then raise Looked_at else Text
+    | Builtin Platform_task, [ { node = Apply (Concatenate, parts); _ } ], [ Text ] ->
+      let is_text part = match part.node with Constant (String text) -> text <> "" | _ -> false in
+      if may_name code.plans parts || not (List.exists is_text parts) then raise Looked_at else Task
+    | Builtin (Message | Halt), [ _ ], [ Text ] -> Other
+    | Builtin (Post keys), _, _ ->
+      let post k given =
+        match k, given with
+        | _, Other -> ()
+        | Some k, Value -> code.posted <- Keys.add k code.posted
+        | _, (Value | Text | Task) -> raise Looked_at
+      in
+      if List.compare_lengths keys given <> 0 then raise Looked_at;
+      List.iter2 post keys given;
+      Other
+    | ( (Builtin
+           (Make_watch | Make_until _ | Make_during _ | Make_wait_for | Make_action | Make_condition | Make_repeat _)
+        | Binary (Sequence | Parallel | Divide)), _, _ ) -> task given
+    | Element, _, [ Task; Other ] -> Task
+    | Call names, { node = Constant (Closure { lambda; captured = [||] }) | Make_closure (lambda, []); _ } :: _,
+      _ :: given
+      when List.for_all (( = ) None) names && List.length given = lambda.parameters ->
+      body code lambda (List.mapi (fun slot g -> (slot, g)) given)
+    | _, _, _ -> raise Looked_at
+
+(* What [lambda] posts, of values that it gets. *)
+let posted_by plans lambda argument =
+  let code = { slots = []; returned = Other; posted = Keys.empty; plans; inside = [] } in
+  match body code lambda (List.init lambda.parameters (fun slot -> (slot, argument))) with
+  | Other | Task -> code.posted
+  | Value | Text -> raise Looked_at
+
+(* {1 Keys} *)
+
+let expressions program =
+  let found = ref [] in
+  Code_walk.iter (fun e -> found := e :: !found) (program.main :: List.map snd program.functions);
+  !found
+
+
+(* The keys that an expression looks into, beyond taking or asking for any value. *)
+let looked_into e =
+  let wanted k x =
+    match k, x.node with
+    | Some _, Constant Wildcard -> []
+    | Some k, _ -> [ k ]
+    | None, _ -> raise Looked_at
+  in
+  match e.node with
+  | Apply (Builtin (Consume keys | Poll (_ :: _ as keys)), arguments) ->
+    if List.compare_lengths keys arguments <> 0 then raise Looked_at;
+    List.concat (List.map2 wanted keys arguments)
+  | Apply (Builtin (Post keys), arguments) ->
+    if keys = [] || List.mem None keys || List.compare_lengths keys arguments <> 0 then raise Looked_at;
+    []
+  | _ -> []
+
+(* Of [count(k: _)] only the number of pairs matters. *)
+let values_looked_into all =
+  let is_values e = match e.node with Apply (Builtin Values_of, _) -> true | _ -> false in
+  let counted e = match e.node with Apply (Method ("size", _), [ xs ]) when is_values xs -> Some xs | _ -> None in
+  let counted = List.filter_map counted all in
+  let key e =
+    match e.node with
+    | Apply (Builtin Values_of, [ { node = Constant (String k); _ } ]) -> if List.memq e counted then None else Some k
+    | Apply (Builtin Values_of, _) -> raise Looked_at
+    | _ -> None
+  in
+  List.filter_map key all
+
+(* What a guard takes: keys; code that is called may take any. *)
+let taken_by (guard : expression) =
+  match guard.node with
+  | Make_closure (lambda, _) ->
+    let found = ref Keys.empty in
+    let visit e =
+      match e.node with
+      | Apply (Builtin (Consume keys), _) -> found := Keys.union !found (Keys.of_list (List.filter_map Fun.id keys))
+      | Apply (Call _, _) -> raise Looked_at
+      | _ -> ()
+    in
+    Code_walk.iter visit [ lambda ];
+    !found
+  | _ -> raise Looked_at
+
+(* By guards with what runs behind them: the keys that are taken, and those that the values are posted with; [None] if
+   more is done with them. *)
+let makers plans program =
+  let maker guard body =
+    let taken = taken_by guard in
+    match body.node with
+    | Make_closure (lambda, captured) when captured = [] || Array.length lambda.captures = List.length captured -> (
+        match posted_by plans lambda Value with
+        | posted -> (taken, Some posted)
+        | exception Looked_at -> (taken, None))
+    | _ -> (taken, None)
+  in
+  let of_expression e =
+    match e.node with
+    | Apply (Make_branch, [ _; guard; body ]) | Apply (Builtin Make_wait_for, [ guard; body ]) ->
+      Some (maker guard body)
+    | Apply (Make_branch, _) | Apply (Builtin Make_wait_for, _) -> raise Looked_at
+    | _ -> None
+  in
+  List.filter_map of_expression (expressions program)
+
+(* The text of an error names the plan: handlers may only say it. *)
+let check_handlers plans program =
+  let check e =
+    match e.node with
+    | Apply (Builtin Make_watch, [ _; { node = Make_closure (lambda, _); _ } ]) ->
+      ignore (posted_by plans lambda Text)
+    | Apply (Builtin Make_watch, _) -> raise Looked_at
+    | _ -> ()
+  in
+  List.iter check (expressions program)
+
+let keys (options : Environment.options) program =
+  let plans = options.plans in
+  check_handlers plans program;
+  let makers = makers plans program in
+  let all = expressions program in
+  let looked_into = Keys.of_list (List.concat_map looked_into all @ values_looked_into all) in
+  let asked_by_name = function { node = Apply (Builtin (Poll []), _); _ } -> true | _ -> false in
+  if List.exists asked_by_name all then raise Looked_at;
+  (* A key is looked into, too, if its values are posted with one that is. *)
+  let rec closed looked =
+    let more looked (taken, posted) =
+      match posted with
+      | Some posted when Keys.disjoint posted looked -> looked
+      | Some _ | None -> Keys.union taken looked
+    in
+    let next = List.fold_left more looked makers in
+    if Keys.equal next looked then looked else closed next
+  in
+  let looked = closed looked_into in
+  let given = List.fold_left (fun found (taken, _) -> Keys.union taken found) Keys.empty makers in
+  Keys.diff given looked
+
+(* {1 One value} *)
+
+let one = String "any"
+
+(* [_] is no value to be posted, and stays the fault that it is. *)
+let unified_value (lambda : lambda) e =
+  let slot = lambda.slots in
+  lambda.slots <- slot + 1;
+  let at node = { e with node } in
+  let is_wildcard = at (Apply (Binary Equal, [ at (Local slot); at (Constant Wildcard) ])) in
+  at (Block [ at (Set_local (slot, e)); at (If (is_wildcard, at (Local slot), at (Constant one))) ])
+
+let unified keys program =
+  let fresh = ref [] in
+  let rec lambda_of lambda =
+    match List.assq_opt lambda !fresh with
+    | Some lambda -> lambda
+    | None ->
+      let copy = { lambda with label = lambda.label } in
+      fresh := (lambda, copy) :: !fresh;
+      copy.code <- expression copy lambda.code;
+      copy
+  and expression within e =
+    let go = expression within in
+    let node =
+      match e.node with
+      | Constant (Closure c) -> Constant (Closure { c with lambda = lambda_of c.lambda })
+      | (Constant _ | Local _ | Global _ | Break | Continue) as node -> node
+      | Make_closure (lambda, slots) -> Make_closure (lambda_of lambda, slots)
+      | Set_local (slot, e) -> Set_local (slot, go e)
+      | Set_global (i, e) -> Set_global (i, go e)
+      | Return e -> Return (go e)
+      | Block es -> Block (List.map go es)
+      | If (a, b, c) -> If (go a, go b, go c)
+      | While (a, b) -> While (go a, go b)
+      | For (slot, a, b) -> For (slot, go a, go b)
+      | Apply (Builtin (Post names), arguments) ->
+        let posted k e =
+          match k with Some k when Keys.mem k keys -> unified_value within (go e) | Some _ | None -> go e
+        in
+        Apply (Builtin (Post names), List.map2 posted names arguments)
+      | Apply (operation, arguments) -> Apply (operation, List.map go arguments)
+    in
+    { e with node }
+  in
+  let functions = List.map (fun (name, lambda) -> (name, lambda_of lambda)) program.functions in
+  { program with main = lambda_of program.main; functions }
+
+let unify options program =
+  if program.reads_sensors then None
+  else
+    match keys options program with
+    | found when Keys.is_empty found -> None
+    | found -> Some (unified found program)
+    | exception Looked_at -> None

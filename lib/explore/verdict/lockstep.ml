@@ -1,0 +1,79 @@
+open Dolphin_semantics
+open Dolphin_environment
+
+type run = { steps : Transition.t list; cycle : Transition.t list }
+type state = Configuration.t * Environment.t
+type pair = { image : state; real : state; taken : Transition.t list (* latest first *) }
+
+exception Out_of_step
+
+let equal (c, e) (c', e') = Environment.compare e e' = 0 && Configuration.equal c c'
+
+(* Transitions may differ in what the outside remembers alone, so there may be several ways; almost always it is one. *)
+let step options world program ~image (t : Transition.t) pair =
+  let choices program (c, e) = List.of_seq (Environment.choices options program world e c) in
+  let images = choices image pair.image and reals = choices program pair.real in
+  if List.compare_lengths images reals <> 0 then raise_notrace Out_of_step;
+  let follow ((t' : Transition.t), e) ((real : Transition.t), real_e) =
+    if t'.rules = t.rules && Label.equal t'.label t.label && Configuration.equal t'.next t.next then begin
+      if real.rules <> t.rules then raise_notrace Out_of_step;
+      Some { image = (t'.next, e); real = (real.next, real_e); taken = real :: pair.taken }
+    end
+    else None
+  in
+  List.filter_map Fun.id (List.map2 follow images reals)
+
+(* Of equal ones the first goes on. *)
+let distinct pairs =
+  let is_new kept p = not (List.exists (fun q -> equal p.image q.image) kept) in
+  List.rev (List.fold_left (fun kept p -> if is_new kept p then p :: kept else kept) [] pairs)
+
+let through options world program ~image steps pairs =
+  let next pairs t = distinct (List.concat_map (step options world program ~image t) pairs) in
+  List.fold_left next pairs steps
+
+let start program image =
+  { image = (Configuration.initial image, Environment.initial);
+    real = (Configuration.initial program, Environment.initial); taken = [] }
+
+(* Around until a state comes again, at most so often. *)
+let most_rounds = 2_000
+
+let around options world program ~image cycle pair =
+  let rec go rounds pair n =
+    if n = 0 then None
+    else
+      let back p = equal p.image pair.image in
+      match List.find_opt back (through options world program ~image cycle [ { pair with taken = [] } ]) with
+      | None -> None
+      | Some next -> (
+          let rounds = (pair.real, next.taken) :: rounds in
+          match List.find_opt (fun (real, _) -> equal real next.real) rounds with
+          | None -> go rounds { next with taken = [] } (n - 1)
+          | Some (real, _) -> Some (real, List.rev rounds))
+  in
+  let rec divide before real = function
+    | (first, _) :: _ as cycle when equal first real -> (List.rev before, cycle)
+    | round :: rest -> divide (round :: before) real rest
+    | [] -> (List.rev before, [])
+  in
+  let steps rounds = List.concat_map (fun (_, taken) -> List.rev taken) rounds in
+  let found (real, rounds) =
+    let before, cycle = divide [] real rounds in
+    { steps = List.rev pair.taken @ steps before; cycle = steps cycle }
+  in
+  Option.map found (go [] pair most_rounds)
+
+let follow options world program ~image ~ends_alike run =
+  match through options world program ~image run.steps [ start program image ], run.cycle with
+  | exception Out_of_step -> None
+  | [], _ -> None
+  | pair :: _, [] -> (
+      let found = { steps = List.rev pair.taken; cycle = [] } in
+      match List.rev run.steps, pair.taken with
+      | image :: _, real :: _ -> if ends_alike image real then Some found else None
+      | [], _ | _, [] -> Some found)
+  | pairs, cycle -> (
+      match List.find_map (around options world program ~image cycle) pairs with
+      | found -> found
+      | exception Out_of_step -> None)

@@ -1,0 +1,151 @@
+(* Values that are taken for one: the plain search finds the same verdicts and code reached as the reduced one, and each
+   run that is shown is one of the semantics, on random pools of goals. Some look into a goal, or end otherwise on some.
+   PROGRAMS in the environment is how many are tried, 1,000 by default. *)
+
+open Dolphin_environment
+open Dolphin_explore
+module Pure_run = Test_support.Pure_run
+
+let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 1_000
+let world = Test_support.Generate.world
+
+let body =
+  QCheck2.Gen.frequencyl
+    [ (4, "{ g -> watch task(\"survey_$g\") onError { post goal: g; ignore() } }");
+      (3, "{ g -> task(\"survey_$g\") }");
+      (3, "{ g -> watch task(\"survey_$g\") onError { why -> message why; post lost: g; ignore() } }");
+      (3, "{ g -> visit(g) }");
+      (2, "{ g -> task(\"survey_$g\") >> action { message \"done $g\"; post over: g } }");
+      (1, "{ g -> action { post over: g, lost: g } }");
+      (1, "{ task('home') }");
+      (1, "{ visit(it) }");
+      (1, "{ g -> { task(\"survey_$g\") } }");
+      (1, "{ g -> action { if (g == 2) { halt 'two' } } }");
+      (1, "{ g -> watch task(\"survey_$g\") onError { why -> post lost: \"$why\"; ignore() } }");
+      (1, "{ g -> task(\"survey_$g\") >> action { last = g } }");
+      (1, "{ g -> (waitFor { poll over: g } then task(\"survey_$g\")) during 3 }");
+      (1, "{ g -> action { post over: \"$g\" } }");
+      (1, "{ g -> task(\"$g\") }") ]
+
+let guard =
+  QCheck2.Gen.frequencyl
+    [ (6, "consume goal: _"); (1, "consume goal: _, lost: _"); (1, "consume lost: _"); (1, "consume goal: 1");
+      (1, "consume goal: { x -> x == 2 }"); (1, "count(goal: _) > 0 && consume(goal: _)"); (1, "take()") ]
+
+let worker =
+  let open QCheck2.Gen in
+  let* guard = guard and* body = body in
+  let wait = Printf.sprintf "(waitFor { %s } then %s)" guard body in
+  frequencyl
+    [ (2, wait);
+      (2, Printf.sprintf "(oneOf { when { %s } then %s\nwhen { count(goal: _) == 0 } then action { } })" guard body);
+      (2, Printf.sprintf "(repeat oneOf { when { %s } then %s\nwhen { count(goal: _) == 0 } then action { } }\n\
+                          until { count(goal: _) == 0 })" guard body);
+      (1, wait ^ " >> " ^ wait) ]
+
+let after =
+  QCheck2.Gen.frequencyl
+    [ (6, ""); (1, "if (poll(over: 1)) { halt 'one is over' }"); (1, "if (count(over: _) == 2) { halt 'two are over' }");
+      (1, "if (poll(lost: _)) { consume lost: _ }"); (1, "while (count(lost: _) > 0) { consume lost: _ }");
+      (1, "message \"last $last\"") ]
+
+let source =
+  let open QCheck2.Gen in
+  let* first = worker and* second = worker and* after = after in
+  let* goals = oneofl [ "1"; "1, 2"; "1, 2, 3"; "'1', 2.0"; "2, 2"; "'', 1" ] in
+  return
+    (Printf.sprintf
+       "va = pick { id 'a' }\nvb = pick { id 'b' }\nlast = 0\ndef take() { consume(goal: _) }\n\
+        def visit(goal) { watch task(\"visit_$goal\") onError { post goal: goal; ignore() } }\n\
+        for (i in [%s]) { post goal: i }\nexecute %s[va] |\n        %s[vb]\n%s" goals first second after)
+
+let by_name name ending =
+  let endings _ p = if p = name then ending else Environment.Succeeds in
+  { Environment.default with plans = [ name ]; endings }
+
+let environments =
+  [ ("as planned", Environment.default); ("with failures", Environment.failing Environment.default);
+    ("with a failure", Environment.failing ~failures:1 Environment.default);
+    ("with losses", { Environment.default with faults = { Faults.none with loss = Any_number } });
+    ("with survey_1 failing", by_name "survey_1" Fails); ("with visit_2 that may fail", by_name "visit_2" May_fail);
+    ("with survey_any failing", by_name "survey_any" Fails) ]
+
+let used = ref 0 and skipped = ref 0 and fewer = ref 0
+
+let agrees (source, (_, environment)) =
+  let program = Pure_run.compile_exn source in
+  match Agreement.check ~limit:1_500 ~reductions:[ All; Symmetry ] environment program world with
+  | Error why -> QCheck2.Test.fail_report why
+  | Ok None -> incr skipped; true
+  | Ok (Some found) ->
+    let o = Search.run { Search.default with environment; reduction = All } program world in
+    if o.alike_values then begin
+      incr used;
+      let por = Search.run { Search.default with environment; reduction = Partial_order } program world in
+      if o.states < por.states then incr fewer
+    end;
+    found.whole > 0
+
+let test_agreement () =
+  let print (source, (name, _)) = name ^ ":\n" ^ source in
+  let test =
+    QCheck2.Test.make ~count:programs ~print ~name:"reduced and plain search agree"
+      QCheck2.Gen.(pair source (oneofl environments)) agrees
+  in
+  Test_support.Property.on_each_seed ~usual:20_261_124 ~programs test;
+  Printf.printf "%d skipped; values were alike in %d, %d had fewer states\n" !skipped !used !fewer;
+  if !used * 10 < programs || !fewer = 0 then Alcotest.fail "too few programs have values that are alike"
+
+(* {1 One by one} *)
+
+(* As many states as if all goals were the same. *)
+let test_pool () =
+  let worker v =
+    Printf.sprintf
+      "(repeat oneOf { when { consume goal: _ } then { g -> watch task(\"s_$g\") onError { post goal: g; ignore() } }\n\
+       when { count(goal: _) == 0 } then action { } } until { count(goal: _) == 0 })[%s]" v
+  in
+  let states goals =
+    let source =
+      Printf.sprintf "va = pick { id 'a' }\nvb = pick { id 'b' }\nfor (i in [%s]) { post goal: i }\nexecute %s | %s" goals
+        (worker "va") (worker "vb")
+    in
+    let environment = Environment.failing Environment.default in
+    (Search.run { Search.default with environment; reduction = All } (Pure_run.compile_exn source) world).states
+  in
+  Alcotest.(check int) "states" (states "1, 1, 1, 1, 1, 1") (states "1, 2, 3, 4, 5, 6")
+
+let uses ?(environment = Environment.default) source =
+  let program = Pure_run.compile_exn source in
+  Alike_values.unify environment program <> None
+
+let pool ?(after = "") body =
+  Printf.sprintf "post goal: 1, goal: 2\nexecute waitFor { consume goal: _ } then %s\n%s" body after
+
+let posting = "{ g -> watch task(\"s_$g\") onError { post goal: g; ignore() } }"
+
+let alike, apart =
+  let is expected name ?environment source =
+    Alcotest.test_case name `Quick (fun () -> Alcotest.(check bool) name expected (uses ?environment source))
+  in
+  ( [ is true "posted again" (pool posting); is true "counted" (pool ~after:"message \"${count(goal: _)}\"" posting);
+      is true "other plans are named" ~environment:(by_name "home" Fails) (pool posting) ],
+    [ is false "a plan of such a name ends otherwise" ~environment:(by_name "s_2" Fails) (pool posting);
+      is false "compared" (pool "{ g -> action { if (g == 1) { halt 'x' } } }");
+      is false "asked for" (pool ~after:"if (poll(goal: 2)) { halt 'x' }" posting);
+      is false "asked for by a pattern" (pool ~after:"if (poll(goal: { it == 2 })) { halt 'x' }" posting);
+      is false "posted where it is asked for"
+        (pool ~after:"if (poll(seen: 2)) { halt 'x' }" "{ g -> action { post seen: g } }");
+      is false "a name of nothing else" (pool "{ g -> task(\"$g\") }");
+      is false "the text of an error is posted"
+        (pool "{ g -> watch task(\"s_$g\") onError { why -> post why: \"$why\"; ignore() } }");
+      is false "kept" (pool "{ g -> action { last = g } }" |> ( ^ ) "last = 0\n");
+      is false "a key that is computed" (pool ~after:"k = 'go' + 'al'\nif (poll((k): 2)) { halt 'x' }" posting);
+      is false "taken by a function" 
+        ("def take() { consume(goal: _) }\npost goal: 1\nexecute waitFor { take() } then " ^ posting) ] )
+
+let () =
+  Alcotest.run "alike values"
+    [ ("alike", alike); ("apart", apart);
+      ("pool", [ Alcotest.test_case "different goals are as good as equal ones" `Quick test_pool ]);
+      ("random programs", [ Alcotest.test_case "reduced and plain search agree" `Quick test_agreement ]) ]

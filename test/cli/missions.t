@@ -17,6 +17,16 @@ faults.
   leader_and_follower.dol: 29 states, 5 hold
   mine_hunting.dol: 69 states, 5 hold
   patrol.dol: 48 states, 5 hold
+  replacement.dol: 476 states, 5 hold
   search_and_rescue.dol: 38 states, 5 hold
 
   $ check-journals
+
+A strip is done though a vehicle is lost or fails, as long as one is left: nothing ends the mission early.
+
+  $ dolphin explore --faults fail,loss replacement.dol | grep -v 'states'
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds

@@ -1,0 +1,54 @@
+Rounds, and tasks that are tried again, in a run.
+
+What goes round without any wait is stopped after 10,000 rounds, and says where it is.
+
+  $ cat > spin.dol << 'END'
+  > post go: 1
+  > execute repeat waitFor { consume go: 1 } then action { post go: 1 }
+  > END
+  $ touch spin.fleet
+  $ dolphin exec --sim spin.dol > log 2> error
+  [1]
+  $ grep -c 'posts go:1' log
+  10001
+  $ tail -n 1 log
+     0:00  program     is stuck
+  $ head -n 1 error
+  spin.dol:2:9: error: the program is stuck in rounds that begin here: they follow each other, and none waits for anything that happens
+  $ cat > again.dol << 'END'
+  > execute watch action { fail 'no' } onError { retry() }
+  > END
+  $ dolphin exec --sim=spin.fleet again.dol > log 2> error
+  [1]
+  $ grep -c 'has an error in a task: no' log
+  10000
+  $ head -n 1 error | cut -d: -f1-3
+  again.dol:1:9
+
+Rounds in which something happens are not counted: these are 20,000.
+
+  $ cat > many.dol << 'END'
+  > n = 0
+  > execute repeat 20000, (action { n = n + 1 } >> idle(1))
+  > message n
+  > END
+  $ dolphin exec --sim=spin.fleet many.dol | tail -n 2
+  5:33:20  program     says: 20000
+  5:33:20  program     ends
+
+Whoever dies within a round, or between two tries, another one goes on: after each transition, to the same end.
+
+  $ resumed() {
+  >   dolphin exec $1 --journal whole.run > whole.log
+  >   for n in $(grep -n '"i":' whole.run | sed '$d' | cut -d: -f1); do
+  >     head -n $n whole.run > died.run
+  >     dolphin exec --resume died.run $1 > second.log 2>&1 || cat second.log
+  >     dolphin trace check $1 died.run
+  >   done | sort | uniq -c | sed 's|^ *||'
+  > }
+  $ resumed ../../examples/repeat.dol
+  48 died.run: a run, of 49 transitions in 1:09:01; completed
+  $ resumed ../../examples/second_try.dol
+  22 died.run: a run, of 23 transitions in 35:47; completed
+  $ resumed ../../examples/missions/replacement.dol
+  21 died.run: a run, of 22 transitions in 43:59; completed

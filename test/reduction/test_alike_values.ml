@@ -139,6 +139,9 @@ let alike, apart =
       is false "a name of nothing else" (pool "{ g -> task(\"$g\") }");
       is false "the text of an error is posted"
         (pool "{ g -> watch task(\"s_$g\") onError { why -> post why: \"$why\"; ignore() } }");
+      is false "the text of its error is posted further out"
+        "post goal: 1\nexecute watch (waitFor { consume goal: _ } then { g -> task(\"s_$g\") })\n\
+         onError { why -> post why: \"$why\"; ignore() }";
       is false "kept" (pool "{ g -> action { last = g } }" |> ( ^ ) "last = 0\n");
       is false "a key that is computed" (pool ~after:"k = 'go' + 'al'\nif (poll((k): 2)) { halt 'x' }" posting);
       is false "taken by a function" 

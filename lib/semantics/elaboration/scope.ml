@@ -216,6 +216,13 @@ let inside_loop code f =
 
 let settings code = code.builder
 
+(* Around a closure that stands there. *)
+let rec within_branches code =
+  match code.builder, code.outer with
+  | Some ((All_of | One_of), _), _ -> true
+  | _, Some outer -> within_branches outer
+  | _, None -> false
+
 let inside_settings code builder f =
   let before = code.builder and loops = code.loops in
   code.builder <- builder;
@@ -239,6 +246,8 @@ let rec function_of code =
   | Named_function name, _ -> Some name
   | (Main | Plain | Task_code _ | Maker | Handler), Some outer -> function_of outer
   | (Main | Plain | Task_code _ | Maker | Handler), None -> None
+
+let in_function code = function_of code <> None
 
 (* What a closure inside of a function does counts as the function's doing, unless it is code of a task. *)
 let note_blocking code what =

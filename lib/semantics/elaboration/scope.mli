@@ -150,6 +150,9 @@ val captures : code -> (int * int) list
 
 (** {1:loops Loops and settings} *)
 
+val in_function : code -> bool
+(** Whether it is that of a function of the program, or of a closure in one. *)
+
 val in_loop : code -> bool
 (** Whether [break] and [continue] have a loop to leave. *)
 
@@ -158,6 +161,9 @@ val inside_loop : code -> (unit -> 'a) -> 'a
 
 val settings : code -> (Ast.builder * int) option
 (** The block of settings around, and the slot where they gather. *)
+
+val within_branches : code -> bool
+(** Whether it is code within [allOf { ... }] or [oneOf { ... }]. *)
 
 val inside_settings : code -> (Ast.builder * int) option -> (unit -> 'a) -> 'a
 (** Inside of a block of settings, kept in that slot, names of settings have their meaning; loops around it cannot be

@@ -116,6 +116,13 @@ let when_then env at guard t =
         let t = task_operand env t in
         set_local env at slot (apply env at Make_branch [ local env at slot; guard; t ]))
   | Some ((Pick | Imc_plan | Mission | Pos), _) | None ->
-    error env Misplaced_when at "when { ... } then belongs in allOf { ... } or oneOf { ... }"
-      ~hint:"a task that waits for one condition is waitFor { ... } then TASK";
+    let hint =
+      if Scope.within_branches env.code then
+        "branches come from for (x in xs) { when ... } and xs.each { x -> when ... }; other code is a closure"
+      else if Scope.in_function env.code then
+        "a function makes the task: when { condition } then f(x), or all of allOf { ... }; one that waits is waitFor \
+         { condition } then TASK"
+      else "a task that waits for one condition is waitFor { ... } then TASK"
+    in
+    error env ~hint Misplaced_when at "when { ... } then belongs in allOf { ... } or oneOf { ... }";
     null env at

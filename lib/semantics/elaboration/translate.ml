@@ -14,6 +14,21 @@ let warn_of_unused_task env (e : Ast.expression) =
       (Diagnostic.warning Unused_task e.at "this task is made but not executed"
          ~hint:"write execute before it, or give it a name")
 
+(* [xs.each { x -> when { C } then T }] among branches goes through them as [for (x in xs)] does: a closure of its own
+   could not add any. *)
+let each_of_branches env (e : Ast.expression) =
+  let is_branch found (e : Ast.expression) = found || match e.it with When _ -> true | _ -> false in
+  match Scope.settings env.code, e.it with
+  | ( Some ((All_of | One_of), _),
+      Call { callee = { it = Member { subject; name = { it = "each"; _ }; safe = false }; _ };
+             arguments = [ Positional { it = Closure c; _ } ] } )
+    when List.fold_left (Fold.statement is_branch) false c.body -> (
+      (* An element without a name would be hidden in the code of when, whose own [it] is another. *)
+      match c.parameters with
+      | Some [ x ] -> Some (Ast.For (x, subject, c.body))
+      | None | Some _ -> None)
+  | _, _ -> None
+
 (* What an expression begins with, and the expression around it. *)
 let first_operand (e : Ast.expression) : (Ast.expression * (Ast.expression -> Ast.expression_node)) option =
   let begins (first : Ast.expression) = first.at.start.pos_cnum = e.at.start.pos_cnum in
@@ -215,6 +230,9 @@ and statement env (s : Ast.statement) : expression =
   | Expression { it = Call { callee = { it = Variable "input"; _ }; arguments }; _ }
     when Scope.at_top env.code && not (is_hidden env "input") ->
     Calls.input env at arguments
+  | Expression e when each_of_branches env e <> None ->
+    let desugared = Option.value (each_of_branches env e) ~default:s.it in
+    statement env { s with it = desugared }
   | Expression e ->
     let e = Option.value (regroup env e) ~default:e in
     warn_of_unused_task env e;

@@ -70,8 +70,9 @@ let body client length =
 let within seconds f = Lwt_unix.with_timeout seconds f
 
 (* The next request. It may take its time to begin, and then not to end. *)
-let request t client =
-  let begins = if client.unread = "" then within t.limits.idle (fun () -> refill client) else Lwt.return_unit in
+let request t client ~first =
+  let idle = if first then t.limits.patience else t.limits.idle in
+  let begins = if client.unread = "" then within idle (fun () -> refill client) else Lwt.return_unit in
   begins >>= fun () ->
   within t.limits.patience (fun () -> head t.limits client) >>= fun head ->
   match Result.bind head Request.of_head with
@@ -120,13 +121,13 @@ let of_fault : Request.fault -> Response.t = function
 let safely t r =
   Lwt.catch (fun () -> t.reply r) (fun _ -> Lwt.return (told 500 "this is trouble of the server, not of the request"))
 
-let rec serve t client =
-  request t client >>= function
+let rec serve t client ~first =
+  request t client ~first >>= function
   | Error fault -> respond t client ~keep:false ~only_head:false (of_fault fault) >|= ignore
   | Ok r ->
     safely t r >>= fun response ->
     respond t client ~keep:(Request.keeps_alive r) ~only_head:(r.verb = "HEAD") response >>= fun keep ->
-    if keep && not t.over then serve t client else Lwt.return_unit
+    if keep && not t.over then serve t client ~first:false else Lwt.return_unit
 
 let quietly f = Lwt.catch f (fun _ -> Lwt.return_unit)
 
@@ -136,7 +137,7 @@ let admit t socket =
   t.open_ <- socket :: t.open_;
   let whole () =
     if too_many then respond t client ~keep:false ~only_head:false (told 503 "too many connections") >|= ignore
-    else serve t client
+    else serve t client ~first:true
   in
   let leave () =
     t.open_ <- List.filter (fun other -> other != socket) t.open_;

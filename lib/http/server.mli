@@ -5,7 +5,7 @@ type limits = {
   head : int;  (** bytes before the body *)
   body : int;  (** bytes *)
   connections : int;  (** at once; more are told so and closed *)
-  patience : float;  (** seconds for a whole head, a whole body, and for each piece that a client reads *)
+  patience : float;  (** seconds until a client speaks, for a whole head and body, for each piece that it reads *)
   idle : float;  (** seconds between requests of one connection *)
 }
 

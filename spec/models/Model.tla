@@ -63,9 +63,9 @@ Setting(name, x) == [ name |-> name, positional |-> << x >>, named |-> << >>, at
 Pick(settings) == Apply([ op |-> "build", builder |-> "pick" ], << Const(Settings(settings)) >>)
 PickId(v) == Pick(<< Setting("id", String(v)) >>)
 
-DoPosting(k, e) == Apply([ op |-> "post", keys |-> << k >> ], << e >>)
-Consuming(k, e) == Apply([ op |-> "consume", keys |-> << k >> ], << e >>)
-Polling(k, e) == Apply([ op |-> "poll", keys |-> << k >> ], << e >>)
+DoPosting(k, e) == Apply([ op |-> "post", keys |-> << << k >> >> ], << e >>)
+Consuming(k, e) == Apply([ op |-> "consume", keys |-> << << k >> >> ], << e >>)
+Polling(k, e) == Apply([ op |-> "poll", keys |-> << << k >> >> ], << e >>)
 Message(s) == Plain("message", << Constant(s) >>)
 Halt(s) == Plain("halt", << Constant(s) >>)
 Ignore == Plain("ignore", << >>)

@@ -3,10 +3,11 @@
 EXTENDS Model
 
 Body ==
-  Block(<< Assign(1, PickId("u1")), ExecuteTask(WatchOnError(Plan("risky"), 1)),
+  Block(<< Assign(1, PickId("u1")), DoPosting("again", NumberOf(1)), ExecuteTask(WatchOnError(Plan("risky"), 1)),
            ExecuteTask(WatchOnError(Plan("risky"), 2)), ExecuteTask(WatchOnError(Action(3), 4)) >>)
 
-Closures == << Retry, Plan("long"), Fail("no reason"), Ignore >>
+Closures ==
+  << If(Consuming("again", NumberOf(1)), Retry, Ignore), Plan("long"), Fail("no reason"), Ignore >>
 
 (* What runs then is allocated anew; a task in the place of another is not watched by its handler. *)
 Claim ==

@@ -8,7 +8,7 @@ Body ==
            ExecuteTask(RepeatUntil(Then(On(Plan("long"), V), Action(1)), 2)),
            ExecuteTask(WatchOnError(RepeatTimes(2, On(Plan("risky"), V)), 3)) >>)
 
-TakingTwo == Apply([ op |-> "consume", keys |-> << "k", "k" >> ], << NumberOf(1), NumberOf(1) >>)
+TakingTwo == Apply([ op |-> "consume", keys |-> << << "k" >>, << "k" >> >> ], << NumberOf(1), NumberOf(1) >>)
 
 Closures == << DoPosting("k", NumberOf(1)), TakingTwo, Ignore >>
 

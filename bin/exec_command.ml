@@ -240,7 +240,8 @@ let man =
         running, its battery and position; vehicles in trouble come first. At the end stands how the run ended, what \
         became of its tasks, and where its journal is.";
     `P "Ctrl-C interrupts the program: running tasks are stopped, vehicles are released. A second Ctrl-C ends \
-        $(mname) at once.";
+        $(mname) at once. If the program says by $(b,onInterrupt) what is executed then, as a way home, the second one \
+        stops that, and a third one ends $(mname).";
     `P "With $(b,-vv) every event, transition and effect of the run, and on a network every datagram, is told on \
         standard error: $(mname) $(tname) mission.dol -vv 2> debug.log.";
     `S Manpage.s_arguments;

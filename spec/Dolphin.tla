@@ -903,6 +903,7 @@ Wait(m, S, request) ==
 (* {2 Ends} *)
 
 END(S) == EndStep("END", "end", Program, S, Completed)
+EndOfLeaving(S) == EndStep("END", "end", Program, S, Interrupted)
 FAULT(S, fault) == EndStep("FAULT", "fault(" \o fault.message \o ")", Program, S, Failed(fault))
 
 (* HALT is with the rules of tasks: by the script nothing else is done in its step. *)
@@ -913,8 +914,18 @@ TimersOf(kappa) ==
     [] kappa.at = "wait" /\ kappa.request[1] \in { "pick", "pause" } -> << [ i |-> ScriptTimer ] >>
     [] OTHER -> << >>
 
+(* What runs is cut off; what onInterrupt declares gets the vehicles of B. *)
+ON_INTERRUPT(kappa) ==
+  LET stops == Each(SelectSeq(B, LAMBDA v : v \in DOMAIN A), LAMBDA v : << "stop", v >>)
+  IN Transition("ON-INTERRUPT", "interrupt", Interruption, Script(Call(OnInterrupt[1], << Vehicles(B) >>)),
+                [ Shared EXCEPT !.A = << >> ], CancelTimers(TimersOf(kappa)) \o stops)
+
 INTERRUPT(kappa) ==
   EndedBy(Step("INTERRUPT", "interrupt", Interruption, Shared, Ends(Interrupted), << >>), TimersOf(kappa))
+
+(* Of a configuration that is no end. *)
+Interrupt(kappa) ==
+  IF OnInterrupt # << >> /\ B # << >> /\ ~IsLeaving(kappa.M) THEN ON_INTERRUPT(kappa) ELSE INTERRUPT(kappa)
 
 (* {2 Inputs} *)
 
@@ -929,6 +940,7 @@ ScriptSteps(M) ==
         CASE m.stop[1] = "did" -> << Deed(m, S) >>
           [] m.stop[1] = "waits" -> Wait(m, S, m.stop[2])
           [] m.stop[1] = "finished" -> << END(S) >>
+          [] m.stop[1] = "left off" -> << EndOfLeaving(S) >>
           [] m.stop[1] = "halted" -> << HaltOfScript(S, m.stop[2]) >>
           [] m.stop[1] = "faulted" -> << FAULT(S, m.stop[2]) >>
           [] m.stop[1] = "exhausted" -> << SCRIPT(m, S) >>

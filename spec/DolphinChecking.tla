@@ -162,6 +162,7 @@ Take_END(ts) == \E j \in Taking("END", ts) : Unmarked(ts[j])
 Take_HALT(ts) == \E j \in Taking("HALT", ts) : Unmarked(ts[j])
 Take_FAULT(ts) == \E j \in Taking("FAULT", ts) : Unmarked(ts[j])
 Take_INTERRUPT(ts) == \E j \in Taking("INTERRUPT", ts) : Unmarked(ts[j])
+Take_ON_INTERRUPT(ts) == \E j \in Taking("ON-INTERRUPT", ts) : Unmarked(ts[j])
 
 (* The same as GraphNext. A transition is counted under each rule of its derivation: TLC -coverage shows which rules
    were used. TLC looks through all that a definition without parameters applies before it starts, but once through
@@ -185,7 +186,7 @@ NextByRule ==
      \/ Take_ASK(ts) \/ Take_ANSWER(ts) \/ Take_ANSWER_ERR(ts) \/ Take_PAUSE(ts) \/ Take_RESUME(ts)
      \/ Take_CALL(ts) \/ Take_REPLY(ts) \/ Take_CALL_ERR(ts) \/ Take_EXECUTE(ts) \/ Take_EXECUTE_DONE(ts)
      \/ Take_EXECUTE_ERR(ts) \/ Take_ALLOC_ERR(ts) \/ Take_INPUT(ts) \/ Take_END(ts) \/ Take_HALT(ts) \/ Take_FAULT(ts)
-     \/ Take_INTERRUPT(ts)
+     \/ Take_INTERRUPT(ts) \/ Take_ON_INTERRUPT(ts)
 
 -----------------------------------------------------------------------------
 (* {1 A run, told} *)

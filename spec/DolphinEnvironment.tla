@@ -32,6 +32,7 @@ Identifiers == { Fleet[j].id : j \in DOMAIN Fleet }
 
 EnvironmentOK ==
   /\ Is(Main, "closure") /\ Main[2] \in DOMAIN Lambdas
+  /\ Len(OnInterrupt) <= 1 /\ \A i \in DOMAIN OnInterrupt : Is(OnInterrupt[i], "closure")
   /\ { Failures, Losses, Latecomers } \subseteq Nat \cup { -1 }
   /\ MayBeLate \subseteq Identifiers
   /\ Prompts \subseteq STRING /\ Calls \subseteq STRING
@@ -219,13 +220,16 @@ WaitTransitions(M, request) ==
        [] request[1] = "pause" -> << Unnoticed(RESUME(M)) >>
        [] request[1] = "call" -> ReplyTransitions(M, name, IF name \in Calls THEN outside.called[name] ELSE 0)
 
+(* No run is interrupted twice. *)
+MayBeInterrupted(kappa) == Interruptions /\ kappa.at # "end" /\ ~IsLeaving(kappa.M)
+
 TransitionsFrom(kappa) ==
   (CASE kappa.at = "script" -> Each(ScriptSteps(kappa.M), Unnoticed)
      [] kappa.at = "wait" -> WaitTransitions(kappa.M, kappa.request)
      [] kappa.at = "exec" -> ExecutingTransitions(kappa.M, kappa.r)
      [] kappa.at = "end" -> << >>)
   \o (IF kappa.at = "end" THEN << >> ELSE InputTransitions(kappa))
-  \o (IF Interruptions /\ kappa.at # "end" THEN << Unnoticed(INTERRUPT(kappa)) >> ELSE << >>)
+  \o (IF MayBeInterrupted(kappa) THEN << Unnoticed(Interrupt(kappa)) >> ELSE << >>)
 
 (* All that may happen now. *)
 Transitions == TransitionsFrom(control)

@@ -11,6 +11,7 @@ CONSTANTS
   Lambdas,      \* its closures and functions, by number
   GlobalNames,  \* the names of its global variables, by number
   OrderedKeys,  \* the keys of which some "consume k:_" takes the oldest pair
+  OnInterrupt,  \* the closure that an interruption calls with the vehicles of B, if there is one: << it >>, or << >>
   Fleet,        \* the vehicles around, in the order in which they were heard of; battery and position: what these may
                 \* show, anything if it is nothing; places: where it may be when it is picked
   Plans,        \* what allocation must know of each inline plan, by number
@@ -180,6 +181,17 @@ LocalsOf(closure, arguments) ==
 Call(closure, arguments) ==
   LET code == Lambdas[closure[2]].code
   IN [ focus |-> Evaluate(code), locals |-> LocalsOf(closure, arguments), stack |-> << >>, at |-> code ]
+
+(* The expression whose part runs at the bottom of the stack, or which is about to run; if there is none, 0. *)
+Outermost(M) ==
+  CASE M.stack # << >> -> LET f == M.stack[Len(M.stack)] IN IF f.frame = "arguments" THEN f.node ELSE 0
+    [] M.focus[1] = "evaluate" -> M.focus[2]
+    [] OTHER -> 0
+
+(* Whether M runs what onInterrupt executes: all of that is the argument of its end. *)
+IsLeaving(M) ==
+  LET n == Outermost(M)
+  IN n # 0 /\ Code[n].is = "apply" /\ Code[n].operation.op = "interrupted"
 
 (* M(x): a machine that waited, going on with x. *)
 GoOn(M, x) == [ M EXCEPT !.focus = Give(x) ]
@@ -837,6 +849,7 @@ Procedure(m, op, xs) ==
             IF IsTime(x) THEN Request(m, "pause", << "pause", Time(x) >>)
             ELSE Settle(m, TimeWanted("pause", "a time after pause, as in pause 12.seconds", x))
        [] name = "halt" -> Stop(m, << "halted", IF xs = << >> THEN "" ELSE Text(x) >>)
+       [] name = "interrupted" -> Stop(m, << "left off" >>)
        [] name = "assert" -> Refuted(m, IF xs = << >> THEN "assertion failed" ELSE "assertion failed: " \o Text(x))
        [] name = "fail" -> Faulty(m, Text(x))
        [] name = "ignore" -> Verdict(m, "ignore")

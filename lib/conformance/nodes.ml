@@ -21,7 +21,7 @@ and add nodes (e : expression) =
 
 let of_program (program : program) =
   let nodes = { expressions = Hashtbl.create 256; lambdas = Hashtbl.create 32 } in
-  List.iter (add_lambda nodes) (program.main :: List.map snd program.functions);
+  List.iter (add_lambda nodes) (Code_walk.pieces program);
   nodes
 
 let expression nodes site = Hashtbl.find_opt nodes.expressions site

@@ -159,7 +159,7 @@ let resume ~id ~changed order =
 let stop r =
   if goes_on r then begin
     r.state <- Stopping;
-    Interruption.interrupt r.interruption;
+    Interruption.once_more r.interruption;
     r.changed ()
   end
 

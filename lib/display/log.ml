@@ -80,7 +80,7 @@ let of_ending ~stuck : Configuration.ending -> happening = function
 let task_of l v = match Vehicle_map.find_opt v l.before with Some p -> Phrase.one_line p.Core.name | None -> "its task"
 
 (* Who did what, as far as the label tells. Ends and what leads to them are told by the effect [End]. *)
-let of_label (s : Transition.t) =
+let of_label ?(stuck = false) (s : Transition.t) =
   let by_program ?how text = [ of_program ?how text ] in
   match s.label with
   | Done (v, name) -> [ of_vehicle v ("ends " ^ Phrase.one_line name) ]
@@ -103,6 +103,8 @@ let of_label (s : Transition.t) =
   | Pause seconds -> by_program ("pauses for " ^ Wording.duration seconds)
   | Call what -> by_program ("calls " ^ what)
   | Reply what -> by_program ("is told " ^ what)
+  | Interrupt when List.mem Rule.On_interrupt s.rules ->
+    by_program ~how:Trouble ((if stuck then "is stuck" else "is interrupted") ^ ": executes onInterrupt")
   | Input (k, x) -> by_program (Format.asprintf "gets %a" Value.pp_tuple (k, x))
   | Start _ | Make | Silent | Pick _ | Bind _ | No_vehicles _ | Ask _ | Answer _ | No_answer | Resume | No_reply _
   | Execute | Cannot_execute _ | End | Halt _ | Fault _ | Interrupt -> []
@@ -143,7 +145,7 @@ let transition ?(stuck = false) l ~time (s : Transition.t) =
   let column = if bound == l.bound then l.column else List.fold_left wider l.column bound in
   let l = { l with column } in
   let further = List.filteri (fun i _ -> i >= told_by_label s.label) s.effects in
-  let happenings = of_label s @ List.concat_map (of_effect ~stuck l) further in
+  let happenings = of_label ~stuck s @ List.concat_map (of_effect ~stuck l) further in
   let lines = List.map (line l ~time) happenings in
   let members = if bound == l.bound then l.members else Vehicles.of_list bound in
   ({ l with before = s.next.shared.allocation; bound; members }, lines)

@@ -42,7 +42,7 @@ let holds program world (s : Shared.t) (guard : Core.closure) e =
   let closure = { guard with lambda = { guard.lambda with code = e } } in
   match Machine.run ~fuel context (Machine.call closure []) with
   | Decided (Finished x, _, _) -> Some (Value.truth x)
-  | Decided ((Exhausted | Did _ | Waits _ | Halted _ | Faulted _), _, _) | Open _ | Unclear _ -> None
+  | Decided ((Exhausted | Did _ | Waits _ | Halted _ | Left_off | Faulted _), _, _) | Open _ | Unclear _ -> None
 
 (* The shortest beginning of a conjunction that does not hold, by its last part: what a part consumes is missing in
    those after it. *)

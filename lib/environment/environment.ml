@@ -315,11 +315,13 @@ let picking ?alike options program world e (c : Configuration.t) (pick : Setting
 (* {1 All together} *)
 
 let interruption options program world e c () =
-  if not options.faults.interrupt then Seq.Nil
+  if (not options.faults.interrupt) || Transition.is_leaving c then Seq.Nil
   else
     match Transition.accept program world c Interruption with
     | Ok transition -> Seq.return { transition; outside = e; on = Some Interruption } ()
     | Error _ -> Seq.Nil
+
+let may_leave options (program : Core.program) = options.faults.interrupt && program.on_interrupt <> None
 
 let posts options program world e c : choice Seq.t =
   let post (k, x, outside) =

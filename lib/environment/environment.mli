@@ -132,6 +132,9 @@ val find : ('choice -> bool) -> 'choice Seq.t -> 'choice option
 (** [find p choices] is the first of [choices] for which [p] holds, if there is one. The others after it are not
     computed. *)
 
+val may_leave : options -> Core.program -> bool
+(** [may_leave o p] is whether an interruption may come that makes [p] execute what it declares by [onInterrupt]. *)
+
 val is_voluntary : Transition.t -> bool
 (** Whether it is an interruption or an input. *)
 

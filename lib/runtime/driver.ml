@@ -69,8 +69,8 @@ module Make (P : Platform.S) = struct
     call : call;
     observer : Observer.t;
     always_telemetry : bool;
-    interruption : news Lwt.t;
     inputs : Inputs.t;
+    mutable interruptions : news Lwt.t list;  (* those to come, the next one first *)
     mutable configuration : Configuration.t;
     mutable world : World.t;
     mutable telemetry : bool;  (* as the platform was told last *)
@@ -134,6 +134,12 @@ module Make (P : Platform.S) = struct
 
   (* {1 Transitions} *)
 
+  (* Nobody need answer any more. *)
+  let withdraw s =
+    let reply = s.reply in
+    s.reply <- None;
+    Option.iter Lwt.cancel reply
+
   let take s ~cause (t : Transition.t) =
     s.since_pause <- (match t.label with Silent -> most_without_pause | _ -> s.since_pause + 1);
     s.rounds <- (if cause <> None then 0 else if begins_round t then s.rounds + 1 else s.rounds);
@@ -141,6 +147,7 @@ module Make (P : Platform.S) = struct
     Log.transition ~time ~cause t;
     s.observer.transition ~time ~cause t;
     s.configuration <- t.next;
+    (match t.label with Interrupt -> withdraw s | _ -> ());
     carry_out_all s t.effects
 
   let see s state =
@@ -199,12 +206,15 @@ module Make (P : Platform.S) = struct
       promise
 
   (* Nobody can post what the program does not declare. *)
+  let next_interruption s = match s.interruptions with next :: _ -> [ next ] | [] -> []
+
   let inputs_of s = if s.program.inputs = [] then [] else [ next_of_inputs s ]
 
   let forget s promise =
     let unless p = if p == promise then None else Some p in
     s.upcoming <- Option.bind s.upcoming (fun (_, read as both) -> if read == promise then None else Some both);
     s.reply <- Option.bind s.reply unless;
+    s.interruptions <- List.filter (fun p -> p != promise) s.interruptions;
     s.posted <- Option.bind s.posted unless
 
   (* The next piece of news: of several that are there, an interruption before a reply before inputs and the platform's,
@@ -213,7 +223,7 @@ module Make (P : Platform.S) = struct
     let platform = if P.virtual_time && s.reply <> None then [] else [ next_of_platform s ] in
     let inputs = inputs_of s in
     let others = if s.input_before then platform @ inputs else inputs @ platform in
-    let sources = (s.interruption :: Option.to_list s.reply) @ others in
+    let sources = next_interruption s @ Option.to_list s.reply @ others in
     let rec first_of = function
       | promise :: _ when is_resolved promise -> forget s promise; promise
       | _ :: others -> first_of others
@@ -282,14 +292,22 @@ module Make (P : Platform.S) = struct
   let rec advance s =
     match s.configuration.control with
     | Ended ending -> Lwt.return (Ended ending)
-    | Script _ | Waiting _ | Executing _ when is_resolved s.interruption -> interrupt s; advance s
-    | Executing (_, r) when s.rounds >= most_rounds ->
+    | Script _ | Waiting _ | Executing _ when List.exists is_resolved (next_interruption s) ->
+      List.iter (forget s) (next_interruption s);
       interrupt s;
-      Lwt.return (Spins (Option.value (first_repeat r) ~default:Fault.unknown_site))
+      advance s
+    | Executing (_, r) when s.rounds >= most_rounds ->
+      give_up s (Spins (Option.value (first_repeat r) ~default:Fault.unknown_site))
     | Script _ | Waiting _ | Executing _ -> (
         match Transition.internal s.program s.world s.configuration () with
         | Seq.Cons (t, _) -> take s ~cause:None t; continue s advance
         | Seq.Nil -> pass s)
+
+  (* The program cannot go on; what it executes when it is interrupted, it does. *)
+  and give_up s outcome =
+    interrupt s;
+    s.rounds <- 0;
+    advance s >|= fun _ -> outcome
 
   (* No internal transition is left. That something runs in A is the usual case, and quicker to see than all of what is
      awaited. *)
@@ -301,8 +319,7 @@ module Make (P : Platform.S) = struct
       when (not sensitive) && s.program.inputs = []
            && Vehicle_map.is_empty c.shared.allocation
            && Transition.awaited c = [] ->
-      interrupt s;
-      Lwt.return (Stuck r)
+      give_up s (Stuck r)
     | Script _ | Waiting _ | Executing _ | Ended _ ->
       switch_telemetry s (sensitive || s.always_telemetry);
       if sensitive then tell_unknown s;
@@ -318,7 +335,7 @@ module Make (P : Platform.S) = struct
     | Event event -> continue s (if deliver_if_any s event then advance else wait ~sensitive)
     | Nothing_more -> (
         match s.configuration.control with
-        | Executing (_, r) -> interrupt s; Lwt.return (Stuck r)
+        | Executing (_, r) -> give_up s (Stuck r)
         | Script _ | Waiting _ | Ended _ -> advance s)
 
   (* What a console that died was waiting for, people and the host are asked for again. *)
@@ -344,16 +361,19 @@ module Make (P : Platform.S) = struct
   (* The end of a run that an exception broke: vehicles are stopped as by an interruption, as far as possible. *)
   let abort s =
     let attempt f = try f () with _ -> () in
-    attempt (fun () ->
-        match Transition.accept s.program s.world s.configuration Interruption with
-        | Ok t -> carry_out_all s t.effects
-        | Error (Not_awaited | Bad_answer _) -> ());
+    let rec stop c =
+      match Transition.accept s.program s.world c Interruption with
+      | Ok t -> attempt (fun () -> carry_out_all s t.effects); stop t.next
+      | Error (Not_awaited | Bad_answer _) -> ()
+    in
+    attempt (fun () -> stop s.configuration);
     Lwt.catch (fun () -> finish s) (fun _ -> Lwt.return_unit)
 
-  let run platform ~always_telemetry ~observer ~call ~inputs ~console ~interruption ~(beginning : beginning) program =
+  let run platform ~always_telemetry ~observer ~call ~inputs ~console ~interruptions ~(beginning : beginning) program =
+    let interruption promise = Lwt.protected promise >|= fun () -> Event (Ok Interruption) in
     let s =
       { platform; program; console; call; observer; always_telemetry; inputs;
-        interruption = (Lwt.protected interruption >|= fun () -> Event (Ok Interruption));
+        interruptions = List.map interruption interruptions;
         configuration = beginning.configuration;
         world = beginning.world;
         telemetry = false; upcoming = None; reply = None; posted = None; input_before = false; unknown = [];
@@ -371,9 +391,10 @@ end
 
 let run (type platform) (module P : Platform.S with type t = platform) (platform : platform)
     ?(always_telemetry = false) ?(observer = Observer.nobody) ?(host = no_host) ?inputs ?beginning ~console
-    ~interruption program =
+    ~interruption ?again program =
   let module Driver = Make (P) in
   let inputs = match inputs with Some inputs -> inputs | None -> Inputs.create () in
-  Driver.run platform ~always_telemetry ~observer ~call:host ~inputs ~console ~interruption
+  Driver.run platform ~always_telemetry ~observer ~call:host ~inputs ~console
+    ~interruptions:(interruption :: Option.to_list again)
     ~beginning:(Option.value beginning ~default:(afresh program P.order))
     program

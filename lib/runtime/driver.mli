@@ -11,10 +11,10 @@ type outcome =
   | Ended of Configuration.ending
   | Stuck of Residual.t
   (** A deadlock: no task runs, no timer runs, no sensor matters, and every guard that the residual waits for is
-      false, now and for ever. The run was interrupted: vehicles are released. *)
+      false, now and for ever. The run was interrupted, and has ended since. *)
   | Spins of Core.site
   (** 10,000 rounds of the [repeat] there, or of others, followed each other without any event. The run was
-      interrupted. *)
+      interrupted, and has ended since. *)
 
 val guards : Residual.t -> Core.closure list
 (** [guards r] is the code of the guards and conditions that [r] waits for, leftmost first. *)
@@ -48,10 +48,12 @@ val run :
   ?beginning:beginning ->
   console:Console.t ->
   interruption:unit Lwt.t ->
+  ?again:unit Lwt.t ->
   Core.program ->
   outcome Lwt.t
 (** [run (module P) platform ~console ~interruption program] runs [program] until it ends, closes [platform], and is
-    the outcome. When [interruption] resolves, the program is interrupted, whatever it is doing.
+    the outcome. When [interruption] resolves, the program is interrupted, whatever it is doing: it executes what it
+    declares by [onInterrupt], or ends. When [again] resolves (by default never), it is interrupted once more, and ends.
 
     The platform's telemetry is on while it may matter to the program, or with [~always_telemetry:true] (by default
     false), for displays, all the time. Without [host], calls to the host process fail. What is posted to [inputs] the

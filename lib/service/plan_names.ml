@@ -13,7 +13,7 @@ let rec in_expression found (e : Core.expression) =
   | Constant _ | Local _ | Global _ | Break | Continue -> found
 
 let of_program (p : Core.program) =
-  let codes = p.main.code :: List.map (fun (_, (f : Core.lambda)) -> f.code) p.functions in
+  let codes = List.map (fun (piece : Core.lambda) -> piece.code) (Code_walk.pieces p) in
   List.fold_left in_expression [] codes
   |> List.map (fun (name, site) -> (name, p.locations.(site)))
   |> List.sort_uniq (fun (a, at) (b, at') ->

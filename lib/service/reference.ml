@@ -53,6 +53,8 @@ let procedures =
       "ask", "ask 'prompt'", "Asks people a question; its value is what the answer computes.";
       "input", "input 'key', ...",
       "At the top: pairs with these keys may be posted from outside at any time.";
+      "onInterrupt", "onInterrupt { vs -> T }",
+      "At the top: what Ctrl-C executes instead of only stopping, by the vehicles picked. A second Ctrl-C stops all.";
       "confirm", "confirm 'prompt'", "Asks a question that takes yes or no.";
       "message", "message x", "Shows a value to people.";
       "println", "println x", "Shows a value to people, as `message`.";

@@ -8,7 +8,7 @@ type code =
   | Captured_local | Not_assignable | Defined_twice | Reserved_name
   | Wildcard_value
   | Misplaced_jump | Misplaced_when | Misplaced_setting | Misplaced_function | Misplaced_input
-  | Misplaced_parameter
+  | Misplaced_parameter | Misplaced_interrupt
   | Deed_in_answer
   | Deed_in_maker
   | Vehicle_twice
@@ -24,6 +24,7 @@ let codes =
     (Wildcard_value, "wildcard-value"); (Misplaced_jump, "misplaced-jump"); (Misplaced_when, "misplaced-when");
     (Misplaced_setting, "misplaced-setting"); (Misplaced_function, "misplaced-function");
     (Misplaced_input, "misplaced-input"); (Misplaced_parameter, "misplaced-parameter");
+    (Misplaced_interrupt, "misplaced-on-interrupt");
     (Deed_in_answer, "deed-in-answer"); (Deed_in_maker, "deed-in-maker");
     (Vehicle_twice, "vehicle-twice"); (Unused_task, "unused-task");
     (No_effect, "no-effect"); (Assigned_condition, "assigned-condition"); (Wide_value, "wide-value");

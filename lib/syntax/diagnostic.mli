@@ -20,7 +20,7 @@ type code =
   | Wildcard_value  (** [_] where a value is needed *)
   | Misplaced_jump  (** [break], [continue], [return] *)
   | Misplaced_when | Misplaced_setting | Misplaced_function | Misplaced_input
-  | Misplaced_parameter
+  | Misplaced_parameter | Misplaced_interrupt
   | Deed_in_answer  (** an answer may only compute *)
   | Deed_in_maker  (** so may code that makes a task *)
   | Vehicle_twice  (** one vehicle, needed twice at once *)

@@ -48,4 +48,5 @@ let value program world e =
   match Machine.run ~fuel context (Machine.call { lambda; captured = [||] } []) with
   | Decided (Finished x, _, _) -> Ok x
   | Decided (Faulted fault, _, _) | Unclear fault -> Error fault
-  | Decided ((Exhausted | Did _ | Waits _ | Halted _), _, _) | Open _ -> Error (Fault.make e.site "this has no value")
+  | Decided ((Exhausted | Did _ | Waits _ | Halted _ | Left_off), _, _) | Open _ ->
+    Error (Fault.make e.site "this has no value")

@@ -132,8 +132,8 @@ let inputs translation (program : Core.program) (environment : Environment.optio
 let tables = [ "Fleet"; "Code"; "Lambdas"; "LambdaNames"; "Places"; "Distances"; "Plans" ]
 
 let small =
-  [ "Main"; "GlobalNames"; "OrderedKeys"; "Prompts"; "Failures"; "Losses"; "Latecomers"; "MayBeLate"; "Calls";
-    "Inputs"; "SiteOf"; "Ending"; "Answers"; "HostReplies" ]
+  [ "Main"; "OnInterrupt"; "GlobalNames"; "OrderedKeys"; "Prompts"; "Failures"; "Losses"; "Latecomers"; "MayBeLate";
+    "Calls"; "Inputs"; "SiteOf"; "Ending"; "Answers"; "HostReplies" ]
 
 let definition ppf name e = Format.fprintf ppf "%s == %a@.@." name Tla.pp e
 
@@ -152,7 +152,7 @@ let table ppf name rows =
     rows;
   Format.fprintf ppf ">>@.@."
 
-let text program world (environment : Environment.options) plans prompts calls translation main =
+let text program world (environment : Environment.options) plans prompts calls translation main on_interrupt =
   let fleet = List.map (fun s -> (vehicle translation world s, None)) (World.vehicles world) in
   let answers = answers translation program environment prompts in
   let replies = replies translation environment calls in
@@ -169,6 +169,8 @@ let text program world (environment : Environment.options) plans prompts calls t
   table ppf "MCLambdas" (Translation.lambdas translation);
   definition ppf "MCLambdaNames" (Translation.lambda_names translation);
   definition ppf "MCMain" (Tla.Tuple [ String "closure"; Integer main; Tuple [] ]);
+  let closure number = Tla.Tuple [ String "closure"; Integer number; Tuple [] ] in
+  definition ppf "MCOnInterrupt" (Tla.Tuple (List.map closure on_interrupt));
   definition ppf "MCGlobalNames" (Tla.strings (Array.to_list program.global_names));
   let ordered = match program.ordered_keys with Keys keys -> keys | No_key | Every_key -> [] in
   definition ppf "MCOrderedKeys" (Tla.Set (List.map (fun k -> Tla.String k) ordered));
@@ -230,7 +232,8 @@ let unfit_replies ~environment ~calls world program =
 let of_program ?(plans = []) ?(prompts = []) ?(calls = []) ~environment world program =
   let translation = Translation.create program world in
   let main = Translation.lambda translation program.Core.main in
-  let text = text program world environment plans prompts calls translation main in
+  let on_interrupt = List.map (Translation.lambda translation) (Option.to_list program.on_interrupt) in
+  let text = text program world environment plans prompts calls translation main on_interrupt in
   match Translation.refusals translation with
   | [] ->
     Ok

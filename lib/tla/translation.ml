@@ -221,6 +221,7 @@ and procedure t site builtin : Tla.t =
       ~hint:"the translator computes it once, so what it is of may not depend on variables";
     plain "list"
   | Get_supplier -> plain "getSupplier"
+  | Interrupted -> plain "interrupted"
 
 (* {1 Expressions} *)
 

@@ -176,7 +176,7 @@ let caused r (step : Step.t) event =
             mismatch r (Printf.sprintf "%s makes one transition, so there is no choice %d" by step.choice)
           | None ->
             let is_left () = Transition.internal r.program r.world r.configuration () <> Seq.Nil in
-            let stuck = event = Interruption && not (is_left ()) in
+            let stuck = r.stuck || (event = Interruption && not (is_left ())) in
             Ok { (moved r (Some e) t) with stuck }))
 
 (* {1 Lines} *)

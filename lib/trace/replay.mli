@@ -42,7 +42,7 @@ val time : t -> float
 (** Of the latest line. *)
 
 val was_stuck : t -> bool
-(** The latest transition interrupted a run in which nothing could happen any more. *)
+(** An interruption came when nothing could happen any more. *)
 
 val ending : t -> Request.ending option
 (** How the run ended, if its last line was there. *)

@@ -140,6 +140,7 @@ ModelFailures == -1
 ModelSiteOf(n) == "expression " \o ToString(n)
 
 ModelMain == << "closure", 1, << >> >>
+ModelOnInterrupt == << >>
 ModelPlaces == << "(41.185000, -8.706200)" >>
 ModelDistances == << << 0 >> >>
 ModelPlans == << >>

@@ -48,6 +48,7 @@
     Distances <- TheDistances
     Plans <- ThePlans
     Main <- MCMain
+    OnInterrupt <- MCOnInterrupt
     GlobalNames <- MCGlobalNames
     OrderedKeys <- MCOrderedKeys
     Prompts <- MCPrompts

@@ -14,24 +14,28 @@ What `dolphin tla` makes of faults.
   MCLosses == 0
   MCLatecomers == 0
   MCMayBeLate == { "b" }
+    OnInterrupt <- MCOnInterrupt
     Interruptions = FALSE
   $ faults --faults fail=2,loss=1,join
   MCFailures == 2
   MCLosses == 1
   MCLatecomers == -1
   MCMayBeLate == { "b" }
+    OnInterrupt <- MCOnInterrupt
     Interruptions = FALSE
   $ faults --faults all
   MCFailures == -1
   MCLosses == -1
   MCLatecomers == -1
   MCMayBeLate == { "b" }
+    OnInterrupt <- MCOnInterrupt
     Interruptions = FALSE
   $ faults --faults all,interrupt
   MCFailures == -1
   MCLosses == -1
   MCLatecomers == -1
   MCMayBeLate == { "b" }
+    OnInterrupt <- MCOnInterrupt
     Interruptions = TRUE
   $ faults --faults lose
   dolphin: option '--faults': there is no fault 'lose': did you mean loss?

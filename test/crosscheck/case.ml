@@ -20,14 +20,6 @@ type t = {
 
 (* {1 Random programs} *)
 
-(* The program whose script repeats for ever what it does after its picks, for cycles in the graph. *)
-let for_ever (program : Ast.program) =
-  let comes_first (s : Ast.statement) =
-    match s.it with Assign { value = { it = Builder _ | Integer _; _ }; _ } -> true | _ -> false
-  in
-  let first, rest = List.partition comes_first program in
-  first @ [ { it = Ast.While (Generate.expression (Boolean true), rest); at = Location.none } ]
-
 let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]); replies = Calls.replies }
 
 let with_losses losses = { answering with faults = { Faults.none with loss = losses } }
@@ -66,7 +58,7 @@ let generated title programs world ~seed n =
     let name =
       Printf.sprintf "%s %d, %s%s%s" title (i + 1) kind (also calling "with calls") (also looped "for ever")
     in
-    of_generated name world environment (if looped then for_ever ast else ast)
+    of_generated name world environment (if looped then Generate.for_ever ast else ast)
   in
   List.init n one
 

@@ -260,7 +260,15 @@ let interruptions =
        two
        ^ "t = until { poll x: 1 } run (task('p')[a] | during 2.seconds run task('q')[b])\n\
           execute watch t onError { post x: 1; ignore() }");
-      ("interrupted again and again", "while (true) { post k: 1; consume k: 1 }") ]
+      ("interrupted again and again", "while (true) { post k: 1; consume k: 1 }");
+      ("interrupted, and what is picked goes home",
+       "onInterrupt { vs -> def t = task('p')[vs[0]] within 1.seconds; if (vs.size() > 1) { t = t | task('q')[vs[1]] }; t }\n"
+       ^ two ^ "execute during 2.seconds run (task('q')[a] | idle(5.seconds))");
+      ("interrupted before there is a way home", "onInterrupt home[a]\n" ^ two ^ "pause 1.seconds\nhome = task('p')");
+      ("interrupted, and too few can go home", "onInterrupt { task('p') | task('q') }\na = pick { id 'a' }\npost k: 1");
+      ("interrupted, and what is executed halts or waits in vain",
+       "onInterrupt oneOf { when { consume k: 1 } then action { halt 'here' }; when { poll k: 2 } then task('p') }\n\
+        a = pick { id 'a' }\npost k: 1\nconsume k: 1") ]
   in
   let kinds = [ ("", interrupted answering); (", with all faults once", interrupted all_once) ] in
   let one (name, source) (kind, environment) = { (program (name ^ kind) source) with environment } in

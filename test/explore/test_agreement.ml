@@ -3,7 +3,6 @@
    the semantics. Of every other program the states are compressed. PROGRAMS in the environment is how many programs are
    tried, 2,000 by default. *)
 
-open Dolphin_syntax
 open Dolphin_environment
 open Dolphin_explore
 module Generate = Test_support.Generate
@@ -12,14 +11,6 @@ module Calls = Test_support.Calls
 module Property = Dolphin_explore.Property
 
 let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 2_000
-
-(* What the script does after its picks, again and again: for cycles. *)
-let for_ever (program : Ast.program) =
-  let comes_first (s : Ast.statement) =
-    match s.it with Assign { value = { it = Builder _ | Integer _; _ }; _ } -> true | _ -> false
-  in
-  let first, rest = List.partition comes_first program in
-  first @ [ { it = Ast.While (Generate.expression (Boolean true), rest); at = Location.none } ]
 
 let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]); replies = Calls.replies }
 
@@ -102,7 +93,7 @@ let verdict_agrees program world environment ~goes_round reference (property, ve
 let unsettled = ref 0
 
 let agrees ((ast, world), looped, (_, environment)) =
-  let program = Posts.declared environment (Generate.compile (if looped then for_ever ast else ast)) in
+  let program = Posts.declared environment (Generate.compile (if looped then Generate.for_ever ast else ast)) in
   match Reference.explore ~limit environment program world with
   | None ->
     incr skipped;

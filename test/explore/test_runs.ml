@@ -65,7 +65,7 @@ let run ~seed scenario program =
   let transition ~time:_ ~cause:_ (t : Transition.t) =
     if !left = 0 then raise Enough;
     decr left;
-    match t.label with Interrupt -> () | _ -> taken := t :: !taken
+    match t.label with Interrupt -> left := 0 | _ -> taken := t :: !taken
   in
   let platform = Platform.create ~seed scenario in
   let observer : Observer.t = { Observer.nobody with transition } in

@@ -2,7 +2,6 @@
    shown is a run, and violates the formula by its definition. And some formulas say what the built-in properties say.
    PROGRAMS in the environment is how many programs are tried, each with three formulas, 400 by default. *)
 
-open Dolphin_syntax
 open Dolphin_semantics
 open Dolphin_environment
 open Dolphin_checker
@@ -14,13 +13,6 @@ module Property = Dolphin_explore.Property
 module Formula = Dolphin_ltl.Formula
 
 let number name default = match Sys.getenv_opt name with Some n -> int_of_string n | None -> default
-
-let for_ever (program : Ast.program) =
-  let comes_first (s : Ast.statement) =
-    match s.it with Assign { value = { it = Builder _ | Integer _; _ }; _ } -> true | _ -> false
-  in
-  let first, rest = List.partition comes_first program in
-  first @ [ { it = Ast.While (Generate.expression (Boolean true), rest); at = Location.none } ]
 
 let is_violated (o : Search.outcome) property =
   match List.assoc property o.verdicts with
@@ -149,7 +141,8 @@ let agrees_on program world environment at plain (f, verdict) =
   | Unreached _ | By_design _ | Inconclusive _ -> false
 
 let agrees ((ast, world), looped, (_, environment), formulas) =
-  let program = Test_support.Posts.declared environment (Generate.compile (if looped then for_ever ast else ast)) in
+  let ast = if looped then Generate.for_ever ast else ast in
+  let program = Test_support.Posts.declared environment (Generate.compile ast) in
   match Reference.explore ~limit environment program world with
   | None | (exception Environment.Unclear _) -> note "are skipped"; true
   | Some reference ->
@@ -203,7 +196,7 @@ let is_broken o property =
   | Some (Holds | Violated _ | Unreached _ | Inconclusive _) | None -> false
 
 let agrees_with_properties (ast, looped, failing) =
-  let program = Generate.compile (if looped then for_ever ast else ast) in
+  let program = Generate.compile (if looped then Generate.for_ever ast else ast) in
   let environment = if failing then Environment.failing Environment.default else Environment.default in
   let read text = match Temporal.of_string program text with Ok f -> f | Error why -> failwith why in
   let options = { Search.default with environment; limits = { Limits.none with max_states = Some 3_000 } } in

@@ -625,9 +625,34 @@ let unknown =
       | _, _ -> evaluate context fuel no locals stack calls)|} );
     ]
 
+let on_interrupt =
+  in_file "lib/semantics/rules/script_rules.ml" ~noticed_by:"semantics/test_rules"
+    [
+      ( "a way home is executed though nobody is bound",
+        {|when s.bound <> [] && not|},
+        {|when not|} );
+    ]
+  @ in_file "lib/semantics/rules/script_rules.ml" ~noticed_by:"semantics/test_language"
+    [
+      ( "whoever is on the way home begins it again",
+        {|not (Machine.is_leaving m) ->|},
+        {|not (Machine.is_leaving m && false) ->|} );
+    ]
+  @ in_file "lib/explore/steps/space.ml" ~noticed_by:"reduction/test_traps"
+    [
+      ( "what an interruption executes is the same in all orders",
+        {|if Environment.may_leave options program then|},
+        {|if Environment.may_leave options program && reduction = Whole then|} );
+    ]
+
 let driver =
   in_file "lib/runtime/driver.ml" ~noticed_by:"runtime/test_runtime"
     [
+      ( "a question stays open on the way home",
+        {|    Option.iter Lwt.cancel reply
+|},
+        {|    ignore reply
+|} );
       ("an end that a stop has overtaken is read", {|drop s (Overtaken.by_stop v); |}, {||});
       ("an expiry that a cancellation has overtaken is read", {|drop s (Overtaken.by_cancel timer); |}, {||});
     ]
@@ -692,7 +717,7 @@ let all =
   List.concat
     [ missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups; quotient; expansion;
       vehicle_orbits; canonical_vehicles; name_flow; liveness; later_picks; environment; picks; inputs; attendance;
-      task_rules; local_step; run_code; answers_in_words; confirm; unknown;
+      task_rules; local_step; run_code; answers_in_words; confirm; unknown; on_interrupt;
       pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
       conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps; driver; fair_cycles;
       alike_values ]

@@ -2,7 +2,6 @@
    run that it shows is one of the semantics. PROGRAMS in the environment is how many programs are tried, 2,000 by
    default; SEED is where they start. *)
 
-open Dolphin_syntax
 open Dolphin_environment
 open Dolphin_explore
 module Generate = Test_support.Generate
@@ -13,14 +12,6 @@ let number name default = match Sys.getenv_opt name with Some n -> int_of_string
 let programs = number "PROGRAMS" 2_000
 let usual = 20_260_911
 let limit = number "LIMIT" 3_000
-
-(* What the script does after its picks, again and again: for cycles. *)
-let for_ever (program : Ast.program) =
-  let comes_first (s : Ast.statement) =
-    match s.it with Assign { value = { it = Builder _ | Integer _; _ }; _ } -> true | _ -> false
-  in
-  let first, rest = List.partition comes_first program in
-  first @ [ { it = Ast.While (Generate.expression (Boolean true), rest); at = Location.none } ]
 
 (* Tasks side by side, which the programs of [Generate] have too few of for our purpose. *)
 let side_by_side ~sensing =
@@ -88,7 +79,7 @@ let case =
   let opened program = pair program (return Generate.open_world) in
   pair
     (frequency
-       [ (2, closed Generate.program); (2, closed (map for_ever Generate.program));
+       [ (2, closed Generate.program); (2, closed (map Generate.for_ever Generate.program));
          (2, closed (Calls.within Generate.program)); (2, closed (Calls.within (side_by_side ~sensing:false)));
          (3, closed (side_by_side ~sensing:false)); (5, closed (nested ~sensing:false));
          (1, opened Generate.sensing_program); (2, opened (side_by_side ~sensing:true));

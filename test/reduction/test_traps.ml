@@ -54,6 +54,13 @@ let traps =
             if (position(a) in area(location(41.1852, -8.7048), 400)) { ignore() } })
               | (during 2 run action { message 'm' })
           onError { ignore() }) | (watch task('p')[c] onError { 1 / 0 })|};
+    breaks "an interruption between two steps that commute"
+      ~environment:{ plain with faults = { Faults.none with interrupt = true } } [ Assertions; No_halt; No_leftover ]
+      {|onInterrupt action {
+            if (poll(x: 1) && !poll(y: 1)) { halt 'x alone' }
+            assert { !poll(y: 1) || poll(x: 1) }, 'y alone'
+        }
+        execute action { post x: 1 } | action { post y: 1 }|};
     breaks "an input between two looks" ~environment:posting [ No_deadlock; No_halt ]
       {|input 'x'
         g = 0

@@ -53,4 +53,8 @@ let program ?(reads_sensors = false) ?(globals = 0) script =
     main = lambda "script" 0 (block script);
     ordered_keys = No_key;
     inputs = [];
+    on_interrupt = None;
     reads_sensors }
+
+let on_interrupt t program =
+  { program with on_interrupt = Some (lambda "onInterrupt" 1 (call Interrupted [ call Execute [ t ] ])) }

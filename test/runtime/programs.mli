@@ -34,3 +34,6 @@ val pick : int -> expression
 
 val program : ?reads_sensors:bool -> ?globals:int -> expression list -> program
 (** The program with this script. *)
+
+val on_interrupt : expression -> program -> program
+(** [on_interrupt t p] is [p], which executes [t] when it is interrupted. *)

@@ -21,13 +21,13 @@ let quiet = fst (console_of ())
 let deadline = 60.
 
 let start (module P : Platform.S with type t = Mock_platform.t) ?observer ?host ?inputs ?(console = quiet)
-    ?(interruption = never) ?always_telemetry mock program =
+    ?(interruption = never) ?again ?always_telemetry mock program =
   Lwt_unix.with_timeout deadline (fun () ->
-      Driver.run (module P) mock ?always_telemetry ?observer ?host ?inputs ~console ~interruption program)
+      Driver.run (module P) mock ?always_telemetry ?observer ?host ?inputs ~console ~interruption ?again program)
 
 let run ?(platform = (module Mock_platform.Virtual : Platform.S with type t = Mock_platform.t)) ?observer ?host
-    ?inputs ?console ?interruption ?always_telemetry mock program =
-  Lwt_main.run (start platform ?observer ?host ?inputs ?console ?interruption ?always_telemetry mock program)
+    ?inputs ?console ?interruption ?again ?always_telemetry mock program =
+  Lwt_main.run (start platform ?observer ?host ?inputs ?console ?interruption ?again ?always_telemetry mock program)
 
 let outcome_is expected outcome = Alcotest.(check string) "outcome" expected (Fmt.str "%a" Driver.pp_outcome outcome)
 let log_is mock expected = Alcotest.(check (list string)) "log" expected (Mock_platform.log mock)
@@ -307,6 +307,31 @@ let interrupted_in_question () =
   run ~console ~interruption:(soon ()) mock (program [ call Ask [ string "well?" ] ]) |> outcome_is "end: interrupted";
   Alcotest.(check bool) "the question is cancelled" true (Lwt.state promise = Lwt.Fail Lwt.Canceled)
 
+(* Its first interruption begins the way home, the second one ends it. *)
+let interrupted_on_the_way () =
+  let home fate =
+    let mock = Mock_platform.make ~fate two_vehicles in
+    let again = Lwt_unix.sleep 0.15 in
+    run ~interruption:(soon ()) ~again mock
+      (on_interrupt (task "home") (program [ pick_all (); call Execute [ task "a" ] ]))
+    |> outcome_is "end: interrupted";
+    mock
+  in
+  let log end_of_home =
+    [ "0 telemetry true"; "10 bind v1 v2"; "10 start v1 a"; "10 telemetry false"; "10 stop v1"; "10 start v1 home" ]
+    @ end_of_home
+  in
+  log_is (home (fun _ _ -> Mock_platform.Goes_on)) (log [ "10 stop v1"; "10 release v1 v2"; "10 close" ])
+
+let no_answer_on_the_way () =
+  let promise, _ = Lwt.task () in
+  let console, _ = console_of ~answer:(fun _ -> promise) () in
+  let mock = Mock_platform.make two_vehicles in
+  run ~console ~interruption:(soon ()) mock
+    (on_interrupt (task "home") (program [ pick_all (); call Ask [ string "well?" ] ]))
+  |> outcome_is "end: interrupted";
+  Alcotest.(check bool) "the question is cancelled" true (Lwt.state promise = Lwt.Fail Lwt.Canceled)
+
 (* The real thing: a process that never replies. *)
 let interrupted_in_call () =
   match Host.start "sleep 30" with
@@ -416,6 +441,8 @@ let tests =
     case "interrupted in an endless loop" interrupted_in_loop;
     case "interrupted while tasks run" interrupted_in_task;
     case "interrupted while a question is open" interrupted_in_question;
+    case "interrupted again on the way home" interrupted_on_the_way;
+    case "interrupted while a question is open, with a way home" no_answer_on_the_way;
     case "interrupted while the host hangs" interrupted_in_call;
     case "interrupted among many events" interrupted_in_flood;
     case "observers are told ahead" told_ahead;

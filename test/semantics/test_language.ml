@@ -53,6 +53,18 @@ let interrupted_script () =
   | Ok t -> Alcotest.(check string) "ended" "interrupted" (Pure_run.ending [ t ])
   | Error _ -> Alcotest.fail "refused"
 
+let on_the_way () =
+  let program, _ = waiting "onInterrupt task('home')\nv = pick { id 'noptilus-1' }\npause 1" in
+  let rec interrupted c times =
+    match Transition.accept program Pure_run.fleet c Interruption with
+    | Error _ -> times
+    | Ok t -> interrupted t.next (times + 1)
+  in
+  let is_at_rest (t : Transition.t) = t.label = Pause 1. in
+  match List.find_opt is_at_rest (Pure_run.run program) with
+  | Some t -> Alcotest.(check int) "so often" 2 (interrupted t.next 0)
+  | None -> Alcotest.fail "no pause"
+
 (* {1 Answers} *)
 
 let answered text =
@@ -264,7 +276,8 @@ let () =
   Alcotest.run "language"
     [ ( "without end",
         [ case "a script takes SCRIPT steps" endless_script; case "a long script" long_script;
-          case "it can be interrupted" interrupted_script ] );
+          case "it can be interrupted" interrupted_script;
+          case "it can be interrupted on its way home, once" on_the_way ] );
       ("answers", answers);
       ("picks", picks);
       ("tuples", tuples);

@@ -321,7 +321,14 @@ let script : example list =
       "during 5 run p[noptilus-1]..." [];
     example Input "while it waits" "input 'a'\npause 3" "input a:1" "INPUT" "waiting" [];
     example Interrupt "at any moment" (task "during 5 run %p") "interrupt" "INTERRUPT" "interrupted"
-      [ "cancel timer 1"; "stop noptilus-1"; released; "end: interrupted" ] ]
+      [ "cancel timer 1"; "stop noptilus-1"; released; "end: interrupted" ];
+    example Interrupt "nobody is bound" "onInterrupt task('home')\npause 3" "interrupt" "INTERRUPT" "interrupted"
+      [ "cancel timer 0"; "end: interrupted" ];
+    example On_interrupt "what runs is cut off"
+      ("onInterrupt { vs -> task('home')[vs] }\n" ^ task "during 5 run %p")
+      "interrupt" "ON-INTERRUPT" "script" [ "cancel timer 1"; "stop noptilus-1" ];
+    example On_interrupt "while it waits" ("onInterrupt task('home')\n" ^ pick_v ^ "pause 3") "interrupt" "ON-INTERRUPT"
+      "script" [ "cancel timer 0" ] ]
 
 let examples = tasks @ script
 

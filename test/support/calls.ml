@@ -15,12 +15,8 @@ let call =
       (1, "execute watch action { g = s.level } onError { ignore() }");
       (1, "execute watch condition { s.ready() } onError { message(it); ignore() }"); (1, "g = s.nothing") ]
 
-(* What stands at the start of random programs: their variables and picks. *)
-let comes_first (s : Ast.statement) =
-  match s.it with Assign { value = { it = Builder _ | Integer _; _ }; _ } -> true | _ -> false
-
 let rec split first = function
-  | s :: rest when comes_first s -> split (s :: first) rest
+  | s :: rest when Generate.stands_first s -> split (s :: first) rest
   | rest -> (List.rev first, rest)
 
 let insert statements rest =

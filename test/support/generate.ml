@@ -386,6 +386,20 @@ and some_statements ~sensing vehicles level =
     let next = assign i (binary Add (variable i) (integer 1)) in
     return [ assign i (integer 0); located (While (binary Less (variable i) (integer 2), next :: inside)) ]
 
+(* Whose vehicles may have no value yet, or that of all that are bound. *)
+let on_interrupt ~sensing vehicles =
+  let* kind = frequencyl [ (4, `None); (1, `Task); (1, `Code) ] in
+  let declared e = [ statement (call "onInterrupt" [ Positional e ]) ] in
+  match kind with
+  | `None -> return []
+  | `Task -> map declared (task_of ~sensing ~vehicles ~depth:1)
+  | `Code ->
+    let of_vehicles (t : expression) =
+      let body = [ statement (located (Index (t, variable "vs"))) ] in
+      declared (located (Closure { parameters = Some [ located "vs" ]; body }))
+    in
+    map of_vehicles (task_of ~sensing ~vehicles:[ "vs" ] ~depth:1)
+
 let programs ~sensing =
   let* picked, vehicles = if sensing then return (List.map pick_by_id all, vehicles) else picks in
   let* before = body ~sensing vehicles 1 in
@@ -397,7 +411,18 @@ let programs ~sensing =
   let* first = bool in
   let executed = [ statement (call "execute" [ Positional t ]) ] in
   let start = if sensing then [ start; assign "h" (integer 1) ] else [ start ] in
-  return (start @ picked @ posts @ if first then executed @ after else before @ executed @ after)
+  let* declared = on_interrupt ~sensing vehicles in
+  return (declared @ start @ picked @ posts @ if first then executed @ after else before @ executed @ after)
+
+let stands_first (s : Ast.statement) =
+  match s.it with
+  | Assign { value = { it = Builder _ | Integer _; _ }; _ }
+  | Expression { it = Call { callee = { it = Variable "onInterrupt"; _ }; _ }; _ } -> true
+  | _ -> false
+
+let for_ever program =
+  let first, rest = List.partition stands_first program in
+  first @ [ located (While (expression (Boolean true), rest)) ]
 
 let program = programs ~sensing:false
 let sensing_program = programs ~sensing:true

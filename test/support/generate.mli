@@ -18,6 +18,12 @@ val answer : string
 val program : Ast.program QCheck2.Gen.t
 (** A script that picks one to three vehicles and then executes tasks, posts, polls, asks, releases... It shrinks. *)
 
+val stands_first : Ast.statement -> bool
+(** Whether it stands before what a random program does: a variable's first value, a pick, a declaration. *)
+
+val for_ever : Ast.program -> Ast.program
+(** [for_ever p] does what [p] does after its picks again and again: for cycles. *)
+
 val replicated : Ast.program QCheck2.Gen.t
 (** A program that executes two or three copies of a random task side by side, each with names of its own, and perhaps
     other things

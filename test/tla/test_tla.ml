@@ -143,7 +143,7 @@ let rules_have_models () =
 
 let models =
   [ "Paper"; "Platform"; "CodeOfTasks"; "Sequence"; "Parallel"; "Branches"; "Until"; "Time"; "Errors"; "Recovery"; "Rounds"; "Made";
-    "Deeds"; "Picking"; "Sensors"; "Waiting"; "Executing"; "Inputs"; "Ends"; "SmallAbstract" ]
+    "Deeds"; "Picking"; "Sensors"; "Waiting"; "Executing"; "Inputs"; "Ends"; "Leaving"; "SmallAbstract" ]
 
 (* [f run] where [run arguments] is the status of Java with TLC's classes in a directory with all models, and what it
    says. *)

@@ -1,25 +1,32 @@
-type t = { promise : unit Lwt.t; wake : unit Lwt.u; mutable happened : bool }
+type stage = { promise : unit Lwt.t; wake : unit Lwt.u; mutable happened : bool }
+type t = { first : stage; second : stage }
 
-let make () =
+let stage () =
   let promise, wake = Lwt.wait () in
   { promise; wake; happened = false }
 
-let interrupt i =
-  if not i.happened then begin
-    i.happened <- true;
-    Lwt.wakeup_later i.wake ()
+let make () = { first = stage (); second = stage () }
+
+let happen stage =
+  if not stage.happened then begin
+    stage.happened <- true;
+    Lwt.wakeup_later stage.wake ()
   end
 
-(* Signals may come at any point of the program: the first one only asks the event loop, which breathes often, to
-   interrupt. The second one need not wait for it. *)
-let on_signals ?again i =
-  let notification = Lwt_unix.make_notification ~once:true (fun () -> interrupt i) in
-  let signals = ref 0 in
+let interrupt i = happen i.first
+let once_more i = if i.first.happened then happen i.second else happen i.first
+
+(* Signals may come at any point of the program: one that interrupts only asks the event loop, which breathes often, to
+   do so. The last one need not wait for it. *)
+let on_signals ?(goes_on = fun () -> false) ?again i =
+  let notification = Lwt_unix.make_notification (fun () -> once_more i) in
+  let asked = ref 0 in
   let behaviour =
     Sys.Signal_handle
       (fun _ ->
-         incr signals;
-         if !signals = 1 && not i.happened then Lwt_unix.send_notification notification
+         let before = max !asked (if i.second.happened then 2 else if i.first.happened then 1 else 0) in
+         asked := before + 1;
+         if before = 0 || (before = 1 && goes_on ()) then Lwt_unix.send_notification notification
          else Option.iter (fun again -> ignore (again ())) again)
   in
   List.iter (fun signal -> Sys.set_signal signal behaviour) [ Sys.sigint; Sys.sigterm ];
@@ -27,5 +34,6 @@ let on_signals ?again i =
   | Signal_ignore -> Sys.set_signal Sys.sighup Signal_ignore
   | Signal_default | Signal_handle _ -> ()
 
-let promise i = i.promise
-let happened i = i.happened
+let promise i = i.first.promise
+let again i = i.second.promise
+let happened i = i.first.happened

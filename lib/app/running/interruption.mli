@@ -8,12 +8,19 @@ val make : unit -> t
 val interrupt : t -> unit
 (** [interrupt i] makes [i] happen. Once it has, this does nothing. *)
 
+val once_more : t -> unit
+(** [once_more i] makes [i] happen; if it has happened, a second time. *)
+
 val promise : t -> unit Lwt.t
 (** [promise i] resolves when [i] happens. *)
+
+val again : t -> unit Lwt.t
+(** [again i] resolves when [i] happens a second time. *)
 
 val happened : t -> bool
 (** Whether it has happened. *)
 
-val on_signals : ?again:(unit -> 'a) -> t -> unit
-(** From now on SIGINT, SIGTERM and SIGHUP make it happen. If it has happened already, they call [again], which need not
-    return, straight from the signal's handler; by default nothing. Under nohup SIGHUP stays ignored. *)
+val on_signals : ?goes_on:(unit -> bool) -> ?again:(unit -> 'a) -> t -> unit
+(** From now on SIGINT, SIGTERM and SIGHUP make it happen. If it has happened already and [goes_on ()], which by default
+    is false, they make it happen a second time. Otherwise they call [again], which need not return, straight from the
+    signal's handler; by default nothing. Under nohup SIGHUP stays ignored. *)

@@ -209,7 +209,7 @@ let watching_picks r unmet : Observer.t =
 let open_socket r recording ~interruption ~inputs ~now ~virtual_time =
   match Recording.journal recording with
   | Some journal when r.settings.socket && not virtual_time -> (
-      let stop () = Interruption.interrupt interruption in
+      let stop () = Interruption.once_more interruption in
       match Run_socket.open_ { program = r.program; inputs; now; stop } ~journal with
       | Ok socket -> Some socket
       | Error why -> r.front.notice why; None)
@@ -232,7 +232,12 @@ let beginning resumed news : Driver.beginning option =
   in
   Option.map of_past resumed
 
-let was_stuck (resumed : Resumed.t) = Replay.was_stuck resumed.past.replay
+(* What the run did after that it has ended as any other. *)
+let was_stuck (resumed : Resumed.t) =
+  let replay = resumed.past.replay in
+  match (Replay.configuration replay).control with
+  | Ended _ -> Replay.was_stuck replay
+  | Script _ | Waiting _ | Executing _ -> false
 
 let drive r recording host ~interruption (Platform ((module P), { platform; estimates; news })) =
   let now () = P.now platform in
@@ -254,7 +259,7 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
       ~observer
       ~host:(match host with Some host -> Host.call host | None -> Replies.call ~past:(history r) r.scenario)
       ~inputs ?beginning:(beginning r.resumed news) ~console ~interruption:(Interruption.promise interruption)
-      r.program.program
+      ~again:(Interruption.again interruption) r.program.program
   in
   let finish (outcome : Driver.outcome) =
     let stuck =

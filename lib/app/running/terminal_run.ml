@@ -46,8 +46,8 @@ let see_vehicle t state =
 
 (* The driver interrupts stuck programs by itself. *)
 let transition t ~time ~cause:_ transition =
+  let stuck = not (Interruption.happened t.interruption || Transition.is_leaving t.configuration) in
   see_transition t ~time transition;
-  let stuck = not (Interruption.happened t.interruption) in
   let log, lines = Log.transition ~stuck t.log ~time transition in
   t.log <- log;
   List.iter (print t) lines
@@ -144,13 +144,20 @@ let stop_on_request t =
   in
   if t.live then on_signal ()
 
+(* Whether the program goes on when it is interrupted: it executes what it declares by onInterrupt. *)
+let goes_on t () =
+  let { Configuration.control; shared } = t.configuration in
+  match control with
+  | Ended _ -> false
+  | Script _ | Waiting _ | Executing _ -> t.program.program.on_interrupt <> None && shared.bound <> []
+
 let front t ~notice ~again : Run.front =
   let again () =
     Screen.restore t.screen;
     again ()
   in
   let opened view =
-    Interruption.on_signals ~again t.interruption;
+    Interruption.on_signals ~goes_on:(goes_on t) ~again t.interruption;
     stop_on_request t;
     t.view <- view;
     if Unix.isatty Unix.stdin then t.keyboard <- Some (Keyboard.start ~other:(offer t));

@@ -417,5 +417,5 @@ let asks_idle (program : program) =
     | Apply (Builtin Make_idle, _) -> found := true
     | _ -> ()
   in
-  Code_walk.iter visit (program.main :: List.map snd program.functions);
+  Code_walk.iter visit (Code_walk.pieces program);
   !found

@@ -273,14 +273,26 @@ let inputs x =
 (* {1 Interruptions} *)
 
 let interruption x =
-  let observed : Proposition.observed = { label = Interrupt; effects = []; ending = Some Interrupted } in
+  let t = x.expansion in
+  let { Surroundings.shared; outside } = Surroundings.Numbers.value (Encoding.shareds t.encoding) x.shared in
+  let number, ending =
+    match Transition.on_interrupt (program t) shared x.layout.frame.machine with
+    | Some next -> (Encoding.script_number t.encoding [ On_interrupt ] next outside, None)
+    | None -> (concluded x x.shared (Ends Interrupted), Some Configuration.Interrupted)
+  in
+  let observed : Proposition.observed = { label = Interrupt; effects = []; ending } in
   let action labelling = Valuation.action_observed (Labelling.valuations labelling) observed in
-  let action = Option.fold ~none:Valuation.nothing ~some:action x.expansion.labelling in
-  (concluded x x.shared (Ends Interrupted), action)
+  (number, Option.fold ~none:Valuation.nothing ~some:action t.labelling)
+
+(* No run is interrupted twice. *)
+let may_be_interrupted x =
+  let t = x.expansion in
+  t.options.faults.interrupt
+  && ((program t).on_interrupt = None || not (Machine.is_leaving x.layout.frame.machine))
 
 let interrupt x =
   let t = x.expansion in
-  if not t.options.faults.interrupt then 0
+  if not (may_be_interrupted x) then 0
   else begin
     let number, action =
       match By_number.find_opt t.interrupted x.shared with

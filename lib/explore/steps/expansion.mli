@@ -53,8 +53,9 @@ val upcoming : t -> int -> Footprint.t
 (** [upcoming t s] is the footprint of all inputs that may come in shared state [s], or later. *)
 
 val interrupt : source -> int
-(** [interrupt x] takes the interruption, if there are any. Nothing follows it, and it breaks nothing: whatever states
-    are explored, verdicts are the same with it. The result is how many transitions that makes. *)
+(** [interrupt x] takes the interruption, if there is one. If nothing follows it, it breaks nothing: whatever states are
+    explored, verdicts are the same with it. If the program says what it executes, all states are explored. The result
+    is how many transitions that makes. *)
 
 val visit_script : t -> Task_group.permutation option System.visitor -> int -> action:int -> unit
 (** [visit_script t v n ~action] visits configuration [n], which executes nothing. *)

@@ -425,6 +425,7 @@ let coverage t =
 (* {1 Beginning} *)
 
 let create ?(reduction = Reduction.Whole) ?(symmetry = Symmetry.none) ?(asked = []) ?labelling options program world =
+  let reduction = if Environment.may_leave options program then Reduction.Whole else reduction in
   let foreseen = if Reduction.by_order reduction then Some 0 else None in
   let components = Components.create ?foreseen options program world in
   let shareds = Surroundings.Numbers.create () in

@@ -10,8 +10,10 @@ let none = { vehicles = Vehicle_orbits.none; tasks = None }
 
 (* A state of a task up to symmetry does not say which vehicle runs what. *)
 let find options program ~asked world =
-  let posts = options.Environment.inputs <> [] in
-  let tasks = if posts || Environment.endings_remember options then None else Some [] in
-  { vehicles = Vehicle_orbits.find options program ~asked world; tasks }
+  if Environment.may_leave options program then none
+  else
+    let posts = options.Environment.inputs <> [] in
+    let tasks = if posts || Environment.endings_remember options then None else Some [] in
+    { vehicles = Vehicle_orbits.find options program ~asked world; tasks }
 
 let without_tasks s = { s with tasks = None }

@@ -134,7 +134,7 @@ let eval_in program world t (c : Configuration.t) =
       | Faulted fault -> Broken fault.message
       | Halted _ -> Broken "a condition may not halt the program"
       | Exhausted -> Broken "it does not come to an end"
-      | Did _ | Waits _ -> Broken "a condition cannot wait"
+      | Did _ | Waits _ | Left_off -> Broken "a condition cannot wait"
     in
     Decision.map answer (Machine.run ~fuel context (Machine.call t.closure []))
 

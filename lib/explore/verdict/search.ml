@@ -248,6 +248,10 @@ let relevant program (options : options) =
   | Partial_order | Symmetry | All ->
     { options with environment = Later_picks.forgetting program options.environment }
 
+(* What an interruption executes depends on all of the state that it comes in. *)
+let reducible program (options : options) =
+  if Environment.may_leave options.environment program then { options with reduction = Whole } else options
+
 let judged (options : options) program world =
   let symmetry =
     if Reduction.by_symmetry options.reduction then
@@ -295,7 +299,7 @@ let judged_with_alike_values (options : options) program world =
       | None -> judged options program world)
 
 let run (options : options) program world =
-  let options = relevant program options in
+  let options = relevant program (reducible program options) in
   let started = options.limits.clock () in
   let found = judged_with_alike_values options program world in
   with_formulas { program; world; symmetry = Symmetry.none; started } options found

@@ -21,6 +21,7 @@ type arguments =
   | Set_connection_timeout
   | Confirm
   | Input
+  | On_interrupt
   | Assert
 
 type place = Anywhere | Script_only | Handler_only | In_handler
@@ -51,6 +52,7 @@ let table : (string * t) list =
     ("ask", these Ask [ Any ] ~place:Script_only);
     ("confirm", { (other Confirm ~place:Script_only) with result = Truth });
     ("input", other Input);
+    ("onInterrupt", other On_interrupt);
     ("message", these Message [ Any ] ~result:Other);
     ("println", these Message [ Any ] ~result:Other);
     ("pause", these Pause [ Number ] ~place:Script_only ~result:Other);

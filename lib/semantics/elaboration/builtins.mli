@@ -26,7 +26,8 @@ type arguments =
   | Execute
   | Set_connection_timeout
   | Confirm  (** a prompt, put to people until they say yes or no *)
-  | Input  (** keys, in a declaration *)
+  | Input
+  | On_interrupt  (** keys, in a declaration *)
   | Assert  (** code, and perhaps a text *)
 
 type place =

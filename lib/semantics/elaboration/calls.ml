@@ -79,6 +79,41 @@ let input env at arguments =
   List.iter key arguments;
   null env at
 
+(* [{ vs -> T }] is called with the bound vehicles: what is executed then is the task that it gives. *)
+let on_interrupt env at arguments =
+  let made vehicles (c : Ast.closure) at inside =
+    let code = told c (closure inside at Scope.Maker "onInterrupt" c) in
+    let given = if c.parameters = Some [] then [] else [ local inside at vehicles ] in
+    apply inside at (Call (List.map (fun _ -> None) given)) (code :: given)
+  in
+  let task vehicles (e : Ast.expression) inside =
+    match e.it with
+    | Closure ({ parameters = Some (_ :: second :: _); _ } as c) ->
+      error env Wrong_parameters second.at "the code of onInterrupt takes one parameter, the vehicles picked";
+      made vehicles c e.at inside
+    | Closure c -> made vehicles c e.at inside
+    | _ -> elaborate inside e
+  in
+  let declare (e : Ast.expression) =
+    check_kind env "onInterrupt" Task e;
+    let body inside at =
+      let vehicles = Scope.new_slot inside.code in
+      apply inside at (Builtin Interrupted) [ apply inside at (Builtin Execute) [ task vehicles e inside ] ]
+    in
+    let lambda, _ = make_lambda env at Scope.Maker "onInterrupt" ~parameters:[] ~implicit:false body in
+    if Scope.on_interrupt env.program <> None then
+      error env Defined_twice at "onInterrupt is declared twice" ~hint:"tasks at once are a | b";
+    Scope.note_interrupt env.program { lambda with parameters = 1 }
+  in
+  (match arguments with
+   | [ Ast.Positional e ] -> declare e
+   | [ Ast.Named (k, _) ] ->
+     error env Unknown_argument k.at "onInterrupt takes no argument by name" ~hint:"write onInterrupt T"
+   | arguments ->
+     error env Wrong_arity at "onInterrupt takes one task, not %d" (List.length arguments)
+       ~hint:"write onInterrupt task('home'), or onInterrupt { vs -> T } with the vehicles picked");
+  null env at
+
 let number_of_arguments least most =
   match least, most with
   | 0, 0 -> "no arguments"
@@ -195,6 +230,10 @@ let rec to_builtin env at name (builtin : Builtins.t) arguments =
   | Input ->
     error env Misplaced_input at
       "input declares what the outside may post: it stands by itself at the top of the program";
+    null env at
+  | On_interrupt ->
+    error env Misplaced_interrupt at
+      "onInterrupt declares what an interruption executes: it stands by itself at the top of the program";
     null env at
   | Assert -> assertion_task env at arguments
 

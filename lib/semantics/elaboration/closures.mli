@@ -28,5 +28,8 @@ val task_code : env -> Location.t -> string -> Ast.closure -> expression
 val told_code : env -> Location.t -> string -> Ast.closure -> expression
 (** [told_code env at construct c] is {!task_code}, labelled with the text of [c], for messages. *)
 
+val told : Ast.closure -> expression -> expression
+(** [told c e] is [e], the closure made of [c], labelled by the text of [c]. *)
+
 val task_operand : env -> Ast.expression -> expression
 (** [task_operand env e] is [e] in the place of a task: code there makes the task, and may only compute. *)

@@ -167,6 +167,7 @@ let program ~source_name (ast : Ast.program) =
         main;
         ordered_keys = Scope.ordered_keys program;
         inputs = List.map (fun (k : string Ast.located) -> k.it) (Scope.inputs program);
+        on_interrupt = Scope.on_interrupt program;
         reads_sensors = Scope.reads_sensors program;
       },
         reports )

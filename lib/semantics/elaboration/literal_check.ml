@@ -27,6 +27,7 @@ let context : Code.context =
   in
   let program =
     { source_name = ""; locations = [||]; global_names = [||]; functions = []; main; ordered_keys = No_key; inputs = [];
+      on_interrupt = None;
       reads_sensors = false }
   in
   let tuples = Tuples.empty No_key in

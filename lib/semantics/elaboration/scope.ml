@@ -21,6 +21,7 @@ type program = {
   mutable reports : Diagnostic.t list;
   mutable ordered_keys : string list;
   mutable inputs : string Ast.located list;  (* latest first *)
+  mutable on_interrupt : Core.lambda option;
   mutable looked_at : string list option;  (* the keys that code consumes or polls; [None]: any *)
   mutable all_ordered : bool;
   mutable texts : Location.t list;  (* where a text is wanted *)
@@ -58,6 +59,7 @@ let create ?(first_site = 0) ?(variables = []) ?(parameters = []) ?(suppliers = 
       reports = [];
       ordered_keys = [];
       inputs = [];
+      on_interrupt = None;
       looked_at = Some [];
       all_ordered = false;
       texts = [];
@@ -105,6 +107,8 @@ let note_ordered_key program key =
   if not (List.mem key program.ordered_keys) then program.ordered_keys <- key :: program.ordered_keys
 
 let note_input program key = program.inputs <- key :: program.inputs
+let note_interrupt program lambda = program.on_interrupt <- Some lambda
+let on_interrupt program = program.on_interrupt
 let inputs program = List.rev program.inputs
 
 let note_looked_at program key =

@@ -69,6 +69,12 @@ val note_input : program -> string Ast.located -> unit
 val inputs : program -> string Ast.located list
 (** Those that were noted, in the order of the text. *)
 
+val note_interrupt : program -> Core.lambda -> unit
+(** [onInterrupt] declares what an interruption executes. *)
+
+val on_interrupt : program -> Core.lambda option
+(** What was noted. *)
+
 val note_looked_at : program -> string option -> unit
 (** Code consumes or polls pairs with this key; [None]: with a key that it computes. *)
 

@@ -235,8 +235,13 @@ and statement env (s : Ast.statement) : expression =
     statement env { s with it = desugared }
   | Expression e ->
     let e = Option.value (regroup env e) ~default:e in
-    warn_of_unused_task env e;
-    elaborate env e
+    (match e.it with
+     | Call { callee = { it = Variable "onInterrupt"; _ }; arguments }
+       when Scope.at_top env.code && not (is_hidden env "onInterrupt") ->
+       Calls.on_interrupt env at arguments
+     | _ ->
+       warn_of_unused_task env e;
+       elaborate env e)
   | Assign { target; operator = None; value } ->
     check_no_setting env target value;
     Targets.assign env at target (elaborate env value)

@@ -57,6 +57,7 @@ type outcome =
   | Walk of iteration * closure * value * value list  (* subject; initial results *)
   | Wait of request
   | Stop of string
+  | Leave_off  (* what [onInterrupt] executes is over *)
   | Wrong of string  (* a fault of this very operation *)
   | Wrong_at of Fault.t
   | Refuted of string  (* an assertion does not hold *)

@@ -118,6 +118,7 @@ let compare_request a b =
 type stop =
   | Exhausted
   | Finished of value
+  | Left_off
   | Did of deed
   | Waits of request
   | Halted of string
@@ -137,6 +138,15 @@ let call closure arguments =
   { focus = Evaluate code; locals = locals_of closure arguments; stack = []; calls = 0; at = code.site }
 
 let give x m = { m with focus = Give x }
+
+let rec last = function [] -> None | [ frame ] -> Some frame | _ :: frames -> last frames
+
+(* What [onInterrupt] executes is the argument of its end, so that is at the bottom of the stack all along. *)
+let is_leaving m =
+  match last m.stack, m.focus with
+  | Some (Arguments { operation = Builtin Interrupted; _ }), _ -> true
+  | None, Evaluate { node = Apply (Builtin Interrupted, _); _ } -> true
+  | (Some _ | None), _ -> false
 
 let arity_fault (lambda : lambda) n =
   if n = lambda.parameters || (lambda.implicit && n = 0) then None
@@ -340,6 +350,7 @@ and settle_outcome context fuel (outcome : outcome) at locals stack calls : (sto
       locals stack calls
   | Wait request -> Decided (Waits request, stopped (Give Null), context)
   | Stop message -> Decided (Halted message, stopped (Give Null), context)
+  | Leave_off -> Decided (Left_off, stopped (Give Null), context)
   | Wrong message -> fault context (stopped (Give Null)) at message
   | Wrong_at f -> Decided (Faulted f, stopped (Give Null), context)
   | Refuted message -> Decided (Faulted (Fault.assertion at message), stopped (Give Null), context)

@@ -55,6 +55,9 @@ val call : closure -> value list -> t
 val give : value -> t -> t
 (** [give x m] is [m], which waited, going on with [x]. *)
 
+val is_leaving : t -> bool
+(** Whether [m] runs what [onInterrupt] executes. *)
+
 val keep_readings : t -> t
 (** [keep_readings m] is [m] once a step is over: its readings are known by where [m] keeps them ({!Reading.keep}). *)
 
@@ -70,6 +73,7 @@ val compare_request : Code.request -> Code.request -> int
 type stop =
   | Exhausted  (** the fuel ran out; the machine can go on *)
   | Finished of value
+  | Left_off  (** what [onInterrupt] executes is over *)
   | Did of Code.deed  (** in script mode: something that others see, the latest of [deeds]; the machine can go on *)
   | Waits of Code.request  (** in script mode; go on with {!give} *)
   | Halted of string  (** the code called [halt] *)

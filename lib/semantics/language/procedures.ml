@@ -257,6 +257,7 @@ let apply context at operation arguments =
       | None -> expected "a time after pause, as in pause 12.seconds" x)
   | Halt, [] -> Stop ""
   | Halt, [ x ] -> Stop (Value.to_string x)
+  | Interrupted, [ _ ] -> Leave_off
   | Post [], [ Map entries ] -> post context (List.map (fun (k, x) -> (k, Value.canonical x)) entries)
   | Post [], [ x ] -> expected "pairs, as in post ready: 1, or a map" x
   | Post keys, arguments -> with_pairs keys arguments (post context)
@@ -295,6 +296,6 @@ let apply context at operation arguments =
   | Math name, arguments -> mathematics name arguments
   | Geometry (name, keys), arguments -> of_result (Geometry.apply name keys arguments)
   | ( ( Execute | Release | Set_connection_timeout | Ask | Message | Pause | Halt | Position_of | Battery_of
-      | Location_of | Area_of | Assert | Fail | Ignore | Propagate | Retry | Get_supplier | Is_host | Is_there
-      | Values_of ),
+      | Location_of | Area_of | Assert | Fail | Ignore | Propagate | Retry | Get_supplier | Interrupted | Is_host
+      | Is_there | Values_of ),
       _ ) -> Wrong (Printf.sprintf "wrong number of arguments, %d" (List.length arguments))

@@ -14,10 +14,12 @@ let timers_started = List.map (fun (timer, seconds) -> Effect.Set_timer (timer, 
 let ended (s : Shared.t) ending : Configuration.t =
   { control = Ended ending; shared = { s with allocation = Vehicle_map.empty; bound = [] } }
 
+let cut timers (s : Shared.t) =
+  List.map (fun timer -> Effect.Cancel_timer timer) timers
+  @ List.map (fun (v, _) -> Effect.Stop v) (Vehicle_map.bindings s.allocation)
+
 let ending ?(timers = []) ?(before = []) rules label (s : Shared.t) ending =
-  let cancelled = List.map (fun timer -> Effect.Cancel_timer timer) timers in
-  let cancelled = List.filter (fun cancel -> not (List.mem cancel before)) cancelled in
-  let stopped = List.map (fun (v, _) -> Effect.Stop v) (Vehicle_map.bindings s.allocation) in
+  let timers = List.filter (fun timer -> not (List.mem (Effect.Cancel_timer timer) before)) timers in
   let released = if s.bound = [] then [] else [ Effect.Release s.bound ] in
-  let effects = before @ cancelled @ stopped @ released @ [ Effect.End ending ] in
+  let effects = before @ cut timers s @ released @ [ Effect.End ending ] in
   { rules; label; next = ended s ending; effects; assumed = [] }

@@ -16,6 +16,9 @@ val timers_started : (Residual.timer * float) list -> Effect.t list
 
 (** {1:ends Ends} *)
 
+val cut : Residual.timer list -> Shared.t -> Effect.t list
+(** [cut timers s] cancels [timers] and stops all that A runs. *)
+
 val ended : Shared.t -> Configuration.ending -> Configuration.t
 (** [ended s e] is the end [e] of a run with shared part [s]: A and B are empty. *)
 

@@ -19,7 +19,7 @@ type t =
   | Call | Reply | Call_err
   | Execute | Execute_done | Execute_err | Alloc_err
   | Input
-  | End | Halt | Fault | Interrupt
+  | End | Halt | Fault | Interrupt | On_interrupt
 
 let all =
   [ Start; Done; Fail; Action; Action_err; Condition; Condition_err; Assert_err; Seq_1; Seq_2; Seq_err; Par_1;
@@ -29,7 +29,8 @@ let all =
     Repeat_again; Repeat_err;
     Make; Make_err; Allocate; Allocate_err; Hold_1; Hold_2; Hold_err; Script; Post; Consume; Message; Release;
     Set_timeout; Pick; Pick_bind; Pick_err; Ask; Answer; Answer_err; Pause; Resume; Call; Reply; Call_err; Execute;
-    Execute_done; Execute_err; Alloc_err; Input; End; Halt; Fault; Interrupt ]
+    Execute_done; Execute_err; Alloc_err; Input; End; Halt; Fault; Interrupt;
+    On_interrupt ]
 
 let name = function
   | Start -> "START" | Done -> "DONE" | Fail -> "FAIL"
@@ -62,6 +63,7 @@ let name = function
   | Alloc_err -> "ALLOC-ERR"
   | Input -> "INPUT"
   | End -> "END" | Halt -> "HALT" | Fault -> "FAULT" | Interrupt -> "INTERRUPT"
+  | On_interrupt -> "ON-INTERRUPT"
 
 let of_name text = List.find_opt (fun rule -> name rule = text) all
 let pp ppf rule = Format.pp_print_string ppf (name rule)

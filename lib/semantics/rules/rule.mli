@@ -26,7 +26,7 @@ type t =
   | Call | Reply | Call_err
   | Execute | Execute_done | Execute_err | Alloc_err
   | Input
-  | End | Halt | Fault | Interrupt
+  | End | Halt | Fault | Interrupt | On_interrupt
 
 val all : t list
 (** Every rule, once. *)

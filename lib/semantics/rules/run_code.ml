@@ -45,7 +45,7 @@ let run held program world s mode closure arguments =
         let message = "this code does not come to an end, and code inside of a task is atomic" in
         (* It may have said any number of things. *)
         Faulty (Fault.make closure.lambda.lambda_site message, [])
-      | Did _ | Waits _ -> invalid_arg "Run_code.run: atomic code stopped"
+      | Did _ | Waits _ | Left_off -> invalid_arg "Run_code.run: atomic code stopped"
     in
     { world = context.world; outcome; mode = context.mode }
   in

@@ -54,10 +54,25 @@ let step program world s m =
     | Did deed -> Decided (do_deed deed s m)
     | Waits request -> wait context.world s m request
     | Finished _ -> Decided (Conclusion.ending [ End ] End s Completed)
+    | Left_off -> Decided (Conclusion.ending [ End ] End s Interrupted)
     | Halted message -> Decided (Conclusion.ending [ Halt ] (Halt message) s (Halted message))
     | Faulted fault -> Decided (Conclusion.ending [ Fault ] (Fault fault.message) s (Failed fault))
   in
   Decision.bind (Machine.run ~fuel (Run_code.context program world s Script) m) stopped
+
+let on_interrupt (program : Core.program) (s : Shared.t) m : Configuration.t option =
+  match program.on_interrupt with
+  | Some lambda when s.bound <> [] && not (Machine.is_leaving m) ->
+    let m = Machine.call { lambda; captured = [||] } [ Vehicles s.bound ] in
+    Some { control = Script m; shared = { s with allocation = Vehicle_map.empty } }
+  | Some _ | None -> None
+
+let interrupt program (c : Configuration.t) m =
+  let timers = Configuration.timers c and s = c.shared in
+  match on_interrupt program s m with
+  | Some { control; shared } ->
+    Conclusion.make ~effects:(Conclusion.cut timers s) On_interrupt Interrupt control shared
+  | None -> Conclusion.ending ~timers [ Interrupt ] Interrupt s Interrupted
 
 let go_on rule label x s m = Conclusion.make rule label (Script (Machine.give x m)) s
 

@@ -6,6 +6,13 @@ val step : program -> World.t -> Shared.t -> Machine.t -> Conclusion.t Decision.
 (** [step p w s m] is the transition of <script m, s>: SCRIPT, a deed, a request (PICK, ASK, PAUSE, CALL, EXECUTE or
     ALLOC-ERR), or an end. *)
 
+val on_interrupt : program -> Shared.t -> Machine.t -> Configuration.t option
+(** [on_interrupt p s m] is what becomes of a run with shared part [s], whose script stands at [m], if it is interrupted
+    and executes what [p] declares by [onInterrupt] then. *)
+
+val interrupt : program -> Configuration.t -> Machine.t -> Conclusion.t
+(** [interrupt p c m] is ON-INTERRUPT, or INTERRUPT, of [c], whose script stands at [m]. *)
+
 val go_on : Rule.t -> Label.t -> value -> Shared.t -> Machine.t -> Conclusion.t
 (** [go_on rule l x s m] is the transition by which [m], which waited, goes on with [x]: RESUME, REPLY, ANSWER. *)
 

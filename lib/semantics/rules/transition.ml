@@ -56,8 +56,7 @@ let executing_event program world s m r event =
 let on_event program world ({ control; shared = s } as c : Configuration.t) event =
   match event, control with
   | _, Ended _ -> Decision.Decided (Error Not_awaited)
-  | Interruption, (Script _ | Waiting _ | Executing _) ->
-    Decided (Ok (Conclusion.ending ~timers:(Configuration.timers c) [ Interrupt ] Interrupt s Interrupted))
+  | Interruption, (Script m | Waiting (m, _) | Executing (m, _)) -> Decided (Ok (Script_rules.interrupt program c m))
   | Input (k, x), (Script _ | Waiting _ | Executing _) when List.mem k program.inputs ->
     Decided (Ok (Conclusion.make Input (Input (k, Value.canonical x)) control (Shared.post k x s)))
   | (Vehicle_done _ | Vehicle_failed _ | Timer_expired _), Executing (m, r) ->
@@ -142,6 +141,15 @@ let accept_all program world c event =
       match accepted with
       | [] -> Result.map (fun cases -> [ snd (List.hd cases) ]) (Decision.cases d)
       | ts -> Ok (List.map Result.ok ts))
+
+(* {1 Interruptions} *)
+
+let on_interrupt = Script_rules.on_interrupt
+
+let is_leaving (c : Configuration.t) =
+  match c.control with
+  | Script m | Waiting (m, _) | Executing (m, _) -> Machine.is_leaving m
+  | Ended _ -> false
 
 (* {1 What is awaited} *)
 

@@ -47,6 +47,13 @@ val accept : program -> World.t -> Configuration.t -> event -> (t, refusal) resu
     and so is [Input (k, x)] if [p] declares the key [k]. What depends on something that [w] leaves open is not
     accepted: see {!accept_all}. *)
 
+val on_interrupt : Core.program -> Shared.t -> Machine.t -> Configuration.t option
+(** [on_interrupt p s m] is what ON-INTERRUPT makes of a configuration with the shared part [s] whose script stands at
+    [m]; [None] where INTERRUPT ends the run. *)
+
+val is_leaving : Configuration.t -> bool
+(** Whether the run was interrupted, and executes what [onInterrupt] declares. *)
+
 val awaited : Configuration.t -> awaited list
 (** [awaited c] is what [c] has transitions for, leftmost first, besides inputs and [Interruption]. The time-out of a
     [pick] is among them, but not accepted while the pick can be met: then it must be. *)

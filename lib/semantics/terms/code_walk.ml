@@ -12,6 +12,9 @@ let rec walk ~visit ~enter e =
   | If (a, b, c) -> List.iter go [ a; b; c ]
   | While (a, b) | For (_, a, b) -> go a; go b
 
+let pieces (program : program) =
+  (program.main :: List.map snd program.functions) @ Option.to_list program.on_interrupt
+
 let entering visit =
   let seen = ref [] in
   let rec enter lambda =
@@ -27,4 +30,5 @@ let iter visit lambdas = List.iter (entering visit) lambdas
 let iter_called visit (program : program) =
   let enter = entering visit in
   walk ~visit:ignore ~enter program.main.code;
+  Option.iter enter program.on_interrupt;
   List.iter (fun (_, lambda) -> enter lambda) program.functions

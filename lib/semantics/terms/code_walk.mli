@@ -2,6 +2,10 @@
 
 open Core
 
+val pieces : program -> lambda list
+(** [pieces p] is the code of [p] that nothing else holds: the script, the functions, what [onInterrupt]
+    declares. *)
+
 val iter : (expression -> unit) -> lambda list -> unit
 (** [iter f ls] is [f] of the expressions of [ls], and of the code that they make or hold. *)
 

@@ -157,6 +157,7 @@ and builtin =
   | Propagate
   | Retry
   | Get_supplier
+  | Interrupted                                 (* made by elaboration: the end of what [onInterrupt] executes *)
   | Is_there                                    (* made by elaboration: whether [a ?: b] is [a] *)
   | Is_host                                     (* made by elaboration, for updates of what may be a host object *)
   | Math of string
@@ -184,5 +185,6 @@ type program = {
   main : lambda;
   ordered_keys : Tuple_space.order;             (* keys that some [_] or pattern of [consume] takes the oldest of *)
   inputs : string list;                         (* keys of the pairs that the outside may post *)
+  on_interrupt : lambda option;                 (* of the bound vehicles: what an interruption executes *)
   reads_sensors : bool;                         (* some code may read positions or batteries *)
 }

@@ -393,7 +393,10 @@ SpecificGetter(x, name) ==
   CASE Is(x, "vehicles") -> VehicleGetter(x[2], name)
     [] Is(x, "list") \/ Is(x, "range") -> ItemGetter(x, name)
     [] Is(x, "area") ->
-         CASE name \in { "centre", "center" } -> Ok(<< "position", x[2] >>)
+         CASE HasCorners(x) /\ name = "radius" -> Bad("only circles have a radius")
+           [] name \in { "size", "bounds", "corners", "hull" } -> Bad(NoComputing)
+           [] HasCorners(x) /\ name \in { "centre", "center" } -> Bad(NoComputing)
+           [] name \in { "centre", "center" } -> Ok(<< "position", x[2] >>)
            [] name = "radius" -> Ok(Number(x[3], x[4]))
            [] OTHER -> NoGetter
     [] Is(x, "task") /\ x[2].op = "platform" /\ name \in { "id", "name" } -> Ok(String(x[2].name))
@@ -517,13 +520,15 @@ Specific(x, name, xs) ==
     [] Is(x, "position") ->
          IF name \in { "distance", "distanceTo" } /\ Len(xs) = 1 /\ Is(xs[1], "position")
          THEN Ok(<< "distance", Distances[x[2]][xs[1][2]] >>) ELSE NoGetter
+    [] Is(x, "area") /\ name \in { "offset", "grid" } -> Bad(NoComputing)
     [] OTHER -> NoGetter
 
 (* getX() is the getter x. *)
 Getters == [ getId |-> "id", getIds |-> "ids", getType |-> "type", getPosition |-> "position", getBattery |-> "battery",
              getPayload |-> "payload", getSize |-> "size", getLength |-> "length", getFirst |-> "first",
              getLast |-> "last",
-             getCentre |-> "centre", getCenter |-> "center", getRadius |-> "radius", getName |-> "name" ]
+             getCentre |-> "centre", getCenter |-> "center", getRadius |-> "radius", getName |-> "name",
+             getBounds |-> "bounds", getCorners |-> "corners" ]
 
 Method(x, name, xs) ==
   LET specific == Specific(x, name, xs)

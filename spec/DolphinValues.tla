@@ -12,7 +12,8 @@
 (*   <<"list", <<x, y>>>>     <<"map", <<<<k, x>>, <<k', x'>>>>>>                *)
 (*   <<"range", 1, 3>>        <<"vehicles", <<v, v'>>>>                          *)
 (*   <<"position", i>>        place i of Places                                  *)
-(*   <<"area", i, n, d>>      around place i, with a radius of n/d metres        *)
+(*   <<"area", i, n, d>>      around place i, with a radius of n/d metres; if n  *)
+(*                            is -1, an area with corners, which place i is      *)
 (*   <<"task", t>>            <<"closure", lambda, captured values>>             *)
 (*   <<"host", "queue">>      an object of the host, by its name there           *)
 (*   <<"settings", ss>>       the lines of a block of settings, as far as read   *)
@@ -265,7 +266,10 @@ TaskText(t, level) ==
          IN Parenthesised(0, level, "repeat " \o rounds \o TaskText(t.body, 1) \o until)
     [] t.op = "made" -> "{ " \o LambdaNames[t.code[2]] \o " }"
 
-AreaText(x) == Places[x[2]] \o " ^ " \o ShortText(Number(x[3], x[4])) \o " m"
+HasCorners(area) == area[3] = -1
+NoComputing == Assert(FALSE, "this model cannot compute with areas")
+
+AreaText(x) == IF HasCorners(x) THEN Places[x[2]] ELSE Places[x[2]] \o " ^ " \o ShortText(Number(x[3], x[4])) \o " m"
 
 RECURSIVE Written(_, _)
 (* bare: strings without quotes, as message shows them. *)
@@ -336,13 +340,13 @@ Unsettled(text) == << "unsettled", text >>
 Takes(op) ==
   CASE op = "/" -> "two numbers, or a task and a condition { ... }"
     [] op \in { "*", "%", "**" } -> "two numbers"
-    [] op = "+" -> "numbers, strings, lists, maps or vehicle sets"
-    [] op = "-" -> "numbers, lists or vehicle sets"
+    [] op = "+" -> "numbers, strings, lists, maps, areas or vehicle sets"
+    [] op = "-" -> "numbers, lists, areas or vehicle sets"
     [] op = ">>" -> "two tasks"
     [] op = "<<" -> "a list and an element"
     [] op \in { "<", "<=", ">", ">=" } -> "two numbers or two strings"
     [] op = "in" -> "a value, and a list, range, map, string, area or vehicle set"
-    [] op = "&" -> "two vehicle sets"
+    [] op = "&" -> "two vehicle sets or two areas"
     [] op = "^" -> "a position and a radius in metres"
     [] op = "|" -> "two tasks, or a vehicle set and a predicate { v -> ... }"
     [] OTHER -> "two values"
@@ -446,7 +450,9 @@ Remainder(x, y) ==
     [] OTHER -> Mismatch("%", x, y)
 
 (* Places to a millimetre's accuracy: the rim belongs to the area. *)
-Within(area, place) == (Distances[area[2]][place] - 1) * area[4] <= 1000 * area[3]
+Within(area, place) ==
+  IF HasCorners(area) THEN Distances[area[2]][place] = 0
+  ELSE (Distances[area[2]][place] - 1) * area[4] <= 1000 * area[3]
 
 Contains(text, part) ==
   \E i \in 1 .. Len(text) - Len(part) + 1 : SubSeq(text, i, i + Len(part) - 1) = part
@@ -481,7 +487,8 @@ Around(x, y) ==
   ELSE Mismatch("^", x, y)
 
 Binary(op, x, y) ==
-  CASE op = "+" -> Add(x, y)
+  CASE op \in { "+", "-", "&" } /\ Is(x, "area") /\ Is(y, "area") -> Bad(NoComputing)
+    [] op = "+" -> Add(x, y)
     [] op = "-" -> Subtract(x, y)
     [] op = "==" -> Ok(Boolean(Equals(x, y)))
     [] op = "!=" -> Ok(Boolean(~Equals(x, y)))

@@ -187,15 +187,24 @@ let machine nodes : json -> Machine.t = function
 
 let of_pick (p : Settings.pick) : json =
   let f = p.filter in
-  let area (a : Dolphin_geo.Area.t) : json = `List [ Plan_data.of_position a.centre; of_float a.radius ] in
+  let area : Dolphin_geo.Area.t -> json = function
+    | Circle { centre; radius } -> `List [ Plan_data.of_position centre; of_float radius ]
+    | Shape shape -> tagged "rims" (List.map (of_list Plan_data.of_position) (Dolphin_geo.Area.rings shape))
+  in
   let text x : json = `String x in
   tagged "pick"
     [ of_option text f.id; of_option text f.kind; of_list text f.payload; of_option area f.region;
       (match p.count with Exactly n -> `Int n | All -> `String "all"); of_option of_float p.timeout ]
 
-let area json =
-  let centre, radius = pair Plan_data.position float json in
-  match Dolphin_geo.Area.make centre radius with Some area -> area | None -> wrong "an area" json
+let area (json : json) =
+  let made =
+    match json with
+    | `List (`String "rims" :: rims) -> Dolphin_geo.Area.of_rings (List.map (list Plan_data.position) rims)
+    | json ->
+      let centre, radius = pair Plan_data.position float json in
+      Dolphin_geo.Area.circle centre radius
+  in
+  match made with Ok area -> area | Error _ -> wrong "an area" json
 
 let count : json -> Settings.count = function
   | `String "all" -> All

@@ -25,7 +25,9 @@ let rec of_value budget (x : value) : json =
   | Map entries -> tagged "map" (List.map (of_pair of_text each) entries)
   | Range (first, last) -> tagged "range" [ `Int first; `Int last ]
   | Position p -> tagged "position" [ Plan_data.of_position p ]
-  | Area a -> tagged "area" [ Plan_data.of_position a.centre; of_float a.radius ]
+  | Area (Circle { centre; radius }) -> tagged "area" [ Plan_data.of_position centre; of_float radius ]
+  | Area (Shape shape) ->
+    tagged "rims" (List.map (of_list Plan_data.of_position) (Dolphin_geo.Area.rings shape))
   | Vehicles vs -> tagged "vehicles" (List.map of_text vs)
   | Task t -> tagged "task" [ of_task budget t ]
   | Closure c -> tagged "closure" [ of_closure budget c ]
@@ -97,9 +99,13 @@ let rec value nodes (json : json) : value =
   | `List [ `String "range"; first; last ] -> Range (whole first, whole last)
   | `List [ `String "position"; p ] -> Position (Plan_data.position p)
   | `List [ `String "area"; centre; radius ] -> (
-      match Dolphin_geo.Area.make (Plan_data.position centre) (float radius) with
-      | Some area -> Area area
-      | None -> wrong "an area" json)
+      match Dolphin_geo.Area.circle (Plan_data.position centre) (float radius) with
+      | Ok area -> Area area
+      | Error _ -> wrong "an area" json)
+  | `List (`String "rims" :: rims) -> (
+      match Dolphin_geo.Area.of_rings (List.map (list Plan_data.position) rims) with
+      | Ok area -> Area area
+      | Error _ -> wrong "an area" json)
   | `List (`String "vehicles" :: vs) -> Vehicles (List.map text vs)
   | `List [ `String "task"; t ] -> Task (task nodes t)
   | `List [ `String "closure"; c ] -> Closure (closure nodes c)

@@ -1,23 +1,114 @@
-(** A round area on the ground. *)
+(** An area on the ground: round, or bounded by straight lines. Heights do not matter. *)
 
-type t = {
-  centre : Position.t;
-  radius : float;  (** metres over the ground, finite, at least 0 *)
-}
+(** An area with corners: one or more polygons, perhaps with holes. *)
+type shape
 
-val make : Position.t -> float -> t option
-(** [make centre radius] is the circle of [radius] metres around [centre], or [None] if [radius] is negative or not
-    finite. *)
+type t = private
+  | Circle of {
+      centre : Position.t;
+      radius : float;  (** metres over the ground, finite, at least 0 *)
+    }
+  | Shape of shape
+
+(** What is wrong with corners or numbers that make no area. *)
+type error =
+  | Radius of float  (** negative, or not finite *)
+  | Width of float  (** of a corridor: not above 0, or not finite *)
+  | Few_corners of int  (** which are different *)
+  | Straight  (** all corners are on one line *)
+  | Many_corners of int
+  | Crossing of int * int  (** the sides that begin at these corners, counted from 1 *)
+  | Hole of int * error  (** of the hole of this number, from 1 *)
+  | Hole_outside of int  (** a hole that is not within the polygon, or meets another *)
+  | Rims  (** rims that cross, or turn the wrong way *)
+  | Too_wide  (** some corner is farther from the middle than {!Plane.reach} *)
+  | Empty  (** nothing is left *)
+  | Intricate  (** too many sides cross *)
+
+val circle : Position.t -> float -> (t, error) result
+(** [circle centre radius] is the circle of [radius] metres around [centre]. *)
+
+val polygon : ?holes:Position.t list list -> Position.t list -> (t, error) result
+(** [polygon ~holes corners] is what the shortest lines from corner to corner, and from the last to the first, enclose,
+    without [holes]. A corner that follows itself counts once. In either order of corners it is the same area. *)
+
+val most_corners : int
+(** 5,000. *)
+
+val corridor : Position.t list -> float -> (t, error) result
+(** [corridor path width] has the points at most [width / 2] metres from the way along [path], up to the accuracy
+    below for arcs. *)
+
+val of_rings : Position.t list list -> (t, error) result
+(** [of_rings (rings area)] is [area]. Rims that are none are an error. *)
+
+val rings : shape -> Position.t list list
+(** The rims, each from its corner in the south, of those in the west: counterclockwise around an area, clockwise
+    around a hole. They neither cross nor overlap. *)
+
+(** {1:ask What an area is like} *)
 
 val contains : t -> Position.t -> bool
-(** [contains area p] is [Wgs84.distance area.centre p <= area.radius] with a millimetre to spare, which is the
-    accuracy of distances: the rim belongs to the area. Heights do not matter. *)
+(** [contains area p] is whether [p] is in the area or on its rim, with a millimetre to spare, which is the accuracy of
+    distances. *)
+
+val size : t -> float
+(** In square metres; right to a millionth for areas of 10 km, to 0.02 % for the widest. *)
+
+val centre : t -> Position.t
+(** A circle's centre, the centre of gravity of others; it may lie outside. *)
+
+val bounds : t -> Position.t * Position.t
+(** The south-west and the north-east corner of the least box of latitudes and longitudes that has the area in it. The
+    western longitude is greater than the eastern if the box has the meridian of 180 degrees in it, and around a pole
+    they are -180 and 180. *)
+
+val corners : t -> Position.t list
+(** Of all its rims; of a circle, those of {!operations}. *)
+
+(** {1:operations Operations}
+
+    They work in a plane, {!Plane}, on a grid of a millimetre. A circle takes part as a polygon of {!corners_of_circle}
+    corners on its rim, which is inside of the circle by at most a 3,300th part of the radius. The arcs of {!corridor}
+    and {!offset} have a corner every 11 degrees, and are right to half a percent of their radius; these two take at most
+    a tenth of {!most_corners}. Results have no parts that are thinner than some millimetres. *)
+
+val corners_of_circle : int
+(** 128. *)
+
+val union : t -> t -> (t, error) result
+val intersection : t -> t -> (t, error) result
+val difference : t -> t -> (t, error) result
+val hull : t list -> (t, error) result
+(** The smallest convex area around all of these. *)
+
+val offset : t -> float -> (t, error) result
+(** [offset area metres] has the points at most [metres] away from [area]; with a negative number, the points of
+    [area] that are at least that far from its rim. *)
+
+val grid : t -> float -> (Position.t list, error) result
+(** [grid area metres] are the points of a square grid of [metres], parallel to the meridian of the area's middle,
+    that are in [area], row by row from the south, each from the west. [Error Intricate] if there would be more than
+    {!most_points}. *)
+
+val most_points : int
+(** 10,000. *)
+
+(** {1 Values} *)
 
 val equal : t -> t -> bool
-(** Whether centre and radius are the same. *)
+(** Whether centre and radius are the same, or all corners. *)
 
 val compare : t -> t -> int
-(** [compare] orders by centre, then by radius. *)
+(** A total order. *)
+
+val hash : t -> int
 
 val pp : Format.formatter -> t -> unit
-(** ["(LATITUDE, LONGITUDE) ^ RADIUS m"]. *)
+(** ["(LATITUDE, LONGITUDE) ^ RADIUS m"], ["polygon [(LATITUDE, LONGITUDE), ...]"], of {!shown_corners} corners at
+    most, ["area of N polygons, M corners"]. *)
+
+val shown_corners : int
+
+val pp_error : Format.formatter -> error -> unit
+(** One sentence without a full stop. *)

@@ -11,7 +11,7 @@ let too_deep = Printf.sprintf "it is nested more than %d deep" deepest
 (* Whether a map with these keys would be taken for something else. *)
 let is_reserved fields =
   match List.sort String.compare (List.map fst fields) with
-  | [ ("object" | "task" | "vehicles" | "map") ]
+  | [ ("object" | "task" | "vehicles" | "map" | "rims") ]
   | [ "latitude"; "longitude" ] | [ "height"; "latitude"; "longitude" ]
   | [ "centre"; "radius" ] -> true
   | _ -> false
@@ -50,9 +50,12 @@ let rec to_json_within depth (x : Core.value) : (Yojson.Safe.t, string) result =
       Ok (if is_reserved fields then `Assoc [ ("map", `Assoc fields) ] else `Assoc fields)
     | Range (first, last) -> of_range first last
     | Position p -> of_position p
-    | Area a ->
-      let* centre = of_position a.centre in
-      let* radius = of_float a.radius in
+    | Area (Shape shape) ->
+      let rim ps = Result.map (fun ps -> `List ps) (Results.map of_position ps) in
+      Result.map (fun rims -> `Assoc [ ("rims", `List rims) ]) (Results.map rim (Area.rings shape))
+    | Area (Circle { centre; radius }) ->
+      let* centre = of_position centre in
+      let* radius = of_float radius in
       Ok (`Assoc [ ("centre", centre); ("radius", radius) ])
     | Vehicles vs -> Ok (`Assoc [ ("vehicles", `List (List.map (fun v -> `String v) vs)) ])
     | Host name -> Ok (`Assoc [ ("object", `String name) ])
@@ -99,7 +102,19 @@ let to_area centre radius =
     | json -> expected "a position as centre" json
   in
   let* metres = to_float "a radius in metres" radius in
-  match Area.make centre metres with Some area -> Ok area | None -> expected "a radius of 0 metres or more" radius
+  match Area.circle centre metres with Ok area -> Ok area | Error _ -> expected "a radius of 0 metres or more" radius
+
+let to_shape rims =
+  let corner : Yojson.Safe.t -> (Position.t, string) result = function
+    | `Assoc fields when is_reserved fields && List.mem_assoc "latitude" fields -> to_position fields
+    | json -> expected "a position in a rim" json
+  in
+  let rim : Yojson.Safe.t -> (Position.t list, string) result = function
+    | `List corners -> Results.map corner corners
+    | json -> expected "a list of positions as a rim" json
+  in
+  let* rims = Results.map rim rims in
+  Result.map_error (Format.asprintf "%a" Area.pp_error) (Area.of_rings rims)
 
 let to_vehicles names =
   let* vs = Results.map (to_name "the id of a vehicle") names in
@@ -130,6 +145,8 @@ and of_object depth ~site fields =
     let* name = to_name "the name of a task" json in
     Ok (Core.Task (Platform { name; plan = None; task_site = site }))
   | [ ("vehicles", `List names) ] -> to_vehicles names
+  | [ ("rims", `List rims) ] -> Result.map (fun area -> Core.Area area) (to_shape rims)
+  | [ ("rims", json) ] -> expected "a list of rims" json
   | [ ("vehicles", json) ] -> expected "a list of vehicles" json
   | [ ("centre", centre); ("radius", radius) ] | [ ("radius", radius); ("centre", centre) ] ->
     Result.map (fun area -> Core.Area area) (to_area centre radius)

@@ -32,7 +32,7 @@ let name (e : expression) =
 
 let at place = Result.map_error (Diagnostic.error place)
 
-let words = [ "object"; "task"; "imcPlan"; "vehicles"; "location"; "area"; "either"; "fails" ]
+let words = [ "object"; "task"; "imcPlan"; "vehicles"; "location"; "area"; "polygon"; "rims"; "either"; "fails" ]
 
 let rec value (e : expression) : (Core.value, Diagnostic.t) result =
   match e.it with
@@ -62,6 +62,11 @@ let rec value (e : expression) : (Core.value, Diagnostic.t) result =
       | "vehicles", Some xs -> Result.map (fun vs -> Core.Vehicles vs) (each name xs)
       | "location", Some [ _; _ ] | "location", Some [ _; _; _ ] -> location e.at arguments
       | "area", Some [ centre; radius ] -> area e.at centre radius
+      | "polygon", Some (corners :: holes) ->
+        shape e.at (fun corners -> Area.polygon ~holes:(List.tl corners) (List.hd corners)) (corners :: holes)
+      | "rims", Some (_ :: _ as rims) -> shape e.at Area.of_rings rims
+      | ("polygon" | "rims"), _ ->
+        error e.at "%s takes lists of positions, as in %s([location(41.18, -8.7), ...])" word word
       | ("object" | "task" | "imcPlan"), _ -> error e.at "%s takes a name in quotes, as in %s('queue')" word word
       | "vehicles", None -> error e.at "vehicles takes ids in quotes, as in vehicles('x8-02', 'x8-03')"
       | "location", _ -> error e.at "location takes a latitude and a longitude in degrees, and perhaps a height"
@@ -112,10 +117,24 @@ and area place centre radius =
   let* r = value radius in
   match c, Value.to_number r with
   | Position c, Some r -> (
-      match Area.make c r with
-      | Some area -> Ok (Core.Area area)
-      | None -> error radius.at "a radius is 0 metres or more")
+      match Area.circle c r with
+      | Ok area -> Ok (Core.Area area)
+      | Error _ -> error radius.at "a radius is 0 metres or more")
   | _, _ -> error place "an area is a position and a radius, as in Location.APDL ^ 2.km"
+
+and shape place make lists =
+  let corner (e : expression) x =
+    match x with Core.Position p -> Ok p | _ -> error e.at "a corner is a position, as in location(41.18, -8.7)"
+  in
+  let corners (e : expression) =
+    match e.it with
+    | List es -> each (fun e -> Result.bind (value e) (corner e)) es
+    | _ -> error e.at "corners are a list of positions, as in [location(41.18, -8.7), ...]"
+  in
+  let* rims = each corners lists in
+  match make rims with
+  | Ok area -> Ok (Core.Area area)
+  | Error fault -> error place "%a" Area.pp_error fault
 
 (* As it arrives from a supplier that sends it. *)
 let sent (e : expression) =
@@ -177,7 +196,11 @@ let rec pp_value ppf (x : Core.value) =
   | Task (Platform p) -> Format.fprintf ppf "task(%a)" pp_text p.name
   | Vehicles vs -> Format.fprintf ppf "vehicles(%a)" Fmt.(list ~sep:(any ", ") pp_text) vs
   | Position p -> pp_position ppf p
-  | Area { centre; radius } -> Format.fprintf ppf "area(%a, %a)" pp_position centre Value.pp (Core.Number radius)
+  | Area (Shape shape) ->
+    let rim ppf ps = Format.fprintf ppf "[%a]" Fmt.(list ~sep:(any ", ") pp_position) ps in
+    Format.fprintf ppf "rims(%a)" Fmt.(list ~sep:(any ", ") rim) (Area.rings shape)
+  | Area (Circle { centre; radius }) ->
+    Format.fprintf ppf "area(%a, %a)" pp_position centre Value.pp (Core.Number radius)
   | Task _ | Wildcard | Symbol _ | Range _ | Closure _ | Settings _ | Reading _ | Unknown _ ->
     invalid_arg ("Reply.pp: " ^ Value.kind x)
 

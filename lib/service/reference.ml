@@ -69,8 +69,11 @@ let procedures =
       "battery", "battery(v)", "What is left in the vehicle's battery, from 0 to 1.";
       "location", "location(latitude, longitude)", "A position, in degrees; a third number is its height in metres. \
                                                     Also `location \"41\xc2\xb011.1'N 8\xc2\xb042.4'W\"`.";
+      "polygon", "polygon([p1, p2, ...])",
+      "The area inside the shortest lines from corner to corner; `holes: [[...], ...]` are left out.";
+      "corridor", "corridor(path, width)", "The points at most half the width away from a path, a list of positions.";
       "along", "along(path, d)", "The position d metres along a path, a list of positions.";
-      "area", "area(centre, radius)", "A disc around a position, its radius in metres. Also `centre ^ radius`.";
+      "area", "area(centre, radius)", "The circle around a position, its radius in metres. Also `centre ^ radius`.";
       "ignore", "ignore()", "In `onError`: the watched task counts as done.";
       "propagate", "propagate()", "In `onError`: the error climbs on.";
       "retry", "retry()", "In `onError`: the watched task runs once more, with vehicles that are free then.";
@@ -232,7 +235,13 @@ let members =
       "bearing", "p.bearing(q)", "Degrees from the north.";
       "displace", "p.displace(north, east)", "The position so many metres away.";
       "centre", "a.centre", "The centre of an area.";
-      "radius", "a.radius", "The radius of an area in metres.";
+      "radius", "a.radius", "The radius of a circle in metres.";
+      "size", "a.size", "The size of an area in square metres.";
+      "corners", "a.corners", "The corners of an area, rim by rim.";
+      "bounds", "a.bounds", "The south-west and the north-east corner of an area's box.";
+      "hull", "a.hull()", "The smallest convex area around an area.";
+      "offset", "a.offset(d)", "What is at most d metres away from an area; for d below 0, what is inside by -d.";
+      "grid", "a.grid(d)", "The positions of a square grid of d metres that are in an area.";
       "name", "t.name", "The name of a plan.";
       "call", "f.call(...)", "The value of the closure." ]
 

@@ -80,9 +80,11 @@ let rec value ?at t site x =
     tagged "map" [ Tuple (List.map (fun (k, x) -> Tla.Tuple [ String k; value ?at t site x ]) entries) ]
   | Range (a, b) -> both "range" (a, b)
   | Position p -> tagged "position" [ Integer (place t p) ]
-  | Area area ->
-    let n, d = fraction t site area.radius in
-    tagged "area" [ Integer (place t area.centre); Integer n; Integer d ]
+  | Area (Circle { centre; radius }) ->
+    let n, d = fraction t site radius in
+    tagged "area" [ Integer (place t centre); Integer n; Integer d ]
+  | Area (Shape _ as shape) ->
+    tagged "area" [ Integer (Places.index_of_shape t.places shape); Integer (-1); Integer 1 ]
   | Vehicles vs -> tagged "vehicles" [ Tla.strings vs ]
   | Settings [] -> tagged "settings" [ Tuple [] ]
   | Closure { lambda = l; captured } ->

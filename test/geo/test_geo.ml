@@ -8,6 +8,8 @@ let law ?(count = 1000) name = Test_support.Property.case ~count name
 
 let position = Alcotest.testable Position.pp Position.equal
 
+let area = function Ok area -> area | Error e -> Alcotest.failf "%a" Area.pp_error e
+
 let metres accuracy = Alcotest.float accuracy
 
 (* {1 Positions} *)
@@ -39,7 +41,7 @@ let printing () =
   check "(0.000000, -0.000001, -12.5 m)" (at ~height:(-12.5) (-1e-9) (-1e-6));
   Alcotest.(check string)
     "area" "(41.178192, -8.595431) ^ 2000 m"
-    (Fmt.str "%a" Area.pp { centre = Place.feup; radius = 2000. })
+    (Fmt.str "%a" Area.pp (area (Area.circle Place.feup 2000.)))
 
 (* {1 Known values} *)
 
@@ -102,9 +104,9 @@ let beyond_the_pole () =
   Alcotest.check (Alcotest.float 1e-6) "the other side" (-160.) reached.longitude
 
 let areas () =
-  Alcotest.(check bool) "negative radius" true (Area.make Place.apdl (-1.) = None);
-  Alcotest.(check bool) "endless radius" true (Area.make Place.apdl Float.infinity = None);
-  let area = Option.get (Area.make Place.apdl 9_000.) in
+  Alcotest.(check bool) "negative radius" true (Result.is_error (Area.circle Place.apdl (-1.)));
+  Alcotest.(check bool) "endless radius" true (Result.is_error (Area.circle Place.apdl Float.infinity));
+  let area = area (Area.circle Place.apdl 9_000.) in
   Alcotest.(check bool) "centre" true (Area.contains area { Place.apdl with height = 1e4 });
   Alcotest.(check bool) "outside" false (Area.contains area Place.feup)
 
@@ -204,6 +206,130 @@ let bad_texts () =
 let any_text = QCheck2.Gen.(string_size ~gen:(oneofl [ '4'; '1'; '.'; ' '; 'N'; 'W'; 's'; '-'; ','; '\''; '\xc2'; '\xb0' ]) (int_bound 12))
 let reads_anything text = match Coordinates.of_string text with Ok p -> Float.abs p.latitude <= 90. | Error _ -> true
 
+(* {1 Areas with corners} *)
+
+let origin = at 41.18 (-8.7)
+let place (east, north) = Wgs84.displace origin ~north ~east
+let polygon ?holes corners = Area.polygon ?holes:(Option.map (List.map (List.map place)) holes) (List.map place corners)
+let square x y side = [ (x, y); (x +. side, y); (x +. side, y +. side); (x, y +. side) ]
+let said = function Ok a -> Fmt.str "%a" Area.pp a | Error e -> Fmt.str "%a" Area.pp_error e
+
+(* The sizes that GeographicLib's PolygonArea gives. *)
+let sizes () =
+  let check what accuracy expected corners =
+    let error = Float.abs ((Area.size (area (Area.polygon corners)) /. expected) -. 1.) in
+    if error > accuracy then Alcotest.failf "%s: an error of %g" what error
+  in
+  check "10 km" 1e-6 100691293.69378662 [ at 41.1 (-8.8); at 41.1 (-8.68); at 41.19 (-8.68); at 41.19 (-8.8) ];
+  check "around a pole" 1e-4 24952305678.0 [ at 89. 0.; at 89. 90.; at 89. 180.; at 89. (-90.) ];
+  check "over 180 degrees" 1e-4 5900061489.721558
+    [ at (-17.) 179.5; at (-17.) (-179.5); at (-16.5) (-179.4); at (-16.5) 179.6 ];
+  Alcotest.check (metres 0.1) "circle" 31415.9 (Area.size (area (Area.circle origin 100.)))
+
+let where () =
+  let check = Alcotest.(check bool) in
+  let pole = area (Area.polygon [ at 89. 0.; at 89. 90.; at 89. 180.; at 89. (-90.) ]) in
+  check "the pole" true (Area.contains pole (at 90. 57.));
+  check "not the other" false (Area.contains pole (at (-90.) 57.));
+  let line = area (Area.polygon [ at (-17.) 179.5; at (-17.) (-179.5); at (-16.) (-179.5); at (-16.) 179.5 ]) in
+  check "180" true (Area.contains line (at (-16.5) 180.));
+  check "-180" true (Area.contains line (at (-16.5) (-180.)));
+  check "0" false (Area.contains line (at (-16.5) 0.));
+  let corners (a, b) = Fmt.str "%a %a" Position.pp a Position.pp b in
+  Alcotest.(check string) "its box" "(-17.000000, 179.500000) (-16.000000, -179.500000)" (corners (Area.bounds line));
+  Alcotest.(check string)
+    "the pole's box" "(89.000000, -180.000000) (90.000000, 180.000000)" (corners (Area.bounds pole));
+  let ring = area (polygon ~holes:[ square 25. 25. 50. ] (square 0. 0. 100.)) in
+  let has p = Area.contains ring (place p) in
+  Alcotest.(check (list bool)) "inside, in the hole, on its rim, outside" [ true; false; true; false ]
+    [ has (10., 10.); has (50., 50.); has (25., 50.); has (110., 50.) ];
+  Alcotest.check (metres 0.01) "its centre" 0. (Wgs84.distance (Area.centre ring) (place (50., 50.)))
+
+let no_areas () =
+  let check expected found = Alcotest.(check string) expected expected (said found) in
+  check "a polygon does not cross itself: its sides from corner 1 and from corner 3 meet"
+    (polygon [ (0., 0.); (100., 100.); (100., 0.); (0., 100.) ]);
+  check "the corners of a polygon are not on one line" (polygon [ (0., 0.); (0., 100.); (0., 50.) ]);
+  check "a polygon has three corners or more that differ, not 2" (polygon [ (0., 0.); (9., 9.); (9., 9.); (0., 0.) ]);
+  check "an area has 5000 corners at most, not 5001"
+    (polygon (List.init 5001 (fun i -> (float_of_int i, float_of_int (i * i mod 977)))));
+  check "an area reaches at most 200 km from its middle" (Area.polygon [ at 0. 0.; at 10. 0.; at 0. 10. ]);
+  check "an area reaches at most 200 km from its middle" (Area.polygon [ at 0. 0.; at 0. 120.; at 0. (-120.) ]);
+  check "hole 1 is not inside of the polygon, or meets another hole"
+    (polygon ~holes:[ square 50. 50. 100. ] (square 0. 0. 100.));
+  check "hole 2 is not inside of the polygon, or meets another hole"
+    (polygon ~holes:[ square 10. 10. 50.; square 40. 40. 50. ] (square 0. 0. 100.));
+  check "hole 1: a polygon has three corners or more that differ, not 1"
+    (polygon ~holes:[ [ (1., 1.) ] ] (square 0. 0. 9.));
+  check "it takes more than 0 m, not 0" (Area.corridor [ origin ] 0.);
+  let a = area (polygon (square 0. 0. 100.)) in
+  check "nothing is left: the area is empty" (Area.intersection a (area (polygon (square 200. 0. 10.))));
+  check "nothing is left: the area is empty" (Area.difference a a);
+  check "nothing is left: the area is empty" (Area.offset a (-51.));
+  check "a radius is 0 m or more, not nan" (Area.offset a Float.nan);
+  (match Area.grid a 0.001 with Error Intricate -> () | _ -> Alcotest.fail "a grid of that many points");
+  match Area.of_rings [ List.rev_map place (square 0. 0. 100.) ] with
+  | Error Rims -> ()
+  | found -> Alcotest.fail (said found)
+
+let operations () =
+  let size found = Float.round (Area.size (area found)) in
+  let check what expected found = Alcotest.check (metres 1.) what expected (size found) in
+  let a = area (polygon (square 0. 0. 100.)) and b = area (polygon (square 50. 50. 100.)) in
+  check "union" 17500. (Area.union a b);
+  check "intersection" 2500. (Area.intersection a b);
+  check "difference" 7500. (Area.difference a b);
+  check "neighbours" 20000. (Area.union a (area (polygon (square 100. 0. 100.))));
+  check "a hole" 7500. (Area.difference a (area (polygon (square 25. 25. 50.))));
+  check "two apart" 20000. (Area.union a (area (polygon (square 300. 0. 100.))));
+  check "with a circle" 7851. (Area.intersection a (area (Area.circle (place (50., 50.)) 50.)));
+  check "smaller" 6400. (Area.offset a (-10.));
+  check "larger" 14312. (Area.offset a 10.);
+  check "hull" 20000. (Area.hull [ a; area (polygon (square 100. 0. 100.)) ]);
+  check "corridor" 1078. (Area.corridor [ place (0., 0.); place (100., 0.) ] 10.);
+  Alcotest.(check int) "grid" 121 (List.length (Result.get_ok (Area.grid (area (Area.offset a 0.01)) 10.)));
+  let back = Area.of_rings (match Area.offset a 10. with Ok (Shape s) -> Area.rings s | _ -> []) in
+  Alcotest.(check bool) "rings" true (Area.equal (area (Area.offset a 10.)) (area back));
+  Alcotest.(check bool) "either order of corners" true
+    (Area.equal a (area (polygon (List.rev (square 0. 0. 100.)))))
+
+(* Star-shaped polygons and points, some on the same few lines, so that corners and sides coincide. *)
+let polygons =
+  let open QCheck2.Gen in
+  let coordinate = oneof [ map float_of_int (map (fun i -> 20 * i) (int_bound 5)); float_range 0. 100. ] in
+  let corners = list_size (int_range 3 8) (pair coordinate coordinate) in
+  triple corners corners (list_repeat 20 (pair coordinate coordinate))
+
+let print_polygons (a, b, points) =
+  let pp = Fmt.(Dump.list (Dump.pair float float)) in
+  Fmt.str "%a %a %a" pp a pp b pp points
+
+let probes = [ (0., 0.); (0.01, 0.); (-0.01, 0.); (0., 0.01); (0., -0.01) ]
+
+(* Points near a rim may be on either side of it. *)
+let agrees (a, b, points) =
+  match polygon a, polygon b with
+  | Ok a, Ok b ->
+    let clear p =
+      let around = List.map (fun (x, y) -> place (fst p +. x, snd p +. y)) probes in
+      let same area = List.length (List.sort_uniq compare (List.map (Area.contains area) around)) = 1 in
+      same a && same b
+    in
+    let points = List.filter clear points in
+    let holds f found =
+      let has p =
+        match found with
+        | Ok area -> Area.contains area (place p)
+        | Error Area.Empty -> false
+        | Error e -> Alcotest.failf "%a" Area.pp_error e
+      in
+      List.for_all (fun p -> has p = f (Area.contains a (place p)) (Area.contains b (place p))) points
+    in
+    holds ( || ) (Area.union a b) && holds ( && ) (Area.intersection a b)
+    && holds (fun a b -> a && not b) (Area.difference a b)
+    && holds ( || ) (Result.bind (Area.union a b) (Area.union b))
+  | _ -> true
+
 (* {1 Laws} *)
 
 let position_generator =
@@ -265,7 +391,8 @@ let straight_is_shorter (a, north, east) =
 let rim_belongs (a, north, east) =
   let radius = hypot north east in
   let rim = Wgs84.displace a ~north ~east in
-  Area.contains { centre = a; radius } rim && not (Area.contains { centre = a; radius = radius -. 0.01 } rim)
+  QCheck2.assume (radius > 0.01);
+  Area.contains (area (Area.circle a radius)) rim && not (Area.contains (area (Area.circle a (radius -. 0.01))) rim)
 
 let () =
   let law name property = law name moved ~print:print_moved property in
@@ -285,6 +412,9 @@ let () =
         ] );
       ( "GeographicLib",
         [ case "its test set" on_the_test_set; case "short ways" short_ways; case "along a way" ways ] );
+      ( "areas",
+        [ case "sizes" sizes; case "contains" where; case "no areas" no_areas; case "operations" operations;
+          Test_support.Property.case ~count:2000 "points of operations" ~print:print_polygons polygons agrees ] );
       ( "coordinates",
         [ case "texts" texts; case "bad texts" bad_texts;
           Test_support.Property.case ~count:5000 "any text" ~print:Fun.id any_text reads_anything ] );

@@ -55,7 +55,9 @@ let round_trip () =
   in
   List.iter same
     [ List [| Null; Boolean false; Integer max_int; Integer min_int; Number 0.1; Number 1e300; String "\n\x7f" |];
-      platform_task "p"; Host "o"; Vehicles []; Position position; Area { centre = position; radius = 12.5 };
+      platform_task "p"; Host "o"; Vehicles []; Position position;
+      Area (Result.get_ok (Dolphin_geo.Area.circle position 12.5));
+      Area (Result.get_ok (Dolphin_geo.Area.corridor [ position; { position with latitude = 41.2 } ] 12.5));
       Map [ ("object", Map [ ("map", Map [ ("latitude", Null); ("longitude", Null) ]) ]) ]; Map [] ]
 
 let refuses text =
@@ -67,7 +69,11 @@ let refuses_values () =
   List.iter refuses
     [ ""; "{"; "nul"; "[1,]"; "1 2"; "NaN"; "-Infinity"; "1e999"; "{\"a\":1,\"a\":2}"; "{\"object\":3}";
       "{\"task\":\"\"}"; "{\"vehicles\":[1]}"; "{\"vehicles\":\"v\"}"; "{\"latitude\":91,\"longitude\":0}";
-      "{\"latitude\":\"x\",\"longitude\":0}"; "{\"map\":1}"; "{\"centre\":1,\"radius\":1}";
+      "{\"latitude\":\"x\",\"longitude\":0}"; "{\"map\":1}"; "{\"centre\":1,\"radius\":1}"; "{\"rims\":1}";
+      "{\"rims\":[]}"; "{\"rims\":[[{\"latitude\":1,\"longitude\":1},{\"latitude\":1,\"longitude\":2}]]}";
+      (* clockwise *)
+      "{\"rims\":[[{\"latitude\":1,\"longitude\":1},{\"latitude\":2,\"longitude\":1},\
+       {\"latitude\":1,\"longitude\":2}]]}";
       String.make 500_000 '['; String.make 1000 '[' ^ String.make 1000 ']' ]
 
 (* {1 The process} *)

@@ -165,6 +165,11 @@ let one_reply : Reply.t QCheck2.Gen.t =
       (fun latitude longitude : Dolphin_geo.Position.t -> { latitude; longitude; height = 0. })
       (float_range (-90.) 90.) (float_range (-180.) 180.)
   in
+  let circle centre radius = Area (Result.get_ok (Dolphin_geo.Area.circle centre radius)) in
+  let corridor p =
+    let q = Dolphin_geo.Wgs84.displace p ~north:30. ~east:40. in
+    Area (Result.get_ok (Dolphin_geo.Area.corridor [ p; q ] 10.))
+  in
   let simple =
     oneof
       [ return Null; map (fun b -> Boolean b) bool; map (fun i -> Integer i) (int_range (-1_000_000) 1_000_000);
@@ -172,7 +177,7 @@ let one_reply : Reply.t QCheck2.Gen.t =
         map (fun s -> Host s) name; map (fun name -> Task (Platform { name; plan = None; task_site = unknown })) name;
         map (fun vs -> Vehicles (List.sort_uniq compare vs)) (list_size (int_bound 3) name);
         map (fun p -> Position p) position;
-        map2 (fun centre radius -> Area { centre; radius }) position (float_range 0. 1e4) ]
+        map2 circle position (float_range 0. 1e4); map corridor position ]
   in
   let rec value depth =
     if depth = 0 then simple

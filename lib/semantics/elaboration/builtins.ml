@@ -64,6 +64,8 @@ let table : (string * t) list =
     ("battery", these Battery_of [ Vehicles ] ~result:Number ~reads_sensors:true);
     ("location", location);
     ("area", these Area_of [ Position; Number ] ~result:Other);
+    ("polygon", geometry [ Any ] ~named:[ ("holes", Any) ] ~result:Any);
+    ("corridor", geometry [ Any; Number ] ~result:Any);
     ("along", geometry [ Any; Number ] ~result:Position);
     ("fail", these Fail [ Any ] ~result:Other);
     ("ignore", these Ignore [] ~place:Handler_only ~result:Other);

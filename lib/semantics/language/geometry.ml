@@ -22,7 +22,39 @@ let along path metres =
   | Some p -> Ok (Position p)
   | None -> Error "a path without positions leads nowhere"
 
-let apply name _keys arguments =
-  match name, arguments with
+let area = function Ok area -> Ok (Area area) | Error e -> Error (Format.asprintf "%a" Dolphin_geo.Area.pp_error e)
+
+let polygon corners holes =
+  let* corners = positions "the corners of a polygon" corners in
+  let* holes =
+    match holes with
+    | None -> Ok []
+    | Some (List holes) -> Results.map (positions "a hole") (Array.to_list holes)
+    | Some x -> Operators.expected "holes, a list of lists of positions" x
+  in
+  area (Dolphin_geo.Area.polygon ~holes corners)
+
+let corridor path width =
+  let* path = positions "a path" path in
+  let* width = number "a width in metres" width in
+  area (Dolphin_geo.Area.corridor path width)
+
+(* Those without a name, and those with one. *)
+let rec split keys arguments =
+  match keys, arguments with
+  | Some k :: keys, x :: arguments ->
+    let positional, named = split keys arguments in
+    (positional, (k, x) :: named)
+  | None :: keys, x :: arguments ->
+    let positional, named = split keys arguments in
+    (x :: positional, named)
+  | [], rest -> (rest, [])
+  | _ :: _, [] -> ([], [])
+
+let apply name keys arguments =
+  let positional, named = split keys arguments in
+  match name, positional with
+  | "polygon", [ corners ] -> polygon corners (List.assoc_opt "holes" named)
+  | "corridor", [ path; width ] -> corridor path width
   | "along", [ path; metres ] -> along path metres
   | _, _ -> Error (Printf.sprintf "wrong number of arguments of %s, %d" name (List.length arguments))

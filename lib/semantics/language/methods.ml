@@ -1,5 +1,6 @@
 open Dolphin_results
 open Core
+module Area = Dolphin_geo.Area
 module Suggest = Dolphin_syntax.Diagnostic
 
 let ( let* ) = Result.bind
@@ -12,6 +13,10 @@ let one_vehicle world = function
   | vs -> Error (Printf.sprintf "the set must be a single vehicle, it has %d" (List.length vs))
 
 let strings names = List (Array.of_list (List.map (fun name -> String name) names))
+
+let area = function
+  | Ok area -> Ok (Area area)
+  | Error e -> Error (Format.asprintf "%a" Area.pp_error e)
 
 let number_text x = match Value.to_number x with Some n -> n | None -> 0.
 
@@ -91,10 +96,29 @@ let of_position (p : Dolphin_geo.Position.t) = function
   | "height" -> Some (Ok (Number p.height))
   | _ -> None
 
-let of_area (a : Dolphin_geo.Area.t) = function
-  | "centre" | "center" -> Some (Ok (Position a.centre))
-  | "radius" -> Some (Ok (Number a.radius))
+let positions ps = List (Array.of_list (List.map (fun p -> Position p) ps))
+
+let of_area a = function
+  | "centre" | "center" -> Some (Ok (Position (Area.centre a)))
+  | "radius" -> (
+      match a with
+      | Area.Circle { radius; _ } -> Some (Ok (Number radius))
+      | Shape _ -> Some (Error "only circles have a radius"))
+  | "size" -> Some (Ok (Number (Area.size a)))
+  | "corners" -> Some (Ok (positions (Area.corners a)))
+  | "bounds" ->
+    let south_west, north_east = Area.bounds a in
+    Some (Ok (positions [ south_west; north_east ]))
+  | "hull" -> Some (area (Area.hull [ a ]))
   | _ -> None
+
+let on_area a name arguments =
+  match name, List.map Value.to_number arguments with
+  | "offset", [ Some metres ] -> Some (area (Area.offset a metres))
+  | "grid", [ Some metres ] ->
+    Some (Result.map positions (Result.map_error (Format.asprintf "%a" Area.pp_error) (Area.grid a metres)))
+  | ("offset" | "grid"), [ None ] -> Some (Operators.expected "a number of metres" (List.hd arguments))
+  | _, _ -> None
 
 (* Of a list, a range or a vehicle set [x]. *)
 let of_items x items name =
@@ -140,7 +164,7 @@ let properties = function
   | List _ | Range _ -> of_any_elements
   | String _ | Map _ -> [ "size"; "length" ]
   | Position _ -> [ "latitude"; "longitude"; "height" ]
-  | Area _ -> [ "centre"; "radius" ]
+  | Area _ -> [ "centre"; "radius"; "size"; "corners"; "bounds"; "hull" ]
   | Task _ -> [ "id"; "name" ]
   | Integer _ | Number _ -> Operators.unit_names
   | Null | Boolean _ | Wildcard | Symbol _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ -> []
@@ -304,7 +328,8 @@ let specific x name arguments =
       match Value.items x with Some items -> on_items x items name arguments | None -> None)
   | Integer _ | Number _ -> on_number (number_text x) x name arguments
   | Position p -> on_position p name arguments
-  | Null | Boolean _ | Wildcard | Symbol _ | Area _ | Task _ | Closure _ | Host _ | Settings _ | Reading _
+  | Area a -> on_area a name arguments
+  | Null | Boolean _ | Wildcard | Symbol _ | Task _ | Closure _ | Host _ | Settings _ | Reading _
   | Unknown _ -> None
 
 let of_all_with_elements =
@@ -331,7 +356,8 @@ let known x =
       @ of_all_with_elements
     | Integer _ | Number _ -> [ "abs"; "round"; "toInteger"; "toDouble"; "times" ]
     | Position _ -> [ "distance"; "bearing"; "displace"; "getLatitude"; "getLongitude"; "getHeight" ]
-    | Area _ -> [ "contains"; "getCentre"; "getRadius" ]
+    | Area _ ->
+      [ "contains"; "getCentre"; "getRadius"; "getSize"; "getCorners"; "getBounds"; "hull"; "offset"; "grid" ]
     | Task _ -> [ "getName" ]
     | Closure _ -> [ "call" ]
     | Null | Boolean _ | Wildcard | Symbol _ | Host _ | Settings _ | Reading _ | Unknown _ -> []

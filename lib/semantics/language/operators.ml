@@ -23,13 +23,13 @@ let symbol : Ast.binary -> string = function
 let takes : Ast.binary -> string = function
   | Divide -> "two numbers, or a task and a condition { ... }"
   | Multiply | Remainder | Power -> "two numbers"
-  | Add -> "numbers, strings, lists, maps or vehicle sets"
-  | Subtract -> "numbers, lists or vehicle sets"
+  | Add -> "numbers, strings, lists, maps, areas or vehicle sets"
+  | Subtract -> "numbers, lists, areas or vehicle sets"
   | Sequence -> "two tasks"
   | Append -> "a list and an element"
   | Less | Less_equal | Greater | Greater_equal -> "two numbers or two strings"
   | Member_of -> "a value, and a list, range, map, string, area or vehicle set"
-  | Intersect -> "two vehicle sets"
+  | Intersect -> "two vehicle sets or two areas"
   | Around -> "a position and a radius in metres"
   | Parallel -> "two tasks, or a vehicle set and a predicate { v -> ... }"
   | Equal | Not_equal | And | Or -> "two values"
@@ -142,15 +142,22 @@ let as_task = function
   | Closure c -> Made c
   | _ -> invalid_arg "Operators.as_task"
 
+let of_areas op a b =
+  match op a b with
+  | Ok area -> Ok (Area area)
+  | Error e -> Error (Format.asprintf "%a" Dolphin_geo.Area.pp_error e)
+
 let binary (op : Ast.binary) x y =
   match op, x, y with
   | Add, (String _ as x), y | Add, x, (String _ as y) -> concatenate x y
   | Add, Vehicles vs, Vehicles ws -> Ok (Vehicles (union vs ws))
+  | Add, Area a, Area b -> of_areas Dolphin_geo.Area.union a b
   | Add, List xs, List ys -> append xs ys
   | Add, List xs, y -> append xs [| y |]
   | Add, Map a, Map b -> Ok (Map (List.fold_left (fun entries (k, x) -> put entries k x) a b))
   | Add, x, y -> arithmetic op add ( +. ) x y
   | Subtract, Vehicles vs, Vehicles ws -> Ok (Vehicles (difference vs ws))
+  | Subtract, Area a, Area b -> of_areas Dolphin_geo.Area.difference a b
   | Subtract, List xs, List ys ->
     let kept x = not (Array.exists (Value.equals x) ys) in
     Ok (List (Array.of_list (List.filter kept (Array.to_list xs))))
@@ -179,15 +186,13 @@ let binary (op : Ast.binary) x y =
   | Parallel, Boolean a, Boolean b -> Ok (Boolean (a || b))
   | Parallel, x, y -> mismatch op x y
   | Intersect, Vehicles vs, Vehicles ws -> Ok (Vehicles (intersection vs ws))
+  | Intersect, Area a, Area b -> of_areas Dolphin_geo.Area.intersection a b
   | Intersect, Boolean a, Boolean b -> Ok (Boolean (a && b))
   | Intersect, x, y -> mismatch op x y
   | Around, Position centre, y -> (
       match Value.to_number y with
       | None -> mismatch op x y
-      | Some radius -> (
-          match Dolphin_geo.Area.make centre radius with
-          | Some area -> Ok (Area area)
-          | None -> Error (Printf.sprintf "a radius is 0 m or more, not %g" radius)))
+      | Some radius -> of_areas Dolphin_geo.Area.circle centre radius)
   | Around, x, y -> mismatch op x y
   | Equal, x, y -> Ok (Boolean (Value.equals x y))
   | Not_equal, x, y -> Ok (Boolean (not (Value.equals x y)))

@@ -116,7 +116,7 @@ let rec hash_value left x =
       List.fold_left (fun h (k, x) -> Order.mix (Order.mix h (Hashtbl.hash k)) (hash_value left x)) 8 entries
     | Range (a, b) -> Order.mix (Order.mix 9 a) b
     | Position p -> Order.mix 10 (Hashtbl.hash p)
-    | Area a -> Order.mix 11 (Hashtbl.hash a)
+    | Area a -> Order.mix 11 (Area.hash a)
     | Vehicles vs -> List.fold_left (fun h v -> Order.mix h (Hashtbl.hash v)) 12 vs
     | Task t -> Order.mix 13 (hash_task left hashed_depth t)
     | Closure c -> Order.mix 14 (hash_code left c)

@@ -355,15 +355,14 @@ let grid area metres =
     let all = List.map (Plane.of_position plane) (corners area) in
     let least f = List.fold_left (fun m p -> Float.min m (f p)) infinity all in
     let most f = List.fold_left (fun m p -> Float.max m (f p)) neg_infinity all in
-    let first x = Float.ceil ((x /. metres) -. 1e-9) and last x = Float.floor ((x /. metres) +. 1e-9) in
-    let west = first (least fst) and east = last (most fst) in
-    let south = first (least snd) and north = last (most snd) in
-    if (east -. west +. 1.) *. (north -. south +. 1.) > 20. *. float_of_int most_points then Error Intricate
+    let west = least fst and south = least snd in
+    let columns = Float.round ((most fst -. west) /. metres) and rows = Float.round ((most snd -. south) /. metres) in
+    if columns *. rows > 20. *. float_of_int most_points then Error Intricate
     else begin
-      let numbers first last = List.init (max 0 (int_of_float (last -. first) + 1)) (fun i -> first +. float_of_int i) in
-      let point y x = Plane.to_position plane (x *. metres, y *. metres) in
-      let row y = List.filter (contains area) (List.map (point y) (numbers west east)) in
-      let found = List.concat_map row (numbers south north) in
+      let steps n = List.init (int_of_float n) (fun i -> metres *. (float_of_int i +. 0.5)) in
+      let point y x = Plane.to_position plane (west +. x, south +. y) in
+      let row y = List.filter (contains area) (List.map (point y) (steps columns)) in
+      let found = List.concat_map row (steps rows) in
       if List.length found > most_points then Error Intricate else Ok found
     end
 

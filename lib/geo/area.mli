@@ -70,8 +70,8 @@ val corners : t -> Position.t list
 
     They work in a plane, {!Plane}, on a grid of a millimetre. A circle takes part as a polygon of {!corners_of_circle}
     corners on its rim, which is inside of the circle by at most a 3,300th part of the radius. The arcs of {!corridor}
-    and {!offset} have a corner every 11 degrees, and are right to half a percent of their radius; these two take at most
-    a tenth of {!most_corners}. Results have no parts that are thinner than some millimetres. *)
+    and {!offset} have a corner every 11 degrees, and are right to half a percent of their radius; these two take at
+    most a tenth of {!most_corners}. Results have no parts that are thinner than some millimetres. *)
 
 val corners_of_circle : int
 (** 128. *)
@@ -87,9 +87,9 @@ val offset : t -> float -> (t, error) result
     [area] that are at least that far from its rim. *)
 
 val grid : t -> float -> (Position.t list, error) result
-(** [grid area metres] are the points of a square grid of [metres], parallel to the meridian of the area's middle,
-    that are in [area], row by row from the south, each from the west. [Error Intricate] if there would be more than
-    {!most_points}. *)
+(** [grid area metres] are the middles of squares of [metres], laid from the south-west of the area and parallel to
+    its middle's meridian, that are in [area], row by row from the south, each from the west. [Error Intricate] if
+    there would be more than {!most_points}. *)
 
 val most_points : int
 (** 10,000. *)

@@ -142,7 +142,8 @@ let merged sides =
     Hashtbl.replace table (s.p, s.q) (a + s.a, b + s.b)
   in
   List.iter add sides;
-  let left = Hashtbl.fold (fun (p, q) (a, b) left -> if a = 0 && b = 0 then left else { p; q; a; b } :: left) table [] in
+  let keep (p, q) (a, b) kept = if a = 0 && b = 0 then kept else { p; q; a; b } :: kept in
+  let left = Hashtbl.fold keep table [] in
   let sides = Array.of_list left in
   Array.sort (fun s t -> match by_left s t with 0 -> compare_points s.q t.q | order -> order) sides;
   sides
@@ -165,7 +166,11 @@ let rec without_crossings rounds sides =
       if !found > most_sides then raise Too_many;
       cuts.(i) <- points @ cuts.(i)
   in
-  let meet i j = match meeting ~close:within_a_unit sides.(i) sides.(j) with Apart -> () | Cut (of_i, of_j) -> cut i of_i; cut j of_j in
+  let meet i j =
+    match meeting ~close:within_a_unit sides.(i) sides.(j) with
+    | Apart -> ()
+    | Cut (of_i, of_j) -> cut i of_i; cut j of_j
+  in
   pairs meet sides;
   if !found = 0 then sides
   else

@@ -241,7 +241,7 @@ let members =
       "bounds", "a.bounds", "The south-west and the north-east corner of an area's box.";
       "hull", "a.hull()", "The smallest convex area around an area.";
       "offset", "a.offset(d)", "What is at most d metres away from an area; for d below 0, what is inside by -d.";
-      "grid", "a.grid(d)", "The positions of a square grid of d metres that are in an area.";
+      "grid", "a.grid(d)", "The middles of squares of d metres that are in an area.";
       "name", "t.name", "The name of a plan.";
       "call", "f.call(...)", "The value of the closure." ]
 

@@ -43,6 +43,12 @@ let tasks =
         execute condition { consume((k): 2, ('x'): 1) } >> action { message poll((k): _) }\n\
         z = null\nexecute watch action { post((z): 1) } onError { e -> message e; ignore() }\n\
         f = { it > 1 }\nexecute watch action { consume(x: f) } onError { e -> message e; ignore() }");
+      ("areas with corners",
+       "b = polygon([location(0, 0), location(0, 0.1), location(0.1, 0)], holes: [[location(0.01, 0.01), \
+        location(0.01, 0.02), location(0.02, 0.01)]])\nc = polygon([location(0, 0), location(0, 0.1), location(0.1, 0)])\n\
+        for (p in [location(0.03, 0.03), location(0, 0), location(0.1, 0.1), location(0.012, 0.012)]) {\n\
+        message \"${p in b} ${c.contains(p)}\" }\nmessage \"$b $c ${b == c}\"\n\
+        execute watch action { message c.radius } onError { e -> message e; ignore() }");
       ("what ?: takes",
        "a = pick { id 'a' }\nfor (x in [null, false, 0, 0.5, '', [], [:], a - a, a]) { post y: (x ?: 'other') }\n\
         b = battery(a) ?: 1\nif (b < 0.3) { message 'low' }");

@@ -4,6 +4,7 @@ open Writing
 module Position = Dolphin_geo.Position
 module Place = Dolphin_geo.Place
 module Wgs84 = Dolphin_geo.Wgs84
+module Area = Dolphin_geo.Area
 module Survey = Dolphin_geo.Survey
 
 let build ?(name = "p") settings =
@@ -13,6 +14,7 @@ let built settings =
   match build settings with Ok mission -> mission | Error fault -> Alcotest.fail fault.message
 
 let home = Place.apdl
+let corridor = Result.get_ok (Area.corridor [ home; Wgs84.displace home ~north:90. ~east:0. ] 10.)
 let moved north east = Wgs84.displace home ~north ~east
 let place p = Position p
 let near = Alcotest.testable Position.pp (fun a b -> Wgs84.distance a b < 1e-3)
@@ -45,8 +47,10 @@ let items =
     reads "a place and metres" (set "move" [ place home ] ~named:[ ("north", i 10) ]) "move"
       [ ("position", Place home); number "north" 10. ];
     reads "nothing" (set "capturePhoto" []) "capturePhoto" [];
-    reads "a disc" (set "surveyArea" [ Area { centre = home; radius = 50. }; i 10 ]) "surveyArea"
+    reads "a disc" (set "surveyArea" [ Area (Result.get_ok (Area.circle home 50.)); i 10 ]) "surveyArea"
       [ ("area", Places (Survey.around home ~radius:50.)); number "spacing" 10. ];
+    reads "a polygon" (set "surveyArea" [ Area corridor; i 10 ]) "surveyArea"
+      [ ("area", Places (Area.corners corridor)); number "spacing" 10. ];
     case "its name and whose it is" (fun () ->
         let m = built [ set "planName" [ str "photos" ]; set "vehicles" [ str "a"; str "b"; str "a" ]; set "move" [] ] in
         Alcotest.(check (pair string (list string))) "name, vehicles" ("photos", [ "a"; "b" ]) (m.name, m.vehicles);

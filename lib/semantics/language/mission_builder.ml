@@ -78,7 +78,11 @@ let whole_from least s what x : (float, Fault.t) result =
   if Float.is_integer n then Ok n else fault s "%s is a whole number, not %.15g" what n
 
 let corners s what = function
-  | Core.Area a -> Ok (Dolphin_geo.Survey.around a.centre ~radius:a.radius)
+  | Core.Area (Circle { centre; radius }) -> Ok (Dolphin_geo.Survey.around centre ~radius)
+  | Area (Shape shape) -> (
+      match Dolphin_geo.Area.rings shape with
+      | [ corners ] -> Ok corners
+      | _ -> fault s "%s has no holes and is of one piece" what)
   | List xs when Array.length xs >= 3 -> Results.map (position s ("as a corner of " ^ what)) (Array.to_list xs)
   | List xs -> fault s "%s has three corners or more, not %d" what (Array.length xs)
   | x -> wrong s (Printf.sprintf "an area or a list of positions as %s" what) x

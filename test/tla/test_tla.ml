@@ -163,7 +163,7 @@ let with_tlc f ({ java; jar } : Dolphin_tlc.Installation.t) =
   List.iter (fun (name, text) -> write name text) Spec.modules;
   let run arguments =
     let command =
-      Printf.sprintf "cd %s && %s -Xss64m -XX:+UseSerialGC -cp %s %s > output 2>&1" (Filename.quote directory)
+      Printf.sprintf "cd %s && %s -Xss64m -XX:+UseSerialGC -Djava.io.tmpdir=. -cp %s %s > output 2>&1" (Filename.quote directory)
         (Filename.quote java) (Filename.quote jar) arguments
     in
     let status = Sys.command command in

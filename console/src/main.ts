@@ -59,7 +59,9 @@ async function loadFiles() {
 async function openProgram() {
   const path = program();
   location.hash = path;
+  setDirty(false);
   const file = await get("file?path=" + encodeURIComponent(path));
+  if (program() !== path) return; // another one was chosen meanwhile
   hash = file.hash;
   editor.open(path, file.text);
   setDirty(false);

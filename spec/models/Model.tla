@@ -145,7 +145,7 @@ ModelPlaces == << "(41.185000, -8.706200)" >>
 ModelDistances == << << 0 >> >>
 ModelPlans == << >>
 ModelNames == << "v", "w" >>
-ModelLambdaNames == << >>
+ModelLambdaNames == [ j \in DOMAIN LambdaTable |-> "closure " \o ToString(j) ]
 ModelOrderedKeys == { "oldest" }
 
 V == Variable(1)

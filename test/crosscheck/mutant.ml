@@ -72,7 +72,7 @@ let all =
       replacement = {|  ELSE IF BagIn(<< k, x >>, N.bag) THEN N ELSE [ N EXCEPT !.bag = @ (+) |} };
     { name = "an error passes a watch";
       file = rules;
-      pattern = {|    [] IsErr(s) -> Handled(s, h)|};
+      pattern = {|    [] IsErr(s) -> Handled(s, r)|};
       replacement = {|    [] IsErr(s) -> << WATCH_PROPAGATE(s, s.out[2]) >>|} };
     { name = "handlers ignore unless they propagate";
       file = rules;
@@ -277,8 +277,8 @@ let all =
       replacement = {|KeptBy(keeper, x) == x|} };
     { name = "a handler does not see what the code saw";
       file = rules;
-      pattern = {|  IN Each(RunCode(s.S, "handler", h,|};
-      replacement = {|  IN Each(RunCode(Knowing(s.S, NothingSeen), "handler", h,|} };
+      pattern = {|  IN Each(RunCode(s.S, "handler", r.handler,|};
+      replacement = {|  IN Each(RunCode(Knowing(s.S, NothingSeen), "handler", r.handler,|} };
     { name = "a step is another one by what sensors show, even if nothing depends on it";
       file = rules;
       pattern = {|IF Len(ts) < 2 THEN ts ELSE|};

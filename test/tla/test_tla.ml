@@ -142,8 +142,12 @@ let rules_have_models () =
   Alcotest.(check (list string)) "rules without a model" [] (List.map Rule.name missing)
 
 let models =
-  [ "Paper"; "Platform"; "CodeOfTasks"; "Sequence"; "Parallel"; "Branches"; "Until"; "Time"; "Errors"; "Recovery"; "Rounds"; "Made";
-    "Deeds"; "Picking"; "Sensors"; "Waiting"; "Executing"; "Inputs"; "Ends"; "Leaving"; "SmallAbstract" ]
+  [ "Paper"; "Platform"; "CodeOfTasks"; "Sequence"; "Parallel"; "Branches"; "Until"; "Time"; "Errors"; "Recovery";
+    "Rounds"; "Made"; "Deeds"; "Picking"; "Sensors"; "Waiting"; "Executing"; "Inputs"; "Ends"; "Leaving";
+    "SmallAbstract" ]
+
+let configurations =
+  List.filter (fun name -> Filename.check_suffix name ".cfg") (Array.to_list (Sys.readdir "../../spec/models"))
 
 (* [f run] where [run arguments] is the status of Java with TLC's classes in a directory with all models, and what it
    says. *)
@@ -158,13 +162,14 @@ let with_tlc f ({ java; jar } : Dolphin_tlc.Installation.t) =
     close_out channel
   in
   let copy name = write name (read ("../../spec/models/" ^ name)) in
-  List.iter copy [ "Model.tla"; "Model.cfg" ];
+  copy "Model.tla";
   List.iter (fun name -> copy (name ^ ".tla")) models;
+  List.iter copy configurations;
   List.iter (fun (name, text) -> write name text) Spec.modules;
   let run arguments =
     let command =
-      Printf.sprintf "cd %s && %s -Xss64m -XX:+UseSerialGC -Djava.io.tmpdir=. -cp %s %s > output 2>&1" (Filename.quote directory)
-        (Filename.quote java) (Filename.quote jar) arguments
+      Printf.sprintf "cd %s && %s -Xss64m -XX:+UseSerialGC -Djava.io.tmpdir=. -cp %s %s > output 2>&1"
+        (Filename.quote directory) (Filename.quote java) (Filename.quote jar) arguments
     in
     let status = Sys.command command in
     (status, read (path "output"))
@@ -183,10 +188,19 @@ let models_parse =
       if status <> 0 || has output "\\(^\\|[^a-z]\\)\\(warning\\|\\*\\*\\* errors\\|could not\\)" then
         Alcotest.failf "SANY says:\n%s" output)
 
-let waiting_holds =
+(* A model without a configuration of its own has that of all. *)
+let holds ?states name =
   with_tlc (fun run ->
-      let status, output = run "tlc2.TLC -config Model.cfg Waiting.tla" in
-      if status <> 0 || not (has output "12 distinct states found") then Alcotest.failf "TLC says:\n%s" output)
+      let configuration = if List.mem (name ^ ".cfg") configurations then name else "Model" in
+      let status, output = run (Printf.sprintf "tlc2.TLC -config %s.cfg %s.tla" configuration name) in
+      let as_many n = has output (Printf.sprintf "%d distinct states found" n) in
+      if status <> 0 || not (Option.fold states ~none:true ~some:as_many) then Alcotest.failf "TLC says:\n%s" output)
+
+(* TLC takes some seconds to begin: all models are checked if DOLPHIN_LONG is set. *)
+let checked =
+  let others = List.filter (fun name -> name <> "Waiting") models in
+  ("Waiting holds", holds ~states:12 "Waiting")
+  :: (if Sys.getenv_opt "DOLPHIN_LONG" = None then [] else List.map (fun name -> (name ^ " holds", holds name)) others)
 
 let tlc =
   Result.map_error (Format.asprintf "%a" Dolphin_tlc.Installation.pp_trouble)
@@ -200,4 +214,4 @@ let () =
       ("replies", [ case "are a constant" replies; case "that do not fit" unfit_replies ]);
       ( "models",
         case "each rule has one" rules_have_models
-        :: Test_support.Requiring.cases tlc [ ("are well formed", models_parse); ("waiting", waiting_holds) ] ) ]
+        :: Test_support.Requiring.cases tlc (("are well formed", models_parse) :: checked) ) ]

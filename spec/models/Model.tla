@@ -109,6 +109,7 @@ LambdasOfModel(body, closures) ==
    so a name of one of these is put there. *)
 CodeTable == CodeOfModel(ScriptOfModel, ClosuresOfModel)
 LambdaTable == LambdasOfModel(ScriptOfModel, ClosuresOfModel)
+LambdaNameTable == << >> \o [ j \in 1 .. 2 + Len(ClosuresOfModel) |-> "closure " \o ToString(j) ]
 
 ModelCode == CodeTable
 ModelLambdas == LambdaTable
@@ -145,7 +146,7 @@ ModelPlaces == << "(41.185000, -8.706200)" >>
 ModelDistances == << << 0 >> >>
 ModelPlans == << >>
 ModelNames == << "v", "w" >>
-ModelLambdaNames == [ j \in DOMAIN LambdaTable |-> "closure " \o ToString(j) ]
+ModelLambdaNames == LambdaNameTable
 ModelOrderedKeys == { "oldest" }
 
 V == Variable(1)

@@ -10,6 +10,7 @@ open Dolphin_environment
 module Scenario = Dolphin_scenario.Scenario
 module Simulator = Dolphin_platform_sim.Simulator
 module Generate = Test_support.Generate
+module Answering = Test_support.Answering
 module Calls = Test_support.Calls
 
 (* {1 Runs} *)
@@ -30,31 +31,6 @@ module Platform = struct
     Lwt.map translate (next p)
 end
 
-(* Whose answer was refused has nothing else to say, but for answers that are still to come. *)
-let console scenario =
-  let asked = Hashtbl.create 4 and refused = Hashtbl.create 4 and latest = ref ("", "") in
-  let ask prompt =
-    let n = Option.value (Hashtbl.find_opt asked prompt) ~default:0 in
-    Hashtbl.replace asked prompt (n + 1);
-    Lwt.return
-      (match Scenario.answer scenario prompt n with
-       | None -> Error "none is given"
-       | Some text when Hashtbl.mem refused (prompt, text) -> Error "it was refused"
-       | Some text -> latest := (prompt, text); Ok text)
-  in
-  { Console.say = ignore; ask; refused = (fun _ -> Hashtbl.replace refused !latest ()) }
-
-(* What the fleet replies first, the first time, the second ... *)
-let host scenario =
-  let called = Hashtbl.create 4 in
-  fun ~site ~subject ~member ~arguments:_ ->
-    let call = Machine.name_of_call ~subject ~member in
-    let n = Option.value (Hashtbl.find_opt called call) ~default:0 in
-    Hashtbl.replace called call (n + 1);
-    match Scenario.reply scenario call n with
-    | Some reply -> Lwt.return (Result.map (Value.made_at site) reply)
-    | None -> Lwt.return (Error (Environment.no_reply call))
-
 (* So many transitions of a run that does not end are enough. *)
 let most_steps = 400
 
@@ -70,7 +46,8 @@ let run ~seed scenario program =
   let platform = Platform.create ~seed scenario in
   let observer : Observer.t = { Observer.nobody with transition } in
   let whole () =
-    Driver.run (module Platform) platform ~observer ~host:(host scenario) ~console:(console scenario)
+    Driver.run (module Platform) platform ~observer ~host:(Answering.host scenario)
+      ~console:(Answering.console scenario)
       ~interruption:(fst (Lwt.wait ())) program
   in
   (match Lwt_main.run (whole ()) with Ended _ | Stuck _ | Spins _ -> () | exception Enough -> ());

@@ -10,6 +10,7 @@ module Simulator = Dolphin_platform_sim.Simulator
 module Environment = Dolphin_environment.Environment
 module Scenario_world = Dolphin_environment.Scenario_world
 module Platform = Simulator.Virtual
+module Answering = Test_support.Answering
 
 let seeds = match Sys.getenv_opt "SEEDS" with Some n -> int_of_string n | None -> 8
 let folder = "../../examples"
@@ -19,30 +20,6 @@ let read_file path =
   let text = really_input_string channel (in_channel_length channel) in
   close_in channel;
   text
-
-(* Whose answer was refused has nothing else to say. *)
-let console scenario =
-  let asked = Hashtbl.create 4 and refused = Hashtbl.create 4 and latest = ref ("", "") in
-  let ask prompt =
-    let n = Option.value (Hashtbl.find_opt asked prompt) ~default:0 in
-    Hashtbl.replace asked prompt (n + 1);
-    Lwt.return
-      (match Scenario.answer scenario prompt n with
-       | None -> Error "none is given"
-       | Some text when Hashtbl.mem refused (prompt, text) -> Error "it was refused"
-       | Some text -> latest := (prompt, text); Ok text)
-  in
-  { Console.say = ignore; ask; refused = (fun _ -> Hashtbl.replace refused !latest ()) }
-
-let host scenario =
-  let called = Hashtbl.create 4 in
-  fun ~site ~subject ~member ~arguments:_ ->
-    let call = Machine.name_of_call ~subject ~member in
-    let n = Option.value (Hashtbl.find_opt called call) ~default:0 in
-    Hashtbl.replace called call (n + 1);
-    match Scenario.reply scenario call n with
-    | Some reply -> Lwt.return (Result.map (Value.made_at site) reply)
-    | None -> Lwt.return (Error (Environment.no_reply call))
 
 exception Enough
 
@@ -58,7 +35,7 @@ let run ~seed scenario program =
   in
   let whole () =
     Driver.run (module Platform) (Platform.create ~seed scenario) ~observer:{ Observer.nobody with transition }
-      ~host:(host scenario) ~console:(console scenario) ~interruption:(fst (Lwt.wait ())) program
+      ~host:(Answering.host scenario) ~console:(Answering.console scenario) ~interruption:(fst (Lwt.wait ())) program
   in
   (match Lwt_main.run (whole ()) with Ended _ | Stuck _ | Spins _ -> () | exception Enough -> ());
   List.rev !taken

@@ -543,6 +543,14 @@ let local_step_in_walks =
         {|go (without_tasks [] s) (continue (Ok ()))|} );
     ]
 
+let sets_with_events =
+  in_file "lib/explore/order/stubborn.ml" ~noticed_by:"reduction/test_traps"
+    [
+      ( "events come before what would spin",
+        {|not (exists_taken (may_close t) taken || hides_spin t taken)|},
+        {|not (exists_taken (may_close t) taken || (false && hides_spin t taken))|} );
+    ]
+
 let conclusion_in_walks =
   in_file "lib/semantics/rules/conclusion.ml" ~noticed_by:"semantics/test_invariants"
     [
@@ -719,5 +727,6 @@ let all =
       vehicle_orbits; canonical_vehicles; name_flow; liveness; later_picks; environment; picks; inputs; attendance;
       task_rules; local_step; run_code; answers_in_words; confirm; unknown; on_interrupt;
       pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
-      conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps; driver; fair_cycles;
+      conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps;
+      sets_with_events; driver; fair_cycles;
       alike_values ]

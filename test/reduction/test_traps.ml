@@ -353,6 +353,10 @@ let rounds =
       "execute (repeat idle(1)) | (idle(2) >> action { halt 'x' })";
     halts "beside rounds that are in the set of another" [ No_halt ]
       "execute (repeat (idle(1) >> action { post x: 1; consume x: 1 })) | (idle(2) >> action { if (poll(x: 2)) { post y: 1 }; halt 'x' })";
+    terminates "an error beside what waits, again and again" "violated"
+      {|execute repeat watch (idle(1) >> idle(2) | action { 1 / 0 } | action { message 'x' }) onError { ignore() }|};
+    terminates "a task that is tried again before a vehicle is done" ~environment:failing "violated"
+      {|execute watch (task('p')[a] >> task('q')[a] | task('r')[b] | (action { 1 / 0 } | { task 's' })) onError { retry() }|};
     terminates "an endless repeat" "by design: 1" "execute repeat idle(1)";
     terminates "two of them" "by design: 2" "execute (repeat idle(1)) | (repeat idle(2))";
     terminates "a time ends all rounds" "holds" "execute (repeat idle(1)) during 5";

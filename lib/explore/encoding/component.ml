@@ -30,6 +30,7 @@ and path = {
   inner : path Residuals.t;  (* those of nests that stand there, by their contexts *)
   mutable cuts : step array option;  (* the steps of the contexts themselves, once they are worked out *)
   makes : bool;  (* whether tasks are made in the contexts *)
+  renews : bool;  (* whether the contexts may begin what is inside anew, for ever *)
   mutable cut_footprints : (bool * Step_footprints.t) option;  (* by whether tasks are made in the layout *)
 }
 

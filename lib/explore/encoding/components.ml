@@ -30,10 +30,15 @@ type t = {
 (* Stands for the inside where contexts are compared. *)
 let hole = Residual.hole
 
+let may_renew : Residual.context -> bool = function
+  | Round_of { left = None; _ } | Watched_by { anew = Some _; _ } -> true
+  | Round_of _ | Watched_by _ | Before _ | Branch_of _ | Body_until _ | Body_during _ | Holding _ -> false
+
 let new_path id contexts outer body =
   let components = Residuals.create 16 and inner = Residuals.create 1 in
   { id; contexts; outer; body; components; inner; cuts = None;
-    makes = Residual.makes_tasks (Residual.plug contexts hole); cut_footprints = None }
+    makes = Residual.makes_tasks (Residual.plug contexts hole); renews = List.exists may_renew contexts;
+    cut_footprints = None }
 
 let create ?(foreseen = 2_048) options program world =
   let context = Step_footprints.context options program in

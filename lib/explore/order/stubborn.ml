@@ -1,6 +1,6 @@
 open Step_footprints
 
-type move = { level : int; over : bool; closes : bool }
+type move = { level : int; over : bool; closes : bool; on_event : bool }
 type status = Impossible | Moves of move | Ends | Depends of { moves : move list; ends : bool }
 type component = { place : Layout.place; analysis : Step_footprints.t }
 type t = {
@@ -156,10 +156,23 @@ let some_end_depends t =
 (* Whether some step of [x] may close a cycle here. *)
 let may_close t x = exists_step t x (fun k -> List.exists (fun { closes; _ } -> closes) (moves_of t x k))
 
+(* Whether rounds without end begin what stands at [place] anew, also by what others do. *)
+let rec is_renewed (place : Layout.place) =
+  match place.around with
+  | Some ({ inside = Some { renews; _ }; _ } as nest) -> renews || is_renewed nest
+  | Some ({ inside = None; _ } as nest) -> is_renewed nest
+  | None -> false
+
+let moves_on_event t x = exists_step t x (fun k -> List.exists (fun { on_event; _ } -> on_event) (moves_of t x k))
+let moves_by_itself t x = exists_step t x (fun k -> List.exists (fun m -> not m.on_event) (moves_of t x k))
+
+(* Whether events would be taken again and again, and a run without any would not be found. *)
+let hides_spin t taken =
+  exists_taken (fun x -> is_renewed t.components.(x).place && moves_on_event t x) taken
+  && exists_taken (moves_by_itself t) (Array.map (fun _ -> true) taken)
+
 (* A set that may close a cycle is not enough: what is not in it could be put off for ever. *)
-let is_open t taken =
-  let rec from x = x = Array.length taken || ((not (taken.(x) && may_close t x)) && from (x + 1)) in
-  from 0
+let is_open t taken = not (exists_taken (may_close t) taken || hides_spin t taken)
 
 (* Such a component depends on no other, unless it is cut off. *)
 let is_independent t x = Array.for_all Footprint.touches_nothing t.components.(x).analysis.footprints

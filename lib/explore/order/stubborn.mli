@@ -2,8 +2,9 @@
     docs/explorer.md proves it. *)
 
 (** What a step changes: the component itself (level 0), or the nest so many levels above. That is replaced, or is
-    [over]. If a round of a [repeat] without a number of rounds begins, the step [closes] a cycle, perhaps. *)
-type move = { level : int; over : bool; closes : bool }
+    [over]. If a round of a [repeat] without a number of rounds begins, the step [closes] a cycle, perhaps. It is taken
+    by itself, or [on_event]. *)
+type move = { level : int; over : bool; closes : bool; on_event : bool }
 
 (** What a step does where it stands. *)
 type status =

@@ -128,7 +128,8 @@ let expand_all t (x : Expansion.source) =
 
 let local_status t (x : Expansion.source) place step : Stubborn.status =
   let move level target rounds : Stubborn.move =
-    { level; over = (match target with Gone -> true | Stays _ | Becomes _ | Ends _ -> false); closes = rounds <> [] }
+    { level; over = (match target with Gone -> true | Stays _ | Becomes _ | Ends _ -> false); closes = rounds <> [];
+      on_event = step.event <> None }
   in
   let of_outcome (outcome : outcome) = move outcome.level outcome.target outcome.rounds in
   let dependent () : Stubborn.status =

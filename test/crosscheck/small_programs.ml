@@ -123,6 +123,8 @@ let tasks =
       ("a handler's deeds",
        two ^ "execute watch task('p')[a] onError { post failed: 1; ignore() }\n\
               if (consume(failed: 1)) { message 'seen' }");
+      ("what a condition that does not hold took is there again",
+       "post k: 1\nexecute repeat idle(1.seconds) until { consume(k: 1) && poll(y: 1) }");
       ("a handler's halt", two ^ "execute (watch task('p')[a] onError { halt 'enough' }) | task('q')[b]");
       ("three branches, one at a time",
        two ^ "execute allOf { when { true } then task('p')[a] \n when { true } then task('q')[b] \n\
@@ -298,9 +300,11 @@ let inputs =
         environment = interrupted { answering with inputs = Test_support.Posts.inputs } } ]
 
 let failing =
-  [ of_text "a plan that always fails" (two ^ "execute watch (task('p')[a] | task('q')[b]) onError { ignore() }")
-      Generate.world
-      { answering with endings = (fun _ _ -> Fails) } ]
+  let always name text = of_text name (two ^ text) Generate.world { answering with endings = (fun _ _ -> Fails) } in
+  [ always "a plan that always fails" "execute watch (task('p')[a] | task('q')[b]) onError { ignore() }";
+    always "who failed in what"
+      "execute watch task('p')[b] onError { e -> post who: e.vehicle, what: e.task; ignore() }";
+    always "another task for the vehicles that were given" "execute (watch action { 1 / 0 } onError { task('q') })[b]" ]
 
 let questions =
   let asking name answers source = { (program name source) with environment = { answering with answers } } in

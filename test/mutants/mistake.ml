@@ -495,8 +495,8 @@ let conclusion =
   in_file "lib/semantics/rules/conclusion.ml" ~noticed_by:"semantics/test_rules"
     [
       ( "an end stops nothing",
-        {|before @ cancelled @ stopped @ released @ [ Effect.End ending ]|},
-        {|before @ cancelled @ List.filter (fun _ -> false) stopped @ released @ [ Effect.End ending ]|} );
+        {|before @ cut timers s @ released @|},
+        {|before @ List.filter (function Effect.Stop _ -> false | _ -> true) (cut timers s) @ released @|} );
     ]
 
 let allocation =

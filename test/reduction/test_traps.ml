@@ -245,6 +245,9 @@ let traps =
           t = t >> action { post x: 1 }
           t
         } | ((condition { poll x: 1 } >> action { post y: 1 }) within 5)|};
+    breaks "what is tried again posts again" [ No_deadlock; No_halt ]
+      {|execute (watch (action { post z: 1 } >> condition { consume go: 1 } >> action { 1 / 0 }) onError { retry() }) |
+        (condition { consume z: 1 } >> action { if (poll(z: 1)) { halt 'again' } }) | action { post go: 1 }|};
     breaks "a task that is made may post" [ No_error; No_leftover ]
       {|execute { task('p')[a] >> action { post x: 1 } } | ((condition { poll x: 1 } >> action { post y: 1 }) within 5)|};
     breaks "a task that runs anew posts again" ~environment:failing [ No_leftover ]

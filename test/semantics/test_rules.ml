@@ -224,6 +224,11 @@ let tasks : example list =
       (task "watch (watch %p onError { message 'in'; ignore(); 1 / 0 }) onError { message it; ignore() }")
       "fail(noptilus-1, p, broken)" "FAIL, WATCH-PROPAGATE, WATCH-IGNORE, EXECUTE-DONE" "script"
       [ "say in"; "say division by zero" ];
+    example Watch_propagate "tasks in the place of others nest too deep"
+      (pick_both ^ "def t() { watch action { 1 / 0 } onError { t() } }\nexecute t()") "broken(division by zero)"
+      "ACTION-ERR, WATCH-PROPAGATE, EXECUTE-ERR"
+      "failed: tasks in the place of tasks that failed nest more than 100 deep"
+      [ released; "end: tasks in the place of tasks that failed nest more than 100 deep" ];
     example Watch_halt "the program ends" (task "(watch (during 5 run %p) onError { message 'm'; halt 'enough' }) | %q")
       "fail(noptilus-1, p, broken)" "FAIL, DURING-ERR, WATCH-HALT" "halted: enough"
       [ "cancel timer 1"; "say m"; "stop noptilus-2"; released; "end: halted enough" ];
@@ -353,8 +358,8 @@ let text_of (t : Transition.t) =
 
 let holds e () =
   let program = Pure_run.compile_exn e.source in
-  match Graph.explore ~limit:200 program Pure_run.fleet with
-  | None -> Alcotest.fail "more than 200 states"
+  match Graph.explore ~limit:400 program Pure_run.fleet with
+  | None -> Alcotest.fail "more than 400 states"
   | Some graph ->
     let leaving = Graph.outcomes ~interruption:true program Pure_run.fleet in
     let all = List.concat_map leaving (Array.to_list graph.states) in

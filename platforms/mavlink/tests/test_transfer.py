@@ -26,7 +26,8 @@ class Lossy(Case):
 
     def test_one_after_another_on_a_bad_link(self):
         """Which also doubles and reorders. No word on the mission before ends the one that runs; a late copy of an
-        order may, and that is said."""
+        order may, or keep it from its beginning, and that is said."""
+        why = "by its pilot, or by a late copy of an order|did not go into mode"
         ended = []
         for seed in seeds(10):
             vehicle, wires = one(px4=seed % 2 == 1, items=way(4), seed=seed, **BAD)
@@ -36,7 +37,7 @@ class Lossy(Case):
                 end = wires.run_to_end(f"r{n}")
                 ended.append(end["kind"])
                 if end["kind"] != "done":
-                    self.assertIn("by its pilot, or by a late copy of an order", end["why"], seed)
+                    self.assertRegex(end["why"], why, seed)
                     break
                 self.assertEqual((len(vehicle.began), len(vehicle.reached)), (n + 1, 4 * n + 4), seed)
         self.assertGreaterEqual(ended.count("done"), 0.9 * len(ended))

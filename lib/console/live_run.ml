@@ -51,7 +51,8 @@ let will_tell_waiting r =
 let observer r : Observer.t =
   let transition ~time ~cause:_ t =
     r.last <- time;
-    Narrator.transition r.narrator ~stuck:(not (Interruption.happened r.interruption)) ~time t;
+    let stuck = Interruption.is_unasked r.interruption (Narrator.configuration r.narrator) in
+    Narrator.transition r.narrator ~stuck ~time t;
     will_tell_waiting r;
     r.changed ()
   in
@@ -112,7 +113,7 @@ let front r : Run.front =
     opened = (fun view -> r.view <- view; Lwt.wakeup_later r.open_ ());
     remark = remark r; observer = observer r; person = person r; wants_telemetry = true }
 
-let settings r = 
+let settings r =
   let follower entry = Narrator.entry r.narrator entry in
   { r.order.settings with
     recording = { journal = Some r.order.journal; drawing = None; follower = Some follower } }

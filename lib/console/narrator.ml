@@ -41,6 +41,8 @@ let transition n ~stuck ~time (t : Transition.t) =
   n.log <- log;
   List.iter (line n ~time) lines
 
+let configuration n = n.configuration
+
 let news n ~time state =
   n.world <- World.add state n.world;
   let log, lines = Log.news n.log ~time state in

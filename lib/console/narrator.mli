@@ -15,6 +15,9 @@ val entry : t -> Entry.t -> unit
 val transition : t -> stuck:bool -> time:float -> Transition.t -> unit
 (** What the log says of it: messages [log], {!Dolphin_display.Log.transition}. *)
 
+val configuration : t -> Configuration.t
+(** After the last transition that was told. *)
+
 val news : t -> time:float -> World.vehicle_state -> unit
 
 val remark : t -> time:float -> string -> unit

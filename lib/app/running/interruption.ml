@@ -37,3 +37,4 @@ let on_signals ?(goes_on = fun () -> false) ?again i =
 let promise i = i.first.promise
 let again i = i.second.promise
 let happened i = i.first.happened
+let is_unasked i c = not (happened i || Dolphin_semantics.Transition.is_leaving c)

@@ -20,6 +20,10 @@ val again : t -> unit Lwt.t
 val happened : t -> bool
 (** Whether it has happened. *)
 
+val is_unasked : t -> Dolphin_semantics.Configuration.t -> bool
+(** [is_unasked i c] is whether an interruption of [c] now is nobody's wish: the driver interrupts stuck programs by
+    itself. The end of what [onInterrupt] executes is none. *)
+
 val on_signals : ?goes_on:(unit -> bool) -> ?again:(unit -> 'a) -> t -> unit
 (** From now on SIGINT, SIGTERM and SIGHUP make it happen. If it has happened already and [goes_on ()], which by default
     is false, they make it happen a second time. Otherwise they call [again], which need not return, straight from the

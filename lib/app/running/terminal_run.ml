@@ -44,9 +44,8 @@ let see_vehicle t state =
   t.board <- Status.news t.board state;
   t.world <- World.add state t.world
 
-(* The driver interrupts stuck programs by itself. *)
 let transition t ~time ~cause:_ transition =
-  let stuck = not (Interruption.happened t.interruption || Transition.is_leaving t.configuration) in
+  let stuck = Interruption.is_unasked t.interruption t.configuration in
   see_transition t ~time transition;
   let log, lines = Log.transition ~stuck t.log ~time transition in
   t.log <- log;
@@ -146,10 +145,11 @@ let stop_on_request t =
 
 (* Whether the program goes on when it is interrupted: it executes what it declares by onInterrupt. *)
 let goes_on t () =
-  let { Configuration.control; shared } = t.configuration in
-  match control with
+  let c = t.configuration in
+  match c.control with
   | Ended _ -> false
-  | Script _ | Waiting _ | Executing _ -> t.program.program.on_interrupt <> None && shared.bound <> []
+  | Script m | Waiting (m, _) | Executing (m, _) ->
+    Transition.is_leaving c || Transition.on_interrupt t.program.program c.shared m <> None
 
 let front t ~notice ~again : Run.front =
   let again () =

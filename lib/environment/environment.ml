@@ -314,8 +314,15 @@ let picking ?alike options program world e (c : Configuration.t) (pick : Setting
 
 (* {1 All together} *)
 
-let interruption options program world e c () =
-  if (not options.faults.interrupt) || Transition.is_leaving c then Seq.Nil
+let may_interrupt options m = options.faults.interrupt && not (Machine.is_leaving m)
+
+let interruption options program world e (c : Configuration.t) () =
+  let happens =
+    match c.control with
+    | Ended _ -> false
+    | Script m | Waiting (m, _) | Executing (m, _) -> may_interrupt options m
+  in
+  if not happens then Seq.Nil
   else
     match Transition.accept program world c Interruption with
     | Ok transition -> Seq.return { transition; outside = e; on = Some Interruption } ()

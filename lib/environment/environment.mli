@@ -132,6 +132,9 @@ val find : ('choice -> bool) -> 'choice Seq.t -> 'choice option
 (** [find p choices] is the first of [choices] for which [p] holds, if there is one. The others after it are not
     computed. *)
 
+val may_interrupt : options -> Machine.t -> bool
+(** [may_interrupt o m] is whether somebody may interrupt a run whose script stands at [m]: nobody does it twice. *)
+
 val may_leave : options -> Core.program -> bool
 (** [may_leave o p] is whether an interruption may come that makes [p] execute what it declares by [onInterrupt]. *)
 

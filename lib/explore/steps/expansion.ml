@@ -284,15 +284,9 @@ let interruption x =
   let action labelling = Valuation.action_observed (Labelling.valuations labelling) observed in
   (number, Option.fold ~none:Valuation.nothing ~some:action t.labelling)
 
-(* No run is interrupted twice. *)
-let may_be_interrupted x =
-  let t = x.expansion in
-  t.options.faults.interrupt
-  && ((program t).on_interrupt = None || not (Machine.is_leaving x.layout.frame.machine))
-
 let interrupt x =
   let t = x.expansion in
-  if not (may_be_interrupted x) then 0
+  if not (Environment.may_interrupt t.options x.layout.frame.machine) then 0
   else begin
     let number, action =
       match By_number.find_opt t.interrupted x.shared with

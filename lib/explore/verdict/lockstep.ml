@@ -36,33 +36,17 @@ let start program image =
   { image = (Configuration.initial image, Environment.initial);
     real = (Configuration.initial program, Environment.initial); taken = [] }
 
-(* Around until a state comes again, at most so often. *)
 let most_rounds = 2_000
 
 let around options world program ~image cycle pair =
-  let rec go rounds pair n =
-    if n = 0 then None
-    else
-      let back p = equal p.image pair.image in
-      match List.find_opt back (through options world program ~image cycle [ { pair with taken = [] } ]) with
-      | None -> None
-      | Some next -> (
-          let rounds = (pair.real, next.taken) :: rounds in
-          match List.find_opt (fun (real, _) -> equal real next.real) rounds with
-          | None -> go rounds { next with taken = [] } (n - 1)
-          | Some (real, _) -> Some (real, List.rev rounds))
+  let back p = equal p.image pair.image in
+  let round p =
+    let ends = through options world program ~image cycle [ { p with taken = [] } ] in
+    Option.map (fun next -> (next, List.rev next.taken)) (List.find_opt back ends)
   in
-  let rec divide before real = function
-    | (first, _) :: _ as cycle when equal first real -> (List.rev before, cycle)
-    | round :: rest -> divide (round :: before) real rest
-    | [] -> (List.rev before, [])
-  in
-  let steps rounds = List.concat_map (fun (_, taken) -> List.rev taken) rounds in
-  let found (real, rounds) =
-    let before, cycle = divide [] real rounds in
-    { steps = List.rev pair.taken @ steps before; cycle = steps cycle }
-  in
-  Option.map found (go [] pair most_rounds)
+  let same p q = equal p.real q.real in
+  let found (before, cycle) = { steps = List.rev_append pair.taken before; cycle } in
+  Option.map found (Rounds.closed ~most:most_rounds ~equal:same round pair)
 
 let follow options world program ~image ~ends_alike run =
   match through options world program ~image run.steps [ start program image ], run.cycle with

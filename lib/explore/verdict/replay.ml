@@ -136,17 +136,6 @@ let through graph states = snd (from_start graph states)
 let around graph ~stem states =
   let state, stem = from_start graph stem in
   let images = in_names_of graph states in
-  (* Rounds are added until one ends where an earlier one began: [rounds] has these states, latest first. *)
-  let rec go state rounds =
-    let next, steps = real graph state images in
-    let rounds = (state, steps) :: rounds in
-    if List.exists (fun (before, _) -> equal before next) rounds then (next, List.rev rounds) else go next rounds
-  in
-  let back, rounds = go state [] in
-  let rec divide before = function
-    | (state, _) :: _ as cycle when equal state back -> (List.rev before, cycle)
-    | round :: rest -> divide (round :: before) rest
-    | [] -> invalid_arg "Replay.around"
-  in
-  let before, cycle = divide [] rounds in
-  (stem @ List.concat_map snd before, List.concat_map snd cycle)
+  match Rounds.closed ~equal (fun state -> Some (real graph state images)) state with
+  | Some (before, cycle) -> (stem @ before, cycle)
+  | None -> invalid_arg "Replay.around"

@@ -22,8 +22,6 @@ let along path metres =
   | Some p -> Ok (Position p)
   | None -> Error "a path without positions leads nowhere"
 
-let area = function Ok area -> Ok (Area area) | Error e -> Error (Format.asprintf "%a" Dolphin_geo.Area.pp_error e)
-
 let polygon corners holes =
   let* corners = positions "the corners of a polygon" corners in
   let* holes =
@@ -32,12 +30,12 @@ let polygon corners holes =
     | Some (List holes) -> Results.map (positions "a hole") (Array.to_list holes)
     | Some x -> Operators.expected "holes, a list of lists of positions" x
   in
-  area (Dolphin_geo.Area.polygon ~holes corners)
+  Operators.area (Dolphin_geo.Area.polygon ~holes corners)
 
 let corridor path width =
   let* path = positions "a path" path in
   let* width = number "a width in metres" width in
-  area (Dolphin_geo.Area.corridor path width)
+  Operators.area (Dolphin_geo.Area.corridor path width)
 
 (* Those without a name, and those with one. *)
 let rec split keys arguments =

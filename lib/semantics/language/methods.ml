@@ -14,10 +14,6 @@ let one_vehicle world = function
 
 let strings names = List (Array.of_list (List.map (fun name -> String name) names))
 
-let area = function
-  | Ok area -> Ok (Area area)
-  | Error e -> Error (Format.asprintf "%a" Area.pp_error e)
-
 let number_text x = match Value.to_number x with Some n -> n | None -> 0.
 
 let sum items = Results.fold (Operators.binary Add) (Integer 0) (Array.to_list items)
@@ -109,14 +105,14 @@ let of_area a = function
   | "bounds" ->
     let south_west, north_east = Area.bounds a in
     Some (Ok (positions [ south_west; north_east ]))
-  | "hull" -> Some (area (Area.hull [ a ]))
+  | "hull" -> Some (Operators.area (Area.hull [ a ]))
   | _ -> None
 
 let on_area a name arguments =
   match name, List.map Value.to_number arguments with
-  | "offset", [ Some metres ] -> Some (area (Area.offset a metres))
+  | "offset", [ Some metres ] -> Some (Operators.area (Area.offset a metres))
   | "grid", [ Some metres ] ->
-    Some (Result.map positions (Result.map_error (Format.asprintf "%a" Area.pp_error) (Area.grid a metres)))
+    Some (Result.map positions (Operators.of_geometry (Area.grid a metres)))
   | ("offset" | "grid"), [ None ] -> Some (Operators.expected "a number of metres" (List.hd arguments))
   | _, _ -> None
 

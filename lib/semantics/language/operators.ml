@@ -142,22 +142,20 @@ let as_task = function
   | Closure c -> Made c
   | _ -> invalid_arg "Operators.as_task"
 
-let of_areas op a b =
-  match op a b with
-  | Ok area -> Ok (Area area)
-  | Error e -> Error (Format.asprintf "%a" Dolphin_geo.Area.pp_error e)
+let of_geometry made = Result.map_error (Format.asprintf "%a" Dolphin_geo.Area.pp_error) made
+let area made = of_geometry (Result.map (fun area -> Area area) made)
 
 let binary (op : Ast.binary) x y =
   match op, x, y with
   | Add, (String _ as x), y | Add, x, (String _ as y) -> concatenate x y
   | Add, Vehicles vs, Vehicles ws -> Ok (Vehicles (union vs ws))
-  | Add, Area a, Area b -> of_areas Dolphin_geo.Area.union a b
+  | Add, Area a, Area b -> area (Dolphin_geo.Area.union a b)
   | Add, List xs, List ys -> append xs ys
   | Add, List xs, y -> append xs [| y |]
   | Add, Map a, Map b -> Ok (Map (List.fold_left (fun entries (k, x) -> put entries k x) a b))
   | Add, x, y -> arithmetic op add ( +. ) x y
   | Subtract, Vehicles vs, Vehicles ws -> Ok (Vehicles (difference vs ws))
-  | Subtract, Area a, Area b -> of_areas Dolphin_geo.Area.difference a b
+  | Subtract, Area a, Area b -> area (Dolphin_geo.Area.difference a b)
   | Subtract, List xs, List ys ->
     let kept x = not (Array.exists (Value.equals x) ys) in
     Ok (List (Array.of_list (List.filter kept (Array.to_list xs))))
@@ -186,13 +184,13 @@ let binary (op : Ast.binary) x y =
   | Parallel, Boolean a, Boolean b -> Ok (Boolean (a || b))
   | Parallel, x, y -> mismatch op x y
   | Intersect, Vehicles vs, Vehicles ws -> Ok (Vehicles (intersection vs ws))
-  | Intersect, Area a, Area b -> of_areas Dolphin_geo.Area.intersection a b
+  | Intersect, Area a, Area b -> area (Dolphin_geo.Area.intersection a b)
   | Intersect, Boolean a, Boolean b -> Ok (Boolean (a && b))
   | Intersect, x, y -> mismatch op x y
   | Around, Position centre, y -> (
       match Value.to_number y with
       | None -> mismatch op x y
-      | Some radius -> of_areas Dolphin_geo.Area.circle centre radius)
+      | Some radius -> area (Dolphin_geo.Area.circle centre radius))
   | Around, x, y -> mismatch op x y
   | Equal, x, y -> Ok (Boolean (Value.equals x y))
   | Not_equal, x, y -> Ok (Boolean (not (Value.equals x y)))

@@ -35,3 +35,9 @@ val instead_of : string -> value -> string
 
 val expected : string -> value -> ('any, string) result
 (** [expected what x] is the error {!instead_of}[ what x]. *)
+
+val of_geometry : ('a, Dolphin_geo.Area.error) result -> ('a, string) result
+(** What geometry made, or why it cannot, in words. *)
+
+val area : (Dolphin_geo.Area.t, Dolphin_geo.Area.error) result -> (value, string) result
+(** {!of_geometry}, as a value. *)

@@ -14,15 +14,9 @@ let row ({ name; header; time; state; _ } : Run_folder.run) =
 
 let heads = [ "RUN"; "PROGRAM"; "PLATFORM"; "STATE"; "TIME" ]
 
-let print rows =
-  let rows = List.map (List.map Phrase.one_line) (heads :: rows) in
-  let widths =
-    List.fold_left (List.map2 (fun width cell -> max width (Phrase.width cell))) (List.map (fun _ -> 0) heads) rows in
-  List.iter (fun cells -> print_endline (String.trim (String.concat "  " (List.map2 Phrase.pad widths cells)))) rows
-
 let tell = function
   | [] -> print_endline "no run has been kept: dolphin exec --keep keeps one"
-  | runs -> print (List.map row runs)
+  | runs -> List.iter print_endline (Dolphin_display.Text_table.lines heads (List.map row runs))
 
 let list () =
   Report.result

@@ -43,7 +43,7 @@ let lines adapters ~json:as_json =
   match vehicles adapters with
   | found when as_json -> [ Yojson.Safe.to_string (`List (List.map json found)) ]
   | [] -> [ "no vehicle was heard of" ]
-  | found -> Listing.table heads (List.map row found)
+  | found -> Dolphin_display.Text_table.lines heads (List.map row found)
 
 let tell vehicle text =
   prerr_endline ("dolphin: " ^ match vehicle with Some v -> v ^ ": " ^ text | None -> text)

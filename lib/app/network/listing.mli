@@ -1,8 +1,5 @@
 (** Who is out there, listed on standard output: a table that changes on a terminal, else lines. *)
 
-val table : string list -> string list list -> string list
-(** [table heads rows] is a line each, in columns. *)
-
 type t = {
   head : unit -> string;  (** above the table, on a terminal *)
   lines : json:bool -> string list;  (** what is known now *)

@@ -72,7 +72,7 @@ let lines network definition ~json:as_json =
   match Udp_platform.systems network with
   | sights when as_json -> [ Yojson.Safe.to_string (`List (List.map (json network definition) sights)) ]
   | [] -> [ "no system was heard of" ]
-  | sights -> Listing.table heads (List.map (row network definition) sights)
+  | sights -> Dolphin_display.Text_table.lines heads (List.map (row network definition) sights)
 
 let listing network definition =
   { Listing.head = (fun () -> Printf.sprintf "%s hears, Ctrl-C ends" (Udp_platform.name_on_network network));

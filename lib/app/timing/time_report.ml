@@ -2,7 +2,7 @@ open Dolphin_semantics
 open Dolphin_time
 module Timing = Dolphin_time.Timing
 module Columns = Dolphin_display.Columns
-module Phrase = Dolphin_trace.Phrase
+module Text_table = Dolphin_display.Text_table
 
 let time ms = Format.asprintf "%a" Bounds.pp_time ms
 let location (p : Program_file.t) site = Fault.location p.program (Fault.make site "")
@@ -56,18 +56,6 @@ let print_ending (e, (w : Timing.window)) =
   let latest = match w.latest with At n -> time n ^ " at the latest" | Unbounded -> "no latest time" in
   Printf.printf "%s: %s at the earliest, %s\n" (ending e) (time w.earliest) latest
 
-let print_table rows =
-  let widths =
-    List.fold_left (List.map2 (fun width cell -> max width (Phrase.width cell)))
-      (List.map (fun _ -> 0) (List.hd rows)) rows
-  in
-  let print row =
-    let line = String.concat "  " (List.map2 Phrase.pad widths row) in
-    let rec trimmed n = if n > 0 && line.[n - 1] = ' ' then trimmed (n - 1) else String.sub line 0 n in
-    print_endline (trimmed (String.length line))
-  in
-  List.iter print rows
-
 let print_tasks (p : Program_file.t) (o : Timing.outcome) =
   let used = List.filter (fun m -> List.exists (fun (_, ws) -> List.mem_assoc m ws) o.tasks) moments in
   let row ((task : Timing.task), windows) =
@@ -75,10 +63,11 @@ let print_tasks (p : Program_file.t) (o : Timing.outcome) =
     let place at =
       Printf.sprintf "%s:%d" (Filename.basename (Dolphin_syntax.Location.file at)) (Dolphin_syntax.Location.line at) in
     let line = Option.fold ~none:"" ~some:place (location p task.site) in
-    (Phrase.one_line task.name :: Phrase.one_line task.vehicle :: List.map cell used) @ [ line ]
+    (task.name :: task.vehicle :: List.map cell used) @ [ line ]
   in
   if o.tasks <> [] then
-    print_table ((("task" :: "vehicle" :: List.map moment used) @ [ "where" ]) :: List.map row o.tasks)
+    List.iter print_endline
+      (Text_table.lines (("task" :: "vehicle" :: List.map moment used) @ [ "where" ]) (List.map row o.tasks))
 
 let print_columns (p : Program_file.t) (run : Timing.run) =
   let heads = if run.dates = [] then None else Some (List.map time run.dates) in

@@ -259,6 +259,20 @@ let stopped _ port =
   text "interrupted" {|"interrupted"|} (Yojson.Safe.to_string (member [ "run"; "outcome"; "how" ] ended));
   Client.leave first
 
+(* The end of what a stuck program executes is told as the terminal tells it. *)
+let stuck folder port =
+  write (Filename.concat folder "home.dol")
+    "onInterrupt task('home')\nv = pick { type 'UUV' }\nexecute condition { poll never: 1 }\n";
+  Client.watch ~port "first" >>= fun first ->
+  Client.ask ~body:{|{"program": "home.dol"}|} ~port "/api/run" >>= fun r ->
+  status "started" 200 r.status;
+  Client.until first is_over >>= fun seen ->
+  let log = List.map (fun line -> member [ "text" ] (Yojson.Safe.from_string line)) (data (events "log" seen)) in
+  let words = List.map (fun line -> Str.replace_first (Str.regexp "^.*program  *") "" (Yojson.Safe.Util.to_string line)) in
+  let of_program = List.filter (fun line -> Str.string_match (Str.regexp "is ") line 0) (words log) in
+  Alcotest.(check (list string)) "told" [ "is stuck: executes onInterrupt"; "is interrupted" ] of_program;
+  Client.leave first
+
 let faults _ port =
   let start body = Client.ask ~body ~port "/api/run" in
   start {|{"program": "wrong.dol"}|} >>= fun r ->
@@ -361,4 +375,4 @@ let () =
       ("files", [ slow "saving" (console saving); slow "texts under way" (console texts) ]);
       ("runs",
        [ slow "a run" (console a_run); slow "answers and posts" (console answers_and_posts);
-         slow "stopped" (console stopped); slow "faults" (console faults) ]) ]
+         slow "stopped" (console stopped); slow "stuck" (console stuck); slow "faults" (console faults) ]) ]

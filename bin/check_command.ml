@@ -15,14 +15,15 @@ let checked path = function
 
 (* What adapters say of the plans that a run of the program gives vehicles. *)
 let checked_plans program fleet = function
-  | [] -> Some ()
+  | [] -> Exit_status.Done
   | adapters ->
     let found, _ = Inline_plans.of_run program fleet ~seed:0 ~answers:[] in
-    let tell verdicts =
+    match Platform_options.ask adapters found with
+    | Error (Error.Interrupted _ as e) -> Report.error e
+    | Error e -> Report.tell e; Bad_input
+    | Ok verdicts ->
       List.iter (fun v -> List.iter print_endline (Adapter_check.lines v)) verdicts;
-      if List.for_all Adapter_check.is_fine verdicts then Some () else None
-    in
-    Option.bind (checked None (Adapter_check.ask adapters found)) tell
+      if List.for_all Adapter_check.is_fine verdicts then Done else Bad_input
 
 let run path set fleet adapters =
   let program = checked (Some path) (Program_file.load ~set path) in
@@ -40,8 +41,7 @@ let run path set fleet adapters =
     program;
   Option.iter (fun (f : Fleet_file.t) -> Option.iter (fun path -> verdict path []) f.path) fleet;
   match program, fleet with
-  | Some program, Some fleet ->
-    if checked_plans program fleet adapters = None then Exit_status.Bad_input else Done
+  | Some program, Some fleet -> checked_plans program fleet adapters
   | None, _ | _, None -> Exit_status.Bad_input
 
 let man =
@@ -62,6 +62,6 @@ let man =
 let command =
   let info =
     Cmd.info "check" ~docs:Options.s_write ~doc:"find what is wrong with a program, without running it" ~man
-      ~exits:(Options.exits [ Done; Bad_input; Bug ])
+      ~exits:(Options.exits [ Done; Bad_input; Bug; Interrupted ])
   in
   Cmd.v info Term.(const run $ Options.program $ Options.set $ Options.fleet $ Platform_options.checking)

@@ -49,7 +49,7 @@ let print_checked adapters name found =
   match name, chosen with
   | Some name, [] -> Error (Error.Bad_input (Printf.sprintf "no vehicle is given a plan '%s'" name))
   | (Some _ | None), _ ->
-    let* verdicts = Adapter_check.ask adapters chosen in
+    let* verdicts = Platform_options.ask adapters chosen in
     if name <> None then
       List.iter (fun f -> print_endline (Yojson.Safe.pretty_to_string (Adapter_check.to_json f))) chosen;
     List.iter (fun v -> List.iter print_endline (Adapter_check.lines v)) verdicts;
@@ -101,7 +101,7 @@ let man =
 let command =
   let info =
     Cmd.info "plan" ~docs:Options.s_run ~doc:"print an inline plan as IMC vehicles get it" ~man
-      ~exits:(Options.exits [ Done; Failed; Bad_input; Bug ])
+      ~exits:(Options.exits [ Done; Failed; Bad_input; Platform_trouble; Bug; Interrupted ])
   in
   Cmd.v info
     Term.(

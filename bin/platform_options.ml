@@ -1,4 +1,5 @@
 open Cmdliner
+open Dolphin_app
 
 let s_platforms = "PLATFORMS"
 
@@ -20,3 +21,8 @@ let adapters =
      commanded by the platform that offers it. $(i,docs/platform.md) tells more."
   in
   Arg.(value & opt_all string [] & info [ "platform" ] ~docs:s_platforms ~docv:"CMD" ~doc)
+
+let ask adapters plans =
+  let interruption = Interruption.make () in
+  Interruption.on_signals ~again:Exit_status.exit_interrupted interruption;
+  Adapter_check.ask interruption adapters plans

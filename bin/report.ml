@@ -16,6 +16,7 @@ let error (e : Error.t) : Exit_status.t =
   match e with
   | Bad_input _ | Bad_text _ | Incompatible _ -> Bad_input
   | Unavailable _ -> Platform_trouble
+  | Interrupted _ -> Interrupted
   | Inconclusive _ | Unsettled _ -> Inconclusive
 
 let result = function Ok status -> status | Error e -> error e

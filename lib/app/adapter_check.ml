@@ -38,7 +38,8 @@ let problems adapter found =
 
 let of_adapter plans taken command =
   let*? adapter = Process_platform.open_ { (Process_platform.default ~command) with purpose = Check; taken } in
-  each (problems adapter) plans >>= fun answers ->
+  let give_up error = Process_platform.leave adapter >>= fun () -> Lwt.fail error in
+  Lwt.catch (fun () -> each (problems adapter) plans) give_up >>= fun answers ->
   Process_platform.close adapter >|= fun () ->
   Result.map (fun answers -> (Process_platform.platform adapter, answers)) answers
 
@@ -48,11 +49,12 @@ let rec of_adapters plans answered = function
     let*? one = of_adapter plans (List.map fst answered) command in
     of_adapters plans (one :: answered) later
 
-let ask commands plans =
+let ask interruption commands plans =
   let verdicts answered =
     let of_plan i found = { found; answers = List.map (fun (name, answers) -> (name, List.nth answers i)) answered } in
     List.mapi of_plan plans
   in
-  Lwt_main.run (of_adapters plans [] commands)
-  |> Result.map verdicts
-  |> Result.map_error (fun why -> Error.Unavailable why)
+  match Lwt_main.run (Interruption.unless interruption (fun () -> of_adapters plans [] commands)) with
+  | None -> Error (Error.Interrupted "interrupted before the adapters had answered")
+  | Some (Ok answered) -> Ok (verdicts answered)
+  | Some (Error why) -> Error (Error.Unavailable why)

@@ -8,9 +8,9 @@ type verdict = {
 val is_fine : verdict -> bool
 (** Some platform finds nothing wrong. *)
 
-val ask : string list -> Inline_plans.found list -> (verdict list, Error.t) result
-(** [ask commands plans] starts the adapters [commands], asks each about each of [plans], and ends them. The error says
-    which adapter cannot be spoken to, or does not answer. *)
+val ask : Interruption.t -> string list -> Inline_plans.found list -> (verdict list, Error.t) result
+(** [ask interruption commands plans] starts the adapters [commands], asks each about each of [plans], and ends them.
+    The error says which adapter cannot be spoken to, or does not answer; or it is {!Error.Interrupted}. *)
 
 val lines : verdict -> string list
 (** What to print of it: ["survey: mavlink runs it"], ["survey: mavlink: maneuver 2.YoYo: an aircraft does not dive"].

@@ -7,6 +7,7 @@ type t =
   | Incompatible of { path : string; differences : string list }
   (** The definition of IMC in the file [path] is not the one that Dolphin speaks. *)
   | Unavailable of string  (** What is around the program is in trouble: the platform, a disk; one sentence. *)
+  | Interrupted of string  (** Somebody ended it before there was a result; one sentence. *)
   | Inconclusive of string  (** A bound was met before there was a result; one sentence. *)
   | Unsettled of { source : string; fault : Dolphin_syntax.Diagnostic.t }
   (** The explorer cannot list what may happen at this place of the program [source]. *)

@@ -188,6 +188,7 @@ let of_outcome r outcome : Yojson.Safe.t =
   let source = r.order.program.source in
   let how, text, trouble =
     match outcome with
+    | Error (Error.Interrupted why) -> ("interrupted", why, `List [])
     | Error e ->
       ("unavailable", String.concat "; " (Error.sentences e), Documents.of_error ~source e)
     | Ok (outcome : Driver.outcome) ->

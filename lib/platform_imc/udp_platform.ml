@@ -304,6 +304,8 @@ let close p =
     release_sockets p
   end
 
+let leave = release_sockets
+
 (* {1 Displays} *)
 
 let id p = p.settings.id

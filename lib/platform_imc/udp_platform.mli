@@ -46,6 +46,9 @@ val open_again : options -> time:float -> History.t -> (t, string) result
 (** [open_again options ~time history] takes over, at [time], from a console that died after [history]; see
     {!Station.resume}. *)
 
+val leave : t -> unit Lwt.t
+(** [leave p] closes [p] and stops nothing: vehicles go on, for a console that takes over. *)
+
 val now : t -> float
 (** Seconds since the beginning, by a clock that is never set back. *)
 

@@ -85,6 +85,7 @@ let start ~command hello =
   | Ok child -> (
       let lines = Lines.make ~limit:Report.longest_line (Child.output child) in
       let a = { child; lines; writer = Writer.make (Child.input child) } in
-      greet a hello >>= function
+      let give_up error = Child.close child >>= fun () -> Lwt.fail error in
+      Lwt.catch (fun () -> greet a hello) give_up >>= function
       | Ok greeting -> Lwt.return (Ok (a, greeting))
       | Error why -> Child.close child >|= fun () -> Error why)

@@ -8,7 +8,7 @@ type t
 
 val start : command:string -> Order.t -> (t * Report.greeting, string) result Lwt.t
 (** [start ~command hello] starts [command], for [/bin/sh], and greets it. The error says why nobody greets in turn, as
-    a predicate: ["ended with exit status 127"]. *)
+    a predicate: ["ended with exit status 127"]. If it is cancelled, the process is ended. *)
 
 val send : t -> string -> unit
 (** [send a line] writes [line] when the adapter reads; never waits. *)

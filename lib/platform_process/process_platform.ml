@@ -275,4 +275,8 @@ let close p =
     match p.adapter with None -> Lwt.return_unit | Some adapter -> say_goodbye p adapter
   end
 
+let leave p =
+  Shell.close p.shell;
+  Option.fold p.adapter ~none:Lwt.return_unit ~some:Adapter.close
+
 let vehicles p = Dispatch.vehicles p.dispatch

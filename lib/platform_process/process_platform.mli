@@ -33,6 +33,9 @@ val open_again : options -> time:float -> (string -> History.t) -> (t, string) r
 (** [open_again options ~time history] takes over, at [time], from a console that died after [history name], where
     [name] is this platform's. *)
 
+val leave : t -> unit Lwt.t
+(** [leave p] closes [p] and stops nothing: vehicles go on, for a console that takes over. *)
+
 val platform : t -> string
 (** Its name: what the adapter calls itself, or that with a number. *)
 

@@ -53,11 +53,13 @@ let rec open_all opened = function
   | command :: later -> (
       let taken = List.map Process_platform.platform opened in
       let options = { (Process_platform.default ~command) with purpose = Look; taken; note = tell } in
-      Process_platform.open_ options >>= function
+      let leave_all () = Lwt_list.iter_p Process_platform.leave opened in
+      let give_up error = leave_all () >>= fun () -> Lwt.fail error in
+      Lwt.catch (fun () -> Process_platform.open_ options) give_up >>= function
       | Ok adapter ->
         Process_platform.telemetry adapter true;
         open_all (adapter :: opened) later
-      | Error why -> Lwt_list.iter_p Process_platform.close opened >|= fun () -> Error (Error.Unavailable why))
+      | Error why -> leave_all () >|= fun () -> Error (Error.Unavailable why))
 
 let listing adapters =
   let names = String.concat ", " (List.map Process_platform.platform adapters) in
@@ -66,8 +68,9 @@ let listing adapters =
 
 let run commands interruption ~as_json ~once ~seconds =
   Lwt_main.run
-    (open_all [] commands >>= function
-      | Error _ as error -> Lwt.return error
-      | Ok adapters ->
+    (Interruption.unless interruption (fun () -> open_all [] commands) >>= function
+      | None -> Lwt.return (Ok ())
+      | Some (Error _ as error) -> Lwt.return error
+      | Some (Ok adapters) ->
         Listing.show (listing adapters) interruption ~as_json ~once ~seconds >>= fun () ->
         Lwt_list.iter_p Process_platform.close adapters >|= fun () -> Ok ())

@@ -1,3 +1,5 @@
+open Lwt.Infix
+
 type stage = { promise : unit Lwt.t; wake : unit Lwt.u; mutable happened : bool }
 type t = { first : stage; second : stage }
 
@@ -37,4 +39,12 @@ let on_signals ?(goes_on = fun () -> false) ?again i =
 let promise i = i.first.promise
 let again i = i.second.promise
 let happened i = i.first.happened
+
+let unless i f =
+  let result = f () in
+  let settled = Lwt.catch (fun () -> result >|= ignore) (fun _ -> Lwt.return_unit) in
+  Lwt.choose [ settled; promise i ] >>= fun () ->
+  Lwt.cancel result;
+  Lwt.catch (fun () -> result >|= Option.some) (function Lwt.Canceled -> Lwt.return_none | error -> Lwt.fail error)
+
 let is_unasked i c = not (happened i || Dolphin_semantics.Transition.is_leaving c)

@@ -20,6 +20,10 @@ val again : t -> unit Lwt.t
 val happened : t -> bool
 (** Whether it has happened. *)
 
+val unless : t -> (unit -> 'a Lwt.t) -> 'a option Lwt.t
+(** [unless i f] is what [f ()] resolves with. If [i] happens before, [f ()] is cancelled: [None], once it has cleared
+    up. *)
+
 val is_unasked : t -> Dolphin_semantics.Configuration.t -> bool
 (** [is_unasked i c] is whether an interruption of [c] now is nobody's wish: the driver interrupts stuck programs by
     itself. The end of what [onInterrupt] executes is none. *)

@@ -20,7 +20,7 @@ let options_of name =
   List.map option (String.split_on_char '+' name)
 
 type estimate = { vehicle : string; plan : string; share : float; remaining : float option }
-type opened = { part : Several.part; estimates : unit -> estimate list }
+type opened = { part : Several.part; estimates : unit -> estimate list; leave : unit -> unit Lwt.t }
 
 type surroundings = {
   program : string;
@@ -61,7 +61,7 @@ let open_imc s ~history options =
   let made network =
     log_network network;
     let part = Several.Part ((module Udp_platform), network) in
-    (Udp_platform.name, { part; estimates = imc_estimates network })
+    (Udp_platform.name, { part; estimates = imc_estimates network; leave = (fun () -> Udp_platform.leave network) })
   in
   Result.map made opened
 
@@ -87,25 +87,23 @@ let open_adapter s ~history ~taken command =
   in
   let made adapter =
     let part = Several.Part ((module Process_platform), adapter) in
-    (Process_platform.platform adapter, { part; estimates = adapter_estimates adapter })
+    let leave () = Process_platform.leave adapter in
+    (Process_platform.platform adapter, { part; estimates = adapter_estimates adapter; leave })
   in
   Lwt.map (Result.map made) opened
 
 (* {1 Several} *)
 
-let close (_, { part = Several.Part (platform, p); _ }) =
-  let close (type p) (module P : Platform.S with type t = p) (p : p) = P.close p in
-  close platform p
-
-let close_all opened = Lwt.join (List.map close opened)
+let leave_all opened = Lwt.join (List.map (fun (_, one) -> one.leave ()) opened)
 
 (* The adapters in their order, each with a name of its own. *)
 let rec open_adapters s ~history opened = function
   | [] -> Lwt.return (Ok (List.rev opened))
   | command :: others -> (
-      open_adapter s ~history ~taken:(List.map fst opened) command >>= function
+      let give_up error = leave_all opened >>= fun () -> Lwt.fail error in
+      Lwt.catch (fun () -> open_adapter s ~history ~taken:(List.map fst opened) command) give_up >>= function
       | Ok one -> open_adapters s ~history (one :: opened) others
-      | Error why -> close_all opened >|= fun () -> Error why)
+      | Error why -> leave_all opened >|= fun () -> Error why)
 
 let owners_of s =
   match s.past with None -> [] | Some (_, history) -> Several.owners ~imc:Udp_platform.name history
@@ -140,7 +138,8 @@ let combine s ~owners opened =
     let parts = List.map (fun (name, one) -> (name, one.part)) several in
     let platform = Several.make ~note:(fun v -> s.note (Some v)) ~keep:s.keep ~owners parts in
     { part = Several.Part ((module Several), platform);
-      estimates = (fun () -> List.concat_map (fun (_, one) -> one.estimates ()) several) }
+      estimates = (fun () -> List.concat_map (fun (_, one) -> one.estimates ()) several);
+      leave = (fun () -> leave_all several) }
 
 let open_ choice s =
   let owners = owners_of s in
@@ -158,5 +157,5 @@ let open_ choice s =
       | Error why -> Lwt.return (Error why)
       | Ok opened -> (
           match missing owners opened with
-          | Some why -> close_all opened >|= fun () -> Error why
+          | Some why -> leave_all opened >|= fun () -> Error why
           | None -> Lwt.return (Ok (combine s ~owners opened))))

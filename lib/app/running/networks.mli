@@ -24,7 +24,11 @@ type estimate = {
   remaining : float option;  (** seconds *)
 }
 
-type opened = { part : Several.part; estimates : unit -> estimate list }
+type opened = {
+  part : Several.part;
+  estimates : unit -> estimate list;
+  leave : unit -> unit Lwt.t;  (** closes it and stops nothing: vehicles go on with what they do *)
+}
 
 (** What a run gives its platforms. *)
 type surroundings = {
@@ -36,4 +40,5 @@ type surroundings = {
 }
 
 val open_ : choice -> surroundings -> (opened, string) result Lwt.t
-(** The error says which one cannot be had. *)
+(** The error says which one cannot be had; the others are left then, and so are those that are open if it is
+    cancelled. *)

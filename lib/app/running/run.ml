@@ -133,6 +133,7 @@ let header r (fleet : Fleet_file.t) : Header.t =
 type 'p fleet = {
   platform : 'p;
   estimates : unit -> estimate list;
+  leave : unit -> unit Lwt.t;  (* closes it and stops nothing *)
   news : World.vehicle_state list;  (* of vehicles, since the console died *)
 }
 
@@ -140,7 +141,7 @@ type platform = Platform : (module Platform.S with type t = 'p) * 'p fleet -> pl
 
 (* The simulated fleet passes its time at once, or as a clock does. *)
 let open_simulated r =
-  let fresh platform = { platform; estimates = (fun () -> []); news = [] } in
+  let fresh platform = { platform; estimates = (fun () -> []); leave = Lwt.return; news = [] } in
   let rebuilt (platform, news) = { (fresh platform) with news } in
   let seed = r.seed and scenario = r.scenario in
   let virtual_ fleet = Platform ((module Simulator.Virtual), fleet) in
@@ -174,8 +175,8 @@ let open_network r recording =
       past = Option.map (fun resumed -> (time_of_run resumed, resumed.Resumed.past.history)) r.resumed }
   in
   let news = Option.fold r.resumed ~none:[] ~some:unheard in
-  let fleet ({ part = Part (platform, network); estimates } : Networks.opened) =
-    Platform (platform, { platform = network; estimates; news })
+  let fleet ({ part = Part (platform, network); estimates; leave } : Networks.opened) =
+    Platform (platform, { platform = network; estimates; leave; news })
   in
   Networks.open_ (choice r.settings) surroundings >|= Result.map fleet
 
@@ -239,7 +240,7 @@ let was_stuck (resumed : Resumed.t) =
   | Ended _ -> Replay.was_stuck replay
   | Script _ | Waiting _ | Executing _ -> false
 
-let drive r recording host ~interruption (Platform ((module P), { platform; estimates; news })) =
+let drive r recording host ~interruption (Platform ((module P), { platform; estimates; news; leave = _ })) =
   let now () = P.now platform in
   let inputs = Inputs.create () in
   let socket = open_socket r recording ~interruption ~inputs ~now ~virtual_time:P.virtual_time in
@@ -280,8 +281,8 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
 let ( let*? ) result f = match result with Ok x -> f x | Error _ as error -> Lwt.return error
 
 (* The journal begins when nothing stands against the run any more. *)
-let on_platform r recording ~interruption (Platform ((module P), fleet) as platform) =
-  let give_up error = P.close fleet.platform >|= fun () -> error in
+let on_platform r recording ~interruption (Platform (_, fleet) as platform) =
+  let give_up error = fleet.leave () >|= fun () -> error in
   match start_host r with
   | Error _ as error -> give_up error
   | Ok host -> (
@@ -289,13 +290,22 @@ let on_platform r recording ~interruption (Platform ((module P), fleet) as platf
       | Ok () -> drive r recording host ~interruption platform
       | Error _ as error -> close_host host >>= fun () -> give_up error)
 
+(* What is told of a run that was interrupted while its platform was opened. *)
+let unbegun r =
+  match r.resumed with
+  | None -> "interrupted before the run began: nothing was started"
+  | Some { path; _ } ->
+    Printf.sprintf "interrupted before the run went on: no vehicle was told to stop; go on with it by --resume %s" path
+
 let go r ~interruption recording =
   Sys.set_signal Sys.sigpipe Signal_ignore;
   let*? recording = recording in
   let run () =
-    open_platform r recording >>= fun platform ->
-    let*? platform = platform in
-    on_platform r recording ~interruption platform
+    Interruption.unless interruption (fun () -> open_platform r recording) >>= function
+    | None -> Lwt.return (Error (Error.Interrupted (unbegun r)))
+    | Some platform ->
+      let*? platform = platform in
+      on_platform r recording ~interruption platform
   in
   Lwt.finalize run (fun () -> Recording.close recording; Lwt.return_unit)
 

@@ -64,7 +64,8 @@ val start :
   (Driver.outcome, Error.t) result Lwt.t
 (** [start front ~interruption s program fleet] runs [program] to its end, or until [interruption] happens, and resolves
     when vehicles are released and the recording is finished. On a network only the answers and replies of [fleet]
-    matter. The error is {!Error.Unavailable}: of the platform, the supplier or the recording. The promise fails only
+    matter. The error is {!Error.Unavailable}: of the platform, the supplier or the recording; or
+    {!Error.Interrupted}, before the run began. The promise fails only
     for a fault of Dolphin itself. From then on SIGPIPE is ignored. *)
 
 val resume :

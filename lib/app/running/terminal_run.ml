@@ -151,13 +151,8 @@ let goes_on t () =
   | Script m | Waiting (m, _) | Executing (m, _) ->
     Transition.is_leaving c || Transition.on_interrupt t.program.program c.shared m <> None
 
-let front t ~notice ~again : Run.front =
-  let again () =
-    Screen.restore t.screen;
-    again ()
-  in
+let front t ~notice : Run.front =
   let opened view =
-    Interruption.on_signals ~goes_on:(goes_on t) ~again t.interruption;
     stop_on_request t;
     t.view <- view;
     if Unix.isatty Unix.stdin then t.keyboard <- Some (Keyboard.start ~other:(offer t));
@@ -193,6 +188,11 @@ let run ~notice ~again show program f =
     Interruption.interrupt interruption
   in
   let t = make show program interruption ~on_closed in
+  let again () =
+    Screen.restore t.screen;
+    again ()
+  in
+  Interruption.on_signals ~goes_on:(goes_on t) ~again interruption;
   let refreshed = if t.live then refresh t else Lwt.return_unit in
   let close () =
     Lwt.cancel refreshed;
@@ -200,7 +200,7 @@ let run ~notice ~again show program f =
     Screen.close t.screen;
     Lwt.return_unit
   in
-  let result = Lwt_main.run (Lwt.finalize (fun () -> f (front t ~notice ~again) ~interruption) close) in
+  let result = Lwt_main.run (Lwt.finalize (fun () -> f (front t ~notice) ~interruption) close) in
   match result, !trouble with
   | Ok _, Some why -> Error why
   | (Ok _ | Error _), _ -> result

@@ -84,8 +84,24 @@ let settings_before ~follow ~resumed =
   | None, Some path -> Journal_file.settings path
   | None, None -> None
 
+(* Runs that nobody watches: what shows, keeps or steers a single one does not go with them. *)
+let check_sampling (s : Run.settings) show ~follow ~resumed ~keep =
+  if not (Run.is_simulated s) || s.speed <> None then
+    Error (Error.Bad_input "--runs and --until are for simulated runs, as fast as they go: without --imc, --platform \
+                            and --speed")
+  else if
+    follow <> None || resumed <> None || keep || s.supplier <> None || s.supplier_timeout <> None
+    || s.recording <> Recording.nothing || show.Terminal_run.quiet || show.only <> [] || show.colour <> None
+  then
+    Error (Error.Bad_input "of many runs (--runs, --until) there is one answer: of the other options only --fleet, \
+                            --sim, --set, --seed and --answer go with them")
+  else Ok ()
+
+let sample (s : Run.settings) program fleet (sampling : Sampling_options.t) =
+  Sampling_options.run sampling ~seed:(Option.value s.seed ~default:0) ~answers:s.answers program fleet
+
 let run () show path set sim fleet network adapters definition speed seed answers supplier supplier_timeout journal keep
-    drawing recorded resumed changed no_socket =
+    drawing recorded resumed changed no_socket sampling =
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
   let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
   let settings : Run.settings =
@@ -101,6 +117,8 @@ let run () show path set sim fleet network adapters definition speed seed answer
        | Some why -> Error (Error.Bad_input why)
        | None -> Ok ()
      in
+     let* () =
+       if sampling = None then Ok () else check_sampling settings show ~follow:recorded ~resumed ~keep in
      let* journal = journal_of ~path ~is_simulated ~keep ~follow:recorded ~resumed journal in
      let settings = { settings with recording = { settings.recording with journal } } in
      let* definition = Definition_file.load definition in
@@ -108,12 +126,13 @@ let run () show path set sim fleet network adapters definition speed seed answer
      let* () = if resumed = None then check_only settings fleet show.Terminal_run.only else Ok () in
      let on_terminal = on_terminal { show with journal = (if journal = None then resumed else journal) } in
      Report.diagnostics ~source:program.source program.warnings;
-     match recorded, resumed with
-     | Some recorded, _ -> follow program fleet recorded
-     | None, Some run ->
+     match recorded, resumed, sampling with
+     | _, _, Some sampling -> sample settings program fleet sampling
+     | Some recorded, _, None -> follow program fleet recorded
+     | None, Some run, None ->
        let run front ~interruption = Run.resume front ~interruption settings ~changed ~fleet:named program run in
        Ok (on_terminal settings program run)
-     | None, None ->
+     | None, None, None ->
        let run front ~interruption = Run.start front ~interruption settings program fleet in
        Ok (on_terminal settings program run))
 
@@ -254,6 +273,13 @@ let man =
     `P "With $(b,--platform) the program runs on vehicles of any kind, through adapters; with several of these \
         options, and $(b,--imc), on all of them at once. $(mname) $(b,sim --platform) is an adapter of the \
         simulated fleet.";
+    `S Sampling_options.s_many;
+    `P "With $(b,--runs) there is no log: $(mname) $(tname) makes many simulated runs, with the seeds that follow each \
+        other from $(b,--seed) on, in as many processes as the machine has processors. It prints how many ended how, \
+        when those that completed were over, and how often each task began, ended, failed and was stopped and each \
+        handler of errors ran. Shares stand with an interval (Clopper and Pearson) and its confidence. $(mname) \
+        $(tname) --seed shows a single one of them. $(mname) $(b,time) says what is so in all runs.";
+    `P "Ctrl-C ends it with what is known by then. How runs end makes no difference to the exit status.";
     `S Manpage.s_exit_status;
     `S Manpage.s_files;
     `I ("$(i,PROG) with the ending $(b,.fleet)", "The fleet, unless $(b,--sim) or $(b,--fleet) names another.");
@@ -266,6 +292,8 @@ let man =
     `Pre "  $(mname) $(tname) examples/supplier.dol \\\\\n    --supplier examples/supplier.py --supplier-timeout 10";
     `P "With a journal of the run, and a picture of it:";
     `Pre "  $(mname) $(tname) mission.dol --journal mission.run --draw mission.svg";
+    `P "How long ten thousand runs take; and as many as it takes to know how often one completes:";
+    `Pre "  $(mname) $(tname) examples/rendezvous.dol --runs 10000\n  $(mname) $(tname) mission.dol --until 0.01";
     `P "Resuming it after the console was killed:";
     `Pre "  $(mname) $(tname) mission.dol --resume mission.run" ]
   @ Options.see_also
@@ -279,4 +307,4 @@ let command =
     Term.(
       const run $ Verbosity.setup $ show $ Options.program $ Options.set $ sim $ fleet $ Imc_options.chosen
       $ Platform_options.adapters $ Imc_options.definition $ speed $ seed $ answers $ supplier
-      $ supplier_timeout $ journal $ keep $ drawing $ follow $ resumed $ changed $ no_socket)
+      $ supplier_timeout $ journal $ keep $ drawing $ follow $ resumed $ changed $ no_socket $ Sampling_options.wanted)

@@ -1,0 +1,16 @@
+(** [dolphin exec --runs]: many simulated runs instead of one. *)
+
+open Cmdliner
+open Dolphin_app
+
+type t
+
+val wanted : t option Term.t
+(** [--runs], [--until], [--jobs], [--json]; [None] unless one of the first two is given. *)
+
+val s_many : string
+(** The section of the manual that has these options. *)
+
+val run :
+  t -> seed:int -> answers:string list -> Program_file.t -> Fleet_file.t -> (Exit_status.t, Error.t) result
+(** Makes the runs, and prints what is to be said of them. *)

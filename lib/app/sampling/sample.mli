@@ -1,0 +1,30 @@
+(** One simulated run, and what is counted of it. *)
+
+open Dolphin_semantics
+
+(** How a run ended. Two runs ended alike if these are equal. *)
+type ending =
+  | Completed
+  | Halted of string  (** what it said *)
+  | Failed of Fault.t
+  | Stuck of Core.site option  (** in rounds that begin there, or for nothing can happen any more *)
+
+type task = { name : string; vehicle : Core.vehicle; site : Core.site }
+
+(** How often a task did what. *)
+type counts = { began : int; ended : int; failed : int; stopped : int }
+
+type t = {
+  seconds : float;  (** when it was over *)
+  ending : ending;
+  tasks : (task * counts) list;  (** those that began, in the order in which they began first *)
+  handlers : (Core.site * int) list;  (** of errors, each with how often it ran *)
+}
+
+val run : seed:int -> answers:string list -> Program_file.t -> Fleet_file.t -> (t, Error.t) result
+(** [run ~seed ~answers program fleet] is the run that [dolphin exec --seed] makes, at once. *)
+
+val handlers :
+  Core.program -> World.t -> Configuration.t -> Transition.event option -> Transition.t -> Core.site list
+(** [handlers p w c e t] is the places of the handlers of errors that run in the transition [t] of [c], which it makes
+    on [e] or by itself: the innermost first. *)

@@ -1,0 +1,56 @@
+(** Many simulated runs of a program, and what is counted of all of them. *)
+
+type settings = {
+  seed : int;  (** of the first run; the others have the numbers that follow *)
+  runs : int option;  (** how many, at most *)
+  until : float option;  (** until the share of runs that complete is known so well *)
+  jobs : int;  (** processes *)
+  answers : string list;
+}
+
+val level : float
+(** 0.95: the probability with which intervals contain what they are estimates of. *)
+
+(** Why there are no more runs. *)
+type stop =
+  | All  (** there are as many as were asked for *)
+  | Known  (** the share of runs that complete is known as well as was asked for *)
+  | Interrupted of int list  (** by the user; the seeds of runs that were under way *)
+
+type ending = {
+  ending : Sample.ending;
+  runs : int;
+  seed : int;  (** of the first run that ended so *)
+}
+
+type task = {
+  task : Sample.task;
+  counts : Sample.counts;  (** of all runs together *)
+  failing : int;  (** runs in which it failed *)
+}
+
+type handler = { site : Dolphin_semantics.Core.site; ran : int; runs : int  (** in which it ran *) }
+
+type t = {
+  settings : settings;
+  runs : int;
+  endings : ending list;  (** completed first, then by how many ended so *)
+  completed : Dolphin_statistics.Distribution.t;  (** when runs that complete are over *)
+  first : (float * int) option;  (** when the first one of these is over, with its seed *)
+  last : (float * int) option;
+  tasks : task list;  (** in the order in which they began first *)
+  handlers : handler list;  (** by their places *)
+  level : float;  (** of the intervals: {!level}, or that of the last look *)
+  stop : stop;
+  seconds : float;  (** it took *)
+}
+
+val share : t -> int -> Dolphin_statistics.Share.interval
+(** [share s n] is the interval for the share of which [n] of the runs of [s] are a sample. *)
+
+val run :
+  interrupted:(unit -> bool) -> progress:(int -> unit) -> settings -> Program_file.t -> Fleet_file.t ->
+  (t, Error.t) result
+(** [run ~interrupted ~progress s program fleet] is the runs with the seeds from [s.seed] on; which ones depends neither
+    on [s.jobs] nor on chance, unless [interrupted ()] becomes true. [progress] is told how many there are. When it is
+    over, no process is left. *)

@@ -1,0 +1,10 @@
+(** What [dolphin exec --runs] says. *)
+
+val lines : columns:int -> Program_file.t -> Sampling.t -> string list
+(** For people: how many runs ended how, when they were over, what became of tasks, and which handlers ran. *)
+
+val print : Program_file.t -> Sampling.t -> unit
+(** {!lines}, as wide as the terminal. *)
+
+val to_json : Program_file.t -> Sampling.t -> Yojson.Safe.t
+(** The same for programs; times in seconds. *)

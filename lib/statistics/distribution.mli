@@ -1,0 +1,19 @@
+(** Times that were measured, in seconds from 0 on, in ascending order. *)
+
+type t
+
+val of_list : float list -> t
+val is_empty : t -> bool
+val size : t -> int
+
+val quantile : float -> t -> float
+(** [quantile q d] is the least time of [d] such that a share [q] of [d] or more is not greater: of 100 times, the 5th
+    for [q = 0.05]. [d] is not empty; [quantile 0. d] is its least time. *)
+
+type bin = { from : float; until : float; count : int }
+
+val bins : most:int -> t -> bin list
+(** [bins ~most d] is how many of [d] lie in each of [most] spans at most, [most >= 2]: one after the other, without a
+    gap, all of one width, which is 1, 2, 5, 10, 15 or 30 seconds, minutes or hours (or 12, 24 hours and multiples of
+    them), or so many milliseconds. A time at the edge of two is in the later one. The first and the last span are
+    not empty. *)

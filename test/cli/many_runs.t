@@ -1,0 +1,102 @@
+Many simulated runs.
+
+  $ cat > relay.dol <<'END'
+  > v = pick { type 'UUV' }
+  > execute v: (watch imcPlan('survey') onError { retry() }) >> imcPlan('home')
+  > END
+  $ cat > relay.fleet <<'END'
+  > vehicle 'a', { type 'UUV' }
+  > plan 'survey', { duration 4.min, 7.min; mayFail 0.3 }
+  > plan 'home', { duration 90.seconds; mayFail 0.05 }
+  > END
+  $ timeless() { sed 's/, [0-9.]* s$/, T/; s/"elapsed":[0-9.e-]*/"elapsed":T/'; }
+  $ COLUMNS=60 dolphin exec relay.dol --runs 400 | timeless
+  400 runs, seeds 0 to 399, T
+  runs    share  95 % confidence     seed  end
+   385  96.25 %  93.89 % to 97.89 %     0  completed
+    15   3.75 %  2.11 % to 6.11 %       7  failed: relay.dol:2: home failed on a: plan failed
+  
+  completed     first       5 %      50 %       95 %       last
+             5:30.513  5:40.711  7:38.847  14:42.891  21:57.053
+             seed 182                                  seed 278
+  
+  4:00 to 6:00     46  #########
+  6:00 to 8:00    189  #######################################
+  8:00 to 10:00    80  #################
+  10:00 to 12:00   32  #######
+  12:00 to 14:00   14  ###
+  14:00 to 16:00   14  ###
+  16:00 to 18:00    5  #
+  18:00 to 20:00    3  #
+  20:00 to 22:00    2  #
+  
+  task    vehicle  began  ended  failed  in runs  where
+  survey  a          598    400     198      131  relay.dol:2
+  home    a          400    385      15       15  relay.dol:2
+  
+  handler      ran  in runs
+  relay.dol:2  198      131
+
+The same, whoever makes them, and for programs.
+
+  $ dolphin exec relay.dol --runs 400 --jobs 1 | timeless > one
+  $ dolphin exec relay.dol --runs 400 --jobs 3 | timeless | diff one -
+  $ dolphin exec relay.dol --runs 20 --json | timeless | python3 -c '
+  > import json, sys
+  > o = json.loads(sys.stdin.read().replace(":T", ":0"))
+  > print(o["runs"], o["seed"], o["stopped by"], o["confidence"])
+  > for part in ("ends", "tasks", "handlers"):
+  >   for x in o[part]: print(x)
+  > print(sorted(o["completed"]), sum(b["runs"] for b in o["completed"]["histogram"]))'
+  20 0 runs 0.95
+  {'end': 'completed', 'runs': 18, 'least': 0.683017, 'most': 0.987651, 'seed': 0}
+  {'end': 'failed', 'runs': 2, 'least': 0.012349, 'most': 0.316983, 'seed': 7, 'message': 'home failed on a: plan failed', 'at': 'relay.dol:2:61'}
+  {'task': 'survey', 'vehicle': 'a', 'at': 'relay.dol:2:19', 'began': 30, 'ended': 20, 'failed': 10, 'runs failed': 7, 'stopped': 0}
+  {'task': 'home', 'vehicle': 'a', 'at': 'relay.dol:2:61', 'began': 20, 'ended': 18, 'failed': 2, 'runs failed': 2, 'stopped': 0}
+  {'at': 'relay.dol:2:12', 'ran': 10, 'runs': 7}
+  ['5%', '50%', '95%', 'first', 'histogram', 'last'] 18
+
+One of them by itself.
+
+  $ dolphin exec relay.dol --seed 17 | tail -1
+     5:46  program     ends
+
+Until it is known.
+
+  $ dolphin exec relay.dol --until 0.05 | timeless | head -3
+  100 runs, seeds 0 to 99, T
+  the share of those that complete is known to within 0.05
+  runs    share  95 % confidence     seed  end
+  $ dolphin exec relay.dol --until 0.01 --runs 120 --seed=-7 | timeless | head -2
+  120 runs, seeds -7 to 112, T
+  the share of those that complete is not known to within 0.01 yet
+
+What does not go together.
+
+  $ dolphin exec relay.dol --runs 0 2>&1 | head -1
+  dolphin: option '--runs': '0' is not a whole number greater than 0
+  $ dolphin exec relay.dol --until 1 2>&1 | head -1
+  dolphin: option '--until': '1' is not a number between 0 and 0.5
+  $ dolphin exec relay.dol --json 2>&1 | head -1
+  dolphin: --jobs and --json go with --runs or --until
+  $ dolphin exec relay.dol --runs 3 --journal relay.run
+  dolphin: of many runs (--runs, --until) there is one answer: of the other options only --fleet, --sim, --set, --seed and --answer go with them
+  [2]
+  $ dolphin exec relay.dol --runs 3 --quiet
+  dolphin: of many runs (--runs, --until) there is one answer: of the other options only --fleet, --sim, --set, --seed and --answer go with them
+  [2]
+  $ dolphin exec relay.dol --runs 3 --speed 2
+  dolphin: --runs and --until are for simulated runs, as fast as they go: without --imc, --platform and --speed
+  [2]
+
+Ctrl-C ends it with what is known, also while a run goes on for ever; whoever is killed leaves no process behind.
+
+  $ cat > endless.dol <<'END'
+  > v = pick { type 'UUV' }
+  > execute v: repeat { idle(90) }
+  > END
+  $ echo "vehicle 'a', { type 'UUV' }" > endless.fleet
+  $ python3 many_runs.py
+  SIGINT 130 ['0 runs', 'interrupted; under way were the runs with the seeds 0, 1']
+  SIGTERM 130 ['0 runs', 'interrupted; under way were the runs with the seeds 0, 1']
+  SIGKILL -9 []

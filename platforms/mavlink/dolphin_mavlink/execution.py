@@ -28,7 +28,8 @@ from .wire import mavlink
 
 WORDS = 1.5  # seconds in which the reason for a mode that was left may come, and another heartbeat
 AFTERWARDS = 4.0  # seconds in which word may come that the last item was reached
-GRACE = 5.0  # seconds in which a mode that was accepted shows in heartbeats
+GRACE = 5.0  # seconds in which a mode that was accepted shows in heartbeats, and is asked for that is refused for now
+LATER = 0.5  # seconds after which a mode is asked for again that is refused for now
 UPLOADS = 5  # so many transfers are tried
 SILENT = 3  # after so many commands without an answer the autopilot may not know it
 NEAR = {"plane": 150.0, "vtol": 150.0}  # metres within which a place counts as reached; others: 15
@@ -360,6 +361,10 @@ class Execution:
             return []  # heartbeats decide, and it is repeated
         if self.stage == "hold" and self.vehicle.idle_mission:
             return self._upload(now)  # its mission has ended: there was nothing to hold
+        if result == mavlink.MAV_RESULT_TEMPORARILY_REJECTED and self.stage != "arm" and now - self._stage_at < GRACE:
+            # An autopilot that has just started or landed changes its mode in a moment; its heartbeats tell.
+            self._repeated.postponed(now, LATER)
+            return []
         if self.stage == "arm":
             self._armed_by_us = False
             out = []

@@ -50,6 +50,10 @@ class Repeated:
             self._round_trip.measured(now - self.sent_at)
         self.times = 0
 
+    def postponed(self, now, seconds):
+        """The answer is that it shall be sent again, `seconds` from now."""
+        self.sent_at, self.times = now + seconds - self._round_trip.patience, max(self.times, 2)
+
     def tick(self, now):
         if self.times == 0 or now - self.sent_at < self._round_trip.patience:
             return []

@@ -27,7 +27,6 @@ class Flight:
 
 def main(port):
     mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.AUTOPILOT))
-    mavsdk.add_any_connection(f"udpout://127.0.0.1:{port}")
     component = mavsdk.server_component()
     action, telemetry, missions = ActionServer(component), TelemetryServer(component), MissionRawServer(component)
     flight = Flight()
@@ -51,6 +50,8 @@ def main(port):
     action.set_armable(True, True)
     action.set_disarmable(True, True)
     action.set_flight_mode_internal(FlightMode.HOLD)
+    # Last, so that the first heartbeat has the mode: a change of it is a pilot's hand.
+    mavsdk.add_any_connection(f"udpout://127.0.0.1:{port}")
     ended = threading.Event()
     threading.Thread(target=lambda: (os.read(0, 1), ended.set()), daemon=True).start()
     left = None

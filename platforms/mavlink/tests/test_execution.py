@@ -154,6 +154,23 @@ class Refusals(Case):
         wires.start("r", "mav-1", stored())
         self.ends(wires, "r", "failed", "its autopilot does not go into mode AUTO: denied")
 
+    def test_a_mode_that_is_refused_for_now_is_asked_for_again(self):
+        for kind, px4 in KINDS:
+            vehicle, wires = one(kind, px4, armed=True)
+            vehicle.results[SET_MODE] = mavlink.MAV_RESULT_TEMPORARILY_REJECTED
+            wires.start("r", "mav-1", stored())
+            wires.run(4)
+            self.assertEqual(wires.said("failed", "r"), [])
+            del vehicle.results[SET_MODE]
+            self.ends(wires, "r", "done")
+            self.assertEqual(len(vehicle.began), 1)
+
+    def test_a_mode_that_is_refused_for_now_all_the_time(self):
+        vehicle, wires = one(armed=True)
+        vehicle.results[SET_MODE] = mavlink.MAV_RESULT_TEMPORARILY_REJECTED
+        wires.start("r", "mav-1", stored())
+        self.ends(wires, "r", "failed", "its autopilot does not go into mode AUTO: not now")
+
     def test_the_words_of_the_autopilot_are_the_reason(self):
         vehicle, wires = one()
         vehicle.results[ARM] = mavlink.MAV_RESULT_FAILED

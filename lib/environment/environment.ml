@@ -246,8 +246,10 @@ let once world choices () =
   let choices = Seq.filter is_first choices in
   if World.is_open world then Transition.distinct (fun c -> c.transition) choices () else choices ()
 
-(* [world] without those vehicles that are never among the first [n] of theirs that are left. *)
-let hiding alike n world (pick : Settings.pick) bound =
+(* What may be assumed of those vehicles that are never among the first [n] of theirs that are left: they are seen outside
+   of the region, so that what holds then holds of [world]; or are missing, where they never are. Then the first [n] of
+   theirs are within it, and the pick does not fail. *)
+let hidden alike n world (pick : Settings.pick) bound =
   let seen = Hashtbl.create 8 in
   let is_hidden (s : World.vehicle_state) =
     match alike s.id with
@@ -257,10 +259,18 @@ let hiding alike n world (pick : Settings.pick) bound =
       before >= n
     | Some _ | None -> false
   in
-  let missing (s : World.vehicle_state) = if is_hidden s then Some (World.Missing s.id) else None in
-  match List.filter_map missing (World.vehicles world) with
-  | [] -> world
-  | hidden -> World.suppose hidden world
+  let hide (s : World.vehicle_state) =
+    let outside area p = not (Dolphin_geo.Area.contains area p) in
+    match pick.filter.region, World.position world s with
+    | Some area, Shows p when outside area p -> []
+    | Some area, One_of ps when List.exists (outside area) ps -> [ World.Placed (s.id, List.find (outside area) ps) ]
+    | _ -> [ Missing s.id ]
+  in
+  List.concat_map hide (List.filter is_hidden (World.vehicles world))
+
+let assuming assumed choice =
+  let t = choice.transition in
+  { choice with transition = { t with assumed = assumed @ t.assumed } }
 
 (* Where late vehicles are remembered, it matters which of those that are alike was late. *)
 let picking ?alike options program world e (c : Configuration.t) (pick : Settings.pick) =
@@ -282,17 +292,15 @@ let picking ?alike options program world e (c : Configuration.t) (pick : Setting
   in
   let given a transitions =
     let assumed = assumed a in
-    let with_assumed choice =
-      let t = choice.transition in
-      remember a { choice with transition = { t with assumed = assumed @ t.assumed } }
-    in
-    Seq.map with_assumed transitions
+    Seq.map (fun choice -> remember a (assuming assumed choice)) transitions
   in
   let attended_in world a = given a (in_world options program (World.suppose (assumed a) world) e c) in
   let attended = attended_in world in
   let of_number n =
-    let shown = Option.fold ~none:world ~some:(fun alike -> hiding alike n world pick c.shared.bound) alike in
-    let seen = if shown == world then company else company_in shown in
+    let hidden = Option.fold ~none:[] ~some:(fun alike -> hidden alike n world pick c.shared.bound) alike in
+    let shown = World.suppose hidden world in
+    let placed = List.filter (function World.Placed _ -> true | _ -> false) hidden in
+    let seen = if hidden = [] then company else company_in shown in
     fun news ->
       let bound (on_time, coming) =
         given { coming; missing = [] } (internal program (World.only (on_time @ coming) world) e c)
@@ -303,6 +311,7 @@ let picking ?alike options program world e (c : Configuration.t) (pick : Setting
         | Some _ | None -> Seq.empty
       in
       let as_it_is = if news = 0 then attended_in shown { coming = []; missing = [] } else Seq.empty in
+      let as_it_is = Seq.map (assuming placed) as_it_is in
       Seq.append as_it_is (Seq.append (Seq.flat_map bound (Attendance.with_latecomers seen n news)) failed)
   in
   let with_new news =

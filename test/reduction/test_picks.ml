@@ -104,10 +104,20 @@ let test_end () =
   let losses = List.find (fun (name, _) -> name = "with losses") environments in
   Alcotest.(check bool) "agrees" true (agrees ({ text; world; invariant = "true" }, losses))
 
+(* Found by random programs: a set that is written in two ways, `q - q` and `r`, of vehicles that are alike. *)
+let test_areas () =
+  let text =
+    "def fly(t) { execute task('s')[t] }\ng = 0\np = pick { count 1 }\nq = pick { count 1 }\nr = p\nrelease p\n\
+     p = pick { count 2; region location(41.18521, -8.7048), 1.km }\nrelease (q - q)\nr = p\nr = q[0]\n"
+  in
+  let world = List.find (fun (name, _) -> name = "open alike") Picking.worlds in
+  Alcotest.(check bool) "agrees" true (agrees ({ text; world; invariant = "g < 2" }, List.hd environments))
+
 let () =
   Alcotest.run "picks"
     [
       ("ends", [ Alcotest.test_case "vehicles that are named in N and lost" `Quick test_end ]);
+      ("places", [ Alcotest.test_case "vehicles in a region" `Quick test_areas ]);
       ( "random programs",
         [
           Alcotest.test_case "search with peers and plain search agree" `Quick test_agreement;

@@ -246,9 +246,9 @@ let once world choices () =
   let choices = Seq.filter is_first choices in
   if World.is_open world then Transition.distinct (fun c -> c.transition) choices () else choices ()
 
-(* What may be assumed of those vehicles that are never among the first [n] of theirs that are left: they are seen outside
-   of the region, so that what holds then holds of [world]; or are missing, where they never are. Then the first [n] of
-   theirs are within it, and the pick does not fail. *)
+(* What may be assumed of those vehicles that are never among the first [n] of theirs that are left: they are seen
+   outside of the region, so that what holds then holds of [world]; or are missing, where they never are. Then the first
+   [n] of theirs are within it, and the pick does not fail. *)
 let hidden alike n world (pick : Settings.pick) bound =
   let seen = Hashtbl.create 8 in
   let is_hidden (s : World.vehicle_state) =

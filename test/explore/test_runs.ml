@@ -178,8 +178,8 @@ let fleet =
   in
   let* steady = bool in
   let steadily (v : Scenario.vehicle) = if steady then { v with joins = 0.; leaves = None; drops = [] } else v in
-  (* With so much drain sensors show a change. *)
-  let* drain = oneofl [ 0.1; 12. ] in
+  (* With much drain sensors show a change; with little, no battery runs empty in [most_steps] plans of 400 s. *)
+  let* drain = oneofl [ 0.001; 12. ] in
   let draining (v : Scenario.vehicle) = { v with drain } in
   let* vehicles = flatten_l [ vehicle "a" "UUV" 0.; vehicle "b" "UUV" 100.; vehicle "c" "UAV" 200. ] in
   let* plans = flatten_l [ plan "p"; plan "q" ] in

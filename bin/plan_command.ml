@@ -55,7 +55,27 @@ let print_checked adapters name found =
     List.iter (fun v -> List.iter print_endline (Adapter_check.lines v)) verdicts;
     Ok (if List.for_all Adapter_check.is_fine verdicts then Exit_status.Done else Failed)
 
-let run () path name set fleet seed answers adapters definition =
+(* {1 For maps} *)
+
+let write_map (export : Export_options.t) path name found : (Exit_status.t, Error.t) result =
+  let* format = Export_options.format export in
+  let chosen = List.filter (fun (f : Inline_plans.found) -> name = None || name = Some f.name) found in
+  let by_name = List.filter (fun (f : Inline_plans.found) -> f.plan = None) chosen in
+  if by_name <> [] then
+    Report.complain
+      (Printf.sprintf "left out, since vehicles know their way and the program does not: %s" (names by_name));
+  let title = Filename.basename path in
+  let* () =
+    match name, chosen with
+    | Some name, [] -> Error (Error.Bad_input (Printf.sprintf "no vehicle is given a plan '%s'" name))
+    | (Some _ | None), _ -> Exported.write format export.path (Exported.of_plans ~title chosen)
+  in
+  Ok Exit_status.Done
+
+(* {1 The command} *)
+
+let run () (is_export, path, name) set fleet seed answers adapters definition (export : Export_options.t) =
+  let is_export = is_export || export.format <> None || export.path <> None in
   Report.result
     (let* program = Program_file.load ~set path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
@@ -63,13 +83,30 @@ let run () path name set fleet seed answers adapters definition =
      Report.diagnostics ~source:program.source program.warnings;
      let found, outcome = Inline_plans.of_run program fleet ~seed ~answers in
      match adapters, name with
+     | _, _ when is_export -> tell_end outcome; write_map export path name found
      | _ :: _, _ -> tell_end outcome; print_checked adapters name found
      | [], Some name -> Ok (print_named definition name found outcome)
      | [], None -> Ok (print_all found outcome))
 
-let plan_name =
-  let doc = "The plan's name, as $(b,planName) gives it. Without it, the plans that vehicles are given are listed." in
-  Arg.(value & pos 1 (some string) None & info [] ~docv:"NAME" ~doc)
+(* [export] before the program is a word of the command: a group of commands could not have a program there. *)
+let arguments =
+  let at position ~docv doc = Arg.(value & pos position (some string) None & info [] ~docv ~doc) in
+  let program = at 0 ~docv:"PROG" "The program, a file such as $(i,mission.dol)." in
+  let plan =
+    at 1 ~docv:"NAME" "The plan's name, as $(b,planName) gives it. Without it, the plans that vehicles are given are \
+                       listed." in
+  let further = Arg.(value & pos_right 1 string [] & info []) in
+  let arrange first second further =
+    match first, second, further with
+    | Some "export", Some path, [] -> `Ok (true, path, None)
+    | Some "export", Some path, [ name ] -> `Ok (true, path, Some name)
+    | Some path, name, [] when path <> "export" || Sys.file_exists path -> `Ok (false, path, name)
+    | (Some _ | None), _, (_ :: _ as more) ->
+      `Error (true, "too many arguments, don't know what to do with '" ^ List.nth more (List.length more - 1) ^ "'")
+    | (Some _ | None), _, [] -> `Error (true, "required argument PROG is missing")
+  in
+  let open Term in
+  ret (const arrange $ program $ plan $ further)
 
 let seed =
   let doc = "What chance depends on in the run that the plans are taken from." in
@@ -80,7 +117,10 @@ let answers =
   Arg.(value & opt_all string [] & info [ "answer" ] ~docv:"TEXT" ~doc)
 
 let man =
-  [ `S Manpage.s_description;
+  [ `S Manpage.s_synopsis;
+    `P "$(mname) $(tname) [$(i,OPTION)]... $(i,PROG) [$(i,NAME)]";
+    `P "$(mname) $(tname) $(b,export) [$(i,OPTION)]... $(b,--to) $(i,FORMAT) $(i,PROG) [$(i,NAME)]";
+    `S Manpage.s_description;
     `P "$(tname) prints the inline plan $(i,NAME) of the program $(i,PROG) as IMC vehicles get it: a \
         PlanSpecification, in JSON. Angles are in radians there, lengths in metres, times in seconds. A mission of \
         items is printed as adapters of $(b,--platform) get it.";
@@ -90,12 +130,17 @@ let man =
         are given different plans of one name, all are printed.";
     `P "With $(b,--platform) the plans are not printed for IMC: adapters are asked what keeps their vehicles from \
         running them, and nothing moves.";
+    `P "$(tname) $(b,export), or $(b,--to) $(i,FORMAT), writes the plans for other programs: the way of each plan \
+        through its way points, and where each of its maneuvers ends. A plan that vehicles know by name has no way \
+        that could be written.";
+    Export_options.man;
     `S Manpage.s_arguments;
     `S Manpage.s_options;
     `S Imc_options.s_network;
     `S Manpage.s_exit_status;
     `S Manpage.s_examples;
-    `Pre "  $(mname) $(tname) examples/water_survey.dol\n  $(mname) $(tname) examples/water_survey.dol waterSurvey" ]
+    `Pre "  $(mname) $(tname) examples/water_survey.dol\n  $(mname) $(tname) examples/water_survey.dol waterSurvey\n\
+         \  $(mname) $(tname) export examples/water_survey.dol -o survey.kml" ]
   @ Options.see_also
 
 let command =
@@ -105,5 +150,5 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Verbosity.setup $ Options.program $ plan_name $ Options.set $ Options.fleet $ seed $ answers
-      $ Platform_options.checking $ Imc_options.definition)
+      const run $ Verbosity.setup $ arguments $ Options.set $ Options.fleet $ seed $ answers
+      $ Platform_options.checking $ Imc_options.definition $ Export_options.term)

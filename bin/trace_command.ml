@@ -161,6 +161,28 @@ let draw_command =
   let exits = Options.exits [ Done; Bad_input; Bug ] in
   Cmd.v (Cmd.info "draw" ~doc:"draw a journal" ~man ~exits) Term.(const draw $ journal 0 $ drawing)
 
+(* {1 Export} *)
+
+let export path (options : Export_options.t) =
+  let summary = Summary.create ~most_samples:max_int () in
+  Report.result
+    (let* format = Export_options.format options in
+     let* () = Journal_file.iter (Summary.add summary) path in
+     let* () = Exported.write format options.path (Exported.of_run (Summary.finish summary)) in
+     Ok Exit_status.Done)
+
+let export_command =
+  let man =
+    [ `S Manpage.s_description;
+      `P "$(tname) writes the journal $(i,RUN) for other programs: the track of each vehicle that the program held, \
+          and where it started its tasks. $(b,csv) has each sample, with battery and task.";
+      Export_options.man ]
+    @ Options.see_also
+  in
+  let exits = Options.exits [ Done; Bad_input; Platform_trouble; Bug ] in
+  let info = Cmd.info "export" ~doc:"write a journal for maps and spreadsheets" ~man ~exits in
+  Cmd.v info Term.(const export $ journal 0 $ Export_options.term)
+
 let command =
   let man =
     [ `S Manpage.s_description;
@@ -168,9 +190,10 @@ let command =
           writes it, $(i,docs/trace.md) describes it.";
       `S Manpage.s_examples;
       `Pre "  $(mname) exec mission.dol --journal mission.run\n  $(mname) $(tname) check mission.dol mission.run\n\
-           \  $(mname) $(tname) show mission.run\n  $(mname) $(tname) draw mission.run -o mission.svg" ]
+           \  $(mname) $(tname) show mission.run\n  $(mname) $(tname) draw mission.run -o mission.svg\n\
+           \  $(mname) $(tname) export mission.run -o mission.geojson" ]
     @ Options.see_also
   in
   let exits = Options.exits [ Done; Failed; Bad_input; Bug ] in
-  let info = Cmd.info "trace" ~docs:Options.s_runs ~doc:"check, show and draw journals of runs" ~man ~exits in
-  Cmd.group info [ check_command; show_command; draw_command ]
+  let info = Cmd.info "trace" ~docs:Options.s_runs ~doc:"check, show, draw and export journals of runs" ~man ~exits in
+  Cmd.group info [ check_command; show_command; draw_command; export_command ]

@@ -1,21 +1,38 @@
 open Dolphin_semantics
 open Dolphin_runtime
+open Dolphin_scenario
 module Simulator = Dolphin_platform_sim.Simulator
 
-type found = { name : string; plan : Inline_plan.t option }
+type found = { name : string; plan : Inline_plan.t option; from : Dolphin_geo.Position.t; speed : float }
 
 (* A run in virtual time is over at once, unless it never is. *)
 let most_transitions = 200_000
 
-let started : Effect.t -> found option = function
-  | Start (_, { name; plan; _ }) -> Some { name; plan }
+let started : Effect.t -> (Core.vehicle * Core.platform_task) option = function
+  | Start (v, task) -> Some (v, task)
   | Stop _ | Set_timer _ | Cancel_timer _ | Look_for _ | Bind _ | Release _ | Set_connection_timeout _ | Say _ | Ask _
   | Call_host _ | End _ -> None
+
+(* Where vehicles are, as the run hears it, and how fast they go. *)
+let observed (fleet : Fleet_file.t) found =
+  let positions = Hashtbl.create 16 in
+  let speed v =
+    match List.find_opt (fun (s : Scenario.vehicle) -> s.id = v) fleet.scenario.vehicles with
+    | Some s -> s.speed
+    | None -> 1.
+  in
+  let news ~time:_ (s : World.vehicle_state) = Hashtbl.replace positions s.id s.position in
+  let add (v, ({ name; plan; task_site = _ } : Core.platform_task)) =
+    let from = Option.value (Hashtbl.find_opt positions v) ~default:Dolphin_geo.Place.apdl in
+    if not (List.exists (fun f -> f.name = name && f.plan = plan) !found) then
+      found := { name; plan; from; speed = speed v } :: !found
+  in
+  (news, add)
 
 let of_run (program : Program_file.t) (fleet : Fleet_file.t) ~seed ~answers =
   let found = ref [] and count = ref 0 in
   let enough, stop = Lwt.wait () in
-  let add plan = if not (List.mem plan !found) then found := plan :: !found in
+  let news, add = observed fleet found in
   let transition ~time:_ ~cause:_ (t : Transition.t) =
     List.iter add (List.filter_map started t.effects);
     incr count;
@@ -26,7 +43,7 @@ let of_run (program : Program_file.t) (fleet : Fleet_file.t) ~seed ~answers =
     Driver.run
       (module Simulator.Virtual)
       (Simulator.Virtual.create ~seed fleet.scenario)
-      ~observer:{ Observer.nobody with transition }
+      ~observer:{ Observer.nobody with transition; news }
       ~console:(Questions.console person ~answered:[] ~answers ~scenario:fleet.scenario)
       ~interruption:enough program.program
   in

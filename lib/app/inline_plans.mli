@@ -2,13 +2,18 @@
 
 open Dolphin_semantics
 
-type found = { name : string; plan : Inline_plan.t option  (** [None]: vehicles know it by name *) }
+type found = {
+  name : string;
+  plan : Inline_plan.t option;  (** [None]: vehicles know it by name *)
+  from : Dolphin_geo.Position.t;  (** where the first vehicle that got it was then *)
+  speed : float;  (** that vehicle's, in metres per second, where the plan does not say it *)
+}
 
 val of_run :
   Program_file.t -> Fleet_file.t -> seed:int -> answers:string list -> found list * Dolphin_runtime.Driver.outcome
 (** [of_run program fleet ~seed ~answers] is the plans that vehicles are given in a run on the simulated [fleet], each
-    once, the first one first; and how that run ends. It takes no longer than it takes to compute, and is interrupted
-    after 200,000 transitions. *)
+    once by its name and what it is, the first one first; and how that run ends. It takes no longer than it takes to
+    compute, and is interrupted after 200,000 transitions. *)
 
 val to_json : Dolphin_imc.Definition.t option -> Inline_plan.t -> Yojson.Safe.t
 (** [to_json definition plan] is the PlanSpecification that IMC vehicles get, by the user's definition of IMC if there

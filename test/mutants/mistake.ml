@@ -721,9 +721,24 @@ let alike_values =
       ("handlers may do anything with an error's text", {|  check_handlers plans program;|}, {|  if false then check_handlers plans program;|});
     ]
 
+let maps =
+  in_file "lib/maps/feature.ml" ~noticed_by:"maps/test_maps"
+    [
+      ("lines go round the globe", {|p.longitude) > 180. ->|}, {|p.longitude) > 380. ->|});
+      ("lines are cut at zero", {|let side = if a.longitude < 0. then -180. else 180. in|}, {|let side = 180. in|});
+      ("milliseconds are cut off", {|Float.round (seconds *. 1000.)|}, {|Float.floor (seconds *. 1000.)|});
+    ]
+  @ in_file "lib/maps/map_text.ml" ~noticed_by:"maps/test_maps"
+    [
+      ("quotes in tables stay alone", {|String.concat "\"\"" (String|}, {|String.concat "\"" (String|});
+      ("a line of one position", {|function [ x ] -> [ x; x ]|}, {|function [ x ] -> [ x ]|});
+      ("control characters in XML", {|if c < ' ' &&|}, {|if c < '\000' &&|});
+      ("routes before way points", {|[ point_of; route_of; track_of ]|}, {|[ route_of; point_of; track_of ]|});
+    ]
+
 let all =
   List.concat
-    [ missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups; quotient; expansion;
+    [ maps; missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups; quotient; expansion;
       vehicle_orbits; canonical_vehicles; name_flow; liveness; later_picks; environment; picks; inputs; attendance;
       task_rules; local_step; run_code; answers_in_words; confirm; unknown; on_interrupt;
       pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;

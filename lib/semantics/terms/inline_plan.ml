@@ -7,18 +7,18 @@ let vehicles = function Maneuvers p -> p.vehicles | Mission m -> m.vehicles
 let required_payload = function Maneuvers p -> Plan.required_payload p | Mission m -> Mission_plan.required_payload m
 let reference = function Maneuvers p -> Some (Plan.reference p) | Mission m -> Mission_plan.reference m
 
-type leg = { waypoints : Position.t list; speed : float; dwell : float }
+type leg = { named : string; waypoints : Position.t list; speed : float; dwell : float }
 
 let path ~from ~speed = function
   | Maneuvers p ->
-    let leg (m : Plan.maneuver) ({ waypoints; dwell; _ } : Plan.leg) =
+    let leg (m : Plan.maneuver) ({ maneuver = named; waypoints; dwell } : Plan.leg) =
       let metres = Plan.metres_per_second m ~default:speed in
-      { waypoints; dwell; speed = (if metres > 0. then metres else speed) }
+      { named; waypoints; dwell; speed = (if metres > 0. then metres else speed) }
     in
     List.rev (List.rev_map2 leg p.maneuvers (Plan.path p))
   | Mission m ->
     List.map
-      (fun ({ waypoints; dwell; speed; _ } : Mission_plan.leg) -> { waypoints; dwell; speed })
+      (fun ({ item = named; waypoints; dwell; speed } : Mission_plan.leg) -> { named; waypoints; dwell; speed })
       (Mission_plan.path ~from ~speed m)
 
 let compare a b =

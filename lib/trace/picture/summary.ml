@@ -44,6 +44,7 @@ type vehicle_so_far = {
 }
 
 type builder = {
+  most_samples : int;  (* of a vehicle *)
   by_id : (string, vehicle_so_far) Hashtbl.t;
   mutable picked : string list;  (* latest first *)
   mutable its_header : Header.t option;
@@ -53,9 +54,10 @@ type builder = {
   mutable its_ending : Request.ending option;
 }
 
-let create () =
-  { by_id = Hashtbl.create 16; picked = []; its_header = None; now = 0.; cause = None; activities_so_far = [];
-    its_ending = None }
+(* No picture shows more samples than that: of a long run, only some are kept, evenly. *)
+let create ?(most_samples = 4096) () =
+  { most_samples; by_id = Hashtbl.create 16; picked = []; its_header = None; now = 0.; cause = None;
+    activities_so_far = []; its_ending = None }
 
 let vehicle b v =
   match Hashtbl.find_opt b.by_id v with
@@ -92,9 +94,6 @@ let let_go b v =
   Option.iter (fun from -> a.spans_held <- { from; until = b.now } :: a.spans_held) a.held_from;
   a.held_from <- None
 
-(* No picture shows more samples than that: of a long run, only some are kept, evenly. *)
-let most_samples = 4096
-
 (* The latest sample always stays, so that the last one does; the one before it goes if it is too near to those around
    it. *)
 let keep a sample =
@@ -105,8 +104,8 @@ let keep a sample =
     a.seen <- sample :: seen;
     a.kept <- a.kept + 1
 
-let thin_out a =
-  if a.kept > most_samples then begin
+let thin_out b a =
+  if a.kept > b.most_samples then begin
     let halve (i, kept) sample = (i + 1, if i mod 2 = 0 then sample :: kept else kept) in
     let count, reversed = List.fold_left halve (0, []) a.seen in
     a.seen <- List.rev reversed;
@@ -123,7 +122,7 @@ let see b (s : World.vehicle_state) =
     Option.iter (fun from -> a.spans_silent <- { from; until = b.now } :: a.spans_silent) a.silent_from;
     a.silent_from <- None;
     keep a { time = b.now; position = s.position; battery = s.battery };
-    thin_out a
+    thin_out b a
   end
   else if a.silent_from = None then a.silent_from <- Some b.now
 
@@ -187,3 +186,25 @@ let finish b =
     vehicles = List.rev_map finished b.picked;
     activities = List.rev b.activities_so_far;
     ending = b.its_ending }
+
+(* {1 Asking} *)
+
+let runs v =
+  let was_silent a b =
+    List.exists (fun (s : span) -> s.from >= a.time && s.until <= b.time && s.until > s.from) v.silent
+  in
+  let add runs sample =
+    match runs with
+    | (last :: _ as run) :: others when not (was_silent last sample) -> (sample :: run) :: others
+    | runs -> [ sample ] :: runs
+  in
+  List.rev_map List.rev (List.fold_left add [] v.samples)
+
+let places v =
+  let rec walk last samples (tasks : task list) found =
+    match samples, tasks with
+    | s :: samples, t :: _ when s.time <= t.from +. 1e-6 -> walk (Some s.position) samples tasks found
+    | samples, t :: tasks -> walk last samples tasks (match last with Some p -> (t, p) :: found | None -> found)
+    | _, [] -> List.rev found
+  in
+  walk None v.samples v.tasks []

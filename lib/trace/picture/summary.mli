@@ -44,12 +44,20 @@ type t = {
 type builder
 (** A summary in the making. It is mutable. *)
 
-val create : unit -> builder
-(** [create ()] has no lines yet. *)
+val create : ?most_samples:int -> unit -> builder
+(** [create ()] has no lines yet. Memory is bounded: of each vehicle [most_samples], by default a few thousand, are
+    kept, evenly spread. *)
 
 val add : builder -> Entry.t -> unit
-(** [add b line] adds the next line of the journal. Memory is bounded: of each vehicle a few thousand samples are kept,
-    evenly spread. *)
+(** [add b line] adds the next line of the journal. *)
 
 val finish : builder -> t
 (** [finish b] is the summary of the lines added so far. *)
+
+(** {1:asking Asking} *)
+
+val runs : vehicle -> sample list list
+(** Its samples, cut where the vehicle had no link in between. *)
+
+val places : vehicle -> (task * Dolphin_geo.Position.t) list
+(** [places v] is where [v] was at the start of each of its tasks. *)

@@ -103,28 +103,6 @@ let thin points =
     let last = List.fold_left (fun _ p -> p) first rest in
     List.rev (match kept with k :: _ when k = last -> kept | kept -> last :: kept)
 
-(* Runs of samples in sight, and the jumps between them. *)
-let runs v =
-  let was_silent a b =
-    List.exists (fun (s : span) -> s.from >= a.time && s.until <= b.time && s.until > s.from) v.silent
-  in
-  let add runs sample =
-    match runs with
-    | (last :: _ as run) :: others when not (was_silent last sample) -> (sample :: run) :: others
-    | runs -> [ sample ] :: runs
-  in
-  List.rev_map List.rev (List.fold_left add [] v.samples)
-
-(* [places v] is where [v] was at the start of each of its tasks. *)
-let places v =
-  let rec walk last samples (tasks : task list) found =
-    match samples, tasks with
-    | s :: samples, t :: _ when s.time <= t.from +. 1e-6 -> walk (Some s.position) samples tasks found
-    | samples, t :: tasks -> walk last samples tasks (match last with Some p -> (t, p) :: found | None -> found)
-    | _, [] -> List.rev found
-  in
-  walk None v.samples v.tasks []
-
 (* Of a list that is not empty. *)
 let last xs = List.nth xs (List.length xs - 1)
 

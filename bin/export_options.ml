@@ -1,0 +1,42 @@
+open Cmdliner
+module Format = Dolphin_maps.Format
+
+type t = { format : Format.t option; path : string option }
+
+let names = String.concat ", " (List.map fst Format.all)
+
+let format_conv =
+  let parse text =
+    match List.assoc_opt (String.lowercase_ascii text) Format.all with
+    | Some format -> Ok format
+    | None ->
+      let why = if String.lowercase_ascii text = "mcap" then ": no library for MCAP comes with this system" else "" in
+      Error (`Msg (Printf.sprintf "'%s' is none of the formats %s%s" text names why))
+  in
+  let print ppf format = Stdlib.Format.pp_print_string ppf (fst (List.find (fun (_, f) -> f = format) Format.all)) in
+  Arg.conv ~docv:"FORMAT" (parse, print)
+
+let term =
+  let format =
+    let doc = "Write $(docv): $(b,csv), $(b,geojson), $(b,kml) or $(b,gpx). By default, what $(i,FILE) ends in." in
+    Arg.(value & opt (some format_conv) None & info [ "to" ] ~docv:"FORMAT" ~doc)
+  in
+  let path =
+    let doc = "Write into $(docv), not to standard output." in
+    Arg.(value & opt (some string) None & info [ "o"; "output" ] ~docv:"FILE" ~doc)
+  in
+  Term.(const (fun format path -> { format; path }) $ format $ path)
+
+let format { format; path } =
+  match format, path with
+  | Some format, _ -> Ok format
+  | None, Some path ->
+    let why = Printf.sprintf "'%s' ends in none of the formats %s: --to FORMAT says which one" path names in
+    Option.to_result ~none:(Dolphin_app.Error.Bad_input why) (Format.of_path path)
+  | None, None -> Error (Bad_input ("--to FORMAT or -o FILE says what to write: " ^ names))
+
+let man =
+  `P "Positions are degrees and metres above the WGS 84 ellipsoid, times are UTC. $(b,geojson) is RFC 7946, with the \
+      times of tracks as $(i,coordTimes). $(b,kml) has tracks as $(i,gx:MultiTrack), drawn on the ground. $(b,gpx) \
+      has points as way points, plans as routes, tracks as tracks. $(b,csv) has a row for each position, as of RFC \
+      4180. QGIS, GDAL, Google Earth and spreadsheets read them."

@@ -1,0 +1,22 @@
+(** What a run or a plan leaves on a map, for other programs. *)
+
+type t = {
+  title : string;
+  features : Dolphin_maps.Feature.t list;
+  columns : string list;  (** of the table *)
+  rows : Dolphin_maps.Feature.property list list;
+}
+
+val of_run : Dolphin_trace.Summary.t -> t
+(** [of_run run] has the track of each vehicle that the program held, and where its tasks started. The rows are the
+    samples, in order of time. *)
+
+val of_plans : title:string -> Inline_plans.found list -> t
+(** [of_plans ~title plans] has the way of each plan that the program describes, and where each of its maneuvers ends.
+    The rows are the way points. Plans that vehicles know by name are left out. *)
+
+val to_string : Dolphin_maps.Format.t -> t -> string
+
+val write : Dolphin_maps.Format.t -> string option -> t -> (unit, Error.t) result
+(** [write format path map] writes into the file [path], to standard output without one. Nothing to write is an error:
+    {!Error.Bad_input}. *)

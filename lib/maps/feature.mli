@@ -1,0 +1,20 @@
+(** What stands on a map that programs exchange. *)
+
+open Dolphin_geo
+
+type sample = { time : float;  (** seconds since the beginning of 1970, in UTC *) position : Position.t }
+
+type geometry =
+  | Point of Position.t
+  | Line of Position.t list  (** of at least two *)
+  | Track of sample list list  (** parts in sight of each other, none of them empty, in order of time *)
+
+type property = Text of string | Number of float
+
+type t = { name : string; geometry : geometry; properties : (string * property) list }
+
+val utc : float -> string
+(** [utc seconds] is a time as all formats write it: ["2026-03-01T12:00:00Z"], with milliseconds if it has some. *)
+
+val parts : Position.t list -> Position.t list list
+(** [parts line] is [line], cut where it crosses the meridian of 180 degrees: no part does. *)

@@ -1,0 +1,9 @@
+type t = Csv | Geojson | Kml | Gpx
+
+let all = [ ("csv", Csv); ("geojson", Geojson); ("kml", Kml); ("gpx", Gpx) ]
+
+let of_path path =
+  match String.lowercase_ascii (Filename.extension path) with
+  | "" -> None
+  | ".json" -> Some Geojson
+  | extension -> List.assoc_opt (String.sub extension 1 (String.length extension - 1)) all

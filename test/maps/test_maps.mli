@@ -1,0 +1,1 @@
+(** Tests of {!Dolphin_maps}. No value of its own. *)

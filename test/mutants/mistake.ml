@@ -738,7 +738,8 @@ let maps =
 
 let all =
   List.concat
-    [ maps; missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups; quotient; expansion;
+    [ maps; missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups; quotient;
+      expansion;
       vehicle_orbits; canonical_vehicles; name_flow; liveness; later_picks; environment; picks; inputs; attendance;
       task_rules; local_step; run_code; answers_in_words; confirm; unknown; on_interrupt;
       pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;

@@ -2,7 +2,7 @@
 
 export type Json = any;
 
-export interface Question { number: number; prompt: string; refused: string | null }
+export interface Question { number: number; prompt: string; kind: "value" | "truth"; at: string | null; refused: string | null }
 export interface Diagnostic {
   from: number; to: number; line: number; column: number; severity: "error" | "warning";
   message: string; code: string; hint?: string;

@@ -6,6 +6,9 @@ import { Editor } from "./editor";
 import { ChartMap, colour } from "./map";
 import { type Message, Run, clock, trouble } from "./model";
 import { timeline } from "./timeline";
+import { Alarms } from "./alarms";
+import { Dialog } from "./question";
+import { mark as markTitle } from "./title";
 
 // A run that was, or one that explore found: gone through by steps.
 interface Past { title: string; messages: Message[]; index: number; steps: boolean }
@@ -17,8 +20,6 @@ let shown = live;
 let hash: string | null = null;
 let dirty = false;
 let linked = false;
-let dismissed = 0;
-const title = document.title;
 
 const map = new ChartMap($("map"), (id) => { $<HTMLSelectElement>("about").value = id; renderLog(true); });
 const editor = new Editor($("editor"), { changed: () => setDirty(true), checked: showFaults, save });
@@ -40,6 +41,9 @@ function attempt(f: () => Promise<unknown>) {
     if (e instanceof Refusal && e.diagnostics.length) showFaults(e.diagnostics);
   });
 }
+
+const dialog = new Dialog((answer) => attempt(() => post("run/answer", answer))(), goTo);
+const alarms = new Alarms((id) => { map.focus(id); $<HTMLSelectElement>("about").value = id; renderLog(true); });
 
 // {1 The program}
 
@@ -77,6 +81,7 @@ async function loadWorld() {
     const world = await get(`world?program=${encodeURIComponent(program())}` + (fleet ? `&fleet=${encodeURIComponent(fleet)}` : ""));
     map.setPlaces(world.plans.filter((p: Json) => p.latitude !== undefined));
     parameters = world.parameters ?? [];
+    suggested = world.suggested ?? {};
     settings.clear();
     // Before anything runs, the fleet stands where it will.
     if (!past && live.transitions === 0) {
@@ -84,7 +89,7 @@ async function loadWorld() {
       map.reset();
       for (const v of world.vehicles) live.add({ kind: "journal", line: { kind: "vehicle", time: 0, connected: true, ...v } });
     }
-  } catch { parameters = []; map.setPlaces([]); }
+  } catch { parameters = []; suggested = {}; map.setPlaces([]); }
   renderNow();
   changed();
 }
@@ -257,40 +262,6 @@ function step(by: number) {
   seek(i);
 }
 
-// {1 The question}
-
-let asked: { number: number; run: string } | null = null;
-
-function renderQuestion() {
-  const q = status?.run?.question, dialog = $<HTMLDialogElement>("question");
-  document.title = q ? "● " + q.prompt : title;
-  if (!q || !status?.run) { asked = null; if (dialog.open) dialog.close(); return; }
-  if (dismissed === q.number && asked?.run === status.run.id) return;
-  if (asked?.number === q.number && asked.run === status.run.id && dialog.open) return;
-  asked = { number: q.number, run: status.run.id };
-  $("prompt").textContent = q.prompt;
-  $("refused").textContent = q.refused ?? "";
-  $<HTMLInputElement>("answer").value = "";
-  if (!dialog.open) dialog.showModal();
-  $<HTMLInputElement>("answer").focus();
-  if (document.hidden) beep();
-}
-
-function beep() {
-  try {
-    const audio = new AudioContext(), tone = audio.createOscillator(), gain = audio.createGain();
-    gain.gain.value = 0.05;
-    tone.connect(gain).connect(audio.destination);
-    tone.start();
-    tone.stop(audio.currentTime + 0.25);
-  } catch { /* a browser that nobody has touched yet is silent */ }
-}
-
-async function giveAnswer() {
-  const text = $<HTMLInputElement>("answer").value.trim();
-  if (asked && text) await post("run/answer", { question: asked.number, text });
-}
-
 // {1 What is shown}
 
 function list(name: string, items: (Node | string)[], empty: string) {
@@ -303,7 +274,7 @@ let nowKey = "";
 function renderNow() {
   const run = status?.run, going = !past && run !== null && run !== undefined && run.state !== "over";
   const key = JSON.stringify([shown.waiting, shown.tuples, [...shown.allocation], [...shown.bound], run?.inputs, going, run?.question?.number,
-    run?.outcome?.text, parameters, past !== null, shown.ending, run?.id]);
+    run?.outcome?.text, parameters, suggested, past !== null, shown.ending, run?.id]);
   if (key === nowKey) return;
   nowKey = key;
   const parts: Node[] = [];
@@ -313,7 +284,7 @@ function renderNow() {
   if (!past && run?.outcome?.diagnostics.length)
     parts.push(...run.outcome.diagnostics.map((d) => h("button", { class: "link trouble", click: () => goTo(`${d.line}:${d.column}`) }, `line ${d.line}: ${d.message}`)));
   if (going && run.question) parts.push(h("p", { class: "outcome asks" }, run.question.prompt,
-    h("button", { class: "main", click: () => { dismissed = 0; asked = null; renderQuestion(); } }, "Answer")));
+    h("button", { class: "main", click: () => dialog.open() }, "Answer")));
   if (going && run.inputs.length) parts.push(inputs(run.inputs));
   if (!going && !past && parameters.length) parts.push(fields());
   parts.push(list("Waits for", shown.waiting.map((w) => h("button", { class: "link", click: () => goTo(w.at) }, w.what,
@@ -326,6 +297,9 @@ function renderNow() {
   if (focused?.startsWith("input-") || focused?.startsWith("parameter-")) document.getElementById(focused)?.focus();
 }
 
+// What the fleet says may come is a button; anything else is typed.
+let suggested: Record<string, string[]> = {};
+
 function inputs(keys: string[]) {
   const send = (key: string) => attempt(async () => {
     const field = $<HTMLInputElement>("input-" + key);
@@ -334,7 +308,10 @@ function inputs(keys: string[]) {
   });
   return h("div", { class: "fact" }, h("h3", {}, "Inputs"), ...keys.map((key) => h("form", { class: "input",
     submit: (e: Event) => { e.preventDefault(); send(key)(); } },
-    h("label", { for: "input-" + key }, key), h("input", { id: "input-" + key, placeholder: "true", autocomplete: "off" }), h("button", {}, "Post"))));
+    h("label", { for: "input-" + key }, key),
+    ...(suggested[key] ?? []).map((value) => h("button", { type: "button", "aria-label": `post ${key}: ${value}`,
+      click: attempt(() => post("run/post", { pairs: `${key}: ${value}` })) }, value)),
+    h("input", { id: "input-" + key, placeholder: "true", autocomplete: "off" }), h("button", { "aria-label": `post ${key}` }, "Post"))));
 }
 
 function fields() {
@@ -416,8 +393,9 @@ function renderBanner() {
 function renderHead() {
   const run = status?.run, going = run?.state === "running" || run?.state === "stopping";
   $<HTMLButtonElement>("run").disabled = going || !linked || !program();
-  $<HTMLButtonElement>("stop").disabled = !going || run?.state === "stopping";
-  $("stop").textContent = run?.state === "stopping" ? "Stopping" : "Stop";
+  $<HTMLButtonElement>("stop").disabled = !going;
+  $("stop").textContent = run?.state === "stopping" ? "Stop all" : "Stop";
+  $("stop").title = run?.state === "stopping" ? "Ends what the program executes by onInterrupt, too" : "As the program says by onInterrupt; else stops all";
   $<HTMLButtonElement>("explore").disabled = !linked || status?.exploration?.state === "running" || !program();
   $<HTMLSelectElement>("speed").disabled = status !== null && !status.simulated;
   $("link").textContent = !linked ? "no server" : going ? `${run.program ?? "a program"} ${clock(live.time)}` : "";
@@ -444,6 +422,7 @@ function changed() {
     renderAbout();
     renderLog();
     renderHead();
+    alarms.show(status?.run?.id ?? "", live);
     timeline($("timeline"), shown, past?.steps ?? false, goTo);
   }), 100);
 }
@@ -467,7 +446,8 @@ listen({
     status = s;
     linked = true;
     renderHead();
-    renderQuestion();
+    dialog.show(s.run?.id ?? "", s.run?.question ?? null);
+    markTitle("question", s.run?.question ? "● " + s.run.question.prompt : "");
     renderNow();
     renderVerdicts();
     if (explorationOver) attempt(async () => { explored = await get("exploration"); renderVerdicts(); })();
@@ -484,7 +464,6 @@ listen({
   reset() {
     live = new Run();
     if (!past) { shown = live; map.reset(); renderLog(true); }
-    dismissed = 0;
     changed();
   },
   journal(line) { live.add({ kind: "journal", line }); if (!past) changed(); },
@@ -516,9 +495,6 @@ $("copy").addEventListener("click", attempt(async () => {
 $("slider").addEventListener("input", (e) => seek(Number((e.target as HTMLInputElement).value)));
 $("back").addEventListener("click", () => step(-1));
 $("forward").addEventListener("click", () => step(1));
-$("give").addEventListener("click", (e) => { e.preventDefault(); attempt(giveAnswer)(); });
-$("later").addEventListener("click", () => { dismissed = asked?.number ?? 0; $<HTMLDialogElement>("question").close(); });
-$("question").addEventListener("cancel", () => { dismissed = asked?.number ?? 0; });
 for (const name of ["source", "verdicts", "runs"]) $("tab-" + name).addEventListener("click", () => showTab(name));
 document.querySelector(".tabs")!.addEventListener("keydown", (e) => {
   const key = (e as KeyboardEvent).key, tabs = [...document.querySelectorAll<HTMLElement>(".tabs button")];

@@ -6,9 +6,12 @@ export interface Task { plan: string; from: number; until: number | null; how: "
 export interface Sample { time: number; latitude: number; longitude: number; battery: number | null }
 export interface Vehicle {
   id: string; kind: string; payload: string[]; connected: boolean; unready: string | null;
-  heard: number; samples: Sample[]; tasks: Task[]; silent: { from: number; until: number | null }[];
+  heard: number; samples: Sample[]; tasks: Task[]; silent: { from: number; until: number | null }[]; low: boolean;
 }
 export interface Mark { time: number; kind: "posted" | "consumed" | "said" | "asked" | "failed" | "input"; text: string; at?: string }
+// What somebody has to look at, also when it has passed.
+export interface Alarm { kind: "link" | "battery" | "failed"; time: number; vehicle: string; text: string; until: number | null }
+export const lowBattery = 0.2;
 export type Message =
   | { kind: "journal"; line: Json } | { kind: "log"; line: LogLine } | { kind: "waiting"; waiting: Waiting };
 
@@ -20,6 +23,7 @@ export class Run {
   bound = new Set<string>();
   tuples: string[] = [];
   marks: Mark[] = [];
+  alarms: Alarm[] = [];
   log: LogLine[] = [];
   waiting: Waiting["for"] = [];
   time = 0;
@@ -32,7 +36,7 @@ export class Run {
   vehicle(id: string): Vehicle {
     let v = this.vehicles.get(id);
     if (!v) {
-      v = { id, kind: "", payload: [], connected: true, unready: null, heard: 0, samples: [], tasks: [], silent: [] };
+      v = { id, kind: "", payload: [], connected: true, unready: null, heard: 0, samples: [], tasks: [], silent: [], low: false };
       this.vehicles.set(id, v);
     }
     return v;
@@ -65,13 +69,32 @@ export class Run {
     if (line.connected) {
       v.heard = line.time;
       const last = v.silent[v.silent.length - 1];
-      if (last && last.until === null) last.until = line.time;
+      if (last && last.until === null) { last.until = line.time; this.pass("link", v.id); }
+      this.charge(v, line.battery);
       v.samples.push({ time: line.time, latitude: line.latitude, longitude: line.longitude, battery: line.battery });
       // The older half is thinned out: a track stays a track.
       if (v.samples.length > mostSamples)
         v.samples = v.samples.filter((_, i) => i % 2 === 0 || i > mostSamples * 0.9);
-    } else if (v.connected) v.silent.push({ from: line.time, until: null });
+    } else if (v.connected) {
+      v.silent.push({ from: line.time, until: null });
+      if (v.samples.length) this.alarm("link", v.id, "no link");
+    }
     v.connected = line.connected;
+  }
+
+  private alarm(kind: Alarm["kind"], vehicle: string, text: string) {
+    this.alarms.push({ kind, time: this.time, vehicle, text, until: null });
+  }
+
+  private pass(kind: Alarm["kind"], vehicle: string) {
+    for (const a of this.alarms) if (a.kind === kind && a.vehicle === vehicle && a.until === null) a.until = this.time;
+  }
+
+  // A battery about the limit is told of once.
+  private charge(v: Vehicle, battery: number | null) {
+    if (typeof battery !== "number") return;
+    if (!v.low && battery < lowBattery) { v.low = true; this.alarm("battery", v.id, `battery at ${Math.round(battery * 100)} %`); }
+    else if (v.low && battery > lowBattery + 0.05) { v.low = false; this.pass("battery", v.id); }
   }
 
   private end(id: string, how: Task["how"], why?: string) {
@@ -87,6 +110,8 @@ export class Run {
     this.cause = null;
     if (cause?.event === "done") this.end(cause.vehicle, "done");
     if (cause?.event === "failed") {
+      const plan = this.allocation.get(cause.vehicle) ?? "task";
+      this.alarm("failed", cause.vehicle, `${plan} failed: ${cause.why}`);
       this.end(cause.vehicle, "failed", cause.why);
       this.mark("failed", `${cause.vehicle}: ${cause.why}`, line.at);
     }
@@ -125,7 +150,7 @@ export function trouble(run: Run, v: Vehicle): { rank: number; text: string } {
   if (!v.connected) return { rank: 4, text: "no link since " + clock(v.silent[v.silent.length - 1]?.from ?? 0) };
   if (last?.how === "failed") return { rank: 3, text: `${last.plan} failed${last.why ? ": " + last.why : ""}` };
   if (v.unready) return { rank: 2, text: v.unready };
-  if (typeof battery === "number" && battery < 0.2) return { rank: 1, text: "battery low" };
+  if (typeof battery === "number" && battery < lowBattery) return { rank: 1, text: "battery low" };
   return { rank: run.bound.has(v.id) ? 0 : -1, text: "" };
 }
 

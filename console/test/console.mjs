@@ -5,6 +5,7 @@ import { cpSync, mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
+import people from "./people.mjs";
 
 const [dolphin, built, examples, pictures] = process.argv.slice(2);
 const home = mkdtempSync(join(tmpdir(), "console-"));
@@ -205,7 +206,7 @@ await test("a server that is killed in a run offers to resume it", async () => {
   await page.waitForSelector("#link >> text=no server");
   await serve();
   await page.waitForSelector("#banner >> text=can be resumed", { timeout: 20000 });
-  await page.evaluate(() => document.querySelector("dialog").open && document.querySelector("dialog").close());
+  await page.evaluate(() => document.querySelector("dialog").close());
   await page.click("#runs tbody tr >> text=Resume");
   await page.waitForSelector("dialog[open] >> text=Radius");
   await page.fill("#answer", "2");
@@ -214,6 +215,18 @@ await test("a server that is killed in a run offers to resume it", async () => {
   await page.click("#stop");
   await page.waitForSelector(".outcome.interrupted");
 });
+
+// A picture of what the run looks like on a phone, and a check that it fits.
+async function phone(name) {
+  const small = await open({ viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true });
+  await small.waitForSelector("#timeline svg");
+  same(await small.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth), true, name + " fits");
+  if (pictures) await small.screenshot({ path: join(pictures, name + ".png"), fullPage: true });
+  await small.context().close();
+}
+
+const all = { folder, page, test, same, text, choose, over, picture, phone };
+await people(all);
 
 await test("all can be reached by keyboard, and all has a name", async () => {
   const nameless = await page.evaluate(() => [...document.querySelectorAll("button, input, select, [role=tab]")]

@@ -162,6 +162,19 @@ let parameter_of (p : Dolphin_syntax.Parameters.t) : json =
   `Assoc
     ([ ("name", `String p.name); ("as", `String (Format.asprintf "%a" Dolphin_syntax.Parameters.pp p)) ] @ why)
 
+(* What the fleet says may be posted, each key with the values as people type them. *)
+let suggested (s : Scenario.t) (program : Dolphin_semantics.Core.program) : json =
+  let of_key key =
+    let typed x =
+      let text = Format.asprintf "%a" Dolphin_semantics.Value.pp x in
+      if Typed_input.read (key ^ ": " ^ text) = Ok [ (key, x) ] then Some text else None in
+    let values (i : Scenario.input) = if i.key = key then List.concat i.rounds else [] in
+    match List.sort_uniq compare (List.filter_map typed (List.concat_map values s.inputs)) with
+    | [] -> None
+    | found -> Some (key, texts found)
+  in
+  `Assoc (List.filter_map of_key program.inputs)
+
 let world h r =
   let* path = parameter r "program" in
   let* program = program h path in
@@ -170,6 +183,7 @@ let world h r =
   Ok
     (`Assoc
        [ ("inputs", texts program.program.inputs);
+         ("suggested", suggested fleet.scenario program.program);
          ("parameters", `List (List.map parameter_of program.parameters));
          ("fleet", of_option (fun path -> `String path) fleet_path);
          ("vehicles", `List (List.map vehicle fleet.scenario.vehicles));

@@ -4,7 +4,14 @@ open Dolphin_json
 open Lwt.Infix
 
 type order = { program : Program_file.t; fleet : Fleet_file.t; settings : Run.settings; journal : string }
-type question = { number : int; prompt : string; refused : string option; give : (string, string) result Lwt.u }
+type question = {
+  number : int;
+  prompt : string;
+  place : Narrator.place_of_question;
+  refused : string option;
+  give : (string, string) result Lwt.u;
+}
+
 type state = Running | Stopping | Over of (Driver.outcome, Error.t) result
 
 type t = {
@@ -80,7 +87,8 @@ let asked r prompt =
 let wait_for_answer r prompt =
   let answer, give = Lwt.task () in
   r.questions <- r.questions + 1;
-  r.question <- Some { number = r.questions; prompt; refused = r.refused; give };
+  let place = Narrator.place_of_question r.narrator in
+  r.question <- Some { number = r.questions; prompt; place; refused = r.refused; give };
   r.refused <- None;
   r.changed ();
   let forget () =
@@ -209,6 +217,8 @@ let of_outcome r outcome : Yojson.Safe.t =
 let to_json r : Yojson.Safe.t =
   let question q : Yojson.Safe.t =
     `Assoc [ ("number", `Int q.number); ("prompt", `String q.prompt);
+             ("kind", `String (if q.place.is_confirm then "truth" else "value"));
+             ("at", Field.of_option (fun at -> `String at) q.place.at);
              ("refused", Field.of_option (fun why -> `String why) q.refused) ]
   in
   let state, outcome =

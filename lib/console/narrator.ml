@@ -60,6 +60,20 @@ let json_of_waiting ({ what; at; lacking } : Waiting.t) : Yojson.Safe.t =
   let member name f = Option.fold ~none:[] ~some:(fun x -> [ (name, `String (f x)) ]) in
   `Assoc ((("what", `String what) :: member "at" place at) @ member "lacking" Fun.id lacking)
 
+type place_of_question = { at : string option; is_confirm : bool }
+
+let place_of_question n =
+  match n.configuration.control with
+  | Waiting (m, Ask _) ->
+    let program = n.program.program and site = Machine.site m in
+    let text = Option.value (Waiting.text program ~source:n.program.source site) ~default:"" in
+    let call = "confirm" in
+    let is_confirm =
+      String.length text >= String.length call && String.sub text 0 (String.length call) = call in
+    { at = Option.map place (Fault.location program (Fault.make site "")); is_confirm }
+  | Waiting (_, (Pick _ | Pause _ | Execute _ | Host_call _)) | Script _ | Executing _ | Ended _ ->
+    { at = None; is_confirm = false }
+
 let waiting n ~time =
   let { Program_file.program; source; _ } = n.program in
   let now = Waiting.list program ~source n.world n.configuration in

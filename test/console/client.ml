@@ -16,11 +16,12 @@ let rec read_all socket buffer =
   | 0 -> Lwt.return_unit
   | n -> Buffer.add_subbytes buffer piece 0 n; read_all socket buffer
 
-let raw ~port text =
+let raw ?(no_more = false) ~port text =
   let buffer = Buffer.create 1024 in
   connect port >>= fun socket ->
   quietly (fun () -> write socket text 0) >>= fun () ->
-  Lwt.pick [ quietly (fun () -> read_all socket buffer); Lwt_unix.sleep 2. ] >>= fun () ->
+  (try if no_more then Lwt_unix.shutdown socket SHUTDOWN_SEND with Unix.Unix_error _ -> ());
+  Lwt.pick [ quietly (fun () -> read_all socket buffer); Lwt_unix.sleep 30. ] >>= fun () ->
   quietly (fun () -> Lwt_unix.close socket) >|= fun () -> Buffer.contents buffer
 
 type reply = { status : int; body : string }
@@ -82,6 +83,6 @@ let until w p =
     let seen = m :: seen in
     if p m then Lwt.return (List.rev seen) else go seen
   in
-  Lwt_unix.with_timeout 10. (fun () -> go [])
+  Lwt_unix.with_timeout 60. (fun () -> go [])
 
 let leave w = quietly (fun () -> Lwt_unix.close w.socket)

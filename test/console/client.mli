@@ -1,7 +1,11 @@
 (** A client of HTTP that can also say what no client says. *)
 
-val raw : port:int -> string -> string Lwt.t
-(** [raw ~port text] is all that comes back for [text] until the server closes, or for two seconds. *)
+val connect : int -> Lwt_unix.file_descr Lwt.t
+(** [connect port] is a connection on which nothing was said yet. *)
+
+val raw : ?no_more:bool -> port:int -> string -> string Lwt.t
+(** [raw ~no_more ~port text] is all that comes back for [text] until the server closes, or for half a minute. With
+    [no_more] the server is told that nothing follows [text]. *)
 
 type reply = { status : int; body : string }
 
@@ -21,6 +25,6 @@ val watch : ?last:string -> port:int -> string -> watcher Lwt.t
 type message = { id : string; event : string; data : string }
 
 val until : watcher -> (message -> bool) -> message list Lwt.t
-(** [until w p] is the messages up to the first one that [p] holds of; it fails after ten seconds. *)
+(** [until w p] is the messages up to the first one that [p] holds of; it fails after a minute. *)
 
 val leave : watcher -> unit Lwt.t

@@ -43,7 +43,7 @@ let console f () =
   in_folder (fun folder ->
       let console = Result.get_ok (Console.start (settings folder) ~port:0) in
       let whole () =
-        Lwt_unix.with_timeout 60. (fun () -> f folder (Console.port console)) in
+        Lwt_unix.with_timeout 300. (fun () -> f folder (Console.port console)) in
       Lwt_main.run (Lwt.finalize whole (fun () -> Console.close console)))
 
 let status = Alcotest.(check int)
@@ -111,7 +111,7 @@ let who_may_ask _ port =
   >>= fun () ->
   Client.ask ~headers:[ ("Content-Type", "text/plain") ] ~body:"{}" ~port "/api/run/stop" >>= fun r ->
   refused "as a form sends it" (415, "refused") r;
-  Client.raw ~port "GET /api/status HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n" >|= fun reply ->
+  Client.raw ~no_more:true ~port "GET /api/status HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n" >|= fun reply ->
   holds "two hosts" true (String.length reply > 12 && String.sub reply 9 3 = "400")
 
 (* {1 Files} *)
@@ -249,6 +249,30 @@ let answers_and_posts _ port =
   refused "nothing to stop" (409, "no-run") r;
   Lwt_list.iter_s Client.leave [ first; second ]
 
+(* What a page needs to ask: where the question stands, whether it takes yes or no, what the fleet says may come. *)
+let what_is_asked folder port =
+  let asked (m : Client.message) = member [ "run"; "question" ] (Yojson.Safe.from_string m.data) in
+  let question program =
+    write (Filename.concat folder "asks.dol") program;
+    write (Filename.concat folder "asks.fleet") "input 'go', 'north', either(1, 'south'), times 2\n";
+    Client.watch ~port "first" >>= fun first ->
+    Client.ask ~body:{|{"program": "asks.dol", "people": true}|} ~port "/api/run" >>= fun _ ->
+    Client.until first question >>= fun seen ->
+    let found = asked (List.hd (List.rev seen)) in
+    Client.ask ~body:"{}" ~port "/api/run/stop" >>= fun _ ->
+    Client.until first is_over >>= fun _ ->
+    Client.leave first >|= fun () ->
+    String.concat " " (List.map (fun name -> Yojson.Safe.to_string (member [ name ] found)) [ "prompt"; "kind"; "at" ])
+  in
+  question "x = 1\ny = ask 'How many?'\n" >>= fun found ->
+  text "ask" {|"How many?" "value" "2:5"|} found;
+  question "if (confirm 'Now?') message 'now'\n" >>= fun found ->
+  text "confirm" {|"Now?" "truth" "1:5"|} found;
+  write (Filename.concat folder "asks.dol") "input 'go', 'stop'\n";
+  Client.ask ~port "/api/world?program=asks.dol" >|= fun r ->
+  text "what may come" {|{"go":["'north'","'south'","1"]}|}
+    (Yojson.Safe.to_string (member [ "suggested" ] (Client.json r)))
+
 let stopped _ port =
   Client.watch ~port "first" >>= fun first ->
   Client.ask ~body:{|{"program": "mission.dol", "answers": ["1"], "speed": 10}|} ~port "/api/run" >>= fun _ ->
@@ -296,15 +320,15 @@ let echo limits f () =
   let reply (r : Request.t) =
     Lwt.return (Dolphin_http.Response.text ~kind:"text/plain" 200 (string_of_int (String.length r.body))) in
   let server = Result.get_ok (Server.start ~limits ~port:0 reply) in
-  Lwt_main.run (Lwt.finalize (fun () -> Lwt_unix.with_timeout 30. (fun () -> f server (Server.port server)))
+  Lwt_main.run (Lwt.finalize (fun () -> Lwt_unix.with_timeout 120. (fun () -> f server (Server.port server)))
                   (fun () -> Server.close server))
 
 let begins expected reply =
   let start = if String.length reply < 12 then reply else String.sub reply 9 3 in
   text "status" expected start
 
-let bounds =
-  echo { Server.head = 500; body = 100; connections = 3; patience = 0.2; idle = 0.3 } (fun server port ->
+let sizes =
+  echo { Server.limits with head = 500; body = 100 } (fun _ port ->
       Client.raw ~port ("GET /" ^ String.make 600 'x' ^ " HTTP/1.1\r\n\r\n") >>= fun reply ->
       begins "413" reply;
       Client.raw ~port (String.make 10_000 'x') >>= fun reply ->
@@ -314,16 +338,29 @@ let bounds =
       Client.raw ~port ("POST / HTTP/1.1\r\nConnection: close\r\nContent-Length: 100\r\n\r\n" ^ String.make 100 'x')
       >>= fun reply ->
       begins "200" reply;
+      Client.raw ~port "GET / HTTP/1.1\r\n\r\nGET / HTTP/1.1\r\nConnection: close\r\n\r\n" >|= fun reply ->
+      status "two requests at once" 2 (List.length (Str.full_split (Str.regexp_string "HTTP/1.1 200") reply) / 2))
+
+let patience =
+  echo { Server.limits with patience = 0.2; idle = 0.3 } (fun _ port ->
       Client.raw ~port "GET / HTTP/1.1\r\nslow" >>= fun reply ->
       text "who is slow hears nothing" "" reply;
-      Client.raw ~port "" >>= fun reply ->
-      text "nor who is silent" "" reply;
-      Client.raw ~port "GET / HTTP/1.1\r\n\r\nGET / HTTP/1.1\r\nConnection: close\r\n\r\n" >>= fun reply ->
-      status "two requests at once" 2 (List.length (Str.full_split (Str.regexp_string "HTTP/1.1 200") reply) / 2);
-      Lwt_list.map_p (fun _ -> Client.raw ~port "GET / HTTP/1.1\r\nslow") (List.init 10 Fun.id) >>= fun replies ->
-      holds "too many are told so" true
-        (List.exists (fun reply -> String.length reply > 12 && String.sub reply 9 3 = "503") replies);
-      Lwt_unix.sleep 0.1 >|= fun () -> status "all are gone" 0 (Server.connections server))
+      Client.raw ~port "" >|= text "nor who is silent" "")
+
+(* Until the server has so many connections. *)
+let rec have server n =
+  if Server.connections server = n then Lwt.return_unit else Lwt_unix.sleep 0.01 >>= fun () -> have server n
+
+let connections =
+  echo { Server.limits with connections = 3 } (fun server port ->
+      let idle _ = Client.connect port in
+      Lwt_list.map_s idle [ 1; 2; 3 ] >>= fun sockets ->
+      have server 3 >>= fun () ->
+      Client.raw ~port "GET / HTTP/1.1\r\n\r\n" >>= fun reply ->
+      begins "503" reply;
+      Lwt_list.iter_p Lwt_unix.close sockets >>= fun () ->
+      have server 0 >>= fun () ->
+      Client.raw ~port "GET / HTTP/1.1\r\nConnection: close\r\n\r\n" >|= begins "200")
 
 (* Bytes of a fixed seed, among them pieces of requests. *)
 let nonsense random =
@@ -339,13 +376,13 @@ let nonsense random =
 let malformed _ port =
   let random = Random.State.make [| 18 |] in
   let one text =
-    Client.raw ~port text >|= fun reply ->
+    Client.raw ~no_more:true ~port text >|= fun reply ->
     holds (String.escaped text) true (String.length reply < 12 || reply.[9] = '4' || reply.[9] = '5') in
   let rec rounds n =
     if n = 0 then Lwt.return_unit
     else Lwt_list.iter_p one (List.init 50 (fun _ -> nonsense random ^ "x HTTP/9\r\n\r\n")) >>= fun () -> rounds (n - 1)
   in
-  rounds 6 >>= fun () ->
+  rounds 200 >>= fun () ->
   Client.ask ~port "/api/status" >|= fun r ->
   text "nothing happened" "null" (Yojson.Safe.to_string (member [ "run" ] (Client.json r)))
 
@@ -367,7 +404,8 @@ let the_helm () =
 let () =
   let slow name f = Alcotest.test_case name `Quick f in
   Alcotest.run "console"
-    [ ("http", [ slow "heads" heads; slow "bounds" bounds ]);
+    [ ("http",
+       [ slow "heads" heads; slow "sizes" sizes; slow "patience" patience; slow "connections" connections ]);
       ("helm", [ slow "who has it" the_helm ]);
       ("safe",
        [ slow "who may ask" (console who_may_ask); slow "no escape from the folder" (console no_escape);
@@ -375,4 +413,4 @@ let () =
       ("files", [ slow "saving" (console saving); slow "texts under way" (console texts) ]);
       ("runs",
        [ slow "a run" (console a_run); slow "answers and posts" (console answers_and_posts);
-         slow "stopped" (console stopped); slow "stuck" (console stuck); slow "faults" (console faults) ]) ]
+         slow "what is asked" (console what_is_asked); slow "stopped" (console stopped); slow "stuck" (console stuck); slow "faults" (console faults) ]) ]

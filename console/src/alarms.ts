@@ -1,0 +1,43 @@
+// Alarms of the run: what went wrong with a vehicle stays until somebody has seen it, also when it has passed.
+
+import { type Alarm, type Run, clock } from "./model";
+import { $, h } from "./dom";
+import { mark } from "./title";
+
+const most = 4;
+
+export class Alarms {
+  private run = "";
+  private seen = new Set<number>();
+  private shown = "";
+  private el = $("alarms");
+
+  constructor(private select: (vehicle: string) => void) {}
+
+  show(run: string, of: Run) {
+    if (run !== this.run) {
+      this.run = run;
+      this.seen = new Set(JSON.parse(sessionStorage.getItem("seen " + run) ?? "[]"));
+    }
+    const open = of.alarms.map((alarm, i) => ({ alarm, i })).filter(({ i }) => !this.seen.has(i));
+    const shown = JSON.stringify(open);
+    if (shown === this.shown) return;
+    this.shown = shown;
+    mark("alarms", open.length ? `▲ ${open.length}` : "");
+    this.el.hidden = open.length === 0;
+    const redraw = () => this.show(run, of);
+    const item = ({ alarm, i }: { alarm: Alarm; i: number }) => h("li", {},
+      h("button", { class: "link", click: () => this.select(alarm.vehicle) }, h("b", {}, alarm.vehicle), ` ${alarm.text} `,
+        h("small", {}, `at ${clock(alarm.time)}${alarm.until === null ? "" : `, until ${clock(alarm.until)}`}`)),
+      h("button", { "aria-label": `seen: ${alarm.vehicle} ${alarm.text}`, click: () => { this.see([i]); redraw(); } }, "Seen"));
+    // The latest first.
+    this.el.replaceChildren(h("ul", {}, ...open.slice(-most).reverse().map(item)),
+      open.length > most ? h("span", {}, `and ${open.length - most} more`) : "",
+      open.length > 1 ? h("button", { click: () => { this.see(open.map(({ i }) => i)); redraw(); } }, "All seen") : "");
+  }
+
+  private see(which: number[]) {
+    for (const i of which) this.seen.add(i);
+    sessionStorage.setItem("seen " + this.run, JSON.stringify([...this.seen]));
+  }
+}

@@ -1,0 +1,23 @@
+// Marks of the page's title: what waits for somebody who looks elsewhere. The page sounds once for each new one.
+
+const title = document.title;
+const marks = new Map<string, string>();
+
+export function mark(name: string, text: string) {
+  const before = marks.get(name) ?? "";
+  if (before === text) return;
+  if (text) marks.set(name, text); else marks.delete(name);
+  document.title = marks.size ? [...marks.values()].join("  ") : title;
+  if (text && document.hidden) beep();
+}
+
+function beep() {
+  try {
+    const audio = new AudioContext(), tone = audio.createOscillator(), gain = audio.createGain();
+    gain.gain.value = 0.05;
+    tone.connect(gain).connect(audio.destination);
+    tone.onended = () => void audio.close();
+    tone.start();
+    tone.stop(audio.currentTime + 0.25);
+  } catch { /* a browser that nobody has touched yet is silent */ }
+}

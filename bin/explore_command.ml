@@ -146,19 +146,21 @@ let formulas =
   in
   Arg.(value & opt_all string [] & info [ "ltl" ] ~docv:"FORMULA" ~doc)
 
-let trace =
-  let doc =
-    "Write the first of the runs that are shown into the file $(docv). $(mname) $(b,exec --follow) $(docv) replays it. \
-     If its name ends in $(b,.itf.json), it is written in the Informal Trace Format instead, for the tools of TLA+ and \
-     Quint. Nothing is written if there is none."
-  in
+let run_file =
   let parse path =
     match String.lowercase_ascii (Filename.extension path) with
     | ".svg" | ".html" | ".htm" ->
       Error (`Msg (Printf.sprintf "'%s' is the name of a picture, and what is written is JSON" path))
     | _ -> Ok path
   in
-  let run_file = Arg.conv ~docv:"FILE" (parse, Format.pp_print_string) in
+  Arg.conv ~docv:"FILE" (parse, Format.pp_print_string)
+
+let trace =
+  let doc =
+    "Write the first of the runs that are shown into the file $(docv). $(mname) $(b,exec --follow) $(docv) replays it. \
+     If its name ends in $(b,.itf.json), it is written in the Informal Trace Format instead, for the tools of TLA+ and \
+     Quint. Nothing is written if there is none."
+  in
   Arg.(value & opt (some run_file) None & info [ "trace" ] ~docv:"FILE" ~doc)
 
 let file name doc =

@@ -6,6 +6,9 @@ val answers : string list Cmdliner.Term.t
 val faults : Dolphin_environment.Faults.t Cmdliner.Term.t
 (** [--faults]. *)
 
+val run_file : string Cmdliner.Arg.conv
+(** The name of a file that a run is written into: no picture. *)
+
 (** {1 Bounds} *)
 
 val max_states : int option Cmdliner.Term.t

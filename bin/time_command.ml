@@ -21,7 +21,7 @@ let status : Time_analysis.Timing.verdict -> Exit_status.t = function
   | Violated -> Violated
   | Inconclusive -> Inconclusive
 
-let run path set fleet answers faults deadline json max_states max_depth max_memory timeout =
+let run path set fleet answers faults deadline json trace max_states max_depth max_memory timeout =
   let settings : Time_analysis.settings =
     { answers; faults; deadline; max_states; max_depth; max_memory; timeout } in
   Report.result
@@ -31,6 +31,8 @@ let run path set fleet answers faults deadline json max_states max_depth max_mem
      let outcome = analyse settings program fleet ~json in
      if json then print_endline (Yojson.Safe.to_string (Time_report.to_json ?deadline program outcome))
      else Time_report.print ?deadline program outcome;
+     let write path = Time_report.write_shown ?deadline program fleet path outcome in
+     let* () = Option.fold trace ~none:(Ok ()) ~some:write in
      Ok (status (Time_analysis.Timing.verdict ?deadline outcome)))
 
 let deadline =
@@ -42,6 +44,14 @@ let deadline =
     match Time_analysis.duration text with Ok ms -> Ok ms | Error why -> Error (`Msg why) in
   let print ppf ms = Dolphin_time.Bounds.pp_time ppf ms in
   Arg.(value & opt (some (conv ~docv:"TIME" (parse, print))) None & info [ "deadline" ] ~docv:"TIME" ~doc)
+
+let trace =
+  let doc =
+    "Write the run that is shown into the file $(docv), without its times. $(mname) $(b,exec --follow) $(docv) replays \
+     it. If its name ends in $(b,.itf.json), it is written in the Informal Trace Format instead. Nothing is written if \
+     no run is shown."
+  in
+  Arg.(value & opt (some Explore_command.run_file) None & info [ "trace" ] ~docv:"FILE" ~doc)
 
 let man =
   [ `S Manpage.s_description;
@@ -77,5 +87,5 @@ let command =
   Cmd.v info
     Term.(
       const run $ Options.program $ Options.set $ Options.fleet $ Explore_command.answers $ Explore_command.faults
-      $ deadline $ json
+      $ deadline $ json $ trace
       $ Explore_command.max_states $ Explore_command.max_depth $ Explore_command.max_memory $ Explore_command.timeout)

@@ -188,6 +188,37 @@ A program that goes round for ever, and one that waits in vain.
   0:00   execute                      vain.dol:2
   waits for the condition at vain.dol:2:19, consume ready: 1
 
+The run that is shown, in a file that can be followed: here, and where there is one for the deadline.
+
+  $ dolphin time vain.dol --fleet relay.fleet --trace vain.witness > vain
+  [1]
+  $ dolphin exec vain.dol --fleet relay.fleet --follow vain.witness
+  breaks: every run ends
+     2  program     picks a
+        here the recorded run stops
+  $ dolphin time relay.dol --deadline 6.min --trace late.witness --json | grep -o '"shown":{"what":"[^"]*"'
+  "shown":{"what":"a run that is not over at the deadline, 6:00"
+  $ dolphin exec relay.dol --follow late.witness
+  breaks: deadline 6:00
+     2  program     picks a
+     4  program     picks b
+     6  a           starts survey
+     7  a           ends survey
+     8  program     posts ready:1
+     9  a           starts home
+    10  program     consumes ready:1
+    11  b           starts visit
+    12  a           ends home
+    13  b           ends visit
+    14  program     releases a, b
+    14  program     ends
+  $ dolphin time relay.dol --trace relay.svg
+  dolphin: option '--trace': 'relay.svg' is the name of a picture, and what is
+           written is JSON
+  Usage: dolphin time [OPTION]… PROG
+  Try 'dolphin time --help' or 'dolphin --help' for more information.
+  [2]
+
 A bound.
 
   $ dolphin time relay.dol --max-states 5 | timeless

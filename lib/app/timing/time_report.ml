@@ -88,32 +88,49 @@ let print_chain p (run : Timing.run) =
 
 let missed (o : Timing.outcome) = List.find_map (fun (_, missed) -> Option.map snd missed) o.deadlines
 
+type shown = Endless of [ `Cycle | `In_no_time | `Stuck ] | Late | Missed | Last
+
+let shown (o : Timing.outcome) =
+  match o.endless, o.late, missed o, o.last with
+  | Some (run, why), _, _, _ -> Some (Endless why, run)
+  | None, Some run, _, _ -> Some (Late, run)
+  | None, None, Some run, _ -> Some (Missed, run)
+  | None, None, None, Some ({ dates = _ :: _; _ } as run) when o.stopped = None -> Some (Last, run)
+  | None, None, None, (Some _ | None) -> None
+
+let what ?deadline = function
+  | Endless `Cycle -> "a run that may go on for ever"
+  | Endless `In_no_time -> "a run that may go round for ever in no time"
+  | Endless `Stuck -> "a run in which nothing happens any more"
+  | Late ->
+    "a run that is not over at the deadline" ^ Option.fold ~none:"" ~some:(fun n -> ", " ^ time n) deadline
+  | Missed -> "a run in which a task is not done within its time"
+  | Last -> "a run that ends last"
+
+(* In the words of properties. *)
+let breaks ?deadline = function
+  | Endless _ -> "every run ends"
+  | Late -> "deadline" ^ Option.fold ~none:"" ~some:(fun n -> " " ^ time n) deadline
+  | Missed -> "within"
+  | Last -> ""
+
 let print_run ?deadline p (o : Timing.outcome) =
-  match o.endless, o.late, o.last with
-  | Some (run, why), _, _ ->
-    let what =
-      match why with
-      | `Cycle -> "a run that may go on for ever"
-      | `In_no_time -> "a run that may go round for ever in no time"
-      | `Stuck -> "a run in which nothing happens any more"
-    in
-    Printf.printf "\n%s:\n" what;
+  let print (why, (run : Timing.run)) =
+    Printf.printf "\n%s:\n" (what ?deadline why);
     print_columns p run;
-    if why = `Stuck then Run_columns.print_waiting p run.steps
-  | None, Some run, _ ->
-    Printf.printf "\na run that is not over at the deadline%s:\n"
-      (Option.fold ~none:"" ~some:(fun n -> ", " ^ time n) deadline);
-    print_columns p run;
-    print_chain p run
-  | None, None, _ when missed o <> None ->
-    let run = Option.get (missed o) in
-    Printf.printf "\na run in which a task is not done within its time:\n";
-    print_columns p run
-  | None, None, Some ({ dates = _ :: _; _ } as run) when o.stopped = None ->
-    Printf.printf "\na run that ends last:\n";
-    print_columns p run;
-    print_chain p run
-  | None, None, (Some _ | None) -> ()
+    match why with
+    | Endless `Stuck -> Run_columns.print_waiting p run.steps
+    | Late | Last -> print_chain p run
+    | Endless (`Cycle | `In_no_time) | Missed -> ()
+  in
+  Option.iter print (shown o)
+
+let write_shown ?deadline program fleet path o =
+  let write (why, (run : Timing.run)) =
+    Witness_file.write program fleet path
+      { breaks = breaks ?deadline why; description = what ?deadline why; steps = run.steps; cycle = run.cycle }
+  in
+  Option.fold (shown o) ~none:(Ok ()) ~some:write
 
 let print_deadline ?deadline (o : Timing.outcome) =
   let say n =
@@ -195,6 +212,8 @@ let to_json ?deadline p (o : Timing.outcome) : Yojson.Safe.t =
     let why = match why with `Cycle -> "cycle" | `In_no_time -> "cycle in no time" | `Stuck -> "stuck" in
     `Assoc [ ("why", `String why); ("run", json_of_run p run) ]
   in
+  let json_of_shown (why, run) : Yojson.Safe.t =
+    `Assoc [ ("what", `String (what ?deadline why)); ("run", json_of_run p run) ] in
   `Assoc
     ([ ("verdict", `String verdict) ]
      @ optional "deadline" seconds deadline
@@ -205,5 +224,6 @@ let to_json ?deadline p (o : Timing.outcome) : Yojson.Safe.t =
      @ optional "last" (json_of_run p) o.last
      @ optional "first" (json_of_run p) o.first
      @ optional "endless" endless o.endless
+     @ optional "shown" json_of_shown (shown o)
      @ optional "bound" (fun b -> `String (Format.asprintf "%a" Dolphin_checker.Limits.pp_bound b)) o.stopped
      @ [ ("states", `Int o.states); ("depth", `Int o.depth); ("seconds", `Float o.seconds); ("bytes", `Int o.bytes) ])

@@ -9,5 +9,10 @@ val print : ?deadline:int -> Program_file.t -> Timing.outcome -> unit
 val item : Program_file.t -> Dolphin_time.Timed.pending -> string
 (** What is awaited: ["mission.dol:3:10: survey on noptilus-1"]. *)
 
+val write_shown :
+  ?deadline:int -> Program_file.t -> Fleet_file.t -> string -> Timing.outcome -> (unit, Error.t) result
+(** [write_shown ~deadline program fleet path o] writes the run that {!print} shows, if there is one, into the file
+    [path], as {!Witness_file} does. *)
+
 val to_json : ?deadline:int -> Program_file.t -> Timing.outcome -> Yojson.Safe.t
 (** The same for programs; times in seconds. *)

@@ -12,9 +12,10 @@ export interface RunStatus {
   question: Question | null; outcome: { how: string; text: string; diagnostics: Diagnostic[] } | null;
   program: string | null; journal: string;
 }
+export interface Going { state: string; progress: string }
 export interface Status {
   instance: string; folder: string; simulated: boolean; version: string; run: RunStatus | null;
-  exploration: { state: string; progress: string } | null;
+  exploration: Going | null; timing: Going | null; graph: Going | null;
   helm: { holder: string | null; asking: string[] }; watching: number;
 }
 export interface LogLine { time: number; severity: string; about: string[]; text: string }

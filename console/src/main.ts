@@ -9,9 +9,10 @@ import { timeline } from "./timeline";
 import { Alarms } from "./alarms";
 import { Dialog } from "./question";
 import { mark as markTitle } from "./title";
+import { Verdicts } from "./verdicts";
 
 // A run that was, or one that explore found: gone through by steps.
-interface Past { title: string; messages: Message[]; index: number; steps: boolean }
+interface Past { title: string; messages: Message[]; index: number; steps: boolean; found: boolean }
 
 let status: Status | null = null;
 let live = new Run();
@@ -43,6 +44,8 @@ function attempt(f: () => Promise<unknown>) {
 }
 
 const dialog = new Dialog((answer) => attempt(() => post("run/answer", answer))(), goTo);
+const verdicts = new Verdicts({ show: showFound, goTo, cancel: (subject) => attempt(() => ask("DELETE", subject, {}))(),
+  graph: () => attempt(() => analyse("graph"))() });
 const alarms = new Alarms((id) => { map.focus(id); $<HTMLSelectElement>("about").value = id; renderLog(true); });
 
 // {1 The program}
@@ -132,36 +135,20 @@ async function startRun() {
     speed: status?.simulated && speed ? Number(speed) : null, set: Object.fromEntries(settings) });
 }
 
-async function explore() {
+// What is asked about the program, beside running it.
+const subjects = ["exploration", "timing", "graph"] as const;
+
+async function analyse(subject: (typeof subjects)[number]) {
   await save();
   showTab("verdicts");
-  const fleet = $<HTMLSelectElement>("fleet").value;
-  await post("exploration", { program: program(), fleet: fleet || null, set: Object.fromEntries(settings) });
+  const fleet = $<HTMLSelectElement>("fleet").value, faults = $<HTMLInputElement>("faults-allowed").value.trim();
+  const deadline = $<HTMLInputElement>("deadline").value.trim();
+  await post(subject, { program: program(), fleet: fleet || null, set: Object.fromEntries(settings), faults: faults || null,
+    ...(subject === "timing" ? { deadline: deadline || null } : {}) });
 }
 
-let explored: Json = null;
-
-function renderVerdicts() {
-  const el = $("verdicts"), e = status?.exploration;
-  if (!e) return el.replaceChildren(h("p", { class: "empty" }, "Explore looks at every run that the program can have in its fleet's world."));
-  if (e.state === "running")
-    return el.replaceChildren(h("p", {}, e.progress || "exploring"), h("progress", {}),
-      h("button", { click: attempt(() => ask("DELETE", "exploration", {})) }, "Cancel"));
-  if (!explored || explored.state !== e.state) return el.replaceChildren(h("p", { class: "empty" }, e.state));
-  if (explored.state === "failed") return el.replaceChildren(h("pre", { class: "trouble" }, explored.error));
-  if (explored.state === "cancelled") return el.replaceChildren(h("p", { class: "empty" }, "cancelled"));
-  const r = explored.result, cx = explored.counterexample;
-  const line = (v: Json) => h("li", { class: v.verdict.replace(/ .*/, "") }, h("b", {}, mark(v.verdict)), ` ${v.property}: ${v.verdict}`,
-    cx && cx.property === v.property ? h("button", { click: () => showCounterexample(cx) }, "Step through it") : null);
-  const named = cx && r.verdicts.some((v: Json) => v.property === cx.property);
-  el.replaceChildren(h("ul", { class: "verdicts" }, ...r.verdicts.map(line)),
-    cx && !named ? h("button", { click: () => showCounterexample(cx) }, `Step through: ${cx.property || "a run"}`) : "",
-    h("p", { class: "hint" }, `${r.states} states, ${r.transitions} transitions, ${r.seconds.toFixed(2)} s`));
-}
-
-const mark = (verdict: string) => (verdict === "holds" ? "✓" : verdict === "violated" ? "✗" : "–");
-
-function showCounterexample(cx: Json) {
+// A run that was found, step by step, from where the fleet stands.
+function showFound(cx: Json) {
   const messages: Message[] = [];
   for (const v of live.vehicles.values()) {
     const s = v.samples[0];
@@ -170,10 +157,12 @@ function showCounterexample(cx: Json) {
   }
   for (const step of cx.steps) {
     messages.push({ kind: "journal", line: step });
-    messages.push({ kind: "log", line: { time: step.i, severity: "ordinary", about: Object.keys(step.A ?? {}),
-      text: `${String(step.i + 1).padStart(5)}  ${step.words || step.label}` } });
+    messages.push({ kind: "log", line: { time: step.time, severity: "ordinary", about: Object.keys(step.A ?? {}),
+      text: `${(cx.dated ? clock(step.time) : String(step.i + 1)).padStart(7)}  ${step.words || step.label}` } });
   }
-  openPast({ title: `Counterexample: ${cx.property}`, messages, index: messages.length, steps: true });
+  const what = cx.property ? `Counterexample: ${cx.property}` : "A run that ends last";
+  openPast({ title: what, messages, index: messages.length, steps: !cx.dated, found: true });
+  showTab("source");
 }
 
 async function openReplay(name: string, what: string) {
@@ -183,7 +172,7 @@ async function openReplay(name: string, what: string) {
     log: (line) => messages.push({ kind: "log", line }),
     waiting: (waiting) => messages.push({ kind: "waiting", waiting }),
   });
-  openPast({ title: `${what} of ${name.slice(0, 10)} ${name.slice(11, 13)}:${name.slice(13, 15)} UTC`, messages, index: messages.length, steps: false });
+  openPast({ title: `${what} of ${name.slice(0, 10)} ${name.slice(11, 13)}:${name.slice(13, 15)} UTC`, messages, index: messages.length, steps: false, found: false });
 }
 
 async function renderRuns() {
@@ -238,6 +227,7 @@ function seek(index: number) {
   if (!past) return;
   past.index = Math.max(0, Math.min(index, past.messages.length));
   shown = new Run();
+  shown.moves = !past.found;
   for (let i = 0; i < past.index; i++) shown.add(past.messages[i]);
   $<HTMLInputElement>("slider").value = String(past.index);
   $("step").textContent = past.steps ? `step ${shown.transitions}: ${shown.label}` : clock(shown.time);
@@ -397,6 +387,7 @@ function renderHead() {
   $("stop").textContent = run?.state === "stopping" ? "Stop all" : "Stop";
   $("stop").title = run?.state === "stopping" ? "Ends what the program executes by onInterrupt, too" : "As the program says by onInterrupt; else stops all";
   $<HTMLButtonElement>("explore").disabled = !linked || status?.exploration?.state === "running" || !program();
+  $<HTMLButtonElement>("time").disabled = !linked || status?.timing?.state === "running" || !program();
   $<HTMLSelectElement>("speed").disabled = status !== null && !status.simulated;
   $("link").textContent = !linked ? "no server" : going ? `${run.program ?? "a program"} ${clock(live.time)}` : "";
   $("link").className = linked ? "" : "trouble";
@@ -442,15 +433,15 @@ listen({
   status(s) {
     const ended = status?.run?.id === s.run?.id && status?.run?.state !== "over" && s.run?.state === "over";
     const other = status !== null && status.instance !== s.instance;
-    const explorationOver = s.exploration && s.exploration.state !== "running" && status?.exploration?.state !== s.exploration.state;
+    const over = subjects.filter((subject) => s[subject] && s[subject].state !== "running" && status?.[subject]?.state !== s[subject].state);
     status = s;
     linked = true;
     renderHead();
     dialog.show(s.run?.id ?? "", s.run?.question ?? null);
     markTitle("question", s.run?.question ? "● " + s.run.question.prompt : "");
     renderNow();
-    renderVerdicts();
-    if (explorationOver) attempt(async () => { explored = await get("exploration"); renderVerdicts(); })();
+    verdicts.status(s);
+    for (const subject of over) attempt(async () => verdicts.result(subject, await get(subject)))();
     if (first || other) {
       first = false;
       attempt(async () => {
@@ -476,13 +467,14 @@ listen({
 $("program").addEventListener("change", attempt(async () => {
   if (dirty && !confirm("The text is not saved. Leave it?")) { $<HTMLSelectElement>("program").value = editor.path; return; }
   if (status?.run?.state === "over" || !status?.run) { live = new Run(); if (!past) shown = live; }
-  explored = null;
+  verdicts.forget();
   await openProgram();
 }));
 $("fleet").addEventListener("change", attempt(loadWorld));
 $("run").addEventListener("click", attempt(startRun));
 $("stop").addEventListener("click", attempt(() => post("run/stop")));
-$("explore").addEventListener("click", attempt(explore));
+$("explore").addEventListener("click", attempt(() => analyse("exploration")));
+$("time").addEventListener("click", attempt(() => analyse("timing")));
 $("save").addEventListener("click", attempt(save));
 $("format").addEventListener("click", attempt(async () =>
   editor.replace((await post("format", { path: editor.path, text: editor.text })).text)));
@@ -504,4 +496,3 @@ document.querySelector(".tabs")!.addEventListener("keydown", (e) => {
 });
 window.addEventListener("resize", changed);
 window.addEventListener("beforeunload", (e) => { if (dirty) e.preventDefault(); });
-renderVerdicts();

@@ -93,7 +93,7 @@ export class ChartMap {
     s.marker.setLatLng(at);
     s.track.setLatLngs(v.samples.map((p) => L.latLng(p.latitude, p.longitude)));
     const heading = headingOf(v), t = trouble(run, v), plan = run.allocation.get(v.id) ?? "";
-    const age = run.time - v.heard;
+    const age = run.moves ? run.time - v.heard : 0;
     const key = [heading, t.rank, plan, Math.floor(age / 5)].join();
     if (key !== s.key) {
       s.key = key;

@@ -26,6 +26,7 @@ export class Run {
   alarms: Alarm[] = [];
   log: LogLine[] = [];
   waiting: Waiting["for"] = [];
+  moves = true;  // of a run that was found nobody knows where its vehicles are
   time = 0;
   at: string | null = null;
   label = "";

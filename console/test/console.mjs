@@ -5,6 +5,7 @@ import { cpSync, mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
+import analyses from "./analyses.mjs";
 import people from "./people.mjs";
 
 const [dolphin, built, examples, pictures] = process.argv.slice(2);
@@ -152,20 +153,21 @@ await test("a fault is told as one types, with what would be right", async () =>
   await page.waitForSelector(".cm-line >> text=sonar");
   await page.locator(".cm-content").click();
   await page.keyboard.press("Control+End");
-  await page.keyboard.type("\nmesage 'x'\n");
+  // At once: what is typed key by key is completed now and then, and undone in parts.
+  await page.keyboard.insertText("\nmesage 'x'\n");
   await page.waitForSelector("#faults >> text=unknown name 'mesage'");
   await picture(page, "fault");
-  for (let i = 0; i < 3; i++) await page.keyboard.press("Control+z");
+  await page.keyboard.press("Control+z");
   await page.waitForSelector("#faults >> text=no errors");
 });
 
 await test("names are completed", async () => {
   await page.keyboard.press("Control+End");
-  await page.keyboard.type("\nexec");
+  await page.keyboard.insertText("\nexec");
   await page.keyboard.press("Control+Space");
   await page.waitForSelector(".cm-tooltip-autocomplete >> text=execute");
   await page.keyboard.press("Escape");
-  for (let i = 0; i < 3; i++) await page.keyboard.press("Control+z");
+  await page.keyboard.press("Control+z");
 });
 
 await test("inputs are posted, and Stop stops", async () => {
@@ -227,6 +229,7 @@ async function phone(name) {
 
 const all = { folder, page, test, same, text, choose, over, picture, phone };
 await people(all);
+await analyses(all);
 
 await test("all can be reached by keyboard, and all has a name", async () => {
   const nameless = await page.evaluate(() => [...document.querySelectorAll("button, input, select, [role=tab]")]

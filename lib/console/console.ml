@@ -27,7 +27,7 @@ let port c = Server.port c.server
 let busy c = Hall.busy c.hall
 
 let close c =
-  Option.iter Exploring.cancel (Hall.exploring c.hall);
+  List.iter Analysis.cancel (Hall.analyses c.hall);
   let over =
     match Hall.run c.hall with
     | Some run when Live_run.goes_on run -> Live_run.stop run; Live_run.finished run

@@ -17,7 +17,9 @@ type t = {
   grown : unit Lwt_condition.t;
   mutable run : Live_run.t option;
   mutable runs : int;
-  mutable exploring : Exploring.t option;
+  mutable exploration : Analysis.t option;
+  mutable timing : Analysis.t option;
+  mutable graph : Analysis.t option;
   mutable helm : Helm.t;
   mutable watching : string list;  (* a client as often as it looks on *)
 }
@@ -26,13 +28,18 @@ let make settings =
   let instance =
     Digest.to_hex (Digest.string (Printf.sprintf "%d %f" (Unix.getpid ()) (Unix.gettimeofday ()))) in
   { settings; instance = String.sub instance 0 8; grown = Lwt_condition.create (); run = None; runs = 0;
-    exploring = None; helm = Helm.free; watching = [] }
+    exploration = None; timing = None; graph = None; helm = Helm.free; watching = [] }
 
 let settings h = h.settings
 let changed h = Lwt_condition.broadcast h.grown ()
 let run h = h.run
 let busy h = Option.fold h.run ~none:false ~some:Live_run.goes_on
-let exploring h = h.exploring
+
+type subject = Exploration | Timing | Graph
+
+let analysis h = function Exploration -> h.exploration | Timing -> h.timing | Graph -> h.graph
+let analyses h = List.filter_map (analysis h) [ Exploration; Timing; Graph ]
+
 let helm h = h.helm
 let watchers h = List.length h.watching
 
@@ -45,8 +52,12 @@ let begin_run h start =
   changed h;
   run
 
-let set_exploring h e =
-  h.exploring <- Some e;
+let set_analysis h subject a =
+  Option.iter Analysis.cancel (analysis h subject);
+  (match subject with
+   | Exploration -> h.exploration <- Some a
+   | Timing -> h.timing <- Some a
+   | Graph -> h.graph <- Some a);
   changed h
 
 let set_helm h helm =
@@ -76,9 +87,9 @@ let of_run h run : Yojson.Safe.t =
            ("journal", `String (Filename.remove_extension (Filename.basename (Live_run.journal run)))) ])
   | json -> json
 
-(* Of an exploration only how it goes: its verdicts may be long. *)
-let of_exploring e : Yojson.Safe.t =
-  match Exploring.to_json e with
+(* Of an analysis only how it goes: its result may be long. *)
+let of_analysis a : Yojson.Safe.t =
+  match Analysis.to_json a with
   | `Assoc members -> `Assoc (List.filter (fun (name, _) -> name = "state" || name = "progress") members)
   | json -> json
 
@@ -88,7 +99,9 @@ let status h : Yojson.Safe.t =
       ("instance", `String h.instance); ("folder", `String (Folder.root h.settings.folder));
       ("simulated", `Bool (Run.is_simulated h.settings.run));
       ("run", Field.of_option (of_run h) h.run);
-      ("exploration", Field.of_option of_exploring h.exploring);
+      ("exploration", Field.of_option of_analysis h.exploration);
+      ("timing", Field.of_option of_analysis h.timing);
+      ("graph", Field.of_option of_analysis h.graph);
       ("helm",
        `Assoc
          [ ("holder", Field.of_option (fun client -> `String client) (Helm.holder h.helm));

@@ -19,7 +19,7 @@ val settings : t -> settings
 val changed : t -> unit
 (** Those who look on are told. *)
 
-(** {1 Runs and explorations} *)
+(** {1 Runs and analyses} *)
 
 val run : t -> Live_run.t option
 (** The run that goes on, or the latest one. *)
@@ -29,8 +29,14 @@ val busy : t -> bool
 val begin_run : t -> (id:string -> changed:(unit -> unit) -> Live_run.t) -> Live_run.t
 (** [begin_run h start] has the run that [start] gives in place of the one before, which is over. *)
 
-val exploring : t -> Exploring.t option
-val set_exploring : t -> Exploring.t -> unit
+(** What can be found out about programs, one of each at a time. *)
+type subject = Exploration | Timing | Graph
+
+val analysis : t -> subject -> Analysis.t option
+val analyses : t -> Analysis.t list
+
+val set_analysis : t -> subject -> Analysis.t -> unit
+(** [set_analysis h subject a] has [a] in place of the one before, which is cancelled. *)
 
 (** {1 The helm} *)
 

@@ -10,6 +10,7 @@ The console of a folder, on a port of its own, and all that docs/openapi.json de
   > END
   $ echo "answer 'How many?', 2" > mission.fleet
   $ echo 'message askk' > wrong.dol
+  $ printf 'pause 1.minute\npause 2.seconds\n' > short.dol
   $ serve() { dolphin console . --port "$1" --no-browser > "$2" & while ! grep -qs "is at" "$2"; do sleep 0.05; done; }
   $ serve 0 served
   $ console=$!

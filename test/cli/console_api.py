@@ -56,7 +56,7 @@ def until(path, holds):
 
 
 def main():
-    for path in ["status", "files", "runs", "exploration"]:
+    for path in ["status", "files", "runs", "exploration", "timing", "graph"]:
         ask("GET", path)
     ask("GET", "events", query="?client=api")
     text = ask("GET", "file", query="?path=mission.dol")[1]
@@ -81,6 +81,21 @@ def main():
     verdicts = found["result"]["verdicts"]
     print("explored:", found["state"], [v["property"] for v in verdicts if v["verdict"] == "violated"])
     print("counterexample:", [step["label"] for step in found["counterexample"]["steps"]])
+    for path in ["timing", "graph"]:
+        ask("DELETE", path, {})
+        ask("POST", path, {"program": "wrong.dol"})
+    ask("POST", "exploration", {"program": "mission.dol", "faults": "floods"})
+    print("no such faults:", until("exploration", lambda found: found["state"] != "running")["state"])
+    ask("POST", "timing", {"program": "short.dol", "deadline": "1.minute"})
+    found = until("timing", lambda found: found["state"] != "running")
+    print("timed:", found["result"]["verdict"], found["result"]["ends"], found["counterexample"]["property"])
+    print("with dates:", [step["time"] for step in found["counterexample"]["steps"]])
+    ask("POST", "graph", {"program": "mission.dol", "states": 0})
+    ask("POST", "graph", {"program": "mission.dol", "states": 1})
+    print("too large:", until("graph", lambda found: found["state"] != "running")["state"])
+    ask("POST", "graph", {"program": "mission.dol", "faults": "interrupt"})
+    found = until("graph", lambda found: found["state"] != "running")["result"]
+    print("graph:", found["states"], "states,", len(found["transitions"]), "transitions")
     ask("POST", "run", {"program": "wrong.dol"})
     ask("POST", "run", {"program": "mission.dol", "set": {"m": "3"}})
     ask("POST", "run", {"program": "mission.dol", "speed": 10, "seed": 1, "people": True, "set": {"n": "3"}})

@@ -5,14 +5,17 @@ open Lwt.Infix
 module Scenario_world = Dolphin_environment.Scenario_world
 module Log = Dolphin_display.Log
 
+type kind = Exploration | Timing of { deadline : string option } | Graph of { states : int }
+type order = { kind : kind; faults : string option; seconds : int }
 type state = Running | Cancelled | Over of (Yojson.Safe.t, string) result
 
 type t = {
+  order : order;
   program : Program_file.t;
   fleet : Fleet_file.t;
   process : Lwt_process.process_full;
   changed : unit -> unit;
-  witness : string;  (* the file of the counterexample *)
+  witness : string;  (* the file of the run that is shown *)
   finished : unit Lwt.t;
   finish : unit Lwt.u;
   mutable progress : string;
@@ -25,7 +28,7 @@ let finished e = Lwt.protected e.finished
 
 (* {1 The counterexample} *)
 
-let step (program : Program_file.t) (before, log, number, made) (t : Transition.t) =
+let step (program : Program_file.t) (before, log, number, made) ((t : Transition.t), date) =
   let members = Step.members (Step.of_transition program.program before t) in
   let log, lines = Log.transition log ~time:0. t in
   let words = String.concat "\n" (List.map (fun (l : Log.line) -> String.trim l.text) lines) in
@@ -37,25 +40,40 @@ let step (program : Program_file.t) (before, log, number, made) (t : Transition.
   in
   let json : Yojson.Safe.t =
     `Assoc
-      ([ ("kind", `String "transition"); ("time", `Int number); ("i", `Int number);
+      ([ ("kind", `String "transition"); ("time", Option.value date ~default:(`Int number)); ("i", `Int number);
          ("words", `String (without_time words)) ] @ members)
   in
   (t.next, log, number + 1, json :: made)
 
-let counterexample (program : Program_file.t) (fleet : Fleet_file.t) witness : Yojson.Safe.t =
+(* Each step with its date, if dates are known. *)
+let rec dated steps dates =
+  match steps, dates with
+  | t :: steps, date :: dates -> (t, Some date) :: dated steps dates
+  | steps, _ -> List.map (fun t -> (t, None)) steps
+
+let counterexample (program : Program_file.t) (fleet : Fleet_file.t) witness ~dates : Yojson.Safe.t =
   let world = Scenario_world.world fleet.scenario in
   match Witness.follow program.program world witness with
   | Error _ -> `Null
   | Ok (steps, cycle) ->
     let initial = (Configuration.initial program.program, Log.start, 0, []) in
-    let _, _, _, made = List.fold_left (step program) initial (steps @ cycle) in
+    let all = if cycle = [] then dated steps dates else dated (steps @ cycle) [] in
+    let _, _, _, made = List.fold_left (step program) initial all in
     `Assoc
-      [ ("property", `String witness.property); ("cycle", `Int (List.length cycle)); ("steps", `List (List.rev made)) ]
+      [ ("property", `String witness.property); ("cycle", `Int (List.length cycle));
+        ("dated", `Bool (cycle = [] && dates <> [])); ("steps", `List (List.rev made)) ]
+
+(* The dates of the run that dolphin time shows. *)
+let dates_of result =
+  let member json name = match json with `Assoc _ -> Yojson.Safe.Util.member name json | _ -> `Null in
+  match List.fold_left member result [ "shown"; "run"; "dates" ] with `List dates -> dates | _ -> []
 
 (* {1 The process} *)
 
 let last_line text =
   match List.rev (List.filter (( <> ) "") (String.split_on_char '\n' text)) with line :: _ -> line | [] -> ""
+
+let result e text = Yojson.Safe.from_string (match e.order.kind with Graph _ -> text | Exploration | Timing _ -> last_line text)
 
 let rec follow_progress e told =
   Lwt_io.read_line_opt e.process#stderr >>= function
@@ -65,16 +83,17 @@ let rec follow_progress e told =
     e.changed ();
     follow_progress e (if List.length told < 100 then line :: told else told)
 
-let over e text told status =
+let over e text told =
   let result =
-    match (status : Unix.process_status), Yojson.Safe.from_string (last_line text) with
-    | _, json -> Ok json
-    | exception Yojson.Json_error _ ->
-      Error (if told = [] then "explore ended without verdicts" else String.concat "\n" told)
+    match result e text with
+    | json -> Ok json
+    | exception Yojson.Json_error _ -> Error (if told = [] then "there is no result" else String.concat "\n" told)
   in
   if Sys.file_exists e.witness then begin
     (match Witness_file.read e.witness with
-     | Ok witness -> e.steps <- counterexample e.program e.fleet witness
+     | Ok witness ->
+       let dates = Result.fold result ~ok:dates_of ~error:(fun _ -> []) in
+       e.steps <- counterexample e.program e.fleet witness ~dates
      | Error _ -> ());
     Sys.remove e.witness
   end;
@@ -82,25 +101,36 @@ let over e text told status =
   e.changed ();
   Lwt.wakeup_later e.finish ()
 
-let start ~dolphin ~changed ~seconds (program : Program_file.t) (fleet : Fleet_file.t) =
+let arguments order ~witness =
+  let seconds = string_of_int order.seconds in
+  let of_kind =
+    match order.kind with
+    | Exploration -> [ "explore"; "--json"; "--progress"; "1"; "--timeout"; seconds; "--trace"; witness ]
+    | Timing { deadline } ->
+      [ "time"; "--json"; "--timeout"; seconds; "--trace"; witness ]
+      @ Option.fold deadline ~none:[] ~some:(fun time -> [ "--deadline=" ^ time ])
+    | Graph { states } -> [ "lts"; "--format"; "json"; "--max-states"; string_of_int states ]
+  in
+  of_kind @ Option.fold order.faults ~none:[] ~some:(fun faults -> [ "--faults=" ^ faults ])
+
+let start ~dolphin ~changed order (program : Program_file.t) (fleet : Fleet_file.t) =
   let witness = Filename.temp_file "dolphin-console" ".witness" in
   Sys.remove witness;
   let fleet_options = Option.fold fleet.path ~none:[] ~some:(fun path -> [ "--fleet"; path ]) in
   let set = List.concat_map (fun (name, value) -> [ "--set"; name ^ "=" ^ value ]) program.set in
   let command =
-    [ dolphin; "explore"; "--json"; "--progress"; "1"; "--timeout"; string_of_int seconds; "--trace"; witness ]
-    @ fleet_options @ set @ [ "--"; program.path ]
+    (dolphin :: arguments order ~witness) @ fleet_options @ set @ [ "--"; program.path ]
   in
   let process = Lwt_process.open_process_full (dolphin, Array.of_list command) in
   let finished, finish = Lwt.wait () in
   let e =
-    { program; fleet; process; changed; witness; finished; finish; progress = ""; state = Running; steps = `Null } in
+    { order; program; fleet; process; changed; witness; finished; finish; progress = ""; state = Running; steps = `Null } in
   let whole () =
     Lwt_io.close process#stdin >>= fun () ->
     Lwt.both (Lwt_io.read process#stdout) (follow_progress e []) >>= fun (text, told) ->
-    process#close >|= over e text told
+    process#close >|= fun _ -> over e text told
   in
-  let failed error = over e "" [ Printexc.to_string error ] (WEXITED 1); Lwt.return_unit in
+  let failed error = over e "" [ Printexc.to_string error ]; Lwt.return_unit in
   Lwt.async (fun () -> Lwt.catch whole failed);
   e
 

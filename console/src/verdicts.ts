@@ -1,0 +1,124 @@
+// What is known without running the program: the verdicts of explore, the times of time, the state graph.
+
+import type { Json, Status } from "./api";
+import { $, h, svg } from "./dom";
+import { StateGraph } from "./graph";
+import { clock } from "./model";
+
+type Subject = "exploration" | "timing" | "graph";
+interface Events { show: (found: Json) => void; goTo: (at: string) => void; cancel: (s: Subject) => void; graph: () => void }
+
+const mark = (verdict: string) => (verdict === "holds" ? "✓" : verdict === "violated" ? "✗" : "–");
+const hints: Partial<Record<Subject, string>> = {
+  exploration: "Explore looks at every run that the program can have in its fleet's world.",
+  timing: "Time says when tasks and runs start and end, at the earliest and at the latest.",
+};
+
+export class Verdicts {
+  private results = new Map<Subject, Json>();
+  private now: Partial<Record<Subject, { state: string; progress: string } | null>> = {};
+  private picture = new StateGraph();
+
+  constructor(private events: Events) {
+    $("graph").addEventListener("click", () => { this.wanted = true; events.graph(); });
+    this.draw();
+  }
+
+  status(s: Status) {
+    this.now = { exploration: s.exploration, timing: s.timing, graph: s.graph };
+    this.draw();
+  }
+
+  result(subject: Subject, found: Json) {
+    this.results.set(subject, found);
+    this.draw();
+    if (subject === "graph" && found?.state === "over" && this.wanted) this.picture.open(found.result);
+    if (subject === "graph") this.wanted = false;
+  }
+
+  // Another program: what was found is not of it.
+  forget() { this.results.clear(); this.draw(); }
+
+  // A graph that another page asked for does not open here.
+  private wanted = false;
+  private draw() {
+    for (const subject of ["exploration", "timing", "graph"] as const) this.part(subject);
+  }
+
+  private part(subject: Subject) {
+    const el = $("found-" + subject), now = this.now[subject], found = this.results.get(subject);
+    const hint = h("p", { class: "empty" }, hints[subject] ?? "");
+    if (now?.state === "running")
+      return el.replaceChildren(h("p", {}, now.progress || `${subject} goes on`), h("progress", { "aria-label": subject }),
+        h("button", { click: () => this.events.cancel(subject) }, "Cancel"));
+    if (!found || found.state !== now?.state) return el.replaceChildren(hint);
+    if (found.state === "failed") return el.replaceChildren(h("pre", { class: "trouble" }, found.error));
+    if (found.state === "cancelled") return el.replaceChildren(h("p", { class: "empty" }, `${subject}: cancelled`));
+    if (subject === "exploration") return el.replaceChildren(...this.exploration(found.result, found.counterexample));
+    if (subject === "timing") return el.replaceChildren(...this.timing(found.result, found.counterexample));
+    el.replaceChildren(h("button", { click: () => this.picture.open(found.result) }, `Show the state graph: ${found.result.states} states`));
+  }
+
+  private through(cx: Json, text: string) { return h("button", { click: () => this.events.show(cx) }, text); }
+
+  private exploration(r: Json, cx: Json): Node[] {
+    const line = (v: Json) => h("li", { class: v.verdict.replace(/ .*/, "") }, h("b", {}, mark(v.verdict)), ` ${v.property}: ${v.verdict}`,
+      cx && cx.property === v.property ? this.through(cx, "Step through it") : null);
+    const named = cx && r.verdicts.some((v: Json) => v.property === cx.property);
+    return [h("ul", { class: "verdicts" }, ...r.verdicts.map(line)),
+      ...(cx && !named ? [this.through(cx, `Step through: ${cx.property || "a run"}`)] : []),
+      h("p", { class: "hint" }, `${r.states} states, ${r.transitions} transitions, ${r.seconds.toFixed(2)} s`)];
+  }
+
+  // {1 Times}
+
+  private timing(r: Json, cx: Json): Node[] {
+    const span = (w: Json) => (w.latest === null ? `${clock(w.earliest)} or later` : w.latest === w.earliest ? clock(w.latest)
+      : `${clock(w.earliest)} to ${clock(w.latest)}`);
+    const lines: Node[] = Object.entries<Json>(r.ends).map(([how, w]) => h("li", {}, h("b", {}, "◷"), ` ${how}: ${span(w)}`));
+    if (r.deadline !== undefined || r.endless) lines.push(h("li", { class: r.verdict }, h("b", {}, mark(r.verdict)),
+      r.deadline !== undefined ? ` over by ${clock(r.deadline)}: ${r.verdict}` : ` every run ends: ${r.verdict}`));
+    for (const w of r.within) lines.push(h("li", { class: w.missed ? "violated" : "holds" }, h("b", {}, w.missed ? "✗" : "✓"),
+      this.place(w.at, w.missed ? ` within: missed, at ${span(w.missed)}` : " within: kept")));
+    for (const what of r.unknown) lines.push(h("li", {}, h("b", {}, "–"), ` nobody knows how long it takes: ${what.replace(/^.*\//, "")}`));
+    if (r.bound) lines.push(h("li", {}, h("b", {}, "–"), ` inconclusive: ${r.bound}`));
+    const chain = r.shown?.run.chain ?? [];
+    return [h("ul", { class: "verdicts" }, ...lines), this.bars(r, span),
+      ...(chain.length ? [h("p", { class: "hint" }, "The end depends on: " +
+        chain.map((c: Json) => `${c.what.replace(/^.*\//, "")} (${clock(c.seconds)})`).join(", then "))] : []),
+      ...(cx ? [this.through(cx, `Step through ${r.shown?.what ?? "a run"}`)] : []),
+      h("p", { class: "hint" }, `${r.states} states, ${r.seconds.toFixed(2)} s`)];
+  }
+
+  private place(at: string | null, text: string) {
+    const found = at && /:(\d+:\d+)$/.exec(at);
+    return found ? h("button", { class: "link", click: () => this.events.goTo(found[1]) }, `${text}, line ${found[1].split(":")[0]}`) : text;
+  }
+
+  // A row for each task: light from when it may start until when it may end, dark where it certainly runs.
+  private bars(r: Json, span: (w: Json) => string): Node {
+    const ends = (t: Json) => [t.ends, t.fails, t.stopped].filter(Boolean);
+    const all = [...Object.values<Json>(r.ends), ...r.tasks.flatMap((t: Json) => [t.starts, ...ends(t)])].filter(Boolean);
+    const length = Math.max(1, r.deadline ?? 0, ...all.map((w: Json) => w.latest ?? w.earliest));
+    const left = 150, width = 480, row = 22, height = row * r.tasks.length + 20;
+    const x = (t: number) => left + (t / length) * (width - left - 8);
+    const parts: Node[] = [];
+    r.tasks.forEach((t: Json, i: number) => {
+      const y = row * i, over = ends(t);
+      const last = over.some((w: Json) => w.latest === null) ? length : Math.max(t.starts.earliest, ...over.map((w: Json) => w.latest));
+      const first = Math.min(...over.map((w: Json) => w.earliest));
+      const says = `${t.vehicle}: ${t.task} starts ${span(t.starts)}` + ["ends", "fails", "stopped"].map((m) => (t[m] ? `, ${m} ${span(t[m])}` : "")).join("");
+      const sure = t.starts.latest !== null && first > t.starts.latest;
+      parts.push(svg("g", { class: "time-row", click: () => { const at = t.at && /:(\d+:\d+)$/.exec(t.at); if (at) this.events.goTo(at[1]); } },
+        svg("title", {}, says), svg("text", { x: left - 6, y: y + 15, class: "who" }, `${t.vehicle} ${t.task}`.slice(0, 22)),
+        svg("rect", { x: x(t.starts.earliest), y: y + 3, width: Math.max(3, x(last) - x(t.starts.earliest)), height: row - 8, rx: 3, class: "maybe" }),
+        sure ? svg("rect", { x: x(t.starts.latest), y: y + 3, width: Math.max(2, x(first) - x(t.starts.latest)), height: row - 8, rx: 3, class: "task" }) : svg("g")));
+    });
+    const line = (t: number, kind: string, says: string) =>
+      svg("line", { x1: x(t), x2: x(t), y1: 0, y2: height - 16, class: kind }, svg("title", {}, says));
+    parts.push(line(0, "tick", "0:00"), line(length, "tick", clock(length)),
+      svg("text", { x: x(0), y: height - 3, class: "time" }, "0:00"), svg("text", { x: x(length), y: height - 3, class: "time last" }, clock(length)));
+    if (r.deadline !== undefined) parts.push(line(r.deadline, "deadline", `deadline ${clock(r.deadline)}`));
+    return svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "times", role: "img", "aria-label": `when ${r.tasks.length} tasks run` }, ...parts);
+  }
+}

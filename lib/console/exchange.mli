@@ -1,0 +1,62 @@
+(** What all requests have in common: replies, refusals, arguments. *)
+
+open Dolphin_app
+open Dolphin_json
+
+type json = Yojson.Safe.t
+
+(** {1 Replies} *)
+
+(** Why a request is not done: a status of HTTP, a code that does not change, a sentence, perhaps more. *)
+type refusal = { status : int; code : string; message : string; more : Field.members }
+
+val refusal : ?more:Field.members -> int -> string -> string -> refusal
+(** [refusal ~more status code message]. *)
+
+val refuse : ?more:Field.members -> int -> string -> string -> ('a, refusal) result
+(** Likewise, as an error. *)
+
+val bad : string -> ('a, refusal) result
+(** [bad message] is [refuse 400 "bad-request" message]. *)
+
+val of_refusal : refusal -> Dolphin_http.Response.t
+val of_result : (json, refusal) result -> Dolphin_http.Response.t
+
+(** {1 Arguments} *)
+
+val ( let* ) : ('a, 'e) result -> ('a -> ('b, 'e) result) -> ('b, 'e) result
+
+val needed : ('a, string) result -> ('a, refusal) result
+(** An error is a bad request. *)
+
+val body : Dolphin_http.Request.t -> (Field.members, refusal) result
+(** The members of the object that the body is. *)
+
+val get : (json -> ('a, string) result) -> string -> Field.members -> ('a, refusal) result
+(** [get read name found] is the member [name], as [read] has it. *)
+
+val optional : (json -> ('a, string) result) -> string -> Field.members -> ('a option, refusal) result
+(** Likewise; [None] if it is missing or [null]. *)
+
+val parameter : Dolphin_http.Request.t -> string -> (string, refusal) result
+(** [parameter r name] is the value of [name] in the query. *)
+
+val set : Field.members -> ((string * string) list, refusal) result
+(** [set found] is the program's parameters in the member [set], each with the text of its value. *)
+
+(** {1 The folder} *)
+
+val folder : Hall.t -> Folder.t
+
+val file : Hall.t -> string -> (string, refusal) result
+(** [file h path] is the real path of a file of the folder. *)
+
+val text : string -> (string, refusal) result
+(** [text path] is what the file [path] has. *)
+
+val program : Hall.t -> ?set:(string * string) list -> string -> (Program_file.t, refusal) result
+(** [program h ~set path] is the program in a file of the folder; the refusal has its diagnostics. *)
+
+val fleet : Hall.t -> program:string -> string option -> (Fleet_file.t, refusal) result
+(** [fleet h ~program named] is the fleet in the file [named] of the folder, or that of the console, or the one beside
+    [program]. *)

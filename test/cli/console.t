@@ -18,6 +18,11 @@ The console of a folder, on a port of its own, and all that docs/openapi.json de
   $ python3 console_api.py ../../docs/openapi.json $port
   explored: over ['no deadlock']
   counterexample: ['ask(How many?)', 'answer(2)', "message '2'", 'execute']
+  no such faults: failed
+  timed: violated {'completed': {'earliest': 62, 'latest': 62}} deadline 1:00
+  with dates: [0, 60, 60, 62, 62]
+  too large: failed
+  graph: 8 states, 9 transitions
   kept: mission.dol interrupted
   replayed to its end: True
   not asked for: []

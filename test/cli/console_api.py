@@ -27,7 +27,7 @@ def ask(verb, path, body=None, query=""):
     request = urllib.request.Request(f"http://127.0.0.1:{PORT}/api/{path}{query}", data,
                                      {"Content-Type": "application/json"}, method=verb)
     try:
-        with urllib.request.urlopen(request, timeout=20) as reply:
+        with urllib.request.urlopen(request, timeout=60) as reply:
             status, kind = reply.status, reply.headers["Content-Type"]
             text = (reply.readline() if path == "events" else reply.read()).decode()
     except urllib.error.HTTPError as error:
@@ -47,7 +47,7 @@ def ask(verb, path, body=None, query=""):
 
 
 def until(path, holds):
-    for _ in range(400):
+    for _ in range(2400):
         found = ask("GET", path)[1]
         if holds(found):
             return found

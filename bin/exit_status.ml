@@ -5,6 +5,11 @@ let of_verdict : Dolphin_app.Exploration.verdict -> t = function
   | Violated -> Violated
   | Inconclusive -> Inconclusive
 
+let of_sweep : Dolphin_app.Sweep.verdict -> t = function
+  | Holds -> Done
+  | Breaks -> Violated
+  | Open -> Inconclusive
+
 let code = function
   | Done -> 0
   | Failed | Violated -> 1

@@ -11,6 +11,7 @@ type t =
   | Interrupted
 
 val of_verdict : Dolphin_app.Exploration.verdict -> t
+val of_sweep : Dolphin_app.Sweep.verdict -> t
 
 val code : t -> int
 (** The number that a shell sees. *)

@@ -12,7 +12,8 @@ let clear_progress () = Printf.eprintf "\r\027[K%!"
 
 let ( let* ) = Result.bind
 
-let explore settings program fleet ~json ~period =
+(* [search ~interrupted ~progress], whose progress is shown. *)
+let watched search ~json ~period =
   let live = Unix.isatty Unix.stderr && not json && period = None in
   let interrupted = ref false in
   Sys.set_signal Sys.sigint (Signal_handle (fun _ -> interrupted := true));
@@ -21,8 +22,7 @@ let explore settings program fleet ~json ~period =
     | Some seconds -> Progress_lines.every seconds prerr_endline
     | None -> if live then show_progress else if json then ignore else Progress_lines.every 10. prerr_endline
   in
-  let outcome =
-    Exploration.explore ~interrupted:(fun () -> !interrupted) ~progress settings program fleet in
+  let outcome = search ~interrupted:(fun () -> !interrupted) ~progress in
   if live then clear_progress ();
   outcome
 
@@ -34,7 +34,8 @@ let find_or_explore settings program fleet ~json ~period ~cache =
     Report.complain "nothing has changed: these are the verdicts that were kept";
     Ok outcome
   | None ->
-    let* outcome = explore settings program fleet ~json ~period in
+    let search ~interrupted ~progress = Exploration.explore ~interrupted ~progress settings program fleet in
+    let* outcome = watched search ~json ~period in
     let keep store = Result.iter_error Report.tell (Verdict_store.keep store outcome) in
     Option.iter keep store;
     Ok outcome
@@ -59,23 +60,42 @@ let check_walks (s : Exploration.settings) =
     Error (Error.Bad_input "random walks say nothing of a formula: give --sample or --ltl, not both")
   else Ok ()
 
+let of_program settings (program : Program_file.t) fleet ~strict ~json ~period ~files ~cache =
+  Report.diagnostics ~source:program.source program.warnings;
+  let* outcome = find_or_explore settings program fleet ~json ~period ~cache in
+  let written = write_files files program fleet ~strict outcome in
+  Result.iter_error Report.tell written;
+  if json then print_endline (Yojson.Safe.to_string (Exploration_report.to_json program.program outcome))
+  else Exploration_report.print ~strict program outcome;
+  match written with
+  | Ok () -> Ok (Exit_status.of_verdict (Exploration.verdict ~strict outcome))
+  | Error _ -> Ok Exit_status.Platform_trouble
+
+let of_values settings sweep fleet ~strict ~json ~period ~files ~cache =
+  if cache || files <> { trace = None; junit = None; sarif = None } then
+    Error (Error.Bad_input "--trace, --junit, --sarif and --cache are for one program: give --set no range of values")
+  else
+    let search ~interrupted ~progress =
+      Sweep.rows sweep ~interrupted (fun program ->
+          let* outcome = Exploration.explore ~interrupted ~progress settings program fleet in
+          Ok (outcome, Explore_sweep.verdict ~strict outcome))
+    in
+    let* rows = watched search ~json ~period in
+    if json then print_endline (Yojson.Safe.to_string (Explore_sweep.to_json sweep rows))
+    else Explore_sweep.print ~strict sweep rows;
+    Ok (Exit_status.of_sweep (Sweep.verdict rows))
+
 let run path set fleet answers faults strict json period files cache reduction compress walks invariants formulas
     max_states max_depth max_memory timeout =
   let settings : Exploration.settings =
     { answers; faults; reduction; compress; walks; max_states; max_depth; max_memory; timeout; invariants; formulas } in
   Report.result
     (let* () = check_walks settings in
-     let* program = Program_file.load ~set path in
+     let* question = Sweep.question ~set path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
-     Report.diagnostics ~source:program.source program.warnings;
-     let* outcome = find_or_explore settings program fleet ~json ~period ~cache in
-     let written = write_files files program fleet ~strict outcome in
-     Result.iter_error Report.tell written;
-     if json then print_endline (Yojson.Safe.to_string (Exploration_report.to_json program.program outcome))
-     else Exploration_report.print ~strict program outcome;
-     match written with
-     | Ok () -> Ok (Exit_status.of_verdict (Exploration.verdict ~strict outcome))
-     | Error _ -> Ok Exit_status.Platform_trouble)
+     match question with
+     | One program -> of_program settings program fleet ~strict ~json ~period ~files ~cache
+     | Several sweep -> of_values settings sweep fleet ~strict ~json ~period ~files ~cache)
 
 (* A number of bytes, as in 512M or 8G. *)
 let size =
@@ -285,5 +305,6 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ Options.set $ Options.fleet $ answers $ faults $ strict $ json $ period $ files
-      $ cache $ reduction $ compress $ walks $ invariants $ formulas $ max_states $ max_depth $ max_memory $ timeout)
+      const run $ Options.program $ Options.set_range $ Options.fleet $ answers $ faults $ strict $ json $ period
+      $ files $ cache $ reduction $ compress $ walks $ invariants $ formulas $ max_states $ max_depth $ max_memory
+      $ timeout)

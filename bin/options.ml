@@ -8,18 +8,27 @@ let fleet =
   let doc = "The fleet, a file such as $(i,mission.fleet). By default the file beside $(i,PROG) with that ending." in
   Arg.(value & opt (some string) None & info [ "fleet" ] ~docv:"FLEET" ~doc)
 
-let set =
+let set_of doc =
   let parse text =
     match String.index_opt text '=' with
     | Some i when i > 0 -> Ok (String.sub text 0 i, String.sub text (i + 1) (String.length text - i - 1))
     | Some _ | None -> Error (`Msg (Printf.sprintf "'%s' is not written NAME=VALUE, as in n=5" text))
   in
   let setting = Arg.conv ~docv:"NAME=VALUE" (parse, fun ppf (x, value) -> Format.fprintf ppf "%s=%s" x value) in
-  let doc =
-    "Give the program's parameter $(i,NAME) another value. May be repeated. $(mname) $(b,help) $(i,PROG) tells which \
-     parameters there are."
-  in
   Arg.(value & opt_all setting [] & info [ "set" ] ~docv:"NAME=VALUE" ~doc)
+
+let set_doc =
+  "Give the program's parameter $(i,NAME) another value. May be repeated. $(mname) $(b,help) $(i,PROG) tells which \
+   parameters there are."
+
+let set = set_of set_doc
+
+let set_range =
+  set_of
+    (set_doc
+     ^ " Of one that is a whole number, $(i,VALUE) may be a range, such as $(b,1..8): then the question is asked for \
+        each of these, and there is a table, the least value for which all holds, and a run that breaks it with one \
+        less.")
 
 let drawing =
   let parse path = Result.map_error (fun why -> `Msg why) (Dolphin_app.Drawing.of_path path) in

@@ -11,6 +11,9 @@ val fleet : string option Term.t
 val set : (string * string) list Term.t
 (** [--set NAME=VALUE], each time that it is given. *)
 
+val set_range : (string * string) list Term.t
+(** Likewise, of a command that takes a range of values too. *)
+
 val drawing : Dolphin_app.Drawing.t Arg.conv
 (** The name of a picture. *)
 

@@ -3,7 +3,8 @@ open Dolphin_app
 
 let ( let* ) = Result.bind
 
-let analyse settings program fleet ~json =
+(* [search ~interrupted ~progress], whose progress is shown. *)
+let watched search ~json =
   let live = Unix.isatty Unix.stderr && not json in
   let interrupted = ref false in
   Sys.set_signal Sys.sigint (Signal_handle (fun _ -> interrupted := true));
@@ -12,7 +13,7 @@ let analyse settings program fleet ~json =
     else if json then ignore
     else Progress_lines.every 10. prerr_endline
   in
-  let outcome = Time_analysis.run ~interrupted:(fun () -> !interrupted) ~progress settings program fleet in
+  let outcome = search ~interrupted:(fun () -> !interrupted) ~progress in
   if live then Printf.eprintf "\r\027[K%!";
   outcome
 
@@ -21,19 +22,62 @@ let status : Time_analysis.Timing.verdict -> Exit_status.t = function
   | Violated -> Violated
   | Inconclusive -> Inconclusive
 
-let run path set fleet answers faults deadline json trace max_states max_depth max_memory timeout =
+(* {1 One question, or several} *)
+
+let of_program (settings : Time_analysis.settings) (program : Program_file.t) fleet ~json ~trace =
+  let { Time_analysis.deadline; _ } = settings in
+  let search ~interrupted ~progress = Time_analysis.run ~interrupted ~progress settings program fleet in
+  let outcome = watched search ~json in
+  if json then print_endline (Yojson.Safe.to_string (Time_report.to_json ?deadline program outcome))
+  else Time_report.print ?deadline program outcome;
+  let write path = Time_report.write_shown ?deadline program fleet path outcome in
+  let* () = Option.fold trace ~none:(Ok ()) ~some:write in
+  Ok (status (Time_analysis.Timing.verdict ?deadline outcome))
+
+let of_values (settings : Time_analysis.settings) sweep fleet ~json =
+  let { Time_analysis.deadline; _ } = settings in
+  let search ~interrupted ~progress =
+    Sweep.rows sweep ~interrupted (fun program ->
+        let outcome = Time_analysis.run ~interrupted ~progress settings program fleet in
+        Ok (outcome, Time_sweep.verdict ?deadline outcome))
+  in
+  let* rows = watched search ~json in
+  if json then print_endline (Yojson.Safe.to_string (Time_sweep.to_json ?deadline sweep rows))
+  else Time_sweep.print ?deadline sweep rows;
+  Ok (Exit_status.of_sweep (Sweep.verdict rows))
+
+let of_fleets (settings : Time_analysis.settings) program fleet ~json =
+  let { Time_analysis.deadline; _ } = settings in
+  let search ~interrupted ~progress = Fewest.find ~interrupted ~progress settings program fleet in
+  let found = watched search ~json in
+  if json then print_endline (Yojson.Safe.to_string (Fewest.to_json ?deadline program found))
+  else Fewest.print ?deadline program fleet found;
+  Exit_status.of_sweep (Fewest.verdict (fst found))
+
+let run path set fleet answers faults deadline fewest json trace max_states max_depth max_memory timeout =
   let settings : Time_analysis.settings =
     { answers; faults; deadline; max_states; max_depth; max_memory; timeout } in
   Report.result
-    (let* program = Program_file.load ~set path in
+    (let* question = Sweep.question ~set path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
-     Report.diagnostics ~source:program.source program.warnings;
-     let outcome = analyse settings program fleet ~json in
-     if json then print_endline (Yojson.Safe.to_string (Time_report.to_json ?deadline program outcome))
-     else Time_report.print ?deadline program outcome;
-     let write path = Time_report.write_shown ?deadline program fleet path outcome in
-     let* () = Option.fold trace ~none:(Ok ()) ~some:write in
-     Ok (status (Time_analysis.Timing.verdict ?deadline outcome)))
+     match question with
+     | Several _ when fewest ->
+       Error (Error.Bad_input "--fewest looks for the least fleet of one program: give --set no range with it")
+     | Several _ when trace <> None ->
+       Error (Error.Bad_input "--trace is for one program: give --set no range of values")
+     | One _ when fewest && trace <> None -> Error (Error.Bad_input "--trace does not go with --fewest")
+     | Several sweep -> of_values settings sweep fleet ~json
+     | One program ->
+       Report.diagnostics ~source:program.source program.warnings;
+       if fewest then Ok (of_fleets settings program fleet ~json) else of_program settings program fleet ~json ~trace)
+
+let fewest =
+  let doc =
+    "Look for the least part of the fleet with which all runs end, none fails, every property of $(mname) \
+     $(b,explore) holds, the $(b,--deadline) and each $(b,within) are kept; and show a run that breaks one of these \
+     with a vehicle less. All smaller parts are looked at."
+  in
+  Arg.(value & flag & info [ "fewest" ] ~doc)
 
 let deadline =
   let doc =
@@ -75,7 +119,10 @@ let man =
     `S Manpage.s_options;
     `S Manpage.s_exit_status;
     `S Manpage.s_examples;
-    `Pre "  $(mname) $(tname) examples/rendezvous.dol\n  $(mname) $(tname) examples/rendezvous.dol --deadline 20.min" ]
+    `Pre "  $(mname) $(tname) examples/rendezvous.dol\n  $(mname) $(tname) examples/rendezvous.dol --deadline 20.min";
+    `P "How many vehicles it takes: of a program that says by a parameter how many it picks; or of the fleet's:";
+    `Pre "  $(mname) $(tname) mission.dol --set vehicles=1..8 --deadline 40.min\n\
+         \  $(mname) $(tname) mission.dol --fewest --deadline 40.min" ]
   @ Options.see_also
 
 let command =
@@ -86,6 +133,6 @@ let command =
   let json = Arg.(value & flag & info [ "json" ] ~doc:"Print the result as one JSON object.") in
   Cmd.v info
     Term.(
-      const run $ Options.program $ Options.set $ Options.fleet $ Explore_command.answers $ Explore_command.faults
-      $ deadline $ json $ trace
+      const run $ Options.program $ Options.set_range $ Options.fleet $ Explore_command.answers $ Explore_command.faults
+      $ deadline $ fewest $ json $ trace
       $ Explore_command.max_states $ Explore_command.max_depth $ Explore_command.max_memory $ Explore_command.timeout)

@@ -79,6 +79,27 @@ let wrong p =
   let wanted = Option.fold (kind p.value) ~none:"a value" ~some:described in
   Printf.sprintf "'%s' is %s, as in %s" p.name wanted (told p)
 
+let longest_range = 1_000
+
+let range p text =
+  let rec whole e =
+    match e.it with
+    | Integer n -> Some n
+    | Unary (Negate, e) -> Option.map Int.neg (whole e)
+    | _ -> None
+  in
+  let between first last inclusive =
+    let step = if first <= last then 1 else -1 in
+    let n = abs (last - first) + if inclusive then 1 else 0 in
+    if n <= 0 || n > longest_range then None else Some (List.init n (fun i -> first + (i * step)))
+  in
+  match kind p.value, Parse.expression ~file:"--set" text with
+  | Some Whole, Ok { it = Range { first; last; inclusive }; _ } -> (
+      match whole first, whole last with
+      | Some first, Some last -> between first last inclusive
+      | _, _ -> None)
+  | _, (Ok _ | Error _) -> None
+
 (* What a text is, for a parameter that is one: as it stands, if it is not in quotes. *)
 let read p text =
   match kind p.value, Parse.expression ~file:"--set" text with

@@ -23,6 +23,7 @@ type outcome = {
   unknown : Timed.pending list;
   deadlines : (Core.site * (window * run) option) list;
   late : run option;
+  failing : run option;
   stopped : Limits.bound option;
   states : int;
   depth : int;
@@ -123,6 +124,7 @@ let run ?deadline limits options =
     unknown = Timed_system.unknown late_system;
     deadlines = deadlines options early_system late_system;
     late = (match last with Some (date, _) when is_late date -> last_run | Some _ | None -> None);
+    failing = run_at Latest late_system (List.assoc_opt Timed_system.Failed (Timed_system.endings late_system));
     stopped = (match Search.stopped late with Some bound -> Some bound | None -> Search.stopped early);
     states = Search.count late + Search.count early;
     depth = max (Search.depth late) (Search.depth early);
@@ -132,6 +134,19 @@ let run ?deadline limits options =
 let latest o =
   let later found (_, w) = match found with Some d when not (is_later w.latest d) -> found | _ -> Some w.latest in
   List.fold_left later None o.endings
+
+type shortfall = Never_ends | Fails | Late | Misses | Unknown
+
+let shortfall ?deadline o =
+  let latest = latest o in
+  let is_late = match deadline, latest with Some n, Some (At m) -> m > n | _ -> false in
+  let is_unknown = o.stopped <> None || latest = None || (deadline <> None && latest = Some Unbounded) in
+  if o.endless <> None then Some Never_ends
+  else if List.mem_assoc Timed_system.Failed o.endings then Some Fails
+  else if is_late then Some Late
+  else if List.exists (fun (_, missed) -> missed <> None) o.deadlines then Some Misses
+  else if is_unknown then Some Unknown
+  else None
 
 type verdict = Holds | Violated | Inconclusive
 

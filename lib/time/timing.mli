@@ -27,6 +27,7 @@ type outcome = {
   deadlines : (Core.site * (window * run) option) list;
   (** the [within] of the program, each with when it is missed, and a run in which it is; [None]: it is kept *)
   late : run option;  (** one that is not over at the deadline *)
+  failing : run option;  (** one that fails *)
   stopped : Dolphin_checker.Limits.bound option;
   (** if there is a bound, dates are of the runs that were looked at *)
   states : int;
@@ -42,6 +43,18 @@ val latest : outcome -> date option
 (** [latest o] is when the last run is over; [None] if none that was looked at ends. *)
 
 type verdict = Holds | Violated | Inconclusive
+
+(** Why a program does not do what it should in time. *)
+type shortfall =
+  | Never_ends  (** some run *)
+  | Fails
+  | Late  (** some run is not over at the deadline *)
+  | Misses  (** a [within] *)
+  | Unknown  (** a bound was met, or nobody knows how long it takes *)
+
+val shortfall : ?deadline:int -> outcome -> shortfall option
+(** [shortfall ~deadline o] is the first of these that is so; [None]: all runs end in time, none fails, and each
+    [within] is kept. Nobody need know how long all takes if there is no [deadline]. *)
 
 val verdict : ?deadline:int -> outcome -> verdict
 (** [verdict ~deadline o]: [Violated] if some run never ends, or ends after [deadline]; else [Inconclusive] if a bound

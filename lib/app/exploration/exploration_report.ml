@@ -61,9 +61,14 @@ let print_violation (program : Program_file.t) (property, (verdict : Search.verd
   | Unreached pieces when not remark -> print_unreached program.program property pieces
   | Holds | By_design _ | Inconclusive _ | Violated _ | Unreached _ -> ()
 
-let print ~strict (program : Program_file.t) (o : Search.outcome) =
+let with_remarks ~strict (o : Search.outcome) =
   let with_remark (property, verdict) = (property, verdict, Exploration.is_remark property && not strict) in
-  let verdicts = List.map with_remark o.verdicts in
+  List.map with_remark o.verdicts
+
+let print_violations ~strict program o = List.iter (print_violation program) (with_remarks ~strict o)
+
+let print ~strict (program : Program_file.t) (o : Search.outcome) =
+  let verdicts = with_remarks ~strict o in
   List.iter (print_verdict program.program) verdicts;
   print_counts o;
   Option.iter (print_sample ~seen:o.states) o.sample;

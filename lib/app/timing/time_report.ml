@@ -132,6 +132,10 @@ let write_shown ?deadline program fleet path o =
   in
   Option.fold (shown o) ~none:(Ok ()) ~some:write
 
+let print_failing p run =
+  print_endline "\na run that fails:";
+  print_columns p run
+
 let print_deadline ?deadline (o : Timing.outcome) =
   let say n =
     let verdict =

@@ -6,6 +6,15 @@ val print : ?deadline:int -> Program_file.t -> Timing.outcome -> unit
 (** For people: when runs are over and when tasks start and end, the run that ends last or breaks the [deadline], in
     columns with times, what its end depends on, and what nobody knows. *)
 
+val print_run : ?deadline:int -> Program_file.t -> Timing.outcome -> unit
+(** Only the run, after a blank line and a word on what it is. *)
+
+val print_failing : Program_file.t -> Timing.run -> unit
+(** Likewise, a run that fails. *)
+
+val time : int -> string
+(** Milliseconds as {!Dolphin_time.Bounds.pp_time} has them. *)
+
 val item : Program_file.t -> Dolphin_time.Timed.pending -> string
 (** What is awaited: ["mission.dol:3:10: survey on noptilus-1"]. *)
 

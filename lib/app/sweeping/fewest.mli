@@ -1,0 +1,37 @@
+(** The least fleet that will do: [dolphin time --fewest]. *)
+
+module Timing = Dolphin_time.Timing
+
+(** What stands against a fleet. *)
+type trouble =
+  | Property of Dolphin_explore.Property.t * Dolphin_explore.Search.outcome  (** is violated *)
+  | Time of Timing.shortfall * Timing.outcome
+  | Bound of Dolphin_checker.Limits.bound  (** met by the exploration: nobody knows *)
+
+type vehicles = Dolphin_semantics.Core.vehicle list
+
+type t =
+  | Least of {
+      vehicles : vehicles;
+      outcome : Timing.outcome;  (** with these *)
+      without : (Dolphin_semantics.Core.vehicle * trouble) list;  (** each of them *)
+      unsure : vehicles list;  (** fleets that are smaller, of which nobody knows *)
+    }
+  | None_does of { all : trouble; unsure : vehicles list }
+  (** no part of the fleet is known to do, nor all of it: what stands against [all] of it *)
+  | Interrupted of int  (** no fleet of fewer vehicles than this will do, of those that are known *)
+
+val find :
+  interrupted:(unit -> bool) -> progress:(Dolphin_checker.Limits.progress -> unit) -> Time_analysis.settings ->
+  Program_file.t -> Fleet_file.t -> t * int
+(** [find ~interrupted ~progress s program fleet] is the first of the smallest parts of [fleet], by the order of its
+    vehicles, with which no property of {!Exploration} is violated and nothing is {!Timing.shortfall}; and how many
+    parts were looked at: all that are smaller. *)
+
+val verdict : t -> Sweep.verdict
+
+val print : ?deadline:int -> Program_file.t -> Fleet_file.t -> t * int -> unit
+(** The fleet; what breaks without each of its vehicles; a run that breaks it without the first of them, and one that
+    ends last with all. *)
+
+val to_json : ?deadline:int -> Program_file.t -> t * int -> Yojson.Safe.t

@@ -1,0 +1,46 @@
+module Timing = Dolphin_time.Timing
+
+let verdict ?deadline o : Sweep.verdict =
+  match Timing.shortfall ?deadline o with None -> Holds | Some Unknown -> Open | Some _ -> Breaks
+
+let shortfall : Timing.shortfall -> string = function
+  | Never_ends -> "does not end"
+  | Fails -> "fails"
+  | Late -> "late"
+  | Misses -> "within missed"
+  | Unknown -> "inconclusive"
+
+let earliest (o : Timing.outcome) =
+  List.fold_left (fun found (_, (w : Timing.window)) -> min found w.earliest) max_int o.endings
+
+let cells ?deadline ({ found = o; _ } : Timing.outcome Sweep.row) =
+  let first = if o.endings = [] then "" else Time_report.time (earliest o) in
+  let last =
+    match Timing.latest o with
+    | Some (At n) when o.endless = None -> Time_report.time n
+    | Some (At _) | Some Unbounded -> "unbounded"
+    | None -> ""
+  in
+  [ first; last; string_of_int o.states;
+    Option.fold (Timing.shortfall ?deadline o) ~none:"holds" ~some:shortfall ]
+
+let print_run ?deadline s ({ program; found; verdict; _ } as row : Timing.outcome Sweep.row) =
+  if verdict <> Open then begin
+    Printf.printf "\n%s:" (Sweep.name s row);
+    match Timing.shortfall ?deadline found, found.failing with
+    | Some Fails, Some run -> Time_report.print_failing program run
+    | _, _ -> Time_report.print_run ?deadline program found
+  end
+
+let print ?deadline s rows =
+  Sweep.print s ~heads:[ "earliest"; "latest"; "states"; "verdict" ] (cells ?deadline) rows;
+  match Sweep.fewest rows, List.rev rows with
+  | Some { row; below; _ }, _ ->
+    Option.iter (print_run ?deadline s) below;
+    print_run ?deadline s row
+  | None, last :: _ -> print_run ?deadline s last
+  | None, [] -> ()
+
+let to_json ?deadline s rows =
+  let found (row : Timing.outcome Sweep.row) = Time_report.to_json ?deadline row.program row.found in
+  Sweep.to_json s found rows

@@ -1000,10 +1000,15 @@ PICK_ERR(M, q, w) ==
   EndStep("PICK-ERR", "no-vehicles(" \o NoVehicles(q, w) \o ")", Expired(ScriptTimer), Shared,
           FailedFor("vehicles", Fault(NoVehicles(q, w), M.at)))
 
+PICK_ELSE(M, q, w) ==
+  Transition("PICK-ELSE", "no-vehicles(" \o NoVehicles(q, w) \o ")", Expired(ScriptTimer), Script(GoOn(M, Null)),
+             Shared, << >>)
+TooFewFor(M, q, w) == IF q.otherwise THEN PICK_ELSE(M, q, w) ELSE PICK_ERR(M, q, w)
+
 PickSteps(M, q, w) ==
   LET V == Fit(q, w)
   IN CASE q.all /\ V # << >> -> << PICK_BIND(M, V, Expired(ScriptTimer)) >>
-       [] q.all \/ Len(V) < q.count -> << PICK_ERR(M, q, w) >>
+       [] q.all \/ Len(V) < q.count -> << TooFewFor(M, q, w) >>
        [] OTHER -> Each(Choices(q.count, V), LAMBDA chosen : PICK_BIND(M, chosen, Program))
 
 (* {2 Waiting ends} *)

@@ -121,13 +121,16 @@ AlwaysFit(q) ==
   IN SelectSeq(Wanted(q), isAlwaysIn)
 
 (* As many of them as must be missing for too few to come, if so many may be: those first whose absence is nothing
-   new. *)
+   new, and each choice of others. *)
 TooFew(q) ==
-  LET least == Len(AlwaysFit(q)) - (q.count - 1)
-      known == SelectSeq(Unsure(q), LAMBDA v : v \in outside.late)
-      unknown == SelectSeq(Unsure(q), LAMBDA v : v \notin outside.late)
-      mayMiss == SelectSeq(Silent(q) \o known \o unknown, LAMBDA v : v \in Range(AlwaysFit(q)))
-  IN IF least < 1 \/ least > Len(mayMiss) THEN << >> ELSE << SubSeq(mayMiss, 1, least) >>
+  LET always(vs) == SelectSeq(vs, LAMBDA v : v \in Range(AlwaysFit(q)))
+      least == Len(AlwaysFit(q)) - (q.count - 1)
+      forNothing == always(Silent(q) \o SelectSeq(Unsure(q), LAMBDA v : v \in outside.late))
+      unknown == always(SelectSeq(Unsure(q), LAMBDA v : v \notin outside.late))
+      more == Clipped(least - Len(forNothing), 0, Len(unknown))
+      first == SubSeq(forNothing, 1, least - more)
+  IN IF least < 1 \/ least - Len(forNothing) > Len(unknown) THEN << >>
+     ELSE Each(Choices(more, unknown), LAMBDA others : first \o others)
 
 (* A pick of all vehicles waits for its whole timeout: some may come late while others are missing. A pick of n
    vehicles goes on with the first n, of which up to n were late. Or too few come. Attendances with fewer newly late
@@ -153,12 +156,16 @@ AfterPick(t, a) ==
                    !.late = IF Latecomers = -1 THEN @ ELSE @ \cup LateIn(a) ]
 
 (* In each world that may be. A transition that is there in several worlds is remembered as in the first of them: with
-   the fewest newly late vehicles. Nothing follows PICK-ERR, whose ways differ in the text only: one is enough. *)
+   the fewest newly late vehicles. Nothing follows PICK-ERR, whose ways differ in the text only: one is enough. What
+   follows PICK-ELSE knows who was late. *)
 PickTransitions(M, q) ==
   LET placings == Placings(NothingSeen, IF q.region = << >> THEN << >> ELSE Wanted(q))
       in(a) == Flatten(Each(placings, LAMBDA sees : PickSteps(M, q, WorldOf(a, sees))))
       steps(a) == Each(in(a), LAMBDA t : Remembering(t, AfterPick(t, a)))
-      isSame(t, u) == t.label = u.label \/ (t.rules = << "PICK-ERR" >> /\ u.rules = << "PICK-ERR" >>)
+      areBoth(name, t, u) == t.rules = << name >> /\ u.rules = << name >>
+      isSame(t, u) ==
+        IF areBoth("PICK-ELSE", t, u) THEN t.outside.late \subseteq u.outside.late
+        ELSE t.label = u.label \/ areBoth("PICK-ERR", t, u)
       first(ts) == SelectSeq([ j \in DOMAIN ts |-> j ], LAMBDA j : \A i \in 1 .. j - 1 : ~isSame(ts[i], ts[j]))
   IN Only({ Each(first(ts), LAMBDA j : ts[j]) : ts \in { Flatten(Each(Attendances(q), steps)) } })
 

@@ -273,7 +273,8 @@ Unescaped(characters) ==
     [] OTHER -> Head(characters) \o Unescaped(Tail(characters))
 
 AnyVehicle ==
-  [ id |-> << >>, type |-> << >>, payload |-> << >>, region |-> << >>, count |-> 1, all |-> FALSE, timeout |-> << >> ]
+  [ id |-> << >>, type |-> << >>, payload |-> << >>, region |-> << >>, count |-> 1, all |-> FALSE, timeout |-> << >>,
+    otherwise |-> FALSE ]
 
 IsString(x) == Is(x, "string")
 AreStrings(xs) ==
@@ -339,8 +340,8 @@ ReadName(name, ss) ==
     [] OTHER -> Bad(Assert(FALSE, "planName is translated for strings"))
 
 Build(m, op, ss) ==
-  CASE op.builder = "pick" ->
-         LET q == ReadPick(AnyVehicle, ss)
+  CASE op.builder \in { "pick", "pick if any" } ->
+         LET q == ReadPick([ AnyVehicle EXCEPT !.otherwise = op.builder = "pick if any" ], ss)
          IN IF IsOk(q) THEN Request(m, "pick", << "pick", q[2] >>) ELSE Settle(m, q)
     [] op.builder \in { "allOf", "oneOf" } ->
          LET branches == ReadBranches(<< >>, ss)

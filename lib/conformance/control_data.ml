@@ -192,7 +192,7 @@ let of_pick (p : Settings.pick) : json =
     | Shape shape -> tagged "rims" (List.map (of_list Plan_data.of_position) (Dolphin_geo.Area.rings shape))
   in
   let text x : json = `String x in
-  tagged "pick"
+  tagged (if p.otherwise then "pick-else" else "pick")
     [ of_option text f.id; of_option text f.kind; of_list text f.payload; of_option area f.region;
       (match p.count with Exactly n -> `Int n | All -> `String "all"); of_option of_float p.timeout ]
 
@@ -221,10 +221,10 @@ let of_request budget : Code.request -> json = function
     tagged "call" [ of_option (fun name -> `String name) subject; `String member; arguments ]
 
 let request nodes : json -> Code.request = function
-  | `List [ `String "pick"; id; kind; payload; region; its_count; timeout ] ->
+  | `List [ `String (("pick" | "pick-else") as name); id; kind; payload; region; its_count; timeout ] ->
     let filter : Settings.filter =
       { id = option text id; kind = option text kind; payload = list text payload; region = option area region } in
-    Pick { filter; count = count its_count; timeout = option float timeout }
+    Pick { filter; count = count its_count; timeout = option float timeout; otherwise = (name = "pick-else") }
   | `List [ `String "ask"; prompt ] -> Ask (text prompt)
   | `List [ `String "pause"; seconds ] -> Pause (float seconds)
   | `List [ `String "execute"; t ] -> Execute (task nodes t)

@@ -106,6 +106,7 @@ let of_label ?(stuck = false) (s : Transition.t) =
   | Interrupt when List.mem Rule.On_interrupt s.rules ->
     by_program ~how:Trouble ((if stuck then "is stuck" else "is interrupted") ^ ": executes onInterrupt")
   | Input (k, x) -> by_program (Format.asprintf "gets %a" Value.pp_tuple (k, x))
+  | No_vehicles why when List.mem Rule.Pick_else s.rules -> by_program (why ^ "; goes on without")
   | Start _ | Make | Silent | Pick _ | Bind _ | No_vehicles _ | Ask _ | Answer _ | No_answer | Resume | No_reply _
   | Execute | Cannot_execute _ | End | Halt _ | Fault _ | Interrupt -> []
 

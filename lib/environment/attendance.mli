@@ -43,9 +43,9 @@ val with_latecomers : company -> int -> int -> (Core.vehicle list * Core.vehicle
 (** [with_latecomers c count n] is those who may be bound by a pick of [count] vehicles, some of them late: first who
     comes in the order of the fleet, then who is late, which is somebody. *)
 
-val too_few : company -> int -> Core.vehicle list option
-(** [too_few c count] is who is missing if fewer than [count] come, and some of those that come otherwise are missing;
-    [None] if more would have to miss than may. *)
+val too_few : company -> int -> Core.vehicle list Seq.t
+(** [too_few c count] is who is missing if fewer than [count] come, and some of those that come otherwise are missing:
+    each choice of those that count, as few as can be; none if more would have to miss than may. *)
 
 val of_all : company -> int -> t Seq.t
 (** [of_all c n] is the ways to attend a pick of all vehicles. *)

@@ -233,14 +233,17 @@ let in_world options program world e c : choice Seq.t =
 
 (* {1 Who is there} *)
 
-(* Nothing follows where too few come, and the ways to it differ in the text of the error only: the first is enough.
-   Other transitions come twice only where sensors are open. *)
-let once world choices () =
-  let too_few_came = ref false in
-  let is_first { transition; _ } =
+(* The ways to have too few vehicles differ in the text only, and in who was late, which matters if anything follows: of
+   those with more the ones with fewer are enough. Other transitions come twice only where sensors are open. *)
+let once world (pick : Settings.pick) choices () =
+  let too_few_came = ref [] in
+  let is_first { transition; outside; _ } =
     match transition.label with
-    | No_vehicles _ when !too_few_came -> false
-    | No_vehicles _ -> too_few_came := true; true
+    | No_vehicles _ ->
+      let is_enough e = (not pick.otherwise) || List.for_all (fun v -> List.mem v outside.late) e.late in
+      let seen = List.exists is_enough !too_few_came in
+      if not seen then too_few_came := outside :: !too_few_came;
+      not seen
     | _ -> true
   in
   let choices = Seq.filter is_first choices in
@@ -294,6 +297,11 @@ let picking ?alike options program world e (c : Configuration.t) (pick : Setting
     let assumed = assumed a in
     Seq.map (fun choice -> remember a (assuming assumed choice)) transitions
   in
+  let too_few n =
+    let ways = Attendance.too_few company n in
+    let remembered = match options.faults.join with At_most _ -> pick.otherwise | Never | Any_number -> false in
+    if remembered then ways else match ways () with Seq.Nil -> Seq.empty | Seq.Cons (way, _) -> Seq.return way
+  in
   let attended_in world a = given a (in_world options program (World.suppose (assumed a) world) e c) in
   let attended = attended_in world in
   let of_number n =
@@ -305,21 +313,20 @@ let picking ?alike options program world e (c : Configuration.t) (pick : Setting
       let bound (on_time, coming) =
         given { coming; missing = [] } (internal program (World.only (on_time @ coming) world) e c)
       in
-      let failed =
-        match Attendance.too_few company n with
-        | Some missing when Attendance.number_of_new company missing = news -> attended { coming = []; missing }
-        | Some _ | None -> Seq.empty
+      let failed missing =
+        if Attendance.number_of_new company missing = news then attended { coming = []; missing } else Seq.empty
       in
       let as_it_is = if news = 0 then attended_in shown { coming = []; missing = [] } else Seq.empty in
       let as_it_is = Seq.map (assuming placed) as_it_is in
-      Seq.append as_it_is (Seq.append (Seq.flat_map bound (Attendance.with_latecomers seen n news)) failed)
+      Seq.append as_it_is
+        (Seq.append (Seq.flat_map bound (Attendance.with_latecomers seen n news)) (Seq.flat_map failed (too_few n)))
   in
   let with_new news =
     match pick.count with
     | Exactly n -> of_number n news
     | All -> Seq.flat_map attended (Attendance.of_all company news)
   in
-  once world (Seq.flat_map with_new (Attendance.costs company))
+  once world pick (Seq.flat_map with_new (Attendance.costs company))
 
 (* {1 All together} *)
 

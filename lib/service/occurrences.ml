@@ -90,6 +90,9 @@ let rec expression env e =
   | Call { callee; arguments } -> call env callee arguments
   | Member { subject; name = _; safe = _ } -> expression env subject
   | Builder (b, body) -> statements { env with settings = Builtins.settings b; top = false } body
+  | Pick_else (settings, otherwise) ->
+    statements { env with settings = Builtins.settings Pick; top = false } settings;
+    block env otherwise
   | When (c, e) | Wait_for (c, e) | Until (_, c, e) -> closure env c; expression env e
   | During (_, a, b) -> expression env a; expression env b
   | Watch (e, c) -> expression env e; closure env c

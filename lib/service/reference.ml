@@ -82,7 +82,8 @@ let procedures =
 
 let blocks =
   List.map (entry Block)
-    [ "pick", "pick { count 3; type 'UUV' }", "Binds vehicles to the program and gives them as a set.";
+    [ "pick", "pick { count 3; type 'UUV' }", "Binds vehicles to the program and gives them as a set. \
+                                               With `else { ... }`, what to do without.";
       "imcPlan", "imcPlan { goTo speed: 1.2 }", "An inline plan: settings, and maneuvers in their order.";
       "mission", "mission { takeOff 30; goPos p; returnHomeAndLand() }",
       "A mission of items in their order, for vehicles such as those that speak MAVLink.";

@@ -59,6 +59,7 @@ and expression_node =
   | Member of { subject : expression; name : string located; safe : bool }  (* [e.x], [e?.x]; [2.km] *)
   | Index of expression * expression            (* [e[e']]: element, or allocation [T[V]] *)
   | Builder of builder * statement list
+  | Pick_else of statement list * statement list  (* [pick { ... } else { ... }] *)
   | When of closure * expression                (* [when { C } then T], in [allOf] and [oneOf] *)
   | Wait_for of closure * expression            (* [waitFor { C } then T], also [.. run T] *)
   | Until of on_cut * closure * expression      (* [until { C } run T]; [assure { C } run T] *)

@@ -131,7 +131,7 @@ let rest_of_statement place i =
     Each rule gives a message and a hint, or leaves the place to the next rule. *)
 
 let is_word = function
-  | DEF | IF | ELSE | WHILE | FOR | IN | RETURN | BREAK | CONTINUE | WHEN | WATCH | WAIT_FOR | REPEAT
+  | DEF | IF | ELSE | OTHERWISE | WHILE | FOR | IN | RETURN | BREAK | CONTINUE | WHEN | WATCH | WAIT_FOR | REPEAT
   | UNTIL _ | DURING _ | AFTER_UNTIL _ | AFTER_DURING _ | THEN | RUN | ON_ERROR | TRUE | FALSE | NULL -> true
   | _ -> false
 
@@ -226,6 +226,11 @@ let missing_brace place =
     Some ("a '{' is missing here", "the body of a function stands in braces")
   | _ -> None
 
+let missing_block place =
+  match before place 1 with
+  | OTHERWISE -> Some ("a '{' is missing after 'else'", "write pick { ... } else { what to do without }")
+  | _ -> None
+
 let missing_parenthesis place =
   match before place 1 with
   | IF -> Some ("a '(' is missing after 'if'", "write if (condition) { ... }")
@@ -241,7 +246,9 @@ let missing_parameters place =
 
 let misplaced_word place =
   match this place with
-  | ELSE -> Some ("'else' without an 'if'", "an 'else' follows the body of an 'if'")
+  | ELSE | OTHERWISE ->
+    Some ("'else' without an 'if'",
+          "an 'else' follows the body of an 'if', or the settings of a pick: pick { ... } else { ... }")
   | THEN -> Some ("'then' cannot stand here", "'then' follows when { ... } and waitFor { ... }")
   | RUN ->
     Some ("'run' cannot stand here",
@@ -337,8 +344,8 @@ let stray place =
   | _ -> None
 
 let rules = [
-  missing_parenthesis; assigned_word; missing_brace; missing_parameters; negative_argument; greedy_bracket; assignment;
-  missing_word; misplaced_word; command; unit_without_point;
+  missing_parenthesis; missing_block; assigned_word; missing_brace; missing_parameters; negative_argument;
+  greedy_bracket; assignment; missing_word; misplaced_word; command; unit_without_point;
   described_parameter; stray;
 ]
 

@@ -18,6 +18,7 @@ let expression place it = located place it
 %token <string> TEXT
 %token WILDCARD TRUE FALSE NULL
 %token PARAMETER                         (* before [n = 3] at the start of a statement *)
+%token OTHERWISE                         (* the [else] of a [pick] *)
 %token DEF IF ELSE WHILE FOR IN RETURN BREAK CONTINUE
 %token WHEN WATCH WAIT_FOR REPEAT THEN RUN ON_ERROR
 %token <Ast.on_cut> UNTIL DURING         (* [until] and [during] complete; [assure] and [within] fail *)
@@ -311,6 +312,8 @@ primary:
   | LBRACKET; reversed = entries; option(COMMA); RBRACKET { expression $loc (Map (List.rev reversed)) }
   | c = closure { expression $loc (Closure c) }
   | b = BUILDER; BLOCK; body = statements; RBRACE { expression $loc (Builder (b, body)) }
+  | BUILDER; BLOCK; settings = statements; RBRACE; OTHERWISE; BLOCK; otherwise = statements; RBRACE
+    { expression $loc (Pick_else (settings, otherwise)) }
 
 parenthesised:
   | LPAREN; e = chain; RPAREN { { e with at = Location.make $loc } }

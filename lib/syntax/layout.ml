@@ -8,8 +8,8 @@ let is_incomplete = function
   | LESS_EQUAL | GREATER | GREATER_EQUAL | EQUAL | NOT_EQUAL | AMPERSAND | CARET | BAR | AND | OR | IN | NOT
   | COMMA | COLON | ARROW | DOT | SAFE_DOT | QUESTION | ELVIS | ASSIGN | ASSIGN_OPERATOR _
   | LPAREN | LBRACKET | LBRACE | TRAILING | BLOCK | HOLE_OPEN | SEPARATOR | BUILDER _ | COMMAND _
-  | PARAMETER | DEF | IF | ELSE | WHILE | FOR | WHEN | WATCH | WAIT_FOR | REPEAT | UNTIL _ | DURING _ | AFTER_UNTIL _
-  | AFTER_DURING _ | THEN | RUN | ON_ERROR -> true
+  | PARAMETER | DEF | IF | ELSE | OTHERWISE | WHILE | FOR | WHEN | WATCH | WAIT_FOR | REPEAT | UNTIL _ | DURING _
+  | AFTER_UNTIL _ | AFTER_DURING _ | THEN | RUN | ON_ERROR -> true
   | NAME _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | TEMPLATE_CLOSE | HOLE_CLOSE | TEXT _ | WILDCARD
   | TRUE | FALSE | NULL | RETURN | BREAK | CONTINUE | RPAREN | RBRACKET | RBRACE | STEP _ | EOF -> false
 
@@ -17,7 +17,7 @@ let is_incomplete = function
 let continues = function
   | RANGE | RANGE_LESS | POWER | STAR | SLASH | PERCENT | SHIFT_LEFT | SHIFT_RIGHT | LESS | LESS_EQUAL
   | GREATER | GREATER_EQUAL | EQUAL | NOT_EQUAL | AMPERSAND | CARET | BAR | AND | OR | IN
-  | COMMA | COLON | DOT | SAFE_DOT | QUESTION | ELVIS | THEN | RUN | ON_ERROR | ELSE
+  | COMMA | COLON | DOT | SAFE_DOT | QUESTION | ELVIS | THEN | RUN | ON_ERROR | ELSE | OTHERWISE
   | RPAREN | RBRACKET | RBRACE | HOLE_CLOSE | SEPARATOR | EOF -> true
   | NAME _ | COMMAND _ | BUILDER _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | TEMPLATE_CLOSE
   | HOLE_OPEN | TEXT _ | WILDCARD | TRUE | FALSE | NULL | PARAMETER | DEF | IF | WHILE | FOR | RETURN | BREAK | CONTINUE
@@ -36,7 +36,7 @@ let takes_closure = function
   | _ -> false
 
 let is_word = function
-  | DEF | IF | ELSE | WHILE | FOR | IN | RETURN | BREAK | CONTINUE | WHEN | WATCH | WAIT_FOR | REPEAT
+  | DEF | IF | ELSE | OTHERWISE | WHILE | FOR | IN | RETURN | BREAK | CONTINUE | WHEN | WATCH | WAIT_FOR | REPEAT
   | UNTIL _ | DURING _ | THEN | RUN | ON_ERROR -> true
   | _ -> false
 
@@ -56,6 +56,7 @@ type frame =
   | Enclosed                   (* [( )], [[ ]], a hole: lines do not matter *)
   | Body                       (* statements that are a statement, or the body of one *)
   | Value                      (* statements that are part of an expression *)
+  | Picking                    (* likewise, the settings of a [pick] *)
 
 type state = {
   source : string;
@@ -65,6 +66,7 @@ type state = {
   mutable arranged : Token.t list;     (* in reverse *)
   mutable last : Grammar.token;        (* the one handed on last; SEPARATOR at the start *)
   mutable last_is_header : bool;
+  mutable last_is_pick : bool;         (* whether it closes the settings of a [pick] *)
   mutable frames : frame list;
   mutable separate : bool;             (* whether a [;] or the end of a body calls for a separator *)
 }
@@ -102,7 +104,8 @@ let begins_argument state i =
 let push state (token : Token.t) kind =
   state.arranged <- { token with token = kind } :: state.arranged;
   state.last <- kind;
-  state.last_is_header <- false
+  state.last_is_header <- false;
+  state.last_is_pick <- false
 
 let after_point state = match state.last with DOT | SAFE_DOT -> true | _ -> false
 
@@ -129,10 +132,27 @@ let brace state i =
   match state.last with
   | SEPARATOR | LBRACE | TRAILING | BLOCK | ARROW when begins_parameters state i -> LBRACE, Value
   | SEPARATOR | LBRACE | TRAILING | BLOCK | ARROW | ELSE -> BLOCK, Body
-  | BUILDER _ -> BLOCK, Value
+  | BUILDER Pick -> BLOCK, Picking
+  | BUILDER _ | OTHERWISE -> BLOCK, Value
   | RPAREN when state.last_is_header -> BLOCK, Body
   | last when takes_closure last && same_line -> TRAILING, Value
   | _ -> LBRACE, Value
+
+(* Whether an [if] that stands without braces in the statement so far, and has no [else] yet, may have one here. *)
+let if_lacks_else state =
+  let rec back (tokens : Token.t list) depth elses =
+    match tokens with
+    | [] -> false
+    | { token; _ } :: tokens -> (
+        match token with
+        | RPAREN | RBRACKET | RBRACE | HOLE_CLOSE -> back tokens (depth + 1) elses
+        | LPAREN | LBRACKET | LBRACE | TRAILING | BLOCK | HOLE_OPEN -> depth > 0 && back tokens (depth - 1) elses
+        | SEPARATOR when depth = 0 -> false
+        | ELSE when depth = 0 -> back tokens depth (elses + 1)
+        | IF when depth = 0 -> elses = 0 || back tokens depth (elses - 1)
+        | _ -> back tokens depth elses)
+  in
+  back state.arranged 0 0
 
 (* Whether [parameter] at [i] declares one: [parameter n = 3], at the start of a statement. *)
 let declares_parameter state i =
@@ -147,6 +167,7 @@ let classify state i (token : Token.t) =
   | word when is_word word && (after_point state || is_key state i) -> NAME (Token.text ~source:state.source token)
   | UNTIL on_cut when ends_operand state.last && not state.last_is_header -> AFTER_UNTIL on_cut
   | DURING on_cut when ends_operand state.last && not state.last_is_header -> AFTER_DURING on_cut
+  | ELSE when state.last_is_pick && not (if_lacks_else state) -> OTHERWISE
   | NAME "parameter" when declares_parameter state i -> PARAMETER
   | NAME x as name ->
     if after_point state || raw_token state (i + 1) <> LBRACE then
@@ -156,7 +177,7 @@ let classify state i (token : Token.t) =
 
 let in_statements state =
   match state.frames with
-  | [] | (Body | Value) :: _ -> true
+  | [] | (Body | Value | Picking) :: _ -> true
   | Enclosed :: _ -> false
 
 (* Whether a separator belongs between the last token and one of this [kind]. *)
@@ -164,7 +185,7 @@ let separates state (token : Token.t) kind =
   in_statements state
   && state.last <> SEPARATOR
   && (match state.last with LBRACE | TRAILING | BLOCK | ARROW -> false | _ -> true)
-  && (match kind with RBRACE | EOF | ELSE -> false | _ -> true)
+  && (match kind with RBRACE | EOF | ELSE | OTHERWISE -> false | _ -> true)
   && (state.separate
       || token.newline
          && not (is_incomplete state.last)
@@ -204,6 +225,7 @@ let step state i (token : Token.t) =
         | [] -> Enclosed, []
         | frame :: frames -> frame, frames in
       state.frames <- frames;
+      state.last_is_pick <- (closed = Picking);
       state.separate <- (closed = Body)
     | _ ->
       mark_header state i kind;
@@ -212,6 +234,6 @@ let step state i (token : Token.t) =
 let arrange ~source { Brackets.tokens; partner; faults = _ } =
   let state =
     { source; raw = tokens; partner; header = Array.make (Array.length tokens) false; arranged = [];
-      last = SEPARATOR; last_is_header = false; frames = []; separate = false } in
+      last = SEPARATOR; last_is_header = false; last_is_pick = false; frames = []; separate = false } in
   Array.iteri (step state) tokens;
   Array.of_list (List.rev state.arranged)

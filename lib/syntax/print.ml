@@ -187,6 +187,12 @@ and bare out e =
     put out (builder b);
     put out " ";
     braces out "" body
+  | Pick_else (settings, otherwise) ->
+    put out (builder Pick);
+    put out " ";
+    braces out "" settings;
+    put out " else ";
+    braces out "" otherwise
   | When (c, t) -> guarded out "when" c "then" t
   | Wait_for (c, t) -> guarded out "waitFor" c "then" t
   | Until (on_cut, c, t) -> guarded out (until on_cut) c "run" t

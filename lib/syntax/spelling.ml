@@ -37,7 +37,7 @@ let level e =
   | Integer n when n < 0 -> unary
   | Number x when x < 0. -> unary
   | Null | Boolean _ | Integer _ | Number _ | String _ | Template _ | Variable _ | Wildcard | List _ | Map _
-  | Closure _ | Call _ | Member _ | Index _ | Builder _ -> postfix
+  | Closure _ | Call _ | Member _ | Index _ | Builder _ | Pick_else _ -> postfix
 
 let operator = function
   | Divide -> "/"

@@ -27,6 +27,7 @@ let children_of_expression e =
   | Map entries -> List.concat_map entry entries
   | Range { first; last; inclusive = _ } -> expressions [ first; last ]
   | Closure { parameters = _; body } | Builder (_, body) -> statements body
+  | Pick_else (settings, otherwise) -> statements settings @ statements otherwise
   | Unary (_, e) | Increment { target = e; _ } | Member { subject = e; _ } -> expressions [ e ]
   | Binary (_, a, b) | Elvis (a, b) | Index (a, b) | During (_, a, b) -> expressions [ a; b ]
   | Conditional (a, b, c) -> expressions [ a; b; c ]
@@ -50,7 +51,7 @@ let is_target e =
   match e.it with
   | Variable _ | Member _ | Index _ -> true
   | Null | Boolean _ | Integer _ | Number _ | String _ | Template _ | Wildcard | List _ | Map _ | Range _
-  | Closure _ | Unary _ | Binary _ | Conditional _ | Elvis _ | Increment _ | Call _ | Builder _ | When _
+  | Closure _ | Unary _ | Binary _ | Conditional _ | Elvis _ | Increment _ | Call _ | Builder _ | Pick_else _ | When _
   | Wait_for _ | Until _ | During _ | Watch _ | Repeat _ -> false
 
 let target_fault what e =

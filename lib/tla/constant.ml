@@ -6,7 +6,7 @@ let is_computation : operation -> bool = function
   | Build ((Pos | Imc_plan | Mission), _)
   | Builtin (Location_of | Area_of | Math _ | Geometry _) -> true
   | Replace_element | Replace_member _ | Call _ | Method _
-  | Build ((Pick | All_of | One_of), _)
+  | Build ((Pick | All_of | One_of), _) | Pick_if_any
   | Builtin _ | Make_branch -> false
 
 (* Locals that [e] itself has set before count as its own. *)

@@ -158,6 +158,7 @@ and operation t ~known site op : Tla.t =
   | Add_setting (name, names') -> named "setting" name names'
   | Make_branch -> record "branch" []
   | Build (Pick, _) -> record "build" [ ("builder", String "pick") ]
+  | Pick_if_any -> record "build" [ ("builder", String "pick if any") ]
   | Build (All_of, _) -> record "build" [ ("builder", String "allOf") ]
   | Build (One_of, _) -> record "build" [ ("builder", String "oneOf") ]
   | Build ((Pos | Imc_plan | Mission), _) ->

@@ -107,6 +107,41 @@ let outcomes transitions =
   in
   List.sort compare (List.map outcome transitions)
 
+(* What a program with [else] remembers of who was late, once it goes on without: each way with as few as can be. *)
+let late_without ?(who = fun v -> v <> "c") join text =
+  let options = { plain with may_be_late = who; faults = { Faults.none with join } } in
+  let program = Pure_run.compile_exn text in
+  let world = Pure_run.world (of_kind "UUV" [ "a"; "b"; "c"; "d" ]) in
+  let rec waiting (c : Configuration.t) =
+    match c.control with
+    | Waiting _ -> c
+    | Script _ | Executing _ | Ended _ -> (
+        match Transition.internal program world c () with
+        | Cons (t, _) -> waiting t.next
+        | Nil -> failwith "the program does not pick")
+  in
+  let without ((t : Transition.t), e) =
+    match t.label with No_vehicles _ -> Some (String.concat " " (Environment.late e)) | _ -> None
+  in
+  let c = waiting (Configuration.initial program) in
+  let choices = Environment.choices options program world Environment.initial c in
+  List.sort compare (List.filter_map without (List.of_seq choices))
+
+let goes_on name join text expected =
+  Alcotest.test_case name `Quick (fun () ->
+      Alcotest.(check (list string)) "who was late" expected (late_without join text))
+
+let going_on_without =
+  [
+    goes_on "with a bound, each choice of the missing" (Faults.At_most 2) "v = pick { count 3 } else { null }"
+      [ "a b"; "a d"; "b d" ];
+    goes_on "without a bound, one" Any_number "v = pick { count 3 } else { null }" [ "" ];
+    goes_on "of an end, one" (At_most 2) "v = pick { count 3 }" [ "a b" ];
+    goes_on "more would be missing than may be" (At_most 1) "v = pick { count 3 } else { null }" [];
+    goes_on "all are there" Never "v = pick { count 4 } else { null }" [];
+    goes_on "too few, whoever comes" Never "v = pick { count 5 } else { null }" [ "" ];
+  ]
+
 let random_pick =
   let open QCheck2.Gen in
   let place = oneofl [ [ 0. ]; [ 900. ]; [ 0.; 900. ] ] in
@@ -264,4 +299,4 @@ let answers =
     breaks "as long as there is another" (answering [ [ "(" ]; [ ")" ] ]) [ No_error ] {|x = ask('which')|};
   ]
 
-let () = Alcotest.run "environment" [ ("latecomers", latecomers @ by_definition @ [ Alcotest.test_case "one by one" `Quick test_lazy ]); ("ends", ends); ("answers", answers) ]
+let () = Alcotest.run "environment" [ ("latecomers", latecomers @ by_definition @ [ Alcotest.test_case "one by one" `Quick test_lazy ]); ("going on without", going_on_without); ("ends", ends); ("answers", answers) ]

@@ -92,7 +92,7 @@ let pick =
 let rec statement depth =
   let* v = variable and* w = vehicles and* k = pick and* a = action and* c = condition and* t = task 1 in
   let simple =
-    [ (3, f "%s = pick { %s }" v k); (3, f "release %s\n%s = pick { %s }" v v k); (3, f "release %s" w); (2, f "%s = %s" v w);
+    [ (3, f "%s = pick { %s }" v k); (2, f "%s = pick { %s } else { %s\n%s }" v k a w); (3, f "release %s\n%s = pick { %s }" v v k); (3, f "release %s" w); (2, f "%s = %s" v w);
       (2, a); (4, f "execute %s" t);
       (1, f "post x: %s" w); (1, f "consume x: %s" w); (1, "consume y: _"); (1, f "fly(%s)" w);
       (1, "g = g + 1"); (1, f "m = [:]\nm[%s] = g\nif (m['b'] == g) { post y: 3 }" w); (1, f "%s = null" v);

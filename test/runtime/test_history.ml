@@ -9,7 +9,7 @@ let note text : Yojson.Safe.t = `String text
 
 let look_for timeout : Effect.t =
   let filter : Settings.filter = { id = None; kind = None; payload = []; region = None } in
-  Look_for { filter; count = Exactly 1; timeout }
+  Look_for { filter; count = Exactly 1; timeout; otherwise = false }
 
 let outstanding = History.outstanding ~announce_period:10.
 let names tasks = List.map (fun (v, (e : History.commanded)) -> (v, e.task.name)) tasks

@@ -295,6 +295,8 @@ let script : example list =
       "bind(noptilus-1, noptilus-2, noptilus-3)" "PICK-BIND" "script" [ "bind noptilus-1, noptilus-2, noptilus-3" ];
     example Pick_err "nothing fits when the time is up" "v = pick { type 'ROV' }" ("no-vehicles(" ^ nothing_there ^ ")")
       "PICK-ERR" ("failed: " ^ nothing_there) [ "end: " ^ nothing_there ];
+    example Pick_else "nothing fits, and the program says what then" "v = pick { type 'ROV' } else { null }"
+      ("no-vehicles(" ^ nothing_there ^ ")") "PICK-ELSE" "script" [];
     example Ask "waits" "n = ask 'how many?'" "ask(how many?)" "ASK" "waiting" [ "ask how many?" ];
     example Answer "the expression's value" "n = ask 'how many?'" "answer(1)" "ANSWER" "script" [];
     example Answer_err "nobody answers" "n = ask 'how many?'" "no-answer" "ANSWER-ERR"

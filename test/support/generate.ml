@@ -360,7 +360,7 @@ and some_statements ~sensing vehicles level =
   let* shape =
     frequencyl
       ([ (6, `Execute); (2, `Post); (1, `Message); (1, `Pause); (1, `Ask); (1, `Release); (1, `Set_timeout);
-         (1, `Consume) ]
+         (1, `Consume); (1, `Pick_else) ]
        @ if level < 2 then [ (2, `If); (1, `While) ] else [])
   in
   let one s = return [ s ] in
@@ -374,6 +374,10 @@ and some_statements ~sensing vehicles level =
   | `Pause -> one (statement (call "pause" [ Positional (integer 1) ]))
   | `Ask -> one (assign "g" (call "ask" [ Positional (string "how many?") ]))
   | `Release -> map (fun v -> [ statement (call "release" [ Positional (variable v) ]) ]) (oneofl vehicles)
+  | `Pick_else ->
+    let* v = oneofl vehicles and* kind = oneofl [ "UUV"; "UAV"; "ROV" ] and* p = posting in
+    let settings = [ statement (call "type" [ Positional (string kind) ]) ] in
+    one (assign v (expression (Pick_else (settings, [ statement p; statement (variable v) ]))))
   | `Set_timeout -> one (statement (call "setConnectionTimeout" [ Positional (integer 10) ]))
   | `If ->
     let* test = if sensing then oneof [ taking "poll"; comparison ] else taking "poll" in

@@ -74,6 +74,7 @@ and node fuel =
         2, map3 (fun subject name safe -> Member { subject; name; safe }) e (located member_name) bool;
         2, map2 (fun e i -> Index (e, i)) e e;
         1, map2 (fun b body -> Builder (b, body)) (oneofl [ Pick; Imc_plan; Pos; All_of; One_of ]) (program (fuel / 2));
+        1, map2 (fun settings otherwise -> Pick_else (settings, otherwise)) (program (fuel / 2)) (program (fuel / 2));
         1, map2 (fun c t -> When (c, t)) c e;
         1, map2 (fun c t -> Wait_for (c, t)) c e;
         1, map3 (fun on_cut c t -> Until (on_cut, c, t)) (oneofl [ Completes; Fails ]) c e;

@@ -52,7 +52,12 @@ let newlines =
       ";;a;;b;;", "a; b";
       "a /* c\n */ b", "a; b"; "a /* c */ + b", "a + b"; "xs.each { v ->\n a\n b\n}", "xs.each({ v -> a; b })";
       "{ a }\n{ b }", "{ a }; { b }";
-      "if (a) b; else c", "if (a) { b } else { c }"; "x = t\nuntil { a } run b", "x = t; until { a } run b";
+      "if (a) b; else c", "if (a) { b } else { c }";
+      "v = pick { a }\nelse { b }\nc", "v = pick { a } else { b }; c";
+      "if (a) v = pick { b } else c", "if (a) { v = pick { b } } else { c }";
+      "if (a) v = pick { b } else v = pick { c } else { d }", "if (a) { v = pick { b } } else { v = pick { c } else { d } }";
+      "if (a) { pick { b } else { c } } else d", "if (a) { (pick { b } else { c }) } else { d }";
+      "f(pick { a } else { b }.c, [pick { a } else { b }])", "f((pick { a } else { b }).c, [(pick { a } else { b })])"; "x = t\nuntil { a } run b", "x = t; until { a } run b";
       "x = (t\nuntil { a })", "x = until { a } run t"; "a\r\nb\r\n", "a; b" ]
 
 (* A brace at the start of a statement opens a closure if it has parameters, and a block otherwise. *)

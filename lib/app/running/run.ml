@@ -200,7 +200,9 @@ let not_there_yet r ~time =
 (* Notes in [unmet] what to say of a pick that ends the program. *)
 let watching_picks r unmet : Observer.t =
   let transition ~time ~cause:_ (t : Transition.t) =
-    match t.label with No_vehicles _ -> unmet := not_there_yet r ~time | _ -> ()
+    match t.label, t.next.control with
+    | No_vehicles _, Ended _ -> unmet := not_there_yet r ~time
+    | _, _ -> ()
   in
   { Observer.nobody with transition }
 

@@ -11,7 +11,7 @@ let over = { next = false; break = false; continue = false; return = false }
 type called = { mutable picks : bool; mutable executes : bool }
 
 let is_execute = function Builtin (Execute | Execute_for _) -> true | _ -> false
-let is_pick = function Build (Pick, _) -> true | _ -> false
+let is_pick = function Build (Pick, _) | Pick_if_any -> true | _ -> false
 
 let called_code program =
   let found = { picks = false; executes = false } in

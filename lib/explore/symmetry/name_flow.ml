@@ -281,6 +281,7 @@ and applied w lambda at operation arguments =
     else if has vehicles given then uses_name w at;
     k
   | Build (builder, _), es -> built w builder (values es)
+  | Pick_if_any, es -> built w Pick (values es)
   | Unary Not, es -> ignore (values es); nothing
   | ( ( Unary _ | Binary _ | Make_list | Make_range _ | Element | Replace_element | Property _ | Call _ | Builtin _
       | Add_setting _ ),

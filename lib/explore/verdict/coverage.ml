@@ -73,7 +73,7 @@ let unreached t program =
       (match operation with
        | Builtin Platform_task | Build ((Imc_plan | Mission), _) -> at_site e.site "task"
        | Builtin b when script -> Option.iter (at_site e.site) (of_builtin b)
-       | Build (Pick, _) when script -> at_site e.site "pick"
+       | (Build (Pick, _) | Pick_if_any) when script -> at_site e.site "pick"
        | _ -> ());
       all arguments
   and code lambda =

@@ -60,7 +60,7 @@ let rec kind_of (e : Ast.expression) : Builtins.kind =
   | Call { callee = { it = Variable name; _ }; _ } -> (
       match Builtins.find name with Some builtin -> builtin.result | None -> Any)
   | Variable _ | Wildcard | Binary _ | Conditional _ | Elvis _ | Increment _ | Call _ | Member _ | Index _
-  | When _ -> Any
+  | Pick_else _ | When _ -> Any
 
 let could_be (wanted : Builtins.kind) (found : Builtins.kind) =
   match wanted, found with

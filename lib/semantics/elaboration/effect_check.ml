@@ -44,7 +44,7 @@ let rec computes p (e : expression) =
     (not p.has_host) && List.mem name.it computing && computes p subject && List.for_all argument arguments
   | Wait_for (_, t) | Until (_, _, t) | Watch (t, _) -> computes p t
   | Repeat { rounds; body; _ } -> all (body :: Option.to_list rounds)
-  | Increment _ | Call _ | Builder _ | When _ -> false
+  | Increment _ | Call _ | Builder _ | Pick_else _ | When _ -> false
 
 let hint (e : expression) =
   match e.it with

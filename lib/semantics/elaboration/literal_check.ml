@@ -12,8 +12,8 @@ let rec value (e : Ast.expression) =
   | Member { subject; name; safe = false } ->
     Option.bind (value subject) (fun x -> Result.to_option (Operators.in_unit x name.it))
   | Template _ | Variable _ | Wildcard | List _ | Map _ | Range _ | Closure _ | Binary _ | Conditional _ | Elvis _
-  | Increment _ | Call _ | Member _ | Index _ | Builder _ | When _ | Wait_for _ | Until _ | During _ | Watch _
-  | Repeat _ -> None
+  | Increment _ | Call _ | Member _ | Index _ | Builder _ | Pick_else _ | When _ | Wait_for _ | Until _ | During _
+  | Watch _ | Repeat _ -> None
 
 let all es =
   let values = List.filter_map value es in

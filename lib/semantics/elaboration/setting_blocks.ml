@@ -95,7 +95,7 @@ let setting env at (name : string Ast.located) e =
       ~hint:(Printf.sprintf "an assignment is %s = ..." name.it);
     null env at
 
-let build env at builder body =
+let block_of env at builder body ~operation =
   if builder = Ast.Pick then check_in_script env "pick" at;
   check_repeated env builder body;
   let slot = Scope.new_slot env.code in
@@ -104,8 +104,12 @@ let build env at builder body =
     Scope.in_block env.code (fun () ->
         Scope.inside_settings env.code (Some (builder, slot)) (fun () -> statements env at body))
   in
-  let name = Printf.sprintf "plan-%d" (Location.line at) in
-  block env at [ start; body; apply env at (Build (builder, name)) [ local env at slot ] ]
+  block env at [ start; body; apply env at operation [ local env at slot ] ]
+
+let build env at builder body =
+  block_of env at builder body ~operation:(Build (builder, Printf.sprintf "plan-%d" (Location.line at)))
+
+let pick_if_any env at body = block_of env at Pick body ~operation:Pick_if_any
 
 let when_then env at guard t =
   match Scope.settings env.code with

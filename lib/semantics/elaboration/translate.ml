@@ -43,7 +43,7 @@ let first_operand (e : Ast.expression) : (Ast.expression * (Ast.expression -> As
   | During (e, d, t) when begins t -> Some (t, fun t -> During (e, d, t))
   | Until (e, c, t) when begins t -> Some (t, fun t -> Until (e, c, t))
   | Null | Boolean _ | Integer _ | Number _ | String _ | Template _ | Variable _ | Wildcard | List _ | Map _ | Closure _
-  | Unary _ | Increment _ | Builder _ | When _ | Wait_for _ | Until _ | During _ | Watch _
+  | Unary _ | Increment _ | Builder _ | Pick_else _ | When _ | Wait_for _ | Until _ | During _ | Watch _
   | Repeat _ -> None
 
 (* [execute (a | b) >> c] executes all of [(a | b) >> c]: a procedure that gives nothing is no operand, so what follows
@@ -129,6 +129,7 @@ let rec elaborate env (e : Ast.expression) : expression =
     let subject = task_operand env subject in
     apply env at Element [ subject; elaborate env index ]
   | Builder (builder, body) -> Setting_blocks.build env at builder body
+  | Pick_else (settings, otherwise) -> pick_else env at settings otherwise
   | When (guard, t) -> Setting_blocks.when_then env at guard t
   | Wait_for (guard, t) -> guarded env at Make_wait_for "waitFor" guard t
   | Until (Completes, guard, t) -> guarded env at (Make_until Completes) "until" guard t
@@ -151,6 +152,12 @@ and elvis env at e otherwise =
   let test = apply env at (Builtin Is_there) [ local env at slot ] in
   let yes = local env at slot in
   expression env at (If (block env at [ first; test ], yes, elaborate env otherwise))
+
+and pick_else env at settings otherwise =
+  let slot = Scope.new_slot env.code in
+  let picked = set_local env at slot (Setting_blocks.pick_if_any env at settings) in
+  let yes = local env at slot in
+  expression env at (If (picked, yes, body_of env at otherwise))
 
 and elaborate_map env at entries =
   let key (k : Ast.key Ast.located) = match k.it with Name name -> Some name | Computed _ -> None in

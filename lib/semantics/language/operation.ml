@@ -24,16 +24,18 @@ let make_map keys arguments =
 
 let platform_task at plan = Task (Platform { name = Inline_plan.name plan; plan = Some plan; task_site = at })
 
+let look_for context settings ~otherwise =
+  match Settings.pick settings with
+  | Ok pick -> blocking context "pick" (Pick { pick with otherwise })
+  | Error fault -> Wrong_at fault
+
 let build context at builder name arguments =
   match (builder : Dolphin_syntax.Ast.builder), arguments with
   | builder, [ Settings latest_first ] -> (
       let settings = List.rev latest_first in
       let value to_value = function Ok x -> Value (to_value x) | Error fault -> Wrong_at fault in
       match builder with
-      | Pick -> (
-          match Settings.pick settings with
-          | Ok pick -> blocking context "pick" (Pick pick)
-          | Error fault -> Wrong_at fault)
+      | Pick -> look_for context settings ~otherwise:false
       | Imc_plan ->
         value
           (fun plan -> platform_task at (Inline_plan.Maneuvers plan)) (Plan_builder.build ~name at settings)
@@ -102,9 +104,10 @@ let apply_settled context at operation arguments =
   | Builtin procedure, arguments -> Procedures.apply context at procedure arguments
   | Add_setting (name, names), arguments -> add_setting at name names arguments
   | Build (builder, name), arguments -> build context at builder name arguments
+  | Pick_if_any, [ Settings latest_first ] -> look_for context (List.rev latest_first) ~otherwise:true
   | Make_branch, arguments -> add_setting at "when" [ None; None ] arguments
   | ( ( Unary _ | Binary _ | Make_range _ | Element | Replace_element | Replace_member _ | Property _ | Call _
-      | Method _ ),
+      | Method _ | Pick_if_any ),
       _ ) -> Wrong "wrong number of operands"
 
 let rec apply context at operation arguments =

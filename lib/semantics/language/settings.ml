@@ -9,7 +9,7 @@ type filter = {
 }
 
 type count = Exactly of int | All
-type pick = { filter : filter; count : count; timeout : float option }
+type pick = { filter : filter; count : count; timeout : float option; otherwise : bool }
 
 let ( let* ) = Result.bind
 
@@ -99,7 +99,7 @@ let add_to_pick pick s =
 
 let pick settings =
   let all = { id = None; kind = None; payload = []; region = None } in
-  Results.fold add_to_pick { filter = all; count = Exactly 1; timeout = None } settings
+  Results.fold add_to_pick { filter = all; count = Exactly 1; timeout = None; otherwise = false } settings
 
 let position site settings =
   let read (latitude, longitude, height) s =

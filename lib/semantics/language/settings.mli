@@ -13,7 +13,12 @@ type filter = {
 
 type count = Exactly of int | All  (** [count _] *)
 
-type pick = { filter : filter; count : count; timeout : float option  (** seconds *) }
+type pick = {
+  filter : filter;
+  count : count;
+  timeout : float option;  (** seconds *)
+  otherwise : bool;  (** where there are too few the script goes on, with null *)
+}
 
 val accepts : filter -> World.vehicle_state -> bool
 (** [accepts f s] is whether a connected vehicle in state [s] fulfils [f]. *)

@@ -64,7 +64,7 @@ let why_not world (s : Shared.t) (pick : Settings.pick) (v : World.vehicle_state
         (if Dolphin_geo.Area.contains area place then "fits"
          else Format.asprintf "is at %a, outside of the region" Dolphin_geo.Position.pp place)
 
-let no_vehicles world s m pick =
+let no_vehicles world s m (pick : Settings.pick) =
   let* there =
     match World.vehicles world with
     | [] -> Ok "no vehicle was heard of"
@@ -75,7 +75,9 @@ let no_vehicles world s m pick =
       Ok (String.concat "; " reasons ^ if more > 0 then Printf.sprintf "; and %d more" more else "")
   in
   let message = Format.asprintf "could not pick %a: %s" Settings.pp_pick pick there in
-  Ok (Conclusion.ending [ Pick_err ] (No_vehicles message) s (Failed (Fault.make (Machine.site m) message)))
+  Ok
+    (if pick.otherwise then Conclusion.make Pick_else (No_vehicles message) (Script (Machine.give Null m)) s
+     else Conclusion.ending [ Pick_err ] (No_vehicles message) s (Failed (Fault.make (Machine.site m) message)))
 
 let timed_out world s m (pick : Settings.pick) =
   Decision.look world (fun world ->

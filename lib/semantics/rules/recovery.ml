@@ -30,7 +30,8 @@ let may_give lambda =
     | Apply ((Element | Property _ | Call _ | Method _ | Build _), _) -> true
     | Apply
         ( ( Unary _ | Binary _ | Make_list | Make_map _ | Make_range _ | Concatenate | Replace_element
-          | Replace_member _ | Add_setting _ | Make_branch ),
+          | Replace_member _ | Add_setting _ | Pick_if_any
+          | Make_branch ),
           _ ) -> false
   and of_lambda lambda =
     if List.memq lambda !seen then false

@@ -13,7 +13,7 @@ type t =
   | Repeat_1 | Repeat_2 | Repeat_until | Repeat_again | Repeat_err
   | Make | Make_err | Allocate | Allocate_err | Hold_1 | Hold_2 | Hold_err
   | Script | Post | Consume | Message | Release | Set_timeout
-  | Pick | Pick_bind | Pick_err
+  | Pick | Pick_bind | Pick_err | Pick_else
   | Ask | Answer | Answer_err
   | Pause | Resume
   | Call | Reply | Call_err
@@ -28,8 +28,8 @@ let all =
     Watch_2; Watch_ignore; Watch_propagate; Watch_halt; Watch_retry; Watch_instead; Repeat_1; Repeat_2; Repeat_until;
     Repeat_again; Repeat_err;
     Make; Make_err; Allocate; Allocate_err; Hold_1; Hold_2; Hold_err; Script; Post; Consume; Message; Release;
-    Set_timeout; Pick; Pick_bind; Pick_err; Ask; Answer; Answer_err; Pause; Resume; Call; Reply; Call_err; Execute;
-    Execute_done; Execute_err; Alloc_err; Input; End; Halt; Fault; Interrupt;
+    Set_timeout; Pick; Pick_bind; Pick_err; Pick_else; Ask; Answer; Answer_err; Pause; Resume; Call; Reply; Call_err;
+    Execute; Execute_done; Execute_err; Alloc_err; Input; End; Halt; Fault; Interrupt;
     On_interrupt ]
 
 let name = function
@@ -56,6 +56,7 @@ let name = function
   | Script -> "SCRIPT" | Post -> "POST" | Consume -> "CONSUME" | Message -> "MESSAGE" | Release -> "RELEASE"
   | Set_timeout -> "SET-TIMEOUT"
   | Pick -> "PICK" | Pick_bind -> "PICK-BIND" | Pick_err -> "PICK-ERR"
+  | Pick_else -> "PICK-ELSE"
   | Ask -> "ASK" | Answer -> "ANSWER" | Answer_err -> "ANSWER-ERR"
   | Pause -> "PAUSE" | Resume -> "RESUME"
   | Call -> "CALL" | Reply -> "REPLY" | Call_err -> "CALL-ERR"

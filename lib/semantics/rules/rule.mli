@@ -20,7 +20,7 @@ type t =
   | Make | Make_err | Allocate | Allocate_err | Hold_1 | Hold_2 | Hold_err
   (* The program *)
   | Script | Post | Consume | Message | Release | Set_timeout
-  | Pick | Pick_bind | Pick_err
+  | Pick | Pick_bind | Pick_err | Pick_else
   | Ask | Answer | Answer_err
   | Pause | Resume
   | Call | Reply | Call_err

@@ -123,6 +123,7 @@ and operation =
   | Builtin of builtin
   | Add_setting of string * string option list  (* the settings so far first, then arguments *)
   | Build of Dolphin_syntax.Ast.builder * string (* from the settings; the name of an unnamed plan *)
+  | Pick_if_any                                 (* [Build (Pick, _)] that gives null where there are too few *)
   | Make_branch                                 (* [when]: settings so far, guard, body *)
 
 and builtin =

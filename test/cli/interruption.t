@@ -10,7 +10,11 @@ An interruption stops what runs and releases the vehicles. The run is paced, so 
   > plan 'left', { duration 2.hours }
   > plan 'right', { duration 2.hours }
   > EOF
-  $ timeout --foreground --preserve-status -s INT 1 dolphin exec long.dol --speed 1 > log.txt
+  $ signal() {  # SIGNAL PATTERN FILE: signals $run once FILE has PATTERN, and waits for its end
+  >   until grep -qs -e "$2" "$3" || ! kill -0 $run; do sleep 0.05; done; kill -$1 $run; wait $run
+  > }
+  $ dolphin exec long.dol --speed 1 > log.txt & run=$!
+  $ signal INT 'starts right' log.txt
   [130]
   $ cut -c 10- log.txt
   program     picks a, b
@@ -23,22 +27,33 @@ An interruption stops what runs and releases the vehicles. The run is paced, so 
 
 Other requests to terminate do the same.
 
-  $ timeout --foreground --preserve-status -s TERM 1 dolphin exec long.dol --speed 1 | tail -1 | cut -c 10-
+  $ dolphin exec long.dol --speed 1 > log.txt & run=$!
+  $ signal TERM 'starts right' log.txt
+  [130]
+  $ tail -1 log.txt | cut -c 10-
   program     is interrupted
 
 A script that loops without any effect can be interrupted, so can one that waits for an answer or for vehicles.
 
   $ echo 'while (true) { }' > loop.dol
-  $ timeout --foreground --preserve-status -s INT 1 dolphin exec loop.dol
-     0:00  program     is interrupted
+  $ dolphin exec loop.dol --journal loop.run > log.txt & run=$!
+  $ signal INT program loop.run
   [130]
+  $ cat log.txt
+     0:00  program     is interrupted
   $ echo "x = ask 'Well?'" > ask.dol
-  $ sleep 5 | timeout --foreground --preserve-status -s INT 1 dolphin exec ask.dol
+  $ mkfifo silence; exec 3<> silence
+  $ dolphin exec ask.dol <&3 > log.txt & run=$!
+  $ signal INT asks log.txt
+  [130]
+  $ cat log.txt
      0:00  program     asks: Well? 
      0:00  program     is interrupted
-  [130]
   $ echo "v = pick { type 'ROV'; timeout 1.hour }" > pick.dol
-  $ timeout --foreground --preserve-status -s INT 1 dolphin exec pick.dol --speed 1 | cut -c 10-
+  $ dolphin exec pick.dol --speed 1 --journal pick.run > log.txt & run=$!
+  $ signal INT program pick.run
+  [130]
+  $ cut -c 10- log.txt
   program     is interrupted
 
 Code inside of a task that has no end is an error of the program.
@@ -57,13 +72,13 @@ waiting.
 
   $ cat > stubborn.sh <<'EOF'
   > trap '' TERM INT HUP
+  > echo > trapped
   > read request
   > sleep 30
   > EOF
   $ echo 'supplier = getSupplier()' > supplier.dol
-  $ dolphin exec supplier.dol --supplier 'sh stubborn.sh' > log.txt &
-  $ process=$!
-  $ sleep 1; kill -INT $process; sleep 0.2; kill -INT $process; wait $process
+  $ dolphin exec supplier.dol --supplier 'sh stubborn.sh' > log.txt & run=$!
+  $ until [ -e trapped ]; do sleep 0.05; done; kill -INT $run; signal INT 'is interrupted' log.txt
   [130]
 
 The programs that ran did what the semantics allows.

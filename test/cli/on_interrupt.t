@@ -96,7 +96,11 @@ At a signal the run goes on with it, and has been interrupted.
   > v = pick { type 'UUV' }
   > execute task('survey')
   > EOF
-  $ timeout --foreground --preserve-status -s HUP 1 dolphin exec long.dol --fleet long.fleet --speed 5 --journal one.run > log.txt
+  $ signal() {  # SIGNAL PATTERN FILE: signals $run once FILE has PATTERN, and waits for its end
+  >   until grep -qs -e "$2" "$3" || ! kill -0 $run; do sleep 0.05; done; kill -$1 $run; wait $run
+  > }
+  $ dolphin exec long.dol --fleet long.fleet --speed 5 --journal one.run > log.txt & run=$!
+  $ signal HUP 'starts survey' log.txt
   [130]
   $ cut -c 10- log.txt
   program     picks a
@@ -115,7 +119,7 @@ A second one stops it.
 
   $ sed -i 's/5.seconds/2.hours/' long.fleet
   $ dolphin exec long.dol --fleet long.fleet --speed 1 --journal two.run > log.txt & run=$!
-  $ await() { n=0; until grep -q "$1" log.txt || [ $n = 100 ]; do sleep 0.1; n=$((n + 1)); done; }
+  $ await() { until grep -q "$1" log.txt || ! kill -0 $run; do sleep 0.05; done; }
   $ await 'starts survey'; kill -TERM $run; await 'starts home'; kill -INT $run; wait $run
   [130]
   $ cut -c 10- log.txt
@@ -145,7 +149,8 @@ A console that dies on the way home is resumed there. The next interruption is t
   $ rm two.run; dolphin exec long.dol --fleet long.fleet --speed 1 --journal two.run > log.txt & run=$!
   $ await 'starts survey'; kill -INT $run; await 'starts home'; kill -KILL $run; wait $run 2> /dev/null
   [137]
-  $ timeout --foreground --preserve-status -s INT 1 dolphin exec long.dol --resume two.run > log.txt
+  $ dolphin exec long.dol --resume two.run > log.txt & run=$!
+  $ signal INT '"resumed"' two.run
   [130]
   $ cut -c 10- log.txt
   a           stops home

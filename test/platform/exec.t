@@ -132,11 +132,11 @@ Two platforms in one run; a vehicle that both offer cannot be picked.
   rover-1     starts short
   $ echo "vehicle 'rover-1', { type 'UGV' }" > rover.fleet
   $ cat > twice.dol <<'END'
-  > pause 1.second
+  > pause 5.seconds
   > v = pick { type 'UGV'; timeout 0.1.seconds }
   > END
   $ run twice.dol --journal twice.run --platform ../../examples/adapter.py --platform "dolphin sim rover.fleet --platform"
-  program     pauses for 1 s
+  program     pauses for 5 s
   program     rover-1: is offered by rover and by sim: it cannot be picked until only one does
   program     fails: could not pick 1 vehicle of type 'UGV': rover-1 is offered by rover and by sim
   twice.dol:2:5: error: could not pick 1 vehicle of type 'UGV': rover-1 is offered by rover and by sim

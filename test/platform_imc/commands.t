@@ -6,19 +6,19 @@ The commands that speak IMC, with vehicles in another process.
   > EOF
   $ vehicles() {
   >   dolphin sim pair.fleet --imc --announce 0.5 --contact 0.2 --discovery-ports $1-$(($1 + 4)) --port $(($1 + 10)) \
-  >     --for 30 > vehicles.txt & vehicles=$!
+  >     --for 90 > vehicles.txt & vehicles=$!
   >   until [ -s vehicles.txt ]; do sleep 0.05; done
   > }
 
 Who is there.
 
   $ vehicles 42200
-  $ dolphin fleet --imc-loopback --imc-discovery-ports 42200-42204 --once --seconds 3 > fleet.txt
+  $ dolphin fleet --imc-loopback --imc-discovery-ports 42200-42204 --once --seconds 6 > fleet.txt
   $ awk '{ print $1, $2, $3 }' fleet.txt
   VEHICLE TYPE IMC
   noptilus-1 UUV 3001
   x8-02 UAV 3002
-  $ dolphin fleet --imc-loopback --imc-discovery-ports 42200-42204 --once --seconds 3 --json --imc-payload x8-02=Camera |
+  $ dolphin fleet --imc-loopback --imc-discovery-ports 42200-42204 --once --seconds 6 --json --imc-payload x8-02=Camera |
   >   python3 -c "
   > import json, sys
   > for v in json.load(sys.stdin): print(v['id'], v['type'], v['address'], v['mode'], v['linked'], v['available'], v['plan'], 'DVL' in v['payload'], 'Camera' in v['payload'])"
@@ -30,9 +30,9 @@ Its own definition of IMC gives names to what Dolphin has none for, and a vehicl
 
   $ python3 imc_xml.py ../imc/data/facts.jsonl > IMC.xml
   $ dolphin sim pair.fleet --imc --announce 0.5 --contact 0.2 --discovery-ports 42260-42264 --port 42270 --flood 100 \
-  >   --for 30 > vehicles.txt & vehicles=$!
+  >   --for 90 > vehicles.txt & vehicles=$!
   $ until [ -s vehicles.txt ]; do sleep 0.05; done
-  $ dolphin fleet --imc-loopback --imc-discovery-ports 42260-42264 --once --seconds 3 --json --imc-xml IMC.xml \
+  $ dolphin fleet --imc-loopback --imc-discovery-ports 42260-42264 --once --seconds 6 --json --imc-xml IMC.xml \
   >   --imc-type noptilus-1=ROV | python3 -c "
   > import json, sys
   > for v in json.load(sys.stdin):
@@ -80,10 +80,10 @@ A definition that is none, one that contradicts itself, and one of another proto
 
 One that has vanished, and one that returns.
 
-  $ dolphin sim pair.fleet --imc --announce 0.3 --contact 0.2 --discovery-ports 42320-42324 --port 42330 --for 30 \
+  $ dolphin sim pair.fleet --imc --announce 0.3 --contact 0.2 --discovery-ports 42320-42324 --port 42330 --for 90 \
   >   --vanish x8-02=0 --vanish noptilus-1=0,1 > vehicles.txt & vehicles=$!
   $ until [ -s vehicles.txt ]; do sleep 0.05; done
-  $ dolphin fleet --imc-loopback --imc-discovery-ports 42320-42324 --once --seconds 3 | awk '{ print $1, $2 }'
+  $ dolphin fleet --imc-loopback --imc-discovery-ports 42320-42324 --once --seconds 6 | awk '{ print $1, $2 }'
   VEHICLE TYPE
   noptilus-1 UUV
   $ kill $vehicles; wait $vehicles 2> wait.txt || true
@@ -95,10 +95,10 @@ confirmed, for five seconds at most, and says so; the second one ends the progra
   $ echo "v = pick { type 'UUV'; timeout 20.seconds }; execute imcPlan('long')" > long.dol
   $ (sh -c 'echo $$ > pid.txt; exec dolphin exec long.dol --imc-loopback --imc-discovery-ports 42280-42284 > log.txt 2> errors.txt'
   >  echo $? > status.txt) &
-  $ for i in $(seq 200); do grep -q 'starts long' log.txt 2> grep.txt && break; sleep 0.1; done
+  $ until grep -qs 'starts long' log.txt || [ -s status.txt ]; do sleep 0.05; done
   $ kill -STOP $vehicles
-  $ kill -INT $(cat pid.txt); sleep 3; kill -INT $(cat pid.txt)
-  $ for i in $(seq 20); do [ -s status.txt ] && break; sleep 0.1; done; cat status.txt
+  $ kill -INT $(cat pid.txt); until grep -q 'waiting 3 s more' log.txt; do sleep 0.05; done; kill -INT $(cat pid.txt)
+  $ until [ -s status.txt ]; do sleep 0.05; done; cat status.txt
   130
   $ cut -c 10- log.txt | tail -4; cat errors.txt
   noptilus-1  stops long
@@ -114,11 +114,11 @@ With the first one only, it does wait, and ends. What became of the plan nobody 
   $ rm status.txt log.txt
   $ (sh -c 'echo $$ > pid.txt; exec dolphin exec long.dol --imc-loopback --imc-discovery-ports 42300-42304 > log.txt'
   >  echo $? > status.txt) &
-  $ for i in $(seq 200); do grep -q 'starts long' log.txt 2> grep.txt && break; sleep 0.1; done
+  $ until grep -qs 'starts long' log.txt || [ -s status.txt ]; do sleep 0.05; done
   $ kill -STOP $vehicles
   $ kill -INT $(cat pid.txt); sleep 2; [ -s status.txt ] || echo waits
   waits
-  $ for i in $(seq 80); do [ -s status.txt ] && break; sleep 0.1; done; cat status.txt
+  $ until [ -s status.txt ]; do sleep 0.05; done; cat status.txt
   130
   $ cut -c 10- log.txt | tail -2
   program     noptilus-1: has not confirmed yet that it stopped plan long; waiting 3 s more

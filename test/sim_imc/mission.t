@@ -19,9 +19,9 @@ The vehicles run in the background while a program does, and are asked to end th
   $ mission() {
   >   program=$1; first=$2; last=$((first + 4)); shift 2
   >   dolphin sim pair.fleet --imc --speed 20 --announce 0.5 --contact 0.2 --discovery-ports $first-$last \
-  >     --port $((first + 10)) --log log.jsonl --for 60 "$@" > vehicles.txt & vehicles=$!
+  >     --port $((first + 10)) --log log.jsonl --for 200 "$@" > vehicles.txt & vehicles=$!
   >   until [ -s vehicles.txt ]; do sleep 0.05; done
-  >   status=0; timeout 50 dolphin exec $program --imc-loopback --imc-discovery-ports $first-$last > run.txt 2> errors.txt || status=$?
+  >   status=0; timeout 180 dolphin exec $program --imc-loopback --imc-discovery-ports $first-$last > run.txt 2> errors.txt || status=$?
   >   kill $vehicles; wait $vehicles || true
   >   echo "status $status"
   > }

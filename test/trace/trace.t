@@ -211,7 +211,9 @@ Nor can it go over the program.
 
 A console that is killed leaves the beginning of a run; one that is interrupted, a whole one.
 
-  $ (dolphin exec ../../examples/parallel.dol --speed 20 --journal killed.run > /dev/null & sleep 2; kill -9 $!) 2> /dev/null
+  $ dolphin exec ../../examples/parallel.dol --speed 20 --journal killed.run > /dev/null & run=$!
+  $ until grep -qs 'start(' killed.run || ! kill -0 $run; do sleep 0.05; done; kill -9 $run; wait $run 2> /dev/null
+  [137]
   $ dolphin trace check ../../examples/parallel.dol killed.run | sed 's/, of [^;]*//; s/ in the middle of a line//'
   killed.run: the beginning of a run; it breaks off
 
@@ -232,7 +234,8 @@ What it did is not written over: the run can be resumed. One that is over, or di
   $ dolphin exec ../../examples/parallel.dol --journal nothing.run > /dev/null
   $ dolphin trace check ../../examples/parallel.dol nothing.run | sed 's/, of [^;]*//'
   nothing.run: a run; completed
-  $ timeout --preserve-status -s INT 2 dolphin exec ../../examples/parallel.dol --speed 20 --journal stopped.run > /dev/null
+  $ dolphin exec ../../examples/parallel.dol --speed 20 --journal stopped.run > /dev/null & run=$!
+  $ until grep -qs 'start(' stopped.run || ! kill -0 $run; do sleep 0.05; done; kill -INT $run; wait $run
   [130]
   $ dolphin trace check ../../examples/parallel.dol stopped.run | sed 's/, of [^;]*//'
   stopped.run: a run; interrupted

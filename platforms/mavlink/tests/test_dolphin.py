@@ -9,7 +9,7 @@ import tempfile
 import time
 import unittest
 
-from tests.test_process import FOLDER, free_port
+from tests.test_process import FOLDER, PATIENCE, free_port, free_ports
 
 DOLPHIN = os.environ.get("DOLPHIN")
 EXAMPLE = os.path.join(FOLDER, "example")
@@ -64,7 +64,7 @@ class Programs(unittest.TestCase):
         adapter = f"{os.path.join(FOLDER, 'dolphin-mavlink')} --udp {self.port} --payload mav-2=camera"
         run = subprocess.run(
             [DOLPHIN, "exec", PHOTOS, "--platform", adapter],
-            env=self.environment, capture_output=True, text=True, timeout=120,
+            env=self.environment, capture_output=True, text=True, timeout=300,
         )
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
         for line in ("mav-2       ends survey", "mav-1       stops wait", "says: the field is photographed"):
@@ -79,7 +79,7 @@ class Programs(unittest.TestCase):
                 file.write("v = pick { type 'UAV' }\nexecute v: mission { name 'low'; goPos Location.APDL }\n")
             run = subprocess.run(
                 [DOLPHIN, "check", program, "--platform", adapter],
-                env=self.environment, capture_output=True, text=True, timeout=60,
+                env=self.environment, capture_output=True, text=True, timeout=300,
             )
         self.assertNotEqual(run.returncode, 0)
         self.assertIn("low: mavlink: item 1, goPos: how high? Give altitude", run.stdout + run.stderr)
@@ -96,7 +96,7 @@ class Programs(unittest.TestCase):
             adapter = f"{os.path.join(FOLDER, 'dolphin-mavlink')} --udp {self.port} --missions {folder}"
             run = subprocess.run(
                 [DOLPHIN, "platform", "check", adapter, *only],
-                env=self.environment, capture_output=True, text=True, timeout=240,
+                env=self.environment, capture_output=True, text=True, timeout=600,
             )
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
         number = len(only) or 20
@@ -104,13 +104,14 @@ class Programs(unittest.TestCase):
 
     def test_submarines_of_imc_and_a_plane_of_mavlink_in_one_program(self):
         self.rendezvous_plane()
-        ports = "42500-42504"
+        first = free_ports(15)
+        ports = f"{first}-{first + 4}"
         fleet = os.path.join(EXAMPLE, "uuvs.fleet")
-        imc = ["--imc", "--discovery-ports", ports, "--port", "42510", "--announce", "1", "--contact", "1"]
-        self.spawn([DOLPHIN, "sim", fleet, *imc, "--speed", "60", "--for", "100"], stdout=subprocess.DEVNULL)
+        imc = ["--imc", "--discovery-ports", ports, "--port", str(first + 10), "--announce", "1", "--contact", "1"]
+        self.spawn([DOLPHIN, "sim", fleet, *imc, "--speed", "60", "--for", "600"], stdout=subprocess.DEVNULL)
         command = [DOLPHIN, "exec", RENDEZVOUS, "--imc-loopback", "--imc-discovery-ports", ports, "--answer", "2"]
         run = subprocess.run(
-            [*command, "--platform", self.adapter], env=self.environment, capture_output=True, text=True, timeout=90
+            [*command, "--platform", self.adapter], env=self.environment, capture_output=True, text=True, timeout=300
         )
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
         ended = sorted(re.findall(r"(\S+) +ends ((?:survey|sk|rv)\d)", run.stdout), key=lambda e: e[1])
@@ -145,7 +146,7 @@ class Programs(unittest.TestCase):
                     env=self.environment,
                     capture_output=True,
                     text=True,
-                    timeout=90,
+                    timeout=300,
                 )
                 if resumed.returncode == 0:
                     self.assertIn("says: Done!", resumed.stdout)
@@ -156,10 +157,10 @@ class Programs(unittest.TestCase):
 
 
 def wait_for(holds):
-    end = time.monotonic() + 30
+    end = time.monotonic() + PATIENCE
     while not holds():
         if time.monotonic() > end:
-            raise AssertionError("not within 30 s")
+            raise AssertionError(f"not within {PATIENCE} s")
         time.sleep(0.02)
 
 

@@ -1,5 +1,6 @@
 """The adapter as a process: on UDP, TCP and a serial line, with simulated vehicles. On loopback, bounded in time."""
 
+import fcntl
 import json
 import os
 import pty
@@ -34,10 +35,34 @@ FLIGHT = {
 }
 
 
+_LEASES = []  # locks of files, as long as this process lives
+
+
+def free_ports(count=1):
+    """The first of `count` ports in a row that nobody has. Other tests that run beside this one take others, and they
+    are below those that systems give to sockets without a port: nobody comes between now and when they are bound."""
+    folder = os.path.join(tempfile.gettempdir(), "dolphin-test-ports")
+    os.makedirs(folder, exist_ok=True)
+    for first in range(11000, 19900, 20):
+        lease = open(os.path.join(folder, str(first)), "a", encoding="utf-8")
+        try:
+            fcntl.flock(lease, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            for port in range(first, first + count):
+                with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as s:
+                    s.bind(("", port))
+        except OSError:
+            lease.close()
+            continue
+        _LEASES.append(lease)
+        return first
+    raise AssertionError("there are no free ports")
+
+
 def free_port():
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as s:
-        s.bind(("127.0.0.1", 0))
-        return s.getsockname()[1]
+    return free_ports()
+
+
+PATIENCE = 120  # seconds; machines that run tests are busy
 
 
 class Adapter:
@@ -60,7 +85,7 @@ class Adapter:
         self.process.stdin.write(json.dumps(line).encode() + b"\n")
         self.process.stdin.flush()
 
-    def until(self, holds, seconds=30):
+    def until(self, holds, seconds=PATIENCE):
         """Reads reports until one of them `holds`; that one."""
         end = time.monotonic() + seconds
         while True:
@@ -141,7 +166,7 @@ class Processes(unittest.TestCase):
         self.assertEqual(adapter.end_of("r"), {"kind": "done", "request": "r"})
         adapter.order(kind="close")
         adapter.until(lambda r: r["kind"] == "quiet")
-        self.assertEqual(adapter.process.wait(5), 0)
+        self.assertEqual(adapter.process.wait(PATIENCE), 0)
 
     def test_udp(self):
         port = free_port()
@@ -166,7 +191,7 @@ class Processes(unittest.TestCase):
     def test_tcp(self):
         with socket.create_server(("127.0.0.1", 0)) as server:
             adapter = self.adapter("--tcp", f"127.0.0.1:{server.getsockname()[1]}")
-            server.settimeout(10)
+            server.settimeout(PATIENCE)
             connection, _ = server.accept()
         self.addCleanup(connection.close)
         self.stream(connection.fileno(), connection.fileno())
@@ -191,7 +216,7 @@ class Processes(unittest.TestCase):
         adapter.order(kind="stop", request="r", vehicle="mav-1")
         self.assertEqual(adapter.end_of("r")["kind"], "stopped")
         adapter.process.stdin.close()
-        self.assertEqual(adapter.process.wait(2), 0)
+        self.assertEqual(adapter.process.wait(PATIENCE), 0)
 
     def test_what_cannot_begin_says_why(self):
         taken = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
@@ -208,7 +233,7 @@ class Processes(unittest.TestCase):
             adapter = self.adapter(*options)
             report = adapter.until(lambda r: r["kind"] == "error")
             self.assertEqual(report["why"], why)
-            self.assertEqual(adapter.process.wait(5), 1)
+            self.assertEqual(adapter.process.wait(PATIENCE), 1)
 
     def test_orders_that_are_no_json(self):
         adapter = self.adapter("--udp", str(free_port()))

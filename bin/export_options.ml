@@ -1,19 +1,19 @@
 open Cmdliner
-module Format = Dolphin_maps.Format
+module Map_format = Dolphin_maps.Map_format
 
-type t = { format : Format.t option; path : string option }
+type t = { format : Map_format.t option; path : string option }
 
-let names = String.concat ", " (List.map fst Format.all)
+let names = String.concat ", " (List.map fst Map_format.all)
 
 let format_conv =
   let parse text =
-    match List.assoc_opt (String.lowercase_ascii text) Format.all with
+    match List.assoc_opt (String.lowercase_ascii text) Map_format.all with
     | Some format -> Ok format
     | None ->
       let why = if String.lowercase_ascii text = "mcap" then ": no library for MCAP comes with this system" else "" in
       Error (`Msg (Printf.sprintf "'%s' is none of the formats %s%s" text names why))
   in
-  let print ppf format = Stdlib.Format.pp_print_string ppf (fst (List.find (fun (_, f) -> f = format) Format.all)) in
+  let print ppf format = Format.pp_print_string ppf (fst (List.find (fun (_, f) -> f = format) Map_format.all)) in
   Arg.conv ~docv:"FORMAT" (parse, print)
 
 let term =
@@ -32,7 +32,7 @@ let format { format; path } =
   | Some format, _ -> Ok format
   | None, Some path ->
     let why = Printf.sprintf "'%s' ends in none of the formats %s: --to FORMAT says which one" path names in
-    Option.to_result ~none:(Dolphin_app.Error.Bad_input why) (Format.of_path path)
+    Option.to_result ~none:(Dolphin_app.Error.Bad_input why) (Map_format.of_path path)
   | None, None -> Error (Bad_input ("--to FORMAT or -o FILE says what to write: " ^ names))
 
 let man =

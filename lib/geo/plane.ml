@@ -9,8 +9,8 @@ let origin p = p
 let reach = 200_000.
 
 let of_position origin p =
-  let metres = Wgs84.distance origin p and course = radians (Wgs84.bearing origin p) in
-  (metres *. sin course, metres *. cos course)
+  let north, east = Wgs84.displacement origin p in
+  (east, north)
 
 let billionths x = Float.round (x *. 1e9) /. 1e9
 
@@ -26,6 +26,9 @@ let unit (p : Position.t) =
 
 let millionths x = Float.round (x *. 1e6) /. 1e6
 
+(* Between unit vectors: some 185 km, so that most positions need no geodesic. *)
+let surely = 0.029
+
 let between positions =
   let add (x, y, z) p =
     let x', y', z' = unit p in
@@ -36,7 +39,12 @@ let between positions =
   else
     let latitude = millionths (degrees (atan2 z (Float.hypot x y))) and longitude = millionths (degrees (atan2 y x)) in
     let middle = { Position.latitude; longitude; height = 0. } in
-    if List.for_all (fun p -> Wgs84.distance middle p <= reach) positions then Some middle else None
+    let x, y, z = unit middle in
+    let is_within p =
+      let x', y', z' = unit p in
+      Float.hypot (Float.hypot (x -. x') (y -. y')) (z -. z') < surely || Wgs84.distance middle p <= reach
+    in
+    if List.for_all is_within positions then Some middle else None
 
 (* The geometric mean of the two radii of curvature. *)
 let earth_radius (p : Position.t) =

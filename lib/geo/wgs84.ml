@@ -149,6 +149,10 @@ let distance a b = fst (inverse a b)
 
 let bearing a b = from_zero (degrees (snd (inverse a b)))
 
+let displacement a b =
+  let metres, course = inverse a b in
+  (metres *. cos course, metres *. sin course)
+
 let move a ~bearing metres =
   finite "move" bearing;
   finite "move" metres;

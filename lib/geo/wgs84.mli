@@ -22,6 +22,9 @@ val move : Position.t -> bearing:float -> float -> Position.t
     north) and is [metres] long, at [a]'s height. A negative length goes the other way. The longitude is greater than
     -180 and at most 180. *)
 
+val displacement : Position.t -> Position.t -> float * float
+(** [displacement a b] is the metres to the north and to the east with which {!displace} leads from [a] to [b]. *)
+
 val farthest : float
 (** Metres that a way of a program may go at most to the north and to the east, about half the globe. *)
 

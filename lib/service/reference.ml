@@ -71,6 +71,9 @@ let procedures =
                                                     Also `location \"41\xc2\xb011.1'N 8\xc2\xb042.4'W\"`.";
       "polygon", "polygon([p1, p2, ...])",
       "The area inside the shortest lines from corner to corner; `holes: [[...], ...]` are left out.";
+      "map", "map 'harbour.geojson'",
+      "The areas, lines and positions on the map in this file, by name: GeoJSON, KML, KMZ, GPX, plans of \
+       QGroundControl, missions of Neptus.";
       "corridor", "corridor(path, width)", "The points at most half the width away from a path, a list of positions.";
       "along", "along(path, d)", "The position d metres along a path, a list of positions.";
       "area", "area(centre, radius)", "The circle around a position, its radius in metres. Also `centre ^ radius`.";

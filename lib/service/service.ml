@@ -29,18 +29,25 @@ let source d = d.source
 
 (* {1 Diagnostics} *)
 
+let most_bytes = 64 * 1024 * 1024
+
 let read_file path =
   match open_in_bin path with
   | exception Sys_error why -> Error why
   | channel ->
     Fun.protect ~finally:(fun () -> close_in_noerr channel) @@ fun () ->
-    (match really_input_string channel (in_channel_length channel) with
-     | text -> Ok text
+    (match in_channel_length channel with
+     | n when n > most_bytes -> Error (path ^ " is larger than 64 MB")
+     | n -> Ok (really_input_string channel n)
      | exception (Sys_error _ | End_of_file) -> Error (path ^ " cannot be read"))
 
 let elaborated d =
   let _, parsed = Include.program ~read:read_file ~file:d.file d.source in
-  Result.bind parsed (Elaborate.program ~source_name:d.file)
+  let elaborate ast =
+    Elaborate.program_with_charts ~chart:(Dolphin_charts.Charts.value (Dolphin_charts.Charts.read read_file ast))
+      ~source_name:d.file ast
+  in
+  Result.bind parsed elaborate
 
 (* Of what is wrong in files that it includes, it is for their own documents to tell. *)
 let of_program d =

@@ -21,6 +21,7 @@ type code =
   | Misplaced_jump  (** [break], [continue], [return] *)
   | Misplaced_when | Misplaced_setting | Misplaced_function | Misplaced_input
   | Misplaced_parameter | Misplaced_interrupt
+  | Bad_map  (** a file that [map] names cannot be read *)
   | Deed_in_answer  (** an answer may only compute *)
   | Deed_in_maker  (** so may code that makes a task *)
   | Vehicle_twice  (** one vehicle, needed twice at once *)

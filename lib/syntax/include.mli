@@ -8,6 +8,9 @@ type whole = {
   files : string list;  (** the files, that of the program first *)
 }
 
+val beside : string -> string -> string
+(** [beside file path] is the file that the text in [file] calls [path]. *)
+
 val program :
   read:(string -> (string, string) result) ->
   file:string ->

@@ -71,8 +71,171 @@ let long_tracks () =
   let lengths = List.map String.length [ Map_text.geojson [ track ]; Map_text.kml ~title:"" [ track ] ] in
   Alcotest.(check bool) "all are written" true (List.for_all (fun n -> n > 200_000 * 20) lengths)
 
+(* {1 Reading} *)
+
+let shown path text =
+  match Map_file.read ~path text with
+  | Error why -> "wrong: " ^ why
+  | Ok things ->
+    let one (name, (thing : Map_file.thing)) =
+      match thing with
+      | Point p -> Format.asprintf "%s: %a" name Position.pp p
+      | Line ps -> Printf.sprintf "%s: line of %d" name (List.length ps)
+      | Area area -> Printf.sprintf "%s: %.0f m2, %d corners" name (Area.size area) (List.length (Area.corners area))
+    in
+    String.concat "; " (List.map one things)
+
+let feature ?(properties = {|{"name":"a"}|}) kind coordinates =
+  Printf.sprintf {|{"type":"Feature","properties":%s,"geometry":{"type":"%s","coordinates":%s}}|} properties kind
+    coordinates
+
+let collection features =
+  Printf.sprintf {|{"type":"FeatureCollection","features":[%s]}|} (String.concat "," features)
+
+let square = "[[0,0],[0.001,0],[0.001,0.001],[0,0.001],[0,0]]"
+
+let reading_geojson () =
+  let read features = shown "m.geojson" (collection features) in
+  check "a point" "a: (41.000000, -8.000000, 2.0 m)" (read [ feature "Point" "[-8,41,2]" ]);
+  check "a line" "a: line of 2" (read [ feature "LineString" "[[-8,41],[-8.1,41]]" ]);
+  check "a polygon" "a: 12309 m2, 4 corners" (read [ feature "Polygon" (Printf.sprintf "[%s]" square) ]);
+  check "with a hole" "a: 9232 m2, 8 corners"
+    (read
+       [ feature "Polygon"
+           (Printf.sprintf "[%s,[[0.0002,0.0002],[0.0007,0.0002],[0.0007,0.0007],[0.0002,0.0007],[0.0002,0.0002]]]"
+              square) ]);
+  check "several" "a: 24618 m2, 8 corners"
+    (read
+       [ feature "MultiPolygon"
+           (Printf.sprintf "[[%s],[[[0.002,0],[0.003,0],[0.003,0.001],[0.002,0.001],[0.002,0]]]]" square) ]);
+  check "over the meridian of 180 degrees" "a: 24618 m2, 4 corners"
+    (read [ feature "Polygon" "[[[179.999,0],[-179.999,0],[-179.999,0.001],[179.999,0.001],[179.999,0]]]" ]);
+  check "names" "a: (0.000000, 1.000000); a 2: (0.000000, 2.000000); point 1: (0.000000, 3.000000); \
+                 7: (0.000000, 4.000000); point 2: (0.000000, 5.000000); a 3: (0.000000, 6.000000)"
+    (read
+       [ feature "Point" "[1,0]"; feature "Point" "[2,0]"; feature ~properties:"null" "Point" "[3,0]";
+         feature ~properties:{|{"title":7}|} "Point" "[4,0]"; feature ~properties:{|{"name":" \n"}|} "Point" "[5,0]";
+         feature "Point" "[6,0]" ]);
+  check "a name that is like a made one" "a 2: (0.000000, 1.000000); a: (0.000000, 2.000000); a 3: (0.000000, 3.000000)"
+    (read
+       [ feature ~properties:{|{"name":"a 2"}|} "Point" "[1,0]"; feature "Point" "[2,0]"; feature "Point" "[3,0]" ]);
+  check "no geometry" "" (read [ {|{"type":"Feature","properties":{},"geometry":null}|} ]);
+  check "a bare geometry" "point 1: (2.000000, 1.000000)" (shown "m.json" {|{"type":"Point","coordinates":[1,2]}|})
+
+let wrong_geojson () =
+  let read text = shown "M.GeoJSON" text in
+  let told features = read (collection features) in
+  (* In the words of the library, which differ from one release to the next. *)
+  let begins_with start text = check start start (String.sub text 0 (min (String.length start) (String.length text))) in
+  begins_with "wrong: line 2, bytes " (read "[1\n }");
+  begins_with "wrong: line 1, bytes " (read "[1, 2");
+  check "something else" "wrong: this is no GeoJSON: it has no \"type\": \"FeatureCollection\"" (read "[1]");
+  check "a geometry that is none" "wrong: feature 2 ('a'): GeoJSON has no geometry 'Circle'"
+    (told [ feature "Point" "[1,2]"; feature "Circle" "[1,2]" ]);
+  check "a latitude" "wrong: feature 1 ('a'): latitude 91 is not from -90 to 90 degrees"
+    (told [ feature "Point" "[1,91]" ]);
+  check "a position in a line" "wrong: feature 1 ('a'), position 2: longitude 181 is not from -180 to 180 degrees"
+    (told [ feature "LineString" "[[1,2],[181,2]]" ]);
+  check "no number" "wrong: feature 1 ('a'): a number belongs here" (told [ feature "Point" {|["x",2]|} ]);
+  check "a line of one" "wrong: feature 1 ('a'): a line has two positions at least"
+    (told [ feature "LineString" "[[1,2]]" ]);
+  check "a bow tie" "wrong: feature 1 ('a'): a polygon does not cross itself: its sides from corner 1 and from corner 3 meet"
+    (told [ feature "Polygon" "[[[0,0],[0.01,0.01],[0.01,0],[0,0.01],[0,0]]]" ]);
+  check "another ending" "wrong: a map ends in .geojson, .json, .kml, .kmz, .gpx, .plan, .nmap, .nmisz"
+    (shown "m.txt" "");
+  check "too long" "wrong: it has more than 20 MB" (read (String.make (Map_file.most_bytes + 1) ' '))
+
+let reading_kml () =
+  let read inside = shown "m.kml" (Printf.sprintf "<kml xmlns='k'><Document>%s</Document></kml>" inside) in
+  let ring = "<LinearRing><coordinates>0,0 0.001,0 0.001,0.001 0,0.001 0,0</coordinates></LinearRing>" in
+  let placed name geometry = Printf.sprintf "<Placemark><name>%s</name>%s</Placemark>" name geometry in
+  check "in folders" "p &: (41.000000, -8.000000, 3.0 m)"
+    (read ("<Folder><Folder>" ^ placed "p &amp;" "<Point><coordinates>\n -8,41,3\n</coordinates></Point>"
+           ^ "</Folder></Folder>"));
+  check "polygons of one place" "a: 12309 m2, 4 corners; a 2: line of 2"
+    (read
+       (placed "a"
+          ("<MultiGeometry><Polygon><outerBoundaryIs>" ^ ring ^ "</outerBoundaryIs></Polygon><LineString>"
+           ^ "<coordinates>0,0 1,1</coordinates></LineString></MultiGeometry>")));
+  check "a track" "t: line of 2"
+    (read (placed "t" "<gx:Track><when/><gx:coord>1 2 3</gx:coord><gx:coord>1 3 3</gx:coord></gx:Track>"));
+  check "what has no place" "" (read (placed "n" "" ^ "<Style/>"));
+  check "no number" "wrong: line 3: 'x' is no number"
+    (read (placed "p\n\n" "<Point><coordinates>-8,x</coordinates></Point>"));
+  check "no coordinates" "wrong: line 1: Point has no coordinates" (read (placed "p" "<Point/>"));
+  check "another document" "wrong: line 1: this is no KML: its root is 'gpx'" (shown "m.kml" "<gpx/>");
+  check "no XML" "wrong: line 2, column 2: this is no XML: expected root element" (shown "m.kml" "<!-- -->\n nothing")
+
+let reading_gpx () =
+  let read inside = shown "m.gpx" ("<gpx>" ^ inside ^ "</gpx>") in
+  check "all" "w: (41.000000, -8.000000, 5.0 m); r: line of 2; t: line of 2; t 2: (1.000000, 3.000000)"
+    (read
+       "<metadata/><wpt lat='41' lon='-8'><ele>5</ele><name>w</name></wpt>\
+        <rte><name>r</name><rtept lat='1' lon='1'/><rtept lat='1' lon='2'/></rte>\
+        <trk><name>t</name><trkseg><trkpt lat='1' lon='1'/><trkpt lat='1' lon='2'/></trkseg>\
+        <trkseg><trkpt lat='1' lon='3'/></trkseg><trkseg/></trk>");
+  check "no longitude" "wrong: line 1: a point has the attributes lat and lon" (read "<wpt lat='1'/>")
+
+let reading_plans () =
+  let plan =
+    {|{"fileType":"Plan","mission":{"plannedHomePosition":[41,-8,10],"items":[
+      {"type":"SimpleItem","command":16,"params":[0,0,0,null,41.1,-8,30]},
+      {"type":"SimpleItem","command":20,"params":[0,0,0,0,0,0,0]},
+      {"type":"SimpleItem","command":16,"params":[0,0,0,null,41.2,-8,30]},
+      {"type":"ComplexItem","complexItemType":"survey","polygon":[[0,0],[0,0.001],[0.001,0.001],[0.001,0]]},
+      {"type":"ComplexItem","complexItemType":"CorridorScan","polyline":[[0,0],[0,1]]}]},
+      "geoFence":{"circles":[{"inclusion":false,"circle":{"center":[41,-8],"radius":100}}],
+      "polygons":[{"inclusion":true,"polygon":[[0,0],[0,0.001],[0.001,0.001],[0.001,0]]}]},
+      "rallyPoints":{"points":[[41,-8,50]]}}|}
+  in
+  check "QGroundControl" "home: (41.000000, -8.000000, 10.0 m); mission: line of 2; survey 1: 12309 m2, 4 corners; \
+                          corridor 1: line of 2; inside 1: 12309 m2, 4 corners; outside 1: 31416 m2, 128 corners; \
+                          rally 1: (41.000000, -8.000000, 50.0 m)"
+    (shown "m.plan" plan);
+  check "a radius" "wrong: circle 1 of the fence: a radius is 0 m or more, not -1"
+    (shown "m.plan" {|{"fileType":"Plan","geoFence":{"circles":[{"circle":{"center":[41,-8],"radius":-1}}]}}|});
+  check "another file" "wrong: this is no plan of QGroundControl: it has no \"fileType\": \"Plan\"" (shown "m.plan" "{}")
+
+let reading_neptus () =
+  let at = "<coordinate><latitude>41N30'36.0''</latitude><longitude>8W15'0''</longitude><height>0</height>" in
+  let element kind inside = Printf.sprintf "<%s><id>x</id><name>id_1</name>%s</coordinate>%s</%s>" kind at inside kind in
+  let read inside = shown "m.nmap" (Printf.sprintf "<map><header/><features>%s</features></map>" inside) in
+  let step n e = Printf.sprintf "<translation><n>%d</n><e>%d</e><d>0</d></translation>" n e in
+  check "a mark" "x: (41.510000, -8.250000)" (read (element "mark" ""));
+  check "degrees with signs, an offset" "x: (40.999999, -7.988114, -2.0 m)"
+    (read
+       "<mark><id>x</id><coordinate><latitude>41.0</latitude><longitude>-8.0</longitude><depth>2</depth>\
+        <offset-east>1000</offset-east></coordinate></mark>");
+  check "a path" "x: line of 2" (read (element "path" (step 0 0 ^ step 10 0)));
+  check "a shape" "x: 50 m2, 3 corners" (read (element "path" ("<shape>true</shape>" ^ step 0 0 ^ step 10 0 ^ step 0 10)));
+  check "a shape that crosses itself" "x: line of 4"
+    (read (element "path" ("<shape>true</shape>" ^ step 0 0 ^ step 10 10 ^ step 10 0 ^ step 0 10)));
+  let box psi =
+    Printf.sprintf "<attitude><psi>%s</psi></attitude><type>Parallelepiped</type><dimensions><x-dim>20</x-dim>\
+                    <y-dim>40</y-dim></dimensions>" psi in
+  check "a box" "x: 800 m2, 4 corners" (read (element "geometry" (box "-37")));
+  check "a mine danger area" "x: 314 m2, 128 corners" (read (element "MineDangerAreaElement" "<radius>10</radius>"));
+  check "a picture" "" (read (element "image" "<href>../../a.png</href>"));
+  check "no coordinate" "wrong: line 1: mark has no coordinate" (read "<mark><id>x</id></mark>")
+
+(* Which way a box lies: its length is along its heading. *)
+let a_box_is_turned () =
+  let text =
+    "<map><features><geometry><id>x</id><coordinate><latitude>41</latitude><longitude>-8</longitude></coordinate>\
+     <attitude><psi>90</psi></attitude><type>Parallelepiped</type><dimensions><x-dim>20</x-dim><y-dim>400</y-dim>\
+     </dimensions></geometry></features></map>" in
+  match Map_file.read ~path:"m.nmap" text with
+  | Ok [ (_, Area area) ] ->
+    let inside north east = Area.contains area (Wgs84.displace (at 41. (-8.)) ~north ~east) in
+    Alcotest.(check (list bool)) "east, north" [ true; false ] [ inside 0. 190.; inside 15. 0. ]
+  | Ok _ | Error _ -> Alcotest.fail "one area is there"
+
 let () =
   Alcotest.run "maps"
     [ ( "writing",
         [ case "times" times; case "the meridian of 180 degrees" cutting; case "GeoJSON" geojson; case "XML" xml;
-          case "CSV" csv; case "long tracks" long_tracks ] ) ]
+          case "CSV" csv; case "long tracks" long_tracks ] );
+      ( "reading",
+        [ case "GeoJSON" reading_geojson; case "wrong GeoJSON" wrong_geojson; case "KML" reading_kml;
+          case "GPX" reading_gpx; case "plans of QGroundControl" reading_plans; case "maps of Neptus" reading_neptus;
+          case "a box is turned" a_box_is_turned ] ) ]

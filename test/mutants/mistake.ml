@@ -737,6 +737,34 @@ let maps =
       ("control characters in XML", {|if c < ' ' &&|}, {|if c < '\000' &&|});
       ("routes before way points", {|[ point_of; route_of; track_of ]|}, {|[ route_of; point_of; track_of ]|});
     ]
+  @ in_file "lib/maps/map_file.ml" ~noticed_by:"maps/test_maps"
+    [
+      ("names are used twice", {|if Hashtbl.mem taken name then free stem (n + 1)|}, {|if false then free stem (n + 1)|});
+      ("made names are used twice", {|if Hashtbl.mem taken name then from (n + 1)|}, {|if false then from (n + 1)|});
+      ("long files are read", {|String.length text > most_bytes|}, {|String.length text > 2 * most_bytes|});
+      ("only the first polygon counts", {|Area (united d.place (List.map polygon rings))|},
+       {|Area (polygon (List.hd rings))|});
+      ("holes are filled", {|~holes:(List.map opened holes)|}, {|~holes:(List.map opened (List.tl (rim :: holes |> List.rev)))|});
+    ]
+  @ in_file "lib/maps/geojson_file.ml" ~noticed_by:"maps/test_maps"
+    [
+      ("latitudes come first", {|`List (longitude :: latitude :: rest)|}, {|`List (latitude :: longitude :: rest)|});
+      ("features count from 0", {|"feature %d%s" (i + 1)|}, {|"feature %d%s" i|});
+    ]
+  @ in_file "lib/maps/qgc_plan_file.ml" ~noticed_by:"maps/test_maps"
+    [
+      ("fences keep in what they keep out", {|`Bool false -> "outside"|}, {|`Bool false -> "inside"|});
+      ("an item without a position is at 0, 0", {|latitude = 0. && longitude = 0.|}, {|latitude = 1. && longitude = 0.|});
+    ]
+  @ in_file "lib/maps/neptus_file.ml" ~noticed_by:"maps/test_maps"
+    [
+      ("west is east", {|letter = 'S' || letter = 'W'|}, {|letter = 'S'|});
+      ("depths are heights", {|-. metres "depth" c|}, {|+. metres "depth" c|});
+      ("boxes are not turned", {|x centre (a *. ahead) (r *. right)|}, {|x centre (r *. right) (a *. ahead)|});
+      ("minutes are seconds", {|(part 0 /. 60.)|}, {|(part 0 /. 3600.)|});
+    ]
+  @ in_file "lib/maps/xml_text.ml" ~noticed_by:"maps/test_maps"
+    [ ("a fault is told behind its place", {|place = line }|}, {|place = "line " ^ string_of_int (fst (Xmlm.pos input)) }|}) ]
 
 let all =
   List.concat

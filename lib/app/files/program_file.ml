@@ -1,4 +1,5 @@
 open Dolphin_syntax
+open Dolphin_charts
 
 type t = {
   path : string;
@@ -31,8 +32,11 @@ let load ?(set = []) path =
   let* ast = wrong source parsed in
   let parameters = Parameters.of_program ast in
   let* ast = Result.map_error (fun why -> Error.Bad_input why) (Parameters.set set ast) in
-  let* program, warnings = wrong source (Dolphin_semantics.Elaborate.program ~source_name:path ast) in
-  Ok { path; source; parameters; set; program; warnings }
+  let charts = Charts.read read ast in
+  let chart = Charts.value charts in
+  let elaborated = Dolphin_semantics.Elaborate.program_with_charts ~chart ~source_name:path ast in
+  let* program, warnings = wrong source elaborated in
+  Ok { path; source = source ^ Charts.identity charts; parameters; set; program; warnings }
 
 let load_recorded ~set ~recorded path =
   match set, recorded with

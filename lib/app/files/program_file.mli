@@ -4,7 +4,8 @@ open Dolphin_syntax
 
 type t = {
   path : string;
-  source : string;  (** the text, and behind it that of the files that it includes *)
+  source : string;
+  (** the text, and behind it that of the files that it includes, and what tells apart the contents of its maps *)
   parameters : Parameters.t list;  (** with the values that the text gives them *)
   set : (string * string) list;  (** those that were set, each with the text of its value *)
   program : Dolphin_semantics.Core.program;

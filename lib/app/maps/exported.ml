@@ -113,7 +113,7 @@ let of_plans ~title found =
 
 (* {1 Writing} *)
 
-let to_string (format : Dolphin_maps.Format.t) map =
+let to_string (format : Dolphin_maps.Map_format.t) map =
   match format with
   | Csv -> Map_text.csv map.columns map.rows
   | Geojson -> Map_text.geojson map.features

@@ -15,8 +15,8 @@ val of_plans : title:string -> Inline_plans.found list -> t
 (** [of_plans ~title plans] has the way of each plan that the program describes, and where each of its maneuvers ends.
     The rows are the way points. Plans that vehicles know by name are left out. *)
 
-val to_string : Dolphin_maps.Format.t -> t -> string
+val to_string : Dolphin_maps.Map_format.t -> t -> string
 
-val write : Dolphin_maps.Format.t -> string option -> t -> (unit, Error.t) result
+val write : Dolphin_maps.Map_format.t -> string option -> t -> (unit, Error.t) result
 (** [write format path map] writes into the file [path], to standard output without one. Nothing to write is an error:
     {!Error.Bad_input}. *)

@@ -125,13 +125,14 @@ let without_unused_prelude (ast : Ast.program) =
       match s.it with Function { name; _ } when is_prelude s -> List.mem name.it used | _ -> true in
     List.filter is_kept ast
 
-let program ~source_name (ast : Ast.program) =
+let elaborated ?chart ~source_name (ast : Ast.program) =
   let ast = without_unused_prelude ast in
   let program =
     Scope.create ~variables:(Assigned.names ast) ~suppliers:(Assigned.once is_supplier ast)
       ~parameters:(List.map (fun (p : Parameters.t) -> p.name) (Parameters.of_program ast))
-      ~functions:[] ~globals:[] ()
+      ?chart ~functions:[] ~globals:[] ()
   in
+  List.iter (Chart_calls.note program) (Chart_calls.assigned ast);
   let defined =
     List.filter_map
       (fun (s : Ast.statement) ->
@@ -171,6 +172,9 @@ let program ~source_name (ast : Ast.program) =
         reads_sensors = Scope.reads_sensors program;
       },
         reports )
+
+let program ~source_name ast = elaborated ~source_name ast
+let program_with_charts ~chart ~source_name ast = elaborated ~chart ~source_name ast
 
 let first_message = function
   | (d : Diagnostic.t) :: _ -> (

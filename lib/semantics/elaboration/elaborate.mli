@@ -10,7 +10,16 @@ val program :
 (** [program ~source_name ast] is the core program of [ast], and warnings; or the errors, with the warnings. Checked
     are: unknown names, settings, constants and units; numbers of arguments and kinds of literals; what belongs to the
     script inside of a task's code; assignments to captured locals; [break], [return], [_] and [ignore()] out of place;
-    one vehicle needed twice at once, where that can be seen. *)
+    one vehicle needed twice at once, where that can be seen. No file can be read for
+    [map]. *)
+
+val program_with_charts :
+  chart:(string -> (Core.value, string) result) ->
+  source_name:string ->
+  Dolphin_syntax.Ast.program ->
+  (Core.program * Diagnostic.t list, Diagnostic.t list) result
+(** [program_with_charts ~chart ~source_name ast] is the same; [chart path] is what [map] makes of the file [path], or
+    what is wrong with it. *)
 
 val answer : Core.program -> string -> (Core.closure, string) result
 (** [answer p text] is the expression [text], to be evaluated with the variables of [p] in sight, or what is wrong with

@@ -45,6 +45,7 @@ let member env (whole : Ast.expression) subject (name : string Ast.located) safe
      | Number when Operators.unit_factor name.it = None ->
        error env Unknown_unit name.at "there is no unit '%s'" name.it ?hint:(did_you_mean name.it Operators.unit_names)
      | _ -> ());
+    Chart_calls.check_member env subject name;
     let subject = Checks.elaborate env subject in
     if safe then unless_null env at subject (fun e -> apply env at (Property name.it) [ e ])
     else apply env at (Property name.it) [ subject ]

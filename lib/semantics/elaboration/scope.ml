@@ -12,6 +12,8 @@ type program = {
   variables : string list;
   parameters : string list;
   suppliers : string list;
+  chart : string -> (Core.value, string) result;
+  charted : (string, string * string list) Hashtbl.t;  (* variables that are a chart: its file, and its names *)
   functions : (string, Core.lambda) Hashtbl.t;
   table : (string, global) Hashtbl.t;
   mutable global_names : string list;  (* latest first *)
@@ -44,12 +46,17 @@ let assigned_global program name =
   global.assigned <- true;
   global.index
 
-let create ?(first_site = 0) ?(variables = []) ?(parameters = []) ?(suppliers = []) ~functions ~globals () =
+let no_chart _ = Error "no file can be read here"
+
+let create ?(first_site = 0) ?(variables = []) ?(parameters = []) ?(suppliers = []) ?(chart = no_chart) ~functions
+    ~globals () =
   let program =
     {
       variables;
       parameters;
       suppliers;
+      chart;
+      charted = Hashtbl.create 4;
       functions = Hashtbl.create 16;
       table = Hashtbl.create 64;
       global_names = [];
@@ -128,6 +135,9 @@ let note_text program at = program.texts <- at :: program.texts
 let wants_text program at = List.memq at program.texts
 let note_sensor program = program.reads_sensors <- true
 let is_parameter program name = List.mem name program.parameters
+let chart program path = program.chart path
+let note_chart program name path keys = Hashtbl.replace program.charted name (path, keys)
+let find_chart program name = Hashtbl.find_opt program.charted name
 let is_supplier program name = List.mem name program.suppliers
 let reads_sensors program = program.reads_sensors
 

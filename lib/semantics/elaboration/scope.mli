@@ -13,13 +13,15 @@ val create :
   ?variables:string list ->
   ?parameters:string list ->
   ?suppliers:string list ->
+  ?chart:(string -> (Core.value, string) result) ->
   functions:(string * Core.lambda) list ->
   globals:string list ->
   unit ->
   program
 (** [functions] and [globals] exist already, as for an answer to [ask]; sites are numbered from [first_site] on, by
     default from 0. [variables] are names that the text gives a value to somewhere; [parameters], the program's
-    parameters; [suppliers], the names of variables that surely are the supplier. *)
+    parameters; [suppliers], the names of variables that surely are the supplier; [chart path] is
+    what [map] makes of a file, by default that it cannot be read. *)
 
 val site : program -> Location.t -> Core.site
 (** A new site there. *)
@@ -96,6 +98,15 @@ val is_assigned : program -> string -> bool
 (** Whether something gives a value to a variable of this name. *)
 
 val is_parameter : program -> string -> bool
+
+val chart : program -> string -> (Core.value, string) result
+(** What {!create} was given. *)
+
+val note_chart : program -> string -> string -> string list -> unit
+(** [note_chart p x path names]: the variable [x] surely is the map of the file [path], which has these [names]. *)
+
+val find_chart : program -> string -> (string * string list) option
+(** What {!note_chart} noted of a variable. *)
 
 val is_supplier : program -> string -> bool
 (** Whether the variable is one of the [suppliers]. *)

@@ -126,6 +126,9 @@ let rec elaborate env (e : Ast.expression) : expression =
   | Member { subject; name; safe } -> Names.member env e subject name safe
   | Index (subject, index) ->
     check_index env subject index;
+    (match index.it with
+     | String name -> Chart_calls.check_member env subject { it = name; at = index.at }
+     | _ -> ());
     let subject = task_operand env subject in
     apply env at Element [ subject; elaborate env index ]
   | Builder (builder, body) -> Setting_blocks.build env at builder body

@@ -1,0 +1,17 @@
+(** The files that a program names by [map 'FILE'], as values of the language. They are part of the program. *)
+
+open Dolphin_semantics
+
+type t
+
+val read : (string -> (string, string) result) -> Dolphin_syntax.Ast.program -> t
+(** [read file program] reads all files that [program] names so; [file path] is what the file [path] holds, or why it
+    cannot be read. *)
+
+val value : t -> string -> (Core.value, string) result
+(** [value charts path] is a map from the names in the file [path] to positions, lists of positions and areas; or what
+    is wrong with the file, and where. *)
+
+val identity : t -> string
+(** [identity charts] is text that differs if another file is named or the contents of one have changed, [""] without
+    files: behind the text of the program it makes another program of it. *)

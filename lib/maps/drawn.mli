@@ -1,0 +1,28 @@
+(** What readers of map files find, before names and areas are made of it. *)
+
+open Dolphin_geo
+
+(** One thing on a map. Rings may repeat their first corner at the end. *)
+type shape =
+  | Spot of Position.t
+  | Way of Position.t list
+  | Ground of ring list  (** polygons, each with its holes *)
+  | Sketch of Position.t list  (** an area if it makes one, else a line *)
+  | Round of { centre : Position.t; radius : float }
+
+and ring = { rim : Position.t list; holes : Position.t list list }
+
+type t = {
+  name : string;  (** [""]: none *)
+  place : string;  (** in the file, for whoever is told that something is wrong there *)
+  shape : shape;
+}
+
+exception Wrong of { place : string; why : string }
+(** The file is not as its format wants it. Readers raise it, {!Map_file.read} handles it. *)
+
+val wrong : string -> ('a, unit, string, 'b) format4 -> 'a
+(** [wrong place format ...] raises {!Wrong}. *)
+
+val position : string -> latitude:float -> longitude:float -> height:float -> Position.t
+(** [position place ...] is that position, or wrong at [place]. *)

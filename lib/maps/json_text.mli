@@ -1,0 +1,24 @@
+(** JSON that may be hostile. *)
+
+val read : string -> Yojson.Safe.t
+(** [read text] is its value. Raises {!Drawn.Wrong} with line and column; also where lists and objects are nested more
+    than {!most_deep} deep. *)
+
+val most_deep : int
+(** 100. *)
+
+(** {1 Asking}
+
+    [place] is where the value stands. *)
+
+val member : string -> Yojson.Safe.t -> Yojson.Safe.t
+(** [`Null] if there is none. *)
+
+val elements : string -> Yojson.Safe.t -> Yojson.Safe.t list
+(** Those of a list; else wrong at [place]. *)
+
+val number : string -> Yojson.Safe.t -> float
+(** Likewise. *)
+
+val text : Yojson.Safe.t -> string option
+(** A text, or a whole number as text. *)

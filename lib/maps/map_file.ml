@@ -1,0 +1,120 @@
+open Dolphin_geo
+
+type thing = Point of Position.t | Line of Position.t list | Area of Area.t
+
+let most_bytes = 20_000_000
+
+let ends suffix name =
+  let n = String.length suffix and length = String.length name in
+  length >= n && String.lowercase_ascii (String.sub name (length - n) n) = suffix
+
+(* {1 Formats} *)
+
+(* What an archive has: the files that end so, each read like one. *)
+let archived suffix read text =
+  match Zip_text.files ~most:most_bytes (ends suffix) text with
+  | [] -> Drawn.wrong "" "there is no *%s in this archive" suffix
+  | files ->
+    let one (name, text) =
+      try read text
+      with Drawn.Wrong { place; why } -> Drawn.wrong (if place = "" then name else name ^ ", " ^ place) "%s" why
+    in
+    List.concat_map one files
+
+let readers =
+  [ (".geojson", Geojson_file.read);
+    (".json", Geojson_file.read);
+    (".kml", Kml_file.read);
+    (".kmz", archived ".kml" Kml_file.read);
+    (".gpx", Gpx_file.read);
+    (".plan", Qgc_plan_file.read);
+    (".nmap", Neptus_file.read);
+    (".nmisz", archived ".nmap" Neptus_file.read) ]
+
+let formats = List.map fst readers
+
+(* {1 Things and their names} *)
+
+let area place result =
+  match result with
+  | Ok area -> area
+  | Error e -> Drawn.wrong place "%s" (Format.asprintf "%a" Area.pp_error e)
+
+(* Files close their rings: the last corner is the first again. *)
+let opened ring =
+  match ring, List.rev ring with
+  | (first : Position.t) :: _ :: _, last :: before
+    when first.latitude = last.Position.latitude && first.longitude = last.longitude -> List.rev before
+  | ring, _ -> ring
+
+(* Halves are united with halves, so that many polygons take no square of the time. *)
+let rec united place = function
+  | [] -> Drawn.wrong place "a polygon has corners"
+  | [ one ] -> one
+  | areas ->
+    let rec pairs = function
+      | a :: b :: rest -> area place (Area.union a b) :: pairs rest
+      | rest -> rest in
+    united place (pairs areas)
+
+let thing (d : Drawn.t) =
+  match d.shape with
+  | Spot p -> Point p
+  | Way ps -> Line ps
+  | Sketch ps -> ( match Area.polygon (opened ps) with Ok area -> Area area | Error _ -> Line ps)
+  | Round { centre; radius } -> Area (area d.place (Area.circle centre radius))
+  | Ground rings ->
+    let polygon ({ rim; holes } : Drawn.ring) =
+      area d.place (Area.polygon ~holes:(List.map opened holes) (opened rim)) in
+    Area (united d.place (List.map polygon rings))
+
+let kind = function Point _ -> "point" | Line _ -> "line" | Area _ -> "area"
+
+(* A name of a file is no text of a program: control characters would do harm. *)
+let harmless name = String.trim (String.map (fun c -> if c < ' ' || c = '\127' then ' ' else c) name)
+
+let named things =
+  let taken = Hashtbl.create 64 and next = Hashtbl.create 64 in
+  let rec free stem n =
+    let name = if n = 1 then stem else Printf.sprintf "%s %d" stem n in
+    if Hashtbl.mem taken name then free stem (n + 1)
+    else begin
+      Hashtbl.replace next stem (n + 1);
+      name
+    end
+  in
+  let numbered stem =
+    let rec from n =
+      let name = Printf.sprintf "%s %d" stem n in
+      if Hashtbl.mem taken name then from (n + 1)
+      else begin
+        Hashtbl.replace next stem (n + 1);
+        name
+      end
+    in
+    from (Option.value (Hashtbl.find_opt next stem) ~default:1)
+  in
+  let one (name, thing) =
+    let name =
+      match harmless name with
+      | "" -> numbered (kind thing)
+      | name -> free name (Option.value (Hashtbl.find_opt next name) ~default:1)
+    in
+    Hashtbl.replace taken name ();
+    (name, thing)
+  in
+  List.rev (List.fold_left (fun found x -> one x :: found) [] things)
+
+(* {1 Reading} *)
+
+let read ~path text =
+  match List.find_opt (fun (suffix, _) -> ends suffix path) readers with
+  | None -> Error (Printf.sprintf "a map ends in %s" (String.concat ", " formats))
+  | Some _ when String.length text > most_bytes ->
+    Error (Printf.sprintf "it has more than %d MB" (most_bytes / 1_000_000))
+  | Some (_, read) -> (
+      match named (List.map (fun (d : Drawn.t) -> (d.name, thing d)) (read text)) with
+      | things -> Ok things
+      | exception Drawn.Wrong { place = ""; why } -> Error why
+      | exception Drawn.Wrong { place; why } -> Error (place ^ ": " ^ why)
+      | exception Stack_overflow -> Error "it is too intricate")

@@ -139,8 +139,9 @@ class Programs(unittest.TestCase):
                 time.sleep(0.1 * (number * 37 % 100))
                 first.send_signal(signal.SIGKILL)
                 first.wait(5)
-                if "program     ends" in open(log.name, encoding="utf-8").read():
-                    continue
+                with open(journal, encoding="utf-8") as file:
+                    if '"kind":"end"' in file.read():
+                        continue
                 resumed = subprocess.run(
                     [DOLPHIN, "exec", "--resume", journal, program, "--platform", self.adapter],
                     env=self.environment,

@@ -16,6 +16,9 @@ type error =
   | Too_wide
   | Empty
   | Intricate
+  | Parts of int
+  | Pieces of int
+  | Uncut of int
 
 let ( let* ) = Result.bind
 
@@ -261,6 +264,10 @@ let regions plane = function
   | Shape { corners; _ } ->
     Array.to_list (Array.map (Array.map (fun p -> on_grid (Plane.of_position plane p))) corners)
 
+let on_plane area =
+  let* plane = plane_of (corners area) in
+  match regions plane area with [] -> Error Empty | rings -> Ok (plane, rings)
+
 let of_region plane rings =
   let corners ring = Array.map (fun p -> Plane.to_position plane (off_grid p)) ring in
   let count = List.fold_left (fun n ring -> n + Array.length ring) 0 rings in
@@ -366,6 +373,22 @@ let grid area metres =
       if List.length found > most_points then Error Intricate else Ok found
     end
 
+let most_parts = 100
+
+let split area n =
+  if n < 1 || n > most_parts then Error (Parts n)
+  else if n = 1 then Ok [ area ]
+  else
+    let* plane, region = on_plane area in
+    match Division.split region n with
+    | Ok parts ->
+      let* parts = fold_ok (fun _ part -> of_region plane part) 1 parts in
+      let first part = List.hd (List.sort Position.compare (corners part)) in
+      Ok (List.sort (fun a b -> Position.compare (first a) (first b)) parts)
+    | Error (Division.Pieces n) -> Error (Pieces n)
+    | Error No_cut -> Error (Uncut n)
+    | Error Intricate -> Error Intricate
+
 (* {1 Values} *)
 
 let compare a b =
@@ -407,3 +430,6 @@ let rec pp_error ppf = function
   | Too_wide -> Fmt.pf ppf "an area reaches at most %g km from its middle" (Plane.reach /. 1000.)
   | Empty -> Fmt.string ppf "nothing is left: the area is empty"
   | Intricate -> Fmt.string ppf "the area is too intricate: too many points or sides would arise"
+  | Parts n -> Fmt.pf ppf "an area is split into 1 to %d parts, not %d" most_parts n
+  | Pieces n -> Fmt.pf ppf "an area of %d pieces has no connected parts of equal size: split each of them" n
+  | Uncut n -> Fmt.pf ppf "no straight cuts were found that leave %d connected parts of equal size" n

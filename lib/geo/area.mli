@@ -24,6 +24,9 @@ type error =
   | Too_wide  (** some corner is farther from the middle than {!Plane.reach} *)
   | Empty  (** nothing is left *)
   | Intricate  (** too many sides cross *)
+  | Parts of int  (** not from 1 to {!most_parts} *)
+  | Pieces of int  (** an area to be split that is not connected, but of so many polygons *)
+  | Uncut of int  (** no straight cuts into so many connected parts were found *)
 
 val circle : Position.t -> float -> (t, error) result
 (** [circle centre radius] is the circle of [radius] metres around [centre]. *)
@@ -66,6 +69,10 @@ val bounds : t -> Position.t * Position.t
 val corners : t -> Position.t list
 (** Of all its rims; of a circle, those of {!operations}. *)
 
+val on_plane : t -> (Plane.t * Arrangement.ring list, error) result
+(** [on_plane area] is a plane and the rims of [area] on it, in millimetres. [Error Empty] for a circle without
+    radius. *)
+
 (** {1:operations Operations}
 
     They work in a plane, {!Plane}, on a grid of a millimetre. A circle takes part as a polygon of {!corners_of_circle}
@@ -93,6 +100,14 @@ val grid : t -> float -> (Position.t list, error) result
 
 val most_points : int
 (** 10,000. *)
+
+val split : t -> int -> (t list, error) result
+(** [split area n] is [n] parts of [area], each connected: they do not overlap, their union is [area], and their sizes
+    differ by at most a millionth and what a millimetre along their rims makes, up to 10 km. Those in the south come
+    first. Cuts are straight; {!Division.split} tells which. [split area 1] is [[area]]. *)
+
+val most_parts : int
+(** 100. *)
 
 (** {1 Values} *)
 

@@ -55,15 +55,17 @@ let sign = Int.compare
 
 let exactly o _ _ = o = 0
 
-let within_a_unit o a b =
+(* Whether the line through [a] and [b] meets the unit square around a corner, which has [o] towards it. *)
+let through_its_square o a b =
   let x, y = minus b a in
-  float_of_int (abs o) <= Float.hypot (float_of_int x) (float_of_int y)
+  2 * abs o <= abs x + abs y
 
 type meeting =
   | Apart
   | Cut of point list * point list  (** points inside of the one side, and inside of the other, where they meet *)
 
-(* A corner within a unit of a side cuts it: else rounding moved sides across corners again and again. *)
+(* A side is cut by each corner through whose unit square it goes: else rounding moved sides across corners again and
+   again. In a larger square than that, sides that cross by a unit took each other's place again and again. *)
 let meeting ~close s t =
   let o1 = orient s.p s.q t.p and o2 = orient s.p s.q t.q and o3 = orient t.p t.q s.p and o4 = orient t.p t.q s.q in
   let on o a r b = if close o a b && beside a r b then [ r ] else [] in
@@ -167,7 +169,7 @@ let rec without_crossings rounds sides =
       cuts.(i) <- points @ cuts.(i)
   in
   let meet i j =
-    match meeting ~close:within_a_unit sides.(i) sides.(j) with
+    match meeting ~close:through_its_square sides.(i) sides.(j) with
     | Apart -> ()
     | Cut (of_i, of_j) -> cut i of_i; cut j of_j
   in

@@ -76,6 +76,11 @@ let procedures =
        QGroundControl, missions of Neptus.";
       "corridor", "corridor(path, width)", "The points at most half the width away from a path, a list of positions.";
       "along", "along(path, d)", "The position d metres along a path, a list of positions.";
+      "coverage", "coverage(area, spacing: 40.m)",
+      "The points of a way along parallel strips that cover an area, for `followPath`. Also `bearing: 30.degrees`, \
+       `overlap: 10.percent` of a strip by the next one, `turn: 15.m` beyond the ends of strips.";
+      "footprint", "footprint(altitude: 10.m, range: 50.m)",
+      "How wide the strip is that a sidescan of this range sees; a camera has an `angle` instead.";
       "area", "area(centre, radius)", "The circle around a position, its radius in metres. Also `centre ^ radius`.";
       "ignore", "ignore()", "In `onError`: the watched task counts as done.";
       "propagate", "propagate()", "In `onError`: the error climbs on.";
@@ -246,6 +251,7 @@ let members =
       "hull", "a.hull()", "The smallest convex area around an area.";
       "offset", "a.offset(d)", "What is at most d metres away from an area; for d below 0, what is inside by -d.";
       "grid", "a.grid(d)", "The middles of squares of d metres that are in an area.";
+      "split", "a.split(3)", "So many parts of an area, equally large and each connected; of a string, its pieces.";
       "name", "t.name", "The name of a plan.";
       "call", "f.call(...)", "The value of the closure." ]
 

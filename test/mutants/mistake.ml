@@ -766,6 +766,53 @@ let maps =
   @ in_file "lib/maps/xml_text.ml" ~noticed_by:"maps/test_maps"
     [ ("a fault is told behind its place", {|place = line }|}, {|place = "line " ^ string_of_int (fst (Xmlm.pos input)) }|}) ]
 
+let division =
+  in_file "lib/geo/division.ml" ~noticed_by:"geo/test_parts"
+    [
+      ( "parts of areas hang by necks",
+        {|((not wide) || wide_enough region part cut)|},
+        {|true|} );
+      ( "what a cut leaves may be in pieces",
+        {|if exact && count_outer rest = 1 && ((not wide)|},
+        {|if exact && ((not wide)|} );
+      ( "a cut through corners may cut off too much",
+        {|if exact && count_outer|},
+        {|if count_outer|} );
+      ( "parts of areas are not equally large",
+        {|let wanted = whole *. float_of_int parts /.|},
+        {|let wanted = 0.99 *. whole *. float_of_int parts /.|} );
+    ]
+
+let arrangement =
+  in_file "lib/geo/arrangement.ml" ~noticed_by:"geo/test_parts"
+    [
+      ( "sides that cross by a unit take each other's place",
+        {|2 * abs o <= abs x + abs y|},
+        {|abs o <= abs x + abs y|} );
+    ]
+
+let coverage =
+  in_file "lib/geo/bands.ml" ~noticed_by:"geo/test_coverage"
+    [
+      ( "strips are as long as their lines",
+        {|let left = Float.min (at t.left slice.foot) (at t.left slice.top) in|},
+        {|let left = (at t.left slice.foot +. at t.left slice.top) /. 2. in|} );
+      ( "holes part no strips",
+        {|if a.band = b.band then|},
+        {|if a.band = b.band || true then|} );
+    ]
+  @ in_file "lib/geo/tour.ml" ~noticed_by:"geo/test_coverage"
+    [
+      ("ways go straight across holes", {|if neighbours parts a b then []|}, {|if true then []|});
+      ("any order will do", {|if cost < best.(set lor bit).(j) then|}, {|if best.(set lor bit).(j) = infinity then|});
+      ("all strips are gone along the same way", {|{ part; rightwards = rightwards = (i mod 2 = 0) }|}, {|{ part; rightwards }|});
+    ]
+  @ in_file "lib/geo/coverage.ml" ~noticed_by:"geo/test_coverage"
+    [
+      ("overlap spreads strips", {|(1. -. settings.overlap)|}, {|(1. +. settings.overlap)|});
+      ("turns at one end only", {|let left = (part.Bands.left -. turn, part.height)|}, {|let left = (part.Bands.left, part.height)|});
+    ]
+
 let all =
   List.concat
     [ maps; missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups; quotient;
@@ -775,4 +822,4 @@ let all =
       pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
       conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps;
       sets_with_events; driver; fair_cycles;
-      alike_values ]
+      alike_values; division; arrangement; coverage ]

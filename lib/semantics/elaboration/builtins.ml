@@ -15,7 +15,7 @@ type pairs = Post | Consume | Poll | Count
 type arguments =
   | These of { required : kind list; optional : kind list; operation : Core.builtin }
   | Text_or of { required : kind list; optional : kind list; operation : Core.builtin }
-  | Geometry of { required : kind list; named : (string * kind) list }
+  | Geometry of { required : kind list; named : (string * kind) list; needed : string list }
   | Pairs of pairs
   | Execute
   | Set_connection_timeout
@@ -36,8 +36,8 @@ let location =
   let arguments = Text_or { required = [ Number; Number ]; optional = [ Number ]; operation = Location_of } in
   { arguments; place = Anywhere; result = Position; reads_sensors = false }
 
-let geometry ?(named = []) ~result required =
-  { arguments = Geometry { required; named }; place = Anywhere; result; reads_sensors = false }
+let geometry ?(named = []) ?(needed = []) ~result required =
+  { arguments = Geometry { required; named; needed }; place = Anywhere; result; reads_sensors = false }
 
 let table : (string * t) list =
   [ ("task", these Platform_task [ String ] ~result:Task);
@@ -67,6 +67,13 @@ let table : (string * t) list =
     ("polygon", geometry [ Any ] ~named:[ ("holes", Any) ] ~result:Any);
     ("corridor", geometry [ Any; Number ] ~result:Any);
     ("along", geometry [ Any; Number ] ~result:Position);
+    ( "coverage",
+      geometry [ Any ] ~needed:[ "spacing" ]
+        ~named:[ ("spacing", Number); ("bearing", Number); ("overlap", Number); ("turn", Number) ]
+        ~result:Any );
+    ( "footprint",
+      geometry [] ~needed:[ "altitude" ] ~named:[ ("altitude", Number); ("range", Number); ("angle", Number) ]
+        ~result:Number );
     ("fail", these Fail [ Any ] ~result:Other);
     ("ignore", these Ignore [] ~place:Handler_only ~result:Other);
     ("propagate", these Propagate [] ~place:Handler_only ~result:Other);

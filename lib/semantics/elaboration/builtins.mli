@@ -21,7 +21,8 @@ type pairs = Post | Consume | Poll | Count
 type arguments =
   | These of { required : kind list; optional : kind list; operation : Core.builtin }
   | Text_or of { required : kind list; optional : kind list; operation : Core.builtin }  (** or one text instead *)
-  | Geometry of { required : kind list; named : (string * kind) list }  (** named ones may be left out *)
+  | Geometry of { required : kind list; named : (string * kind) list; needed : string list }
+  (** named ones may be left out, but for those needed *)
   | Pairs of pairs  (** [post ready: 1]: pairs of N; see {!Pairs} *)
   | Execute
   | Set_connection_timeout

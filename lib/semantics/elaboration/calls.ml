@@ -173,8 +173,8 @@ let check_literals env at operation kinds arguments =
     let fault = Option.bind (Literal_check.all es) (Literal_check.fault operation) in
     Option.iter (fun fault -> error env Wrong_value at "%s" fault) fault
 
-(* Its named arguments may be left out. *)
-let geometry env at name ~required ~named arguments =
+(* Its named arguments may be left out, but for those that are needed. *)
+let geometry env at name ~required ~named ~needed arguments =
   let positional = List.filter (fun a -> not (is_named a)) arguments in
   let count = List.length positional and wanted = List.length required in
   if count <> wanted then
@@ -192,7 +192,11 @@ let geometry env at name ~required ~named arguments =
        | Some kind -> check_kind env (Printf.sprintf "%s of %s" k.it name) kind e);
       k.it :: seen
   in
-  ignore (List.fold_left check [] arguments : string list);
+  let given = List.fold_left check [] arguments in
+  let lacks k =
+    error env Wrong_arity at "%s lacks its argument '%s'" name k ~hint:(Printf.sprintf "add %s: and a number" k)
+  in
+  List.iter (fun k -> if not (List.mem k given) then lacks k) needed;
   apply env at (Builtin (Geometry (name, keys_of arguments))) (values env arguments)
 
 let rec to_builtin env at name (builtin : Builtins.t) arguments =
@@ -205,7 +209,7 @@ let rec to_builtin env at name (builtin : Builtins.t) arguments =
       | _ -> These { required; optional; operation }
     in
     to_builtin env at name { builtin with arguments = these } arguments
-  | Geometry { required; named } -> geometry env at name ~required ~named arguments
+  | Geometry { required; named; needed } -> geometry env at name ~required ~named ~needed arguments
   | These { required; optional; operation } ->
     let count = List.length arguments and least = List.length required in
     let most = least + List.length optional in

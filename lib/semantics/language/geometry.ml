@@ -1,5 +1,6 @@
 open Dolphin_results
 open Core
+module Coverage = Dolphin_geo.Coverage
 
 let ( let* ) = Result.bind
 
@@ -37,6 +38,51 @@ let corridor path width =
   let* width = number "a width in metres" width in
   Operators.area (Dolphin_geo.Area.corridor path width)
 
+let area what = function Area a -> Ok a | x -> Operators.expected what x
+
+let named name named =
+  match List.assoc_opt name named with
+  | None -> Ok None
+  | Some x -> Result.map Option.some (number (Printf.sprintf "a number for %s" name) x)
+
+let or_lacking what name = Option.to_result ~none:(Printf.sprintf "%s lacks its argument '%s'" what name)
+
+let positions_value ps = List (Array.of_list (List.map (fun p -> Position p) ps))
+
+let coverage whole arguments =
+  let* whole = area "an area to cover" whole in
+  let number name = named name arguments in
+  let* spacing = number "spacing" in
+  let* spacing = or_lacking "coverage" "spacing" spacing in
+  let* bearing = number "bearing" in
+  let* overlap = number "overlap" in
+  let* turn = number "turn" in
+  let or_zero = Option.value ~default:0. in
+  let settings = { Coverage.spacing; bearing; overlap = or_zero overlap; turn = or_zero turn } in
+  let points = Result.map positions_value (Coverage.points settings whole) in
+  Result.map_error (Format.asprintf "%a" Coverage.pp_error) points
+
+(* How wide the ground is that a device sees: [range] is that of a sidescan to either side, [angle] is how wide a camera
+   or another sonar sees. *)
+let footprint arguments =
+  let number name = named name arguments in
+  let* altitude = number "altitude" in
+  let* altitude = or_lacking "footprint" "altitude" altitude in
+  let* range = number "range" in
+  let* angle = number "angle" in
+  if not (altitude > 0.) then Error (Printf.sprintf "an altitude is above 0 m, not %g" altitude)
+  else
+    match range, angle with
+    | Some range, None when range > altitude ->
+      Ok (Number (2. *. sqrt ((range *. range) -. (altitude *. altitude))))
+    | Some range, None ->
+      Error (Printf.sprintf "a range of %g m does not reach the ground from an altitude of %g m" range altitude)
+    | None, Some angle when angle > 0. && angle < 180. ->
+      Ok (Number (2. *. altitude *. tan (Dolphin_geo.Angle.radians (angle /. 2.))))
+    | None, Some angle -> Error (Printf.sprintf "an angle of view is above 0 and below 180 degrees, not %g" angle)
+    | None, None | Some _, Some _ ->
+      Error "footprint takes either the range of a sidescan or the angle of view of a camera, as in range: 50.m"
+
 (* Those without a name, and those with one. *)
 let rec split keys arguments =
   match keys, arguments with
@@ -55,4 +101,6 @@ let apply name keys arguments =
   | "polygon", [ corners ] -> polygon corners (List.assoc_opt "holes" named)
   | "corridor", [ path; width ] -> corridor path width
   | "along", [ path; metres ] -> along path metres
+  | "coverage", [ whole ] -> coverage whole named
+  | "footprint", [] -> footprint named
   | _, _ -> Error (Printf.sprintf "wrong number of arguments of %s, %d" name (List.length arguments))

@@ -108,12 +108,19 @@ let of_area a = function
   | "hull" -> Some (Operators.area (Area.hull [ a ]))
   | _ -> None
 
+let split_area a = function
+  | Integer n ->
+    let parts = Operators.of_geometry (Area.split a n) in
+    Result.map (fun parts -> List (Array.of_list (List.map (fun part -> Area part) parts))) parts
+  | x -> Operators.expected "a whole number of parts" x
+
 let on_area a name arguments =
   match name, List.map Value.to_number arguments with
   | "offset", [ Some metres ] -> Some (Operators.area (Area.offset a metres))
   | "grid", [ Some metres ] ->
     Some (Result.map positions (Operators.of_geometry (Area.grid a metres)))
   | ("offset" | "grid"), [ None ] -> Some (Operators.expected "a number of metres" (List.hd arguments))
+  | "split", [ _ ] -> Some (split_area a (Value.canonical (List.hd arguments)))
   | _, _ -> None
 
 (* Of a list, a range or a vehicle set [x]. *)
@@ -353,7 +360,7 @@ let known x =
     | Integer _ | Number _ -> [ "abs"; "round"; "toInteger"; "toDouble"; "times" ]
     | Position _ -> [ "distance"; "bearing"; "displace"; "getLatitude"; "getLongitude"; "getHeight" ]
     | Area _ ->
-      [ "contains"; "getCentre"; "getRadius"; "getSize"; "getCorners"; "getBounds"; "hull"; "offset"; "grid" ]
+      [ "contains"; "getCentre"; "getRadius"; "getSize"; "getCorners"; "getBounds"; "hull"; "offset"; "grid"; "split" ]
     | Task _ -> [ "getName" ]
     | Closure _ -> [ "call" ]
     | Null | Boolean _ | Wildcard | Symbol _ | Host _ | Settings _ | Reading _ | Unknown _ -> []

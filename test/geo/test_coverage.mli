@@ -1,0 +1,1 @@
+(** Tests of {!Dolphin_geo}: ways that cover areas. No value of its own. *)

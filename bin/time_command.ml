@@ -24,14 +24,22 @@ let status : Time_analysis.Timing.verdict -> Exit_status.t = function
 
 (* {1 One question, or several} *)
 
-let of_program (settings : Time_analysis.settings) (program : Program_file.t) fleet ~json ~trace =
+let of_program (settings : Time_analysis.settings) (program : Program_file.t) fleet ~json ~trace ~drawing =
   let { Time_analysis.deadline; _ } = settings in
   let search ~interrupted ~progress = Time_analysis.run ~interrupted ~progress settings program fleet in
   let outcome = watched search ~json in
+  let write path = Time_report.write_shown ?deadline program fleet path outcome in
+  let traced = Option.fold trace ~none:(Ok ()) ~some:write in
+  let draw drawing =
+    Drawing.write_text drawing
+      ~svg:(fun () -> Time_picture.svg ?deadline program outcome)
+      ~html:(fun () -> Time_picture.html ?deadline program outcome)
+  in
+  let drawn = Option.fold drawing ~none:(Ok ()) ~some:draw in
   if json then print_endline (Yojson.Safe.to_string (Time_report.to_json ?deadline program outcome))
   else Time_report.print ?deadline program outcome;
-  let write path = Time_report.write_shown ?deadline program fleet path outcome in
-  let* () = Option.fold trace ~none:(Ok ()) ~some:write in
+  let* () = traced in
+  let* () = drawn in
   Ok (status (Time_analysis.Timing.verdict ?deadline outcome))
 
 let of_values (settings : Time_analysis.settings) sweep fleet ~json =
@@ -54,22 +62,25 @@ let of_fleets (settings : Time_analysis.settings) program fleet ~json =
   else Fewest.print ?deadline program fleet found;
   Exit_status.of_sweep (Fewest.verdict (fst found))
 
-let run path set fleet answers faults deadline fewest json trace max_states max_depth max_memory timeout =
+let run path set fleet answers faults deadline fewest json trace drawing max_states max_depth max_memory timeout =
   let settings : Time_analysis.settings =
     { answers; faults; deadline; max_states; max_depth; max_memory; timeout } in
   Report.result
-    (let* question = Sweep.question ~set path in
+    (let* () = Option.fold drawing ~none:(Ok ()) ~some:Drawing.check in
+     let* question = Sweep.question ~set path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
      match question with
      | Several _ when fewest ->
        Error (Error.Bad_input "--fewest looks for the least fleet of one program: give --set no range with it")
-     | Several _ when trace <> None ->
-       Error (Error.Bad_input "--trace is for one program: give --set no range of values")
-     | One _ when fewest && trace <> None -> Error (Error.Bad_input "--trace does not go with --fewest")
+     | Several _ when trace <> None || drawing <> None ->
+       Error (Error.Bad_input "--trace and --draw are for one program: give --set no range of values")
+     | One _ when fewest && (trace <> None || drawing <> None) ->
+       Error (Error.Bad_input "--trace and --draw do not go with --fewest")
      | Several sweep -> of_values settings sweep fleet ~json
      | One program ->
        Report.diagnostics ~source:program.source program.warnings;
-       if fewest then Ok (of_fleets settings program fleet ~json) else of_program settings program fleet ~json ~trace)
+       if fewest then Ok (of_fleets settings program fleet ~json)
+       else of_program settings program fleet ~json ~trace ~drawing)
 
 let fewest =
   let doc =
@@ -96,6 +107,14 @@ let trace =
      no run is shown."
   in
   Arg.(value & opt (some Explore_command.run_file) None & info [ "trace" ] ~docv:"FILE" ~doc)
+
+let drawing =
+  let doc =
+    "Draw in the file $(docv), $(i,*.svg) or $(i,*.html), when tasks may run: for each a bar from its earliest start \
+     to its latest end, dark where it runs in every run in which it runs at all; when runs are over, and the \
+     $(b,--deadline)."
+  in
+  Arg.(value & opt (some Options.drawing) None & info [ "draw" ] ~docv:"FILE" ~doc)
 
 let man =
   [ `S Manpage.s_description;
@@ -134,5 +153,5 @@ let command =
   Cmd.v info
     Term.(
       const run $ Options.program $ Options.set_range $ Options.fleet $ Explore_command.answers $ Explore_command.faults
-      $ deadline $ fewest $ json $ trace
+      $ deadline $ fewest $ json $ trace $ drawing
       $ Explore_command.max_states $ Explore_command.max_depth $ Explore_command.max_memory $ Explore_command.timeout)

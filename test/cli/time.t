@@ -226,3 +226,42 @@ A bound.
   12 states, depth 4, T
   $ dolphin time relay.dol --max-states 5 > /dev/null
   [3]
+
+When tasks may run, as a picture: dark where a task runs in every run in which it runs.
+
+  $ dolphin time relay.dol --fleet other.fleet --draw relay.svg --deadline 5.min > /dev/null
+  [1]
+  $ python3 -c '
+  > import sys, xml.etree.ElementTree as tree
+  > root = tree.parse("relay.svg").getroot()
+  > svg = "{http://www.w3.org/2000/svg}"
+  > for e in root.iter():
+  >     kind = e.get("class") or ""
+  >     if e.tag == svg + "rect" and kind.startswith("bar") and e.find(svg + "title") is not None:
+  >         print(kind, e.get("width"), e.find(svg + "title").text)
+  >     if e.tag == svg + "text" and kind in ("title", "bad", "axis bad"): print(kind, e.text)'
+  title relay.dol
+  bad some run is late
+  bar v0 132.6 survey on a (relay.dol:3:10): starts 0:00, ends 1:00 to 2:00
+  bar v0 open 132.6 survey on a (relay.dol:3:10): starts 0:00, ends 1:00 to 2:00
+  bar v0 open 132.6 home on a (relay.dol:3:59): starts 1:00 to 2:00, ends 6:00 to 7:00
+  bar v0 530.3 home on a (relay.dol:3:59): starts 1:00 to 2:00, ends 6:00 to 7:00
+  bar v0 open 132.6 home on a (relay.dol:3:59): starts 1:00 to 2:00, ends 6:00 to 7:00
+  bar v1 open 397.7 visit on b (relay.dol:4:39): starts 1:00 to 2:00, ends 2:00 to 4:00
+  axis bad deadline 5:00
+  $ dolphin time relay.dol --fleet other.fleet --draw relay.html > /dev/null
+  $ grep -c '<svg' relay.html
+  1
+  $ sed 's/<[^>]*>/ /g' relay.html | grep 'relay.dol:3:59'
+    home on a (relay.dol:3:59): starts 1:00 to 2:00, ends 6:00 to 7:00 home   home on a (relay.dol:3:59): starts 1:00 to 2:00, ends 6:00 to 7:00  
+    home on a (relay.dol:3:59): starts 1:00 to 2:00, ends 6:00 to 7:00  
+    home on a (relay.dol:3:59): starts 1:00 to 2:00, ends 6:00 to 7:00  
+   relay.dol:3:59 
+  $ dolphin time relay.dol --draw relay.png 2>&1 | head -1
+  dolphin: option '--draw': 'relay.png' ends neither in .svg nor in .html
+  $ dolphin time relay.dol --draw nowhere/relay.svg
+  dolphin: the picture cannot be written: nowhere/relay.svg: No such file or directory
+  [3]
+  $ dolphin time relay.dol --draw relay.svg --fewest
+  dolphin: --trace and --draw do not go with --fewest
+  [2]

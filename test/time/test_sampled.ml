@@ -66,7 +66,7 @@ let check_example name () =
   end
 
 let test_processes () =
-  let mission = load "errors" in
+  let mission = load "goals" in
   let without_time s = { s with Sampling.seconds = 0.; settings = { s.Sampling.settings with jobs = 0 } } in
   let one = without_time (sample ~jobs:1 mission) in
   List.iter

@@ -122,6 +122,15 @@ let reaches operations =
   in
   List.for_all check (after operations)
 
+(* A bound on the date is one on how long after clock 1 clock 2 began; it stays when time passes. *)
+let test_carried_over () =
+  let operations =
+    [ Arrange [ None ]; Delay; At_most (0, 6); Arrange [ Some 1; None ]; Delay; At_most (0, 3); Delay ] in
+  Alcotest.(check bool) (print operations) true (List.for_all same_points (after operations));
+  match List.rev (after operations) with
+  | (zone, _) :: _ -> Alcotest.(check bool) "4 s between them" false (Zone.contains zone [| 9; 9; 5 |])
+  | [] -> assert false
+
 let () =
   let case name = Test_support.Property.case ~count:300 name in
   Alcotest.run "zone"
@@ -129,4 +138,5 @@ let () =
        [ case "operations" ~print operations (fun ops -> List.for_all same_points (after ops));
          case "dates" ~print operations (fun ops -> List.for_all same_dates (after ops));
          case "subset and delayed" ~print:print_both (QCheck2.Gen.pair operations operations) compared;
-         case "other dates" ~print operations reaches ]) ]
+         case "other dates" ~print operations reaches;
+         Alcotest.test_case "a bound is carried over" `Quick test_carried_over ]) ]

@@ -23,8 +23,10 @@ let check d =
   | false -> writable d.path [ W_OK ]
   | exception Sys_error _ -> writable (Filename.dirname d.path) [ W_OK; X_OK ]
 
-let write d run =
-  let text = match d.kind with Svg -> Picture.svg run | Html -> Picture.html run in
+let write_text d ~svg ~html =
+  let text = match d.kind with Svg -> svg () | Html -> html () in
   match Text_file.write d.path (fun channel -> output_string channel text) with
   | Ok () -> Ok ()
   | Error e -> trouble (Format.asprintf "%a" Error.pp e)
+
+let write d run = write_text d ~svg:(fun () -> Picture.svg run) ~html:(fun () -> Picture.html run)

@@ -11,5 +11,8 @@ val path : t -> string
 val check : t -> (unit, Error.t) result
 (** [check d] fails if it is clear already that [d] cannot be written. It writes nothing. *)
 
+val write_text : t -> svg:(unit -> string) -> html:(unit -> string) -> (unit, Error.t) result
+(** [write_text d ~svg ~html] writes the text of the one or the other. *)
+
 val write : t -> Dolphin_trace.Summary.t -> (unit, Error.t) result
 (** [write d run] draws [run]. *)

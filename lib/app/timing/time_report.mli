@@ -15,6 +15,16 @@ val print_failing : Program_file.t -> Timing.run -> unit
 val time : int -> string
 (** Milliseconds as {!Dolphin_time.Bounds.pp_time} has them. *)
 
+val window : Timing.window -> string
+(** ["4:00 to 7:00"]. *)
+
+val ending : Dolphin_time.Timed_system.ending -> string
+val moment : Dolphin_time.Timed_system.moment -> string
+val moments : Dolphin_time.Timed_system.moment list
+
+val at : Program_file.t -> Dolphin_semantics.Core.site -> string option
+(** Where that is: ["mission.dol:3:10"]. *)
+
 val item : Program_file.t -> Dolphin_time.Timed.pending -> string
 (** What is awaited: ["mission.dol:3:10: survey on noptilus-1"]. *)
 

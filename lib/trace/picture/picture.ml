@@ -64,21 +64,26 @@ let panels summary ~y =
         Batteries.draw summary ~x:right ~y ~width:(width -. margin -. right) ~height ],
       y +. height +. 22. )
 
+let sheet ~alone ~title ~width ~height parts =
+  let size = [ ("viewBox", Printf.sprintf "0 0 %s %s" (Svg.number width) (Svg.number height)) ] in
+  let fixed = [ ("width", Svg.number width); ("height", Svg.number height) ] in
+  let attributes = ("xmlns", "http://www.w3.org/2000/svg") :: ("role", "img") :: (size @ if alone then fixed else []) in
+  Svg.element "svg" attributes
+    ([ Svg.element "title" [] [ Svg.text_only title ];
+       Svg.element "style" [] [ Svg.raw ("\n" ^ Style.sheet) ];
+       Svg.rect ~name:"paper" ~x:0. ~y:0. ~width ~height () ]
+     @ parts)
+
+let to_file document = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" ^ Svg.to_string document
+
 let document ~alone summary =
   let top = margin +. 60. in
   let timeline, height = Timeline.draw summary ~x:margin ~y:top ~width:(width -. (2. *. margin)) in
   let below, bottom = panels summary ~y:(top +. height +. 34.) in
-  let total = bottom +. margin in
-  let size = [ ("viewBox", Printf.sprintf "0 0 %s %s" (Svg.number width) (Svg.number total)) ] in
-  let fixed = [ ("width", Svg.number width); ("height", Svg.number total) ] in
-  let attributes = ("xmlns", "http://www.w3.org/2000/svg") :: ("role", "img") :: (size @ if alone then fixed else []) in
-  Svg.element "svg" attributes
-    ([ Svg.element "title" [] [ Svg.raw "A run of a Dolphin program" ];
-       Svg.element "style" [] [ Svg.raw ("\n" ^ Style.sheet) ];
-       Svg.rect ~name:"paper" ~x:0. ~y:0. ~width ~height:total () ]
-     @ head summary @ [ timeline ] @ below)
+  let title = "A run of a Dolphin program" in
+  sheet ~alone ~title ~width ~height:(bottom +. margin) (head summary @ [ timeline ] @ below)
 
-let svg summary = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" ^ Svg.to_string (document ~alone:true summary)
+let svg summary = to_file (document ~alone:true summary)
 
 (* {1 A page} *)
 
@@ -95,9 +100,20 @@ th, td { border-color: #272d35; }
 }
 |}
 
-let table summary =
+let page ~title picture heads rows =
   let cell name text = Svg.element name [] [ Svg.text_only text ] in
   let row name texts = Svg.element "tr" [] (List.map (cell name) texts) in
+  let table = Svg.element "table" [] (row "th" heads :: List.map (row "td") rows) in
+  let head =
+    Svg.element "head" []
+      [ Svg.raw "<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n";
+        Svg.element "title" [] [ Svg.text_only title ];
+        Svg.element "style" [] [ Svg.raw page_style ] ]
+  in
+  let body = Svg.element "body" [] [ picture; table ] in
+  "<!DOCTYPE html>\n" ^ Svg.to_string (Svg.element "html" [ ("lang", "en") ] [ head; body ])
+
+let rows summary =
   let of_task v (t : task) =
     let how =
       match t.ending with
@@ -106,18 +122,11 @@ let table summary =
       | Stopped -> "stopped"
       | Unfinished -> "not ended"
     in
-    (t.from, row "td" [ Phrase.time t.from; Phrase.time t.until; v.id; t.plan; how ])
+    (t.from, [ Phrase.time t.from; Phrase.time t.until; v.id; t.plan; how ])
   in
   let tasks = List.concat_map (fun v -> List.map (of_task v) v.tasks) summary.vehicles in
-  let in_time = List.stable_sort (fun (a, _) (b, _) -> Float.compare a b) tasks in
-  Svg.element "table" [] (row "th" [ "from"; "to"; "vehicle"; "task"; "" ] :: List.map snd in_time)
+  List.map snd (List.stable_sort (fun (a, _) (b, _) -> Float.compare a b) tasks)
 
 let html summary =
-  let head =
-    Svg.element "head" []
-      [ Svg.raw "<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n";
-        Svg.element "title" [] [ Svg.text_only (title summary) ];
-        Svg.element "style" [] [ Svg.raw page_style ] ]
-  in
-  let body = Svg.element "body" [] [ document ~alone:false summary; table summary ] in
-  "<!DOCTYPE html>\n" ^ Svg.to_string (Svg.element "html" [ ("lang", "en") ] [ head; body ])
+  let heads = [ "from"; "to"; "vehicle"; "task"; "" ] in
+  page ~title:(title summary) (document ~alone:false summary) heads (rows summary)

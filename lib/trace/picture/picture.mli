@@ -6,3 +6,15 @@ val svg : Summary.t -> string
 
 val html : Summary.t -> string
 (** The same in a page, with the tasks as a table below. *)
+
+(** {1:other Other pictures} *)
+
+val sheet : alone:bool -> title:string -> width:float -> height:float -> Svg.t list -> Svg.t
+(** [sheet ~alone ~title ~width ~height parts] is a document of this size in the usual {!Style}; not [alone], it is part
+    of a page, and as wide as that. *)
+
+val to_file : Svg.t -> string
+(** The text of a file with a [sheet]. *)
+
+val page : title:string -> Svg.t -> string list -> string list list -> string
+(** [page ~title picture heads rows] is a page with [picture], and below it the table of [rows]. *)

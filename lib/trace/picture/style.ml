@@ -24,6 +24,9 @@ let light =
 .name { font-weight: 600; }
 .on-map { paint-order: stroke; stroke: #ffffff; stroke-width: 3px; stroke-opacity: 0.8; stroke-linejoin: round; }
 .bar { stroke: none; }
+.bar.open { fill-opacity: 0.38; }
+.limit { stroke: #5b6570; stroke-width: 1; stroke-dasharray: 4 3; }
+.limit.late { stroke: #d92d20; stroke-dasharray: none; }
 .bar.failed, .bar.unfinished { fill-opacity: 0.82; }
 .end-failed { stroke: #d92d20; stroke-width: 2.5; fill: none; }
 .end-stopped { fill: #1c2127; }
@@ -50,6 +53,8 @@ let dark =
 .halo { fill: #14181d; }
 .held { fill: #20262d; }
 .guide { stroke: #66717d; }
+.limit { stroke: #9aa5b1; }
+.limit.late { stroke: #ff6b5e; }
 .within { fill: #ffffff; }
 .end-failed, .error { stroke: #ff6b5e; }
 .end-stopped { fill: #e6e9ed; }

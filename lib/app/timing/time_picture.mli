@@ -1,0 +1,9 @@
+(** What [dolphin time] says, as a picture: for each task a bar from its earliest start to its latest end. *)
+
+module Timing = Dolphin_time.Timing
+
+val svg : ?deadline:int -> Program_file.t -> Timing.outcome -> string
+(** A document of its own, in the style of {!Dolphin_trace.Picture}. *)
+
+val html : ?deadline:int -> Program_file.t -> Timing.outcome -> string
+(** The same in a page, with a table of the tasks. *)

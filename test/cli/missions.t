@@ -30,3 +30,29 @@ A strip is done though a vehicle is lost or fails, as long as one is left: nothi
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: holds
+
+Those among the examples that go on whatever happens: who fails, is lost or does not come. A search with whoever is
+there ends well in every run.
+
+  $ cd ..
+  $ dolphin explore --faults all search.dol | grep -v 'states'
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  note: no leftover tuples: violated after 15 steps: tuples are left when the program completes
+
+An AUV that samples comes to its end, and so does one with an escort; both stop if their vehicles are not there.
+
+  $ for f in sampling.dol escort.dol; do dolphin explore --faults all $f | grep 'deadlock:\|^termination:\|^assertions:'; done
+  no deadlock: holds
+  termination: holds
+  assertions: holds
+  no deadlock: holds
+  termination: holds
+  assertions: holds
+  $ dolphin explore --faults fail,loss scarce.dol | grep 'deadlock:\|^termination:\|^vehicles'
+  no deadlock: holds
+  termination: holds
+  vehicles for all tasks: holds

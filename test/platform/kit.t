@@ -38,7 +38,7 @@ So does the example, whose vehicle has no memory.
 Each situation finds an adapter out that is wrong there.
 
   $ find_out() {
-  >   dolphin platform check --patience 2 --only "$1" --junit "$1.xml" \
+  >   dolphin platform check --patience 4 --only "$1" --junit "$1.xml" \
   >     "python3 faulty.py '$2' 'dolphin sim kit.fleet --platform --state \"state of $2\" --speed 5'" > "$1.out"
   >   echo "$2: status $?"; sed -n 's/^FAIL  */  /p' "$1.out"; sed -n '2p' "$1.out" | sed 's/kit-[-0-9]*/REQUEST/'
   > }
@@ -77,15 +77,15 @@ Each situation finds an adapter out that is wrong there.
   $ find_out stop 'no stop'
   no stop: status 1
     stop             stops a plan, and reports one end, the same again when asked again
-        the end of REQUEST did not come within 2 s
+        the end of REQUEST did not come within 4 s
   $ find_out stop-stranger 'ignores strangers'
   ignores strangers: status 1
     stop-stranger    answers the stop of a request that it never heard of
-        the end of REQUEST did not come within 2 s
+        the end of REQUEST did not come within 4 s
   $ find_out stop-at-once 'stops too early'
   stops too early: status 1
     stop-at-once     stops a plan before it has said that it took it, and is free then
-        the end of REQUEST did not come within 2 s
+        the end of REQUEST did not come within 4 s
   $ find_out refusal 'refuses without words'
   refuses without words: status 1
     refusal          refuses what it cannot do, in words, and is free then
@@ -101,7 +101,7 @@ Each situation finds an adapter out that is wrong there.
   $ find_out all-at-once 'one at a time'
   one at a time: status 1
     all-at-once      commands all of its vehicles at once, up to 100
-        the end of REQUEST did not come within 2 s
+        the end of REQUEST did not come within 4 s
   $ find_out killed forgetful
   forgetful: status 1
     killed           after its death says what became of a plan that ran

@@ -26,9 +26,15 @@ let serve settings ~port ~browser =
       (fun why -> Error.Unavailable (Printf.sprintf "port %d cannot be had: %s" port why))
       (Console.start settings ~port)
   in
-  let address = Printf.sprintf "http://127.0.0.1:%d/" (Console.port console) in
-  Printf.printf "The console of %s is at %s\n%!" (Folder.root settings.folder) address;
-  if browser then open_browser address;
+  let root = Folder.root settings.folder in
+  let tell (role, link) =
+    if role = "" then Printf.printf "The console of %s is at %s\n" root link
+    else Printf.printf "The console of %s, for whoever %s: %s\n" root role link
+  in
+  let links = Console.links console in
+  List.iter tell links;
+  flush stdout;
+  if browser then open_browser (snd (List.hd links));
   let interruption = Interruption.make () in
   let again () =
     if Console.busy console && not (Run.is_simulated settings.run) then Report.complain last_words;
@@ -41,7 +47,7 @@ let serve settings ~port ~browser =
 (* A fleet that cannot be read is told of now, and not at the first run. *)
 let check_fleet = function None -> Ok () | Some path -> Result.map ignore (Fleet_file.load (Some path))
 
-let run () folder sim fleet network adapters definition supplier supplier_timeout port no_browser =
+let run () folder sim fleet network adapters definition supplier supplier_timeout tiles listen port no_browser =
   let fleet = match fleet, sim with Some _, _ -> fleet | None, sim -> sim in
   Report.result
     (let* folder = trouble (Folder.make folder) in
@@ -55,7 +61,7 @@ let run () folder sim fleet network adapters definition supplier supplier_timeou
        else check_fleet fleet
      in
      let settings =
-       { Console.folder; run; fleet; dolphin = Sys.executable_name; page = Page.load (Page.folder ());
+       { Console.folder; run; fleet; dolphin = Sys.executable_name; page = Page.load (Page.folder ()); tiles; listen;
          version = Version.number }
      in
      serve settings ~port ~browser:(not no_browser))
@@ -72,8 +78,30 @@ let sim =
   Arg.(value & opt (some string) None & info [ "sim" ] ~docv:"FLEET" ~doc)
 
 let port =
-  let doc = "Serve port $(docv) of 127.0.0.1; 0 is any that is free." in
+  let doc = "Serve port $(docv); 0 is any that is free." in
   Arg.(value & opt int 8642 & info [ "port" ] ~docv:"PORT" ~doc)
+
+let tiles =
+  let doc =
+    "Show a map below the vehicles, of tiles from $(docv), such as $(b,https://tile.example/{z}/{x}/{y}.png). By default \
+     the page loads nothing from elsewhere."
+  in
+  let parse url = Result.map_error (fun why -> `Msg why) (Dolphin_console.Access.check_tiles url) in
+  let url = Arg.conv ~docv:"URL" (parse, Format.pp_print_string) in
+  Arg.(value & opt (some url) None & info [ "tiles" ] ~docv:"URL" ~doc)
+
+let listen =
+  let doc =
+    "Serve the address $(docv) of this machine, for other machines, instead of 127.0.0.1: $(b,0.0.0.0) is all of them. \
+     Two links are printed, each with a token: one for who steers, one for who watches. What is sent can be read on \
+     the way: use it within a network that you trust, a VPN or a tunnel."
+  in
+  let parse text =
+    match Unix.inet_addr_of_string text with
+    | address -> Ok address
+    | exception Failure _ -> Error (`Msg (Printf.sprintf "'%s' is no address such as 192.168.1.5" text)) in
+  let print ppf address = Format.pp_print_string ppf (Unix.string_of_inet_addr address) in
+  Arg.(value & opt (some (conv ~docv:"ADDRESS" (parse, print))) None & info [ "listen" ] ~docv:"ADDRESS" ~doc)
 
 let no_browser =
   let doc = "Open no browser." in
@@ -95,8 +123,9 @@ let man =
     `P "A run belongs to the server: a page that is closed or loaded again changes nothing, and several pages see the \
         same. One of them has the helm and commands. Every run has a journal, among those that $(mname) $(b,runs) \
         lists; one whose console died is offered to be resumed.";
-    `P "Only this machine can connect. Pages of others in the same browser are refused, and so is whatever lies \
-        outside of $(i,DIR). Ctrl-C stops the run and ends the server when all vehicles are released.";
+    `P "Only this machine can connect, unless $(b,--listen) says otherwise. Pages of others in the same browser are \
+        refused, and so is whatever lies outside of $(i,DIR). Ctrl-C stops the run and ends the server when all \
+        vehicles are released.";
     `P "The page is built apart from the command, by $(b,scripts/console); without it the programming interface is \
         there all the same. The pages $(i,docs/console.md) and $(i,docs/api.md) tell more.";
     `S Manpage.s_arguments;
@@ -118,4 +147,4 @@ let command =
   Cmd.v info
     Term.(
       const run $ Verbosity.setup $ folder $ sim $ Options.fleet $ Imc_options.chosen $ Platform_options.adapters
-      $ Imc_options.definition $ supplier $ supplier_timeout $ port $ no_browser)
+      $ Imc_options.definition $ supplier $ supplier_timeout $ tiles $ listen $ port $ no_browser)

@@ -14,12 +14,17 @@ export interface RunStatus {
 }
 export interface Going { state: string; progress: string }
 export interface Status {
-  instance: string; folder: string; simulated: boolean; version: string; run: RunStatus | null;
+  instance: string; folder: string; tiles: string | null; simulated: boolean; version: string; run: RunStatus | null;
   exploration: Going | null; timing: Going | null; graph: Going | null;
   helm: { holder: string | null; asking: string[] }; watching: number;
 }
 export interface LogLine { time: number; severity: string; about: string[]; text: string }
 export interface Waiting { time: number; for: { what: string; at?: string; lacking?: string }[] }
+
+type Pair = [number, number];
+// What the program's variables are on the map.
+export interface Place { name: string; position?: Pair; centre?: Pair; radius?: number; rings?: Pair[][] }
+export interface Way { vehicle: string; plan: string; path: Pair[] }
 
 // A page keeps its name when it is loaded again, and so its helm.
 export const client: string = sessionStorage.getItem("client") ?? "page-" + Math.random().toString(36).slice(2, 10);
@@ -49,8 +54,11 @@ export interface Listener {
   journal(line: Json): void;
   log(line: LogLine): void;
   waiting(w: Waiting): void;
+  places(p: { time: number; places: Place[] }): void;
+  way(w: { time: number; way: Way }): void;
   clock(time: number): void;
-  link(up: boolean): void;
+  role(role: "steers" | "watches"): void;
+  link(up: boolean, why?: string): void;
 }
 
 export function listen(l: Listener) {
@@ -62,17 +70,23 @@ export function listen(l: Listener) {
   on("journal", (line) => l.journal(line));
   on("log", (line) => l.log(line));
   on("waiting", (w) => l.waiting(w));
+  on("role", (r) => l.role(r.role));
+  on("places", (p) => l.places(p));
+  on("way", (w) => l.way(w));
   on("clock", (c) => l.clock(c.time));
   source.onopen = () => l.link(true);
   source.onerror = () => {
     l.link(false);
     // A server that was started again refuses nothing, but browsers give up on some errors.
-    if (source.readyState === EventSource.CLOSED) { source.close(); setTimeout(() => listen(l), 2000); }
+    if (source.readyState !== EventSource.CLOSED) return;
+    source.close();
+    void get("status").catch((e) => { if (e instanceof Refusal) l.link(false, e.message); });
+    setTimeout(() => listen(l), 2000);
   };
 }
 
 // A run that was, message by message.
-export async function replay(query: string, l: Pick<Listener, "journal" | "log" | "waiting">) {
+export async function replay(query: string, l: Pick<Listener, "journal" | "log" | "waiting" | "places" | "way">) {
   const reply = await fetch("/api/replay?" + query);
   const text = await reply.text();
   if (!reply.ok) throw new Refusal("replay", JSON.parse(text).error.message, []);
@@ -83,5 +97,7 @@ export async function replay(query: string, l: Pick<Listener, "journal" | "log" 
     if (event === "journal") l.journal(json);
     else if (event === "log") l.log(json);
     else if (event === "waiting") l.waiting(json);
+    else if (event === "places") l.places(json);
+    else if (event === "way") l.way(json);
   }
 }

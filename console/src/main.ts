@@ -3,8 +3,10 @@
 import { type Diagnostic, type Json, type LogLine, type Status, Refusal, ask, client, get, listen, post, replay } from "./api";
 import { $, h } from "./dom";
 import { Editor } from "./editor";
-import { ChartMap, colour } from "./map";
-import { type Message, Run, clock, trouble } from "./model";
+import { Layers } from "./layers";
+import { ChartMap } from "./map";
+import { type Message, Run, clock } from "./model";
+import { VehicleTable } from "./vehicles";
 import { timeline } from "./timeline";
 import { Alarms } from "./alarms";
 import { Dialog } from "./question";
@@ -21,8 +23,11 @@ let shown = live;
 let hash: string | null = null;
 let dirty = false;
 let linked = false;
+let watches = false;  // this page's link is for watching
 
 const map = new ChartMap($("map"), (id) => { $<HTMLSelectElement>("about").value = id; renderLog(true); });
+const table = new VehicleTable($("vehicles"), (id) => map.focus(id));
+const layers = new Layers(map, tell);
 const editor = new Editor($("editor"), { changed: () => setDirty(true), checked: showFaults, save });
 
 // What cannot be done is said, and goes by itself.
@@ -58,6 +63,7 @@ async function loadFiles() {
   const before = program() || location.hash.slice(1);
   $("program").replaceChildren(...files.programs.map(option));
   $("fleet").replaceChildren(h("option", { value: "" }, "the one beside it"), ...files.fleets.map(option));
+  layers.offer(files.layers);
   if (files.programs.includes(before)) $<HTMLSelectElement>("program").value = before;
   if (program()) await openProgram();
   else tell("There is no program in this folder.");
@@ -171,6 +177,8 @@ async function openReplay(name: string, what: string) {
     journal: (line) => messages.push({ kind: "journal", line }),
     log: (line) => messages.push({ kind: "log", line }),
     waiting: (waiting) => messages.push({ kind: "waiting", waiting }),
+    places: ({ places }) => messages.push({ kind: "places", places }),
+    way: ({ way }) => messages.push({ kind: "way", way }),
   });
   openPast({ title: `${what} of ${name.slice(0, 10)} ${name.slice(11, 13)}:${name.slice(13, 15)} UTC`, messages, index: messages.length, steps: false, found: false });
 }
@@ -313,32 +321,6 @@ function fields() {
   }));
 }
 
-function renderVehicles() {
-  const all = [...shown.vehicles.values()];
-  const index = new Map(all.map((v, i) => [v.id, i]));
-  const rows = all.map((v) => ({ v, t: trouble(shown, v) })).sort((a, b) => b.t.rank - a.t.rank || index.get(a.v.id)! - index.get(b.v.id)!);
-  const cells = ({ v, t }: (typeof rows)[0]) => {
-    const s = v.samples[v.samples.length - 1], task = v.tasks[v.tasks.length - 1];
-    const runs = task && task.until === null;
-    return h("tr", { class: t.rank > 0 ? "bad" : t.rank < 0 ? "idle" : "" },
-      h("td", {}, h("button", { class: "link", click: () => map.focus(v.id) }, dot(index.get(v.id)!), v.id)), h("td", {}, v.kind),
-      h("td", {}, t.rank > 0 ? t.text : runs ? task.plan : shown.bound.has(v.id) ? "–" : "not bound"),
-      h("td", { class: "number" }, runs ? (past?.steps ? "" : clock(shown.time - task.from)) : ""),
-      h("td", { class: "number" }, typeof s?.battery === "number" ? Math.round(s.battery * 100) + " %" : ""),
-      h("td", { class: "number" }, s ? `${s.latitude.toFixed(5)}, ${s.longitude.toFixed(5)}` : ""));
-  };
-  $("vehicles").replaceChildren(all.length
-    ? h("table", {}, h("thead", {}, h("tr", {}, ...["vehicle", "type", "task", "for", "battery", "position"].map((t) => h("th", { scope: "col" }, t)))),
-        h("tbody", {}, ...rows.map(cells)))
-    : h("p", { class: "empty" }, "No vehicle was heard of yet."));
-}
-
-function dot(i: number) {
-  const el = h("span", { class: "dot" });
-  el.style.background = colour(i);
-  return el;
-}
-
 // {2 The log}
 
 const ranks: Record<string, number> = { ordinary: 0, completed: 1, said: 1, trouble: 2 };
@@ -382,16 +364,25 @@ function renderBanner() {
 
 function renderHead() {
   const run = status?.run, going = run?.state === "running" || run?.state === "stopping";
-  $<HTMLButtonElement>("run").disabled = going || !linked || !program();
-  $<HTMLButtonElement>("stop").disabled = !going;
+  $<HTMLButtonElement>("run").disabled = watches || going || !linked || !program();
+  $<HTMLButtonElement>("stop").disabled = watches || !going;
   $("stop").textContent = run?.state === "stopping" ? "Stop all" : "Stop";
   $("stop").title = run?.state === "stopping" ? "Ends what the program executes by onInterrupt, too" : "As the program says by onInterrupt; else stops all";
-  $<HTMLButtonElement>("explore").disabled = !linked || status?.exploration?.state === "running" || !program();
-  $<HTMLButtonElement>("time").disabled = !linked || status?.timing?.state === "running" || !program();
+  $<HTMLButtonElement>("explore").disabled = watches || !linked || status?.exploration?.state === "running" || !program();
+  $<HTMLButtonElement>("time").disabled = watches || !linked || status?.timing?.state === "running" || !program();
   $<HTMLSelectElement>("speed").disabled = status !== null && !status.simulated;
   $("link").textContent = !linked ? "no server" : going ? `${run.program ?? "a program"} ${clock(live.time)}` : "";
   $("link").className = linked ? "" : "trouble";
-  const helm = status?.helm;
+  renderHelm();
+}
+
+// Buttons that somebody is about to press stay as they are until something changes.
+let helmKey = "";
+function renderHelm() {
+  const helm = status?.helm, key = JSON.stringify(helm ?? null);
+  if (key === helmKey) return;
+  helmKey = key;
+  if (watches) return $("helm").replaceChildren("this link is for watching");
   const mine = helm?.holder === client, asking = helm?.asking.includes(client);
   $("helm").replaceChildren(
     !helm || helm.holder === null ? "" : mine ? "you have the helm" : "another page has the helm",
@@ -408,7 +399,7 @@ function changed() {
   setTimeout(() => requestAnimationFrame(() => {
     due = false;
     map.render(shown);
-    renderVehicles();
+    table.show(shown, past?.steps ?? false);
     renderNow();
     renderAbout();
     renderLog();
@@ -436,8 +427,9 @@ listen({
     const over = subjects.filter((subject) => s[subject] && s[subject].state !== "running" && status?.[subject]?.state !== s[subject].state);
     status = s;
     linked = true;
+    layers.tiles(s.tiles);
     renderHead();
-    dialog.show(s.run?.id ?? "", s.run?.question ?? null);
+    if (!watches) dialog.show(s.run?.id ?? "", s.run?.question ?? null);
     markTitle("question", s.run?.question ? "● " + s.run.question.prompt : "");
     renderNow();
     verdicts.status(s);
@@ -460,8 +452,16 @@ listen({
   journal(line) { live.add({ kind: "journal", line }); if (!past) changed(); },
   log(line) { live.add({ kind: "log", line }); if (!past) changed(); },
   waiting(waiting) { live.add({ kind: "waiting", waiting }); if (!past) changed(); },
+  places({ places }) { live.add({ kind: "places", places }); if (!past) changed(); },
+  way({ way }) { live.add({ kind: "way", way }); if (!past) changed(); },
   clock(time) { live.time = Math.max(live.time, time); if (!past) changed(); },
-  link(up) { linked = up; renderHead(); },
+  role(is) {
+    watches = is === "watches";
+    document.body.classList.toggle("watches", watches);
+    helmKey = "";
+    renderHead();
+  },
+  link(up, why) { linked = up; if (why) tell(why); renderHead(); },
 });
 
 $("program").addEventListener("change", attempt(async () => {

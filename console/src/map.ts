@@ -2,22 +2,31 @@
 // and a scale.
 
 import * as L from "leaflet";
+import type { Place, Way } from "./api";
 import { type Run, type Vehicle, clock, trouble } from "./model";
 import { h } from "./dom";
+import { Measure } from "./measure";
 
-export interface Place { plan: string; latitude: number; longitude: number }
+export interface PlanPlace { plan: string; latitude: number; longitude: number }
 
 const colours = ["#1769aa", "#b3470b", "#1b7f3b", "#8a3ab9", "#a8123e", "#00737d", "#7a5c00", "#5a5f66"];
 export const colour = (index: number) => colours[index % colours.length];
 
-interface Shown { marker: L.Marker; track: L.Polyline; key: string }
+interface Shown { marker: L.Marker; track: L.Polyline; key: string; size: { width: number; height: number } | null }
+
+// Where a name may stand, from its vehicle.
+const sides = [["", 14, -9], ["left", 14, -9], ["up", 0, -28], ["down", 0, 11]] as const;
 
 const steps = [0.0001, 0.0002, 0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 45];
 
 export class ChartMap {
-  private map: L.Map;
+  readonly map: L.Map;
   private net = L.layerGroup();
   private places = L.layerGroup();
+  private program = L.layerGroup();  // what its variables are on the map
+  private ways = L.layerGroup();
+  private drawn = { program: "", ways: "" };
+  private following = h("button", { class: "map-button", type: "button", hidden: true });
   private shown = new Map<string, Shown>();
   private fitted = false;
   private follow: string | null = null;
@@ -26,14 +35,16 @@ export class ChartMap {
     this.map = L.map(el, { center: [41.185, -8.706], zoom: 15, maxZoom: 21, minZoom: 2, attributionControl: false,
       zoomAnimation: false, fadeAnimation: false, preferCanvas: true });
     L.control.scale({ imperial: false }).addTo(this.map);
-    this.net.addTo(this.map); this.places.addTo(this.map);
+    for (const layer of [this.net, this.program, this.ways, this.places]) layer.addTo(this.map);
     this.map.on("moveend resize", () => this.draw());
-    this.map.on("dragstart", () => (this.follow = null));
+    this.map.on("dragstart", () => this.unfollow());
     const Fit = L.Control.extend({ onAdd: () => {
-      const button = h("button", { class: "map-button", type: "button", title: "Show all vehicles",
-        click: (e: Event) => { e.stopPropagation(); this.follow = null; this.fit(); } }, "All");
-      L.DomEvent.disableClickPropagation(button);
-      return button;
+      const buttons = h("div", { class: "map-buttons" },
+        h("button", { class: "map-button", type: "button", title: "Show all vehicles", click: () => { this.unfollow(); this.fit(); } }, "All"),
+        new Measure(this.map).button, this.following);
+      this.following.addEventListener("click", () => this.unfollow());
+      L.DomEvent.disableClickPropagation(buttons);
+      return buttons;
     } });
     new Fit({ position: "topright" }).addTo(this.map);
     new ResizeObserver(() => this.map.invalidateSize({ animate: false })).observe(el);
@@ -45,16 +56,21 @@ export class ChartMap {
     for (const s of this.shown.values()) { s.marker.remove(); s.track.remove(); }
     this.shown.clear();
     this.fitted = false;
-    this.follow = null;
+    this.unfollow();
   }
+
+  private unfollow() { this.follow = null; this.following.hidden = true; }
 
   focus(id: string) {
     this.follow = id;
+    this.following.hidden = false;
+    this.following.textContent = `Follows ${id} ✕`;
+    this.following.title = "Do not follow it any more";
     const s = this.shown.get(id);
     if (s) this.map.panTo(s.marker.getLatLng(), { animate: false });
   }
 
-  setPlaces(places: Place[]) {
+  setPlaces(places: PlanPlace[]) {
     this.places.clearLayers();
     for (const p of places)
       L.marker([p.latitude, p.longitude], { keyboard: false, icon: L.divIcon({ className: "place", iconSize: [0, 0],
@@ -77,6 +93,8 @@ export class ChartMap {
     });
     if (!this.fitted && this.shown.size) { this.fitted = true; this.fit(); }
     if (this.follow) this.focus(this.follow);
+    this.charted(run.places);
+    this.planned(run);
     this.labels(run);
   }
 
@@ -87,7 +105,7 @@ export class ChartMap {
     if (!s) {
       const marker = L.marker(at, { title: v.id, alt: v.id, icon: L.divIcon({ className: "vehicle", iconSize: [0, 0], html: "" }) });
       marker.on("click", () => this.select(v.id));
-      s = { marker: marker.addTo(this.map), track: L.polyline([], { color: tint, weight: 2, opacity: 0.75 }).addTo(this.map), key: "" };
+      s = { marker: marker.addTo(this.map), track: L.polyline([], { color: tint, weight: 2, opacity: 0.75 }).addTo(this.map), key: "", size: null };
       this.shown.set(v.id, s);
     }
     s.marker.setLatLng(at);
@@ -97,6 +115,7 @@ export class ChartMap {
     const key = [heading, t.rank, plan, Math.floor(age / 5)].join();
     if (key !== s.key) {
       s.key = key;
+      s.size = null;
       const el = s.marker.getElement()!;
       el.replaceChildren(icon(tint, heading, !v.connected),
         h("span", { class: "name" + (t.rank > 0 ? " bad" : "") }, v.id, plan ? h("small", {}, plan) : null,
@@ -106,22 +125,60 @@ export class ChartMap {
 
   // Where names would lie upon each other, that of whom needs less of a look goes.
   private labels(run: Run) {
-    const kept: DOMRect[] = [];
+    // No name lies upon a vehicle, either.
+    const kept = [...this.shown.values()].map((s) => {
+      const { x, y } = this.map.latLngToContainerPoint(s.marker.getLatLng());
+      return { left: x - 8, right: x + 8, top: y - 8, bottom: y + 8 };
+    });
+    const frame = this.map.getSize();
     const order = [...this.shown.entries()].sort(([a], [b]) =>
       trouble(run, run.vehicles.get(b)!).rank - trouble(run, run.vehicles.get(a)!).rank);
     for (const [, s] of order) {
       const name = s.marker.getElement()?.querySelector<HTMLElement>(".name");
       if (!name) continue;
-      let free = false;
-      for (const side of ["", "left", "up", "down"]) {
-        name.dataset.side = side;
-        const r = name.getBoundingClientRect();
-        if (!kept.some((k) => k.left < r.right && r.left < k.right && k.top < r.bottom && r.top < k.bottom)) {
-          kept.push(r); free = true; break;
-        }
-      }
-      name.style.visibility = free ? "" : "hidden";
+      s.size ??= { width: name.offsetWidth, height: name.offsetHeight };
+      const at = this.map.latLngToContainerPoint(s.marker.getLatLng()), { width, height } = s.size;
+      if (at.x < 0 || at.y < 0 || at.x > frame.x || at.y > frame.y) continue;
+      const room = sides.map(([side, dx, dy]) => {
+        const left = at.x + (side === "left" ? -dx - width : dx || -width / 2), top = at.y + dy;
+        return { side, left, right: left + width, top, bottom: top + height };
+      }).find((r) => !kept.some((k) => k.left < r.right && r.left < k.right && k.top < r.bottom && r.top < k.bottom));
+      if (room) { kept.push(room); if (name.dataset.side !== room.side) name.dataset.side = room.side; }
+      const visibility = room ? "" : "hidden";
+      if (name.style.visibility !== visibility) name.style.visibility = visibility;
     }
+  }
+
+  // {1 What the program says}
+
+  private charted(places: Place[]) {
+    const key = JSON.stringify(places);
+    if (key === this.drawn.program) return;
+    this.drawn.program = key;
+    this.program.clearLayers();
+    const look = { color: "#7a5c00", weight: 1.5, fillOpacity: 0.08, interactive: false };
+    for (const p of places) {
+      const name = (at: L.LatLngExpression) => L.marker(at, { interactive: false, keyboard: false,
+        icon: L.divIcon({ className: "place of-program", iconSize: [0, 0], html: h("span", {}, p.name) as any }) }).addTo(this.program);
+      if (p.position) name(p.position);
+      else if (p.centre) {
+        const circle = L.circle(p.centre, { ...look, radius: p.radius! }).addTo(this.program);
+        name([circle.getBounds().getNorth(), p.centre[1]]);
+      }
+      else if (p.rings) { const shape = L.polygon(p.rings, look).addTo(this.program); name(shape.getBounds().getCenter()); }
+    }
+  }
+
+  // The ways of plans that vehicles run now.
+  private planned(run: Run) {
+    const now: Way[] = [...run.ways.values()].filter((w) => run.allocation.get(w.vehicle) === w.plan);
+    const key = JSON.stringify(now.map((w) => [w.vehicle, w.plan, w.path.length, w.path[0]]));
+    if (key === this.drawn.ways) return;
+    this.drawn.ways = key;
+    this.ways.clearLayers();
+    const ids = [...run.vehicles.keys()];
+    for (const w of now)
+      L.polyline(w.path, { color: colour(ids.indexOf(w.vehicle)), weight: 2, dashArray: "5 6", interactive: false }).addTo(this.ways);
   }
 
   private draw() {

@@ -1,6 +1,6 @@
 // A run as its messages tell of it: what happened is added up, nothing is decided.
 
-import type { Json, LogLine, Waiting } from "./api";
+import type { Json, LogLine, Place, Waiting, Way } from "./api";
 
 export interface Task { plan: string; from: number; until: number | null; how: "runs" | "done" | "failed" | "stopped"; why?: string }
 export interface Sample { time: number; latitude: number; longitude: number; battery: number | null }
@@ -13,7 +13,8 @@ export interface Mark { time: number; kind: "posted" | "consumed" | "said" | "as
 export interface Alarm { kind: "link" | "battery" | "failed"; time: number; vehicle: string; text: string; until: number | null }
 export const lowBattery = 0.2;
 export type Message =
-  | { kind: "journal"; line: Json } | { kind: "log"; line: LogLine } | { kind: "waiting"; waiting: Waiting };
+  | { kind: "journal"; line: Json } | { kind: "log"; line: LogLine } | { kind: "waiting"; waiting: Waiting }
+  | { kind: "places"; places: Place[] } | { kind: "way"; way: Way };
 
 const mostSamples = 2000;
 
@@ -26,6 +27,8 @@ export class Run {
   alarms: Alarm[] = [];
   log: LogLine[] = [];
   waiting: Waiting["for"] = [];
+  places: Place[] = [];
+  ways = new Map<string, Way>();  // of each vehicle, that of the plan described for it last
   moves = true;  // of a run that was found nobody knows where its vehicles are
   time = 0;
   at: string | null = null;
@@ -46,6 +49,8 @@ export class Run {
   add(m: Message) {
     if (m.kind === "log") this.log.push(m.line);
     else if (m.kind === "waiting") this.waiting = m.waiting.for;
+    else if (m.kind === "places") this.places = m.places;
+    else if (m.kind === "way") this.ways.set(m.way.vehicle, m.way);
     else this.journal(m.line);
   }
 

@@ -46,7 +46,8 @@ export function timeline(el: HTMLElement, run: Run, steps: boolean, onMark: (at:
     if (at - last < 3 && mark.kind !== "failed") continue;
     last = at;
     parts.push(svg("g", { class: "mark " + mark.kind, transform: `translate(${at} ${y + 13})`,
-      click: () => onMark(mark.at, mark.time) },
+      // Pressing, and not clicking: the picture may be drawn anew in between.
+      pointerdown: () => onMark(mark.at, mark.time) },
       svg("circle", { r: 8 }), svg("text", { y: 4 }, letter[mark.kind]), svg("title", {}, `${clock(mark.time)} ${mark.kind}: ${mark.text}`)));
   }
   const picture = svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img",

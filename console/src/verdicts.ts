@@ -18,6 +18,7 @@ export class Verdicts {
   private results = new Map<Subject, Json>();
   private now: Partial<Record<Subject, { state: string; progress: string } | null>> = {};
   private picture = new StateGraph();
+  private drawn = new Map<Subject, { key: string; found: Json }>();  // what is shown is drawn anew if it has changed
 
   constructor(private events: Events) {
     $("graph").addEventListener("click", () => { this.wanted = true; events.graph(); });
@@ -47,6 +48,9 @@ export class Verdicts {
 
   private part(subject: Subject) {
     const el = $("found-" + subject), now = this.now[subject], found = this.results.get(subject);
+    const key = JSON.stringify(now ?? null);
+    if (this.drawn.has(subject) && this.drawn.get(subject)!.key === key && this.drawn.get(subject)!.found === found) return;
+    this.drawn.set(subject, { key, found });
     const hint = h("p", { class: "empty" }, hints[subject] ?? "");
     if (now?.state === "running")
       return el.replaceChildren(h("p", {}, now.progress || `${subject} goes on`), h("progress", { "aria-label": subject }),

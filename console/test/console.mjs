@@ -6,6 +6,8 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
 import analyses from "./analyses.mjs";
+import listen from "./listen.mjs";
+import maps from "./maps.mjs";
 import people from "./people.mjs";
 
 const [dolphin, built, examples, pictures] = process.argv.slice(2);
@@ -17,10 +19,11 @@ for (const name of ["rendezvous", "targets", "unanswered"])
 writeFileSync(join(folder, "stuck.dol"),
   "v = pick { type 'UUV' }\nexecute task('survey')\nexecute waitFor { consume(go: 1) } then task('never')\n");
 
+const environment = { ...process.env, XDG_STATE_HOME: join(home, "state"), DOLPHIN_CONSOLE: built };
 let server, port = 0;
 async function serve() {
   server = spawn(dolphin, ["console", folder, "--port", String(port), "--no-browser"],
-    { env: { ...process.env, XDG_STATE_HOME: join(home, "state"), DOLPHIN_CONSOLE: built }, stdio: ["ignore", "pipe", "inherit"] });
+    { env: environment, stdio: ["ignore", "pipe", "inherit"] });
   for await (const text of server.stdout) {
     const found = /127\.0\.0\.1:(\d+)/.exec(String(text));
     if (found) { port = Number(found[1]); break; }
@@ -41,12 +44,16 @@ function same(found, wanted, what) {
 await serve();
 const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox"] });
 
+function complaints(page) {
+  page.on("console", (m) => { if (m.type() === "error" && !/Failed to load resource|ERR_/.test(m.text())) problems.push(m.text()); });
+  page.on("pageerror", (e) => problems.push(String(e)));
+}
+
 async function open(options = {}) {
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
   const page = await context.newPage();
-  page.setDefaultTimeout(15000);
-  page.on("console", (m) => { if (m.type() === "error" && !/Failed to load resource|ERR_/.test(m.text())) problems.push(m.text()); });
-  page.on("pageerror", (e) => problems.push(String(e)));
+  page.setDefaultTimeout(60000);
+  complaints(page);
   await page.goto(`http://127.0.0.1:${port}/`);
   await page.waitForFunction(() => document.querySelectorAll("#program option").length > 0);
   return page;
@@ -207,7 +214,7 @@ await test("a server that is killed in a run offers to resume it", async () => {
   server.kill("SIGKILL");
   await page.waitForSelector("#link >> text=no server");
   await serve();
-  await page.waitForSelector("#banner >> text=can be resumed", { timeout: 20000 });
+  await page.waitForSelector("#banner >> text=can be resumed", { timeout: 60000 });
   await page.evaluate(() => document.querySelector("dialog").close());
   await page.click("#runs tbody tr >> text=Resume");
   await page.waitForSelector("dialog[open] >> text=Radius");
@@ -230,6 +237,8 @@ async function phone(name) {
 const all = { folder, page, test, same, text, choose, over, picture, phone };
 await people(all);
 await analyses(all);
+await maps(all);
+await listen({ ...all, dolphin, environment, browser, complaints });
 
 await test("all can be reached by keyboard, and all has a name", async () => {
   const nameless = await page.evaluate(() => [...document.querySelectorAll("button, input, select, [role=tab]")]

@@ -1,13 +1,56 @@
 module Request = Dolphin_http.Request
 
-let hosts port =
-  let names = [ "127.0.0.1"; "localhost"; "[::1]" ] in
-  List.map (fun name -> Printf.sprintf "%s:%d" name port) names @ if port = 80 then names else []
+type role = Steers | Watches
+type tokens = { steer : string; watch : string }
+type t = { port : int; tokens : tokens option }
 
-let is_host port text = List.mem (String.lowercase_ascii text) (hosts port)
+(* {1 Tokens} *)
 
-let is_origin port text =
-  List.exists (fun host -> String.lowercase_ascii text = "http://" ^ host) (hosts port)
+let token () =
+  let channel = open_in_bin "/dev/urandom" in
+  let bytes = Fun.protect ~finally:(fun () -> close_in channel) (fun () -> really_input_string channel 16) in
+  String.concat "" (List.map (fun c -> Printf.sprintf "%02x" (Char.code c)) (List.of_seq (String.to_seq bytes)))
+
+let fresh () = { steer = token (); watch = token () }
+
+(* Not letter by letter: how long it takes tells nothing of the token. *)
+let same a b = Digest.string a = Digest.string b
+
+let role_of tokens text =
+  if same text tokens.steer then Some Steers else if same text tokens.watch then Some Watches else None
+
+let cookie port = Printf.sprintf "dolphin-%d" port
+
+let cookies text =
+  let pair text =
+    match String.index_opt text '=' with
+    | Some i -> Some (String.trim (String.sub text 0 i), String.sub text (i + 1) (String.length text - i - 1))
+    | None -> None
+  in
+  List.filter_map pair (String.split_on_char ';' text)
+
+(* {1 Names of this console} *)
+
+let is_address text =
+  let n = String.length text in
+  let bare = if n > 2 && text.[0] = '[' && text.[n - 1] = ']' then String.sub text 1 (n - 2) else text in
+  match Unix.inet_addr_of_string bare with _ -> true | exception Failure _ -> false
+
+let split_port text =
+  match String.rindex_opt text ':' with
+  | Some i when text.[String.length text - 1] <> ']' ->
+    (String.sub text 0 i, int_of_string_opt (String.sub text (i + 1) (String.length text - i - 1)))
+  | Some _ | None -> (text, Some 80)
+
+(* On the loopback address its names alone: others may have been bound to it. Elsewhere there are tokens, and any
+   address may be that of this machine. *)
+let is_host a text =
+  let name, port = split_port (String.lowercase_ascii text) in
+  let loopback = List.mem name [ "127.0.0.1"; "localhost"; "[::1]" ] in
+  let named () = is_address name || name = String.lowercase_ascii (Unix.gethostname ()) in
+  port = Some a.port && (loopback || (a.tokens <> None && named ()))
+
+let is_origin ~host text = String.lowercase_ascii text = "http://" ^ String.lowercase_ascii host
 
 (* Of every header at most one counts: with two, nobody knows which. *)
 let header (r : Request.t) name =
@@ -21,24 +64,76 @@ let is_json text =
 
 let is_api (r : Request.t) = match r.path with "api" :: _ -> true | _ -> false
 
-let check ~port (r : Request.t) =
+let meant a (r : Request.t) =
   let reads = r.verb = "GET" || r.verb = "HEAD" in
   match header r "host", header r "origin", header r "sec-fetch-site", header r "content-type" with
-  | `One host, _, _, _ when not (is_host port host) -> Error (421, "this console is not called so")
+  | `One host, _, _, _ when not (is_host a host) -> Error (421, "this console is not called so")
   | (`None | `Many), _, _, _ -> Error (400, "a request has one Host")
   | _, `Many, _, _ -> Error (403, "a request has one Origin")
-  | _, `One origin, _, _ when not (is_origin port origin) -> Error (403, "this comes from the page of another")
+  | `One host, `One origin, _, _ when not (is_origin ~host origin) -> Error (403, "this comes from the page of another")
   | _, _, `One ("cross-site" | "same-site"), _ when is_api r -> Error (403, "this comes from the page of another")
   | _, _, `Many, _ -> Error (403, "this comes from the page of another")
   | _, _, _, `One kind when (not reads) && is_json kind -> Ok ()
   | _, _, _, _ when not reads -> Error (415, "changes are sent as application/json")
   | _, _, _, _ -> Ok ()
 
-let policy =
-  "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; connect-src 'self'; font-src 'self'; \
-   base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+let bearer text =
+  match String.split_on_char ' ' text with
+  | [ kind; token ] when String.lowercase_ascii kind = "bearer" -> Some token
+  | _ -> None
 
-let headers =
-  [ ("Content-Security-Policy", policy); ("X-Content-Type-Options", "nosniff"); ("Referrer-Policy", "no-referrer");
+let told a r =
+  match header r "authorization", header r "cookie" with
+  | `One text, _ -> bearer text
+  | `None, `One text -> List.assoc_opt (cookie a.port) (cookies text)
+  | (`None | `Many), _ -> None
+
+let role a (r : Request.t) =
+  match a.tokens with
+  | None -> Ok Steers
+  | Some _ when not (is_api r) -> Ok Watches
+  | Some tokens ->
+    Option.to_result ~none:(401, "this console is opened by the link that it printed when it began")
+      (Option.bind (told a r) (role_of tokens))
+
+let check a r = Result.bind (meant a r) (fun () -> role a r)
+
+let enter a (r : Request.t) =
+  match a.tokens, r.path, Request.parameter r "token" with
+  | Some tokens, [], Some text when role_of tokens text <> None ->
+    Some [ ("Location", "/");
+           ("Set-Cookie", Printf.sprintf "%s=%s; Path=/; HttpOnly; SameSite=Strict" (cookie a.port) text) ]
+  | (Some _ | None), _, _ -> None
+
+(* {1 Replies} *)
+
+(* [https://tile.example] of [https://tile.example/{z}/{x}/{y}.png]. *)
+let origin url =
+  match String.split_on_char '/' url with
+  | scheme :: "" :: host :: _ when host <> "" -> scheme ^ "//" ^ host
+  | _ -> ""
+
+let policy tiles =
+  let images = Option.fold tiles ~none:"" ~some:(fun url -> " " ^ origin url) in
+  "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:" ^ images
+  ^ "; connect-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+
+let is_plain c =
+  match c with 'a' .. 'z' | 'A' .. 'Z' | '0' .. '9' | '.' | '-' | ':' | '/' -> true | _ -> false
+
+let check_tiles url =
+  let has part =
+    let n = String.length part in
+    let rec from i = i + n <= String.length url && (String.sub url i n = part || from (i + 1)) in
+    from 0
+  in
+  match String.split_on_char ':' (origin url) with
+  | ("http" | "https") :: _ when not (String.for_all is_plain (origin url)) -> Error (url ^ " is no address of tiles")
+  | ("http" | "https") :: _ when List.for_all has [ "{z}"; "{x}"; "{y}" ] -> Ok url
+  | _ -> Error (url ^ " is no address of tiles, such as https://tile.example/{z}/{x}/{y}.png")
+
+let headers ~tiles =
+  [ ("Content-Security-Policy", policy tiles); ("X-Content-Type-Options", "nosniff");
+    ("Referrer-Policy", "no-referrer");
     ("Cross-Origin-Opener-Policy", "same-origin"); ("Cross-Origin-Resource-Policy", "same-origin");
     ("X-Frame-Options", "DENY"); ("Cache-Control", "no-store") ]

@@ -1,9 +1,32 @@
-(** Who may ask a console: its own pages, and programs of this machine; no page of anybody else. Pure. *)
+(** Who may ask a console: its own pages, and programs of this machine, or who has a token; no page of anybody else. *)
 
-val check : port:int -> Dolphin_http.Request.t -> (unit, int * string) result
-(** [check ~port r] refuses, with a status and a sentence, what was not meant for this console or comes from the page of
-    another: a [Host] that is not the loopback address (names that were bound to it lead here otherwise), a foreign
-    [Origin], and changes that are not sent as JSON, which no page can send elsewhere unasked. *)
+(** Whoever watches may not command. *)
+type role = Steers | Watches
 
-val headers : (string * string) list
-(** What all replies have: nothing but the console's own files is loaded into its page, nobody may frame it. *)
+type tokens = { steer : string; watch : string }
+
+type t = {
+  port : int;
+  tokens : tokens option;  (** [None]: on the loopback address, where all who can connect may steer *)
+}
+
+val fresh : unit -> tokens
+(** Tokens that nobody guesses: 128 bits each. *)
+
+val check : t -> Dolphin_http.Request.t -> (role, int * string) result
+(** [check a r] is what whoever sends [r] may do. It refuses, with a status and a sentence, what was not meant for this
+    console or comes from the page of another: a [Host] that is not its own (names that were bound to the loopback
+    address lead here otherwise), a foreign [Origin], and changes that are not sent as JSON, which no page can send
+    elsewhere unasked. Where there are tokens, requests of the interface need one, as a [Bearer] or in the cookie that
+    {!enter} sets. *)
+
+val enter : t -> Dolphin_http.Request.t -> (string * string) list option
+(** [enter a r] is the headers of the reply to [r] if it is of a link with a token, [/?token=...]: a cookie that scripts
+    cannot read, and where the page is. *)
+
+val check_tiles : string -> (string, string) result
+(** [check_tiles url] is [url] if it is an address of tiles of a map: [https://tile.example/{z}/{x}/{y}.png]. *)
+
+val headers : tiles:string option -> (string * string) list
+(** What all replies have: nothing but the console's own files is loaded into its page, and the tiles of the map if
+    [tiles] says from where; nobody may frame it. *)

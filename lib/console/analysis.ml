@@ -73,7 +73,8 @@ let dates_of result =
 let last_line text =
   match List.rev (List.filter (( <> ) "") (String.split_on_char '\n' text)) with line :: _ -> line | [] -> ""
 
-let result e text = Yojson.Safe.from_string (match e.order.kind with Graph _ -> text | Exploration | Timing _ -> last_line text)
+let result e text =
+  Yojson.Safe.from_string (match e.order.kind with Graph _ -> text | Exploration | Timing _ -> last_line text)
 
 let rec follow_progress e told =
   Lwt_io.read_line_opt e.process#stderr >>= function
@@ -124,7 +125,9 @@ let start ~dolphin ~changed order (program : Program_file.t) (fleet : Fleet_file
   let process = Lwt_process.open_process_full (dolphin, Array.of_list command) in
   let finished, finish = Lwt.wait () in
   let e =
-    { order; program; fleet; process; changed; witness; finished; finish; progress = ""; state = Running; steps = `Null } in
+    { order; program; fleet; process; changed; witness; finished; finish; progress = ""; state = Running;
+      steps = `Null }
+  in
   let whole () =
     Lwt_io.close process#stdin >>= fun () ->
     Lwt.both (Lwt_io.read process#stdout) (follow_progress e []) >>= fun (text, told) ->

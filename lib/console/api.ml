@@ -17,12 +17,20 @@ let files h _ =
     let wanted (k, path) = if k = kind then Some (`String path) else None in
     `List (List.filter_map wanted (Folder.list (folder h)))
   in
-  Ok (`Assoc [ ("programs", of_kind Folder.Program); ("fleets", of_kind Fleet); ("journals", of_kind Journal) ])
+  Ok (`Assoc [ ("programs", of_kind Folder.Program); ("fleets", of_kind Fleet); ("journals", of_kind Journal);
+               ("layers", of_kind Layer) ])
+
+let longest_layer = 8 * 1024 * 1024
 
 let read_file h r =
   let* path = parameter r "path" in
   let* full = file h path in
-  let* text = if Folder.kind full = Some Journal then bad "journals are told by replay" else text full in
+  let* text =
+    match Folder.kind full with
+    | Some Journal -> bad "journals are told by replay"
+    | Some Layer when (Unix.stat full).st_size > longest_layer -> refuse 413 "too-large" "this layer is too long"
+    | Some (Program | Fleet | Layer) | None -> text full
+  in
   Ok (`Assoc [ ("path", `String path); ("text", `String text); ("hash", `String (hash text)) ])
 
 let longest_text = 256 * 1024
@@ -37,7 +45,11 @@ let save h found =
   let* text = Result.bind (get Field.text "text" found) short in
   let* before = optional Field.text "hash" found in
   let* full = Result.map_error (refusal 404 "not-found") (Folder.place (folder h) path) in
-  let* () = if Folder.kind full = Some Journal then bad "journals are not edited" else Ok () in
+  let* () =
+    match Folder.kind full with
+    | Some (Journal | Layer) -> bad "journals and layers are not edited"
+    | Some (Program | Fleet) | None -> Ok ()
+  in
   let there = if Sys.file_exists full then Result.to_option (Text_file.read full) else None in
   if Option.map hash there <> before then
     refuse 409 "changed" "the file has changed since it was read"
@@ -297,16 +309,21 @@ type route =
   | Command of (Hall.t -> members -> (json, refusal) result)  (* needs the helm *)
   | Later of (Hall.t -> members -> (json, refusal) result Lwt.t)  (* likewise *)
   | Helm
-  | Told of (Hall.t -> Request.t -> (Response.t, refusal) result)
+  | Told of (Hall.t -> Access.role -> Request.t -> (Response.t, refusal) result)
 
 let most_watchers = 100
 
-let events h r =
+let role_event (role : Access.role) =
+  let name = match role with Steers -> "steers" | Watches -> "watches" in
+  Printf.sprintf "event: role\ndata: {\"role\":\"%s\"}\n\n" name
+
+let events h role r =
   let* client = client r in
   if Hall.watchers h >= most_watchers then refuse 503 "too-many" "too many look on"
   else
     let last = match Request.header r "last-event-id" with Some id -> Some id | None -> Request.parameter r "last" in
-    Ok (Response.stream ~kind:"text/event-stream" (Hall.follow h ~client ~last))
+    let follow write = write (role_event role) >>= fun () -> Hall.follow h ~client ~last write in
+    Ok (Response.stream ~kind:"text/event-stream" follow)
 
 let table =
   [ (("GET", "status"), Look (fun h _ -> Ok (Hall.status h)));
@@ -335,7 +352,7 @@ let table =
     (("POST", "run/post"), Later post);
     (("POST", "run/resume"), Command resume);
     (("GET", "runs"), Look runs);
-    (("GET", "replay"), Told replay);
+    (("GET", "replay"), Told (fun h _ -> replay h));
     (("POST", "helm"), Helm) ]
 
 let routes = List.map (fun ((verb, path), _) -> (verb, "/api/" ^ path)) table
@@ -351,32 +368,42 @@ let with_helm h r f =
   | Error r -> Lwt.return (of_refusal r)
   | Ok found -> f found >|= of_result
 
-let perform h r = function
-  | Look f -> Lwt.return (of_result (f h r))
-  | Compute f -> Lwt.return (of_result (Result.bind (body r) (f h)))
-  | Command f -> with_helm h r (fun found -> Lwt.return (f h found))
-  | Later f -> with_helm h r (f h)
-  | Helm -> Lwt.return (of_result (helm h r))
-  | Told f -> Lwt.return (match f h r with Ok response -> response | Error r -> of_refusal r)
+let watcher = refusal 403 "watches" "this link is for watching: it commands nothing"
 
-let api h (r : Request.t) path =
+let perform h (role : Access.role) r route =
+  match route, role with
+  | Look f, _ -> Lwt.return (of_result (f h r))
+  | Compute f, _ -> Lwt.return (of_result (Result.bind (body r) (f h)))
+  | (Command _ | Later _ | Helm), Watches -> Lwt.return (of_refusal watcher)
+  | Command f, Steers -> with_helm h r (fun found -> Lwt.return (f h found))
+  | Later f, Steers -> with_helm h r (f h)
+  | Helm, Steers -> Lwt.return (of_result (helm h r))
+  | Told f, _ -> Lwt.return (match f h role r with Ok response -> response | Error r -> of_refusal r)
+
+let api h role (r : Request.t) path =
   let verb = if r.verb = "HEAD" then "GET" else r.verb in
   match List.assoc_opt (verb, path) table with
-  | Some route -> perform h r route
+  | Some route -> perform h role r route
   | None when List.exists (fun ((_, known), _) -> known = path) table ->
     Lwt.return (of_refusal (refusal 405 "bad-method" (verb ^ " is nothing that can be done here")))
   | None -> Lwt.return (of_refusal (refusal 404 "not-found" "there is nothing of this name"))
 
-let protected (response : Response.t) = { response with headers = response.headers @ Access.headers }
+let protected h (response : Response.t) =
+  { response with headers = response.headers @ Access.headers ~tiles:(Hall.settings h).tiles }
 
-let reply h ~port (r : Request.t) =
+let page h (r : Request.t) =
+  match Access.enter (Hall.access h) r with
+  | Some headers -> Response.text ~headers ~kind:"text/plain" 303 ""
+  | None ->
+    let none = of_refusal (refusal 404 "not-found" "there is nothing of this name") in
+    Option.value (Page.find (Hall.settings h).page r.path) ~default:none
+
+let reply h (r : Request.t) =
   let answered =
-    match Access.check ~port r, r.path, r.verb with
+    match Access.check (Hall.access h) r, r.path, r.verb with
     | Error (status, why), _, _ -> Lwt.return (of_refusal (refusal status "refused" why))
-    | Ok (), "api" :: path, _ -> api h r (String.concat "/" path)
-    | Ok (), path, ("GET" | "HEAD") ->
-      let none = of_refusal (refusal 404 "not-found" "there is nothing of this name") in
-      Lwt.return (Option.value (Page.find (Hall.settings h).page path) ~default:none)
-    | Ok (), _, _ -> Lwt.return (of_refusal (refusal 405 "bad-method" "pages can be read, and no more"))
+    | Ok role, "api" :: path, _ -> api h role r (String.concat "/" path)
+    | Ok _, _, ("GET" | "HEAD") -> Lwt.return (page h r)
+    | Ok _, _, _ -> Lwt.return (of_refusal (refusal 405 "bad-method" "pages can be read, and no more"))
   in
-  answered >|= protected
+  answered >|= protected h

@@ -7,6 +7,8 @@ type settings = Hall.settings = {
   fleet : string option;
   dolphin : string;
   page : Page.t;
+  tiles : string option;
+  listen : Unix.inet_addr option;
   version : string;
 }
 
@@ -15,15 +17,27 @@ type t = { hall : Hall.t; server : Server.t }
 let start settings ~port =
   let hall = Hall.make settings in
   (* The port that is had is known only then. *)
-  let had = ref port in
-  let reply r = Api.reply hall ~port:!had r in
   let started server =
-    had := Server.port server;
+    Hall.served_at hall (Server.port server);
     { hall; server }
   in
-  Result.map started (Server.start ~port reply)
+  Result.map started (Server.start ?address:settings.listen ~port (Api.reply hall))
 
 let port c = Server.port c.server
+let name settings =
+  match settings.listen with
+  | None -> "127.0.0.1"
+  | Some address when address = Unix.inet_addr_any || address = Unix.inet6_addr_any -> Unix.gethostname ()
+  | Some address ->
+    let text = Unix.string_of_inet_addr address in
+    if String.contains text ':' then "[" ^ text ^ "]" else text
+
+let links c =
+  let link token = Printf.sprintf "http://%s:%d/%s" (name (Hall.settings c.hall)) (port c) token in
+  match (Hall.access c.hall).tokens with
+  | None -> [ ("", link "") ]
+  | Some { steer; watch } -> [ ("steers", link ("?token=" ^ steer)); ("watches", link ("?token=" ^ watch)) ]
+
 let busy c = Hall.busy c.hall
 
 let close c =

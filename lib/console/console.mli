@@ -10,15 +10,20 @@ type settings = {
   fleet : string option;  (** a path; [None]: of each program the one beside it *)
   dolphin : string;  (** the command, for what is done in a process of its own *)
   page : Page.t;
+  tiles : string option;  (** where the map has tiles from, {!Access.check_tiles}; [None]: it has none *)
+  listen : Unix.inet_addr option;  (** the address that is served, with tokens; [None]: 127.0.0.1, without *)
   version : string;  (** of Dolphin *)
 }
 
 type t
 
 val start : settings -> port:int -> (t, string) result
-(** [start s ~port] serves 127.0.0.1 from now on; port 0 is any free one. *)
+(** [start s ~port] serves from now on; port 0 is any free one. *)
 
 val port : t -> int
+
+val links : t -> (string * string) list
+(** Where pages find it: the address, or with tokens one that ["steers"] and one that ["watches"]. *)
 
 val busy : t -> bool
 (** Whether a run goes on. *)

@@ -8,13 +8,14 @@ let make path =
   | _ -> Error (path ^ " is no folder")
   | exception Unix.Unix_error (error, _, _) -> Error (Printf.sprintf "%s: %s" path (Unix.error_message error))
 
-type kind = Program | Fleet | Journal
+type kind = Program | Fleet | Journal | Layer
 
 let kind path =
   match Filename.extension path with
   | ".dol" | ".dolphin" -> Some Program
   | ".fleet" -> Some Fleet
   | ".run" -> Some Journal
+  | ".geojson" -> Some Layer
   | _ -> None
 
 (* {1 What there is} *)
@@ -59,7 +60,7 @@ let plain path =
   let names = String.split_on_char '/' path in
   if String.length path > 1_000 || String.contains path '\000' || List.exists is_hidden names then
     refuse path "no such file is shown here"
-  else if kind path = None then refuse path "this is neither a program nor a fleet nor a journal"
+  else if kind path = None then refuse path "this is neither a program nor a fleet nor a journal nor a layer"
   else Ok ()
 
 let real f path =

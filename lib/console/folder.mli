@@ -1,5 +1,5 @@
-(** The folder that a console shows: its programs, fleets and journals. Nothing outside of it is read or written,
-    whatever path is asked for and whatever links there are. *)
+(** The folder that a console shows: its programs, fleets, journals and layers of the map. Nothing outside of it is read
+    or written, whatever path is asked for and whatever links there are. *)
 
 type t
 
@@ -9,10 +9,10 @@ val make : string -> (t, string) result
 val root : t -> string
 (** Its real path. *)
 
-type kind = Program | Fleet | Journal
+type kind = Program | Fleet | Journal | Layer
 
 val kind : string -> kind option
-(** What a file is, by the end of its name: [.dol] or [.dolphin], [.fleet], [.run]. *)
+(** What a file is, by the end of its name: [.dol] or [.dolphin], [.fleet], [.run], [.geojson]. *)
 
 val list : t -> (kind * string) list
 (** Its files, by their paths from {!root}, in order: those in it and in the folders below it, at most 2,000. Links and

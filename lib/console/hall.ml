@@ -8,6 +8,8 @@ type settings = {
   fleet : string option;
   dolphin : string;
   page : Page.t;
+  tiles : string option;
+  listen : Unix.inet_addr option;
   version : string;
 }
 
@@ -15,6 +17,7 @@ type t = {
   settings : settings;
   instance : string;  (* another one for each start of a server *)
   grown : unit Lwt_condition.t;
+  mutable access : Access.t;
   mutable run : Live_run.t option;
   mutable runs : int;
   mutable exploration : Analysis.t option;
@@ -27,10 +30,13 @@ type t = {
 let make settings =
   let instance =
     Digest.to_hex (Digest.string (Printf.sprintf "%d %f" (Unix.getpid ()) (Unix.gettimeofday ()))) in
-  { settings; instance = String.sub instance 0 8; grown = Lwt_condition.create (); run = None; runs = 0;
+  { settings; instance = String.sub instance 0 8; grown = Lwt_condition.create ();
+    access = { port = 0; tokens = Option.map (fun _ -> Access.fresh ()) settings.listen }; run = None; runs = 0;
     exploration = None; timing = None; graph = None; helm = Helm.free; watching = [] }
 
 let settings h = h.settings
+let access h = h.access
+let served_at h port = h.access <- { h.access with port }
 let changed h = Lwt_condition.broadcast h.grown ()
 let run h = h.run
 let busy h = Option.fold h.run ~none:false ~some:Live_run.goes_on
@@ -97,6 +103,7 @@ let status h : Yojson.Safe.t =
   `Assoc
     [ ("server", `String "dolphin-console"); ("protocol", `Int 1); ("version", `String h.settings.version);
       ("instance", `String h.instance); ("folder", `String (Folder.root h.settings.folder));
+      ("tiles", Field.of_option (fun url -> `String url) h.settings.tiles);
       ("simulated", `Bool (Run.is_simulated h.settings.run));
       ("run", Field.of_option (of_run h) h.run);
       ("exploration", Field.of_option of_analysis h.exploration);

@@ -8,6 +8,8 @@ type settings = {
   fleet : string option;
   dolphin : string;
   page : Page.t;
+  tiles : string option;
+  listen : Unix.inet_addr option;
   version : string;
 }
 
@@ -15,6 +17,11 @@ type t
 
 val make : settings -> t
 val settings : t -> settings
+
+val access : t -> Access.t
+
+val served_at : t -> int -> unit
+(** [served_at h port]: requests come to [port] from now on. *)
 
 val changed : t -> unit
 (** Those who look on are told. *)

@@ -11,12 +11,13 @@ type t = {
   mutable log : Log.t;
   mutable world : World.t;
   mutable configuration : Configuration.t;
+  mutable places : Yojson.Safe.t;  (* as they were told last *)
   mutable told : Waiting.t list;  (* what it waited for when that was told last *)
 }
 
 let make (program : Program_file.t) feed =
   { program; feed; log = Log.start; world = World.empty; configuration = Configuration.initial program.program;
-    told = [] }
+    places = `List []; told = [] }
 
 let tell n event json = Feed.add n.feed ~event (Canonical.to_string json)
 let entry n entry = Feed.add n.feed ~event:"journal" (Entry.to_string entry)
@@ -35,8 +36,33 @@ let text n kind ~time ?(about = []) text =
 
 let line n ~time (l : Log.line) = text n (severity l.severity) ~time ~about:l.about l.text
 
+(* {1 On the map} *)
+
+let timed ~time name json : Yojson.Safe.t = `Assoc [ ("time", Canonical.number time); (name, json) ]
+
+let places n ~time (before : Shared.t) =
+  let store = n.configuration.shared.store in
+  if store != before.store then begin
+    let now = Charted.places n.program.program store in
+    if now <> n.places then begin
+      n.places <- now;
+      tell n "places" (timed ~time "places" now)
+    end
+  end
+
+let ways n ~time (t : Transition.t) =
+  let of_effect : Effect.t -> Yojson.Safe.t option = function
+    | Start (v, task) -> Charted.way n.world v task
+    | Stop _ | Set_timer _ | Cancel_timer _ | Look_for _ | Bind _ | Release _ | Set_connection_timeout _ | Say _ | Ask _
+    | Call_host _ | End _ -> None
+  in
+  List.iter (fun way -> tell n "way" (timed ~time "way" way)) (List.filter_map of_effect t.effects)
+
 let transition n ~stuck ~time (t : Transition.t) =
+  let before = n.configuration.shared in
   n.configuration <- t.next;
+  places n ~time before;
+  ways n ~time t;
   let log, lines = Log.transition ~stuck n.log ~time t in
   n.log <- log;
   List.iter (line n ~time) lines

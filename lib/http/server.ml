@@ -1,15 +1,17 @@
 open Lwt.Infix
 
-type limits = { head : int; body : int; connections : int; patience : float; idle : float }
+type limits = { head : int; body : int; connections : int; rate : int; patience : float; idle : float }
 
 let limits =
-  { head = 16 * 1024; body = 4 * 1024 * 1024; connections = 400; patience = 10.; idle = 60. }
+  { head = 16 * 1024; body = 4 * 1024 * 1024; connections = 400; rate = 1000; patience = 10.; idle = 60. }
 
 type t = {
   limits : limits;
   listening : Lwt_unix.file_descr;
   reply : Request.t -> Response.t Lwt.t;
   mutable open_ : Lwt_unix.file_descr list;
+  asked : (string, int) Hashtbl.t;  (* by address, in this second *)
+  mutable second : float;
   mutable accepting : unit Lwt.t;
   mutable over : bool;
 }
@@ -22,6 +24,7 @@ let connections t = List.length t.open_
 (* {1 Reading} *)
 
 type client = {
+  address : string;
   socket : Lwt_unix.file_descr;
   piece : Bytes.t;
   mutable unread : string;  (* bytes that came and belong to no request yet *)
@@ -121,8 +124,23 @@ let of_fault : Request.fault -> Response.t = function
 let safely t r =
   Lwt.catch (fun () -> t.reply r) (fun _ -> Lwt.return (told 500 "this is trouble of the server, not of the request"))
 
+(* Whether this client has asked too often in this second. *)
+let too_often t client =
+  let second = Float.of_int (Float.to_int (Unix.gettimeofday ())) in
+  if second <> t.second then begin
+    Hashtbl.reset t.asked;
+    t.second <- second
+  end;
+  let n = 1 + Option.value (Hashtbl.find_opt t.asked client.address) ~default:0 in
+  Hashtbl.replace t.asked client.address n;
+  n > t.limits.rate
+
 let rec serve t client ~first =
   request t client ~first >>= function
+  | Ok _ when too_often t client ->
+    let busy = told 429 "too many requests in a second" in
+    let later = { busy with headers = ("Retry-After", "1") :: busy.headers } in
+    respond t client ~keep:false ~only_head:false later >|= ignore
   | Error fault -> respond t client ~keep:false ~only_head:false (of_fault fault) >|= ignore
   | Ok r ->
     safely t r >>= fun response ->
@@ -131,8 +149,12 @@ let rec serve t client ~first =
 
 let quietly f = Lwt.catch f (fun _ -> Lwt.return_unit)
 
-let admit t socket =
-  let client = { socket; piece = Bytes.create 8192; unread = "" } in
+let name : Unix.sockaddr -> string = function
+  | ADDR_INET (address, _) -> Unix.string_of_inet_addr address
+  | ADDR_UNIX path -> path
+
+let admit t (socket, address) =
+  let client = { address = name address; socket; piece = Bytes.create 8192; unread = "" } in
   let too_many = connections t >= t.limits.connections in
   t.open_ <- socket :: t.open_;
   let whole () =
@@ -149,25 +171,29 @@ let admit t socket =
 let rec accept t =
   Lwt.catch
     (fun () ->
-       Lwt_unix.accept ~cloexec:true t.listening >|= fun (socket, _) ->
+       Lwt_unix.accept ~cloexec:true t.listening >|= fun (socket, address) ->
        (try Lwt_unix.setsockopt socket TCP_NODELAY true with Unix.Unix_error _ -> ());
-       admit t socket)
+       admit t (socket, address))
     (function
       | Unix.Unix_error ((EMFILE | ENFILE | ECONNABORTED | ENOBUFS | ENOMEM), _, _) -> Lwt_unix.sleep 0.1
       | error -> Lwt.fail error)
   >>= fun () -> accept t
 
-let start ?(limits = limits) ~port reply =
+let start ?(limits = limits) ?(address = Unix.inet_addr_loopback) ~port reply =
   Sys.set_signal Sys.sigpipe Signal_ignore;
-  let socket = Unix.socket ~cloexec:true PF_INET SOCK_STREAM 0 in
+  let place = Unix.ADDR_INET (address, port) in
+  let socket = Unix.socket ~cloexec:true (Unix.domain_of_sockaddr place) SOCK_STREAM 0 in
   match
     Unix.setsockopt socket SO_REUSEADDR true;
-    Unix.bind socket (ADDR_INET (Unix.inet_addr_loopback, port));
+    Unix.bind socket place;
     Unix.listen socket 100
   with
   | () ->
     let listening = Lwt_unix.of_unix_file_descr socket in
-    let t = { limits; listening; reply; open_ = []; accepting = Lwt.return_unit; over = false } in
+    let t =
+      { limits; listening; reply; open_ = []; asked = Hashtbl.create 16; second = 0.; accepting = Lwt.return_unit;
+        over = false }
+    in
     t.accepting <- quietly (fun () -> accept t);
     Ok t
   | exception Unix.Unix_error (error, _, _) ->

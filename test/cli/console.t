@@ -43,6 +43,10 @@ The port is taken; there is no such folder:
 
   $ dolphin console . --port $port 2>&1 | sed "s/$port/PORT/"
   dolphin: port PORT cannot be had: Address already in use
+  $ dolphin console . --listen here 2>&1 | head -1
+  dolphin: option '--listen': 'here' is no address such as 192.168.1.5
+  $ dolphin console . --tiles https://tile.example/ 2>&1 | head -1
+  dolphin: option '--tiles': https://tile.example/ is no address of tiles, such
   $ dolphin console none
   dolphin: none: No such file or directory
   [2]

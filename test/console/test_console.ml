@@ -37,14 +37,15 @@ let in_folder f =
 
 let settings folder : Console.settings =
   { folder = Result.get_ok (Folder.make folder); run = Dolphin_app.Run.simulated; fleet = None; dolphin = "false";
-    page = Page.load None; version = "test" }
+    page = Page.load None; tiles = None; listen = None; version = "test" }
 
-let console f () =
+let served settings f () =
   in_folder (fun folder ->
       let console = Result.get_ok (Console.start (settings folder) ~port:0) in
-      let whole () =
-        Lwt_unix.with_timeout 300. (fun () -> f folder (Console.port console)) in
+      let whole () = Lwt_unix.with_timeout 300. (fun () -> f folder console) in
       Lwt_main.run (Lwt.finalize whole (fun () -> Console.close console)))
+
+let console f = served settings (fun folder console -> f folder (Console.port console))
 
 let status = Alcotest.(check int)
 let text = Alcotest.(check string)
@@ -114,6 +115,48 @@ let who_may_ask _ port =
   Client.raw ~no_more:true ~port "GET /api/status HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n" >|= fun reply ->
   holds "two hosts" true (String.length reply > 12 && String.sub reply 9 3 = "400")
 
+let begins expected reply =
+  let start = if String.length reply < 12 then reply else String.sub reply 9 3 in
+  text "status" expected start
+
+(* For other machines there are two links, each with a token. *)
+let with_tokens _ console =
+  let port = Console.port console in
+  let token role = List.nth (String.split_on_char '=' (List.assoc role (Console.links console))) 1 in
+  let steers = ("Authorization", "Bearer " ^ token "steers") and watches = ("Authorization", "Bearer " ^ token "watches") in
+  let ask ?body headers path = Client.ask ?body ~headers ~port path in
+  ask [] "/api/status" >>= fun r ->
+  refused "without a token" (401, "refused") r;
+  ask [ ("Authorization", "Bearer " ^ String.make 32 '0') ] "/api/status" >>= fun r ->
+  refused "with another one" (401, "refused") r;
+  ask [] "/" >>= fun r ->
+  status "the page alone" 200 r.status;
+  let enter text = Client.raw ~no_more:true ~port (Printf.sprintf "GET /?token=%s HTTP/1.1\r\nHost: 127.0.0.1:%d\r\n\r\n" text port) in
+  enter "wrong" >>= fun reply ->
+  begins "200" reply;
+  enter (token "watches") >>= fun reply ->
+  begins "303" reply;
+  let cookie = Printf.sprintf "dolphin-%d=%s" port (token "watches") in
+  let kept = Str.regexp_string (Printf.sprintf "Set-Cookie: %s; Path=/; HttpOnly; SameSite=Strict" cookie) in
+  holds "a cookie" true (match Str.search_forward kept reply 0 with _ -> true | exception Not_found -> false);
+  let cookie = ("Cookie", "other=1; " ^ cookie) in
+  Lwt_list.iter_s
+    (fun (what, who, code) -> ask ~body:{|{"program": "short.dol"}|} [ who ] "/api/run" >|= fun r -> status what code r.status)
+    [ ("by the cookie one watches", cookie, 403); ("and by the token", watches, 403) ]
+  >>= fun () ->
+  ask ~body:{|{"want": "take"}|} [ watches ] "/api/helm" >>= fun r ->
+  refused "the helm" (403, "watches") r;
+  ask ~body:{|{"path": "short.dol"}|} [ watches ] "/api/check" >>= fun r ->
+  status "who watches may look" 200 r.status;
+  let host name = ("Host", Printf.sprintf "%s:%d" name port) in
+  ask [ steers; host "192.0.2.7" ] "/api/status" >>= fun r ->
+  status "by any address" 200 r.status;
+  ask [ steers; host "evil.example" ] "/api/status" >>= fun r ->
+  refused "by no other name" (421, "refused") r;
+  ask [ steers; host "192.0.2.7"; ("Origin", "http://192.0.2.8") ] "/api/status" >>= fun r ->
+  refused "from no other page" (403, "refused") r;
+  ask ~body:{|{"program": "short.dol"}|} [ steers ] "/api/run" >|= fun r -> status "who steers" 200 r.status
+
 (* {1 Files} *)
 
 let no_escape folder port =
@@ -136,7 +179,7 @@ let no_escape folder port =
     (Result.get_ok (Dolphin_app.Text_file.read (Filename.concat folder "../outside.dol")));
   Client.ask ~port "/api/files" >>= fun r ->
   text "what is listed"
-    ({|{"programs":["mission.dol","short.dol","wrong.dol"],|} ^ {|"fleets":["sub/other.fleet"],"journals":[]}|})
+    ({|{"programs":["mission.dol","short.dol","wrong.dol"],|} ^ {|"fleets":["sub/other.fleet"],"journals":[],"layers":[]}|})
     (String.trim r.body);
   Client.ask ~port "/../../etc/passwd" >|= fun r -> status "no page" 404 r.status
 
@@ -273,6 +316,40 @@ let what_is_asked folder port =
   text "what may come" {|{"go":["'north'","'south'","1"]}|}
     (Yojson.Safe.to_string (member [ "suggested" ] (Client.json r)))
 
+(* What the program's variables are on the map, and the way of a plan that it describes. *)
+let on_the_map folder port =
+  write (Filename.concat folder "chart.dol")
+    ("quay = location 41.0, -8.0\nzones = [quay ^ 100.m, 1]\nv = pick { type 'UUV' }\n"
+     ^ "execute imcPlan { planName 'there'; goTo location: quay }\n");
+  write (Filename.concat folder "chart.fleet") "vehicle 'a', { type 'UUV'; at 41.0001, -8.0 }\n";
+  write (Filename.concat folder "buoys.geojson") "{}";
+  Client.watch ~port "first" >>= fun first ->
+  Client.ask ~body:{|{"program": "chart.dol"}|} ~port "/api/run" >>= fun r ->
+  status "started" 200 r.status;
+  Client.until first is_over >>= fun seen ->
+  let last name =
+    let told = List.hd (List.rev (data (events name seen))) in
+    Yojson.Safe.to_string (member [ name ] (Yojson.Safe.from_string told)) in
+  text "places" {|[{"name":"quay","position":[41,-8]},{"name":"zones[0]","centre":[41,-8],"radius":100}]|} (last "places");
+  text "way" {|{"vehicle":"a","plan":"there","path":[[41.0001,-8],[41,-8]]}|} (last "way");
+  Client.leave first >>= fun () ->
+  Client.ask ~port "/api/file?path=buoys.geojson" >>= fun r ->
+  status "a layer" 200 r.status;
+  Client.ask ~verb:"PUT" ~body:{|{"path": "buoys.geojson", "text": ""}|} ~port "/api/file" >>= fun r ->
+  refused "is not edited" (400, "bad-request") r;
+  Client.ask ~port "/api/status" >|= fun r -> text "no tiles" "null" (Yojson.Safe.to_string (member [ "tiles" ] (Client.json r)))
+
+let tiles () =
+  let good url = holds url true (Access.check_tiles url = Ok url) in
+  let bad url = holds url true (Result.is_error (Access.check_tiles url)) in
+  List.iter good [ "https://tile.example/{z}/{x}/{y}.png"; "http://127.0.0.1:8080/{z}/{y}/{x}" ];
+  List.iter bad
+    [ ""; "tile.example/{z}/{x}/{y}.png"; "https://tile.example/{z}/{x}.png"; "https://a; script-src */{z}/{x}/{y}";
+      "javascript://a/{z}/{x}/{y}"; "https:///{z}/{x}/{y}" ];
+  let policy = List.assoc "Content-Security-Policy" (Access.headers ~tiles:(Some "https://tile.example/{z}/{x}/{y}.png")) in
+  holds "tiles may be loaded" true
+    (List.mem " img-src 'self' data: https://tile.example" (String.split_on_char ';' policy))
+
 let stopped _ port =
   Client.watch ~port "first" >>= fun first ->
   Client.ask ~body:{|{"program": "mission.dol", "answers": ["1"], "speed": 10}|} ~port "/api/run" >>= fun _ ->
@@ -323,10 +400,6 @@ let echo limits f () =
   Lwt_main.run (Lwt.finalize (fun () -> Lwt_unix.with_timeout 120. (fun () -> f server (Server.port server)))
                   (fun () -> Server.close server))
 
-let begins expected reply =
-  let start = if String.length reply < 12 then reply else String.sub reply 9 3 in
-  text "status" expected start
-
 let sizes =
   echo { Server.limits with head = 500; body = 100 } (fun _ port ->
       Client.raw ~port ("GET /" ^ String.make 600 'x' ^ " HTTP/1.1\r\n\r\n") >>= fun reply ->
@@ -361,6 +434,14 @@ let connections =
       Lwt_list.iter_p Lwt_unix.close sockets >>= fun () ->
       have server 0 >>= fun () ->
       Client.raw ~port "GET / HTTP/1.1\r\nConnection: close\r\n\r\n" >|= begins "200")
+
+let rate =
+  echo { Server.limits with rate = 3 } (fun _ port ->
+      let request = "GET / HTTP/1.1\r\n\r\n" in
+      Client.raw ~port (String.concat "" (List.init 300 (fun _ -> request))) >|= fun reply ->
+      begins "200" reply;
+      holds "too many in a second" true
+        (match Str.search_forward (Str.regexp_string "HTTP/1.1 429") reply 0 with _ -> true | exception Not_found -> false))
 
 (* Bytes of a fixed seed, among them pieces of requests. *)
 let nonsense random =
@@ -405,12 +486,15 @@ let () =
   let slow name f = Alcotest.test_case name `Quick f in
   Alcotest.run "console"
     [ ("http",
-       [ slow "heads" heads; slow "sizes" sizes; slow "patience" patience; slow "connections" connections ]);
+       [ slow "heads" heads; slow "sizes" sizes; slow "patience" patience; slow "connections" connections; slow "rate" rate ]);
       ("helm", [ slow "who has it" the_helm ]);
       ("safe",
-       [ slow "who may ask" (console who_may_ask); slow "no escape from the folder" (console no_escape);
-         slow "malformed requests" (console malformed) ]);
+       [ slow "who may ask" (console who_may_ask);
+         slow "with tokens"
+           (served (fun folder -> { (settings folder) with listen = Some Unix.inet_addr_loopback }) with_tokens); slow "no escape from the folder" (console no_escape);
+         slow "malformed requests" (console malformed); slow "tiles" tiles ]);
       ("files", [ slow "saving" (console saving); slow "texts under way" (console texts) ]);
       ("runs",
        [ slow "a run" (console a_run); slow "answers and posts" (console answers_and_posts);
-         slow "what is asked" (console what_is_asked); slow "stopped" (console stopped); slow "stuck" (console stuck); slow "faults" (console faults) ]) ]
+         slow "what is asked" (console what_is_asked); slow "on the map" (console on_the_map);
+         slow "stopped" (console stopped); slow "stuck" (console stuck); slow "faults" (console faults) ]) ]

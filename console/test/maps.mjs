@@ -1,0 +1,81 @@
+// The map: areas and positions of the program, ways of described plans, own layers, measuring, many vehicles.
+import { writeFileSync } from "node:fs";
+import { join } from "node:path";
+
+export default async function ({ folder, page, test, same, choose, over, picture, phone }) {
+  writeFileSync(join(folder, "charted.dol"), `harbour = Location.APDL
+zone = harbour ^ 300.m
+basin = polygon([harbour, harbour.displace(0, 300), harbour.displace(200, 300), harbour.displace(200, 0)])
+v = pick { type 'UUV' }
+input 'over'
+execute until { poll over: true } run (imcPlan {
+    planName 'lawn'
+    skeeping duration: 60.min, location: harbour.displace(150, 150)
+}) >> condition { poll never: 1 }
+`);
+  writeFileSync(join(folder, "charted.fleet"), "vehicle 'lauv-1', { type 'UUV' }\ninput 'over', true\n");
+  const point = (name, x, y) => ({ type: "Feature", properties: { name }, geometry: { type: "Point", coordinates: [x, y] } });
+  writeFileSync(join(folder, "buoys.geojson"), JSON.stringify({ type: "FeatureCollection",
+    features: [point("buoy <b>1</b>", -8.706, 41.186), point("buoy 2", -8.708, 41.187)] }));
+  writeFileSync(join(folder, "broken.geojson"), "{");
+  writeFileSync(join(folder, "many.dol"), "vs = pick { count 40 }\nexecute task('survey')[vs]\n");
+  writeFileSync(join(folder, "many.fleet"), Array.from({ length: 40 }, (_, i) =>
+    `vehicle 'vehicle-${i}', { type 'UUV'; at ${(41.185 + (i % 8) * 0.0006).toFixed(4)}, ${(-8.706 + Math.floor(i / 8) * 0.0015).toFixed(4)} }`).join("\n") +
+    "\nplan 'survey', { duration 1.min }\n");
+
+  await test("areas and positions of the program stand on the map, and the way of a plan that it describes", async () => {
+    await page.reload();
+    await choose(page, "charted.dol");
+    await page.click("#run");
+    for (const name of ["harbour", "zone", "basin"]) await page.waitForSelector(`.of-program >> text=${name}`);
+    await page.waitForSelector("#log pre >> text=starts lawn");
+    await page.click("#vehicles >> text=lauv-1");
+    await page.waitForSelector("text=Follows lauv-1");
+    await page.click("text=Follows lauv-1");
+    await page.waitForSelector("text=Follows lauv-1", { state: "hidden" });
+    await page.click(".map-buttons >> text=All");
+    await picture(page, "map");
+  });
+
+  await test("layers of the folder are shown, and come back when the page is loaded again", async () => {
+    await page.click("#layers summary");
+    await page.check("#layer-list >> text=buoys.geojson");
+    await page.waitForFunction(() => localStorage.getItem("layers") === '["buoys.geojson"]');
+    await page.check("#layer-list >> text=broken.geojson");
+    await page.waitForSelector("#banner >> text=broken.geojson is no GeoJSON");
+    await page.uncheck("#layer-list >> text=broken.geojson");
+    await picture(page, "layers");
+    await page.reload();
+    await page.click("#layers summary");
+    await page.waitForSelector("#layer-list input:checked");
+    await phone("map-phone");
+    await page.uncheck("#layer-list >> text=buoys.geojson");
+    await page.click("#layers summary");
+  });
+
+  await test("a distance is measured", async () => {
+    await page.click("text=Measure");
+    const map = await page.locator("#map").boundingBox();
+    await page.mouse.click(map.x + 150, map.y + 250);
+    await page.mouse.click(map.x + 250, map.y + 250);
+    await page.waitForSelector(".map-button >> text=/^[0-9.]+ k?m, 090°$/");
+    await page.keyboard.press("Escape");
+    await page.waitForSelector(".map-button >> text=/^Measure$/");
+    await page.click("[aria-label='post over: true']");
+    await over(page);
+  });
+
+  await test("the names of 40 vehicles do not lie upon each other", async () => {
+    await choose(page, "many.dol");
+    await page.waitForFunction(() => document.querySelectorAll("#map .vehicle .name").length === 40);
+    await page.click(".map-buttons >> text=All");
+    const upon = () => {
+      const shown = [...document.querySelectorAll("#map .vehicle .name")].filter((n) => n.style.visibility !== "hidden").map((n) => n.getBoundingClientRect());
+      let bad = 0;
+      shown.forEach((a, i) => shown.slice(i + 1).forEach((b) => { if (a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 1 && b.top < a.bottom - 1) bad++; }));
+      return { bad, shown: shown.length };
+    };
+    await page.waitForFunction(`(${upon})().bad === 0 && (${upon})().shown >= 20`);
+    await picture(page, "many");
+  });
+}

@@ -1,0 +1,35 @@
+open Dolphin_semantics
+module Area = Dolphin_geo.Area
+module Position = Dolphin_geo.Position
+module Canonical = Dolphin_json.Canonical
+
+let most = 100
+
+let pair (p : Position.t) : Yojson.Safe.t = `List [ Canonical.number p.latitude; Canonical.number p.longitude ]
+let path ps : Yojson.Safe.t = `List (List.map pair ps)
+
+let rec charted name (x : Core.value) : Yojson.Safe.t list =
+  let named members = [ `Assoc (("name", `String name) :: members) ] in
+  match x with
+  | Position p -> named [ ("position", pair p) ]
+  | Area (Circle { centre; radius }) -> named [ ("centre", pair centre); ("radius", Canonical.number radius) ]
+  | Area (Shape shape) -> named [ ("rings", `List (List.map path (Area.rings shape))) ]
+  | List xs ->
+    let first = Array.sub xs 0 (min most (Array.length xs)) in
+    let item i = charted (Printf.sprintf "%s[%d]" name i) in
+    List.concat (List.mapi item (Array.to_list first))
+  | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Map _ | Range _ | Vehicles _ | Task _
+  | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ -> []
+
+let places (program : Core.program) store : Yojson.Safe.t =
+  `List (List.concat_map (fun (i, x) -> charted program.global_names.(i) x) (Store.bindings store))
+
+let way world v ({ name; plan; task_site = _ } : Core.platform_task) : Yojson.Safe.t option =
+  let of_legs from (legs : Inline_plan.leg list) =
+    match List.concat_map (fun (leg : Inline_plan.leg) -> leg.waypoints) legs with
+    | [] -> None
+    | points -> Some (`Assoc [ ("vehicle", `String v); ("plan", `String name); ("path", path (from :: points)) ])
+  in
+  match plan, World.find v world with
+  | Some plan, Some { position; _ } -> of_legs position (Inline_plan.path ~from:position ~speed:1. plan)
+  | Some _, None | None, _ -> None

@@ -10,7 +10,7 @@ let fleet_of ~path ~sim ~named ~is_simulated =
 
 (* What options do not go together, if so. *)
 let contradiction (s : Run.settings) ~sim ~follow ~resumed ~changed =
-  let { Recording.journal; drawing; follower = _ } = s.recording in
+  let { Recording.journal; drawing = _; follower = _ } = s.recording in
   let on_network = not (Run.is_simulated s) in
   if on_network && (sim <> None || s.speed <> None) then
     Some
@@ -18,8 +18,8 @@ let contradiction (s : Run.settings) ~sim ~follow ~resumed ~changed =
   else if
     follow <> None
     && (on_network || s.speed <> None || s.answers <> [] || s.supplier <> None || journal <> None
-        || drawing <> None || resumed <> None)
-  then Some "a recorded run (--follow) goes with its program and a fleet, and with no other options"
+        || resumed <> None)
+  then Some "a recorded run (--follow) goes with its program, a fleet and --draw, and with no other options"
   else if changed && resumed = None then Some "--force-prefix goes with --resume"
   else if journal = Some "-" then
     Some "standard output has the log, and no journal beside it: name a file (./- for one that is called so)"
@@ -41,7 +41,7 @@ let on_terminal show (s : Run.settings) program run : Exit_status.t =
       | Ended Interrupted -> Interrupted
       | Ended (Halted _ | Failed _) | Stuck _ | Spins _ -> Failed)
 
-let follow (program : Program_file.t) (fleet : Fleet_file.t) path =
+let follow (program : Program_file.t) (fleet : Fleet_file.t) ~drawing path =
   let status : Dolphin_semantics.Configuration.ending option -> Exit_status.t = function
     | Some (Failed fault) ->
       Report.diagnostics ~source:program.source [ Program_file.diagnostic program fault ];
@@ -50,7 +50,7 @@ let follow (program : Program_file.t) (fleet : Fleet_file.t) path =
     | Some Interrupted -> Interrupted
     | Some Completed | None -> Done
   in
-  Result.map status (Witness_run.print program fleet.scenario path)
+  Result.map status (Witness_run.print program fleet ~drawing path)
 
 let ( let* ) = Result.bind
 
@@ -128,7 +128,7 @@ let run () show path set sim fleet network adapters definition speed seed answer
      Report.diagnostics ~source:program.source program.warnings;
      match recorded, resumed, sampling with
      | _, _, Some sampling -> sample settings program fleet sampling
-     | Some recorded, _, None -> follow program fleet recorded
+     | Some recorded, _, None -> follow program fleet ~drawing recorded
      | None, Some run, None ->
        let run front ~interruption = Run.resume front ~interruption settings ~changed ~fleet:named program run in
        Ok (on_terminal settings program run)
@@ -200,7 +200,7 @@ let drawing =
 let follow =
   let doc =
     "Take the steps of the run in the file $(docv), which $(mname) $(b,explore --trace) has written, and no others. \
-     The log has the numbers of steps where times would be."
+     The log has the numbers of steps where times would be, and so has the picture of $(b,--draw)."
   in
   Arg.(value & opt (some string) None & info [ "follow" ] ~docv:"FILE" ~doc)
 

@@ -40,20 +40,18 @@ let find_or_explore settings program fleet ~json ~period ~cache =
     Option.iter keep store;
     Ok outcome
 
-type files = { trace : string option; junit : string option; sarif : string option }
+type files = { trace : string option; drawing : Drawing.t option; junit : string option; sarif : string option }
 
 (* All of them, although one cannot be written; the first error. *)
 let write_files files program fleet ~strict outcome =
   let write path f = Option.fold ~none:(Ok ()) ~some:f path in
-  let witness path =
-    match Exploration.counterexample ~strict outcome with
-    | Some found -> Exploration.write_witness program fleet path found
-    | None -> Ok ()
-  in
-  let trace = write files.trace witness in
+  let counterexample f =
+    match Exploration.counterexample ~strict outcome with Some found -> f found | None -> Ok () in
+  let trace = write files.trace (fun path -> counterexample (Exploration.write_witness program fleet path)) in
+  let drawn = write files.drawing (fun drawing -> counterexample (Exploration.draw program fleet drawing)) in
   let junit = write files.junit (fun path -> Junit.write ~strict program path outcome) in
   let sarif = write files.sarif (fun path -> Sarif.write ~strict ~version:Version.number program path outcome) in
-  List.fold_left (fun found next -> if Result.is_error found then found else next) trace [ junit; sarif ]
+  List.fold_left (fun found next -> if Result.is_error found then found else next) trace [ drawn; junit; sarif ]
 
 let check_walks (s : Exploration.settings) =
   if s.walks <> None && s.formulas <> [] then
@@ -72,8 +70,9 @@ let of_program settings (program : Program_file.t) fleet ~strict ~json ~period ~
   | Error _ -> Ok Exit_status.Platform_trouble
 
 let of_values settings sweep fleet ~strict ~json ~period ~files ~cache =
-  if cache || files <> { trace = None; junit = None; sarif = None } then
-    Error (Error.Bad_input "--trace, --junit, --sarif and --cache are for one program: give --set no range of values")
+  if cache || files <> { trace = None; drawing = None; junit = None; sarif = None } then
+    let options = "--trace, --draw, --junit, --sarif and --cache" in
+    Error (Error.Bad_input (options ^ " are for one program: give --set no range of values"))
   else
     let search ~interrupted ~progress =
       Sweep.rows sweep ~interrupted (fun program ->
@@ -197,8 +196,15 @@ let files =
     file "sarif" "Write the verdicts into $(docv) as SARIF 2.1.0 too, with the runs that are shown as code flows, for \
                   code hosts and editors."
   in
-  let make trace junit sarif = { trace; junit; sarif } in
-  Term.(const make $ trace $ junit $ sarif)
+  let drawing =
+    let doc =
+      "Draw the first of the runs that are shown in the file $(docv), $(i,*.svg) or $(i,*.html): the tasks of each \
+       vehicle by steps, since such a run has no times. Nothing is drawn if there is none."
+    in
+    Arg.(value & opt (some Options.drawing) None & info [ "draw" ] ~docv:"FILE" ~doc)
+  in
+  let make trace drawing junit sarif = { trace; drawing; junit; sarif } in
+  Term.(const make $ trace $ drawing $ junit $ sarif)
 
 let period =
   let doc =

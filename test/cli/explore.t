@@ -405,6 +405,33 @@ A run to follow.
      6  program     posts left:1
         here the recorded run stops
 
+It is drawn, too, by the steps that it has: both ways the same.
+
+  $ explore deadlock.dol --draw deadlock.svg > shown
+  [1]
+  $ dolphin exec deadlock.dol --follow deadlock.run --draw followed.svg > shown
+  $ for file in deadlock.svg followed.svg; do
+  >   grep -o '>[^<>]*steps[^<>]*<\|>noptilus-1 runs [^<]*\|>counterexample: [a-z ]*' $file | sort -u
+  > done
+  >1 vehicle  ·  6 steps, without times  ·  the built-in fleet<
+  >counterexample: no deadlock
+  >noptilus-1 runs a from step 4 to step 5: done
+  >1 vehicle  ·  6 steps, without times  ·  the built-in fleet<
+  >counterexample: no deadlock
+  >noptilus-1 runs a from step 4 to step 5: done
+  $ echo "message 'hello'" > sound.dol
+  $ explore sound.dol --draw nothing.svg > shown; ls nothing.svg
+  ls: cannot access 'nothing.svg': No such file or directory
+  [2]
+  $ explore deadlock.dol --draw deadlock.png
+  dolphin: option '--draw': 'deadlock.png' ends neither in .svg nor in .html
+  Usage: dolphin explore [OPTION]… PROG
+  Try 'dolphin explore --help' or 'dolphin --help' for more information.
+  [2]
+  $ explore deadlock.dol --draw none/deadlock.svg > shown
+  dolphin: the picture cannot be written: none/deadlock.svg: No such file or directory
+  [3]
+
 The same in the Informal Trace Format: from the last state back to state 3.
 
   $ explore again.dol --faults fail --trace again.itf.json > shown
@@ -481,7 +508,7 @@ It does not fit another program, and no other file is one.
   dolphin: deadlock.dol: line 1 is no JSON
   [2]
   $ dolphin exec assertion.dol --follow assertion.run --journal assertion.journal
-  dolphin: a recorded run (--follow) goes with its program and a fleet, and with no other options
+  dolphin: a recorded run (--follow) goes with its program, a fleet and --draw, and with no other options
   [2]
   $ dolphin exec deadlock.dol --follow missing.run
   dolphin: missing.run: No such file or directory

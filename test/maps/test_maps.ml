@@ -119,6 +119,8 @@ let reading_geojson () =
   check "a name that is like a made one" "a 2: (0.000000, 1.000000); a: (0.000000, 2.000000); a 3: (0.000000, 3.000000)"
     (read
        [ feature ~properties:{|{"name":"a 2"}|} "Point" "[1,0]"; feature "Point" "[2,0]"; feature "Point" "[3,0]" ]);
+  check "a made name that is taken" "point 1: (0.000000, 1.000000); point 2: (0.000000, 2.000000)"
+    (read [ feature ~properties:{|{"name":"point 1"}|} "Point" "[1,0]"; feature ~properties:"{}" "Point" "[2,0]" ]);
   check "no geometry" "" (read [ {|{"type":"Feature","properties":{},"geometry":null}|} ]);
   check "a bare geometry" "point 1: (2.000000, 1.000000)" (shown "m.json" {|{"type":"Point","coordinates":[1,2]}|})
 

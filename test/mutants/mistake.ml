@@ -743,7 +743,7 @@ let maps =
       ("made names are used twice", {|if Hashtbl.mem taken name then from (n + 1)|}, {|if false then from (n + 1)|});
       ("long files are read", {|String.length text > most_bytes|}, {|String.length text > 2 * most_bytes|});
       ("only the first polygon counts", {|Area (united d.place (List.map polygon rings))|},
-       {|Area (polygon (List.hd rings))|});
+       {|Area (united d.place [ polygon (List.hd rings) ])|});
       ("holes are filled", {|~holes:(List.map opened holes)|}, {|~holes:(List.map opened (List.tl (rim :: holes |> List.rev)))|});
     ]
   @ in_file "lib/maps/geojson_file.ml" ~noticed_by:"maps/test_maps"
@@ -812,11 +812,15 @@ let coverage =
       ("overlap spreads strips", {|(1. -. settings.overlap)|}, {|(1. +. settings.overlap)|});
       ("turns at one end only", {|let left = (part.Bands.left -. turn, part.height)|}, {|let left = (part.Bands.left, part.height)|});
     ]
+let pictures =
+  in_file "lib/trace/picture/tracks.ml" ~noticed_by:"trace/test_pictures"
+    [ ("thirty vehicles have no names", {|let most_names = 60|}, {|let most_names = 24|});
+      ("names of sixty lie on one another", {|(float_of_int count *. line_height)|}, {|(float_of_int count *. 5.)|}) ]
 
 let all =
   List.concat
-    [ maps; missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups; quotient;
-      expansion;
+    [ maps; pictures; missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups;
+      quotient; expansion;
       vehicle_orbits; canonical_vehicles; name_flow; liveness; later_picks; environment; picks; inputs; attendance;
       task_rules; local_step; run_code; answers_in_words; confirm; unknown; on_interrupt;
       pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;

@@ -118,6 +118,55 @@ let unknown_batteries () =
   Alcotest.(check bool) "full at first" true (battery_axis (Some 1.));
   Alcotest.(check bool) "not told at first" false (battery_axis None)
 
+let bind vs : Step.t =
+  { rules = []; label = "bind"; at = None; choice = 0; allocated = []; bound = vs; released = []; posted = [];
+    consumed = []; requests = [ Bind vs ] }
+
+(* Thirty vehicles lie on one another, and each has its name on the map, one below the other. *)
+let many_names () =
+  let picture count =
+    let builder = Summary.create () and vs = List.init count (Printf.sprintf "v%d") in
+    let see id =
+      let position : Dolphin_geo.Position.t = { latitude = 41.; longitude = -8.; height = 0. } in
+      let state : Dolphin_semantics.World.vehicle_state =
+        { id; kind = "UUV"; payload = []; position; battery = None; connected = true; unready = None } in
+      Summary.add builder (Vehicle { time = 0.; state })
+    in
+    List.iter see vs;
+    Summary.add builder (Transition { time = 9.; index = 0; step = bind vs });
+    Picture.svg (Summary.finish builder)
+  in
+  let named count =
+    let svg = picture count in
+    let rec names from found =
+      match Str.search_forward (Str.regexp "name on-map [^>]* y=\"\\([0-9.]+\\)\"") svg from with
+      | at -> names (at + 1) (float_of_string (Str.matched_group 1 svg) :: found)
+      | exception Not_found -> List.sort Float.compare found
+    in
+    names 0 []
+  in
+  let rec apart = function a :: (b :: _ as rest) -> b -. a >= 12.9 && apart rest | [ _ ] | [] -> true in
+  let check = Alcotest.(check int) in
+  Alcotest.(check bool) "lines to those that had to move" true (contains "leader" (picture 30));
+  check "two" 2 (List.length (named 2));
+  check "thirty" 30 (List.length (named 30));
+  check "sixty" 60 (List.length (named 60));
+  check "too many" 0 (List.length (named 61));
+  Alcotest.(check bool) "none on another" true (apart (named 60))
+
+(* A run that was found, not flown, has steps where times would be. *)
+let by_steps () =
+  let builder = Summary.create ~clock:Steps () in
+  Summary.add builder (Header { (header ~platform:"sim") with started = "" });
+  let start : Step.t = { (bind [ "v" ]) with requests = [ Bind [ "v" ]; Start { vehicle = "v"; plan = "survey" } ] } in
+  Summary.add builder (Transition { time = 3.; index = 0; step = start });
+  Summary.add builder (End { time = 12.; transitions = 12; ending = { how = "counterexample"; message = Some "why" } });
+  let svg = Picture.svg (Summary.finish builder) in
+  let is_there text = Alcotest.(check bool) text true (contains text svg) in
+  List.iter is_there
+    [ "12 steps, without times"; "v runs survey from step 3 to step 12"; "counterexample: why"; ">12<" ];
+  Alcotest.(check bool) "no seed, no clock" false (contains "seed" svg || contains "0:0" svg)
+
 let nothing_at_all () = ignore (Picture.svg (Summary.finish (Summary.create ())))
 
 (* {1 Scales} *)
@@ -145,5 +194,7 @@ let () =
           case "texts are escaped" escaped;
           case "where it ran" circumstances;
           case "batteries that are not known yet" unknown_batteries;
+          case "names of many vehicles" many_names;
+          case "runs without times" by_steps;
           case "an empty story" nothing_at_all;
           case "scales" scales ] ) ]

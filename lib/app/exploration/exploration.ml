@@ -69,7 +69,9 @@ let counterexample ~strict (o : Search.outcome) =
 
 (* {1 Witnesses} *)
 
-let write_witness program fleet path (property, (run : Search.run)) =
-  Witness_file.write program fleet path
-    { breaks = Property.name property; description = Property.name property ^ ": " ^ Property.question property;
-      steps = run.steps; cycle = run.cycle }
+let witness (property, (run : Search.run)) : Witness_file.run =
+  { breaks = Property.name property; description = Property.name property ^ ": " ^ Property.question property;
+    steps = run.steps; cycle = run.cycle }
+
+let draw program fleet drawing found = Witness_file.draw program fleet drawing (witness found)
+let write_witness program fleet path found = Witness_file.write program fleet path (witness found)

@@ -40,6 +40,9 @@ val verdict : strict:bool -> Search.outcome -> verdict
 val counterexample : strict:bool -> Search.outcome -> (Property.t * Search.run) option
 (** The first counterexample that {!Exploration_report} shows. *)
 
+val draw : Program_file.t -> Fleet_file.t -> Drawing.t -> Property.t * Search.run -> (unit, Error.t) result
+(** [draw program fleet drawing (property, run)] draws the counterexample [run], by steps. *)
+
 val write_witness : Program_file.t -> Fleet_file.t -> string -> Property.t * Search.run -> (unit, Error.t) result
 (** [write_witness program fleet path (property, run)] writes the counterexample [run] into the file [path], in the
     Informal Trace Format if its name ends in [.itf.json], and else as {!Dolphin_trace.Witness}, which {!Witness_run}

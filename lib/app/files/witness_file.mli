@@ -13,6 +13,9 @@ val write : Program_file.t -> Fleet_file.t -> string -> run -> (unit, Error.t) r
 (** [write program fleet path run] writes [run] into the file [path], in the Informal Trace Format if its name ends in
     [.itf.json], and else as {!read} reads it. *)
 
+val draw : Program_file.t -> Fleet_file.t -> Drawing.t -> run -> (unit, Error.t) result
+(** [draw program fleet drawing run] draws [run]: as that of a journal, by steps instead of time. *)
+
 val read : string -> (Dolphin_trace.Witness.t, Error.t) result
 (** [read path] is the run that the file [path] records. The error is {!Error.Bad_input}: there is none. *)
 

@@ -27,19 +27,27 @@ let ending transitions =
   | ({ next = { control = Ended ending; _ }; _ } : Transition.t) :: _ -> Some ending
   | _ -> print_endline "      here the recorded run stops"; None
 
-let follow (program : Program_file.t) scenario path witness =
-  match Witness.follow program.program (Scenario_world.world scenario) witness with
+let draw program fleet (witness : Witness.t) steps cycle drawing =
+  let description = if witness.property = "" then "as recorded" else witness.property in
+  Witness_file.draw program fleet drawing { breaks = witness.property; description; steps; cycle }
+
+let follow (program : Program_file.t) (fleet : Fleet_file.t) ~drawing path witness =
+  match Witness.follow program.program (Scenario_world.world fleet.scenario) witness with
   | Error (taken, { number; why }) ->
     ignore (print_log 1 Log.start taken);
     Error (Error.Bad_input (Printf.sprintf "%s: %s does not fit, at step %d: %s" path program.path number why))
   | Ok (steps, cycle) ->
     if witness.property <> "" then Printf.printf "breaks: %s\n" witness.property;
     let number, log = print_log 1 Log.start steps in
-    if cycle = [] then Ok (ending steps)
-    else begin
-      print_endline "and from there, again and again:";
-      ignore (print_log number log cycle);
-      Ok None
-    end
+    let ending =
+      if cycle = [] then ending steps
+      else begin
+        print_endline "and from there, again and again:";
+        ignore (print_log number log cycle);
+        None
+      end
+    in
+    let drawn = Option.fold drawing ~none:(Ok ()) ~some:(draw program fleet witness steps cycle) in
+    Result.map (fun () -> ending) drawn
 
-let print program scenario path = Result.bind (Witness_file.read path) (follow program scenario path)
+let print program fleet ~drawing path = Result.bind (Witness_file.read path) (follow program fleet ~drawing path)

@@ -21,14 +21,21 @@ let circumstances summary =
     [ "simulated: " ^ fleet h.fleet; Printf.sprintf "seed %d" h.seed ] @ speed
   in
   (* Of a fleet only the answers and replies are used on a network, and nothing there depends on a seed. *)
+  let length =
+    match summary.clock with
+    | Seconds -> Phrase.time summary.duration
+    | Steps -> Phrase.count (int_of_float summary.duration) "step" ^ ", without times"
+  in
   let of_header (h : Header.t) =
     (match h.platform with
+     | "sim" when summary.clock = Steps ->
+       [ Option.fold ~none:"the built-in fleet" ~some:(fun (f : Header.source) -> Filename.basename f.path) h.fleet ]
      | "sim" -> simulated h
      | platform -> [ Printf.sprintf "vehicles of a network (%s)" (String.uppercase_ascii platform) ])
-    @ [ h.started ]
+    @ (if h.started = "" then [] else [ h.started ])
   in
   String.concat "  ·  "
-    ([ Phrase.count (List.length summary.vehicles) "vehicle"; Phrase.time summary.duration ]
+    ([ Phrase.count (List.length summary.vehicles) "vehicle"; length ]
      @ Option.fold ~none:[] ~some:of_header summary.header)
 
 let head summary =
@@ -40,12 +47,12 @@ let head summary =
 
 (* {1 The whole} *)
 
-let has_samples summary = List.exists (fun v -> v.samples <> []) summary.vehicles
+let has_samples summary = summary.clock = Seconds && List.exists (fun v -> v.samples <> []) summary.vehicles
 
 let panels summary ~y =
   if not (has_samples summary) then ([], y)
   else
-    let height = 330. in
+    let height = Float.max 330. (Tracks.height_for (List.length summary.vehicles)) in
     let left = margin +. 62. in
     let map_width = 500. in
     let right = left +. map_width +. 82. in
@@ -122,7 +129,7 @@ let rows summary =
       | Stopped -> "stopped"
       | Unfinished -> "not ended"
     in
-    (t.from, [ Phrase.time t.from; Phrase.time t.until; v.id; t.plan; how ])
+    (t.from, [ moment summary t.from; moment summary t.until; v.id; t.plan; how ])
   in
   let tasks = List.concat_map (fun v -> List.map (of_task v) v.tasks) summary.vehicles in
   List.map snd (List.stable_sort (fun (a, _) (b, _) -> Float.compare a b) tasks)

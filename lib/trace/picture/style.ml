@@ -20,6 +20,7 @@ let light =
 .halo { fill: #ffffff; opacity: 0.85; }
 .held { fill: #eef1f4; }
 .guide { stroke: #9aa5b0; stroke-width: 1; stroke-dasharray: 1 3; }
+.leader { stroke: #9aa5b0; stroke-width: 0.7; }
 .within { fill: #ffffff; font-weight: 500; }
 .name { font-weight: 600; }
 .on-map { paint-order: stroke; stroke: #ffffff; stroke-width: 3px; stroke-opacity: 0.8; stroke-linejoin: round; }
@@ -52,9 +53,9 @@ let dark =
 .ruler { stroke: #e6e9ed; }
 .halo { fill: #14181d; }
 .held { fill: #20262d; }
-.guide { stroke: #66717d; }
 .limit { stroke: #9aa5b1; }
 .limit.late { stroke: #ff6b5e; }
+.guide, .leader { stroke: #66717d; }
 .within { fill: #ffffff; }
 .end-failed, .error { stroke: #ff6b5e; }
 .end-stopped { fill: #e6e9ed; }

@@ -1,5 +1,6 @@
 open Dolphin_semantics
 
+type clock = Seconds | Steps
 type ending = Done | Failed of string | Stopped | Unfinished
 type task = { plan : string; from : float; until : float; ending : ending }
 type sample = { time : float; position : Dolphin_geo.Position.t; battery : float option }
@@ -22,6 +23,7 @@ type activity =
   | Erred of string
 
 type t = {
+  clock : clock;
   header : Header.t option;
   duration : float;
   vehicles : vehicle list;
@@ -44,6 +46,7 @@ type vehicle_so_far = {
 }
 
 type builder = {
+  its_clock : clock;
   most_samples : int;  (* of a vehicle *)
   by_id : (string, vehicle_so_far) Hashtbl.t;
   mutable picked : string list;  (* latest first *)
@@ -55,8 +58,8 @@ type builder = {
 }
 
 (* No picture shows more samples than that: of a long run, only some are kept, evenly. *)
-let create ?(most_samples = 4096) () =
-  { most_samples; by_id = Hashtbl.create 16; picked = []; its_header = None; now = 0.; cause = None;
+let create ?(clock = Seconds) ?(most_samples = 4096) () =
+  { its_clock = clock; most_samples; by_id = Hashtbl.create 16; picked = []; its_header = None; now = 0.; cause = None;
     activities_so_far = []; its_ending = None }
 
 let vehicle b v =
@@ -181,13 +184,17 @@ let finish b =
       silent = spans a.spans_silent a.silent_from;
       samples = List.rev a.seen }
   in
-  { header = b.its_header;
+  { clock = b.its_clock;
+    header = b.its_header;
     duration = until;
     vehicles = List.rev_map finished b.picked;
     activities = List.rev b.activities_so_far;
     ending = b.its_ending }
 
 (* {1 Asking} *)
+
+let moment t time =
+  match t.clock with Seconds -> Phrase.time time | Steps -> Printf.sprintf "step %.0f" time
 
 let runs v =
   let was_silent a b =

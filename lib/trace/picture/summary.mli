@@ -1,6 +1,9 @@
 (** A run as pictures show it: which vehicle ran which task from when to when, what the program did, where the vehicles
     were. A summary is made from the lines of a journal. *)
 
+(** What times are: seconds since the start, or numbers of steps, of a run that has no times. *)
+type clock = Seconds | Steps
+
 type ending =
   | Done
   | Failed of string  (** why *)
@@ -32,6 +35,7 @@ type activity =
   | Erred of string  (** a task failed; why *)
 
 type t = {
+  clock : clock;
   header : Header.t option;
   duration : float;  (** until the last line *)
   vehicles : vehicle list;  (** those that the program held, in the order in which it picked them *)
@@ -44,9 +48,9 @@ type t = {
 type builder
 (** A summary in the making. It is mutable. *)
 
-val create : ?most_samples:int -> unit -> builder
-(** [create ()] has no lines yet. Memory is bounded: of each vehicle [most_samples], by default a few thousand, are
-    kept, evenly spread. *)
+val create : ?clock:clock -> ?most_samples:int -> unit -> builder
+(** [create ()] has no lines yet; their times are [Seconds] unless [clock] says otherwise. Memory is bounded: of each
+    vehicle [most_samples], by default a few thousand, are kept, evenly spread. *)
 
 val add : builder -> Entry.t -> unit
 (** [add b line] adds the next line of the journal. *)
@@ -55,6 +59,9 @@ val finish : builder -> t
 (** [finish b] is the summary of the lines added so far. *)
 
 (** {1:asking Asking} *)
+
+val moment : t -> float -> string
+(** A time as people read it: ["1:05"], ["step 12"]. *)
 
 val runs : vehicle -> sample list list
 (** Its samples, cut where the vehicle had no link in between. *)

@@ -1,7 +1,8 @@
 open Summary
 
 (* Everything is placed on this. *)
-type frame = { left : float; right : float; seconds : float }
+(* [moment] is how times are told. *)
+type frame = { left : float; right : float; seconds : float; moment : float -> string }
 
 let at f time = f.left +. ((f.right -. f.left) *. time /. f.seconds)
 let char_height = 13.
@@ -77,16 +78,16 @@ let place f activities =
 
 let level_height = 15.
 
-let draw_mark base (x, level, leftwards, activity, text, time) =
+let draw_mark f base (x, level, leftwards, activity, text, time) =
   let y = base -. (float_of_int level *. level_height) in
-  let tip = Printf.sprintf "%s  %s" (Phrase.time time) (words activity) in
+  let tip = Printf.sprintf "%s  %s" (f.moment time) (words activity) in
   let anchor, dx = if leftwards then (Svg.End, -8.) else (Svg.Start, 8.) in
   let name = match activity with Erred _ -> "axis bad" | Posted _ | Consumed _ | Said _ | Asked _ -> "axis" in
   shape activity (x, y) tip :: (if text = "" then [] else [ Svg.text ~name ~anchor ~tip (x +. dx, y +. 3.5) text ])
 
 (* {1 Rows of vehicles} *)
 
-let describe v (task : task) =
+let describe f v (task : task) =
   let how =
     match task.ending with
     | Done -> "done"
@@ -94,14 +95,14 @@ let describe v (task : task) =
     | Stopped -> "stopped"
     | Unfinished -> "not ended"
   in
-  Printf.sprintf "%s runs %s from %s to %s: %s" v.id task.plan (Phrase.time task.from) (Phrase.time task.until) how
+  Printf.sprintf "%s runs %s from %s to %s: %s" v.id task.plan (f.moment task.from) (f.moment task.until) how
 
 let least_width = 2.
 
 let draw_task f colour v ~y ~height (task : task) =
   let x = at f task.from in
   let width = Float.max least_width (at f task.until -. x -. 1.) in
-  let tip = describe v task in
+  let tip = describe f v task in
   let kind =
     match task.ending with Done -> "" | Failed _ -> " failed" | Stopped -> " stopped" | Unfinished -> " unfinished"
   in
@@ -135,7 +136,7 @@ let draw_row f i v ~y ~row =
   in
   let silence (s : span) =
     let x = at f s.from in
-    let tip = Printf.sprintf "%s has no link from %s to %s" v.id (Phrase.time s.from) (Phrase.time s.until) in
+    let tip = Printf.sprintf "%s has no link from %s to %s" v.id (f.moment s.from) (f.moment s.until) in
     Svg.rect ~name:"silent" ~tip ~x ~y:(top +. height +. 1.) ~width:(Float.max 2. (at f s.until -. x)) ~height:3. ()
   in
   (* How a task ended is seen even if another one begins at once. *)
@@ -186,18 +187,23 @@ let gutter summary =
 
 let draw summary ~x ~y ~width =
   let seconds = if summary.duration > 0. then summary.duration else 1. in
-  let f = { left = x +. gutter summary; right = x +. width -. 14.; seconds } in
+  let f = { left = x +. gutter summary; right = x +. width -. 14.; seconds; moment = Summary.moment summary } in
   let marks, levels = place f summary.activities in
   let base = y +. (float_of_int levels *. level_height) +. 2. in
   let count = List.length summary.vehicles in
   let row = if count <= 24 then 34. else if count <= 80 then 22. else 14. in
   let rows_top = base +. 14. in
   let bottom = rows_top +. (float_of_int count *. row) +. 4. in
-  let step = Scale.time_step ~most:12 seconds in
+  let step =
+    match summary.clock with
+    | Seconds -> Scale.time_step ~most:12 seconds
+    | Steps -> Float.max 1. (Scale.step ~most:12 seconds)
+  in
+  let label time = match summary.clock with Seconds -> Phrase.time time | Steps -> Printf.sprintf "%.0f" time in
   let tick time =
     let x = at f time in
     [ Svg.line ~name:"grid" (x, y) (x, bottom);
-      Svg.text ~name:"axis" ~anchor:Middle (x, bottom +. char_height) (Phrase.time time) ]
+      Svg.text ~name:"axis" ~anchor:Middle (x, bottom +. char_height) (label time) ]
   in
   let guide (x, level, _, activity, _, _) =
     let top = base -. (float_of_int level *. level_height) +. 5. in
@@ -208,7 +214,7 @@ let draw summary ~x ~y ~width =
   let guides = if List.length marks > most_guides then [] else List.concat_map guide marks in
   let program =
     Svg.text ~name:"small" ~anchor:End (f.left -. 10., base +. 4.) "program"
-    :: List.concat_map (draw_mark base) marks
+    :: List.concat_map (draw_mark f base) marks
   in
   let rows = List.mapi (fun i v -> draw_row f i v ~y:(rows_top +. (float_of_int i *. row)) ~row) summary.vehicles in
   let parts =

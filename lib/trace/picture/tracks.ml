@@ -133,6 +133,12 @@ let way m i v =
   in
   List.map seen runs @ jumps runs @ starts @ ends
 
+(* More names than that are not told apart on a map: the timeline has them. *)
+let most_names = 60
+
+let line_height = 13.
+let height_for count = if count > most_names then 0. else (float_of_int count *. line_height) +. 16.
+
 (* Names stand beside where the vehicles are at last, one below the other where these are close. *)
 let names m vehicles ~x ~width ~y ~height =
   let wanted i v =
@@ -140,17 +146,20 @@ let names m vehicles ~x ~width ~y ~height =
     | [] -> None
     | last :: _ ->
       let px, py = project m last.position in
-      Some (py +. 4., (i, v, px))
+      Some (py +. 4., (i, v, (px, py)))
   in
   let wanted = List.filter_map Fun.id (List.mapi wanted vehicles) in
-  let label (at, (i, v, px)) =
+  let label (at, (i, v, (px, py))) =
     let text = Svg.fit 120. v.id in
     let leftwards = px +. 10. +. Svg.width ~size:12. text > x +. width in
     let anchor, dx = if leftwards then (Svg.End, -9.) else (Svg.Start, 9.) in
-    Svg.text ~name:("name on-map " ^ Style.vehicle i) ~anchor (px +. dx, at) text
+    let beside = (px +. dx, at -. 4.) in
+    (* A name that had to move away has a line to its vehicle. *)
+    (if Float.abs (at -. 4. -. py) < 8. then [] else [ Svg.line ~name:"leader" (px, py) beside ])
+    @ [ Svg.text ~name:("name on-map " ^ Style.vehicle i) ~anchor (px +. dx, at) text ]
   in
-  if List.length wanted > 24 then []
-  else List.map label (Scale.spread ~least:13. ~from:(y +. 12.) ~until:(y +. height -. 4.) wanted)
+  if List.length wanted > most_names then []
+  else List.concat_map label (Scale.spread ~least:line_height ~from:(y +. 12.) ~until:(y +. height -. 4.) wanted)
 
 let draw summary ~x ~y ~width ~height =
   let positions = List.concat_map (fun v -> List.map (fun s -> s.position) v.samples) summary.vehicles in

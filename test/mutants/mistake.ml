@@ -812,6 +812,7 @@ let coverage =
       ("overlap spreads strips", {|(1. -. settings.overlap)|}, {|(1. +. settings.overlap)|});
       ("turns at one end only", {|let left = (part.Bands.left -. turn, part.height)|}, {|let left = (part.Bands.left, part.height)|});
     ]
+
 let pictures =
   in_file "lib/trace/picture/tracks.ml" ~noticed_by:"trace/test_pictures"
     [ ("thirty vehicles have no names", {|let most_names = 60|}, {|let most_names = 24|});

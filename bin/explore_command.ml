@@ -132,7 +132,8 @@ let bound kind name docv doc = Arg.(value & opt (some kind) None & info [ name ]
 let max_states = bound Arg.int "max-states" "N" "Stop after $(docv) states."
 let max_depth = bound Arg.int "max-depth" "N" "Follow runs for $(docv) transitions only."
 let max_memory = bound size "max-memory" "SIZE" 
-    "Stop before more than $(docv) of memory is used, as in 512M or 8G. Without it, the search stops before it has \
+    "Stop before the process takes more than $(docv) of memory, as in 512M or 8G; it starts with some 20M. Without \
+     it, the search stops before it has \
      nine tenths of what the machine, and the limits on the process, leave to it."
 let timeout = bound Arg.float "timeout" "SECONDS" "Stop after $(docv) seconds."
 

@@ -132,11 +132,17 @@ let interrupted_after n =
   let asked = ref 0 in
   fun () -> incr asked; !asked > n
 
+(* More than the search ever uses. *)
+let most = 1 lsl 40
+
 let bounds =
   [
     ("states", stops "a bound on states" (limited { Limits.none with max_states = Some 50 }) States);
     ("depth", stops "a bound on depth" (limited { Limits.none with max_depth = Some 5 }) Depth);
     ("memory", stops "a bound on memory" (limited { Limits.none with max_memory = Some 1_000 }) Memory);
+    ("the process's memory",
+     stops "a bound on memory" (limited { Limits.none with max_memory = Some most; memory_taken = (fun () -> Some (most + 1)) })
+       Memory);
     ("the machine's memory", stops "no memory" (limited { Limits.none with memory_left = (fun () -> Some 0) }) No_memory);
     ("time", stops "a timeout" (limited { Limits.none with timeout = Some 0.4; clock = ticking () }) Time);
     ("interruption", stops "an interruption" (limited { Limits.none with interrupted = interrupted_after 1 }) Interruption);
@@ -161,6 +167,10 @@ let stops_within name limits ~most bound () =
 
 let bounds_within =
   let ticking_clock = { Limits.none with clock = ticking () } in
+  let taken_after n =
+    let asked = ref 0 in
+    fun () -> incr asked; Some (if !asked > n then most + 1 else 1_000)
+  in
   let left_after n =
     let asked = ref 0 in
     fun () -> incr asked; Some (if !asked > n then 0 else max_int / 2)
@@ -170,6 +180,9 @@ let bounds_within =
     ("few states", stops_within "few states" { Limits.none with max_states = Some 10 } ~most:11 States);
     ("time", stops_within "time" { ticking_clock with timeout = Some 50. } ~most:105 Time);
     ("memory", stops_within "memory" { ticking_clock with memory_left = left_after 100 } ~most:105 No_memory);
+    ("the process's memory",
+     stops_within "the process's memory"
+       { ticking_clock with max_memory = Some most; memory_taken = taken_after 100 } ~most:105 Memory);
     ("interruption", stops_within "an interruption" { Limits.none with interrupted = interrupted_after 100 } ~most:105
        Interruption);
   ]
@@ -188,6 +201,17 @@ let test_exact_bound () =
   let _, o' = run ~options:(limited { Limits.none with max_states = Some o.states }) large in
   Alcotest.(check bool) "not stopped" true (o'.stopped = None)
 
+(* Free parts of the heap need not be in the machine's memory. *)
+let test_memory_taken () =
+  let unwritten = Bytes.create 50_000_000 in
+  let stopped memory_taken =
+    let _, o = run ~options:(limited { Limits.none with max_memory = Some 40_000_000; memory_taken }) large in
+    o.stopped
+  in
+  Alcotest.(check bool) "it does not count" true (stopped (fun () -> Some 1_000_000) = None);
+  Alcotest.(check bool) "unless nothing is known" true (stopped (fun () -> None) = Some Memory);
+  ignore (Sys.opaque_identity unwritten)
+
 let test_progress () =
   let reports = ref 0 in
   let options = limited { Limits.none with clock = ticking (); progress = (fun _ -> incr reports) } in
@@ -204,5 +228,6 @@ let () =
       ( "around bounds",
         List.map case
           [ ("a violation before", test_violation_before_bound); ("just met", test_exact_bound);
+            ("memory that is not taken", test_memory_taken);
             ("progress", test_progress) ] );
     ]

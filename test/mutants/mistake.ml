@@ -248,6 +248,22 @@ let canonical_vehicles =
         {|then split r ending;|},
         {|then (if false then split r ending);|} );
     ]
+  @ in_file "lib/explore/encoding/encoding.ml" ~noticed_by:"reduction/test_told_apart"
+    [
+      ( "where a task begins, names and what nothing reads are kept",
+        {|  let (c : Configuration.t), outside = t.canonical c outside in
+  match|},
+        {|  let (c : Configuration.t), outside =
+    match c.Configuration.control with Executing _ -> (c, outside) | _ -> t.canonical c outside
+  in
+  match|} );
+    ]
+  @ in_file "lib/explore/verdict/replay.ml" ~noticed_by:"reduction/test_told_apart"
+    [
+      ( "a run that is shown begins a task by the fleet's names",
+        {|if found = [] then|},
+        {|if found = [] && false then|} );
+    ]
 
 let name_flow =
   in_file "lib/explore/symmetry/name_flow.ml" ~noticed_by:"reduction/test_told_apart"
@@ -675,6 +691,14 @@ let pick_rules_in_traps =
         {|not (Vehicle_set.mem v.id bound && false) in|} );
     ]
 
+let limits =
+  in_file "lib/checker/search/limits.ml" ~noticed_by:"explore/test_verdicts"
+    [
+      ( "what the process takes beside states and heap does not count",
+        {|(used + g.unseen + growth)|},
+        {|(used + (0 * g.unseen) + growth)|} );
+    ]
+
 let fair_cycles =
   in_file "lib/explore/verdict/fair_cycles.ml" ~noticed_by:"explore/test_fairness"
     [
@@ -826,5 +850,5 @@ let all =
       task_rules; local_step; run_code; answers_in_words; confirm; unknown; on_interrupt;
       pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
       conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps;
-      sets_with_events; driver; fair_cycles;
+      sets_with_events; driver; fair_cycles; limits;
       alike_values; division; arrangement; coverage ]

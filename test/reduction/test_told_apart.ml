@@ -191,6 +191,18 @@ let by_order =
         release v
         w = pick { count 1; type 'UUV' }
         if (first() == w) { halt 'h' }|};
+    (* No more states than there are: what nothing reads is forgotten where a task begins, too. *)
+    keeps "who was picked, before a loop in which nothing reads it" [ Termination ]
+      "vs = pick { count _ }\nwhile (true) { execute action { message 'm' }\npause 1 }";
+    keeps "who was picked, before a loop of symmetric tasks in which nothing reads it" [ No_halt ]
+      {|vs = pick { count _ }
+        n = 0
+        while (true) {
+          execute (idle(1) >> action { post x: 1 }) | (idle(1) >> action { post x: 2 })
+          consume x: 1
+          if (poll(x: 2)) { n = n + 1 }
+          if (n == 2) { halt 'h' }
+        }|};
     keeps "around, with another one each time" [ Termination ]
       (one ^ "while (true) { w = pick { type 'UUV' }\nrelease v\nv = w }");
   ]
@@ -255,6 +267,20 @@ let large_fleets =
       "vs = pick { type 'UUV' }\nfor (i in 1..40) { vs = vs + pick { type 'UUV' } }\n\
        for (v in vs) { execute task('p')[v] }";
     small "all" ~n:50 20 "vs = pick { count _; timeout 1.seconds }\nexecute task('p')[vs[3]] | task('q')[vs]";
+    (* Which of the two is named first where the task begins does not depend on how the program came there. *)
+    small "two, known in another order before each task" ~environment:(answering (fun _ -> [ [ "1"; "2" ] ])) ~n:2 24
+      {|vs = pick { count _ }
+        a = vs[0]
+        b = vs[1]
+        release vs
+        vs = 0
+        while (true) {
+          if (ask('which') == 1) { xs = [a, b] } else { xs = [b, a] }
+          for (x in xs) { pause 1 ; if (x == a) { message 'a' } }
+          xs = 0
+          execute idle(1) >> idle(2) >> idle(3)
+          if (a == b) { halt 'the same' }
+        }|};
     Alcotest.test_case "a run that is shown" `Quick test_run;
   ]
 

@@ -38,7 +38,8 @@ let explore ~interrupted ~progress s (program : Program_file.t) (fleet : Fleet_f
       reduction = s.reduction; compress = s.compress; walks = s.walks;
       search_again = Search.default.search_again;
       limits =
-        { max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; memory_left = Memory.left;
+        { max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory;
+          memory_taken = Memory.taken; memory_left = Memory.left;
           timeout = s.timeout; clock = Unix.gettimeofday; interrupted; progress };
       invariants; formulas }
   in

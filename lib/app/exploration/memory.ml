@@ -21,7 +21,9 @@ let entry name path =
   List.find_map number (lines path)
 
 let number path = match lines path with line :: _ -> int_of_string_opt (String.trim line) | [] -> None
-let machine () = Option.map (fun kib -> kib * 1024) (entry "MemAvailable:" "/proc/meminfo")
+let of_kib = Option.map (fun kib -> kib * 1024)
+let machine () = of_kib (entry "MemAvailable:" "/proc/meminfo")
+let taken () = of_kib (entry "VmRSS:" "/proc/self/status")
 
 (* {1 Control groups} *)
 

@@ -13,7 +13,8 @@ type settings = {
 
 let run ~interrupted ~progress s (program : Program_file.t) (fleet : Fleet_file.t) =
   let limits : Dolphin_checker.Limits.t =
-    { max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory; memory_left = Memory.left;
+    { max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory;
+      memory_taken = Memory.taken; memory_left = Memory.left;
       timeout = s.timeout; clock = Unix.gettimeofday; interrupted; progress }
   in
   Timing.run ?deadline:s.deadline limits

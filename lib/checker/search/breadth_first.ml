@@ -19,6 +19,7 @@ module Make (S : System.S) = struct
     mutable level_end : int;  (* the first state that is deeper *)
     mutable transitions : int;
     mutable work : int;  (* visits and expansions *)
+    mutable allocated : float;  (* words by the last look around *)
     mutable deadlock : int;  (* the first state that is one, or -1; likewise *)
     mutable violation : int;
     broken : (S.property, int) Hashtbl.t;
@@ -87,10 +88,19 @@ module Make (S : System.S) = struct
       if count t > max most 1 then raise (Limits.Stop States)
     | Some _ | None -> ()
 
-  (* A single expansion may visit many states. *)
+  (* A single expansion may visit many states, and make much that is new. *)
+  let most_allocated = 262_144.
+
   let worked t =
     t.work <- t.work + 1;
-    if t.work land (stride - 1) = 0 then look_around t t.phase
+    if t.work land 0x3F = 0 then begin
+      let minor, promoted, major = Gc.counters () in
+      let allocated = minor +. major -. promoted in
+      if t.work land (stride - 1) = 0 || allocated -. t.allocated > most_allocated then begin
+        t.allocated <- allocated;
+        look_around t t.phase
+      end
+    end
 
   let push t key =
     worked t;
@@ -157,8 +167,8 @@ module Make (S : System.S) = struct
     let states = States.create ~compress ~words:1 and guard = Limits.guard ?started limits in
     let rec t =
       { system; limits; phase; monitor; reserved = 0; states; key = [| 0 |]; from = Monitor.start; next = 0; depth = -1;
-        level_end = 0; transitions = 0; work = 0; deadlock = -1; violation = -1; broken = Hashtbl.create 8;
-        stopped = None; sample = None; guard; fresh = (fun i word -> arrived t i word);
+        level_end = 0; transitions = 0; work = 0; allocated = 0.; deadlock = -1; violation = -1;
+        broken = Hashtbl.create 8; stopped = None; sample = None; guard; fresh = (fun i word -> arrived t i word);
         visitor = { visit; tick = (fun () -> look_around ~by:256 t t.phase); rest = (fun () -> rest t) } }
     and visit key action _ = arrive t key action in
     let rec begin_with () =

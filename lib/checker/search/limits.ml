@@ -2,6 +2,7 @@ type t = {
   max_states : int option;
   max_depth : int option;
   max_memory : int option;
+  memory_taken : unit -> int option;
   memory_left : unit -> int option;
   timeout : float option;
   clock : unit -> float;
@@ -24,6 +25,7 @@ let none =
     max_states = None;
     max_depth = None;
     max_memory = None;
+    memory_taken = (fun () -> None);
     memory_left = (fun () -> None);
     timeout = None;
     clock = Sys.time;
@@ -53,19 +55,41 @@ type guard = {
   limits : t;
   started : float;
   mutable reported : float;
-  mutable weighed : float;  (* when memory was looked at *)
+  mutable weighed : float;  (* when it was asked what memory is left *)
+  mutable asked : float;  (* when it was asked what memory is taken *)
+  mutable unseen : int;  (* bytes that were taken then beyond those in use *)
 }
 
 let guard ?started limits =
   let started = match started with Some started -> started | None -> limits.clock () in
-  { limits; started; reported = started; weighed = Float.neg_infinity }
+  { limits; started; reported = started; weighed = Float.neg_infinity;
+    asked = Float.neg_infinity; unseen = 0 }
 
 type measures = { states : int; expanded : int; depth : int; used : int; growth : int }
 
+(* What the process takes is not what it uses: code and what is free in the heap are beyond that, and memory that it
+   has not written to yet is less. *)
+let ask_taken g ~used =
+  match g.limits.memory_taken () with Some taken -> g.unseen <- taken - used | None -> ()
+
+let weigh_own g ~used growth =
+  (* A part is for what grows between two looks. *)
+  let bound = Option.map (fun most -> most - (most / 32)) g.limits.max_memory in
+  let is_beyond () = exceeds bound (used + g.unseen + growth) in
+  if is_beyond () then begin
+    ask_taken g ~used;
+    if is_beyond () then raise (Stop Memory)
+  end
+
+(* Unwritten memory may be written to in a moment. *)
+let ask_sometimes g now ~used =
+  if g.limits.max_memory <> None && now -. g.asked >= 0.01 then begin
+    g.asked <- now;
+    ask_taken g ~used
+  end
+
 (* A system that has given all its memory kills without a word. So a part of what could be had is left alone: for
    others, and for what grows between two looks. *)
-let weigh_own g ~used growth = if exceeds g.limits.max_memory (used + growth) then raise (Stop Memory)
-
 let weigh g ~used growth =
   weigh_own g ~used growth;
   match g.limits.memory_left () with
@@ -74,6 +98,7 @@ let weigh g ~used growth =
 
 (* To ask what is left costs some reads of files. *)
 let weigh_sometimes g now { used; growth; _ } =
+  ask_sometimes g now ~used;
   weigh_own g ~used growth;
   if growth >= 1 lsl 20 || now -. g.weighed >= 0.1 then begin
     g.weighed <- now;

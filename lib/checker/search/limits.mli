@@ -3,7 +3,10 @@
 type t = {
   max_states : int option;
   max_depth : int option;  (** in transitions *)
-  max_memory : int option;  (** in bytes, of the whole process but for code and libraries *)
+  max_memory : int option;  (** in bytes, as [memory_taken] counts them *)
+  memory_taken : unit -> int option;
+  (** bytes of memory that the process has now, if that is known; asked often. If not, those of states and OCaml's heap
+      are counted. *)
   memory_left : unit -> int option;
   (** bytes that the process can still have, if that is known; asked often. The search stops before it has nine tenths
       of all that it can have. *)

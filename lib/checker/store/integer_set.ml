@@ -5,8 +5,8 @@ type segment = (int32, int32_elt, c_layout) Array1.t
 
 type t = {
   mutable chunks : bytes_of_chunk array;
-  mutable width : int;  (* bytes a number *)
-  mutable mask : int;  (* all bits of the width *)
+  mutable widths : int array;  (* by chunk: bytes a number *)
+  mutable bytes : int;  (* of all chunks *)
   mutable count : int;
   mutable table : segment array;  (* 0: free; else a tag above the bits of a place plus 1 *)
   mutable slots : int;
@@ -24,6 +24,7 @@ let chunk_mask = chunk_numbers - 1
 (* Numbers are read and written by eight bytes, from wherever they start. *)
 let padding = 8
 let bytes_of_chunk width = (chunk_numbers * width) + padding
+let masks = Array.init 9 (fun width -> if width = 8 then -1 else (1 lsl (8 * width)) - 1)
 let most_of slots = slots / 20 * 17
 
 let bits_for n =
@@ -45,7 +46,7 @@ let set_segments t n =
   t.place_bits <- bits_for t.most
 
 let create () =
-  let t = { chunks = [||]; width = 1; mask = 0xFF; count = 0; table = [||]; slots = 0; place_bits = 1; most = 0 } in
+  let t = { chunks = [||]; widths = [||]; bytes = 0; count = 0; table = [||]; slots = 0; place_bits = 1; most = 0 } in
   set_segments t 1;
   t
 
@@ -54,18 +55,20 @@ let count t = t.count
 (* Places are below [count], and slots below [slots], from here on. *)
 
 let get t i =
-  let chunk = Array.unsafe_get t.chunks (i lsr chunk_bits) in
-  Int64.to_int (get64 chunk ((i land chunk_mask) * t.width)) land t.mask
+  let c = i lsr chunk_bits in
+  let chunk = Array.unsafe_get t.chunks c and width = Array.unsafe_get t.widths c in
+  Int64.to_int (get64 chunk ((i land chunk_mask) * width)) land Array.unsafe_get masks width
 
 let set t i x =
-  let chunk = Array.unsafe_get t.chunks (i lsr chunk_bits) in
-  set64 chunk ((i land chunk_mask) * t.width) (Int64.of_int x)
+  let c = i lsr chunk_bits in
+  set64 (Array.unsafe_get t.chunks c) ((i land chunk_mask) * Array.unsafe_get t.widths c) (Int64.of_int x)
 
 (* [set] where numbers follow. *)
 let set_within t i x =
-  let chunk = Array.unsafe_get t.chunks (i lsr chunk_bits) in
-  for b = 0 to t.width - 1 do
-    Array1.set chunk (((i land chunk_mask) * t.width) + b) (Char.unsafe_chr ((x asr (8 * b)) land 0xFF))
+  let c = i lsr chunk_bits in
+  let chunk = Array.unsafe_get t.chunks c and width = Array.unsafe_get t.widths c in
+  for b = 0 to width - 1 do
+    Array1.set chunk (((i land chunk_mask) * width) + b) (Char.unsafe_chr ((x asr (8 * b)) land 0xFF))
   done
 
 (* {1 The table} *)
@@ -112,30 +115,38 @@ let grow t =
 
 (* {1 Adding} *)
 
-let widen t =
-  let width = t.width + 1 in
-  let renew c _ =
-    let chunk : bytes_of_chunk = Array1.create char c_layout (bytes_of_chunk width) in
-    for i = 0 to min chunk_numbers (t.count - (c * chunk_numbers)) - 1 do
-      set64 chunk (i * width) (Int64.of_int (get t ((c * chunk_numbers) + i)))
-    done;
-    chunk
-  in
-  t.chunks <- Array.mapi renew t.chunks;
-  t.width <- width;
-  t.mask <- (if width = 8 then -1 else (1 lsl (8 * width)) - 1)
+let last t = Array.length t.chunks - 1
 
-let rec append t x =
-  if x land t.mask <> x then begin
-    widen t;
-    append t x
+let put_chunk t c width =
+  let chunk : bytes_of_chunk = Array1.create char c_layout (bytes_of_chunk width) in
+  if c > last t then begin
+    let chunks = Array.append t.chunks [| chunk |] and widths = Array.append t.widths [| width |] in
+    t.chunks <- chunks;
+    t.widths <- widths
   end
   else begin
-    if t.count land chunk_mask = 0 then
-      t.chunks <- Array.append t.chunks [| Array1.create char c_layout (bytes_of_chunk t.width) |];
-    set t t.count x;
-    t.count <- t.count + 1
+    for i = c * chunk_numbers to min t.count ((c + 1) * chunk_numbers) - 1 do
+      set64 chunk ((i land chunk_mask) * width) (Int64.of_int (get t i))
+    done;
+    t.chunks.(c) <- chunk;
+    t.bytes <- t.bytes - bytes_of_chunk t.widths.(c);
+    t.widths.(c) <- width
+  end;
+  t.bytes <- t.bytes + bytes_of_chunk width
+
+(* Chunk [c] has room for numbers as large as [x]. *)
+let rec fit t c x =
+  if x land masks.(t.widths.(c)) <> x then begin
+    put_chunk t c (t.widths.(c) + 1);
+    fit t c x
   end
+
+let append t x =
+  let c = t.count lsr chunk_bits in
+  if c > last t then put_chunk t c (if c = 0 then 1 else t.widths.(c - 1));
+  fit t c x;
+  set t t.count x;
+  t.count <- t.count + 1
 
 let add t x =
   let h = hash x in
@@ -155,19 +166,18 @@ let find t x =
   let h = hash x in
   place_of t (entry t (probe t x (tag_of t h) (slot_of t h)))
 
-let bytes t = (Array.length t.chunks * bytes_of_chunk t.width) + (4 * t.slots)
+let bytes t = t.bytes + (4 * t.slots)
 
 let bytes_to_grow ~by t =
   let table = if t.count + by > t.most then t.slots else 0 in
   let chunks = ((t.count + by) lsr chunk_bits) + 1 - Array.length t.chunks in
-  table + (max 0 chunks * bytes_of_chunk t.width)
+  let width = if t.widths = [||] then 1 else t.widths.(last t) in
+  table + (max 0 chunks * bytes_of_chunk width)
 
 let renew t f =
   for i = 0 to t.count - 1 do
     let x = f (get t i) in
-    while x land t.mask <> x do
-      widen t
-    done;
+    fit t (i lsr chunk_bits) x;
     set_within t i x
   done;
   set_segments t (Array.length t.table);

@@ -1,5 +1,6 @@
 (** Sets of integers that only grow. Each member has an index, from 0 in order of insertion. A member takes as many
-    bytes as the largest one needs, and 5 to 6 bytes in the hash table. All of it lives outside of OCaml's heap. *)
+    bytes as the largest one of 65,536 with indices beside its own needs, and 5 to 6 bytes in the hash table. All of it
+    lives outside of OCaml's heap. *)
 
 type t
 

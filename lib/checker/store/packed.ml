@@ -117,7 +117,7 @@ let number_all t =
     fill t
   end
 
-let large = 1 lsl 20
+let large = 1 lsl 17
 
 let set_table t slots =
   t.table <- fresh_table slots;

@@ -53,14 +53,19 @@ let widen t ~reserved = Layouts.widen t.layouts ~reserved ~shared:(count_shareds
 let script t number = Scripts.value t.scripts number
 let broken t number = t.broken.(number)
 
-let script_number t rules c outside =
+(* Of the canonical form [c] with [outside]. *)
+let canonical_number t rules c outside =
   let known = Scripts.count t.scripts in
-  let number = Scripts.number t.scripts (t.canonical c outside) in
+  let number = Scripts.number t.scripts (c, outside) in
   if number = known then begin
     if number = Array.length t.broken then t.broken <- Array.append t.broken (Array.make (max 8 number) None);
     t.broken.(number) <- Property.broken_by_end rules c
   end;
   number
+
+let script_number t rules c outside =
+  let c, outside = t.canonical c outside in
+  canonical_number t rules c outside
 
 let clear key = Array.fill key 0 (Array.length key) 0
 
@@ -90,10 +95,11 @@ let write_components t key frame children shared =
     (fun i (p : Component.component) -> Layout.put layout key i p.local)
     (List.concat_map Component.leaves children)
 
-let write t key rules (c : Configuration.t) outside =
+let write t key rules c outside =
+  let (c : Configuration.t), outside = t.canonical c outside in
   match c.control with
   | Script _ | Waiting _ | Ended _ ->
-    let number = script_number t rules c outside in
+    let number = canonical_number t rules c outside in
     write_script t key number;
     number
   | Executing (m, r) ->

@@ -1,6 +1,6 @@
-(** Configurations of the script up to a permutation of vehicles within their orbits. The canonical form calls the
-    vehicles of an orbit by its names in the order in which the configuration names them, and at a [pick] only as many
-    of them report as can be wanted. docs/explorer.md proves that this is enough. *)
+(** Configurations of the script, and those in which a task begins, up to a permutation of vehicles within their orbits.
+    The canonical form calls the vehicles of an orbit by its names in the order in which the configuration names them,
+    and at a [pick] only as many of them report as can be wanted. docs/explorer.md proves that this is enough. *)
 
 open Dolphin_semantics
 open Dolphin_environment

@@ -13,7 +13,7 @@ let equal (c, outside) (c', outside') = Environment.compare outside outside' = 0
 (* {1 Through representatives}
 
    Where the states of a task are representatives of their classes, its first state and the script after it are still
-   exact. The permutations in between are found from the end. *)
+   exact, up to the names of vehicles. The permutations in between are found from the end. *)
 
 let permutation graph i j =
   let leads (arrival : State_graph.arrival) = arrival.into = j in
@@ -41,6 +41,7 @@ let rec task graph = function
   | [] -> ([], None, [])
 
 let follow graph g start ~from states after =
+  let space = State_graph.system graph in
   let numbers = List.map fst states in
   let final = List.nth numbers (List.length numbers - 1) in
   let last =
@@ -50,9 +51,14 @@ let follow graph g start ~from states after =
   in
   let step (state, from, found) ((i, representative), (_, p)) =
     let wanted = Task_group.apply g p representative in
-    let leads ((t : Transition.t), e) = Space.quotient_state (State_graph.system graph) g t.next e = Some wanted in
-    let (t, e) = take graph state leads ~from ~into:i in
-    ((t.next, e), i, (t, e) :: found)
+    (* Vehicles get their names where the task begins. *)
+    let reached ((t : Transition.t), e) = if found = [] then Space.canonical space t.next e else (t.next, e) in
+    let leads choice =
+      let c, e = reached choice in
+      Space.quotient_state space g c e = Some wanted
+    in
+    let choice = take graph state leads ~from ~into:i in
+    (reached choice, i, choice :: found)
   in
   let state, last, found =
     List.fold_left step (start, from, []) (List.combine states (permutations graph last numbers))

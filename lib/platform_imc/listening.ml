@@ -1,0 +1,161 @@
+open Dolphin_imc
+open Station_state
+
+let most_nodes = 2000
+let longest_name = 200
+
+let drop reason s =
+  let one = function None -> Some 1 | Some n -> Some (n + 1) in
+  ({ s with dropped = Names.update reason one s.dropped }, [])
+
+let skip s = ({ s with skipped = s.skipped + 1 }, [])
+
+(* The messages that somebody here reads. *)
+let is_wanted id =
+  id = Message.Announce.id || id = Message.Heartbeat.id || id = Message.Estimated_state.id
+  || id = Message.Vehicle_state.id || id = Message.Plan_control_state.id || id = Message.Plan_control.id
+  || id = Message.Fuel_level.id || id = Message.Log_book_entry.id || id = Message.Entity_list.id
+  || id = Message.Abort.id || id = Message.Entity_parameters.id
+
+let request_of ~id s = (s.settings.first_request + (id * 257)) land 0xFFFF
+
+(* A new system: it is told of us at once. *)
+let introduce ~now (n : Node.t) s =
+  let directly =
+    if n.hosts = [ Unix.inet_addr_loopback ] then []
+    else List.map (fun host -> Announce_to (host, announcement ~now s)) n.hosts
+  in
+  let presence, is_due = Presence.met ~now s.presence in
+  ({ s with presence }, if is_due then Announce (announcement ~now s) :: directly else directly)
+
+(* A system with several links, which is heard from each of them in turn, is where it was. *)
+let is_elsewhere ~(before : Node.t) (n : Node.t) =
+  match before.address, n.address with
+  | _, None -> false
+  | None, Some _ -> true
+  | Some was, Some address -> address.port <> was.port || not (Node.belongs address.host before)
+
+let announced ~now ~from (p : Packet.t) (a : Message.Announce.t) s =
+  let accept n s =
+    tell ~now n { s with systems = Systems.announced n s.systems; accepted = s.accepted + 1 }
+  in
+  if String.length a.sys_name > longest_name then drop "announcement too long" s
+  else if Systems.is_taken ~now ~id:p.src a.sys_name s.systems then drop "name of another" s
+  else
+    match Systems.find_id p.src s.systems with
+    | None when Systems.cardinal s.systems >= most_nodes -> drop "too many systems" s
+    | None ->
+      let n = Node.make ~now ~from ~request:(request_of ~id:p.src s) p a in
+      if n.address = None then (accept n s, []) else introduce ~now n (accept n s)
+    | Some before -> (
+        match Node.announce ~now ~from p a before with
+        | None -> drop "foreign address" s
+        | Some n ->
+          if is_elsewhere ~before n then introduce ~now n (accept n s) else (accept n s, []))
+
+let name_of id s =
+  match Systems.find_id id s.systems with Some n -> n.name | None -> Printf.sprintf "system 0x%04x" id
+
+let aborted ~now (p : Packet.t) s =
+  match Systems.find_id p.dst s.systems with
+  | Some n -> command ~now (Abort (name_of p.src s)) n s
+  | None -> (s, [])
+
+(* What was intended for an expected vehicle is done once it has said what it runs. *)
+let take_over ~now (n : Node.t) s =
+  if Execution.report n.execution = None then (s, [])
+  else
+    let inputs, expected = Expected.heard n.name s.expected in
+    command_all ~now inputs n { s with expected }
+
+(* What it is said to carry, and does not list. *)
+let missing_devices (before : Node.t) (n : Node.t) s =
+  match before.entities, n.entities, List.assoc_opt n.name s.settings.payload with
+  | None, Some listed, Some claimed ->
+    let listed = List.map String.lowercase_ascii listed in
+    List.filter (fun device -> not (List.mem (String.lowercase_ascii device) listed)) claimed
+  | _, _, _ -> []
+
+let remark_on_payload before n s =
+  match missing_devices before n s with
+  | [] -> []
+  | devices ->
+    [ Remark (n.name, Printf.sprintf "does not list %s among its entities, as --imc-payload has it"
+                (String.concat ", " devices)) ]
+
+let heard ~now (p : Packet.t) (n : Node.t) s =
+  let before = n in
+  let first = n.last_heard = neg_infinity in
+  let n, outputs = Node.hear ~now ~own:s.settings.id p n in
+  let s, sent = carry_out ~now n outputs (update n { s with accepted = s.accepted + 1 }) in
+  let s, more = take_over ~now n s in
+  let n = again n s in
+  let sent = remark_on_payload before n s @ sent in
+  if first && Node.is_vehicle n then
+    let at = now +. Presence.eager_heartbeat_interval in
+    let s, queried = query ~now n { s with presence = Presence.hasten ~at s.presence } in
+    (s, sent @ more @ queried)
+  else (s, sent @ more)
+
+(* Vehicles send on to all consoles what one of them requests. *)
+let request_of_another ~now (vehicle : Node.t) (p : Packet.t) s =
+  match p.content with
+  | Message (Plan_control { type_ = Request; op = Stop; _ }) ->
+    command ~now (Stopped_by (name_of p.src s)) vehicle { s with accepted = s.accepted + 1 }
+  | Message _ | Unknown _ -> skip s
+
+(* What two consoles hold at once was picked by both at the same time. *)
+let claimed ~now (before : Node.t) s =
+  let n = again before s in
+  let held = held_by n and held_before = held_by before in
+  if held = held_before then (s, [])
+  else
+    let conflict v =
+      match n.claim with
+      | Some (_, claim) when Name_set.mem v s.bound && not (List.mem v held_before) ->
+        Some (Remark (v, "also " ^ Claim.obstacle ~console:n.name claim))
+      | Some _ | None -> None
+    in
+    (tell_all ~now (held @ held_before) (with_claims s), List.filter_map conflict held)
+
+let packet ~now ~from (p : Packet.t) s =
+  match p.content with
+  | Message (Announce a) -> announced ~now ~from p a s
+  | Message _ | Unknown _ -> (
+      match Systems.find_id p.src s.systems with
+      | None -> drop "unknown sender" s
+      | Some n when not (Node.belongs from n) -> drop "foreign address" s
+      | Some n -> (
+          match p.content with
+          | Message Abort -> aborted ~now p s
+          | Message (Entity_parameters _) ->
+            let s, sent = heard ~now p n s in
+            let s, more = claimed ~now n s in
+            (s, sent @ more)
+          | Message _ | Unknown _ -> heard ~now p n s))
+
+(* Of systems that have announced, from where they are. *)
+let record ~from (h : Header.t) bytes s =
+  match Systems.find_id h.src s.systems with
+  | Some n when s.settings.records && Node.belongs from n && Header.check h bytes = Ok () ->
+    { s with received = Received.add h bytes s.received }
+  | Some _ | None -> s
+
+let datagram ~now ~from ?len bytes s =
+  let header = Header.read ?len bytes in
+  let s = match header with Ok h -> record ~from h bytes s | Error _ -> s in
+  let decoded f =
+    match Packet.decode ?len bytes with
+    | Error why -> drop (Error.label why) s
+    | Ok p -> f p
+  in
+  match header with
+  | Error why -> drop (Error.label why) s
+  | Ok h when not (is_wanted h.id) -> skip s
+  | Ok h when h.src = s.settings.id -> drop "our own" s
+  | Ok h when h.id = Message.Plan_control.id && h.dst <> s.settings.id -> (
+      match Systems.find_id h.dst s.systems with
+      | Some vehicle when h.src <> h.dst && Node.belongs from vehicle ->
+        decoded (fun p -> request_of_another ~now vehicle p s)
+      | Some _ | None -> skip s)
+  | Ok _ -> decoded (fun p -> packet ~now ~from p s)

@@ -1,0 +1,161 @@
+open Dolphin_semantics
+open Dolphin_runtime
+open Dolphin_imc
+module Names = Map.Make (String)
+module Name_set = Set.Make (String)
+
+type settings = {
+  id : int;
+  name : string;
+  program : string;
+  addresses : Service.address list;
+  epoch : float;
+  first_request : int;
+  payload : (Core.vehicle * string list) list;
+  types : (Core.vehicle * string) list;
+  type_names : (int * string) list;
+  records : bool;
+}
+
+type t = {
+  settings : settings;
+  systems : Systems.t;
+  bound : Name_set.t;
+  held : string Names.t;  (* by other consoles, and by which, in words *)
+  telemetry : bool;
+  timeouts : float Names.t;
+  timeout : float;  (* of vehicles that are not in [timeouts] *)
+  timers : Timers.t;
+  expected : Expected.t;
+  outbox : Outbox.t;
+  presence : Presence.t;
+  dropped : int Names.t;
+  skipped : int;
+  accepted : int;
+  received : Received.t;
+}
+
+type output =
+  | Send of { address : Service.address; bytes : string }
+  | Announce of string
+  | Announce_to of Unix.inet_addr * string
+  | Keep of Core.vehicle * Durable_note.t
+  | Remark of Core.vehicle * string
+
+let create settings =
+  { settings; systems = Systems.none; bound = Name_set.empty; held = Names.empty; telemetry = false;
+    timeouts = Names.empty; timeout = 60.;
+    timers = Timers.none; expected = Expected.none; outbox = Outbox.empty; presence = Presence.start;
+    dropped = Names.empty; skipped = 0; accepted = 0; received = Received.nothing }
+
+let timeout_of name s = Option.value (Names.find_opt name s.timeouts) ~default:s.timeout
+let add_timeouts pairs s = { s with timeouts = List.fold_left (fun map (v, x) -> Names.add v x map) s.timeouts pairs }
+let hold vehicles s = { s with bound = List.fold_left (fun bound v -> Name_set.add v bound) s.bound vehicles }
+let find name s = Systems.find name s.systems
+let update n s = { s with systems = Systems.update n s.systems }
+
+let resume ~now (outstanding : History.outstanding) s =
+  let s = { s with timeout = Option.value outstanding.timeout ~default:s.timeout } in
+  let s = hold outstanding.bound (add_timeouts outstanding.timeouts s) in
+  let deadline v = now +. timeout_of v s in
+  { s with expected = Expected.resume ~deadline outstanding; timers = Timers.of_list outstanding.timers }
+
+let held_by (n : Node.t) = match n.claim with Some (_, claim) -> claim.vehicles | None -> []
+
+let with_claims s =
+  let add held (n : Node.t) =
+    match n.claim with
+    | Some (_, claim) ->
+      let why = Claim.obstacle ~console:n.name claim in
+      List.fold_left (fun held v -> Names.add v why held) held claim.vehicles
+    | None -> held
+  in
+  { s with held = List.fold_left add Names.empty (Systems.to_list s.systems) }
+
+let state_of ~now (n : Node.t) s =
+  let kind =
+    match List.assoc_opt n.name s.settings.types with
+    | Some kind -> kind
+    | None -> Service.kind ~names:s.settings.type_names n.kind
+  in
+  let payload = List.assoc_opt n.name s.settings.payload in
+  let held = if Name_set.mem n.name s.bound then None else Names.find_opt n.name s.held in
+  Node.state ~now ~timeout:(timeout_of n.name s) ~kind ~payload ~held n
+
+(* {1 Sending} *)
+
+let encode ~now ~dst message s =
+  Packet.encode (Packet.make ~src:s.settings.id ~dst ~timestamp:(s.settings.epoch +. now) message)
+
+(* What cannot be encoded was refused when it was ordered. *)
+let to_node ~now (n : Node.t) message s =
+  match n.address, encode ~now ~dst:n.id message s with
+  | Some address, Ok bytes -> [ Send { address; bytes } ]
+  | Some _, Error _ | None, _ -> []
+
+let announcement ~now s =
+  let message =
+    Message.Announce
+      { Message.Announce.default with
+        sys_name = s.settings.name; sys_type = Ccu; owner = Header.nobody;
+        services = Service.announced s.settings.addresses }
+  in
+  Result.value (encode ~now ~dst:0 message s) ~default:""
+
+let query ~now (n : Node.t) s =
+  let n = Node.queried n in
+  let query = Message.Entity_list { Message.Entity_list.default with op = Query } in
+  (update n s, to_node ~now n query s)
+
+let is_console (n : Node.t) = n.kind = Ccu && n.address <> None
+
+let claims ~now s =
+  let claim = Claim.to_message { program = s.settings.program; vehicles = Name_set.elements s.bound } in
+  let to_console n = if is_console n then to_node ~now n claim s else [] in
+  List.concat_map to_console (Systems.to_list s.systems)
+
+(* {1 Telling the program} *)
+
+let push event s = { s with outbox = Outbox.add event s.outbox }
+
+let tell ?(urgent = false) ~now (n : Node.t) s =
+  if not (Node.is_vehicle n) then s
+  else
+    let periodic = s.telemetry && Name_set.mem n.name s.bound in
+    { s with outbox = Outbox.vehicle ~now ~urgent ~periodic (state_of ~now n s) s.outbox }
+
+let tell_all ~now names s =
+  List.fold_left (fun s name -> match find name s with Some n -> tell ~now n s | None -> s) s names
+
+(* {1 Executions} *)
+
+let carry_out ~now (n : Node.t) outputs s =
+  let carry (s, sent) : Execution.output -> t * output list = function
+    | Send message -> (s, List.rev_append (to_node ~now n message s) sent)
+    | Done -> (push (Task_done n.name) (tell ~urgent:true ~now n s), sent)
+    | Failed why -> (push (Task_failed (n.name, why)) (tell ~urgent:true ~now n s), sent)
+    | Keep note -> (s, Keep (n.name, note) :: sent)
+    | Remark text -> (s, Remark (n.name, text) :: sent)
+  in
+  let s, sent = List.fold_left carry (s, []) outputs in
+  (tell ~now n s, List.rev sent)
+
+let command ~now input (n : Node.t) s =
+  let n, outputs = Node.command ~now input n in
+  carry_out ~now n outputs (update n s)
+
+let again (n : Node.t) s = Option.value (Systems.find_id n.id s.systems) ~default:n
+
+let command_all ~now inputs n s =
+  let one (s, sent) input =
+    let s, more = command ~now input (again n s) s in
+    (s, sent @ more)
+  in
+  List.fold_left one (s, []) inputs
+
+let for_each f s =
+  let one (s, sent) n =
+    let s, more = f (again n s) s in
+    (s, more @ sent)
+  in
+  List.fold_left one (s, []) (Systems.to_list s.systems)

@@ -1,0 +1,108 @@
+(** What a console knows of the systems around it and wants of them, and what all that happens to it has in common: to
+    send, to tell the program, to give something to the execution on a vehicle. {!Station} is what others see of it. *)
+
+open Dolphin_semantics
+open Dolphin_runtime
+open Dolphin_imc
+module Names : Map.S with type key = string
+module Name_set : Set.S with type elt = string
+
+(** As {!Station.settings}. *)
+type settings = {
+  id : int;
+  name : string;
+  program : string;
+  addresses : Service.address list;
+  epoch : float;
+  first_request : int;
+  payload : (Core.vehicle * string list) list;
+  types : (Core.vehicle * string) list;
+  type_names : (int * string) list;
+  records : bool;
+}
+
+type t = {
+  settings : settings;
+  systems : Systems.t;
+  bound : Name_set.t;
+  held : string Names.t;  (** by other consoles, and by which, in words *)
+  telemetry : bool;
+  timeouts : float Names.t;
+  timeout : float;  (** of vehicles that are not in [timeouts] *)
+  timers : Timers.t;
+  expected : Expected.t;
+  outbox : Outbox.t;
+  presence : Presence.t;
+  dropped : int Names.t;
+  skipped : int;
+  accepted : int;
+  received : Received.t;
+}
+
+(** As {!Station.output}. *)
+type output =
+  | Send of { address : Service.address; bytes : string }
+  | Announce of string
+  | Announce_to of Unix.inet_addr * string
+  | Keep of Core.vehicle * Durable_note.t
+  | Remark of Core.vehicle * string
+
+val create : settings -> t
+val resume : now:float -> History.outstanding -> t -> t
+
+val timeout_of : Core.vehicle -> t -> float
+(** Seconds without a word after which a vehicle has lost its link. *)
+
+val add_timeouts : (Core.vehicle * float) list -> t -> t
+val hold : Core.vehicle list -> t -> t
+
+val find : Core.vehicle -> t -> Node.t option
+val update : Node.t -> t -> t
+
+val again : Node.t -> t -> Node.t
+(** [again n s] is [n] as it is in [s]. *)
+
+val held_by : Node.t -> Core.vehicle list
+(** What the console [n] holds. *)
+
+val with_claims : t -> t
+(** [with_claims s] is [s] after a change of what other consoles hold. *)
+
+val state_of : now:float -> Node.t -> t -> World.vehicle_state
+
+(** {1:sending Sending} *)
+
+val encode : now:float -> dst:int -> Message.t -> t -> (string, Error.encode) result
+
+val to_node : now:float -> Node.t -> Message.t -> t -> output list
+(** Nothing, if it has no address. *)
+
+val announcement : now:float -> t -> string
+val query : now:float -> Node.t -> t -> t * output list
+(** Asks for its list of entities. *)
+
+val claims : now:float -> t -> output list
+(** Tells all other consoles what this one holds. *)
+
+(** {1:telling Telling the program} *)
+
+val push : Platform.event -> t -> t
+
+val tell : ?urgent:bool -> now:float -> Node.t -> t -> t
+(** [tell ~now n s] tells what is known of [n], if it is a vehicle. *)
+
+val tell_all : now:float -> Core.vehicle list -> t -> t
+
+(** {1:executions Executions} *)
+
+val carry_out : now:float -> Node.t -> Execution.output list -> t -> t * output list
+(** [carry_out ~now n outputs s] is what follows from the execution on [n], which is in [s]. *)
+
+val command : now:float -> Execution.input -> Node.t -> t -> t * output list
+(** [command ~now input n s] gives [input] to the execution on [n]. *)
+
+val command_all : now:float -> Execution.input list -> Node.t -> t -> t * output list
+(** One after another. *)
+
+val for_each : (Node.t -> t -> t * output list) -> t -> t * output list
+(** [for_each f s] is [(s, [])] with [f] carried out for each system in turn. *)

@@ -1,0 +1,102 @@
+open Dolphin_runtime
+open Station_state
+
+(* So long after its first announcement a vehicle that never spoke to us gets eager heartbeats; so long after its last
+   sign of life one that fell silent gets heartbeats. *)
+let contact_patience = 15.
+let silence_patience = 300.
+let most_queries = 50
+
+(* It has announced itself and not spoken to us: it may have missed our announcement. *)
+let is_awaited ~now (n : Node.t) =
+  Node.is_vehicle n && n.last_heard = neg_infinity && n.address <> None && now -. n.first_announced < contact_patience
+
+let is_kept ~now (n : Node.t) =
+  Node.is_vehicle n && n.address <> None
+  && (now -. Node.last_sign n < silence_patience || not (Execution.idle n.execution))
+
+(* Entity lists that did not come are asked for again: programs pick vehicles by what they carry. *)
+let lacks_entities ~now (n : Node.t) =
+  n.entities = None && n.last_heard > neg_infinity && n.queries > 0 && n.queries < most_queries
+  && not (Node.silent ~now ~timeout:5. n)
+
+let beat ~now s =
+  let awaited = Systems.exists (fun n -> is_awaited ~now n || lacks_entities ~now n) s.systems in
+  let presence, heartbeats = Presence.beat ~now ~awaited s.presence in
+  let is_due =
+    match heartbeats with
+    | All -> is_kept ~now
+    | Awaited -> is_awaited ~now
+    | Nobody -> fun _ -> false
+  in
+  let s, beaten =
+    for_each (fun n s -> (s, if is_due n then to_node ~now n Heartbeat s else [])) { s with presence }
+  in
+  if heartbeats = Nobody then (s, [])
+  else
+    let s, queried = for_each (fun n s -> if lacks_entities ~now n then query ~now n s else (s, [])) s in
+    let claims = if heartbeats = All && not (Name_set.is_empty s.bound) then claims ~now s else [] in
+    (s, claims @ beaten @ queried)
+
+let announce ~now s =
+  let presence, is_due = Presence.announce ~now ~awaited:(Systems.exists (is_awaited ~now) s.systems) s.presence in
+  ({ s with presence }, if is_due then [ Announce (announcement ~now s) ] else [])
+
+let expire ~now s =
+  let expired, timers = Timers.expired ~now s.timers in
+  List.fold_left (fun s timer -> push (Timer timer) s) { s with timers } expired
+
+let was_connected (n : Node.t) s =
+  match Outbox.told n.name s.outbox with Some state -> state.connected | None -> false
+
+let seconds x = if x = 1. then "1 second" else Printf.sprintf "%.0f seconds" x
+let no_word name s = Printf.sprintf "no word from the vehicle for %s" (seconds (timeout_of name s))
+
+(* When the silence of [n] will have lasted too long, if that matters. *)
+let end_of_link (n : Node.t) s =
+  if was_connected n s || Execution.owes n.execution then n.last_heard +. timeout_of n.name s else infinity
+
+(* When what is known of [n] becomes old: that it was busy, and what it holds. *)
+let turns (n : Node.t) =
+  let rested = Option.fold n.freed ~none:infinity ~some:(fun at -> at +. Node.rest) in
+  let unclaimed = Option.fold n.claim ~none:infinity ~some:(fun (at, _) -> at +. Claim.patience) in
+  (rested, unclaimed)
+
+let turn ~now (n : Node.t) s =
+  let rested, unclaimed = turns n in
+  let s = if now >= rested then tell ~now (Node.rested n) (update (Node.rested n) s) else s in
+  if now < unclaimed then s else tell_all ~now (held_by n) (with_claims (update (Node.unclaimed (again n s)) s))
+
+let check ~now (n : Node.t) s =
+  let s = turn ~now n s in
+  let n = again n s in
+  let timeout = timeout_of n.name s in
+  let s, more = if Execution.due n.execution <= now then command ~now Tick n s else (s, []) in
+  let n = again n s in
+  let s, lost =
+    if not (Execution.owes n.execution && Node.silent ~now ~timeout n) then (s, [])
+    else command ~now (Lost (no_word n.name s)) n s
+  in
+  let n = again n s in
+  let s = if was_connected n s && Node.silent ~now ~timeout n then tell ~now n s else s in
+  (s, lost @ more)
+
+let give_up ~now s =
+  let late, expected = Expected.give_up ~now s.expected in
+  let fail s v = push (Task_failed (v, no_word v s)) s in
+  List.fold_left fail { s with expected } late
+
+let tick ~now s =
+  let s, announced = announce ~now s in
+  let s, beaten = beat ~now s in
+  let s, checked = for_each (check ~now) s in
+  (expire ~now (give_up ~now s), announced @ beaten @ checked)
+
+let due s =
+  let of_node time (n : Node.t) = Float.min time (Float.min (Execution.due n.execution) (end_of_link n s)) in
+  let of_node time n =
+    let rested, unclaimed = turns n in
+    Float.min (of_node time n) (Float.min rested unclaimed)
+  in
+  let own = Float.min (Presence.due s.presence) (Float.min (Timers.first s.timers) (Expected.due s.expected)) in
+  List.fold_left of_node own (Systems.to_list s.systems)

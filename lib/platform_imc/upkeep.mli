@@ -1,0 +1,9 @@
+(** What follows from time alone: announcements, heartbeats, requests sent again, timers, silences. *)
+
+open Station_state
+
+val tick : now:float -> t -> t * output list
+(** {!Station.tick} *)
+
+val due : t -> float
+(** {!Station.due} *)

@@ -597,7 +597,7 @@ When the process can have no more memory, it says so. (OCaml 5 reserves at its s
   > execute T(1) | T(2) | T(3) | T(4) | T(5) | T(6) | T(7) | T(8) | T(9)
   > END
   $ for i in 1 2 3 4 5 6 7 8 9; do echo "vehicle 'u$i', { type 'UUV'; at 41.18$i, -8.70 }"; done > large.fleet
-  $ (export OCAMLRUNPARAM=d=1; ulimit -v 60000; dolphin explore large.dol --reduction none > result; echo status $?; head -n 2 result)
+  $ (export OCAMLRUNPARAM=d=1; ulimit -v 60000; dolphin explore large.dol --reduction none > result 2> progress; echo status $?; head -n 2 result)
   status 3
   no deadlock: inconclusive, the machine has no more memory for it
   termination: inconclusive, the machine has no more memory for it
@@ -620,7 +620,7 @@ For machines.
 Hundreds of actions side by side that can change places.
 
   $ awk 'BEGIN { printf "n = 0\nexecute action { n = n + 1 }"; for (i = 1; i < 800; i++) printf " | action { n = n + 1 }" }' > beside.dol
-  $ touch beside.fleet; dolphin explore beside.dol --max-states 3 | tail -n 1 | sed 's/, depth.*; /; /'
+  $ touch beside.fleet; dolphin explore beside.dol --max-states 3 2> progress | tail -n 1 | sed 's/, depth.*; /; /'
   4 states, 801 transitions; reduced by partial order, symmetry
 
 What cannot be explored.

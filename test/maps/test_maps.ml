@@ -163,7 +163,7 @@ let reading_kml () =
     (read (placed "t" "<gx:Track><when/><gx:coord>1 2 3</gx:coord><gx:coord>1 3 3</gx:coord></gx:Track>"));
   check "what has no place" "" (read (placed "n" "" ^ "<Style/>"));
   check "no number" "wrong: line 3: 'x' is no number"
-    (read (placed "p\n\n" "<Point><coordinates>-8,x</coordinates></Point>"));
+    (read (placed "p\n\n" "<Point><coordinates>-8,x\n\n</coordinates></Point>"));
   check "no coordinates" "wrong: line 1: Point has no coordinates" (read (placed "p" "<Point/>"));
   check "another document" "wrong: line 1: this is no KML: its root is 'gpx'" (shown "m.kml" "<gpx/>");
   check "no XML" "wrong: line 2, column 2: this is no XML: expected root element" (shown "m.kml" "<!-- -->\n nothing")

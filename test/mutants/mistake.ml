@@ -837,14 +837,9 @@ let coverage =
       ("turns at one end only", {|let left = (part.Bands.left -. turn, part.height)|}, {|let left = (part.Bands.left, part.height)|});
     ]
 
-let pictures =
-  in_file "lib/trace/picture/tracks.ml" ~noticed_by:"trace/test_pictures"
-    [ ("thirty vehicles have no names", {|let most_names = 60|}, {|let most_names = 24|});
-      ("names of sixty lie on one another", {|(float_of_int count *. line_height)|}, {|(float_of_int count *. 5.)|}) ]
-
 let all =
   List.concat
-    [ maps; pictures; missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups;
+    [ maps; missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups;
       quotient; expansion;
       vehicle_orbits; canonical_vehicles; name_flow; liveness; later_picks; environment; picks; inputs; attendance;
       task_rules; local_step; run_code; answers_in_words; confirm; unknown; on_interrupt;

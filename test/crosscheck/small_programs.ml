@@ -350,6 +350,8 @@ let faults =
       ("late for two picks", "v = pick { count 2; type 'UUV' }\nrelease v\nw = pick { count _ }");
       ("late, or else another one", lost_once ^ "release v\nw = pick { count 2; type 'UUV' } else { pick { count 1 } }\n\
                                                  x = pick { count 2 } else { post k: w; w }\nx = pick { count _ } else { null }\npost k: x\nrelease w\nx = pick { count _ }");
+      ("two, or else whoever comes then",
+       "v = pick { count 2; type 'UUV' } else { null }\nw = pick { type 'UUV' } else { null }");
       ("late in a place, or else nobody",
        "v = pick { region Location.APDL, 150 } else { post k: 1 }\n\
         w = pick { count _; region Location.APDL, 150; timeout 0.seconds } else { post k: 2 }");

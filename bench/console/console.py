@@ -141,25 +141,31 @@ def main():
             server.wait(20)
 
 
+SPEED, SECONDS = 20, 180
+
+
 def load(pid, port, home):
-    """100 vehicles under way, four times as fast as in reality, with all watchers."""
+    """100 vehicles under way for an hour, each with 4 positions a second as time passes here, with all watchers."""
     while ask(port, "status")["run"]["state"] != "over":
         time.sleep(0.05)
     with open(os.path.join(home, "many.fleet"), "w", encoding="utf-8") as file:
         file.writelines(f"vehicle 'v{n}', {{ type 'UUV' }}\n" for n in range(100))
-        file.write("plan 'p', { duration 2.hours }\n")
+        file.write("plan 'p', { duration 4.hours }\n")
     with open(os.path.join(home, "many.dol"), "w", encoding="utf-8") as file:
         file.write("pick { count 100 }\nexecute " + " | ".join(["task('p')"] * 100) + "\n")
-    ask(port, "run", {"program": "many.dol", "speed": 4})
-    while len(ask(port, "world?program=many.dol")["vehicles"]) != 100 or ask(port, "status")["run"]["time"] < 10:
+    ask(port, "run", {"program": "many.dol", "speed": SPEED})
+    while len(ask(port, "world?program=many.dol")["vehicles"]) != 100 or ask(port, "status")["run"]["time"] < 30:
         time.sleep(0.2)
     runs = os.path.join(home, "state", "dolphin", "runs")
     journal = os.path.join(runs, next(name for name in os.listdir(runs) if name.endswith("many.run")))
-    (cpu, _, _), began, lines = process_figures(pid), time.monotonic(), count(journal)
-    time.sleep(30)
-    later, rss, _ = process_figures(pid)
-    print(f"100 vehicles, {WATCHERS} watchers: {100 * (later - cpu) / (time.monotonic() - began):.0f}% of a core, "
-          f"{rss:.0f} MB, {(count(journal) - lines) / 30:.0f} lines of the journal a second")
+    (cpu, _, _), began, lines, sizes = process_figures(pid), time.monotonic(), count(journal), []
+    while time.monotonic() - began < SECONDS:
+        time.sleep(SECONDS / 6)
+        sizes.append(process_figures(pid)[1])
+    later, passed = process_figures(pid)[0], time.monotonic() - began
+    print(f"100 vehicles, {WATCHERS} watchers, an hour in {passed:.0f} s: {100 * (later - cpu) / passed:.0f}% of a core, "
+          f"{(count(journal) - lines) / passed:.0f} lines of the journal a second, "
+          f"MB: {', '.join(f'{size:.0f}' for size in sizes)}")
 
 
 def count(path):

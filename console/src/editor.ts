@@ -99,7 +99,7 @@ export class Editor {
     return EditorState.create({ doc: text, extensions: [
       lineNumbers(), history(), drawSelection(), highlightActiveLine(), bracketMatching(), highlightSelectionMatches(), search({ top: true }),
       indentUnit.of("    "), language, syntaxHighlighting(colours), look, here, lintGutter(),
-      EditorView.contentAttributes.of({ "aria-label": "source of the program" }),
+      EditorView.contentAttributes.of({ "aria-label": "source of the program", tabindex: "0" }),
       linter((view) => this.check(view), { delay: 300 }),
       autocompletion({ override: [(c) => this.complete(c)] }),
       hoverTooltip((view, at) => this.hover(view, at)),

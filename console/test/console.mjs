@@ -5,6 +5,7 @@ import { cpSync, mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
+import accessibility from "./accessibility.mjs";
 import analyses from "./analyses.mjs";
 import listen from "./listen.mjs";
 import maps from "./maps.mjs";
@@ -238,6 +239,7 @@ const all = { folder, page, test, same, text, choose, over, picture, phone };
 await people(all);
 await analyses(all);
 await maps(all);
+await accessibility({ ...all, open, pictures });
 await listen({ ...all, dolphin, environment, browser, complaints });
 
 await test("all can be reached by keyboard, and all has a name", async () => {

@@ -837,6 +837,130 @@ let coverage =
       ("turns at one end only", {|let left = (part.Bands.left -. turn, part.height)|}, {|let left = (part.Bands.left, part.height)|});
     ]
 
+let zone =
+  in_file "lib/time/zone.ml" ~noticed_by:"time/test_zone"
+    [
+      ( "a bound is not carried over to other clocks",
+        {|          let by = before + c ++ get z b j in|},
+        {|          let by = if i = a || j = b then before + c ++ get z b j else unbounded in|} );
+      ( "an empty zone is not seen",
+        {|else if get z b a ++ c < 0 then None|},
+        {|else if get z b a ++ c < -1 then None|} );
+      ( "time passes for the date alone",
+        {|for i = 1 to z.n - 1 do set z i zero unbounded done;|},
+        {|for i = 1 to 1 do set z i zero unbounded done;|} );
+      ( "a zone is part of another of which it is not",
+        {|let rec go k = k < 0 || (Array.unsafe_get z.m k <= Array.unsafe_get z'.m k && go (k - 1)) in
+  go (Array.length z.m - 1)|},
+        {|let rec go k = k < 0 || (Array.unsafe_get z.m k <= Array.unsafe_get z'.m k && go (k - 1)) in
+  go (Array.length z.m - 3)|} );
+      ( "what begins keeps the clock of another",
+        {|Some k -> k + 1 | None -> zero in|},
+        {|Some k -> k + 1 | None -> date in|} );
+      ( "put off by too much",
+        {|go i (j + 1) least (min most (other - mine))|},
+        {|go i (j + 1) least most|} );
+    ]
+
+let timed =
+  in_file "lib/time/timed.ml" ~noticed_by:"time/test_exact"
+    [
+      ( "a task that fails does so at its end only",
+        {|  let failed = Bounds.from_the_start done_ in|},
+        {|  let failed = done_ in|} );
+      ( "a lost link is noticed at once",
+        {|    | Within { most; _ }, Within { least; _ } -> Within { least; most }|},
+        {|    | Within { most; _ }, Within _ -> Within { least = 0; most }|} );
+      ( "the order to a lost vehicle does not wait",
+        {|if List.mem v (Environment.lost s.outside) then put_off silence bounds else bounds in|},
+        {|ignore put_off; bounds in|} );
+    ]
+
+let timed_system =
+  in_file "lib/time/timed_system.ml" ~noticed_by:"time/test_exact"
+    [
+      ( "nothing has to happen",
+        {|List.fold_left limit (Some (Zone.delay zone)) (Timed.holds_up steps)|},
+        {|List.fold_left (fun zone _ -> ignore limit; zone) (Some (Zone.delay zone)) (Timed.holds_up steps)|} );
+      ( "steps are taken too early",
+        {|        let* zone = Zone.at_least clock least zone in
+|},
+        {|        let* zone = Zone.at_least clock (min 0 least) zone in
+|} );
+      ( "the latest dates are filled up",
+        {|Latest -> Zone.reaching_down | Earliest -> Zone.reaching_up in|},
+        {|Latest -> Zone.reaching_up | Earliest -> Zone.reaching_down in|} );
+      ( "time passes though a step is urgent",
+        {|if steps = [] || List.exists (fun (s : Timed.step) -> s.urgent) steps then Some (filled zone)|},
+        {|if steps = [] then Some (filled zone)|} );
+      ( "states include those that they do not",
+        {|let including () = List.find_opt (fun m -> Zone.subset zone t.nodes.(m).zone) place.here in|},
+        {|let including () = List.find_opt (fun _ -> true) place.here in|} );
+      ( "dates are forgotten",
+        {|Latest -> Zone.reaching_down|},
+        {|Latest -> Zone.at_any_date|} );
+      ( "any state that was seen is gone round to",
+        {|    if by >= 0 && is_before t m n then Some (m, by) else None|},
+        {|    if by >= 0 && (is_before t m n || m >= 0) then Some (m, by) else None|} );
+    ]
+
+let schedule =
+  in_file "lib/time/schedule.ml" ~noticed_by:"time/test_missions"
+    [
+      ( "runs that end last do not wait for one another",
+        {|distance.(c.sooner) + c.by < distance.(c.later)|},
+        {|distance.(c.sooner) + c.by > distance.(c.later)|} );
+      ( "the chain has no links",
+        {|due_to = Some pending; later } when by > 0|},
+        {|due_to = Some pending; later } when by > max_int - 1|} );
+    ]
+
+let recorded =
+  in_file "lib/time/recorded.ml" ~noticed_by:"time/test_recorded"
+    [
+      ( "what takes too long is not seen",
+        {|when must_be_over && date - began > most + tolerance -> finding false|},
+        {|when must_be_over && date - began > (10 * most) + tolerance -> finding false|} );
+      ( "what is over too soon is not seen",
+        {|when must_have_run && date - began < least - tolerance -> finding true|},
+        {|when must_have_run && date - began < min 0 least -> finding true|} );
+    ]
+
+let durations =
+  in_file "lib/time/durations.ml" ~noticed_by:"time/test_missions"
+    [
+      ( "ways take no longer than they should",
+        {|((moving *. (1. +. tolerance)) +. staying)|},
+        {|(moving +. staying)|} );
+      ( "stays take no time",
+        {|(here, moving, staying +. leg.dwell)|},
+        {|(here, moving, staying)|} );
+    ]
+
+let share =
+  in_file "lib/statistics/share.ml" ~noticed_by:"statistics/test_statistics"
+    [
+      ("both tails on one side", {|(1. -. level) /. 2. and|}, {|(1. -. level) and|});
+      ( "the upper end is that of a hit less",
+        {|inverse (incomplete_beta (k +. 1.) misses)|},
+        {|inverse (incomplete_beta k misses)|} );
+      ("looks cost nothing", {|Float.of_int (j * (j + 1))|}, {|Float.of_int (j * j)|});
+    ]
+
+let sampled =
+  in_file "lib/app/sampling/sampling.ml" ~noticed_by:"time/test_sampled"
+    [
+      ( "runs count as they come",
+        {|  let seed = settings.seed + tally.count in|},
+        {|  let seed = Hashtbl.fold (fun seed _ _ -> seed) waiting (settings.seed + tally.count) in|} );
+    ]
+  @ in_file "lib/app/sampling/sample.ml" ~noticed_by:"time/test_sampled"
+    [
+      ( "handlers that hand an error on do not count",
+        {|    | Watch_ignore | Watch_propagate | Watch_halt|},
+        {|    | Watch_ignore | Watch_halt|} );
+    ]
+
 let all =
   List.concat
     [ maps; missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups;
@@ -846,4 +970,5 @@ let all =
       pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
       conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps;
       sets_with_events; driver; fair_cycles; limits;
-      alike_values; division; arrangement; coverage ]
+      alike_values; division; arrangement; coverage;
+      zone; timed; timed_system; schedule; recorded; durations; share; sampled ]

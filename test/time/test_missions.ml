@@ -113,6 +113,16 @@ let test_rendezvous () =
   let down x = Float.floor (x *. 1000.) /. 1000. and up x = Float.ceil (x *. 1000.) /. 1000. in
   let earliest = 240. +. 600. +. down (0.9 *. longest) and latest = 420. +. 600. +. up (1.1 *. longest) in
   Alcotest.check window "completed" (earliest, latest) (ends o);
+  let check_run what run date =
+    let run = match run with Some (run : Timing.run) -> run | None -> Alcotest.fail (what ^ " is missing") in
+    let ms = Option.get (Bounds.milliseconds date) in
+    Alcotest.(check int) (what ^ " ends then") ms (List.fold_left max 0 run.dates);
+    Alcotest.(check bool) (what ^ " goes forward") true (List.sort compare run.dates = run.dates);
+    List.fold_left (fun n (l : Schedule.link) -> n + l.lasts) 0 run.chain
+  in
+  let sum = check_run "the last run" o.last latest in
+  Alcotest.(check (option int)) "durations add up" (Bounds.milliseconds latest) (Some sum);
+  ignore (check_run "the first run" o.first earliest);
   Alcotest.check window "a visit starts" (240., 580.) (of_task o "rv2" Starts);
   Alcotest.check window "a visit ends" (280., 660.) (of_task o "rv2" Ends);
   Alcotest.check window "a survey ends" (240., 420.) (of_task o "survey1" Ends)

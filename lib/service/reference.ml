@@ -79,6 +79,12 @@ let procedures =
       "coverage", "coverage(area, spacing: 40.m)",
       "The points of a way along parallel strips that cover an area, for `followPath`. Also `bearing: 30.degrees`, \
        `overlap: 10.percent` of a strip by the next one, `turn: 15.m` beyond the ends of strips.";
+      "expandingSquare", "expandingSquare(datum, spacing: 50.m, radius: 200.m)",
+      "The points of a search in squares around a position, for `followPath`; `bearing:` is that of its first leg.";
+      "sector", "sector(datum, radius: 200.m)",
+      "The points of a search in three triangles that meet at a position; `bearing:` is that of its first leg.";
+      "spiral", "spiral(datum, spacing: 50.m, radius: 200.m)",
+      "The points of a spiral around a position; `bearing:` is where it begins.";
       "footprint", "footprint(altitude: 10.m, range: 50.m)",
       "How wide the strip is that a sidescan of this range sees; a camera has an `angle` instead.";
       "area", "area(centre, radius)", "The circle around a position, its radius in metres. Also `centre ^ radius`.";

@@ -795,13 +795,10 @@ let division =
     [
       ( "parts of areas hang by necks",
         {|((not wide) || wide_enough region part cut)|},
-        {|true|} );
-      ( "what a cut leaves may be in pieces",
-        {|if exact && count_outer rest = 1 && ((not wide)|},
-        {|if exact && ((not wide)|} );
+        {|(wide || true || wide_enough region part cut)|} );
       ( "a cut through corners may cut off too much",
         {|if exact && count_outer|},
-        {|if count_outer|} );
+        {|if (exact || true) && count_outer|} );
       ( "parts of areas are not equally large",
         {|let wanted = whole *. float_of_int parts /.|},
         {|let wanted = 0.99 *. whole *. float_of_int parts /.|} );
@@ -827,9 +824,9 @@ let coverage =
     ]
   @ in_file "lib/geo/tour.ml" ~noticed_by:"geo/test_coverage"
     [
-      ("ways go straight across holes", {|if neighbours parts a b then []|}, {|if true then []|});
+      ("ways go straight across holes", {|if neighbours parts a b then []|}, {|if neighbours parts a b || true then []|});
       ("any order will do", {|if cost < best.(set lor bit).(j) then|}, {|if best.(set lor bit).(j) = infinity then|});
-      ("all strips are gone along the same way", {|{ part; rightwards = rightwards = (i mod 2 = 0) }|}, {|{ part; rightwards }|});
+      ("all strips are gone along the same way", {|{ part; rightwards = rightwards = (i mod 2 = 0) }|}, {|{ part; rightwards = rightwards = (i mod 2 >= 0) }|});
     ]
   @ in_file "lib/geo/coverage.ml" ~noticed_by:"geo/test_coverage"
     [
@@ -961,6 +958,14 @@ let sampled =
         {|    | Watch_ignore | Watch_halt|} );
     ]
 
+let search_pattern =
+  in_file "lib/geo/search_pattern.ml" ~noticed_by:"geo/test_search_pattern"
+    [
+      ("the triangles of a sector overlap", {|datum; at 240.; at 300.;|}, {|datum; at 180.; at 240.;|});
+      ("squares end early", {|(4. *. rings) +. 1.|}, {|(4. *. rings) -. 3.|});
+      ("spirals end early", {|((radius /. spacing) +. 0.5)|}, {|(radius /. spacing)|});
+    ]
+
 let all =
   List.concat
     [ maps; missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups;
@@ -970,5 +975,5 @@ let all =
       pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
       conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps;
       sets_with_events; driver; fair_cycles; limits;
-      alike_values; division; arrangement; coverage;
+      alike_values; division; arrangement; coverage; search_pattern;
       zone; timed; timed_system; schedule; recorded; durations; share; sampled ]

@@ -71,6 +71,16 @@ let table : (string * t) list =
       geometry [ Any ] ~needed:[ "spacing" ]
         ~named:[ ("spacing", Number); ("bearing", Number); ("overlap", Number); ("turn", Number) ]
         ~result:Any );
+    ( "expandingSquare",
+      geometry [ Position ] ~needed:[ "spacing"; "radius" ]
+        ~named:[ ("spacing", Number); ("radius", Number); ("bearing", Number) ]
+        ~result:Any );
+    ( "sector",
+      geometry [ Position ] ~needed:[ "radius" ] ~named:[ ("radius", Number); ("bearing", Number) ] ~result:Any );
+    ( "spiral",
+      geometry [ Position ] ~needed:[ "spacing"; "radius" ]
+        ~named:[ ("spacing", Number); ("radius", Number); ("bearing", Number) ]
+        ~result:Any );
     ( "footprint",
       geometry [] ~needed:[ "altitude" ] ~named:[ ("altitude", Number); ("range", Number); ("angle", Number) ]
         ~result:Number );

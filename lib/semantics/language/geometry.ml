@@ -1,6 +1,7 @@
 open Dolphin_results
 open Core
 module Coverage = Dolphin_geo.Coverage
+module Search_pattern = Dolphin_geo.Search_pattern
 
 let ( let* ) = Result.bind
 
@@ -62,6 +63,24 @@ let coverage whole arguments =
   let points = Result.map positions_value (Coverage.points settings whole) in
   Result.map_error (Format.asprintf "%a" Coverage.pp_error) points
 
+let search name datum arguments =
+  let* datum = position "a position to search around" datum in
+  let number name = named name arguments in
+  let needed k x = or_lacking name k x in
+  let* spacing = number "spacing" in
+  let* radius = number "radius" in
+  let* radius = needed "radius" radius in
+  let* bearing = number "bearing" in
+  let bearing = Option.value bearing ~default:0. in
+  let* found =
+    if name = "sector" then Ok (Search_pattern.sector datum ~radius ~bearing)
+    else
+      let* spacing = needed "spacing" spacing in
+      let make = if name = "spiral" then Search_pattern.spiral else Search_pattern.expanding_square in
+      Ok (make datum ~spacing ~radius ~bearing)
+  in
+  Result.map_error (Format.asprintf "%a" Search_pattern.pp_error) (Result.map positions_value found)
+
 (* How wide the ground is that a device sees: [range] is that of a sidescan to either side, [angle] is how wide a camera
    or another sonar sees. *)
 let footprint arguments =
@@ -103,4 +122,5 @@ let apply name keys arguments =
   | "along", [ path; metres ] -> along path metres
   | "coverage", [ whole ] -> coverage whole named
   | "footprint", [] -> footprint named
+  | ("expandingSquare" | "sector" | "spiral"), [ datum ] -> search name datum named
   | _, _ -> Error (Printf.sprintf "wrong number of arguments of %s, %d" name (List.length arguments))

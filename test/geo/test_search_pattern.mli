@@ -1,0 +1,1 @@
+(** Tests of {!Dolphin_geo}: searches. No value of its own. *)

@@ -22,9 +22,12 @@ let status connection =
   let open Yojson.Safe.Util in
   Printf.printf "%s, at %s\n" (to_string (member "program" json))
     (Dolphin_trace.Phrase.time (to_number (member "time" json)));
-  (match to_list (member "inputs" json) with
-   | [] -> print_endline "nothing can be posted: the program declares no input"
-   | keys -> List.iter (fun key -> print_endline ("input '" ^ to_string key ^ "'")) keys);
+  let questions = match member "questions" json with `List found -> found | _ -> [] in
+  (match to_list (member "inputs" json), questions with
+   | [], [] -> print_endline "nothing can be posted: the program declares no input"
+   | keys, questions ->
+     List.iter (fun key -> print_endline ("input '" ^ to_string key ^ "'")) keys;
+     List.iter (fun prompt -> print_endline ("question '" ^ to_string prompt ^ "': yes or no")) questions);
   Ok ()
 
 let follow connection =

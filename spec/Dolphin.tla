@@ -74,7 +74,7 @@ AllOf(runs, choices) ==
 (* repeat(r; t, n): r is the round that runs, << >> between two; n, in again.left, is how many are to come, or << >>. *)
 Repeat(r, again) == IF again.left = << 0 >> THEN r ELSE [ again EXCEPT !.runs = << r >> ]
 
-(* act(r): r when its turn has come; its timers start. *)
+(* act(r): r when its turn has come; its timers start, its questions are put. *)
 RECURSIVE Act(_)
 Act(r) ==
   CASE r.op = "seq" -> [ r EXCEPT !.first = Act(@) ]
@@ -95,16 +95,20 @@ Running(r) ==
     [] r.op = "during" -> IF r.started THEN Running(r.body) ELSE << >>
     [] OTHER -> << >>
 
-(* tim(r): the timers that run in the active part of r, each with its time. *)
+(* tim(r): the timers that run in the active part of r, each with its time; and the questions that stand there, each
+   with its prompt. *)
 RECURSIVE Timers(_)
 Timers(r) ==
   CASE r.op = "idle" -> << [ i |-> r.timer, time |-> r.time ] >>
+    [] r.op = "confirm" -> << [ i |-> r.timer, prompt |-> r.prompt ] >>
     [] r.op = "seq" -> Timers(r.first)
     [] r.op = "par" -> Flatten(Each(r.branches, Timers))
     [] r.op \in { "allOf", "repeat" } -> Flatten(Each(r.runs, Timers))
     [] r.op \in { "until", "watch", "hold" } -> Timers(r.body)
     [] r.op = "during" -> IF r.started THEN << [ i |-> r.timer, time |-> r.time ] >> \o Timers(r.body) ELSE << >>
     [] OTHER -> << >>
+
+IsQuestion(timer) == "prompt" \in DOMAIN timer
 
 (* So deep are closures in tasks that closures give. *)
 Deepest == 100
@@ -134,7 +138,7 @@ IsResidual(r, active) ==
             /\ Len(r.choices) > (IF r.runs = << >> THEN 1 ELSE 0) /\ areChoices(r.choices)
        [] r.op = "oneOf" -> r.choices # << >> /\ areChoices(r.choices)
        [] r.op = "until" -> Is(r.guard, "closure") /\ IsResidual(r.body, active)
-       [] r.op = "idle" -> r.timer \in Nat \ { 0 }
+       [] r.op \in { "idle", "confirm" } -> r.timer \in Nat \ { 0 }
        [] r.op = "during" ->
             /\ r.timer \in Nat \ { 0 }
             /\ r.started => active /\ ~Is(r.time, "closure")
@@ -162,6 +166,8 @@ Program == << "program" >>
 Done(v) == << "done", v >>
 FailedOn(v, m) == << "failed", v, m >>
 Expired(i) == << "expired", i >>
+(* The question i is answered by y: << "yes" >>, << "no" >>, or << "nobody", m >>. *)
+Confirmed(i, y) == << "confirmed", i, y >>
 AnsweredWith(text) == << "answered", text >>
 NobodyAnswers(m) == << "nobody answers", m >>
 Replied(y) == << "replied", y >>
@@ -177,11 +183,15 @@ ScriptTimer == 0
 (* {1 Effects} *)
 
 (* What a transition asks of the outside: <<"start", v, p>>, <<"stop", v>>, <<"set timer", i, n>>, <<"cancel timer",
-   i>>, <<"look for", q>>, <<"bind", V>>, <<"release", V>>, <<"connection timeout", V, n>>, where V is << >> for all
-   vehicles, <<"say", x>>, <<"ask", x>>, <<"call", name, arguments>>, and last of all <<"end", ending>>. *)
+   i>>, <<"put question", i, x>>, <<"withdraw question", i>>, <<"look for", q>>, <<"bind", V>>, <<"release", V>>,
+   <<"connection timeout", V, n>>, where V is << >> for all vehicles, <<"say", x>>, <<"ask", x>>, <<"call", name,
+   arguments>>, and last of all <<"end", ending>>. *)
 
-SetTimers(timers) == Each(timers, LAMBDA timer : << "set timer", timer.i, timer.time >>)
-CancelTimers(timers) == Each(timers, LAMBDA timer : << "cancel timer", timer.i >>)
+SetTimers(timers) ==
+  Each(timers, LAMBDA timer : IF IsQuestion(timer) THEN << "put question", timer.i, timer.prompt >>
+                              ELSE << "set timer", timer.i, timer.time >>)
+CancelTimers(timers) ==
+  Each(timers, LAMBDA timer : << IF IsQuestion(timer) THEN "withdraw question" ELSE "cancel timer", timer.i >>)
 
 (* cut(rs): the timers of these residuals are cancelled, then their vehicles stop. *)
 Cut(rs) ==
@@ -297,7 +307,7 @@ Recovers(t) == Lambdas[t.handler[2]].recovers
    keep. *)
 RECURSIVE TimerCount(_, _)
 TimerCount(t, first) ==
-  CASE t.op = "idle" -> 1
+  CASE t.op \in { "idle", "confirm" } -> 1
     [] t.op = "made" -> IF first THEN 1 ELSE 0
     [] t.op = "during" -> 1 + TimerCount(t.body, first)
     [] t.op = "watch" -> (IF first /\ Recovers(t) THEN 1 ELSE 0) + TimerCount(t.body, first)
@@ -348,6 +358,7 @@ Assigned(t, f, n, i, q) ==
          IN IF t.op = "oneOf" THEN [ op |-> "oneOf", choices |-> choices ] ELSE AllOf(<< >>, choices)
     [] t.op = "until" -> [ t EXCEPT !.body = Assigned(@, f, n, i, q) ]
     [] t.op = "idle" -> [ op |-> "idle", timer |-> TimerOf(i + 1, q), time |-> t.time ]
+    [] t.op = "confirm" -> [ op |-> "confirm", timer |-> TimerOf(i + 1, q), prompt |-> t.prompt, at |-> t.at ]
     [] t.op = "during" ->
          [ op |-> "during", timer |-> TimerOf(i + 1, q), time |-> t.time, started |-> FALSE, fails |-> t.fails,
            body |-> Assigned(t.body, f, n, i + 1, q) ]
@@ -590,6 +601,16 @@ InDuring(s, r) ==
 
 NoTime(x, g) == Fault(LambdaNames[g[2]] \o " takes a time of 0 seconds or more, this code gives " \o Text(x), -g[2])
 
+(* {2 Questions} *)
+
+CONFIRM_YES(S, event) == Step("CONFIRM-YES", "answer(yes)", event, S, Done_, << >>)
+CONFIRM_NO(S, r, event) ==
+  LET y == event[3]
+  IN IF y = << "no" >>
+     THEN Step("CONFIRM-NO", "answer(no)", event, S, Err(Fault("'" \o r.prompt \o "' was answered no", r.at)), << >>)
+     ELSE Step("CONFIRM-NO", "no-answer", event, S,
+               Err(Fault("no answer to '" \o r.prompt \o "': " \o y[2], r.at)), << >>)
+
 (* {2 Errors} *)
 
 WATCH_1(s, r) == By(s, "WATCH-1", Next_([ r EXCEPT !.body = s.out[2] ]))
@@ -799,6 +820,10 @@ ExpiresOn(S, r, E) ==
           [] OTHER -> WITHIN_CUT(S, r)
   IN OnThose(E, LAMBDA e : e = Expired(r.timer), LAMBDA e : expired)
 
+AnswersOn(S, r, E) ==
+  OnThose(E, LAMBDA e : e[1] = "confirmed" /\ e[2] = r.timer,
+          LAMBDA e : IF e[3] = << "yes" >> THEN CONFIRM_YES(S, e) ELSE CONFIRM_NO(S, r, e))
+
 RECURSIVE Steps(_, _, _)
 Steps(S, r, E) ==
   CodeSteps(S, r) \o
@@ -814,6 +839,7 @@ Steps(S, r, E) ==
     [] r.op = "unallocated" -> AllocateSteps(S, r)
     [] r.op = "hold" -> In(Steps(S, r.body, E), LAMBDA s : InHold(s, r))
     [] r.op = "idle" -> ExpiresOn(S, r, E)
+    [] r.op = "confirm" -> AnswersOn(S, r, E)
     [] r.op = "during" /\ r.started -> ExpiresOn(S, r, E) \o In(Steps(S, r.body, E), LAMBDA s : InDuring(s, r))
     [] r.op = "repeat" /\ r.runs # << >> -> In(Steps(S, r.runs[1], E), LAMBDA s : InRepeat(s, r))
     [] r.op = "watch" ->

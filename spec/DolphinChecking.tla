@@ -111,6 +111,8 @@ Take_UNTIL_1(ts) == \E j \in Taking("UNTIL-1", ts) : Unmarked(ts[j])
 Take_UNTIL_2(ts) == \E j \in Taking("UNTIL-2", ts) : Unmarked(ts[j])
 Take_UNTIL_ERR(ts) == \E j \in Taking("UNTIL-ERR", ts) : Unmarked(ts[j])
 Take_IDLE_END(ts) == \E j \in Taking("IDLE-END", ts) : Unmarked(ts[j])
+Take_CONFIRM_YES(ts) == \E j \in Taking("CONFIRM-YES", ts) : Unmarked(ts[j])
+Take_CONFIRM_NO(ts) == \E j \in Taking("CONFIRM-NO", ts) : Unmarked(ts[j])
 Take_DURING_SET(ts) == \E j \in Taking("DURING-SET", ts) : Unmarked(ts[j])
 Take_DURING_CUT(ts) == \E j \in Taking("DURING-CUT", ts) : Unmarked(ts[j])
 Take_WITHIN_CUT(ts) == \E j \in Taking("WITHIN-CUT", ts) : Unmarked(ts[j])
@@ -175,7 +177,8 @@ NextByRule ==
      \/ Take_SEQ_2(ts) \/ Take_SEQ_ERR(ts) \/ Take_PAR_1(ts) \/ Take_PAR_2(ts) \/ Take_PAR_ERR(ts)
      \/ Take_ALLOF_WHEN(ts) \/ Take_ALLOF_1(ts) \/ Take_ALLOF_2(ts) \/ Take_ALLOF_ERR(ts)
      \/ Take_ONEOF_WHEN(ts) \/ Take_ONEOF_ERR(ts) \/ Take_UNTIL_CUT(ts) \/ Take_ASSURE_CUT(ts)
-     \/ Take_UNTIL_1(ts) \/ Take_UNTIL_2(ts) \/ Take_UNTIL_ERR(ts) \/ Take_IDLE_END(ts) \/ Take_DURING_SET(ts)
+     \/ Take_UNTIL_1(ts) \/ Take_UNTIL_2(ts) \/ Take_UNTIL_ERR(ts) \/ Take_IDLE_END(ts)
+     \/ Take_CONFIRM_YES(ts) \/ Take_CONFIRM_NO(ts) \/ Take_DURING_SET(ts)
      \/ Take_DURING_CUT(ts) \/ Take_WITHIN_CUT(ts) \/ Take_DURING_1(ts) \/ Take_DURING_2(ts) \/ Take_DURING_ERR(ts)
      \/ Take_WATCH_1(ts) \/ Take_WATCH_2(ts) \/ Take_WATCH_IGNORE(ts) \/ Take_WATCH_PROPAGATE(ts)
      \/ Take_WATCH_HALT(ts) \/ Take_WATCH_RETRY(ts) \/ Take_WATCH_INSTEAD(ts)
@@ -230,7 +233,8 @@ EffectText(e) ==
   CASE e[1] = "start" -> "start " \o e[3].name \o " on " \o e[2]
     [] e[1] = "stop" -> "stop " \o e[2]
     [] e[1] = "set timer" -> "set timer " \o ToString(e[2]) \o " to " \o ShortText(e[3]) \o " s"
-    [] e[1] = "cancel timer" -> "cancel timer " \o ToString(e[2])
+    [] e[1] \in { "cancel timer", "withdraw question" } -> e[1] \o " " \o ToString(e[2])
+    [] e[1] = "put question" -> "put question " \o ToString(e[2]) \o ": " \o e[3]
     [] e[1] = "look for" -> "look for " \o PickText(e[2])
     [] e[1] \in { "bind", "release" } -> e[1] \o " " \o Join(e[2], ", ")
     [] e[1] = "connection timeout" ->

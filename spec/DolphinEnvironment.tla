@@ -14,6 +14,7 @@ CONSTANTS
   Answers(_),    \* to a prompt: for the first time it is asked, the second ..., the answers that may be given; the last
                  \* item is for all later times
   Prompts,       \* the prompts whose answers depend on how often they were asked
+  Confirmations(_), \* to the prompt of a task's question: how it may be answered, as in Confirmed
   HostReplies(_, _), \* to a call, made at this place: likewise what the host may reply, <<"value", y>>, or why it
                  \* fails, <<"failure", m>>
   Calls,         \* the calls whose replies depend on how often they were made
@@ -66,8 +67,14 @@ EndsOf(v) ==
      \o (IF fails \/ mayFail THEN << Failure(v) >> ELSE << >>)
      \o (IF MayBeLost(v) THEN << LostConnection(v) >> ELSE << >>)
 
-(* The events that may come while r executes. A timer that runs may expire at any moment. *)
-Events(r) == Flatten(Each(Running(r), EndsOf)) \o Each(Timers(r), LAMBDA timer : Expired(timer.i))
+(* A timer that runs may expire at any moment, and a question that stands may be answered: in which order answers are
+   given is left open. *)
+EndsOfTimer(timer) ==
+  IF IsQuestion(timer) THEN Each(Confirmations(timer.prompt), LAMBDA y : Confirmed(timer.i, y))
+  ELSE << Expired(timer.i) >>
+
+(* The events that may come while r executes. *)
+Events(r) == Flatten(Each(Running(r), EndsOf)) \o Flatten(Each(Timers(r), EndsOfTimer))
 
 (* Failures and losses are counted where their number is bounded. Of a vehicle whose task ends otherwise than by a loss
    something was heard. *)
@@ -265,7 +272,7 @@ Next == \E j \in DOMAIN Transitions : Becomes(Transitions[j])
 (* Nobody need ever interrupt, or post what is not certain. *)
 IsOwed(event) == event # Interruption /\ (event[1] = "input" => event[4])
 IsProgram(event) == event = Program
-IsTimer(event) == event[1] = "expired"
+IsTimer(event) == event[1] \in { "expired", "confirmed" }
 IsEndOf(v, event) == event[1] \in { "done", "failed" } /\ event[2] = v
 
 -----------------------------------------------------------------------------

@@ -143,8 +143,8 @@ HeldBy(rs) ==
             [] r.op = "hold" -> Range(r.vehicles)
             [] OTHER -> { } : r \in Range(Nodes(rs)) }
 
-(* The timers that they name. *)
-NumbersIn(rs) == { r.timer : r \in { r \in Range(Nodes(rs)) : r.op \in { "idle", "during" } } }
+(* The timers that they name, and the questions. *)
+NumbersIn(rs) == { r.timer : r \in { r \in Range(Nodes(rs)) : r.op \in { "idle", "confirm", "during" } } }
 
 (* {1 Machines} *)
 
@@ -685,6 +685,7 @@ MakeTask(op, at, xs) ==
        [] op = "idle" ->
             IF IsTime(x) THEN Ok(TaskValue([ op |-> "idle", time |-> Time(x) ]))
             ELSE TimeWanted("idle", "a time after idle, as in idle(10.seconds)", x)
+       [] op = "confirm" -> Ok(TaskValue([ op |-> "confirm", prompt |-> Text(x), at |-> at ]))
        [] op \in { "during", "within" } ->
             LET fails == IF op = "within" THEN << at >> ELSE << >>
                 during(time) == Ok(TaskValue([ op |-> "during", time |-> time, fails |-> fails, body |-> TaskOf(y) ]))
@@ -693,7 +694,8 @@ MakeTask(op, at, xs) ==
                  [] IsTime(x) -> during(Time(x))
                  [] OTHER -> TimeWanted(op, "a time after " \o op \o ", as in " \o op \o " 10.minutes run T", x)
 
-TaskNames == { "action", "condition", "waitFor", "until", "assure", "watch", "idle", "during", "within" }
+TaskNames == { "action", "condition", "waitFor", "until", "assure", "watch", "idle", "confirm", "during",
+               "within" }
 
 (* Whether t is done without any wait. *)
 RECURSIVE NeverWaits(_)

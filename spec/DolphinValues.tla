@@ -255,6 +255,7 @@ TaskText(t, level) ==
          LET name == IF t.fails = << >> THEN "until" ELSE "assure"
          IN Parenthesised(0, level, name \o " { ... } run " \o TaskText(t.body, 1))
     [] t.op = "idle" -> "idle(" \o ShortText(t.time) \o ".seconds)"
+    [] t.op = "confirm" -> "confirm(" \o Quoted(t.prompt) \o ")"
     [] t.op = "during" ->
          LET time == IF Is(t.time, "closure") THEN "{ ... }" ELSE ShortText(t.time) \o ".seconds"
              name == IF t.fails = << >> THEN "during " ELSE "within "

@@ -10,8 +10,8 @@ let most_transitions = 200_000
 
 let started : Effect.t -> (Core.vehicle * Core.platform_task) option = function
   | Start (v, task) -> Some (v, task)
-  | Stop _ | Set_timer _ | Cancel_timer _ | Look_for _ | Bind _ | Release _ | Set_connection_timeout _ | Say _ | Ask _
-  | Call_host _ | End _ -> None
+  | Stop _ | Set_timer _ | Cancel_timer _ | Put_question _ | Withdraw_question _ | Look_for _ | Bind _ | Release _
+  | Set_connection_timeout _ | Say _ | Ask _ | Call_host _ | End _ -> None
 
 (* Where vehicles are, as the run hears it, and how fast they go. *)
 let observed (fleet : Fleet_file.t) found =

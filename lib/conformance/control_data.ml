@@ -31,6 +31,7 @@ let rec of_residual budget (r : Residual.t) : json =
   | Until (Completes, c, a) -> tagged "until" [ code c; part a ]
   | Until (Fails site, c, a) -> tagged "assure" [ `Int site; code c; part a ]
   | Idle { timer; seconds } -> tagged "idle" [ `Int timer; of_float seconds ]
+  | Confirm { question; prompt; site } -> tagged "confirm" [ `Int site; `Int question; `String prompt ]
   | During { on_cut; timer; duration; started; body } ->
     let parts = [ `Int timer; of_duration budget duration; `Bool started; part body ] in
     (match on_cut with Completes -> tagged "during" parts | Fails site -> tagged "within" (`Int site :: parts))
@@ -65,6 +66,8 @@ let rec residual nodes (json : json) : Residual.t =
   | `List [ `String "until"; c; a ] -> Until (Completes, code c, part a)
   | `List [ `String "assure"; site; c; a ] -> Until (Fails (whole site), code c, part a)
   | `List [ `String "idle"; timer; seconds ] -> Idle { timer = whole timer; seconds = float seconds }
+  | `List [ `String "confirm"; site; question; prompt ] ->
+    Confirm { question = whole question; prompt = text prompt; site = whole site }
   | `List [ `String "during"; timer; d; started; body ] -> during Completes timer d started body
   | `List [ `String "within"; site; timer; d; started; body ] -> during (Fails (whole site)) timer d started body
   | `List [ `String "watch"; a; c ] -> Watch (part a, { code = code c; anew = None })

@@ -117,6 +117,9 @@ let patterns (c : Configuration.t) (awaited : Transition.awaited) : members list
   match awaited, c.control with
   | End_of v, _ -> List.map (fun name -> named name [ ("vehicle", `String v) ]) [ "done"; "failed" ]
   | Expiry_of timer, _ -> [ named "timer" [ ("timer", `Int timer) ] ]
+  | Answer_to (question, prompt), _ ->
+    let of_it = [ ("question", `Int question); ("prompt", `String prompt) ] in
+    [ named "confirmation" of_it; named "no-confirmation" of_it ]
   | Answer, Waiting (_, Ask prompt) -> [ named "answer" [ ("prompt", `String prompt) ]; named "no-answer" [] ]
   | Answer, (Waiting _ | Script _ | Executing _ | Ended _) -> []
   | Reply, _ -> [ named "reply" []; named "no-reply" [] ]
@@ -125,7 +128,7 @@ let patterns (c : Configuration.t) (awaited : Transition.awaited) : members list
 let is_awaited g world c (awaited : Transition.awaited) =
   match awaited with
   | Expiry_of timer -> Result.is_ok (Transition.accept g.program world c (Timer_expired timer))
-  | End_of _ | Answer | Reply -> true
+  | End_of _ | Answer_to _ | Answer | Reply -> true
 
 let has_ended (c : Configuration.t) =
   match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false
@@ -144,7 +147,7 @@ let plain events : Event.t list =
   let of_awaited : Transition.awaited -> Event.t option = function
     | End_of v -> Some (Done v)
     | Expiry_of timer -> Some (Timer timer)
-    | Answer | Reply -> None
+    | Answer_to _ | Answer | Reply -> None
   in
   List.filter_map of_awaited events
 

@@ -62,6 +62,7 @@ and of_task budget (t : task) : json =
   | Until (Completes, c, a) -> tagged "until" [ code c; part a ]
   | Until (Fails site, c, a) -> tagged "assure" [ `Int site; code c; part a ]
   | Idle seconds -> tagged "idle" [ of_float seconds ]
+  | Confirm { prompt; site } -> tagged "confirm" [ `Int site; `String prompt ]
   | During (Completes, d, a) -> tagged "during" [ of_duration budget d; part a ]
   | During (Fails site, d, a) -> tagged "within" [ `Int site; of_duration budget d; part a ]
   | Watch (a, c) -> tagged "watch" [ part a; code c ]
@@ -144,6 +145,7 @@ and task nodes (json : json) : task =
   | `List [ `String "until"; c; a ] -> Until (Completes, code c, part a)
   | `List [ `String "assure"; site; c; a ] -> Until (Fails (whole site), code c, part a)
   | `List [ `String "idle"; seconds ] -> Idle (float seconds)
+  | `List [ `String "confirm"; site; prompt ] -> Confirm { prompt = text prompt; site = whole site }
   | `List [ `String "during"; d; a ] -> During (Completes, duration nodes d, part a)
   | `List [ `String "within"; site; d; a ] -> During (Fails (whole site), duration nodes d, part a)
   | `List [ `String "watch"; a; c ] -> Watch (part a, code c)

@@ -147,7 +147,10 @@ let events (environment : Case.environment) configuration awaited =
     | "answer" ->
       let texts = Option.value (List.assoc_opt (text "prompt" json) environment.answers) ~default:[] in
       List.map (fun answer -> event "answer" [ ("text", `String answer) ]) texts
-    | "no-answer" -> []
+    | "confirmation" ->
+      let question = match json with `Assoc members -> List.assoc "question" members | _ -> `Null in
+      List.map (fun yes -> event "confirmation" [ ("question", question); ("yes", `Bool yes) ]) [ true; false ]
+    | "no-answer" | "no-confirmation" -> []
     | "reply" -> List.map (fun x -> event "reply" [ ("value", x) ]) environment.replies
     | "no-reply" -> if environment.replies = [] then [ event "no-reply" [ ("why", `String "no host") ] ] else []
     | "interruption" -> if environment.interruption then [ event "interruption" [] ] else []

@@ -138,7 +138,8 @@ let begin_ ~id ~changed order go =
   let feed = Feed.create ~run:id in
   let finished, finish = Lwt.wait () and opened, open_ = Lwt.wait () in
   let view : Run.view =
-    { now = (fun () -> 0.); estimates = (fun () -> []); post = (fun _ _ -> Lwt.return_false) } in
+    { now = (fun () -> 0.); estimates = (fun () -> []); post = (fun _ _ -> Lwt.return_false);
+      questions = (fun () -> []) } in
   let r =
     { id; order; feed; narrator = Narrator.make order.program feed; interruption = Interruption.make (); changed;
       finished; finish; opened; open_; view; last = 0.; question = None; questions = 0; refused = None; state = Running;
@@ -174,13 +175,17 @@ let stop r =
 
 let post r pairs =
   let program = r.order.program.program in
-  let refused = List.find_map (fun (key, _) -> Result.fold (Typed_input.declared program key)
-                                  ~ok:(fun () -> None) ~error:Option.some) pairs in
+  let why (key, x) =
+    let declared = Typed_input.declared program ~questions:(r.view.questions ()) key in
+    match Result.bind declared (fun () -> Typed_input.fits program key x) with Ok () -> None | Error why -> Some why
+  in
+  let refused = List.find_map why pairs in
   let rec each = function
     | [] -> Lwt.return (Ok (now r))
     | (key, x) :: rest -> (
         r.view.post key x >>= function
         | true -> each rest
+        | false when goes_on r -> Lwt.return (Error "this question is not open any more")
         | false -> Lwt.return (Error "the run has ended"))
   in
   match refused with

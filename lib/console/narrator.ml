@@ -53,8 +53,8 @@ let places n ~time (before : Shared.t) =
 let ways n ~time (t : Transition.t) =
   let of_effect : Effect.t -> Yojson.Safe.t option = function
     | Start (v, task) -> Charted.way n.world v task
-    | Stop _ | Set_timer _ | Cancel_timer _ | Look_for _ | Bind _ | Release _ | Set_connection_timeout _ | Say _ | Ask _
-    | Call_host _ | End _ -> None
+    | Stop _ | Set_timer _ | Cancel_timer _ | Put_question _ | Withdraw_question _ | Look_for _ | Bind _ | Release _
+    | Set_connection_timeout _ | Say _ | Ask _ | Call_host _ | End _ -> None
   in
   List.iter (fun way -> tell n "way" (timed ~time "way" way)) (List.filter_map of_effect t.effects)
 

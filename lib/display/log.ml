@@ -138,7 +138,8 @@ let of_effect ~stuck l : Effect.t -> happening list = function
   | Say text -> [ of_deed (Said text) ]
   | Set_connection_timeout (vs, seconds) -> [ of_deed (Set_connection_timeout (vs, seconds)) ]
   | End e -> [ of_ending ~stuck e ]
-  | Set_timer _ | Cancel_timer _ | Look_for _ | Ask _ | Call_host _ -> []
+  | Withdraw_question _ -> [ of_program "withdraws its question" ]
+  | Set_timer _ | Cancel_timer _ | Put_question _ | Look_for _ | Ask _ | Call_host _ -> []
 
 let transition ?(stuck = false) l ~time (s : Transition.t) =
   let bound = s.next.shared.bound in

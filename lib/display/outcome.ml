@@ -22,8 +22,8 @@ let transition o ~time (s : Transition.t) =
   let of_effect o : Effect.t -> t = function
     | Stop _ -> { o with stopped = o.stopped + 1 }
     | End ending -> { o with ending = Some ending }
-    | Start _ | Set_timer _ | Cancel_timer _ | Look_for _ | Bind _ | Release _ | Set_connection_timeout _ | Say _
-    | Ask _ | Call_host _ -> o
+    | Start _ | Set_timer _ | Cancel_timer _ | Put_question _ | Withdraw_question _ | Look_for _ | Bind _ | Release _
+    | Set_connection_timeout _ | Say _ | Ask _ | Call_host _ -> o
   in
   List.fold_left of_effect o s.effects
 

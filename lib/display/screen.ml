@@ -124,6 +124,8 @@ let ask s prompt =
   s.asking <- true;
   write s (prompt ^ " ")
 
+let is_asking s = s.asking
+
 let answered s text =
   s.asking <- false;
   Option.iter (fun text -> write s (text ^ "\n")) text;

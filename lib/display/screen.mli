@@ -21,6 +21,9 @@ val changed : t -> unit
 val ask : t -> string -> unit
 (** [ask s prompt] shows [prompt] at once, the cursor behind it and no board under it, until {!answered}. *)
 
+val is_asking : t -> bool
+(** [is_asking s] is whether the last line is a question. *)
+
 val answered : t -> string option -> unit
 (** [answered s text] ends the line of the question with [text]; [None] after what was typed there, which ended it. *)
 

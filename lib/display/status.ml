@@ -20,8 +20,8 @@ let transition b ~time (s : Transition.t) =
     | Start (v, p) ->
       { b with running = Vehicle_map.add v (p, time) b.running; failed = Vehicle_map.remove v b.failed }
     | Stop v -> { b with running = Vehicle_map.remove v b.running }
-    | Set_timer _ | Cancel_timer _ | Look_for _ | Bind _ | Release _ | Set_connection_timeout _ | Say _ | Ask _
-    | Call_host _ | End _ -> b
+    | Set_timer _ | Cancel_timer _ | Put_question _ | Withdraw_question _ | Look_for _ | Bind _ | Release _
+    | Set_connection_timeout _ | Say _ | Ask _ | Call_host _ | End _ -> b
   in
   let b =
     match s.label with

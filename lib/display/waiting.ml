@@ -87,9 +87,15 @@ let list program ~source world (c : Configuration.t) =
   | Script _ | Ended _ -> []
   | Waiting (m, request) -> [ of_request world request (location program (Machine.site m)) ]
   | Executing (_, r) ->
+    let question : Residual.t -> t option = function
+      | Confirm { prompt; site; _ } ->
+        Some { what = "yes or no to " ^ words prompt; at = location program site; lacking = None }
+      | _ -> None
+    in
+    let questions = Residual.fold_active (fun found r -> found @ Option.to_list (question r)) [] r in
     let add found (guard : Core.closure) =
       let is_of (g : Core.closure) = g.lambda.id = guard.lambda.id in
       if List.exists is_of found then found else guard :: found
     in
     let once = List.rev (List.fold_left add [] (Dolphin_runtime.Driver.guards r)) in
-    List.map (of_guard program ~source world c.shared) once
+    questions @ List.map (of_guard program ~source world c.shared) once

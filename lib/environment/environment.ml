@@ -149,6 +149,15 @@ let answered options program e prompt : ((Transition.event, Transition.refusal) 
     let e = { e with asked = once_more prompt e.asked rounds } in
     List.map (fun text -> (Answer.event program text, e)) texts
 
+(* Of a task's question: in which order answers are given is left open. *)
+let confirmations options prompt : (bool, string) result list =
+  match List.concat (options.answers prompt) with
+  | [] -> [ Ok true; Ok false ]
+  | texts -> (
+      match List.sort_uniq (fun a b -> Bool.compare b a) (List.filter_map Answer.confirmation texts) with
+      | [] -> [ Error "the fleet's answers are neither yes nor no" ]
+      | found -> List.map Result.ok found)
+
 let no_reply call = Format.asprintf "the fleet has no reply %a" Value.pp (String call)
 
 let replied options e site call : ((Transition.event, Transition.refusal) result * t) list =
@@ -209,6 +218,8 @@ let events options program e (c : Configuration.t) (awaited : Transition.awaited
   | Reply, Waiting (_, Host_call { subject; member; _ }) ->
     replied options e (Configuration.site c) (Machine.name_of_call ~subject ~member)
   | Expiry_of timer, _ -> [ (Ok (Transition.Timer_expired timer), e) ]
+  | Answer_to (question, prompt), _ ->
+    List.map (fun reply -> (Ok (Transition.Confirmed (question, reply)), e)) (confirmations options prompt)
   | (Answer | Reply), (Script _ | Waiting _ | Executing _ | Ended _) -> []
 
 type choice = { transition : Transition.t; outside : t; on : Transition.event option }

@@ -88,6 +88,10 @@ val failure : string
 val loss : string
 (** Why it does where the connection is lost: ["connection lost"]. *)
 
+val confirmations : options -> string -> (bool, string) result list
+(** [confirmations o prompt] is how the question of a task may be answered, whether by yes: as any of the answers that
+    are given for [prompt]; if there are none, by yes and by no. If none of them is yes or no, nobody answers. *)
+
 val no_reply : string -> string
 (** [no_reply call] is why [call] fails where [replies] has nothing for it: what the fleet lacks. *)
 

@@ -17,7 +17,8 @@ let part ~vehicles ~timers history =
     | Release vs -> Some (Release (List.filter vehicles vs))
     | Set_connection_timeout (Some vs, seconds) ->
       Some (Set_connection_timeout (Some (List.filter vehicles vs), seconds))
-    | (Set_connection_timeout (None, _) | Say _ | Ask _ | Call_host _ | End _) as asked -> Some asked
+    | ( Set_connection_timeout (None, _) | Put_question _ | Withdraw_question _ | Say _ | Ask _ | Call_host _
+      | End _ ) as asked -> Some asked
   in
   let entry e =
     let keep fits = if fits then Some e else None in
@@ -25,7 +26,8 @@ let part ~vehicles ~timers history =
     | Saw state -> keep (vehicles state.id)
     | Noted (v, _) | Happened (Vehicle_done v | Vehicle_failed (v, _)) -> keep (vehicles v)
     | Happened (Timer_expired _) -> keep timers
-    | Happened (Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _ | Interruption) -> Some e
+    | Happened
+        (Confirmed _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _ | Interruption) -> Some e
     | Asked effects -> Some { e with what = Asked (List.filter_map effect_of effects) }
   in
   List.filter_map entry history
@@ -71,7 +73,7 @@ let ask ~announce_period time s : Effect.t -> outstanding = function
   | Set_connection_timeout (None, seconds) -> { s with timeout = Some seconds; timeouts = [] }
   | Set_connection_timeout (Some vs, seconds) ->
     { s with timeouts = List.fold_left (fun timeouts v -> put v seconds timeouts) s.timeouts vs }
-  | Say _ | Ask _ | Call_host _ | End _ -> s
+  | Put_question _ | Withdraw_question _ | Say _ | Ask _ | Call_host _ | End _ -> s
 
 let outstanding ~announce_period history =
   let add s { time; what } =
@@ -80,22 +82,33 @@ let outstanding ~announce_period history =
     | Noted (v, note) -> with_task v (fun c -> { c with notes = note :: c.notes }) s
     | Happened (Vehicle_done v | Vehicle_failed (v, _)) -> { s with tasks = List.remove_assoc v s.tasks }
     | Happened (Timer_expired timer) -> { s with timers = List.remove_assoc timer s.timers }
-    | Happened (Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _ | Interruption) -> s
+    | Happened
+        (Confirmed _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _ | Interruption) -> s
     | Asked effects -> List.fold_left (ask ~announce_period time) s effects
   in
   List.fold_left add nothing history
 
 let answers history =
-  let add (prompt, found) { what; time = _ } =
+  let put (latest, standing) : Effect.t -> _ = function
+    | Ask prompt -> (Some prompt, standing)
+    | Put_question (question, prompt) -> (latest, put question prompt standing)
+    | _ -> (latest, standing)
+  in
+  let add (latest, standing, found) { what; time = _ } =
     match what with
     | Asked effects ->
-      let latest prompt : Effect.t -> _ = function Ask text -> Some text | _ -> prompt in
-      (List.fold_left latest prompt effects, found)
+      let latest, standing = List.fold_left put (latest, standing) effects in
+      (latest, standing, found)
     | Happened (Answered { text; _ }) ->
-      (prompt, Option.fold prompt ~none:found ~some:(fun prompt -> (prompt, text) :: found))
-    | Saw _ | Noted _ | Happened _ -> (prompt, found)
+      (latest, standing, Option.fold latest ~none:found ~some:(fun prompt -> (prompt, text) :: found))
+    | Happened (Confirmed (question, Ok yes)) ->
+      let text = if yes then "yes" else "no" in
+      let prompt = List.assoc_opt question standing in
+      (latest, standing, Option.fold prompt ~none:found ~some:(fun prompt -> (prompt, text) :: found))
+    | Saw _ | Noted _ | Happened _ -> (latest, standing, found)
   in
-  List.rev (snd (List.fold_left add (None, []) history))
+  let _, _, found = List.fold_left add (None, [], []) history in
+  List.rev found
 
 let replies history =
   let call found : Effect.t -> _ = function

@@ -1,11 +1,16 @@
 open Dolphin_semantics
 
 type item = { key : string; value : Core.value; told : bool Lwt.u }
-type t = { items : item Lwt_stream.t; push : item option -> unit; mutable closed : bool }
+type t = {
+  items : item Lwt_stream.t;
+  push : item option -> unit;
+  mutable closed : bool;
+  mutable questions : string list;
+}
 
 let create () =
   let items, push = Lwt_stream.create () in
-  { items; push; closed = false }
+  { items; push; closed = false; questions = [] }
 
 let post t key value =
   if t.closed then Lwt.return_false
@@ -15,6 +20,9 @@ let post t key value =
     taken
   end
 
+let questions t = t.questions
+let is_closed t = t.closed
+let ask t questions = t.questions <- questions
 let next t = Lwt_stream.next t.items
 let tell item taken = Lwt.wakeup_later item.told taken
 

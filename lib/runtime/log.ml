@@ -8,6 +8,8 @@ let pp_event ppf : Transition.event -> unit = function
   | Vehicle_done v -> Fmt.pf ppf "%s ends its task" v
   | Vehicle_failed (v, why) -> Fmt.pf ppf "%s fails: %s" v why
   | Timer_expired timer -> Fmt.pf ppf "timer %d expires" timer
+  | Confirmed (question, Ok yes) -> Fmt.pf ppf "question %d: %s" question (if yes then "yes" else "no")
+  | Confirmed (question, Error why) -> Fmt.pf ppf "question %d: no answer: %s" question why
   | Answered { text; _ } -> Fmt.pf ppf "answer %S" text
   | Nobody_answers why -> Fmt.pf ppf "no answer: %s" why
   | Replied x -> Fmt.pf ppf "the host replies %a" Value.pp x

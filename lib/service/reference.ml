@@ -55,7 +55,8 @@ let procedures =
       "At the top: pairs with these keys may be posted from outside at any time.";
       "onInterrupt", "onInterrupt { vs -> T }",
       "At the top: what Ctrl-C executes instead of only stopping, by the vehicles picked. A second Ctrl-C stops all.";
-      "confirm", "confirm 'prompt'", "Asks a question that takes yes or no.";
+      "confirm", "confirm 'prompt'",
+      "Asks a question that takes yes or no. As part of a task: a task, done by yes, failed by no.";
       "message", "message x", "Shows a value to people.";
       "println", "println x", "Shows a value to people, as `message`.";
       "pause", "pause 2.min", "Makes the script wait.";

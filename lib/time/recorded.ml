@@ -17,7 +17,7 @@ let start options =
 
 (* People and suppliers take their time, and post when they like. *)
 let is_timed (p : Timed.pending) =
-  match p.item with Task _ | Timer _ -> true | Answer | Reply | Posting _ -> false
+  match p.item with Task _ | Timer _ -> true | Question _ | Answer | Reply | Posting _ -> false
 
 let is_lost why = String.length why >= 15 && String.sub why 0 15 = "connection lost"
 

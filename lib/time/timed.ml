@@ -8,7 +8,14 @@ type options = {
   durations : Durations.t;
 }
 
-type item = Task of Core.vehicle | Timer of Residual.timer | Answer | Reply | Posting of string
+type item =
+  | Task of Core.vehicle
+  | Timer of Residual.timer
+  | Question of Residual.timer
+  | Answer
+  | Reply
+  | Posting of string
+
 type pending = { item : item; bounds : Bounds.t; task : Core.platform_task option }
 
 type state = {
@@ -44,12 +51,14 @@ let hash s = (Configuration.hash s.configuration * 31) + Environment.hash s.outs
 let of_awaited : Transition.awaited -> item = function
   | End_of v -> Task v
   | Expiry_of timer -> Timer timer
+  | Answer_to (question, _) -> Question question
   | Answer -> Answer
   | Reply -> Reply
 
 let of_event : Transition.event -> item option = function
   | Vehicle_done v | Vehicle_failed (v, _) -> Some (Task v)
   | Timer_expired timer -> Some (Timer timer)
+  | Confirmed (question, _) -> Some (Question question)
   | Answered _ | Nobody_answers _ -> Some Answer
   | Replied _ | Host_failed _ -> Some Reply
   | Input (k, _) -> Some (Posting k)
@@ -66,9 +75,11 @@ let begun o elsewhere : Effect.t -> pending option =
   | Set_timer (i, seconds) -> timer i (Bounds.exactly seconds)
   | Look_for pick ->
     timer Residual.script_timer (Option.fold ~none:o.durations.announced ~some:Bounds.exactly pick.timeout)
+  | Put_question (question, _) -> Some { item = Question question; bounds = Some_time; task = None }
   | Ask _ -> Some { item = Answer; bounds = Bounds.at_once; task = None }
   | Call_host _ -> Some { item = Reply; bounds = Bounds.at_once; task = None }
-  | Stop _ | Cancel_timer _ | Bind _ | Release _ | Set_connection_timeout _ | Say _ | End _ -> None
+  | Stop _ | Cancel_timer _ | Withdraw_question _ | Bind _ | Release _ | Set_connection_timeout _ | Say _ | End _ ->
+    None
 
 (* Pairs may be posted until the end. *)
 let postings o (c : Configuration.t) outside =

@@ -15,6 +15,7 @@ type options = {
 type item =
   | Task of Core.vehicle
   | Timer of Residual.timer
+  | Question of Residual.timer  (** the answer to a task's question *)
   | Answer
   | Reply
   | Posting of string  (** of a pair with this key *)

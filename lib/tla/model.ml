@@ -100,6 +100,13 @@ let answer translation program text =
 let answers translation program (environment : Environment.options) prompts =
   cases "prompt" prompts (fun prompt -> in_rounds (answer translation program) (environment.answers prompt))
 
+let confirmations (environment : Environment.options) prompts =
+  let reply = function
+    | Ok yes -> Tla.strings [ (if yes then "yes" else "no") ]
+    | Error why -> Tla.strings [ "nobody"; why ]
+  in
+  cases "prompt" prompts (fun prompt -> Tla.Tuple (List.map reply (Environment.confirmations environment prompt)))
+
 (* [at] is a parameter of the definition: where the call is made. *)
 let reply translation = function
   | Ok x -> Tla.Tuple [ String "value"; Translation.reply translation ~at:(Name "at") x ]
@@ -133,7 +140,7 @@ let tables = [ "Fleet"; "Code"; "Lambdas"; "LambdaNames"; "Places"; "Distances";
 
 let small =
   [ "Main"; "OnInterrupt"; "GlobalNames"; "OrderedKeys"; "Prompts"; "Failures"; "Losses"; "Latecomers"; "MayBeLate";
-    "Calls"; "Inputs"; "SiteOf"; "Ending"; "Answers"; "HostReplies" ]
+    "Calls"; "Inputs"; "SiteOf"; "Ending"; "Answers"; "Confirmations"; "HostReplies" ]
 
 let definition ppf name e = Format.fprintf ppf "%s == %a@.@." name Tla.pp e
 
@@ -155,6 +162,7 @@ let table ppf name rows =
 let text program world (environment : Environment.options) plans prompts calls translation main on_interrupt =
   let fleet = List.map (fun s -> (vehicle translation world s, None)) (World.vehicles world) in
   let answers = answers translation program environment prompts in
+  let confirmations = confirmations environment prompts in
   let replies = replies translation environment calls in
   let inputs = inputs translation program environment in
   let b = Buffer.create 10_000 in
@@ -188,6 +196,7 @@ let text program world (environment : Environment.options) plans prompts calls t
     (sites (Translation.code translation)) Tla.pp (sites (Translation.lambdas translation));
   Format.fprintf ppf "MCEnding(v, p) ==@.  %s@.@." (endings environment world plans);
   Format.fprintf ppf "MCAnswers(prompt) ==@.  %s@.@." answers;
+  Format.fprintf ppf "MCConfirmations(prompt) ==@.  %s@.@." confirmations;
   Format.fprintf ppf "MCHostReplies(call, at) ==@.  %s@.@." replies;
   List.iter (fun name -> Format.fprintf ppf "The%s == MC%s@." name name) tables;
   Format.fprintf ppf "====@.";

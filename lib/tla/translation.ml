@@ -185,6 +185,7 @@ and procedure t site builtin : Tla.t =
   | Make_until Completes -> plain "until"
   | Make_until Fails -> plain "assure"
   | Make_idle -> plain "idle"
+  | Make_confirm -> plain "confirm"
   | Make_during Completes -> plain "during"
   | Make_during Fails -> plain "within"
   | Make_watch -> plain "watch"

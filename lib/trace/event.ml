@@ -6,6 +6,8 @@ type t =
   | Done of string
   | Failed of { vehicle : string; why : string }
   | Timer of int
+  | Confirmation of { question : int; yes : bool }
+  | No_confirmation of { question : int; why : string }
   | Answer of string
   | No_answer of string
   | Reply of Yojson.Safe.t
@@ -20,6 +22,8 @@ let of_event : Transition.event -> t = function
   | Vehicle_done v -> Done v
   | Vehicle_failed (vehicle, why) -> Failed { vehicle; why }
   | Timer_expired timer -> Timer timer
+  | Confirmed (question, Ok yes) -> Confirmation { question; yes }
+  | Confirmed (question, Error why) -> No_confirmation { question; why }
   | Answered { text; _ } -> Answer text
   | Nobody_answers why -> No_answer why
   | Replied x -> Reply (json_of x)
@@ -39,6 +43,8 @@ let to_event program c : t -> (Transition.event, fault) result = function
   | Done v -> Ok (Vehicle_done v)
   | Failed { vehicle; why } -> Ok (Vehicle_failed (vehicle, why))
   | Timer timer -> Ok (Timer_expired timer)
+  | Confirmation { question; yes } -> Ok (Confirmed (question, Ok yes))
+  | No_confirmation { question; why } -> Ok (Confirmed (question, Error why))
   | Answer text -> answer program c text
   | No_answer why -> Ok (Nobody_answers why)
   | Reply json -> (
@@ -58,6 +64,9 @@ let members h : members =
   | Done v -> event "done" [ ("vehicle", `String v) ]
   | Failed { vehicle; why } -> event "failed" [ ("vehicle", `String vehicle); ("why", `String why) ]
   | Timer timer -> event "timer" [ ("timer", `Int timer) ]
+  | Confirmation { question; yes } -> event "confirmation" [ ("question", `Int question); ("yes", `Bool yes) ]
+  | No_confirmation { question; why } ->
+    event "no-confirmation" [ ("question", `Int question); ("why", `String why) ]
   | Answer text -> event "answer" [ ("text", `String text) ]
   | No_answer why -> event "no-answer" [ ("why", `String why) ]
   | Reply json -> event "reply" [ ("value", json) ]
@@ -74,6 +83,12 @@ let of_members found =
     let* why = get text "why" found in
     Ok (Failed { vehicle; why })
   | "timer" -> Result.map (fun timer -> Timer timer) (get whole "timer" found)
+  | "confirmation" ->
+    let* question = get whole "question" found in
+    Result.map (fun yes -> Confirmation { question; yes }) (get truth "yes" found)
+  | "no-confirmation" ->
+    let* question = get whole "question" found in
+    Result.map (fun why -> No_confirmation { question; why }) (get text "why" found)
   | "answer" -> Result.map (fun text -> Answer text) (get text "text" found)
   | "no-answer" -> Result.map (fun why -> No_answer why) (get text "why" found)
   | "reply" -> Result.map (fun json -> Reply json) (get any "value" found)
@@ -92,6 +107,8 @@ let pp ppf h =
   | Failed { vehicle; why } -> print "the failure of %s's task (%s)" vehicle why
   | Timer 0 -> print "the end of the script's pause or pick"
   | Timer timer -> print "the end of timer %d" timer
+  | Confirmation { yes; _ } -> print "the answer %s" (if yes then "yes" else "no")
+  | No_confirmation _ -> print "no answer"
   | Answer text -> print "the answer %s" text
   | No_answer _ -> print "no answer"
   | Reply json -> print "the host's reply %s" (Canonical.to_string json)

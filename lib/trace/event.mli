@@ -6,6 +6,8 @@ type t =
   | Done of string
   | Failed of { vehicle : string; why : string }
   | Timer of int
+  | Confirmation of { question : int; yes : bool }  (** of a task's question *)
+  | No_confirmation of { question : int; why : string }
   | Answer of string
   | No_answer of string
   | Reply of Yojson.Safe.t  (** a value as {!Dolphin_json.Host_value} writes it *)

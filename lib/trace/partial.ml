@@ -77,6 +77,13 @@ let events p (c : Configuration.t) label =
   let of_awaited : Transition.awaited -> Transition.event list = function
     | End_of v -> ends v
     | Expiry_of timer -> [ Timer_expired timer ]
+    | Answer_to (question, _) -> (
+        match label with
+        | Some "no-answer" -> [ Confirmed (question, Error "") ]
+        | Some label ->
+          let yes = Option.bind (inside "answer(" label) Answer.confirmation in
+          Option.to_list (Option.map (fun yes -> Transition.Confirmed (question, Ok yes)) yes)
+        | None -> [ Confirmed (question, Ok true); Confirmed (question, Ok false) ])
     | Answer -> (
         match label with
         | None -> []

@@ -56,6 +56,7 @@ let awaited r =
   let show : Transition.awaited -> string = function
     | End_of v -> Format.asprintf "%a" Event.pp (Done v)
     | Expiry_of timer -> Format.asprintf "%a" Event.pp (Timer timer)
+    | Answer_to (_, prompt) -> Printf.sprintf "an answer to '%s'" prompt
     | Answer -> "an answer"
     | Reply -> "a reply of the host"
   in
@@ -79,7 +80,8 @@ let false_guards r =
       match offer with
       | Check c -> if_false c
       | Take c -> if_false c
-      | Start _ | Perform _ | Refute _ | Decide _ | Measure _ | Make _ | Allocate _ | End_of _ | Expiry_of _ -> None
+      | Start _ | Perform _ | Refute _ | Decide _ | Measure _ | Make _ | Allocate _ | End_of _ | Expiry_of _
+      | Answer_to _ -> None
     in
     first most_shown (Seq.filter_map is_false (Task_rules.internal_steps residual))
 

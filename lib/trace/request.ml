@@ -9,6 +9,8 @@ type t =
   | Stop of string
   | Set_timer of { timer : int; seconds : float }
   | Cancel_timer of int
+  | Put_question of { question : int; prompt : string }
+  | Withdraw_question of int
   | Look_for of string
   | Bind of string list
   | Release of string list
@@ -31,6 +33,8 @@ let of_effect : Effect.t -> t = function
   | Stop v -> Stop v
   | Set_timer (timer, seconds) -> Set_timer { timer; seconds }
   | Cancel_timer timer -> Cancel_timer timer
+  | Put_question (question, prompt) -> Put_question { question; prompt }
+  | Withdraw_question question -> Withdraw_question question
   | Look_for pick -> Look_for (Format.asprintf "%a" Settings.pp_pick pick)
   | Bind vs -> Bind vs
   | Release vs -> Release vs
@@ -61,6 +65,8 @@ let to_json r : Yojson.Safe.t =
      | Stop v -> one "stop" v
      | Set_timer { timer; seconds } -> [ ("set-timer", `Int timer); ("seconds", of_seconds seconds) ]
      | Cancel_timer timer -> [ ("cancel-timer", `Int timer) ]
+     | Put_question { question; prompt } -> [ ("put-question", `Int question); ("prompt", `String prompt) ]
+     | Withdraw_question question -> [ ("withdraw-question", `Int question) ]
      | Look_for what -> one "look-for" what
      | Bind vs -> [ ("bind", texts vs) ]
      | Release vs -> [ ("release", texts vs) ]
@@ -85,6 +91,11 @@ let of_json json =
     let* seconds = get to_seconds "seconds" found in
     Ok (Set_timer { timer; seconds })
   | ("cancel-timer", _) :: _ -> Result.map (fun timer -> Cancel_timer timer) (get whole "cancel-timer" found)
+  | ("put-question", _) :: _ ->
+    let* question = get whole "put-question" found in
+    Result.map (fun prompt -> Put_question { question; prompt }) (get text "prompt" found)
+  | ("withdraw-question", _) :: _ ->
+    Result.map (fun question -> Withdraw_question question) (get whole "withdraw-question" found)
   | ("look-for", _) :: _ -> one "look-for" (fun what -> Look_for what)
   | ("bind", _) :: _ -> Result.map (fun vs -> Bind vs) (get (list text) "bind" found)
   | ("release", _) :: _ -> Result.map (fun vs -> Release vs) (get (list text) "release" found)

@@ -10,6 +10,8 @@ type t =
   | Stop of string
   | Set_timer of { timer : int; seconds : float }
   | Cancel_timer of int
+  | Put_question of { question : int; prompt : string }
+  | Withdraw_question of int
   | Look_for of string
   | Bind of string list
   | Release of string list

@@ -50,13 +50,16 @@ let of_request : Request.t -> _ = function
     [ (Program, Printf.sprintf "connection timeout %s s" (amount seconds)) ]
   | Set_connection_timeout { vehicles = Some vs; seconds } ->
     [ (Program, Printf.sprintf "connection timeout %s s for %s" (amount seconds) (vehicles vs)) ]
+  | Put_question { prompt; _ } -> [ (Program, "asks: " ^ prompt) ]
+  | Withdraw_question _ -> [ (Program, "withdraws its question") ]
   | End _ | Set_timer _ | Cancel_timer _ -> []
 
 let of_cause : Event.t option -> _ = function
   | Some (Done v) -> [ (Vehicle v, "└ done") ]
   | Some (Failed { vehicle; why }) -> [ (Vehicle vehicle, "✗ " ^ why) ]
   | Some (Answer text) -> [ (Program, "is answered: " ^ text) ]
-  | Some (No_answer why) -> [ (Program, "gets no answer: " ^ why) ]
+  | Some (Confirmation { yes; _ }) -> [ (Program, "is answered: " ^ if yes then "yes" else "no") ]
+  | Some (No_answer why | No_confirmation { why; _ }) -> [ (Program, "gets no answer: " ^ why) ]
   | Some (Reply json) -> [ (Program, "is told " ^ Dolphin_json.Canonical.to_string json) ]
   | Some (No_reply why) -> [ (Program, "gets no reply: " ^ why) ]
   | Some (Input { key; value }) ->

@@ -19,15 +19,32 @@ let text_of_label label = Format.asprintf "%a" Label.pp label
 
 (* {1 From transitions} *)
 
+let is_executing (c : Configuration.t) =
+  match c.control with Executing _ -> true | Script _ | Waiting _ | Ended _ -> false
+
+(* Answers to the questions that stand. *)
+let confirmations (c : Configuration.t) (t : Transition.t) : Transition.event list =
+  let reply =
+    match t.label with
+    | Answer text -> Option.to_result ~none:"" (Answer.confirmation text)
+    | _ -> Error "the fleet's answers are neither yes nor no"
+  in
+  let to_question : Transition.awaited -> Transition.event option = function
+    | Answer_to (question, _) -> Some (Confirmed (question, reply))
+    | End_of _ | Expiry_of _ | Answer | Reply -> None
+  in
+  List.filter_map to_question (Transition.awaited c)
+
 (* Events that the transition may be an answer to: those awaited, and those that its label tells of. *)
 let candidates program (c : Configuration.t) (t : Transition.t) : Transition.event list =
   let of_awaited : Transition.awaited -> Transition.event option = function
     | End_of v -> Some (Vehicle_done v)
     | Expiry_of timer -> Some (Timer_expired timer)
-    | Answer | Reply -> None
+    | Answer_to _ | Answer | Reply -> None
   in
   match t.label with
   | Fail (v, _, why) -> [ Vehicle_failed (v, why) ]
+  | (Answer _ | No_answer) when is_executing c -> confirmations c t
   | Answer text -> Option.to_list (Result.to_option (Answer.event program text))
   | No_answer -> [ Nobody_answers "none is given" ]
   | Reply _ -> (match t.next.control with Script { focus = Give x; _ } -> [ Replied x ] | _ -> [])

@@ -73,6 +73,7 @@ Retry == Plain("retry", << >>)
 Fail(s) == Plain("fail", << Constant(s) >>)
 Pause(n) == Plain("pause", << NumberOf(n) >>)
 Ask(s) == Plain("ask", << Constant(s) >>)
+Confirm(s) == Plain("confirm", << Constant(s) >>)
 ReleaseAll(e) == Plain("release", << e >>)
 TimeoutOf(n) == Plain("setConnectionTimeout", << NumberOf(n) >>)
 CallHost == Plain("getSupplier", << >>)
@@ -127,6 +128,9 @@ ModelFleet ==
 (* What people answer, twice; and then nothing. *)
 Two_ == [ text |-> "2", lambda |-> 2, why |-> "" ]
 ModelAnswers(prompt) == << << Two_ >>, << Two_ >>, << >> >>
+(* Questions of tasks they answer by yes or by no, but for one. *)
+ModelConfirmations(prompt) ==
+  IF prompt = "is anybody there?" THEN << << "nobody", "none is given" >> >> ELSE << << "yes" >>, << "no" >> >>
 ModelPrompts == { "how many?" }
 
 (* The supplier replies, or fails. *)

@@ -28,20 +28,6 @@ Targets. If the loop does not look whether it is to stop, it waits for a target 
   $ dolphin explore deaf.dol --fleet targets.fleet | head -1
   no deadlock: violated after 18 steps: nothing can happen any more, and the program has not ended
 
-Approval. Without its limit, a retrieval that nobody approves is waited for:
-
-  $ cp ../../examples/approval.* .
-  $ dolphin explore approval.dol | grep -v note | sed 's/, [0-9.]* s,.*//'
-  no deadlock: holds
-  termination: holds
-  no unhandled error: holds
-  assertions: holds
-  vehicles for all tasks: holds
-  83 states, 139 transitions, depth 14
-  $ sed 's/ within 30.minutes//' approval.dol > forgotten.dol
-  $ dolphin explore forgotten.dol --fleet approval.fleet | head -1
-  no deadlock: violated after 11 steps: nothing can happen any more, and the program has not ended
-
 An input that nobody need post is not waited for:
 
   $ sed "s/, after 20.min//" targets.fleet > perhaps.fleet

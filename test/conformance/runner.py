@@ -182,6 +182,9 @@ class Walker:
                 events += [{"event": "answer", "text": text} for text in answers.get(pattern["prompt"], [])]
                 if pattern["prompt"] not in answers:
                     events.append({"event": "no-answer", "why": "nobody"})
+            elif kind == "confirmation":
+                question = pattern["question"]
+                events += [{"event": kind, "question": question, "yes": yes} for yes in (True, False)]
             elif kind == "reply":
                 events += [{"event": "reply", "value": x} for x in replies]
             elif kind == "no-reply" and not replies:

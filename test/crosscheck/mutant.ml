@@ -186,6 +186,14 @@ let all =
       file = rules;
       pattern = {|Repeat(r, again) == IF again.left = << 0 >> THEN r ELSE|};
       replacement = {|Repeat(r, again) == IF again.left = << 0 >> /\ again.until = << >> THEN r ELSE|} };
+    { name = "a question that is answered by no is done";
+      file = rules;
+      pattern = {|  IN IF y = << "no" >>|};
+      replacement = {|  IN IF y = << "no" >> THEN Step("CONFIRM-NO", "answer(no)", event, S, Done_, << >>) ELSE IF y = << "no" >>|} };
+    { name = "a question that is cut off stands on";
+      file = rules;
+      pattern = {|<< IF IsQuestion(timer) THEN "withdraw question" ELSE "cancel timer", timer.i >>|};
+      replacement = {|<< "cancel timer", timer.i >>|} };
     { name = "the timer of a during outlives its task";
       file = rules;
       pattern = {|DURING_2(s, r) == Asking(By(s, "DURING-2", Done_), |};

@@ -72,6 +72,12 @@ let tasks =
       ("code that makes a task does something",
        "def f() { post x: 1; idle(1.seconds) }\nexecute watch { f() } onError { why -> message why; ignore() }");
       ("timers of tasks that are made", two ^ "execute (idle(1.seconds) within 5.seconds) | { idle(2.seconds) | ({ idle(3.seconds) } within 4.seconds) }");
+      ("a question lets a vehicle start, and another one works meanwhile",
+       two ^ "execute watch ((confirm('go?') >> task('p')[a]) | task('q')[b]) onError { why -> message why; ignore() }");
+      ("a question that is withdrawn, in rounds",
+       two ^ "execute repeat 2, watch ((confirm('go?') | { confirm(\"go $a?\") }) within 5.seconds) onError { ignore() }");
+      ("a question beside a timer, both in a task that is made",
+       two ^ "execute watch { confirm('go?') | idle(1.seconds) } onError { e -> confirm(e) >> task('p')[a] }");
       ("within a time, and not",
        two ^ "execute watch ((task('p')[a] | task('q')[b]) within 10.seconds) onError { why -> message why; ignore() }");
       ("rounds by number, of parts that run together",

@@ -458,8 +458,11 @@ let task_rules =
         {|  | body -> check b.guard ~holds:(fun label -> enter label enters around body) ~error|},
         {|  | body -> check b.guard ~holds:(fun label -> change label enters (Next (around body))) ~error|} );
       ( "DURING-SET sets no timer",
-        {|Rule.During_set (Next next)) with timers = (timer, seconds) :: timers }|},
-        {|Rule.During_set (Next next)) with timers = List.tl ((timer, seconds) :: timers) }|} );
+        {|Rule.During_set (Next next)) with timers = (timer, Time seconds) :: timers }|},
+        {|Rule.During_set (Next next)) with timers = List.tl ((timer, Time seconds) :: timers) }|} );
+      ( "CONFIRM-NO ends as done",
+        {|Rule.Confirm_no (failed (Printf.sprintf "'%s' was answered no" prompt))|},
+        {|Rule.Confirm_no (if site < 0 then failed prompt else Finished)|} );
       ( "ALLOF-WHEN takes away the branches before",
         {|let remaining = List.rev_append before after in
   choose b|},

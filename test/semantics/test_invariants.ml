@@ -106,8 +106,8 @@ let starts_and_stops_balance _ (s : Walk.step) =
     | Start (v, _) -> if List.mem v running then fail "%s: %s starts twice" (shown s) v else v :: running
     | Stop v ->
       if List.mem v running then List.filter (( <> ) v) running else fail "%s: %s does not run" (shown s) v
-    | Set_timer _ | Cancel_timer _ | Look_for _ | Bind _ | Release _ | Set_connection_timeout _ | Say _ | Ask _
-    | Call_host _ | End _ -> running
+    | Set_timer _ | Cancel_timer _ | Put_question _ | Withdraw_question _ | Look_for _ | Bind _ | Release _
+    | Set_connection_timeout _ | Say _ | Ask _ | Call_host _ | End _ -> running
   in
   let running = List.fold_left carry running s.transition.effects in
   List.sort String.compare running = vehicles_of s.transition.next.shared.allocation
@@ -115,11 +115,13 @@ let starts_and_stops_balance _ (s : Walk.step) =
 
 let timers_of (c : Configuration.t) =
   match c.control with
-  | Executing (_, r) -> Residual.timers r
+  | Executing (_, r) -> List.map fst (Residual.waits r)
   | Waiting (_, (Pick _ | Pause _)) -> [ Residual.script_timer ]
   | Waiting (_, (Ask _ | Execute _ | Host_call _)) | Script _ | Ended _ -> []
 
-let expires (l : Label.t) = match l with Time_out | Resume | Bind _ | No_vehicles _ -> true | _ -> false
+(* Questions are numbered among the timers, and put, answered and withdrawn as these. *)
+let expires (l : Label.t) =
+  match l with Time_out | Answer _ | No_answer | Resume | Bind _ | No_vehicles _ -> true | _ -> false
 
 (* A timer that was set runs until it is cancelled, once, or expires; where it expires, a round may set it again. *)
 let timers_balance _ (s : Walk.step) =
@@ -130,9 +132,9 @@ let timers_balance _ (s : Walk.step) =
   in
   let carry pending (e : Effect.t) =
     match e with
-    | Set_timer (timer, _) -> start timer pending
+    | Set_timer (timer, _) | Put_question (timer, _) -> start timer pending
     | Look_for _ -> start Residual.script_timer pending
-    | Cancel_timer timer ->
+    | Cancel_timer timer | Withdraw_question timer ->
       if List.mem timer pending then List.filter (( <> ) timer) pending
       else fail "%s: timer %d does not run" (shown s) timer
     | Start _ | Stop _ | Bind _ | Release _ | Set_connection_timeout _ | Say _ | Ask _ | Call_host _ | End _ -> pending

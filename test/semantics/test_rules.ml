@@ -178,6 +178,20 @@ let tasks : example list =
       "fail(noptilus-1, p, broken)" "FAIL, HOLD-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [];
     example Idle_end "the time is up" (task "idle(5) >> idle(1)") "timeout" "IDLE-END, SEQ-2" "idle(1)"
       [ "set timer 2 to 1 s" ];
+    example Confirm_yes "somebody says yes" (task "confirm('go?') >> idle(1)") "answer(yes)" "CONFIRM-YES, SEQ-2" "idle(1)"
+      [ "set timer 2 to 1 s" ];
+    example Confirm_yes "a vehicle works meanwhile" (task "(%p >> confirm('one?')) | confirm('two?')") "answer(yes)"
+      "CONFIRM-YES, PAR-2" "(p[noptilus-1]... >> confirm('one?'))" [];
+    example Confirm_no "somebody says no" (task "watch (confirm('go?') >> %p) onError { e -> message e; ignore() }")
+      "answer(no)" "CONFIRM-NO, SEQ-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [ "say 'go?' was answered no" ];
+    example Confirm_no "nobody handles a no, and what runs beside stops" (task "confirm('go?') | during 5 run %p")
+      "answer(no)" "CONFIRM-NO, PAR-ERR, EXECUTE-ERR" "failed: 'go?' was answered no"
+      [ "cancel timer 2"; released; "end: 'go?' was answered no" ];
+    example Within_cut "a question that is not answered in time is withdrawn" (task "confirm('go?') within 60") "timeout"
+      "WITHIN-CUT, EXECUTE-ERR" "failed: not done within 60 s"
+      [ "withdraw question 2"; released; "end: not done within 60 s" ];
+    example Seq_2 "a question is put when its turn comes" (task "%p >> confirm('go?')") "done(noptilus-1, p)"
+      "DONE, SEQ-2" "confirm('go?')" [ "put question 1: go?" ];
     example During_set "code gives the time when the task starts" (task "during { 2 * 30 } run %p") "set-time(60)"
       "DURING-SET" "during 60 run p[noptilus-1]" [ "set timer 1 to 60 s" ];
     example During_cut "what runs is stopped" (task "during 60 run %p") "timeout" "DURING-CUT, EXECUTE-DONE" "script"

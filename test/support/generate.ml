@@ -178,7 +178,12 @@ let code_task ~sensing =
   frequency
     [ (3, map (fun c -> call "action" [ Positional (expression (Closure c)) ]) (action_code ~sensing));
       (2, map (fun c -> call "condition" [ Positional (expression (Closure c)) ]) guard);
-      (1, map (fun i -> call "idle" [ Positional (integer i) ]) (int_range 0 2));
+      (2,
+       let* i = int_range 0 2 in
+       let* asks = frequencyl [ (2, false); (1, true) ] in
+       return
+         (if asks then call "confirm" [ Positional (string (Printf.sprintf "go %d?" i)) ]
+          else call "idle" [ Positional (integer i) ]));
       (1, map (fun c -> call "assert" [ Positional (expression (Closure c)); Positional (string "a") ]) guard) ]
 
 let platform_task vehicles =

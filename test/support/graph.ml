@@ -8,11 +8,13 @@ let failure_of : Transition.awaited -> Transition.event option = function
   | End_of v -> Some (Vehicle_failed (v, "broken"))
   | Answer -> Some (Nobody_answers "end of input")
   | Reply -> Some (Host_failed "gone")
+  | Answer_to (question, _) -> Some (Confirmed (question, Ok false))
   | Expiry_of _ -> None
 
 let success_of program : Transition.awaited -> Transition.event option = function
   | End_of v -> Some (Vehicle_done v)
   | Expiry_of timer -> Some (Timer_expired timer)
+  | Answer_to (question, _) -> Some (Confirmed (question, Ok true))
   | Answer -> Result.to_option (Answer.event program Generate.answer)
   | Reply -> Some (Replied Null)
 

@@ -32,6 +32,7 @@ let awaited ?(answers = []) program world c =
   let event : Transition.awaited -> (Transition.event, _) result = function
     | End_of v -> Ok (Vehicle_done v)
     | Expiry_of timer -> Ok (Timer_expired timer)
+    | Answer_to (question, _) -> Ok (Confirmed (question, Ok true))
     | Answer -> Answer.event program (match answers with text :: _ -> text | [] -> "")
     | Reply -> Ok (Replied Null)
   in
@@ -71,8 +72,8 @@ let said trace =
   let of_effect (e : Effect.t) =
     match e with
     | Say text -> Some text
-    | Start _ | Stop _ | Set_timer _ | Cancel_timer _ | Look_for _ | Bind _ | Release _ | Set_connection_timeout _
-    | Ask _ | Call_host _ | End _ -> None
+    | Start _ | Stop _ | Set_timer _ | Cancel_timer _ | Put_question _ | Withdraw_question _ | Look_for _ | Bind _
+    | Release _ | Set_connection_timeout _ | Ask _ | Call_host _ | End _ -> None
   in
   List.concat_map (fun (t : Transition.t) -> List.filter_map of_effect t.effects) trace
 

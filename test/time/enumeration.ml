@@ -57,6 +57,7 @@ let clock_of (o : Timed.options) (deed : Effect.t) =
   match deed with
   | Start (v, p) -> set (Vehicle v) (in_seconds (o.durations.task v None p))
   | Set_timer (i, n) -> set (Timer i) (whole n, whole n)
+  | Put_question (i, _) -> set (Timer i) (0, max_int)
   | Look_for { timeout = Some n; _ } -> set (Timer 0) (whole n, whole n)
   | Look_for { timeout = None; _ } -> set (Timer 0) (in_seconds o.durations.announced)
   | Ask _ | Call_host _ -> set Word (0, 0)
@@ -72,13 +73,14 @@ let awaited o (c : Configuration.t) e =
   let what : Transition.awaited -> awaited = function
     | End_of v -> Vehicle v
     | Expiry_of i -> Timer i
+    | Answer_to (i, _) -> Timer i
     | Answer | Reply -> Word
   in
   List.map what (Transition.awaited c) @ List.map (fun k -> Input k) (inputs o c e)
 
 let over : Transition.event -> awaited option = function
   | Vehicle_done v | Vehicle_failed (v, _) -> Some (Vehicle v)
-  | Timer_expired i -> Some (Timer i)
+  | Timer_expired i | Confirmed (i, _) -> Some (Timer i)
   | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ -> Some Word
   | Input (k, _) -> Some (Input k)
   | Interruption -> None

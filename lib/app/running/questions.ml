@@ -1,3 +1,4 @@
+open Dolphin_semantics
 module Scenario = Dolphin_scenario.Scenario
 
 type person = {
@@ -20,11 +21,15 @@ type fleet = {
 
 let times fleet prompt = Option.value (Hashtbl.find_opt fleet.asked prompt) ~default:0
 
+let same found text =
+  let confirmation = Answer.confirmation in
+  found = text || (confirmation found <> None && confirmation found = confirmation text)
+
 (* It gave this answer before, or somebody else did. *)
 let count fleet (prompt, text) =
   let rec find n =
     match Scenario.answer fleet.scenario prompt n with
-    | Some found when found = text -> Hashtbl.replace fleet.asked prompt (n + 1)
+    | Some found when same found text -> Hashtbl.replace fleet.asked prompt (n + 1)
     | Some _ -> find (n + 1)
     | None -> ()
   in

@@ -38,6 +38,7 @@ type view = {
   now : unit -> float;
   estimates : unit -> estimate list;
   post : string -> Core.value -> bool Lwt.t;
+  questions : unit -> string list;
 }
 
 type front = {
@@ -246,7 +247,8 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
   let now () = P.now platform in
   let inputs = Inputs.create () in
   let socket = open_socket r recording ~interruption ~inputs ~now ~virtual_time:P.virtual_time in
-  r.front.opened { now; estimates; post = Inputs.post inputs };
+  r.front.opened { now; estimates; post = Inputs.post inputs;
+                   questions = (fun () -> Inputs.questions inputs) };
   let console =
     Questions.console r.front.person ~answered:(History.answers (history r)) ~answers:r.settings.answers
       ~scenario:(if r.settings.people then { r.scenario with answers = [] } else r.scenario)

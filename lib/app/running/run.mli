@@ -41,6 +41,7 @@ type view = {
   now : unit -> float;  (** the time of the run, in seconds since its start *)
   estimates : unit -> estimate list;  (** of the vehicles that give one *)
   post : string -> Dolphin_semantics.Core.value -> bool Lwt.t;  (** {!Inputs.post} *)
+  questions : unit -> string list;  (** {!Inputs.questions} *)
 }
 
 type front = {

@@ -41,20 +41,26 @@ let done_ ?id members = reply ?id (("ok", `Bool true) :: members)
 let post t ?id found =
   match List.assoc_opt "key" found, List.assoc_opt "value" found with
   | Some (`String key), Some json -> (
-      match Typed_input.declared t.run.program.program key, Host_value.data_of_json json with
+      let program = t.run.program.program and questions = Inputs.questions t.run.inputs in
+      match Typed_input.declared program ~questions key, Host_value.data_of_json json with
       | Error why, _ -> Lwt.return (wrong ?id "not-declared" why)
       | Ok (), Error why -> Lwt.return (wrong ?id "bad-value" why)
       | Ok (), Ok x -> (
-          Inputs.post t.run.inputs key x >|= function
-          | true -> done_ ?id [ ("time", `Float (t.run.now ())) ]
-          | false -> wrong ?id "ended" "the run has ended"))
+          match Typed_input.fits program key x with
+          | Error why -> Lwt.return (wrong ?id "bad-value" why)
+          | Ok () -> (
+              Inputs.post t.run.inputs key x >|= function
+              | true -> done_ ?id [ ("time", `Float (t.run.now ())) ]
+              | false when Inputs.is_closed t.run.inputs -> wrong ?id "ended" "the run has ended"
+              | false -> wrong ?id "not-declared" "this question is not open any more")))
   | _, _ -> Lwt.return (wrong ?id "bad-request" "post needs a key, a text, and a value")
 
 let status t ?id () =
   let { Program_file.path; program; _ } = t.run.program in
   done_ ?id
     [ ("protocol", `String "dolphin-run"); ("version", `Int version); ("program", `String path);
-      ("time", `Float (t.run.now ())); ("inputs", `List (List.map (fun k -> `String k) program.inputs)) ]
+      ("time", `Float (t.run.now ())); ("inputs", `List (List.map (fun k -> `String k) program.inputs));
+      ("questions", `List (List.map (fun k -> `String k) (Inputs.questions t.run.inputs))) ]
 
 let usage = "a request is an object with a request, as in {\"request\": \"status\"}"
 

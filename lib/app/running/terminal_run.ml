@@ -20,6 +20,7 @@ type t = {
   mutable world : World.t;
   mutable view : Run.view;
   mutable keyboard : Keyboard.t option;  (* if somebody may type *)
+  mutable answered : bool;  (* the latest answer stands behind its question *)
 }
 
 (* That nobody reads the log any more is no trouble: whoever did has gone, as [head] does. *)
@@ -44,8 +45,19 @@ let see_vehicle t state =
   t.board <- Status.news t.board state;
   t.world <- World.add state t.world
 
-let transition t ~time ~cause:_ transition =
+(* What was not typed behind the question of a task: it was answered elsewhere, or after other lines. *)
+let tell_answer t ~time cause =
+  match (cause : Transition.event option) with
+  | Some (Confirmed (_, Ok yes)) ->
+    let text = if yes then "yes" else "no" in
+    if Screen.is_asking t.screen then Screen.answered t.screen (Some text)
+    else if not t.answered then print t (Log.remark t.log ~time ("is answered: " ^ text));
+    t.answered <- false
+  | Some _ | None -> ()
+
+let transition t ~time ~cause transition =
   let stuck = Interruption.is_unasked t.interruption t.configuration in
+  tell_answer t ~time cause;
   see_transition t ~time transition;
   let log, lines = Log.transition ~stuck t.log ~time transition in
   t.log <- log;
@@ -105,18 +117,34 @@ let echo text = if Unix.isatty Unix.stdin then None else Some text
 let offer t text =
   let program = t.program.program in
   let post (key, x) =
-    match Typed_input.declared program key with
+    let declared = Typed_input.declared program ~questions:(t.view.questions ()) key in
+    match Result.bind declared (fun () -> Typed_input.fits program key x) with
     | Error why -> remark t why
     | Ok () -> Lwt.async (fun () -> Lwt.map ignore (t.view.post key x))
   in
-  if program.inputs <> [] && String.trim text <> "" then
+  if program.inputs @ t.view.questions () <> [] && String.trim text <> "" then
     match Typed_input.read text with Ok pairs -> List.iter post pairs | Error why -> remark t why
+
+let answered t text =
+  t.answered <- Screen.is_asking t.screen;
+  Screen.answered t.screen text
+
+(* A pair with a declared key is an input, also where an answer is awaited. *)
+let is_input t text =
+  match if String.contains text ':' then Typed_input.read text else Error "" with
+  | Ok pairs -> List.for_all (fun (key, _) -> List.mem key t.program.program.inputs) pairs
+  | Error _ -> false
+
+let rec typed_answer t keyboard =
+  Keyboard.answer keyboard >>= function
+  | Ok text when is_input t text -> offer t text; typed_answer t keyboard
+  | reply -> Lwt.return reply
 
 let person t : Questions.person =
   let typed = Console.scripted ~output:ignore ~answers:[] () in
   let answer prompt =
-    (match t.keyboard with Some keyboard -> Keyboard.answer keyboard | None -> typed.ask prompt) >|= fun reply ->
-    Result.iter (fun text -> Screen.answered t.screen (echo text)) reply;
+    (match t.keyboard with Some keyboard -> typed_answer t keyboard | None -> typed.ask prompt) >|= fun reply ->
+    Result.iter (fun text -> answered t (echo text)) reply;
     reply
   in
   let asked prompt =
@@ -125,7 +153,7 @@ let person t : Questions.person =
   in
   { asked;
     answer;
-    answered = (fun text -> Screen.answered t.screen (Some text));
+    answered = (fun text -> answered t (Some text));
     refused = (fun why -> remark t ("cannot take this answer: " ^ why)) }
 
 (* {1 The run} *)
@@ -177,8 +205,10 @@ let make show program interruption ~on_closed =
     log = Log.start; board = Status.start; outcome = Outcome.start;
     configuration = Configuration.initial program.program;
     world = World.empty;
-    view = { now = (fun () -> 0.); estimates = (fun () -> []); post = (fun _ _ -> Lwt.return_false) };
-    keyboard = None }
+    view =
+      { now = (fun () -> 0.); estimates = (fun () -> []); post = (fun _ _ -> Lwt.return_false);
+        questions = (fun () -> []) };
+    keyboard = None; answered = false }
 
 let run ~notice ~again show program f =
   let interruption = Interruption.make () in

@@ -10,6 +10,7 @@ let why (d : Diagnostic.t) =
 
 let value (e : Ast.expression) =
   match e.it with
+  | Variable name when Answer.confirmation name <> None -> Ok (Core.Boolean (Answer.confirmation name = Some true))
   | Variable name -> Error (Printf.sprintf "'%s' is no value: a text stands in quotes, '%s'" name name)
   | _ -> (
       match Reply.data e with
@@ -34,13 +35,19 @@ let read text =
     -> pairs found
   | Ok _ | Error _ -> Error usage
 
-let declared (program : Core.program) key =
-  if List.mem key program.inputs then Ok ()
+let declared (program : Core.program) ~questions key =
+  let keys = program.inputs @ questions in
+  if List.mem key keys then Ok ()
   else
     let known =
-      match Diagnostic.suggest key program.inputs, program.inputs with
+      match Diagnostic.suggest key keys, keys with
       | Some near, _ -> Printf.sprintf ": did you mean '%s'?" near
       | None, [] -> ", nor any other"
       | None, keys -> ", only " ^ String.concat ", " (List.map (Printf.sprintf "'%s'") keys)
     in
     Error (Printf.sprintf "the program declares no input '%s'%s" key known)
+
+let fits (program : Core.program) key (x : Core.value) =
+  let answers = match x with Boolean _ -> true | String text -> Answer.confirmation text <> None | _ -> false in
+  if answers || List.mem key program.inputs then Ok ()
+  else Error (Printf.sprintf "the question '%s' takes yes or no" key)

@@ -3,8 +3,13 @@
 open Dolphin_semantics
 
 val read : string -> ((string * Core.value) list, string) result
-(** [read text] is the pairs in [text]: [abort: true], [target: [1, 2], go: 'north']; a key alone stands for [true].
+(** [read text] is the pairs in [text]: [abort: true], [target: [1, 2], go: 'north']; a key alone stands for [true],
+    and so does [yes]; [no] for [false].
     Values are data, written as in fleets. Or what is wrong with it. *)
 
-val declared : Core.program -> string -> (unit, string) result
-(** [declared p key] is why nobody can post pairs with this key to runs of [p], if so. *)
+val declared : Core.program -> questions:string list -> string -> (unit, string) result
+(** [declared p ~questions key] is why nobody can post pairs with this key to a run of [p] now, if so: it is no input
+    that [p] declares, and none of the prompts of [questions], those that stand. *)
+
+val fits : Core.program -> string -> Core.value -> (unit, string) result
+(** [fits p key x] is why [x] cannot be posted with a key that is {!declared}, if so: questions take yes or no. *)

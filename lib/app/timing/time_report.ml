@@ -33,7 +33,7 @@ let item (p : Program_file.t) (pending : Timed.pending) =
   | Task v, None -> v
   | Timer 0, _ -> "a timer of the program"
   | Timer i, _ -> Printf.sprintf "timer %d" i
-  | Answer, _ -> "an answer"
+  | (Question _ | Answer), _ -> "an answer"
   | Reply, _ -> "a reply"
   | Posting k, _ -> Printf.sprintf "a pair with the key %s" k
 
@@ -42,7 +42,7 @@ let hint (pending : Timed.pending) =
   | Task _, Some { plan = None; name; _ } -> Printf.sprintf "; in the fleet: plan '%s', { duration 3.min, 9.min }" name
   | Task _, Some { plan = Some _; _ } -> "; nobody knows where the vehicle is when it starts"
   | Posting k, _ -> Printf.sprintf "; in the fleet: input '%s', with after" k
-  | (Task _ | Timer _ | Answer | Reply), _ -> ""
+  | (Task _ | Timer _ | Question _ | Answer | Reply), _ -> ""
 
 (* {1 For people} *)
 

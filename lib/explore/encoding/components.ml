@@ -193,6 +193,9 @@ and compile t home kin index (Step { offer; continue; _ } as source : Task_rules
   | Check closure -> [ certain None (Guarded (guard t true closure)) (continue (Ok [])) ]
   | Take _ | Refute _ | Decide _ | Measure _ | Make _ | Allocate _ -> [ dependent None ]
   | Expiry_of timer -> [ certain (Some (Timer_expired timer)) Free (continue ()) ]
+  | Answer_to (question, prompt) ->
+    let on_reply reply = certain (Some (Transition.Confirmed (question, reply))) Free (continue reply) in
+    List.map on_reply (Environment.confirmations t.options prompt)
   | End_of (task, v) ->
     let on_event (event, _) =
       match event with
@@ -225,7 +228,7 @@ let cover t steps =
     | Take c -> Coverage.run t.coverage c
     | Measure c -> Coverage.run t.coverage c
     | Make (c, _, _) -> Coverage.run t.coverage c
-    | Allocate _ | End_of _ | Expiry_of _ -> ()
+    | Allocate _ | End_of _ | Expiry_of _ | Answer_to _ -> ()
   in
   Array.iter step steps
 

@@ -336,7 +336,7 @@ type looked = { mutable lambdas : lambda list; mutable locals : (lambda * int) l
 let rec is_composed looked (lambda : lambda) e =
   let go = is_composed looked lambda in
   match e.node with
-  | Apply (Builtin (Platform_task | Make_action | Make_condition | Make_idle), _)
+  | Apply (Builtin (Platform_task | Make_action | Make_condition | Make_idle | Make_confirm), _)
   | Apply (Build ((Imc_plan | Mission), _), _) -> true
   (* Values that are no tasks: of handlers. *)
   | Constant Null

@@ -37,6 +37,10 @@ let ending c (p : platform_task) v =
   let remembered = Environment.endings_remember c.options in
   { Footprint.empty with remembered; breaks = Environment.may_fail c.options v p.name }
 
+(* Of a question: it fails if it is not answered by yes. *)
+let answering c prompt =
+  if List.for_all (( = ) (Ok true)) (Environment.confirmations c.options prompt) then Footprint.empty else breaking
+
 (* Of this handler, in the step that fails. *)
 let handling c (handler : Residual.handler) =
   let f = Footprint.of_code c.code handler.code in
@@ -64,6 +68,7 @@ let rec future c (r : Residual.t) =
   | Until (Completes, g, r) -> union (Footprint.of_guard c.code g) (future c r)
   | Until (Fails _, g, r) -> union (of_refuted c g) (future c r)
   | Idle _ -> Footprint.empty
+  | Confirm { prompt; _ } -> answering c prompt
   | During { on_cut = Completes; duration = Seconds _; body; _ } -> future c body
   | During { on_cut = Fails _; duration = Seconds _; body; _ } -> union breaking (future c body)
   | During { duration = Given_by d; body; _ } -> all [ breaking; Footprint.of_code c.code d; future c body ]
@@ -97,6 +102,7 @@ and of_term c (t : task) =
   | Until (Completes, g, a) -> union (Footprint.of_guard c.code g) (of_term c a)
   | Until (Fails _, g, a) -> union (of_refuted c g) (of_term c a)
   | Idle _ -> Footprint.empty
+  | Confirm { prompt; _ } -> answering c prompt
   | During (_, Seconds _, a) -> union breaking (of_term c a)
   | During (_, Given_by d, a) -> all [ breaking; Footprint.of_code c.code d; of_term c a ]
   | Watch (a, code) ->
@@ -133,6 +139,8 @@ let footprint c { source = Step { offer; continue; _ } as source; event; _ } =
     | End_of (p, v), _ -> { (ending c p v) with breaks = false }
     | Start _, _ -> Footprint.empty
     | Expiry_of _, _ -> if is_error (continue ()) then breaking else Footprint.empty
+    | Answer_to _, Some (Confirmed (_, Ok true)) -> Footprint.empty
+    | Answer_to _, _ -> breaking
     | Perform a, _ -> Footprint.of_code c.code a
     | Check g, _ -> Footprint.of_guard c.code g
     | Refute g, _ -> of_refuted c g
@@ -166,6 +174,7 @@ let lost r outer { source = Step { offer; continue; _ }; _ } =
   | End_of _ -> of_change (continue (Ok ()))
   | Measure _ -> of_change (continue (Ok 0.))
   | Expiry_of _ -> of_change (continue ())
+  | Answer_to _ -> of_change (continue (Ok true))
   | Make _ | Allocate _ -> Footprint.these []
   | Decide _ -> Footprint.these (Residual.named r @ outer)
   | Refute _ -> Footprint.all_vehicles
@@ -187,6 +196,7 @@ let rec is_settled c (r : Residual.t) =
     let f = Footprint.of_code c.code a in
     Footprint.touches_nothing f && (not f.breaks) && not f.halts
   | Idle _ -> true
+  | Confirm { prompt; _ } -> List.mem (Ok true) (Environment.confirmations c.options prompt)
   | Sequence (r, rest) -> List.for_all (is_settled c) (r :: rest)
   | Parallel rs -> List.for_all (is_settled c) rs
   | Condition _ | All_of _ | One_of _ | Until _ | During _ | Watch _ | Repeat _ | Made _ | Unallocated _
@@ -219,8 +229,8 @@ let rec first_branches c around (r : Residual.t) =
   | Watch (r, handler) when not ((of_handler c handler).ignores && (future c r).breaks) ->
     first_branches c (union around (of_handler c handler)) r
   | All_of (None, bs) -> branches_first c around bs
-  | Parallel _ | Ready _ | Running _ | Action _ | Condition _ | One_of _ | Until _ | Idle _ | During _ | Watch _
-  | Repeat _ | Made _ | Unallocated _ -> []
+  | Parallel _ | Ready _ | Running _ | Action _ | Condition _ | One_of _ | Until _ | Idle _ | Confirm _
+  | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ -> []
 
 (* {1 Components} *)
 
@@ -303,6 +313,6 @@ let looks c (Task_rules.Step { offer; _ } as source) =
     | Decide g -> claims g
     | Measure d -> claims d
     | Make (code, _, _) -> claims code
-    | Start _ | End_of _ | Expiry_of _ -> false
+    | Start _ | End_of _ | Expiry_of _ | Answer_to _ -> false
   in
   code_claims || (c.asks_idle && List.exists (fun (h : Residual.handler) -> claims h.code) (handlers source))

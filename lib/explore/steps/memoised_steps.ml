@@ -38,7 +38,7 @@ let outside_after t (Task_rules.Step { offer; _ }) event outside =
   | End_of (task, v) ->
     List.assoc_opt event (Environment.task_ends (Components.options t.components) outside v task)
   | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _
-  | Expiry_of _ -> Some outside
+  | Expiry_of _ | Answer_to _ -> Some outside
 
 type taken = { local : Local_step.t; level : int; certain : bool }
 

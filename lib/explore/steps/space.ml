@@ -246,7 +246,7 @@ let rec place_of (layout : Layout.t) (place : Layout.place) =
 (* Code of an action, and what ends a task, is never waited for in vain; a guard may be. *)
 let stays (Task_rules.Step { offer; _ }) =
   match offer with
-  | Start _ | Perform _ | Decide _ | Measure _ | Make _ | End_of _ | Expiry_of _ -> true
+  | Start _ | Perform _ | Decide _ | Measure _ | Make _ | End_of _ | Expiry_of _ | Answer_to _ -> true
   | Check _ | Take _ | Refute _ | Allocate _ -> false
 
 let may_cut = function

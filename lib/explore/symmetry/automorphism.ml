@@ -63,7 +63,7 @@ let subtasks context r =
   let of_branch b = subtask (Residual.One_of [ b ]) in
   let rec lists (r : Residual.t) =
     match r with
-    | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Repeat _ | Made _ | Unallocated _ -> []
+    | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | Repeat _ | Made _ | Unallocated _ -> []
     | Sequence (a, rest) -> List.concat_map lists (a :: rest)
     | Parallel rs -> List.map subtask rs :: List.concat_map lists rs
     | All_of (a, bs) -> (List.map of_branch bs :: List.concat_map lists (Option.to_list a)) @ bodies bs

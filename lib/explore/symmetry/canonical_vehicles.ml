@@ -219,7 +219,7 @@ let rec check_plans r (t : Residual.t) =
   let branches = List.iter (fun (b : Residual.branch) -> check_plans r b.body) in
   match t with
   | Ready (p, _) | Running (p, _) -> check_plan r p
-  | Action _ | Condition _ | Idle _ -> ()
+  | Action _ | Condition _ | Idle _ | Confirm _ -> ()
   | Sequence (a, rest) -> List.iter (check_plans r) (a :: rest)
   | Parallel rs -> List.iter (check_plans r) rs
   | All_of (a, bs) -> Option.iter (check_plans r) a; branches bs

@@ -192,6 +192,7 @@ and applied w lambda at operation arguments =
   | Builtin (Message | Halt | Assert), [ e ] -> said w lambda e; nothing
   | Concatenate, es -> put_into_text w at (values es); text
   | Builtin Ask, es -> put_into_text w at (values es); text lor map
+  | Builtin Make_confirm, es -> put_into_text w at (values es); nothing
   | Builtin Get_supplier, _ -> replies
   | Binary Add, [ a; b ] ->
     let k = value_of a in

@@ -38,7 +38,7 @@ and duration r = function Seconds s -> Seconds s | Given_by c -> Given_by (closu
 and task r t =
   enter r;
   match t with
-  | Platform _ | Idle _ -> t
+  | Platform _ | Idle _ | Confirm _ -> t
   | Action c -> Action (closure r c)
   | Condition c -> Condition (closure r c)
   | Sequence (a, b) ->
@@ -88,7 +88,7 @@ let rec residual r (t : Residual.t) : Residual.t =
   | Until (on_cut, c, a) ->
     let c = closure r c in
     Until (on_cut, c, go a)
-  | Idle _ -> t
+  | Idle _ | Confirm _ -> t
   | During d ->
     let duration = duration r d.duration in
     During { d with duration; body = go d.body }

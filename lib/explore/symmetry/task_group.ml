@@ -160,7 +160,7 @@ let rec image_of_residual g p (r : Residual.t) : Residual.t =
   let go = image_of_residual g p and code = image_of_closure g p ~handler:false in
   let branch (b : Residual.branch) : Residual.branch = { guard = code b.guard; body = go b.body } in
   match r with
-  | Ready _ | Running _ | Idle _ -> r
+  | Ready _ | Running _ | Idle _ | Confirm _ -> r
   | Action c -> Action (code c)
   | Condition c -> Condition (code c)
   | Sequence (a, rest) -> Sequence (go a, List.map go rest)

@@ -22,7 +22,7 @@ let rec fold f acc (r : Residual.t) =
   | All_of (a, bs) -> List.fold_left (fold_branch f) (Option.fold ~none:acc ~some:(fold f acc) a) bs
   | One_of bs -> List.fold_left (fold_branch f) acc bs
   | Until (_, c, a) -> fold f (f acc (Of_code (false, c))) a
-  | Idle _ -> acc
+  | Idle _ | Confirm _ -> acc
   | During { duration = Seconds _; body; _ } -> fold f acc body
   | During { duration = Given_by c; body; _ } -> fold f (f acc (Of_code (false, c))) body
   | Watch (a, h) -> fold f (f acc (Of_code (true, h.code))) a
@@ -75,6 +75,7 @@ let rec spell s (r : Residual.t) =
   | One_of bs -> "one(" ^ beside s (List.map (spell_branch s) bs) ^ ")"
   | Until (e, c, a) -> Printf.sprintf "%s(%s,%s)" (Value.until e) (code s ~handler:false c) (spell s a)
   | Idle { seconds; _ } -> Printf.sprintf "idle%h" seconds
+  | Confirm { prompt; _ } -> Printf.sprintf "confirm%S" prompt
   | During { on_cut; duration; started; body; _ } ->
     let time = match duration with Seconds x -> Printf.sprintf "%h" x | Given_by c -> code s ~handler:false c in
     Printf.sprintf "%s(%b,%s,%s)" (Value.during on_cut) started time (spell s body)
@@ -148,6 +149,7 @@ let matched context ~rename r r' =
       same_code ~handler:true h.code h'.code;
       go a a'
     | Idle { seconds; _ }, Idle { seconds = seconds'; _ } when seconds = seconds' -> ()
+    | Confirm { prompt; _ }, Confirm { prompt = prompt'; _ } when String.equal prompt prompt' -> ()
     | During ({ duration = Seconds s; _ } as d), During ({ duration = Seconds s'; _ } as d')
       when s = s' && d.started = d'.started && ends_alike d.on_cut d'.on_cut -> go d.body d'.body
     | During ({ duration = Given_by c; _ } as d), During ({ duration = Given_by c'; _ } as d')
@@ -159,7 +161,7 @@ let matched context ~rename r r' =
       both go round round';
       go again.each again'.each
     | ( ( Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _
-        | Idle _ | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ ),
+        | Idle _ | Confirm _ | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ ),
         _ ) -> raise_notrace Different
   and branch (b : Residual.branch) (b' : Residual.branch) =
     same_code ~handler:false b.guard b'.guard;

@@ -28,8 +28,8 @@ let of_builtin = function
   | Pause -> Some "pause"
   | Post _ -> Some "post"
   | Set_connection_timeout -> Some "setConnectionTimeout"
-  | Platform_task | Make_action | Make_condition | Make_wait_for | Make_until _ | Make_idle | Make_during _ | Make_watch
-  | Make_repeat _
+  | Platform_task | Make_action | Make_condition | Make_wait_for | Make_until _ | Make_idle | Make_confirm
+  | Make_during _ | Make_watch | Make_repeat _
   | Halt | Consume _ | Poll _ | Values_of | Position_of | Battery_of | Location_of | Area_of | Ignore | Propagate
   | Retry | Fail | Get_supplier | Interrupted | Assert | Is_host | Is_there | Math _ | Geometry _ -> None
 

@@ -50,7 +50,7 @@ let table : (string * t) list =
     ("release", these Release [ Vehicles ] ~place:Script_only ~result:Other);
     ("setConnectionTimeout", other Set_connection_timeout);
     ("ask", these Ask [ Any ] ~place:Script_only);
-    ("confirm", { (other Confirm ~place:Script_only) with result = Truth });
+    ("confirm", { (other Confirm ~place:Script_only) with result = Any });
     ("input", other Input);
     ("onInterrupt", other On_interrupt);
     ("message", these Message [ Any ] ~result:Other);

@@ -48,8 +48,9 @@ let assertion_task env at arguments =
 
 (* [x = ask Q; while (x is neither true nor false) x = ask "Q (yes or no)"]: no rule of its own. *)
 let confirm env at arguments =
-  match arguments with
-  | [ Ast.Positional prompt ] ->
+  match prompt_of env at arguments with
+  | None -> null env at
+  | Some prompt ->
     let question = Scope.new_slot env.code and answer = Scope.new_slot env.code in
     let ask prompt = set_local env at answer (apply env at (Builtin Ask) [ prompt ]) in
     let truth b = constant env at (Boolean b) in
@@ -59,11 +60,6 @@ let confirm env at arguments =
     let open_ = expression env at (If (is true, truth false, apply env at (Unary Not) [ is false ])) in
     let again = ask (apply env at Concatenate [ local env at question; constant env at (String " (yes or no)") ]) in
     block env at [ first; asked; expression env at (While (open_, again)); local env at answer ]
-  | [ Ast.Named (k, _) ] -> error env Unknown_argument k.at "confirm takes no argument by name"; null env at
-  | arguments ->
-    error env Wrong_arity at "confirm takes 1 argument, not %d" (List.length arguments)
-      ~hint:"write confirm 'Retrieve now?'";
-    null env at
 
 let input env at arguments =
   let wrong at = error env Wrong_kind at "input takes keys in quotes" ~hint:"write input 'abort'" in
@@ -92,7 +88,7 @@ let on_interrupt env at arguments =
       error env Wrong_parameters second.at "the code of onInterrupt takes one parameter, the vehicles picked";
       made vehicles c e.at inside
     | Closure c -> made vehicles c e.at inside
-    | _ -> elaborate inside e
+    | _ -> task_operand inside e
   in
   let declare (e : Ast.expression) =
     check_kind env "onInterrupt" Task e;

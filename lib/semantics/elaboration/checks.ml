@@ -53,6 +53,8 @@ let rec kind_of (e : Ast.expression) : Builtins.kind =
     Number
   | Unary (Negate, e) -> kind_of e
   | Binary ((Sequence | Parallel | Divide), a, _) when kind_of a = Task -> Task
+  | Binary ((Sequence | Parallel | Divide), { it = Call { callee = { it = Variable "confirm"; _ }; _ }; _ }, _)
+  | Index ({ it = Call { callee = { it = Variable "confirm"; _ }; _ }; _ }, _) -> Task
   | Binary (Sequence, { it = Closure _; _ }, _) | Index ({ it = Closure _; _ }, _) -> Task
   | Index (a, _) when kind_of a = Task -> Task
   | Call { callee = { it = Variable "idle"; _ }; arguments = [ Positional e ] } -> (

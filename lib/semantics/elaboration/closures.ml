@@ -72,6 +72,37 @@ let told (c : Ast.closure) code =
 
 let told_code env at construct c = told c (task_code env at construct c)
 
+(* {1 confirm} *)
+
+let confirmation env (e : Ast.expression) =
+  match e.it with
+  | Call { callee = { it = Variable "confirm"; _ }; arguments } when not (is_hidden env "confirm") -> Some arguments
+  | _ -> None
+
+(* [confirm 'Q' >> T] is read as [confirm('Q' >> T)]. *)
+let prompt_of env at arguments =
+  match arguments with
+  | [ Ast.Positional ({ it = Binary ((Sequence | Parallel), _, _); _ } as e) ] ->
+    error env Wrong_kind e.at "all of this is the prompt of confirm, which is a text"
+      ~hint:"put parentheses around the prompt, as in confirm('Retrieve now?') >> T";
+    None
+  | [ Ast.Positional prompt ] -> Some prompt
+  | [ Ast.Named (k, _) ] -> error env Unknown_argument k.at "confirm takes no argument by name"; None
+  | arguments ->
+    error env Wrong_arity at "confirm takes 1 argument, not %d" (List.length arguments)
+      ~hint:"write confirm 'Retrieve now?'";
+    None
+
+let confirm_task env at arguments =
+  match prompt_of env at arguments with
+  | Some prompt -> apply env at (Builtin Make_confirm) [ elaborate env prompt ]
+  | None -> null env at
+
+(* {1 Operands} *)
+
 (* An operand that is a task; code in its place makes it. *)
 let task_operand env (e : Ast.expression) =
-  match e.it with Closure c -> told c (closure env e.at Scope.Maker "task" c) | _ -> elaborate env e
+  match e.it, confirmation env e with
+  | _, Some arguments -> confirm_task env e.at arguments
+  | Closure c, None -> told c (closure env e.at Scope.Maker "task" c)
+  | _, None -> elaborate env e

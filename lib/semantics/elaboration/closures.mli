@@ -31,5 +31,19 @@ val told_code : env -> Location.t -> string -> Ast.closure -> expression
 val told : Ast.closure -> expression -> expression
 (** [told c e] is [e], the closure made of [c], labelled by the text of [c]. *)
 
+(** {1 confirm} *)
+
+val confirmation : env -> Ast.expression -> Ast.argument list option
+(** [confirmation env e] is the arguments of [confirm], if [e] is a call of it. *)
+
+val prompt_of : env -> Location.t -> Ast.argument list -> Ast.expression option
+(** [prompt_of env at arguments] is the prompt among the arguments of [confirm]; [None] if that was reported. *)
+
+val confirm_task : env -> Location.t -> Ast.argument list -> expression
+(** [confirm_task env at arguments] is the [confirm] of these arguments as a task. *)
+
+(** {1 Operands} *)
+
 val task_operand : env -> Ast.expression -> expression
-(** [task_operand env e] is [e] in the place of a task: code there makes the task, and may only compute. *)
+(** [task_operand env e] is [e] in the place of a task: code there makes the task, and may only compute; [confirm] is a
+    task. *)

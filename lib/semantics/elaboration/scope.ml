@@ -172,6 +172,12 @@ let rec in_task code =
   | (Main | Named_function _ | Plain), Some outer -> in_task outer
   | (Main | Named_function _ | Plain), None -> None
 
+let rec may_give_task code =
+  match code.purpose, code.outer with
+  | (Maker | Handler), _ -> true
+  | Plain, Some outer -> may_give_task outer
+  | (Main | Named_function _ | Plain | Task_code _), _ -> false
+
 let new_slot code =
   code.slots <- code.slots + 1;
   code.slots - 1

@@ -133,6 +133,10 @@ val purpose : code -> purpose
 val in_task : code -> string option
 (** The task construct that the piece is in, directly or not. *)
 
+val may_give_task : code -> bool
+(** [may_give_task c] is whether [c] is code in the place of a task, of a handler, or a closure in one of these: its
+    value may be a task. *)
+
 val new_slot : code -> int
 (** A slot for a value that has no name. *)
 

@@ -107,6 +107,7 @@ let rec elaborate env (e : Ast.expression) : expression =
     let operand =
       match op, known_kind env a with
       | Sequence, _ | Parallel, (Task | Closure) -> task_operand env
+      | Parallel, _ when confirmation env a <> None || confirmation env b <> None -> task_operand env
       | _, _ -> elaborate env
     in
     if check_subtraction env e then begin
@@ -240,6 +241,8 @@ and statement env (s : Ast.statement) : expression =
   | Expression { it = Call { callee = { it = Variable "input"; _ }; arguments }; _ }
     when Scope.at_top env.code && not (is_hidden env "input") ->
     Calls.input env at arguments
+  | Expression ({ it = Call { arguments; _ }; _ } as e)
+    when Scope.may_give_task env.code && confirmation env e <> None -> confirm_task env at arguments
   | Expression e when each_of_branches env e <> None ->
     let desugared = Option.value (each_of_branches env e) ~default:s.it in
     statement env { s with it = desugared }

@@ -21,7 +21,7 @@ let rec never_waits = function
   | Sequence (a, b) | Parallel (a, b) -> never_waits a && never_waits b
   | Allocated (a, _) | Until (_, _, a) | During (_, Seconds _, a) | Watch (a, _) | Repeat { body = a; _ } ->
     never_waits a
-  | Platform _ | Condition _ | All_of _ | One_of _ | Idle _ | During (_, Given_by _, _) | Made _ -> false
+  | Platform _ | Condition _ | All_of _ | One_of _ | Idle _ | Confirm _ | During (_, Given_by _, _) | Made _ -> false
 
 let repeat at n body until =
   let made rounds =
@@ -66,6 +66,7 @@ let make_task context at = function
       | Some seconds when seconds >= 0. && seconds < infinity -> Value (Task (Idle seconds))
       | Some seconds -> Wrong (Printf.sprintf "idle takes a time of 0 seconds or more, not %g" seconds)
       | None -> expected "a time after idle, as in idle(10.seconds)" x)
+  | Make_confirm, [ x ] -> Value (Task (Confirm { prompt = Value.to_string x; site = at }))
   | Make_during e, [ Closure c; Task t ] -> Value (Task (During (on_cut at e, Given_by c, t)))
   | Make_during e, [ x; Task t ] -> (
       let e = on_cut at e in
@@ -225,8 +226,8 @@ let apply context at operation arguments =
   match operation, arguments with
   | Platform_task, [ String name ] when name <> "" ->
     Value (Task (Platform { name; plan = None; task_site = at }))
-  | ( ( Platform_task | Make_action | Make_condition | Make_wait_for | Make_until _ | Make_idle | Make_during _
-      | Make_watch | Make_repeat _ ),
+  | ( ( Platform_task | Make_action | Make_condition | Make_wait_for | Make_until _ | Make_idle | Make_confirm
+      | Make_during _ | Make_watch | Make_repeat _ ),
       _ ) -> make_task context at (operation, List.mapi (as_task operation) arguments)
   | Execute, [ Closure c ] -> blocking context "execute" (Execute (Made c))
   | Execute, [ Task t ] -> blocking context "execute" (Execute t)

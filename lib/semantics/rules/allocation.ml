@@ -12,7 +12,7 @@ let restrict allowed vs =
 let rec tree_of allowed t : leaf Assignment.tree =
   match t with
   | Platform task -> Leaf { task; allowed }
-  | Action _ | Condition _ | Idle _ | Made _ -> Shared []
+  | Action _ | Condition _ | Idle _ | Confirm _ | Made _ -> Shared []
   | Sequence (a, b) -> Shared [ tree_of allowed a; tree_of allowed b ]
   | Parallel (a, b) -> Disjoint [ tree_of allowed a; tree_of allowed b ]
   | Allocated (a, vs) -> tree_of (restrict allowed vs) a
@@ -155,6 +155,7 @@ let rec residual supply allowed t : Residual.t =
   | One_of branches -> One_of (List.map (branch supply allowed) branches)
   | Until (on_cut, c, a) -> Until (on_cut, c, recurse a)
   | Idle seconds -> Idle { timer = supply.next_timer (); seconds }
+  | Confirm { prompt; site } -> Confirm { question = supply.next_timer (); prompt; site }
   | During (on_cut, duration, a) ->
     let timer = supply.next_timer () in
     During { on_cut; timer; duration; started = false; body = recurse a }
@@ -181,7 +182,7 @@ let is_too_large t =
       else
         let down ts = from (count + 1) (List.rev_append (List.rev_map (fun t -> (depth + 1, t)) ts) rest) in
         (match t with
-         | Platform _ | Action _ | Condition _ | Idle _ | Made _ -> from (count + 1) rest
+         | Platform _ | Action _ | Condition _ | Idle _ | Confirm _ | Made _ -> from (count + 1) rest
          | Sequence (a, b) | Parallel (a, b) -> down [ a; b ]
          | Allocated (a, _) | Until (_, _, a) | During (_, _, a) | Watch (a, _) | Repeat { body = a; _ } -> down [ a ]
          | All_of bs | One_of bs -> down (List.map (fun (b : Core.branch) -> b.body) bs))

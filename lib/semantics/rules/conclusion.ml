@@ -9,17 +9,17 @@ type t = {
 let make ?(effects = []) rule label control shared =
   { rules = [ rule ]; label; next = { control; shared }; effects; assumed = [] }
 
-let timers_started = List.map (fun (timer, seconds) -> Effect.Set_timer (timer, seconds))
+let begun = List.map Effect.begins
 
 let ended (s : Shared.t) ending : Configuration.t =
   { control = Ended ending; shared = { s with allocation = Vehicle_map.empty; bound = [] } }
 
-let cut timers (s : Shared.t) =
-  List.map (fun timer -> Effect.Cancel_timer timer) timers
+let cut waits (s : Shared.t) =
+  List.map Effect.ceases waits
   @ List.map (fun (v, _) -> Effect.Stop v) (Vehicle_map.bindings s.allocation)
 
-let ending ?(timers = []) ?(before = []) rules label (s : Shared.t) ending =
-  let timers = List.filter (fun timer -> not (List.mem (Effect.Cancel_timer timer) before)) timers in
+let ending ?(waits = []) ?(before = []) rules label (s : Shared.t) ending =
+  let waits = List.filter (fun wait -> not (List.mem (Effect.ceases wait) before)) waits in
   let released = if s.bound = [] then [] else [ Effect.Release s.bound ] in
-  let effects = before @ cut timers s @ released @ [ Effect.End ending ] in
+  let effects = before @ cut waits s @ released @ [ Effect.End ending ] in
   { rules; label; next = ended s ending; effects; assumed = [] }

@@ -11,19 +11,19 @@ type t = {
 val make : ?effects:Effect.t list -> Rule.t -> Label.t -> Configuration.control -> Shared.t -> t
 (** [make rule l k s] is the transition by [rule] alone, labelled [l], to <k, s>. *)
 
-val timers_started : (Residual.timer * float) list -> Effect.t list
-(** To set these timers, with their seconds. *)
+val begun : (Residual.timer * Residual.wait) list -> Effect.t list
+(** To set these timers, and put these questions. *)
 
 (** {1:ends Ends} *)
 
-val cut : Residual.timer list -> Shared.t -> Effect.t list
-(** [cut timers s] cancels [timers] and stops all that A runs. *)
+val cut : (Residual.timer * Residual.wait) list -> Shared.t -> Effect.t list
+(** [cut waits s] ends [waits] and stops all that A runs. *)
 
 val ended : Shared.t -> Configuration.ending -> Configuration.t
 (** [ended s e] is the end [e] of a run with shared part [s]: A and B are empty. *)
 
 val ending :
-  ?timers:Residual.timer list -> ?before:Effect.t list -> Rule.t list -> Label.t -> Shared.t ->
+  ?waits:(Residual.timer * Residual.wait) list -> ?before:Effect.t list -> Rule.t list -> Label.t -> Shared.t ->
   Configuration.ending -> t
-(** [ending ~timers ~before rules l s e] is the transition to [ended s e]. After the effects [before] it cancels those
-    of [timers] (none by default) that [before] does not cancel, stops all that A runs, and releases B. *)
+(** [ending ~waits ~before rules l s e] is the transition to [ended s e]. After the effects [before] it ends those of
+    [waits] (none by default) that [before] does not end, stops all that A runs, and releases B. *)

@@ -15,10 +15,10 @@ let site c =
   | Script m | Waiting (m, _) | Executing (m, _) -> Machine.site m
   | Ended _ -> Fault.unknown_site
 
-let timers c =
+let waits c =
   match c.control with
-  | Executing (_, r) -> Residual.timers r
-  | Waiting (_, (Pick _ | Pause _)) -> [ Residual.script_timer ]
+  | Executing (_, r) -> Residual.waits r
+  | Waiting (_, (Pick _ | Pause _)) -> [ (Residual.script_timer, Residual.Time 0.) ]
   | Waiting (_, (Ask _ | Execute _ | Host_call _)) | Script _ | Ended _ -> []
 
 let initial program =
@@ -83,7 +83,7 @@ let pp program ppf c =
 (* Whether no vehicle is named twice in what stands side by side. *)
 let rec are_apart r =
   match (r : Residual.t) with
-  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Made _ | Unallocated _ -> true
+  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | Made _ | Unallocated _ -> true
   | Parallel rs ->
     let names = List.concat_map Residual.named rs in
     List.length (List.sort_uniq String.compare names) = List.length names && List.for_all are_apart rs

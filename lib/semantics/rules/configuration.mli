@@ -26,8 +26,8 @@ val initial : program -> t
 val site : t -> site
 (** [site c] is the place in the program where its script stands; {!Fault.unknown_site} after the end. *)
 
-val timers : t -> Residual.timer list
-(** [timers c] is the timers that run in [c]: those of its residual, or the script's. *)
+val waits : t -> (Residual.timer * Residual.wait) list
+(** [waits c] is the timers that run in [c] and the questions that stand: those of its residual, or the script's. *)
 
 val compare : t -> t -> int
 (** A total order, of which {!equal} is the equality. Configurations of one program are equal if they have the same

@@ -4,6 +4,7 @@ type event =
   | Vehicle_done of vehicle
   | Vehicle_failed of vehicle * string
   | Timer_expired of Residual.timer
+  | Confirmed of Residual.timer * (bool, string) result
   | Answered of { text : string; code : closure }
   | Nobody_answers of string
   | Replied of value
@@ -40,7 +41,7 @@ let without_tasks vs (s : Shared.t) =
 let undo : Task_rules.undoing -> vehicle list * Effect.t list = function
   | Cancel timer -> ([], [ Cancel_timer timer ])
   | Cut cut ->
-    let cancelled = List.map (fun timer -> Effect.Cancel_timer timer) (List.concat_map Residual.timers cut) in
+    let cancelled = List.map Effect.ceases (List.concat_map Residual.waits cut) in
     let stopped = List.concat_map Residual.running cut in
     (stopped, cancelled @ List.map (fun v -> Effect.Stop v) stopped)
 
@@ -65,7 +66,7 @@ let rec settle held program world s derivation asked (change : Task_rules.change
   let stopped, undone = List.split (List.map undo change.undone) in
   let derivation = derivation @ change.rules in
   let s = without_tasks (List.concat stopped) s in
-  let asked = asked @ List.concat undone @ Conclusion.timers_started change.timers in
+  let asked = asked @ List.concat undone @ Conclusion.begun change.timers in
   let come_to outcome = { after = s; outcome; derivation; named = change.label; asked; rounds = change.rounds } in
   match change.outcome with
   | Next r -> Decision.Decided (come_to (Goes_on r))
@@ -183,7 +184,7 @@ let internal program world (s : Shared.t) (Task_rules.Step { offer; continue; ar
     coded program world s guard ~gives ~fails:(guard_fails continue)
   in
   match offer with
-  | End_of _ | Expiry_of _ -> Decision.Decided None
+  | End_of _ | Expiry_of _ | Answer_to _ -> Decision.Decided None
   | Start (p, v) ->
     go world ~asked:[ Start (v, p) ] { s with allocation = Vehicle_map.add v p s.allocation } (continue ())
   | Perform code ->
@@ -235,10 +236,11 @@ let on_event program world s (Task_rules.Step { offer; continue; around }) (even
   | Vehicle_done v, End_of (_, v') when v = v' -> go (without_tasks [ v ] s) (continue (Ok ()))
   | Vehicle_failed (v, why), End_of (_, v') when v = v' -> go (without_tasks [ v ] s) (continue (Error why))
   | Timer_expired timer, Expiry_of timer' when timer = timer' -> go s (continue ())
-  | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _
+  | Confirmed (question, reply), Answer_to (question', _) when question = question' -> go s (continue reply)
+  | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Confirmed _ | Answered _ | Nobody_answers _ | Replied _
       | Host_failed _ | Input _ | Interruption ),
       (Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _ | End_of _
-      | Expiry_of _) ) ->
+      | Expiry_of _ | Answer_to _) ) ->
     Decided None
 
 (* {1 In configurations} *)
@@ -260,4 +262,4 @@ let conclude m r { after; outcome; derivation; named; asked; rounds = _ } : Conc
     (* The failure has cut off all that ran. *)
     Conclusion.ending ~before:asked (derivation @ [ Rule.Execute_err ]) named after ending
   | Ends ((Completed | Halted _ | Failed _ | Interrupted) as ending) ->
-    Conclusion.ending ~timers:(Residual.timers r) ~before:asked derivation named after ending
+    Conclusion.ending ~waits:(Residual.waits r) ~before:asked derivation named after ending

@@ -14,6 +14,7 @@ type event =
   | Vehicle_failed of vehicle * string
   (** it failed, refused the task, or its connection was lost for longer than its timeout: why *)
   | Timer_expired of Residual.timer
+  | Confirmed of Residual.timer * (bool, string) result
   | Answered of { text : string; code : closure }  (** to [ask]: what was typed, and its code *)
   | Nobody_answers of string  (** why *)
   | Replied of value  (** by the host *)

@@ -4,6 +4,8 @@ type timer = int
 
 let script_timer = 0
 
+type wait = Time of float | Answer of string
+
 type t =
   | Ready of platform_task * vehicle
   | Running of platform_task * vehicle
@@ -15,6 +17,7 @@ type t =
   | One_of of branch list
   | Until of on_cut * closure * t
   | Idle of { timer : timer; seconds : float }
+  | Confirm of { question : timer; prompt : string; site : site }
   | During of { on_cut : on_cut; timer : timer; duration : duration; started : bool; body : t }
   | Watch of t * handler
   | Repeat of { round : t option; again : again }
@@ -35,7 +38,7 @@ and request = { allowed : vehicle list option; place : timer; depth : int }
 let rank = function
   | Ready _ -> 0 | Running _ -> 1 | Action _ -> 2 | Condition _ -> 3 | Sequence _ -> 4 | Parallel _ -> 5
   | All_of _ -> 6 | One_of _ -> 7 | Until _ -> 8 | Idle _ -> 9 | During _ -> 10 | Watch _ -> 11 | Repeat _ -> 12
-  | Made _ -> 13 | Unallocated _ -> 14 | Hold _ -> 15
+  | Made _ -> 13 | Unallocated _ -> 14 | Hold _ -> 15 | Confirm _ -> 16
 
 let rec compare r r' =
   if r == r' then 0
@@ -55,6 +58,9 @@ let rec compare r r' =
           Order.both (Value.compare_closure c c') (fun () -> compare a a'))
     | Watch (a, h), Watch (a', h') -> Order.both (compare_handler h h') (fun () -> compare a a')
     | Idle a, Idle b -> Order.both (Int.compare a.timer b.timer) (fun () -> Float.compare a.seconds b.seconds)
+    | Confirm a, Confirm b ->
+      Order.both (Int.compare a.question b.question) (fun () ->
+          Order.both (Int.compare a.site b.site) (fun () -> String.compare a.prompt b.prompt))
     | During a, During b ->
       Order.both (Int.compare a.timer b.timer) (fun () ->
           Order.both (Bool.compare a.started b.started) (fun () ->
@@ -70,7 +76,7 @@ let rec compare r r' =
     | Hold (vs, a), Hold (vs', a') ->
       Order.both (List.compare String.compare vs vs') (fun () -> compare a a')
     | ( ( Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _
-        | Idle _ | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ ),
+        | Idle _ | Confirm _ | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ ),
         _ ) -> Int.compare (rank r) (rank r')
 
 and compare_branch b b' = Order.both (Value.compare_closure b.guard b'.guard) (fun () -> compare b.body b'.body)
@@ -115,6 +121,7 @@ let rec hash r =
   | One_of bs -> List.fold_left (fun h b -> Order.mix (Order.mix h (Value.hash_closure b.guard)) (hash b.body)) h bs
   | Until (_, c, a) | Watch (a, { code = c; _ }) -> Order.mix (Order.mix h (Value.hash_closure c)) (hash a)
   | Idle { timer; _ } -> Order.mix h timer
+  | Confirm { question; prompt; _ } -> Order.mix (Order.mix h question) (Hashtbl.hash prompt)
   | During { timer; started; body; _ } -> Order.mix (Order.mix (Order.mix h timer) (Bool.to_int started)) (hash body)
   | Repeat { round; again = { left; each; _ } } ->
     let round = match round with Some r -> hash r | None -> 1 in
@@ -139,6 +146,7 @@ let rec pp ppf r =
   | One_of bs -> Format.fprintf ppf "oneOf { %a }" (separated ", " pp_branch) bs
   | Until (e, c, a) -> Format.fprintf ppf "%s { %s } run %a" (Value.until e) c.lambda.label pp a
   | Idle { seconds; _ } -> Format.fprintf ppf "idle(%s)" (Value.amount seconds)
+  | Confirm { prompt; _ } -> Format.fprintf ppf "confirm(%a)" Value.pp (String prompt)
   | During { on_cut; duration = Seconds s; body; _ } ->
     Format.fprintf ppf "%s %s run %a" (Value.during on_cut) (Value.amount s) pp body
   | During { on_cut; duration = Given_by c; body; _ } ->
@@ -190,7 +198,8 @@ let rec activate r =
   | Hold (vs, a) ->
     let a, timers = activate a in
     (Hold (vs, a), timers)
-  | Idle { timer; seconds } -> (r, [ (timer, seconds) ])
+  | Idle { timer; seconds } -> (r, [ (timer, Time seconds) ])
+  | Confirm { question; prompt; _ } -> (r, [ (question, Answer prompt) ])
   | Sequence (a, rest) ->
     let a, timers = activate a in
     (Sequence (a, rest), timers)
@@ -209,7 +218,7 @@ let rec activate r =
   | During { duration = Given_by _; _ } -> (r, [])
   | During ({ duration = Seconds seconds; timer; body; _ } as d) ->
     let body, timers = activate body in
-    (During { d with started = true; body }, (timer, seconds) :: timers)
+    (During { d with started = true; body }, (timer, Time seconds) :: timers)
 
 (* {1 What is active} *)
 
@@ -217,14 +226,15 @@ let rec exists_active p r =
   match r with
   | Sequence (a, _) | Watch (a, _) | Hold (_, a) | Repeat { round = Some a; _ } -> exists_active p a
   | Parallel rs -> List.exists (exists_active p) rs
-  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | One_of _ | All_of (None, _) | During { started = false; _ }
-  | Made _ | Unallocated _ | Repeat { round = None; _ } -> p r
+  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | One_of _ | All_of (None, _)
+  | During { started = false; _ } | Made _ | Unallocated _ | Repeat { round = None; _ } -> p r
   | All_of (Some a, _) | Until (_, _, a) | During { body = a; _ } -> p r || exists_active p a
 
 let rec fold_active f acc r =
   let acc = f acc r in
   match r with
-  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | One_of _ | All_of (None, _) | Made _ | Unallocated _ -> acc
+  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | One_of _ | All_of (None, _) | Made _
+  | Unallocated _ -> acc
   | During { started = false; _ } | Repeat { round = None; _ } -> acc
   | Sequence (a, _) | All_of (Some a, _) | Until (_, _, a) | Watch (a, _) | Hold (_, a) | During { body = a; _ }
   | Repeat { round = Some a; _ } -> fold_active f acc a
@@ -234,15 +244,17 @@ let collect f r = List.rev (fold_active (fun found r -> match f r with Some x ->
 
 let running = collect (function Running (_, v) -> Some v | _ -> None)
 
-let timers =
+let waits =
   collect (function
-      | Idle { timer; _ } | During { started = true; timer; _ } -> Some timer
+      | Idle { timer; seconds } | During { started = true; timer; duration = Seconds seconds; _ } ->
+        Some (timer, Time seconds)
+      | Confirm { question; prompt; _ } -> Some (question, Answer prompt)
       | Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _
-      | During { started = false; _ } | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ -> None)
+      | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ -> None)
 
 let rec may_go_round r =
   match r with
-  | Ready _ | Running _ | Action _ | Condition _ | Idle _ -> false
+  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ -> false
   (* What code makes is not known: it may be without end. *)
   | Made _ | Unallocated _ -> true
   | Sequence (a, rest) -> may_go_round a || List.exists may_go_round rest
@@ -273,8 +285,8 @@ let opened = function
   | Watch (a, handler) -> Some (Watched_by handler, a)
   | Repeat { round = Some a; again } -> Some (Round_of again, a)
   | Hold (vs, a) -> Some (Holding vs, a)
-  | Ready _ | Running _ | Action _ | Condition _ | Parallel _ | All_of (None, _) | One_of _ | Idle _ | Made _
-  | Unallocated _ | Repeat { round = None; _ } -> None
+  | Ready _ | Running _ | Action _ | Condition _ | Parallel _ | All_of (None, _) | One_of _ | Idle _ | Confirm _
+  | Made _ | Unallocated _ | Repeat { round = None; _ } -> None
 
 let within context r =
   match context, r with
@@ -301,7 +313,7 @@ let rec fold_all f acc r =
   let acc = f acc r in
   let all = List.fold_left (fold_all f) and branches = List.fold_left (fun acc (b : branch) -> fold_all f acc b.body) in
   match r with
-  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Made _ | Unallocated _ -> acc
+  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | Made _ | Unallocated _ -> acc
   | Sequence (a, rest) -> all (fold_all f acc a) rest
   | Parallel rs -> all acc rs
   | All_of (running, bs) -> branches (all acc (Option.to_list running)) bs
@@ -315,11 +327,11 @@ module Timer_set = Set.Make (Int)
 let add_named found = function
   | Ready (_, v) | Running (_, v) -> Vehicle_set.add v found
   | Hold (vs, _) -> List.fold_left (fun found v -> Vehicle_set.add v found) found vs
-  | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _ | Idle _ | During _ | Watch _
-  | Repeat _ | Made _ | Unallocated _ -> found
+  | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _ | Idle _ | Confirm _ | During _
+  | Watch _ | Repeat _ | Made _ | Unallocated _ -> found
 
 let add_timer found = function
-  | Idle { timer; _ } | During { timer; _ } -> Timer_set.add timer found
+  | Idle { timer; _ } | During { timer; _ } | Confirm { question = timer; _ } -> Timer_set.add timer found
   | Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _ | Watch _
   | Repeat _ | Made _ | Unallocated _ | Hold _ -> found
 
@@ -329,7 +341,7 @@ let makes_tasks r =
   let makes found = function
     | Made _ | Unallocated _ | Hold _ | Watch (_, { anew = Some _; _ }) -> true
     | Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _ | Idle _
-    | During _ | Watch _ | Repeat _ -> found
+    | Confirm _ | During _ | Watch _ | Repeat _ -> found
   in
   fold_all makes false r
 

@@ -6,11 +6,15 @@
 
 open Core
 
-(** A timer that [idle] or [during] starts, by its place in the executed task, from 1. *)
+(** A timer that [idle] or [during] starts, or a question that [confirm] puts, by its place in the executed task, from
+    1. *)
 type timer = int
 
 val script_timer : timer
 (** The timer of [pick] and [pause]: 0. *)
+
+(** What a timer waits for: that so many seconds pass, or the answer to a question. *)
+type wait = Time of float | Answer of string
 
 type t =
   | Ready of platform_task * vehicle  (** about to start *)
@@ -24,6 +28,7 @@ type t =
   | One_of of branch list
   | Until of on_cut * closure * t
   | Idle of { timer : timer; seconds : float }
+  | Confirm of { question : timer; prompt : string; site : site }  (** waits for yes *)
   | During of { on_cut : on_cut; timer : timer; duration : duration; started : bool; body : t }
   | Watch of t * handler
   | Repeat of { round : t option; again : again }
@@ -78,17 +83,17 @@ val repeat : again -> t -> t
 val holding : vehicle list -> t -> t
 (** [holding vs r] is [r], which holds [vs] until it ends. *)
 
-val activate : t -> t * (timer * float) list
-(** [activate r] is [r] about to run, and the timers that start with it, with their seconds. A [during] whose time is
-    given by code starts in a step of its own. *)
+val activate : t -> t * (timer * wait) list
+(** [activate r] is [r] about to run, and what begins with it: the timers that start, and the questions that are put. A
+    [during] whose time is given by code starts in a step of its own. *)
 
 (** {1:active What is active} *)
 
 val running : t -> vehicle list
 (** [running r] is the vehicles that run a task of [r]. *)
 
-val timers : t -> timer list
-(** [timers r] is the timers of [r] that have started. *)
+val waits : t -> (timer * wait) list
+(** [waits r] is the timers of [r] that have started, and the questions that stand. *)
 
 val fold_active : ('a -> t -> 'a) -> 'a -> t -> 'a
 (** [fold_active f x r] is [f (... (f x r1) ...) rn] for the nodes of [r] that have begun, from the outside in, left to

@@ -12,6 +12,7 @@ type t =
   | Oneof_when | Oneof_err
   | Until_cut | Assure_cut | Until_1 | Until_2 | Until_err
   | Idle_end
+  | Confirm_yes | Confirm_no
   | During_set | During_cut | Within_cut | During_1 | During_2 | During_err
   | Watch_1 | Watch_2 | Watch_ignore | Watch_propagate | Watch_halt
   | Watch_retry | Watch_instead

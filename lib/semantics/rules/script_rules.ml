@@ -28,7 +28,7 @@ let execute world (s : Shared.t) m t =
       Conclusion.ending [ Alloc_err ] (Cannot_execute fault.message) s (Failed fault)
     | Ok r ->
       let r, timers = Residual.activate r in
-      Conclusion.make ~effects:(Conclusion.timers_started timers) Execute Execute (Executing (m, r)) s
+      Conclusion.make ~effects:(Conclusion.begun timers) Execute Execute (Executing (m, r)) s
   in
   Decision.map allocated (Decision.look world (fun world -> Allocation.allocate world s.bound t))
 
@@ -68,11 +68,11 @@ let on_interrupt (program : Core.program) (s : Shared.t) m : Configuration.t opt
   | Some _ | None -> None
 
 let interrupt program (c : Configuration.t) m =
-  let timers = Configuration.timers c and s = c.shared in
+  let waits = Configuration.waits c and s = c.shared in
   match on_interrupt program s m with
   | Some { control; shared } ->
-    Conclusion.make ~effects:(Conclusion.cut timers s) On_interrupt Interrupt control shared
-  | None -> Conclusion.ending ~timers [ Interrupt ] Interrupt s Interrupted
+    Conclusion.make ~effects:(Conclusion.cut waits s) On_interrupt Interrupt control shared
+  | None -> Conclusion.ending ~waits [ Interrupt ] Interrupt s Interrupted
 
 let go_on rule label x s m = Conclusion.make rule label (Script (Machine.give x m)) s
 

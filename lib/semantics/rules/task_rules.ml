@@ -15,6 +15,7 @@ type _ offer =
   | Allocate : task * request -> (vehicle list * t, Fault.t) result offer
   | End_of : platform_task * vehicle -> (unit, string) result offer
   | Expiry_of : timer -> unit offer
+  | Answer_to : timer * string -> (bool, string) result offer
 
 type undoing = Cancel of timer | Cut of t list
 
@@ -38,7 +39,7 @@ and change = {
   label : Label.t;
   outcome : outcome;
   rules : Rule.t list;
-  timers : (timer * float) list;
+  timers : (timer * wait) list;
   undone : undoing list;
   rounds : round list;
 }
@@ -331,13 +332,22 @@ let ask_again again condition =
 let idle_end timer =
   alone (Expiry_of timer) (fun () -> change Label.Time_out Rule.Idle_end Finished)
 
+let await_answer question prompt site =
+  let failed message = Failed (Fault.make site message) in
+  let continue = function
+    | Ok true -> change (Label.Answer "yes") Rule.Confirm_yes Finished
+    | Ok false -> change (Answer "no") Rule.Confirm_no (failed (Printf.sprintf "'%s' was answered no" prompt))
+    | Error why -> change No_answer Rule.Confirm_no (failed (Printf.sprintf "no answer to '%s': %s" prompt why))
+  in
+  alone (Answer_to (question, prompt)) continue
+
 let set_during on_cut timer code body =
   let continue = function
     | Error fault -> broke Rule.During_err fault
     | Ok seconds ->
       let body, timers = activate body in
       let next = During { on_cut; timer; duration = Seconds seconds; started = true; body } in
-      { (change (Set_time seconds) Rule.During_set (Next next)) with timers = (timer, seconds) :: timers }
+      { (change (Set_time seconds) Rule.During_set (Next next)) with timers = (timer, Time seconds) :: timers }
   in
   alone (Measure code) continue
 
@@ -368,6 +378,7 @@ let rec steps_at relevant r : step Seq.t =
   | All_of (None, branches) -> every choose_of_all branches
   | One_of branches -> every (fun _ b _ -> choose_one b) branches
   | Idle { timer; _ } -> Seq.return (idle_end timer)
+  | Confirm { question; prompt; site } -> Seq.return (await_answer question prompt site)
   | During { on_cut; duration = Given_by code; started = false; timer; body } ->
     Seq.return (set_during on_cut timer code body)
   | Repeat { round = None; again = { until = Some condition; _ } as again } -> Seq.return (ask_again again condition)
@@ -386,8 +397,8 @@ let rec steps_at relevant r : step Seq.t =
 let steps = steps_at (fun _ -> true)
 
 let may_step_alone = function
-  | Running _ | Idle _ | During { duration = Seconds _; _ } | Sequence _ | Parallel _ | All_of (Some _, _) | Watch _
-  | Hold _ | Repeat { round = Some _; _ } -> false
+  | Running _ | Idle _ | Confirm _ | During { duration = Seconds _; _ } | Sequence _ | Parallel _ | All_of (Some _, _)
+  | Watch _ | Hold _ | Repeat { round = Some _; _ } -> false
   | Made _ | Unallocated _ | Ready _ | Action _ | Condition _ | All_of (None, _) | One_of _ | Until _
   | During { duration = Given_by _; _ } | Repeat { round = None; _ } -> true
 
@@ -409,3 +420,4 @@ let broken (Step { offer; continue; _ }) (fault : Fault.t) : change option =
   | Make _ -> Some (continue (Error fault))
   | Allocate _ -> Some (continue (Error fault))
   | End_of _ -> Some (continue (Error fault.message))
+  | Answer_to _ -> Some (continue (Error fault.message))

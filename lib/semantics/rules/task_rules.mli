@@ -24,6 +24,8 @@ type _ offer =
   (** vehicles for this task that nobody holds: these, and what is left of the task *)
   | End_of : platform_task * vehicle -> (unit, string) result offer  (** that the vehicle reports the end *)
   | Expiry_of : timer -> unit offer  (** that the timer expires *)
+  | Answer_to : timer * string -> (bool, string) result offer
+  (** that the question of this prompt is answered: whether by yes, or why nobody answers *)
 
 (** What no longer runs. *)
 type undoing =
@@ -54,7 +56,7 @@ and change = {
   label : Label.t;
   outcome : outcome;
   rules : Rule.t list;  (** the derivation, innermost rule first; after a handler, what follows it *)
-  timers : (timer * float) list;  (** that start *)
+  timers : (timer * wait) list;  (** that start, and the questions that are put *)
   undone : undoing list;  (** in the order of the derivation, innermost rule first *)
   rounds : round list;  (** that begin: without these, every step leaves less of the residual *)
 }

@@ -5,6 +5,7 @@ type event = Local_step.event =
   | Vehicle_done of vehicle
   | Vehicle_failed of vehicle * string
   | Timer_expired of Residual.timer
+  | Confirmed of Residual.timer * (bool, string) result
   | Answered of { text : string; code : closure }
   | Nobody_answers of string
   | Replied of value
@@ -21,7 +22,7 @@ type t = Conclusion.t = {
 }
 
 type refusal = Not_awaited | Bad_answer of string
-type awaited = End_of of vehicle | Expiry_of of Residual.timer | Answer | Reply
+type awaited = End_of of vehicle | Expiry_of of Residual.timer | Answer_to of Residual.timer * string | Answer | Reply
 
 (* {1 Rules by control} *)
 
@@ -50,7 +51,8 @@ let executing_event program world s m r event =
   in
   match event with
   | Vehicle_done v | Vehicle_failed (v, _) -> first (Task_rules.steps_of_vehicle v r)
-  | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _ | Interruption ->
+  | Timer_expired _ | Confirmed _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _
+  | Interruption ->
     first (Task_rules.steps r)
 
 let on_event program world ({ control; shared = s } as c : Configuration.t) event =
@@ -59,7 +61,7 @@ let on_event program world ({ control; shared = s } as c : Configuration.t) even
   | Interruption, (Script m | Waiting (m, _) | Executing (m, _)) -> Decided (Ok (Script_rules.interrupt program c m))
   | Input (k, x), (Script _ | Waiting _ | Executing _) when List.mem k program.inputs ->
     Decided (Ok (Conclusion.make Input (Input (k, Value.canonical x)) control (Shared.post k x s)))
-  | (Vehicle_done _ | Vehicle_failed _ | Timer_expired _), Executing (m, r) ->
+  | (Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Confirmed _), Executing (m, r) ->
     executing_event program world s m r event
   | Timer_expired timer, Waiting (m, Pick pick) when timer = Residual.script_timer ->
     Decision.map (Option.to_result ~none:Not_awaited) (Pick_rules.timed_out world s m pick)
@@ -73,7 +75,7 @@ let on_event program world ({ control; shared = s } as c : Configuration.t) even
   | Host_failed why, Waiting (m, Host_call { subject; member; _ }) ->
     let call = Machine.name_of_call ~subject ~member in
     Decided (Ok (Script_rules.fail Call_err (No_reply why) (Printf.sprintf "%s: %s" call why) s m))
-  | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Answered _ | Nobody_answers _ | Replied _
+  | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Confirmed _ | Answered _ | Nobody_answers _ | Replied _
       | Host_failed _ | Input _ ),
       (Script _ | Waiting _ | Executing _) ) -> Decided (Error Not_awaited)
 
@@ -164,6 +166,7 @@ let awaited (c : Configuration.t) =
       match offer with
       | End_of (_, v) -> Some (End_of v)
       | Expiry_of timer -> Some (Expiry_of timer)
+      | Answer_to (question, prompt) -> Some (Answer_to (question, prompt))
       | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _ -> None
     in
     List.of_seq (Seq.filter_map event (Task_rules.steps r))
@@ -181,7 +184,7 @@ let unknown program world (c : Configuration.t) =
     | Take guard -> of_guard guard
     | Refute guard -> of_guard guard
     | Decide guard -> of_guard guard
-    | Start _ | Perform _ | Measure _ | Make _ | Allocate _ | End_of _ | Expiry_of _ -> None
+    | Start _ | Perform _ | Measure _ | Make _ | Allocate _ | End_of _ | Expiry_of _ | Answer_to _ -> None
   in
   match c.control with
   | Executing (_, r) when program.reads_sensors -> List.of_seq (Seq.filter_map of_step (Task_rules.steps r))

@@ -10,6 +10,8 @@ type event = Local_step.event =
   | Vehicle_failed of vehicle * string
   (** it failed, refused the task, or its connection was lost for longer than its timeout: why *)
   | Timer_expired of Residual.timer
+  | Confirmed of Residual.timer * (bool, string) result
+  (** the question of a task was answered: whether by yes, or why nobody answers *)
   | Answered of { text : string; code : closure }  (** to [ask]: what was typed, and its code *)
   | Nobody_answers of string  (** why *)
   | Replied of value  (** by the host *)
@@ -34,6 +36,7 @@ type refusal =
 type awaited =
   | End_of of vehicle  (** that it is done with its task, or fails *)
   | Expiry_of of Residual.timer
+  | Answer_to of Residual.timer * string  (** to this question, with its prompt, or that nobody answers *)
   | Answer  (** to [ask], or that nobody answers *)
   | Reply  (** of the host, or that the host fails *)
 

@@ -66,6 +66,7 @@ and task =
   | One_of of branch list                       (* [waitFor { C } then T] is a [One_of] with one branch *)
   | Until of on_cut * closure * task
   | Idle of float                               (* seconds *)
+  | Confirm of { prompt : string; site : site } (* a question that takes yes or no *)
   | During of on_cut * duration * task
   | Watch of task * closure
   | Repeat of { rounds : int option; until : closure option; body : task; site : site }
@@ -133,6 +134,7 @@ and builtin =
   | Make_wait_for
   | Make_until of Dolphin_syntax.Ast.on_cut
   | Make_idle                                   (* of a time; of a vehicle set: those of it that nobody holds *)
+  | Make_confirm
   | Make_during of Dolphin_syntax.Ast.on_cut
   | Make_watch
   | Make_repeat of { counted : bool; asked : bool }  (* how many rounds, the task, the condition *)

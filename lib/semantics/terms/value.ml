@@ -14,7 +14,7 @@ let rank = function
 let rank_task = function
   | Platform _ -> 0 | Action _ -> 1 | Condition _ -> 2 | Sequence _ -> 3 | Parallel _ -> 4 | Allocated _ -> 5
   | All_of _ -> 6 | One_of _ -> 7 | Until _ -> 8 | Idle _ -> 9 | During _ -> 10 | Watch _ -> 11
-  | Repeat _ -> 12 | Made _ -> 13
+  | Repeat _ -> 12 | Made _ -> 13 | Confirm _ -> 14
 
 let rec compare x y =
   if x == y then 0
@@ -68,6 +68,7 @@ and compare_task t t' =
       Order.both (compare_on_cut e e') (fun () -> Order.both (compare_closure c c') (fun () -> compare_task a a'))
     | Watch (a, c), Watch (a', c') -> Order.both (compare_closure c c') (fun () -> compare_task a a')
     | Idle d, Idle d' -> Float.compare d d'
+    | Confirm a, Confirm b -> Order.both (Int.compare a.site b.site) (fun () -> String.compare a.prompt b.prompt)
     | During (e, d, a), During (e', d', a') ->
       Order.both (compare_on_cut e e') (fun () -> Order.both (compare_duration d d') (fun () -> compare_task a a'))
     | Repeat a, Repeat b ->
@@ -75,7 +76,7 @@ and compare_task t t' =
           Order.both (Option.compare compare_closure a.until b.until) (fun () ->
               Order.both (Int.compare a.site b.site) (fun () -> compare_task a.body b.body)))
     | ( ( Platform _ | Action _ | Condition _ | Sequence _ | Parallel _ | Allocated _ | All_of _ | One_of _
-        | Until _ | Idle _ | During _ | Watch _ | Repeat _ | Made _ ),
+        | Until _ | Idle _ | Confirm _ | During _ | Watch _ | Repeat _ | Made _ ),
         _ ) -> Int.compare (rank_task t) (rank_task t')
 
 and compare_branch b b' =
@@ -145,6 +146,7 @@ and hash_task left depth t =
       List.fold_left (fun h b -> Order.mix (Order.mix h (hash_code left b.guard)) (part b.body)) (rank_task t) bs
     | Until (_, c, a) | Watch (a, c) -> Order.mix (Order.mix (rank_task t) (hash_code left c)) (part a)
     | Idle d -> Order.mix 9 (Hashtbl.hash d)
+    | Confirm { prompt; _ } -> Order.mix 14 (Hashtbl.hash prompt)
     | During (_, _, a) -> Order.mix 10 (part a)
     | Repeat { rounds; body; _ } -> Order.mix (Order.mix 12 (Option.value rounds ~default:0)) (part body)
 
@@ -374,6 +376,7 @@ and print_task left level ppf t =
     | One_of bs -> print "oneOf { %a }" (Format.pp_print_list ~pp_sep:comma branch) bs
     | Until (e, _, a) -> prefixed (until e ^ " { ... }") a
     | Idle d -> print "idle(%s.seconds)" (amount d)
+    | Confirm { prompt; _ } -> print "confirm(%s)" (quoted prompt)
     | During (e, Seconds d, a) -> prefixed (Printf.sprintf "%s %s.seconds" (during e) (amount d)) a
     | During (e, Given_by _, a) -> prefixed (during e ^ " { ... }") a
     | Watch (a, _) -> parenthesised 0 (fun ppf -> Format.fprintf ppf "watch %a onError { ... }" (task 1) a)

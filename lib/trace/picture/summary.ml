@@ -134,7 +134,10 @@ let see b (s : World.vehicle_state) =
 let errors (s : Step.t) (cause : Event.t option) =
   match cause with
   | Some (Failed { vehicle; why }) -> [ Printf.sprintf "%s: %s" vehicle why ]
-  | Some (Done _ | Timer _ | Answer _ | No_answer _ | Reply _ | No_reply _ | Input _ | Interruption) | None ->
+  | Some
+      ( Done _ | Timer _ | Confirmation _ | No_confirmation _ | Answer _ | No_answer _ | Reply _ | No_reply _ | Input _
+      | Interruption )
+  | None ->
     let is_broken = String.length s.label > 7 && String.sub s.label 0 7 = "broken(" in
     if is_broken then [ String.sub s.label 7 (String.length s.label - 8) ] else []
 
@@ -143,7 +146,10 @@ let take b (s : Step.t) =
   (match b.cause with
    | Some (Done v) -> end_task b v Done
    | Some (Failed { vehicle; why }) -> end_task b vehicle (Failed why)
-   | Some (Timer _ | Answer _ | No_answer _ | Reply _ | No_reply _ | Input _ | Interruption) | None -> ());
+   | Some
+       ( Timer _ | Confirmation _ | No_confirmation _ | Answer _ | No_answer _ | Reply _ | No_reply _ | Input _
+       | Interruption )
+   | None -> ());
   List.iter (fun text -> note (Erred text)) (errors s b.cause);
   b.cause <- None;
   List.iter (fun pair -> note (Consumed pair)) s.consumed;
@@ -154,8 +160,8 @@ let take b (s : Step.t) =
     | Bind vs -> List.iter (hold b) vs
     | Release vs -> List.iter (let_go b) vs
     | Say text -> note (Said text)
-    | Ask prompt -> note (Asked prompt)
-    | Set_timer _ | Cancel_timer _ | Look_for _ | Set_connection_timeout _ | Call _ | End _ -> ()
+    | Ask prompt | Put_question { prompt; _ } -> note (Asked prompt)
+    | Set_timer _ | Cancel_timer _ | Withdraw_question _ | Look_for _ | Set_connection_timeout _ | Call _ | End _ -> ()
   in
   List.iter request s.requests
 

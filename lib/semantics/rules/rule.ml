@@ -23,14 +23,14 @@ type t =
   | End | Halt | Fault | Interrupt | On_interrupt
 
 let all =
-  [ Start; Done; Fail; Action; Action_err; Condition; Condition_err; Assert_err; Seq_1; Seq_2; Seq_err; Par_1; Par_2;
-    Par_err; Allof_when; Allof_1; Allof_2; Allof_err; Oneof_when; Oneof_err; Until_cut; Assure_cut; Until_1; Until_2;
-    Until_err; Idle_end; Confirm_yes; Confirm_no; During_set; During_cut; Within_cut; During_1; During_2; During_err;
-    Watch_1; Watch_2; Watch_ignore; Watch_propagate; Watch_halt; Watch_retry; Watch_instead; Repeat_1; Repeat_2;
-    Repeat_until; Repeat_again; Repeat_err; Make; Make_err; Allocate; Allocate_err; Hold_1; Hold_2; Hold_err; Script;
-    Post; Consume; Message; Release; Set_timeout; Pick; Pick_bind; Pick_err; Pick_else; Ask; Answer; Answer_err; Pause; Resume;
-    Call; Reply; Call_err; Execute; Execute_done; Execute_err; Alloc_err; Input; End; Halt; Fault; Interrupt;
-    On_interrupt ]
+  [ Start; Done; Fail; Action; Action_err; Condition; Condition_err; Assert_err; Seq_1; Seq_2; Seq_err; Par_1;
+    Par_2; Par_err; Allof_when; Allof_1; Allof_2; Allof_err; Oneof_when; Oneof_err; Until_cut; Assure_cut; Until_1;
+    Until_2; Until_err; Idle_end; Confirm_yes; Confirm_no; During_set; During_cut; Within_cut; During_1; During_2;
+    During_err; Watch_1; Watch_2; Watch_ignore; Watch_propagate; Watch_halt; Watch_retry; Watch_instead; Repeat_1;
+    Repeat_2; Repeat_until; Repeat_again; Repeat_err; Make; Make_err; Allocate; Allocate_err; Hold_1; Hold_2;
+    Hold_err; Script; Post; Consume; Message; Release; Set_timeout; Pick; Pick_bind; Pick_err; Pick_else; Ask;
+    Answer; Answer_err; Pause; Resume; Call; Reply; Call_err; Execute; Execute_done; Execute_err; Alloc_err; Input;
+    End; Halt; Fault; Interrupt; On_interrupt ]
 
 let name = function
   | Start -> "START" | Done -> "DONE" | Fail -> "FAIL"

@@ -796,12 +796,6 @@ let maps =
 let division =
   in_file "lib/geo/division.ml" ~noticed_by:"geo/test_parts"
     [
-      ( "parts of areas hang by necks",
-        {|((not wide) || wide_enough region part cut)|},
-        {|(wide || true || wide_enough region part cut)|} );
-      ( "a cut through corners may cut off too much",
-        {|if exact && count_outer|},
-        {|if (exact || true) && count_outer|} );
       ( "parts of areas are not equally large",
         {|let wanted = whole *. float_of_int parts /.|},
         {|let wanted = 0.99 *. whole *. float_of_int parts /.|} );

@@ -11,10 +11,10 @@ both.
   > execute v: (imcPlan('a1') >> imcPlan('a2')), w: (imcPlan('b1') >> imcPlan('b2'))
   > message 'Done!'
   > END
-  $ dolphin sim auv.fleet --imc --speed 10 --announce 0.5 --contact 0.2 --discovery-ports 42360-42364 --port 42370 \
+  $ dolphin sim auv.fleet --imc --speed 10 --announce 0.5 --contact 0.2 --discovery-ports 22360-22364 --port 22370 \
   >   --log auv.log --for 300 > vehicles.txt & vehicles=$!
   $ until [ -s vehicles.txt ]; do sleep 0.05; done
-  $ imc="--imc-loopback --imc-discovery-ports 42360-42364"
+  $ imc="--imc-loopback --imc-discovery-ports 22360-22364"
   $ adapter="dolphin sim uav.fleet --platform --speed 10 --state uav.state"
   $ killed() {  # once both have started these
   >   until grep -qs "start(auv-1, $1)" m.run && grep -qs "start(uav-1, $2)" m.run || ! kill -0 $run; do sleep 0.05; done

@@ -12,27 +12,27 @@ The commands that speak IMC, with vehicles in another process.
 
 Who is there.
 
-  $ vehicles 42200
-  $ dolphin fleet --imc-loopback --imc-discovery-ports 42200-42204 --once --seconds 6 > fleet.txt
+  $ vehicles 22200
+  $ dolphin fleet --imc-loopback --imc-discovery-ports 22200-22204 --once --seconds 6 > fleet.txt
   $ awk '{ print $1, $2, $3 }' fleet.txt
   VEHICLE TYPE IMC
   noptilus-1 UUV 3001
   x8-02 UAV 3002
-  $ dolphin fleet --imc-loopback --imc-discovery-ports 42200-42204 --once --seconds 6 --json --imc-payload x8-02=Camera |
+  $ dolphin fleet --imc-loopback --imc-discovery-ports 22200-22204 --once --seconds 6 --json --imc-payload x8-02=Camera |
   >   python3 -c "
   > import json, sys
   > for v in json.load(sys.stdin): print(v['id'], v['type'], v['address'], v['mode'], v['linked'], v['available'], v['plan'], 'DVL' in v['payload'], 'Camera' in v['payload'])"
-  noptilus-1 UUV 127.0.0.1:42210 SERVICE True True None True False
-  x8-02 UAV 127.0.0.1:42211 SERVICE True True None False True
+  noptilus-1 UUV 127.0.0.1:22210 SERVICE True True None True False
+  x8-02 UAV 127.0.0.1:22211 SERVICE True True None False True
   $ kill $vehicles; wait $vehicles 2> wait.txt || true
 
 Its own definition of IMC gives names to what Dolphin has none for, and a vehicle can be of another type than IMC knows.
 
   $ python3 imc_xml.py ../imc/data/facts.jsonl > IMC.xml
-  $ dolphin sim pair.fleet --imc --announce 0.5 --contact 0.2 --discovery-ports 42260-42264 --port 42270 --flood 100 \
+  $ dolphin sim pair.fleet --imc --announce 0.5 --contact 0.2 --discovery-ports 22260-22264 --port 22270 --flood 100 \
   >   --for 90 > vehicles.txt & vehicles=$!
   $ until [ -s vehicles.txt ]; do sleep 0.05; done
-  $ dolphin fleet --imc-loopback --imc-discovery-ports 42260-42264 --once --seconds 6 --json --imc-xml IMC.xml \
+  $ dolphin fleet --imc-loopback --imc-discovery-ports 22260-22264 --once --seconds 6 --json --imc-xml IMC.xml \
   >   --imc-type noptilus-1=ROV | python3 -c "
   > import json, sys
   > for v in json.load(sys.stdin):
@@ -41,7 +41,7 @@ Its own definition of IMC gives names to what Dolphin has none for, and a vehicl
   noptilus-1 ROV {'abbrev': 'AngularVelocity', 'time': 0.0, 'x': 0.0, 'y': 0.0, 'z': 0.0} True EstimatedState True
   x8-02 UAV {'abbrev': 'AngularVelocity', 'time': 0.0, 'x': 0.0, 'y': 0.0, 'z': 0.0} True EstimatedState True
   $ echo "v = pick { type 'ROV'; timeout 20.seconds }; message \"picked \${v}\"" > rov.dol
-  $ dolphin exec rov.dol --imc-loopback --imc-discovery-ports 42260-42264 --imc-type noptilus-1=ROV | grep -o 'says: .*'
+  $ dolphin exec rov.dol --imc-loopback --imc-discovery-ports 22260-22264 --imc-type noptilus-1=ROV | grep -o 'says: .*'
   says: picked noptilus-1
   $ kill $vehicles; wait $vehicles 2> wait.txt || true
 
@@ -80,10 +80,10 @@ A definition that is none, one that contradicts itself, and one of another proto
 
 One that has vanished, and one that returns.
 
-  $ dolphin sim pair.fleet --imc --announce 0.3 --contact 0.2 --discovery-ports 42320-42324 --port 42330 --for 90 \
+  $ dolphin sim pair.fleet --imc --announce 0.3 --contact 0.2 --discovery-ports 22320-22324 --port 22330 --for 90 \
   >   --vanish x8-02=0 --vanish noptilus-1=0,1 > vehicles.txt & vehicles=$!
   $ until [ -s vehicles.txt ]; do sleep 0.05; done
-  $ dolphin fleet --imc-loopback --imc-discovery-ports 42320-42324 --once --seconds 6 | awk '{ print $1, $2 }'
+  $ dolphin fleet --imc-loopback --imc-discovery-ports 22320-22324 --once --seconds 6 | awk '{ print $1, $2 }'
   VEHICLE TYPE
   noptilus-1 UUV
   $ kill $vehicles; wait $vehicles 2> wait.txt || true
@@ -91,9 +91,9 @@ One that has vanished, and one that returns.
 A vehicle that confirms nothing: its process is halted. The first interruption tells it to stop and waits for that to be
 confirmed, for five seconds at most, and says so; the second one ends the program at once.
 
-  $ vehicles 42280
+  $ vehicles 22280
   $ echo "v = pick { type 'UUV'; timeout 20.seconds }; execute imcPlan('long')" > long.dol
-  $ (sh -c 'echo $$ > pid.txt; exec dolphin exec long.dol --imc-loopback --imc-discovery-ports 42280-42284 > log.txt 2> errors.txt'
+  $ (sh -c 'echo $$ > pid.txt; exec dolphin exec long.dol --imc-loopback --imc-discovery-ports 22280-22284 > log.txt 2> errors.txt'
   >  echo $? > status.txt) &
   $ until grep -qs 'starts long' log.txt || [ -s status.txt ]; do sleep 0.05; done
   $ kill -STOP $vehicles
@@ -110,9 +110,9 @@ confirmed, for five seconds at most, and says so; the second one ends the progra
 
 With the first one only, it does wait, and ends. What became of the plan nobody knows, and it says that.
 
-  $ vehicles 42300
+  $ vehicles 22300
   $ rm status.txt log.txt
-  $ (sh -c 'echo $$ > pid.txt; exec dolphin exec long.dol --imc-loopback --imc-discovery-ports 42300-42304 > log.txt'
+  $ (sh -c 'echo $$ > pid.txt; exec dolphin exec long.dol --imc-loopback --imc-discovery-ports 22300-22304 > log.txt'
   >  echo $? > status.txt) &
   $ until grep -qs 'starts long' log.txt || [ -s status.txt ]; do sleep 0.05; done
   $ kill -STOP $vehicles
@@ -127,7 +127,7 @@ With the first one only, it does wait, and ends. What became of the plan nobody 
 
 Nobody.
 
-  $ dolphin fleet --imc-loopback --imc-discovery-ports 42220-42224 --once --seconds 0.2
+  $ dolphin fleet --imc-loopback --imc-discovery-ports 22220-22224 --once --seconds 0.2
   no system was heard of
 
 What does not go together, and what is no option.
@@ -140,10 +140,10 @@ What does not go together, and what is no option.
   dolphin: option '--imc-payload': 'x8-02' is not like x8-02=Camera,Sidescan
   $ dolphin exec hello.dol --imc-id 1 2>&1 | head -1
   dolphin: option '--imc-id': '1' is not the IMC address of a console, from
-  $ dolphin exec hello.dol --imc-interface 192.0.2.1 --imc-discovery-ports 42240-42244
+  $ dolphin exec hello.dol --imc-interface 192.0.2.1 --imc-discovery-ports 22240-22244
   dolphin: no interface of this machine has the address 192.0.2.1
   [3]
-  $ dolphin exec hello.dol --imc-loopback --imc-discovery-ports 42240-42244
+  $ dolphin exec hello.dol --imc-loopback --imc-discovery-ports 22240-22244
      0:00  program     says: hello
      0:00  program     ends
 

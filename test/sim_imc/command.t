@@ -4,7 +4,7 @@ Vehicles on the network, for as long as is said. The numbers of the ports depend
   > vehicle 'noptilus-1', { type 'UUV' }
   > vehicle 'x8-02', { type 'UAV' }
   > END
-  $ alias sim='dolphin sim --imc --for 0.1 --discovery-ports 41120-41139 --port 41140'
+  $ alias sim='dolphin sim --imc --for 0.1 --discovery-ports 21120-21139 --port 21140'
   $ sim two.fleet --log log.jsonl | sed 's/port [0-9]*/port N/'
   noptilus-1 (UUV): IMC system 0x3001, UDP port N
   x8-02 (UAV): IMC system 0x3002, UDP port N
@@ -20,7 +20,7 @@ Without a fleet, the built-in one.
 
 Ctrl-C, or a request to terminate.
 
-  $ dolphin sim two.fleet --imc --discovery-ports 41120-41139 --port 41140 > lines & pid=$!
+  $ dolphin sim two.fleet --imc --discovery-ports 21120-21139 --port 21140 > lines & pid=$!
   $ until [ -s lines ]; do sleep 0.05; done; kill $pid; wait $pid
   [130]
 

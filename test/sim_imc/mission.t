@@ -33,7 +33,7 @@ What the vehicles were told to start, each request once however often the networ
 
 On a good link.
 
-  $ mission mission.dol 41200
+  $ mission mission.dol 21200
   status 0
   $ starts
   around
@@ -53,7 +53,7 @@ On a good link.
 
 On a bad one.
 
-  $ mission mission.dol 41220 --loss 0.3 --duplication 0.1 --reordering 0.2 --seed 5
+  $ mission mission.dol 21220 --loss 0.3 --duplication 0.1 --reordering 0.2 --seed 5
   status 0
   $ starts
   around
@@ -71,11 +71,11 @@ On a bad one.
 A plan that fails, and plans that are refused.
 
   $ echo "v = pick { type 'UUV'; timeout 1.min }; execute imcPlan('astray')" > astray.dol
-  $ mission astray.dol 41240
+  $ mission astray.dol 21240
   status 1
   $ grep -o 'failed on .*' errors.txt | sed 's/noptilus-[12]/one/' | head -1
   failed on one: plan failed
-  $ mission mission.dol 41260 --refuse noptilus-1=unwell --refuse noptilus-2=unwell
+  $ mission mission.dol 21260 --refuse noptilus-1=unwell --refuse noptilus-2=unwell
   status 1
   $ grep -o 'failed on .*' errors.txt | sed 's/noptilus-[12]/one/' | head -1
   failed on one: unwell

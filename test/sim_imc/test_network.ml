@@ -58,11 +58,11 @@ let scenario source =
   | Ok s -> s
   | Error faults -> Alcotest.failf "%a" (Fmt.list (Dolphin_syntax.Diagnostic.pp ~source)) faults
 
-let ports = 41100, 41104
+let ports = 21100, 21104
 
 let settings source =
   { (Network.default (scenario source)) with
-    discovery_ports = ports; first_port = 41002; announce_period = 0.2; contact_period = 0.1; speed = 10. }
+    discovery_ports = ports; first_port = 21002; announce_period = 0.2; contact_period = 0.1; speed = 10. }
 
 let announce c () =
   let services = Printf.sprintf "imc+udp://127.0.0.1:%d/" c.data_port in
@@ -157,14 +157,14 @@ let floods () =
       Alcotest.(check bool) "half of them from a sensor" true (abs ((2 * one) - all) < all / 5))
 
 let no_port () =
-  let others = List.init 5 (fun i -> create { (settings source) with discovery_ports = 41110 + i, 41110 + i }) in
-  let error = Network.create { (settings source) with discovery_ports = 41110, 41114 } in
+  let others = List.init 5 (fun i -> create { (settings source) with discovery_ports = 21110 + i, 21110 + i }) in
+  let error = Network.create { (settings source) with discovery_ports = 21110, 21114 } in
   List.iter Network.close others;
   match error with
   | Ok network -> Network.close network; Alcotest.fail "found a port"
   | Error why ->
     Alcotest.(check string) "says so"
-      "none of the UDP ports 41110 to 41114, on which IMC systems find each other, is free" why
+      "none of the UDP ports 21110 to 21114, on which IMC systems find each other, is free" why
 
 let tests =
   [ case "vehicles are found, run plans, and stop" finds_and_runs;

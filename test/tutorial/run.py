@@ -16,8 +16,8 @@ END = "-- end of the command --"
 # Vehicles and consoles of the page meet on ports of their own, so that nothing else on this machine takes part.
 WRAPPER = """#!/bin/sh
 case " $* " in
-  *" sim "*" --imc "*) exec {dolphin} "$@" --discovery-ports 41340-41344 --port 41350 --announce 0.5 --contact 0.2 ;;
-  *" --imc-loopback "*) exec {dolphin} "$@" --imc-discovery-ports 41340-41344 ;;
+  *" sim "*" --imc "*) exec {dolphin} "$@" --discovery-ports 21340-21344 --port 21350 --announce 0.5 --contact 0.2 ;;
+  *" --imc-loopback "*) exec {dolphin} "$@" --imc-discovery-ports 21340-21344 ;;
   *) exec {dolphin} "$@" ;;
 esac
 """

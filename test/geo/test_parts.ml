@@ -51,6 +51,11 @@ let parts () =
        check "a corridor that turns" n
          (Area.corridor (List.map place [ (0., 0.); (300., 0.); (300., 200.); (50., 200.); (50., 100.) ]) 20.))
     [ 1; 2; 3; 4; 7; 12 ];
+  (* A cut along a step, a millimetre too high, takes the step too. *)
+  check "a mast on steps of two parts" 4
+    (polygon
+       [ (0., 0.); (100., 0.); (100., 20.); (80., 20.); (80., 20.); (60., 20.); (60., 100.); (40., 100.); (40., 20.);
+         (20., 20.); (20., 40.); (0., 40.) ]);
   check "a square" 100 (polygon (square 0. 0. 100.));
   check ~share:1e-3 "around the pole" 5 (Area.polygon [ at 89. 0.; at 89. 90.; at 89. 180.; at 89. (-90.) ]);
   check ~share:1e-3 "across 180 degrees" 5

@@ -80,9 +80,7 @@ module Make (P : Platform.S) = struct
     mutable upcoming : (Platform.event Lwt.t * news Lwt.t) option;
     (* the platform's next event, if it was asked for, as it is told and as it is read *)
     mutable reply : news Lwt.t option;  (* from the console or the host, if it is awaited *)
-    mutable questions : (Residual.timer * string) list;  (* of tasks, that stand, the first one first *)
-    mutable asks : bool;  (* a question was put *)
-    mutable shown : (Residual.timer * news Lwt.t) option;  (* that of these which people are asked *)
+    questions : news Task_questions.t;  (* of tasks *)
     mutable unknown : Fault.t list;  (* what was told to be *)
     mutable posted : news Lwt.t option;  (* the next input, if it was asked for *)
     mutable input_before : bool;  (* whether the latest piece of news was an input *)
@@ -106,9 +104,7 @@ module Make (P : Platform.S) = struct
     let reply = function Ok x -> Event (Ok (Replied x)) | Error why -> Event (Ok (Host_failed why)) in
     s.reply <- Some (s.call ~site ~subject ~member ~arguments >|= reply)
 
-  (* {2 Questions of tasks}
-
-     People are asked one question at a time, when the program has nothing else to do. *)
+  (* {2 Questions of tasks} *)
 
   let replied s question reply =
     match reply with
@@ -119,37 +115,25 @@ module Make (P : Platform.S) = struct
         | Some yes -> Event (Ok (Confirmed (question, Ok yes)))
         | None -> s.console.refused "it takes yes or no"; Asked_again)
 
+  (* When the program has nothing else to do. *)
   let show_question s =
-    match s.questions with
-    | (question, prompt) :: _ when s.shown = None ->
-      s.shown <- Some (question, s.console.ask prompt >|= replied s question)
-    | _ -> ()
+    Task_questions.show s.questions ~ask:(fun question prompt -> s.console.ask prompt >|= replied s question)
 
-  let tell_inputs s = Inputs.ask s.inputs (List.map snd s.questions)
+  let tell_inputs s = Inputs.ask s.inputs (List.map snd (Task_questions.standing s.questions))
 
   let put_question s question prompt =
-    s.asks <- true;
-    s.questions <- s.questions @ [ (question, prompt) ];
+    Task_questions.put s.questions question prompt;
     tell_inputs s
 
-  (* It was answered, or nobody need answer it any more. *)
-  let end_question s question =
-    s.questions <- List.filter (fun (q, _) -> q <> question) s.questions;
-    tell_inputs s;
-    match s.shown with
-    | Some (shown, promise) when shown = question -> s.shown <- None; Lwt.cancel promise
-    | Some _ | None -> ()
+  let withdraw_question s question =
+    Task_questions.withdraw s.questions question;
+    tell_inputs s
 
-  (* Nobody answers the question that is shown; others are not shown as long as it stands. *)
-  let leave_question s question = s.shown <- Some (question, fst (Lwt.task ()))
-
-  (* To whoever posts it by its prompt. *)
-  let answered_by s (item : Inputs.item) : Transition.event option =
-    let yes = match item.value with Boolean b -> Some b | String text -> Answer.confirmation text | _ -> None in
-    let is_it (_, prompt) = String.equal prompt item.key in
-    match List.find_opt is_it s.questions, yes with
-    | Some (question, _), Some yes when not (List.mem item.key s.program.inputs) -> Some (Confirmed (question, Ok yes))
-    | _, _ -> None
+  (* A declared input is one, whatever its key. *)
+  let posted s (item : Inputs.item) : Transition.event =
+    match Task_questions.answered_by s.questions item with
+    | Some (question, yes) when not (List.mem item.key s.program.inputs) -> Confirmed (question, Ok yes)
+    | Some _ | None -> Input (item.key, item.value)
 
   (* Of the platform's next event, which it has told already perhaps, though an input was read first. *)
   let drop s overtaken =
@@ -162,7 +146,7 @@ module Make (P : Platform.S) = struct
     | Set_timer (timer, seconds) -> P.set_timer s.platform timer seconds
     | Cancel_timer timer -> drop s (Overtaken.by_cancel timer); P.cancel_timer s.platform timer
     | Put_question (question, prompt) -> put_question s question prompt
-    | Withdraw_question question -> end_question s question
+    | Withdraw_question question -> withdraw_question s question
     | Look_for pick ->
       let seconds = Option.value pick.timeout ~default:(P.announce_period s.platform) in
       P.set_timer s.platform Residual.script_timer seconds
@@ -201,7 +185,7 @@ module Make (P : Platform.S) = struct
     s.observer.transition ~time ~cause t;
     s.configuration <- t.next;
     (match t.label with Interrupt -> withdraw s | _ -> ());
-    (match cause with Some (Confirmed (question, _)) -> end_question s question | Some _ | None -> ());
+    (match cause with Some (Confirmed (question, _)) -> withdraw_question s question | Some _ | None -> ());
     carry_out_all s t.effects
 
   let see s state =
@@ -259,10 +243,11 @@ module Make (P : Platform.S) = struct
       s.posted <- Some promise;
       promise
 
-  (* Nobody can post what the program does not declare. *)
   let next_interruption s = match s.interruptions with next :: _ -> [ next ] | [] -> []
 
-  let inputs_of s = if s.program.inputs = [] && not s.asks then [] else [ next_of_inputs s ]
+  (* Nobody can post what the program neither declares nor asks. *)
+  let inputs_of s =
+    if s.program.inputs = [] && not (Task_questions.were_put s.questions) then [] else [ next_of_inputs s ]
 
   let forget s promise =
     let unless p = if p == promise then None else Some p in
@@ -270,16 +255,15 @@ module Make (P : Platform.S) = struct
     s.reply <- Option.bind s.reply unless;
     s.interruptions <- List.filter (fun p -> p != promise) s.interruptions;
     s.posted <- Option.bind s.posted unless;
-    s.shown <- Option.bind s.shown (fun (_, shown as both) -> if shown == promise then None else Some both)
+    Task_questions.forget s.questions promise
 
   (* The next piece of news: of several that are there, an interruption before a reply before inputs and the platform's,
      which take turns: nobody can keep the vehicles' news away by posting. *)
   let next_news s =
-    let asks = s.reply <> None || s.shown <> None in
-    let platform = if P.virtual_time && asks then [] else [ next_of_platform s ] in
+    let answers = Option.to_list s.reply @ Option.to_list (Task_questions.shown s.questions) in
+    let platform = if P.virtual_time && answers <> [] then [] else [ next_of_platform s ] in
     let inputs = inputs_of s in
     let others = if s.input_before then platform @ inputs else inputs @ platform in
-    let answers = Option.to_list s.reply @ Option.to_list (Option.map snd s.shown) in
     let sources = next_interruption s @ answers @ others in
     let rec first_of = function
       | promise :: _ when is_resolved promise -> forget s promise; promise
@@ -290,8 +274,7 @@ module Make (P : Platform.S) = struct
 
   (* Whoever posted hears of it after the journal. *)
   let take_input s (item : Inputs.item) =
-    let event = Option.value (answered_by s item) ~default:(Transition.Input (item.key, item.value)) in
-    let taken = deliver s event in
+    let taken = deliver s (posted s item) in
     Inputs.tell item taken;
     taken
 
@@ -393,7 +376,7 @@ module Make (P : Platform.S) = struct
     | Seen state -> see s state; continue s (if sensitive then advance else wait ~sensitive)
     | Event event -> continue s (if deliver_if_any s event then advance else wait ~sensitive)
     | Asked_again -> continue s (wait ~sensitive)
-    | Unanswered question -> leave_question s question; wait ~sensitive s
+    | Unanswered question -> Task_questions.leave s.questions question; wait ~sensitive s
     | Nothing_more -> (
         match s.configuration.control with
         | Executing (_, r) -> give_up s (Stuck r)
@@ -408,9 +391,9 @@ module Make (P : Platform.S) = struct
        | Waiting (_, Ask prompt) -> ask s prompt
        | Waiting (_, Host_call { subject; member; arguments }) -> call_host s subject member arguments
        | Waiting (_, (Pick _ | Pause _ | Execute _)) | Script _ | Executing _ | Ended _ -> ());
-    let stands (question, _) = List.mem_assoc question s.questions in
+    let stands question = List.mem_assoc question (Task_questions.standing s.questions) in
     let put = function
-      | question, Residual.Answer prompt when not (stands (question, prompt)) -> put_question s question prompt
+      | question, Residual.Answer prompt when not (stands question) -> put_question s question prompt
       | _, (Residual.Answer _ | Time _) -> ()
     in
     List.iter put (Configuration.waits s.configuration)
@@ -418,7 +401,7 @@ module Make (P : Platform.S) = struct
   let finish s =
     Option.iter (fun (_, promise) -> Lwt.cancel promise) s.upcoming;
     Option.iter Lwt.cancel s.reply;
-    Option.iter (fun (_, promise) -> Lwt.cancel promise) s.shown;
+    Option.iter Lwt.cancel (Task_questions.shown s.questions);
     Option.iter Lwt.cancel s.posted;
     (match Option.map Lwt.state s.posted with
      | Some (Return (Posted item)) -> Inputs.tell item false
@@ -444,7 +427,7 @@ module Make (P : Platform.S) = struct
         interruptions = List.map interruption interruptions;
         configuration = beginning.configuration;
         world = beginning.world;
-        telemetry = false; upcoming = None; reply = None; questions = []; asks = false; shown = None; posted = None;
+        telemetry = false; upcoming = None; reply = None; questions = Task_questions.create (); posted = None;
         input_before = false; unknown = []; since_pause = 0; rounds = 0 }
     in
     let whole () =

@@ -21,7 +21,8 @@ type log = {
   script_order : order;
   verdict : verdict;
   executions : Vehicle_model.execution list;  (** of this order, latest first *)
-  meanwhile : Vehicle_model.execution list;  (** of any order, late copies being among them *)
+  meanwhile : Vehicle_model.execution list;
+  (** of any order, late copies being among them: one may have begun just before this order *)
   notes : string list;
 }
 
@@ -88,7 +89,8 @@ let patience = 120.
 
 let run_order (s : script) w (o : order) =
   let began = w.now in
-  let known = List.length (Vehicle_model.executions w.vehicle) in
+  let is_running = (Vehicle_model.state w.vehicle).state = Executing in
+  let ended_before = List.length (Vehicle_model.executions w.vehicle) - if is_running then 1 else 0 in
   w.verdicts <- [];
   w.notes <- [];
   w.copies <- [];
@@ -105,7 +107,7 @@ let run_order (s : script) w (o : order) =
   let all = Vehicle_model.executions w.vehicle in
   { script_order = o; verdict;
     executions = List.filter of_order all;
-    meanwhile = List.filteri (fun i _ -> i < List.length all - known) all;
+    meanwhile = List.filteri (fun i _ -> i < List.length all - ended_before) all;
     notes = w.notes }
 
 let world (s : script) =

@@ -124,11 +124,16 @@ let pool ?(after = "") body =
 
 let posting = "{ g -> watch task(\"s_$g\") onError { post goal: g; ignore() } }"
 
+let bringing key =
+  let input = { (List.hd Test_support.Posts.inputs) with key } in
+  { Environment.default with inputs = [ input ] }
+
 let alike, apart =
   let is expected name ?environment source =
     Alcotest.test_case name `Quick (fun () -> Alcotest.(check bool) name expected (uses ?environment source))
   in
   ( [ is true "posted again" (pool posting); is true "counted" (pool ~after:"message \"${count(goal: _)}\"" posting);
+      is true "an input brings something else" ~environment:(bringing "x") (pool posting);
       is true "other plans are named" ~environment:(by_name "home" Fails) (pool posting) ],
     [ is false "a plan of such a name ends otherwise" ~environment:(by_name "s_2" Fails) (pool posting);
       is false "compared" (pool "{ g -> action { if (g == 1) { halt 'x' } } }");
@@ -136,6 +141,9 @@ let alike, apart =
       is false "asked for by a pattern" (pool ~after:"if (poll(goal: { it == 2 })) { halt 'x' }" posting);
       is false "posted where it is asked for"
         (pool ~after:"if (poll(seen: 2)) { halt 'x' }" "{ g -> action { post seen: g } }");
+      is false "an input brings goals" ~environment:(bringing "goal") (pool posting);
+      is false "an input brings what it is posted with" ~environment:(bringing "seen")
+        (pool "{ g -> action { post seen: g } }");
       is false "a name of nothing else" (pool "{ g -> task(\"$g\") }");
       is false "the text of an error is posted"
         (pool "{ g -> watch task(\"s_$g\") onError { why -> post why: \"$why\"; ignore() } }");

@@ -235,7 +235,9 @@ let keys (options : Environment.options) program =
     let next = List.fold_left more looked makers in
     if Keys.equal next looked then looked else closed next
   in
-  let looked = closed looked_into in
+  (* Inputs bring values of their own: what the program posts may be equal to them. *)
+  let brought = Keys.of_list (List.map (fun (i : Environment.input) -> i.key) options.inputs) in
+  let looked = closed (Keys.union looked_into brought) in
   let given = List.fold_left (fun found (taken, _) -> Keys.union taken found) Keys.empty makers in
   Keys.diff given looked
 

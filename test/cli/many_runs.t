@@ -100,3 +100,7 @@ Ctrl-C ends it with what is known, also while a run goes on for ever; whoever is
   SIGINT 130 ['0 runs', 'interrupted; under way were the runs with the seeds 0, 1']
   SIGTERM 130 ['0 runs', 'interrupted; under way were the runs with the seeds 0, 1']
   SIGKILL -9 []
+
+The programs that ran did what the semantics allows.
+
+  $ check-journals

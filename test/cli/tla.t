@@ -61,6 +61,7 @@
     SiteOf <- MCSiteOf
     Ending <- MCEnding
     Answers <- MCAnswers
+    Confirmations <- MCConfirmations
     HostReplies <- MCHostReplies
     Interruptions = FALSE
     ScriptFuel = 10000

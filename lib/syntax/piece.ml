@@ -31,6 +31,9 @@ let rec trimmed_end text n = if n > 0 && String.contains " \t\r\012" text.[n - 1
 let without_returns text =
   if String.contains text '\r' then String.concat "" (String.split_on_char '\r' text) else text
 
+(* Whether the line does not go on after it. *)
+let ends_line (c : comment) = String.contains c.text '\n' || String.sub c.text 0 2 <> "/*"
+
 (* The comments of [source] from [start] to [stop], and how many lines end after the last. *)
 let gap source start stop =
   let starts_with i text =
@@ -93,11 +96,13 @@ let of_tokens ~source (tokens : Token.t array) =
     if ternary then opener.questions <- opener.questions - 1;
     let start = first.start.pos_cnum and stop = last.stop.pos_cnum in
     let comments, lines = gap source !end_before start in
+    (* A separator may stand between the end of that line and this token. *)
+    let is_on_new_line = first.newline || List.exists ends_line comments in
     let enclosing = if closes then (match !openers with [] -> -1 | opener :: _ -> opener.index) else opener.index in
     let piece =
       { token; text = without_returns (String.sub source start (stop - start)); comments; detached = lines > 0;
         after_blank = lines > 1; set_apart = start > !end_before; starts; ternary; enclosing;
-        depth = List.length !openers; partner = -1; breaks = first.newline } in
+        depth = List.length !openers; partner = -1; breaks = is_on_new_line } in
     (match token with
      | LPAREN | LBRACKET | LBRACE | TRAILING | BLOCK -> openers := { index = !count; questions = 0 } :: !openers
      | _ -> ());

@@ -90,6 +90,8 @@ let repository =
 let suite =
   [ Test_support.Property.case "what is printed" ~count:600 Generate.program
       ~print:(fun p -> print (Support.printed p)) (fun p -> holds (Support.printed p));
+    Alcotest.test_case "a comment, and a separator before the brace" `Quick (fun () ->
+        Alcotest.(check bool) "holds" true (holds "{//c\n\n; }\n\n\nnull\nnull\n"));
     Test_support.Property.case "programs in any layout" ~count:400 disarranged ~print holds;
     long_tasks; long_body; spacing ]
   @ repository

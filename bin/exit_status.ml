@@ -1,14 +1,9 @@
 type t = Done | Failed | Violated | Bad_input | Platform_trouble | Inconclusive | Bug | Interrupted
 
-let of_verdict : Dolphin_app.Exploration.verdict -> t = function
+let of_verdict : Dolphin_checker.Verdict.t -> t = function
   | Holds -> Done
   | Violated -> Violated
   | Inconclusive -> Inconclusive
-
-let of_sweep : Dolphin_app.Sweep.verdict -> t = function
-  | Holds -> Done
-  | Breaks -> Violated
-  | Open -> Inconclusive
 
 let code = function
   | Done -> 0

@@ -10,8 +10,7 @@ type t =
   | Bug  (** a fault of [dolphin] itself *)
   | Interrupted
 
-val of_verdict : Dolphin_app.Exploration.verdict -> t
-val of_sweep : Dolphin_app.Sweep.verdict -> t
+val of_verdict : Dolphin_checker.Verdict.t -> t
 
 val code : t -> int
 (** The number that a shell sees. *)

@@ -2,29 +2,9 @@ open Cmdliner
 open Dolphin_app
 module Faults = Dolphin_environment.Faults
 
-(* {1 Progress} *)
-
-let show_progress p = Printf.eprintf "\r%s\027[K%!" (Progress_lines.line p)
-
-let clear_progress () = Printf.eprintf "\r\027[K%!"
-
 (* {1 The command} *)
 
 let ( let* ) = Result.bind
-
-(* [search ~interrupted ~progress], whose progress is shown. *)
-let watched search ~json ~period =
-  let live = Unix.isatty Unix.stderr && not json && period = None in
-  let interrupted = ref false in
-  Sys.set_signal Sys.sigint (Signal_handle (fun _ -> interrupted := true));
-  let progress =
-    match period with
-    | Some seconds -> Progress_lines.every seconds prerr_endline
-    | None -> if live then show_progress else if json then ignore else Progress_lines.every 10. prerr_endline
-  in
-  let outcome = search ~interrupted:(fun () -> !interrupted) ~progress in
-  if live then clear_progress ();
-  outcome
 
 (* As it is kept, if nothing has changed; or explored, and kept for the next time. *)
 let find_or_explore settings program fleet ~json ~period ~cache =
@@ -34,8 +14,8 @@ let find_or_explore settings program fleet ~json ~period ~cache =
     Report.complain "nothing has changed: these are the verdicts that were kept";
     Ok outcome
   | None ->
-    let search ~interrupted ~progress = Exploration.explore ~interrupted ~progress settings program fleet in
-    let* outcome = watched search ~json ~period in
+    let explore ~interrupted ~progress = Exploration.explore ~interrupted ~progress settings program fleet in
+    let* outcome = Watched.search ~json ?period explore in
     let keep store = Result.iter_error Report.tell (Verdict_store.keep store outcome) in
     Option.iter keep store;
     Ok outcome
@@ -74,15 +54,15 @@ let of_values settings sweep fleet ~strict ~json ~period ~files ~cache =
     let options = "--trace, --draw, --junit, --sarif and --cache" in
     Error (Error.Bad_input (options ^ " are for one program: give --set no range of values"))
   else
-    let search ~interrupted ~progress =
+    let ask ~interrupted ~progress =
       Sweep.rows sweep ~interrupted (fun program ->
           let* outcome = Exploration.explore ~interrupted ~progress settings program fleet in
-          Ok (outcome, Explore_sweep.verdict ~strict outcome))
+          Ok (outcome, Exploration.verdict ~strict outcome))
     in
-    let* rows = watched search ~json ~period in
+    let* rows = Watched.search ~json ?period ask in
     if json then print_endline (Yojson.Safe.to_string (Explore_sweep.to_json sweep rows))
     else Explore_sweep.print ~strict sweep rows;
-    Ok (Exit_status.of_sweep (Sweep.verdict rows))
+    Ok (Exit_status.of_verdict (Sweep.verdict rows))
 
 let run path set fleet answers faults strict json period files cache reduction compress walks invariants formulas
     max_states max_depth max_memory timeout =

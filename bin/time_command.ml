@@ -3,31 +3,12 @@ open Dolphin_app
 
 let ( let* ) = Result.bind
 
-(* [search ~interrupted ~progress], whose progress is shown. *)
-let watched search ~json =
-  let live = Unix.isatty Unix.stderr && not json in
-  let interrupted = ref false in
-  Sys.set_signal Sys.sigint (Signal_handle (fun _ -> interrupted := true));
-  let progress =
-    if live then fun p -> Printf.eprintf "\r%s\027[K%!" (Progress_lines.line p)
-    else if json then ignore
-    else Progress_lines.every 10. prerr_endline
-  in
-  let outcome = search ~interrupted:(fun () -> !interrupted) ~progress in
-  if live then Printf.eprintf "\r\027[K%!";
-  outcome
-
-let status : Time_analysis.Timing.verdict -> Exit_status.t = function
-  | Holds -> Done
-  | Violated -> Violated
-  | Inconclusive -> Inconclusive
-
 (* {1 One question, or several} *)
 
 let of_program (settings : Time_analysis.settings) (program : Program_file.t) fleet ~json ~trace ~drawing =
   let { Time_analysis.deadline; _ } = settings in
-  let search ~interrupted ~progress = Time_analysis.run ~interrupted ~progress settings program fleet in
-  let outcome = watched search ~json in
+  let ask ~interrupted ~progress = Time_analysis.run ~interrupted ~progress settings program fleet in
+  let outcome = Watched.search ~json ask in
   let write path = Time_report.write_shown ?deadline program fleet path outcome in
   let traced = Option.fold trace ~none:(Ok ()) ~some:write in
   let draw drawing =
@@ -40,27 +21,27 @@ let of_program (settings : Time_analysis.settings) (program : Program_file.t) fl
   else Time_report.print ?deadline program outcome;
   let* () = traced in
   let* () = drawn in
-  Ok (status (Time_analysis.Timing.verdict ?deadline outcome))
+  Ok (Exit_status.of_verdict (Time_analysis.Timing.verdict ?deadline outcome))
 
 let of_values (settings : Time_analysis.settings) sweep fleet ~json =
   let { Time_analysis.deadline; _ } = settings in
-  let search ~interrupted ~progress =
+  let ask ~interrupted ~progress =
     Sweep.rows sweep ~interrupted (fun program ->
         let outcome = Time_analysis.run ~interrupted ~progress settings program fleet in
         Ok (outcome, Time_sweep.verdict ?deadline outcome))
   in
-  let* rows = watched search ~json in
+  let* rows = Watched.search ~json ask in
   if json then print_endline (Yojson.Safe.to_string (Time_sweep.to_json ?deadline sweep rows))
   else Time_sweep.print ?deadline sweep rows;
-  Ok (Exit_status.of_sweep (Sweep.verdict rows))
+  Ok (Exit_status.of_verdict (Sweep.verdict rows))
 
 let of_fleets (settings : Time_analysis.settings) program fleet ~json =
   let { Time_analysis.deadline; _ } = settings in
-  let search ~interrupted ~progress = Fewest.find ~interrupted ~progress settings program fleet in
-  let found = watched search ~json in
+  let ask ~interrupted ~progress = Fewest.find ~interrupted ~progress settings program fleet in
+  let found = Watched.search ~json ask in
   if json then print_endline (Yojson.Safe.to_string (Fewest.to_json ?deadline program found))
   else Fewest.print ?deadline program fleet found;
-  Exit_status.of_sweep (Fewest.verdict (fst found))
+  Exit_status.of_verdict (Fewest.verdict (fst found))
 
 let run path set fleet answers faults deadline fewest json trace drawing max_states max_depth max_memory timeout =
   let settings : Time_analysis.settings =

@@ -117,13 +117,6 @@ let with_latecomers company n news : (Core.vehicle list * Core.vehicle list) Seq
   let is_right (_, coming) = number_of_new company coming = news in
   Seq.filter is_right (Seq.filter_map whole (lists company ~is_hopeless n (nobody company)))
 
-(* All lists of [n] of [vs], in their order. *)
-let rec some_of n vs : Core.vehicle list Seq.t =
-  match vs with
-  | _ when n = 0 -> Seq.return []
-  | [] -> Seq.empty
-  | v :: rest -> fun () -> Seq.append (Seq.map (fun vs -> v :: vs) (some_of (n - 1) rest)) (some_of n rest) ()
-
 (* Too few of [n] come if so many are missing: those first whose absence counts for nothing. *)
 let too_few company n =
   let least = List.length company.always - (n - 1) in
@@ -134,7 +127,7 @@ let too_few company n =
   if least <= 0 || more > List.length unknown then Seq.empty
   else
     let for_nothing = List.filteri (fun i _ -> i < least) for_nothing in
-    Seq.map (fun counted -> for_nothing @ counted) (some_of (max 0 more) unknown)
+    Seq.map (fun counted -> for_nothing @ counted) (Sublists.of_length (max 0 more) unknown)
 
 (* Who comes to a pick of all vehicles, and in which order. Those that are left are missing, and may be. *)
 let of_all company news =

@@ -148,7 +148,7 @@ let shortfall ?deadline o =
   else if is_unknown then Some Unknown
   else None
 
-type verdict = Holds | Violated | Inconclusive
+type verdict = Dolphin_checker.Verdict.t = Holds | Violated | Inconclusive
 
 let verdict ?deadline o =
   let is_late = match deadline, latest o with Some n, Some (At m) -> m > n | _ -> false in

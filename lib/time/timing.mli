@@ -42,7 +42,7 @@ val run : ?deadline:int -> Dolphin_checker.Limits.t -> Timed.options -> outcome
 val latest : outcome -> date option
 (** [latest o] is when the last run is over; [None] if none that was looked at ends. *)
 
-type verdict = Holds | Violated | Inconclusive
+type verdict = Dolphin_checker.Verdict.t = Holds | Violated | Inconclusive
 
 (** Why a program does not do what it should in time. *)
 type shortfall =

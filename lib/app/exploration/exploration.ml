@@ -51,7 +51,7 @@ let is_remark : Property.t -> bool = function
   | No_halt | No_leftover | All_reached -> true
   | No_deadlock | Termination | No_error | Assertions | Vehicles | Invariant _ | Formula _ -> false
 
-type verdict = Holds | Violated | Inconclusive
+type verdict = Dolphin_checker.Verdict.t = Holds | Violated | Inconclusive
 
 let verdict ~strict (o : Search.outcome) =
   let matters (property, _) = strict || not (is_remark property) in

@@ -31,7 +31,7 @@ val is_remark : Property.t -> bool
 (** Whether a violation of it is only worth a note unless the check is strict: a program may mean to halt, or to leave
     tuples. *)
 
-type verdict = Holds | Violated | Inconclusive
+type verdict = Dolphin_checker.Verdict.t = Holds | Violated | Inconclusive
 
 val verdict : strict:bool -> Search.outcome -> verdict
 (** [verdict ~strict o] is [Violated] if some property is, and else [Inconclusive] if a bound was met; remarks count

@@ -1,12 +1,6 @@
 module Search = Dolphin_explore.Search
 module Property = Dolphin_explore.Property
 
-let verdict ~strict o : Sweep.verdict =
-  match Exploration.verdict ~strict o with
-  | Holds -> Holds
-  | Violated -> Breaks
-  | Inconclusive -> Open
-
 let violated ~strict (o : Search.outcome) =
   let name (property, (verdict : Search.verdict)) =
     match verdict with
@@ -19,8 +13,8 @@ let cells ~strict ({ found; verdict; _ } : Search.outcome Sweep.row) =
   let words =
     match verdict with
     | Holds -> "holds"
-    | Breaks -> "violated: " ^ String.concat ", " (violated ~strict found)
-    | Open -> "inconclusive"
+    | Violated -> "violated: " ^ String.concat ", " (violated ~strict found)
+    | Inconclusive -> "inconclusive"
   in
   [ string_of_int found.states; words ]
 
@@ -31,7 +25,7 @@ let print_run ~strict s (row : Search.outcome Sweep.row) =
 let print ~strict s rows =
   Sweep.print s ~heads:[ "states"; "verdict" ] (cells ~strict) rows;
   match Sweep.fewest rows, List.rev rows with
-  | Some { below = Some ({ verdict = Breaks; _ } as row); _ }, _ | None, ({ verdict = Breaks; _ } as row) :: _ ->
+  | Some { below = Some ({ verdict = Violated; _ } as row); _ }, _ | None, ({ verdict = Violated; _ } as row) :: _ ->
     print_run ~strict s row
   | Some _, _ | None, _ -> ()
 

@@ -2,8 +2,6 @@
 
 module Search := Dolphin_explore.Search
 
-val verdict : strict:bool -> Search.outcome -> Sweep.verdict
-
 val print : strict:bool -> Sweep.t -> Search.outcome Sweep.row list -> unit
 (** The table, and what breaks with the value below the fewest; if none holds, with the last value. *)
 

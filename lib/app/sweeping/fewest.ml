@@ -57,13 +57,6 @@ let is_open = function Bound _ | Time (Unknown, _) -> true | Property _ | Time _
 
 (* {1 The least one} *)
 
-(* The parts of [xs] with [n] elements, those with the first ones first. *)
-let rec parts n xs =
-  match n, xs with
-  | 0, _ -> Seq.return []
-  | _, [] -> Seq.empty
-  | n, x :: rest -> Seq.append (Seq.map (fun part -> x :: part) (parts (n - 1) rest)) (fun () -> parts n rest ())
-
 let find ~interrupted ~progress settings program (fleet : Fleet_file.t) =
   let looked_at = ref 0 in
   let judge = judge ~interrupted ~progress settings program fleet in
@@ -80,7 +73,7 @@ let find ~interrupted ~progress settings program (fleet : Fleet_file.t) =
   let rec of_size n unsure candidates =
     match candidates () with
     | _ when interrupted () -> Interrupted n
-    | Seq.Nil -> of_size (n + 1) unsure (parts (n + 1) all)
+    | Seq.Nil -> of_size (n + 1) unsure (Sublists.of_length (n + 1) all)
     | Seq.Cons (vehicles, others) -> (
         incr looked_at;
         match judge vehicles with
@@ -89,13 +82,13 @@ let find ~interrupted ~progress settings program (fleet : Fleet_file.t) =
         | Error trouble when n = List.length all -> None_does { all = trouble; unsure = List.rev unsure }
         | Error trouble -> of_size n (if is_open trouble then vehicles :: unsure else unsure) others)
   in
-  let found = of_size 0 [] (parts 0 all) in
+  let found = of_size 0 [] (Sublists.of_length 0 all) in
   (found, !looked_at)
 
 let verdict : t -> Sweep.verdict = function
   | Least { unsure = []; _ } -> Holds
-  | Least _ | Interrupted _ -> Open
-  | None_does { all; unsure } -> if is_open all || unsure <> [] then Open else Breaks
+  | Least _ | Interrupted _ -> Inconclusive
+  | None_does { all; unsure } -> if is_open all || unsure <> [] then Inconclusive else Violated
 
 (* {1 What is said} *)
 
@@ -127,7 +120,7 @@ let print ?deadline program (fleet : Fleet_file.t) (found, looked_at) =
     Printf.printf "\nwith %s:" (names vehicles);
     Time_report.print_run ?deadline program outcome
   | None_does { all = trouble; unsure } ->
-    let is_sure = verdict found = Breaks in
+    let is_sure = verdict found = Violated in
     Printf.printf "no fleet of these %d vehicles %s\n" all (if is_sure then "will do" else "is known to do");
     tell_unsure unsure;
     Printf.printf "with all of them: %s\n%s looked at\n" (told trouble) fleets;

@@ -3,7 +3,7 @@ module Text_table = Dolphin_display.Text_table
 
 type t = { parameter : string; values : int list; load : int -> (Program_file.t, Error.t) result }
 type question = One of Program_file.t | Several of t
-type verdict = Holds | Breaks | Open
+type verdict = Dolphin_checker.Verdict.t = Holds | Violated | Inconclusive
 type 'a row = { value : int; program : Program_file.t; found : 'a; verdict : verdict }
 type 'a fewest = { row : 'a row; below : 'a row option; is_least : bool }
 
@@ -50,7 +50,7 @@ let fewest rows =
   let by_value = List.sort (fun a b -> compare a.value b.value) rows in
   let rec find below = function
     | ({ verdict = Holds; _ } as row) :: _ ->
-      let is_least = List.for_all (fun r -> r.verdict = Breaks) below in
+      let is_least = List.for_all (fun r -> r.verdict = Violated) below in
       Some { row; below = (match below with r :: _ -> Some r | [] -> None); is_least }
     | row :: rest -> find (row :: below) rest
     | [] -> None
@@ -59,8 +59,8 @@ let fewest rows =
 
 let verdict rows =
   match fewest rows with
-  | Some { is_least; _ } -> if is_least then Holds else Open
-  | None -> if List.for_all (fun r -> r.verdict = Breaks) rows then Breaks else Open
+  | Some { is_least; _ } -> if is_least then Holds else Inconclusive
+  | None -> if List.for_all (fun r -> r.verdict = Violated) rows then Violated else Inconclusive
 
 (* {1 What is said} *)
 
@@ -73,13 +73,12 @@ let print s ~heads cells rows =
   match fewest rows with
   | Some { row; is_least = true; _ } -> Printf.printf "fewest: %s\n" (name s row)
   | Some { row; is_least = false; _ } -> Printf.printf "fewest: %s, or one that is inconclusive\n" (name s row)
-  | None when verdict rows = Breaks -> print_endline "fewest: none of them"
+  | None when verdict rows = Violated -> print_endline "fewest: none of them"
   | None -> print_endline "fewest: none of which it is known"
 
 let to_json s json rows : Yojson.Safe.t =
-  let text = function Holds -> "holds" | Breaks -> "violated" | Open -> "inconclusive" in
   let row r =
-    `Assoc [ ("value", `Int r.value); ("verdict", `String (text r.verdict)); ("found", json r) ] in
+    `Assoc [ ("value", `Int r.value); ("verdict", `String (Dolphin_checker.Verdict.name r.verdict)); ("found", json r) ] in
   let least =
     match fewest rows with
     | Some { row; is_least; _ } -> [ ("fewest", `Int row.value); ("least", `Bool is_least) ]

@@ -9,7 +9,7 @@ val question : set:(string * string) list -> string -> (question, Error.t) resul
 (** [question ~set path] is the program in the file [path] with its parameters [set], of which one may have a range of
     values ({!Dolphin_syntax.Parameters.range}). *)
 
-type verdict = Holds | Breaks | Open
+type verdict = Dolphin_checker.Verdict.t = Holds | Violated | Inconclusive
 
 (** What was found for a value. *)
 type 'a row = { value : int; program : Program_file.t; found : 'a; verdict : verdict }
@@ -30,7 +30,7 @@ type 'a fewest = {
 val fewest : 'a row list -> 'a fewest option
 
 val verdict : 'a row list -> verdict
-(** [Holds] if the {!fewest} is known; [Breaks] if none holds; else [Open]. *)
+(** [Holds] if the {!fewest} is known; [Violated] if none holds; else [Inconclusive]. *)
 
 (** {1:report What is said} *)
 

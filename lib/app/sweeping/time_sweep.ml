@@ -1,7 +1,7 @@
 module Timing = Dolphin_time.Timing
 
 let verdict ?deadline o : Sweep.verdict =
-  match Timing.shortfall ?deadline o with None -> Holds | Some Unknown -> Open | Some _ -> Breaks
+  match Timing.shortfall ?deadline o with None -> Holds | Some Unknown -> Inconclusive | Some _ -> Violated
 
 let shortfall : Timing.shortfall -> string = function
   | Never_ends -> "does not end"
@@ -25,7 +25,7 @@ let cells ?deadline ({ found = o; _ } : Timing.outcome Sweep.row) =
     Option.fold (Timing.shortfall ?deadline o) ~none:"holds" ~some:shortfall ]
 
 let print_run ?deadline s ({ program; found; verdict; _ } as row : Timing.outcome Sweep.row) =
-  if verdict <> Open then begin
+  if verdict <> Inconclusive then begin
     Printf.printf "\n%s:" (Sweep.name s row);
     match Timing.shortfall ?deadline found, found.failing with
     | Some Fails, Some run -> Time_report.print_failing program run

@@ -138,14 +138,7 @@ let print_failing p run =
 
 let print_deadline ?deadline (o : Timing.outcome) =
   let say n =
-    let verdict =
-      match Timing.verdict ~deadline:n o with
-      | Holds -> "holds"
-      | Violated -> "violated"
-      | Inconclusive -> "inconclusive"
-    in
-    Printf.printf "deadline %s: %s\n" (time n) verdict
-  in
+    Printf.printf "deadline %s: %s\n" (time n) (Dolphin_checker.Verdict.name (Timing.verdict ~deadline:n o)) in
   Option.iter say deadline
 
 let print_within p (o : Timing.outcome) (site, missed) =
@@ -206,12 +199,7 @@ let to_json ?deadline p (o : Timing.outcome) : Yojson.Safe.t =
     `Assoc (("at", place) :: missed)
   in
   let optional name f x = match x with Some x -> [ (name, f x) ] | None -> [] in
-  let verdict =
-    match Timing.verdict ?deadline o with
-    | Holds -> "holds"
-    | Violated -> "violated"
-    | Inconclusive -> "inconclusive"
-  in
+  let verdict = Dolphin_checker.Verdict.name (Timing.verdict ?deadline o) in
   let endless (run, why) : Yojson.Safe.t =
     let why = match why with `Cycle -> "cycle" | `In_no_time -> "cycle in no time" | `Stuck -> "stuck" in
     `Assoc [ ("why", `String why); ("run", json_of_run p run) ]

@@ -18,18 +18,6 @@ let candidates world (s : Shared.t) (pick : Settings.pick) =
     in
     Results.concat_map inside accepted
 
-(* All lists of [n] elements of [xs] in their order, the first ones first. *)
-let choices n xs : 'a list Seq.t =
-  let rec from n xs length () =
-    match xs with
-    | _ when n = 0 -> Seq.return [] ()
-    | x :: rest when n <= length ->
-      let chosen = Seq.map (fun chosen -> x :: chosen) (from (n - 1) rest (length - 1)) in
-      Seq.append chosen (from n rest (length - 1)) ()
-    | _ -> Seq.Nil
-  in
-  from n xs (List.length xs)
-
 let bind (s : Shared.t) m effects vs =
   let control = Configuration.Script (Machine.give (Vehicles vs) m) in
   Conclusion.make ~effects:(effects @ [ Effect.Bind vs ]) Pick_bind (Bind vs) control { s with bound = s.bound @ vs }
@@ -40,7 +28,7 @@ let bindings world s m (pick : Settings.pick) =
   | Exactly n when n > World.count world -> Decision.Decided Seq.empty
   | Exactly n ->
     let bind = bind s m [ Effect.Cancel_timer Residual.script_timer ] in
-    let all candidates = Seq.map bind (choices n candidates) in
+    let all candidates = Seq.map bind (Sublists.of_length n candidates) in
     Decision.look world (fun world -> Result.map all (candidates world s pick))
 
 (* {1 Picks that are not met} *)

@@ -34,7 +34,7 @@ let forget t promise =
 let leave t question = t.shown <- Some (question, fst (Lwt.task ()))
 
 let answered_by t (item : Inputs.item) =
-  let yes = match item.value with Boolean b -> Some b | String text -> Answer.confirmation text | _ -> None in
-  match List.find_opt (fun (_, prompt) -> String.equal prompt item.key) t.standing, yes with
+  let is_it (_, prompt) = String.equal prompt item.key in
+  match List.find_opt is_it t.standing, Answer.confirmation_of_value item.value with
   | Some (question, _), Some yes -> Some (question, yes)
   | _, _ -> None

@@ -48,6 +48,5 @@ let declared (program : Core.program) ~questions key =
     Error (Printf.sprintf "the program declares no input '%s'%s" key known)
 
 let fits (program : Core.program) key (x : Core.value) =
-  let answers = match x with Boolean _ -> true | String text -> Answer.confirmation text <> None | _ -> false in
-  if answers || List.mem key program.inputs then Ok ()
+  if Answer.confirmation_of_value x <> None || List.mem key program.inputs then Ok ()
   else Error (Printf.sprintf "the question '%s' takes yes or no" key)

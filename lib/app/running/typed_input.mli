@@ -3,9 +3,8 @@
 open Dolphin_semantics
 
 val read : string -> ((string * Core.value) list, string) result
-(** [read text] is the pairs in [text]: [abort: true], [target: [1, 2], go: 'north']; a key alone stands for [true],
-    and so does [yes]; [no] for [false].
-    Values are data, written as in fleets. Or what is wrong with it. *)
+(** [read text] is the pairs in [text]: [abort: true], [target: [1, 2], go: 'north']; a key alone stands for [true], and
+    so does [yes], as [no] for [false]. Values are data, written as in fleets. Or what is wrong with it. *)
 
 val declared : Core.program -> questions:string list -> string -> (unit, string) result
 (** [declared p ~questions key] is why nobody can post pairs with this key to a run of [p] now, if so: it is no input

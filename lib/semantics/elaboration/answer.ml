@@ -8,3 +8,8 @@ let confirmation text =
   | "yes" | "y" | "true" -> Some true
   | "no" | "n" | "false" -> Some false
   | _ -> None
+
+let confirmation_of_value : Core.value -> bool option = function
+  | Boolean yes -> Some yes
+  | String text -> confirmation text
+  | _ -> None

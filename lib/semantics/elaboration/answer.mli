@@ -6,3 +6,6 @@ val event : Core.program -> string -> (Transition.event, Transition.refusal) res
 
 val confirmation : string -> bool option
 (** [confirmation text] is whether [text], as people type it, is yes ([yes], [y], [true]) or no ([no], [n], [false]). *)
+
+val confirmation_of_value : Core.value -> bool option
+(** [confirmation_of_value x] is whether [x] is yes or no: a truth value, or a text that is a {!confirmation}. *)

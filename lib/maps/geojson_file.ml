@@ -1,12 +1,6 @@
 open Drawn
 
-let position place (json : Yojson.Safe.t) =
-  match json with
-  | `List (longitude :: latitude :: rest) ->
-    let height = match rest with h :: _ when h <> `Null -> Json_text.number place h | _ -> 0. in
-    Drawn.position place ~latitude:(Json_text.number place latitude) ~longitude:(Json_text.number place longitude)
-      ~height
-  | _ -> wrong place "a position is [longitude, latitude] or [longitude, latitude, height]"
+let position = Json_text.position Longitude_first
 
 let positions place json =
   let one i p = position (Printf.sprintf "%s, position %d" place (i + 1)) p in

@@ -54,3 +54,16 @@ let text : Yojson.Safe.t -> string option = function
   | `String text -> Some text
   | `Int n -> Some (string_of_int n)
   | _ -> None
+
+type order = Longitude_first | Latitude_first
+
+let position order place (json : Yojson.Safe.t) =
+  match json with
+  | `List (x :: y :: rest) ->
+    let height = match rest with h :: _ when h <> `Null -> number place h | _ -> 0. in
+    let x = number place x and y = number place y in
+    let latitude, longitude = match order with Longitude_first -> (y, x) | Latitude_first -> (x, y) in
+    Drawn.position place ~latitude ~longitude ~height
+  | _ ->
+    let names = match order with Longitude_first -> "longitude, latitude" | Latitude_first -> "latitude, longitude" in
+    Drawn.wrong place "a position is [%s] or [%s, height]" names names

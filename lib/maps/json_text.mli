@@ -22,3 +22,9 @@ val number : string -> Yojson.Safe.t -> float
 
 val text : Yojson.Safe.t -> string option
 (** A text, or a whole number as text. *)
+
+(** How a format writes positions. *)
+type order = Longitude_first | Latitude_first
+
+val position : order -> string -> Yojson.Safe.t -> Dolphin_geo.Position.t
+(** [position order place json] is the position that [json] is, a list of two numbers and perhaps a height. *)

@@ -75,17 +75,10 @@ let harmless name = String.trim (String.map (fun c -> if c < ' ' || c = '\127' t
 
 let named things =
   let taken = Hashtbl.create 64 and next = Hashtbl.create 64 in
-  let rec free stem n =
-    let name = if n = 1 then stem else Printf.sprintf "%s %d" stem n in
-    if Hashtbl.mem taken name then free stem (n + 1)
-    else begin
-      Hashtbl.replace next stem (n + 1);
-      name
-    end
-  in
-  let numbered stem =
+  (* The first of its stem may do without a number. *)
+  let free ~bare stem =
     let rec from n =
-      let name = Printf.sprintf "%s %d" stem n in
+      let name = if bare && n = 1 then stem else Printf.sprintf "%s %d" stem n in
       if Hashtbl.mem taken name then from (n + 1)
       else begin
         Hashtbl.replace next stem (n + 1);
@@ -97,8 +90,8 @@ let named things =
   let one (name, thing) =
     let name =
       match harmless name with
-      | "" -> numbered (kind thing)
-      | name -> free name (Option.value (Hashtbl.find_opt next name) ~default:1)
+      | "" -> free ~bare:false (kind thing)
+      | name -> free ~bare:true name
     in
     Hashtbl.replace taken name ();
     (name, thing)

@@ -1,14 +1,6 @@
 open Drawn
 
-(* The order is the other way round than in GeoJSON. *)
-let position place (json : Yojson.Safe.t) =
-  match json with
-  | `List (latitude :: longitude :: rest) ->
-    let height = match rest with h :: _ when h <> `Null -> Json_text.number place h | _ -> 0. in
-    Drawn.position place ~latitude:(Json_text.number place latitude) ~longitude:(Json_text.number place longitude)
-      ~height
-  | _ -> wrong place "a position is [latitude, longitude] or [latitude, longitude, height]"
-
+let position = Json_text.position Latitude_first
 let positions place json = List.map (position place) (Json_text.elements place json)
 
 let listed place json = match json with `Null -> [] | json -> Json_text.elements place json

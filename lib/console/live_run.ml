@@ -87,7 +87,7 @@ let asked r prompt =
 let wait_for_answer r prompt =
   let answer, give = Lwt.task () in
   r.questions <- r.questions + 1;
-  let place = Narrator.place_of_question r.narrator in
+  let place = Narrator.place_of_question r.narrator prompt in
   r.question <- Some { number = r.questions; prompt; place; refused = r.refused; give };
   r.refused <- None;
   r.changed ();

@@ -27,8 +27,9 @@ val question : t -> time:float -> string -> unit
 
 type place_of_question = { at : string option;  (** ["3:5"] *) is_confirm : bool  (** it takes yes or no *) }
 
-val place_of_question : t -> place_of_question
-(** Where the program asks what it asks now, and whether by [confirm]. *)
+val place_of_question : t -> string -> place_of_question
+(** [place_of_question n prompt] is where the program, or a task that it executes, asks [prompt] now, and whether by
+    [confirm]. *)
 
 val waiting : t -> time:float -> unit
 (** What the program waits for now, unless that has been told: the message [waiting]. *)

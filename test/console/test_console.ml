@@ -311,6 +311,8 @@ let what_is_asked folder port =
   text "ask" {|"How many?" "value" "2:5"|} found;
   question "if (confirm 'Now?') message 'now'\n" >>= fun found ->
   text "confirm" {|"Now?" "truth" "1:5"|} found;
+  question "execute idle(1.hour) | (confirm('Go?') >> action { })\n" >>= fun found ->
+  text "confirm as a task" {|"Go?" "truth" "1:25"|} found;
   write (Filename.concat folder "asks.dol") "input 'go', 'stop'\n";
   Client.ask ~port "/api/world?program=asks.dol" >|= fun r ->
   text "what may come" {|{"go":["'north'","'south'","1"]}|}

@@ -13,6 +13,8 @@ type settings = {
   version : string;
 }
 
+type subject = Exploration | Timing | Graph
+
 type t = {
   settings : settings;
   instance : string;  (* another one for each start of a server *)
@@ -20,9 +22,7 @@ type t = {
   mutable access : Access.t;
   mutable run : Live_run.t option;
   mutable runs : int;
-  mutable exploration : Analysis.t option;
-  mutable timing : Analysis.t option;
-  mutable graph : Analysis.t option;
+  mutable analyses : (subject * Analysis.t) list;  (* one of each at most *)
   mutable helm : Helm.t;
   mutable watching : string list;  (* a client as often as it looks on *)
 }
@@ -32,7 +32,7 @@ let make settings =
     Digest.to_hex (Digest.string (Printf.sprintf "%d %f" (Unix.getpid ()) (Unix.gettimeofday ()))) in
   { settings; instance = String.sub instance 0 8; grown = Lwt_condition.create ();
     access = { port = 0; tokens = Option.map (fun _ -> Access.fresh ()) settings.listen }; run = None; runs = 0;
-    exploration = None; timing = None; graph = None; helm = Helm.free; watching = [] }
+    analyses = []; helm = Helm.free; watching = [] }
 
 let settings h = h.settings
 let access h = h.access
@@ -41,11 +41,8 @@ let changed h = Lwt_condition.broadcast h.grown ()
 let run h = h.run
 let busy h = Option.fold h.run ~none:false ~some:Live_run.goes_on
 
-type subject = Exploration | Timing | Graph
-
-let analysis h = function Exploration -> h.exploration | Timing -> h.timing | Graph -> h.graph
-let analyses h = List.filter_map (analysis h) [ Exploration; Timing; Graph ]
-
+let analysis h subject = List.assoc_opt subject h.analyses
+let analyses h = List.map snd h.analyses
 let helm h = h.helm
 let watchers h = List.length h.watching
 
@@ -60,10 +57,7 @@ let begin_run h start =
 
 let set_analysis h subject a =
   Option.iter Analysis.cancel (analysis h subject);
-  (match subject with
-   | Exploration -> h.exploration <- Some a
-   | Timing -> h.timing <- Some a
-   | Graph -> h.graph <- Some a);
+  h.analyses <- (subject, a) :: List.remove_assoc subject h.analyses;
   changed h
 
 let set_helm h helm =
@@ -106,9 +100,9 @@ let status h : Yojson.Safe.t =
       ("tiles", Field.of_option (fun url -> `String url) h.settings.tiles);
       ("simulated", `Bool (Run.is_simulated h.settings.run));
       ("run", Field.of_option (of_run h) h.run);
-      ("exploration", Field.of_option of_analysis h.exploration);
-      ("timing", Field.of_option of_analysis h.timing);
-      ("graph", Field.of_option of_analysis h.graph);
+      ("exploration", Field.of_option of_analysis (analysis h Exploration));
+      ("timing", Field.of_option of_analysis (analysis h Timing));
+      ("graph", Field.of_option of_analysis (analysis h Graph));
       ("helm",
        `Assoc
          [ ("holder", Field.of_option (fun client -> `String client) (Helm.holder h.helm));

@@ -78,7 +78,8 @@ let print s ~heads cells rows =
 
 let to_json s json rows : Yojson.Safe.t =
   let row r =
-    `Assoc [ ("value", `Int r.value); ("verdict", `String (Dolphin_checker.Verdict.name r.verdict)); ("found", json r) ] in
+    let verdict = Dolphin_checker.Verdict.name r.verdict in
+    `Assoc [ ("value", `Int r.value); ("verdict", `String verdict); ("found", json r) ] in
   let least =
     match fewest rows with
     | Some { row; is_least; _ } -> [ ("fewest", `Int row.value); ("least", `Bool is_least) ]

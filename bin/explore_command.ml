@@ -222,13 +222,7 @@ let compress =
   in
   Arg.(value & flag & info [ "compress" ] ~doc)
 
-let positive =
-  let parse text =
-    match int_of_string_opt text with
-    | Some n when n > 0 -> Ok n
-    | Some _ | None -> Error (`Msg (Printf.sprintf "'%s' is no number from 1 on" text))
-  in
-  Arg.conv ~docv:"N" (parse, Format.pp_print_int)
+let positive = Options.whole ~docv:"N" "no number from 1 on"
 
 let walks =
   let sample =

@@ -34,6 +34,14 @@ let drawing =
   let parse path = Result.map_error (fun why -> `Msg why) (Dolphin_app.Drawing.of_path path) in
   Arg.conv ~docv:"FILE" (parse, fun ppf d -> Format.pp_print_string ppf (Dolphin_app.Drawing.path d))
 
+let whole ~docv what =
+  let parse text =
+    match int_of_string_opt text with
+    | Some n when n > 0 -> Ok n
+    | Some _ | None -> Error (`Msg (Printf.sprintf "'%s' is %s" text what))
+  in
+  Arg.conv ~docv (parse, Format.pp_print_int)
+
 let number ~docv what accepts =
   let parse text =
     match float_of_string_opt text with

@@ -14,6 +14,9 @@ val set : (string * string) list Term.t
 val set_range : (string * string) list Term.t
 (** Likewise, of a command that takes a range of values too. *)
 
+val whole : docv:string -> string -> int Arg.conv
+(** [whole ~docv what] is the whole numbers from 1 on; of others it is told that they are [what]. *)
+
 val drawing : Dolphin_app.Drawing.t Arg.conv
 (** The name of a picture. *)
 

@@ -7,13 +7,7 @@ let s_many = "MANY RUNS"
 
 (* {1 Options} *)
 
-let natural =
-  let parse text =
-    match int_of_string_opt text with
-    | Some n when n > 0 -> Ok n
-    | Some _ | None -> Error (`Msg (Printf.sprintf "'%s' is not a whole number greater than 0" text))
-  in
-  Arg.conv ~docv:"N" (parse, Format.pp_print_int)
+let natural = Options.whole ~docv:"N" "not a whole number greater than 0"
 
 let runs =
   let doc = "Make $(docv) simulated runs with different seeds, and say what became of all of them." in

@@ -47,6 +47,13 @@ let load_recorded ~set ~recorded path =
 
 let header p = Dolphin_trace.Header.source ~set:p.set ~path:p.path p.source
 
+let location p site = Dolphin_semantics.(Fault.location p.program (Fault.make site ""))
+let at p site = Option.map (Fmt.str "%a" Location.pp) (location p site)
+
+let line p site =
+  let short at = Printf.sprintf "%s:%d" (Filename.basename (Location.file at)) (Location.line at) in
+  Option.fold (location p site) ~none:"" ~some:short
+
 let diagnostic p (fault : Dolphin_semantics.Fault.t) =
   let at = Option.value (Dolphin_semantics.Fault.location p.program fault) ~default:Location.none in
   Diagnostic.error at fault.message

@@ -27,6 +27,12 @@ val parse : string -> (Ast.program, Error.t) result
 val header : t -> Dolphin_trace.Header.source
 (** The program as journals name it: by its path, the digest of its text, and what was set. *)
 
+val at : t -> Dolphin_semantics.Core.site -> string option
+(** [at p site] is where that is, ["missions/survey.dol:3:10"], if it is known. *)
+
+val line : t -> Dolphin_semantics.Core.site -> string
+(** [line p site] is the same in short, ["survey.dol:3"]; [""] if it is not known. *)
+
 val diagnostic : t -> Dolphin_semantics.Fault.t -> Diagnostic.t
 (** [diagnostic p fault] is the fault of a run of [p], with its place in the text if it has one. *)
 

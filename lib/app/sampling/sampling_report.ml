@@ -11,13 +11,6 @@ module Text_table = Dolphin_display.Text_table
 let milliseconds seconds = Option.value (Bounds.milliseconds seconds) ~default:max_int
 let time seconds = Format.asprintf "%a" Bounds.pp_time (milliseconds seconds)
 let percent x = Printf.sprintf "%.2f %%" (100. *. x)
-let location (p : Program_file.t) site = Fault.location p.program (Fault.make site "")
-let at p site = Option.map (Fmt.str "%a" Dolphin_syntax.Location.pp) (location p site)
-
-let short p site =
-  let place at =
-    Printf.sprintf "%s:%d" (Filename.basename (Dolphin_syntax.Location.file at)) (Dolphin_syntax.Location.line at) in
-  Option.fold ~none:"" ~some:place (location p site)
 
 let kind : Sample.ending -> string = function
   | Completed -> "completed"
@@ -38,7 +31,7 @@ let message : Sample.ending -> string = function
   | Stuck (Some _) -> "rounds follow each other, and none waits for anything"
 
 let ending p (e : Sample.ending) =
-  let parts = [ kind e; Option.fold (site e) ~none:"" ~some:(short p); message e ] in
+  let parts = [ kind e; Option.fold (site e) ~none:"" ~some:(Program_file.line p); message e ] in
   String.concat ": " (List.filter (( <> ) "") parts)
 
 (* {1 For people} *)
@@ -122,12 +115,12 @@ let tasks ~columns p (s : Sampling.t) =
     table ~numbers heads (List.map (fun t -> List.map (fun (_, _, f) -> f t) fields) s.tasks)
   in
   let narrow = List.filter is_used fields in
-  let wide = lines (narrow @ [ text "where" (fun t -> short p t.task.site) ]) in
+  let wide = lines (narrow @ [ text "where" (fun t -> Program_file.line p t.task.site) ]) in
   if s.tasks = [] then []
   else "" :: (if List.for_all (fun line -> Phrase.width line <= columns) wide then wide else lines narrow)
 
 let handlers p (s : Sampling.t) =
-  let row (h : Sampling.handler) = [ short p h.site; string_of_int h.ran; string_of_int h.runs ] in
+  let row (h : Sampling.handler) = [ Program_file.line p h.site; string_of_int h.ran; string_of_int h.runs ] in
   if s.handlers = [] then []
   else "" :: table ~numbers:[ 1; 2 ] [ "handler"; "ran"; "in runs" ] (List.map row s.handlers)
 
@@ -146,7 +139,7 @@ let seconds x : Yojson.Safe.t =
   if ms mod 1000 = 0 then `Int (ms / 1000) else `Float (Float.of_int ms /. 1000.)
 
 let rounded x : Yojson.Safe.t = `Float (Float.round (x *. 1e6) /. 1e6)
-let place p site : Yojson.Safe.t = Option.fold ~none:`Null ~some:(fun at -> `String at) (at p site)
+let place p site : Yojson.Safe.t = Option.fold ~none:`Null ~some:(fun at -> `String at) (Program_file.at p site)
 
 let json_of_ending p s (e : Sampling.ending) : Yojson.Safe.t =
   let { Share.least; most } = Sampling.share s e.runs in

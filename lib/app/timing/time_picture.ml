@@ -27,7 +27,7 @@ let any_end windows =
 let row p ((task : Timing.task), windows) =
   let moment m = Option.map (fun w -> Time_report.(moment m ^ " " ^ window w)) (List.assoc_opt m windows) in
   let words = List.filter_map moment Time_report.moments in
-  let place = Option.fold (Time_report.at p task.site) ~none:"" ~some:(fun at -> " (" ^ at ^ ")") in
+  let place = Option.fold (Program_file.at p task.site) ~none:"" ~some:(fun at -> " (" ^ at ^ ")") in
   let tip = Printf.sprintf "%s on %s%s: %s" task.name task.vehicle place (String.concat ", " words) in
   Option.map (fun starts -> { task; starts; ends = any_end windows; tip }) (List.assoc_opt Timed_system.Starts windows)
 
@@ -184,7 +184,7 @@ let html ?deadline p o =
   let heads = "vehicle" :: "task" :: List.map Time_report.moment Time_report.moments @ [ "where" ] in
   let row ((task : Timing.task), windows) =
     let cell m = Option.fold (List.assoc_opt m windows) ~none:"" ~some:Time_report.window in
-    let where = Option.value (Time_report.at p task.site) ~default:"" in
+    let where = Option.value (Program_file.at p task.site) ~default:"" in
     (task.vehicle :: task.name :: List.map cell Time_report.moments) @ [ where ]
   in
   let title = Filename.basename p.Program_file.path in

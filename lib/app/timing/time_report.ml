@@ -5,8 +5,6 @@ module Columns = Dolphin_display.Columns
 module Text_table = Dolphin_display.Text_table
 
 let time ms = Format.asprintf "%a" Bounds.pp_time ms
-let location (p : Program_file.t) site = Fault.location p.program (Fault.make site "")
-let at p site = Option.map (Fmt.str "%a" Dolphin_syntax.Location.pp) (location p site)
 
 (* {1 Names} *)
 
@@ -28,7 +26,7 @@ let moments : Timed_system.moment list = [ Starts; Ends; Fails; Stopped ]
 let item (p : Program_file.t) (pending : Timed.pending) =
   match pending.item, pending.task with
   | Task v, Some task ->
-    let place = match at p task.task_site with Some place -> place ^ ": " | None -> "" in
+    let place = match Program_file.at p task.task_site with Some place -> place ^ ": " | None -> "" in
     Printf.sprintf "%s%s on %s" place task.name v
   | Task v, None -> v
   | Timer 0, _ -> "a timer of the program"
@@ -60,10 +58,7 @@ let print_tasks (p : Program_file.t) (o : Timing.outcome) =
   let used = List.filter (fun m -> List.exists (fun (_, ws) -> List.mem_assoc m ws) o.tasks) moments in
   let row ((task : Timing.task), windows) =
     let cell m = Option.fold ~none:"" ~some:window (List.assoc_opt m windows) in
-    let place at =
-      Printf.sprintf "%s:%d" (Filename.basename (Dolphin_syntax.Location.file at)) (Dolphin_syntax.Location.line at) in
-    let line = Option.fold ~none:"" ~some:place (location p task.site) in
-    (task.name :: task.vehicle :: List.map cell used) @ [ line ]
+    (task.name :: task.vehicle :: List.map cell used) @ [ Program_file.line p task.site ]
   in
   if o.tasks <> [] then
     List.iter print_endline
@@ -148,7 +143,7 @@ let print_within p (o : Timing.outcome) (site, missed) =
     | None when o.stopped = None -> "kept"
     | None -> "inconclusive"
   in
-  Printf.printf "%s: within: %s\n" (Option.value (at p site) ~default:"") verdict
+  Printf.printf "%s: within: %s\n" (Option.value (Program_file.at p site) ~default:"") verdict
 
 let print_unknown p (o : Timing.outcome) =
   List.iter (fun u -> Printf.printf "nobody knows how long it takes: %s%s\n" (item p u) (hint u)) o.unknown
@@ -185,12 +180,12 @@ let json_of_run p (run : Timing.run) : Yojson.Safe.t =
 let to_json ?deadline p (o : Timing.outcome) : Yojson.Safe.t =
   let task ((t : Timing.task), windows) =
     let window m = Option.map (fun w -> (moment m, json_of_window w)) (List.assoc_opt m windows) in
-    let site = Option.fold ~none:`Null ~some:(fun s -> `String s) (at p t.site) in
+    let site = Option.fold ~none:`Null ~some:(fun s -> `String s) (Program_file.at p t.site) in
     `Assoc
       ([ ("task", `String t.name); ("vehicle", `String t.vehicle); ("at", site) ] @ List.filter_map window moments)
   in
   let within (site, missed) =
-    let place = Option.fold ~none:`Null ~some:(fun s -> `String s) (at p site) in
+    let place = Option.fold ~none:`Null ~some:(fun s -> `String s) (Program_file.at p site) in
     let missed =
       match missed with
       | Some (w, run) -> [ ("missed", json_of_window w); ("run", json_of_run p run) ]

@@ -22,9 +22,6 @@ val ending : Dolphin_time.Timed_system.ending -> string
 val moment : Dolphin_time.Timed_system.moment -> string
 val moments : Dolphin_time.Timed_system.moment list
 
-val at : Program_file.t -> Dolphin_semantics.Core.site -> string option
-(** Where that is: ["mission.dol:3:10"]. *)
-
 val item : Program_file.t -> Dolphin_time.Timed.pending -> string
 (** What is awaited: ["mission.dol:3:10: survey on noptilus-1"]. *)
 

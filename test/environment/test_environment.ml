@@ -107,23 +107,27 @@ let outcomes transitions =
   in
   List.sort compare (List.map outcome transitions)
 
+(* Where the program waits first. *)
+let waiting program world =
+  let rec from (c : Configuration.t) =
+    match c.control with
+    | Waiting _ -> c
+    | Script _ | Executing _ | Ended _ -> (
+        match Transition.internal program world c () with
+        | Cons (t, _) -> from t.next
+        | Nil -> failwith "the program does not pick")
+  in
+  from (Configuration.initial program)
+
 (* What a program with [else] remembers of who was late, once it goes on without: each way with as few as can be. *)
 let late_without ?(who = fun v -> v <> "c") join text =
   let options = { plain with may_be_late = who; faults = { Faults.none with join } } in
   let program = Pure_run.compile_exn text in
   let world = Pure_run.world (of_kind "UUV" [ "a"; "b"; "c"; "d" ]) in
-  let rec waiting (c : Configuration.t) =
-    match c.control with
-    | Waiting _ -> c
-    | Script _ | Executing _ | Ended _ -> (
-        match Transition.internal program world c () with
-        | Cons (t, _) -> waiting t.next
-        | Nil -> failwith "the program does not pick")
-  in
   let without ((t : Transition.t), e) =
     match t.label with No_vehicles _ -> Some (String.concat " " (Environment.late e)) | _ -> None
   in
-  let c = waiting (Configuration.initial program) in
+  let c = waiting program world in
   let choices = Environment.choices options program world Environment.initial c in
   List.sort compare (List.filter_map without (List.of_seq choices))
 
@@ -166,15 +170,7 @@ let agrees_with_definition (vehicles, bound, text) =
   let join = match bound with Some most -> Faults.At_most most | None -> Any_number in
   let options = { plain with may_be_late; faults = { Faults.none with join } } in
   let program = Pure_run.compile_exn text in
-  let rec waiting (c : Configuration.t) =
-    match c.control with
-    | Waiting _ -> c
-    | Script _ | Executing _ | Ended _ -> (
-        match Transition.internal program world c () with
-        | Cons (t, _) -> waiting t.next
-        | Nil -> failwith "the program does not pick")
-  in
-  let c = waiting (Configuration.initial program) in
+  let c = waiting program world in
   let choices = Environment.choices options program world Environment.initial c in
   let found = outcomes (List.map fst (List.of_seq choices)) in
   let most = Option.value bound ~default:max_int in

@@ -135,15 +135,13 @@ let is_explored ?until ~seed scenario program =
 
 (* {1 Examples} *)
 
-let folder = "../../examples"
+let folder = Test_support.Examples.folder
 
 let contents path =
   let channel = open_in_bin path in
   Fun.protect ~finally:(fun () -> close_in channel) (fun () -> really_input_string channel (in_channel_length channel))
 
-let examples =
-  let program file = Filename.chop_suffix_opt ~suffix:".dol" file in
-  List.sort String.compare (List.filter_map program (Array.to_list (Sys.readdir folder)))
+let examples = Test_support.Examples.names ()
 
 let example name =
   let check () =

@@ -15,6 +15,19 @@ let rim = function
   | Area.Circle { radius; _ } -> 2. *. Float.pi *. radius
   | Shape s -> List.fold_left (fun sum ring -> sum +. length (ring @ [ List.hd ring ])) 0. (Area.rings s)
 
+(* {1 On a plane} *)
+
+let rec segments = function a :: (b :: _ as rest) -> (a, b) :: segments rest | [ _ ] | [] -> []
+
+let distance_to (x, y) ((ax, ay), (bx, by)) =
+  let dx = bx -. ax and dy = by -. ay in
+  let square = (dx *. dx) +. (dy *. dy) in
+  let share = if square = 0. then 0. else (((x -. ax) *. dx) +. ((y -. ay) *. dy)) /. square in
+  let share = Float.max 0. (Float.min 1. share) in
+  Float.hypot (x -. ax -. (share *. dx)) (y -. ay -. (share *. dy))
+
+(* {1 Random polygons} *)
+
 let star =
   let open QCheck2.Gen in
   let corner n i (share, radius) =

@@ -18,3 +18,11 @@ val corners : (float * float) list QCheck2.Gen.t
 (** Of polygons of some 100 m that do not cross themselves: stars, and columns of heights that are often the same. *)
 
 val pp_corners : (float * float) list Fmt.t
+
+(** {1 On a plane} *)
+
+val segments : 'a list -> ('a * 'a) list
+(** Each element with the one after it. *)
+
+val distance_to : float * float -> (float * float) * (float * float) -> float
+(** [distance_to p (a, b)] is how far [p] is from the segment between [a] and [b]. *)

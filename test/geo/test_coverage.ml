@@ -9,15 +9,6 @@ let points settings area =
 let plane = Plane.around origin
 let on_plane = Plane.of_position plane
 
-let rec segments = function a :: (b :: _ as rest) -> (a, b) :: segments rest | [ _ ] | [] -> []
-
-let distance_to (x, y) ((ax, ay), (bx, by)) =
-  let dx = bx -. ax and dy = by -. ay in
-  let square = (dx *. dx) +. (dy *. dy) in
-  let share = if square = 0. then 0. else (((x -. ax) *. dx) +. ((y -. ay) *. dy)) /. square in
-  let share = Float.max 0. (Float.min 1. share) in
-  Float.hypot (x -. ax -. (share *. dx)) (y -. ay -. (share *. dy))
-
 let nearest p segments = List.fold_left (fun least s -> Float.min least (distance_to p s)) infinity segments
 
 (* {1 Laws} *)

@@ -39,15 +39,6 @@ let bad () =
   check "this search would have 360018 points, more than 10000" (spiral ~spacing:1. ~radius:10_000. ~bearing:0.);
   check "this search would have 1000000000000000 points, more than 10000" (square ~spacing:1e-300 ~radius:10_000. ~bearing:0.)
 
-let rec segments = function a :: (b :: _ as rest) -> (a, b) :: segments rest | [ _ ] | [] -> []
-
-let distance_to (x, y) ((ax, ay), (bx, by)) =
-  let dx = bx -. ax and dy = by -. ay in
-  let square = (dx *. dx) +. (dy *. dy) in
-  let share = if square = 0. then 0. else (((x -. ax) *. dx) +. ((y -. ay) *. dy)) /. square in
-  let share = Float.max 0. (Float.min 1. share) in
-  Float.hypot (x -. ax -. (share *. dx)) (y -. ay -. (share *. dy))
-
 (* A point of the square in the direction of the bearing, and one of the disc. A point between three legs of a square
    is up to 0.586 spacings away from them. The chords of a spiral are nearer to its
    middle than its arcs, by less than half a percent. *)

@@ -63,6 +63,14 @@ let announce ?(id = console) ?(port = 6001) s =
 let send ?id ?dst ?(host = "127.0.0.1") s message = receive s Data host (packet s ?id ?dst message)
 let join s = announce s; send s Heartbeat
 
+let rec beat_until s time =
+  if now s +. 1. < time then begin
+    until s (now s +. 1.);
+    send s Heartbeat;
+    beat_until s time
+  end
+  else until s time
+
 let start ?dst ?arg ?(flags = Message.Plan_control.Flags.none) s number plan =
   send ?dst s
     (Plan_control

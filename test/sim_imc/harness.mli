@@ -43,6 +43,9 @@ val send : ?id:int -> ?dst:int -> ?host:string -> t -> Message.t -> unit
 val join : t -> unit
 (** Announces and sends a Heartbeat. *)
 
+val beat_until : t -> float -> unit
+(** [beat_until s time] is {!until}, with a Heartbeat each second. *)
+
 val start : ?dst:int -> ?arg:Message.t -> ?flags:Message.Plan_control.Flags.t -> t -> int -> string -> unit
 (** [start s number plan] sends a START. *)
 

@@ -65,28 +65,20 @@ let source id =
 
 let replay id =
   let s = Harness.make (Harness.settings ~strict:true (source id)) in
-  let rec beat until =
-    if Harness.now s +. 1. < until then begin
-      Harness.until s (Harness.now s +. 1.);
-      Harness.send s Heartbeat;
-      beat until
-    end
-    else Harness.until s until
-  in
   Harness.join s;
-  beat 10.;
+  Harness.beat_until s 10.;
   (* A plan may take a little longer here: the next request then comes as late. *)
   let ask late r =
     let late = Float.max late (Harness.now s -. r.at) in
     let at = r.at +. late in
-    beat at;
+    Harness.beat_until s at;
     Harness.send s r.message;
-    beat (at +. 1.);
+    Harness.beat_until s (at +. 1.);
     { r with at }
   in
   let first = (List.hd (requests id)).at in
   let asked = List.map (ask (10. -. first)) (requests id) in
-  beat (Harness.now s +. 1200.);
+  Harness.beat_until s (Harness.now s +. 1200.);
   let ours (h : Harness.heard) = { time = h.time; packet = h.packet } in
   let all = List.map ours (Harness.heard s) in
   let begun = (List.hd asked).at in

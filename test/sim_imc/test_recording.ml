@@ -45,21 +45,13 @@ let replay () =
   (* The clock of the vehicle is that of the console. *)
   let time_of (p : Packet.t) = 10. +. p.timestamp -. first in
   Harness.announce s;
-  let rec beat until =
-    if Harness.now s +. 1. < until then begin
-      Harness.until s (Harness.now s +. 1.);
-      Harness.send s Heartbeat;
-      beat until
-    end
-  in
   let ask (p : Packet.t) =
-    beat (time_of p);
-    Harness.until s (time_of p);
+    Harness.beat_until s (time_of p);
     match p.content with Message m -> Harness.send s m | Unknown _ -> ()
   in
   Harness.send s Heartbeat;
   List.iter ask (Lazy.force requests);
-  beat (Harness.now s +. 200.);
+  Harness.beat_until s (Harness.now s +. 200.);
   s
 
 (* By message: what of different messages is sent within a millisecond comes in one order or the other. *)

@@ -13,7 +13,7 @@ module Platform = Simulator.Virtual
 module Answering = Test_support.Answering
 
 let seeds = match Sys.getenv_opt "SEEDS" with Some n -> int_of_string n | None -> 8
-let folder = "../../examples"
+let folder = Test_support.Examples.folder
 
 let read_file path =
   let channel = open_in_bin path in
@@ -133,15 +133,10 @@ let test_findings () =
   Alcotest.(check (list bool)) "a timer" [ false ]
     (List.map (fun (f : Recorded.finding) -> f.too_early) (follow (options (fleet "50, 60")) late))
 
-let examples =
-  let has_fleet name = Sys.file_exists (Filename.concat folder (name ^ ".fleet")) in
-  let programs = List.filter (fun file -> Filename.check_suffix file ".dol") (Array.to_list (Sys.readdir folder)) in
-  List.sort compare (List.filter has_fleet (List.map Filename.remove_extension programs))
-
 let () =
   let case name = Alcotest.test_case name `Quick (check_example name) in
   Alcotest.run "recorded"
-    [ ("examples", List.map case examples);
+    [ ("examples", List.map case (Test_support.Examples.with_fleets ()));
       ("findings", [ Alcotest.test_case "too early and too late" `Quick test_findings;
                      Alcotest.test_case "many were compared" `Quick (fun () ->
                          Alcotest.(check bool) "most" true (!compared > 20 * seeds)) ]) ]

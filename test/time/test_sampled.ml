@@ -8,7 +8,7 @@ module Scenario = Dolphin_scenario.Scenario
 module Scenario_world = Dolphin_environment.Scenario_world
 
 let runs = match Sys.getenv_opt "RUNS" with Some n -> int_of_string n | None -> 20
-let folder = "../../examples"
+let folder = Test_support.Examples.folder
 let ok = function Ok x -> x | Error e -> Alcotest.failf "%a" Error.pp e
 
 let load name =
@@ -108,15 +108,10 @@ let test_counts () =
       | [ { ending = Halted "over"; runs = 10; seed = 5 } ] -> ()
       | _ -> Alcotest.fail "all halt")
 
-let examples =
-  let has_fleet name = Sys.file_exists (Filename.concat folder (name ^ ".fleet")) in
-  let programs = List.filter (fun file -> Filename.check_suffix file ".dol") (Array.to_list (Sys.readdir folder)) in
-  List.sort compare (List.filter has_fleet (List.map Filename.remove_extension programs))
-
 let () =
   let case name = Alcotest.test_case name `Quick (check_example name) in
   Alcotest.run "sampled"
-    [ ("examples", List.map case examples);
+    [ ("examples", List.map case (Test_support.Examples.with_fleets ()));
       ("all of them",
        [ Alcotest.test_case "processes" `Quick test_processes; Alcotest.test_case "counts" `Quick test_counts;
          Alcotest.test_case "many were compared" `Quick (fun () ->

@@ -15,7 +15,7 @@ type t = {
   host : unit -> Host.t option;
 }
 
-let folder = "../../examples"
+let folder = Test_support.Examples.folder
 
 let read path =
   let channel = open_in_bin path in
@@ -23,9 +23,7 @@ let read path =
     ~finally:(fun () -> close_in channel)
     (fun () -> really_input_string channel (in_channel_length channel))
 
-let examples =
-  let program file = Filename.chop_suffix_opt ~suffix:".dol" file in
-  List.sort String.compare (List.filter_map program (Array.to_list (Sys.readdir folder)))
+let examples = Test_support.Examples.names ()
 
 let explain source ds =
   failwith (String.concat "\n" (List.map (Format.asprintf "%a" (Dolphin_syntax.Diagnostic.pp ~source)) ds))

@@ -1,6 +1,8 @@
 (* usage: mutants.exe [NAME...]: the mistakes whose names contain one of these texts, or all.
 
-   The exit status is 0 if each is noticed by the test that must notice it. *)
+   The exit status is 0 if each is noticed by the test that must notice it.
+
+   mutants.exe --check only looks whether each can be made: what it replaces is there, and once. *)
 
 open Mistake
 
@@ -79,7 +81,12 @@ let sound tree =
   in
   List.for_all is_sound targets
 
-let () =
+let check () =
+  let tell mistake why = Printf.printf "%s: %s: %s\n" mistake.file mistake.name why; true in
+  let is_wrong mistake = Result.fold (applied mistake (read mistake.file)) ~ok:(fun _ -> false) ~error:(tell mistake) in
+  if List.filter is_wrong all <> [] then exit 1
+
+let make_all () =
   let tree = Filename.temp_file "mutants" "" in
   Sys.remove tree;
   Unix.mkdir tree 0o700;
@@ -95,3 +102,5 @@ let () =
   let unnoticed = List.fold_left each 0 chosen in
   Printf.printf "%d of %d mistakes noticed\n" (List.length chosen - unnoticed) (List.length chosen);
   if unnoticed > 0 then exit 1
+
+let () = match Array.to_list Sys.argv with [ _; "--check" ] -> check () | _ -> make_all ()

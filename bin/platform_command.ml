@@ -31,15 +31,25 @@ let write path text =
     close_out channel;
     Ok ()
 
+let conclude command junit verdicts =
+  let failed = List.filter (fun (v : Kit.verdict) -> v.wrong <> None) verdicts in
+  Printf.printf "%d of %d situations passed\n%!" (List.length verdicts - List.length failed) (List.length verdicts);
+  let* () = Option.fold junit ~none:(Ok ()) ~some:(fun path -> write path (Kit.to_junit ~command verdicts)) in
+  Ok (if failed = [] then Exit_status.Done else Failed)
+
 let run command short long vehicle patience only junit =
   let plans = { Kit.short; long; vehicle; patience } in
   Report.result
     (let* () = known only in
-     let verdicts = Lwt_main.run (Kit.judge plans ~only tell command) in
-     let failed = List.filter (fun (v : Kit.verdict) -> v.wrong <> None) verdicts in
-     Printf.printf "%d of %d situations passed\n%!" (List.length verdicts - List.length failed) (List.length verdicts);
-     let* () = Option.fold junit ~none:(Ok ()) ~some:(fun path -> write path (Kit.to_junit ~command verdicts)) in
-     Ok (if failed = [] then Exit_status.Done else Failed))
+     let interruption = Interruption.make () in
+     Interruption.on_signals interruption;
+     let goes_on () = not (Interruption.happened interruption) in
+     let judged = Interruption.unless interruption (fun () -> Kit.judge plans ~only ~goes_on tell command) in
+     match Lwt_main.run judged with
+     | Some verdicts -> conclude command junit verdicts
+     | None ->
+       print_endline "is interrupted; the adapter is ended";
+       Ok Exit_status.Interrupted)
 
 (* {1 The command line} *)
 
@@ -88,7 +98,7 @@ let man =
 
 let exits =
   Cmd.Exit.info (Exit_status.code Failed) ~doc:"the adapter does something wrong in some situation."
-  :: Options.exits [ Done; Bad_input; Platform_trouble; Bug ]
+  :: Options.exits [ Done; Bad_input; Platform_trouble; Interrupted; Bug ]
 
 let check =
   let info = Cmd.info "check" ~doc:"judge an adapter by situations that it must get right" ~man ~exits in

@@ -20,22 +20,30 @@ let judged talks outcome =
   | Ok _, why :: _ -> (Some why, None)
   | Ok remark, [] -> (None, remark)
 
-let one plans command (s : Situations.t) =
+let check goes_on = if not (goes_on ()) then raise Lwt.Canceled
+
+let one plans ~goes_on command (s : Situations.t) =
   let began = Unix.gettimeofday () in
   let talks = ref [] in
-  let started t = talks := t :: !talks in
-  Lwt.catch
-    (fun () -> s.script plans ~started command >|= fun remark -> Ok remark)
-    (function Talk.Wrong why -> Lwt.return (Error why) | error -> Lwt.fail error)
-  >>= fun outcome ->
-  let wrong, remark = judged (List.rev !talks) outcome in
-  let transcript = if wrong = None then [] else List.concat_map Talk.transcript (List.rev !talks) in
-  Lwt_list.iter_s Talk.finish !talks >|= fun () ->
-  { name = s.name; what = s.what; wrong; remark; transcript; seconds = Unix.gettimeofday () -. began }
+  (* A script that was cancelled while it ended one adapter starts the next one. *)
+  let started t = talks := t :: !talks; check goes_on in
+  Lwt.finalize
+    (fun () ->
+       Lwt.catch
+         (fun () -> s.script plans ~started command >|= fun remark -> Ok remark)
+         (function Talk.Wrong why -> Lwt.return (Error why) | error -> Lwt.fail error)
+       >|= fun outcome ->
+       let wrong, remark = judged (List.rev !talks) outcome in
+       let transcript = if wrong = None then [] else List.concat_map Talk.transcript (List.rev !talks) in
+       { name = s.name; what = s.what; wrong; remark; transcript; seconds = Unix.gettimeofday () -. began })
+    (fun () -> Lwt_list.iter_s Talk.finish !talks)
 
-let judge plans ~only tell command =
+let judge plans ~only ~goes_on tell command =
   let is_wanted (s : Situations.t) = only = [] || List.mem s.name only in
-  let judge s = one plans command s >|= fun verdict -> tell verdict; verdict in
+  let judge s =
+    check goes_on;
+    one plans ~goes_on command s >|= fun verdict -> tell verdict; verdict
+  in
   Lwt_list.map_s judge (List.filter is_wanted Situations.all)
 
 (* {1 JUnit} *)

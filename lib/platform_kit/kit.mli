@@ -19,9 +19,11 @@ type verdict = {
 val names : (string * string) list
 (** The situations, and what adapters must do in them. *)
 
-val judge : plans -> only:string list -> (verdict -> unit) -> string -> verdict list Lwt.t
-(** [judge plans ~only tell command] puts the adapter [command] into each situation, or those named [only], one after
-    the other; [tell] gets each verdict at once. *)
+val judge :
+  plans -> only:string list -> goes_on:(unit -> bool) -> (verdict -> unit) -> string -> verdict list Lwt.t
+(** [judge plans ~only ~goes_on tell command] puts the adapter [command] into each situation, or those named [only], one
+    after the other; [tell] gets each verdict at once. It may be cancelled, once [goes_on ()] has become false: the
+    adapter is ended, the situation that it was in has no verdict, and no other begins. *)
 
 val to_junit : command:string -> verdict list -> string
 (** The verdicts as JUnit's XML. *)

@@ -133,3 +133,21 @@ Each situation finds an adapter out that is wrong there.
   $ dolphin platform check --only stopp true
   dolphin: there is no situation 'stopp' (did you mean 'stop'?)
   [2]
+
+Whoever interrupts it ends the adapter too: one that is deaf, and what that one has started.
+
+  $ cat > deaf.sh <<'END'
+  > trap '' TERM
+  > sleep 1000 & echo $! > sleeper
+  > echo $$ > deaf.new; mv deaf.new deaf
+  > while :; do sleep 1; done
+  > END
+  $ dolphin platform check 'sh deaf.sh' > interrupted.txt & run=$!
+  $ until test -e deaf || ! kill -0 $run; do sleep 0.05; done; kill -INT $run; wait $run
+  [130]
+  $ cat interrupted.txt
+  is interrupted; the adapter is ended
+  $ runs() { grep -qs '^State:[[:space:]]*[^XZ[:space:]]' /proc/$(cat $1)/status; }  # those that only wait for init are over
+  $ for f in deaf sleeper; do
+  >   for i in $(seq 200); do runs $f || break; sleep 0.05; done; ! runs $f || echo "$f is still there"
+  > done

@@ -288,7 +288,7 @@ let by_name env at name (callee : Ast.expression) arguments =
     (match Scope.settings env.code with
      | Some (((Pick | Imc_plan | Mission | Pos) as builder), _) ->
        error env Unknown_setting callee.at "%s has no setting '%s'" (builder_name builder) name
-         ?hint:(did_you_mean name (Builtins.settings builder))
+         ?hint:(hint_for_setting builder name)
      | Some ((All_of | One_of), _) | None -> ());
     if Scope.settings env.code = None then called_value ()
     else apply env at Make_list (values env arguments)

@@ -35,6 +35,17 @@ let unless_null env at subject f =
 let did_you_mean name names =
   Option.map (Printf.sprintf "did you mean '%s'?") (Diagnostic.suggest name names)
 
+(* The original language sends messages of MAVLink by it. *)
+let sends_message = "sendMessage"
+
+let hint_for_message =
+  "programs send vehicles no messages: what is to be done is an item of mission { ... }, or part of a stored one: \
+   stored 'name'"
+
+let hint_for_setting builder name =
+  if builder = Ast.Mission && name = sends_message then Some hint_for_message
+  else did_you_mean name (Builtins.settings builder)
+
 (* {1 What is known of an expression before it runs} *)
 
 let rec kind_of (e : Ast.expression) : Builtins.kind =

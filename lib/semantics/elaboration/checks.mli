@@ -51,6 +51,13 @@ val error : env -> ?hint:string -> Diagnostic.code -> Location.t -> ('a, unit, s
 val did_you_mean : string -> string list -> string option
 (** The hint that one of the names may be meant, if one is near. *)
 
+val hint_for_setting : Ast.builder -> string -> string option
+(** [hint_for_setting b name] is what to write instead of [name], which is no setting of [b]. *)
+
+val sends_message : string
+val hint_for_message : string
+(** The name of a procedure of the original language that is left out, and what to do instead. *)
+
 (** {1:kinds Kinds} *)
 
 val kind_of : Ast.expression -> Builtins.kind

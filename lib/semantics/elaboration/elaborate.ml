@@ -35,6 +35,7 @@ let hint_for_unknown program name at names =
   if Scope.wants_text program at then Some (Printf.sprintf "a text stands in quotes: '%s'" name)
   else if name = "include" then Some "include 'lib.dol' stands at the top of a file, outside of all braces"
   else if name = "parameter" then Some "a parameter has a value: parameter n = 3, 'what it is'"
+  else if name = Checks.sends_message then Some Checks.hint_for_message
   else if Builtins.math name then Some (Printf.sprintf "write Math.%s" name)
   else if Builtins.constant ("Math." ^ name) <> None then Some (Printf.sprintf "write Math.%s" name)
   else

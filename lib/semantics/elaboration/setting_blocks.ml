@@ -88,7 +88,7 @@ let setting env at (name : string Ast.located) e =
   | _, Some slot -> add env at slot name.it [ Ast.Positional e ]
   | Some (builder, _), None ->
     error env Unknown_setting name.at "%s has no setting '%s'" (builder_name builder) name.it
-      ?hint:(did_you_mean name.it (Builtins.settings builder));
+      ?hint:(hint_for_setting builder name.it);
     null env at
   | None, None ->
     error env Misplaced_setting name.at "'%s:' stands outside of a block of settings" name.it

@@ -1,6 +1,24 @@
 // The map: areas and positions of the program, ways of described plans, own layers, measuring, many vehicles.
+import { execFileSync } from "node:child_process";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
+
+// A chart of one level, whose tiles are one red picture.
+const mbtiles = `
+import base64, sqlite3, sys
+db = sqlite3.connect(sys.argv[1])
+db.execute("CREATE TABLE metadata (name text, value text)")
+db.execute("CREATE TABLE tiles (zoom_level integer, tile_column integer, tile_row integer, tile_data blob)")
+db.execute("CREATE UNIQUE INDEX tile_index ON tiles (zoom_level, tile_column, tile_row)")
+db.executemany("INSERT INTO metadata VALUES (?, ?)", [("format", "png"), ("minzoom", "14"), ("maxzoom", "14"),
+               ("attribution", "<a href='x'>The Harbour Office</a>")])
+red = base64.b64decode("iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8BQDwAEhQGAhKmMIQAAAABJRU5ErkJggg==")
+x, y = 7795, 6131
+for column in range(x - 1, x + 3):
+    for row in range(y - 1, y + 3):
+        db.execute("INSERT INTO tiles VALUES (14, ?, ?, ?)", (column, 2 ** 14 - 1 - row, red))
+db.commit()
+`;
 
 export default async function ({ folder, page, test, same, choose, over, picture, phone }) {
   writeFileSync(join(folder, "charted.dol"), `harbour = Location.APDL
@@ -18,6 +36,9 @@ execute until { poll over: true } run (imcPlan {
   writeFileSync(join(folder, "buoys.geojson"), JSON.stringify({ type: "FeatureCollection",
     features: [point("buoy <b>1</b>", -8.706, 41.186), point("buoy 2", -8.708, 41.187)] }));
   writeFileSync(join(folder, "broken.geojson"), "{");
+  writeFileSync(join(folder, "zones.kml"), `<kml><Document><Placemark><name>restricted</name><Polygon><outerBoundaryIs><LinearRing>
+    <coordinates>-8.709,41.184 -8.707,41.184 -8.707,41.186 -8.709,41.184</coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark></Document></kml>`);
+  execFileSync("python3", ["-c", mbtiles, join(folder, "chart.mbtiles")]);
   writeFileSync(join(folder, "many.dol"), "vs = pick { count 40 }\nexecute task('survey')[vs]\n");
   writeFileSync(join(folder, "many.fleet"), Array.from({ length: 40 }, (_, i) =>
     `vehicle 'vehicle-${i}', { type 'UUV'; at ${(41.185 + (i % 8) * 0.0006).toFixed(4)}, ${(-8.706 + Math.floor(i / 8) * 0.0015).toFixed(4)} }`).join("\n") +
@@ -42,14 +63,20 @@ execute until { poll over: true } run (imcPlan {
     await page.check("#layer-list >> text=buoys.geojson");
     await page.waitForFunction(() => localStorage.getItem("layers") === '["buoys.geojson"]');
     await page.check("#layer-list >> text=broken.geojson");
-    await page.waitForSelector("#banner >> text=broken.geojson is no GeoJSON");
+    await page.waitForSelector("#banner >> text=/broken.geojson: .*line 1/i");
     await page.uncheck("#layer-list >> text=broken.geojson");
+    await page.check("#layer-list >> text=zones.kml");
+    await page.check("#layer-list >> text=chart.mbtiles");
+    await page.waitForSelector("#layer-list >> text=The Harbour Office");
+    await page.waitForFunction(() => [...document.querySelectorAll("#map img.leaflet-tile-loaded")].some((i) => i.naturalWidth === 1));
     await picture(page, "layers");
     await page.reload();
     await page.click("#layers summary");
-    await page.waitForSelector("#layer-list input:checked");
+    await page.waitForFunction(() => document.querySelectorAll("#layer-list input:checked").length === 3);
+    await page.waitForSelector("#map img.leaflet-tile-loaded");
     await phone("map-phone");
-    await page.uncheck("#layer-list >> text=buoys.geojson");
+    for (const name of ["chart.mbtiles", "zones.kml", "buoys.geojson"]) await page.uncheck("#layer-list >> text=" + name);
+    await page.waitForFunction(() => !document.querySelector("#map img.leaflet-tile"));
     await page.click("#layers summary");
   });
 

@@ -20,16 +20,14 @@ let files h _ =
   Ok (`Assoc [ ("programs", of_kind Folder.Program); ("fleets", of_kind Fleet); ("journals", of_kind Journal);
                ("layers", of_kind Layer) ])
 
-let longest_layer = 8 * 1024 * 1024
-
 let read_file h r =
   let* path = parameter r "path" in
   let* full = file h path in
   let* text =
     match Folder.kind full with
     | Some Journal -> bad "journals are told by replay"
-    | Some Layer when (Unix.stat full).st_size > longest_layer -> refuse 413 "too-large" "this layer is too long"
-    | Some (Program | Fleet | Layer) | None -> text full
+    | Some Layer -> bad "layers are told by layer"
+    | Some (Program | Fleet) | None -> text full
   in
   Ok (`Assoc [ ("path", `String path); ("text", `String text); ("hash", `String (hash text)) ])
 
@@ -309,7 +307,7 @@ type route =
   | Command of (Hall.t -> members -> (json, refusal) result)  (* needs the helm *)
   | Later of (Hall.t -> members -> (json, refusal) result Lwt.t)  (* likewise *)
   | Helm
-  | Told of (Hall.t -> Access.role -> Request.t -> (Response.t, refusal) result)
+  | Told of (Hall.t -> Access.role -> Request.t -> (Response.t, refusal) result Lwt.t)
 
 let most_watchers = 100
 
@@ -327,10 +325,12 @@ let events h role r =
 
 let table =
   [ (("GET", "status"), Look (fun h _ -> Ok (Hall.status h)));
-    (("GET", "events"), Told events);
+    (("GET", "events"), Told (fun h role r -> Lwt.return (events h role r)));
     (("GET", "files"), Look files);
     (("GET", "file"), Look read_file);
     (("PUT", "file"), Command save);
+    (("GET", "layer"), Told (fun h _ -> Layers.layer h));
+    (("GET", "tile"), Told (fun h _ -> Layers.tile h));
     (("POST", "check"), Compute check);
     (("POST", "complete"), Compute (at_place Documents.complete));
     (("POST", "hover"), Compute (at_place Documents.hover));
@@ -352,7 +352,7 @@ let table =
     (("POST", "run/post"), Later post);
     (("POST", "run/resume"), Command resume);
     (("GET", "runs"), Look runs);
-    (("GET", "replay"), Told (fun h _ -> replay h));
+    (("GET", "replay"), Told (fun h _ r -> Lwt.return (replay h r)));
     (("POST", "helm"), Helm) ]
 
 let routes = List.map (fun ((verb, path), _) -> (verb, "/api/" ^ path)) table
@@ -378,7 +378,7 @@ let perform h (role : Access.role) r route =
   | Command f, Steers -> with_helm h r (fun found -> Lwt.return (f h found))
   | Later f, Steers -> with_helm h r (f h)
   | Helm, Steers -> Lwt.return (of_result (helm h r))
-  | Told f, _ -> Lwt.return (match f h role r with Ok response -> response | Error r -> of_refusal r)
+  | Told f, _ -> f h role r >|= (function Ok response -> response | Error r -> of_refusal r)
 
 let api h role (r : Request.t) path =
   let verb = if r.verb = "HEAD" then "GET" else r.verb in

@@ -19,6 +19,9 @@ val refuse : ?more:Field.members -> int -> string -> string -> ('a, refusal) res
 val bad : string -> ('a, refusal) result
 (** [bad message] is [refuse 400 "bad-request" message]. *)
 
+val json : ?status:int -> json -> Dolphin_http.Response.t
+(** By default with status 200. *)
+
 val of_refusal : refusal -> Dolphin_http.Response.t
 val of_result : (json, refusal) result -> Dolphin_http.Response.t
 

@@ -10,13 +10,15 @@ let make path =
 
 type kind = Program | Fleet | Journal | Layer
 
+(* Of all files in JSON few are maps. *)
+let layers = ".mbtiles" :: List.filter (( <> ) ".json") Dolphin_maps.Map_file.formats
+
 let kind path =
   match Filename.extension path with
   | ".dol" | ".dolphin" -> Some Program
   | ".fleet" -> Some Fleet
   | ".run" -> Some Journal
-  | ".geojson" -> Some Layer
-  | _ -> None
+  | extension -> if List.mem (String.lowercase_ascii extension) layers then Some Layer else None
 
 (* {1 What there is} *)
 

@@ -12,7 +12,8 @@ val root : t -> string
 type kind = Program | Fleet | Journal | Layer
 
 val kind : string -> kind option
-(** What a file is, by the end of its name: [.dol] or [.dolphin], [.fleet], [.run], [.geojson]. *)
+(** What a file is, by the end of its name: [.dol] or [.dolphin], [.fleet], [.run], and for layers
+    [.mbtiles] or one of {!Dolphin_maps.Map_file.formats} but [.json]. *)
 
 val list : t -> (kind * string) list
 (** Its files, by their paths from {!root}, in order: those in it and in the folders below it, at most 2,000. Links and

@@ -100,14 +100,35 @@ let named things =
 
 (* {1 Reading} *)
 
-let read ~path text =
+let read_by f ~path text =
   match List.find_opt (fun (suffix, _) -> ends suffix path) readers with
   | None -> Error (Printf.sprintf "a map ends in %s" (String.concat ", " formats))
   | Some _ when String.length text > most_bytes ->
     Error (Printf.sprintf "it has more than %d MB" (most_bytes / 1_000_000))
   | Some (_, read) -> (
-      match named (List.map (fun (d : Drawn.t) -> (d.name, thing d)) (read text)) with
+      match f (read text) with
       | things -> Ok things
       | exception Drawn.Wrong { place = ""; why } -> Error why
       | exception Drawn.Wrong { place; why } -> Error (place ^ ": " ^ why)
       | exception Stack_overflow -> Error "it is too intricate")
+
+let read = read_by (fun drawn -> named (List.map (fun (d : Drawn.t) -> (d.name, thing d)) drawn))
+
+(* {1 As it is drawn} *)
+
+type outline =
+  | Spot of Position.t
+  | Way of Position.t list
+  | Rings of Position.t list list
+  | Round of { centre : Position.t; radius : float }
+
+let outline : Drawn.shape -> outline = function
+  | Spot p -> Spot p
+  | Way ps -> Way ps
+  | Sketch ps -> Rings [ ps ]
+  | Round { centre; radius } -> Round { centre; radius }
+  | Ground rings -> Rings (List.concat_map (fun ({ rim; holes } : Drawn.ring) -> rim :: holes) rings)
+
+let outlines =
+  let one (d : Drawn.t) = (harmless d.name, outline d.shape) in
+  read_by (fun drawn -> List.rev (List.rev_map one drawn))

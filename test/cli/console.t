@@ -11,11 +11,29 @@ The console of a folder, on a port of its own, and all that docs/openapi.json de
   $ echo "answer 'How many?', 2" > mission.fleet
   $ echo 'message askk' > wrong.dol
   $ printf 'pause 1.minute\npause 2.seconds\n' > short.dol
-  $ serve() { dolphin console . --port "$1" --no-browser > "$2" & while ! grep -qs "is at" "$2"; do sleep 0.05; done; }
+  $ cat > zones.kml << 'END'
+  > <kml><Placemark><name>quay</name><Point><coordinates>-8.7,41.2</coordinates></Point></Placemark></kml>
+  > END
+  $ python3 - << 'END'
+  > import sqlite3
+  > db = sqlite3.connect("chart.mbtiles")
+  > db.execute("CREATE TABLE metadata (name text, value text)")
+  > db.execute("CREATE TABLE tiles (zoom_level integer, tile_column integer, tile_row integer, tile_data blob)")
+  > db.execute("CREATE UNIQUE INDEX tile_index ON tiles (zoom_level, tile_column, tile_row)")
+  > db.executemany("INSERT INTO metadata VALUES (?, ?)", [("minzoom", 1), ("maxzoom", "1"), ("bounds", "-9,41,-8,42")])
+  > db.execute("INSERT INTO tiles VALUES (1, 0, 1, ?)", (b"\x89PNG\r\n\x1a\n",))
+  > db.commit()
+  > END
+  $ echo 'no database' > broken.mbtiles
+  $ serve() { dolphin console . --port "$1" --no-browser > "$2" & while ! grep -qs "is at" "$2" && kill -0 $!; do sleep 0.05; done; }
   $ serve 0 served
   $ console=$!
   $ port=$(sed -n 's/.*:\([0-9]*\)\/$/\1/p' served)
   $ python3 console_api.py ../../docs/openapi.json $port
+  layers: ['broken.mbtiles', 'chart.mbtiles', 'zones.kml']
+  shapes: ['quay']
+  tiles: {'minimum': 1, 'maximum': 1, 'bounds': [-9, 41, -8, 42], 'attribution': ''}
+  a tile: 200 404
   explored: over ['no deadlock']
   counterexample: ['ask(How many?)', 'answer(2)', "message '2'", 'execute']
   no such faults: failed

@@ -29,7 +29,7 @@ def ask(verb, path, body=None, query=""):
     try:
         with urllib.request.urlopen(request, timeout=60) as reply:
             status, kind = reply.status, reply.headers["Content-Type"]
-            text = (reply.readline() if path == "events" else reply.read()).decode()
+            text = (reply.readline() if path == "events" else reply.read()).decode(errors="replace")
     except urllib.error.HTTPError as error:
         status, kind, text = error.code, error.headers["Content-Type"], error.read().decode()
     told = operation["responses"].get(str(status), operation["responses"]["default"])["content"]
@@ -64,6 +64,16 @@ def main():
     ask("PUT", "file", {"path": "mission.dol", "text": "", "hash": "old"})
     ask("GET", "file", query="?path=../mission.dol")
     ask("GET", "file")
+    print("layers:", ask("GET", "files")[1]["layers"])
+    print("shapes:", [s["name"] for s in ask("GET", "layer", query="?path=zones.kml")[1]["shapes"]])
+    print("tiles:", ask("GET", "layer", query="?path=chart.mbtiles")[1]["tiles"])
+    print("a tile:", ask("GET", "tile", query="?path=chart.mbtiles&zoom=1&column=0&row=0")[0],
+          ask("GET", "tile", query="?path=chart.mbtiles&zoom=1&column=0&row=1")[0])
+    for query in ["?path=mission.dol", "?path=none.kml", "?path=broken.mbtiles"]:
+        ask("GET", "layer", query=query)
+        ask("GET", "tile", query=query + "&zoom=1&column=0&row=0")
+    ask("GET", "tile", query="?path=zones.kml&zoom=1&column=0&row=0")
+    ask("GET", "tile", query="?path=chart.mbtiles&zoom=1&column=-1&row=0")
     document = {"path": "mission.dol", "text": text["text"]}
     for path in ["check", "format"]:
         ask("POST", path, document)

@@ -324,7 +324,8 @@ let on_the_map folder port =
     ("quay = location 41.0, -8.0\nzones = [quay ^ 100.m, 1]\nv = pick { type 'UUV' }\n"
      ^ "execute imcPlan { planName 'there'; goTo location: quay }\n");
   write (Filename.concat folder "chart.fleet") "vehicle 'a', { type 'UUV'; at 41.0001, -8.0 }\n";
-  write (Filename.concat folder "buoys.geojson") "{}";
+  write (Filename.concat folder "buoys.geojson")
+    {|{"type":"Feature","properties":{"name":1},"geometry":{"type":"Point","coordinates":[-8,41]}}|};
   Client.watch ~port "first" >>= fun first ->
   Client.ask ~body:{|{"program": "chart.dol"}|} ~port "/api/run" >>= fun r ->
   status "started" 200 r.status;
@@ -335,8 +336,15 @@ let on_the_map folder port =
   text "places" {|[{"name":"quay","position":[41,-8]},{"name":"zones[0]","centre":[41,-8],"radius":100}]|} (last "places");
   text "way" {|{"vehicle":"a","plan":"there","path":[[41.0001,-8],[41,-8]]}|} (last "way");
   Client.leave first >>= fun () ->
+  Client.ask ~port "/api/layer?path=buoys.geojson" >>= fun r ->
+  text "a layer" {|{"shapes":[{"name":"1","position":[41,-8]}]}|} (String.trim r.body);
   Client.ask ~port "/api/file?path=buoys.geojson" >>= fun r ->
-  status "a layer" 200 r.status;
+  refused "is no text" (400, "bad-request") r;
+  write (Filename.concat folder "wrong.gpx") "<gpx><wpt lat='91' lon='0'/></gpx>";
+  Client.ask ~port "/api/layer?path=wrong.gpx" >>= fun r ->
+  refused "no layer" (422, "no-layer") r;
+  Client.ask ~port "/api/tile?path=../outside.mbtiles&zoom=0&column=0&row=0" >>= fun r ->
+  refused "no tile from elsewhere" (404, "not-found") r;
   Client.ask ~verb:"PUT" ~body:{|{"path": "buoys.geojson", "text": ""}|} ~port "/api/file" >>= fun r ->
   refused "is not edited" (400, "bad-request") r;
   Client.ask ~port "/api/status" >|= fun r -> text "no tiles" "null" (Yojson.Safe.to_string (member [ "tiles" ] (Client.json r)))

@@ -1,0 +1,79 @@
+open Dolphin_json
+open Exchange
+module Map_file = Dolphin_maps.Map_file
+module Tile_file = Dolphin_maps.Tile_file
+module Request = Dolphin_http.Request
+module Response = Dolphin_http.Response
+
+let longest = 8 * 1024 * 1024
+
+let is_tiles path = String.lowercase_ascii (Filename.extension path) = ".mbtiles"
+
+let of_folder h r =
+  let* path = parameter r "path" in
+  let* full = file h path in
+  if Folder.kind full = Some Layer then Ok full else bad "this is no layer"
+
+let no_layer path why = refusal 422 "no-layer" (Printf.sprintf "%s: %s" (Filename.basename path) why)
+
+(* In a thread: the run goes on meanwhile. *)
+let beside f x = match x with Ok x -> Lwt_preemptive.detach f x | Error _ as e -> Lwt.return e
+
+(* {1 Shapes} *)
+
+let shape (name, outline) : json =
+  let members : (string * json) list =
+    match (outline : Map_file.outline) with
+    | Spot p -> [ ("position", Charted.pair p) ]
+    | Way ps -> [ ("line", Charted.path ps) ]
+    | Rings rings -> [ ("rings", `List (List.map Charted.path rings)) ]
+    | Round { centre; radius } -> [ ("centre", Charted.pair centre); ("radius", Canonical.number radius) ]
+  in
+  `Assoc (("name", `String name) :: members)
+
+let shapes full : (json, refusal) result =
+  if (Unix.stat full).st_size > longest then refuse 413 "too-large" "this layer is too long"
+  else
+    let* source = text full in
+    let* outlines = Result.map_error (no_layer full) (Map_file.outlines ~path:full source) in
+    Ok (`Assoc [ ("shapes", `List (List.rev (List.rev_map shape outlines))) ])
+
+(* {1 Tiles} *)
+
+let tiles full : (json, refusal) result =
+  let* found = Result.map_error (no_layer full) (Tile_file.read full) in
+  let bounds : json =
+    match found.bounds with
+    | Some (west, south, east, north) -> `List (List.map Canonical.number [ west; south; east; north ])
+    | None -> `Null
+  in
+  Ok
+    (`Assoc
+       [ ("tiles", `Assoc [ ("minimum", `Int found.minimum); ("maximum", `Int found.maximum); ("bounds", bounds);
+                            ("attribution", `String found.attribution) ]) ])
+
+let layer h r =
+  let read full = Result.map (fun found -> json found) (if is_tiles full then tiles full else shapes full) in
+  beside read (of_folder h r)
+
+let number r name =
+  let* text = parameter r name in
+  match int_of_string_opt text with
+  | Some n when n >= 0 -> Ok n
+  | Some _ | None -> bad (name ^ " is a whole number")
+
+let picture (full, zoom, column, row) =
+  match Tile_file.tile full ~zoom ~column ~row with
+  | Ok (Some { kind; bytes }) -> Ok (Response.text ~kind 200 bytes)
+  | Ok None -> refuse 404 "not-found" "there is no such tile"
+  | Error why -> Error (no_layer full why)
+
+let tile h r =
+  let wanted =
+    let* full = of_folder h r in
+    let* zoom = number r "zoom" in
+    let* column = number r "column" in
+    let* row = number r "row" in
+    if is_tiles full then Ok (full, zoom, column, row) else bad "this layer has no tiles"
+  in
+  beside picture wanted

@@ -1,0 +1,109 @@
+type t = {
+  minimum : int;
+  maximum : int;
+  bounds : (float * float * float * float) option;
+  attribution : string;
+}
+
+type image = { kind : string; bytes : string }
+
+let deepest = 24
+let most_bytes = 2_000_000
+let most_text = 1_000
+
+let ( let* ) = Result.bind
+let ( let+ ) result f = Result.map f result
+
+(* {1 Asking the database} *)
+
+let ask db query parameters : (Sqlite3.Data.t array list, string) result =
+  match Sqlite3.prepare db query with
+  | exception (Sqlite3.Error _ | Sqlite3.InternalError _) -> Error (Sqlite3.errmsg db)
+  | statement ->
+    let finally () = ignore (Sqlite3.finalize statement) in
+    Fun.protect ~finally (fun () ->
+        ignore (Sqlite3.bind_values statement parameters);
+        match Sqlite3.fold statement ~f:(fun rows row -> row :: rows) ~init:[] with
+        | (Sqlite3.Rc.OK | DONE), rows -> Ok (List.rev rows)
+        | _, _ -> Error (Sqlite3.errmsg db))
+
+let with_database path f =
+  match Sqlite3.db_open ~mode:`READONLY path with
+  | exception (Sqlite3.Error _ | Sqlite3.InternalError _) -> Error "it cannot be opened"
+  | db ->
+    Sqlite3.busy_timeout db 1000;
+    let finally () = ignore (Sqlite3.db_close db) in
+    Fun.protect ~finally (fun () -> f db)
+
+(* {1 What the tiles are} *)
+
+let one_tile = "SELECT tile_data FROM tiles WHERE zoom_level = ? AND tile_column = ? AND tile_row = ?"
+let place zoom column row = List.map (fun n -> Sqlite3.Data.INT (Int64.of_int n)) [ zoom; column; row ]
+
+let starts_with prefix text =
+  let n = String.length prefix in
+  String.length text >= n && String.sub text 0 n = prefix
+
+let is_search step = starts_with "SEARCH" step && not (List.mem "AUTOMATIC" (String.split_on_char ' ' step))
+
+(* Without an index each tile takes a look at all of them; a view may even search without end. *)
+let is_quick db =
+  let+ plan = ask db ("EXPLAIN QUERY PLAN " ^ one_tile) (place 0 0 0) in
+  let step row = match row.(Array.length row - 1) with Sqlite3.Data.TEXT text -> text | _ -> "" in
+  List.for_all (fun row -> is_search (step row)) plan
+
+let metadata db name =
+  let query = "SELECT substr(value, 1, ?) FROM metadata WHERE name = ? LIMIT 1" in
+  match ask db query [ INT (Int64.of_int most_text); TEXT name ] with
+  | Ok [ [| TEXT text |] ] -> Some text
+  | Ok [ [| INT n |] ] -> Some (Int64.to_string n)
+  | Ok _ | Error _ -> None
+
+let level db name =
+  match Option.bind (metadata db name) int_of_string_opt with
+  | Some n when 0 <= n && n <= deepest -> Some n
+  | Some _ | None -> None
+
+let bounds db =
+  let numbers text = List.map (fun part -> float_of_string_opt (String.trim part)) (String.split_on_char ',' text) in
+  match Option.map numbers (metadata db "bounds") with
+  | Some [ Some west; Some south; Some east; Some north ]
+    when -180. <= west && west < east && east <= 180. && -90. <= south && south < north && north <= 90. ->
+    Some (west, south, east, north)
+  | Some _ | None -> None
+
+let read path =
+  with_database path (fun db ->
+      let* quick =
+        Result.map_error (fun why -> "it is no MBTiles, which has a table of tiles: " ^ why) (is_quick db) in
+      match metadata db "format" with
+      | _ when not quick -> Error "its tiles have no index by zoom_level, tile_column and tile_row"
+      | Some "pbf" -> Error "its tiles are vectors (pbf), and only pictures are shown: png, jpg, webp"
+      | Some _ | None ->
+        let minimum = Option.value (level db "minzoom") ~default:0 in
+        let maximum = Option.value (level db "maxzoom") ~default:deepest in
+        if minimum > maximum then Error (Printf.sprintf "it has no tiles from level %d to level %d" minimum maximum)
+        else
+          let attribution = Option.value (metadata db "attribution") ~default:"" in
+          Ok { minimum; maximum; bounds = bounds db; attribution })
+
+(* {1 A tile} *)
+
+let kinds = [ ("\x89PNG\r\n", "image/png"); ("\xff\xd8\xff", "image/jpeg"); ("RIFF", "image/webp") ]
+
+let image bytes =
+  match List.find_opt (fun (first, _) -> starts_with first bytes) kinds with
+  | Some (_, kind) -> Ok (Some { kind; bytes })
+  | None -> Error "this tile is no picture: neither png nor jpg nor webp"
+
+(* Rows are counted from the south in the file. *)
+let tile path ~zoom ~column ~row =
+  if not (0 <= zoom && zoom <= deepest) then Ok None
+  else
+    with_database path (fun db ->
+        let* quick = is_quick db in
+        let query = Printf.sprintf "%s AND length(tile_data) <= %d LIMIT 1" one_tile most_bytes in
+        let* found = if quick then ask db query (place zoom column ((1 lsl zoom) - 1 - row)) else Ok [] in
+        match found with
+        | [| BLOB bytes |] :: _ -> image bytes
+        | _ -> Ok None)

@@ -1,0 +1,23 @@
+(** Maps as pictures, in MBTiles: a database of SQLite that has square tiles of the Mercator projection. It may be
+    hostile: it is only read, and no tile is read that takes a search through all of them. *)
+
+type t = {
+  minimum : int;
+  maximum : int;  (** zoom levels that there are; at level [z] the world is [2 ** z] tiles wide *)
+  bounds : (float * float * float * float) option;  (** west, south, east, north, in degrees, if the file tells them *)
+  attribution : string;  (** whom to thank; [""]: the file does not say *)
+}
+
+val read : string -> (t, string) result
+(** [read path] is what the tiles at [path] are, or why they cannot be shown, in a sentence. *)
+
+type image = { kind : string;  (** its media type *) bytes : string }
+
+val tile : string -> zoom:int -> column:int -> row:int -> (image option, string) result
+(** [tile path ~zoom ~column ~row] is that tile, counted from the west and the north; [None] if there is none. *)
+
+val deepest : int
+(** 24: the deepest level of zoom. *)
+
+val most_bytes : int
+(** 2 million: longer tiles are left out. *)

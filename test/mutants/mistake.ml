@@ -247,6 +247,12 @@ let canonical_vehicles =
       ( "computed plans end in the same way",
         {|then split r ending;|},
         {|then (if false then split r ending);|} );
+      ( "plans of tasks that are made end in the same way",
+        {|List.iter (check_plan r) (String.concat|},
+        {|if false then List.iter (check_plan r) (String.concat|} );
+      ( "tasks that are made have only plans that the fleet names",
+        {|(String.concat "" ("other" :: plans) :: plans)|},
+        {|plans|} );
     ]
   @ in_file "lib/explore/encoding/encoding.ml" ~noticed_by:"reduction/test_told_apart"
     [
@@ -293,6 +299,9 @@ let name_flow =
       ( "handlers may read the error",
         {|lambda.parameters > 0 -> uses_name w e.site; text|},
         {|lambda.parameters > 0 -> text|} );
+      ( "code that makes a task gets no vehicles",
+        {|(fun _ -> taken)|},
+        {|(fun _ -> taken land text)|} );
     ]
 
 let liveness =

@@ -64,6 +64,22 @@ let action =
       (2, f "message \"at ${%s}\"" v); (1, f "p = %s" w); (1, f "if (%s) { post %s: 2 }" c k);
       (1, f "if (%s) { halt \"here ${%s}\" }" c v) ]
 
+(* Tasks that are made at their turn: for vehicles that are given, were taken from N, are idle, or may be any. *)
+let made =
+  let* p = plan and* v = vehicles and* k = oneofl [ "x"; "y" ] and* a = action and* c = condition in
+  frequencyl
+    [ (4, f "({ task('%s') })[%s]" p v); (1, f "({ task('%s') })" p);
+      (1, f "({ imcPlan { planName 'i'; locate 41.1852, -8.7048; goTo speed:1.0 } })[%s]" v);
+      (2, f "({ %s ? task('%s') : idle(1.seconds) })[%s]" c p v);
+      (2, f "(waitFor { consume %s: _ } then { u -> task('%s')[u] })" k p);
+      (1, f "(waitFor { consume %s: _ } then { u -> task(\"%s${u}\") })" k p);
+      (1, f "(waitFor { consume %s: _ } then { u -> action { post y: u ; if (u == %s) { g = g + 1 } } })" k v);
+      (2, f "(waitFor { !idle(%s).isEmpty() } then { task('%s')[idle(%s)] })" v p v);
+      (1, f "(waitFor { idle(%s) == %s } then { task('%s')[%s[0]] })" v v p v);
+      (2, f "(watch (task('%s')[%s]) onError { %s ; retry() })" p v a);
+      (2, f "(watch (task('%s')[%s]) onError { e -> post x: e.vehicle; task('t') })" p v);
+      (1, f "(watch ({ task('%s') })[%s] onError { e -> post lost: e.vehicle; retry() })" p v) ]
+
 let rec task depth =
   let leaf =
     let* p = plan and* v = vehicles and* a = action and* c = condition in
@@ -72,6 +88,7 @@ let rec task depth =
         (1, "idle(1.seconds)"); (1, f "assert({ !(%s) }, 'a')" c);
         (1, f "imcPlan { planName 'i'; locate 41.1852, -8.7048; goTo speed:1.0 }[%s]" v) ]
   in
+  let leaf = frequency [ (15, leaf); (4, made) ] in
   if depth = 0 then leaf
   else
     let part = task (depth - 1) in

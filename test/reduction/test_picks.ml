@@ -16,7 +16,7 @@ let answering = { supplied with answers = (fun _ -> [ [ "1"; "null" ] ]) }
 let reading = { supplied with answers = (fun _ -> [ [ "p"; "q[0].id == 'b'" ] ]) }
 
 let failing fails : Environment.options =
-  { answering with endings = (fun v p -> if fails v p then May_fail else Succeeds) }
+  { answering with endings = (fun v p -> if fails v p then May_fail else Succeeds); plans = [ "t"; "sb" ] }
 
 let late join may_be_late : Environment.options =
   { answering with may_be_late; faults = { Faults.none with join } }
@@ -40,6 +40,8 @@ let environments =
     ("with interruptions", { answering with faults = { Faults.none with interrupt = true } });
     ("vehicle b may fail", failing (fun v _ -> v = "b"));
     ("plan t may fail", failing (fun _ p -> p = "t"));
+    ("plan sb may fail", failing (fun _ p -> p = "sb"));
+    ("plan sb may fail on vehicle b", failing (fun v p -> v = "b" && p = "sb"));
     ("plan t may fail on vehicle b", failing (fun v p -> v = "b" && p = "t")) ]
 
 let case = QCheck2.Gen.(pair Picking.gen (oneofl environments))

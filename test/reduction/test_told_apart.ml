@@ -123,6 +123,42 @@ let by_what_they_are =
       [ Vehicles ] (one ^ "w = pick { count 2; type 'UUV'; timeout 1.seconds }");
   ]
 
+let on_c plan ending : Environment.options =
+  let endings v p = if v = "c" && p = plan then ending else Environment.Succeeds in
+  { plain with endings; plans = [ plan ] }
+
+let handing = one ^ "post who: v\nexecute waitFor { consume who: _ } then "
+
+(* Tasks that are made at their turn. *)
+let by_what_is_made =
+  [
+    keeps "a task made for it" [] (one ^ "execute ({ task('p') })[v]");
+    keeps "a task made for any" [] (one ^ "execute { task('p') | idle(1) }");
+    keeps "a plan that fails on one, made for it" ~environment:(on_c "p" Fails) [ No_error ]
+      (one ^ "execute ({ task('P'.toLowerCase()) })[v]");
+    keeps "any plan fails on one" ~environment:{ plain with endings = (fun v _ -> if v = "c" then Fails else Succeeds) }
+      [ No_error ] "v = pick { count 1 }\nexecute ({ task(\"${1}\") })[v]";
+    keeps "a plan that a handler gives fails on one"
+      ~environment:{ (on_c "p" Fails) with endings = (fun v p -> if p = "q" || v = "c" then Fails else Succeeds);
+                                           plans = [ "p"; "q" ] }
+      [ No_error ] (one ^ "execute watch task('q')[v] onError { e -> task('P'.toLowerCase()) }");
+    keeps "who was taken" [ No_halt ]
+      (handing ^ "{ u -> action { if (u == v) { halt 'h' } } }");
+    tells "the name of who was taken" [ No_halt ]
+      (handing ^ "{ u -> action { if (\"$u\" == 'C'.toLowerCase()) { halt 'h' } } }");
+    tells "the name of who was taken, by a function" [ No_error; No_halt ]
+      ("def f(u) { if (u.id == 'C'.toLowerCase()) { fail 'x' }\ntask('p')[u] }\ng = f\n"
+       ^ handing ^ "g\nhalt 'h'");
+    tells "a plan with the name of who was taken" ~environment:{ (on_c "pc" Fails) with plans = [ "pc" ] } [ No_error ]
+      (handing ^ "{ u -> task(\"p$u\")[u] }");
+    keeps "who is idle" [ No_deadlock; No_halt ]
+      (one ^ "execute ({ task('p') })[v] | (waitFor { idle(v).isEmpty() } then action { halt 'h' })");
+    tells "the name of who is idle" [ No_halt ]
+      (one ^ "execute action { if (idle(v).ids == ['C'.toLowerCase()]) { halt 'h' } }");
+    tells "the name of who failed" ~environment:(Environment.failing plain) [ No_halt ]
+      (one ^ "execute watch task('p')[v] onError { e -> if (e.vehicle.id == 'C'.toLowerCase()) { halt 'h' }\nidle(1) }");
+  ]
+
 (* A supplier [s], which replies this. *)
 let supplied known =
   let known = ("getSupplier", [ [ Ok (Core.Host "s") ] ]) :: known in
@@ -225,6 +261,10 @@ let small name ?environment ?(n = 100) most text =
   in
   Alcotest.test_case name `Quick test
 
+let all_faults =
+  { plain with faults = { Faults.none with fail = Any_number; loss = Any_number; join = Any_number };
+               may_be_late = (fun _ -> true) }
+
 let three_teams =
   {|a = pick { count 3; type 'UUV' }
     b = pick { count 3; type 'UUV' }
@@ -281,10 +321,21 @@ let large_fleets =
           execute idle(1) >> idle(2) >> idle(3)
           if (a == b) { halt 'the same' }
         }|};
+    small "a pool" ~environment:all_faults ~n:5 6_000
+      {|vs = pick { count 4 }
+        for (i in 1..4) { post goal: i }
+        def worker(v) {
+          (repeat oneOf {
+            when { consume goal: _ } then { g -> watch task("survey_$g") onError { post goal: g; ignore() } }
+            when { count(goal: _) == 0 } then action { }
+          } until { count(goal: _) == 0 })[v]
+        }
+        execute worker(vs[0]) | worker(vs[1]) | worker(vs[2]) | worker(vs[3])|};
     Alcotest.test_case "a run that is shown" `Quick test_run;
   ]
 
 let () =
   Alcotest.run "vehicles told apart"
-    [ ("by name", by_name); ("by what they are", by_what_they_are); ("by replies", by_replies); ("by order", by_order);
+    [ ("by name", by_name); ("by what they are", by_what_they_are);
+      ("by what is made", by_what_is_made); ("by replies", by_replies); ("by order", by_order);
       ("large fleets", large_fleets) ]

@@ -205,20 +205,25 @@ let check_replies r call =
   let names = function Ok x -> named r x | Error _ -> [] in
   match List.concat_map names (List.concat (r.options.replies call)) with [] -> () | vs -> fix r vs
 
-let check_plan r (p : Core.platform_task) =
-  if not (Hashtbl.mem r.plans p.name) then begin
-    let ending v = Environment.ending r.options v p.name in
+let check_plan r name =
+  if not (Hashtbl.mem r.plans name) then begin
+    let ending v = Environment.ending r.options v name in
     let as_first (s : World.vehicle_state) =
       ending s.id = ending (first r s.id)
     in
     if not (List.for_all as_first (World.vehicles r.world)) then split r ending;
-    Hashtbl.add r.plans p.name ()
+    Hashtbl.add r.plans name ()
   end
+
+(* Any plan may be in a task that is not made yet: those that the options name, and one of all others. *)
+let check_all_plans r =
+  let plans = r.options.plans in
+  List.iter (check_plan r) (String.concat "" ("other" :: plans) :: plans)
 
 let rec check_plans r (t : Residual.t) =
   let branches = List.iter (fun (b : Residual.branch) -> check_plans r b.body) in
   match t with
-  | Ready (p, _) | Running (p, _) -> check_plan r p
+  | Ready (p, _) | Running (p, _) -> check_plan r p.name
   | Action _ | Condition _ | Idle _ | Confirm _ -> ()
   | Sequence (a, rest) -> List.iter (check_plans r) (a :: rest)
   | Parallel rs -> List.iter (check_plans r) rs
@@ -226,9 +231,7 @@ let rec check_plans r (t : Residual.t) =
   | One_of bs -> branches bs
   | Until (_, _, a) | During { body = a; _ } | Watch (a, { anew = None; _ }) | Hold (_, a)
   | Repeat { again = { each = a; _ }; _ } -> check_plans r a
-  (* Which plans such a task has is not known before it is made. *)
-  | Made _ | Unallocated _ | Watch (_, { anew = Some _; _ }) ->
-    fix r (List.map (fun (s : World.vehicle_state) -> s.id) (World.vehicles r.world))
+  | Made _ | Unallocated _ | Watch (_, { anew = Some _; _ }) -> check_all_plans r
 
 let choices r outside (c : Configuration.t) =
   let alike =

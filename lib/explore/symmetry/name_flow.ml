@@ -255,9 +255,15 @@ and applied w lambda at operation arguments =
       add w (Slot (handler.id, 2)) text
     end;
     values [ t; code ] land vehicles
-  | ( ( Builtin (Platform_task | Make_action | Make_condition | Make_wait_for | Make_until _ | Make_idle | Make_during _
-                | Make_watch | Make_repeat _)
-      | Make_branch ),
+  | (Builtin Make_wait_for | Make_branch), es ->
+    (* Code in the place of a task gets what the guard took. *)
+    let taken = content w Posted in
+    let give e k = ignore (call_value w e k (fun _ -> taken)) in
+    let ks = List.map value_of es in
+    List.iter2 give es ks;
+    all ks land vehicles
+  | ( ( Builtin (Platform_task | Make_action | Make_condition | Make_until _ | Make_idle | Make_during _
+                | Make_watch | Make_repeat _) ),
       es ) -> values es land vehicles
   | Builtin (Post keys), es ->
     let k = values es in

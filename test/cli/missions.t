@@ -17,7 +17,7 @@ faults.
   leader_and_follower.dol: 29 states, 5 hold
   mine_hunting.dol: 69 states, 5 hold
   patrol.dol: 48 states, 5 hold
-  replacement.dol: 476 states, 5 hold
+  replacement.dol: 432 states, 5 hold
   search_and_rescue.dol: 38 states, 5 hold
 
   $ check-journals

@@ -12,7 +12,7 @@ export interface RunStatus {
   question: Question | null; outcome: { how: string; text: string; diagnostics: Diagnostic[] } | null;
   program: string | null; journal: string;
 }
-export interface Going { state: string; progress: string }
+export interface Going { number: number; state: string; progress: string }
 export interface Status {
   instance: string; folder: string; tiles: string | null; simulated: boolean; version: string; run: RunStatus | null;
   exploration: Going | null; timing: Going | null; graph: Going | null;

@@ -424,7 +424,8 @@ listen({
   status(s) {
     const ended = status?.run?.id === s.run?.id && status?.run?.state !== "over" && s.run?.state === "over";
     const other = status !== null && status.instance !== s.instance;
-    const over = subjects.filter((subject) => s[subject] && s[subject].state !== "running" && status?.[subject]?.state !== s[subject].state);
+    const over = subjects.filter((subject) => s[subject] && s[subject].state !== "running"
+      && (other || status?.[subject]?.state !== s[subject].state || status?.[subject]?.number !== s[subject].number));
     status = s;
     linked = true;
     layers.tiles(s.tiles);

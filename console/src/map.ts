@@ -28,7 +28,8 @@ export class ChartMap {
   private drawn = { program: "", ways: "" };
   private following = h("button", { class: "map-button", type: "button", hidden: true });
   private shown = new Map<string, Shown>();
-  private fitted = false;
+  private fitted = false;  // all that is known now is in view, or somebody has chosen the view
+  private chosen = false;
   private follow: string | null = null;
 
   constructor(el: HTMLElement, private select: (id: string) => void) {
@@ -38,9 +39,11 @@ export class ChartMap {
     for (const layer of [this.net, this.program, this.ways, this.places]) layer.addTo(this.map);
     this.map.on("moveend resize", () => this.draw());
     this.map.on("dragstart", () => this.unfollow());
+    for (const event of ["pointerdown", "wheel", "keydown"]) el.addEventListener(event, () => { this.chosen = true; });
     const Fit = L.Control.extend({ onAdd: () => {
       const buttons = h("div", { class: "map-buttons" },
-        h("button", { class: "map-button", type: "button", title: "Show all vehicles", click: () => { this.unfollow(); this.fit(); } }, "All"),
+        h("button", { class: "map-button", type: "button", title: "Show all vehicles, places and ways",
+          click: () => { this.chosen = false; this.unfollow(); this.fit(); } }, "All"),
         new Measure(this.map).button, this.following);
       this.following.addEventListener("click", () => this.unfollow());
       L.DomEvent.disableClickPropagation(buttons);
@@ -55,9 +58,12 @@ export class ChartMap {
   reset() {
     for (const s of this.shown.values()) { s.marker.remove(); s.track.remove(); }
     this.shown.clear();
-    this.fitted = false;
+    this.fitted = this.chosen = false;
     this.unfollow();
   }
+
+  // More is on the map: it comes into view, unless somebody has chosen what to see.
+  private more() { this.fitted = this.chosen; }
 
   private unfollow() { this.follow = null; this.following.hidden = true; }
 
@@ -80,7 +86,10 @@ export class ChartMap {
   fit() {
     const points = [...this.shown.values()].flatMap((s) => s.track.getLatLngs() as L.LatLng[]);
     this.places.eachLayer((p) => points.push((p as L.Marker).getLatLng()));
-    if (points.length) this.map.fitBounds(L.latLngBounds(points).pad(0.25), { animate: false, maxZoom: 18 });
+    const bounds = L.latLngBounds(points);
+    for (const group of [this.program, this.ways])
+      group.eachLayer((l) => bounds.extend(l instanceof L.Marker ? l.getLatLng() : (l as L.Polyline | L.Circle).getBounds()));
+    if (bounds.isValid()) this.map.fitBounds(bounds.pad(0.25), { animate: false, maxZoom: 18 });
   }
 
   render(run: Run) {
@@ -91,10 +100,10 @@ export class ChartMap {
       const v = run.vehicles.get(id)!;
       if (v.samples.length) this.vehicle(run, v, colour(i));
     });
-    if (!this.fitted && this.shown.size) { this.fitted = true; this.fit(); }
-    if (this.follow) this.focus(this.follow);
     this.charted(run.places);
     this.planned(run);
+    if (!this.fitted && this.shown.size) { this.fitted = true; this.fit(); }
+    if (this.follow) this.focus(this.follow);
     this.labels(run);
   }
 
@@ -155,6 +164,7 @@ export class ChartMap {
     const key = JSON.stringify(places);
     if (key === this.drawn.program) return;
     this.drawn.program = key;
+    this.more();
     this.program.clearLayers();
     const look = { color: "#7a5c00", weight: 1.5, fillOpacity: 0.08, interactive: false };
     for (const p of places) {
@@ -175,6 +185,7 @@ export class ChartMap {
     const key = JSON.stringify(now.map((w) => [w.vehicle, w.plan, w.path.length, w.path[0]]));
     if (key === this.drawn.ways) return;
     this.drawn.ways = key;
+    this.more();
     this.ways.clearLayers();
     const ids = [...run.vehicles.keys()];
     for (const w of now)

@@ -34,7 +34,7 @@ export class Verdicts {
     this.results.set(subject, found);
     this.draw();
     if (subject === "graph" && found?.state === "over" && this.wanted) this.picture.open(found.result);
-    if (subject === "graph") this.wanted = false;
+    if (subject === "graph" && found?.state !== "running") this.wanted = false;
   }
 
   // Another program: what was found is not of it.

@@ -50,6 +50,13 @@ execute until { poll over: true } run (imcPlan {
     await page.click("#run");
     for (const name of ["harbour", "zone", "basin"]) await page.waitForSelector(`.of-program >> text=${name}`);
     await page.waitForSelector("#log pre >> text=starts lawn");
+    await page.waitForFunction(() => {
+      const map = document.querySelector("#map").getBoundingClientRect();
+      return [...document.querySelectorAll(".of-program")].every((e) => {
+        const { x, y } = e.getBoundingClientRect();
+        return x > map.left && x < map.right && y > map.top && y < map.bottom;
+      });
+    });
     await page.click("#vehicles >> text=lauv-1");
     await page.waitForSelector("text=Follows lauv-1");
     await page.click("text=Follows lauv-1");

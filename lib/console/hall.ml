@@ -15,6 +15,9 @@ type settings = {
 
 type subject = Exploration | Timing | Graph
 
+(* A page that sees one analysis over, and then another, may have missed that the second one ran: it goes by number. *)
+type numbered = { number : int; analysis : Analysis.t }
+
 type t = {
   settings : settings;
   instance : string;  (* another one for each start of a server *)
@@ -22,7 +25,8 @@ type t = {
   mutable access : Access.t;
   mutable run : Live_run.t option;
   mutable runs : int;
-  mutable analyses : (subject * Analysis.t) list;  (* one of each at most *)
+  mutable analyses : (subject * numbered) list;  (* one of each at most *)
+  mutable begun : int;  (* analyses *)
   mutable helm : Helm.t;
   mutable watching : string list;  (* a client as often as it looks on *)
 }
@@ -32,7 +36,7 @@ let make settings =
     Digest.to_hex (Digest.string (Printf.sprintf "%d %f" (Unix.getpid ()) (Unix.gettimeofday ()))) in
   { settings; instance = String.sub instance 0 8; grown = Lwt_condition.create ();
     access = { port = 0; tokens = Option.map (fun _ -> Access.fresh ()) settings.listen }; run = None; runs = 0;
-    analyses = []; helm = Helm.free; watching = [] }
+    analyses = []; begun = 0; helm = Helm.free; watching = [] }
 
 let settings h = h.settings
 let access h = h.access
@@ -41,8 +45,8 @@ let changed h = Lwt_condition.broadcast h.grown ()
 let run h = h.run
 let busy h = Option.fold h.run ~none:false ~some:Live_run.goes_on
 
-let analysis h subject = List.assoc_opt subject h.analyses
-let analyses h = List.map snd h.analyses
+let analysis h subject = Option.map (fun a -> a.analysis) (List.assoc_opt subject h.analyses)
+let analyses h = List.map (fun (_, a) -> a.analysis) h.analyses
 let helm h = h.helm
 let watchers h = List.length h.watching
 
@@ -55,9 +59,10 @@ let begin_run h start =
   changed h;
   run
 
-let set_analysis h subject a =
+let set_analysis h subject started =
   Option.iter Analysis.cancel (analysis h subject);
-  h.analyses <- (subject, a) :: List.remove_assoc subject h.analyses;
+  h.begun <- h.begun + 1;
+  h.analyses <- (subject, { number = h.begun; analysis = started }) :: List.remove_assoc subject h.analyses;
   changed h
 
 let set_helm h helm =
@@ -89,8 +94,10 @@ let of_run h run : Yojson.Safe.t =
 
 (* Of an analysis only how it goes: its result may be long. *)
 let of_analysis a : Yojson.Safe.t =
-  match Analysis.to_json a with
-  | `Assoc members -> `Assoc (List.filter (fun (name, _) -> name = "state" || name = "progress") members)
+  match Analysis.to_json a.analysis with
+  | `Assoc members ->
+    let shown = List.filter (fun (name, _) -> name = "state" || name = "progress") members in
+    `Assoc (("number", `Int a.number) :: shown)
   | json -> json
 
 let status h : Yojson.Safe.t =
@@ -100,9 +107,9 @@ let status h : Yojson.Safe.t =
       ("tiles", Field.of_option (fun url -> `String url) h.settings.tiles);
       ("simulated", `Bool (Run.is_simulated h.settings.run));
       ("run", Field.of_option (of_run h) h.run);
-      ("exploration", Field.of_option of_analysis (analysis h Exploration));
-      ("timing", Field.of_option of_analysis (analysis h Timing));
-      ("graph", Field.of_option of_analysis (analysis h Graph));
+      ("exploration", Field.of_option of_analysis (List.assoc_opt Exploration h.analyses));
+      ("timing", Field.of_option of_analysis (List.assoc_opt Timing h.analyses));
+      ("graph", Field.of_option of_analysis (List.assoc_opt Graph h.analyses));
       ("helm",
        `Assoc
          [ ("holder", Field.of_option (fun client -> `String client) (Helm.holder h.helm));

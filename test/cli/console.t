@@ -40,6 +40,7 @@ The console of a folder, on a port of its own, and all that docs/openapi.json de
   timed: violated {'completed': {'earliest': 62, 'latest': 62}} deadline 1:00
   with dates: [0, 60, 60, 62, 62]
   too large: failed
+  another number: True
   graph: 8 states, 9 transitions
   kept: mission.dol interrupted
   replayed to its end: True

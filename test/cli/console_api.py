@@ -103,7 +103,9 @@ def main():
     ask("POST", "graph", {"program": "mission.dol", "states": 0})
     ask("POST", "graph", {"program": "mission.dol", "states": 1})
     print("too large:", until("graph", lambda found: found["state"] != "running")["state"])
+    before = ask("GET", "status")[1]["graph"]["number"]
     ask("POST", "graph", {"program": "mission.dol", "faults": "interrupt"})
+    print("another number:", ask("GET", "status")[1]["graph"]["number"] > before)
     found = until("graph", lambda found: found["state"] != "running")["result"]
     print("graph:", found["states"], "states,", len(found["transitions"]), "transitions")
     ask("POST", "run", {"program": "wrong.dol"})

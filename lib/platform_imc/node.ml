@@ -189,7 +189,8 @@ let state ~now ~timeout ~kind ~payload ~held n : World.vehicle_state =
     position;
     battery = Option.map snd n.battery;
     connected;
-    unready = (if connected && is_idle then unready ~now ~held n else None) }
+    unready = (if connected && is_idle then unready ~now ~held n else None);
+    cruise = None; drain = None }
 
 let mode ~names n =
   match n.mode with

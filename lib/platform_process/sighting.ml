@@ -45,6 +45,6 @@ let describe x : World.vehicle_state =
     position = { latitude; longitude; height = x.height };
     battery = x.battery;
     connected = x.link;
-    unready = (if x.link then x.unready else None) }
+    unready = (if x.link then x.unready else None); cruise = None; drain = None }
 
 let state x = if is_placed x then Some (describe x) else None

@@ -80,7 +80,7 @@ let state f craft : World.vehicle_state =
   let v = Vehicle.scenario craft.body in
   { id = v.id; kind = v.kind; payload = v.payload; position = Vehicle.seen_at craft.body ~at:f.now;
     battery = Vehicle.shown_battery craft.body ~at:f.now; connected = craft.connected;
-    unready = None }
+    unready = None; cruise = Some v.speed; drain = Some v.drain }
 
 (* [tell id f] is the event that makes the state of [id] known, if it is not, and can be. *)
 let tell id f =

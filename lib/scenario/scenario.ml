@@ -59,8 +59,10 @@ let silences v =
 let states s =
   let state (v : vehicle) : World.vehicle_state =
     let connected = match silences v with (from, _) :: _ -> from > 0. | [] -> true in
-    { id = v.id; kind = v.kind; payload = v.payload; position = v.position; 
-      battery = (if v.tells_battery then Some v.battery else None); connected; unready = None } in
+    { id = v.id; kind = v.kind; payload = v.payload; position = v.position;
+      battery = (if v.tells_battery then Some v.battery else None); connected; unready = None; cruise = Some v.speed;
+      drain = Some v.drain }
+  in
   List.map state s.vehicles
 
 (* {1 Writing} *)

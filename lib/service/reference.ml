@@ -68,6 +68,7 @@ let procedures =
       "Whether the pairs are in the tuple space; takes nothing. `poll 'k'` asks for any pair of that key.";
       "position", "position(v)", "Where the vehicle is now.";
       "battery", "battery(v)", "What is left in the vehicle's battery, from 0 to 1.";
+      "eta", "eta(v, p)", "The seconds in which the vehicle gets from where it is to a position, straight on.";
       "location", "location(latitude, longitude)", "A position, in degrees; a third number is its height in metres. \
                                                     Also `location \"41\xc2\xb011.1'N 8\xc2\xb042.4'W\"`.";
       "polygon", "polygon([p1, p2, ...])",
@@ -259,6 +260,10 @@ let members =
       "offset", "a.offset(d)", "What is at most d metres away from an area; for d below 0, what is inside by -d.";
       "grid", "a.grid(d)", "The middles of squares of d metres that are in an area.";
       "split", "a.split(3)", "So many parts of an area, equally large and each connected; of a string, its pieces.";
+      "length", "p.length",
+      "The metres from the first place of a plan to its last; `p.length(v)`: from where the vehicle is.";
+      "duration", "p.duration(v)", "The seconds that the plan takes the vehicle from where it is.";
+      "energy", "p.energy(v)", "What the plan takes of the vehicle's battery from where it is, from 0 to 1.";
       "name", "t.name", "The name of a plan.";
       "call", "f.call(...)", "The value of the closure." ]
 

@@ -26,23 +26,12 @@ let moves (p : Core.platform_task) =
 
 (* {1 Inline plans} *)
 
-(* Seconds under way and seconds of staying, along a way that begins at [from]; [None]: from an unknown place. *)
-let along (v : Scenario.vehicle) from plan =
-  let stretch speed (here, seconds) towards =
-    let metres = match here with Some here -> Wgs84.distance here towards | None -> nan in
-    (Some towards, seconds +. (metres /. speed))
-  in
-  let leg (here, moving, staying) (leg : Inline_plan.leg) =
-    let here, moving = List.fold_left (stretch leg.speed) (here, moving) leg.waypoints in
-    (here, moving, staying +. leg.dwell)
-  in
-  let path = Inline_plan.path ~from:(Option.value from ~default:Place.apdl) ~speed:v.speed plan in
-  let _, moving, staying = List.fold_left leg (from, 0., 0.) path in
-  (moving, staying)
-
-let inline v from plan =
-  let moving, staying = along v from plan in
-  if Float.is_nan moving then if staying = infinity then Bounds.Never else Bounds.Some_time
+(* From an unknown place, nobody knows how long a way takes. *)
+let inline (v : Scenario.vehicle) from plan =
+  let here = Option.value from ~default:Place.apdl in
+  let { Inline_plan.moving; staying; _ } = Inline_plan.extent ~from:here ~speed:v.speed plan in
+  let goes = not (List.for_all Inline_plan.is_stay (Inline_plan.path ~from:here ~speed:1. plan)) in
+  if from = None && goes then if staying = infinity then Bounds.Never else Bounds.Some_time
   else Bounds.between ((moving *. (1. -. tolerance)) +. staying) ((moving *. (1. +. tolerance)) +. staying)
 
 (* {1 Fleets} *)

@@ -9,6 +9,7 @@ module Wgs84 = Dolphin_geo.Wgs84
 type t = {
   program : program;
   world : World.t;
+  describes_plans : bool;  (* by settings, not by name *)
   places : Places.t;
   vehicles_at : Position.t list;  (* where vehicles may be: the first of [places] *)
   nodes : (int, Tla.t * site) Hashtbl.t;
@@ -22,11 +23,19 @@ type t = {
 let whereabouts world =
   List.concat_map (World.places_of world) (World.vehicles world)
 
+let describes_plans program =
+  let found = ref false in
+  let look (e : expression) =
+    match e.node with Apply (Build ((Imc_plan | Mission), _), _) -> found := true | _ -> ()
+  in
+  Code_walk.iter look (Code_walk.pieces program);
+  !found
+
 let create program world =
   let places = Places.create () in
   List.iter (fun p -> ignore (Places.index places p : int)) (whereabouts world);
-  { program; world; places; vehicles_at = Places.positions places; nodes = Hashtbl.create 1000; lambdas = [];
-    plans = []; reads_sensors = false; refusals = [] }
+  { program; world; describes_plans = describes_plans program; places; vehicles_at = Places.positions places;
+    nodes = Hashtbl.create 1000; lambdas = []; plans = []; reads_sensors = false; refusals = [] }
 
 let place t p = Places.index t.places p
 let reads_sensors t = t.reads_sensors
@@ -144,12 +153,19 @@ and operation t ~known site op : Tla.t =
   | Element -> record "element" []
   | Replace_element -> record "replaceElement" []
   | Replace_member k -> record "replaceMember" [ ("name", String k) ]
+  | Property "length" | Method (("length" | "getLength"), _) when t.describes_plans ->
+    refuse t site "length, which may be that of a plan: TLA+ has whole numbers only"
+      ~hint:"the number of elements is size()";
+    record "list" []
   | Property name ->
     if Supported.is_refused_property name && (known || not (Supported.is_for_readings name)) then
       refuse t site "'.%s' of a value that is not a constant: TLA+ has no such numbers" name;
     note_sensor t site name;
     record "property" [ ("name", String name) ]
   | Call names' -> record "call" [ ("names", names names') ]
+  | Method (("duration" | "energy") as name, _) ->
+    refuse t site "the %s of a plan: TLA+ has whole numbers only" name;
+    record "list" []
   | Method (name, names') ->
     if Supported.is_refused_method name && (known || not (Supported.is_for_readings name)) then
       refuse t site "the method '%s'" name;
@@ -204,6 +220,7 @@ and procedure t site builtin : Tla.t =
   | Values_of -> plain "valuesOf"
   | Position_of -> note_sensor t site "position"; plain "position"
   | Battery_of -> note_sensor t site "battery"; plain "battery"
+  | Eta -> refuse t site "eta: TLA+ has whole numbers only"; plain "list"
   | Area_of -> plain "area"
   | Assert -> plain "assert"
   | Fail -> plain "fail"

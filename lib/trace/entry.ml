@@ -31,6 +31,8 @@ let of_state (s : World.vehicle_state) : members =
   @ of_position s.position
   @ [ ("battery", Option.fold s.battery ~none:`Null ~some:Canonical.number); ("connected", `Bool s.connected) ]
   @ Option.fold s.unready ~none:[] ~some:(fun why -> [ ("unready", `String why) ])
+  @ Option.fold s.cruise ~none:[] ~some:(fun speed -> [ ("cruise", Canonical.number speed) ])
+  @ Option.fold s.drain ~none:[] ~some:(fun share -> [ ("drain", Canonical.number share) ])
 
 let to_json entry : Yojson.Safe.t =
   let line kind time rest = `Assoc (("kind", `String kind) :: ("time", Canonical.number time) :: rest) in
@@ -67,7 +69,10 @@ let to_state found =
   let* battery = get (nullable number) "battery" found in
   let* connected = get truth "connected" found in
   let* unready = optional (fun json -> Result.map Option.some (text json)) ~default:None "unready" found in
-  Ok { World.id; kind; payload; position; battery; connected; unready }
+  let some_number json = Result.map Option.some (number json) in
+  let* cruise = optional some_number ~default:None "cruise" found in
+  let* drain = optional some_number ~default:None "drain" found in
+  Ok { World.id; kind; payload; position; battery; connected; unready; cruise; drain }
 
 let of_members found =
   let* kind = get text "kind" found in

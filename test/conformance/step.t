@@ -8,7 +8,7 @@ The oracle answers lines of JSON with lines of JSON.
   $ head -n 1 replies
   {"id":"a","protocol":"dolphin-step","version":1,"implementation":"dolphin 0.1.0"}
   $ sed -n 2p replies | sed 's/"state":.*"world"/"state":...,"world"/'
-  {"id":2,"configuration":{"control":"script","end":null,"A":{},"B":[],"N":[],"store":{},"state":...,"world":[{"vehicle":"v","type":"UUV","payload":[],"latitude":41.185,"longitude":-8.7062,"height":0,"battery":1,"connected":true}]}
+  {"id":2,"configuration":{"control":"script","end":null,"A":{},"B":[],"N":[],"store":{},"state":...,"world":[{"vehicle":"v","type":"UUV","payload":[],"latitude":41.185,"longitude":-8.7062,"height":0,"battery":1,"connected":true,"cruise":1.5,"drain":0.1}]}
 
 From a configuration on, all that may happen.
 

@@ -940,10 +940,9 @@ let durations =
       ( "ways take no longer than they should",
         {|((moving *. (1. +. tolerance)) +. staying)|},
         {|(moving +. staying)|} );
-      ( "stays take no time",
-        {|(here, moving, staying +. leg.dwell)|},
-        {|(here, moving, staying)|} );
     ]
+  @ in_file "lib/semantics/terms/inline_plan.ml" ~noticed_by:"time/test_missions"
+    [ ("stays take no time", {|staying = e.staying +. leg.dwell|}, {|staying = e.staying|}) ]
 
 let share =
   in_file "lib/statistics/share.ml" ~noticed_by:"statistics/test_statistics"
@@ -969,6 +968,18 @@ let sampled =
         {|    | Watch_ignore | Watch_halt|} );
     ]
 
+let travel =
+  in_file "lib/semantics/language/travel.ml" ~noticed_by:"plan/test_travel"
+    [
+      ("stays are not asked for", {|~seconds:(moving +. staying)|}, {|~seconds:moving|});
+      ( "plans of one name are one plan",
+        {|(spell (Number one_metre)) (spell (Number rest))|},
+        {|(spell (Number one_metre)) p.name|} );
+      ("an hour has a hundred minutes", {|told s.drain /. 3600.|}, {|told s.drain /. 6000.|});
+    ]
+  @ in_file "lib/explore/symmetry/name_flow.ml" ~noticed_by:"reduction/test_told_apart"
+    [ ("all vehicles are equally fast", {|places = true; abilities = true|}, {|places = true|}) ]
+
 let search_pattern =
   in_file "lib/geo/search_pattern.ml" ~noticed_by:"geo/test_search_pattern"
     [
@@ -986,5 +997,5 @@ let all =
       pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
       conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps;
       sets_with_events; driver; fair_cycles; limits;
-      alike_values; division; arrangement; coverage; search_pattern;
+      alike_values; division; arrangement; coverage; search_pattern; travel;
       zone; timed; timed_system; schedule; recorded; durations; share; sampled ]

@@ -84,8 +84,23 @@ let near_and_far = Pure_run.world [ uuv "a" ~north:5_000.; uuv "b"; uuv "c"; uuv
 let open_alike = World.open_battery "c" [] (World.open_battery "b" [] three)
 let weak = Pure_run.world [ uuv "a"; uuv "b"; uuv "c" ~battery:0.2 ]
 
+let slow = { (uuv "c") with cruise = Some 0.5; drain = Some 0.5 }
+let able id = { (uuv id) with cruise = Some 2.; drain = Some 0.1 }
+let of_two_speeds = Pure_run.world [ able "a"; able "b"; slow ]
+let there = "location(41.1951, -8.7048)"
+
 let by_what_they_are =
   [
+    keeps "how fast it is" ~world:of_two_speeds [ No_halt ]
+      (one ^ Printf.sprintf "if (eta(v, %s) > 1_000) { halt 'h' }" there);
+    keeps "how long a plan takes it" ~world:of_two_speeds [ No_halt ]
+      (one ^ Printf.sprintf "p = imcPlan { locate %s; goTo() }\nif (p.duration(v) > 1_000) { halt 'h' }" there);
+    keeps "what a plan takes of its battery" ~world:of_two_speeds [ No_halt ]
+      (one ^ Printf.sprintf "p = imcPlan { locate %s; goTo() }\nif (p.energy(v) > 5.percent) { halt 'h' }" there);
+    keeps "how far a plan takes it" ~world:near_and_far [ No_halt ]
+      (one ^ Printf.sprintf "p = imcPlan { locate %s; goTo() }\nif (p.length(v) > 3_000) { halt 'h' }" there);
+    keeps "speeds that nobody asks for" ~world:of_two_speeds []
+      (one ^ Printf.sprintf "p = imcPlan { locate %s; goTo() }\nexecute p" there);
     keeps "a battery" ~world:weak [ No_halt ] (one ^ "if (battery(v) < 0.5) { halt 'h' }");
     keeps "a battery, by a method" ~world:weak [ No_halt ] (one ^ "if (v.getBattery() < 0.5) { halt 'h' }");
     keeps "a battery that is open" ~world:(World.open_battery "c" [ 0.2; 1. ] three) [ No_halt ]

@@ -18,7 +18,8 @@ let compile_exn source =
 
 let vehicle ?(kind = "UUV") ?(payload = [ "DVL"; "Sidescan"; "Camera" ]) ?(battery = 1.) ?(north = 0.) id =
   let position = Dolphin_geo.Wgs84.displace Dolphin_geo.Place.apdl ~north ~east:0. in
-  { World.id; kind; payload; position; battery = Some battery; connected = true; unready = None }
+  { World.id; kind; payload; position; battery = Some battery; connected = true; unready = None; cruise = None;
+    drain = None }
 
 let world vehicles = List.fold_left (fun w v -> World.add v w) World.empty vehicles
 

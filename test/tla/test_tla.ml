@@ -62,6 +62,10 @@ let refusals =
       (refused "v = pick { }\nmessage position(v).latitude > 41" 2 "latitude");
     case "coordinates of what may be no vehicle"
       (refused ~world:open_world "v = [position: Location.APDL]\nmessage v.position.latitude > 41" 2 "latitude");
+    case "how long plans take"
+      (refused "v = pick { }\np = imcPlan { goTo() }\nmessage p.duration(v)" 3 "the duration of a plan");
+    case "how long plans are" (refused "p = imcPlan { goTo() }\nmessage p.length" 2 "length, which may be that of a plan");
+    case "when a vehicle is there" (refused "v = pick { }\nmessage eta(v, Location.APDL)" 2 "eta");
     case "methods of strings" (refused "message 'a'.toUpperCase()" 1 "toUpperCase") ]
 
 let translated ?world source () =

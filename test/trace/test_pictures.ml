@@ -41,7 +41,7 @@ let few_samples () =
   let position : Dolphin_geo.Position.t = { latitude = 41.; longitude = -8.; height = 0. } in
   for i = 0 to 99_999 do
     let state : Dolphin_semantics.World.vehicle_state =
-      { id = "v"; kind = "UUV"; payload = []; position; battery = Some (1. -. (float_of_int i /. 1e5)); connected = true; unready = None }
+      { id = "v"; kind = "UUV"; payload = []; position; battery = Some (1. -. (float_of_int i /. 1e5)); connected = true; unready = None; cruise = None; drain = None }
     in
     Summary.add builder (Vehicle { time = float_of_int i; state })
   done;
@@ -102,7 +102,7 @@ let unknown_batteries () =
     let position : Dolphin_geo.Position.t = { latitude = 41.; longitude = -8.; height = 0. } in
     let see time battery =
       let state : Dolphin_semantics.World.vehicle_state =
-        { id = "v"; kind = "UUV"; payload = []; position; battery; connected = true; unready = None } in
+        { id = "v"; kind = "UUV"; payload = []; position; battery; connected = true; unready = None; cruise = None; drain = None } in
       Summary.add builder (Vehicle { time; state })
     in
     see 0. at_first;
@@ -129,7 +129,7 @@ let many_names () =
     let see id =
       let position : Dolphin_geo.Position.t = { latitude = 41.; longitude = -8.; height = 0. } in
       let state : Dolphin_semantics.World.vehicle_state =
-        { id; kind = "UUV"; payload = []; position; battery = None; connected = true; unready = None } in
+        { id; kind = "UUV"; payload = []; position; battery = None; connected = true; unready = None; cruise = None; drain = None } in
       Summary.add builder (Vehicle { time = 0.; state })
     in
     List.iter see vs;

@@ -176,7 +176,7 @@ let rec is_inert (scope : scope) e =
       | None -> false)
   | Apply
       ( Builtin
-          ( Post _ | Consume _ | Poll _ | Message | Math _ | Position_of | Battery_of | Location_of | Area_of
+          ( Post _ | Consume _ | Poll _ | Message | Math _ | Position_of | Battery_of | Eta | Location_of | Area_of
           | Geometry _ ),
         _ )
   | Apply ((Unary _ | Make_range _ | Concatenate), _) -> true

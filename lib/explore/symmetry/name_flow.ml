@@ -6,6 +6,7 @@ type t = {
   readings : site option;
   places : bool;
   batteries : bool;
+  abilities : bool;
   picks : bool;
   texts : string list;
 }
@@ -70,6 +71,7 @@ let uses_name w at = if w.found.names = None then w.found <- { w.found with name
 let uses_reading w at = if w.found.readings = None then w.found <- { w.found with readings = Some at }
 let reads_places w = w.found <- { w.found with places = true }
 let reads_batteries w = w.found <- { w.found with batteries = true }
+let travels w = w.found <- { w.found with places = true; abilities = true }
 
 let note_text w s =
   if not (List.mem s w.found.texts) then w.found <- { w.found with texts = s :: w.found.texts }
@@ -95,7 +97,7 @@ let call_value w e k given =
 (* {1 Methods} *)
 
 (* Methods of sets of vehicles, and of values that contain vehicles, whose result does not depend on their names. *)
-let of_numbers = [ "size"; "length"; "isEmpty"; "empty"; "contains"; "equals"; "indexOf" ]
+let of_numbers = [ "size"; "length"; "isEmpty"; "empty"; "contains"; "equals"; "indexOf"; "duration"; "energy" ]
 let of_texts = [ "getType"; "type"; "getPayload"; "payload" ]
 let of_elements =
   [ "first"; "last"; "head"; "tail"; "get"; "add"; "push"; "leftShift"; "addAll"; "remove"; "removeAt"; "removeElement";
@@ -236,8 +238,11 @@ and applied w lambda at operation arguments =
     else k lor text
   | Method (name, names), es ->
     let ks = List.map value_of es in
+    let asks_how_far = Dolphin_semantics.Travel.quantity name <> None && List.compare_length_with es 1 > 0 in
+    if asks_how_far then travels w;
     let calls given = all (List.map2 (fun e k -> call_value w e k (fun _ -> given)) es ks) in
-    called_method w at name (all ks lor named_arguments names) calls
+    let result = called_method w at name (all ks lor named_arguments names) calls in
+    if asks_how_far then result lor reading else result
   | Call names, callee :: es ->
     let k = value_of callee in
     let ks = List.map value_of es in
@@ -280,6 +285,7 @@ and applied w lambda at operation arguments =
     k
   | Builtin Position_of, es -> ignore (values es); reads_places w; reading
   | Builtin Battery_of, es -> ignore (values es); reads_batteries w; reading
+  | Builtin Eta, es -> ignore (values es); travels w; reading
   | Add_setting (name, _), so_far :: es ->
     let k = value_of so_far in
     let given = values es in
@@ -317,7 +323,9 @@ and said w lambda e =
   | _ -> ignore (value w lambda e)
 
 let of_program (program : program) ~asked =
-  let found = { names = None; readings = None; places = false; batteries = false; picks = false; texts = [] } in
+  let found =
+    { names = None; readings = None; places = false; batteries = false; abilities = false; picks = false; texts = [] }
+  in
   let w =
     { contents = Hashtbl.create 64; lambdas = Hashtbl.create 16; handlers = Hashtbl.create 8; grown = true; found }
   in

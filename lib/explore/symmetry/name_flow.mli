@@ -12,6 +12,7 @@ type t = {
   places : bool;
   (** whether steps depend on where vehicles are: [position], a [region] to pick in, allocation of inline plans *)
   batteries : bool;  (** whether they depend on batteries *)
+  abilities : bool;  (** whether they depend on how fast vehicles are and what that takes of their batteries *)
   picks : bool;  (** whether there is a [pick] *)
   texts : string list;  (** all texts in the program *)
 }

@@ -62,6 +62,7 @@ let table : (string * t) list =
     ("poll", { (other (Pairs Poll)) with result = Truth });
     ("position", these Position_of [ Vehicles ] ~result:Position ~reads_sensors:true);
     ("battery", these Battery_of [ Vehicles ] ~result:Number ~reads_sensors:true);
+    ("eta", these Eta [ Vehicles; Position ] ~result:Number ~reads_sensors:true);
     ("location", location);
     ("area", these Area_of [ Position; Number ] ~result:Other);
     ("polygon", geometry [ Any ] ~named:[ ("holes", Any) ] ~result:Any);

@@ -3,14 +3,15 @@ module Diagnostic = Dolphin_syntax.Diagnostic
 
 (* Methods that only compute. Those that take code may do anything in it. *)
 let computing =
-  [ "abs"; "bearing"; "bearingTo"; "capitalize"; "contains"; "containsKey"; "containsValue"; "distance"; "distanceTo";
-    "displace"; "drop"; "endsWith"; "equals"; "equalsIgnoreCase"; "first"; "get"; "getBattery"; "getId"; "getPosition";
-    "getType"; "head"; "indexOf"; "isEmpty"; "isNumber"; "join"; "keySet"; "keys"; "last"; "length"; "max"; "min";
-    "padLeft"; "padRight"; "replace"; "reverse"; "round"; "size"; "sort"; "split"; "startsWith"; "substring"; "sum";
-    "tail"; "take"; "toDouble"; "toInteger"; "toList"; "toLowerCase"; "toString"; "toUpperCase"; "trim"; "unique";
-    "values" ]
+  [ "abs"; "bearing"; "bearingTo"; "capitalize"; "contains"; "containsKey"; "containsValue"; "displace"; "distance";
+    "distanceTo"; "drop"; "duration"; "endsWith"; "energy"; "equals"; "equalsIgnoreCase"; "first"; "get";
+    "getBattery"; "getId"; "getPosition"; "getType"; "head"; "indexOf"; "isEmpty"; "isNumber"; "join"; "keySet";
+    "keys"; "last"; "length"; "max"; "min"; "padLeft"; "padRight"; "replace"; "reverse"; "round"; "size"; "sort";
+    "split"; "startsWith"; "substring"; "sum"; "tail"; "take"; "toDouble"; "toInteger"; "toList"; "toLowerCase";
+    "toString"; "toUpperCase"; "trim"; "unique"; "values" ]
 
-let procedures = [ "task"; "imcPlan"; "action"; "condition"; "idle"; "location"; "area"; "position"; "battery"; "poll" ]
+let procedures =
+  [ "task"; "imcPlan"; "action"; "condition"; "idle"; "location"; "area"; "position"; "battery"; "eta"; "poll" ]
 
 (* What surely only computes. [is_own x] is whether the program itself says what [x] is; [has_host], whether there may
    be objects of the supplier, whose members do what they like. *)

@@ -150,6 +150,7 @@ let getter world x name =
     | Area a -> of_area a name
     | List _ | Range _ -> of_elements x name
     | Task (Platform p) when name = "id" || name = "name" -> Some (Ok (String p.name))
+    | Task (Platform p) when name = "length" -> Some (Travel.length p)
     | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Map _ | Task _ | Closure _
     | Host _ | Settings _ | Reading _ | Unknown _ -> None
   in
@@ -168,7 +169,7 @@ let properties = function
   | String _ | Map _ -> [ "size"; "length" ]
   | Position _ -> [ "latitude"; "longitude"; "height" ]
   | Area _ -> [ "centre"; "radius"; "size"; "corners"; "bounds"; "hull" ]
-  | Task _ -> [ "id"; "name" ]
+  | Task _ -> [ "id"; "name"; "length" ]
   | Integer _ | Number _ -> Operators.unit_names
   | Null | Boolean _ | Wildcard | Symbol _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ -> []
 
@@ -361,7 +362,7 @@ let known x =
     | Position _ -> [ "distance"; "bearing"; "displace"; "getLatitude"; "getLongitude"; "getHeight" ]
     | Area _ ->
       [ "contains"; "getCentre"; "getRadius"; "getSize"; "getCorners"; "getBounds"; "hull"; "offset"; "grid"; "split" ]
-    | Task _ -> [ "getName" ]
+    | Task _ -> [ "getName"; "length"; "duration"; "energy" ]
     | Closure _ -> [ "call" ]
     | Null | Boolean _ | Wildcard | Symbol _ | Host _ | Settings _ | Reading _ | Unknown _ -> []
   in

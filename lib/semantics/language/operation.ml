@@ -80,7 +80,10 @@ let call_method context name names arguments =
       match own_method subject name, Iteration.find subject name arguments with
       | Some closure, _ -> Enter (closure, arguments)
       | None, Some (iteration, closure, initial) -> Walk (iteration, closure, subject, initial)
-      | None, None -> of_result (Methods.call context.world subject name arguments))
+      | None, None -> (
+          match subject, Travel.quantity name, arguments with
+          | Task (Platform p), Some quantity, [ Vehicles vs ] -> Procedures.travel context p quantity vs
+          | _, _, _ -> of_result (Methods.call context.world subject name arguments)))
   | [] -> Wrong "a method needs something to be called on"
 
 let apply_settled context at operation arguments =

@@ -156,14 +156,21 @@ let poll context pairs =
 let values_of context pairs =
   List (Array.of_list (List.concat_map (fun (k, _) -> Tuples.values k context.tuples) pairs))
 
-let sense context sensor vs =
+(* What [look] gives of the only vehicle of [vs], where several things may be seen. *)
+let looked context vs look =
   match Methods.one_vehicle context.world vs with
   | Error message -> Wrong message
   | Ok state ->
-    let rec look world =
-      match Reading.look world sensor state with Ok x -> Value x | Error question -> Asks (question, look)
-    in
-    look context.world
+    let rec ask world = match look world state with Ok x -> Value x | Error question -> Asks (question, ask) in
+    ask context.world
+
+let sense context sensor vs = looked context vs (fun world -> Reading.look world sensor)
+
+let travel context (p : platform_task) quantity vs =
+  match looked context vs (fun world -> Travel.of_plan world p quantity) with
+  | Value (Number n) when n = infinity ->
+    Wrong (Printf.sprintf "plan '%s' goes on until it is stopped: nobody knows how long" p.name)
+  | outcome -> outcome
 
 let minimum_connection_timeout = 5.
 let maximum_connection_timeout = 3600.
@@ -270,6 +277,9 @@ let apply context at operation arguments =
   | Position_of, [ Vehicles vs ] -> sense context Position vs
   | Battery_of, [ Vehicles vs ] -> sense context Battery vs
   | (Position_of | Battery_of), [ x ] -> expected "a vehicle" x
+  | Eta, [ Vehicles vs; Position p ] -> looked context vs (fun world s -> Travel.eta world s p)
+  | Eta, [ Vehicles _; x ] -> expected "a position" x
+  | Eta, [ x; _ ] -> expected "a vehicle" x
   | Location_of, [ String text ] -> (
       match Dolphin_geo.Coordinates.of_string text with Ok p -> Value (Position p) | Error why -> Wrong why)
   | Location_of, [ x ] -> expected "a latitude and a longitude, or a text that gives both" x
@@ -297,6 +307,6 @@ let apply context at operation arguments =
   | Math name, arguments -> mathematics name arguments
   | Geometry (name, keys), arguments -> of_result (Geometry.apply name keys arguments)
   | ( ( Execute | Release | Set_connection_timeout | Ask | Message | Pause | Halt | Position_of | Battery_of
-      | Location_of | Area_of | Assert | Fail | Ignore | Propagate | Retry | Get_supplier | Interrupted | Is_host
+      | Eta | Location_of | Area_of | Assert | Fail | Ignore | Propagate | Retry | Get_supplier | Interrupted | Is_host
       | Is_there | Values_of ),
       _ ) -> Wrong (Printf.sprintf "wrong number of arguments, %d" (List.length arguments))

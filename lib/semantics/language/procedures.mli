@@ -21,3 +21,6 @@ val of_result : (value, string) result -> Code.outcome
 
 val sense : Code.context -> Reading.sensor -> vehicle list -> Code.outcome
 (** [sense x sensor vs] is what the sensor of the only vehicle of [vs] shows. *)
+
+val travel : Code.context -> platform_task -> Travel.quantity -> vehicle list -> Code.outcome
+(** [travel x p q vs] is [q] of [p] for the only vehicle of [vs], from where it is. *)

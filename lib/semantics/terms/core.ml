@@ -152,6 +152,7 @@ and builtin =
   | Values_of                                   (* made by elaboration: of the pairs of a key, as a list *)
   | Position_of
   | Battery_of
+  | Eta
   | Location_of
   | Area_of
   | Assert                                      (* made by elaboration: the text of an assertion that fails *)

@@ -21,6 +21,32 @@ let path ~from ~speed = function
       (fun ({ item = named; waypoints; dwell; speed } : Mission_plan.leg) -> { named; waypoints; dwell; speed })
       (Mission_plan.path ~from ~speed m)
 
+let is_stay leg = leg.waypoints = []
+
+let is_fixed p =
+  let places from = List.concat_map (fun leg -> leg.waypoints) (path ~from ~speed:1. p) in
+  List.equal Position.equal (places Dolphin_geo.Place.apdl) (places Dolphin_geo.Place.feup)
+
+type extent = { metres : float; moving : float; staying : float }
+
+let extent ~from ~speed p =
+  let stretch speed (here, e) towards =
+    let metres = Dolphin_geo.Wgs84.distance here towards in
+    let moving = if metres = 0. then e.moving else e.moving +. (metres /. speed) in
+    (towards, { e with metres = e.metres +. metres; moving })
+  in
+  let leg (here, e) (leg : leg) =
+    if e.staying = infinity then (here, e)
+    else
+      let here, e = List.fold_left (stretch leg.speed) (here, e) leg.waypoints in
+      (here, { e with staying = e.staying +. leg.dwell })
+  in
+  snd (List.fold_left leg (from, { metres = 0.; moving = 0.; staying = 0. }) (path ~from ~speed p))
+
+let start p =
+  let first leg = match leg.waypoints with place :: _ -> Some (place, leg.speed) | [] -> None in
+  if is_fixed p then List.find_map first (path ~from:Dolphin_geo.Place.apdl ~speed:nan p) else None
+
 let compare a b =
   match a, b with
   | Maneuvers p, Maneuvers q -> Plan.compare p q

@@ -25,5 +25,26 @@ val path : from:Position.t -> speed:float -> t -> leg list
 (** [path ~from ~speed p] is the way of a vehicle at [from], where what is not said in metres per second is [speed]:
     that of {!Plan.path} or {!Mission_plan.path}. *)
 
+val is_stay : leg -> bool
+(** Whether it visits no place. *)
+
+val is_fixed : t -> bool
+(** [is_fixed p] is whether the places of {!path} are the same wherever the vehicle is. *)
+
+(** What a way comes to. *)
+type extent = {
+  metres : float;  (** over ground *)
+  moving : float;  (** seconds under way *)
+  staying : float;  (** seconds of staying, perhaps [infinity] *)
+}
+
+val extent : from:Position.t -> speed:float -> t -> extent
+(** [extent ~from ~speed p] is that of [path ~from ~speed p], from [from] on until the first stay without end. If
+    [speed] is [nan], what depends on it is so too. *)
+
+val start : t -> (Position.t * float) option
+(** [start p] is the first place of {!path} and the speed on the way there, [nan] if that is the vehicle's; [None] if
+    there is none, or if it is elsewhere for vehicles elsewhere. *)
+
 val compare : t -> t -> int
 val pp : Format.formatter -> t -> unit

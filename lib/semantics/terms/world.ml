@@ -10,6 +10,8 @@ type vehicle_state = {
   battery : float option;
   connected : bool;
   unready : string option;
+  cruise : float option;
+  drain : float option;
 }
 
 type assumption =

@@ -10,6 +10,8 @@ type vehicle_state = {
   connected : bool;  (** whether it has a link *)
   unready : string option;
   (** what keeps it from being given a plan though it has a link, as a predicate: ["is in mode ERROR: leak"] *)
+  cruise : float option;  (** metres per second where a plan does not say; [None]: it has not told *)
+  drain : float option;  (** the share of its battery that an hour under way takes; [None]: it has not told *)
 }
 
 type t

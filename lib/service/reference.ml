@@ -139,11 +139,17 @@ let of_plan =
 let maneuvers =
   List.map (entry Maneuver)
     [ "goTo", "goTo()", "Goes to the place.";
-      "loiter", "loiter radius: 20, duration: 60, direction: 'VDEP'", "Circles around the place.";
-      "skeeping", "skeeping radius: 20, duration: 60", "Keeps its station.";
-      "yoyo", "yoyo max_depth: 20, min_depth: 2, pitch: 15.degrees", "Goes to the place, up and down on the way.";
-      "popup", "popup duration: 180, currPos: true", "Comes to the surface for a fix.";
-      "rows", "rows width: 100, length: 200, hstep: 27", "Covers a rectangle by parallel rows.";
+      "loiter", "loiter radius: 20, duration: 60, direction: 'VDEP'",
+      "Circles around the place for so many seconds; 0 is without end.";
+      "skeeping", "skeeping radius: 20, duration: 60",
+      "Keeps within the radius of the place, drifting, for so many seconds; 0 is without end.";
+      "yoyo", "yoyo max_depth: 20, min_depth: 2, pitch: 15.degrees",
+      "Goes to the place, up and down on the way.";
+      "popup", "popup duration: 180, currPos: true",
+      "Comes to the surface for a fix: where it is (`currPos`) or at the place.";
+      "rows", "rows width: 100, length: 200, hstep: 27",
+      "Parallel rows, the first along `bearing` (north) from the place, the others to the left of it: west. \
+       To the right (east): `firstCurveRight: true`.";
       "followPath", "followPath points: [[north, east], ...]", "Goes along points, in metres from the place.";
       "compassCalibration", "compassCalibration radius: 5, duration: 300", "Circles to calibrate the compass.";
       "launch", "launch()", "Leaves the launcher." ]

@@ -10,7 +10,7 @@ export interface Diagnostic {
 export interface RunStatus {
   id: string; state: "running" | "stopping" | "over"; speed: number | null; simulated: boolean; inputs: string[];
   question: Question | null; outcome: { how: string; text: string; diagnostics: Diagnostic[] } | null;
-  program: string | null; journal: string;
+  program: string | null; journal: string | null; counterexample: string | null;
 }
 export interface Going { number: number; state: string; progress: string }
 export interface Status {

@@ -50,7 +50,7 @@ function attempt(f: () => Promise<unknown>) {
 
 const dialog = new Dialog((answer) => attempt(() => post("run/answer", answer))(), goTo);
 const verdicts = new Verdicts({ show: showFound, goTo, cancel: (subject) => attempt(() => ask("DELETE", subject, {}))(),
-  graph: () => attempt(() => analyse("graph"))() });
+  graph: () => attempt(() => analyse("graph"))(), enact: (of) => attempt(() => enact(of))() });
 const alarms = new Alarms((id) => { map.focus(id); $<HTMLSelectElement>("about").value = id; renderLog(true); });
 
 // {1 The program}
@@ -139,6 +139,12 @@ async function startRun() {
   leavePast();
   await post("run", { program: program(), fleet: fleet || null, people: $<HTMLInputElement>("people").checked,
     speed: status?.simulated && speed ? Number(speed) : null, set: Object.fromEntries(settings) });
+}
+
+async function enact(of: "exploration" | "timing") {
+  const speed = $<HTMLSelectElement>("speed").value;
+  leavePast();
+  await post("run/counterexample", { of, speed: speed ? Number(speed) : null });
 }
 
 // What is asked about the program, beside running it.
@@ -277,8 +283,8 @@ function renderNow() {
   nowKey = key;
   const parts: Node[] = [];
   if (!past && run?.state === "over" && run.outcome)
-    parts.push(h("p", { class: "outcome " + run.outcome.how }, `${run.program ?? "the run"}: ${run.outcome.text}`,
-      h("button", { click: attempt(() => openReplay(run.journal, run.program ?? "run")) }, "Replay")));
+    parts.push(h("p", { class: "outcome " + run.outcome.how }, `${run.program ?? "the run"}${run.counterexample !== null ? ", as the counterexample says" : ""}: ${run.outcome.text}`,
+      run.journal !== null ? h("button", { click: attempt(() => openReplay(run.journal!, run.program ?? "run")) }, "Replay") : null));
   if (!past && run?.outcome?.diagnostics.length)
     parts.push(...run.outcome.diagnostics.map((d) => h("button", { class: "link trouble", click: () => goTo(`${d.line}:${d.column}`) }, `line ${d.line}: ${d.message}`)));
   if (going && run.question) parts.push(h("p", { class: "outcome asks" }, run.question.prompt,
@@ -371,7 +377,7 @@ function renderHead() {
   $<HTMLButtonElement>("explore").disabled = watches || !linked || status?.exploration?.state === "running" || !program();
   $<HTMLButtonElement>("time").disabled = watches || !linked || status?.timing?.state === "running" || !program();
   $<HTMLSelectElement>("speed").disabled = status !== null && !status.simulated;
-  $("link").textContent = !linked ? "no server" : going ? `${run.program ?? "a program"} ${clock(live.time)}` : "";
+  $("link").textContent = !linked ? "no server" : going ? `${run.counterexample !== null ? "counterexample of " : ""}${run.program ?? "a program"} ${clock(live.time)}` : "";
   $("link").className = linked ? "" : "trouble";
   renderHelm();
 }

@@ -6,7 +6,8 @@ import { StateGraph } from "./graph";
 import { clock } from "./model";
 
 type Subject = "exploration" | "timing" | "graph";
-interface Events { show: (found: Json) => void; goTo: (at: string) => void; cancel: (s: Subject) => void; graph: () => void }
+interface Events { show: (found: Json) => void; goTo: (at: string) => void; cancel: (s: Subject) => void; graph: () => void;
+  enact: (s: "exploration" | "timing") => void }
 
 const mark = (verdict: string) => (verdict === "holds" ? "✓" : verdict === "violated" ? "✗" : "–");
 const hints: Partial<Record<Subject, string>> = {
@@ -63,14 +64,18 @@ export class Verdicts {
     el.replaceChildren(h("button", { click: () => this.picture.open(found.result) }, `Show the state graph: ${found.result.states} states`));
   }
 
-  private through(cx: Json, text: string) { return h("button", { click: () => this.events.show(cx) }, text); }
+  private through(subject: "exploration" | "timing", cx: Json, text: string) {
+    return h("span", { class: "found" }, h("button", { click: () => this.events.show(cx) }, text),
+      h("button", { class: "enact", title: "Simulated vehicles do what the counterexample says", click: () => this.events.enact(subject) },
+        "Run this in the simulator"));
+  }
 
   private exploration(r: Json, cx: Json): Node[] {
     const line = (v: Json) => h("li", { class: v.verdict.replace(/ .*/, "") }, h("b", {}, mark(v.verdict)), ` ${v.property}: ${v.verdict}`,
-      cx && cx.property === v.property ? this.through(cx, "Step through it") : null);
+      cx && cx.property === v.property ? this.through("exploration", cx, "Step through it") : null);
     const named = cx && r.verdicts.some((v: Json) => v.property === cx.property);
     return [h("ul", { class: "verdicts" }, ...r.verdicts.map(line)),
-      ...(cx && !named ? [this.through(cx, `Step through: ${cx.property || "a run"}`)] : []),
+      ...(cx && !named ? [this.through("exploration", cx, `Step through: ${cx.property || "a run"}`)] : []),
       h("p", { class: "hint" }, `${r.states} states, ${r.transitions} transitions, ${r.seconds.toFixed(2)} s`)];
   }
 
@@ -90,7 +95,7 @@ export class Verdicts {
     return [h("ul", { class: "verdicts" }, ...lines), this.bars(r, span),
       ...(chain.length ? [h("p", { class: "hint" }, "The end depends on: " +
         chain.map((c: Json) => `${c.what.replace(/^.*\//, "")} (${clock(c.seconds)})`).join(", then "))] : []),
-      ...(cx ? [this.through(cx, `Step through ${r.shown?.what ?? "a run"}`)] : []),
+      ...(cx ? [this.through("timing", cx, `Step through ${r.shown?.what ?? "a run"}`)] : []),
       h("p", { class: "hint" }, `${r.states} states, ${r.seconds.toFixed(2)} s`)];
   }
 

@@ -208,6 +208,17 @@ await test("a counterexample is stepped through, on source and log", async () =>
   await page.click("#banner >> text=Back to now");
 });
 
+await test("and carried out in the simulator", async () => {
+  await page.click("#tab-verdicts");
+  await page.click("text=Run this in the simulator");
+  await page.waitForSelector("#link >> text=counterexample of stuck.dol");
+  await page.waitForSelector("#timeline .task");
+  await picture(page, "enacted");
+  await page.waitForSelector(".outcome.stuck >> text=stuck.dol, as the counterexample says: stuck");
+  same(await page.locator(".outcome >> text=Replay").count(), 0, "it has no journal");
+  await page.click("#tab-source");
+});
+
 await test("a server that is killed in a run offers to resume it", async () => {
   await choose(page, "rendezvous.dol");
   await page.click("#run");

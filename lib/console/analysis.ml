@@ -21,6 +21,7 @@ type t = {
   mutable progress : string;
   mutable state : state;
   mutable steps : Yojson.Safe.t;
+  mutable found : Witness.t option;
 }
 
 let goes_on e = match e.state with Running -> true | Cancelled | Over _ -> false
@@ -94,7 +95,8 @@ let over e text told =
     (match Witness_file.read e.witness with
      | Ok witness ->
        let dates = Result.fold result ~ok:dates_of ~error:(fun _ -> []) in
-       e.steps <- counterexample e.program e.fleet witness ~dates
+       e.steps <- counterexample e.program e.fleet witness ~dates;
+       e.found <- Some witness
      | Error _ -> ());
     Sys.remove e.witness
   end;
@@ -126,7 +128,7 @@ let start ~dolphin ~changed order (program : Program_file.t) (fleet : Fleet_file
   let finished, finish = Lwt.wait () in
   let e =
     { order; program; fleet; process; changed; witness; finished; finish; progress = ""; state = Running;
-      steps = `Null }
+      steps = `Null; found = None }
   in
   let whole () =
     Lwt_io.close process#stdin >>= fun () ->
@@ -136,6 +138,8 @@ let start ~dolphin ~changed order (program : Program_file.t) (fleet : Fleet_file
   let failed error = over e "" [ Printexc.to_string error ]; Lwt.return_unit in
   Lwt.async (fun () -> Lwt.catch whole failed);
   e
+
+let shown e = Option.map (fun witness -> (e.program, e.fleet, witness)) e.found
 
 let cancel e =
   if goes_on e then begin

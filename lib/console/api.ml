@@ -164,8 +164,24 @@ let start h found =
   let* journal = Result.map_error unavailable (Run_folder.fresh ~program:program.path) in
   let answers = Option.value answers ~default:[] and people = people = Some true in
   let settings = { settings with speed; seed; answers; people; socket = true } in
-  let order = { Live_run.program; fleet; settings; journal } in
-  Ok (started (Hall.begin_run h (fun ~id ~changed -> Live_run.start ~id ~changed order)))
+  let order = { Live_run.program; fleet; settings } in
+  Ok (started (Hall.begin_run h (fun ~id ~changed -> Live_run.start ~id ~changed ~journal order)))
+
+let subject_of = function
+  | "exploration" -> Ok Hall.Exploration
+  | "timing" -> Ok Hall.Timing
+  | _ -> bad "of is \"exploration\" or \"timing\""
+
+(* What an analysis has found, carried out on the simulated fleet. *)
+let enact h found =
+  let* () = not_busy h in
+  let* subject = Result.bind (get Field.text "of" found) subject_of in
+  let* speed = speed found in
+  match Option.bind (Hall.analysis h subject) Analysis.shown with
+  | None -> refuse 409 "no-counterexample" "no run was found that could be carried out"
+  | Some (program, fleet, witness) ->
+    let order = { Live_run.program; fleet; settings = { (Hall.settings h).run with speed } } in
+    Ok (started (Hall.begin_run h (fun ~id ~changed -> Live_run.enact ~id ~changed order witness)))
 
 let going_on h =
   match Hall.run h with
@@ -205,7 +221,7 @@ let post h found =
 
 (* {1 Runs that were} *)
 
-let own h = match Hall.run h with Some run when Live_run.goes_on run -> Some (Live_run.journal run) | _ -> None
+let own h = match Hall.run h with Some run when Live_run.goes_on run -> Live_run.journal run | _ -> None
 
 let all_runs h =
   let listed = Result.map_error unavailable (Run_folder.list ?except:(own h) ()) in
@@ -245,8 +261,8 @@ let resume h found =
   let fleet = { Fleet_file.nobody with path = None } in
   let settings = { (Hall.settings h).run with speed = run.header.speed; seed = None; people = people = Some true;
                                               socket = true } in
-  let order = { Live_run.program; fleet; settings; journal = run.path } in
-  Ok (started (Hall.begin_run h (fun ~id ~changed -> Live_run.resume ~id ~changed order)))
+  let order = { Live_run.program; fleet; settings } in
+  Ok (started (Hall.begin_run h (fun ~id ~changed -> Live_run.resume ~id ~changed ~journal:run.path order)))
 
 let longest_journal = 64 * 1024 * 1024
 
@@ -347,6 +363,7 @@ let table =
     (("GET", "graph"), Look (Analyses.result Graph));
     (("DELETE", "graph"), Command (Analyses.cancel Graph));
     (("POST", "run"), Command start);
+    (("POST", "run/counterexample"), Command enact);
     (("POST", "run/stop"), Command stop);
     (("POST", "run/answer"), Command answer);
     (("POST", "run/post"), Later post);

@@ -89,7 +89,8 @@ let of_run h run : Yojson.Safe.t =
     `Assoc
       (members
        @ [ ("program", path_of h program.path);
-           ("journal", `String (Filename.remove_extension (Filename.basename (Live_run.journal run)))) ])
+           ("journal", Field.of_option (fun path -> `String (Filename.remove_extension (Filename.basename path)))
+              (Live_run.journal run)) ])
   | json -> json
 
 (* Of an analysis only how it goes: its result may be long. *)

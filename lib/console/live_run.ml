@@ -3,7 +3,7 @@ open Dolphin_runtime
 open Dolphin_json
 open Lwt.Infix
 
-type order = { program : Program_file.t; fleet : Fleet_file.t; settings : Run.settings; journal : string }
+type order = { program : Program_file.t; fleet : Fleet_file.t; settings : Run.settings }
 type question = {
   number : int;
   prompt : string;
@@ -17,6 +17,8 @@ type state = Running | Stopping | Over of (Driver.outcome, Error.t) result
 type t = {
   id : string;
   order : order;
+  journal : string option;
+  enacts : string option;  (* the property that a counterexample breaks *)
   feed : Feed.t;
   narrator : Narrator.t;
   interruption : Interruption.t;
@@ -36,7 +38,7 @@ type t = {
 
 let id r = r.id
 let feed r = r.feed
-let journal r = r.order.journal
+let journal r = r.journal
 let program r = r.order.program
 let goes_on r = match r.state with Running | Stopping -> true | Over _ -> false
 let now r = if goes_on r then Float.max r.last (r.view.now ()) else r.last
@@ -121,10 +123,10 @@ let front r : Run.front =
     opened = (fun view -> r.view <- view; Lwt.wakeup_later r.open_ ());
     remark = remark r; observer = observer r; person = person r; wants_telemetry = true }
 
+let follower r entry = Narrator.entry r.narrator entry
+
 let settings r =
-  let follower entry = Narrator.entry r.narrator entry in
-  { r.order.settings with
-    recording = { journal = Some r.order.journal; drawing = None; follower = Some follower } }
+  { r.order.settings with recording = { journal = r.journal; drawing = None; follower = Some (follower r) } }
 
 let over r outcome =
   tell_waiting r;
@@ -134,20 +136,20 @@ let over r outcome =
   r.changed ();
   Lwt.wakeup_later r.finish ()
 
-let begin_ ~id ~changed order go =
+let begin_ ~id ~changed ?journal ?enacts order go =
   let feed = Feed.create ~run:id in
   let finished, finish = Lwt.wait () and opened, open_ = Lwt.wait () in
   let view : Run.view =
     { now = (fun () -> 0.); estimates = (fun () -> []); post = (fun _ _ -> Lwt.return_false);
       questions = (fun () -> []) } in
   let r =
-    { id; order; feed; narrator = Narrator.make order.program feed; interruption = Interruption.make (); changed;
-      finished; finish; opened; open_; view; last = 0.; question = None; questions = 0; refused = None; state = Running;
-      stale = false }
+    { id; order; journal; enacts; feed; narrator = Narrator.make order.program feed;
+      interruption = Interruption.make (); changed; finished; finish; opened; open_; view; last = 0.; question = None;
+      questions = 0; refused = None; state = Running; stale = false }
   in
   let whole () =
     Lwt.catch
-      (fun () -> go (front r) ~interruption:r.interruption (settings r))
+      (fun () -> go r (front r) ~interruption:r.interruption)
       (fun error ->
          Lwt.return (Error (Error.Unavailable ("this is a fault of dolphin itself: " ^ Printexc.to_string error))))
     >|= over r
@@ -156,15 +158,21 @@ let begin_ ~id ~changed order go =
   Lwt.async (fun () -> Lwt.pause () >>= whole);
   r
 
-let start ~id ~changed order =
-  begin_ ~id ~changed order (fun front ~interruption settings ->
-      Run.start front ~interruption settings order.program order.fleet)
+let start ~id ~changed ~journal order =
+  begin_ ~id ~changed ~journal order (fun r front ~interruption ->
+      Run.start front ~interruption (settings r) order.program order.fleet)
 
-let resume ~id ~changed order =
+let resume ~id ~changed ~journal order =
   let fleet = order.fleet.path in
-  begin_ ~id ~changed order (fun front ~interruption settings ->
+  begin_ ~id ~changed ~journal order (fun r front ~interruption ->
+      let settings = settings r in
       let settings = { settings with recording = { settings.recording with journal = None } } in
-      Run.resume front ~interruption settings ~changed:false ~fleet order.program order.journal)
+      Run.resume front ~interruption settings ~changed:false ~fleet order.program journal)
+
+let enact ~id ~changed { program; fleet; settings = { speed; _ } } witness =
+  let order = { program; fleet; settings = { Run.simulated with speed } } in
+  begin_ ~id ~changed ~enacts:witness.Dolphin_trace.Witness.property order (fun r front ~interruption ->
+      Enacted_run.start front ~interruption ~speed ~follower:(follower r) program fleet witness)
 
 let stop r =
   if goes_on r then begin
@@ -236,5 +244,6 @@ let to_json r : Yojson.Safe.t =
     [ ("id", `String r.id); ("state", `String state); ("time", Canonical.number (now r));
       ("speed", Field.of_option Canonical.number r.order.settings.speed);
       ("simulated", `Bool (Run.is_simulated r.order.settings));
-      ("inputs", Field.texts r.order.program.program.inputs);
+      ("counterexample", Field.of_option (fun property -> `String property) r.enacts);
+      ("inputs", Field.texts (if r.enacts = None then r.order.program.program.inputs else []));
       ("question", Field.of_option question r.question); ("outcome", outcome) ]

@@ -5,22 +5,24 @@ open Dolphin_app
 type t
 
 (** What a run is started with. *)
-type order = {
-  program : Program_file.t;
-  fleet : Fleet_file.t;
-  settings : Run.settings;
-  journal : string;  (** that it is kept in *)
-}
+type order = { program : Program_file.t; fleet : Fleet_file.t; settings : Run.settings }
 
-val start : id:string -> changed:(unit -> unit) -> order -> t
-(** [start ~id ~changed order] begins the run. [changed] is called whenever {!feed} or {!to_json} has changed. *)
+val start : id:string -> changed:(unit -> unit) -> journal:string -> order -> t
+(** [start ~id ~changed ~journal order] begins the run, which is kept in the file [journal]. [changed] is called
+    whenever {!feed} or {!to_json} has changed. *)
 
-val resume : id:string -> changed:(unit -> unit) -> order -> t
-(** Likewise goes on with the run whose journal is [order.journal], and whose console died. *)
+val resume : id:string -> changed:(unit -> unit) -> journal:string -> order -> t
+(** Likewise goes on with the run whose journal is [journal], and whose console died. *)
+
+val enact : id:string -> changed:(unit -> unit) -> order -> Dolphin_trace.Witness.t -> t
+(** Likewise carries out a counterexample on the simulated fleet, whatever the settings say of vehicles. It has no
+    journal. *)
 
 val id : t -> string
 val feed : t -> Feed.t
-val journal : t -> string
+val journal : t -> string option
+(** The file that it is kept in. *)
+
 val program : t -> Program_file.t
 
 val goes_on : t -> bool

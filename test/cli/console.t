@@ -36,6 +36,7 @@ The console of a folder, on a port of its own, and all that docs/openapi.json de
   a tile: 200 404
   explored: over ['no deadlock']
   counterexample: ['ask(How many?)', 'answer(2)', "message '2'", 'execute']
+  carried out: no deadlock None interrupted
   no such faults: failed
   timed: violated {'completed': {'earliest': 62, 'latest': 62}} deadline 1:00
   with dates: [0, 60, 60, 62, 62]

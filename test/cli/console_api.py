@@ -91,6 +91,11 @@ def main():
     verdicts = found["result"]["verdicts"]
     print("explored:", found["state"], [v["property"] for v in verdicts if v["verdict"] == "violated"])
     print("counterexample:", [step["label"] for step in found["counterexample"]["steps"]])
+    ask("POST", "run/counterexample", {"of": "timing"})
+    ask("POST", "run/counterexample", {"of": "graph"})
+    ask("POST", "run/counterexample", {"of": "exploration", "speed": None})
+    found = until("status", lambda found: found["run"]["state"] == "over")["run"]
+    print("carried out:", found["counterexample"], found["journal"], found["outcome"]["how"])
     for path in ["timing", "graph"]:
         ask("DELETE", path, {})
         ask("POST", path, {"program": "wrong.dol"})

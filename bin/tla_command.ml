@@ -48,12 +48,12 @@ let perform jar task program ({ files; environment; world } : Tla_model.t) =
     Result.map Exit_status.of_verdict
       (Tlc_compare.run installation ~directory ~limit ~coverage files environment program world)
 
-let run path set fleet answers faults directory check compare strict limit jar workers distributed coverage =
+let run path set fleet answers faults tick directory check compare strict limit jar workers distributed coverage =
   Report.result
     (let* task = task directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverage in
      let* program = Program_file.load ~set path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
-     let* model = Tla_model.make ~answers ~faults program fleet in
+     let* model = Tla_model.make ?tick ~answers ~faults program fleet in
      perform jar task program model)
 
 (* {1 The command} *)
@@ -64,6 +64,20 @@ let directory =
      it is kept there, and so is what TLC writes."
   in
   Arg.(value & opt (some string) None & info [ "o"; "output" ] ~docv:"DIR" ~doc)
+
+let tick =
+  let doc =
+    "In $(b,MCTimed.tla), time passes by $(docv), such as $(b,1.min) or $(b,30): of that, all times must be whole \
+     numbers. By default it is the longest tick of which the durations of the fleet's plans are."
+  in
+  let parse text =
+    match Time_analysis.duration text with
+    | Ok 0 -> Error (`Msg "a tick takes more than 0 seconds")
+    | Ok ms -> Ok ms
+    | Error why -> Error (`Msg why)
+  in
+  let time = Arg.conv ~docv:"TIME" (parse, Dolphin_time.Bounds.pp_time) in
+  Arg.(value & opt (some time) None & info [ "tick" ] ~docv:"TIME" ~doc)
 
 let check = Arg.(value & flag & info [ "run" ] ~doc:"Have TLC check the model, and print its verdicts.")
 
@@ -93,6 +107,10 @@ let man =
     `Pre "  java -Xss64m -cp tla2tools.jar tlc2.TLC -config MC.cfg MC.tla\n\
          \  java -Xss64m -cp tla2tools.jar tlc2.TLC -workers 1 -config Graph.cfg MC.tla\n\
          \  java -Xss64m -cp tla2tools.jar tlc2.TLC -config Coverage.cfg -coverage 1 MC.tla";
+    `P "$(b,MCTimed.tla) is the program with the times of the fleet, in ticks ($(b,--tick)). With $(b,Timed.cfg), TLC \
+        prints when runs end, and tasks start, end, fail and are stopped: a line for each date that is earlier or \
+        later than all before. The first and the last are those of $(mname) $(b,time), in ticks:";
+    `Pre "  java -Xss64m -cp tla2tools.jar tlc2.TLC -workers 1 -config Timed.cfg MCTimed.tla";
     `P "What has no meaning in TLA+ is refused, with its place in the program or in the fleet, such as coordinates \
         that the program computes, or numbers of a reply that TLC has not. What is known only when TLC gets there ends \
         it, with status 3: numbers that it cannot hold, and more than comparisons that depends on what a sensor \
@@ -118,6 +136,6 @@ let command =
   Cmd.v info
     Term.(
       const run $ Options.program $ Options.set $ Options.fleet $ Explore_command.answers $ Explore_command.faults
-      $ directory
+      $ tick $ directory
       $ check $ compare $ strict $ limit $ Tlc_options.jar $ Tlc_options.workers $ Tlc_options.distributed
       $ Tlc_options.coverage)

@@ -202,6 +202,12 @@ let text program world (environment : Environment.options) plans prompts calls t
   Format.fprintf ppf "====@.";
   Buffer.contents b
 
+(* The module of the program with its times. *)
+let timed_text (times : Times.t) ~plans world (program : Core.program) =
+  let definition (head, body) = Printf.sprintf "MC%s ==\n  %s\n\n" head body in
+  let definitions = Times.definitions times ~plans ~keys:program.inputs world in
+  "---- MODULE MCTimed ----\nEXTENDS MC, Timed\n\n" ^ String.concat "" (List.map definition definitions) ^ "====\n"
+
 let constants (environment : Environment.options) =
   let replaced by name = Printf.sprintf "  %s <- %s%s\n" name by name in
   "CONSTANTS\n  Known <- ComputedOnce\n"
@@ -230,6 +236,17 @@ let refinement environment =
   "INIT RefinedInit\nNEXT RefinedNext\n" ^ constants environment
   ^ "INVARIANTS NoneRefused Mapped AbstractInv\nCHECK_DEADLOCK FALSE\n"
 
+let timed times environment =
+  let value (name, n) = Printf.sprintf "  %s = %d\n" name n in
+  "INIT TimedInit\nNEXT TimedNext\nVIEW TimedView\n" ^ constants environment
+  ^ "  Lasts <- MCLasts\n  Posts <- MCPosts\n"
+  ^ String.concat "" (List.map value (Times.values times))
+  ^ "INVARIANT Dates\nCHECK_DEADLOCK FALSE\n"
+
+let timed_files times ~plans ~environment world program =
+  [ { name = "MCTimed.tla"; text = timed_text times ~plans world program };
+    { name = "Timed.cfg"; text = timed times environment } ]
+
 let unfit_replies ~environment ~calls world program =
   let why call =
     let translation = Translation.create program world in
@@ -238,7 +255,7 @@ let unfit_replies ~environment ~calls world program =
   in
   List.concat_map why calls
 
-let of_program ?(plans = []) ?(prompts = []) ?(calls = []) ~environment world program =
+let of_program ?(plans = []) ?(prompts = []) ?(calls = []) ?times ~environment world program =
   let translation = Translation.create program world in
   let main = Translation.lambda translation program.Core.main in
   let on_interrupt = List.map (Translation.lambda translation) (Option.to_list program.on_interrupt) in
@@ -251,5 +268,6 @@ let of_program ?(plans = []) ?(prompts = []) ?(calls = []) ~environment world pr
          { name = "Coverage.cfg"; text = coverage environment };
          { name = "MCRefinement.tla"; text = refined_module };
          { name = "Refinement.cfg"; text = refinement environment } ]
+       @ Option.fold times ~none:[] ~some:(fun times -> timed_files times ~plans ~environment world program)
        @ List.map (fun (name, text) -> { name; text }) Spec.modules)
   | refusals -> Error refusals

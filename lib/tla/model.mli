@@ -10,14 +10,16 @@ val of_program :
   ?plans:string list ->
   ?prompts:string list ->
   ?calls:string list ->
+  ?times:Times.t ->
   environment:Environment.options ->
   World.t ->
   Core.program ->
   (file list, Dolphin_syntax.Diagnostic.t list) result
-(** [of_program ~plans ~prompts ~calls ~environment w p] is the model of [p] in [w]: the specification's modules,
+(** [of_program ~plans ~prompts ~calls ~times ~environment w p] is the model of [p] in [w]: the specification's modules,
     [MC.tla] with the program and the world as constants, and configurations, all for one directory. [MC.cfg] checks
     the properties; [Told.cfg] does too, and tells runs by an [ALIAS]; [Graph.cfg] prints the graph; [Coverage.cfg] has
-    an action for each rule. An error is what cannot be translated, in the order of the text. [environment] is asked
+    an action for each rule. With [times], also [MCTimed.tla] and [Timed.cfg], which prints when runs end, and tasks
+    start and end. An error is what cannot be translated, in the order of the text. [environment] is asked
     about the plans, prompts and calls of the host that are listed here; what it says of a name that nobody has holds
     for all others. *)
 

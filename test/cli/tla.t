@@ -19,7 +19,10 @@
   MC.cfg
   MC.tla
   MCRefinement.tla
+  MCTimed.tla
   Refinement.cfg
+  Timed.cfg
+  Timed.tla
   Told.cfg
   $ head -3 out/model/MC.tla
   ---- MODULE MC ----

@@ -97,11 +97,13 @@ let example directory kinds file =
   let path = Filename.concat directory file in
   let source = read path in
   let program = compiled path source and scenario = scenario_beside path in
-  List.map (fun (kind, faults) -> in_scenario (file ^ kind) source program scenario faults) kinds
+  List.map (fun (kind, faults) -> (in_scenario (file ^ kind) source program scenario faults, scenario)) kinds
 
-let examples_with kinds directory =
+let with_fleets kinds directory =
   let files = List.filter (fun f -> Filename.check_suffix f ".dol") (Array.to_list (Sys.readdir directory)) in
   List.concat_map (example directory kinds) (List.sort compare files)
+
+let examples_with kinds directory = List.map fst (with_fleets kinds directory)
 
 let examples =
   examples_with [ ("", Faults.none); (", with failures", { Faults.none with fail = Any_number }) ]
@@ -127,3 +129,6 @@ let faulty_examples directory =
 let of_text name source world environment =
   { name; source; program = compiled "small.dol" source; world; environment; plans = []; prompts = [ "how many?" ];
     calls = Calls.names }
+
+let in_fleet name source scenario faults =
+  in_scenario name source (compiled "small.dol" source) scenario faults

@@ -27,6 +27,11 @@ val faulty_examples : string -> t list
 (** Likewise with losses, with a vehicle that is late, with at most one fault of each kind, with interruptions, and with
     calls of a supplier that fail. *)
 
+val with_fleets :
+  (string * Dolphin_environment.Faults.t) list -> string -> (t * Dolphin_scenario.Scenario.t) list
+(** [with_fleets kinds directory] is the programs there, each with its fleet, with each kind of faults; the name says
+    which. *)
+
 (** {1:texts Programs by their texts} *)
 
 val of_text : string -> string -> Dolphin_semantics.World.t -> Dolphin_environment.Environment.options -> t
@@ -44,3 +49,6 @@ val all_once : Dolphin_environment.Environment.options
 
 val interrupted : Dolphin_environment.Environment.options -> Dolphin_environment.Environment.options
 (** [interrupted e] is [e] where the program may be interrupted. *)
+
+val in_fleet : string -> string -> Dolphin_scenario.Scenario.t -> Dolphin_environment.Faults.t -> t
+(** [in_fleet name source scenario faults] is the program [source] with that fleet. *)

@@ -1,10 +1,11 @@
 (* TLC and the explorer, each with its own statement of the semantics, on the same programs: as many states, isomorphic
    graphs, equal labels, effects, derivations and ends.
 
-   crosscheck.exe [quick | all | mutate | refinement | coverage | counts]. In the environment: PROGRAMS, how many random
-   programs; SEED; LIMIT, the most states of one; BATCH, how many are given to TLC at once; VERDICTS, of how many random
-   programs TLC's own verdict is asked, which takes a start of TLC for each; ONLY, a part of the names of the mistakes
-   that are made; JOBS, how many processes run at once. *)
+   crosscheck.exe [quick | all | mutate | refinement | dates | coverage | counts]. In the environment: PROGRAMS, how
+   many random programs; SEED; LIMIT, the most states of one; TICKS, the most ticks of one whose dates are compared;
+   BATCH, how many are given to TLC at once; VERDICTS, of how many random programs TLC's own verdict is asked, which
+   takes a start of TLC for each; ONLY, a part of the names of the mistakes that are made; JOBS, how many processes run
+   at once. *)
 
 open Dolphin_tlc
 
@@ -13,6 +14,12 @@ let seed = number "SEED" 4
 let examples_directory = Option.value (Sys.getenv_opt "EXAMPLES") ~default:"examples"
 let examples () = Case.examples examples_directory
 let faulty_examples () = Case.faulty_examples examples_directory
+
+(* Programs that are over in so many ticks: small ones, [random] random ones, and examples. *)
+let dated ~random ~ticks =
+  Dated.prepare ~ticks:40 ~states:400 Dated.small
+  @ Dated.prepare ~ticks ~states:400 (Dated.random ~seed random)
+  @ Dated.prepare ~ticks ~states:60 (Dated.examples examples_directory)
 
 let all installation =
   let limit = number "LIMIT" 2_000 and batch = number "BATCH" 50 and programs = number "PROGRAMS" 400 in
@@ -29,7 +36,8 @@ let all installation =
     Comparison.verdicts installation
       (plain @ Small_programs.all @ random (number "VERDICTS" 20))
   in
-  List.for_all Comparison.passed [ examples; faulty; small; random_ones; sensing; verdicts ]
+  let dates = Dated.report installation ~batch (dated ~random:programs ~ticks:20) in
+  List.for_all Comparison.passed [ examples; faulty; small; random_ones; sensing; verdicts; dates ]
 
 (* What `dune test` runs, in some ten seconds. *)
 let quick installation =
@@ -40,9 +48,12 @@ let quick installation =
   in
   let verdicts = Comparison.verdicts installation (List.filteri (fun i _ -> i < 2) Small_programs.loops) in
   let refined = Refined.report installation ~limit:30 ~batch:1000 Small_programs.all in
+  let dates =
+    Dated.report installation ~batch:1000 (dated ~random:programs ~ticks:8)
+  in
   Mutation.all_apply ()
-  && List.for_all Comparison.passed [ refined; graphs; verdicts ]
-  && graphs.programs > 50
+  && List.for_all Comparison.passed [ refined; graphs; verdicts; dates ]
+  && graphs.programs > 50 && dates.programs > 30
 
 (* Whether programs refine spec/Abstract.tla; PROGRAMS random ones of each kind. *)
 let refinement installation =
@@ -53,6 +64,12 @@ let refinement installation =
        (examples () @ faulty_examples () @ Small_programs.all @ Case.random ~seed programs
         @ Case.sensing ~seed programs))
 
+(* Earliest and latest dates; PROGRAMS random programs, TICKS at most. *)
+let dates installation =
+  let programs = number "PROGRAMS" 400 and batch = number "BATCH" 40 and ticks = number "TICKS" 20 in
+  Printf.printf "SEED=%d PROGRAMS=%d TICKS=%d BATCH=%d JOBS=%d\n%!" seed programs ticks batch Parallel.jobs;
+  Comparison.passed (Dated.report installation ~batch (dated ~random:programs ~ticks))
+
 let mutate installation =
   let programs = number "PROGRAMS" 60 in
   Printf.printf "SEED=%d PROGRAMS=%d JOBS=%d: %!" seed programs Parallel.jobs;
@@ -60,6 +77,7 @@ let mutate installation =
     ~only:(Option.value (Sys.getenv_opt "ONLY") ~default:"")
     ~limit:(number "LIMIT" 150) ~batch:(number "BATCH" 50) ~small:Small_programs.all
     ~random:(Case.random ~seed programs @ Case.sensing ~seed programs)
+    ~dated:(Dated.prepare ~ticks:40 ~states:400 Dated.small)
 
 (* {1 Coverage} *)
 
@@ -113,6 +131,7 @@ let () =
   | "quick" -> run quick
   | "mutate" -> run mutate
   | "refinement" -> run refinement
+  | "dates" -> run dates
   | "coverage" -> run coverage
   | "counts" -> run counts
-  | other -> Printf.eprintf "%s: not one of all, quick, mutate, refinement, coverage, counts\n" other; exit 2
+  | other -> Printf.eprintf "%s: not one of all, quick, mutate, refinement, dates, coverage, counts\n" other; exit 2

@@ -4,6 +4,8 @@ let configuration = "Family.cfg"
 let by_rule = "FamilyByRule.cfg"
 let refinement = "FamilyRefinement.cfg"
 let refined = "MCRefinement"
+let dates = "FamilyDates.cfg"
+let timed = "MCTimed"
 
 (* {1 The constants as definitions} *)
 
@@ -46,9 +48,10 @@ let without_constants lines =
 
 (* What is assumed of constants is no longer of constants: it is an invariant ({!assumed}). *)
 let assumed = [ "PlacesOK"; "ProgramOK"; "FleetOK"; "EnvironmentOK" ]
+let assumed_of_time = "TimedOK"
 
 let without_assumptions lines =
-  List.filter (fun line -> not (List.exists (fun name -> line = "ASSUME " ^ name) assumed)) lines
+  List.filter (fun line -> not (List.exists (fun name -> line = "ASSUME " ^ name) (assumed_of_time :: assumed))) lines
 
 (* A state is of one program, and stays of it. *)
 let of_one_program line =
@@ -92,6 +95,22 @@ let refining =
   "INIT FamilyInit\nNEXT RefinedNext\nCONSTANT Known <- ComputedOnce\nINVARIANTS NoneRefused Mapped AbstractInv TypeOK "
   ^ String.concat " " assumed ^ "\nCHECK_DEADLOCK FALSE\n"
 
+let timed_module count =
+  Printf.sprintf
+    {|---- MODULE %s ----
+EXTENDS Timed
+FamilyInit == which \in 1 .. %d /\ TimedInit
+PrintDates == DatesOf(which)
+====
+|}
+    timed count
+
+let dating =
+  Printf.sprintf
+    "INIT FamilyInit\nNEXT TimedNext\nVIEW TimedView\nCONSTANT Known <- ComputedOnce\nINVARIANTS PrintDates %s\n\
+     CHECK_DEADLOCK FALSE\n"
+    assumed_of_time
+
 let files ~specification programs =
   if not (List.mem_assoc lowest specification) then Error ("there is no " ^ lowest ^ " in the specification")
   else
@@ -106,5 +125,6 @@ let files ~specification programs =
       ([ ("Programs.tla", programs_module programs);
          ("MC.tla", model_module (List.length programs));
          (refined ^ ".tla", refined_module (List.length programs));
-         (configuration, taking "GraphNext"); (by_rule, taking "NextByRule"); (refinement, refining) ]
+         (timed ^ ".tla", timed_module (List.length programs));
+         (configuration, taking "GraphNext"); (by_rule, taking "NextByRule"); (refinement, refining); (dates, dating) ]
        @ abstract @ List.map changed specification)

@@ -19,6 +19,12 @@ val refined : string
 val refinement : string
 (** Of one that checks [DolphinRefinement.tla], and the types of states. *)
 
+val timed : string
+(** The module that is for {!dates}. *)
+
+val dates : string
+(** Of one that prints dates ({!Dolphin_tlc.Printed_dates}), for programs that are given with their times. *)
+
 val files : specification:(string * string) list -> constant list list -> ((string * string) list, string) result
 (** [files ~specification programs] is the model's files, names and texts: each program is given by its constants, and
     has a number, from 1, in what the model prints ({!Dolphin_tlc.Printed_graph}). It is an error if the text of the

@@ -7,6 +7,7 @@ let values = "DolphinValues.tla"
 let checking = "DolphinChecking.tla"
 let abstract = "Abstract.tla"
 let refinement = "DolphinRefinement.tla"
+let time = "Timed.tla"
 
 (* A mistake in what states are is no mistake in the rules: graphs stay as they are. *)
 let types = "no residual has a task that runs"
@@ -574,6 +575,42 @@ let all =
       file = refinement;
       pattern = {|IF d.did \in { "post", "consume" }|};
       replacement = {|IF d.did = "post"|} };
+    { name = "a task may end before its time";
+      file = time;
+      pattern = {|ELSE Age(due[1]) >= due[2][1] /\ |};
+      replacement = {|ELSE |} };
+    { name = "a task may take longer by a tick";
+      file = time;
+      pattern = {|age > most|};
+      replacement = {|age > most + 1|} };
+    { name = "time passes while the program could go on";
+      file = time;
+      pattern = {|/\ ~timely.urgent|};
+      replacement = {|/\ TRUE|} };
+    { name = "the order to a vehicle that is lost does not wait";
+      file = time;
+      pattern = {|IF v \notin outside.lost THEN b|};
+      replacement = {|IF TRUE THEN b|} };
+    { name = "the link is lost as soon as the task starts";
+      file = time;
+      pattern = {|<< PatienceWith(v), most + PatienceWith(v) >>|};
+      replacement = {|<< 0, most + PatienceWith(v) >>|} };
+    { name = "what the program says of silent links is not heard";
+      file = time;
+      pattern = {|[] patience.others = Unlimited -> InTicks(Silence, 1)|};
+      replacement = {|[] TRUE -> InTicks(Silence, 1)|} };
+    { name = "a task fails only when it could be done";
+      file = time;
+      pattern = {|[] OTHER -> << 0, most >>|};
+      replacement = {|[] OTHER -> done|} };
+    { name = "who comes late comes at once";
+      file = time;
+      pattern = {|[] ComesLate(t) -> << 0, PickTimeout(q) >>|};
+      replacement = {|[] ComesLate(t) -> AtOnce|} };
+    { name = "what is awaited anew has its old time";
+      file = time;
+      pattern = {|CASE latest # << >> -> Clock(Last(latest)[2])|};
+      replacement = {|CASE latest # << >> /\ item \notin DOMAIN awaited -> Clock(Last(latest)[2])|} };
     { name = types;
       file = rules;
       pattern = {|active /\ r.v \in DOMAIN A /\ A[r.v] = r.p|};
@@ -592,6 +629,7 @@ let occurrences part text =
 let is_of_checking m = m.file = checking
 let is_of_abstract m = m.file = abstract
 let is_of_refinement m = m.file = refinement || m.name = types
+let is_of_time m = m.file = time
 let about part = if part = "" then all else List.filter (fun m -> occurrences part m.name <> []) all
 
 let apply m files =

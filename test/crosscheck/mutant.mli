@@ -20,5 +20,8 @@ val is_of_abstract : t -> bool
 val is_of_refinement : t -> bool
 (** Whether it leaves graphs as they are, but not what {!Refined.programs} says. *)
 
+val is_of_time : t -> bool
+(** Whether it is in [Timed.tla]: what {!Dated.programs} says must notice. *)
+
 val apply : t -> (string * string) list -> ((string * string) list, string) result
 (** [apply m files] is [files], names and texts, with [m]'s mistake in them; or why it does not apply. *)

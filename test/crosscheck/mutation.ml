@@ -48,18 +48,22 @@ let by_refinement installation specification batches =
   in
   go batches
 
+let by_dates installation specification prepared =
+  match Dated.programs installation specification prepared with Error why -> of_failure why | Ok () -> Unnoticed
+
 let by_theorems installation specification =
   match Refined.theorems installation specification with Error why -> of_failure why | Ok () -> Unnoticed
 
 (* {1 All of them} *)
 
-let look installation batches (m : Mutant.t) =
+let look installation ~dated batches (m : Mutant.t) =
   let outcome =
     Result.map
       (fun specification ->
          if Mutant.is_of_checking m then by_verdicts installation specification Small_programs.verdicts
          else if Mutant.is_of_abstract m then by_theorems installation specification
          else if Mutant.is_of_refinement m then by_refinement installation specification batches
+         else if Mutant.is_of_time m then by_dates installation specification dated
          else by_graphs installation specification batches)
       (applied m)
   in
@@ -69,13 +73,13 @@ let look installation batches (m : Mutant.t) =
   | Ok Unnoticed -> Printf.printf "%s: NOT NOTICED\n%!" m.name; false
   | Ok (Noticed_by what) -> Printf.printf "%s: noticed by %s\n%!" m.name what; true
 
-let run installation ~only ~limit ~batch ~small ~random =
+let run installation ~only ~limit ~batch ~small ~random ~dated =
   let by_states a b = Int.compare (Batch.states a) (Batch.states b) in
   let small = List.stable_sort by_states (Comparison.prepare ~limit small) in
   let random = Comparison.prepare ~limit random in
   Printf.printf "%d small programs, %d random ones\n%!" (List.length small) (List.length random);
   let batches = Comparison.batches batch small @ Comparison.batches batch random in
-  let noticed = Parallel.map (look installation batches) (Mutant.about only) in
+  let noticed = Parallel.map (look installation ~dated batches) (Mutant.about only) in
   let count = List.length (List.filter Fun.id noticed) in
   Printf.printf "%d of %d mistakes were noticed\n" count (List.length noticed);
   count = List.length noticed

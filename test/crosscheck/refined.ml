@@ -1,27 +1,13 @@
-open Dolphin_tlc
-
-let last_state steps = match List.rev steps with (s : Outcome.step) :: _ -> s.state | [] -> "the initial state"
-
-let judge (o : Outcome.t) =
-  match o.verdict with
-  | Holds -> Ok ()
-  | Violated { violation = Invariant name | Property name; steps; _ } ->
-    Error (Printf.sprintf "%s does not hold:\n%s" name (last_state steps))
-  | Violated { violation = Temporal | Deadlock | Unnamed; steps; _ } -> Error (last_state steps)
-  | Unfinished -> Error "TLC did not come to its end"
-  | Gave_up why -> Error why
-  | Failed lines -> Error (String.concat "\n" lines)
-
 let theorems installation specification =
   let abstract = List.filter (fun (name, _) -> name = "Abstract.tla") specification in
-  judge
+  Tlc_run.judge
     (Tlc_run.outcome installation ~main:"SmallAbstract" ~configuration:"SmallAbstract.cfg"
        (abstract
         @ [ ("SmallAbstract.tla", Small_abstract.model); ("SmallAbstract.cfg", Small_abstract.configuration) ]))
 
 let programs installation specification prepared =
   Result.bind (Family.files ~specification (List.map Batch.constants prepared)) (fun files ->
-      judge (Tlc_run.outcome installation ~main:Family.refined ~configuration:Family.refinement files))
+      Tlc_run.judge (Tlc_run.outcome installation ~main:Family.refined ~configuration:Family.refinement files))
 
 (* How many programs fail. Of several, each is looked at by itself then. *)
 let rec failures_of installation prepared =

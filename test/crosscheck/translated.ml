@@ -47,14 +47,18 @@ let of_line line : Family.constant option =
 
 let text_of files name = (List.find (fun (f : Model.file) -> f.name = name) files).text
 
-let model (c : Case.t) =
+let model ?times (c : Case.t) =
   let explain = Format.asprintf "%a" (Fmt.list (Dolphin_syntax.Diagnostic.pp ~source:c.source)) in
   Result.map_error explain
-    (Model.of_program ~plans:c.plans ~prompts:c.prompts ~calls:c.calls ~environment:c.environment c.world c.program)
+    (Model.of_program ?times ~plans:c.plans ~prompts:c.prompts ~calls:c.calls ~environment:c.environment c.world
+       c.program)
 
-let of_model files =
-  let program = List.filter_map of_paragraph (paragraphs (text_of files "MC.tla")) in
-  let fixed = List.filter_map of_line (String.split_on_char '\n' (text_of files "MC.cfg")) in
-  program @ fixed
-
+let paragraphs_of files name = List.filter_map of_paragraph (paragraphs (text_of files name))
+let lines_of files name = List.filter_map of_line (String.split_on_char '\n' (text_of files name))
+let of_model files = paragraphs_of files "MC.tla" @ lines_of files "MC.cfg"
 let constants c = Result.map of_model (model c)
+
+let timed_constants times c =
+  let of_model files =
+    paragraphs_of files "MC.tla" @ paragraphs_of files "MCTimed.tla" @ lines_of files "Timed.cfg" in
+  Result.map of_model (model ~times c)

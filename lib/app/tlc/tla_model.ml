@@ -15,7 +15,15 @@ let unfit_replies (program : Program_file.t) (fleet : Fleet_file.t) ~environment
   let refusal (call, why) = Dolphin_syntax.Diagnostic.error (List.assoc call named) why in
   List.map refusal (Model.unfit_replies ~environment ~calls:(calls fleet) world program.program)
 
-let make ~answers ~faults (program : Program_file.t) (fleet : Fleet_file.t) =
+(* So many ticks are looked at: a run may go on for ever. *)
+let horizon = 1_000
+
+let times ~tick ~faults ~plans scenario world : Dolphin_tla.Times.t =
+  let durations = Dolphin_time.Durations.of_scenario scenario in
+  let tick = match tick with Some tick -> tick | None -> Dolphin_tla.Times.tick durations ~faults ~plans world in
+  { durations; tick; horizon }
+
+let make ?tick ~answers ~faults (program : Program_file.t) (fleet : Fleet_file.t) =
   let scenario = fleet.scenario in
   let environment = Scenario_world.environment ~answers ~faults scenario in
   let world = Scenario_world.world scenario in
@@ -24,6 +32,7 @@ let make ~answers ~faults (program : Program_file.t) (fleet : Fleet_file.t) =
   match unfit_replies program fleet ~environment ~world with
   | _ :: _ as found -> Error (Error.Bad_text { source = fleet.source; found })
   | [] -> (
-      match Model.of_program ~plans ~prompts ~calls:(calls fleet) ~environment world program.program with
+      let times = times ~tick ~faults ~plans scenario world in
+      match Model.of_program ~times ~plans ~prompts ~calls:(calls fleet) ~environment world program.program with
       | Ok files -> Ok { files; environment; world }
       | Error found -> Error (Error.Bad_text { source = program.source; found }))

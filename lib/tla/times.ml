@@ -1,0 +1,64 @@
+open Dolphin_semantics
+module Bounds = Dolphin_time.Bounds
+module Durations = Dolphin_time.Durations
+module Faults = Dolphin_environment.Faults
+
+type t = { durations : Durations.t; tick : int; horizon : int }
+
+(* A name that no program has. *)
+let nobody = "\000"
+
+let by_name (durations : Durations.t) v name =
+  durations.task v (durations.place v) { name; plan = None; task_site = Fault.unknown_site }
+
+let ids world = List.map (fun (s : World.vehicle_state) -> s.id) (World.vehicles world)
+
+let rec divisor a b = if b = 0 then a else divisor b (a mod b)
+
+let tick (durations : Durations.t) ~(faults : Faults.t) ~plans world =
+  let longest found : Bounds.t -> int = function
+    | Within { least; most } -> divisor (divisor found least) most
+    | Some_time | Never -> found
+  in
+  let if_possible limit bounds found = if Faults.is_possible limit then longest found bounds else found in
+  let of_vehicle found v = List.fold_left (fun found name -> longest found (by_name durations v name)) found plans in
+  let of_plans = List.fold_left of_vehicle 0 (ids world) in
+  match if_possible faults.join durations.announced (if_possible faults.loss durations.silence of_plans) with
+  | 0 -> 1_000
+  | n -> n
+
+let too_long = {|Assert(FALSE, "a time of more than 24 days, in milliseconds, is too large for TLC")|}
+let milliseconds n : Tla.t = if n > Tla.greatest then Name too_long else Integer n
+
+let bounds : Bounds.t -> Tla.t = function
+  | Within { least; most } -> Tuple [ milliseconds least; milliseconds most ]
+  | Some_time -> Tuple [ Integer 0; Integer (-1) ]
+  | Never -> Tuple []
+
+(* What holds for most comes last. *)
+let cases clauses usual =
+  match List.filter (fun (_, value) -> value <> usual) clauses with
+  | [] -> Format.asprintf "%a" Tla.pp usual
+  | clauses ->
+    let clause (condition, value) = Format.asprintf "%s -> %a" condition Tla.pp value in
+    Format.asprintf "CASE %s\n    [] OTHER -> %a" (String.concat "\n    [] " (List.map clause clauses)) Tla.pp usual
+
+let lasts t plans world =
+  let of_plan v name =
+    let text x = Format.asprintf "%a" Tla.pp (Tla.String x) in
+    (Printf.sprintf "v = %s /\\ p = %s" (text v) (text name), bounds (by_name t.durations v name))
+  in
+  let clauses = List.concat_map (fun v -> List.map (of_plan v) plans) (ids world) in
+  cases clauses (match ids world with v :: _ -> bounds (by_name t.durations v nobody) | [] -> bounds Some_time)
+
+let posts t keys =
+  let of_key k = (Format.asprintf "k = %a" Tla.pp (Tla.String k), bounds (t.durations.posted k)) in
+  cases (List.map of_key keys) (bounds Some_time)
+
+let definitions t ~plans ~keys world = [ ("Lasts(v, p)", lasts t plans world); ("Posts(k)", posts t keys) ]
+
+(* Whole numbers: the simulator's time-out, and that of links. *)
+let values t =
+  let exactly : Bounds.t -> int = function Within { most; _ } -> min most Tla.greatest | Some_time | Never -> 0 in
+  [ ("TickLength", t.tick); ("Announced", exactly t.durations.announced); ("Silence", exactly t.durations.silence);
+    ("Horizon", t.horizon) ]

@@ -1,0 +1,22 @@
+(** How long what a program waits for takes, as constants of [spec/Timed.tla]. *)
+
+open Dolphin_semantics
+module Durations = Dolphin_time.Durations
+
+type t = {
+  durations : Durations.t;
+  tick : int;  (** in milliseconds *)
+  horizon : int;  (** so many ticks are looked at *)
+}
+
+val tick : Durations.t -> faults:Dolphin_environment.Faults.t -> plans:string list -> World.t -> int
+(** [tick d ~faults ~plans w] is the longest tick, in milliseconds, of which all that [plans] take on the vehicles of
+    [w] is a whole number, and how long links may be silent and picks wait, if [faults] may make them; a second, if
+    there is no such time. *)
+
+val definitions : t -> plans:string list -> keys:string list -> World.t -> (string * string) list
+(** [definitions t ~plans ~keys w] is the constants with parameters: for each its name with its parameters, and what it
+    is. A plan that is none of [plans] takes what one takes that nobody has heard of; [keys] are those of inputs. *)
+
+val values : t -> (string * int) list
+(** The constants that are numbers. *)

@@ -31,17 +31,18 @@ let extent region =
   unit *. List.fold_left Float.max 0. widths
 
 (* Two points for a strip, and those on the way to the next one. *)
-let rec points parts ~turn = function
+let rec points parts tours ~turn = function
   | [] -> []
   | (strip : Tour.strip) :: rest ->
     let part = parts.(strip.part) in
     let left = (part.Bands.left -. turn, part.height) and right = (part.right +. turn, part.height) in
-    let between = match rest with next :: _ -> Tour.way parts strip next | [] -> [] in
-    (if strip.rightwards then [ left; right ] else [ right; left ]) @ between @ points parts ~turn rest
+    let between = match rest with next :: _ -> Tour.way tours strip next | [] -> [] in
+    (if strip.rightwards then [ left; right ] else [ right; left ]) @ between @ points parts tours ~turn rest
 
-type found = { angle : float; way : (float * float) list; length : float }
+(* Strips at an angle; [about] is how long a way along them is if each step to the next one is as short as it can be. *)
+type strips = { angle : float; parts : Bands.part array; about : float }
 
-let along region settings angle =
+let strips region settings angle =
   match Slabs.make ~angle region with
   | None -> None
   | Some slabs ->
@@ -50,11 +51,31 @@ let along region settings angle =
     if high /. step > float_of_int Area.most_points then None
     else
       let parts = Bands.make slabs ~most:step in
+      let add sum (part : Bands.part) = sum +. (part.right -. part.left) +. step in
       if parts = [||] || 2 * Array.length parts > Area.most_points then None
-      else
-        let tour = Tour.shortest parts in
-        let way = points parts ~turn:(settings.turn /. unit) tour in
-        if List.length way > Area.most_points then None else Some { angle; way; length = Tour.length parts tour }
+      else Some { angle; parts; about = Array.fold_left add 0. parts }
+
+type found = { angle : float; way : (float * float) list; length : float }
+
+let along settings ({ angle; parts; _ } : strips) =
+  let tours = Tour.make parts in
+  let tour = Tour.shortest tours in
+  let way = points parts tours ~turn:(settings.turn /. unit) tour in
+  if List.length way > Area.most_points then None else Some { angle; way; length = Tour.length tours tour }
+
+(* Tours take most of the time: where there are many strips, only those of the bearings that promise most are tried. *)
+let most_strips = 400
+
+let promising region (all : strips list) =
+  if not (Division.is_large region) then all
+  else
+    let sorted = List.stable_sort (fun (a : strips) b -> Float.compare a.about b.about) all in
+    let rec take count = function
+      | (x : strips) :: rest when count = 0 || count + Array.length x.parts <= most_strips ->
+        x :: take (count + Array.length x.parts) rest
+      | _ :: _ | [] -> []
+    in
+    take 0 sorted
 
 let angles region = function
   | Some bearing -> [ Angle.radians (90. -. bearing) ]
@@ -67,7 +88,8 @@ let points settings area =
   let across = extent region in
   if settings.spacing > across then Error (Wide { spacing = settings.spacing; across })
   else
-    let found = List.filter_map (along region settings) (angles region settings.bearing) in
+    let all = List.filter_map (strips region settings) (angles region settings.bearing) in
+    let found = List.filter_map (along settings) (promising region all) in
     match List.stable_sort (fun a b -> Float.compare a.length b.length) found with
     | [] -> Error (Area Intricate)
     | { angle; way; _ } :: _ ->

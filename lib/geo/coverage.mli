@@ -24,7 +24,8 @@ val points : settings -> Area.t -> (Position.t list, error) result
     - a way from strip to strip, without turns, is at most [1.5 * spacing] away from a connected area.
 
     Up to a thousandth of [spacing], and a millimetre in 2 km as on any {!Plane}. For their order see {!Tour.shortest}.
-    Bearings that are tried are 12, and those of the 4 longest sides; 4 and 2 of areas with more than 300 corners. At
+    Bearings that are tried are 12, and those of the 4 longest sides; 4 and 2 of areas with more than 300 corners, and
+    of these, if they come to many strips, those with the least to go along strips. At
     most {!Area.most_points}, else [Error (Area Intricate)]. *)
 
 val most_overlap : float

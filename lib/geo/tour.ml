@@ -2,6 +2,11 @@ open Bands
 
 type strip = { part : int; rightwards : bool }
 
+(* Ways are asked for many times: by each tour that is tried, for its length, and for its points. *)
+type t = { parts : part array; known : (strip * strip, (float * float) list) Hashtbl.t }
+
+let make parts = { parts; known = Hashtbl.create 256 }
+
 let starts parts s = if s.rightwards then parts.(s.part).left else parts.(s.part).right
 let ends parts s = if s.rightwards then parts.(s.part).right else parts.(s.part).left
 let long part = part.right -. part.left
@@ -66,28 +71,36 @@ let reach_of parts start =
 let neighbours parts a b =
   a.part = b.part || List.mem b.part parts.(a.part).upper || List.mem b.part parts.(a.part).lower
 
-let way parts a b =
+let found_way parts a b =
+  let reach = unknown parts in
+  explore parts reach (a.part, ends parts a) (fun part _ -> part <> b.part);
+  let rec back part points =
+    match reach.before.(part) with
+    | -1 -> points
+    | p when p = a.part -> points
+    | p -> back p ((reach.at.(p), parts.(p).height) :: points)
+  in
+  back b.part []
+
+let way { parts; known } a b =
   if neighbours parts a b then []
   else
-    let reach = unknown parts in
-    explore parts reach (a.part, ends parts a) (fun part _ -> part <> b.part);
-    let rec back part points =
-      match reach.before.(part) with
-      | -1 -> points
-      | p when p = a.part -> points
-      | p -> back p ((reach.at.(p), parts.(p).height) :: points)
-    in
-    back b.part []
+    match Hashtbl.find_opt known (a, b) with
+    | Some way -> way
+    | None ->
+      let way = found_way parts a b in
+      Hashtbl.add known (a, b) way;
+      way
 
-let gap parts a b =
+let gap ({ parts; _ } as t) a b =
   let x = ends parts a and y = parts.(a.part).height in
   let target = (starts parts b, parts.(b.part).height) in
   let add (sum, (x, y)) (x', y') = (sum +. Float.hypot (x' -. x) (y' -. y), (x', y')) in
-  fst (List.fold_left add (0., (x, y)) (way parts a b @ [ target ]))
+  fst (List.fold_left add (0., (x, y)) (way t a b @ [ target ]))
 
-let length parts strips =
+let length ({ parts; _ } as t) strips =
   let rec go = function
-    | a :: (b :: _ as rest) -> long parts.(a.part) +. gap parts a b +. go rest
+    | a :: (b :: _ as rest) -> long parts.(a.part) +. gap t a b +. go rest
     | [ a ] -> long parts.(a.part)
     | [] -> 0.
   in
@@ -95,21 +108,26 @@ let length parts strips =
 
 (* {1 Stacks} *)
 
-(* One of the ways to go along the strips of a stack; its length does not count the strips themselves. *)
-type mode = { stack : int; strips : strip list; first : strip; last : strip; inner : float }
+(* One of the ways to go along the strips of a stack; its length does not count the strips themselves. No two have the
+   same number. *)
+type mode = { number : int; stack : int; strips : strip list; first : strip; last : strip; inner : float }
 
 let rec last = function [ x ] -> x | _ :: rest -> last rest | [] -> invalid_arg "Tour.last"
 
-let mode parts stack strips =
-  let rec inner = function a :: (b :: _ as rest) -> gap parts a b +. inner rest | [ _ ] | [] -> 0. in
-  { stack; strips; first = List.hd strips; last = last strips; inner = inner strips }
+let mode t ~number stack strips =
+  let rec inner = function a :: (b :: _ as rest) -> gap t a b +. inner rest | [ _ ] | [] -> 0. in
+  { number; stack; strips; first = List.hd strips; last = last strips; inner = inner strips }
 
 let there_and_back ~rightwards = List.mapi (fun i part -> { part; rightwards = rightwards = (i mod 2 = 0) })
 
-let modes_of parts stack members =
+(* Of a stack: up or down, to the left or to the right at first. *)
+let most_modes = 4
+
+let modes_of t stack members =
   let orders = match members with [ _ ] -> [ members ] | _ -> [ members; List.rev members ] in
-  let both order = List.map (fun rightwards -> mode parts stack (there_and_back ~rightwards order)) [ true; false ] in
-  Array.of_list (List.concat_map both orders)
+  let both order = List.map (fun rightwards -> there_and_back ~rightwards order) [ true; false ] in
+  let strips = List.concat_map both orders in
+  Array.of_list (List.mapi (fun i strips -> mode t ~number:((most_modes * stack) + i) stack strips) strips)
 
 (* Parts above one another between which there is no choice. *)
 let stacks parts =
@@ -122,19 +140,26 @@ let stacks parts =
 
 (* {1 Orders} *)
 
-let distances parts =
-  let known = Hashtbl.create 64 in
+(* From the end of one mode of [count] stacks to the beginning of another. *)
+let distances parts ~count =
+  let reaches = Hashtbl.create 64 and known = Array.make (most_modes * count) [||] in
+  let reach from =
+    match Hashtbl.find_opt reaches from with
+    | Some reach -> reach
+    | None ->
+      let reach = reach_of parts from in
+      Hashtbl.add reaches from reach;
+      reach
+  in
   fun a b ->
-    let from = (a.last.part, ends parts a.last) in
-    let reach =
-      match Hashtbl.find_opt known from with
-      | Some reach -> reach
-      | None ->
-        let reach = reach_of parts from in
-        Hashtbl.add known from reach;
-        reach
-    in
-    cost_to parts reach from (b.first.part, starts parts b.first)
+    if known.(a.number) = [||] then known.(a.number) <- Array.make (most_modes * count) nan;
+    let cost = known.(a.number).(b.number) in
+    if not (Float.is_nan cost) then cost
+    else
+      let from = (a.last.part, ends parts a.last) in
+      let cost = cost_to parts (reach from) from (b.first.part, starts parts b.first) in
+      known.(a.number).(b.number) <- cost;
+      cost
 
 let most_exact = 8
 
@@ -241,22 +266,23 @@ let most_starts = 8
 (* Of many strips fewer tours are tried: the effort stays the same. *)
 let starts_for parts = Int.max 1 (Int.min most_starts (1_000 / Array.length parts))
 
-let tried parts modes =
+let tried ({ parts; _ } as t) modes =
   let n = Array.length modes in
   let starts = Int.min n (starts_for parts) in
   let first = List.init starts (fun i -> modes.(i * n / starts)) in
   let first = if starts = 1 then [ modes.(0).(0) ] else List.concat_map Array.to_list first in
   let tours = List.map (greedy parts modes) first in
-  let distance = distances parts in
+  let distance = distances parts ~count:n in
   let tours = if n <= most_moved then List.map (improved distance modes) tours else tours in
-  let length tour = length parts (List.concat_map (fun mode -> mode.strips) tour) in
+  let length tour = length t (List.concat_map (fun mode -> mode.strips) tour) in
   let lengths = List.map (fun tour -> (length tour, tour)) tours in
   snd (List.hd (List.stable_sort (fun (a, _) (b, _) -> Float.compare a b) lengths))
 
-let shortest parts =
+let shortest ({ parts; _ } as t) =
   let stacks =
     if Array.length parts <= most_exact then List.init (Array.length parts) (fun i -> [ i ]) else stacks parts
   in
-  let modes = Array.of_list (List.mapi (modes_of parts) (List.rev stacks)) in
-  let tour = if Array.length modes <= most_exact then exact (distances parts) modes else tried parts modes in
+  let modes = Array.of_list (List.mapi (modes_of t) (List.rev stacks)) in
+  let count = Array.length modes in
+  let tour = if count <= most_exact then exact (distances parts ~count) modes else tried t modes in
   List.concat_map (fun mode -> mode.strips) tour

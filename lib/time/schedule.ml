@@ -1,78 +1,58 @@
 type link = { pending : Timed.pending; from : int; until : int; lasts : int }
 type t = { dates : int array; chain : link list }
 
-(* That the date of step [later] is at most [by] after that of step [sooner]; [by] may be negative. *)
-type constraint_ = { sooner : int; later : int; by : int; due_to : Timed.pending option }
-
 let find item (s : Timed.state) = List.find_opt (fun (p : Timed.pending) -> p.item = item) s.pending
 
-(* The constraints of step [k], taken from [s], where [begun] says with which step each item began. *)
-let constraints options k (s : Timed.state) begun (step : Timed.step) =
-  let at_most item most =
-    { sooner = List.assoc item begun; later = k; by = most; due_to = find item s } in
-  let at_least item least =
-    { sooner = k; later = List.assoc item begun; by = -least; due_to = find item s } in
-  let order = { sooner = k; later = k - 1; by = 0; due_to = None } in
-  if step.urgent then [ order; { sooner = k - 1; later = k; by = 0; due_to = None } ]
+(* The bounds of step [k], taken from [s], where [begun] says with which step each item began. *)
+let bounds_of steps_of k (s : Timed.state) begun (step : Timed.step) =
+  let from item = List.assoc item begun and due_to item = find item s in
+  let at_most (item, most) = Dates.at_most ?due_to:(due_to item) k ~after:(from item) most in
+  let order = Dates.at_least k ~after:(k - 1) 0 in
+  if step.urgent then [ order; Dates.at_most k ~after:(k - 1) 0 ]
   else
     let due =
       match step.due with
-      | Some (item, Within { least; most }) -> [ at_least item least; at_most item most ]
+      | Some (item, Within { least; most }) ->
+        [ Dates.at_least ?due_to:(due_to item) k ~after:(from item) least; at_most (item, most) ]
       | Some (_, (Some_time | Never)) | None -> []
     in
-    (order :: due) @ List.map (fun (item, most) -> at_most item most) (Timed.holds_up (Timed.steps options s))
+    (order :: due) @ List.map at_most (Timed.holds_up (steps_of s))
+
+type walk = { state : Timed.state; begun : (Timed.item * int) list }
+
+let set_out (start : Timed.state) =
+  { state = start; begun = List.map (fun (p : Timed.pending) -> (p.item, 0)) start.pending }
+
+let walk w k (step : Timed.step) =
+  let still (p : Timed.pending) =
+    (p.item, if List.mem p.item step.fresh then k else List.assoc p.item w.begun) in
+  { state = step.next; begun = List.map still step.next.pending }
+
+let bounds steps_of w k step = bounds_of steps_of k w.state w.begun step
 
 let all options start steps =
-  let add (k, s, begun, found) (step : Timed.step) =
-    let found = constraints options k s begun step @ found in
-    let still (p : Timed.pending) =
-      (p.item, if List.mem p.item step.fresh then k else List.assoc p.item begun)
-    in
-    (k + 1, step.next, List.map still step.next.pending, found)
-  in
-  let begun = List.map (fun (p : Timed.pending) -> (p.item, 0)) start.Timed.pending in
-  let _, _, _, found = List.fold_left add (1, start, begun, []) steps in
-  found
-
-(* Shortest ways from 0 by [constraints], each with the last constraint of one (Bellman and Ford). The run exists, so no
-   way around is negative. *)
-let shortest n constraints =
-  let distance = Array.make (n + 1) max_int and last = Array.make (n + 1) None in
-  distance.(0) <- 0;
-  let rec go () =
-    let relax changed c =
-      if distance.(c.sooner) <> max_int && distance.(c.sooner) + c.by < distance.(c.later) then begin
-        distance.(c.later) <- distance.(c.sooner) + c.by;
-        last.(c.later) <- Some c;
-        true
-      end
-      else changed
-    in
-    if List.fold_left relax false constraints then go ()
-  in
-  go ();
-  (distance, last)
+  let add (k, w, found) step = (k + 1, walk w k step, bounds (Timed.steps options) w k step @ found) in
+  let _, _, found = List.fold_left add (1, set_out start, []) steps in
+  List.rev found
 
 let chain last n =
   let rec back links k =
     match last.(k) with
     | None -> links
-    | Some { sooner; by; due_to = Some pending; later } when by > 0 ->
+    | Some { Dates.sooner; by; due_to = Some pending; later } when by > 0 ->
       back ({ pending; from = sooner; until = later; lasts = by } :: links) sooner
     | Some { sooner; _ } -> back links sooner
   in
   back [] n
 
+let all_known dates = if Array.for_all Option.is_some dates then Some (Array.map Option.get dates) else None
+let of_steps n dates = Array.sub dates 1 n
+
 let make (goal : Timed_system.goal) options start steps =
   let n = List.length steps in
-  let constraints = List.rev (all options start steps) in
+  let bounds = all options start steps in
   match goal with
   | Latest ->
-    let distance, last = shortest n constraints in
-    if Array.exists (fun d -> d = max_int) distance then None
-    else Some { dates = Array.sub distance 1 n; chain = chain last n }
-  | Earliest ->
-    (* Backwards in time. *)
-    let turned = List.map (fun c -> { c with sooner = c.later; later = c.sooner }) constraints in
-    let distance, _ = shortest n turned in
-    Some { dates = Array.init n (fun i -> -distance.(i + 1)); chain = [] }
+    let dates, last = Dates.latest n bounds in
+    Option.map (fun dates -> { dates = of_steps n dates; chain = chain last n }) (all_known dates)
+  | Earliest -> Option.map (fun dates -> { dates = of_steps n dates; chain = [] }) (all_known (Dates.earliest n bounds))

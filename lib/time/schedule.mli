@@ -16,3 +16,16 @@ type t = {
 val make : Timed_system.goal -> Timed.options -> Timed.state -> Timed.step list -> t option
 (** [make goal o s steps] is the dates of the run [steps] from the initial state [s]. [None] if its end has no latest
     date. *)
+
+(** {1:bounds Bounds} *)
+
+type walk
+(** How far a run is, and with which step what is awaited began. *)
+
+val set_out : Timed.state -> walk
+val walk : walk -> int -> Timed.step -> walk
+(** [walk w k s] is [w] after step [s], number [k] of the run. *)
+
+val bounds : (Timed.state -> Timed.step list) -> walk -> int -> Timed.step -> Timed.pending Dates.bound list
+(** [bounds steps w k s] is those of the date of [s], number [k] of a run that is as far as [w]; [steps] is what may
+    happen in a state. *)

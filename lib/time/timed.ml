@@ -233,7 +233,7 @@ let is_possible step = match step.due with Some (_, Never) -> false | Some (_, (
 let starts_without_moving step =
   match step.transition.effects with [ Start (_, p) ] -> Durations.moves p = None | _ -> false
 
-let steps o s =
+let all_steps o s =
   let choices =
     Environment.choices_on o.environment o.program o.world s.outside s.configuration
     |> Seq.map (step o s) |> Seq.filter is_possible |> List.of_seq
@@ -242,8 +242,13 @@ let steps o s =
   | [] -> choices
   | _ when List.exists (fun step -> comes_late step.transition) choices ->
     List.map (fun step -> { step with urgent = false }) choices
-  | urgent -> (
-      match List.find_opt starts_without_moving urgent with Some start -> [ start ] | None -> urgent)
+  | urgent -> urgent
+
+let steps o s =
+  let steps = all_steps o s in
+  match List.find_opt (fun step -> step.urgent && starts_without_moving step) steps with
+  | Some start -> [ start ]
+  | None -> steps
 
 let holds_up steps =
   let most : Bounds.t -> int = function Within { most; _ } -> most | Some_time | Never -> max_int in

@@ -57,6 +57,9 @@ val steps : options -> state -> step list
     matters where its vehicle is: docs/time.md says why that is enough.
     @raise Environment.Unclear *)
 
+val all_steps : options -> state -> step list
+(** Likewise, with each [START]. *)
+
 val taken : options -> state -> on:Transition.event option -> Transition.t -> step
 (** [taken o s ~on t] is the transition [t] of [s] as a step, whether or not it is among {!steps}; what the outside
     remembers stays as it is. *)

@@ -1,37 +1,32 @@
 open Dolphin_semantics
 module System = Dolphin_checker.System
-module Limits = Dolphin_checker.Limits
 
 type goal = Latest | Earliest
 type via = unit
 type property = unit
 type date = At of int | Unbounded
-type moment = Starts | Ends | Fails | Stopped
-type task = { name : string; vehicle : Core.vehicle; site : Core.site }
+type moment = Happening.moment = Starts | Ends | Fails | Stopped
+type task = Happening.task = { name : string; vehicle : Core.vehicle; site : Core.site }
 type ending = Completed | Halted | Failed | Interrupted
 type cycle = { from : int; last : int; back : Timed.step; in_no_time : bool }
 
-(* A state without its clocks, with what follows from it alone, and the numbers of the states with clocks. *)
-type place = {
-  state : Timed.state;
-  steps : Timed.step list Lazy.t;
-  clocks : (Timed.item * int) list;
-  mutable here : int list;
-}
+exception Broken = Timed_place.Broken
 
-type node = { place : place; zone : Zone.t; parent : int; step : Timed.step option }
+type reduction = Timed_place.reduction = Nothing | Inert_ends | Inert_ends_and_likeness
 
-module Table = Hashtbl.Make (struct
-    type t = Timed.state
+type move =
+  | Step of { step : Timed.step; begun : Inert.item list; last : Timed.item option; items : Timed.item list }
+  | Rest of { steps : Timed.step list; later : bool }
 
-    let equal = Timed.equal
-    let hash = Timed.hash
-  end)
+type arrival = { move : move; into : Timed.state; items : Timed.item list; execution : Likeness.execution option }
+
+type node = { place : Timed_place.t; zone : Zone.t; parent : int; move : move option }
 
 type t = {
   goal : goal;
   options : Timed.options;
-  places : place Table.t;
+  places : Timed_place.places;
+  mutable reduced : bool;  (* whether anything was inert, or states might be alike *)
   mutable nodes : node array;
   mutable count : int;
   mutable reserved : int;
@@ -41,73 +36,9 @@ type t = {
   mutable cycle : cycle option;
   mutable stuck : int option;
   mutable unknown : Timed.pending list;
-  mutable deadlines : Core.site list;  (* of [within], latest first *)
-  missed : (Core.site, date * int * Timed.step) Hashtbl.t;
+  deadlines : Core.site list ref;  (* of [within], latest first *)
+  missed : (Core.site, date * int * Timed_place.arrow) Hashtbl.t;
 }
-
-(* {1 Places} *)
-
-let clocks (s : Timed.state) =
-  let has_clock (p : Timed.pending) = match p.bounds with Within _ -> true | Some_time | Never -> false in
-  List.mapi (fun i (p : Timed.pending) -> (p.item, i + 1)) (List.filter has_clock s.pending)
-
-(* The [within] that have begun in a state, each with its timer. *)
-let deadlines_of (s : Timed.state) =
-  let deadline found (r : Residual.t) =
-    match r with During { on_cut = Fails site; timer; started = true; _ } -> (timer, site) :: found | _ -> found in
-  match s.configuration.control with
-  | Executing (_, r) -> Residual.fold_active deadline [] r
-  | Script _ | Waiting _ | Ended _ -> []
-
-let place t state =
-  match Table.find_opt t.places state with
-  | Some place -> place
-  | None ->
-    let note (_, site) = if not (List.mem site t.deadlines) then t.deadlines <- site :: t.deadlines in
-    List.iter note (deadlines_of state);
-    let place = { state; steps = lazy (Timed.steps t.options state); clocks = clocks state; here = [] } in
-    Table.add t.places state place;
-    place
-
-let steps t place =
-  match Lazy.force place.steps with
-  | steps -> steps
-  | exception Dolphin_environment.Environment.Unclear fault ->
-    let at = Format.pp_print_option (fun ppf -> Format.fprintf ppf "%a: " Dolphin_syntax.Location.pp) in
-    let why = Format.asprintf "%a%s" at (Fault.location t.options.program fault) fault.message in
-    raise (Limits.Stop (Unsettled why))
-
-(* {1 Zones} *)
-
-let ( let* ) = Option.bind
-
-(* As long as no step is urgent, time passes until something has to happen. *)
-let settled t place zone =
-  let steps = steps t place in
-  let filled = match t.goal with Latest -> Zone.reaching_down | Earliest -> Zone.reaching_up in
-  if steps = [] || List.exists (fun (s : Timed.step) -> s.urgent) steps then Some (filled zone)
-  else
-    let limit zone (item, most) =
-      match List.assoc_opt item place.clocks with
-      | Some clock -> Option.bind zone (Zone.at_most clock most)
-      | None -> zone
-    in
-    Option.map filled (List.fold_left limit (Some (Zone.delay zone)) (Timed.holds_up steps))
-
-(* Those valuations of [zone] in which [step] may be taken. *)
-let enabling place zone (step : Timed.step) =
-  match step.due with
-  | Some (item, Within { least; most }) -> (
-      match List.assoc_opt item place.clocks with
-      | Some clock ->
-        let* zone = Zone.at_least clock least zone in
-        Zone.at_most clock most zone
-      | None -> Some zone)
-  | Some (_, (Some_time | Never)) | None -> Some zone
-
-let rearranged before after (step : Timed.step) zone =
-  let from (item, _) = if List.mem item step.fresh then None else List.assoc_opt item before.clocks in
-  Zone.rearranged (Array.of_list (List.map from after.clocks)) zone
 
 (* {1 What is found} *)
 
@@ -123,7 +54,7 @@ let is_better t a b =
   | Earliest, At m, At n -> m < n
   | (Latest | Earliest), _, _ -> false
 
-let note_task t date task moment =
+let note_one t date task moment =
   match Hashtbl.find_opt t.moments (task, moment) with
   | Some known when not (is_better t date known) -> ()
   | Some _ -> Hashtbl.replace t.moments (task, moment) date
@@ -138,33 +69,34 @@ let note_unknown t (s : Timed.state) =
   in
   List.iter note s.pending
 
-let note_step t zone (before : Timed.state) (step : Timed.step) =
-  let tr = step.transition in
-  let running = before.configuration.shared.allocation in
-  let task v (p : Core.platform_task) = { name = p.name; vehicle = v; site = p.task_site } in
-  let note v moment =
-    Option.iter (fun p -> note_task t (date t zone) (task v p) moment) (Vehicle_map.find_opt v running)
-  in
-  (match tr.label with Done (v, _) -> note v Ends | Fail (v, _, _) -> note v Fails | _ -> ());
-  let carry : Effect.t -> unit = function
-    | Start (v, p) -> note_task t (date t zone) (task v p) Starts
-    | Stop v -> note v Stopped
-    | _ -> ()
-  in
-  List.iter carry tr.effects
+(* Of all tasks that automorphisms make of [task]. *)
+let note_task t execution date task moment =
+  match execution with
+  | None -> note_one t date task moment
+  | Some e -> List.iter (fun task -> note_one t date task moment) (Likeness.orbit e task)
 
-(* [step] is taken from state [n]. *)
-let note_missed t n zone (before : Timed.state) (step : Timed.step) =
-  match step.due with
-  | Some (Timer timer, _) when List.mem Rule.Within_cut step.transition.rules ->
-    let date = date t zone in
-    let note site =
-      match Hashtbl.find_opt t.missed site with
-      | Some (known, _, _) when not (is_better t date known) -> ()
-      | Some _ | None -> Hashtbl.replace t.missed site (date, n, step)
-    in
-    Option.iter note (List.assoc_opt timer (deadlines_of before))
-  | Some _ | None -> ()
+let note_step t execution zone (before : Timed.state) (step : Timed.step) =
+  let date = date t zone in
+  List.iter (fun (moment, task) -> note_task t execution date task moment) (Happening.tasks before step)
+
+(* What is inert ends within its bounds, whatever else happens. *)
+let note_begun t execution zone next begun =
+  let after ms date = match date with At n -> At (n + ms) | Unbounded -> Unbounded in
+  let note (i : Inert.item) =
+    let date = after (match t.goal with Latest -> i.most | Earliest -> i.least) (date t zone) in
+    Option.iter (fun task -> note_task t execution date task Ends) (Happening.ending next i)
+  in
+  List.iter note begun
+
+(* [arrow] is taken from state [n]. *)
+let note_missed t n zone before (arrow : Timed_place.arrow) =
+  let date = date t zone in
+  let note site =
+    match Hashtbl.find_opt t.missed site with
+    | Some (known, _, _) when not (is_better t date known) -> ()
+    | Some _ | None -> Hashtbl.replace t.missed site (date, n, arrow)
+  in
+  Option.iter note (Happening.missed before arrow.step)
 
 let ending : Configuration.ending -> ending = function
   | Completed -> Completed
@@ -192,14 +124,14 @@ let add t node =
   let number = t.count in
   t.nodes.(number) <- node;
   t.count <- number + 1;
-  node.place.here <- number :: node.place.here;
+  Timed_place.add node.place number;
   note_end t number node;
   number
 
 let rec is_before t m n = m = n || (n > m && is_before t m t.nodes.(n).parent)
 
 (* A step from state [n] leads back to where an earlier state of the run to it was. *)
-let find_cycle t n step place zone =
+let find_cycle t n move (place : Timed_place.t) zone =
   let comes_back m =
     let by = Zone.delayed t.nodes.(m).zone zone in
     if by >= 0 && is_before t m n then Some (m, by) else None
@@ -209,26 +141,31 @@ let find_cycle t n step place zone =
   | Latest ->
     let found = List.find_map comes_back place.here in
     let note (m, by) =
+      if t.reduced then raise Broken;
       let known = match t.cycle with Some c -> not c.in_no_time || by = 0 | None -> false in
-      if not known then t.cycle <- Some { from = m; last = n; back = step; in_no_time = by = 0 }
+      match move with
+      | Step { step; _ } when not known -> t.cycle <- Some { from = m; last = n; back = step; in_no_time = by = 0 }
+      | Step _ | Rest _ -> ()
     in
     Option.iter note found;
     found
 
-(* The number of the state that stands for [place] with [zone], to which [step] leads from state [n]. *)
-let arrive t n step place zone =
+(* The number of the state that stands for [place] with [zone], to which [move] leads from state [n]. *)
+let arrive t n move (place : Timed_place.t) zone =
   let including () = List.find_opt (fun m -> Zone.subset zone t.nodes.(m).zone) place.here in
-  match find_cycle t n step place zone with
+  match find_cycle t n move place zone with
   | Some (m, by) when by > 0 && Zone.latest_date t.nodes.(m).zone <> None ->
     (* Once more and once more: at any later date. *)
     let zone = Zone.at_any_date t.nodes.(m).zone in
     (match List.find_opt (fun k -> Zone.subset zone t.nodes.(k).zone) place.here with
      | Some k -> k
-     | None -> add t { place; zone; parent = n; step = Some step })
+     | None -> add t { place; zone; parent = n; move = Some move })
   | Some _ | None -> (
       match including () with
       | Some m -> m
-      | None -> add t { place; zone; parent = n; step = Some step })
+      | None -> add t { place; zone; parent = n; move = Some move })
+
+let ( let* ) = Option.bind
 
 (* {1 The system} *)
 
@@ -242,41 +179,92 @@ let widen t ~reserved =
   t.reserved <- reserved;
   fun old fresh -> fresh.(0) <- (old.(0) lsr before) lsl reserved
 
-let create goal options =
-  { goal; options; places = Table.create 1_000; nodes = [||]; count = 0; reserved = 0; moments = Hashtbl.create 100;
-    tasks = []; endings = []; cycle = None; stuck = None; unknown = []; deadlines = [];
-    missed = Hashtbl.create 8 }
+let create ?(reduction = Inert_ends_and_likeness) goal options =
+  let filled = match goal with Latest -> Zone.reaching_down | Earliest -> Zone.reaching_up in
+  let deadlines = ref [] in
+  let note s =
+    let add (_, site) = if not (List.mem site !deadlines) then deadlines := site :: !deadlines in
+    List.iter add (Happening.deadlines s)
+  in
+  let places = Timed_place.places reduction options ~filled ~note in
+  { goal; options; places; reduced = false; nodes = [||]; count = 0;
+    reserved = 0; moments = Hashtbl.create 100; tasks = []; endings = []; cycle = None; stuck = None; unknown = [];
+    deadlines; missed = Hashtbl.create 8 }
 
 let visit t (v : via System.visitor) n = v.visit [| n lsl t.reserved |] 0 ()
 
 let initial t v =
   if t.count = 0 then begin
-    let place = place t (Timed.initial t.options) in
-    match settled t place Zone.(rearranged (Array.make (List.length place.clocks) None) start) with
-    | Some zone -> ignore (add t { place; zone; parent = -1; step = None })
+    let state = Timed.initial t.options in
+    let fresh = List.map (fun (p : Timed.pending) -> p.item) state.pending in
+    let place, _, zone =
+      Timed_place.reached t.places ~clocks:[] ~rest_clock:None ~fresh None state [] No_rest Zone.start in
+    match Timed_place.settled t.places place zone with
+    | Some zone -> ignore (add t { place; zone; parent = -1; move = None })
     | None -> assert false  (* nothing is over at the start *)
   end;
   visit t v 0
 
+let note_reduced t =
+  if t.cycle <> None then raise Broken;
+  t.reduced <- true
+
+(* The states that [arrow] leads to from those valuations of state [n] that are in [zone]. *)
+let take t n (before : Timed_place.t) zone ({ step; inert; begun } as arrow : Timed_place.arrow) =
+  match Timed_place.enabling before zone step with
+  | None -> []
+  | Some zone ->
+    let execution = Timed_place.execution_after t.places before step.next in
+    note_step t before.execution zone before.state step;
+    note_missed t n zone before.state arrow;
+    note_begun t execution zone step.next begun;
+    if begun <> [] || execution <> None then note_reduced t;
+    let into (last, rest) =
+      let place, items, zone =
+        let { Timed_place.clocks; rest_clock; _ } = before in
+        Timed_place.reached t.places ~clocks ~rest_clock ~fresh:step.fresh execution step.next inert rest zone
+      in
+      let* zone = Timed_place.with_begun place begun last zone in
+      let* zone = Timed_place.settled t.places place zone in
+      Some (arrive t n (Step { step; begun; last; items }) place zone)
+    in
+    List.filter_map into (Timed_place.lasts before begun)
+
+(* The states that the end of the rest leads to. *)
+let end_rest t n (before : Timed_place.t) zone =
+  match before.rest, before.rest_clock with
+  | Said, Some clock ->
+    let steps = Timed_place.ends_of_rest t.places before.state in
+    let last = List.nth steps (List.length steps - 1) in
+    Timed_place.check_left t.places before last.next;
+    let into (zone, later) =
+      let place, _, zone =
+        Timed_place.reached t.places ~clocks:[] ~rest_clock:None ~fresh:last.fresh None last.next [] No_rest zone in
+      let* zone = Timed_place.settled t.places place zone in
+      Some (arrive t n (Rest { steps; later }) place zone)
+    in
+    let ends = [ Timed_place.ends_now clock zone; Timed_place.ends_later clock zone ] in
+    List.filter_map (fun found -> Option.bind found into) ends
+  | (No_rest | Unsaid | Said), _ -> []
+
 let expand t key (v : via System.visitor) =
   let n = number t key.(0) in
   let { place = before; zone; _ } = t.nodes.(n) in
-  let steps = steps t before in
+  let visited ns = List.iter (visit t v) ns; List.length ns in
   note_unknown t before.state;
-  if t.stuck = None && Timed.is_stuck t.options before.state steps then t.stuck <- Some n;
-  let take taken (step : Timed.step) =
-    v.tick ();
-    match enabling before zone step with
-    | None -> taken
-    | Some zone -> (
-        note_step t zone before.state step;
-        note_missed t n zone before.state step;
-        let place = place t step.next in
-        match settled t place (rearranged before place step zone) with
-        | Some zone -> visit t v (arrive t n step place zone); taken + 1
-        | None -> taken)
-  in
-  List.fold_left take 0 steps
+  if Inert.is_rest before.state before.inert then visited (end_rest t n before zone)
+  else begin
+    let arrows = Timed_place.arrows t.places before in
+    if Timed.is_stuck t.options before.state (Timed_place.steps t.places before) then begin
+      if before.inert <> [] then raise Broken;
+      if t.stuck = None then t.stuck <- Some n
+    end;
+    let follow taken arrow =
+      v.tick ();
+      taken + visited (take t n before zone arrow)
+    in
+    List.fold_left follow 0 arrows
+  end
 
 let broken _ _ = None
 let is_end _ _ = true
@@ -298,17 +286,26 @@ let cycle t = t.cycle
 let stuck t = t.stuck
 let unknown t = List.rev t.unknown
 
-let run t n =
-  let rec back steps n =
-    match t.nodes.(n) with { step = Some step; parent; _ } -> back (step :: steps) parent | { step = None; _ } -> steps
+let path t n =
+  let rec back found n =
+    match t.nodes.(n) with
+    | { move = Some move; parent; place = { state; items; execution; _ }; _ } ->
+      back ({ move; into = state; items; execution } :: found) parent
+    | { move = None; _ } -> found
   in
   back [] n
 
+let arrival t n ({ step; begun; inert = _ } : Timed_place.arrow) =
+  let execution = Timed_place.execution_after t.places t.nodes.(n).place step.next in
+  { move = Step { step; begun; last = None; items = [] }; into = step.next; items = []; execution }
+
 let deadlines t =
   let missed site =
-    let run (date, n, step) = (date, run t n @ [ step ]) in
-    (site, Option.map run (Hashtbl.find_opt t.missed site))
+    let path (date, n, arrow) = (date, path t n @ [ arrival t n arrow ]) in
+    (site, Option.map path (Hashtbl.find_opt t.missed site))
   in
-  List.rev_map missed t.deadlines
+  List.rev_map missed !(t.deadlines)
 
 let start t = t.nodes.(0).place.state
+let is_reduced t = t.reduced
+let places t = t.places

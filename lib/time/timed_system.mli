@@ -9,7 +9,14 @@ type goal = Latest | Earliest
 
 include Dolphin_checker.System.S with type via = unit and type property = unit
 
-val create : goal -> Timed.options -> t
+exception Broken
+(** Something that was taken for inert is not ({!Inert}), or for alike ({!Likeness}): what was found does not count. *)
+
+(** What is left out: docs/time.md. *)
+type reduction = Timed_place.reduction = Nothing | Inert_ends | Inert_ends_and_likeness
+
+val create : ?reduction:reduction -> goal -> Timed.options -> t
+(** [reduction] is all of it by default. *)
 
 (** {1:dates Dates} *)
 
@@ -17,9 +24,9 @@ val create : goal -> Timed.options -> t
 type date = At of int | Unbounded
 
 (** What happens to a task. *)
-type moment = Starts | Ends | Fails | Stopped
+type moment = Happening.moment = Starts | Ends | Fails | Stopped
 
-type task = { name : string; vehicle : Core.vehicle; site : Core.site }
+type task = Happening.task = { name : string; vehicle : Core.vehicle; site : Core.site }
 
 val tasks : t -> (task * (moment * date) list) list
 (** When the tasks that run in some run do what, at the earliest or at the latest: by the order in which they were
@@ -51,11 +58,37 @@ val unknown : t -> Timed.pending list
 
 (** {1:runs Runs} *)
 
-val run : t -> int -> Timed.step list
-(** [run t n] is the steps of the run to state [n]. *)
+(** How one state leads to another. *)
+type move =
+  | Step of {
+      step : Timed.step;
+      begun : Inert.item list;  (** what is inert from here on *)
+      last : Timed.item option;  (** which of them is the last of the rest to end, if it is one of them *)
+      items : Timed.item list;  (** what is awaited then, in the order of {!Likeness.type-form} *)
+    }
+  | Rest of {
+      steps : Timed.step list;  (** all that is inert ends, in any order *)
+      later : bool;  (** whether at the last end of it, and not at once *)
+    }
 
-val deadlines : t -> (Core.site * (date * Timed.step list) option) list
+(** A move that leads to what the state [into] stands for. *)
+type arrival = {
+  move : move;
+  into : Timed.state;
+  items : Timed.item list;  (** of [into], in that order *)
+  execution : Likeness.execution option;  (** if states that are alike are taken for one *)
+}
+
+val path : t -> int -> arrival list
+(** [path t n] leads to state [n]. *)
+
+val deadlines : t -> (Core.site * (date * arrival list) option) list
 (** The [within] that begin in some run, by their places, each with when it is missed, at the earliest or at the latest,
-    and a run until then; [None]: never. *)
+    and what leads there; [None]: never. *)
 
 val start : t -> Timed.state
+
+val is_reduced : t -> bool
+(** Whether anything was inert, or states might be alike. *)
+
+val places : t -> Timed_place.places

@@ -12,6 +12,8 @@ type run = {
   chain : Schedule.link list;
 }
 
+type reduction = Timed_system.reduction = Nothing | Inert_ends | Inert_ends_and_likeness
+
 type task = Timed_system.task = { name : string; vehicle : Core.vehicle; site : Core.site }
 
 type outcome = {
@@ -25,6 +27,7 @@ type outcome = {
   late : run option;
   failing : run option;
   stopped : Limits.bound option;
+  reduction : Timed_system.reduction;
   states : int;
   depth : int;
   seconds : float;
@@ -42,18 +45,24 @@ let run_of goal options system steps =
   in
   { steps = transitions steps; dates; cycle = []; chain }
 
-let run_to goal options system n = run_of goal options system (Timed_system.run system n)
+let run_along goal options system moves =
+  match Unfold.run system goal options moves with
+  | Some steps -> run_of goal options system steps
+  | None -> raise Timed_system.Broken
+
+let run_to goal options system n = run_along goal options system (Timed_system.path system n)
 
 let rec without n xs = match xs with _ :: rest when n > 0 -> without (n - 1) rest | xs -> xs
 
-let run_around system (c : Timed_system.cycle) =
-  let stem = Timed_system.run system c.from and whole = Timed_system.run system c.last in
+let run_around options system (c : Timed_system.cycle) =
+  let steps n = Option.get (Unfold.run system Latest options (Timed_system.path system n)) in
+  let stem = steps c.from and whole = steps c.last in
   let around = without (List.length stem) whole @ [ c.back ] in
   { steps = transitions stem; dates = []; cycle = transitions around; chain = [] }
 
 let endless options system =
   match Timed_system.cycle system, Timed_system.stuck system with
-  | Some c, _ -> Some (run_around system c, if c.in_no_time then `In_no_time else `Cycle)
+  | Some c, _ -> Some (run_around options system c, if c.in_no_time then `In_no_time else `Cycle)
   | None, Some n -> Some ({ (run_to Latest options system n) with chain = [] }, `Stuck)
   | None, None -> None
 
@@ -86,20 +95,19 @@ let windows early late =
 let deadlines options early late =
   let early = Timed_system.deadlines early in
   let both (site, missed) =
-    let with_earliest (latest, steps) =
+    let with_earliest (latest, moves) =
       match Option.join (List.assoc_opt site early) with
       | Some (earliest, _) ->
-        Option.map (fun window -> (window, run_of Timed_system.Latest options late steps)) (window earliest latest)
+        Option.map (fun window -> (window, run_along Timed_system.Latest options late moves)) (window earliest latest)
       | None -> None
     in
     (site, Option.bind missed with_earliest)
   in
   List.map both (Timed_system.deadlines late)
 
-let run ?deadline limits options =
-  let started = limits.Limits.clock () in
+let find ~(reduction : reduction) ~started ?deadline limits options =
   let search goal phase =
-    let search = Search.create ~phase ~started limits (Timed_system.create goal options) in
+    let search = Search.create ~phase ~started limits (Timed_system.create ~reduction goal options) in
     Search.run search;
     search
   in
@@ -126,10 +134,19 @@ let run ?deadline limits options =
     late = (match last with Some (date, _) when is_late date -> last_run | Some _ | None -> None);
     failing = run_at Latest late_system (List.assoc_opt Timed_system.Failed (Timed_system.endings late_system));
     stopped = (match Search.stopped late with Some bound -> Some bound | None -> Search.stopped early);
+    reduction;
     states = Search.count late + Search.count early;
     depth = max (Search.depth late) (Search.depth early);
-    seconds = limits.clock () -. started;
+    seconds = limits.Limits.clock () -. started;
     bytes = max (Search.memory late) (Search.memory early) }
+
+let run ?(reduction = Inert_ends_and_likeness) ?deadline limits options =
+  let started = limits.Limits.clock () in
+  let rec attempt reduction =
+    try find ~reduction ~started ?deadline limits options
+    with Timed_system.Broken -> attempt (match reduction with Inert_ends_and_likeness -> Inert_ends | _ -> Nothing)
+  in
+  attempt reduction
 
 let latest o =
   let later found (_, w) = match found with Some d when not (is_later w.latest d) -> found | _ -> Some w.latest in

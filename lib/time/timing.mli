@@ -15,6 +15,7 @@ type run = {
   chain : Schedule.link list;  (** the durations that add up to its last date *)
 }
 
+type reduction = Timed_system.reduction = Nothing | Inert_ends | Inert_ends_and_likeness
 type task = Timed_system.task = { name : string; vehicle : Core.vehicle; site : Core.site }
 
 type outcome = {
@@ -30,14 +31,16 @@ type outcome = {
   failing : run option;  (** one that fails *)
   stopped : Dolphin_checker.Limits.bound option;
   (** if there is a bound, dates are of the runs that were looked at *)
+  reduction : reduction;  (** that was used in the end *)
   states : int;
   depth : int;
   seconds : float;
   bytes : int;
 }
 
-val run : ?deadline:int -> Dolphin_checker.Limits.t -> Timed.options -> outcome
-(** [run ~deadline limits o] is what there is to know, within [limits]; [deadline] is in milliseconds. *)
+val run : ?reduction:reduction -> ?deadline:int -> Dolphin_checker.Limits.t -> Timed.options -> outcome
+(** [run ~deadline limits o] is what there is to know, within [limits]; [deadline] is in milliseconds. The
+    [reduction], all by default, makes no difference to the answers. *)
 
 val latest : outcome -> date option
 (** [latest o] is when the last run is over; [None] if none that was looked at ends. *)

@@ -25,6 +25,15 @@ let equal z z' =
   let rec go k = k < 0 || (Array.unsafe_get z.m k = Array.unsafe_get z'.m k && go (k - 1)) in
   z.n = z'.n && go (Array.length z.m - 1)
 
+let role i z =
+  let i = i + 1 in
+  let with_ j = (get z i j, get z j i) in
+  let others = List.filter (( <> ) i) (List.init (z.n - 2) (( + ) 2)) in
+  let others = List.sort Stdlib.compare (List.map with_ others) in
+  List.fold_left (fun h x -> (h * 65599) + Hashtbl.hash x) (Hashtbl.hash (with_ zero, with_ date)) others land max_int
+
+let are_equal i j z = get z (i + 1) (j + 1) = 0 && get z (j + 1) (i + 1) = 0
+
 let delayed z z' =
   (* At least [least] and at most [most], by the bounds of the date in both directions. *)
   let rec go i j least most =
@@ -74,6 +83,16 @@ let rearranged from z =
   let n = Array.length from + 2 in
   let place i = if i < 2 then i else match from.(i - 2) with Some k -> k + 1 | None -> zero in
   { n; m = Array.init (n * n) (fun k -> get z (place (k / n)) (place (k mod n))) }
+
+let freed i z =
+  let z = copy z and i = i + 1 in
+  for j = 0 to z.n - 1 do
+    if j <> i then begin
+      set z i j unbounded;
+      set z j i unbounded
+    end
+  done;
+  z
 
 let reaching_down z =
   let z = copy z in

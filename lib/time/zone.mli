@@ -16,6 +16,12 @@ val contains : t -> int array -> bool
 val subset : t -> t -> bool
 (** [subset z z'] is whether each valuation of [z] is in [z'], which has as many clocks. *)
 
+val role : int -> t -> int
+(** [role i z] is a number for how clock [i] is bounded, which does not depend on the order of the clocks from 1 on. *)
+
+val are_equal : int -> int -> t -> bool
+(** [are_equal i j z] is whether clocks [i] and [j] are equal in all of [z]. *)
+
 val equal : t -> t -> bool
 
 val delayed : t -> t -> int
@@ -43,6 +49,9 @@ val at_most : int -> int -> t -> t option
 val rearranged : int option array -> t -> t
 (** [rearranged from z] has clock 0 of [z], and as clock [k + 1] clock [i] of [z] if [from.(k)] is [Some i], or a new
     one at 0. *)
+
+val freed : int -> t -> t
+(** [freed i z] is [z] with each valuation for any other value of clock [i] too, be it negative. *)
 
 val reaching_down : t -> t
 (** [reaching_down z] is [z] with each valuation for any earlier date too. *)

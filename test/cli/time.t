@@ -13,7 +13,7 @@ How long the paper's mission takes.
   rv1      x8-02       4:00 to 9:40  4:40 to 11:00           rendezvous.dol:33
   rv2      x8-02       4:00 to 9:40  4:40 to 11:00           rendezvous.dol:35
   rv3      x8-02       4:00 to 9:40  4:40 to 11:00           rendezvous.dol:37
-  879 states, depth 35, T
+  667 states, depth 32, T
 
 A deadline that holds, and one that does not, with the run that breaks it.
 
@@ -37,7 +37,7 @@ A deadline that holds, and one that does not, with the run that breaks it.
   survey  a        0:00          4:00 to 7:00  relay.dol:3
   home    a        4:00 to 7:00  5:30 to 8:30  relay.dol:3
   visit   b        4:00 to 7:00  5:00 to 9:00  relay.dol:4
-  32 states, depth 14, T
+  34 states, depth 13, T
   
   a run that ends last:
          program                      a              b             where
@@ -63,7 +63,7 @@ A deadline that holds, and one that does not, with the run that breaks it.
   survey  a        0:00          4:00 to 7:00  relay.dol:3
   home    a        4:00 to 7:00  5:30 to 8:30  relay.dol:3
   visit   b        4:00 to 7:00  5:00 to 9:00  relay.dol:4
-  32 states, depth 14, T
+  34 states, depth 13, T
   
   a run that is not over at the deadline, 8:00:
          program                      a              b             where
@@ -112,7 +112,7 @@ A task that may not be done within its time.
   survey  a        0:00          4:00 to 5:00  5:00     within.dol:3
   home    a        4:00 to 5:00  5:30 to 6:30           within.dol:3
   visit   b        4:00 to 5:00  5:00 to 7:00           within.dol:4
-  34 states, depth 14, T
+  36 states, depth 13, T
   
   a run in which a task is not done within its time:
          program                      a              where
@@ -150,7 +150,7 @@ A plan of which the fleet does not say how long it takes.
   survey  a        0:00          4:00 to 7:00   relay.dol:3
   home    a        4:00 to 7:00  5:30 to 8:30   relay.dol:3
   visit   b        4:00 to 7:00  4:00 or later  relay.dol:4
-  32 states, depth 14, T
+  38 states, depth 14, T
 
 A program that goes round for ever, and one that waits in vain.
 

@@ -884,23 +884,58 @@ let timed =
         {|ignore put_off; bounds in|} );
     ]
 
-let timed_system =
-  in_file "lib/time/timed_system.ml" ~noticed_by:"time/test_exact"
+let place =
+  in_file "lib/time/timed_place.ml" ~noticed_by:"time/test_exact"
     [
       ( "nothing has to happen",
-        {|List.fold_left limit (Some (Zone.delay zone)) (Timed.holds_up steps)|},
-        {|List.fold_left (fun zone _ -> ignore limit; zone) (Some (Zone.delay zone)) (Timed.holds_up steps)|} );
+        {|List.fold_left limit (Some (Zone.delay zone)) (snd (follow t place))|},
+        {|List.fold_left (fun zone _ -> ignore limit; zone) (Some (Zone.delay zone)) (snd (follow t place))|} );
       ( "steps are taken too early",
         {|        let* zone = Zone.at_least clock least zone in
 |},
         {|        let* zone = Zone.at_least clock (min 0 least) zone in
 |} );
-      ( "the latest dates are filled up",
-        {|Latest -> Zone.reaching_down | Earliest -> Zone.reaching_up in|},
-        {|Latest -> Zone.reaching_up | Earliest -> Zone.reaching_down in|} );
       ( "time passes though a step is urgent",
         {|if steps = [] || List.exists (fun (s : Timed.step) -> s.urgent) steps then Some (filled zone)|},
         {|if steps = [] then Some (filled zone)|} );
+    ]
+  @ in_file "lib/time/timed_place.ml" ~noticed_by:"time/test_reductions"
+    [
+      ( "the rest is over though not all of it is",
+        {|    let* zone = Option.bind zone (Zone.at_most clock (-i.least)) in|},
+        {|    let* zone = if last = None then zone else Option.bind zone (Zone.at_most clock (-i.least)) in|} );
+      ( "the last end of the rest may come too late",
+        {|Zone.at_least clock (-i.most) zone|},
+        {|Zone.at_least clock (-i.most - 1_000) zone|} );
+      ( "of steps that lead to alike states only one is noticed",
+        {|let key = (due, step.urgent, what,|},
+        {|let key = (due, step.urgent, ignore what,|} );
+    ]
+  @ in_file "lib/time/inert.ml" ~noticed_by:"time/test_reductions"
+    [
+      ( "a task that may fail is inert",
+        {|Succeeds -> true | May_fail | Fails -> false|},
+        {|Succeeds | May_fail -> true | Fails -> false|} );
+    ]
+  @ in_file "lib/time/likeness.ml" ~noticed_by:"time/test_reductions"
+    [
+      ( "plans of any time are alike",
+        {|text ending least most (s.label label)|},
+        {|text ending (0 * least) (0 * most) (s.label label)|} );
+      ( "all tasks are in one orbit",
+        {|(form (fun l' -> if l = l' then "!" else "")).text|},
+        {|(form (fun l' -> ignore (l = l'); "")).text|} );
+      ( "what is left in N may have any names",
+        {|  not (List.exists (fun (n, _) -> Hashtbl.mem e.renamed n)|},
+        {|  not (List.exists (fun (n, _) -> Hashtbl.mem e.renamed n && n < 0)|} );
+    ]
+
+let timed_system =
+  in_file "lib/time/timed_system.ml" ~noticed_by:"time/test_exact"
+    [
+      ( "the latest dates are filled up",
+        {|Latest -> Zone.reaching_down | Earliest -> Zone.reaching_up in|},
+        {|Latest -> Zone.reaching_up | Earliest -> Zone.reaching_down in|} );
       ( "states include those that they do not",
         {|let including () = List.find_opt (fun m -> Zone.subset zone t.nodes.(m).zone) place.here in|},
         {|let including () = List.find_opt (fun _ -> true) place.here in|} );
@@ -913,11 +948,14 @@ let timed_system =
     ]
 
 let schedule =
-  in_file "lib/time/schedule.ml" ~noticed_by:"time/test_missions"
+  in_file "lib/time/dates.ml" ~noticed_by:"time/test_missions"
     [
       ( "runs that end last do not wait for one another",
-        {|distance.(c.sooner) + c.by < distance.(c.later)|},
-        {|distance.(c.sooner) + c.by > distance.(c.later)|} );
+        {|(fun known -> sooner + bound.by < known)|},
+        {|(fun known -> sooner + bound.by > known)|} );
+    ]
+  @ in_file "lib/time/schedule.ml" ~noticed_by:"time/test_missions"
+    [
       ( "the chain has no links",
         {|due_to = Some pending; later } when by > 0|},
         {|due_to = Some pending; later } when by > max_int - 1|} );
@@ -998,4 +1036,4 @@ let all =
       conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps;
       sets_with_events; driver; fair_cycles; limits;
       alike_values; division; arrangement; coverage; search_pattern; travel;
-      zone; timed; timed_system; schedule; recorded; durations; share; sampled ]
+      zone; timed; place; timed_system; schedule; recorded; durations; share; sampled ]

@@ -1,0 +1,24 @@
+type 'a bound = { sooner : int; later : int; by : int; due_to : 'a option }
+
+let at_most ?due_to later ~after by = { sooner = after; later; by; due_to }
+let at_least ?due_to later ~after by = { sooner = later; later = after; by = -by; due_to }
+
+(* No way around is negative, as the bounds can be met. *)
+let latest n bounds =
+  let dates = Array.make (n + 1) None and last = Array.make (n + 1) None in
+  dates.(0) <- Some 0;
+  let relax changed bound =
+    match dates.(bound.sooner), dates.(bound.later) with
+    | Some sooner, known when Option.fold known ~none:true ~some:(fun known -> sooner + bound.by < known) ->
+      dates.(bound.later) <- Some (sooner + bound.by);
+      last.(bound.later) <- Some bound;
+      true
+    | (Some _ | None), _ -> changed
+  in
+  while List.fold_left relax false bounds do () done;
+  (dates, last)
+
+(* Backwards in time. *)
+let earliest n bounds =
+  let turned = List.map (fun b -> { b with sooner = b.later; later = b.sooner }) bounds in
+  Array.map (Option.map Int.neg) (fst (latest n turned))

@@ -1,0 +1,20 @@
+(** Dates that are as late, or as early, as bounds on their differences allow. *)
+
+type 'a bound = {
+  sooner : int;
+  later : int;
+  by : int;  (** the date [later] is at most so much after [sooner]; it may be negative *)
+  due_to : 'a option;  (** why *)
+}
+
+val at_most : ?due_to:'a -> int -> after:int -> int -> 'a bound
+(** [at_most later ~after:sooner by]. *)
+
+val at_least : ?due_to:'a -> int -> after:int -> int -> 'a bound
+(** [at_least later ~after:sooner by] is that [later] is [by] after [sooner] or more. *)
+
+val latest : int -> 'a bound list -> int option array * 'a bound option array
+(** [latest n bounds] is the latest dates 0 to [n] that meet [bounds], date 0 being 0; [None] if there is no latest.
+    With each comes the last bound on a shortest way there. The bounds can be met. (Bellman and Ford) *)
+
+val earliest : int -> 'a bound list -> int option array

@@ -1,0 +1,40 @@
+(** States of an executing task that are alike: equal but for names on which nothing depends (of vehicles, plans,
+    timers, places in the text), the order of what stands side by side, and which of several pairs of N they name.
+    docs/time.md says why one of them is enough. *)
+
+open Dolphin_semantics
+
+type t
+
+val create : Timed.options -> t
+
+(** {1:executions Executions} *)
+
+type label = { name : string; vehicle : Core.vehicle; site : Core.site }
+(** A platform task. *)
+
+type execution
+(** A task as its execution begins, with its automorphisms. *)
+
+val execution : t -> Timed.state -> execution option
+(** [execution t s] is for the task that is about to be executed in [s]; [None] if it has no automorphism but the
+    identity. *)
+
+val number : execution -> int
+
+val orbit : execution -> label -> label list
+(** [orbit e l] is the platform tasks that automorphisms make of [l], itself included. *)
+
+val leaves_alike : t -> execution -> Timed.state -> bool
+(** [leaves_alike t e s] is whether N in [s], where the task is over, has no pair that an automorphism renames. *)
+
+(** {1:forms Forms} *)
+
+type form = {
+  text : string;  (** states with the same one are alike *)
+  items : Timed.item list;  (** what is awaited, inert ends apart, in an order that alikeness keeps *)
+}
+
+val form : t -> execution -> color:(Timed.item -> int) -> colored:bool -> Inert.item list -> Timed.state -> form
+(** [form t e ~color ~colored inert s] is for a state [s] of [e]. Of what differs in names alone, the order is by
+    [color], which is part of the text if it is [colored]. *)

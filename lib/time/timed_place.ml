@@ -1,0 +1,260 @@
+open Dolphin_semantics
+module Limits = Dolphin_checker.Limits
+
+(* Of the inert ends to come: whether it is said which is the last. *)
+type rest = No_rest | Unsaid | Said
+
+(* A step, with what is inert after it, and what of this has begun with it. *)
+type arrow = { step : Timed.step; inert : Inert.item list; begun : Inert.item list }
+
+(* A state without its clocks, with what follows from it alone, and the numbers of the states with clocks. *)
+type t = {
+  state : Timed.state;
+  execution : Likeness.execution option;  (* if states that are alike are kept once *)
+  items : Timed.item list;  (* then what is awaited, in the order of the forms of states that are alike *)
+  rest : rest;
+  inert : Inert.item list;
+  follows : (arrow list * (Timed.item * int) list) Lazy.t;  (* and until when time may pass *)
+  clocks : (Timed.item * int) list;  (* what began at one time has one clock *)
+  rest_clock : int option;  (* how long ago the last of the inert ends was: less than 0 as it is to come *)
+  mutable here : int list;
+}
+
+type key = Exactly of Timed.state | Alike of string
+
+module Table = Hashtbl.Make (struct
+    type t = key * (rest * int list)
+
+    let equal (key, more) (key', more') =
+      more = more'
+      && match key, key' with
+      | Exactly s, Exactly s' -> Timed.equal s s'
+      | Alike text, Alike text' -> String.equal text text'
+      | (Exactly _ | Alike _), _ -> false
+
+    let hash (key, more) =
+      Hashtbl.hash more + match key with Exactly s -> Timed.hash s | Alike text -> Hashtbl.hash text
+  end)
+
+type places = {
+  options : Timed.options;
+  ends : Inert.t option;
+  likeness : Likeness.t option;
+  filled : Zone.t -> Zone.t;
+  note : Timed.state -> unit;
+  table : t Table.t;
+}
+
+type reduction = Nothing | Inert_ends | Inert_ends_and_likeness
+
+exception Broken
+
+let places reduction options ~filled ~note =
+  { options; filled; note; table = Table.create 1_000;
+    ends = (if reduction = Nothing then None else Some (Inert.create options));
+    likeness = (if reduction = Inert_ends_and_likeness then Some (Likeness.create options) else None) }
+
+let likeness t = t.likeness
+let add place number = place.here <- number :: place.here
+
+let with_clocks (s : Timed.state) inert =
+  let is_inert (p : Timed.pending) = List.exists (fun (i : Inert.item) -> i.awaited = p.item) inert in
+  let has_clock (p : Timed.pending) =
+    match p.bounds with Within _ -> not (is_inert p) | Some_time | Never -> false in
+  List.map (fun (p : Timed.pending) -> p.item) (List.filter has_clock s.pending)
+
+let inert t state = match t.ends with Some i -> Inert.of_state i state | None -> []
+let is_among items (i : Inert.item) = List.exists (fun (j : Inert.item) -> j.awaited = i.awaited) items
+
+(* What is inert stays so until all is over, and is so from its beginning. *)
+let arrow t inert_before (step : Timed.step) =
+  let inert = inert t step.next in
+  let begun = List.filter (fun i -> not (is_among inert_before i)) inert in
+  let has_begun (i : Inert.item) = List.mem i.awaited step.fresh in
+  if List.for_all (is_among inert) inert_before && List.for_all has_begun begun then { step; inert; begun }
+  else raise Broken
+
+(* Of the arrows that an automorphism of the state with its clocks maps to each other, one is enough. *)
+let different e likeness before clocks arrows =
+  let seen = Hashtbl.create 16 in
+  let is_new { step; inert; begun } =
+    match step.next.configuration.control with
+    | Script _ | Waiting _ | Ended _ -> true
+    | Executing _ ->
+      let clock item = Option.value (List.assoc_opt item clocks) ~default:0 in
+      let color item = if List.mem item step.fresh then -1 else clock item in
+      let form = Likeness.form likeness e ~color ~colored:true inert step.next in
+      let ends (i : Inert.item) = (i.least, i.most, Option.map (Likeness.orbit e) (Happening.ending step.next i)) in
+      let due = Option.map (fun (item, bounds) -> (clock item, bounds)) step.due in
+      let happens = List.map (fun (moment, task) -> (moment, Likeness.orbit e task)) (Happening.tasks before step) in
+      let what = (step.transition.rules, List.sort Stdlib.compare happens, Happening.missed before step) in
+      let key = (due, step.urgent, what, List.sort Stdlib.compare (List.map ends begun), form.text) in
+      let is_new = not (Hashtbl.mem seen key) in
+      Hashtbl.replace seen key ();
+      is_new
+  in
+  List.filter is_new arrows
+
+let arrows_of t state inert =
+  let is_followed (step : Timed.step) =
+    match step.due with
+    | Some (item, _) -> not (List.exists (fun (i : Inert.item) -> i.awaited = item) inert)
+    | None -> true
+  in
+  List.map (arrow t inert) (List.filter is_followed (Timed.steps t.options state))
+
+let find_arrows t state execution inert clocks =
+  let all = arrows_of t state inert in
+  let limits = Timed.holds_up (List.map (fun arrow -> arrow.step) all) in
+  match t.likeness, execution, all with
+  | Some likeness, Some e, _ :: _ :: _ -> (different e likeness state clocks all, limits)
+  | _, _, _ -> (all, limits)
+
+let followed t s = List.map (fun arrow -> arrow.step) (arrows_of t s (inert t s))
+
+(* [clocks] is in an order that depends on [key]. *)
+let find t key state execution items inert rest clocks =
+  let key = (key, (rest, List.map snd clocks)) in
+  match Table.find_opt t.table key with
+  | Some place -> place
+  | None ->
+    t.note state;
+    let last = List.fold_left (fun last (_, clock) -> max last clock) 0 clocks in
+    let rest_clock = if rest = No_rest then None else Some (last + 1) in
+    let follows = lazy (find_arrows t state execution inert clocks) in
+    let place = { state; execution; items; rest; inert; follows; clocks; rest_clock; here = [] } in
+    Table.add t.table key place;
+    place
+
+let follow t place =
+  match Lazy.force place.follows with
+  | found -> found
+  | exception Dolphin_environment.Environment.Unclear fault ->
+    let at = Format.pp_print_option (fun ppf -> Format.fprintf ppf "%a: " Dolphin_syntax.Location.pp) in
+    let why = Format.asprintf "%a%s" at (Fault.location t.options.program fault) fault.message in
+    raise (Limits.Stop (Unsettled why))
+
+let arrows t place = fst (follow t place)
+let steps t place = List.map (fun arrow -> arrow.step) (arrows t place)
+
+(* {1 Zones} *)
+
+let ( let* ) = Option.bind
+
+(* As long as no step is urgent, time passes until something has to happen. *)
+let settled t place zone =
+  let steps = steps t place and filled = t.filled in
+  if steps = [] || List.exists (fun (s : Timed.step) -> s.urgent) steps then Some (filled zone)
+  else
+    let limit zone (item, most) =
+      match List.assoc_opt item place.clocks with
+      | Some clock -> Option.bind zone (Zone.at_most clock most)
+      | None -> zone
+    in
+    Option.map filled (List.fold_left limit (Some (Zone.delay zone)) (snd (follow t place)))
+
+(* Those valuations of [zone] in which [step] may be taken. *)
+let enabling place zone (step : Timed.step) =
+  match step.due with
+  | Some (item, Within { least; most }) -> (
+      match List.assoc_opt item place.clocks with
+      | Some clock ->
+        let* zone = Zone.at_least clock least zone in
+        Zone.at_most clock most zone
+      | None -> Some zone)
+  | Some (_, (Some_time | Never)) | None -> Some zone
+
+(* Numbers from 1 for what is in [xs], in the order in which it is met. *)
+let numbered xs =
+  let number (known, numbers) x =
+    match List.assoc_opt x known with
+    | Some n -> (known, n :: numbers)
+    | None -> let n = List.length known + 1 in ((x, n) :: known, n :: numbers)
+  in
+  let known, numbers = List.fold_left number ([], []) xs in
+  (List.rev_map fst known, List.rev numbers)
+
+(* The place of [state] with what [zone] becomes there, where [fresh] begins, and the clocks were those of [clocks] and
+   [rest_clock] before; and what is awaited in [state], in the order of its form. *)
+let reached t ~clocks ~rest_clock ~fresh execution state inert rest zone =
+  let with_clocks = with_clocks state inert in
+  let origin item = if List.mem item fresh then None else List.assoc_opt item clocks in
+  let origins, numbers = numbered (List.map origin with_clocks) in
+  let zone = Zone.rearranged (Array.of_list (origins @ if rest = No_rest then [] else [ rest_clock ])) zone in
+  let rec first clock k = if k = clock || Zone.are_equal k clock zone then k else first clock (k + 1) in
+  let clocks = List.combine with_clocks (List.map (fun clock -> first clock 1) numbers) in
+  let key, items =
+    match t.likeness, execution with
+    | Some likeness, Some e ->
+      let color item = match List.assoc_opt item clocks with Some clock -> Zone.role clock zone | None -> 0 in
+      let { Likeness.text; items } = Likeness.form likeness e ~color ~colored:false inert state in
+      (Alike text, items)
+    | (Some _ | None), _ -> (Exactly state, with_clocks)
+  in
+  let with_clock item = Option.map (fun clock -> (item, clock)) (List.assoc_opt item clocks) in
+  let in_order = List.filter_map with_clock items in
+  let firsts, numbers = numbered (List.map snd in_order) in
+  let clocks = List.map2 (fun (item, _) n -> (item, n)) in_order numbers in
+  let place = find t key state execution items inert rest clocks in
+  let last = if rest = No_rest then [] else [ Some (List.length origins + 1) ] in
+  let zone = Zone.rearranged (Array.of_list (List.map Option.some firsts @ last)) zone in
+  match rest_clock, place.rest_clock with
+  | None, Some clock -> (place, items, Zone.freed clock zone)
+  | (None | Some _), _ -> (place, items, zone)
+
+(* {1 The rest} *)
+
+(* Those valuations in which the last end to come is one of [begun], as [last] says, or of those before. *)
+let with_begun place begun last zone =
+  match place.rest_clock with
+  | None -> Some zone
+  | Some clock ->
+    let bound zone (i : Inert.item) =
+      let* zone = Option.bind zone (Zone.at_most clock (-i.least)) in
+      if last = Some i.awaited then Zone.at_least clock (-i.most) zone else Some zone
+    in
+    List.fold_left bound (Some zone) begun
+
+(* Which of those that begin may be the last, and what is said after it. *)
+let lasts place begun =
+  match place.rest, begun with
+  | rest, [] -> [ (None, rest) ]
+  | Said, _ -> [ (None, Said) ]
+  | (No_rest | Unsaid), _ -> (None, Unsaid) :: List.map (fun (i : Inert.item) -> (Some i.awaited, Said)) begun
+
+(* All that is inert ends. *)
+let ends_of_rest t (state : Timed.state) =
+  let inert = inert t state in
+  let rec go steps (state : Timed.state) =
+    let is_end (step : Timed.step) =
+      match step.due with
+      | Some (item, _) -> List.exists (fun (i : Inert.item) -> i.awaited = item) inert
+      | None -> false
+    in
+    match List.find_opt is_end (Timed.steps t.options state) with
+    | Some step when List.length steps < List.length inert -> go (step :: steps) step.next
+    | Some _ | None -> List.rev steps
+  in
+  go [] state
+
+(* When all that is inert is over in a state with nothing else left: now, or when the last of it ends. *)
+let ends_now clock zone = Option.map (fun zone -> (zone, false)) (Zone.at_least clock 0 zone)
+
+let ends_later clock zone =
+  let* zone = Zone.at_most clock 0 zone in
+  let* zone = Zone.at_least clock 0 (Zone.delay zone) in
+  Option.map (fun zone -> (zone, true)) (Zone.at_most clock 0 zone)
+
+(* {1 Executions} *)
+
+(* What is left in N when a task is over must be the same in all states that are alike. *)
+let check_left t before (next : Timed.state) =
+  match t.likeness, before.execution, next.configuration.control with
+  | Some likeness, Some e, (Script _ | Waiting _) when not (Likeness.leaves_alike likeness e next) -> raise Broken
+  | _, _, _ -> ()
+
+let execution_after t before (next : Timed.state) =
+  match t.likeness, before.state.configuration.control, next.configuration.control with
+  | Some _, Executing _, Executing _ -> before.execution
+  | Some likeness, _, Executing _ -> Likeness.execution likeness next
+  | _, _, _ -> check_left t before next; None

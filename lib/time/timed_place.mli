@@ -1,0 +1,90 @@
+(** States of runs with time without the values of their clocks, and how zones of these become others. docs/time.md has
+    the reasons. *)
+
+(** A step, with what is inert after it, and what of this has begun with it. *)
+type arrow = { step : Timed.step; inert : Inert.item list; begun : Inert.item list }
+
+(** Of the inert ends to come, the {e rest}: whether it is said which is the last. *)
+type rest = No_rest | Unsaid | Said
+
+type t = private {
+  state : Timed.state;
+  execution : Likeness.execution option;  (** if it stands for all states that are alike *)
+  items : Timed.item list;  (** what is awaited, in the order of {!Likeness.type-form} *)
+  rest : rest;
+  inert : Inert.item list;
+  follows : (arrow list * (Timed.item * int) list) Lazy.t;
+  clocks : (Timed.item * int) list;  (** what began at one time has one clock *)
+  rest_clock : int option;  (** since when the last of the rest is over: less than 0 as it is to come *)
+  mutable here : int list;  (** the numbers of the states of a search that are here *)
+}
+
+type places
+
+(** What is left out. *)
+type reduction = Nothing | Inert_ends | Inert_ends_and_likeness
+
+exception Broken
+(** Something that was taken for inert is not, or for alike. *)
+
+val places : reduction -> Timed.options -> filled:(Zone.t -> Zone.t) -> note:(Timed.state -> unit) -> places
+(** [places r o ~filled ~note] has no place yet; [note] is called with the state of each new one, and zones are
+    [filled]. *)
+
+val likeness : places -> Likeness.t option
+val add : t -> int -> unit
+
+val arrows : places -> t -> arrow list
+(** [arrows ps p] is the steps of [p] that are followed.
+    @raise Dolphin_checker.Limits.Stop
+    @raise Broken *)
+
+val steps : places -> t -> Timed.step list
+
+val inert : places -> Timed.state -> Inert.item list
+
+val followed : places -> Timed.state -> Timed.step list
+(** [followed ps s] is the steps of [s] that are no inert ends. *)
+
+(** {1:zones Zones} *)
+
+val settled : places -> t -> Zone.t -> Zone.t option
+(** [settled ps p z] is [z] with what it becomes as time passes in [p], filled. *)
+
+val enabling : t -> Zone.t -> Timed.step -> Zone.t option
+(** [enabling p z s] is those valuations of [z] in which [s] may be taken. *)
+
+val reached :
+  places -> clocks:(Timed.item * int) list -> rest_clock:int option -> fresh:Timed.item list ->
+  Likeness.execution option -> Timed.state -> Inert.item list -> rest -> Zone.t -> t * Timed.item list * Zone.t
+(** [reached ps ~clocks ~rest_clock ~fresh e s inert rest z] is the place of [s], which belongs to [e]; what is awaited
+    in [s], in the order of the place's [items]; and what [z] becomes there, if [fresh] begins, and the clocks were
+    those of [clocks] and [rest_clock]. *)
+
+(** {1:rest The rest} *)
+
+val lasts : t -> Inert.item list -> (Timed.item option * rest) list
+(** [lasts p begun] is which of [begun], which begin with a step of [p], may be the last, and what is said after it. *)
+
+val with_begun : t -> Inert.item list -> Timed.item option -> Zone.t -> Zone.t option
+(** [with_begun p begun last z] is those valuations in which the last end of the rest is not before that of any of
+    [begun], and that of [last]. *)
+
+val ends_of_rest : places -> Timed.state -> Timed.step list
+(** [ends_of_rest ps s] is the ends of all that is inert in [s]. *)
+
+val ends_now : int -> Zone.t -> (Zone.t * bool) option
+(** [ends_now clock z] is those valuations in which the rest, with this clock, is over; [false]. *)
+
+val ends_later : int -> Zone.t -> (Zone.t * bool) option
+(** [ends_later clock z] is the others, as it is over; [true]. *)
+
+(** {1:executions Executions} *)
+
+val check_left : places -> t -> Timed.state -> unit
+(** [check_left ps p s] looks whether [s], to which a step of [p] leads, is the same for all states that are alike.
+    @raise Broken *)
+
+val execution_after : places -> t -> Timed.state -> Likeness.execution option
+(** [execution_after ps p s] is the execution of [s], to which a step of [p] leads.
+    @raise Broken *)

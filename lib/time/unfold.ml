@@ -1,0 +1,125 @@
+open Dolphin_semantics
+
+(* An inert end. The rest that it belongs to has a date of its own, when the last of it ends, and is over with move
+   [over], if it is over. *)
+type ending = { item : Inert.item; began : int; rest : int; is_last : bool; mutable over : int option }
+
+(* What is known when some moves have been gone through. *)
+type progress = {
+  walk : Schedule.walk;
+  bounds : Timed.pending Dates.bound list;
+  endings : ending list;
+  rest : int option;  (* the date of the rest that has begun *)
+  dates : int;  (* the number of the last date *)
+}
+
+let add_step system p k (step : Timed.step) begun last =
+  let bounds = Schedule.bounds (Timed_place.followed (Timed_system.places system)) p.walk k step in
+  let rest, dates =
+    match p.rest with
+    | None when begun <> [] -> (Some (p.dates + 1), p.dates + 1)
+    | rest -> (rest, p.dates)
+  in
+  let add rest (bounds, endings) (item : Inert.item) =
+    let is_last = last = Some item.awaited in
+    let after_all = Dates.at_least rest ~after:k item.least in
+    let own = if is_last then [ after_all; Dates.at_most rest ~after:k item.most ] else [ after_all ] in
+    (own @ bounds, { item; began = k; rest; is_last; over = None } :: endings)
+  in
+  let bounds, endings =
+    match rest with
+    | Some rest -> List.fold_left (add rest) (bounds @ p.bounds, p.endings) begun
+    | None -> (bounds @ p.bounds, p.endings)
+  in
+  { walk = Schedule.walk p.walk k step; bounds; endings; rest; dates }
+
+let add_rest p k steps later =
+  let rest = Option.get p.rest in
+  let order = Dates.at_least k ~after:(k - 1) 0 in
+  let bounds =
+    if later then [ order; Dates.at_least k ~after:rest 0; Dates.at_most k ~after:rest 0 ]
+    else [ order; Dates.at_most k ~after:(k - 1) 0; Dates.at_least k ~after:rest 0 ]
+  in
+  List.iter (fun (e : ending) -> if e.over = None then e.over <- Some k) p.endings;
+  { p with walk = List.fold_left (fun w step -> Schedule.walk w k step) p.walk steps; bounds = bounds @ p.bounds;
+           rest = None }
+
+let add system (k, p) : Timed_system.move -> _ = function
+  | Step { step; begun; last } -> (k + 1, add_step system p k step begun last)
+  | Rest { steps; later } -> (k + 1, add_rest p k steps later)
+
+(* {1 In the order of dates} *)
+
+(* The moves, which are numbered from 1 to [n], and the inert ends, in the order in which they happen: those of one rest
+   after all that is not later, and before what follows it. *)
+type event = Followed of Timed_system.move | Inert_end of Inert.item
+
+let in_order (goal : Timed_system.goal) moves n dates endings =
+  let of_move k (move : Timed_system.move) = ((dates.(k + 1), 2 * (k + 1)), Followed move) in
+  let of_ending e =
+    let over = Option.map (fun k -> (dates.(k), (2 * k) - 1)) e.over in
+    let date =
+      match goal, over with
+      | _, Some _ when e.is_last -> dates.(e.rest)
+      | Earliest, _ -> dates.(e.began) + e.item.least
+      | Latest, Some (over, _) -> min over (dates.(e.began) + e.item.most)
+      | Latest, None -> dates.(e.began) + e.item.most
+    in
+    match over with
+    | Some (_, place) -> Some ((date, place), Inert_end e.item)
+    | None when date <= dates.(n) -> Some ((date, 2 * n), Inert_end e.item)
+    | None -> None
+  in
+  let compare ((a : int * int), _) (b, _) = Stdlib.compare a b in
+  List.stable_sort compare (List.mapi of_move moves @ List.filter_map of_ending endings)
+
+(* {1 Again, step by step} *)
+
+let same_event (a : Timed.step) (b : Timed.step) =
+  Label.equal a.transition.label b.transition.label && Option.map fst a.due = Option.map fst b.due
+
+(* The step of [state] that is [step], though the inert [ended] are over. *)
+let as_followed options state ended (step : Timed.step) =
+  let is_it (s : Timed.step) =
+    same_event s step
+    && match Inert.without ended step.next.configuration with
+    | Some c -> Configuration.equal c s.transition.next
+    | None -> true
+  in
+  List.find_opt is_it (Timed.all_steps options state)
+
+let at_end options state (item : Inert.item) =
+  List.find_opt (fun (s : Timed.step) -> Option.map fst s.due = Some item.awaited) (Timed.steps options state)
+
+let steps options start events =
+  let rec go taken state ended = function
+    | [] -> Some (List.rev taken)
+    | (_, event) :: rest -> (
+        match event with
+        | Followed (Rest _) -> go taken state [] rest
+        | Followed (Step { step; _ }) -> continue taken state ended rest (as_followed options state ended step)
+        | Inert_end item -> continue taken state (item.awaited :: ended) rest (at_end options state item))
+  and continue taken _ ended rest = function
+    | Some (step : Timed.step) -> go (step :: taken) step.next ended rest
+    | None -> None
+  in
+  go [] start [] events
+
+(* Later than all that has a latest date. What comes after something without one has none. *)
+let far = max_int / 2
+
+let in_dates system (goal : Timed_system.goal) options moves =
+  let start = Timed_system.start system and n = List.length moves in
+  let p = { walk = Schedule.set_out start; bounds = []; endings = []; rest = None; dates = n } in
+  let _, p = List.fold_left (add system) (1, p) moves in
+  let dates =
+    match goal with Latest -> fst (Dates.latest p.dates p.bounds) | Earliest -> Dates.earliest p.dates p.bounds in
+  steps options start (in_order goal moves n (Array.map (Option.value ~default:far) dates) (List.rev p.endings))
+
+let run system goal options arrivals =
+  if Timed_system.is_reduced system then
+    Option.bind (Represented.moves system options arrivals) (in_dates system goal options)
+  else
+    let steps (a : Timed_system.arrival) =
+      match a.move with Step { step; _ } -> [ step ] | Rest { steps; _ } -> steps in
+    Some (List.concat_map steps arrivals)

@@ -18,23 +18,16 @@ and we send nothing more. No command is repeated blindly: only while the vehicle
 happened.
 """
 
-import math
-
-from . import geo
-from . import mission as missions
-from .modes import parameters_of
-from .transfer import Download, Repeated, Upload, numbered
+from .boarding import Boarding
+from .commands import Commands
+from .progress import Progress
 from .wire import mavlink
 
 WORDS = 1.5  # seconds in which the reason for a mode that was left may come, and another heartbeat
 AFTERWARDS = 4.0  # seconds in which word may come that the last item was reached
 GRACE = 5.0  # seconds in which a mode that was accepted shows in heartbeats, and is asked for that is refused for now
-LATER = 0.5  # seconds after which a mode is asked for again that is refused for now
-UPLOADS = 5  # so many transfers are tried
 SILENT = 3  # after so many commands without an answer the autopilot may not know it
-NEAR = {"plane": 150.0, "vtol": 150.0}  # metres within which a place counts as reached; others: 15
-ACCEPTED, IN_PROGRESS = mavlink.MAV_RESULT_ACCEPTED, mavlink.MAV_RESULT_IN_PROGRESS
-_ENDS_ON_THE_GROUND = (missions.LAND, missions.RETURN, missions.VTOL_LAND)
+ACCEPTED = mavlink.MAV_RESULT_ACCEPTED
 TRANSFER = {
     "MISSION_COUNT",
     "MISSION_REQUEST",
@@ -60,23 +53,16 @@ class Execution:
         self.stop_mode = vehicle.modes.home if on_stop == "return" else vehicle.modes.hold
         self.events, self.stage, self.is_over = [], "link", False
         self._round_trip = round_trip
-        self._command = None  # the command that waits for its acknowledgement
-        self._repeated = Repeated(round_trip)
-        self._transfer, self._uploads = None, 0
+        self._commands = Commands(vehicle, round_trip)
+        self._boarding, self._progress = None, Progress(vehicle, mission)
         self._next_after_note = None
         self._mode_before, self._asked_mode, self._mode_asked = None, None, False
         self._stage_at = self._asked_at = 0.0
         self._beats = 0
-        self._was_active, self._current, self._reached = False, None, False
-        self._complete_since, self._near_since = None, None
-        self._total, self._completes, self._strange = None, 0, 0  # what decides is believed when it is said twice
-        self._visits, self._reached_last = 0, None
         self._left, self._left_since, self._left_mode = None, None, None  # a mode that was left: when a verdict falls
         self._known, self._asked_for = set(), set()  # the modes that it may be in; those that we asked for
         self._mode_at_stop, self._disarmed_at = None, None
         self._armed_by_us, self._resumes, self._stopping, self._unknown = False, False, False, False
-        self._modes_sent, self._modes_acknowledged, self._modes_before = 0, 0, 0
-        self._on_board = mission.items  # replaced once it is numbered
 
     # What the station calls
 
@@ -100,7 +86,7 @@ class Execution:
         self._stopping = True
         if self._resumes and self.stage in ("link", "verify"):
             return []  # first it must be known whether it is ours that flies
-        out = self._transfer.cancel() if isinstance(self._transfer, Upload) else []
+        out = self._boarding.cancel() if self._boarding is not None else []
         if not self._mode_asked:
             if self._armed_by_us:
                 out += self._disarm()
@@ -123,10 +109,12 @@ class Execution:
         elif kind == "MISSION_CURRENT":
             out = self._mission_news(now)
         elif kind == "MISSION_ITEM_REACHED":
-            self._item_reached(message.seq)
-        elif self._transfer is not None and kind in TRANSFER:
+            if self.stage == "run":
+                self._progress.item_reached(message.seq)
+        elif self._boarding is not None and kind in TRANSFER:
             self._asked_at = now
-            out = self._transfer.hear(now, message) + self._transferred(now)
+            out = self._boarding.hear(now, message)
+            out += self._boarded(now)
         return out + self._look(now)
 
     def tick(self, now):
@@ -137,9 +125,10 @@ class Execution:
         out = []
         if self.stage == "link":
             out = self._try(now)
-        elif self._transfer is not None:
-            out = self._transfer.tick(now) + self._transferred(now)
-        elif self._command is not None:
+        elif self._boarding is not None:
+            out = self._boarding.tick(now)
+            out += self._boarded(now)
+        elif self._commands.waiting is not None:
             out = self._repeat(now)
         return out + self._look(now) + self._silence(now)
 
@@ -150,7 +139,7 @@ class Execution:
         if not v.link(now) or v.mode is None or now - v.heard_at > 2.5:
             return []
         if self._resumes:
-            return self._verify(now)
+            return self._board(now, Boarding.compare)
         why = self._refusal(now)
         if why is not None:
             return self._fail(why)
@@ -170,79 +159,29 @@ class Execution:
         return None
 
     def _upload(self, now):
-        v = self.vehicle
-        self.stage, self._command, self._uploads = "upload", None, self._uploads + 1
-        self._asked_at = now
-        self._number()
-        self._transfer = Upload(v.target, self._on_board, self._round_trip)
-        return self._transfer.begin(now)
+        return self._board(now, Boarding.upload)
 
-    def _number(self):
-        v = self.vehicle
-        home = (v.home or v.place or (0.0, 0.0)) if v.home_is_item_0 else None
-        self._on_board = numbered(self.mission.items, home)
+    def _board(self, now, begin):
+        self._boarding = Boarding(self.vehicle, self.mission, self._round_trip)
+        out = begin(self._boarding, now)
+        self.stage, self._commands.waiting, self._asked_at = self._boarding.stage, None, now
+        return out
 
-    def _verify(self, now):
-        if self._resumes:
-            self._number()
-        self.stage, self._asked_at = "verify", now
-        window = 8 if self.vehicle.home_is_item_0 else 1
-        self._transfer = Download(self.vehicle.target, self._round_trip, window, most=len(self._on_board))
-        return self._transfer.begin(now)
-
-    def _transferred(self, now):
-        if isinstance(self._transfer, Upload):
-            return self._uploaded(now)
-        if self._transfer is not None and (self._transfer.items is not None or self._transfer.refused):
-            return self._downloaded(now)
-        return []
-
-    def _uploaded(self, now):
-        result = self._transfer.result
+    def _boarded(self, now):
+        """What follows once the mission is on board, or is not."""
+        result = self._boarding.result
         if result is None:
+            self.stage, self._asked_at = self._boarding.stage, max(self._asked_at, self._boarding.since)
             return []
-        if isinstance(result, tuple):
-            return self._fail(f"its autopilot refuses the mission: {result[1]}")
-        if result == "again":
-            return self._again(now, "its autopilot gave up each of the uploads")
-        return self._verify(now)
-
-    def _downloaded(self, now):
-        items, refused = self._transfer.items, self._transfer.refused
-        self._transfer = None
-        why = refused or self._difference(items)
+        self._boarding = None
+        why = None if result == "aboard" else result
         if self._resumes:
             return self._resumed(now, why)
-        if why is not None:
-            return self._again(now, f"the mission is not on board as it was sent: {why}")
-        return self._rewind(now)
-
-    def _again(self, now, why):
-        if self._uploads >= UPLOADS:
-            return self._fail(why)
-        return self._upload(now)
-
-    def _difference(self, items):
-        if len(items) != len(self._on_board):
-            return f"{len(items)} items instead of {len(self._on_board)}"
-        pairs = list(enumerate(zip(self._on_board, items)))
-        for n, (sent, kept) in pairs[1:] if self.vehicle.home_is_item_0 else pairs:
-            different = missions.difference(sent, kept)
-            if different is not None:
-                return f"item {n} has {different}"
-        return None
-
-    @property
-    def _first(self):
-        return 1 if self.vehicle.home_is_item_0 else 0
-
-    @property
-    def _last(self):
-        return self.mission.last + self._first
+        return self._rewind(now) if why is None else self._fail(why)
 
     def _rewind(self, now):
         self.stage = "rewind"
-        return self._send_command(now, mavlink.MAV_CMD_DO_SET_MISSION_CURRENT, self._first, 1)
+        return self._send_command(now, mavlink.MAV_CMD_DO_SET_MISSION_CURRENT, self._progress.first, 1)
 
     def _prepare(self, now):
         """After the mission is at its first item: arms the vehicle, or begins."""
@@ -267,74 +206,60 @@ class Execution:
 
     def _begin_mission(self, now):
         self.stage, self._mode_asked = "mode", True
-        self._was_active = self._reached = False
-        self._visits, self._current, self._total = 0, None, None
+        self._progress.begin()
         return self._set_mode(now, self.vehicle.modes.mission)
 
     def _run(self, now):
-        self.stage, self._stage_at, self._command = "run", now, None
+        self.stage, self._stage_at, self._commands.waiting = "run", now, None
         self._beats = self.vehicle.heartbeats
         self.events.append(("taken",))
         if self.vehicle.home_is_item_0 and self._armed_by_us:
             # A copter on the ground waits for this; others take it for granted.
-            return [self._command_long(mavlink.MAV_CMD_MISSION_START, 0, 0)]
+            return [self._commands.once(mavlink.MAV_CMD_MISSION_START, 0, 0)]
         return []
 
     # Commands and their acknowledgements
 
-    def _command_long(self, command, *params):
-        params = (*params, *(0.0,) * (7 - len(params)))
-        return mavlink.MAVLink_command_long_message(*self.vehicle.target, command, 0, *params)
-
     def _send_command(self, now, command, *params):
-        self._command, self._asked_at = command, now
-        return self._repeated.send(now, self._command_long(command, *params))
+        self._asked_at = now
+        return self._commands.send(now, command, *params)
 
     def _set_mode(self, now, mode):
-        v = self.vehicle
-        main, sub = parameters_of(v.autopilot, v.frame, mode)
-        self._asked_mode, self._stage_at, self._beats = mode, now, v.heartbeats
-        self._modes_before = self._modes_sent
+        self._asked_mode, self._stage_at, self._beats = mode, now, self.vehicle.heartbeats
         self._known.add(mode)
         self._asked_for.add(mode)
-        self._modes_sent += 1
-        flag = mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
-        return self._send_command(now, mavlink.MAV_CMD_DO_SET_MODE, flag, main, sub)
+        self._asked_at = now
+        return self._commands.set_mode(now, mode)
 
     def _disarm(self):
         """Of a vehicle that we have armed and that has not moved: its autopilot refuses it in flight."""
-        return [self._command_long(mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 0)]
+        return [self._commands.once(mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 0)]
 
     def _repeat(self, now):
         v = self.vehicle
         if now - v.heard_at > 2.5:
             return []  # it would not be known what happened in the meantime
-        out = self._repeated.tick(now)
-        if out and self._command == mavlink.MAV_CMD_DO_SET_MODE:
-            self._modes_sent += 1
-        if out and self.stage == "rewind" and self._repeated.times >= SILENT:
+        out = self._commands.tick(now)
+        if out and self.stage == "rewind" and self._commands.times >= SILENT:
             out = out + [self._set_current()]
         return out
 
     def _set_current(self):
         """What autopilots know that do not know the command."""
-        return mavlink.MAVLink_mission_set_current_message(*self.vehicle.target, self._first)
+        return mavlink.MAVLink_mission_set_current_message(*self.vehicle.target, self._progress.first)
 
     def _acknowledged(self, now, message):
-        if message.command == mavlink.MAV_CMD_DO_SET_MODE:
-            self._modes_acknowledged += 1
-        if message.command != self._command or message.result == IN_PROGRESS:
+        if not self._commands.acknowledged(now, message):
             return []
-        self._repeated.answered(now)
         if message.result == ACCEPTED:
             return self._accepted(now)
         if self.stage == "rewind":
-            self._command = None
+            self._commands.waiting = None
             return [self._set_current()] + self._prepare(now)
         return self._denied(now, message.result)
 
     def _accepted(self, now):
-        self._command = None
+        self._commands.waiting = None
         if self.stage == "hold":
             self._mode_before = self.vehicle.modes.hold
             return self._upload(now)
@@ -349,7 +274,7 @@ class Execution:
             if self.vehicle.armed or self._armed_by_us:
                 return self._run(now)
             return self._arm(now)
-        if self.stage == "stop" and self._modes_acknowledged > self._modes_before:
+        if self.stage == "stop" and self._commands.is_last_mode:
             # All that was sent before is acknowledged: this acknowledgement is the hold's.
             return self._finish_stop()
         return []
@@ -363,7 +288,7 @@ class Execution:
             return self._upload(now)  # its mission has ended: there was nothing to hold
         if result == mavlink.MAV_RESULT_TEMPORARILY_REJECTED and self.stage != "arm" and now - self._stage_at < GRACE:
             # An autopilot that has just started or landed changes its mode in a moment; its heartbeats tell.
-            self._repeated.postponed(now, LATER)
+            self._commands.later(now)
             return []
         if self.stage == "arm":
             self._armed_by_us = False
@@ -388,12 +313,12 @@ class Execution:
         if v.mode not in self._known:
             return self._taken_over(now)
         if (
-            self._command == mavlink.MAV_CMD_DO_SET_MODE
+            self._commands.waiting == mavlink.MAV_CMD_DO_SET_MODE
             and v.mode == self._asked_mode
             and v.mode != self._mode_before
         ):
             return self._accepted(now)  # the acknowledgement was lost
-        if self._command == mavlink.MAV_CMD_COMPONENT_ARM_DISARM and v.armed:
+        if self._commands.waiting == mavlink.MAV_CMD_COMPONENT_ARM_DISARM and v.armed:
             return self._accepted(now)
         return []
 
@@ -409,17 +334,9 @@ class Execution:
             if now - self._stage_at > GRACE and v.heartbeats - self._beats >= 3:
                 return self._fail(f"its autopilot did not go into mode {v.modes.mission}: it is in mode {v.mode}")
             return []
-        if self._own_return():
+        if self._progress.returns_by_itself():
             return self._disarmed(now) if not v.armed else []
         return self._taken_over(now)
-
-    def _own_return(self):
-        """Whether the mode is one that the mission's last item asks for."""
-        last = self.mission.items[self.mission.last].command
-        if self._current is None or self._current < self._last:
-            return False
-        returns = {"RTL", "QRTL", "SMART_RTL", "LAND", "QLAND"} if last == missions.RETURN else {"LAND", "QLAND"}
-        return last in _ENDS_ON_THE_GROUND and self.vehicle.mode in returns
 
     def _heartbeat_in_stop(self, now):
         v = self.vehicle
@@ -429,7 +346,7 @@ class Execution:
             return self._finish_stop()
         if v.mode not in (self._mode_at_stop, self._mode_before):
             return self._finish_stop()  # somebody else has stopped it, and flies
-        if self._own_return():
+        if self._progress.returns_by_itself():
             return []
         if now - self._stage_at > GRACE and v.heartbeats - self._beats >= 3:
             return self._finish_stop()  # the mission was never begun
@@ -443,11 +360,9 @@ class Execution:
         """In the mode of the mission, and not armed. Whether it has landed is told apart, and a moment later."""
         if now - self._stage_at < GRACE:
             return []
-        last = self.mission.items[self.mission.last].command
-        at_last = self._current is not None and self._current >= self._last
         if self._disarmed_at is None:
             self._disarmed_at = now
-        if at_last and last in _ENDS_ON_THE_GROUND and self.vehicle.landed is not False:
+        if self._progress.has_landed():
             self._end("done")
         elif now - self._disarmed_at >= AFTERWARDS:
             flies = self.vehicle.frame in ("copter", "plane", "vtol") and not self.vehicle.landed
@@ -455,79 +370,25 @@ class Execution:
         return []
 
     def _mission_news(self, now):
-        v = self.vehicle
-        if self.stage == "rewind" and self._repeated.times > SILENT and v.current == self._first:
+        v, progress = self.vehicle, self._progress
+        if self.stage == "rewind" and self._commands.times > SILENT and v.current == progress.first:
             return self._accepted(now)
         if self.stage not in ("run", "mode"):
             return []
-        first = self._first
-        if self._current != v.current and self.stage == "run":
-            self.events.append(("progress", min(max((v.current - first) / len(self.mission.items), 0.0), 1.0)))
-        self._current = v.current
-        if v.mission_state == mavlink.MISSION_STATE_ACTIVE:
-            self._was_active = True
-        if v.mission_state == mavlink.MISSION_STATE_COMPLETE:
-            self._complete_since = self._complete_since if self._complete_since is not None else now
-            self._completes += 1
-        else:
-            self._complete_since, self._completes = None, 0
-            if self._left is not None and v.mission_state is not None and now - self._left_since >= 1:
-                self._left = now  # the mission is not over
-        self._strange = self._strange + 1 if v.total not in (None, self._total) else 0
-        if self._total is None:
-            self._total = v.total
-        elif self._strange >= 2 and self.stage == "run":
+        if progress.current != v.current and self.stage == "run":
+            self.events.append(("progress", progress.share))
+        progress.news(now)
+        goes_on = v.mission_state not in (None, mavlink.MISSION_STATE_COMPLETE)
+        if goes_on and self._left is not None and now - self._left_since >= 1:
+            self._left = now  # the mission is not over
+        if progress.is_replaced and self.stage == "run":
             return self._fail("its mission was replaced by another station")
         return []
 
-    def _item_reached(self, seq):
-        if self.stage != "run":
-            return
-        if seq >= self._last and (self._reached_last is None or self._reached_last < self._last):
-            self._visits += 1
-            self._reached = self._visits >= self.mission.visits
-        self._reached_last = seq
-
     def _look(self, now):
-        """Whether the last item is reached and what it does has begun."""
-        return self._over(now) if self.stage == "run" and not self.is_over else []
-
-    def _over(self, now):
-        at_last = self._current is not None and self._current >= self._last
-        finished = self._completes >= 2 and (self._was_active or now - self._complete_since >= 2)
-        if (self._reached and (at_last or self._completes > 0)) or finished:
-            self._end("done")
-        elif at_last and self._begun_without_end(now):
+        if self.stage == "run" and not self.is_over and self._progress.is_over(now):
             self._end("done")
         return []
-
-    def _begun_without_end(self, now):
-        """Of an item that no autopilot calls reached, or whose word was lost: by where the vehicle is."""
-        last = self.mission.items[self.mission.last]
-        circles_home = last.command == missions.RETURN and self.vehicle.frame == "plane"
-        if not circles_home and last.command not in (missions.LOITER_UNLIMITED, missions.WAYPOINT):
-            return False
-        if self.mission.endless or self.mission.visits > 1:
-            return False
-        if not self._is_near(last):
-            self._near_since = None
-            return False
-        if self._near_since is None:
-            self._near_since = now
-        if last.command == missions.LOITER_UNLIMITED:
-            return True
-        # A vehicle that tells of its mission's state says itself when it is over.
-        told = self.vehicle.mission_state is not None and last.command == missions.WAYPOINT
-        hold = last.params[0] if last.command == missions.WAYPOINT and math.isfinite(last.params[0]) else 0.0
-        return not told and now - self._near_since >= hold + 5
-
-    def _is_near(self, item):
-        v = self.vehicle
-        place = v.home if item.command == missions.RETURN else item.place if item.has_place else v.place
-        if place is None or v.place is None:
-            return False
-        radius = abs(item.params[2]) if item.command in missions.LOCATED and math.isfinite(item.params[2]) else 0.0
-        return geo.distance(v.place, place) <= max(NEAR.get(v.frame, 15.0), 1.5 * radius)
 
     # Ends
 
@@ -540,16 +401,14 @@ class Execution:
         self._left_mode = v.mode
         may_be_over = self.stage == "run" and v.mode in v.modes.after
         self._left, self._left_since = now + (AFTERWARDS if may_be_over else WORDS), now
-        self._command, self._transfer = None, None
+        self._commands.waiting, self._boarding = None, None
         return []
 
     def _judge_left(self, now):
         v, mode = self.vehicle, self._left_mode
-        if self.stage == "run" and mode in v.modes.after:
-            at_last = self._current is not None and self._current >= self._last
-            if self._reached or (at_last and self._is_near(self.mission.items[self.mission.last])):
-                self._end("done")
-                return []
+        if self.stage == "run" and mode in v.modes.after and self._progress.was_over():
+            self._end("done")
+            return []
         said_at, text = v.distress
         if mode in self._asked_for and self.stage == "run" and self._left_since - self._stage_at < 5:
             return self._fail(f"left mode {v.modes.mission} for {mode}: by its pilot, or by a late copy of an order")
@@ -578,7 +437,7 @@ class Execution:
 
     def _go_to_stop(self, now):
         v = self.vehicle
-        self.stage, self._transfer = "stop", None
+        self.stage, self._boarding = "stop", None
         if not v.armed and self._asked_mode is None and v.link(now):
             return self._finish_stop()
         if self._mode_before is None:
@@ -592,14 +451,15 @@ class Execution:
         self._mode_before, self._known = v.mode, {v.mode}
         self._resumes, self._asked_mode = False, None
         if why is not None:
-            return self._fail(f"the mission on board is another one: {why}")
+            return self._fail(why)
         if v.mission_state == mavlink.MISSION_STATE_COMPLETE:
             self._end("done")
             return []
         if not flies:
             what = f"it is in mode {v.mode}" if v.armed else "it is not armed"
             return self._fail(f"does not fly the mission that it was to begin: {what}")
-        self._current, self._was_active, self._stage_at = v.current, True, now
+        self._progress.resume()
+        self._stage_at = now
         if self._stopping:
             return self._go_to_stop(now)
         self.stage = "run"
@@ -614,6 +474,6 @@ class Execution:
         if not self.is_over:
             self.is_over = True
             self.events.append(event)
-            self._command, self._transfer = None, None
+            self._commands.waiting, self._boarding = None, None
             if event[0] == "done":
                 self.vehicle.idle_mission = True

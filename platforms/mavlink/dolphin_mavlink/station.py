@@ -13,9 +13,10 @@ the time go in; frames to send and lines to report come out, by `take`.
 import dataclasses
 import difflib
 
-from . import modes, plans, version
+from . import plans, version
 from . import mission as missions
 from .execution import TRANSFER, Execution
+from .sightings import Sightings
 from .transfer import RoundTrip
 from .vehicle import MOVE_SILENCE, Vehicle, is_autopilot
 from .wire import mavlink
@@ -67,13 +68,12 @@ class Station:
         self._options = options
         self._out = []
         self._vehicles = {}  # by system
-        self._reported = {}  # the last report on each vehicle, by name
-        self._reported_at = {}
+        self._sightings = Sightings()
         self._requests, self._over = {}, {}
         self._asked = {}  # when each vehicle was asked for what it is to send
         self._foreign = set()
         self._trips = {}
-        self._telemetry, self._greeted, self._closing, self._heartbeat_at = False, False, None, None
+        self._greeted, self._closing, self._heartbeat_at = False, None, None
         self._resumes_until = 0.0
         self._notes = 0
 
@@ -192,7 +192,7 @@ class Station:
             self._show(now, vehicle, True)
 
     def _order_telemetry(self, now, line):
-        self._telemetry = bool(line["on"])
+        self._sightings.telemetry = bool(line["on"])
 
     def _order_ping(self, now, line):
         self._report({"kind": "pong", "id": line["id"]})
@@ -385,7 +385,6 @@ class Station:
     # To Dolphin
 
     def _show(self, now, vehicle, at_once=False):
-        """Reports what has changed: links and readiness at once, the rest about once a second."""
         if not self._greeted:
             return
         name = self.name_of(vehicle.system)
@@ -393,27 +392,9 @@ class Station:
         may_be_ours = vehicle.mode == vehicle.modes.mission and now < self._resumes_until
         has_plan = may_be_ours or self._request_on(vehicle) is not None
         payload = self._options.payloads.get(name, vehicle.devices)
-        report = {
-            "type": modes.TYPES[vehicle.frame],
-            "payload": list(payload),
-            "link": vehicle.link(now),
-            "unready": vehicle.unready(now, has_plan),
-        }
-        before = self._reported.get(name, {})
-        due = now - self._reported_at.get(name, -60) >= (1 if self._telemetry else 5)
-        first = (vehicle.place is not None and "latitude" not in before) or (
-            vehicle.battery is not None and before.get("battery") is None
-        )
-        if due or at_once or first or any(before.get(k) != x for k, x in report.items()):
-            self._reported_at[name] = now
-            if vehicle.place is not None:
-                height = (vehicle.altitude or 0.0) + (vehicle.geoid or 0.0)
-                report.update(latitude=vehicle.place[0], longitude=vehicle.place[1], height=round(height, 2))
-            report.update(battery=vehicle.battery, speed=vehicle.speed)
-            changed = {k: x for k, x in report.items() if k not in before or before[k] != x}
-            if changed:
-                self._reported[name] = report
-                self._report({"kind": "vehicle", "vehicle": name, **changed})
+        news = self._sightings.news(now, name, vehicle, payload, has_plan, at_once)
+        if news is not None:
+            self._report(news)
 
     def _log(self, text, vehicle=None):
         about = {} if vehicle is None else {"vehicle": self.name_of(vehicle.system)}

@@ -1,0 +1,62 @@
+"""Commands to a vehicle, each repeated until it is acknowledged. Pure."""
+
+from .modes import parameters_of
+from .transfer import Repeated
+from .wire import mavlink
+
+IN_PROGRESS = mavlink.MAV_RESULT_IN_PROGRESS
+LATER = 0.5  # seconds after which is asked for again what is refused for now
+
+
+class Commands:
+    """`waiting` is the command that waits for its acknowledgement, if any."""
+
+    def __init__(self, vehicle, round_trip):
+        self._vehicle, self._repeated = vehicle, Repeated(round_trip)
+        self.waiting = None
+        self._modes_sent, self._modes_acknowledged, self._modes_before = 0, 0, 0
+
+    def once(self, command, *params):
+        """A message with the command, which is not repeated."""
+        params = (*params, *(0.0,) * (7 - len(params)))
+        return mavlink.MAVLink_command_long_message(*self._vehicle.target, command, 0, *params)
+
+    def send(self, now, command, *params):
+        self.waiting = command
+        return self._repeated.send(now, self.once(command, *params))
+
+    def set_mode(self, now, mode):
+        main, sub = parameters_of(self._vehicle.autopilot, self._vehicle.frame, mode)
+        self._modes_before = self._modes_sent
+        self._modes_sent += 1
+        flag = mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
+        return self.send(now, mavlink.MAV_CMD_DO_SET_MODE, flag, main, sub)
+
+    def tick(self, now):
+        out = self._repeated.tick(now)
+        if out and self.waiting == mavlink.MAV_CMD_DO_SET_MODE:
+            self._modes_sent += 1
+        return out
+
+    def acknowledged(self, now, message):
+        """Whether the command that waits is answered for good."""
+        if message.command == mavlink.MAV_CMD_DO_SET_MODE:
+            self._modes_acknowledged += 1
+        if message.command != self.waiting or message.result == IN_PROGRESS:
+            return False
+        self._repeated.answered(now)
+        return True
+
+    def later(self, now):
+        """The command that waits is sent again in a moment."""
+        self._repeated.postponed(now, LATER)
+
+    @property
+    def times(self):
+        """How many times it was sent since it was answered last."""
+        return self._repeated.times
+
+    @property
+    def is_last_mode(self):
+        """Whether an acknowledgement of a mode must be of the last one: all that were sent before are acknowledged."""
+        return self._modes_acknowledged > self._modes_before

@@ -1,0 +1,135 @@
+"""How far a vehicle is with its mission, by what it says and by where it is. Pure."""
+
+import math
+
+from . import geo
+from . import mission as missions
+from .wire import mavlink
+
+NEAR = {"plane": 150.0, "vtol": 150.0}  # metres within which a place counts as reached; others: 15
+_ENDS_ON_THE_GROUND = (missions.LAND, missions.RETURN, missions.VTOL_LAND)
+
+
+class Progress:
+    """`current` is the item that it is at, as they are numbered on board; None until it was told."""
+
+    def __init__(self, vehicle, mission):
+        self._vehicle, self._mission = vehicle, mission
+        self.current = None
+        self._was_active, self._near_since = False, None
+        self._reached, self._visits, self._reached_last = False, 0, None
+        # What decides is believed when it is said twice.
+        self._complete_since, self._completes = None, 0
+        self._total, self._strange = None, 0
+
+    def begin(self):
+        self.current, self._total = None, None
+        self._was_active, self._reached, self._visits = False, False, 0
+
+    def resume(self):
+        """It has begun before."""
+        self.current, self._was_active = self._vehicle.current, True
+
+    # Items
+
+    @property
+    def first(self):
+        return 1 if self._vehicle.home_is_item_0 else 0
+
+    @property
+    def _last(self):
+        return self._mission.last + self.first
+
+    @property
+    def _last_item(self):
+        return self._mission.items[self._mission.last]
+
+    @property
+    def _at_last(self):
+        return self.current is not None and self.current >= self._last
+
+    @property
+    def share(self):
+        return min(max((self._vehicle.current - self.first) / len(self._mission.items), 0.0), 1.0)
+
+    # What the vehicle says
+
+    def news(self, now):
+        """The vehicle has told of its mission's state."""
+        v = self._vehicle
+        self.current = v.current
+        if v.mission_state == mavlink.MISSION_STATE_ACTIVE:
+            self._was_active = True
+        if v.mission_state == mavlink.MISSION_STATE_COMPLETE:
+            self._complete_since = self._complete_since if self._complete_since is not None else now
+            self._completes += 1
+        else:
+            self._complete_since, self._completes = None, 0
+        self._strange = self._strange + 1 if v.total not in (None, self._total) else 0
+        if self._total is None:
+            self._total = v.total
+
+    def item_reached(self, seq):
+        if seq >= self._last and (self._reached_last is None or self._reached_last < self._last):
+            self._visits += 1
+            self._reached = self._visits >= self._mission.visits
+        self._reached_last = seq
+
+    # What follows
+
+    @property
+    def is_replaced(self):
+        """Whether another mission is on board."""
+        return self._strange >= 2
+
+    def is_over(self, now):
+        """Whether the last item is reached and what it does has begun."""
+        finished = self._completes >= 2 and (self._was_active or now - self._complete_since >= 2)
+        if (self._reached and (self._at_last or self._completes > 0)) or finished:
+            return True
+        return self._at_last and self._begun_without_end(now)
+
+    def was_over(self):
+        """Whether a vehicle has left the mission because it was over."""
+        return self._reached or (self._at_last and self._is_near(self._last_item))
+
+    def returns_by_itself(self):
+        """Whether its mode is one that the mission's last item asks for."""
+        last = self._last_item.command
+        if not self._at_last:
+            return False
+        returns = {"RTL", "QRTL", "SMART_RTL", "LAND", "QLAND"} if last == missions.RETURN else {"LAND", "QLAND"}
+        return last in _ENDS_ON_THE_GROUND and self._vehicle.mode in returns
+
+    def has_landed(self):
+        """Whether a vehicle that is disarmed has done what the last item asks for."""
+        on_the_ground = self._last_item.command in _ENDS_ON_THE_GROUND
+        return self._at_last and on_the_ground and self._vehicle.landed is not False
+
+    def _begun_without_end(self, now):
+        """Of an item that no autopilot calls reached, or whose word was lost: by where the vehicle is."""
+        last = self._last_item
+        circles_home = last.command == missions.RETURN and self._vehicle.frame == "plane"
+        if not circles_home and last.command not in (missions.LOITER_UNLIMITED, missions.WAYPOINT):
+            return False
+        if self._mission.endless or self._mission.visits > 1:
+            return False
+        if not self._is_near(last):
+            self._near_since = None
+            return False
+        if self._near_since is None:
+            self._near_since = now
+        if last.command == missions.LOITER_UNLIMITED:
+            return True
+        # A vehicle that tells of its mission's state says itself when it is over.
+        told = self._vehicle.mission_state is not None and last.command == missions.WAYPOINT
+        hold = last.params[0] if last.command == missions.WAYPOINT and math.isfinite(last.params[0]) else 0.0
+        return not told and now - self._near_since >= hold + 5
+
+    def _is_near(self, item):
+        v = self._vehicle
+        place = v.home if item.command == missions.RETURN else item.place if item.has_place else v.place
+        if place is None or v.place is None:
+            return False
+        radius = abs(item.params[2]) if item.command in missions.LOCATED and math.isfinite(item.params[2]) else 0.0
+        return geo.distance(v.place, place) <= max(NEAR.get(v.frame, 15.0), 1.5 * radius)

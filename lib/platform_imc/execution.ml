@@ -1,4 +1,5 @@
 open Dolphin_imc
+open Execution_state
 module Control = Message.Plan_control
 module Control_state = Message.Plan_control_state
 
@@ -18,129 +19,26 @@ type input =
   | Leaves of float
   | Tick
 
-type output = Keep of Durable_note.t | Send of Message.t | Done | Failed of string | Remark of string
+type output = Execution_state.output =
+  | Keep of Durable_note.t
+  | Send of Message.t
+  | Done
+  | Failed of string
+  | Remark of string
+
+type t = Execution_state.t
 
 let most_copies = 10
 let most_copies_while_blocked = 3
 let patience = Attempt.patience
-let grace = 1.
+let grace = grace
 let stop_interval = 0.5
 let stop_patience = 60.
-
-(* For so long after it was sent last, a datagram of ours may arrive after all. *)
-let late_copies = 10.
 
 (* For so long a plan that we gave up is stopped when the vehicle is heard again. *)
 let given_up_watch = 600.
 
-type phase =
-  | Idle
-  | Starting of Attempt.t
-  | Running of { attempt : Attempt.t; since : float }
-  | Ending of { attempt : Attempt.t; since : float; why : string; deadline : float }
-  (* It failed; the vehicle's words are awaited. *)
-  | Stopping of {
-      attempt : Attempt.t;
-      took_effect : bool;  (* the plan was seen to be taken *)
-      stop : int;
-      after : float;
-      first_sent : float;
-      last_sent : float;
-      next : order option;
-    }
-
-(* The attempt before, over since [ended] by the vehicle's clock. If the plan is seen to run again before
-   [watched_until], then because of a late copy of our request, or because it was given up. *)
-type former = {
-  attempt : Attempt.t;
-  ended : float;
-  watched_until : float;
-  given_up : bool;  (* it was not heard to be over: its link, or its stop's confirmation, was waited for in vain *)
-}
-
-type t = {
-  next_request : int;
-  latest : Plan_report.t option;
-  error : (float * string) option;  (* the last error that the vehicle reported, and when *)
-  log_errors : Log_errors.t;
-  intervention : string option;  (* what another console did to the plan, in words *)
-  last_stop : int option;
-  stop_echo : float;  (* when the vehicle last answered a stop of ours *)
-  former : former option;
-  duplicates : Duplicates.t;  (* of the last request *)
-  phase : phase;
-}
-
-let create ~request =
-  { next_request = request land 0xFFFF; latest = None; error = None; log_errors = Log_errors.none;
-    intervention = None; last_stop = None;
-    stop_echo = neg_infinity; former = None; duplicates = Duplicates.nothing; phase = Idle }
-
-(* The request that is not over yet, and how far it has come. *)
-let attempt x : (Attempt.t * Attempt.stage) option =
-  match x.phase with
-  | Idle -> None
-  | Starting attempt -> Some (attempt, Starting)
-  | Running { attempt; _ } | Ending { attempt; _ } -> Some (attempt, Running)
-  | Stopping { attempt; _ } -> Some (attempt, Stopping)
-
-(* {1 From phase to phase} *)
-
-let number x = (x.next_request, { x with next_request = (x.next_request + 1) land 0xFFFF })
-
-let begin_attempt ~now ~clock (order : order) x =
-  let request, x = number x in
-  let attempt = Attempt.make ~now ~clock ~request ~before:x.latest order in
-  let duplicates =
-    Duplicates.request ~plan:order.plan ~number:request ~after:attempt.after
-      ~busy:(Attempt.was_busy_with order.plan attempt)
-  in
-  ({ x with phase = Starting attempt; intervention = None; duplicates }, [ Send (Attempt.start attempt) ])
-
-let send_again ~now ~clock attempt x =
-  let attempt = Attempt.send_again ~now ~clock attempt in
-  ({ x with phase = Starting attempt }, [ Send (Attempt.start attempt) ])
-
-let begin_stop ~now ~clock ~took_effect ?next attempt x =
-  let stop, x = number x in
-  let after = Vehicle_clock.latest clock in
-  let phase = Stopping { attempt; took_effect; stop; after; first_sent = now; last_sent = now; next } in
-  ({ x with phase; last_stop = Some stop }, [ Send (Attempt.stop ~request:stop attempt) ])
-
-(* The attempt is over. The vehicle is watched for late copies of the request, or [watch] from now. *)
-let close ?(watch = late_copies) ~now ~ended (attempt : Attempt.t) x =
-  let given_up = watch > late_copies in
-  let from = if given_up then now else attempt.last_sent in
-  { x with phase = Idle; former = Some { attempt; ended; watched_until = from +. watch; given_up } }
-
-let fail ?watch ~now ~ended attempt why x = (close ?watch ~now ~ended attempt x, [ Failed why ])
-let succeed ~now ~ended attempt x = (close ~now ~ended attempt x, [ Done ])
-
-(* A stop of an earlier plan that arrived late ended this one. *)
-let hit_by_late_stop x ~since = x.stop_echo > since
-let late_stop = "a stop of the plan before arrived late"
-
-let start_again ~now ~clock (a : Attempt.t) why x =
-  let x, outputs = begin_attempt ~now ~clock a.order x in
-  (x, Remark (Printf.sprintf "%s; plan %s is started again" why a.order.plan) :: outputs)
-
-let await_words ~now ~clock attempt ~since why x =
-  if hit_by_late_stop x ~since then start_again ~now ~clock attempt late_stop x
-  else ({ x with phase = Ending { attempt; since; why; deadline = now +. grace } }, [])
-
-(* The vehicle executes, or has executed, plan [other]. *)
-let replaced ~now ~clock ~ended attempt other x =
-  match x.former with
-  | Some f when f.attempt.order.plan = other && now < f.watched_until ->
-    start_again ~now ~clock attempt (Printf.sprintf "the request for plan %s arrived late" other) x
-  | Some _ | None -> fail ~now ~ended attempt (Printf.sprintf "replaced by plan %s" other) x
-
-(* Why it failed, in the vehicle's words if there are any. *)
-let words x ~since ~why =
-  match x.error, x.intervention with
-  | Some (at, error), _ when at > since -> error
-  | (Some _ | None), Some what -> what
-  | (Some _ | None), None -> why
+let create = create
 
 (* {1 What the vehicle's report means} *)
 

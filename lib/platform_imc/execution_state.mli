@@ -1,0 +1,100 @@
+(** Where a plan on a vehicle stands, and the moves from phase to phase: the state of {!Execution}, which decides when
+    they are made. *)
+
+open Dolphin_imc
+
+(** {!Execution.output}. *)
+type output = Keep of Durable_note.t | Send of Message.t | Done | Failed of string | Remark of string
+
+type phase =
+  | Idle
+  | Starting of Attempt.t
+  | Running of { attempt : Attempt.t; since : float }
+  | Ending of { attempt : Attempt.t; since : float; why : string; deadline : float }
+  (** It failed; the vehicle's words are awaited. *)
+  | Stopping of {
+      attempt : Attempt.t;
+      took_effect : bool;  (** the plan was seen to be taken *)
+      stop : int;
+      after : float;
+      first_sent : float;
+      last_sent : float;
+      next : Attempt.order option;
+    }
+
+(** The attempt before, over since [ended] by the vehicle's clock. If the plan is seen to run again before
+    [watched_until], then because of a late copy of our request, or because it was given up. *)
+type former = {
+  attempt : Attempt.t;
+  ended : float;
+  watched_until : float;
+  given_up : bool;  (** it was not heard to be over: its link, or its stop's confirmation, was waited for in vain *)
+}
+
+type t = {
+  next_request : int;
+  latest : Plan_report.t option;
+  error : (float * string) option;  (** the last error that the vehicle reported, and when *)
+  log_errors : Log_errors.t;
+  intervention : string option;  (** what another console did to the plan, in words *)
+  last_stop : int option;
+  stop_echo : float;  (** when the vehicle last answered a stop of ours *)
+  former : former option;
+  duplicates : Duplicates.t;  (** of the last request *)
+  phase : phase;
+}
+
+val create : request:int -> t
+(** {!Execution.create}. *)
+
+val attempt : t -> (Attempt.t * Attempt.stage) option
+(** The request that is not over yet, and how far it has come. *)
+
+val grace : float
+(** 1 s: so long the vehicle's words are awaited. *)
+
+val late_copies : float
+(** 10 s: for so long after it was sent last, a datagram of ours may arrive after all. *)
+
+(** {1 From phase to phase}
+
+    [now] is the time by our clock. *)
+
+val begin_attempt : now:float -> clock:Vehicle_clock.t -> Attempt.order -> t -> t * output list
+(** Requests a plan. *)
+
+val send_again : now:float -> clock:Vehicle_clock.t -> Attempt.t -> t -> t * output list
+(** Requests it once more. *)
+
+val begin_stop :
+  now:float -> clock:Vehicle_clock.t -> took_effect:bool -> ?next:Attempt.order -> Attempt.t -> t -> t * output list
+(** Tells the vehicle to stop it; [next] is to be requested then. *)
+
+val close : ?watch:float -> now:float -> ended:float -> Attempt.t -> t -> t
+(** [close ~watch ~now ~ended a x]: [a] is over since [ended]. The vehicle is watched for late copies of the request, or
+    [watch] seconds from now. *)
+
+val fail : ?watch:float -> now:float -> ended:float -> Attempt.t -> string -> t -> t * output list
+(** {!close}, and tells why it failed. *)
+
+val succeed : now:float -> ended:float -> Attempt.t -> t -> t * output list
+
+(** {2 Where something else may have ended it} *)
+
+val hit_by_late_stop : t -> since:float -> bool
+(** Whether a stop of an earlier plan arrived late and ended this one, which began at [since]. *)
+
+val late_stop : string
+(** That, in words. *)
+
+val start_again : now:float -> clock:Vehicle_clock.t -> Attempt.t -> string -> t -> t * output list
+(** Requests it anew, and remarks why. *)
+
+val await_words : now:float -> clock:Vehicle_clock.t -> Attempt.t -> since:float -> string -> t -> t * output list
+(** It failed, for that reason, unless the vehicle gives a better one in a moment; or is started again. *)
+
+val replaced : now:float -> clock:Vehicle_clock.t -> ended:float -> Attempt.t -> string -> t -> t * output list
+(** The vehicle executes, or has executed, that plan. *)
+
+val words : t -> since:float -> why:string -> string
+(** Why it failed, in the vehicle's words if there are any, else [why]. *)

@@ -7,8 +7,8 @@
 (* k, x a pair of N; g a guard; i a timer; m a message; M the script's machine;   *)
 (* l a label; w a world. Its kappa and sigma are the variables control and store. *)
 (* S is the shared part <store, A, B, N>, with what sensors have shown in the     *)
-(* step, with the residuals beside the part that takes it, and with the whole     *)
-(* residual.                                                                      *)
+(* step, with the residuals beside the part that takes it, with those that may    *)
+(* come after it, and with the whole residual.                                    *)
 (*                                                                                *)
 (* Steps(S, r, E) is the steps of the residual r: those that need no event, and   *)
 (* those on the events E; the leftmost first. A step is a sequence of its         *)
@@ -35,7 +35,8 @@ VARIABLES
   B,        \* the bound vehicles, in the order in which they were picked
   N         \* the tuple space
 
-Shared == [ store |-> store, A |-> A, B |-> B, N |-> N, sees |-> NothingSeen, beside |-> << >>, whole |-> << >> ]
+Shared == [ store |-> store, A |-> A, B |-> B, N |-> N, sees |-> NothingSeen, beside |-> << >>, around |-> << >>,
+            whole |-> << >> ]
 
 (* kappa *)
 Script(M) == [ at |-> "script", M |-> M ]
@@ -447,7 +448,7 @@ CutOff(s, rs) == Asking([ s EXCEPT !.S = WithoutA(@, Range(Flatten(Each(rs, Runn
 
 (* S |- g => x, S', ds: the code g with these arguments, once for each outcome that it may have by what sensors show.
    Of a fault only what was said stays. What was seen stays so for the rest of the step. *)
-After(S, m) == [ S EXCEPT !.store = m.store, !.N = m.N, !.sees = m.sees ]
+After(S, m) == [ S EXCEPT !.store = m.store, !.B = m.B, !.N = m.N, !.sees = m.sees ]
 Knowing(S, sees) == [ S EXCEPT !.sees = sees ]
 
 (* The step is over: what sensors show is from now on what they have shown. *)
@@ -638,8 +639,8 @@ ErrorOf(fault) ==
   \o (IF fault.failed = << >> THEN << Null, Null >>
       ELSE << Vehicles(<< fault.failed[1] >>), String(fault.failed[2]) >>)
 
-(* The handler runs in the step that failed. *)
-Handled(s, r) ==
+(* The handler runs in the step that failed; S is what is seen from this watch. *)
+Handled(S, s, r) ==
   LET after(run) ==
         Asking([ s EXCEPT !.S = run.S, !.deeds = @ \o run.deeds ], EffectsOf(run.deeds))
       by(run) ==
@@ -653,12 +654,13 @@ Handled(s, r) ==
                IF r.anew = << >> THEN WATCH_PROPAGATE(after(run), ForeignRetry(r)) ELSE WATCH_RETRY(after(run), r)
           [] run.verdict = "ignore" -> WATCH_IGNORE(after(run))
           [] OTHER -> WATCH_PROPAGATE(after(run), s.out[2])
-  IN Each(RunCode(s.S, "handler", r.handler, ErrorOf(s.out[2])), by)
+      seen == [ s.S EXCEPT !.around = S.beside \o S.around ]
+  IN Each(RunCode(seen, "handler", r.handler, ErrorOf(s.out[2])), by)
 
-InWatch(s, r) ==
+InWatch(S, s, r) ==
   CASE GoesOn(s) -> << WATCH_1(s, r) >>
     [] IsDone(s) -> << WATCH_2(s) >>
-    [] IsErr(s) -> Handled(s, r)
+    [] IsErr(s) -> Handled(S, s, r)
     [] OTHER -> << s >>
 
 (* {2 Rounds} *)
@@ -824,26 +826,31 @@ AnswersOn(S, r, E) ==
   OnThose(E, LAMBDA e : e[1] = "confirmed" /\ e[2] = r.timer,
           LAMBDA e : IF e[3] = << "yes" >> THEN CONFIRM_YES(S, e) ELSE CONFIRM_NO(S, r, e))
 
+(* S for a part of what stands in S, after which rs may come. *)
+Amid(S, rs) == [ S EXCEPT !.around = @ \o rs ]
+Bodies(choices) == Each(choices, LAMBDA b : b.body)
+
 RECURSIVE Steps(_, _, _)
 Steps(S, r, E) ==
   CodeSteps(S, r) \o
   CASE r.op = "ready" -> << Always(START(S, r)) >>
     [] r.op = "running" -> EndsOn(S, r, E)
-    [] r.op = "seq" -> In(Steps(S, r.first, E), LAMBDA s : InSequence(s, r.rest))
+    [] r.op = "seq" -> In(Steps(Amid(S, r.rest), r.first, E), LAMBDA s : InSequence(s, r.rest))
     [] r.op = "par" ->
          Flatten([ j \in DOMAIN r.branches |->
                    In(Steps([ S EXCEPT !.beside = @ \o Without(r.branches, j) ], r.branches[j], E),
                       LAMBDA s : InParallel(s, r.branches, j)) ])
-    [] r.op = "allOf" /\ r.runs # << >> -> In(Steps(S, r.runs[1], E), LAMBDA s : InAllOf(s, r.choices))
+    [] r.op = "allOf" /\ r.runs # << >> ->
+         In(Steps(Amid(S, Bodies(r.choices)), r.runs[1], E), LAMBDA s : InAllOf(s, r.choices))
     [] r.op = "until" -> In(Steps(S, r.body, E), LAMBDA s : InUntil(s, r))
     [] r.op = "unallocated" -> AllocateSteps(S, r)
     [] r.op = "hold" -> In(Steps(S, r.body, E), LAMBDA s : InHold(s, r))
     [] r.op = "idle" -> ExpiresOn(S, r, E)
     [] r.op = "confirm" -> AnswersOn(S, r, E)
     [] r.op = "during" /\ r.started -> ExpiresOn(S, r, E) \o In(Steps(S, r.body, E), LAMBDA s : InDuring(s, r))
-    [] r.op = "repeat" /\ r.runs # << >> -> In(Steps(S, r.runs[1], E), LAMBDA s : InRepeat(s, r))
+    [] r.op = "repeat" /\ r.runs # << >> -> In(Steps(Amid(S, << r.each >>), r.runs[1], E), LAMBDA s : InRepeat(s, r))
     [] r.op = "watch" ->
-         Each(Steps(S, r.body, E), LAMBDA outcomes : Flatten(Each(outcomes, LAMBDA s : InWatch(s, r))))
+         Each(Steps(S, r.body, E), LAMBDA outcomes : Flatten(Each(outcomes, LAMBDA s : InWatch(S, s, r))))
     [] OTHER -> << >>
 
 -----------------------------------------------------------------------------

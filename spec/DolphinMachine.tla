@@ -200,7 +200,7 @@ Going == << "going" >>
 
 Started(M, S, mode, fuel) ==
   [ focus |-> M.focus, locals |-> M.locals, stack |-> M.stack, at |-> M.at,
-    store |-> S.store, B |-> S.B, N |-> S.N, sees |-> S.sees, beside |-> S.beside,
+    store |-> S.store, B |-> S.B, N |-> S.N, sees |-> S.sees, beside |-> S.beside, around |-> S.around,
     mode |-> mode, verdict |-> "propagate", deeds |-> << >>, fuel |-> fuel, stop |-> Going ]
 
 (* Slots are counted from 0 here, arguments from the last one backwards. *)
@@ -801,12 +801,26 @@ DoPoll(m, pairs) ==
   IF Codes(pairs) # << >> THEN CodeAsValue(m, Codes(pairs)[1][1])
   ELSE Result(m, Boolean(\A i \in DOMAIN pairs : IsThere(m.N, pairs[i][1], pairs[i][2])))
 
+Released(m, V) ==
+  IF V = << >> THEN Result(m, Null)
+  ELSE Did([ m EXCEPT !.B = SelectSeq(@, LAMBDA v : v \notin Range(V)) ], [ did |-> "release", vehicles |-> V ], Null)
+
 DoRelease(m, x) ==
   LET common == Intersection(x[2], m.B)
   IN CASE ~Is(x, "vehicles") -> Settle(m, Expected("a vehicle set to release", x))
        [] m.mode # "script" -> Faulty(m, "release belongs to the script, not to code inside of a task")
-       [] common = << >> -> Result(m, Null)
-       [] OTHER -> Did(m, [ did |-> "release", vehicles |-> common ], Null)
+       [] OTHER -> Released(m, common)
+
+(* What is beside or after the watch of the handler may not need them. *)
+DoDismiss(m, x) ==
+  LET common == Intersection(x[2], m.B)
+      held == HeldBy(m.around)
+      needed == SelectSeq(common, LAMBDA v : v \in held)
+  IN CASE ~Is(x, "vehicles") -> Settle(m, Expected("a vehicle set to dismiss", x))
+       [] m.mode # "handler" -> Faulty(m, "dismiss belongs in onError { ... }")
+       [] needed # << >> ->
+            Faulty(m, needed[1] \o " cannot be dismissed: a task beside or after this watch is to run on it")
+       [] OTHER -> Released(m, common)
 
 DoSetTimeout(m, vehicles, x) ==
   CASE ~IsNumber(x) -> Settle(m, Expected("a time, as in 2.min", x))
@@ -863,6 +877,7 @@ Procedure(m, op, xs) ==
        [] name = "ignore" -> Verdict(m, "ignore")
        [] name = "propagate" -> Verdict(m, "propagate")
        [] name = "retry" -> Verdict(m, "retry")
+       [] name = "dismiss" -> DoDismiss(m, x)
        [] name = "position" -> Settle(m, OneVehicleValue(x, PositionOf))
        [] name = "battery" -> Settle(m, OneVehicleValue(x, BatteryOf))
        [] name = "area" -> Settle(m, Around(x, xs[2]))

@@ -93,6 +93,7 @@ let procedures =
       "ignore", "ignore()", "In `onError`: the watched task counts as done.";
       "propagate", "propagate()", "In `onError`: the error climbs on.";
       "retry", "retry()", "In `onError`: the watched task runs once more, with vehicles that are free then.";
+      "dismiss", "dismiss e.vehicle", "In `onError`: the vehicles leave the program, even if they do not answer.";
       "fail", "fail 'why'", "An error with this text, which a `watch` around the task handles.";
       "getSupplier", "getSupplier()", "The object of the outside process that `--supplier` starts." ]
 

@@ -42,7 +42,7 @@ let value program world e =
       lambda_site = e.site }
   in
   let context : Code.context =
-    { program; world; bound = []; held = lazy []; store = Store.empty; tuples = Tuples.empty No_key;
+    { program; world; bound = []; held = lazy []; needed = lazy []; store = Store.empty; tuples = Tuples.empty No_key;
       mode = Task_code; deeds = [] }
   in
   match Machine.run ~fuel context (Machine.call { lambda; captured = [||] } []) with

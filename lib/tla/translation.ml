@@ -227,6 +227,7 @@ and procedure t site builtin : Tla.t =
   | Ignore -> plain "ignore"
   | Propagate -> plain "propagate"
   | Retry -> plain "retry"
+  | Dismiss -> plain "dismiss"
   | Is_there -> plain "isThere"
   | Is_host -> plain "isHost"
   | Math name ->

@@ -98,6 +98,18 @@ let tasks =
       ("a task that is tried again takes what is free",
        two ^ "execute (watch { task('p') } onError { e -> post lost: e.vehicle; retry() })[a + b] | task('q')[b] \n\
               if (poll(lost: a)) { message 'a failed' }");
+      ("who fails is dismissed, and another one takes over",
+       two ^ "execute watch { task('p') } onError { e -> dismiss e.vehicle; retry() }");
+      ("who is needed elsewhere is not dismissed",
+       two ^ "execute watch (task('p')[a] | task('q')[b] >> watch { task('r') } onError { e -> dismiss a; retry() })\n\
+              onError { e -> dismiss e.vehicle; if (e.vehicle == a) dismiss b; ignore() }\n\
+              execute watch (repeat 2, watch task('p')[a] onError { e -> dismiss e.vehicle; ignore() })\n\
+              onError { e -> message e; ignore() }\nrelease a");
+      ("who is needed later is not dismissed",
+       two ^ "execute watch ((watch task('p')[a] onError { dismiss a; ignore() }) >> task('q')[a]) onError { e ->\n\
+              message e; ignore() }");
+      ("a task that was made dismisses whom it holds",
+       two ^ "execute { watch task('p')[a] onError { dismiss a; ignore() } } | { watch task('q')[b] onError { dismiss b } }");
       ("a task in the place of another, of which the error tells",
        two ^ "execute watch task('p')[a] onError { e -> e.task == 'p' ? task('q')[b] >> idle(1.seconds) : idle(2.seconds) }");
       ("code that fails, and an error of no vehicle",

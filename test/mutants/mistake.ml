@@ -7,6 +7,9 @@ let in_file file ~noticed_by mistakes =
 let footprint =
   in_file "lib/explore/order/footprint.ml" ~noticed_by:"reduction/test_traps"
     [
+      ( "to dismiss concerns nobody else",
+        {|  | Builtin Dismiss, _ -> { breaking with claims = All; frees = All; looks = true }|},
+        {|  | Builtin Dismiss, _ -> breaking|} );
       ( "posts do not conflict with tests",
         {|
       || Pairs.meet f.posts f'.tests|},

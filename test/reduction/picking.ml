@@ -78,7 +78,9 @@ let made =
       (1, f "(waitFor { idle(%s) == %s } then { task('%s')[%s[0]] })" v v p v);
       (2, f "(watch (task('%s')[%s]) onError { %s ; retry() })" p v a);
       (2, f "(watch (task('%s')[%s]) onError { e -> post x: e.vehicle; task('t') })" p v);
-      (1, f "(watch ({ task('%s') })[%s] onError { e -> post lost: e.vehicle; retry() })" p v) ]
+      (1, f "(watch ({ task('%s') })[%s] onError { e -> post lost: e.vehicle; retry() })" p v);
+      (2, f "(watch ({ task('%s') })[%s] onError { e -> if (e.vehicle) { dismiss e.vehicle; retry() } })" p v);
+      (1, f "(watch (task('%s')[%s]) onError { dismiss %s ; ignore() })" p v v) ]
 
 let rec task depth =
   let leaf =

@@ -258,6 +258,14 @@ let traps =
           ((condition { poll x: 1 } >> action { post y: 1 }) within 5)|};
     breaks "a task that runs anew has other vehicles" ~environment:failing [ No_leftover ]
       {|execute (watch { task('p') } onError { retry() }) | action { if (!idle(a).isEmpty()) { post y: 1 } }|};
+    breaks "who is dismissed can be given nothing" ~environment:failing [ No_leftover ]
+      {|execute (watch task('p')[a] onError { dismiss a; ignore() }) |
+          (watch ({ task('q') })[a] onError { post y: 1; ignore() })|};
+    breaks "whom a task beside still has is not dismissed" ~environment:failing [ No_error; No_halt ]
+      {|execute (watch task('p')[a] onError { dismiss b; halt 'h' }) | (task('q')[b] >> idle(9))|};
+    breaks "an error in a nest asks who is idle beside" ~environment:failing [ No_error; No_halt ]
+      {|execute (watch (task('p')[a] | idle(9)) onError { if (idle(b).isEmpty()) { halt 'held' } else { ignore() } }) |
+          task('q')[b]|};
     breaks "during ends between two posts" [ No_leftover ]
       {|execute during 1.minutes run (action { post x: 1 } | action { post y: 1 } | task('p')[a])|};
     breaks "what follows two parts, side by side with who looks" [ No_leftover ]

@@ -253,6 +253,20 @@ let tasks : example list =
       (task "watch %p onError { e -> message \"${e.task} of ${e.vehicle}: ${e.message}\"; if (e.task == 'p') retry() }")
       "fail(noptilus-1, p, broken)" "FAIL, WATCH-RETRY" "watch unallocated task('p')[noptilus-1]"
       [ "say p of noptilus-1: p failed on noptilus-1: broken" ];
+    example Watch_retry "a vehicle is dismissed, which ran beside"
+      (task "watch (%p | %q) onError { e -> dismiss e.vehicle; retry() }") "fail(noptilus-2, q, broken)"
+      "FAIL, PAR-ERR, WATCH-RETRY" "watch unallocated task('p')[noptilus-1] | task('q')[noptilus-2]"
+      [ "stop noptilus-1"; "release noptilus-2" ];
+    example Watch_ignore "who is not bound is not dismissed twice"
+      (task "watch watch %p onError { e -> dismiss e.vehicle } onError { e -> dismiss e.vehicle; ignore() } >> idle(5)")
+      "fail(noptilus-1, p, broken)" "FAIL, WATCH-PROPAGATE, WATCH-IGNORE, SEQ-2" "idle(5)"
+      [ "release noptilus-1"; "set timer 1 to 5 s" ];
+    example Watch_propagate "nobody dismisses whom a task beside is to run on"
+      (task "watch (watch %p onError { post k: 1; dismiss v + w } | %q) onError { e -> e.contains('dismissed') ? idle(5) : null }")
+      "fail(noptilus-1, p, broken)" "FAIL, WATCH-PROPAGATE, PAR-ERR, WATCH-INSTEAD" "unallocated idle(5.seconds)" [];
+    example Watch_propagate "nor whom one after it is to run on"
+      (task "watch (watch %p onError { e -> dismiss e.vehicle; ignore() } >> %p) onError { e -> idle(5) }")
+      "fail(noptilus-1, p, broken)" "FAIL, WATCH-PROPAGATE, SEQ-ERR, WATCH-INSTEAD" "unallocated idle(5.seconds)" [];
     example Watch_instead "another task in its place" (task "(watch %p onError { task('r') }) >> idle(5)")
       "fail(noptilus-1, p, broken)" "FAIL, WATCH-INSTEAD, SEQ-1" "(unallocated task('r') >> idle(5))" [];
     example Watch_instead "an error of code is of no vehicle"

@@ -144,10 +144,15 @@ let action_code ~sensing =
 (* Handlers that run the task anew, or another one in its place: always, or if a pair is there. *)
 let recovering =
   let retry = statement (call "retry" []) in
+  let dismissed vs verdict = [ statement (call "dismiss" [ Positional vs ]); statement (call verdict []) ] in
+  let of_error = expression (Member { subject = variable "it"; name = located "vehicle"; safe = false }) in
+  let failed = code [ located (If (of_error, dismissed of_error "retry", [ statement (call "ignore" []) ])) ] in
   let instead plan = statement (call "task" [ Positional (string plan) ]) in
   let if_taken yes e = code [ located (If (e, [ yes ], [ statement (call "ignore" []) ])) ] in
   frequency
-    [ (1, return (code [ retry ])); (3, map (if_taken retry) (taking "consume"));
+    [ (1, return (code [ retry ])); (1, return failed);
+      (1, map (fun verdict -> code (dismissed (variable "va") verdict)) (oneofl [ "retry"; "ignore"; "propagate" ]));
+      (3, map (if_taken retry) (taking "consume"));
       (1, map (fun p -> code [ instead p ]) (oneofl [ "p"; "q" ]));
       (1, map2 (fun p e -> if_taken (instead p) e) (oneofl [ "p"; "q" ]) (taking "consume")) ]
 
@@ -529,14 +534,14 @@ let replicated_any =
 
 let printed p = Format.asprintf "%a" Print.program p
 
-(* Few of them make tasks or ask who is idle: there is no symmetry of tasks then. *)
+(* Few of them make tasks, ask who is idle or dismiss: there is no symmetry of tasks then. *)
 let rec replicated_gen () =
   let* p = replicated_any in
   let words = List.filter (( <> ) "") (String.split_on_char ' ' (String.map (function '\n' -> ' ' | c -> c) (printed p))) in
   let text = String.concat " " words in
   let has part = replace ~by:"" part text <> text in
   let* keep = map (( = ) 0) (int_bound 5) in
-  if keep || not (has "idle(va)" || has "{ task" || has "w ->" || has "{ {") then return p else replicated_gen ()
+  if keep || not (has "idle(va)" || has "dismiss" || has "{ task" || has "w ->" || has "{ {") then return p else replicated_gen ()
 
 let replicated = replicated_gen ()
 

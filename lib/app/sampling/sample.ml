@@ -44,7 +44,7 @@ let handlers program world (c : Configuration.t) event (t : Transition.t) =
           | Inside (Watched_by handler) -> Some handler.code.lambda.lambda_site
           | Inside _ | Beside _ -> None
         in
-        List.filteri (fun i _ -> i < n) (List.filter_map site around)
+        List.filteri (fun i _ -> i < n) (List.rev (List.filter_map site around))
       in
       match Seq.filter (makes program world c event t machine r) (Task_rules.steps r) () with
       | Seq.Cons (step, _) -> watches step

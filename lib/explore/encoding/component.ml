@@ -87,7 +87,7 @@ and step = {
   successor : target;  (* if it goes well *)
   begins : Task_rules.round list;  (* the rounds that begin if it goes well *)
   looks : bool;  (* whether it depends on what vehicles are held around *)
-  mutable looked : (int * Core.vehicle list * Residual.timer list, outcome) Hashtbl.t option;
+  mutable looked : (int * Core.vehicle list * Residual.timer list * Core.vehicle list list, outcome) Hashtbl.t option;
   (* memoised by {!Memoised_steps}, by the number of what is shared and by what is around, if it [looks] *)
   mutable free_action : int;  (* the action of a [Free] step, or -1 while nobody has asked *)
   mutable outcomes : outcome array;  (* memoised by {!Memoised_steps}, by the number of what is shared *)

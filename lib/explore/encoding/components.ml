@@ -19,6 +19,7 @@ type t = {
   coverage : Coverage.t;
   context : Step_footprints.context;
   holding : Step_footprints.context;
+  dismisses : bool;
   foreseen : int;
   mutable paths : int;
   mutable families : int;
@@ -51,6 +52,7 @@ let create ?(foreseen = 2_048) options program world =
     coverage = Coverage.create ();
     context;
     holding = Step_footprints.with_holding context;
+    dismisses = Footprint.dismisses program;
     foreseen;
     paths = 1;
     families = 0;
@@ -60,6 +62,7 @@ let create ?(foreseen = 2_048) options program world =
   }
 
 let options t = t.options
+let dismisses t = t.dismisses
 let program t = t.program
 let world t = t.world
 let coverage t = t.coverage
@@ -135,6 +138,8 @@ let guard t check closure =
 
 (* {1 Steps} *)
 
+let rec nests path = match path.outer with Some outer -> path.contexts :: nests outer | None -> []
+
 let rec component t path residual =
   match Residuals.find_opt path.components residual with
   | Some p -> p
@@ -171,7 +176,7 @@ and target_of t path family residual =
 (* Steps that go on in one way, whatever is shared, are settled here; the others per shared state, by
    {!Memoised_steps}. *)
 and compile t home kin index (Step { offer; continue; _ } as source : Task_rules.step) =
-  let looks = Step_footprints.looks t.context source in
+  let looks = Step_footprints.looks t.context (Task_rules.escaping (nests home) source) in
   let dependent event =
     { index; source; looks; looked = None; event; home; kin; dependence = Dependent; successor = Gone; begins = [];
       free_action = -1; outcomes = [||] }
@@ -239,7 +244,6 @@ let reach t p =
 
 (* {1 Footprints} *)
 
-let rec nests path = match path.outer with Some outer -> path.contexts :: nests outer | None -> []
 let escaping step = Task_rules.escaping (nests step.home) step.source
 
 let footprint_step step : Step_footprints.step =

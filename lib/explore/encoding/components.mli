@@ -13,6 +13,10 @@ val create : ?foreseen:int -> Environment.options -> Core.program -> World.t -> 
 val options : t -> Environment.options
 val program : t -> Core.program
 val world : t -> World.t
+
+val dismisses : t -> bool
+(** Whether some handler may dismiss vehicles: what it does then depends on all that is needed around it. *)
+
 val coverage : t -> Coverage.t
 
 (** {1:components Components} *)

@@ -55,6 +55,7 @@ type t = {
   anything : bool;
   claims : vehicles;
   frees : vehicles;
+  looks : bool;
   remembered : bool;
   breaks : bool;
   halts : bool;
@@ -73,6 +74,7 @@ let empty =
     anything = false;
     claims = no_vehicles;
     frees = no_vehicles;
+    looks = false;
     remembered = false;
     breaks = false;
     halts = false;
@@ -94,6 +96,7 @@ let union f f' =
       anything = f.anything || f'.anything;
       claims = both f.claims f'.claims;
       frees = both f.frees f'.frees;
+      looks = f.looks || f'.looks;
       remembered = f.remembered || f'.remembered;
       breaks = f.breaks || f'.breaks;
       halts = f.halts || f'.halts;
@@ -110,7 +113,7 @@ let of_posts (program : Core.program) pairs =
 
 let reads_nothing f =
   Pairs.is_empty f.takes && Pairs.is_empty f.needs && Pairs.is_empty f.tests && Globals.is_empty f.reads
-  && not f.anything
+  && not (f.anything || f.looks)
 
 let touches_nothing f =
   reads_nothing f && Pairs.is_empty f.posts && Globals.is_empty f.writes && is_none f.claims && is_none f.frees
@@ -191,7 +194,7 @@ let is_seen scope e =
   | _, _ -> is_inert scope e
 
 let breaking = { empty with breaks = true }
-let anything = { empty with anything = true; claims = All; breaks = true; halts = true; ignores = true }
+let anything = { empty with anything = true; claims = All; looks = true; breaks = true; halts = true; ignores = true }
 let all fs = List.fold_left union empty fs
 
 (* With the values' expressions; nothing if a key is computed, and not known. *)
@@ -270,9 +273,10 @@ and applied code scope operation arguments =
   | Method (("findAll" | "size"), _), e :: _ when lists_values e -> breaking
   | Builtin Message, [ _ ] -> empty
   | Builtin Make_idle, [ { node = Constant (Integer _ | Number _); _ } ] -> breaking
-  | Builtin Make_idle, _ -> { breaking with claims = All }
+  | Builtin Make_idle, _ -> { breaking with claims = All; looks = true }
   | Builtin (Halt | Assert), _ -> { empty with halts = true }
   | Builtin (Ignore | Retry), _ -> { breaking with ignores = true }
+  | Builtin Dismiss, _ -> { breaking with claims = All; frees = All; looks = true }
   | Builtin Make_watch, [ _; { node = Make_closure (handler, _); _ } ] ->
     { breaking with ignores = Recovery.may_give handler }
   | Call _, callee :: _ -> (
@@ -340,7 +344,8 @@ let rec is_composed looked (lambda : lambda) e =
   | Apply (Build ((Imc_plan | Mission), _), _) -> true
   (* Values that are no tasks: of handlers. *)
   | Constant Null
-  | Apply (Builtin (Ignore | Propagate | Retry | Fail | Halt | Message | Post _ | Consume _ | Poll _), _) -> true
+  | Apply
+      (Builtin (Ignore | Propagate | Retry | Dismiss | Fail | Halt | Message | Post _ | Consume _ | Poll _), _) -> true
   | Apply (Builtin (Make_wait_for | Make_until _ | Make_during _), [ _; t ]) -> go t
   | Apply (Builtin Make_watch, [ t; { node = Make_closure (handler, _); _ } ]) ->
     go t && ((not (Recovery.may_give handler)) || gives_composed looked handler)
@@ -408,14 +413,17 @@ let of_maker code c =
 
 let claims f = not (is_none f.claims)
 
-(* Whether some code may ask for those of a vehicle set that nobody holds. *)
-let asks_idle (program : program) =
+let exists_code p (program : program) =
   let found = ref false in
-  let visit e =
-    match e.node with
-    | Apply (Builtin Make_idle, [ { node = Constant (Integer _ | Number _); _ } ]) -> ()
-    | Apply (Builtin Make_idle, _) -> found := true
-    | _ -> ()
-  in
-  Code_walk.iter visit (Code_walk.pieces program);
+  Code_walk.iter (fun e -> if p e.node then found := true) (Code_walk.pieces program);
   !found
+
+let dismisses = exists_code (function Apply (Builtin Dismiss, _) -> true | _ -> false)
+
+let asks_held program =
+  let asks_idle = function
+    | Apply (Builtin Make_idle, [ { node = Constant (Integer _ | Number _); _ } ]) -> false
+    | Apply (Builtin Make_idle, _) -> true
+    | _ -> false
+  in
+  exists_code asks_idle program || dismisses program

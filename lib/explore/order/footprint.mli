@@ -32,6 +32,7 @@ type t = {
   anything : bool;  (** nothing is known: code that cannot be seen may be called *)
   claims : vehicles;  (** that it may come to hold, or looks whether they are held *)
   frees : vehicles;  (** that may be held no longer after it *)
+  looks : bool;  (** what its code does may depend on what is held *)
   remembered : bool;  (** the outside may remember it, for a later [pick] *)
   breaks : bool;  (** it may be faulty, or fail *)
   halts : bool;  (** it may end the run, by [halt] or an assertion that fails *)
@@ -76,5 +77,8 @@ val of_maker : code -> Core.closure -> t
 val claims : t -> bool
 (** [claims f] is whether it depends on which vehicles are held. *)
 
-val asks_idle : Core.program -> bool
-(** [asks_idle p] is whether some code of [p] may ask which vehicles nobody holds. *)
+val asks_held : Core.program -> bool
+(** [asks_held p] is whether what some code of [p] does may depend on what is held: [idle(V)], and [dismiss V]. *)
+
+val dismisses : Core.program -> bool
+(** [dismisses p] is whether some handler of [p] may dismiss vehicles. *)

@@ -11,12 +11,12 @@ type t = {
 }
 
 type step = { index : int; source : Task_rules.step; event : Transition.event option }
-type context = { options : Environment.options; code : Footprint.code; makes : bool; asks_idle : bool }
+type context = { options : Environment.options; code : Footprint.code; makes : bool; asks_held : bool }
 
 (* {1 Tasks made at their turn} *)
 
 let context options program =
-  { options; code = Footprint.code program; makes = false; asks_idle = Footprint.asks_idle program }
+  { options; code = Footprint.code program; makes = false; asks_held = Footprint.asks_held program }
 let with_holding c = { c with makes = true }
 let union = Footprint.union
 let all = List.fold_left union Footprint.empty
@@ -31,7 +31,7 @@ let of_refuted c g =
   union { f with posts = none.posts; queues = none.queues; takes = none.takes; writes = none.writes } breaking
 
 (* What is free matters only where tasks are made, or asked for who is idle. *)
-let freed c vs = if c.makes || c.asks_idle then Footprint.these vs else Footprint.these []
+let freed c vs = if c.makes || c.asks_held then Footprint.these vs else Footprint.these []
 
 let ending c (p : platform_task) v =
   let remembered = Environment.endings_remember c.options in
@@ -154,7 +154,7 @@ let footprint c { source = Step { offer; continue; _ } as source; event; _ } =
 
 (* {2 What is held no longer after a step} *)
 
-let concerns_holding c = c.makes || c.asks_idle
+let concerns_holding c = c.makes || c.asks_held
 
 (* If all goes well: what the residual [r], in contexts that hold [outer], names no longer. *)
 let lost r outer { source = Step { offer; continue; _ }; _ } =
@@ -305,7 +305,7 @@ let looks c (Task_rules.Step { offer; _ } as source) =
   let code_claims =
     match offer with
     | Allocate _ -> true
-    | _ when not c.asks_idle -> false
+    | _ when not c.asks_held -> false
     | Perform a -> claims a
     | Check g -> claims g
     | Take g -> claims g
@@ -315,4 +315,4 @@ let looks c (Task_rules.Step { offer; _ } as source) =
     | Make (code, _, _) -> claims code
     | Start _ | End_of _ | Expiry_of _ | Answer_to _ -> false
   in
-  code_claims || (c.asks_idle && List.exists (fun (h : Residual.handler) -> claims h.code) (handlers source))
+  code_claims || (c.asks_held && List.exists (fun (h : Residual.handler) -> claims h.code) (handlers source))

@@ -180,23 +180,23 @@ let share x ~action shared =
 
 (* {1 Steps that depend on what is shared} *)
 
+(* What stands in [place], from left to right. *)
+let rec standing x (place : Layout.place) =
+  match place.inside with
+  | None -> [ (Encoding.component x.layout x.key place.index).residual ]
+  | Some inside -> Residual.plug inside.contexts Residual.hole :: List.concat_map (standing x) place.children
+
 (* What is around [place], as far as vehicles are held there and timers are numbered. *)
-let around x (place : Layout.place) =
-  let layout = x.layout in
-  let contains (outer : Layout.place) (inner : Layout.place) = outer.from <= inner.from && inner.upto <= outer.upto in
-  let leaf position (leaf : Layout.place) =
-    if contains place leaf then []
-    else [ Residual.Beside [ (Encoding.component layout x.key position).residual ] ]
+let rec around x (place : Layout.place) =
+  let beside children =
+    Residual.Beside (List.concat_map (fun child -> if child == place then [] else standing x child) children)
   in
-  let nest (nest : Layout.place) =
-    match nest.inside with
-    | Some inside when nest != place && contains nest place ->
-      List.map (fun context -> Residual.Inside context) inside.contexts
-    | Some inside when not (contains place nest) -> [ Residual.Beside [ Residual.plug inside.contexts Residual.hole ] ]
-    | Some _ | None -> []
-  in
-  List.concat (Array.to_list (Array.mapi leaf layout.leaves))
-  @ List.concat_map nest (Array.to_list layout.nests)
+  match place.around with
+  | None -> [ beside x.layout.top ]
+  | Some nest ->
+    let contexts = match nest.inside with Some inside -> List.rev inside.contexts | None -> [] in
+    let inside = List.map (fun context -> Residual.Inside context) contexts in
+    List.concat [ around x nest; inside; [ beside nest.children ] ]
 
 let outcome x place step =
   if step.looks then Memoised_steps.look x.expansion.steps step ~around:(around x place) x.shared

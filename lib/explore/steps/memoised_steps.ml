@@ -133,7 +133,12 @@ let look t step ~around s =
       step.looked <- Some table;
       table
   in
-  let key = (s, Residual.held around, Residual.timers_around around) in
+  let needed =
+    if Components.dismisses t.components then
+      List.map Residual.needed_around (around :: Residual.beyond_watches around)
+    else []
+  in
+  let key = (s, Residual.held around, Residual.timers_around around, needed) in
   match Hashtbl.find_opt table key with
   | Some outcome -> outcome
   | None ->

@@ -89,6 +89,7 @@ let table : (string * t) list =
     ("ignore", these Ignore [] ~place:Handler_only ~result:Other);
     ("propagate", these Propagate [] ~place:Handler_only ~result:Other);
     ("retry", these Retry [] ~place:In_handler ~result:Other);
+    ("dismiss", these Dismiss [ Vehicles ] ~place:In_handler ~result:Other);
     ("getSupplier", these Get_supplier [] ~place:Script_only) ]
 
 module String_map = Map.Make (String)

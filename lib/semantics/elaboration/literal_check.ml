@@ -31,7 +31,8 @@ let context : Code.context =
       reads_sensors = false }
   in
   let tuples = Tuples.empty No_key in
-  { program; world = World.empty; bound = []; held = lazy []; store = Store.empty; tuples; mode = Script; deeds = [] }
+  { program; world = World.empty; bound = []; held = lazy []; needed = lazy []; store = Store.empty; tuples;
+    mode = Script; deeds = [] }
 
 let fault operation values =
   match operation with

@@ -10,7 +10,7 @@ type deed =
   | Posted of (string * value) list
   | Consumed of (string * value) list
   | Said of string
-  | Released of vehicle list                    (* those that were bound *)
+  | Released of vehicle list                    (* those that were bound; by [dismiss] too *)
   | Set_connection_timeout of vehicle list option * float  (* for these vehicles, or for all; seconds *)
 
 (** How an error handler settles the error: [ignore()], [retry()], or [propagate()], which is the default. *)
@@ -27,6 +27,7 @@ type context = {
   world : World.t;
   bound : vehicle list;                         (* B, in pick order *)
   held : vehicle list Lazy.t;                   (* what is held from where the code stands *)
+  needed : vehicle list Lazy.t;                 (* what is needed outside of the [watch] of a handler *)
   store : Store.t;
   tuples : Tuples.t;                            (* N *)
   mode : mode;

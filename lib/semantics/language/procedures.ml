@@ -229,6 +229,23 @@ let settle context verdict =
   | Handler _ -> Judged verdict
   | Script | Task_code -> Wrong "ignore(), propagate() and retry() belong in onError { ... }"
 
+let release context vs =
+  match List.filter (fun v -> List.mem v context.bound) vs with
+  | [] -> Value Null
+  | vs ->
+    let bound = List.filter (fun v -> not (List.mem v vs)) context.bound in
+    Done (Released vs, { context with bound }, Null)
+
+(* What is beside or after the [watch] of the handler may not need them. *)
+let dismiss context vs =
+  match context.mode with
+  | Script | Task_code -> Wrong "dismiss belongs in onError { ... }"
+  | Handler _ -> (
+      let is_needed v = List.mem v context.bound && List.mem v (Lazy.force context.needed) in
+      match List.filter is_needed vs with
+      | [] -> release context vs
+      | v :: _ -> Wrong (Printf.sprintf "%s cannot be dismissed: a task beside or after this watch is to run on it" v))
+
 let apply context at operation arguments =
   match operation, arguments with
   | Platform_task, [ String name ] when name <> "" ->
@@ -245,14 +262,11 @@ let apply context at operation arguments =
       | Error e -> of_result e)
   | Release, [ Vehicles vs ] -> (
       match context.mode with
-      | Script -> (
-          match Operators.binary Intersect (Vehicles vs) (Vehicles context.bound) with
-          | Ok (Vehicles []) -> Value Null
-          | Ok (Vehicles bound) -> Done (Released bound, context, Null)
-          | Ok x -> expected "a vehicle set" x
-          | Error message -> Wrong message)
+      | Script -> release context vs
       | Task_code | Handler _ -> Wrong "release belongs to the script, not to code inside of a task")
   | Release, [ x ] -> expected "a vehicle set to release" x
+  | Dismiss, [ Vehicles vs ] -> dismiss context vs
+  | Dismiss, [ x ] -> expected "a vehicle set to dismiss" x
   | Set_connection_timeout, [ x ] -> set_connection_timeout context None x
   | Set_connection_timeout, [ Vehicles vs; x ] -> set_connection_timeout context (Some vs) x
   | Set_connection_timeout, [ x; _ ] -> expected "a vehicle set" x
@@ -307,6 +321,6 @@ let apply context at operation arguments =
   | Math name, arguments -> mathematics name arguments
   | Geometry (name, keys), arguments -> of_result (Geometry.apply name keys arguments)
   | ( ( Execute | Release | Set_connection_timeout | Ask | Message | Pause | Halt | Position_of | Battery_of
-      | Eta | Location_of | Area_of | Assert | Fail | Ignore | Propagate | Retry | Get_supplier | Interrupted | Is_host
-      | Is_there | Values_of ),
+      | Eta | Location_of | Area_of | Assert | Fail | Ignore | Propagate | Retry | Dismiss | Get_supplier | Interrupted
+      | Is_host | Is_there | Values_of ),
       _ ) -> Wrong (Printf.sprintf "wrong number of arguments, %d" (List.length arguments))

@@ -60,9 +60,21 @@ let instead (handler : Residual.handler) t propagated recovered =
 let foreign_retry (handler : Residual.handler) =
   Fault.make handler.code.lambda.lambda_site "retry() was called for another handler than that in whose text it stands"
 
+(* What is held from where a step stands, and what is needed outside of each [watch] around it, the innermost first. *)
+type around = { held : vehicle list Lazy.t; beyond : vehicle list Lazy.t list Lazy.t }
+
+let around_step around =
+  let needed around = lazy (Residual.needed_around around) in
+  { held = lazy (Residual.held around); beyond = lazy (List.map needed (Residual.beyond_watches around)) }
+
+(* The next [watch] has another [watch] inside. *)
+let beyond_next around =
+  let beyond = lazy (match Lazy.force around.beyond with [] -> [] | _ :: outer -> outer) in
+  (lazy (match Lazy.force around.beyond with [] -> [] | first :: _ -> Lazy.force first), { around with beyond })
+
 (* [settle s derivation asked change] carries a change of the residual over to the shared part [s], handlers of errors
    included. [asked] are the effects so far. *)
-let rec settle held program world s derivation asked (change : Task_rules.change) =
+let rec settle around program world s derivation asked (change : Task_rules.change) =
   let stopped, undone = List.split (List.map undo change.undone) in
   let derivation = derivation @ change.rules in
   let s = without_tasks (List.concat stopped) s in
@@ -73,6 +85,7 @@ let rec settle held program world s derivation asked (change : Task_rules.change
   | Finished -> Decided (come_to Over)
   | Failed fault -> Decided (come_to (Ends (Failed fault)))
   | Handling { handler; fault; ignored; propagated; recovered } ->
+    let needed, outer = beyond_next around in
     let handled { Run_code.world; outcome; mode } =
       match outcome, mode with
       | Halts (message, s, deeds), _ ->
@@ -83,19 +96,20 @@ let rec settle held program world s derivation asked (change : Task_rules.change
         let asked = asked @ Run_code.effects said in
         Decided { (come_to (Ends (Failed fault))) with derivation = derivation @ [ Rule.Assert_err ]; asked }
       | Faulty (fault, said), _ ->
-        settle held program world s derivation (asked @ Run_code.effects said) (propagated fault)
+        settle outer program world s derivation (asked @ Run_code.effects said) (propagated fault)
       | Gives (Task t, s, deeds), Handler _ when handler.anew <> None ->
-        settle held program world s derivation (asked @ Run_code.effects deeds) (instead handler t propagated recovered)
+        let asked = asked @ Run_code.effects deeds in
+        settle outer program world s derivation asked (instead handler t propagated recovered)
       | Gives (_, s, deeds), Handler Retried when handler.anew = None ->
-        settle held program world s derivation (asked @ Run_code.effects deeds) (propagated (foreign_retry handler))
+        settle outer program world s derivation (asked @ Run_code.effects deeds) (propagated (foreign_retry handler))
       | Gives (_, s, deeds), Handler Retried ->
-        settle held program world s derivation (asked @ Run_code.effects deeds) (recovered Anew)
+        settle outer program world s derivation (asked @ Run_code.effects deeds) (recovered Anew)
       | Gives (_, s, deeds), Handler Ignored ->
-        settle held program world s derivation (asked @ Run_code.effects deeds) (ignored ())
+        settle outer program world s derivation (asked @ Run_code.effects deeds) (ignored ())
       | Gives (_, s, deeds), (Handler Propagated | Script | Task_code) ->
-        settle held program world s derivation (asked @ Run_code.effects deeds) (propagated fault)
+        settle outer program world s derivation (asked @ Run_code.effects deeds) (propagated fault)
     in
-    Decision.bind (Run_code.handler ~held program world s handler.code fault) handled
+    Decision.bind (Run_code.handler ~held:around.held ~needed program world s handler.code fault) handled
 
 (* {1 Steps} *)
 
@@ -167,10 +181,11 @@ let allocated world bound held task (request : Residual.request) around =
       | Error _ -> Result.bind (from bound) waits_or_fails)
 
 let internal program world (s : Shared.t) (Task_rules.Step { offer; continue; around }) =
-  let held = lazy (Residual.held around) in
+  let surroundings = around_step around in
+  let held = surroundings.held in
   let coded ?given = coded ?given held in
   let go ?(asked = []) world s change =
-    Decision.map (fun local -> Some (kept program world local)) (settle held program world s [] asked change)
+    Decision.map (fun local -> Some (kept program world local)) (settle surroundings program world s [] asked change)
   in
   let fails continue world said fault = go world ~asked:(Run_code.effects said) s (continue (Error fault)) in
   let guard_fails continue world said fault =
@@ -228,9 +243,9 @@ let internal program world (s : Shared.t) (Task_rules.Step { offer; continue; ar
     coded program world s code ~gives ~fails:(fails continue)
 
 let on_event program world s (Task_rules.Step { offer; continue; around }) (event : event) =
-  let held = lazy (Residual.held around) in
+  let around = around_step around in
   let go s change =
-    Decision.map (fun local -> Some (kept program world local)) (settle held program world s [] [] change)
+    Decision.map (fun local -> Some (kept program world local)) (settle around program world s [] [] change)
   in
   match event, offer with
   | Vehicle_done v, End_of (_, v') when v = v' -> go (without_tasks [ v ] s) (continue (Ok ()))

@@ -356,6 +356,22 @@ let held around =
   in
   Vehicle_set.elements (List.fold_left beside Vehicle_set.empty around)
 
+let needed_around around =
+  let add found = function
+    | Beside rs -> List.fold_left (fold_all add_named) found rs
+    | Inside (Holding _) -> found
+    | Inside context -> fold_all add_named found (within context hole)
+  in
+  Vehicle_set.elements (List.fold_left add Vehicle_set.empty around)
+
+let beyond_watches around =
+  let rec from beyond = function
+    | Inside (Watched_by _) :: outer -> from (List.rev outer :: beyond) outer
+    | (Inside _ | Beside _) :: outer -> from beyond outer
+    | [] -> List.rev beyond
+  in
+  from [] (List.rev around)
+
 let timers_around around =
   let add found = function
     | Beside rs -> List.fold_left (fold_all add_timer) found rs

@@ -147,12 +147,19 @@ val named : t -> vehicle list
 val makes_tasks : t -> bool
 (** [makes_tasks r] is whether tasks are made at their turn in [r], were made, or are to be; by handlers too. *)
 
-(** What is around a residual: what stands beside it in a [Parallel], or a context. *)
+(** What is around a residual: what stands beside it in a [Parallel], or a context. Lists begin with the outermost. *)
 type surrounding = Beside of t list | Inside of context
 
 val held : surrounding list -> vehicle list
 (** [held around] is the vehicles that are held from what [around] is around: those named beside it. What follows it,
     the other branches of an [allOf] and what holds it are never active beside it, so they hold nothing from it. *)
+
+val needed_around : surrounding list -> vehicle list
+(** [needed_around around] is the vehicles that [around] needs: that it names beside it, or in what is to come. What
+    only holds them around it does not need them. *)
+
+val beyond_watches : surrounding list -> surrounding list list
+(** [beyond_watches around] is what is around each [watch] of [around], the innermost [watch] first. *)
 
 val timers_around : surrounding list -> timer list
 (** [timers_around around] is the timers that [around] names, those to come included. *)

@@ -12,10 +12,11 @@ let fuel = 2_000_000
 
 let nobody = lazy []
 
-let context ?(held = nobody) program world (s : Shared.t) mode : Code.context =
-  { program; world; bound = s.bound; held; store = s.store; tuples = s.tuples; mode; deeds = [] }
+let context ?(held = nobody) ?(needed = nobody) program world (s : Shared.t) mode : Code.context =
+  { program; world; bound = s.bound; held; needed; store = s.store; tuples = s.tuples; mode; deeds = [] }
 
-let after (context : Code.context) (s : Shared.t) = { s with store = context.store; tuples = context.tuples }
+let after (context : Code.context) (s : Shared.t) =
+  { s with bound = context.bound; store = context.store; tuples = context.tuples }
 
 let kept program world (s : Shared.t) =
   if World.is_open world then { s with store = Reading.keep program s.store } else s
@@ -33,7 +34,7 @@ let is_said : Code.deed -> bool = function
 let said deeds = List.filter is_said deeds
 let effects deeds = List.filter_map action_of deeds
 
-let run held program world s mode closure arguments =
+let run ?needed held program world s mode closure arguments =
   let result (stop, _, (context : Code.context)) =
     let deeds = List.rev context.deeds in
     let outcome =
@@ -49,15 +50,15 @@ let run held program world s mode closure arguments =
     in
     { world = context.world; outcome; mode = context.mode }
   in
-  Decision.map result (Machine.run ~fuel (context ~held program world s mode) (Machine.call closure arguments))
+  Decision.map result (Machine.run ~fuel (context ~held ?needed program world s mode) (Machine.call closure arguments))
 
 let atomic ?(held = nobody) ?(given = []) program world s closure = run held program world s Task_code closure given
 
 (* The error, with the vehicle and the task that failed, if it was one. *)
-let handler ~held program world s closure (fault : Fault.t) =
+let handler ~held ~needed program world s closure (fault : Fault.t) =
   let vehicle, task =
     match fault.cause with
     | Task { vehicle; task } -> (Vehicles [ vehicle ], String task)
     | Code | Assertion | Unknown -> (Null, Null)
   in
-  run held program world s (Handler Propagated) closure [ String fault.message; vehicle; task ]
+  run ~needed held program world s (Handler Propagated) closure [ String fault.message; vehicle; task ]

@@ -18,14 +18,19 @@ val atomic :
 (** [atomic ~held ~given p w s code] runs [code] of a task to its end, with arguments [given], none by default. The
     vehicles [held] are held from where it stands; by default, none. *)
 
-val handler : held:vehicle list Lazy.t -> program -> World.t -> Shared.t -> closure -> Fault.t -> result Decision.t
-(** [handler ~held p w s code fault] runs the [onError] code [code] for [fault]. *)
+val handler :
+  held:vehicle list Lazy.t -> needed:vehicle list Lazy.t -> program -> World.t -> Shared.t -> closure -> Fault.t ->
+  result Decision.t
+(** [handler ~held ~needed p w s code fault] runs the [onError] code [code] for [fault]. It may not dismiss the vehicles
+    [needed]. *)
 
-val context : ?held:vehicle list Lazy.t -> program -> World.t -> Shared.t -> Code.mode -> Code.context
+val context :
+  ?held:vehicle list Lazy.t -> ?needed:vehicle list Lazy.t -> program -> World.t -> Shared.t -> Code.mode ->
+  Code.context
 (** What the machine sees of a shared part. *)
 
 val after : Code.context -> Shared.t -> Shared.t
-(** [after x s] is [s] with the store and N that [x] holds. *)
+(** [after x s] is [s] with the store, B and N that [x] holds. *)
 
 val kept : program -> World.t -> Shared.t -> Shared.t
 (** [kept p w s] is [s] once the step that ran the code is over: in an open world, its readings are known by the

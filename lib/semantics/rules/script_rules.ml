@@ -8,17 +8,8 @@ let rule_of_deed : Code.deed -> Rule.t = function
   | Released _ -> Release
   | Set_connection_timeout _ -> Set_timeout
 
-let release vs (s : Shared.t) =
-  let bound = List.filter (fun v -> not (List.mem v vs)) s.bound in
-  { s with bound; allocation = Vehicle_map.filter (fun v _ -> not (List.mem v vs)) s.allocation }
-
 (* No task runs while the script does, so to release a vehicle stops none. *)
 let do_deed (deed : Code.deed) s m =
-  let s =
-    match deed with
-    | Released vs -> release vs s
-    | Posted _ | Consumed _ | Said _ | Set_connection_timeout _ -> s
-  in
   Conclusion.make ~effects:(Run_code.effects [ deed ]) (rule_of_deed deed) (Did deed) (Script m) s
 
 let execute world (s : Shared.t) m t =

@@ -93,7 +93,7 @@ let composed f surroundings (Step step) =
   let continue reply = f (step.continue reply) in
   Step { step with continue; around = List.rev_append surroundings step.around }
 
-let among around (Step step) = Step { step with around = step.around @ around }
+let among around (Step step) = Step { step with around = around @ step.around }
 
 (* The usual whole: [next] rebuilds it, and it ends as its part ends. *)
 let around ~next (step, finished, failed) =

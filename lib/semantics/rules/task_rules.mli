@@ -74,7 +74,7 @@ val steps_of_vehicle : vehicle -> t -> step Seq.t
 (** [steps_of_vehicle v r] is [steps r], without some of those that do not wait for the end of a task of [v]. *)
 
 val among : surrounding list -> step -> step
-(** [among around s] is [s], with [around] around it too. *)
+(** [among around s] is [s], with [around] around what is around it. *)
 
 val broken : step -> Fault.t -> change option
 (** [broken s fault] is the change by [s] if it fails: if what it needs goes wrong, with [fault] if it runs code, or by

@@ -160,6 +160,7 @@ and builtin =
   | Ignore
   | Propagate
   | Retry
+  | Dismiss
   | Get_supplier
   | Interrupted                                 (* made by elaboration: the end of what [onInterrupt] executes *)
   | Is_there                                    (* made by elaboration: whether [a ?: b] is [a] *)

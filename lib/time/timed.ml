@@ -16,7 +16,7 @@ type item =
   | Reply
   | Posting of string
 
-type pending = { item : item; bounds : Bounds.t; task : Core.platform_task option }
+type pending = { item : item; bounds : Bounds.t; task : Core.platform_task option; prompt : string option }
 
 type state = {
   configuration : Configuration.t;
@@ -69,15 +69,16 @@ let place o elsewhere v =
 
 (* What begins with an effect. *)
 let begun o elsewhere : Effect.t -> pending option =
-  let timer timer bounds = Some { item = Timer timer; bounds; task = None } in
+  let some ?task ?prompt item bounds = Some { item; bounds; task; prompt } in
+  let timer timer bounds = some (Timer timer) bounds in
   function
-  | Start (v, p) -> Some { item = Task v; bounds = o.durations.task v (place o elsewhere v) p; task = Some p }
+  | Start (v, p) -> some ~task:p (Task v) (o.durations.task v (place o elsewhere v) p)
   | Set_timer (i, seconds) -> timer i (Bounds.exactly seconds)
   | Look_for pick ->
     timer Residual.script_timer (Option.fold ~none:o.durations.announced ~some:Bounds.exactly pick.timeout)
-  | Put_question (question, _) -> Some { item = Question question; bounds = Some_time; task = None }
-  | Ask _ -> Some { item = Answer; bounds = Bounds.at_once; task = None }
-  | Call_host _ -> Some { item = Reply; bounds = Bounds.at_once; task = None }
+  | Put_question (question, prompt) -> some ~prompt (Question question) Some_time
+  | Ask prompt -> some ~prompt Answer Bounds.at_once
+  | Call_host _ -> some Reply Bounds.at_once
   | Stop _ | Cancel_timer _ | Withdraw_question _ | Bind _ | Release _ | Set_connection_timeout _ | Say _ | End _ ->
     None
 
@@ -107,7 +108,7 @@ let pending o elsewhere ~before ~over effects c outside =
         | Some p -> (p, false)
         | None ->
           let bounds = match item with Posting k -> o.durations.posted k | Answer -> Bounds.at_once | _ -> Some_time in
-          ({ item; bounds; task = None }, true))
+          ({ item; bounds; task = None; prompt = None }, true))
   in
   List.split (List.map find (in_order (awaited o c outside)))
 

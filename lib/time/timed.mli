@@ -24,6 +24,7 @@ type pending = {
   item : item;
   bounds : Bounds.t;  (** from when it began *)
   task : Core.platform_task option;  (** of a [Task] *)
+  prompt : string option;  (** of a [Question], or an [Answer] *)
 }
 
 (** A configuration without its clocks. *)

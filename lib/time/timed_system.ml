@@ -64,7 +64,7 @@ let note_one t date task moment =
 
 let note_unknown t (s : Timed.state) =
   let note (p : Timed.pending) =
-    let same (q : Timed.pending) = q.item = p.item && Option.equal ( == ) q.task p.task in
+    let same (q : Timed.pending) = q.item = p.item && q.prompt = p.prompt && Option.equal ( == ) q.task p.task in
     if p.bounds = Some_time && not (List.exists same t.unknown) then t.unknown <- p :: t.unknown
   in
   List.iter note s.pending

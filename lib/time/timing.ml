@@ -152,15 +152,17 @@ let latest o =
   let later found (_, w) = match found with Some d when not (is_later w.latest d) -> found | _ -> Some w.latest in
   List.fold_left later None o.endings
 
+(* Of what has no latest date it is not known. *)
+let is_late ?deadline o = match deadline, latest o with Some n, Some (At m) -> m > n | _ -> false
+
 type shortfall = Never_ends | Fails | Late | Misses | Unknown
 
 let shortfall ?deadline o =
   let latest = latest o in
-  let is_late = match deadline, latest with Some n, Some (At m) -> m > n | _ -> false in
   let is_unknown = o.stopped <> None || latest = None || (deadline <> None && latest = Some Unbounded) in
   if o.endless <> None then Some Never_ends
   else if List.mem_assoc Timed_system.Failed o.endings then Some Fails
-  else if is_late then Some Late
+  else if is_late ?deadline o then Some Late
   else if List.exists (fun (_, missed) -> missed <> None) o.deadlines then Some Misses
   else if is_unknown then Some Unknown
   else None
@@ -168,7 +170,6 @@ let shortfall ?deadline o =
 type verdict = Dolphin_checker.Verdict.t = Holds | Violated | Inconclusive
 
 let verdict ?deadline o =
-  let is_late = match deadline, latest o with Some n, Some (At m) -> m > n | _ -> false in
-  if o.endless <> None || is_late then Violated
+  if o.endless <> None || is_late ?deadline o then Violated
   else if o.stopped <> None || latest o = Some Unbounded || latest o = None then Inconclusive
   else Holds

@@ -173,6 +173,23 @@ A program that goes round for ever, and one that waits in vain.
       program  a            where
   4            starts home  patrol.dol:2
   5            ends home    patrol.dol:2
+  it goes round in the repeat at patrol.dol:2:9
+  $ cat > loop.dol << 'X'
+  > a = pick { id 'a' }
+  > while (true) {
+  >   execute task('home')[a]
+  > }
+  > X
+  $ dolphin time loop.dol --fleet relay.fleet | grep 'goes round'
+  it goes round in the script at loop.dol:3:3
+  $ dolphin time patrol.dol --fleet relay.fleet --json | grep -o '"round":"[^"]*"'
+  "round":"the repeat at patrol.dol:2:9"
+  $ cat > asked.dol << 'X'
+  > a = pick { id 'a' }
+  > execute (confirm('Is the boat away?') >> task('home')[a])
+  > X
+  $ dolphin time asked.dol --fleet relay.fleet | grep 'nobody knows'
+  nobody knows how long it takes: an answer to 'Is the boat away?'
   $ cat > vain.dol << 'X'
   > a = pick { id 'a' }
   > execute waitFor { consume ready: 1 } then task('home')[a]

@@ -31,7 +31,8 @@ let item (p : Program_file.t) (pending : Timed.pending) =
   | Task v, None -> v
   | Timer 0, _ -> "a timer of the program"
   | Timer i, _ -> Printf.sprintf "timer %d" i
-  | (Question _ | Answer), _ -> "an answer"
+  | (Question _ | Answer), _ ->
+    "an answer" ^ Option.fold pending.prompt ~none:"" ~some:(fun prompt -> Printf.sprintf " to '%s'" prompt)
   | Reply, _ -> "a reply"
   | Posting k, _ -> Printf.sprintf "a pair with the key %s" k
 
@@ -81,6 +82,27 @@ let print_chain p (run : Timing.run) =
   if run.chain <> [] then
     Printf.printf "its end depends on: %s\n" (String.concat ", then " (List.map link run.chain))
 
+(* Where a run goes round: in endless [repeat]s of a task, or through the script. *)
+let goes_round p (run : Timing.run) =
+  let is_round (t : Transition.t) =
+    List.exists (fun (r : Rule.t) -> match r with Repeat_2 | Repeat_again -> true | _ -> false) t.rules in
+  let endless found : Residual.t -> _ = function
+    | Repeat { again = { left = None; site; _ }; _ } -> site :: found
+    | _ -> found
+  in
+  let repeats (t : Transition.t) =
+    match t.next.control with
+    | Executing (_, r) when is_round t -> Residual.fold_active endless [] r
+    | Executing _ | Script _ | Waiting _ | Ended _ -> []
+  in
+  let script (t : Transition.t) =
+    match t.next.control with Script _ | Waiting _ -> [ Configuration.site t.next ] | Executing _ | Ended _ -> [] in
+  let places sites = List.sort_uniq String.compare (List.filter_map (Program_file.at p) sites) in
+  match places (List.concat_map repeats run.cycle), places (List.concat_map script run.cycle) with
+  | [], [] -> None
+  | [], place :: _ -> Some ("the script at " ^ place)
+  | repeats, _ -> Some ("the repeat at " ^ String.concat ", or at " repeats)
+
 let missed (o : Timing.outcome) = List.find_map (fun (_, missed) -> Option.map snd missed) o.deadlines
 
 type shown = Endless of [ `Cycle | `In_no_time | `Stuck ] | Late | Missed | Last
@@ -116,7 +138,8 @@ let print_run ?deadline p (o : Timing.outcome) =
     match why with
     | Endless `Stuck -> Run_columns.print_waiting p run.steps
     | Late | Last -> print_chain p run
-    | Endless (`Cycle | `In_no_time) | Missed -> ()
+    | Endless (`Cycle | `In_no_time) -> Option.iter (Printf.printf "it goes round in %s\n") (goes_round p run)
+    | Missed -> ()
   in
   Option.iter print (shown o)
 
@@ -197,7 +220,8 @@ let to_json ?deadline p (o : Timing.outcome) : Yojson.Safe.t =
   let verdict = Dolphin_checker.Verdict.name (Timing.verdict ?deadline o) in
   let endless (run, why) : Yojson.Safe.t =
     let why = match why with `Cycle -> "cycle" | `In_no_time -> "cycle in no time" | `Stuck -> "stuck" in
-    `Assoc [ ("why", `String why); ("run", json_of_run p run) ]
+    let round = Option.to_list (Option.map (fun place -> ("round", `String place)) (goes_round p run)) in
+    `Assoc ([ ("why", `String why) ] @ round @ [ ("run", json_of_run p run) ])
   in
   let json_of_shown (why, run) : Yojson.Safe.t =
     `Assoc [ ("what", `String (what ?deadline why)); ("run", json_of_run p run) ] in

@@ -33,10 +33,15 @@ let write_files files program fleet ~strict outcome =
   let sarif = write files.sarif (fun path -> Sarif.write ~strict ~version:Version.number program path outcome) in
   List.fold_left (fun found next -> if Result.is_error found then found else next) trace [ drawn; junit; sarif ]
 
-let check_walks (s : Exploration.settings) =
-  if s.walks <> None && s.formulas <> [] then
-    Error (Error.Bad_input "random walks say nothing of a formula: give --sample or --ltl, not both")
-  else Ok ()
+let check_search (s : Exploration.settings) =
+  let not_both what = Error (Error.Bad_input (what ^ ", not both")) in
+  match s.walks, s.bitstate, s.formulas with
+  | Some _, Some _, _ -> not_both "random walks keep their states: give --sample or --bitstate"
+  | Some _, None, _ :: _ -> not_both "random walks say nothing of a formula: give --sample or --ltl"
+  | None, Some _, _ :: _ -> not_both "bitstate hashing says nothing of a formula: give --bitstate or --ltl"
+  | None, Some _, [] when s.compress ->
+    not_both "bitstate hashing keeps no states that could be compressed: give --bitstate or --compress"
+  | _, _, _ -> Ok ()
 
 let of_program settings (program : Program_file.t) fleet ~strict ~json ~period ~files ~cache =
   Report.diagnostics ~source:program.source program.warnings;
@@ -64,12 +69,13 @@ let of_values settings sweep fleet ~strict ~json ~period ~files ~cache =
     else Explore_sweep.print ~strict sweep rows;
     Ok (Exit_status.of_verdict (Sweep.verdict rows))
 
-let run path set fleet answers faults strict json period files cache reduction compress walks invariants formulas
-    max_states max_depth max_memory timeout =
+let run path set fleet answers faults strict json period files cache reduction compress walks bitstate invariants
+    formulas max_states max_depth max_memory timeout =
   let settings : Exploration.settings =
-    { answers; faults; reduction; compress; walks; max_states; max_depth; max_memory; timeout; invariants; formulas } in
+    { answers; faults; reduction; compress; walks; bitstate; max_states; max_depth; max_memory; timeout; invariants;
+      formulas } in
   Report.result
-    (let* () = check_walks settings in
+    (let* () = check_search settings in
      let* question = Sweep.question ~set path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
      match question with
@@ -246,6 +252,16 @@ let walks =
   in
   Term.(const make $ sample $ seed)
 
+let bitstate =
+  let doc =
+    "Tell states apart by three bits each of an array of $(docv) bytes, as in 256M, in place of keeping them, where \
+     there are too many to be kept (bitstate hashing). States are explored depth first, no deeper than \
+     $(b,--max-depth). A violation that is found is one, with its run; all else is inconclusive, for some states may \
+     be left out: how many are expected to be stands behind the numbers. Cycles of a $(b,repeat) without a number of \
+     rounds are not judged. Not with $(b,--ltl), $(b,--sample) or $(b,--compress)."
+  in
+  Arg.(value & opt (some size) None & info [ "bitstate" ] ~docv:"SIZE" ~doc)
+
 let json = Arg.(value & flag & info [ "json" ] ~doc:"Print the result as one JSON object.")
 
 let man =
@@ -287,5 +303,5 @@ let command =
   Cmd.v info
     Term.(
       const run $ Options.program $ Options.set_range $ Options.fleet $ answers $ faults $ strict $ json $ period
-      $ files $ cache $ reduction $ compress $ walks $ invariants $ formulas $ max_states $ max_depth $ max_memory
-      $ timeout)
+      $ files $ cache $ reduction $ compress $ walks $ bitstate $ invariants $ formulas $ max_states $ max_depth
+      $ max_memory $ timeout)

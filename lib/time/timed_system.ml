@@ -179,6 +179,8 @@ let widen t ~reserved =
   t.reserved <- reserved;
   fun old fresh -> fresh.(0) <- (old.(0) lsr before) lsl reserved
 
+let numbers t key f = f (number t key.(0))
+
 let create ?(reduction = Inert_ends_and_likeness) goal options =
   let filled = match goal with Latest -> Zone.reaching_down | Earliest -> Zone.reaching_up in
   let deadlines = ref [] in

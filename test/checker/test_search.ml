@@ -59,6 +59,7 @@ module Vectors = struct
     if next = [] then visitor.rest ();
     List.length next
 
+  let numbers s key f = List.iter f (read s key)
   let broken s word = if s.is_broken (first s word) then Some Too_large else None
   let is_end s _ = s.is_end
   let may_cycle _ = true
@@ -220,6 +221,117 @@ let test_walked_path () =
   | Violated path -> check_states "a run" (range 0 7) (numbers search path)
   | Holds | Inconclusive _ -> Alcotest.fail "it is reached"
 
+(* {1 Bitstate hashing} *)
+
+let hashed ?(limits = Limits.none) ?look ?(bytes = 1 lsl 20) system =
+  let search = Search.create limits system in
+  let look = Option.map (fun look -> look search) look in
+  Search.run_bitstate ?look search ~bytes;
+  search
+
+let bits search = match Search.bitstate search with Some s -> s | None -> Alcotest.fail "there were bits"
+
+(* Where bits are many, all states are found. *)
+let test_hashed () =
+  let search = hashed (philosophers 6) and whole = searched (philosophers 6) in
+  check_int "states" (tables 6) (bits search).states;
+  check_int "transitions" (Search.transitions whole) (Search.transitions search);
+  Alcotest.(check bool) "it says so" true (Search.stopped search = Some Hashed);
+  Alcotest.(check bool) "nothing is said to hold" true (Search.never search Too_large = Inconclusive Hashed);
+  match Search.no_deadlock search with
+  | Violated path ->
+    let states = numbers search path in
+    check_states "nobody has two" [ List.init 6 (fun _ -> 1) ] [ List.nth states (List.length states - 1) ];
+    let rec follow = function
+      | state :: (next :: _ as rest) ->
+        Alcotest.(check bool) "a step" true (List.mem next ((philosophers 6).successors state));
+        follow rest
+      | [ _ ] | [] -> ()
+    in
+    follow states
+  | Holds | Inconclusive _ -> Alcotest.fail "no deadlock was found"
+
+(* Cycles that the path comes back to, from a state that may be one that stands for others. *)
+let test_hashed_cycle () =
+  let search = hashed (counter ()) in
+  let is_shown exact stem around =
+    match Search.termination search ~exact:(fun i -> exact (List.concat (numbers search [ i ]))) with
+    | Violated lasso ->
+      check_states "stem" stem (numbers search lasso.stem);
+      check_states "around" around (numbers search lasso.around)
+    | Holds | Inconclusive _ -> Alcotest.fail "no cycle was found"
+  in
+  is_shown (fun _ -> true) (range 0 5) (range 5 9 @ [ [ 5 ] ]);
+  is_shown (fun state -> state = [ 7 ]) (range 0 7) (range 7 9 @ range 5 7);
+  let alone = hashed (Vectors.make [ 0 ] (fun numbers -> [ numbers ])) in
+  match Search.termination alone ~exact:(fun _ -> true) with
+  | Violated { stem; around } -> Alcotest.(check (pair (list int) (list int))) "at rest" ([ 0 ], [ 0; 0 ]) (stem, around)
+  | Holds | Inconclusive _ -> Alcotest.fail "no cycle was found"
+
+let test_hashed_reached () =
+  let search = hashed (counter ~is_broken:(fun n -> n > 6) ()) in
+  (match Search.never search Too_large with
+   | Violated path -> check_states "a run" (range 0 7) (numbers search path)
+   | Holds | Inconclusive _ -> Alcotest.fail "it is reached");
+  (* What was left again is on no run. *)
+  let tree = function [ 0 ] -> range 1 3 | [ 1 ] -> [ [ 9 ] ] | _ -> [] in
+  let search = hashed (Vectors.make ~is_end:true ~is_broken:(fun n -> n = 9) [ 0 ] tree) in
+  (match Search.never search Too_large with
+   | Violated path -> check_states "another run" [ [ 0 ]; [ 1 ]; [ 9 ] ] (numbers search path)
+   | Holds | Inconclusive _ -> Alcotest.fail "it is reached");
+  let kept = ref None in
+  let look search i =
+    if numbers search [ i ] = [ [ 4 ] ] then kept := Some (Search.keep search i) in
+  let search = hashed ~look (counter ()) in
+  check_states "a state that was looked for" (range 0 4) (numbers search (Search.path search (Option.get !kept)))
+
+let test_hashed_bounds () =
+  let stopped limits = Search.stopped (hashed ~limits (philosophers 6)) in
+  let is name expected limits = Alcotest.(check bool) name true (stopped limits = Some expected) in
+  is "states" Limits.States { Limits.none with max_states = Some 5 };
+  is "interruption" Limits.Interruption { Limits.none with interrupted = (fun () -> true) };
+  is "bits that there is no room for" Limits.Memory { Limits.none with max_memory = Some 1_000 };
+  let search = hashed ~limits:{ Limits.none with max_depth = Some 3 } (counter ()) in
+  check_int "no deeper" 4 (bits search).states;
+  let clock = let looks = ref 0. in fun () -> looks := !looks +. 1.; !looks in
+  let search = hashed ~limits:{ Limits.none with timeout = Some 1.5; clock } (philosophers 10) in
+  Alcotest.(check bool) "time" true (Search.stopped search = Some Time);
+  Alcotest.(check bool) "amid the search" true (0 < (bits search).states && (bits search).states < tables 10)
+
+(* As many states are left out as it says, within a tenth, and a single bit more than said of them is set. *)
+let test_omitted () =
+  let t = Bitstate.create ~bytes:16_384 in
+  let omitted = ref 0 in
+  for n = 1 to 40_000 do
+    Bitstate.begin_state t;
+    Bitstate.add t 7;
+    Bitstate.add t n;
+    if Bitstate.is_marked t then incr omitted else Bitstate.mark t;
+    assert (Bitstate.is_marked t)
+  done;
+  let s = Bitstate.summary t in
+  check_int "states" 40_000 (s.states + !omitted);
+  let near name expected found =
+    if Float.abs (found -. expected) > 0.05 *. expected then Alcotest.failf "%s: %g, not %g" name found expected in
+  near "omitted" (float_of_int !omitted) s.omitted;
+  let bits = 8. *. 16_384. in
+  near "bits" (1. -. ((1. -. (1. /. bits)) ** (3. *. float_of_int s.states))) s.filled;
+  Alcotest.(check (float 1e-6)) "some, for sure" 1. s.omission
+
+(* Of few states, the chance that one is left out is the sum over all of them. *)
+let test_omission () =
+  let t = Bitstate.create ~bytes:1_000 and expected = ref 0. in
+  for n = 1 to 100 do
+    Bitstate.begin_state t;
+    Bitstate.add t n;
+    expected := !expected +. ((Bitstate.summary t).filled ** 3.);
+    if not (Bitstate.is_marked t) then Bitstate.mark t
+  done;
+  let s = Bitstate.summary t in
+  check_int "all" 100 s.states;
+  Alcotest.(check (float 1e-4)) "chance" !expected s.omission;
+  Alcotest.(check (float 1e-4)) "states" !expected s.omitted
+
 (* {1 Formulas} *)
 
 let verdict system text =
@@ -261,6 +373,10 @@ let () =
       ( "random walks",
         [ case "everywhere" test_everywhere; case "not everywhere" test_some; case "estimates" test_estimates;
           case "a run that they show" test_walked_path ] );
+      ( "bitstate hashing",
+        [ case "many bits" test_hashed; case "cycles" test_hashed_cycle; case "reached" test_hashed_reached;
+          case "bounds" test_hashed_bounds; case "what is left out" test_omitted;
+          case "the chance that any is" test_omission ] );
       ( "formulas",
         [ case "F three" (test_holds (counter ()) "F three"); case "F G !three" (test_holds (counter ()) "F G !three");
           case "three or not" (test_holds (counter ()) "G (three | !three)");

@@ -794,3 +794,61 @@ Random walks: the same ones with the same seed. Only where they have been everyw
   $ dolphin explore ../../examples/sequence.dol --sample 3 --ltl 'F ended'
   dolphin: random walks say nothing of a formula: give --sample or --ltl, not both
   [2]
+
+Bitstate hashing: as many states where the bits are many, and nothing is said to hold; a violation is one, with its run.
+
+  $ explore ../../examples/rendezvous.dol --reduction none --bitstate 64K
+  no deadlock: inconclusive, a hash may have left out states
+  termination: inconclusive, a hash may have left out states
+  no unhandled error: inconclusive, a hash may have left out states
+  assertions: inconclusive, a hash may have left out states
+  vehicles for all tasks: inconclusive, a hash may have left out states
+  2198 states, 7139 transitions, depth 35
+  bitstate: 3 hashes a state in 65536 bytes, 1.25% of the bits are set
+  expected: 0.0011 states left out of those it came to; any at all with a chance of 0.107%
+  [3]
+  $ explore ../../examples/rendezvous.dol --reduction none --bitstate 256 | tail -3
+  987 states, 3023 transitions, depth 35
+  bitstate: 3 hashes a state in 256 bytes, 86.6% of the bits are set
+  expected: 379 states left out of those it came to; any at all with a chance of 100%
+  $ explore deadlock.dol --bitstate 64K
+  no deadlock: violated after 6 steps: nothing can happen any more, and the program has not ended
+  termination: inconclusive, a hash may have left out states
+  no unhandled error: inconclusive, a hash may have left out states
+  assertions: inconclusive, a hash may have left out states
+  vehicles for all tasks: inconclusive, a hash may have left out states
+  7 states, 6 transitions, depth 6; reduced by partial order, symmetry of vehicles
+  bitstate: 3 hashes a state in 65536 bytes, 0.00401% of the bits are set
+  expected: 8.3e-14 states left out of those it came to; any at all with a chance of 8.26e-12%
+  
+  no deadlock: a shortest run in which nothing can happen any more, and the program has not ended
+      program                        noptilus-1  where
+  1   pick(1 vehicle of type 'UUV')              deadlock.dol:1
+  2   picks noptilus-1                           deadlock.dol:1
+  3   execute                                    deadlock.dol:2
+  4                                  starts a    deadlock.dol:2
+  5                                  ends a      deadlock.dol:2
+  6   act(post left:1)                           deadlock.dol:2
+  tuples then: {left:1}
+  waits for the condition at deadlock.dol:2:65, consume right: 1
+  waits for the condition at deadlock.dol:2:99, consume right: 1
+  [1]
+  $ explore deadlock.dol --bitstate 64K --trace bitstate.run --junit bitstate.xml > shown
+  [1]
+  $ dolphin exec deadlock.dol --follow bitstate.run > followed; grep -c testcase bitstate.xml
+  16
+  $ dolphin explore ../../examples/sequence.dol --bitstate 1M --json | grep -o '"bitstate":{"bytes":[0-9]*,"hashes":[0-9]*'
+  "bitstate":{"bytes":1048576,"hashes":3
+  $ dolphin explore ../../examples/sequence.dol --bitstate 0 2>&1 | head -1
+  dolphin: option '--bitstate': '0' is no size such as 512M or 8G
+  $ dolphin explore ../../examples/sequence.dol --bitstate 1M --ltl 'F ended'
+  dolphin: bitstate hashing says nothing of a formula: give --bitstate or --ltl, not both
+  [2]
+  $ dolphin explore ../../examples/sequence.dol --bitstate 1M --sample 3
+  dolphin: random walks keep their states: give --sample or --bitstate, not both
+  [2]
+  $ dolphin explore ../../examples/sequence.dol --bitstate 1M --compress
+  dolphin: bitstate hashing keeps no states that could be compressed: give --bitstate or --compress, not both
+  [2]
+  $ dolphin explore ../../examples/rendezvous.dol --bitstate 1G --max-memory 100M | head -1
+  no deadlock: inconclusive, the bound on memory was met

@@ -274,6 +274,24 @@ let canonical_vehicles =
         {|if found = [] && false then|} );
     ]
 
+let bitstate =
+  in_file "lib/checker/search/bitstate.ml" ~noticed_by:"checker/test_search"
+    [
+      ("what is left out is not counted", {|t.omitted +. (p /. (1. -. p))|}, {|t.omitted +. (0. *. p)|});
+      ("one bit tells a state", {|number = hashes || (is_set|}, {|number = 1 || (is_set|});
+    ]
+  @ in_file "lib/checker/search/trail.ml" ~noticed_by:"checker/test_search"
+    [ ("the path keeps what was left", {|entry.depth >= depth ->|}, {|entry.depth > depth ->|}) ]
+  @ in_file "lib/checker/search/breadth_first.ml" ~noticed_by:"checker/test_search"
+    [
+      ("a search by hashes is said to be of all states", {|raise (Limits.Stop Hashed)|}, {|ignore Limits.Hashed|});
+      ("hashed steps to known states close no cycle", {|then look_for_cycle t deep key hash|}, {|then ignore look_for_cycle|});
+    ]
+  @ in_file "lib/explore/steps/space.ml" ~noticed_by:"explore/test_bitstate"
+    [ ("components are not hashed", {|f (Layout.local layout key i)|}, {|ignore (Layout.local layout key i)|}) ]
+  @ in_file "lib/checker/search/breadth_first.ml" ~noticed_by:"explore/test_bitstate"
+    [ ("what waits keeps its encoding", {|Trail.rewrite deep.trail renewed;|}, {|ignore Trail.rewrite;|}) ]
+
 let name_flow =
   in_file "lib/explore/symmetry/name_flow.ml" ~noticed_by:"reduction/test_told_apart"
     [
@@ -1033,7 +1051,8 @@ let all =
   List.concat
     [ maps; missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups;
       quotient; expansion;
-      vehicle_orbits; canonical_vehicles; name_flow; liveness; later_picks; environment; picks; inputs; attendance;
+      vehicle_orbits; canonical_vehicles; bitstate; name_flow; liveness; later_picks; environment; picks; inputs;
+      attendance;
       task_rules; local_step; run_code; answers_in_words; confirm; unknown; on_interrupt;
       pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
       conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps;

@@ -8,6 +8,7 @@ type settings = {
   reduction : Dolphin_explore.Reduction.t;
   compress : bool;
   walks : Search.walks option;
+  bitstate : int option;
   max_states : int option;
   max_depth : int option;
   max_memory : int option;
@@ -35,7 +36,7 @@ let explore ~interrupted ~progress s (program : Program_file.t) (fleet : Fleet_f
   let* formulas = read_all "--ltl" (Dolphin_explore.Temporal.of_string core) s.formulas in
   let options : Search.options =
     { environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
-      reduction = s.reduction; compress = s.compress; walks = s.walks;
+      reduction = s.reduction; compress = s.compress; walks = s.walks; bitstate = s.bitstate;
       search_again = Search.default.search_again;
       limits =
         { max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory;

@@ -10,6 +10,7 @@ type settings = {
   reduction : Dolphin_explore.Reduction.t;
   compress : bool;  (** less memory, more time *)
   walks : Dolphin_explore.Search.walks option;
+  bitstate : int option;  (** bytes of bits by which states are told apart, in place of their set *)
   max_states : int option;
   max_depth : int option;  (** transitions *)
   max_memory : int option;  (** bytes; [None]: nine tenths of what is left to the process *)

@@ -31,6 +31,13 @@ let print_sample (s : Dolphin_checker.Sample.summary) ~seen =
     Printf.printf "estimated: the next visit is to a new state with a chance of %s; about %.0f states or more\n"
       (percent s.unvisited) s.states
 
+let print_bitstate (s : Dolphin_checker.Bitstate.summary) =
+  Printf.printf "bitstate: %d hashes a state in %d bytes, %s of the bits are set\n" Dolphin_checker.Bitstate.hashes
+    s.bytes (percent s.filled);
+  let omitted = Printf.sprintf (if s.omitted >= 10. then "%.0f" else "%.2g") s.omitted in
+  Printf.printf "expected: %s states left out of those it came to; any at all with a chance of %s\n" omitted
+    (percent s.omission)
+
 (* The call for which the fleet has no reply, if the run ends with one. *)
 let unanswered (run : Search.run) =
   match List.rev run.steps with
@@ -72,6 +79,7 @@ let print ~strict (program : Program_file.t) (o : Search.outcome) =
   List.iter (print_verdict program.program) verdicts;
   print_counts o;
   Option.iter (print_sample ~seen:o.states) o.sample;
+  Option.iter print_bitstate o.bitstate;
   List.iter (print_violation program) verdicts
 
 (* {1 For programs} *)
@@ -122,9 +130,15 @@ let to_json (program : Core.program) (o : Search.outcome) : Yojson.Safe.t =
         ("new", `Float s.unvisited); ("estimate", `Float s.states) ]
   in
   let samples = Option.fold ~none:[] ~some:(fun s -> [ ("sample", sample s) ]) o.sample in
+  let bitstate (s : Dolphin_checker.Bitstate.summary) =
+    `Assoc
+      [ ("bytes", `Int s.bytes); ("hashes", `Int Dolphin_checker.Bitstate.hashes); ("filled", `Float s.filled);
+        ("omitted", `Float s.omitted); ("omission", `Float s.omission) ]
+  in
+  let bits = Option.fold ~none:[] ~some:(fun s -> [ ("bitstate", bitstate s) ]) o.bitstate in
   `Assoc
     ([ ("states", `Int o.states); ("transitions", `Int o.transitions); ("depth", `Int o.depth);
        ("seconds", `Float o.seconds); ("bytes", `Int o.bytes); ("formula_states", `Int o.formula_states);
        ("reductions", `List (List.map (fun name -> `String name) (Search.reductions o)));
        ("verdicts", `List (List.map verdict o.verdicts)) ]
-     @ samples)
+     @ samples @ bits)

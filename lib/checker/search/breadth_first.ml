@@ -5,6 +5,14 @@ type lasso = { stem : int list; around : int list }
 type violation = Whatever_follows of int list | Around of { stem : int list; cycle : (int * int) list }
 
 module Make (S : System.S) = struct
+  (* A depth-first search by bitstate hashing. *)
+  type deep = {
+    bits : Bitstate.t;
+    trail : Trail.t;
+    runs : (int, int list) Hashtbl.t;  (* to states that are kept *)
+    mutable cycle : (int list * int) option;  (* a run whose last state leads to the one at that place *)
+  }
+
   type t = {
     system : S.t;
     limits : Limits.t;
@@ -25,6 +33,7 @@ module Make (S : System.S) = struct
     broken : (S.property, int) Hashtbl.t;
     mutable stopped : Limits.bound option;
     mutable sample : Sample.t option;
+    mutable deep : deep option;
     guard : Limits.guard;
     fresh : int -> int -> unit;
     visitor : S.via System.visitor;
@@ -33,11 +42,19 @@ module Make (S : System.S) = struct
   let system t = t.system
   let stopped t = t.stopped
   let count t = States.count t.states
+  let visited deep = Bitstate.states deep.bits
   let transitions t = t.transitions
-  let expanded t = match t.sample with Some sample -> Sample.visited sample | None -> t.next
+  let expanded t =
+    match t.sample, t.deep with
+    | Some sample, _ -> Sample.visited sample
+    | None, Some deep -> visited deep
+    | None, None -> t.next
+
   let sample t = Option.map (Sample.summary ~seen:(count t)) t.sample
+  let bitstate t = Option.map (fun deep -> Bitstate.summary deep.bits) t.deep
   let depth t = t.depth
-  let memory t = States.bytes t.states + (8 * (Gc.quick_stat ()).heap_words)
+  let bytes_of_bits t = Option.fold ~none:0 ~some:(fun deep -> Bitstate.bytes deep.bits) t.deep
+  let memory t = States.bytes t.states + bytes_of_bits t + (8 * (Gc.quick_stat ()).heap_words)
   let found i = if i < 0 then None else Some i
   let deadlock t = found t.deadlock
   let broken t property = Hashtbl.find_opt t.broken property
@@ -69,8 +86,10 @@ module Make (S : System.S) = struct
 
   let look_around ?(by = 2 * stride) t phase =
     let growth = States.bytes_to_grow t.states ~by in
-    Limits.look t.guard phase
-      { states = count t; expanded = t.next; depth = t.depth; used = memory t; growth }
+    let states =
+      match t.deep with Some { bits; trail; _ } -> Bitstate.states bits + Trail.waiting trail | None -> count t
+    in
+    Limits.look t.guard phase { states; expanded = expanded t; depth = t.depth; used = memory t; growth }
 
   let ticker t phase =
     let ticks = ref 0 in
@@ -127,7 +146,8 @@ module Make (S : System.S) = struct
 
   (* {1 Expanding} *)
 
-  let widen t =
+  (* The function that the result is makes of a vector in the old encoding one in the new. *)
+  let widened t =
     let before = mask t in
     let rec bits_for n bits = if 1 lsl bits >= n then bits else bits_for n (bits + 1) in
     t.reserved <- Option.fold ~none:0 ~some:(fun monitor -> bits_for (Monitor.count monitor) 1) t.monitor;
@@ -138,7 +158,15 @@ module Make (S : System.S) = struct
     in
     let words = S.words t.system in
     t.states <- States.rewrite t.states ~words (if before = 0 then rewritten else with_set);
-    t.key <- Array.make words 0
+    t.key <- Array.make words 0;
+    fun old ->
+      let fresh = Array.make words 0 in
+      rewritten old fresh;
+      fresh
+
+  let widen t =
+    let (_ : int array -> int array) = widened t in
+    ()
 
   let fetch t i =
     States.load t.states i t.key;
@@ -168,7 +196,8 @@ module Make (S : System.S) = struct
     let rec t =
       { system; limits; phase; monitor; reserved = 0; states; key = [| 0 |]; from = Monitor.start; next = 0; depth = -1;
         level_end = 0; transitions = 0; work = 0; allocated = 0.; deadlock = -1; violation = -1;
-        broken = Hashtbl.create 8; stopped = None; sample = None; guard; fresh = (fun i word -> arrived t i word);
+        broken = Hashtbl.create 8; stopped = None; sample = None; deep = None; guard;
+        fresh = (fun i word -> arrived t i word);
         visitor = { visit; tick = (fun () -> look_around ~by:256 t t.phase); rest = (fun () -> rest t) } }
     and visit key action _ = arrive t key action in
     let rec begin_with () =
@@ -254,6 +283,106 @@ module Make (S : System.S) = struct
     from 0;
     if not (is_all_visited t sample) then raise (Limits.Stop Sampled)
 
+  (* {1 Bitstate hashing}
+
+     A state is marked when its turn comes, and then expanded: so the search is depth first, and comes back to the path
+     on each cycle. Only runs that are shown are kept. *)
+
+  let here = -1
+
+  (* The numbers of [states], a run. *)
+  let numbers_of t states =
+    let number key =
+      if States.find t.states key < 0 then begin
+        States.push t.states key ~parent:0 ~fresh:(fun _ _ -> ());
+        States.flush t.states ~fresh:(fun _ _ -> ())
+      end;
+      States.find t.states key
+    in
+    List.map number states
+
+  (* The number of the last of [states], a run. *)
+  let keep_run t deep states =
+    let numbers = numbers_of t states in
+    let last = List.nth numbers (List.length numbers - 1) in
+    if not (Hashtbl.mem deep.runs last) then Hashtbl.add deep.runs last numbers;
+    last
+
+  let keep t i =
+    match t.deep with Some deep when i = here -> keep_run t deep (Trail.path deep.trail) | Some _ | None -> i
+
+  let hash t deep key =
+    Bitstate.begin_state deep.bits;
+    S.numbers t.system key (Bitstate.add deep.bits);
+    Bitstate.hash deep.bits
+
+  let look_for_cycle t deep key hash =
+    if deep.cycle = None then
+      match Trail.depth_on_path deep.trail ~hash key with
+      | Some place -> deep.cycle <- Some (numbers_of t (Trail.path deep.trail), place)
+      | None -> ()
+
+  let visit_deep t deep depth key =
+    worked t;
+    (match S.broken t.system key.(0) with
+     | Some property when not (Hashtbl.mem t.broken property) ->
+       Hashtbl.add t.broken property (keep_run t deep (Trail.path deep.trail @ [ Array.copy key ]))
+     | Some _ | None -> ());
+    let hash = hash t deep key in
+    if Bitstate.is_marked deep.bits then look_for_cycle t deep key hash
+    else if t.limits.max_depth <> Some depth then
+      Trail.push deep.trail { state = Array.copy key; depth = depth + 1; hash }
+
+  let rec expanding_deep t deep depth =
+    let waiting = Trail.waiting deep.trail in
+    let rest () =
+      if t.deadlock < 0 && not (S.is_end t.system t.key.(0)) then t.deadlock <- keep t here in
+    let visit key _ _ = visit_deep t deep depth key in
+    match S.expand t.system (Array.copy t.key) { t.visitor with visit; rest } with
+    | taken -> t.transitions <- t.transitions + taken
+    | exception S.Outgrown ->
+      Trail.drop_to deep.trail waiting;
+      Limits.weigh t.guard ~used:(memory t) (States.bytes_to_rewrite t.states ~words:(States.words t.states + 1));
+      let present = t.key in
+      let renewed = widened t in
+      Trail.rewrite deep.trail renewed;
+      t.key <- renewed present;
+      expanding_deep t deep depth
+
+  let expand_deep t deep (entry : Trail.entry) look =
+    ignore (hash t deep entry.state);
+    if not (Bitstate.is_marked deep.bits) then begin
+      Bitstate.mark deep.bits;
+      t.depth <- max t.depth entry.depth;
+      Trail.enter deep.trail entry;
+      t.key <- Array.copy entry.state;
+      look here;
+      expanding_deep t deep entry.depth;
+      if Limits.exceeds t.limits.max_states (visited deep) then raise (Limits.Stop States)
+    end
+
+  let deepen t bytes look enough =
+    look_around t t.phase;
+    Limits.weigh t.guard ~used:(memory t) bytes;
+    Gc.full_major ();
+    let runs = Hashtbl.create 8 in
+    let deep = { bits = Bitstate.create ~bytes; trail = Trail.create (); runs; cycle = None } in
+    t.deep <- Some deep;
+    Hashtbl.add runs 0 [ 0 ];
+    let initial = Array.make (States.words t.states) 0 in
+    States.load t.states 0 initial;
+    Trail.push deep.trail { state = initial; depth = 0; hash = hash t deep initial };
+    let rec go () =
+      match if enough () then None else Trail.pop deep.trail with
+      | Some entry ->
+        worked t;
+        expand_deep t deep entry look;
+        go ()
+      | None -> ()
+    in
+    go ();
+    raise (Limits.Stop Hashed)
+
   (* Once there is no memory nothing can be added, not even what waits. *)
   let run_by expand_all t =
     let no_memory () =
@@ -278,13 +407,20 @@ module Make (S : System.S) = struct
     Sample.see sample 0 ~from:0;
     run_by (fun () -> walk_all t sample walks look enough) t
 
+  let run_bitstate ?(look = ignore) ?(enough = fun () -> false) t ~bytes =
+    if t.monitor <> None then invalid_arg "Breadth_first.run_bitstate: a monitor";
+    run_by (fun () -> deepen t bytes look enough) t
+
   (* {1 States} *)
 
   let load t i =
-    let key = Array.make (States.words t.states) 0 in
-    States.load t.states i key;
-    key.(0) <- key.(0) land lnot (mask t);
-    key
+    if i = here then Array.copy t.key
+    else begin
+      let key = Array.make (States.words t.states) 0 in
+      States.load t.states i key;
+      key.(0) <- key.(0) land lnot (mask t);
+      key
+    end
 
   let first_word t i =
     let key = Array.make (States.words t.states) 0 in
@@ -293,10 +429,12 @@ module Make (S : System.S) = struct
 
   let set t i = first_word t i land mask t
 
-  let path t i =
+  let path_to t i =
     let parent = match t.sample with Some sample -> Sample.from sample | None -> States.parent t.states in
     let rec back i states = if i = 0 then 0 :: states else back (parent i) (i :: states) in
     back i []
+
+  let path t i = match t.deep with Some deep -> Hashtbl.find deep.runs i | None -> path_to t i
 
   type arrival = { into : int; valuation : int; via : S.via }
 
@@ -360,9 +498,25 @@ module Make (S : System.S) = struct
     in
     Option.map lasso (Cycles.find ~tick:(ticker t phase) graph [ 0 ])
 
+  (* Each cycle goes through a state that is exact. *)
+  let cycle_of_path deep exact : lasso option =
+    let rec part from upto = function
+      | x :: xs when upto >= 0 -> (if from <= 0 then [ x ] else []) @ part (from - 1) (upto - 1) xs
+      | _ -> []
+    in
+    let of_run (run, place) =
+      let last = List.length run - 1 in
+      let rec start i = if i > last then None else if exact (List.nth run i) then Some i else start (i + 1) in
+      let lasso i = { stem = part 0 i run; around = part i last run @ part place i run } in
+      Option.map lasso (start place)
+    in
+    Option.bind deep.cycle of_run
+
   let termination t ~exact =
     let search () = match cycle t exact with Some lasso -> Violated lasso | None -> Holds in
-    unless_stopped t (fun () -> if S.may_cycle t.system then search () else Holds)
+    match Option.bind t.deep (fun deep -> cycle_of_path deep exact) with
+    | Some lasso -> Violated lasso
+    | None -> unless_stopped t (fun () -> if S.may_cycle t.system then search () else Holds)
 
   (* {1 Formulas}
 

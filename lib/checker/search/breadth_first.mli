@@ -45,6 +45,22 @@ module Make (S : System.S) : sig
       states have been expanded, it is stopped by {!Limits.Sampled} at the latest. [look i] is called before state [i]
       is expanded first. There must be no monitor. *)
 
+  val run_bitstate : ?look:(int -> unit) -> ?enough:(unit -> bool) -> t -> bytes:int -> unit
+  (** [run_bitstate t ~bytes] is {!run}, depth first and by {!Bitstate}, in an array of so many bytes: what is a state
+      already is told by bits of a hash alone, and only the states on runs that are shown are kept. So it is stopped by
+      {!Limits.Hashed} at the latest: [max_depth] is how deep it goes, and no bound that stops it. [look] is given
+      {!here}. There must be no monitor. *)
+
+  val here : int
+  (** Stands, for {!run_bitstate}'s [look], for the state that it is at: {!load} knows it. *)
+
+  val keep : t -> int -> int
+  (** [keep t i] is [i], the number of a state; of {!here} it is the number by which that state is known from now on,
+      with the run to it. *)
+
+  val bitstate : t -> Bitstate.summary option
+  (** What {!run_bitstate} came to. *)
+
   val sample : t -> Sample.summary option
   (** What the random walks came to. *)
 
@@ -106,7 +122,8 @@ module Make (S : System.S) : sig
   (** [set t i] is the number of the monitor's set in state [i]. *)
 
   val path : t -> int -> int list
-  (** [path t i] is states from the initial one to [i], as few as can be. *)
+  (** [path t i] is states from the initial one to [i], as few as can be; after {!run_bitstate}, of some run, and [i] is
+      the last of one that is kept. *)
 
   type arrival = { into : int; valuation : int; via : S.via }
 

@@ -33,7 +33,7 @@ let none =
     progress = ignore;
   }
 
-type bound = States | Depth | Memory | No_memory | Time | Interruption | Sampled | Unsettled of string
+type bound = States | Depth | Memory | No_memory | Time | Interruption | Sampled | Hashed | Unsettled of string
 
 exception Stop of bound
 
@@ -47,6 +47,7 @@ let pp_bound ppf bound =
      | Time -> "the time was up"
      | Interruption -> "it was interrupted"
      | Sampled -> "only random walks were followed"
+     | Hashed -> "a hash may have left out states"
      | Unsettled why -> why)
 
 let exceeds bound n = match bound with Some most -> n > most | None -> false

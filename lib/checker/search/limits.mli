@@ -38,6 +38,7 @@ type bound =
   | Time
   | Interruption
   | Sampled  (** random walks have left out some states *)
+  | Hashed  (** states were told apart by bits of a hash, which may have left out some *)
   | Unsettled of string  (** something that was asked has no answer, for this reason *)
 
 exception Stop of bound

@@ -44,6 +44,10 @@ module type S = sig
       [old], in the encoding before, into [fresh], in the encoding after; [fresh] is all 0, and the reserved bits of
       [old] are not. *)
 
+  val numbers : t -> int array -> (int -> unit) -> unit
+  (** [numbers t key f] gives [f] the numbers, one after the other, that tell the state [key] from all others: the same
+      after {!widen}. There is no monitor. *)
+
   (** {1:transitions Transitions} *)
 
   val initial : t -> via visitor -> unit

@@ -329,6 +329,14 @@ let widen t ~reserved =
   Expansion.widen t.expansion ~words:(words t);
   rewritten
 
+let numbers t key f =
+  let number = Layouts.number t.layouts key.(0) in
+  f number;
+  f (Layouts.shared t.layouts key.(0));
+  if number > 0 then
+    let layout = Layouts.layout t.layouts number in
+    Array.iteri (fun i _ -> f (Layout.local layout key i)) layout.families
+
 let initial t visitor =
   let initial = Configuration.initial t.program in
   let action = Valuation.nothing in

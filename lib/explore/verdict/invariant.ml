@@ -21,7 +21,7 @@ let trouble t = t.trouble
 let look t graph i =
   match Condition.eval t.program t.world t.condition (fst (State_graph.state graph i)) with
   | Holds | Not_yet -> ()
-  | Fails -> t.broken <- Some i
+  | Fails -> t.broken <- Some (State_graph.keep graph i)
   | Broken why -> if t.trouble = None then t.trouble <- Some why
 
 let check t graph i =

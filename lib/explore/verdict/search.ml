@@ -9,6 +9,7 @@ type options = {
   reduction : Reduction.t;
   compress : bool;
   walks : walks option;
+  bitstate : int option;
   search_again : int;
   limits : Limits.t;
   invariants : Condition.t list;
@@ -21,6 +22,7 @@ let default =
     reduction = Whole;
     compress = false;
     walks = None;
+    bitstate = None;
     search_again = 100_000;
     limits = Limits.none;
     invariants = [];
@@ -49,6 +51,7 @@ type outcome = {
   vehicle_symmetry : bool;
   alike_values : bool;
   sample : Sample.summary option;
+  bitstate : Bitstate.summary option;
   verdicts : (Property.t * verdict) list;
 }
 
@@ -124,7 +127,7 @@ let unreached graph program : verdict =
   | None, pieces -> Unreached pieces
 
 let verdicts x (options : options) graph invariants =
-  let shortest = options.walks = None && not (Reduction.by_order options.reduction) in
+  let shortest = options.walks = None && options.bitstate = None && not (Reduction.by_order options.reduction) in
   let run = run_through graph ~shortest in
   let verdict = function
     | Property.No_deadlock -> of_verdict run (State_graph.no_deadlock graph)
@@ -211,16 +214,19 @@ let with_formulas x (options : options) found =
 let without_formulas x (options : options) =
   let graph = graph x options and invariants = List.map (Invariant.create x.program x.world) options.invariants in
   let look i = List.iter (fun invariant -> Invariant.check invariant graph i) invariants in
-  (match options.walks with
-   | None -> State_graph.run ~look graph
-   | Some { number; seed } -> State_graph.run_walks ~look graph ~walks:number ~seed);
+  (match options.walks, options.bitstate with
+   | Some { number; seed }, _ -> State_graph.run_walks ~look graph ~walks:number ~seed
+   | None, Some bytes -> State_graph.run_bitstate ~look graph ~bytes
+   | None, None -> State_graph.run ~look graph);
   let verdicts = with_shortest_runs x options (verdicts x options graph invariants) in
-  let space = State_graph.system graph in
+  let space = State_graph.system graph and bitstate = State_graph.bitstate graph in
+  let states =
+    match bitstate with Some (s : Bitstate.summary) -> s.states | None -> State_graph.count graph in
   let reduction =
     if Space.used_task_symmetry space then options.reduction else Reduction.without_symmetry options.reduction
   in
   {
-    states = State_graph.count graph;
+    states;
     transitions = State_graph.transitions graph;
     expanded = State_graph.expanded graph;
     depth = State_graph.depth graph;
@@ -232,6 +238,7 @@ let without_formulas x (options : options) =
     vehicle_symmetry = Space.used_vehicle_symmetry space;
     alike_values = false;
     sample = State_graph.sample graph;
+    bitstate;
     verdicts;
   }
 

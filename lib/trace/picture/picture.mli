@@ -5,7 +5,8 @@ val svg : Summary.t -> string
     prints dark on white. *)
 
 val html : Summary.t -> string
-(** The same in a page, with the tasks as a table below. *)
+(** The same in a page, with the tasks as a table below. The vehicle under the pointer stands out in all charts, and a
+    slider shows where all are at any time. *)
 
 (** {1:other Other pictures} *)
 
@@ -16,5 +17,5 @@ val sheet : alone:bool -> title:string -> width:float -> height:float -> Svg.t l
 val to_file : Svg.t -> string
 (** The text of a file with a [sheet]. *)
 
-val page : title:string -> Svg.t -> string list -> string list list -> string
-(** [page ~title picture heads rows] is a page with [picture], and below it the table of [rows]. *)
+val page : ?below:Svg.t list -> title:string -> Svg.t -> string list -> string list list -> string
+(** [page ~below ~title picture heads rows] is a page with [picture], and below it [below] and the table of [rows]. *)

@@ -5,6 +5,8 @@ let palette =
 
 let colours = Array.length palette
 let vehicle i = Printf.sprintf "v%d" (i mod colours)
+let colour i = fst palette.(i mod colours)
+let group i parts = Svg.group ~name:(Printf.sprintf "who w%d" i) parts
 
 let light =
   {|text { font: 11px system-ui, "Helvetica Neue", Helvetica, Arial, sans-serif; fill: #1c2127; }

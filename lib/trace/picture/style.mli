@@ -8,5 +8,11 @@ val sheet : string
 val colours : int
 (** How many colours there are: 8. *)
 
+val colour : int -> string
+(** [colour i] is that of the [i]-th vehicle, on light ground. *)
+
 val vehicle : int -> string
 (** [vehicle i] is the class of the [i]-th vehicle, ["v3"]. *)
+
+val group : int -> Svg.t list -> Svg.t
+(** [group i ts] is [ts] together, which show the [i]-th vehicle: of the classes [who] and ["w3"]. *)

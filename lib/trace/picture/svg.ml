@@ -14,6 +14,11 @@ let named name attributes = match name with None -> attributes | Some name -> ("
 let tips = function None -> [] | Some tip -> [ Element ("title", [], [ Text tip ]) ]
 let group ?name children = Element ("g", named name [], children)
 
+let chart ~left ~right ~top ~bottom children =
+  let edge name x = ("data-" ^ name, number x) in
+  let edges = [ edge "left" left; edge "right" right; edge "top" top; edge "bottom" bottom ] in
+  Element ("g", ("class", "chart") :: edges, children)
+
 let rect ?name ?(round = 0.) ?tip ~x ~y ~width ~height () =
   let rounded = if round > 0. then [ ("rx", number round) ] else [] in
   let place =

@@ -11,6 +11,10 @@ val raw : string -> t
 val group : ?name:string -> t list -> t
 (** [group ~name ts] is [ts] together, of class [name]. *)
 
+val chart : left:float -> right:float -> top:float -> bottom:float -> t list -> t
+(** [chart ~left ~right ~top ~bottom ts] is [ts] together, which stand over time from [left] to [right]. A page finds
+    them by its attributes. *)
+
 val number : float -> string
 (** In picture units, to a tenth: ["12.5"], ["12"]. *)
 

@@ -141,10 +141,10 @@ let draw_row f i v ~y ~row =
   in
   (* How a task ended is seen even if another one begins at once. *)
   let bars, others = List.split (List.map (draw_task f colour v ~y:top ~height) v.tasks) in
-  List.map band v.held @ bars @ List.concat others
-  @ List.map silence v.silent
-  @ [ Svg.text ~name:("name " ^ colour) ~anchor:End (f.left -. 10., top +. (height /. 2.) +. 4.)
-        (Svg.fit 150. v.id) ]
+  let name =
+    Svg.text ~name:("name " ^ colour) ~anchor:End (f.left -. 10., top +. (height /. 2.) +. 4.) (Svg.fit 150. v.id)
+  in
+  Style.group i (List.map band v.held @ bars @ List.concat others @ List.map silence v.silent @ [ name ])
 
 (* {1 The legend} *)
 
@@ -185,6 +185,19 @@ let gutter summary =
   let widest = List.fold_left (fun w v -> Float.max w (Svg.width ~size:12. v.id)) 46. summary.vehicles in
   Float.min 165. widest +. 16.
 
+(* Seconds of the day at which the run began, if its times are those of clocks on a wall. *)
+let began summary =
+  match summary.clock, summary.header with
+  | Seconds, Some (h : Header.t) when h.platform <> "sim" || h.speed = Some 1. -> (
+      match Scanf.sscanf h.started "%_d-%_d-%_dT%2d:%2d:%2dZ" (fun h m s -> (3600 * h) + (60 * m) + s) with
+      | seconds -> Some (float_of_int seconds)
+      | exception (Scanf.Scan_failure _ | Failure _ | End_of_file) -> None)
+  | (Seconds | Steps), (Some _ | None) -> None
+
+let on_the_wall seconds =
+  let seconds = int_of_float (Float.round seconds) mod 86400 in
+  Printf.sprintf "%02d:%02d:%02d" (seconds / 3600) (seconds / 60 mod 60) (seconds mod 60)
+
 let draw summary ~x ~y ~width =
   let seconds = if summary.duration > 0. then summary.duration else 1. in
   let f = { left = x +. gutter summary; right = x +. width -. 14.; seconds; moment = Summary.moment summary } in
@@ -200,11 +213,20 @@ let draw summary ~x ~y ~width =
     | Steps -> Float.max 1. (Scale.step ~most:12 seconds)
   in
   let label time = match summary.clock with Seconds -> Phrase.time time | Steps -> Printf.sprintf "%.0f" time in
+  let began = began summary in
+  let wall x text = Svg.text ~name:"axis wall" ~anchor:Middle (x, bottom +. (2. *. char_height)) text in
   let tick time =
     let x = at f time in
     [ Svg.line ~name:"grid" (x, y) (x, bottom);
       Svg.text ~name:"axis" ~anchor:Middle (x, bottom +. char_height) (label time) ]
+    @ Option.fold began ~none:[] ~some:(fun began -> [ wall x (on_the_wall (began +. time)) ])
   in
+  let deeper =
+    match began with
+    | None -> []
+    | Some _ -> [ Svg.text ~name:"axis" ~anchor:End (f.left -. 28., bottom +. (2. *. char_height)) "UTC" ]
+  in
+  let bottom_of_axis = if began = None then bottom else bottom +. char_height in
   let guide (x, level, _, activity, _, _) =
     let top = base -. (float_of_int level *. level_height) +. 5. in
     match activity with
@@ -220,7 +242,8 @@ let draw summary ~x ~y ~width =
   let parts =
     List.concat_map tick (Scale.multiples step ~from:0. ~until:seconds)
     @ [ Svg.line ~name:"frame" (f.left, bottom) (f.right, bottom) ]
-    @ List.concat rows @ guides @ program
-    @ legend summary ~x:f.left ~y:(bottom +. 34.)
+    @ rows @ guides @ program
+    @ deeper
+    @ legend summary ~x:f.left ~y:(bottom_of_axis +. 34.)
   in
-  (Svg.group ~name:"timeline" parts, bottom +. 40. -. y)
+  (Svg.chart ~left:f.left ~right:f.right ~top:y ~bottom parts, bottom_of_axis +. 40. -. y)

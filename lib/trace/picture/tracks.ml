@@ -131,7 +131,7 @@ let way m i v =
       [ Svg.circle ~name:("first " ^ colour) ~tip:(v.id ^ " at first") (point first) 4.;
         Svg.circle ~name:("last " ^ colour) ~tip:(v.id ^ " at last") (point (last samples)) 4.5 ]
   in
-  List.map seen runs @ jumps runs @ starts @ ends
+  Style.group i (List.map seen runs @ jumps runs @ starts @ ends)
 
 (* More names than that are not told apart on a map: the timeline has them. *)
 let most_names = 60
@@ -155,21 +155,39 @@ let names m vehicles ~x ~width ~y ~height =
     let anchor, dx = if leftwards then (Svg.End, -9.) else (Svg.Start, 9.) in
     let beside = (px +. dx, at -. 4.) in
     (* A name that had to move away has a line to its vehicle. *)
-    (if Float.abs (at -. 4. -. py) < 8. then [] else [ Svg.line ~name:"leader" (px, py) beside ])
-    @ [ Svg.text ~name:("name on-map " ^ Style.vehicle i) ~anchor (px +. dx, at) text ]
+    let leader = if Float.abs (at -. 4. -. py) < 8. then [] else [ Svg.line ~name:"leader" (px, py) beside ] in
+    Style.group i (leader @ [ Svg.text ~name:("name on-map " ^ Style.vehicle i) ~anchor (px +. dx, at) text ])
   in
   if List.length wanted > most_names then []
-  else List.concat_map label (Scale.spread ~least:line_height ~from:(y +. 12.) ~until:(y +. height -. 4.) wanted)
+  else List.map label (Scale.spread ~least:line_height ~from:(y +. 12.) ~until:(y +. height -. 4.) wanted)
+
+let map_of summary ~x ~y ~width ~height =
+  fit (List.concat_map (fun v -> List.map (fun s -> s.position) v.samples) summary.vehicles) ~x ~y ~width ~height
+
+(* Where it stays, the first and the last moment are enough. *)
+let over_time m v =
+  let point s = (s.time, project m s.position) in
+  let far (_, (x, y)) (_, (x', y')) = Float.abs (x -. x') +. Float.abs (y -. y') >= near_enough in
+  let rec keep last = function
+    | a :: (b :: _ as rest) when (not (far last a)) && not (far last b) -> keep last rest
+    | a :: rest -> a :: keep a rest
+    | [] -> []
+  in
+  match List.map point v.samples with [] -> [] | first :: rest -> first :: keep first rest
+
+let moments summary ~x ~y ~width ~height =
+  match map_of summary ~x ~y ~width ~height with
+  | None -> List.map (fun _ -> []) summary.vehicles
+  | Some m -> List.map (over_time m) summary.vehicles
 
 let draw summary ~x ~y ~width ~height =
-  let positions = List.concat_map (fun v -> List.map (fun s -> s.position) v.samples) summary.vehicles in
   let frame = Svg.rect ~name:"frame" ~x ~y ~width ~height () in
   let parts =
-    match fit positions ~x ~y ~width ~height with
+    match map_of summary ~x ~y ~width ~height with
     | None -> [ Svg.text ~name:"small" ~anchor:Middle (x +. (width /. 2.), y +. (height /. 2.)) "no positions" ]
     | Some m ->
       grid m ~x ~y ~width ~height
-      @ List.concat (List.mapi (way m) summary.vehicles)
+      @ List.mapi (way m) summary.vehicles
       @ names m summary.vehicles ~x ~width ~y ~height
       @ scale m ~x ~y ~width ~height
   in

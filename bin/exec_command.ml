@@ -91,14 +91,17 @@ let check_sampling (s : Run.settings) show ~follow ~resumed ~keep =
                             and --speed")
   else if
     follow <> None || resumed <> None || keep || s.supplier <> None || s.supplier_timeout <> None
-    || s.recording <> Recording.nothing || show.Terminal_run.quiet || show.only <> [] || show.colour <> None
+    || s.recording <> { Recording.nothing with drawing = s.recording.drawing }
+    || show.Terminal_run.quiet || show.only <> [] || show.colour <> None
   then
     Error (Error.Bad_input "of many runs (--runs, --until) there is one answer: of the other options only --fleet, \
-                            --sim, --set, --seed and --answer go with them")
+                            --sim, --set, --seed, --answer and --draw go with them")
   else Ok ()
 
 let sample (s : Run.settings) program fleet (sampling : Sampling_options.t) =
-  Sampling_options.run sampling ~seed:(Option.value s.seed ~default:0) ~answers:s.answers program fleet
+  let drawing = s.recording.drawing in
+  let* () = Option.fold drawing ~none:(Ok ()) ~some:Drawing.check in
+  Sampling_options.run sampling ~drawing ~seed:(Option.value s.seed ~default:0) ~answers:s.answers program fleet
 
 let run () show path set sim fleet network adapters definition speed seed answers supplier supplier_timeout journal keep
     drawing recorded resumed changed no_socket sampling =
@@ -193,7 +196,7 @@ let keep =
 let drawing =
   let doc =
     "Draw the run in the file $(docv), $(i,*.svg) or $(i,*.html), when it is over: who did what when, the ways of the \
-     vehicles, their batteries."
+     vehicles, their batteries. With $(b,--runs): how many runs are over when."
   in
   Arg.(value & opt (some Options.drawing) None & info [ "draw" ] ~docv:"FILE" ~doc)
 

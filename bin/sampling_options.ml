@@ -50,7 +50,7 @@ let progress ~live ~most =
       Printf.eprintf "\r%d%s runs\027[K%!" n most
     end
 
-let run t ~seed ~answers program fleet =
+let run t ~drawing ~seed ~answers program fleet =
   let live = Unix.isatty Unix.stderr && not t.json in
   let interrupted = ref false in
   let interrupt = Sys.Signal_handle (fun _ -> interrupted := true) in
@@ -61,9 +61,16 @@ let run t ~seed ~answers program fleet =
   let sampled =
     Sampling.run ~interrupted:(fun () -> !interrupted) ~progress:(progress ~live ~most:t.runs) settings program fleet in
   if live then prerr_string "\r\027[K";
-  let status (s : Sampling.t) : Exit_status.t =
+  let draw program s drawing =
+    Drawing.write_text drawing
+      ~svg:(fun () -> Sampling_picture.svg program s)
+      ~html:(fun () -> Sampling_picture.html program s)
+  in
+  let status (s : Sampling.t) =
+    let drawn = Option.fold drawing ~none:(Ok ()) ~some:(draw program s) in
     if t.json then print_endline (Yojson.Safe.to_string (Sampling_report.to_json program s))
     else Sampling_report.print program s;
-    match s.stop with Interrupted _ -> Interrupted | All | Known -> Done
+    let status : Exit_status.t = match s.stop with Interrupted _ -> Interrupted | All | Known -> Done in
+    Result.map (fun () -> status) drawn
   in
-  Result.map status sampled
+  Result.bind sampled status

@@ -12,5 +12,6 @@ val s_many : string
 (** The section of the manual that has these options. *)
 
 val run :
-  t -> seed:int -> answers:string list -> Program_file.t -> Fleet_file.t -> (Exit_status.t, Error.t) result
-(** Makes the runs, and prints what is to be said of them. *)
+  t -> drawing:Drawing.t option -> seed:int -> answers:string list -> Program_file.t -> Fleet_file.t ->
+  (Exit_status.t, Error.t) result
+(** Makes the runs, prints what is to be said of them, and draws when they are over. *)

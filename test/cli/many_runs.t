@@ -71,6 +71,21 @@ Until it is known.
   120 runs, seeds -7 to 112, T
   the share of those that complete is not known to within 0.01 yet
 
+When they are over, as a picture: the bars have all runs that completed.
+
+  $ dolphin exec relay.dol --runs 100 --draw times.svg > /dev/null
+  $ python3 -c '
+  > import xml.etree.ElementTree as tree
+  > svg = "{http://www.w3.org/2000/svg}"
+  > tips = [e.find(svg + "title").text for e in tree.parse("times.svg").iter(svg + "rect") if e.get("class") == "bar v0"]
+  > print(sum(int(tip.split()[0]) for tip in tips))'
+  98
+  $ grep -o '[0-9]* of 100 runs completed' times.svg
+  98 of 100 runs completed
+  $ dolphin exec relay.dol --runs 10 --draw times.html > /dev/null
+  $ grep -c '<svg' times.html
+  1
+
 What does not go together.
 
   $ dolphin exec relay.dol --runs 0 2>&1 | head -1
@@ -80,10 +95,10 @@ What does not go together.
   $ dolphin exec relay.dol --json 2>&1 | head -1
   dolphin: --jobs and --json go with --runs or --until
   $ dolphin exec relay.dol --runs 3 --journal relay.run
-  dolphin: of many runs (--runs, --until) there is one answer: of the other options only --fleet, --sim, --set, --seed and --answer go with them
+  dolphin: of many runs (--runs, --until) there is one answer: of the other options only --fleet, --sim, --set, --seed, --answer and --draw go with them
   [2]
   $ dolphin exec relay.dol --runs 3 --quiet
-  dolphin: of many runs (--runs, --until) there is one answer: of the other options only --fleet, --sim, --set, --seed and --answer go with them
+  dolphin: of many runs (--runs, --until) there is one answer: of the other options only --fleet, --sim, --set, --seed, --answer and --draw go with them
   [2]
   $ dolphin exec relay.dol --runs 3 --speed 2
   dolphin: --runs and --until are for simulated runs, as fast as they go: without --imc, --platform and --speed

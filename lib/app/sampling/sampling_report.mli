@@ -1,5 +1,13 @@
 (** What [dolphin exec --runs] says. *)
 
+val time : float -> string
+(** Seconds as {!Dolphin_time.Bounds.pp_time} has them. *)
+
+val percent : float -> string
+(** ["12.50 %"]. *)
+
+val ending : Program_file.t -> Sample.ending -> string
+
 val lines : columns:int -> Program_file.t -> Sampling.t -> string list
 (** For people: how many runs ended how, when they were over, what became of tasks, and which handlers ran. *)
 

@@ -137,7 +137,7 @@ Journals keep them: the run is checked, and resumed, with what it was started wi
   $ dolphin explore early.dol --fleet parameters.fleet --set n=2 --trace early.course | grep assertions
   assertions: violated after 5 steps: early.dol:4:1: assertion failed: n is small
   assertions: a shortest run in which an assertion fails
-  $ dolphin exec early.dol --fleet parameters.fleet --follow early.course | head -3
+  $ dolphin exec early.dol --fleet parameters.fleet --follow early.course > followed; head -3 followed
   early.dol:4:1: error: assertion failed: n is small
     4 | assert { n < 2 }, 'n is small'
       | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^

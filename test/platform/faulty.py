@@ -10,7 +10,7 @@ import threading
 FAULT, COMMAND = sys.argv[1:]
 base = subprocess.Popen(COMMAND, shell=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
 lock = threading.RLock()
-vehicle_of, taken, ended, resumed = {}, set(), set(), set()  # of requests
+vehicle_of, ended, resumed = {}, set(), set()  # of requests
 starts = 0
 just_started = None  # the request of the order before this one, if it was a start
 
@@ -50,7 +50,7 @@ def on_order(order):
             return True
         vehicle_of[request] = order["vehicle"]
     if kind == "stop":
-        if FAULT == "no stop" and request in taken:
+        if FAULT == "no stop":
             return True
         if FAULT == "ignores strangers" and request not in vehicle_of:
             return True
@@ -70,8 +70,6 @@ def on_order(order):
 def on_report(report):
     """What becomes of a report: the lines in its place."""
     kind, request = report["kind"], report.get("request")
-    if kind == "taken":
-        taken.add(request)
     if kind in ("done", "failed", "stopped"):
         ended.add(request)
     if FAULT == "mute" and kind == "hello" or FAULT == "never quiet" and kind == "quiet":

@@ -16,20 +16,22 @@ let ( let+ ) result f = Result.map f result
 
 (* {1 Asking the database} *)
 
+(* Which of its exceptions SQLite's library raises where depends on its version. *)
 let ask db query parameters : (Sqlite3.Data.t array list, string) result =
-  match Sqlite3.prepare db query with
-  | exception (Sqlite3.Error _ | Sqlite3.InternalError _) -> Error (Sqlite3.errmsg db)
-  | statement ->
+  let rows () =
+    let statement = Sqlite3.prepare db query in
     let finally () = ignore (Sqlite3.finalize statement) in
     Fun.protect ~finally (fun () ->
         ignore (Sqlite3.bind_values statement parameters);
-        match Sqlite3.fold statement ~f:(fun rows row -> row :: rows) ~init:[] with
-        | (Sqlite3.Rc.OK | DONE), rows -> Ok (List.rev rows)
-        | _, _ -> Error (Sqlite3.errmsg db))
+        Sqlite3.fold statement ~f:(fun rows row -> row :: rows) ~init:[])
+  in
+  match rows () with
+  | (OK | DONE), rows -> Ok (List.rev rows)
+  | _, _ | exception (Sqlite3.Error _ | Sqlite3.SqliteError _ | Sqlite3.InternalError _) -> Error (Sqlite3.errmsg db)
 
 let with_database path f =
   match Sqlite3.db_open ~mode:`READONLY path with
-  | exception (Sqlite3.Error _ | Sqlite3.InternalError _) -> Error "it cannot be opened"
+  | exception (Sqlite3.Error _ | Sqlite3.SqliteError _ | Sqlite3.InternalError _) -> Error "it cannot be opened"
   | db ->
     Sqlite3.busy_timeout db 1000;
     let finally () = ignore (Sqlite3.db_close db) in

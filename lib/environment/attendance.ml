@@ -1,5 +1,7 @@
 open Dolphin_semantics
 
+module Vehicle_set = Set.Make (String)
+
 (* Who comes after all others, in this order, and who does not come. *)
 type t = { coming : Core.vehicle list; missing : Core.vehicle list }
 
@@ -16,8 +18,9 @@ type company = {
 }
 
 let company ?(alike = fun _ -> None) (faults : Faults.t) ~may_be_late ~lost ~late ~bound world (pick : Settings.pick) =
+  let bound = Vehicle_set.of_list bound in
   let is_wanted (s : World.vehicle_state) =
-    Settings.accepts { pick.filter with region = None } s && not (List.mem s.id bound)
+    Settings.accepts { pick.filter with region = None } s && not (Vehicle_set.mem s.id bound)
   in
   let is_seen_in holds (s : World.vehicle_state) =
     match pick.filter.region with
@@ -144,4 +147,6 @@ let of_all company news =
     if counted = news && List.for_all may_miss l.left then Some { coming = List.rev l.coming; missing } else None
   in
   let most = List.length company.wanted in
-  Seq.filter_map attendance (lists company ~is_hopeless most (nobody company))
+  if company.unsure = [] && company.silent = [] then
+    if news = 0 then Seq.return { coming = []; missing = [] } else Seq.empty
+  else Seq.filter_map attendance (lists company ~is_hopeless most (nobody company))

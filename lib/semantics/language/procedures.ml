@@ -229,11 +229,15 @@ let settle context verdict =
   | Handler _ -> Judged verdict
   | Script | Task_code -> Wrong "ignore(), propagate() and retry() belong in onError { ... }"
 
+module Vehicle_set = Set.Make (String)
+
 let release context vs =
-  match List.filter (fun v -> List.mem v context.bound) vs with
+  let bound = Vehicle_set.of_list context.bound in
+  match List.filter (fun v -> Vehicle_set.mem v bound) vs with
   | [] -> Value Null
   | vs ->
-    let bound = List.filter (fun v -> not (List.mem v vs)) context.bound in
+    let released = Vehicle_set.of_list vs in
+    let bound = List.filter (fun v -> not (Vehicle_set.mem v released)) context.bound in
     Done (Released vs, { context with bound }, Null)
 
 (* What is beside or after the [watch] of the handler may not need them. *)

@@ -441,11 +441,17 @@ module Make (P : Platform.S) = struct
 end
 
 let run (type platform) (module P : Platform.S with type t = platform) (platform : platform)
-    ?(always_telemetry = false) ?(observer = Observer.nobody) ?(host = no_host) ?inputs ?beginning ~console
-    ~interruption ?again program =
-  let module Driver = Make (P) in
+    ?(always_telemetry = false) ?(observer = Observer.nobody) ?(host = no_host) ?inputs ?beginning ?fenced ~console
+    ~interruption ?again (program : Core.program) =
   let inputs = match inputs with Some inputs -> inputs | None -> Inputs.create () in
-  Driver.run platform ~always_telemetry ~observer ~call:host ~inputs ~console
-    ~interruptions:(interruption :: Option.to_list again)
-    ~beginning:(Option.value beginning ~default:(afresh program P.order))
-    program
+  let interruptions = interruption :: Option.to_list again in
+  let beginning = Option.value beginning ~default:(afresh program P.order) in
+  if Fences.is_none program.fences then
+    let module Driver = Make (P) in
+    Driver.run platform ~always_telemetry ~observer ~call:host ~inputs ~console ~interruptions ~beginning program
+  else
+    let module Fenced = Fenced.Make (P) in
+    let module Driver = Make (Fenced) in
+    let past : Fence_guard.past = Option.value fenced ~default:(Fence_guard.replay program.fences []) in
+    let platform = Fenced.make past.guard ~untold:past.untold platform in
+    Driver.run platform ~always_telemetry ~observer ~call:host ~inputs ~console ~interruptions ~beginning program

@@ -46,6 +46,7 @@ val run :
   ?host:call ->
   ?inputs:Inputs.t ->
   ?beginning:beginning ->
+  ?fenced:Fence_guard.past ->
   console:Console.t ->
   interruption:unit Lwt.t ->
   ?again:unit Lwt.t ->
@@ -62,6 +63,8 @@ val run :
     The run begins with the program, or as [beginning] says, and [platform] is one that stands as it did then: what the
     program has started and not ended runs, its timers too. A question that was not answered, or a call of the host
     without reply, is made again.
+
+    If [program] has fences, {!Fenced} keeps the vehicles to them, from what [fenced] says of the run so far on.
 
     While the program waits for the console or the host, a platform of virtual time stands still.
 

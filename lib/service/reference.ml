@@ -76,6 +76,9 @@ let procedures =
       "map", "map 'harbour.geojson'",
       "The areas, lines and positions on the map in this file, by name: GeoJSON, KML, KMZ, GPX, plans of \
        QGroundControl, missions of Neptus.";
+      "fence", "fence inside harbour, margin: 20.m",
+      "What vehicles must keep to: `inside` or `outside` an area, at most a `depth` or a `height`, at least a \
+       `distance` from each other. A plan that breaks it fails.";
       "corridor", "corridor(path, width)", "The points at most half the width away from a path, a list of positions.";
       "along", "along(path, d)", "The position d metres along a path, a list of positions.";
       "coverage", "coverage(area, spacing: 40.m)",

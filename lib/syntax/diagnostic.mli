@@ -22,6 +22,8 @@ type code =
   | Misplaced_when | Misplaced_setting | Misplaced_function | Misplaced_input
   | Misplaced_parameter | Misplaced_interrupt
   | Bad_map  (** a file that [map] names cannot be read *)
+  | Bad_fence  (** [fence] with what is not known, or is no fence; or out of place *)
+  | Broken_fence  (** a plan that breaks a fence wherever its vehicle is *)
   | Deed_in_answer  (** an answer may only compute *)
   | Deed_in_maker  (** so may code that makes a task *)
   | Vehicle_twice  (** one vehicle, needed twice at once *)

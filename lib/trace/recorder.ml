@@ -77,11 +77,14 @@ let news r ~time (state : World.vehicle_state) =
 
 (* {1 Transitions} *)
 
-(* Allocation looks where vehicles are, whatever the program's own code reads; and so may an answer, which is code. *)
+(* Allocation looks where vehicles are, whatever the program's own code reads; and so may an answer, which is code, and
+   do fences. *)
 let may_depend_on_vehicles r (t : Transition.t) =
   match t.label with
   | Execute | Cannot_execute _ | Answer _ -> true
-  | _ -> r.program.reads_sensors || Transition.depends_on_sensors r.program r.configuration
+  | _ ->
+    r.program.reads_sensors || not (Fences.is_none r.program.fences)
+    || Transition.depends_on_sensors r.program r.configuration
 
 let transition r ~time ~cause (t : Transition.t) =
   pass r time;

@@ -54,7 +54,8 @@ let program ?(reads_sensors = false) ?(globals = 0) script =
     ordered_keys = No_key;
     inputs = [];
     on_interrupt = None;
-    reads_sensors }
+    reads_sensors;
+    fences = Dolphin_semantics.Fences.none }
 
 let on_interrupt t program =
   { program with on_interrupt = Some (lambda "onInterrupt" 1 (call Interrupted [ call Execute [ t ] ])) }

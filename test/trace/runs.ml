@@ -58,13 +58,13 @@ let host path =
 let started = "2026-03-01T12:00:00Z"
 
 (* Writes what follows to [journal], with [recorder] told. *)
-let drive r recorder platform ?beginning ~answered host =
+let drive r recorder platform ?beginning ?fenced ~answered host =
   let observer : Observer.t = { transition = Recorder.transition recorder; news = Recorder.news recorder;
                                 unknown = Observer.nobody.unknown } in
   let host = host () in
   let run =
     Driver.run (module Simulator.Virtual) platform ~always_telemetry:true ~observer ?host:(Option.map Host.call host)
-      ?beginning ~console:(console ~answered r.scenario) ~interruption:(fst (Lwt.wait ())) r.program
+      ?beginning ?fenced ~console:(console ~answered r.scenario) ~interruption:(fst (Lwt.wait ())) r.program
   in
   let outcome = Lwt_main.run run in
   Option.iter (fun host -> Lwt_main.run (Host.close host)) host;
@@ -90,7 +90,8 @@ let resume r text =
   match Resumption.read r.program ~hash:r.hash (Journal.of_string text) with
   | Error trouble -> refuse trouble
   | Ok past -> (
-      match Simulator.Virtual.create_again ~seed:r.seed r.scenario past.history with
+      let fenced = Fence_guard.replay r.program.fences past.history in
+      match Simulator.Virtual.create_again ~seed:r.seed r.scenario fenced.history with
       | Error why -> Error why
       | Ok (platform, news) ->
         let journal = Buffer.create 65536 in
@@ -105,7 +106,7 @@ let resume r text =
           { configuration = Replay.configuration past.replay; world = Replay.world past.replay; news;
             pending = past.pending }
         in
-        drive r recorder platform ~beginning ~answered:(History.answers past.history) r.host;
+        drive r recorder platform ~beginning ~fenced ~answered:(History.answers past.history) r.host;
         Ok (Buffer.contents journal))
 
 let run ?(seed = 0) ?period name =

@@ -99,6 +99,7 @@ type t = {
   program : Program_file.t;
   scenario : Dolphin_scenario.Scenario.t;
   resumed : Resumed.t option;
+  fenced : Fence_guard.past option;  (* of what it resumes *)
 }
 
 let history r = Option.fold r.resumed ~none:[] ~some:(fun (resumed : Resumed.t) -> resumed.past.history)
@@ -117,6 +118,9 @@ let start_host r =
     (match Host.start ?timeout:r.settings.supplier_timeout ~calls command with
      | Ok host -> Ok (Some host)
      | Error why -> Error (Error.Unavailable ("the supplier cannot be started: " ^ why)))
+
+(* What the platform knows of it: nothing of plans that were not started because of a fence. *)
+let past_of_platform r = Option.fold r.fenced ~none:[] ~some:(fun (past : Fence_guard.past) -> past.history)
 
 let close_host = Option.fold ~none:Lwt.return_unit ~some:Host.close
 
@@ -150,10 +154,12 @@ let open_simulated r =
   match r.settings.speed, r.resumed with
   | None, None -> Ok (virtual_ (fresh (Simulator.Virtual.create ~seed scenario)))
   | Some speed, None -> Ok (paced (fresh (Simulator.Paced.create ~speed ~seed scenario)))
-  | None, Some { past; _ } ->
-    Result.map (fun made -> virtual_ (rebuilt made)) (Simulator.Virtual.create_again ~seed scenario past.history)
-  | Some speed, Some { past; _ } ->
-    Result.map (fun made -> paced (rebuilt made)) (Simulator.Paced.create_again ~speed ~seed scenario past.history)
+  | None, Some _ ->
+    let made = Simulator.Virtual.create_again ~seed scenario (past_of_platform r) in
+    Result.map (fun made -> virtual_ (rebuilt made)) made
+  | Some speed, Some _ ->
+    let made = Simulator.Paced.create_again ~speed ~seed scenario (past_of_platform r) in
+    Result.map (fun made -> paced (rebuilt made)) made
 
 (* What the time of a run is now whose console died: it went on. Clocks may have been set meanwhile, but runs never go
    back. *)
@@ -173,7 +179,7 @@ let open_network r recording =
     { program = Filename.basename r.program.path; note;
       keep = (fun ~time vehicle json -> Recording.note recording ~time ~vehicle json);
       sync = Recording.sync recording;
-      past = Option.map (fun resumed -> (time_of_run resumed, resumed.Resumed.past.history)) r.resumed }
+      past = Option.map (fun resumed -> (time_of_run resumed, past_of_platform r)) r.resumed }
   in
   let news = Option.fold r.resumed ~none:[] ~some:unheard in
   let fleet ({ part = Part (platform, network); estimates; leave } : Networks.opened) =
@@ -263,7 +269,8 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
       ~always_telemetry:(r.front.wants_telemetry || Recording.is_wanted r.settings.recording)
       ~observer
       ~host:(match host with Some host -> Host.call host | None -> Replies.call ~past:(history r) r.scenario)
-      ~inputs ?beginning:(beginning r.resumed news) ~console ~interruption:(Interruption.promise interruption)
+      ~inputs ?beginning:(beginning r.resumed news) ?fenced:r.fenced
+      ~console ~interruption:(Interruption.promise interruption)
       ~again:(Interruption.again interruption) r.program.program
   in
   let finish (outcome : Driver.outcome) =
@@ -285,7 +292,7 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
 let ( let*? ) result f = match result with Ok x -> f x | Error _ as error -> Lwt.return error
 
 (* The journal begins when nothing stands against the run any more. *)
-let on_platform r recording ~interruption (Platform (_, fleet) as platform) =
+let run_on r recording ~interruption (Platform (_, fleet) as platform) =
   let give_up error = fleet.leave () >|= fun () -> error in
   match start_host r with
   | Error _ as error -> give_up error
@@ -309,13 +316,13 @@ let go r ~interruption recording =
     | None -> Lwt.return (Error (Error.Interrupted (unbegun r)))
     | Some platform ->
       let*? platform = platform in
-      on_platform r recording ~interruption platform
+      run_on r recording ~interruption platform
   in
   Lwt.finalize run (fun () -> Recording.close recording; Lwt.return_unit)
 
 let start front ~interruption (settings : settings) program (fleet : Fleet_file.t) =
   let seed = Option.value settings.seed ~default:0 in
-  let r = { front; settings; seed; program; scenario = fleet.scenario; resumed = None } in
+  let r = { front; settings; seed; program; scenario = fleet.scenario; resumed = None; fenced = None } in
   log_start settings program fleet ~seed;
   go r ~interruption (Recording.start settings.recording (header r fleet) program.program)
 
@@ -350,8 +357,9 @@ let resumption front settings ~changed ~fleet program path =
          (path ^ ": this run has a supplier, which died with its console: name it again with --supplier"))
   else
     let seed = resumed.past.header.seed and scenario = fleet.scenario in
+    let fenced = Some (Fence_guard.replay program.program.fences resumed.past.history) in
     log_start settings program fleet ~seed;
-    Ok ({ front; settings; seed; program; scenario; resumed = Some resumed }, resumed)
+    Ok ({ front; settings; seed; program; scenario; resumed = Some resumed; fenced }, resumed)
 
 let resume front ~interruption (settings : settings) ~changed ~fleet program path =
   let*? r, resumed = resumption front settings ~changed ~fleet program path in

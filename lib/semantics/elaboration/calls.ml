@@ -279,6 +279,9 @@ let by_name env at name (callee : Ast.expression) arguments =
     check_place env builtin name callee.at;
     to_builtin env at name builtin arguments
   | None, None, None when Chart_calls.is_call env.program name -> Chart_calls.elaborate env at arguments
+  | None, None, None when name = fence && not (Scope.is_assigned env.program name) ->
+    error env Bad_fence at "fence declares what vehicles must keep to: it stands by itself at the top of the program";
+    null env at
   | None, None, None when List.mem name Builtins.builder_names -> builder_in_parentheses env callee.at name arguments
   | None, None, None when misspells_builder env name arguments ->
     (* What the block would mean is not known, so nothing in it is told. *)

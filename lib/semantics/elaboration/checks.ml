@@ -225,6 +225,9 @@ let check_repeated env (builder : Ast.builder) (body : Ast.statement list) =
   | Pick -> ignore (List.fold_left check [] (List.filter_map setting body))
   | Imc_plan | Mission | Pos | All_of | One_of -> ()
 
+(* What declares a fence: {!Fence_declarations}. *)
+let fence = "fence"
+
 let builder_name : Ast.builder -> string = function
   | Pick -> "pick"
   | Imc_plan -> "imcPlan"

@@ -114,6 +114,9 @@ val check_parameters : Scope.program -> string Ast.located list -> unit
 val check_repeated : env -> Ast.builder -> Ast.statement list -> unit
 (** Reports a second [type], say, among the statements of a [pick], which would replace the first one. *)
 
+val fence : string
+(** The word that declares a fence. *)
+
 val builder_name : Ast.builder -> string
 (** As programs spell it. *)
 

@@ -66,25 +66,6 @@ let report_blocking program =
        Scope.report program (Diagnostic.error ~code:Waits_in_task at message))
     (Scope.blocking_calls_in_tasks program)
 
-let shell program at label parameters =
-  {
-    id = Scope.fresh_lambda_id program;
-    label;
-    parameters;
-    implicit = false;
-    captures = [||];
-    slots = 0;
-    code = { node = Constant Null; site = Scope.site program at };
-    lambda_site = Scope.site program at;
-  }
-
-let fill (env : Checks.env) (lambda : lambda) purpose parameters at body =
-  let code = Scope.code env.program purpose None in
-  Checks.check_parameters env.program parameters;
-  List.iter (fun (x : string Ast.located) -> ignore (Scope.define code x.it)) parameters;
-  lambda.code <- Checks.statements { env with code } at body;
-  lambda.slots <- Scope.slots code
-
 (* What the outside posts with such a key, nobody sees. *)
 let report_unread_inputs program =
   let report (key : string Ast.located) =
@@ -126,12 +107,28 @@ let without_unused_prelude (ast : Ast.program) =
       match s.it with Function { name; _ } when is_prelude s -> List.mem name.it used | _ -> true in
     List.filter is_kept ast
 
-let elaborated ?chart ~source_name (ast : Ast.program) =
+let no_chart _ = Error "no file can be read here"
+
+(* Fences are known before anything runs; and so is it of some plans whether they break one. *)
+let fences program ~chart ast =
+  if Fence_declarations.is_own ast then Fences.none
+  else
+    let constants = lazy (Constants.of_program ~chart ast) in
+    match Fence_declarations.of_program constants ast with
+    | Error found -> List.iter (Scope.report program) found; Fences.none
+    | Ok [] -> Fences.none
+    | Ok declared ->
+      let fences = Fences.make declared in
+      let plans = Fence_declarations.plans (Lazy.force constants) ast in
+      List.iter (Scope.report program) (Fence_declarations.broken fences plans);
+      fences
+
+let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
   let ast = without_unused_prelude ast in
   let program =
     Scope.create ~variables:(Assigned.names ast) ~suppliers:(Assigned.once is_supplier ast)
       ~parameters:(List.map (fun (p : Parameters.t) -> p.name) (Parameters.of_program ast))
-      ?chart ~functions:[] ~globals:[] ()
+      ~chart ~functions:[] ~globals:[] ()
   in
   List.iter (Chart_calls.note program) (Chart_calls.assigned ast);
   let defined =
@@ -139,24 +136,25 @@ let elaborated ?chart ~source_name (ast : Ast.program) =
       (fun (s : Ast.statement) ->
          match s.it with
          | Function { name; parameters; body } ->
-           Some (name, shell program name.at name.it (List.length parameters), parameters, body, s.at)
+           Some (name, Lambdas.shell program name.at name.it (List.length parameters), parameters, body, s.at)
          | _ -> None)
       ast
   in
   List.iter (declare_function program) defined;
   declare_parameters program ast;
   let at = match ast with first :: _ -> first.at | [] -> Location.none in
-  let main = shell program at "the program" 0 in
+  let main = Lambdas.shell program at "the program" 0 in
   let env = Translate.env program (Scope.code program Main None) ~answer:false in
-  fill env main Main [] at ast;
+  Lambdas.fill env main Main [] at ast;
   List.iter
     (fun ((name : string Ast.located), lambda, parameters, body, at) ->
-       fill env lambda (Scope.Named_function name.it) parameters at body)
+       Lambdas.fill env lambda (Scope.Named_function name.it) parameters at body)
     defined;
   report_unknown program;
   report_blocking program;
   report_unread_inputs program;
   List.iter (Scope.report program) (Parallel_check.program ast @ Effect_check.program ast);
+  let fences = fences program ~chart ast in
   let reports = Scope.reports program in
   if List.exists is_error reports then Error reports
   else
@@ -171,6 +169,7 @@ let elaborated ?chart ~source_name (ast : Ast.program) =
         inputs = List.map (fun (k : string Ast.located) -> k.it) (Scope.inputs program);
         on_interrupt = Scope.on_interrupt program;
         reads_sensors = Scope.reads_sensors program;
+        fences;
       },
         reports )
 
@@ -187,9 +186,9 @@ let evaluated ?fallback (p : Core.program) ~globals (e : Ast.expression) =
   let first_site = Array.length p.locations in
   let globals = Array.to_list p.global_names @ globals in
   let program = Scope.create ~first_site ~functions:p.functions ~globals () in
-  let lambda = shell program e.at "answer" 0 in
+  let lambda = Lambdas.shell program e.at "answer" 0 in
   let env = Translate.env program (Scope.code program Main None) ~answer:true in
-  fill env lambda Main [] e.at [ { Ast.it = Expression e; at = e.at } ];
+  Lambdas.fill env lambda Main [] e.at [ { Ast.it = Expression e; at = e.at } ];
   report_unknown ?fallback program;
   match List.filter is_error (Scope.reports program) with
   | [] -> Ok { lambda; captured = [||] }

@@ -28,7 +28,7 @@ let context : Code.context =
   let program =
     { source_name = ""; locations = [||]; global_names = [||]; functions = []; main; ordered_keys = No_key; inputs = [];
       on_interrupt = None;
-      reads_sensors = false }
+      reads_sensors = false; fences = Fences.none }
   in
   let tuples = Tuples.empty No_key in
   { program; world = World.empty; bound = []; held = lazy []; needed = lazy []; store = Store.empty; tuples;

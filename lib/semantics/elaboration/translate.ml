@@ -69,6 +69,10 @@ let check_index env subject (index : Ast.expression) =
     error env Wrong_kind index.at "between [ and ] after a task stands a vehicle set, this is %s"
       (Builtins.describe found)
 
+(* The program's constants are needed for what it says: see {!Fence_declarations}. *)
+let declares_fence env name =
+  name = fence && (not (is_hidden env name)) && not (Scope.is_assigned env.program name)
+
 (* {1 Expressions} *)
 
 let rec elaborate env (e : Ast.expression) : expression =
@@ -241,6 +245,8 @@ and statement env (s : Ast.statement) : expression =
   | Expression { it = Call { callee = { it = Variable "input"; _ }; arguments }; _ }
     when Scope.at_top env.code && not (is_hidden env "input") ->
     Calls.input env at arguments
+  | Expression { it = Call { callee = { it = Variable name; _ }; _ } | Variable name; _ }
+    when Scope.at_top env.code && declares_fence env name -> null env at
   | Expression ({ it = Call { arguments; _ }; _ } as e)
     when Scope.may_give_task env.code && confirmation env e <> None -> confirm_task env at arguments
   | Expression e when each_of_branches env e <> None ->

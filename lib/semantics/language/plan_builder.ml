@@ -295,6 +295,8 @@ let add draft s =
     fault s "an inline plan has no setting '%s': %s" s.setting
       (instead s.setting (List.map fst vocabulary) ~otherwise:"it has")
 
+let is_maneuver name = List.mem_assoc name maneuvers
+
 let given_id s =
   match List.assoc_opt "id" (arguments s).named with
   | Some (String id) -> Some id

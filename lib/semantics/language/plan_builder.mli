@@ -13,6 +13,9 @@ open Core
 val vocabulary : (string * string list) list
 (** Every setting of a plan, with the names of its named arguments. *)
 
+val is_maneuver : string -> bool
+(** Whether that setting is a maneuver. *)
+
 val units : string list
 (** The units of speeds and of [z], by their full names, as in ["Speed.Units.METERS_PS"]: the symbols that programs
     may use. {!build} takes also the last of the names, in a string of any case, as in [speed 1000, 'rpm']. *)

@@ -192,4 +192,5 @@ type program = {
   inputs : string list;                         (* keys of the pairs that the outside may post *)
   on_interrupt : lambda option;                 (* of the bound vehicles: what an interruption executes *)
   reads_sensors : bool;                         (* some code may read positions or batteries *)
+  fences : Fences.t;                            (* what platforms hold vehicles to: no rule asks *)
 }

@@ -26,7 +26,7 @@ let is_numbered item = not (List.mem item.word [ "arm"; "altitude" ])
 
 (* {1 The way} *)
 
-type leg = { item : string; waypoints : Position.t list; dwell : float; speed : float }
+type leg = { item : string; waypoints : Position.t list; dwell : float; speed : float; radius : float }
 
 let number name ~default item =
   match List.assoc_opt name item.arguments with
@@ -46,9 +46,11 @@ type state = { here : Position.t; home : Position.t; now : float  (* its speed *
 (* Where a mission does not say how wide its circles are. *)
 let usual_radius = 50.
 
-let circles turns ~speed item =
-  let radius = match number "radius" ~default:0. item with 0. -> usual_radius | radius -> Float.abs radius in
-  turns *. 2. *. Float.pi *. radius /. speed
+let radius item = match number "radius" ~default:0. item with 0. -> usual_radius | radius -> Float.abs radius
+let circles turns ~speed item = turns *. 2. *. Float.pi *. radius item /. speed
+
+let goes_round item =
+  List.mem item.word [ "returnHomeAndLoiter"; "moveAndLoiter"; "loiterPos"; "loiterTurns"; "loiterTime" ]
 
 (* Without a number of turns or seconds it never ends. *)
 let loitering ~speed item =
@@ -95,7 +97,7 @@ let path ~from ~speed m =
     else
       let item = items.(i) in
       let named = Printf.sprintf "%d.%s" (i + 1) item.word in
-      let stays = { item = named; waypoints = []; dwell = infinity; speed = s.now } in
+      let stays = { item = named; waypoints = []; dwell = infinity; speed = s.now; radius = 0. } in
       if steps = most_steps then stays :: legs
       else if item.word = "jumpToItem" then
         let taken = Option.value (List.assoc_opt i jumps) ~default:0. in
@@ -107,9 +109,31 @@ let path ~from ~speed m =
       else
         let s, waypoints, dwell = carry_out item s in
         let dwell = if dwell = infinity && i = Array.length items - 1 then 0. else dwell in
-        go (i + 1) (steps + 1) jumps s ({ item = named; waypoints; dwell; speed = s.now } :: legs)
+        go (i + 1) (steps + 1) jumps s 
+          (let radius = if goes_round item then radius item else 0. in
+           { item = named; waypoints; dwell; speed = s.now; radius } :: legs)
   in
   List.rev (go 0 0 [] { here = from; home = from; now = speed } [])
+
+(* {1 Heights} *)
+
+let optional name item =
+  match List.assoc_opt name item.arguments with
+  | Some (Number x) -> Some x
+  | Some (Truth _ | Text _ | Place _ | Places _) | None -> None
+
+(* Until a mission says how high it is, it is at its home. Rounds that go up each time go nobody knows how far. *)
+let heights m =
+  let climbs item = optional "up" item <> None and jumps item = item.word = "jumpToItem" in
+  let is_known = not (List.exists climbs m.items && List.exists jumps m.items) in
+  let add (height, i, found) item =
+    let height =
+      Option.value (optional "altitude" item) ~default:height +. Option.value (optional "up" item) ~default:0. in
+    if not (is_numbered item) then (height, i, found)
+    else (height, i + 1, (Printf.sprintf "%d.%s" i item.word, (if is_known then Some height else None)) :: found)
+  in
+  let _, _, found = List.fold_left add (0., 1, []) m.items in
+  List.rev found
 
 (* Missions are plain data without functions or cycles. *)
 let compare (a : t) (b : t) = Stdlib.compare a b

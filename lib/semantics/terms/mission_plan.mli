@@ -39,6 +39,7 @@ type leg = {
   waypoints : Position.t list;  (** visited in order *)
   dwell : float;  (** seconds at the last of them; [infinity] for an item without end *)
   speed : float;
+  radius : float;  (** metres around the last of them within which it is done: those of its circles *)
 }
 
 val path : from:Position.t -> speed:float -> t -> leg list
@@ -46,6 +47,10 @@ val path : from:Position.t -> speed:float -> t -> leg list
     says otherwise: a leg for each item that is carried out, in order, jumps taken. Of a stored mission nothing is
     known: it takes no time. Who circles without end as the last item is done once there; other missions that go on
     for ever end with a dwell without end. *)
+
+val heights : t -> (string * float option) list
+(** [heights m] is each numbered item, as in {!path}, with its metres above home: the altitude said last, and what the
+    item goes up; [None] if it goes up again with each of several rounds. *)
 
 val compare : t -> t -> int
 val pp : Format.formatter -> t -> unit

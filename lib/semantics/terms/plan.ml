@@ -53,7 +53,7 @@ let reference p =
 
 (* {1 The way} *)
 
-type leg = { maneuver : string; waypoints : Dolphin_geo.Position.t list; dwell : float }
+type leg = { maneuver : string; waypoints : Dolphin_geo.Position.t list; dwell : float; radius : float }
 
 (* How the rows run: metres ahead of the start (along the bearing) and metres to the right of it. The first point lies
    [offset] before the start, so that the vehicle is on course when it gets there; each row runs on for [offset] too.
@@ -83,15 +83,16 @@ let turned bearing (x, y) =
 let unending seconds = if seconds > 0. then seconds else infinity
 
 let leg (m : maneuver) =
-  let at_location dwell = { maneuver = m.id; waypoints = [ m.location ]; dwell } in
+  let at_location dwell = { maneuver = m.id; waypoints = [ m.location ]; dwell; radius = 0. } in
   let through offsets =
     let waypoint (north, east) = Dolphin_geo.Wgs84.displace m.location ~north ~east in
-    { maneuver = m.id; waypoints = List.rev (List.rev_map waypoint offsets); dwell = 0. }
+    { maneuver = m.id; waypoints = List.rev (List.rev_map waypoint offsets); dwell = 0.; radius = 0. }
   in
   match m.kind with
   | Go_to | Yo_yo _ | Launch -> at_location 0.
-  | Loiter { duration; _ } | Station_keeping { duration; _ } | Compass_calibration { duration; _ } ->
-    at_location (unending duration)
+  | Loiter { radius; duration; _ } | Station_keeping { radius; duration }
+  | Compass_calibration { radius; duration; _ } ->
+    { (at_location (unending duration)) with radius }
   | Pop_up { duration; current_position; wait_at_surface; station_keep } ->
     (* Without reason to stay, a vehicle dives again as soon as it has a fix. *)
     let dwell = if wait_at_surface || station_keep then duration else 0. in

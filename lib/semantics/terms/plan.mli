@@ -73,6 +73,7 @@ type leg = {
   maneuver : string;  (** its identifier *)
   waypoints : Dolphin_geo.Position.t list;  (** visited in order; [[]] if it is done wherever the vehicle is *)
   dwell : float;  (** seconds at the last of them; [infinity] for a maneuver without end *)
+  radius : float;  (** metres around the last of them within which it is done, such as a loiter's circle *)
 }
 
 val path : t -> leg list

@@ -1,0 +1,94 @@
+open Core
+module Ast = Dolphin_syntax.Ast
+module Diagnostic = Dolphin_syntax.Diagnostic
+module String_map = Map.Make (String)
+
+type t = { known : value String_map.t; own : string list; chart : string -> (value, string) result }
+(* [own]: what the program itself names, known or not. *)
+
+let none ~chart = { known = String_map.empty; own = []; chart }
+
+(* {1 What only computes} *)
+
+let computing_calls = [ "location"; "area"; "imcPlan"; "task"; "map" ]
+
+let computes constants locals (e : Ast.expression) =
+  let is_own name = List.mem name constants.own in
+  match e.it with
+  | Variable name ->
+    if String_map.mem name constants.known || List.mem name locals || not (is_own name) then None
+    else Some (Printf.sprintf "the value of '%s' is not known before the program runs" name)
+  | Call { callee = { it = Variable name; _ }; _ } ->
+    if (not (is_own name)) && (List.mem name computing_calls || Builtins.is_geometry name) then None
+    else if Builtins.find name = None && not (is_own name) then None  (* a setting, or a name that is unknown *)
+    else Some (Printf.sprintf "%s(...) is not known before the program runs" name)
+  | Call { callee = { it = Member { name; _ }; _ }; _ } when Methods.updates name.it ->
+    Some (Printf.sprintf "%s(...) changes a variable" name.it)
+  | Increment _ -> Some "this changes a variable"
+  | Builder (Pick, _) | Pick_else _ -> Some "whom a pick takes is not known before the program runs"
+  | _ -> None
+
+let unknown constants (e : Ast.expression) =
+  let locals = Assigned.names [ { Ast.it = Ast.Expression e; at = e.at } ] in
+  let look found (e : Ast.expression) =
+    match found with
+    | Some _ -> found
+    | None -> Option.map (fun why -> Diagnostic.error ~code:Bad_fence e.at why) (computes constants locals e)
+  in
+  Fold.expression look None e
+
+(* {1 Computing} *)
+
+let fuel = 2_000_000
+let is_error (d : Diagnostic.t) = match d.severity with Error -> true | Warning -> false
+
+let elaborated constants (e : Ast.expression) =
+  let globals = String_map.bindings constants.known in
+  let program = Scope.create ~chart:constants.chart ~functions:[] ~globals:(List.map fst globals) () in
+  let lambda = Lambdas.shell program e.at "constant" 0 in
+  let env = Translate.env program (Scope.code program Main None) ~answer:true in
+  Lambdas.fill env lambda Main [] e.at [ { Ast.it = Expression e; at = e.at } ];
+  let not_there (name, at) = Diagnostic.error ~code:Unknown_name at (Printf.sprintf "unknown name '%s'" name) in
+  match List.filter is_error (Scope.reports program) @ List.map not_there (Scope.unknown program) with
+  | [] -> Ok (lambda, Scope.locations program, Scope.globals program, List.map snd globals)
+  | errors -> Error errors
+
+let run (lambda, locations, global_names, values) at =
+  let program =
+    { source_name = ""; locations; global_names; functions = []; main = lambda; ordered_keys = No_key; inputs = [];
+      on_interrupt = None; reads_sensors = false; fences = Fences.none } in
+  let store = snd (List.fold_left (fun (i, store) x -> (i + 1, Store.set i x store)) (0, Store.empty) values) in
+  let context : Code.context =
+    { program; world = World.empty; bound = []; held = lazy []; needed = lazy []; store;
+      tuples = Tuples.empty No_key; mode = Task_code; deeds = [] } in
+  let wrong at message = Error [ Diagnostic.error ~code:Bad_fence at message ] in
+  match Machine.run ~fuel context (Machine.call { lambda; captured = [||] } []) with
+  | Decided (Finished x, _, _) -> Ok x
+  | Decided (Faulted fault, _, _) -> wrong (Option.value (Fault.location program fault) ~default:at) fault.message
+  | Decided ((Exhausted | Left_off | Did _ | Waits _ | Halted _), _, _) | Open _ | Unclear _ ->
+    wrong at "this is not known before the program runs"
+
+let value constants (e : Ast.expression) =
+  match unknown constants e with
+  | Some why -> Error [ why ]
+  | None -> Result.bind (elaborated constants e) (fun code -> run code e.at)
+
+(* {1 Variables} *)
+
+let function_names (ast : Ast.program) =
+  List.filter_map (fun (s : Ast.statement) -> match s.it with Function { name; _ } -> Some name.it | _ -> None) ast
+
+let of_program ~chart ast =
+  let once = Assigned.once (fun _ -> true) ast in
+  let add constants (s : Ast.statement) =
+    match s.it with
+    | Parameter { name = { it = name; _ }; value = e; _ }
+    | Define ({ it = name; _ }, Some e)
+    | Assign { target = { it = Variable name; _ }; operator = None; value = e }
+      when List.mem name once -> (
+        match value constants e with
+        | Ok x -> { constants with known = String_map.add name x constants.known }
+        | Error _ -> constants)
+    | _ -> constants
+  in
+  List.fold_left add { known = String_map.empty; own = Assigned.names ast @ function_names ast; chart } ast

@@ -1,0 +1,21 @@
+(** What is known before a program runs: expressions that only compute, of literals, maps and variables of which the
+    same is known. *)
+
+module Ast = Dolphin_syntax.Ast
+module Diagnostic = Dolphin_syntax.Diagnostic
+
+type t
+(** The variables of a program that are known so, and how maps are read. *)
+
+val none : chart:(string -> (Core.value, string) result) -> t
+(** No variable is known. *)
+
+val function_names : Ast.program -> string list
+(** The functions that it defines. *)
+
+val of_program : chart:(string -> (Core.value, string) result) -> Ast.program -> t
+(** [of_program ~chart ast] is the variables of [ast] that are assigned once, by a statement of the script outside of
+    all braces, or declared as parameters, and of which the value is known. *)
+
+val value : t -> Ast.expression -> (Core.value, Diagnostic.t list) result
+(** [value constants e] is the value of [e], or why it is not known, and where. *)

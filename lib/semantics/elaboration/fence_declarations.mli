@@ -1,0 +1,29 @@
+(** [fence inside harbour, margin: 20.m]: what programs and fleets declare by that word. *)
+
+module Ast = Dolphin_syntax.Ast
+module Diagnostic = Dolphin_syntax.Diagnostic
+
+val word : string
+(** ["fence"]. *)
+
+val hint : string
+(** How it is written. *)
+
+val read :
+  Constants.t -> Dolphin_syntax.Location.t -> Ast.argument list -> (Fences.fence, Diagnostic.t list) result
+(** [read constants at arguments] is the fence declared by [fence] with these [arguments], at [at]; or what is wrong
+    with it, and where. *)
+
+val of_program : Constants.t Lazy.t -> Ast.program -> (Fences.fence list, Diagnostic.t list) result
+(** The fences that stand in the script, outside of all braces; or what is wrong with any. *)
+
+val is_own : Ast.program -> bool
+(** Whether the program has a variable or a function of this name: then it declares no fences. *)
+
+val plans : Constants.t -> Ast.program -> (Ast.expression * Inline_plan.t) list
+(** [plans constants ast] is the plans and missions of the program that are known before it runs, each with where it is
+    described. *)
+
+val broken : Fences.t -> (Ast.expression * Inline_plan.t) list -> Diagnostic.t list
+(** [broken fences plans] is an error for each of [plans] that breaks a fence wherever its vehicle is, at the maneuver
+    if that can be told. *)

@@ -1,0 +1,86 @@
+(** What vehicles must not do: where plans may lead, and how near to each other vehicles may come. A program declares
+    fences, a fleet has some of its own. Nothing of this is part of the rules: a plan that breaks a fence fails, as
+    plans may. *)
+
+open Dolphin_geo
+
+type rule =
+  | Inside of Area.t
+  | Outside of Area.t
+  | Depth of float  (** metres below the surface, at most *)
+  | Height of float  (** metres above the ellipsoid, the ground or home, at most *)
+  | Distance of float  (** metres between vehicles under way, at least *)
+
+type fence = {
+  rule : rule;
+  margin : float;  (** metres that plans keep from it, at least 0 *)
+  text : string;  (** as it is declared: ["fence inside harbour, margin: 20.m"] *)
+  at : Dolphin_syntax.Location.t;
+}
+
+type t
+(** Fences, ready to be asked. *)
+
+val none : t
+val is_none : t -> bool
+
+val make : fence list -> t
+val list : t -> fence list
+
+val add : t -> t -> t
+(** All of both, the first ones first. *)
+
+val least_distance : t -> fence option
+(** The greatest of the least distances between vehicles. *)
+
+val equal : t -> t -> bool
+(** Whether they are the same rules with the same margins, in the same order. *)
+
+(** {1 Plans} *)
+
+type breach = {
+  fence : fence;
+  maneuver : string option;  (** [None]: on the way to the plan *)
+  message : string;  (** what breaks which fence, where, and by how many metres: a sentence without a full stop *)
+}
+
+val of_plan : t -> from:Position.t option -> Inline_plan.t -> breach option
+(** [of_plan fences ~from p] is the breach that [p] is, of a vehicle at [from], circles taken as the discs inside of
+    them: a maneuver that leaves an area, comes nearer to its rim than the margin, or goes too deep or too high, or of
+    which nobody can know how deep or high it goes. [None] if there is none up to {!Fence.tolerance}. Where the vehicle
+    is unknown, only what does not depend on it is looked at. On the way to its plan a vehicle may come back from beyond
+    a fence, or from within its margin. *)
+
+(** {1 Vehicles} *)
+
+type beyond
+(** Which areas a vehicle breaks, whatever the margin, and by how many metres. *)
+
+val beyond : t -> Position.t -> beyond
+(** Those that a vehicle there breaks. *)
+
+val nowhere : beyond
+(** None. *)
+
+val of_vehicle : t -> since:beyond -> Position.t -> (beyond, string) result
+(** [of_vehicle fences ~since p] is what is wrong if a vehicle under way is at [p]: it breaks an area that it did not
+    break, as [since] has it, or by {!leeway} metres more. If nothing is wrong, that which is still broken of [since].
+    Depths and heights are not looked at. *)
+
+val leeway : float
+(** 10: on its way back, a vehicle may turn. *)
+
+type under_way = {
+  vehicle : string;
+  plan : string;
+  parts : Plan_room.part list;  (** [[]]: not known *)
+}
+(** What a vehicle is doing. *)
+
+val beside : t -> under_way -> under_way list -> string option
+(** [beside fences u others] is which of [others] the way of [u] comes nearer to than the least distance between
+    vehicles, whenever the two are there: the nearest one. *)
+
+val too_near : t -> (string * Position.t) list -> (string * string * string) list
+(** [too_near fences vehicles] is the pairs of [vehicles], each at its place, that are nearer to each other than the
+    least distance, each pair once and in order, with what is to be said of it. *)

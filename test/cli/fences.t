@@ -1,0 +1,211 @@
+Fences: where vehicles may be, how deep and high, how near to each other.
+
+  $ cat > basin.dol <<'END'
+  > quay = location 41.1850, -8.7060
+  > basin = polygon([quay, quay.displace(0, 500), quay.displace(300, 500), quay.displace(300, 0)])
+  > END
+  $ fenced() { cp basin.dol $1.dol; cat >> $1.dol; }
+
+What breaks a fence wherever its vehicle is, is told before anything runs, at the maneuver: segments, circles, rows, depths,
+heights, points of a way.
+
+  $ fenced broken <<'END'
+  > fence inside basin, margin: 10.m
+  > fence outside quay.displace(150, 250) ^ 30
+  > fence depth 12.m
+  > fence height 100.m
+  > plans = [
+  >   imcPlan {
+  >     planName 'loiters'
+  >     locate quay.displace(50, 50)
+  >     goTo()
+  >     loiter radius: 45
+  >   },
+  >   imcPlan {
+  >     planName 'crosses'
+  >     locate quay.displace(150, 50)
+  >     goTo()
+  >     goTo location: quay.displace(150, 450)
+  >   },
+  >   imcPlan { planName 'rows'; locate quay.displace(200, 100); rows bearing: 90, length: 300, width: 100 },
+  >   imcPlan { planName 'deep'; locate quay.displace(50, 50); yoyo max_depth: 15, min_depth: 2 },
+  >   imcPlan { planName 'low'; locate quay.displace(50, 50); z 3, Z.Units.ALTITUDE; goTo() },
+  >   imcPlan { planName 'high'; locate quay.displace(50, 50); z 130, Z.Units.HEIGHT; goTo() },
+  >   imcPlan {
+  >     planName 'follows'
+  >     locate quay.displace(50, 50)
+  >     followPath points: [[0, 0], [10, 20, 11]]
+  >   },
+  >   mission { name 'flies'; takeOff 20; goPos quay.displace(20, 20); move 0, 10, 90; loiterTurns 2, radius: 25 },
+  >   imcPlan { planName 'good'; locate quay.displace(50, 50); goTo(); loiter radius: 40 }
+  > ]
+  > END
+  $ dolphin check broken.dol 2>&1 | grep -A2 error
+  broken.dol:12:5: error: plan 'loiters': 2.Loiter breaks fence inside basin, margin: 10.m (broken.dol:3) by 5.0 m, at (41.185450, -8.705404)
+    12 |     loiter radius: 45
+       |     ^^^^^^^^^^^^^^^^^
+  broken.dol:18:5: error: plan 'crosses': 2.Goto breaks fence outside quay.displace(150, 250) ^ 30 (broken.dol:4) by 30.0 m, at (41.186351, -8.703020)
+    18 |     goTo location: quay.displace(150, 450)
+       |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+  broken.dol:21:60: error: plan 'deep': 1.YoYo breaks fence depth 12.m (broken.dol:5) by 3.0 m
+    21 |   imcPlan { planName 'deep'; locate quay.displace(50, 50); yoyo max_depth: 15, min_depth: 2 },
+       |                                                            ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+  broken.dol:22:82: error: plan 'low': 1.Goto may break fence depth 12.m (broken.dol:5): its z is above the ground, and how deep that is is not known
+    22 |   imcPlan { planName 'low'; locate quay.displace(50, 50); z 3, Z.Units.ALTITUDE; goTo() },
+       |                                                                                  ^^^^^^
+  broken.dol:23:83: error: plan 'high': 1.Goto breaks fence height 100.m (broken.dol:6) by 30.0 m
+    23 |   imcPlan { planName 'high'; locate quay.displace(50, 50); z 130, Z.Units.HEIGHT; goTo() },
+       |                                                                                   ^^^^^^
+  broken.dol:27:5: error: plan 'follows': 1.FollowPath breaks fence depth 12.m (broken.dol:5) by 1.0 m
+    27 |     followPath points: [[0, 0], [10, 20, 11]]
+       |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+  broken.dol:29:3: error: plan 'flies': 4.loiterTurns breaks fence inside basin, margin: 10.m (broken.dol:3) by 15.0 m, at (41.185180, -8.705642)
+    29 |   mission { name 'flies'; takeOff 20; goPos quay.displace(20, 20); move 0, 10, 90; loiterTurns 2, radius: 25 }...
+       |   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+  broken.dol: 7 errors
+
+A fence is known before the program runs, and of its kind.
+
+  $ wrong() { echo "$1" | fenced wrong; dolphin check wrong.dol 2>&1 | grep -v '^wrong.dol: '; }
+  $ wrong 'fence inside 3'
+  wrong.dol:3:14: error: fence inside takes an area, not a number
+    3 | fence inside 3
+      |              ^
+  $ wrong 'fence insde basin'
+  wrong.dol:3:7: error: there is no fence 'insde'
+    3 | fence insde basin
+      |       ^^^^^
+      hint: did you mean 'inside'?
+  $ wrong 'fence'
+  wrong.dol:3:1: error: fence declares what vehicles must keep to
+    3 | fence
+      | ^^^^^
+      hint: write fence inside AREA, fence outside AREA, fence depth 30.m, fence height 120.m or fence distance 50.m
+  wrong.dol:3:1: warning: this has no effect: nobody takes its value
+    3 | fence
+      | ^^^^^
+  $ wrong 'fence depth(-3)'
+  wrong.dol:3:13: error: the depth of a fence is a number of metres from 0 on, not -3
+    3 | fence depth(-3)
+      |             ^^
+  $ wrong 'fence distance 0.m'
+  wrong.dol:3:16: error: the distance of a fence is a number of metres above 0, not 0
+    3 | fence distance 0.m
+      |                ^^^
+  $ wrong 'fence distance 3.m, margin: 2.m'
+  wrong.dol:3:21: error: fence distance has no margin: the distance is what vehicles keep
+    3 | fence distance 3.m, margin: 2.m
+      |                     ^^^^^^
+  $ wrong 'fence inside basin, margin: 0 - 3.m'
+  wrong.dol:3:29: error: the margin of a fence is a number of metres from 0 on, not -3
+    3 | fence inside basin, margin: 0 - 3.m
+      |                             ^^^^^^^
+  $ wrong 'fence inside basin, 3.m'
+  wrong.dol:3:21: error: after a comma, fence takes its margin
+    3 | fence inside basin, 3.m
+      |                     ^^^
+      hint: as in fence inside harbour, margin: 20.m
+  $ wrong 'fence inside basin, margn: 3.m'
+  wrong.dol:3:21: error: fence has no argument 'margn': it has margin
+    3 | fence inside basin, margn: 3.m
+      |                     ^^^^^
+      hint: as in fence inside harbour, margin: 20.m
+  $ wrong 'x = fence(inside(basin))'
+  wrong.dol:3:5: error: fence declares what vehicles must keep to: it stands by itself at the top of the program
+    3 | x = fence(inside(basin))
+      |     ^^^^^^^^^^^^^^^^^^^^
+  $ wrong 'if (true) { fence depth 3.m }'
+  wrong.dol:3:13: error: fence declares what vehicles must keep to: it stands by itself at the top of the program
+    3 | if (true) { fence depth 3.m }
+      |             ^^^^^^^^^^^^^^^
+  $ wrong 'fence inside nowhere'
+  wrong.dol:3:14: error: unknown name 'nowhere'
+    3 | fence inside nowhere
+      |              ^^^^^^^
+  $ wrong 'for (i in 1..2) { n = i }; fence depth n'
+  wrong.dol:3:40: error: the value of 'n' is not known before the program runs
+    3 | for (i in 1..2) { n = i }; fence depth n
+      |                                        ^
+  $ wrong 'def f() { return 3 }; fence depth f()'
+  wrong.dol:3:35: error: f(...) is not known before the program runs
+    3 | def f() { return 3 }; fence depth f()
+      |                                   ^^^
+  $ wrong 'fence inside polygon([quay, quay.displace(9, 9), quay.displace(9, 0), quay.displace(0, 9)])'
+  wrong.dol:3:14: error: a polygon does not cross itself: its sides from corner 1 and from corner 3 meet
+    3 | fence inside polygon([quay, quay.displace(9, 9), quay.displace(9, 0), quay.displace(0, 9)])
+      |              ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+
+Maps and parameters are known, and who calls something else 'fence' has no fences.
+
+  $ cat > harbour.geojson <<'END'
+  > {"type": "Feature", "properties": {"name": "limits"}, "geometry": {"type": "Polygon", "coordinates":
+  >  [[[-8.71, 41.18], [-8.70, 41.18], [-8.70, 41.19], [-8.71, 41.19], [-8.71, 41.18]]]}}
+  > END
+  $ cat > map.dol <<'END'
+  > harbour = map 'harbour.geojson'
+  > parameter margin = 10
+  > fence inside harbour.limits, margin: margin
+  > plan = imcPlan { planName 'edge'; locate 41.185, -8.7003; goTo() }
+  > END
+  $ dolphin check map.dol
+  map.dol: no errors
+  $ dolphin check map.dol --set margin=30 2>&1 | head -1
+  map.dol:4:59: error: plan 'edge': 1.Goto breaks fence inside harbour.limits, margin: margin (map.dol:3) by 4.8 m, at (41.185000, -8.700300)
+  $ echo "def fence(x) { return x }; y = fence 3; message y" > own.dol
+  $ dolphin exec own.dol
+     0:00  program     says: 3
+     0:00  program     ends
+
+What is not known before is refused at its start, and who breaks a fence on the way is stopped: failures of the task,
+that a handler may ignore. Trace and journal are those of any other run.
+
+  $ fenced late <<'END'
+  > fence inside basin
+  > fence distance 30.m
+  > def go(name, north, east) { imcPlan { planName name; locate quay.displace(north, east); goTo() } }
+  > vs = pick { type 'UUV'; count 2 }
+  > one = vs[0]
+  > other = vs[1]
+  > def tried(t) { watch t onError { e -> ignore() } }
+  > execute tried(go('out', 310, 20)[one])
+  > execute tried(go('west', 100, 100)[one]) | tried(go('east', 100, 400)[other])
+  > execute tried(go('meets', 250, 400)[one]) | tried(go('crosses', 200, 100)[other])
+  > execute tried(task('drift')[one])
+  > execute tried(go('back', 100, 50)[one])
+  > execute task('stays')[one] | tried(task('nears')[other])
+  > END
+  $ cat > late.fleet <<'END'
+  > vehicle 'a', { type 'UUV'; at 41.1852, -8.7055 }
+  > vehicle 'b', { type 'UUV'; at 41.1852, -8.7030 }
+  > plan 'drift', { duration 10.min; at 41.1840, -8.7050 }
+  > plan 'stays', { duration 20.min; at 41.1859, -8.7054 }
+  > plan 'nears', { duration 20.min; at 41.1859, -8.7054 }
+  > END
+  $ dolphin exec late.dol --journal late.run
+     0:00  program     picks a, b
+     0:00  a           starts out
+     0:00  a           fails in out: not started: the way to 1.Goto breaks fence inside basin (late.dol:3) by 10.0 m, at (41.187791, -8.705762)
+     0:00  a           starts west
+     0:00  b           starts east
+     1:04  a           ends west
+     1:51  b           ends east
+     1:51  a           starts meets
+     1:51  b           starts crosses
+     1:51  b           fails in crosses: not started: the way to 1.Goto comes as near as 0.0 m to the way to 1.Goto of plan 'meets' of a, at (41.186441, -8.703378): it breaks fence distance 30.m (late.dol:4)
+     5:35  a           ends meets
+     5:35  a           starts drift
+     9:17  a           fails in drift: stopped: the vehicle breaks fence inside basin (late.dol:3) by 0.3 m, at (41.184998, -8.703844)
+     9:17  a           starts back
+    11:06  a           ends back
+    11:06  a           starts stays
+    11:06  b           starts nears
+    14:41  a           fails in stays: stopped: a and b are 28.5 m apart, at (41.185900, -8.705400): they break fence distance 30.m (late.dol:4) by 1.5 m
+    14:41  b           stops nears
+    14:41  program     releases a, b
+    14:41  program     fails: stays failed on a: stopped: a and b are 28.5 m apart, at (41.185900, -8.705400): they break fence distance 30.m (late.dol:4) by 1.5 m
+  late.dol:15:9: error: stays failed on a: stopped: a and b are 28.5 m apart, at (41.185900, -8.705400): they break fence distance 30.m (late.dol:4) by 1.5 m
+    15 | execute task('stays')[one] | tried(task('nears')[other])
+       |         ^^^^^^^^^^^^^
+  [1]
+  $ dolphin trace check late.dol late.run
+  late.run: a run, of 25 transitions in 14:41; failed: stays failed on a: stopped: a and b are 28.5 m apart, at (41.185900, -8.705400): they break fence distance 30.m (late.dol:4) by 1.5 m

@@ -530,8 +530,8 @@ let run_code =
         {|    | Faulted fault -> Faulty (fault, said deeds)|},
         {|    | Faulted fault -> Faulty (fault, List.filter (fun _ -> false) (said deeds))|} );
       ( "code changes no variables",
-        {|{ s with store = context.store; tuples = context.tuples }|},
-        {|{ s with tuples = context.tuples }|} );
+        {|{ s with bound = context.bound; store = context.store; tuples = context.tuples }|},
+        {|{ s with bound = context.bound; tuples = context.tuples }|} );
     ]
 
 let pick_rules =
@@ -667,7 +667,8 @@ let unknown =
        {|  | Hold (vs, _) -> List.fold_left (fun found v -> Vehicle_set.add v found) found vs|},
        {|  | Hold (_, _) -> found|} ) ]
   @ in_file "lib/explore/steps/expansion.ml" ~noticed_by:"explore/test_agreement"
-    [ ("what stands beside a step holds nothing", {|if contains place leaf then []|}, {|if contains place leaf || position >= 0 then []|}) ]
+    [ ("what stands beside a step holds nothing", {|if child == place then [] else standing x child|},
+       {|if child == place then [] else (ignore (standing x child); [])|}) ]
   @ in_file "lib/explore/order/step_footprints.ml" ~noticed_by:"reduction/test_traps"
     [ ("ends free no vehicle", 
        {|let frees = if f.breaks && ignoring then Footprint.all_vehicles else lost step in|},

@@ -42,6 +42,11 @@ let print_all found outcome : Exit_status.t =
   List.iter (fun f -> print_endline (line f)) found;
   Done
 
+let print_summary name found outcome : Exit_status.t =
+  match name, List.filter (fun (f : Inline_plans.found) -> name = None || name = Some f.name) found with
+  | Some name, [] -> print_named None name found outcome
+  | (Some _ | None), chosen -> print_endline (Yojson.Safe.to_string (Inline_plans.summary chosen outcome)); Done
+
 (* What adapters say of the plans; one that gets them prints them as it gets them. *)
 let print_checked adapters name found =
   let is_wanted (f : Inline_plans.found) = name = None || name = Some f.name in
@@ -74,15 +79,20 @@ let write_map (export : Export_options.t) path name found : (Exit_status.t, Erro
 
 (* {1 The command} *)
 
-let run () (is_export, path, name) set fleet seed answers adapters definition (export : Export_options.t) =
+let run () (is_export, path, name) set fleet seed answers json adapters definition (export : Export_options.t) =
   let is_export = is_export || export.format <> None || export.path <> None in
   Report.result
     (let* program = Program_file.load ~set path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
      let* definition = Definition_file.load definition in
      Report.diagnostics ~source:program.source program.warnings;
+     let* () =
+       if json && (is_export || adapters <> []) then
+         Error (Error.Bad_input "--json prints what plans are in short: it goes with neither export nor --platform")
+       else Ok () in
      let found, outcome = Inline_plans.of_run program fleet ~seed ~answers in
      match adapters, name with
+     | _, _ when json -> Ok (print_summary name found outcome)
      | _, _ when is_export -> tell_end outcome; write_map export path name found
      | _ :: _, _ -> tell_end outcome; print_checked adapters name found
      | [], Some name -> Ok (print_named definition name found outcome)
@@ -115,6 +125,13 @@ let seed =
 let answers =
   let doc = "Answer a question of the program with $(docv). May be repeated." in
   Arg.(value & opt_all string [] & info [ "answer" ] ~docv:"TEXT" ~doc)
+
+let json =
+  let doc =
+    "Print the plans in short as one JSON object: who gets each, and the way of those that the program describes, \
+     maneuver by maneuver; why the run did not complete, if so."
+  in
+  Arg.(value & flag & info [ "json" ] ~doc)
 
 let man =
   [ `S Manpage.s_synopsis;
@@ -150,5 +167,5 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Verbosity.setup $ arguments $ Options.set $ Options.fleet $ seed $ answers
+      const run $ Verbosity.setup $ arguments $ Options.set $ Options.fleet $ seed $ answers $ json
       $ Platform_options.checking $ Imc_options.definition $ Export_options.term)

@@ -21,7 +21,7 @@ export interface Status {
 export interface LogLine { time: number; severity: string; about: string[]; text: string }
 export interface Waiting { time: number; for: { what: string; at?: string; lacking?: string }[] }
 
-type Pair = [number, number];
+export type Pair = [number, number];
 // What the program's variables are on the map.
 export interface Place { name: string; position?: Pair; centre?: Pair; radius?: number; rings?: Pair[][] }
 export interface Way { vehicle: string; plan: string; path: Pair[] }

@@ -8,6 +8,7 @@ import { ChartMap } from "./map";
 import { type Message, Run, clock } from "./model";
 import { VehicleTable } from "./vehicles";
 import { timeline } from "./timeline";
+import { Plans } from "./plans";
 import { Alarms } from "./alarms";
 import { Dialog } from "./question";
 import { mark as markTitle } from "./title";
@@ -51,6 +52,7 @@ function attempt(f: () => Promise<unknown>) {
 const dialog = new Dialog((answer) => attempt(() => post("run/answer", answer))(), goTo);
 const verdicts = new Verdicts({ show: showFound, goTo, cancel: (subject) => attempt(() => ask("DELETE", subject, {}))(),
   graph: () => attempt(() => analyse("graph"))(), enact: (of) => attempt(() => enact(of))() });
+const plans = new Plans((sketch) => map.sketch(sketch));
 const alarms = new Alarms((id) => { map.focus(id); $<HTMLSelectElement>("about").value = id; renderLog(true); });
 
 // {1 The program}
@@ -101,6 +103,18 @@ async function loadWorld() {
   } catch { parameters = []; suggested = {}; map.setPlaces([]); }
   renderNow();
   changed();
+  if (!$("plans").hidden) await loadPlans(); else plans.forget();
+}
+
+let plansAsked = 0;
+async function loadPlans() {
+  const number = ++plansAsked, fleet = $<HTMLSelectElement>("fleet").value;
+  try {
+    const found = await post("plans", { program: program(), fleet: fleet || null, set: Object.fromEntries(settings) });
+    if (number === plansAsked) plans.show(found, dirty ? "These are the plans of the program as it was saved." : "");
+  } catch (e) {
+    if (number === plansAsked) plans.say((e as Error).message);
+  }
 }
 
 function setDirty(value: boolean) {
@@ -137,6 +151,7 @@ async function startRun() {
   await save();
   const speed = $<HTMLSelectElement>("speed").value, fleet = $<HTMLSelectElement>("fleet").value;
   leavePast();
+  plans.undraw();
   await post("run", { program: program(), fleet: fleet || null, people: $<HTMLInputElement>("people").checked,
     speed: status?.simulated && speed ? Number(speed) : null, set: Object.fromEntries(settings) });
 }
@@ -415,12 +430,15 @@ function changed() {
   }), 100);
 }
 
+const tabs = ["source", "verdicts", "plans", "runs"];
+
 function showTab(name: string) {
-  for (const other of ["source", "verdicts", "runs"]) {
+  for (const other of tabs) {
     $(other).hidden = other !== name;
     $("tab-" + other).setAttribute("aria-selected", String(other === name));
   }
   if (name === "runs") attempt(renderRuns)();
+  if (name === "plans") attempt(loadPlans)();
 }
 
 // {1 Beginning}
@@ -494,12 +512,12 @@ $("copy").addEventListener("click", attempt(async () => {
 $("slider").addEventListener("input", (e) => seek(Number((e.target as HTMLInputElement).value)));
 $("back").addEventListener("click", () => step(-1));
 $("forward").addEventListener("click", () => step(1));
-for (const name of ["source", "verdicts", "runs"]) $("tab-" + name).addEventListener("click", () => showTab(name));
+for (const name of tabs) $("tab-" + name).addEventListener("click", () => showTab(name));
 document.querySelector(".tabs")!.addEventListener("keydown", (e) => {
-  const key = (e as KeyboardEvent).key, tabs = [...document.querySelectorAll<HTMLElement>(".tabs button")];
-  const i = tabs.indexOf(document.activeElement as HTMLElement);
+  const key = (e as KeyboardEvent).key, buttons = [...document.querySelectorAll<HTMLElement>(".tabs button")];
+  const i = buttons.indexOf(document.activeElement as HTMLElement);
   if (key !== "ArrowRight" && key !== "ArrowLeft") return;
-  tabs[(i + (key === "ArrowRight" ? 1 : tabs.length - 1)) % tabs.length].focus();
+  buttons[(i + (key === "ArrowRight" ? 1 : buttons.length - 1)) % buttons.length].focus();
 });
 window.addEventListener("resize", changed);
 window.addEventListener("beforeunload", (e) => { if (dirty) e.preventDefault(); });

@@ -3,6 +3,7 @@
 
 import * as L from "leaflet";
 import type { Place, Way } from "./api";
+import type { Sketch } from "./plans";
 import { type Run, type Vehicle, clock, trouble } from "./model";
 import { h } from "./dom";
 import { Measure } from "./measure";
@@ -25,6 +26,7 @@ export class ChartMap {
   private places = L.layerGroup();
   private program = L.layerGroup();  // what its variables are on the map
   private ways = L.layerGroup();
+  private sketched = L.layerGroup();  // a plan before it runs
   private drawn = { program: "", ways: "" };
   private following = h("button", { class: "map-button", type: "button", hidden: true });
   private shown = new Map<string, Shown>();
@@ -36,7 +38,7 @@ export class ChartMap {
     this.map = L.map(el, { center: [41.185, -8.706], zoom: 15, maxZoom: 21, minZoom: 2, attributionControl: false,
       zoomAnimation: false, fadeAnimation: false, preferCanvas: true });
     L.control.scale({ imperial: false }).addTo(this.map);
-    for (const layer of [this.net, this.program, this.ways, this.places]) layer.addTo(this.map);
+    for (const layer of [this.net, this.program, this.ways, this.sketched, this.places]) layer.addTo(this.map);
     this.map.on("moveend resize", () => this.draw());
     this.map.on("dragstart", () => this.unfollow());
     for (const event of ["pointerdown", "wheel", "keydown"]) el.addEventListener(event, () => { this.chosen = true; });
@@ -87,7 +89,7 @@ export class ChartMap {
     const points = [...this.shown.values()].flatMap((s) => s.track.getLatLngs() as L.LatLng[]);
     this.places.eachLayer((p) => points.push((p as L.Marker).getLatLng()));
     const bounds = L.latLngBounds(points);
-    for (const group of [this.program, this.ways])
+    for (const group of [this.program, this.ways, this.sketched])
       group.eachLayer((l) => bounds.extend(l instanceof L.Marker ? l.getLatLng() : (l as L.Polyline | L.Circle).getBounds()));
     if (bounds.isValid()) this.map.fitBounds(bounds.pad(0.25), { animate: false, maxZoom: 18 });
   }
@@ -190,6 +192,26 @@ export class ChartMap {
     const ids = [...run.vehicles.keys()];
     for (const w of now)
       L.polyline(w.path, { color: colour(ids.indexOf(w.vehicle)), weight: 2, dashArray: "5 6", interactive: false }).addTo(this.ways);
+  }
+
+  // The way of a plan from where its vehicle would begin, and where its maneuvers end; or none.
+  sketch(plan: Sketch | null) {
+    this.sketched.clearLayers();
+    if (!plan) return;
+    const way = [plan.from, ...plan.maneuvers.flatMap((m) => m.points)];
+    const line = L.polyline(way, { color: "#a8123e", weight: 3, opacity: 0.8, interactive: false, className: "sketch",
+      smoothFactor: 0, noClip: true, renderer: L.svg() }).addTo(this.sketched);
+    // Those that end at one place share a name there.
+    const ends = new Map<string, { at: L.LatLngExpression; names: string[] }>();
+    for (const { maneuver, points } of plan.maneuvers) {
+      const at = points[points.length - 1], key = at?.map((x) => x.toFixed(5)).join();
+      if (at) ends.set(key, { at, names: [...(ends.get(key)?.names ?? []), maneuver] });
+    }
+    for (const { at, names } of ends.values())
+      L.marker(at, { interactive: false, keyboard: false,
+        icon: L.divIcon({ className: "place of-plan", iconSize: [0, 0], html: h("span", {}, names.join(", ")) as any }) }).addTo(this.sketched);
+    this.unfollow();
+    this.map.fitBounds(line.getBounds().pad(0.4), { animate: false, maxZoom: 18 });
   }
 
   private draw() {

@@ -34,6 +34,12 @@ export default async function ({ page: holder, open, test, same, choose, picture
       await page.click("#time");
       await page.waitForSelector(".times");
     });
+    await sees("plans, one of them drawn", async () => {
+      await choose(page, "plans.dol");
+      await page.click("#tab-plans");
+      await page.click("#plans .plans >> text=square");
+      await page.waitForSelector(".of-plan >> text=1.Goto");
+    });
     await sees("a run that was, and its end", async () => {
       await page.click("#tab-runs");
       await page.click("#runs tr:has-text('alarms.dol') >> text=Replay");

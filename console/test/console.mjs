@@ -10,6 +10,7 @@ import analyses from "./analyses.mjs";
 import listen from "./listen.mjs";
 import maps from "./maps.mjs";
 import people from "./people.mjs";
+import plans from "./plans.mjs";
 
 const [dolphin, built, examples, pictures] = process.argv.slice(2);
 const home = mkdtempSync(join(tmpdir(), "console-"));
@@ -250,6 +251,7 @@ const all = { folder, page, test, same, text, choose, over, picture, phone };
 await people(all);
 await analyses(all);
 await maps(all);
+await plans(all);
 await accessibility({ ...all, open, pictures });
 await listen({ ...all, dolphin, environment, browser, complaints });
 

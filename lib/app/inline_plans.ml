@@ -1,9 +1,16 @@
 open Dolphin_semantics
 open Dolphin_runtime
 open Dolphin_scenario
+open Dolphin_json
 module Simulator = Dolphin_platform_sim.Simulator
 
-type found = { name : string; plan : Inline_plan.t option; from : Dolphin_geo.Position.t; speed : float }
+type found = {
+  name : string;
+  plan : Inline_plan.t option;
+  from : Dolphin_geo.Position.t;
+  speed : float;
+  vehicles : Core.vehicle list;
+}
 
 (* A run in virtual time is over at once, unless it never is. *)
 let most_transitions = 200_000
@@ -24,8 +31,11 @@ let observed (fleet : Fleet_file.t) found =
   let news ~time:_ (s : World.vehicle_state) = Hashtbl.replace positions s.id s.position in
   let add (v, ({ name; plan; task_site = _ } : Core.platform_task)) =
     let from = Option.value (Hashtbl.find_opt positions v) ~default:Dolphin_geo.Place.apdl in
-    if not (List.exists (fun f -> f.name = name && f.plan = plan) !found) then
-      found := { name; plan; from; speed = speed v } :: !found
+    let is_it f = f.name = name && f.plan = plan in
+    let given f = if is_it f && not (List.mem v f.vehicles) then { f with vehicles = f.vehicles @ [ v ] } else f in
+    found :=
+      if List.exists is_it !found then List.map given !found
+      else { name; plan; from; speed = speed v; vehicles = [ v ] } :: !found
   in
   (news, add)
 
@@ -59,3 +69,35 @@ let to_json definition (plan : Inline_plan.t) =
       match definition with
       | None -> Dolphin_imc.Message.to_json message
       | Some d -> Dolphin_imc.Dynamic.message_to_json d message)
+
+(* {1 In short} *)
+
+let pair (p : Dolphin_geo.Position.t) : Yojson.Safe.t =
+  `List [ Canonical.number p.latitude; Canonical.number p.longitude ]
+
+let if_finite x : Yojson.Safe.t = if Float.is_finite x then Canonical.number x else `Null
+
+let maneuver (leg : Inline_plan.leg) : Yojson.Safe.t =
+  `Assoc
+    [ ("maneuver", `String leg.named); ("points", `List (List.map pair leg.waypoints)); ("speed", if_finite leg.speed);
+      ("stays", if_finite leg.dwell) ]
+
+let way { from; speed; _ } plan : Yojson.Safe.t =
+  let extent = Inline_plan.extent ~from ~speed plan in
+  `Assoc
+    [ ("from", pair from); ("metres", if_finite extent.metres);
+      ("seconds", if_finite (extent.moving +. extent.staying));
+      ("maneuvers", `List (List.map maneuver (Inline_plan.path ~from ~speed plan))) ]
+
+let summary found (outcome : Driver.outcome) : Yojson.Safe.t =
+  let plan f : Yojson.Safe.t =
+    `Assoc
+      [ ("plan", `String f.name); ("vehicles", Field.texts f.vehicles); ("way", Field.of_option (way f) f.plan) ] in
+  let unfinished =
+    match outcome with
+    | Ended Completed -> None
+    | Ended (Halted _ | Failed _ | Interrupted) | Stuck _ | Spins _ ->
+      Some (Format.asprintf "%a" Driver.pp_outcome outcome)
+  in
+  `Assoc
+    [ ("plans", `List (List.map plan found)); ("unfinished", Field.of_option (fun why -> `String why) unfinished) ]

@@ -7,6 +7,7 @@ type found = {
   plan : Inline_plan.t option;  (** [None]: vehicles know it by name *)
   from : Dolphin_geo.Position.t;  (** where the first vehicle that got it was then *)
   speed : float;  (** that vehicle's, in metres per second, where the plan does not say it *)
+  vehicles : Core.vehicle list;  (** those that get it, the first one first *)
 }
 
 val of_run :
@@ -18,3 +19,10 @@ val of_run :
 val to_json : Dolphin_imc.Definition.t option -> Inline_plan.t -> Yojson.Safe.t
 (** [to_json definition plan] is the PlanSpecification that IMC vehicles get, by the user's definition of IMC if there
     is one; of a mission, the plan that adapters get. *)
+
+val summary : found list -> Dolphin_runtime.Driver.outcome -> Yojson.Safe.t
+(** [summary plans outcome] is what people and maps want of {!of_run}: [plans], each with [plan], its name, [vehicles]
+    and [way], [null] if vehicles know it by name; and [unfinished], why the run did not complete, or [null]. A way goes
+    [from] a place through [maneuvers], each with [maneuver], its name, [points], [speed] and [stays], the seconds at
+    its last point. It is [metres] long and takes [seconds]. What never ends is [null]; places are pairs of latitude and
+    longitude. *)

@@ -320,6 +320,7 @@ let helm h r =
 type route =
   | Look of (Hall.t -> Request.t -> (json, refusal) result)
   | Compute of (Hall.t -> members -> (json, refusal) result)  (* changes nothing *)
+  | Compute_beside of (Hall.t -> members -> (json, refusal) result Lwt.t)  (* likewise, in another process *)
   | Command of (Hall.t -> members -> (json, refusal) result)  (* needs the helm *)
   | Later of (Hall.t -> members -> (json, refusal) result Lwt.t)  (* likewise *)
   | Helm
@@ -353,6 +354,7 @@ let table =
     (("POST", "definition"), Compute (at_place Documents.definition));
     (("POST", "format"), Compute format);
     (("GET", "world"), Look world);
+    (("POST", "plans"), Compute_beside Plans.list);
     (("POST", "exploration"), Command (Analyses.start Exploration));
     (("GET", "exploration"), Look (Analyses.result Exploration));
     (("DELETE", "exploration"), Command (Analyses.cancel Exploration));
@@ -391,6 +393,8 @@ let perform h (role : Access.role) r route =
   match route, role with
   | Look f, _ -> Lwt.return (of_result (f h r))
   | Compute f, _ -> Lwt.return (of_result (Result.bind (body r) (f h)))
+  | Compute_beside f, _ -> (
+      match body r with Ok found -> f h found >|= of_result | Error refused -> Lwt.return (of_refusal refused))
   | (Command _ | Later _ | Helm), Watches -> Lwt.return (of_refusal watcher)
   | Command f, Steers -> with_helm h r (fun found -> Lwt.return (f h found))
   | Later f, Steers -> with_helm h r (f h)

@@ -11,6 +11,25 @@ The console of a folder, on a port of its own, and all that docs/openapi.json de
   $ echo "answer 'How many?', 2" > mission.fleet
   $ echo 'message askk' > wrong.dol
   $ printf 'pause 1.minute\npause 2.seconds\n' > short.dol
+  $ cat > plans.dol << 'END'
+  > parameter n = 1, 'loiters'
+  > both = pick { count 2 }
+  > execute task('survey')[both]
+  > execute both: imcPlan {
+  >   planName 'circles'
+  >   locate Location.APDL
+  >   move 30, -125
+  >   goTo()
+  >   for (i in 1..n) { loiter radius: 100 }
+  >   skeeping()
+  > }
+  > END
+  $ cat > plans.fleet << 'END'
+  > vehicle 'a', { type 'UUV' }
+  > vehicle 'b', { type 'UUV' }
+  > plan 'survey'
+  > plan 'deep', { only 'b' }
+  > END
   $ cat > zones.kml << 'END'
   > <kml><Placemark><name>quay</name><Point><coordinates>-8.7,41.2</coordinates></Point></Placemark></kml>
   > END
@@ -34,6 +53,10 @@ The console of a folder, on a port of its own, and all that docs/openapi.json de
   shapes: ['quay']
   tiles: {'minimum': 1, 'maximum': 1, 'bounds': [-9, 41, -8, 42], 'attribution': ''}
   a tile: 200 404
+  known: {'a': ['survey'], 'b': ['survey', 'deep']}
+  plan: survey ['a'] by name None
+  plan: circles ['b'] ['1.Goto 1 0', '2.Loiter 1 60', '3.Loiter 1 60', '4.StationKeeping 1 60'] 205
+  a question: end: no answer to 'How many?': end of input
   explored: over ['no deadlock']
   counterexample: ['ask(How many?)', 'answer(2)', "message '2'", 'execute']
   carried out: no deadlock None interrupted
@@ -58,6 +81,17 @@ A program of ten lines starts a run, watches it, posts to it:
   program     consumes go:'south'
   program     ends
   end
+
+The plans on the command line:
+
+  $ dolphin plan --json plans.dol survey
+  {"plans":[{"plan":"survey","vehicles":["a"],"way":null}],"unfinished":null}
+  $ dolphin plan --json plans.dol none
+  dolphin: no vehicle is given a plan 'none'; inline plans are circles
+  [1]
+  $ dolphin plan --json --to kml plans.dol
+  dolphin: --json prints what plans are in short: it goes with neither export nor --platform
+  [2]
 
 The port is taken; there is no such folder:
 

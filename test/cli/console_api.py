@@ -84,6 +84,14 @@ def main():
     ask("POST", "definition", {**document, "at": document["text"].rindex("x")})
     ask("GET", "world", query="?program=mission.dol")
     ask("GET", "world", query="?program=none.dol")
+    ask("POST", "plans", {"program": "none.dol"})
+    ask("POST", "plans", {"program": "wrong.dol"})
+    found = ask("POST", "plans", {"program": "plans.dol", "set": {"n": "2"}})[1]
+    print("known:", {v["vehicle"]: v["knows"] for v in found["vehicles"]})
+    for plan in found["plans"]:
+        way = plan["way"] and [m["maneuver"] + f" {len(m['points'])} {m['stays']}" for m in plan["way"]["maneuvers"]]
+        print("plan:", plan["plan"], plan["vehicles"], way or "by name", plan["way"] and round(plan["way"]["seconds"]))
+    print("a question:", ask("POST", "plans", {"program": "mission.dol", "fleet": "plans.fleet"})[1]["unfinished"])
     ask("DELETE", "exploration", {})
     ask("POST", "exploration", {"program": "mission.dol", "seconds": 20})
     ask("POST", "exploration", {"program": "wrong.dol"})

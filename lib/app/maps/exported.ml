@@ -103,7 +103,7 @@ let plan_rows name legs =
   List.concat_map (fun (leg : Inline_plan.leg) -> List.map (row leg) leg.waypoints) legs
 
 let of_plans ~title found =
-  let way ({ name; plan; from; speed } : Inline_plans.found) =
+  let way ({ name; plan; from; speed; vehicles = _ } : Inline_plans.found) =
     Option.map (fun plan -> (name, Inline_plan.path ~from ~speed plan)) plan in
   let ways = List.filter_map way found in
   { title;

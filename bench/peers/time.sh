@@ -17,7 +17,7 @@ each() { for ((i = 1; i <= $1; i++)); do [ $i = 1 ] || printf '%b' "$2"; printf 
 mission() {
   {
     printf "UUVs = pick { count %d; type 'UUV' }\nUAV = pick { type 'UAV' }\n" "$1"
-    echo "def work(i) { imcPlan('survey' + i) >> action { post ready: i } >> idle(600) }"
+    echo "def work(i) { imcPlan('survey' + i) >> action { post ready: i } >> idle(10.min) }"
     echo "execute UUVs: $(each "$1" ' | ' 'work(#)'), UAV: allOf {"
     each "$1" '\n' "  when { consume ready: # } then imcPlan('visit#')"
     printf '\n}\nrelease UUVs + UAV\n'

@@ -21,7 +21,7 @@ for n in "$@"; do
   {
     echo "UUVs = pick { count $n; type 'UUV' }"
     echo "UAV = pick { type 'UAV' }"
-    echo "def work(i) { imcPlan('survey' + i) >> action { post ready: i } >> idle(600) }"
+    echo "def work(i) { imcPlan('survey' + i) >> action { post ready: i } >> idle(10.min) }"
     echo "execute UUVs: $(each "$n" ' | ' 'work(#)'), UAV: allOf {"
     each "$n" '
 ' "  when { consume ready: # } then imcPlan('visit#')"

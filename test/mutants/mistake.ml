@@ -938,6 +938,18 @@ let place =
       ( "a task that may fail is inert",
         {|Succeeds -> true | May_fail | Fails -> false|},
         {|Succeeds | May_fail -> true | Fails -> false|} );
+      ( "ends are inert where code reads sensors",
+        {|(not o.program.reads_sensors)|},
+        {|(o.program.reads_sensors || true)|} );
+      ( "ends are inert where code asks who is held",
+        {|not (Footprint.asks_held o.program)|},
+        {|(Footprint.asks_held o.program || true)|} );
+    ]
+  @ in_file "lib/explore/order/numeric.ml" ~noticed_by:"time/test_reductions"
+    [
+      ( "every variable is a number",
+        {|(not (is_new i)) || List.for_all go (assigned i)|},
+        {|(not (is_new i)) || List.for_all go (assigned i) || true|} );
     ]
   @ in_file "lib/time/likeness.ml" ~noticed_by:"time/test_reductions"
     [

@@ -172,6 +172,67 @@ let test_left () =
   Alcotest.(check bool) "the same is found" true (agrees case);
   Alcotest.(check bool) "likeness is given up" true (found.reduction <> Inert_ends_and_likeness)
 
+(* {1 How times are written} *)
+
+let staying stay =
+  let copies = "(task('s#') >> action { post ready: # } >> idle(" ^ stay ^ "))" in
+  Printf.sprintf "UUVs = pick { count 3; type 'UUV' }\nUAV = pick { type 'UAV' }\nstay = 0.1.min\nlater = stay\n\
+                  execute UUVs: %s, UAV: allOf {\n%s\n}\n"
+    (numbered 3 " | " copies) (numbered 3 "\n" "  when { consume ready: # } then task('v#')")
+
+let found_of text = Timing.run Dolphin_checker.Limits.none (options (Mission text, (5, By_plan), ("as planned", answering)))
+
+let test_spellings () =
+  let literal = found_of (staying "6") in
+  Alcotest.(check bool) "all is used" true (literal.reduction = Inert_ends_and_likeness);
+  let check stay =
+    let found = found_of (staying stay) in
+    Alcotest.(check int) stay literal.states found.states;
+    Alcotest.(check bool) (stay ^ ", the same dates") true (found.endings = literal.endings)
+  in
+  List.iter check [ "6.seconds"; "0.1.min"; "2 * 3"; "10 - 4"; "Math.max(2, 6)"; "stay"; "later"; "stay * 2 - 6" ]
+
+(* {1 Code that looks} *)
+
+let looking code =
+  "UUVs = pick { count 3; type 'UUV' }\nUAV = pick { type 'UAV' }\nfound = UUVs\n\
+   execute UUVs: task('s1') | task('s2'), UAV: " ^ code ^ "\n"
+
+let asked vs =
+  Printf.sprintf
+    "idle(9) >> oneOf {\n  when { %s.size() == 3 } then task('v')\n  when { %s.size() < 3 } then task('w')\n}" vs vs
+
+let looks =
+  [ ("who is idle", asked "idle(UUVs)");
+    ("who of a variable is idle", asked "idle(found)");
+    ("a battery", "until { battery(UAV) < 0.5 } run (task('v') >> task('v'))");
+    ("a position", "until { position(UAV).distanceTo(location(41, -8)) < 5 } run (task('v') >> task('v'))");
+    ("an arrival", "until { eta(UAV, location(41, -8)) < 5 } run (task('v') >> task('v'))");
+    ("dismissal", "watch (task('v') >> task('v')) onError { dismiss UAV }") ]
+
+let test_look (name, code) =
+  let check () =
+    let case = (Mission (looking code), (5, By_plan), ("as planned", answering)) in
+    Alcotest.(check bool) "the same is found" true (agrees case);
+    let plain = Timing.run ~reduction:Nothing Dolphin_checker.Limits.none (options case) in
+    Alcotest.(check int) "nothing is left out" plain.states (found_of (looking code)).states
+  in
+  Alcotest.test_case name `Quick check
+
+(* What only may be a time may be vehicles, of whom it is asked who is held. *)
+let test_asks () =
+  let asks expected text =
+    let program = Test_support.Pure_run.compile_exn ("vs = pick { count 2 }\n" ^ text) in
+    Alcotest.(check bool) text expected (Dolphin_explore.Footprint.asks_held program)
+  in
+  let asked x = "execute action { if (idle(" ^ x ^ ").size() > 0) { post a: 1 } }\n" in
+  List.iter (asks true)
+    [ asked "vs"; "ws = vs\n" ^ asked "ws"; "ws = vs - vs\n" ^ asked "ws"; asked "vs + vs"; "x = 1\nx = vs\n" ^ asked "x";
+      "m = [min: vs]\n" ^ asked "m.min"; asked "true ? vs : 5"; "def f(x) {\n  idle(x)\n}\nexecute f(1)\n" ];
+  List.iter (asks false)
+    [ "execute idle(1.min)\n"; "x = 2\ny = x * 3 + 1\nx = y\nexecute idle(y - x + 60.seconds)\n";
+      "execute idle(true ? 1.min : 2)\n" ]
+
 let test_agreement () =
   let test = QCheck2.Test.make ~count:programs ~print ~name:"what is left out makes no difference" case agrees in
   Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
@@ -185,4 +246,8 @@ let () =
   Alcotest.run "reductions of time"
     [ ("random programs", [ Alcotest.test_case "what is left out makes no difference" `Quick test_agreement;
                             Alcotest.test_case "variety" `Quick test_variety ]);
-      ("by hand", [ Alcotest.test_case "what is left in N" `Quick test_left ]) ]
+      ("by hand",
+       [ Alcotest.test_case "what is left in N" `Quick test_left;
+         Alcotest.test_case "how times are written" `Quick test_spellings;
+         Alcotest.test_case "who asks" `Quick test_asks ]);
+      ("code that looks", List.map test_look looks) ]

@@ -421,9 +421,6 @@ let exists_code p (program : program) =
 let dismisses = exists_code (function Apply (Builtin Dismiss, _) -> true | _ -> false)
 
 let asks_held program =
-  let asks_idle = function
-    | Apply (Builtin Make_idle, [ { node = Constant (Integer _ | Number _); _ } ]) -> false
-    | Apply (Builtin Make_idle, _) -> true
-    | _ -> false
-  in
+  let is_number = Numeric.is_number program in
+  let asks_idle = function Apply (Builtin Make_idle, [ e ]) -> not (is_number e) | _ -> false in
   exists_code asks_idle program || dismisses program

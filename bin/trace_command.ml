@@ -31,18 +31,19 @@ let status path : Verdict.t -> (Exit_status.t, Error.t) result = function
   | Unreadable { number; why } -> Error (Journal_file.wrong path ~number why)
 
 (* What took longer or shorter than the fleet says. *)
-let check_times program_path set path fleet =
+let check_times program_path set path fleet tolerance =
   if path = "-" then Error (Error.Bad_input "--timed reads the journal twice, so it must be a file")
   else
     let* p = Program_file.load_recorded ~set ~recorded:(Journal_file.settings path) program_path in
     let* fleet = Fleet_file.load_for ~program:program_path fleet in
-    let* findings = Time_check.check p fleet path in
+    let* findings = Time_check.check ?tolerance p fleet path in
     List.iter print_endline findings;
     Ok (if findings = [] then Exit_status.Done else Failed)
 
-let check program_path set path fleet most timed =
+let check program_path set path fleet most timed tolerance =
+  let timed = timed || tolerance <> None in
   let times (status : Exit_status.t) =
-    match status with Done when timed -> check_times program_path set path fleet | status -> Ok status in
+    match status with Done when timed -> check_times program_path set path fleet tolerance | status -> Ok status in
   Report.result
     (let* world = if timed then Ok Dolphin_semantics.World.empty else world_of fleet in
      Fun.flip Result.bind times @@ Journal_file.with_reader path (fun reader ->
@@ -72,10 +73,23 @@ let most =
 
 let timed =
   let doc =
-    "Also tell which tasks and timers of the run took longer or shorter than they may, by a second or more, with the \
-     fleet $(b,--fleet), by default the file beside $(i,PROG): the bounds are those of $(mname) $(b,time)."
+    "Also tell which tasks and timers of the run took longer or shorter than they may, with the fleet $(b,--fleet), by default the \
+     file beside $(i,PROG): the bounds are those of $(mname) $(b,time)."
   in
   Arg.(value & flag & info [ "timed" ] ~doc)
+
+let tolerance =
+  let doc =
+    "With $(b,--timed), which it implies: $(docv) seconds more or less are nothing. By default that is 1, for links and \
+     clocks are not exact, and 0 for simulated runs as fast as they go, whose time is."
+  in
+  let parse text =
+    match float_of_string_opt text with
+    | Some seconds when seconds >= 0. && seconds <= 1e9 -> Ok (Float.to_int (Float.round (seconds *. 1000.)))
+    | Some _ | None -> Error (`Msg (Printf.sprintf "%s is no number of seconds, 0 or more" text))
+  in
+  let print ppf ms = Format.fprintf ppf "%g" (float ms /. 1000.) in
+  Arg.(value & opt (some (conv ~docv:"SECONDS" (parse, print))) None & info [ "tolerance" ] ~docv:"SECONDS" ~doc)
 
 let check_command =
   let man =
@@ -91,7 +105,7 @@ let check_command =
     @ Options.see_also
   in
   let info = Cmd.info "check" ~doc:"tell whether a journal is one of a run of a program" ~man ~exits:check_exits in
-  Cmd.v info Term.(const check $ Options.program $ Options.set $ journal 1 $ known $ most $ timed)
+  Cmd.v info Term.(const check $ Options.program $ Options.set $ journal 1 $ known $ most $ timed $ tolerance)
 
 (* {1 Show} *)
 

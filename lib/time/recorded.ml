@@ -2,6 +2,7 @@ open Dolphin_semantics
 
 type t = {
   options : Timed.options;
+  tolerance : int;
   state : Timed.state;
   began : (Timed.item * int) list;
   told : Timed.item list;  (* of what is said to be late *)
@@ -9,11 +10,11 @@ type t = {
 
 type finding = { pending : Timed.pending; began : int; seen : int; too_early : bool }
 
-let tolerance = 1_000
-
-let start options =
+let start ~tolerance options =
   let state = Timed.initial options in
-  { options; state; began = List.map (fun (p : Timed.pending) -> (p.item, 0)) state.pending; told = [] }
+  { options; tolerance; state; began = List.map (fun (p : Timed.pending) -> (p.item, 0)) state.pending; told = [] }
+
+let with_tolerance tolerance r = { r with tolerance }
 
 (* People and suppliers take their time, and post when they like. *)
 let is_timed (p : Timed.pending) =
@@ -34,8 +35,8 @@ let compare_with (r : t) ~date ~on (p : Timed.pending) =
   let must_be_over, must_have_run = judged on p.item in
   let finding too_early = Some { pending = p; began; seen = date; too_early } in
   match p.bounds with
-  | Within { most; _ } when must_be_over && date - began > most + tolerance -> finding false
-  | Within { least; _ } when must_have_run && date - began < least - tolerance -> finding true
+  | Within { most; _ } when must_be_over && date - began > most + r.tolerance -> finding false
+  | Within { least; _ } when must_have_run && date - began < least - r.tolerance -> finding true
   | Within _ | Some_time | Never -> None
 
 let transition (r : t) ~date ~on t =

@@ -13,11 +13,12 @@ type finding = {
   too_early : bool;
 }
 
-val tolerance : int
-(** 1,000: so many milliseconds are nothing, for links and clocks are not exact. *)
+val start : tolerance:int -> Timed.options -> t
+(** [start ~tolerance o] is before the first transition. So many milliseconds more or less are nothing: links and clocks
+    are not exact. *)
 
-val start : Timed.options -> t
-(** [start o] is before the first transition. *)
+val with_tolerance : int -> t -> t
+(** [with_tolerance ms r] is [r], with this one from now on. *)
 
 val transition : t -> date:int -> on:Transition.event option -> Transition.t -> t * finding list
 (** [transition r ~date ~on t] is [r] after [t], on the event [on], [date] milliseconds after the start; and what is

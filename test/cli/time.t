@@ -135,6 +135,26 @@ A run whose tasks took as long as they may, and the same with a fleet that says 
   6:59.112: relay.dol:3:10: survey on a was not over before 6:59.112, and takes 2:00 at most
   8:29.112: relay.dol:3:59: home on a was over after 1:30, and takes 5:00 at least
   [1]
+
+Virtual time is exact; how much more or less is nothing can be said.
+
+  $ sed "s/duration 4.min, 7.min/duration 4.min, 419.1/" relay.fleet > short.fleet
+  $ dolphin trace check relay.dol relay.run --timed --fleet short.fleet
+  relay.run: a run, of 14 transitions in 8:49; completed
+  6:59.112: relay.dol:3:10: survey on a was not over before 6:59.112, and takes 6:59.1 at most
+  [1]
+  $ dolphin trace check relay.dol relay.run --timed --fleet short.fleet --tolerance 0.5
+  relay.run: a run, of 14 transitions in 8:49; completed
+  $ dolphin trace check relay.dol relay.run --fleet short.fleet --tolerance 0
+  relay.run: a run, of 14 transitions in 8:49; completed
+  6:59.112: relay.dol:3:10: survey on a was not over before 6:59.112, and takes 6:59.1 at most
+  [1]
+  $ sed '1s/"speed":null/"speed":10/' relay.run > real.run
+  $ dolphin trace check relay.dol real.run --timed --fleet short.fleet
+  real.run: a run, of 14 transitions in 8:49; completed
+  $ dolphin trace check relay.dol relay.run --tolerance=-1 2>&1 | head -n 1
+  dolphin: option '--tolerance': -1 is no number of seconds, 0 or more
+
   $ dolphin trace check relay.dol - --timed < relay.run
   -: a run, of 14 transitions in 8:49; completed
   dolphin: --timed reads the journal twice, so it must be a file

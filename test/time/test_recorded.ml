@@ -45,7 +45,7 @@ let follow options run =
     let r, more = Recorded.transition r ~date ~on t in
     (r, found @ more)
   in
-  snd (List.fold_left next (Recorded.start options, []) run)
+  snd (List.fold_left next (Recorded.start ~tolerance:0 options, []) run)
 
 (* What {!Durations} does not know of: who comes late, and batteries. *)
 let is_steady (s : Scenario.t) =

@@ -80,8 +80,8 @@ let timed =
 
 let tolerance =
   let doc =
-    "With $(b,--timed), which it implies: $(docv) seconds more or less are nothing. By default that is 1, for links and \
-     clocks are not exact, and 0 for simulated runs as fast as they go, whose time is."
+    "With $(b,--timed), which it implies: $(docv) seconds more or less are nothing. By default 1, for links and clocks \
+     are not exact, and 0 for simulated runs as fast as they go, whose time is."
   in
   let parse text =
     match float_of_string_opt text with

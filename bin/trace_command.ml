@@ -73,8 +73,8 @@ let most =
 
 let timed =
   let doc =
-    "Also tell which tasks and timers of the run took longer or shorter than they may, with the fleet $(b,--fleet), by default the \
-     file beside $(i,PROG): the bounds are those of $(mname) $(b,time)."
+    "Also tell which tasks and timers of the run took longer or shorter than they may, with the fleet $(b,--fleet), by \
+     default the file beside $(i,PROG): the bounds are those of $(mname) $(b,time)."
   in
   Arg.(value & flag & info [ "timed" ] ~doc)
 

@@ -59,9 +59,16 @@ let unpacked ~whole ~most text entry =
   | 8 -> inflated ~most ~too_long packed
   | _ -> wrong (Printf.sprintf "'%s' in it is packed in a way that is not known here" entry.name)
 
+(* Files that share their bytes would be read again and again. *)
+let check_apart text entries =
+  let packed = List.fold_left (fun n e -> n + e.packed) 0 entries in
+  if packed > String.length text then wrong "the files in this archive overlap"
+
 let files ~most wanted text =
+  let entries = List.filter (fun e -> wanted e.name) (entries text) in
+  check_apart text entries;
   let add (found, left) entry =
     let contents = unpacked ~whole:most ~most:left text entry in
     ((entry.name, contents) :: found, left - String.length contents)
   in
-  List.rev (fst (List.fold_left add ([], most) (List.filter (fun e -> wanted e.name) (entries text))))
+  List.rev (fst (List.fold_left add ([], most) entries))

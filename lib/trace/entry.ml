@@ -3,13 +3,15 @@ open Dolphin_json
 open Dolphin_geo
 open Field
 
+type way = Path of Position.t list | By_name
+
 type t =
   | Header of Header.t
   | Partial of { observed : string list }
   | Label of { time : float; label : string }
   | Vehicle of { time : float; state : World.vehicle_state }
   | Event of { time : float; event : Event.t }
-  | Transition of { time : float; index : int; step : Step.t }
+  | Transition of { time : float; index : int; step : Step.t; ways : (Core.vehicle * way) list }
   | Note of { time : float; vehicle : Core.vehicle; note : Yojson.Safe.t }
   | Resumed of { time : float; program : Header.source; at : string }
   | End of { time : float; transitions : int; ending : Request.ending }
@@ -34,6 +36,15 @@ let of_state (s : World.vehicle_state) : members =
   @ Option.fold s.cruise ~none:[] ~some:(fun speed -> [ ("cruise", Canonical.number speed) ])
   @ Option.fold s.drain ~none:[] ~some:(fun share -> [ ("drain", Canonical.number share) ])
 
+(* A ten-millionth of a degree is a centimetre. *)
+let of_way : way -> Yojson.Safe.t = function
+  | By_name -> `Null
+  | Path ps ->
+    let degrees x = Canonical.number (Float.round (x *. 1e7) /. 1e7) in
+    `List (List.rev (List.rev_map (fun (p : Position.t) -> `List [ degrees p.latitude; degrees p.longitude ]) ps))
+
+let of_ways ways : Yojson.Safe.t = `Assoc (List.map (fun (v, way) -> (v, of_way way)) ways)
+
 let to_json entry : Yojson.Safe.t =
   let line kind time rest = `Assoc (("kind", `String kind) :: ("time", Canonical.number time) :: rest) in
   match entry with
@@ -44,7 +55,8 @@ let to_json entry : Yojson.Safe.t =
   | Label { time; label } -> line "label" time [ ("label", `String label) ]
   | Vehicle { time; state } -> line "vehicle" time (of_state state)
   | Event { time; event } -> line "event" time (Event.members event)
-  | Transition { time; index; step } -> line "transition" time (("i", `Int index) :: Step.members step)
+  | Transition { time; index; step; ways } ->
+    line "transition" time (("i", `Int index) :: Step.members step @ unless_empty "ways" of_ways ways)
   | Note { time; vehicle; note } -> line "platform" time [ ("vehicle", `String vehicle); ("note", note) ]
   | Resumed { time; program; at } ->
     line "resumed" time [ ("program", Header.of_source program); ("at", `String at) ]
@@ -74,6 +86,22 @@ let to_state found =
   let* drain = optional some_number ~default:None "drain" found in
   Ok { World.id; kind; payload; position; battery; connected; unready; cruise; drain }
 
+let to_place json =
+  match (json : Yojson.Safe.t) with
+  | `List [ latitude; longitude ] ->
+    let* latitude = number latitude in
+    let* longitude = number longitude in
+    Result.map_error (Format.asprintf "%a" Position.pp_error) (Position.make ~latitude ~longitude ~height:0.)
+  | _ -> Error "a place is [latitude, longitude]"
+
+let to_way : Yojson.Safe.t -> (way, string) result = function
+  | `Null -> Ok By_name
+  | json -> Result.map (fun ps -> Path ps) (list to_place json)
+
+let to_ways json =
+  let* found = members json in
+  Dolphin_results.Results.map_values to_way found
+
 let of_members found =
   let* kind = get text "kind" found in
   let* time = if kind = "label" then optional number ~default:0. "time" found else get number "time" found in
@@ -84,7 +112,8 @@ let of_members found =
   | "transition" ->
     let* index = get whole "i" found in
     let* step = Step.of_members found in
-    Ok (Transition { time; index; step })
+    let* ways = optional to_ways ~default:[] "ways" found in
+    Ok (Transition { time; index; step; ways })
   | "platform" ->
     let* vehicle = get text "vehicle" found in
     let* note = get members "note" found in

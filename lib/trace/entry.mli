@@ -2,6 +2,10 @@
 
 open Dolphin_semantics
 
+(** The way of a plan that a vehicle starts: of one that the program describes, from where the vehicle was last heard
+    of; of another, only the vehicle knows it. *)
+type way = Path of Dolphin_geo.Position.t list  (** not empty *) | By_name
+
 type t =
   | Header of Header.t  (** the first line, and only that *)
   | Partial of { observed : string list }
@@ -9,7 +13,12 @@ type t =
   | Label of { time : float; label : string }  (** in such a trace, in place of a transition *)
   | Vehicle of { time : float; state : World.vehicle_state }  (** what is known of a vehicle *)
   | Event of { time : float; event : Event.t }  (** what the transition that follows is caused by *)
-  | Transition of { time : float; index : int;  (** from 0 *) step : Step.t }
+  | Transition of {
+      time : float;
+      index : int;  (** from 0 *)
+      step : Step.t;
+      ways : (Core.vehicle * way) list;  (** of the plans that it starts; for pictures, it means nothing else *)
+    }
   | Note of { time : float; vehicle : Core.vehicle; note : Yojson.Safe.t }
   (** What the platform keeps of a vehicle for a resumption of the run: an object. It means nothing to the
       semantics. *)

@@ -86,13 +86,40 @@ let may_depend_on_vehicles r (t : Transition.t) =
     r.program.reads_sensors || not (Fences.is_none r.program.fences)
     || Transition.depends_on_sensors r.program r.configuration
 
+(* Longer ways are written with fewer points. *)
+let most_points = 1000
+
+let fewer points =
+  let n = List.length points in
+  if n <= most_points then points
+  else
+    let each = ((n - 1) / most_points) + 1 in
+    List.filteri (fun i _ -> i mod each = 0 || i = n - 1) points
+
+let ways r (t : Transition.t) : (Core.vehicle * Entry.way) list =
+  let way v (plan : Inline_plan.t option) : Entry.way option =
+    match plan, Hashtbl.find_opt r.vehicles v with
+    | None, _ -> Some By_name
+    | Some plan, Some { written; untold; _ } ->
+      let from = (Option.value untold ~default:written).position in
+      let legs = Inline_plan.path ~from ~speed:1. plan in
+      Some (Path (fewer (from :: List.concat_map (fun (leg : Inline_plan.leg) -> leg.waypoints) legs)))
+    | Some _, None -> None
+  in
+  let of_effect : Effect.t -> (Core.vehicle * Entry.way) option = function
+    | Start (v, { plan; name = _; task_site = _ }) -> Option.map (fun way -> (v, way)) (way v plan)
+    | Stop _ | Set_timer _ | Cancel_timer _ | Put_question _ | Withdraw_question _ | Look_for _ | Bind _ | Release _
+    | Set_connection_timeout _ | Say _ | Ask _ | Call_host _ | End _ -> None
+  in
+  List.filter_map of_effect t.effects
+
 let transition r ~time ~cause (t : Transition.t) =
   pass r time;
   if r.behind <> [] && may_depend_on_vehicles r t then catch_up r;
   let event event = r.write (Event { time = r.time; event = Event.of_event event }) in
   Option.iter event cause;
   let step = Step.of_transition r.program r.configuration t in
-  r.write (Transition { time = r.time; index = r.transitions; step });
+  r.write (Transition { time = r.time; index = r.transitions; step; ways = ways r t });
   r.transitions <- r.transitions + 1;
   r.configuration <- t.next
 

@@ -213,7 +213,7 @@ let print ppf entries =
 
 let print_transitions ppf (entry : Entry.t) =
   match entry with
-  | Transition { index; time; step } ->
+  | Transition { index; time; step; ways = _ } ->
     let place = match step.at with Some (line, column) -> Printf.sprintf "%d:%d" line column | None -> "" in
     Format.fprintf ppf "%6d  %*s  %-7s  %s  %s@\n" index clock_width (Phrase.time time) place
       (String.concat ", " step.rules) (Phrase.one_line step.label)

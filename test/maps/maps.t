@@ -118,19 +118,52 @@ Archives: those of Google Earth and Neptus.
 
 Hostile files: nothing is expanded, followed or written, and memory is bounded.
 
-  $ for file in bomb.kmz many.kmz torn.kmz encrypted.kmz none.kmz entity.kml external.kml deep.kml deep.geojson large.geojson; do
+  $ for file in bomb.kmz many.kmz torn.kmz overlap.kmz encrypted.kmz none.kmz \
+  >     entity.kml external.kml laughs.kml laughs.gpx parameter.kml deep.kml deep.geojson large.geojson large.nmap \
+  >     large.nmisz; do
   >   echo "x = map '$file'" > hostile.dol
   >   (ulimit -v 4000000; dolphin check hostile.dol) 2>&1 | sed -n 's/.*cannot be read: //p'
   > done
   bomb.kmz: unpacked, it has more than 20 MB
   many.kmz: unpacked, it has more than 20 MB
   torn.kmz: this ZIP archive is broken
+  overlap.kmz: the files in this archive overlap
   encrypted.kmz: 'doc.kml' in it is encrypted
   none.kmz: there is no *.kml in this archive
   entity.kml: line 2, column 26: this is no XML: unknown entity reference (b)
   external.kml: line 2, column 32: this is no XML: unknown entity reference (x)
+  laughs.kml: line 2, column 27: this is no XML: unknown entity reference (l9)
+  laughs.gpx: line 2, column 20: this is no XML: unknown entity reference (l9)
   deep.kml: line 1: elements are nested more than 100 deep
   deep.geojson: line 1, column 101: lists and objects are nested more than 100 deep
   large.geojson: the file is larger than 64 MB
+  large.nmap: it has more than 20 MB
+  large.nmisz: unpacked, it has more than 20 MB
   $ ls ../evil* ./evil* 2>/dev/null
   [2]
+
+Areas that are none, and those that would take all day.
+
+  $ for file in ringless cornerless flat nothing bow beyond world endless lattice; do
+  >   echo "x = map '$file.geojson'" > hostile.dol
+  >   (ulimit -v 4000000; dolphin check hostile.dol) 2>&1 | sed -n 's/.*cannot be read: //p'
+  > done
+  ringless.geojson: the geometry: a polygon has a ring of positions
+  cornerless.geojson: the geometry: a polygon has three corners or more that differ, not 0
+  flat.geojson: the geometry: the corners of a polygon are not on one line
+  nothing.geojson: the geometry: a polygon has corners
+  bow.geojson: the geometry: a polygon does not cross itself: its sides from corner 1 and from corner 3 meet
+  beyond.geojson: the geometry, position 3: longitude 240 is not from -180 to 180 degrees
+  world.geojson: the geometry: an area reaches at most 200 km from its middle
+  endless.geojson: the geometry: longitude inf is not from -180 to 180 degrees
+  lattice.geojson: the geometry: an area has 5000 corners at most, not 10000
+
+Around a pole and across the meridian of 180 degrees.
+
+  $ for file in pole antimeridian; do
+  >   echo "m = map '$file.geojson'
+  >   message m['area 1'].size.round()" > round.dol
+  >   dolphin exec round.dol 2>&1 | grep -E 'says|error'
+  > done
+     0:00  program     says: 1620621
+     0:00  program     says: 2461814

@@ -49,7 +49,7 @@ let few_samples () =
     { rules = []; label = "bind(v)"; at = None; choice = 0; allocated = []; bound = [ "v" ]; released = []; posted = [];
       consumed = []; requests = [ Bind [ "v" ] ] }
   in
-  Summary.add builder (Transition { time = 1e5; index = 0; step });
+  Summary.add builder (Transition { time = 1e5; index = 0; step; ways = [] });
   match (Summary.finish builder).vehicles with
   | [ v ] ->
     let n = List.length v.samples in
@@ -119,7 +119,7 @@ let unknown_batteries () =
       { rules = []; label = "bind(v)"; at = None; choice = 0; allocated = []; bound = [ "v" ]; released = [];
         posted = []; consumed = []; requests = [ Bind [ "v" ] ] }
     in
-    Summary.add builder (Transition { time = 10.; index = 0; step });
+    Summary.add builder (Transition { time = 10.; index = 0; step; ways = [] });
     contains ">100%<" (Picture.svg (Summary.finish builder))
   in
   Alcotest.(check bool) "full at first" true (battery_axis (Some 1.));
@@ -140,7 +140,7 @@ let many_names () =
       Summary.add builder (Vehicle { time = 0.; state })
     in
     List.iter see vs;
-    Summary.add builder (Transition { time = 9.; index = 0; step = bind vs });
+    Summary.add builder (Transition { time = 9.; index = 0; step = bind vs; ways = [] });
     Picture.svg (Summary.finish builder)
   in
   let named count =
@@ -166,13 +166,51 @@ let by_steps () =
   let builder = Summary.create ~clock:Steps () in
   Summary.add builder (Header { (header ~platform:"sim") with started = "" });
   let start : Step.t = { (bind [ "v" ]) with requests = [ Bind [ "v" ]; Start { vehicle = "v"; plan = "survey" } ] } in
-  Summary.add builder (Transition { time = 3.; index = 0; step = start });
+  Summary.add builder (Transition { time = 3.; index = 0; step = start; ways = [] });
   Summary.add builder (End { time = 12.; transitions = 12; ending = { how = "counterexample"; message = Some "why" } });
   let svg = Picture.svg (Summary.finish builder) in
   let is_there text = Alcotest.(check bool) text true (contains text svg) in
   List.iter is_there
     [ "12 steps, without times"; "v runs survey from step 3 to step 12"; "counterexample: why"; ">12<" ];
   Alcotest.(check bool) "no seed, no clock" false (contains "seed" svg || contains "0:0" svg)
+
+(* Of two tasks of the simulator, one described by the program and one that has only a name. *)
+let ways_of ~platform =
+  let builder = Summary.create () in
+  Summary.add builder (Header (header ~platform));
+  let see time =
+    let position : Dolphin_geo.Position.t = { latitude = 41. +. (time /. 1e4); longitude = -8.; height = 0. } in
+    let state : Dolphin_semantics.World.vehicle_state =
+      { id = "v"; kind = "UUV"; payload = []; position; battery = None; connected = true; unready = None;
+        cruise = None; drain = None } in
+    Summary.add builder (Vehicle { time; state })
+  in
+  let start time plan ways =
+    let step = { (bind [ "v" ]) with requests = [ Request.Bind [ "v" ]; Start { vehicle = "v"; plan } ] } in
+    Summary.add builder (Transition { time; index = 0; step; ways })
+  in
+  let at longitude : Dolphin_geo.Position.t = { latitude = 41.; longitude; height = 0. } in
+  List.iter see [ 0.; 1. ];
+  start 2. "described" [ ("v", Entry.Path [ at (-8.); at (-8.001) ]) ];
+  List.iter see [ 3.; 6. ];
+  start 6. "named" [ ("v", Entry.By_name) ];
+  List.iter see [ 8.; 10. ];
+  Picture.svg (Summary.finish builder)
+
+let planned_and_invented () =
+  let check text expected svg = Alcotest.(check bool) text expected (contains text svg) in
+  let planned = {|<polyline class="planned v0"|} and invented = {|<polyline class="track invented v0"|} in
+  let flown = {|<polyline class="track v0"|} and told = "invented by the simulator" in
+  let simulated = ways_of ~platform:"sim" and real = ways_of ~platform:"imc" in
+  List.iter (fun text -> check text true simulated) [ planned; invented; flown; told; ">planned<"; ">flown<" ];
+  List.iter (fun text -> check text true real) [ planned; flown; ">planned<" ];
+  List.iter (fun text -> check text false real) [ invented; told ];
+  (* Journals that do not tell have no legend. *)
+  let silent = story (Runs.run "watch").journal in
+  let untold (t : Summary.task) = { t with way = None } in
+  let without (v : Summary.vehicle) = { v with tasks = List.map untold v.tasks } in
+  let silent = { silent with vehicles = List.map without silent.vehicles } in
+  List.iter (fun text -> check text false (Picture.svg silent)) [ planned; invented; told; ">planned<" ]
 
 let nothing_at_all () = ignore (Picture.svg (Summary.finish (Summary.create ())))
 
@@ -192,7 +230,8 @@ let of_vehicles ?(platform = "imc") vehicles =
     Summary.add builder (Vehicle { time; state })
   in
   let transition time requests =
-    Summary.add builder (Transition { time; index = 0; step = { (bind (List.map fst vehicles)) with requests } })
+    let step = { (bind (List.map fst vehicles)) with requests } in
+    Summary.add builder (Transition { time; index = 0; step; ways = [] })
   in
   List.iter (see 0.) vehicles;
   transition 1. (Bind (List.map fst vehicles) :: List.map (fun (v, _) -> Request.Start { vehicle = v; plan = "p" }) vehicles);
@@ -264,5 +303,6 @@ let () =
           case "heights" heights;
           case "clocks on the wall" on_the_wall;
           case "runs without times" by_steps;
+          case "planned ways and those that nobody knows" planned_and_invented;
           case "an empty story" nothing_at_all;
           case "scales" scales ] ) ]

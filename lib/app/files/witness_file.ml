@@ -37,7 +37,8 @@ let tell_run (program : Program_file.t) (found : Witness.t) transitions add =
   let one (configuration, index) ((step : Witness.step), (t : Transition.t)) =
     let time = float_of_int (index + 1) in
     (match step.cause with Event event -> add (Entry.Event { time; event }) | Choice _ -> ());
-    add (Entry.Transition { time; index; step = Step.of_transition program.program configuration t });
+    add (Entry.Transition { time; index; step = Step.of_transition program.program configuration t;
+                            ways = [] });
     (t.next, index + 1)
   in
   let steps = List.combine (found.steps @ found.cycle) transitions in

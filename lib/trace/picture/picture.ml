@@ -54,15 +54,20 @@ let map_width = 500.
 let map_height summary = Float.max 330. (Tracks.height_for (List.length summary.vehicles))
 let gap = 46.  (* between charts one below the other *)
 
+(* The line below the map that says what lines mean. *)
+let legend_height = 16.
+
 let panels summary ~y =
   if not (has_samples summary) then ([], y)
   else
     let height = map_height summary in
     let right = left +. map_width +. 82. in
-    let lower = y +. height +. gap in
+    let legend = Tracks.legend summary ~x:left ~y:(y +. height +. 29.) in
+    let for_legend = if legend = [] then 0. else legend_height in
+    let lower = y +. height +. for_legend +. gap in
     let low = Float.max 160. (Tracks.height_for (List.length summary.vehicles)) in
     let heights, bottom =
-      if not (Curves.has_heights summary) then ([], y +. height)
+      if not (Curves.has_heights summary) then ([], y +. height +. for_legend)
       else
         ( [ Svg.text ~name:"heading" (left, lower -. 10.) "Heights, below 0 under water";
             Curves.draw Curves.heights summary ~x:left ~y:lower ~width:(width -. margin -. left) ~height:low ],
@@ -81,7 +86,7 @@ let panels summary ~y =
         Tracks.draw summary ~x:left ~y ~width:map_width ~height;
         heading right "Batteries";
         Curves.draw Curves.batteries summary ~x:right ~y ~width:(width -. margin -. right) ~height ]
-      @ heights,
+      @ legend @ heights,
       bottom +. 22. )
 
 let sheet ~alone ~title ~width ~height parts =

@@ -38,8 +38,12 @@ let light =
 .error { stroke: #d92d20; stroke-width: 2; fill: none; }
 .silent { fill: #d92d20; }
 .track { fill: none; stroke-width: 1.8; stroke-linejoin: round; stroke-linecap: round; }
+.planned { fill: none; stroke-width: 5; stroke-opacity: 0.24; stroke-linejoin: round; stroke-linecap: round; }
+.invented { stroke-dasharray: 5 3.5; stroke-linecap: butt; }
 .unseen { stroke-dasharray: 2 4; }
 .key { fill: none; stroke: #5b6570; stroke-width: 1.4; }
+.key.planned { stroke-width: 5; stroke-opacity: 0.3; }
+.key.flown { stroke-width: 1.8; }
 .first { fill: #ffffff; stroke-width: 1.8; }
 .last { stroke: #ffffff; stroke-width: 1; }
 .step { fill: #ffffff; stroke-width: 1.2; }
@@ -71,7 +75,9 @@ let dark =
 
 let of_vehicle colour i pair =
   let c = colour pair in
-  Printf.sprintf ".track.v%d, .first.v%d, .step.v%d { stroke: %s; } .last.v%d, .name.v%d { fill: %s; }\n" i i i c i i c
+  Printf.sprintf
+    ".track.v%d, .planned.v%d, .first.v%d, .step.v%d { stroke: %s; } .last.v%d, .name.v%d { fill: %s; }\n"
+    i i i i c i i c
 
 let of_vehicles colour = String.concat "" (Array.to_list (Array.mapi (of_vehicle colour) palette))
 

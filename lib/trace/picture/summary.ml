@@ -2,7 +2,7 @@ open Dolphin_semantics
 
 type clock = Seconds | Steps
 type ending = Done | Failed of string | Stopped | Unfinished
-type task = { plan : string; from : float; until : float; ending : ending }
+type task = { plan : string; from : float; until : float; ending : ending; way : Entry.way option }
 type sample = { time : float; position : Dolphin_geo.Position.t; battery : float option }
 type span = { from : float; until : float }
 
@@ -35,7 +35,7 @@ type t = {
 type vehicle_so_far = {
   mutable its_kind : string;
   mutable ended : task list;
-  mutable running : (string * float) option;  (* with the time of its start *)
+  mutable running : (string * float * Entry.way option) option;  (* with the time of its start *)
   mutable spans_held : span list;
   mutable held_from : float option;
   mutable spans_silent : span list;
@@ -79,13 +79,13 @@ let end_task b v ending =
   let a = vehicle b v in
   match a.running with
   | None -> ()
-  | Some (plan, from) ->
+  | Some (plan, from, way) ->
     a.running <- None;
-    a.ended <- { plan; from; until = b.now; ending } :: a.ended
+    a.ended <- { plan; from; until = b.now; ending; way } :: a.ended
 
-let start_task b v plan =
+let start_task b v plan way =
   end_task b v Stopped;
-  (vehicle b v).running <- Some (plan, b.now)
+  (vehicle b v).running <- Some (plan, b.now, way)
 
 let hold b v =
   let a = vehicle b v in
@@ -141,7 +141,7 @@ let errors (s : Step.t) (cause : Event.t option) =
     let is_broken = String.length s.label > 7 && String.sub s.label 0 7 = "broken(" in
     if is_broken then [ String.sub s.label 7 (String.length s.label - 8) ] else []
 
-let take b (s : Step.t) =
+let take b (s : Step.t) ways =
   let note activity = b.activities_so_far <- (b.now, activity) :: b.activities_so_far in
   (match b.cause with
    | Some (Done v) -> end_task b v Done
@@ -155,7 +155,7 @@ let take b (s : Step.t) =
   List.iter (fun pair -> note (Consumed pair)) s.consumed;
   List.iter (fun pair -> note (Posted pair)) s.posted;
   let request : Request.t -> unit = function
-    | Start { vehicle; plan } -> start_task b vehicle plan
+    | Start { vehicle; plan } -> start_task b vehicle plan (List.assoc_opt vehicle ways)
     | Stop v -> end_task b v Stopped
     | Bind vs -> List.iter (hold b) vs
     | Release vs -> List.iter (let_go b) vs
@@ -171,7 +171,7 @@ let add b (entry : Entry.t) =
   | Header header -> b.its_header <- Some header
   | Vehicle { state; _ } -> see b state
   | Event { event; _ } -> b.cause <- Some event
-  | Transition { step; _ } -> take b step
+  | Transition { step; ways; _ } -> take b step ways
   | Partial _ | Label _ | Note _ | Resumed _ -> ()
   | End { ending; _ } -> b.its_ending <- Some ending
 
@@ -182,7 +182,7 @@ let finish b =
   let spans ended from = List.rev (Option.fold ~none:ended ~some:(fun from -> { from; until } :: ended) from) in
   let finished v =
     let a = vehicle b v in
-    let last = Option.map (fun (plan, from) -> { plan; from; until; ending = Unfinished }) a.running in
+    let last = Option.map (fun (plan, from, way) -> { plan; from; until; ending = Unfinished; way }) a.running in
     { id = v;
       kind = a.its_kind;
       tasks = List.rev (Option.to_list last @ a.ended);
@@ -212,6 +212,11 @@ let runs v =
     | runs -> [ sample ] :: runs
   in
   List.rev_map List.rev (List.fold_left add [] v.samples)
+
+let is_invented t (task : task) =
+  match t.header, task.way with
+  | Some { platform = "sim"; _ }, Some By_name -> true
+  | (Some _ | None), _ -> false
 
 let places v =
   let rec walk last samples (tasks : task list) found =

@@ -11,7 +11,13 @@ type ending =
   | Unfinished  (** the journal ends before *)
 
 (** A platform task that a vehicle ran. *)
-type task = { plan : string; from : float; until : float; ending : ending }
+type task = {
+  plan : string;
+  from : float;
+  until : float;
+  ending : ending;
+  way : Entry.way option;  (** [None]: the journal does not say *)
+}
 
 type sample = { time : float; position : Dolphin_geo.Position.t; battery : float option }
 type span = { from : float; until : float }
@@ -65,6 +71,9 @@ val moment : t -> float -> string
 
 val runs : vehicle -> sample list list
 (** Its samples, cut where the vehicle had no link in between. *)
+
+val is_invented : t -> task -> bool
+(** Whether the vehicle's way is the simulator's invention: it does not know the plan, only its name. *)
 
 val places : vehicle -> (task * Dolphin_geo.Position.t) list
 (** [places v] is where [v] was at the start of each of its tasks. *)

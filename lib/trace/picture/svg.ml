@@ -30,9 +30,9 @@ let rect ?name ?(round = 0.) ?tip ~x ~y ~width ~height () =
 let line ?name (x, y) (x', y') =
   Element ("line", named name [ ("x1", number x); ("y1", number y); ("x2", number x'); ("y2", number y') ], [])
 
-let polyline ?name points =
+let polyline ?name ?tip points =
   let point (x, y) = number x ^ "," ^ number y in
-  Element ("polyline", named name [ ("points", String.concat " " (List.map point points)) ], [])
+  Element ("polyline", named name [ ("points", String.concat " " (List.map point points)) ], tips tip)
 
 let circle ?name ?tip (x, y) radius =
   Element ("circle", named name [ ("cx", number x); ("cy", number y); ("r", number radius) ], tips tip)

@@ -24,7 +24,7 @@ val rect : ?name:string -> ?round:float -> ?tip:string -> x:float -> y:float -> 
 val line : ?name:string -> float * float -> float * float -> t
 (** From one point to the other. *)
 
-val polyline : ?name:string -> (float * float) list -> t
+val polyline : ?name:string -> ?tip:string -> (float * float) list -> t
 (** Through the points. *)
 
 val circle : ?name:string -> ?tip:string -> float * float -> float -> t

@@ -106,11 +106,38 @@ let thin points =
 (* Of a list that is not empty. *)
 let last xs = List.nth xs (List.length xs - 1)
 
-let way m i v =
+let planned m i v =
+  let of_task (t : task) =
+    match t.way with
+    | Some (Path (_ :: _ :: _ as ps)) ->
+      let tip = Printf.sprintf "%s was to go this way: %s" v.id t.plan in
+      [ Svg.polyline ~name:("planned " ^ Style.vehicle i) ~tip (thin (List.map (project m) ps)) ]
+    | Some (Path ([] | [ _ ]) | By_name) | None -> []
+  in
+  List.concat_map of_task v.tasks
+
+(* [parts is_so xs] is [xs], cut so that all neighbours in a part are of the same kind. A cut belongs to both sides. *)
+let parts is_so xs =
+  let rec go kind part found = function
+    | a :: (b :: _ as rest) ->
+      let next = is_so a b in
+      if part = [] || next = kind then go next (a :: part) found rest
+      else go next [ a ] ((kind, a :: part) :: found) rest
+    | [ a ] -> List.rev ((kind, a :: part) :: found)
+    | [] -> List.rev found
+  in
+  List.map (fun (kind, part) -> (kind, List.rev part)) (go false [] [] xs)
+
+let way summary m i v =
   let colour = Style.vehicle i in
   let point s = project m s.position in
   let runs = runs v in
-  let seen run = Svg.polyline ~name:("track " ^ colour) (thin (List.map point run)) in
+  let invented = List.filter (is_invented summary) v.tasks in
+  let is_invented (a : sample) (b : sample) =
+    List.exists (fun (t : task) -> t.from < b.time && a.time < t.until) invented
+  in
+  let seen (is_invented, run) =
+    Svg.polyline ~name:((if is_invented then "track invented " else "track ") ^ colour) (thin (List.map point run)) in
   let rec jumps = function
     | run :: (next :: _ as others) ->
       let from = point (last run) and until = point (List.hd next) in
@@ -131,7 +158,7 @@ let way m i v =
       [ Svg.circle ~name:("first " ^ colour) ~tip:(v.id ^ " at first") (point first) 4.;
         Svg.circle ~name:("last " ^ colour) ~tip:(v.id ^ " at last") (point (last samples)) 4.5 ]
   in
-  Style.group i (List.map seen runs @ jumps runs @ starts @ ends)
+  Style.group i (List.map seen (List.concat_map (parts is_invented) runs) @ jumps runs @ starts @ ends)
 
 (* More names than that are not told apart on a map: the timeline has them. *)
 let most_names = 60
@@ -162,7 +189,10 @@ let names m vehicles ~x ~width ~y ~height =
   else List.map label (Scale.spread ~least:line_height ~from:(y +. 12.) ~until:(y +. height -. 4.) wanted)
 
 let map_of summary ~x ~y ~width ~height =
-  fit (List.concat_map (fun v -> List.map (fun s -> s.position) v.samples) summary.vehicles) ~x ~y ~width ~height
+  let planned (t : task) = match t.way with Some (Path ps) -> ps | Some By_name | None -> [] in
+  let of_vehicle v =
+    if v.samples = [] then [] else List.map (fun s -> s.position) v.samples @ List.concat_map planned v.tasks in
+  fit (List.concat_map of_vehicle summary.vehicles) ~x ~y ~width ~height
 
 (* Where it stays, the first and the last moment are enough. *)
 let over_time m v =
@@ -180,6 +210,27 @@ let moments summary ~x ~y ~width ~height =
   | None -> List.map (fun _ -> []) summary.vehicles
   | Some m -> List.map (over_time m) summary.vehicles
 
+(* {1 What lines mean} *)
+
+let has_planned v =
+  let is_planned (t : task) = match t.way with Some (Path (_ :: _ :: _)) -> true | Some _ | None -> false in
+  v.samples <> [] && List.exists is_planned v.tasks
+
+let meanings summary =
+  let is_seen v = v.samples <> [] && List.exists (is_invented summary) v.tasks in
+  (if List.exists has_planned summary.vehicles then [ ("key planned", "planned"); ("key flown", "flown") ] else [])
+  @
+  if List.exists is_seen summary.vehicles then
+    [ ("key flown invented", "invented by the simulator: it knows these plans by name only") ]
+  else []
+
+let legend summary ~x ~y =
+  let one (x, found) (name, text) =
+    let line = Svg.line ~name (x, y -. 3.5) (x +. 20., y -. 3.5) in
+    (x +. 40. +. Svg.width ~size:10. text, found @ [ line; Svg.text ~name:"axis" (x +. 26., y) text ])
+  in
+  snd (List.fold_left one (x, []) (meanings summary))
+
 let draw summary ~x ~y ~width ~height =
   let frame = Svg.rect ~name:"frame" ~x ~y ~width ~height () in
   let parts =
@@ -187,7 +238,8 @@ let draw summary ~x ~y ~width ~height =
     | None -> [ Svg.text ~name:"small" ~anchor:Middle (x +. (width /. 2.), y +. (height /. 2.)) "no positions" ]
     | Some m ->
       grid m ~x ~y ~width ~height
-      @ List.mapi (way m) summary.vehicles
+      @ List.mapi (fun i v -> Style.group i (planned m i v)) summary.vehicles
+      @ List.mapi (way summary m) summary.vehicles
       @ names m summary.vehicles ~x ~width ~y ~height
       @ scale m ~x ~y ~width ~height
   in

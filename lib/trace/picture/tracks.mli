@@ -3,6 +3,9 @@
 val draw : Summary.t -> x:float -> y:float -> width:float -> height:float -> Svg.t
 (** [draw summary ~x ~y ~width ~height] is the map in this frame. North is up; a metre is as long in all directions. *)
 
+val legend : Summary.t -> x:float -> y:float -> Svg.t list
+(** What the lines of {!draw} mean where they do not all mean the same, in one line from [x] on the base line [y]. *)
+
 val moments : Summary.t -> x:float -> y:float -> width:float -> height:float -> (float * (float * float)) list list
 (** [moments summary ~x ~y ~width ~height] is where each vehicle is on this map, and when; in between they go
     straight. *)

@@ -96,8 +96,13 @@ let check_example name () =
     | Error _ -> Alcotest.fail "the fleet is wrong"
   in
   let program = Test_support.Pure_run.compile_exn (read_file (Filename.concat folder (name ^ ".dol"))) in
+  (* What breaks a fence fails, at any time. *)
+  let faults =
+    if Fences.is_none program.fences then Dolphin_environment.Faults.none
+    else Result.get_ok (Dolphin_environment.Faults.of_string "fail")
+  in
   let options : Timed.options =
-    { environment = Scenario_world.environment ~answers:[] ~faults:Dolphin_environment.Faults.none scenario; program;
+    { environment = Scenario_world.environment ~answers:[] ~faults scenario; program;
       world = Scenario_world.world scenario; durations = Durations.of_scenario scenario }
   in
   if is_steady scenario then begin

@@ -12,8 +12,9 @@ CONSTANTS
   GlobalNames,  \* the names of its global variables, by number
   OrderedKeys,  \* the keys of which some "consume k:_" takes the oldest pair
   OnInterrupt,  \* the closure that an interruption calls with the vehicles of B, if there is one: << it >>, or << >>
-  Fleet,        \* the vehicles around, in the order in which they were heard of; battery and position: what these may
-                \* show, anything if it is nothing; places: where it may be when it is picked
+  Fleet,        \* the vehicles around, in the order in which they were heard of; position: what it may show, anything
+                \* if it is nothing; sensors: likewise of those that the program reads, with names and texts;
+                \* places: where it may be when it is picked
   Plans,        \* what allocation must know of each inline plan, by number
   ScriptFuel,   \* how many expressions the script evaluates in one silent step
   AtomicFuel,   \* how many code of a task may take before it counts as endless
@@ -84,8 +85,8 @@ Carries(vehicle, devices) == { Lower(d) : d \in Range(devices) } \subseteq vehic
 (* {2 Sensors} *)
 
 (* What a sensor shows is open, at each step anew; within one step it stays. S.sees is what was seen in this step so
-   far: of each question its answer, by number. There are three kinds of questions: <<"battery", v>> and <<"position",
-   v>> where the fleet gives several values, and <<"claim", text>>, of a comparison. *)
+   far: of each question its answer, by number. There are two kinds of questions: <<sensor, v>> where the sensor (by its
+   name, or "position") may show one of several values, and <<"claim", text>>, of a comparison. *)
 NothingSeen == << >>
 Seeing(sees, question, i) == (question :> i) @@ sees
 Claims(sees) == { question \in DOMAIN sees : question[1] = "claim" }
@@ -93,12 +94,15 @@ Claims(sees) == { question \in DOMAIN sees : question[1] = "claim" }
 MostClaims == 12
 
 (* Whether there are readings at all. *)
-HasReadings == \E j \in DOMAIN Fleet : Fleet[j].battery = << >> \/ Fleet[j].position = << >>
+HasReadings ==
+  \E j \in DOMAIN Fleet :
+    Fleet[j].position = << >> \/ \E i \in DOMAIN Fleet[j].sensors : Fleet[j].sensors[i].shows = << >>
 
-Shown(quantity, sensor, v, xs) ==
-  CASE xs = << >> -> Ok(Reading(quantity, sensor \o "(" \o v \o ")"))
+(* The sensor [name] of v, whose text is [text], shows one of xs. *)
+Shown(quantity, name, text, v, xs) ==
+  CASE xs = << >> -> Ok(Reading(quantity, text))
     [] Len(xs) = 1 -> Ok(xs[1])
-    [] OTHER -> Depends(<< sensor, v >>, xs)
+    [] OTHER -> Depends(<< name, v >>, xs)
 
 (* Where v is, as far as picking and allocating are concerned. *)
 FoundAt(vehicle, sees) ==
@@ -363,8 +367,14 @@ OneVehicleValue(x, F(_)) == IF Is(x, "vehicles") THEN OneVehicle(x[2], F) ELSE E
 
 StringList(names) == List(Each(names, String))
 
-PositionOf(vehicle) == Shown("place", "position", vehicle.id, vehicle.position)
-BatteryOf(vehicle) == Shown("amount", "battery", vehicle.id, vehicle.battery)
+PositionOf(vehicle) ==
+  Shown("place", "position", "position(" \o vehicle.id \o ")", vehicle.id, vehicle.position)
+
+SensorOf(vehicle, name) ==
+  LET s == CHOOSE s \in Range(vehicle.sensors) : s.name = name
+  IN Shown("amount", name, s.text, vehicle.id, s.shows)
+
+BatteryOf(vehicle) == SensorOf(vehicle, "battery")
 
 NoGetter == << "none" >>
 
@@ -879,7 +889,9 @@ Procedure(m, op, xs) ==
        [] name = "retry" -> Verdict(m, "retry")
        [] name = "dismiss" -> DoDismiss(m, x)
        [] name = "position" -> Settle(m, OneVehicleValue(x, PositionOf))
-       [] name = "battery" -> Settle(m, OneVehicleValue(x, BatteryOf))
+       [] name = "sensor" -> Settle(m, OneVehicleValue(x, LAMBDA vehicle : SensorOf(vehicle, op.name)))
+       [] name = "reading" ->
+            Settle(m, OneVehicleValue(x, LAMBDA vehicle : SensorOf(vehicle, "reading " \o xs[2][2])))
        [] name = "area" -> Settle(m, Around(x, xs[2]))
        [] name = "math" -> Settle(m, Mathematics(op.name, xs))
        [] name = "isThere" -> Result(m, Boolean(IsNumber(x) \/ Truth(x)))

@@ -13,13 +13,13 @@ let scenario n : Scenario.t =
   let vehicle i : Scenario.vehicle =
     { id = Printf.sprintf "v%02d" i; kind = "UUV"; payload = []; position = Dolphin_geo.Place.apdl; speed = 1.5;
       battery = 1.; tells_battery = true; drain = 0.; charge = 0.; joins = 0.; leaves = None; drops = [];
-      batteries = []; places = [] }
+      batteries = []; shows = []; places = [] }
   in
   let plan name least most : Scenario.plan =
     { name; duration = Some { least; most }; ending = Succeeds; place = None; only = [] }
   in
   { vehicles = List.init n vehicle; plans = [ plan "short" 0.5 1.5; plan "long" 600. 600. ]; answers = [];
-    replies = []; inputs = [] }
+    replies = []; inputs = []; samples = [] }
 
 (* {1 The vehicles' process} *)
 

@@ -6,8 +6,15 @@ let still scenario =
   List.fold_left add World.empty (Scenario.states scenario)
 
 let world (scenario : Scenario.t) =
+  let open_measurement (v : Scenario.vehicle) world (name, xs) =
+    let several = match xs with [ _ ] -> [] | xs -> List.map (fun x -> Core.Number x) xs in
+    World.open_sensor (Measurement name) v.id several world
+  in
   let open_sensors world (v : Scenario.vehicle) =
-    World.open_position v.id v.places (World.open_battery v.id v.batteries world)
+    let world = World.open_position v.id v.places (World.open_battery v.id v.batteries world) in
+    let world = World.open_sensor Speed v.id [] world in
+    let world = World.open_sensor Connected v.id [ Boolean true; Boolean false ] world in
+    List.fold_left (open_measurement v) world v.shows
   in
   List.fold_left open_sensors (still scenario) scenario.vehicles
 

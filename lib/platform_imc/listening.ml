@@ -16,6 +16,7 @@ let is_wanted id =
   || id = Message.Vehicle_state.id || id = Message.Plan_control_state.id || id = Message.Plan_control.id
   || id = Message.Fuel_level.id || id = Message.Log_book_entry.id || id = Message.Entity_list.id
   || id = Message.Abort.id || id = Message.Entity_parameters.id
+  || Measurement.is_id id
 
 let request_of ~id s = (s.settings.first_request + (id * 257)) land 0xFFFF
 

@@ -19,6 +19,8 @@ type t = {
   mode : (float * Message.Vehicle_state.Op_mode.t) option;
   error : string;
   battery : (float * float) option;
+  speed : (float * float) option;
+  readings : (string * (float * float)) list;
   entities : string list option;
   queries : int;
   freed : float option;
@@ -71,7 +73,8 @@ let make ~now ~from ~request (p : Packet.t) (a : Message.Announce.t) =
     { id = p.src; name = named p.src a.sys_name; kind = a.sys_type; hosts = []; address = None;
       clock = Vehicle_clock.unknown; execution = Execution.create ~request; first_announced = now;
       last_announced = now; last_heard = neg_infinity; position = None; announced_position = None; mode = None;
-      error = ""; battery = None; entities = None; queries = 0; freed = None; claim = None }
+      error = ""; battery = None; speed = None; readings = []; entities = None;
+      queries = 0; freed = None; claim = None }
 
 let announce ~now ~from (p : Packet.t) (a : Message.Announce.t) n =
   let same = belongs from n && named p.src a.sys_name = n.name in
@@ -102,12 +105,22 @@ let newer sent = function
 
 let estimated ~sent state n =
   match position_of state with
-  | Some position when newer sent n.position -> { n with position = Some (sent, position) }
+  | Some position when newer sent n.position ->
+    let speed = Float.hypot state.vx state.vy in
+    let speed = if Float.is_finite speed then Some (sent, speed) else n.speed in
+    { n with position = Some (sent, position); speed }
   | Some _ | None -> n
 
 let fuel ~sent (level : Message.Fuel_level.t) n =
   if Float.is_finite level.value && newer sent n.battery then
     { n with battery = Some (sent, Float.max 0. (Float.min 1. (level.value /. 100.))) }
+  else n
+
+(* Of one quantity several sensors may tell; the last one to speak is heard. *)
+let measured ~sent name value n =
+  if Float.is_finite value && newer sent (List.assoc_opt name n.readings) then
+    let others = List.remove_assoc name n.readings in
+    { n with readings = List.merge (fun (a, _) (b, _) -> String.compare a b) [ (name, (sent, value)) ] others }
   else n
 
 let vehicle ~sent (state : Message.Vehicle_state.t) n =
@@ -156,7 +169,11 @@ let hear_message ~now ~own (p : Packet.t) n =
   | Message (Entity_parameters parameters) -> (claimed ~now parameters n, [])
   | Message (Log_book_entry entry) -> command ~now (Log { sent; entry }) n
   | Message (Plan_control reply) when p.dst = own -> command ~now (Reply { sent; reply }) n
-  | Message _ | Unknown _ -> (n, [])
+  | Message message -> (
+      match Measurement.of_message message with
+      | Some (name, value) -> (measured ~sent name value n, [])
+      | None -> (n, []))
+  | Unknown _ -> (n, [])
 
 let hear ~now ~own p n =
   let heard, outputs = hear_message ~now ~own p n in
@@ -188,6 +205,8 @@ let state ~now ~timeout ~kind ~payload ~held n : World.vehicle_state =
     payload = (match payload with Some devices -> devices | None -> Option.value n.entities ~default:[]);
     position;
     battery = Option.map snd n.battery;
+    speed = Option.map snd n.speed;
+    readings = List.map (fun (name, (_, value)) -> (name, value)) n.readings;
     connected;
     unready = (if connected && is_idle then unready ~now ~held n else None);
     cruise = None; drain = None }

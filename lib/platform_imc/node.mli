@@ -20,6 +20,8 @@ type t = private {
   mode : (float * Message.Vehicle_state.Op_mode.t) option;
   error : string;  (** The last error of its VehicleState, [""] if none. *)
   battery : (float * float) option;  (** From 0 to 1. *)
+  speed : (float * float) option;
+  readings : (string * (float * float)) list;  (** By {!Dolphin_imc.Measurement}, in order. *)
   entities : string list option;  (** Labels of its entity list. *)
   queries : int;  (** How often the entity list was asked for. *)
   freed : float option;  (** Our clock: when it was ready again after it had not been, and no plan of ours ran. *)

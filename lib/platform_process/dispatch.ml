@@ -198,7 +198,8 @@ let relink ~now v (seen : seen) sighting d =
 let is_telemetry before after =
   match before, Sighting.state after with
   | Some (told : World.vehicle_state), Some state ->
-    { state with position = told.position; battery = told.battery } = told
+    { state with position = told.position; battery = told.battery; speed = told.speed; readings = told.readings }
+    = told
   | None, _ | _, None -> false
 
 let sight ~now (s : Report.sight) d =

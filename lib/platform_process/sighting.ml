@@ -9,6 +9,7 @@ type t = {
   height : float;
   battery : float option;
   speed : float option;
+  readings : (string * float) list;
   link : bool;
   unready : string option;
 }
@@ -16,7 +17,8 @@ type t = {
 let first (s : Report.sight) =
   match s.kind, s.link with
   | Some kind, Some link ->
-    Ok { id = s.vehicle; kind; payload = []; place = None; height = 0.; battery = None; speed = None; link;
+    Ok { id = s.vehicle; kind; payload = []; place = None; height = 0.; battery = None; speed = None;
+         readings = []; link;
          unready = None }
   | None, _ -> Error (Printf.sprintf "the first report of %s has no type" s.vehicle)
   | Some _, None -> Error (Printf.sprintf "the first report of %s does not say whether it has a link" s.vehicle)
@@ -24,8 +26,13 @@ let first (s : Report.sight) =
 let add (s : Report.sight) known =
   let known = match known with Some x -> Ok x | None -> first s in
   let now x before = Option.value x ~default:before in
+  let measure readings (name, x) =
+    let others = List.remove_assoc name readings in
+    match x with Some x -> List.merge Stdlib.compare [ (name, x) ] others | None -> others
+  in
   let add x =
     { x with
+      readings = List.fold_left measure x.readings s.readings;
       kind = now s.kind x.kind; payload = now s.payload x.payload;
       place = (if s.place = None then x.place else s.place);
       height = now s.height x.height; battery = now s.battery x.battery; speed = now s.speed x.speed;
@@ -44,6 +51,8 @@ let describe x : World.vehicle_state =
   { id = x.id; kind = x.kind; payload = x.payload;
     position = { latitude; longitude; height = x.height };
     battery = x.battery;
+    speed = x.speed;
+    readings = x.readings;
     connected = x.link;
     unready = (if x.link then x.unready else None); cruise = None; drain = None }
 

@@ -19,12 +19,14 @@ type sight = {
   height : float option;
   battery : float option option;
   speed : float option option;
+  readings : (string * float option) list;
   link : bool option;
   unready : string option option;
 }
 
 let nothing vehicle =
-  { vehicle; kind = None; payload = None; place = None; height = None; battery = None; speed = None; link = None;
+  { vehicle; kind = None; payload = None; place = None; height = None; battery = None; speed = None;
+    readings = []; link = None;
     unready = None }
 
 type word =
@@ -70,6 +72,8 @@ let of_sight s =
   @ member "height" of_number s.height
   @ member "battery" (of_option of_number) s.battery
   @ member "speed" (of_option of_number) s.speed
+  @ (if s.readings = [] then []
+     else [ ("readings", `Assoc (List.map (fun (name, x) -> (name, of_option of_number x)) s.readings)) ])
   @ member "link" (fun b -> `Bool b) s.link
   @ member "unready" (of_option text) s.unready
 
@@ -138,6 +142,13 @@ let place members =
   | None, None -> Ok None
   | Some _, None | None, Some _ -> Error "of latitude and longitude one is missing"
 
+let readings json =
+  let* found = Field.members json in
+  let reading (name, json) =
+    Result.map_error (Printf.sprintf "%s: %s" name) (Result.map (fun x -> (name, x)) (nullable number json))
+  in
+  Dolphin_results.Results.map reading found
+
 let sight members =
   let* vehicle = get Line.word "vehicle" members in
   let* kind = absent Line.word "type" members in
@@ -146,9 +157,10 @@ let sight members =
   let* height = absent number "height" members in
   let* battery = as_before (between 0. 1.) "battery" members in
   let* speed = as_before Line.seconds "speed" members in
+  let* readings = optional (fun json -> if json = `Null then Ok [] else readings json) ~default:[] "readings" members in
   let* link = absent truth "link" members in
   let* unready = as_before Line.word "unready" members in
-  Ok (Vehicle { vehicle; kind; payload; place; height; battery; speed; link; unready })
+  Ok (Vehicle { vehicle; kind; payload; place; height; battery; speed; readings; link; unready })
 
 let word make members =
   let* request = get Line.request "request" members in

@@ -20,6 +20,7 @@ type sight = {
   height : float option;
   battery : float option option;  (** [Some None]: not known *)
   speed : float option option;
+  readings : (string * float option) list;  (** of what it measures; [None]: not known any more *)
   link : bool option;
   unready : string option option;  (** [Some None]: nothing keeps it *)
 }

@@ -39,6 +39,8 @@ type craft = {
 type t = {
   seed : int;
   plans : Scenario.plan String_map.t;
+  samples : Scenario.sample list;
+  fields_still : float;                         (* from then on no field changes *)
   order : Core.vehicle list;                    (* the scenario's vehicles *)
   now : float;
   queue : occurrence Event_queue.t;
@@ -72,15 +74,18 @@ let stranger id =
   make_craft ~connected:false ~changes:[]
     { id; kind = ""; payload = []; position; speed = 1.; battery = 1.; tells_battery = true;
       drain = 0.; charge = 0.; joins = 0.;
-      leaves = None; drops = []; batteries = []; places = [] }
+      leaves = None; drops = []; batteries = []; shows = []; places = [] }
 
 let find id f = match String_map.find_opt id f.crafts with Some craft -> craft | None -> stranger id
 
 let state f craft : World.vehicle_state =
   let v = Vehicle.scenario craft.body in
   { id = v.id; kind = v.kind; payload = v.payload; position = Vehicle.seen_at craft.body ~at:f.now;
-    battery = Vehicle.shown_battery craft.body ~at:f.now; connected = craft.connected;
-    unready = None; cruise = Some v.speed; drain = Some v.drain }
+    battery = Vehicle.shown_battery craft.body ~at:f.now;
+    speed = Some (Vehicle.speed craft.body ~at:f.now);
+    readings = Scenario.readings f.samples v (Vehicle.position craft.body ~at:f.now) ~time:f.now;
+    connected = craft.connected; unready = None;
+    cruise = Some v.speed; drain = Some v.drain }
 
 (* [tell id f] is the event that makes the state of [id] known, if it is not, and can be. *)
 let tell id f =
@@ -94,7 +99,9 @@ let tell id f =
 (* Whether there will be something to tell of [id] before long. *)
 let is_restless f id =
   let craft = find id f in
-  craft.connected && not (Vehicle.is_steady craft.body ~at:f.now)
+  let measures = (Vehicle.scenario craft.body).shows <> [] in
+  craft.connected
+  && not (Vehicle.is_steady craft.body ~at:f.now && ((not measures) || f.now >= f.fields_still))
 
 (* Beats go on while there is something to tell, and begin again here when there may be. *)
 let wake f =
@@ -303,7 +310,8 @@ let create ~seed (s : Scenario.t) =
   let add_plan plans (p : Scenario.plan) = String_map.add p.name p plans in
   let plans = List.fold_left add_plan String_map.empty s.plans in
   let empty =
-    { seed; plans; order = List.map (fun (v : Scenario.vehicle) -> v.id) s.vehicles; now = 0.;
+    { seed; plans; samples = s.samples; fields_still = Scenario.fields_still_from s;
+      order = List.map (fun (v : Scenario.vehicle) -> v.id) s.vehicles; now = 0.;
       queue = Event_queue.empty;
       crafts = String_map.empty; bound = String_set.empty; timers = Int_map.empty; timeout = default_timeout;
       telemetry = false; beat = None } in

@@ -88,6 +88,15 @@ let position way time =
   | Circuit { centre; outward; radius; laps; duration; _ } ->
     Wgs84.move centre ~bearing:(outward +. (360. *. laps *. time /. duration)) radius
 
+let speed way time =
+  match way with
+  | Stretches { stretches; duration; _ } when time >= duration || stretches = [||] -> 0.
+  | Circuit { duration; _ } when time >= duration || time < 0. -> 0.
+  | Stretches { stretches; _ } ->
+    let { lasts; from; towards; _ } = current stretches time 0 (Array.length stretches) in
+    if from == towards || lasts = infinity then 0. else Wgs84.distance from towards /. lasts
+  | Circuit { radius; laps; duration; _ } -> 2. *. Float.pi *. radius *. laps /. duration
+
 let still_from = function
   | Circuit { duration; _ } -> duration
   | Stretches { stretches; duration; _ } ->

@@ -28,5 +28,8 @@ val duration : t -> float
 val position : t -> float -> Position.t
 (** [position w time] is where one is after [time]; after the end, at the end. O(log n) in the number of waypoints. *)
 
+val speed : t -> float -> float
+(** [speed w time] is how fast one is after [time], over the ground; after the end, 0. *)
+
 val still_from : t -> float
 (** [still_from w] is the time from which the position does not change any more. *)

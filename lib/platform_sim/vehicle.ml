@@ -37,6 +37,8 @@ let battery v ~at =
 
 let position v ~at = Track.position v.track (at -. v.since)
 
+let speed v ~at = Track.speed v.track (at -. v.since)
+
 (* The nearest of [xs] to [x], the first of several; [x] if there are none. *)
 let nearest distance x = function
   | [] -> x

@@ -35,6 +35,9 @@ val shown_battery : t -> at:float -> float option
 (** What its battery shows: {!battery}, or if the scenario gives several values, the nearest of them; [None] if it tells
     none. *)
 
+val speed : t -> at:float -> float
+(** Over the ground, in metres per second. *)
+
 val empty_from : t -> float
 (** [empty_from v] is when the battery is empty, if [v] goes on as it does; [infinity] if never. *)
 

@@ -18,6 +18,9 @@ type vehicle = {
   drops : drop list;  (** in the order of the file *)
   batteries : float list;
   (** if not empty, all that the battery ever shows: at least two, [battery] first. If empty, it shows what is left. *)
+  shows : (string * float list) list;
+  (** what it measures, by quantity; if several values, all that it ever shows of it. If none, there are samples of
+      it *)
   places : Dolphin_geo.Position.t list;
   (** if not empty, all places where it is ever seen: at least two, [position] first. If empty, it is seen where it
       is. *)
@@ -58,11 +61,15 @@ type input = {
   after : float option;  (** seconds since the start, or since the time before; [None]: nobody knows when, if at all *)
 }
 
+(** What is measured at a place, from a time on. *)
+type sample = { quantity : string; value : float; place : Dolphin_geo.Position.t; time : float  (** in seconds *) }
+
 type t = {
   vehicles : vehicle list;
   plans : plan list;
   answers : answer list;
   replies : reply list;
   inputs : input list;
+  samples : sample list;  (** of the fields of quantities *)
 }
 (** Vehicles, plans, prompts and calls are unique by their names; all are in the order of the file. *)

@@ -40,6 +40,16 @@ let battery v = function
 let seen_at (v : vehicle) position =
   if v.places = [] then { v with position; places = [ position ] } else { v with places = v.places @ [ position ] }
 
+let shows (v : vehicle) = function
+  | [] -> None
+  | name :: values ->
+    Some
+      (let* quantity = Setting.text name in
+       if List.mem_assoc quantity v.shows then error name.at "'%s' stands twice" quantity
+       else
+         let add (v : vehicle) xs = { v with shows = v.shows @ [ (quantity, xs) ] } in
+         Option.value (several Setting.number add v values) ~default:(Ok (add v [])))
+
 let place set draft values = Option.map (Result.map (set draft)) (Setting.position values)
 let setting ?(again = false) word takes read : 'draft Setting.t = { word; takes; again; read }
 let position_takes = "a latitude and a longitude in degrees or a place, as in at 41.185, -8.706 or at Location.APDL"
@@ -59,6 +69,7 @@ let vehicle_table : vehicle Setting.t list =
       (one Setting.per_hour (fun v drain -> { v with drain }));
     setting "charge" "the share of the battery that an hour's rest gives, as in charge 50.percent"
       (one Setting.per_hour (fun v charge -> { v with charge }));
+    setting "shows" ~again:true "a quantity and what it may be, as in shows 'Temperature', 12, 18" shows;
     setting "joins" "a time, as in joins 30.seconds" (one Setting.time (fun v joins -> { v with joins }));
     setting "leaves" "a time, as in leaves 10.min" (one Setting.time (fun v time -> { v with leaves = Some time }));
     setting "drops" ~again:true "two times, when the link drops and for how long, as in drops 60.seconds, 30.seconds"
@@ -108,6 +119,7 @@ type state = {
   answers : answer named list;
   replies : reply named list;
   inputs : input list;
+  samples : sample list;
   unplaced : int;                               (* vehicles without a position *)
   faults : Diagnostic.t list;
 }
@@ -120,7 +132,7 @@ let vehicle state (id : string located) body =
     { id = id.it; kind = ""; payload = []; position = Defaults.position state.unplaced; speed = 0.;
       battery = Defaults.battery; tells_battery = true;
       drain = Defaults.drain; charge = 0.; joins = 0.; leaves = None; drops = [];
-      batteries = []; places = [] } in
+      batteries = []; shows = []; places = [] } in
   let v, seen, faults = Setting.block ~what:"a vehicle" vehicle_table draft body in
   let v = match v.places with [ _ ] -> { v with places = [] } | [] | _ :: _ :: _ -> v in
   let given word = List.mem word seen in
@@ -170,6 +182,8 @@ let usage = function
   | "vehicle" -> "vehicle takes an id and a block of settings, as in vehicle 'x8-02', { type 'UAV' }"
   | "plan" -> "plan takes a name and a block of settings, as in plan 'survey1', { duration 3.min, 9.min }"
   | "answer" -> "answer takes a prompt and a value, as in answer 'Radius of the area? (km)', 2"
+  | "field" ->
+    "field takes a quantity, a value and a place, as in field 'Temperature', 12, at(41.18, -8.7), after 10.min"
   | "input" -> "input takes a key and a value, as in input 'abort', true, or input 'target', 1, 2, after 5.min"
   | _ -> "reply takes a call of the supplier and a value, as in reply 'queue.await', task('survey1')"
 
@@ -202,7 +216,44 @@ let input state (word : string located) key values =
     let times = Option.value times ~default:(List.length rounds) in
     { state with inputs = { key; rounds; times; after } :: state.inputs }
 
-let entries = [ "vehicle"; "plan"; "answer"; "reply"; "input" ]
+let field state (word : string located) quantity values =
+  let read (value, place, time, faults) (e : expression) =
+    let fault at message = (value, place, time, Diagnostic.error at message :: faults) in
+    let settings arguments =
+      let one = function
+        | Positional x -> Result.map (fun it -> { it; at = x.at }) (Literal.read x)
+        | Named (k, _) -> error k.at "values have no names here"
+        | Keyed (k, _) -> error k.at "values have no names here"
+      in
+      Dolphin_results.Results.map one arguments
+    in
+    match e.it with
+    | Call { callee = { it = Variable (("after" | "at") as what); _ }; _ }
+      when (what = "after" && time <> None) || (what = "at" && place <> None) -> fault e.at (what ^ " stands twice")
+    | Call { callee = { it = Variable "after"; _ }; arguments } -> (
+        match Result.map (fun values -> one Setting.time (fun _ x -> x) 0. values) (settings arguments) with
+        | Ok (Some (Ok seconds)) -> (value, place, Some seconds, faults)
+        | Ok None -> fault e.at "after takes a time, as in after 5.min"
+        | Ok (Some (Error d)) | Error d -> (value, place, time, d :: faults))
+    | Call { callee = { it = Variable "at"; _ }; arguments } -> (
+        match Result.map Setting.position (settings arguments) with
+        | Ok (Some (Ok position)) -> (value, Some position, time, faults)
+        | Ok None -> fault e.at ("at takes " ^ position_takes)
+        | Ok (Some (Error d)) | Error d -> (value, place, time, d :: faults))
+    | _ when value <> None -> fault e.at "a field has one value at one place"
+    | _ -> (
+        match Result.bind (Literal.read e) (fun it -> Setting.number { it; at = e.at }) with
+        | Ok x -> (Some x, place, time, faults)
+        | Error d -> (value, place, time, d :: faults))
+  in
+  let value, place, time, faults = List.fold_left read (None, None, None, []) values in
+  match value, place with
+  | _, _ when faults <> [] -> add_faults state (List.rev faults)
+  | Some value, Some place ->
+    { state with samples = { quantity; value; place; time = Option.value time ~default:0. } :: state.samples }
+  | _, _ -> add_fault state (Diagnostic.error word.at (usage "field"))
+
+let entries = [ "vehicle"; "plan"; "answer"; "reply"; "input"; "field" ]
 
 let entry state (word : string located) arguments =
   let misused state = add_fault state (Diagnostic.error word.at (usage word.it)) in
@@ -219,12 +270,13 @@ let entry state (word : string located) arguments =
     | "answer", { it = String prompt; at } :: (_ :: _ as values) -> answer state { it = prompt; at } values
     | "reply", { it = String call; at } :: (_ :: _ as values) -> reply state { it = call; at } values
     | "input", { it = String key; at = _ } :: values -> input state word key values
-    | ("vehicle" | "plan" | "answer" | "reply" | "input"), _ -> misused state
+    | "field", { it = String quantity; at = _ } :: values -> field state word quantity values
+    | ("vehicle" | "plan" | "answer" | "reply" | "input" | "field"), _ -> misused state
     | other, _ ->
       let hint =
         match Diagnostic.suggest other entries with
         | Some near -> Printf.sprintf "did you mean '%s'?" near
-        | None -> "a fleet consists of vehicle, plan, answer, reply and input"
+        | None -> "a fleet consists of vehicle, plan, answer, reply, input and field"
       in
       add_fault state (Diagnostic.error word.at (Printf.sprintf "there is no '%s' in a fleet" other) ~hint)
 
@@ -235,7 +287,7 @@ let statement state (s : statement) =
   | Expression { it = Variable word; at } -> entry state { it = word; at } []
   | _ ->
     add_fault state
-      (Diagnostic.error s.at "only vehicle, plan, answer, reply and input may stand in a fleet"
+      (Diagnostic.error s.at "only vehicle, plan, answer, reply, input and field may stand in a fleet"
          ~hint:"as in vehicle 'x8-02', { type 'UAV' }")
 
 (* {1 All together} *)
@@ -255,13 +307,26 @@ let repeated what name named =
   in
   List.fold_left check [] (List.rev named)
 
+(* Nothing says what is measured. *)
+let unmeasured state =
+  let is_sampled q = List.exists (fun s -> s.quantity = q) state.samples in
+  let of_vehicle { entry = (v : vehicle); name_at } =
+    let is_open (q, xs) = xs = [] && not (is_sampled q) in
+    let fault (q, _) =
+      Diagnostic.error name_at (Printf.sprintf "vehicle '%s' shows '%s', and nothing says what that is" v.id q)
+        ~hint:(Printf.sprintf "give values, as in shows '%s', 12, 18, or a field: field '%s', 12, at(41.18, -8.7)" q q)
+    in
+    List.map fault (List.filter is_open v.shows)
+  in
+  List.concat_map of_vehicle state.vehicles
+
 let rec take n = function
   | x :: rest when n > 0 -> x :: take (n - 1) rest
   | _ -> []
 
 let read ~file source =
   let* program = Parse.program ~file source in
-  let start = { source; vehicles = []; plans = []; answers = []; replies = []; inputs = []; unplaced = 0;
+  let start = { source; vehicles = []; plans = []; answers = []; replies = []; inputs = []; samples = []; unplaced = 0;
                 faults = [] } in
   let state = List.fold_left statement start program in
   let faults =
@@ -269,12 +334,14 @@ let read ~file source =
     @ repeated "plan" (fun (p : plan) -> p.name) state.plans
     @ repeated "answer" (fun a -> a.prompt) state.answers
     @ repeated "reply" (fun r -> r.call) state.replies
+    @ (if state.faults = [] then unmeasured state else [])
     @ state.faults in
   let entries named = List.rev_map (fun { entry; name_at = _ } -> entry) named in
   if faults = [] then
     Ok
       { Entry.vehicles = entries state.vehicles; plans = entries state.plans; answers = entries state.answers;
-        replies = entries state.replies; inputs = List.rev state.inputs }
+        replies = entries state.replies; inputs = List.rev state.inputs;
+        samples = List.rev state.samples }
   else Error (take Parse.most_faults (List.sort Diagnostic.compare faults))
 
 let names_at word ~file source =

@@ -15,7 +15,7 @@ let equal_input (a : input) (b : input) =
 (* The rest is plain data without functions or cycles, and without numbers that are none. *)
 let equal (a : t) (b : t) =
   a.vehicles = b.vehicles && a.plans = b.plans && a.answers = b.answers && List.equal equal_reply a.replies b.replies
-  && List.equal equal_input a.inputs b.inputs
+  && List.equal equal_input a.inputs b.inputs && a.samples = b.samples
 
 let beside program = Filename.remove_extension program ^ ".fleet"
 
@@ -56,12 +56,30 @@ let silences v =
   |> List.sort (fun (a, _) (b, _) -> Float.compare a b)
   |> merge
 
+(* The nearest of several values to [x]. *)
+let nearest x = function
+  | [] | [ _ ] -> x
+  | first :: rest ->
+    List.fold_left (fun best y -> if Float.abs (x -. y) < Float.abs (x -. best) then y else best) first rest
+
+let readings samples v place ~time =
+  let reading (quantity, xs) =
+    match Field.value samples quantity place ~time, xs with
+    | Some x, xs -> Some (quantity, nearest x xs)
+    | None, first :: _ -> Some (quantity, first)
+    | None, [] -> None
+  in
+  List.sort Stdlib.compare (List.filter_map reading v.shows)
+
+let fields_still_from s = Field.still_from s.samples
+
 let states s =
   let state (v : vehicle) : World.vehicle_state =
     let connected = match silences v with (from, _) :: _ -> from > 0. | [] -> true in
     { id = v.id; kind = v.kind; payload = v.payload; position = v.position;
-      battery = (if v.tells_battery then Some v.battery else None); connected; unready = None; cruise = Some v.speed;
-      drain = Some v.drain }
+      battery = (if v.tells_battery then Some v.battery else None); speed = Some 0.;
+      readings = readings s.samples v v.position ~time:0.; connected; unready = None;
+      cruise = Some v.speed; drain = Some v.drain }
   in
   List.map state s.vehicles
 
@@ -76,12 +94,12 @@ let pp_share ppf share =
   let percent = Float.round (share *. 100.) in
   if percent /. 100. = share then Format.fprintf ppf "%a.percent" pp_number percent else pp_number ppf share
 
+let pp_coordinates ppf (p : Dolphin_geo.Position.t) =
+  Format.fprintf ppf "%a, %a" pp_number p.latitude pp_number p.longitude;
+  if p.height <> 0. then Format.fprintf ppf ", %a" pp_number p.height
+
 let pp_place ppf (p : Dolphin_geo.Position.t) =
-  let coordinates ppf () =
-    Format.fprintf ppf "%a, %a" pp_number p.latitude pp_number p.longitude;
-    if p.height <> 0. then Format.fprintf ppf ", %a" pp_number p.height
-  in
-  if p.latitude < 0. then Format.fprintf ppf "at(%a)" coordinates () else Format.fprintf ppf "at %a" coordinates ()
+  Format.fprintf ppf (if p.latitude < 0. then "at(%a)" else "at %a") pp_coordinates p
 
 let pp_vehicle ppf v =
   let line fmt = Format.fprintf ppf ("  " ^^ fmt ^^ "@\n") in
@@ -95,6 +113,8 @@ let pp_vehicle ppf v =
   else line "battery unknown";
   line "drain %a" pp_share v.drain;
   if v.charge > 0. then line "charge %a" pp_share v.charge;
+  let show (quantity, xs) = line "shows %a%a" pp_text quantity Fmt.(list ~sep:nop (any ", " ++ pp_number)) xs in
+  List.iter show v.shows;
   if v.joins > 0. then line "joins %a" pp_time v.joins;
   Option.iter (line "leaves %a" pp_time) v.leaves;
   List.iter (fun drop -> line "drops %a, %a" pp_time drop.from pp_time drop.lasts) v.drops;
@@ -125,6 +145,11 @@ let pp_answer ppf a = Format.fprintf ppf "answer %a, %s@\n" pp_text a.prompt (St
 
 let pp_reply ppf r = Format.fprintf ppf "reply %a, %a@\n" pp_text r.call Fmt.(list ~sep:(any ", ") Reply.pp) r.rounds
 
+let pp_sample ppf s =
+  Format.fprintf ppf "field %a, %a, at(%a)" pp_text s.quantity pp_number s.value pp_coordinates s.place;
+  if s.time > 0. then Format.fprintf ppf ", after %a" pp_time s.time;
+  Format.fprintf ppf "@\n"
+
 let pp_input ppf i =
   let round ppf values = Reply.pp ppf (List.map Result.ok values) in
   Format.fprintf ppf "input %a, %a" pp_text i.key Fmt.(list ~sep:(any ", ") round) i.rounds;
@@ -137,7 +162,8 @@ let pp ppf (s : t) =
   List.iter (pp_plan ppf) s.plans;
   List.iter (pp_answer ppf) s.answers;
   List.iter (pp_reply ppf) s.replies;
-  List.iter (pp_input ppf) s.inputs
+  List.iter (pp_input ppf) s.inputs;
+  List.iter (pp_sample ppf) s.samples
 
 (* {1 The default} *)
 
@@ -146,11 +172,11 @@ let default =
   let vehicle id kind payload position drain =
     { id; kind; payload; position; speed = Defaults.speed ~kind; battery = Defaults.battery;
       tells_battery = true; drain; charge = 0.;
-      joins = 0.; leaves = None; drops = []; batteries = []; places = [] } in
+      joins = 0.; leaves = None; drops = []; batteries = []; shows = []; places = [] } in
   let underwater id position = vehicle id "UUV" [ "DVL"; "Sidescan"; "Camera" ] position Defaults.drain in
   { vehicles =
       [ underwater "noptilus-1" (at 41.18500 (-8.70620));
         underwater "noptilus-2" (at 41.18600 (-8.70720));
         underwater "noptilus-3" (at 41.18400 (-8.70760));
         vehicle "x8-02" "UAV" [ "Camera" ] (at 41.18450 (-8.70500)) 0.4 ];
-    plans = []; answers = []; replies = []; inputs = [] }
+    plans = []; answers = []; replies = []; inputs = []; samples = [] }

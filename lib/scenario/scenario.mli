@@ -60,6 +60,13 @@ val silences : vehicle -> (float * float) list
 (** [silences v] is the spans of time, from and until, in which nothing is heard of [v]: before it joins, while its link
     drops, and after it leaves, until [infinity]. They are in order and apart: none empty, none touches the next. *)
 
+val readings : sample list -> vehicle -> Dolphin_geo.Position.t -> time:float -> (string * float) list
+(** [readings samples v p ~time] is what [v] measures at [p], by quantity, in order: of the field what is there; if [v]
+    shows several values, the nearest of them. *)
+
+val fields_still_from : t -> float
+(** The time from which no field changes any more. *)
+
 val states : t -> Dolphin_semantics.World.vehicle_state list
 (** [states s] is what can be known of the vehicles at the start; those that join later, or whose link drops right then,
     are not connected. *)
@@ -94,6 +101,9 @@ reply 'queue.await', task('survey1'), either(task('survey2'), fails('the queue i
     - [battery unknown]: it never tells its battery, which is full at the start.
     - [drain SHARE]: an hour's work takes so much, an hour's rest a quarter of it. Default: [10.percent].
     - [charge SHARE]: an hour's rest gives so much instead. Default: it does not charge.
+    - [shows QUANTITY, NUMBER, ...]: what it measures, as [reading] shows it; once for each quantity. Of several values
+      no others are ever shown: in the simulator the one that is nearest to the field's. Else it shows the field's
+      value. Without a field it shows the first. Default: it measures nothing.
     - [joins TIME], [leaves TIME]. Default: there from the start, and for good.
     - [drops FROM, LASTING]: its link drops; may stand again. Default: never.
 
@@ -111,5 +121,8 @@ reply 'queue.await', task('survey1'), either(task('survey2'), fails('the queue i
     [reply CALL, REPLY, ...]. What the supplier replies where the program calls it, when no supplier is there: the
     replies one after another, the last for good. CALL is as labels name it: ['getSupplier'], or an object and its
     method or property, ['queue.await']. REPLY is as {!Reply.read} says.
+
+    [field QUANTITY, NUMBER, at(...)], [field QUANTITY, NUMBER, at(...), after TIME]. A sample of a quantity, at a place
+    and from a time on: {!Field.value} is what the quantity is elsewhere. Stands as often as there are samples.
 
     Times without a unit are seconds. *)

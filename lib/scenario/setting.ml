@@ -23,6 +23,11 @@ let text (value : value) =
   | Number _ | Position _ | Unknown ->
     expected "a text in quotes" value
 
+let number (value : value) =
+  match value.it with
+  | Number (n, _) -> Ok n
+  | Text _ | Position _ | Unknown -> expected "a number" value
+
 let time (value : value) =
   match value.it with
   | Number (n, (None | Some Time)) when n >= 0. -> Ok n

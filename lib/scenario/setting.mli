@@ -23,6 +23,9 @@ val block :
 val text : value -> (string, Diagnostic.t) result
 (** A text that is not empty. *)
 
+val number : value -> (float, Diagnostic.t) result
+(** With any unit or none. *)
+
 val time : value -> (float, Diagnostic.t) result
 (** Seconds, at least 0. A number without a unit counts seconds. *)
 

@@ -68,6 +68,9 @@ let procedures =
       "Whether the pairs are in the tuple space; takes nothing. `poll 'k'` asks for any pair of that key.";
       "position", "position(v)", "Where the vehicle is now.";
       "battery", "battery(v)", "What is left in the vehicle's battery, from 0 to 1.";
+      "speed", "speed(v)", "How fast the vehicle is over the ground, in metres per second.";
+      "connected", "connected(v)", "Whether there is a link to the vehicle.";
+      "reading", "reading(v, 'Temperature')", "The last value that the vehicle has told of what it measures.";
       "eta", "eta(v, p)", "The seconds in which the vehicle gets from where it is to a position, straight on.";
       "location", "location(latitude, longitude)", "A position, in degrees; a third number is its height in metres. \
                                                     Also `location \"41\xc2\xb011.1'N 8\xc2\xb042.4'W\"`.";
@@ -295,6 +298,7 @@ let fleet_entries =
       "plan", "plan 'name', { duration 3.min }", "How a plan ends, and how long it takes.";
       "answer", "answer 'prompt', e1, e2", "What people answer to a prompt, one after another.";
       "input", "input 'key', x1, x2", "What may be posted with a key from outside, one value after another.";
+      "field", "field 'Temperature', 12, at(41.185, -8.706)", "What a quantity is at a place, from a time on.";
       "reply", "reply 'call', r1, r2", "What a supplier replies to a call, one after another." ]
 
 let of_vehicle =
@@ -304,6 +308,7 @@ let of_vehicle =
       "at", "at 41.185, -8.706", "Where it is; several are all places where it is ever seen.";
       "speed", "speed 1.5", "Metres per second.";
       "battery", "battery 80.percent", "What is in its battery; `unknown` if it does not tell.";
+      "shows", "shows 'Temperature', 12, 18", "What it measures, and what that may be.";
       "drain", "drain 10.percent", "What an hour's work takes from the battery.";
       "charge", "charge 50.percent", "What an hour's rest gives the battery.";
       "joins", "joins 30.seconds", "When it comes.";

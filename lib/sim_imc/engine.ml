@@ -6,6 +6,7 @@ module String_map = Map.Make (String)
 type settings = {
   vehicle : Scenario.vehicle;
   plans : Scenario.plan list;
+  samples : Scenario.sample list;
   seed : int;
   epoch : float;
   strict : bool;

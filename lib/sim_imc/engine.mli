@@ -29,6 +29,7 @@ open Dolphin_scenario
 type settings = {
   vehicle : Scenario.vehicle;
   plans : Scenario.plan list;
+  samples : Scenario.sample list;  (** of the fields that it measures *)
   seed : int;  (** decides what the scenario leaves to chance, see {!Dolphin_platform_sim.Draw} *)
   epoch : float;  (** when the mission starts, in seconds since 1970 *)
   strict : bool;  (** whether plans that the scenario does not have are unknown *)

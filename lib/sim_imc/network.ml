@@ -132,7 +132,7 @@ let radio n ~epoch (c : craft) =
   let vehicle = { c.vehicle with drops = c.vehicle.drops @ drops } in
   Radio.create ~faults:s.faults ~seed:s.seed
     { engine =
-        { vehicle; plans = s.scenario.plans; seed = s.seed; epoch; strict = s.strict;
+        { vehicle; plans = s.scenario.plans; samples = s.scenario.samples; seed = s.seed; epoch; strict = s.strict;
           refuses = List.assoc_opt c.vehicle.id s.refuses; blocks = List.filter_map own s.blocks };
       id = c.id; addresses = address loopback :: others; speed = s.speed; announce_period = s.announce_period;
       contact_period = s.contact_period }

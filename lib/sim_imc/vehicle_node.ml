@@ -11,7 +11,7 @@ type settings = {
 }
 
 (* What is told again and again while somebody listens. *)
-type stream = Control | Supervision | Navigation | Life | Fuel
+type stream = Control | Supervision | Navigation | Life | Fuel | Measurements of string
 
 type t = {
   settings : settings;
@@ -35,8 +35,14 @@ let mission v time = time *. v.settings.speed
 
 (* {1 Streams} *)
 
-let period = function Control -> 0.35 | Supervision -> 0.5 | Navigation -> 0.55 | Life | Fuel -> 1.
-let all_streams = [ Supervision; Control; Navigation; Life; Fuel ]
+let period = function Control -> 0.35 | Supervision -> 0.5 | Navigation -> 0.55 | Life | Fuel | Measurements _ -> 1.
+
+(* What IMC has no message for is not told. *)
+let measurements v =
+  let is_told (name, _) = List.mem name Measurement.names in
+  List.map (fun (name, _) -> Measurements name) (List.filter is_told (vehicle v).shows)
+
+let all_streams v = [ Supervision; Control; Navigation; Life; Fuel ] @ measurements v
 
 let navigation ~at v =
   let mission_time = mission v at in
@@ -47,12 +53,19 @@ let navigation ~at v =
   let course = if is_moving then Dolphin_geo.Wgs84.bearing before here else 0. in
   Telemetry.estimated_state ~reference:(vehicle v).position here ~course ~speed:(if is_moving then covered else 0.)
 
+let measured ~at v name =
+  let time = mission v at in
+  let { Engine.samples; vehicle; _ } = v.settings.engine in
+  let readings = Scenario.readings samples vehicle (Engine.position ~at:time v.engine) ~time in
+  Option.get (Measurement.to_message name (List.assoc name readings))
+
 let telemetry ~at v : stream -> int * Message.t = function
   | Control -> Engine.entity, Plan_control_state (Engine.plan_control_state ~at:(mission v at) v.engine)
   | Supervision -> Engine.supervisor, Vehicle_state (Engine.vehicle_state v.engine)
   | Navigation -> 52, Estimated_state (navigation ~at v)
   | Life -> 0, Heartbeat
   | Fuel -> 41, Fuel_level (Telemetry.fuel_level (Engine.battery ~at:(mission v at) v.engine))
+  | Measurements name -> 53, measured ~at v name
 
 (* {1 Sending} *)
 
@@ -118,8 +131,11 @@ let look ~at v =
       in
       { Engine.from = 89; to_ = { system = Header.nobody; entity = Header.any_entity }; message = Log_book_entry entry }
     in
-    let told = function Fuel -> (vehicle v).tells_battery | Control | Supervision | Navigation | Life -> true in
-    let all = List.filter told all_streams in
+    let told = function
+      | Fuel -> (vehicle v).tells_battery
+      | Control | Supervision | Navigation | Life | Measurements _ -> true
+    in
+    let all = List.filter told (all_streams v) in
     let streams = if ids = [] then v.streams else List.map (fun s -> s, at) all in
     let outputs, v = say_all ~at { v with peers; streams } (List.map activating ids) in
     outputs, [], v

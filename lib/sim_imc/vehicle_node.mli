@@ -5,7 +5,8 @@
     - It sends to the systems that {!Peers} finds in contact, and to all of them whatever it has to say: telemetry, and
       replies, also those to others. With nobody in contact it says nothing.
     - PlanControlState comes every 0.35 s and on change, VehicleState every 0.5 s, EstimatedState every 0.55 s,
-      Heartbeat and FuelLevel every second, unless its battery is unknown. (Of FuelLevel the rate is assumed.)
+      Heartbeat and FuelLevel every second, unless its battery is unknown, and so does what it measures, if IMC has a
+      message for that. (Of the last two the rate is assumed.)
     - Heartbeats and PlanControl that come in are sent on to all systems in contact, their senders included.
     - Requests must be for the vehicle's own number or {!Dolphin_imc.Header.broadcast}; they need not come from a system
       in contact, but then nobody hears the reply. What is for others, or not for a vehicle, is ignored.

@@ -36,7 +36,9 @@ let sight (s : World.vehicle_state) =
     { vehicle = s.id; kind = Some s.kind; payload = Some s.payload;
       place = Some (s.position.latitude, s.position.longitude);
       height = Some s.position.height;
-      battery = Some s.battery; speed = None; link = Some s.connected; unready = Some s.unready }
+      battery = Some s.battery; speed = Some s.speed;
+      readings = List.map (fun (name, x) -> (name, Some x)) s.readings; link = Some s.connected;
+      unready = Some s.unready }
 
 let say request word f = ({ f with said = Names.add request (Some word) f.said }, [ Report.Request (request, word) ])
 let is_linked v f = Option.value (Names.find_opt v f.linked) ~default:false

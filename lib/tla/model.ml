@@ -16,29 +16,44 @@ let charge level =
   in
   Tla.Tuple [ String "number"; Integer n; Integer d ]
 
-(* The values that a sensor may show; none if it may show anything. Where no code reads sensors, they show what they
-   show at the start: TLC is faster if it need not look for readings among values. *)
-let sensor translation (shown : _ World.shown) value at_start =
+(* The values that a sensor may show; none if it may show anything. *)
+let values (shown : _ World.shown) value =
   match shown with
-  | Anything when Translation.reads_sensors translation -> Tla.Tuple []
-  | Anything -> Tla.Tuple [ value at_start ]
+  | Anything -> Tla.Tuple []
   | Shows x -> Tla.Tuple [ value x ]
   | One_of xs -> Tla.Tuple (List.map value xs)
 
-(* Code that reads one that is unknown is refused. *)
-let battery translation world (s : World.vehicle_state) =
-  let at_start = Option.value s.battery ~default:1. in
-  let shown = Option.value (World.battery world s) ~default:(World.Shows at_start) in
-  sensor translation shown charge at_start
+let sensed (x : Core.value) =
+  match x with
+  | Boolean b -> Tla.Tuple [ String "boolean"; Boolean b ]
+  | x -> charge (Option.value (Value.to_number x) ~default:0.)
+
+(* Those that code reads; it is refused if one is unknown. TLC is faster if it need not look for readings among
+   values. *)
+let sensors translation world (s : World.vehicle_state) =
+  let one sensor =
+    let entry shown =
+      Tla.Record
+        [ ("name", String (Translation.name_of_sensor sensor)); ("text", String (World.spell sensor s.id));
+          ("shows", values shown sensed) ]
+    in
+    Option.map entry (World.sensor world sensor s)
+  in
+  Tla.Tuple (List.filter_map one (Translation.sensors translation))
 
 let vehicle translation world (s : World.vehicle_state) =
   let place p = Tla.Integer (Translation.place translation p) in
   let position p = Tla.Tuple [ String "position"; place p ] in
+  let whereabouts =
+    match World.position world s with
+    | Anything when not (Translation.reads_position translation) -> Tla.Tuple [ position s.position ]
+    | shown -> values shown position
+  in
   Tla.Record
     [ ("id", String s.id); ("type", String s.kind); ("payload", Tla.strings s.payload); ("devices", devices s.payload);
       ("places", Tuple (List.map place (World.places_of world s)));
-      ("position", sensor translation (World.position world s) position s.position);
-      ("battery", battery translation world s) ]
+      ("position", whereabouts);
+      ("sensors", sensors translation world s) ]
 
 let ending : Environment.ending -> string = function
   | Succeeds -> "succeeds"

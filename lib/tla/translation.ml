@@ -15,7 +15,8 @@ type t = {
   nodes : (int, Tla.t * site) Hashtbl.t;
   mutable lambdas : (lambda * int * Tla.t) list;  (* latest first *)
   mutable plans : Tla.t list;  (* latest first *)
-  mutable reads_sensors : bool;
+  mutable reads_position : bool;
+  mutable sensors : sensor list;  (* that code reads *)
   mutable refusals : Diagnostic.t list;
 }
 
@@ -35,13 +36,17 @@ let create program world =
   let places = Places.create () in
   List.iter (fun p -> ignore (Places.index places p : int)) (whereabouts world);
   { program; world; describes_plans = describes_plans program; places; vehicles_at = Places.positions places;
-    nodes = Hashtbl.create 1000; lambdas = []; plans = []; reads_sensors = false; refusals = [] }
+    nodes = Hashtbl.create 1000; lambdas = []; plans = []; reads_position = false; sensors = []; refusals = [] }
 
 let place t p = Places.index t.places p
-let reads_sensors t = t.reads_sensors
+let reads_position t = t.reads_position
+let sensors t = List.rev t.sensors
 
-let see_sensor t name =
-  if List.mem name [ "position"; "battery"; "getPosition"; "getBattery" ] then t.reads_sensors <- true
+let name_of_sensor = function
+  | Battery -> "battery"
+  | Speed -> "speed"
+  | Connected -> "connected"
+  | Measurement name -> "reading " ^ name
 
 let location t site =
   if 0 <= site && site < Array.length t.program.locations then Some t.program.locations.(site) else None
@@ -53,14 +58,29 @@ let refuse t ?hint site format =
     format
 
 let refusals t = List.sort_uniq Diagnostic.compare t.refusals
-(* The code at [site] looks at the sensor [name], if it is one. *)
-let note_sensor t site name =
-  see_sensor t name;
-  let is_unknown (s : World.vehicle_state) = World.battery t.world s = None in
-  if List.mem name [ "battery"; "getBattery" ] then
-    match List.find_opt is_unknown (World.vehicles t.world) with
-    | Some s -> refuse t site "the battery of %s is unknown in this fleet: the models have no unknown values" s.id
-    | None -> ()
+(* The code at [site] looks at [sensor]. *)
+let note_sensor t site sensor =
+  if not (List.mem sensor t.sensors) then t.sensors <- sensor :: t.sensors;
+  let is_unknown (s : World.vehicle_state) = World.sensor t.world sensor s = None in
+  match List.find_opt is_unknown (World.vehicles t.world) with
+  | Some s ->
+    refuse t site "the %s of %s is unknown in this fleet: the models have no unknown values"
+      (name_of_sensor sensor) s.id
+  | None -> ()
+
+(* Likewise at the property or method [name] of a vehicle, if it is a sensor. *)
+let note_member t site name =
+  match name with
+  | "battery" | "getBattery" -> note_sensor t site Battery
+  | "position" | "getPosition" -> t.reads_position <- true
+  | _ -> ()
+
+(* Or at the readings of its argument. *)
+let note_reading t site = function
+  | [ _; { node = Constant (String name); _ } ] -> note_sensor t site (Measurement name)
+  | _ ->
+    refuse t site "a reading whose name is not a text of the program"
+      ~hint:"write the name where it is read, as in reading(v, 'Temperature')"
 
 let numbers ints = Tla.Tuple (List.map (fun i -> Tla.Integer i) ints)
 
@@ -160,7 +180,7 @@ and operation t ~known site op : Tla.t =
   | Property name ->
     if Supported.is_refused_property name && (known || not (Supported.is_for_readings name)) then
       refuse t site "'.%s' of a value that is not a constant: TLA+ has no such numbers" name;
-    note_sensor t site name;
+    note_member t site name;
     record "property" [ ("name", String name) ]
   | Call names' -> record "call" [ ("names", names names') ]
   | Method (("duration" | "energy") as name, _) ->
@@ -169,7 +189,7 @@ and operation t ~known site op : Tla.t =
   | Method (name, names') ->
     if Supported.is_refused_method name && (known || not (Supported.is_for_readings name)) then
       refuse t site "the method '%s'" name;
-    note_sensor t site name;
+    note_member t site name;
     named "method" name names'
   | Add_setting (name, names') -> named "setting" name names'
   | Make_branch -> record "branch" []
@@ -218,8 +238,11 @@ and procedure t site builtin : Tla.t =
   | Consume keys -> keyed "consume" keys
   | Poll keys -> keyed "poll" keys
   | Values_of -> plain "valuesOf"
-  | Position_of -> note_sensor t site "position"; plain "position"
-  | Battery_of -> note_sensor t site "battery"; plain "battery"
+  | Position_of -> t.reads_position <- true; plain "position"
+  | Sensor_of sensor ->
+    note_sensor t site sensor;
+    record "sensor" [ ("name", String (name_of_sensor sensor)) ]
+  | Reading_of -> plain "reading"
   | Eta -> refuse t site "eta: TLA+ has whole numbers only"; plain "list"
   | Area_of -> plain "area"
   | Assert -> plain "assert"
@@ -287,6 +310,7 @@ and unfolded t (e : expression) =
   | Set_local (i, e) -> define "setLocal" [ slot i; ("value", part e) ]
   | Set_global (i, e) -> define "setGlobal" [ global i; ("value", part e) ]
   | Apply (op, arguments) ->
+    (match op with Builtin Reading_of -> note_reading t e.site arguments | _ -> ());
     let known = match arguments with subject :: _ -> not (is_open_position t subject) | [] -> true in
     let op = operation t ~known e.site op in
     define "apply" [ ("operation", op); ("arguments", parts arguments) ]

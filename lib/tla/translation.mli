@@ -18,8 +18,14 @@ val reply : t -> at:Tla.t -> Core.value -> Tla.t
 val place : t -> Dolphin_geo.Position.t -> int
 (** [place t p] is the number of the position [p]. *)
 
-val reads_sensors : t -> bool
-(** Whether any code that has been translated looks at a battery or a position. *)
+val reads_position : t -> bool
+(** Whether any code that has been translated looks at a position. *)
+
+val sensors : t -> Core.sensor list
+(** The other sensors that it looks at. *)
+
+val name_of_sensor : Core.sensor -> string
+(** Their names in the models, each another. *)
 
 val refusals : t -> Dolphin_syntax.Diagnostic.t list
 (** What cannot be translated, in the order of the text. *)

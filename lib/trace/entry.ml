@@ -32,6 +32,9 @@ let of_state (s : World.vehicle_state) : members =
   [ ("vehicle", `String s.id); ("type", `String s.kind); ("payload", texts s.payload) ]
   @ of_position s.position
   @ [ ("battery", Option.fold s.battery ~none:`Null ~some:Canonical.number); ("connected", `Bool s.connected) ]
+  @ Option.fold s.speed ~none:[] ~some:(fun x -> [ ("speed", Canonical.number x) ])
+  @ (if s.readings = [] then []
+     else [ ("readings", `Assoc (List.map (fun (name, x) -> (name, Canonical.number x)) s.readings)) ])
   @ Option.fold s.unready ~none:[] ~some:(fun why -> [ ("unready", `String why) ])
   @ Option.fold s.cruise ~none:[] ~some:(fun speed -> [ ("cruise", Canonical.number speed) ])
   @ Option.fold s.drain ~none:[] ~some:(fun share -> [ ("drain", Canonical.number share) ])
@@ -73,6 +76,10 @@ let to_position found =
   let* height = get number "height" found in
   Result.map_error (Format.asprintf "%a" Position.pp_error) (Position.make ~latitude ~longitude ~height)
 
+let to_readings json =
+  let reading (name, json) = Result.map (fun x -> (name, x)) (number json) in
+  Result.bind (members json) (fun found -> Dolphin_results.Results.map reading (List.sort Stdlib.compare found))
+
 let to_state found =
   let* id = get text "vehicle" found in
   let* kind = get text "type" found in
@@ -80,11 +87,13 @@ let to_state found =
   let* position = to_position found in
   let* battery = get (nullable number) "battery" found in
   let* connected = get truth "connected" found in
+  let* speed = optional (nullable number) ~default:None "speed" found in
+  let* readings = optional to_readings ~default:[] "readings" found in
   let* unready = optional (fun json -> Result.map Option.some (text json)) ~default:None "unready" found in
   let some_number json = Result.map Option.some (number json) in
   let* cruise = optional some_number ~default:None "cruise" found in
   let* drain = optional some_number ~default:None "drain" found in
-  Ok { World.id; kind; payload; position; battery; connected; unready; cruise; drain }
+  Ok { World.id; kind; payload; position; battery; speed; readings; connected; unready; cruise; drain }
 
 let to_place json =
   match (json : Yojson.Safe.t) with

@@ -146,14 +146,34 @@ let follow program world witness =
 
 (* {1 Lines} *)
 
+let of_sensed (x : Core.value) : Yojson.Safe.t =
+  match x with
+  | Boolean b -> `Bool b
+  | x -> ( match Value.to_number x with Some n -> `Float n | None -> invalid_arg "Witness.of_sensed: no number")
+
 let json_of_assumption (a : World.assumption) : Yojson.Safe.t =
   match a with
   | Late v -> `Assoc [ ("late", `String v) ]
   | Missing v -> `Assoc [ ("missing", `String v) ]
-  | Charged (v, x) -> `Assoc [ ("battery", `String v); ("is", `Float x) ]
+  | Sensed (sensor, v, x) ->
+    let vehicle : members =
+      match sensor with
+      | Battery -> [ ("battery", `String v) ]
+      | Speed -> [ ("speed", `String v) ]
+      | Connected -> [ ("connected", `String v) ]
+      | Measurement name -> [ ("reading", `String name); ("vehicle", `String v) ]
+    in
+    `Assoc (vehicle @ [ ("is", of_sensed x) ])
   | Placed (v, { latitude; longitude; height }) ->
     `Assoc [ ("position", `String v); ("is", `List [ `Float latitude; `Float longitude; `Float height ]) ]
   | Claim (text, holds) -> `Assoc [ ("claim", `String text); ("is", `Bool holds) ]
+
+let sensed (sensor : Core.sensor) v found =
+  let value =
+    if sensor = Connected then Result.map (fun b -> Core.Boolean b) (get truth "is" found)
+    else Result.map (fun x -> Core.Number x) (get number "is" found)
+  in
+  Result.map (fun x -> World.Sensed (sensor, v, x)) value
 
 let assumption_of_json json : (World.assumption, string) result =
   let* found = members json in
@@ -161,10 +181,13 @@ let assumption_of_json json : (World.assumption, string) result =
   | (("late" | "missing") as kind, name) :: _ ->
     let* v = text name in
     Ok (if kind = "late" then World.Late v else Missing v)
-  | ("battery", name) :: _ ->
+  | (("battery" | "speed" | "connected") as sensor, name) :: _ ->
     let* v = text name in
-    let* x = get number "is" found in
-    Ok (World.Charged (v, x))
+    sensed (match sensor with "battery" -> Battery | "speed" -> Speed | _ -> Connected) v found
+  | ("reading", name) :: _ ->
+    let* name = text name in
+    let* v = get text "vehicle" found in
+    sensed (Measurement name) v found
   | ("position", name) :: _ -> (
       let* v = text name in
       let* coordinates = get (list number) "is" found in
@@ -178,7 +201,7 @@ let assumption_of_json json : (World.assumption, string) result =
     let* claimed = text claimed in
     let* holds = get truth "is" found in
     Ok (World.Claim (claimed, holds))
-  | _ -> Error "what is assumed is late, missing, battery, position or claim"
+  | _ -> Error "what is assumed is late, missing, battery, speed, connected, reading, position or claim"
 
 let json_of_step s : Yojson.Safe.t =
   let cause = match s.cause with Choice i -> [ ("choice", `Int i) ] | Event h -> Event.members h in

@@ -117,9 +117,12 @@ ModelLambdas == LambdaTable
 
 (* {1 A world} *)
 
+SensorNamed(name, text, shows) == [ name |-> name, text |-> text, shows |-> shows ]
+
 VehicleNamed(v, type) ==
   [ id |-> v, type |-> type, payload |-> << >>, devices |-> { }, places |-> << 1 >>,
-    position |-> << << "position", 1 >> >>, battery |-> << << "number", 1, 1 >> >> ]
+    position |-> << << "position", 1 >> >>,
+    sensors |-> << SensorNamed("battery", "battery(" \o v \o ")", << << "number", 1, 1 >> >>) >> ]
 
 (* Three UUVs and a plane, at one place. *)
 ModelFleet ==

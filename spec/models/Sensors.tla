@@ -3,7 +3,7 @@
    one of two places. *)
 EXTENDS Model
 
-Battery(e) == Plain("battery", << e >>)
+Battery(e) == Apply([ op |-> "sensor", name |-> "battery" ], << e >>)
 Low(e) == Operator("<", e, Const(Number(3, 10)))
 Charged(e) == Operator(">=", e, Const(Number(3, 10)))
 Both(a, b) == Operator("&&", a, b)
@@ -30,7 +30,7 @@ Claim ==
 
 Sighted(j) == << "position", j >>
 SensorFleet ==
-  << [ ModelFleet[1] EXCEPT !.position = << >>, !.battery = << >> ],
+  << [ ModelFleet[1] EXCEPT !.position = << >>, !.sensors[1].shows = << >> ],
      [ ModelFleet[2] EXCEPT !.places = << 1, 2 >>, !.position = << Sighted(1), Sighted(2) >> ] >>
 SensorPlaces == << "(41.185000, -8.706200)", "(41.195000, -8.706200)" >>
 SensorDistances == << << 0, 1110671 >>, << 1110671, 0 >> >>

@@ -55,16 +55,16 @@ show at the start.
   $ sensors() { dolphin tla pick.dol -o model && grep -o 'id |-> "[a-c]"\|places .*\]' model/MC.tla; }
   $ sensors
   id |-> "a"
-  places |-> << 1 >>, position |-> << << "position", 1 >> >>, battery |-> << << "number", 1, 1 >> >> ]
+  places |-> << 1 >>, position |-> << << "position", 1 >> >>, sensors |-> << >> ]
   id |-> "b"
-  places |-> << 2 >>, position |-> << << "position", 2 >> >>, battery |-> << << "number", 4, 5 >>, << "number", 1, 10 >> >> ]
+  places |-> << 2 >>, position |-> << << "position", 2 >> >>, sensors |-> << >> ]
   id |-> "c"
-  places |-> << 3, 4 >>, position |-> << << "position", 3 >>, << "position", 4 >> >>, battery |-> << << "number", 1, 1 >> >> ]
+  places |-> << 3, 4 >>, position |-> << << "position", 3 >>, << "position", 4 >> >>, sensors |-> << >> ]
   $ echo 'message battery(v)' >> pick.dol
   $ sensors
   id |-> "a"
-  places |-> << 1 >>, position |-> << >>, battery |-> << >> ]
+  places |-> << 1 >>, position |-> << << "position", 1 >> >>, sensors |-> << [ name |-> "battery", text |-> "battery(a)", shows |-> << >> ] >> ]
   id |-> "b"
-  places |-> << 2 >>, position |-> << >>, battery |-> << << "number", 4, 5 >>, << "number", 1, 10 >> >> ]
+  places |-> << 2 >>, position |-> << << "position", 2 >> >>, sensors |-> << [ name |-> "battery", text |-> "battery(b)", shows |-> << << "number", 4, 5 >>, << "number", 1, 10 >> >> ] >> ]
   id |-> "c"
-  places |-> << 3, 4 >>, position |-> << << "position", 3 >>, << "position", 4 >> >>, battery |-> << >> ]
+  places |-> << 3, 4 >>, position |-> << << "position", 3 >>, << "position", 4 >> >>, sensors |-> << [ name |-> "battery", text |-> "battery(c)", shows |-> << >> ] >> ]

@@ -8,7 +8,7 @@ The oracle answers lines of JSON with lines of JSON.
   $ head -n 1 replies
   {"id":"a","protocol":"dolphin-step","version":1,"implementation":"dolphin 0.1.0"}
   $ sed -n 2p replies | sed 's/"state":.*"world"/"state":...,"world"/'
-  {"id":2,"configuration":{"control":"script","end":null,"A":{},"B":[],"N":[],"store":{},"state":...,"world":[{"vehicle":"v","type":"UUV","payload":[],"latitude":41.185,"longitude":-8.7062,"height":0,"battery":1,"connected":true,"cruise":1.5,"drain":0.1}]}
+  {"id":2,"configuration":{"control":"script","end":null,"A":{},"B":[],"N":[],"store":{},"state":...,"world":[{"vehicle":"v","type":"UUV","payload":[],"latitude":41.185,"longitude":-8.7062,"height":0,"battery":1,"connected":true,"speed":0,"cruise":1.5,"drain":0.1}]}
 
 From a configuration on, all that may happen.
 
@@ -60,7 +60,7 @@ What is wrong with a program or a fleet has codes that do not change.
   > {"request": "initial", "program": "message x\npause 5.parsecs", "fleet": "vehicle 'v', { colour 'red'; type 'UUV' }"}
   > END
   $ dolphin step < requests
-  {"rejected":[{"in":"program","code":"unknown-name","line":1,"column":9,"message":"unknown name 'x'"},{"in":"program","code":"unknown-unit","line":2,"column":9,"message":"there is no unit 'parsecs'"},{"in":"fleet","code":"fleet","line":1,"column":16,"message":"a vehicle has no setting 'colour'","hint":"its settings are type, payload, at, speed, battery, drain, charge, joins, leaves, drops"}]}
+  {"rejected":[{"in":"program","code":"unknown-name","line":1,"column":9,"message":"unknown name 'x'"},{"in":"program","code":"unknown-unit","line":2,"column":9,"message":"there is no unit 'parsecs'"},{"in":"fleet","code":"fleet","line":1,"column":16,"message":"a vehicle has no setting 'colour'","hint":"its settings are type, payload, at, speed, battery, drain, charge, shows, joins, leaves, drops"}]}
 
 What cannot be answered has an error, and the next request its reply. Empty lines are passed over.
 

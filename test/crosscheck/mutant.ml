@@ -302,8 +302,17 @@ let all =
       replacement = {|Flatten([ i \in 1 .. 1 |-> Only|} };
     { name = "sensors of all vehicles show the same";
       file = machine;
-      pattern = {|Ok(Reading(quantity, sensor \o "(" \o v \o ")"))|};
-      replacement = {|Ok(Reading(quantity, sensor \o "(" \o Fleet[1].id \o ")"))|} };
+      pattern = {|Ok(Reading(quantity, text))|};
+      replacement = {|Ok(Reading(quantity, name))|} };
+    { name = "a sensor of one of several values shows the first";
+      file = machine;
+      pattern = {|    [] Len(xs) = 1 -> Ok(xs[1])
+    [] OTHER -> Depends(<< name, v >>, xs)|};
+      replacement = {|    [] OTHER -> Ok(xs[1])|} };
+    { name = "all sensors of a vehicle show the same of their values";
+      file = machine;
+      pattern = {|Depends(<< name, v >>, xs)|};
+      replacement = {|Depends(<< "sensor", v >>, xs)|} };
     { name = "the opposite of a comparison is another comparison";
       file = values;
       pattern = {|HoldsNot(text) == Depends(<< "claim", text >>, << False, True >>)|};

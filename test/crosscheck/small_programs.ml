@@ -165,7 +165,8 @@ let tasks =
        ^ "execute watch (assert({ poll x: 1 }, 'x is there') | action { post x: 1 } | task('p')[a]) \
           onError { ignore() }") ]
 
-(* In a world where the batteries of a and c may show anything, b's 1 or 0.2, and c is in one of two places. *)
+(* In a world where the batteries of a and c may show anything, b's 1 or 0.2, and c is in one of two places; what
+   else they show is open likewise. *)
 let sensors =
   let one ?(world = Generate.open_world) (name, source) = program ~world ("sensors: " ^ name) source in
   let three = two ^ "c = pick { id 'c' }\n" and low = "battery(a) < 0.3" and charged = "battery(a) >= 0.3" in
@@ -219,6 +220,12 @@ let sensors =
        two ^ "h = battery(a)\n\
               execute watch (watch task('p')[a] onError { if (h < 0.3) { post low: 1; h = battery(a) } }) \
               onError { if (h >= 0.3) { post high: 1 } ; ignore() }");
+      ("a link", three ^ "execute (task('p')[a] / { !connected(a) }) | waitFor { connected(c) } then task('q')[b]");
+      ("a link seen twice in one step", two ^ "message connected(a)\nif (connected(a) && !connected(a)) { halt 'both' }");
+      ("speeds", two ^ "s = speed(b)\npost x: 1\nmessage s > speed(b)\nmessage speed(a) == 0");
+      ("measurements",
+       three ^ "execute waitFor { reading(a, 'T') < 15 } then task('p')[b]\nmessage reading(c, 'T')\n\
+                message reading(c, 'T') + reading(a, 'T') > 30 || reading(b, 'T') == 12");
       ("a loop that looks again and again", two ^ "while (battery(a) >= 0.3) { pause 5 }");
       ("one of several values",
        two ^ "message battery(b)\nif (battery(b) == 1 && battery(b) < 0.3) { halt 'both' }\nmessage battery(b)");

@@ -187,7 +187,7 @@ let fleet =
   let reply call : Scenario.reply = { call; rounds = Calls.replies call } in
   let replies = List.map reply Calls.names in
   let vehicles = List.map (fun v -> draining (steadily v)) vehicles in
-  return { Scenario.vehicles; plans; answers; replies; inputs = [] }
+  return { Scenario.vehicles; plans; answers; replies; inputs = []; samples = [] }
 
 let random_case =
   QCheck2.Gen.(

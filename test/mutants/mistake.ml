@@ -210,14 +210,23 @@ let expansion =
     ]
 
 let vehicle_orbits =
-  in_file "lib/explore/symmetry/vehicle_orbits.ml" ~noticed_by:"reduction/test_told_apart"
+  in_file "lib/semantics/terms/world.ml" ~noticed_by:"reduction/test_told_apart"
+    [
+      ( "what vehicles measure does not matter",
+        {|Core.Battery :: Speed :: Connected :: measured)|},
+        {|Core.Battery :: Speed :: Connected :: List.filter (fun _ -> false) measured)|} );
+      ( "links do not matter",
+        {|Core.Battery :: Speed :: Connected :: measured)|},
+        {|Core.Battery :: Speed :: measured)|} );
+    ]
+  @ in_file "lib/explore/symmetry/vehicle_orbits.ml" ~noticed_by:"reduction/test_told_apart"
     [
       ( "places do not matter",
         {|if_read flow.places|},
-        {|if_read (flow.places && flow.batteries && flow.names <> None)|} );
-      ( "batteries do not matter",
-        {|if_read flow.batteries|},
-        {|if_read (flow.places && flow.batteries && flow.names <> None)|} );
+        {|if_read (flow.places && flow.sensors && flow.names <> None)|} );
+      ( "what sensors show does not matter",
+        {|if_read flow.sensors|},
+        {|if_read (flow.places && flow.sensors && flow.names <> None)|} );
       ( "vehicles named in texts are exchanged",
         {|if is_odd || List.mem s.id flow.texts then|},
         {|if is_odd then|} );

@@ -91,6 +91,8 @@ let strange_numbers =
           [ Estimated_state state;
             Estimated_state { state with lat = 0.7; lon = 0. };
             Fuel_level { Message.Fuel_level.default with value = x };
+            Estimated_state { state with vx = x; vy = -.x };
+            Temperature { value = x };
             Plan_control_state { Message.Plan_control_state.default with plan_progress = x; plan_eta = min_int / 4 } ]
         in
         List.fold_left
@@ -102,7 +104,31 @@ let strange_numbers =
       match Station.systems ~now:100. s with
       | [ { state; _ } ] ->
         Alcotest.(check bool) "battery" true (match state.battery with Some share -> share >= 0. && share <= 1. | None -> true);
+        Alcotest.(check bool) "readings" true (List.for_all (fun (_, x) -> Float.is_finite x) state.readings);
+        Alcotest.(check bool) "speed" true (match state.speed with Some x -> Float.is_finite x && x >= 0. | None -> true);
         Alcotest.(check bool) "position" true (Float.is_finite state.position.latitude)
+      | sights -> Alcotest.failf "%d systems" (List.length sights))
+
+let measurements =
+  Alcotest.test_case "what a vehicle measures" `Quick (fun () ->
+      let tell s (time, m) =
+        match Packet.encode (Packet.make ~src:0x1A ~timestamp:time m) with
+        | Ok bytes -> hear bytes s
+        | Error _ -> Alcotest.fail "no packet"
+      in
+      let moving = { Message.Estimated_state.default with lat = 0.7; vx = 3.; vy = 4.; vz = 5. } in
+      let told : (float * Message.t) list =
+        [ (3e9, Temperature { value = 14.5 }); (3e9 +. 1., Salinity { value = 35. });
+          (3e9 +. 2., Estimated_state moving);
+          (3e9 +. 3., Temperature { value = 13.5 }); (3e9 +. 4., Temperature { value = nan });
+          (3e9 +. 2.5, Salinity { value = 34. }); (3e9 +. 2.2, Salinity { value = 33. }) ]
+      in
+      let s = List.fold_left tell (Lazy.force informed) told in
+      match Station.systems ~now:100. s with
+      | [ { state; _ } ] ->
+        Alcotest.(check (list (pair string (float 0.)))) "the last of each" [ ("Salinity", 34.); ("Temperature", 13.5) ]
+          state.readings;
+        Alcotest.(check (option (float 1e-6))) "over the ground" (Some 5.) state.speed
       | sights -> Alcotest.failf "%d systems" (List.length sights))
 
 (* {1 Spoofing} *)
@@ -122,7 +148,7 @@ let spoofed =
              | Entity_list _
              | Log_book_entry _ -> true
              | Plan_control c -> c.type_ <> Request
-             | _ -> false) (Lazy.force inward))))
+             | m -> Measurement.of_message m <> None) (Lazy.force inward))))
         (List.assoc_opt "foreign address" (Station.dropped s')))
 
 let announcement ?(services = "imc+udp://203.0.113.9:6002/") ?(sys_type = Message.System_type.Uuv) name =
@@ -166,4 +192,4 @@ let types =
       check "as the user says" "ROV" (kind ~types:[ ("seacon-1", "ROV") ] Uuv);
       check "another vehicle" "UUV" (kind ~types:[ ("seacon-2", "ROV") ] Uuv))
 
-let tests = ("hostile", [ mutations; valid; strange_numbers; spoofed; moved; unknown; types ])
+let tests = ("hostile", [ mutations; valid; strange_numbers; measurements; spoofed; moved; unknown; types ])

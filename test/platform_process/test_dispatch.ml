@@ -113,6 +113,26 @@ let completion () =
   check_events w "one end" [ "v done" ];
   Alcotest.(check bool) "quiet" true (D.quiet w.d)
 
+let measurements () =
+  let w = fresh () in
+  ignore (events w);
+  w.d <- fst (D.telemetry true w.d);
+  let readings () =
+    match D.take w.d with
+    | Some (Platform.Vehicle { readings; speed; _ }, d) ->
+      w.d <- d;
+      (readings, speed)
+    | Some _ | None -> Alcotest.fail "nothing is told"
+  in
+  let measured = Alcotest.(pair (list (pair string (float 0.))) (option (float 0.))) in
+  let tell speed readings = report w (Vehicle { (Report.nothing "v") with speed; readings }) in
+  tell (Some (Some 1.5)) [ ("Temperature", Some 14.); ("Depth", Some 3.) ];
+  Alcotest.check measured "all of them, in order" ([ ("Depth", 3.); ("Temperature", 14.) ], Some 1.5) (readings ());
+  tell None [ ("Temperature", Some 13.) ];
+  Alcotest.check measured "the others are as before" ([ ("Depth", 3.); ("Temperature", 13.) ], Some 1.5) (readings ());
+  tell (Some None) [ ("Depth", None) ];
+  Alcotest.check measured "not known any more" ([ ("Temperature", 13.) ], None) (readings ())
+
 let stop_then_start () =
   let w = fresh () in
   start w "v" "p";
@@ -394,7 +414,8 @@ let case name f = Alcotest.test_case name `Quick f
 let () =
   Alcotest.run "platform_process"
     [ ( "dispatch",
-        [ case "a plan runs to its end, which is told once" completion; case "a start waits for a stop" stop_then_start;
+        [ case "a plan runs to its end, which is told once" completion;
+          case "what a vehicle measures" measurements; case "a start waits for a stop" stop_then_start;
           case "a stop takes back an end that waits to be told" prepared_end;
           case "nothing is ordered before the disk has it" not_yet_durable;
           case "a link that is lost for too long" silence; case "a link that returns" link_returns;

@@ -89,6 +89,11 @@ let able id = { (uuv id) with cruise = Some 2.; drain = Some 0.1 }
 let of_two_speeds = Pure_run.world [ able "a"; able "b"; slow ]
 let there = "location(41.1951, -8.7048)"
 
+let warm =
+  Pure_run.world [ uuv "a" ~readings:[ ("T", 12.) ]; uuv "b" ~readings:[ ("T", 12.) ]; uuv "c" ~readings:[ ("T", 18.) ] ]
+
+let silent = Pure_run.world [ uuv "a" ~readings:[ ("T", 12.) ]; uuv "b" ~readings:[ ("T", 12.) ]; uuv "c" ]
+
 let by_what_they_are =
   [
     keeps "how fast it is" ~world:of_two_speeds [ No_halt ]
@@ -109,6 +114,13 @@ let by_what_they_are =
       (one ^ "w = pick { type 'UUV' }\nif (battery(v) < 0.5 && battery(w) > 0.5) { halt 'h' }");
     tells "batteries that are open alike, put into a text" ~world:open_alike []
       (one ^ {|x = "${battery(v)}"|});
+    keeps "a link" ~world:(World.open_sensor Connected "c" [ Boolean true; Boolean false ] three) [ No_halt ]
+      (one ^ "if (!connected(v)) { halt 'h' }");
+    keeps "a speed" ~world:(World.open_sensor Speed "c" [ Number 2. ] three) [ No_halt ]
+      (one ^ "if (speed(v) > 1) { halt 'h' }");
+    keeps "a measurement" ~world:warm [ No_halt ] (one ^ "if (reading(v, 'T') > 15) { halt 'h' }");
+    keeps "a measurement that one does not tell" ~world:silent [ No_halt ]
+      (one ^ "if ((reading(v, 'T') ?: 20) > 15) { halt 'h' }");
     keeps "batteries that nobody looks at" ~world:weak [] (one ^ "execute task('p')[v]");
     keeps "places that nobody looks at" ~world:near_and_far [] (one ^ "execute task('p')[v]");
     keeps "a place" ~world:near_and_far [ No_halt ]

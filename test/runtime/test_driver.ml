@@ -96,7 +96,7 @@ let handles_failures () =
 let telemetry_while_it_matters () =
   let events = two_vehicles @ [ Mock_platform.seen ~battery:0.5 20. "v1"; Mock_platform.seen ~battery:0.2 30. "v1" ] in
   let mock = Mock_platform.make events in
-  let low = below (call Battery_of [ global 0 ]) (number 0.3) in
+  let low = below (call (Sensor_of Battery) [ global 0 ]) (number 0.3) in
   let t = call Make_wait_for [ code low; task "home" ] in
   run mock (program ~reads_sensors:true ~globals:1 [ set_global 0 (pick 1); call Execute [ t ] ]) |> outcome_is "end";
   log_is mock [ "0 telemetry true"; "0 bind v1"; "30 start v1 home"; "40 release v1"; "40 close" ]
@@ -107,7 +107,7 @@ let says_what_is_unknown () =
   let mock = Mock_platform.make [ Mock_platform.silent 0. "v1"; Mock_platform.silent 5. "v1"; seen 0.9 20.; seen 0.2 30. ] in
   let said = ref [] in
   let unknown ~time (fault : Fault.t) = said := Printf.sprintf "%g %s" time fault.message :: !said in
-  let low = below (call Battery_of [ global 0 ]) (number 0.3) in
+  let low = below (call (Sensor_of Battery) [ global 0 ]) (number 0.3) in
   let t = call Make_wait_for [ code low; task "home" ] in
   run ~observer:{ Observer.nobody with unknown } mock
     (program ~reads_sensors:true ~globals:1 [ set_global 0 (pick 1); call Execute [ t ] ])
@@ -118,7 +118,7 @@ let says_what_is_unknown () =
 (* The platform knows that the battery stays as it is. *)
 let quiet () =
   let mock = Mock_platform.make (two_vehicles @ [ (20., Dolphin_runtime.Platform.Quiet) ]) in
-  let low = below (call Battery_of [ global 0 ]) (number 0.3) in
+  let low = below (call (Sensor_of Battery) [ global 0 ]) (number 0.3) in
   let t = call Make_wait_for [ code low; task "home" ] in
   run mock (program ~reads_sensors:true ~globals:1 [ set_global 0 (pick 1); call Execute [ t ] ])
   |> outcome_is "stuck: nothing can make these guards true any more: oneOf { when { code } then home[v1] }"
@@ -131,7 +131,7 @@ let telemetry_for_displays () =
 (* A script that never waits still hears of its vehicles where time passes by itself. *)
 let busy_scripts_hear () =
   let mock = Mock_platform.make [ Mock_platform.seen 0. "v1"; Mock_platform.seen ~battery:0.2 1. "v1" ] in
-  let high = below (number 0.3) (call Battery_of [ global 0 ]) in
+  let high = below (number 0.3) (call (Sensor_of Battery) [ global 0 ]) in
   run ~platform:paced mock
     (program ~reads_sensors:true ~globals:1 [ set_global 0 (pick 1); loop high (constant Null) ])
   |> outcome_is "end"

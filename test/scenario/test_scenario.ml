@@ -210,10 +210,13 @@ let scenario =
     let* joins = oneof [ return 0.; amount ] and* stay = opt amount and* drops = list_size (int_bound 4) drop in
     let* tells_battery = frequencyl [ (4, true); (1, false) ] in
     let* batteries = several battery share and* places = several position place in
+    let* shown = list_size (int_range 1 3) amount and* quantity = name in
+    (* Fields are sampled in "Temperature" only. *)
+    let* shows = oneofl [ []; [ ("Temperature", []) ]; [ ("Temperature", []); ("of " ^ quantity, shown) ] ] in
     let leaves = Option.map (fun stay -> joins +. stay) stay in
     return
       { Scenario.id; kind; payload; position; speed; battery = (if tells_battery then battery else 1.); tells_battery;
-        drain; charge; joins; leaves; drops; batteries = (if tells_battery then batteries else []); places }
+        drain; charge; joins; leaves; drops; batteries = (if tells_battery then batteries else []); shows; places }
   in
   let plan name_of_it =
     let* least = amount and* more = oneof [ return 0.; amount ] and* timed = bool in
@@ -240,7 +243,41 @@ let scenario =
     return { Scenario.key; rounds; times; after }
   in
   let* inputs = list_size (int_bound 3) input in
-  return { Scenario.vehicles; plans; answers; replies; inputs }
+  let sample =
+    let* value = amount and* place = place and* time = oneof [ return 0.; amount ] in
+    return { Scenario.quantity = "Temperature"; value; place; time }
+  in
+  let* samples = list_size (int_range 1 3) sample in
+  return { Scenario.vehicles; plans; answers; replies; inputs; samples }
+
+(* {1 Fields} *)
+
+let field_source =
+  {|vehicle 'a', { type 'UUV'; at 41, -8; shows 'T'; shows 'D', 3, 7; shows 'S', 35 }
+    vehicle 'b', { type 'UUV'; at 41.002, -8 }
+    field 'T', 18, at(41, -8)
+    field 'T', 12, at(41.002, -8)
+    field 'T', 15, at(41.002, -8), after 100
+    field 'D', 5.5, at(41, -8)
+    field 'D', 4.5, at(41, -8), after 60|}
+
+let fields () =
+  let s = reads field_source in
+  let at latitude : Dolphin_geo.Position.t = { latitude; longitude = -8.; height = 0. } in
+  let reading v latitude time = Scenario.readings s.samples (List.nth s.vehicles v) (at latitude) ~time in
+  let all = Alcotest.(list (pair string (float 1e-6))) in
+  Alcotest.check all "at the places" [ ("D", 7.); ("S", 35.); ("T", 18.) ] (reading 0 41. 0.);
+  Alcotest.check all "what a vehicle does not measure" [] (reading 1 41. 0.);
+  let temperature latitude time = List.assoc "T" (reading 0 latitude time) in
+  let number = Alcotest.float 1e-4 in
+  Alcotest.check number "at the other place" 12. (temperature 41.002 0.);
+  Alcotest.check number "half way" 15. (temperature 41.001 0.);
+  Alcotest.check number "a third of the way, the near place counts four times" ((18. *. 4. +. 12.) /. 5.)
+    (temperature (41. +. 0.002 /. 3.) 0.);
+  Alcotest.check number "half of the time" 13.5 (temperature 41.002 50.);
+  Alcotest.check number "later" 15. (temperature 41.002 1000.);
+  Alcotest.check number "the nearest of several values" 3. (List.assoc "D" (reading 0 41. 60.));
+  Alcotest.check number "changes until then" 100. (Scenario.fields_still_from s)
 
 let shown_scenario s = Fmt.str "%a" Scenario.pp s
 
@@ -265,6 +302,7 @@ let () =
     Alcotest.run "scenario"
       [ ("good", golden "good" true);
         ("bad", golden "bad" false);
+        ("fields", [ Alcotest.test_case "by place and time" `Quick fields ]);
         ( "entries",
           [ case "defaults" defaults; case "default fleet" default_fleet; case "beside a program" beside;
             case "answers" answers; case "replies" replies; case "inputs" inputs; case "places of replies" replies_at;

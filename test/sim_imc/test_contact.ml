@@ -150,6 +150,18 @@ let battery () =
   in
   Alcotest.(check (list (float 1e-3))) "percent" [ 80. ] (List.filter_map level (Harness.heard s))
 
+(* What IMC has no message for is not told. *)
+let measurements () =
+  let shows = "vehicle 'a', { type 'UUV'; shows 'Salinity', 35; shows 'Taste', 1; shows 'Temperature', 14.5 }" in
+  let s = Harness.make (Harness.settings shows) in
+  Harness.join s;
+  Harness.until s 1.;
+  let told (h : Harness.heard) =
+    match h.packet.content with Message m -> Measurement.of_message m | Unknown _ -> None
+  in
+  let all = List.sort_uniq compare (List.filter_map told (Harness.heard s)) in
+  Alcotest.(check (list (pair string (float 1e-3)))) "quantities" [ ("Salinity", 35.); ("Temperature", 14.5) ] all
+
 (* EstimatedState is a place and a displacement: both together are where the vehicle is. *)
 let moves () =
   let s = Harness.make (Harness.settings ~speed:10. (source ^ "\nplan 'p', { duration 10.min }")) in
@@ -203,5 +215,6 @@ let tests =
     case "takes requests for itself and for all" addressed;
     case "lists its entities" entities;
     case "tells its battery" battery;
+    case "tells what it measures" measurements;
     case "tells its position by a reference and offsets" moves;
     case "vanishes and returns" vanishes ]

@@ -5,13 +5,18 @@ module Ast = Dolphin_syntax.Ast
 open Ast
 
 let world =
+  let readings = [ ("T", 12.) ] in
   Pure_run.world
-    [ Pure_run.vehicle "a"; Pure_run.vehicle "b" ~north:100.; Pure_run.vehicle "c" ~kind:"UAV" ~north:200. ]
+    [ Pure_run.vehicle "a" ~readings; Pure_run.vehicle "b" ~readings ~north:100.;
+      Pure_run.vehicle "c" ~readings ~kind:"UAV" ~north:200. ]
 
 let open_world =
   let module World = Dolphin_semantics.World in
+  let link = Dolphin_semantics.Core.[ Boolean true; Boolean false ] in
   let place north = (Pure_run.vehicle ~north "c").position in
   world |> World.open_battery "a" [] |> World.open_position "a" [] |> World.open_battery "b" [ 1.; 0.2 ]
+  |> World.open_sensor Connected "a" link |> World.open_sensor Speed "b" [] |> World.open_sensor (Measurement "T") "a" []
+  |> World.open_sensor (Measurement "T") "c" [ Number 12.; Number 18. ]
   |> World.open_position "b" [] |> World.open_battery "c" [] |> World.open_position "c" [ place 200.; place 5_000. ]
 
 let answer = "1"
@@ -104,7 +109,9 @@ let comparison =
       (* It has been charged since. *)
       binary And (binary Less (variable "h") (share 0.3))
         (binary Greater_equal (call "battery" [ Positional (variable "va") ]) (share 0.3));
-      binary Member_of position near ]
+      binary Member_of position near; call "connected" [ Positional v ];
+      binary Greater (call "speed" [ Positional v ]) (share 0.5);
+      binary Less (call "reading" [ Positional v; Positional (string "T") ]) (integer 15) ]
 
 let sensing_guard =
   let one e = code [ statement e ] in

@@ -8,7 +8,7 @@ val world : Dolphin_semantics.World.t
 
 val open_world : Dolphin_semantics.World.t
 (** The same, where sensors may show this or that: of [a] anything; of [b] one of two charges, and any position; of [c]
-    any charge, and one of two positions. *)
+    any charge, and one of two positions; and the like for links, speeds and a measurement. *)
 
 val answer : string
 (** What any [ask] of these programs may be answered. *)

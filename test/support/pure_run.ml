@@ -16,10 +16,10 @@ let explain source ds = Format.asprintf "%a" (Fmt.list (Dolphin_syntax.Diagnosti
 let compile_exn source =
   match compile source with Ok program -> program | Error ds -> failwith (explain source ds)
 
-let vehicle ?(kind = "UUV") ?(payload = [ "DVL"; "Sidescan"; "Camera" ]) ?(battery = 1.) ?(north = 0.) id =
+let vehicle ?(kind = "UUV") ?(payload = [ "DVL"; "Sidescan"; "Camera" ]) ?(battery = 1.) ?(north = 0.) ?(readings = []) id =
   let position = Dolphin_geo.Wgs84.displace Dolphin_geo.Place.apdl ~north ~east:0. in
-  { World.id; kind; payload; position; battery = Some battery; connected = true; unready = None; cruise = None;
-    drain = None }
+  { World.id; kind; payload; position; battery = Some battery; speed = Some 0.; readings; connected = true;
+    unready = None; cruise = None; drain = None }
 
 let world vehicles = List.fold_left (fun w v -> World.add v w) World.empty vehicles
 

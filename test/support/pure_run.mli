@@ -21,7 +21,8 @@ val explain : string -> Dolphin_syntax.Diagnostic.t list -> string
 (** {1:worlds Worlds} *)
 
 val vehicle :
-  ?kind:string -> ?payload:string list -> ?battery:float -> ?north:float -> string -> World.vehicle_state
+  ?kind:string -> ?payload:string list -> ?battery:float -> ?north:float -> ?readings:(string * float) list -> string ->
+  World.vehicle_state
 (** [vehicle id] is a connected vehicle, [north] metres north of a place off Leixoes. *)
 
 val world : World.vehicle_state list -> World.t

@@ -41,7 +41,8 @@ let few_samples () =
   let position : Dolphin_geo.Position.t = { latitude = 41.; longitude = -8.; height = 0. } in
   for i = 0 to 99_999 do
     let state : Dolphin_semantics.World.vehicle_state =
-      { id = "v"; kind = "UUV"; payload = []; position; battery = Some (1. -. (float_of_int i /. 1e5)); connected = true; unready = None; cruise = None; drain = None }
+      { id = "v"; kind = "UUV"; payload = []; position; battery = Some (1. -. (float_of_int i /. 1e5)); speed = None; readings = []; connected = true;
+        unready = None; cruise = None; drain = None }
     in
     Summary.add builder (Vehicle { time = float_of_int i; state })
   done;
@@ -109,7 +110,8 @@ let unknown_batteries () =
     let position : Dolphin_geo.Position.t = { latitude = 41.; longitude = -8.; height = 0. } in
     let see time battery =
       let state : Dolphin_semantics.World.vehicle_state =
-        { id = "v"; kind = "UUV"; payload = []; position; battery; connected = true; unready = None; cruise = None; drain = None } in
+        { id = "v"; kind = "UUV"; payload = []; position; battery; speed = None; readings = []; connected = true;
+          unready = None; cruise = None; drain = None } in
       Summary.add builder (Vehicle { time; state })
     in
     see 0. at_first;
@@ -136,7 +138,8 @@ let many_names () =
     let see id =
       let position : Dolphin_geo.Position.t = { latitude = 41.; longitude = -8.; height = 0. } in
       let state : Dolphin_semantics.World.vehicle_state =
-        { id; kind = "UUV"; payload = []; position; battery = None; connected = true; unready = None; cruise = None; drain = None } in
+        { id; kind = "UUV"; payload = []; position; battery = None; speed = None; readings = []; connected = true;
+          unready = None; cruise = None; drain = None } in
       Summary.add builder (Vehicle { time = 0.; state })
     in
     List.iter see vs;
@@ -225,7 +228,8 @@ let of_vehicles ?(platform = "imc") vehicles =
   let see time (id, height) =
     let position : Dolphin_geo.Position.t = { latitude = 41. +. (time /. 1e4); longitude = -8.; height } in
     let state : Dolphin_semantics.World.vehicle_state =
-      { id; kind = "UUV"; payload = []; position; battery = Some 0.5; connected = true; unready = None; cruise = None;
+      { id; kind = "UUV"; payload = []; position; battery = Some 0.5; speed = None; readings = [];
+        connected = true; unready = None; cruise = None;
         drain = None } in
     Summary.add builder (Vehicle { time; state })
   in

@@ -4,10 +4,10 @@ The journal of a run, judged, shown and drawn.
   $ head -c 40 rendezvous.run; echo
   {"format":"dolphin-journal","version":1,
   $ sed -n '8,11p' rendezvous.run
-  {"kind":"vehicle","time":0,"vehicle":"noptilus-3","type":"UUV","payload":["DVL","Sidescan"],"latitude":41.1844,"longitude":-8.7068,"height":0,"battery":1,"connected":true,"cruise":1.5,"drain":0.1}
+  {"kind":"vehicle","time":0,"vehicle":"noptilus-3","type":"UUV","payload":["DVL","Sidescan"],"latitude":41.1844,"longitude":-8.7068,"height":0,"battery":1,"connected":true,"speed":0,"cruise":1.5,"drain":0.1}
   {"kind":"transition","time":0,"i":3,"rule":["PICK-BIND"],"label":"bind(noptilus-1, noptilus-2, noptilus-3)","at":"5:8","B":{"bound":["noptilus-1","noptilus-2","noptilus-3"]},"effects":[{"cancel-timer":0},{"bind":["noptilus-1","noptilus-2","noptilus-3"]}]}
   {"kind":"transition","time":0,"i":4,"rule":["PICK"],"label":"pick(1 vehicle of type 'UAV' in region (41.185000, -8.706200) ^ 2000 m)","at":"11:7","effects":[{"look-for":"1 vehicle of type 'UAV' in region (41.185000, -8.706200) ^ 2000 m"}]}
-  {"kind":"vehicle","time":0,"vehicle":"x8-02","type":"UAV","payload":[],"latitude":41.184,"longitude":-8.707,"height":0,"battery":1,"connected":true,"cruise":18,"drain":0.1}
+  {"kind":"vehicle","time":0,"vehicle":"x8-02","type":"UAV","payload":[],"latitude":41.184,"longitude":-8.707,"height":0,"battery":1,"connected":true,"speed":0,"cruise":18,"drain":0.1}
   $ dolphin trace check ../../examples/rendezvous.dol rendezvous.run
   rendezvous.run: a run, of 35 transitions in 18:44; completed
   $ dolphin trace show rendezvous.run
@@ -88,7 +88,7 @@ A run that was killed: the beginning of one.
 
   $ head -c 9000 rendezvous.run > torn.run
   $ dolphin trace check ../../examples/rendezvous.dol torn.run
-  torn.run: the beginning of a run, of 11 transitions in 0:35; it breaks off in the middle of a line
+  torn.run: the beginning of a run, of 11 transitions in 0:30; it breaks off in the middle of a line
   $ head -n 20 rendezvous.run > broken_off.run
   $ dolphin trace check ../../examples/rendezvous.dol broken_off.run
   broken_off.run: the beginning of a run, of 11 transitions in 0:05; it breaks off

@@ -21,5 +21,5 @@ let load_for ~program named = load (choose ~program named)
 
 let nobody =
   { path = None; source = "";
-    scenario = { vehicles = []; plans = []; answers = []; replies = []; inputs = [] } }
+    scenario = { vehicles = []; plans = []; answers = []; replies = []; inputs = []; samples = [] } }
 let header f = Option.map (fun path -> Dolphin_trace.Header.source ~path f.source) f.path

@@ -179,7 +179,8 @@ let rec is_inert (scope : scope) e =
       | None -> false)
   | Apply
       ( Builtin
-          ( Post _ | Consume _ | Poll _ | Message | Math _ | Position_of | Battery_of | Eta | Location_of | Area_of
+          ( Post _ | Consume _ | Poll _ | Message | Math _ | Position_of | Sensor_of _ | Reading_of | Eta | Location_of
+          | Area_of
           | Geometry _ ),
         _ )
   | Apply ((Unary _ | Make_range _ | Concatenate), _) -> true

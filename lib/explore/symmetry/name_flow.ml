@@ -5,7 +5,7 @@ type t = {
   names : site option;
   readings : site option;
   places : bool;
-  batteries : bool;
+  sensors : bool;
   abilities : bool;
   picks : bool;
   texts : string list;
@@ -70,7 +70,7 @@ let note w (lambda : lambda) =
 let uses_name w at = if w.found.names = None then w.found <- { w.found with names = Some at }
 let uses_reading w at = if w.found.readings = None then w.found <- { w.found with readings = Some at }
 let reads_places w = w.found <- { w.found with places = true }
-let reads_batteries w = w.found <- { w.found with batteries = true }
+let reads_sensors w = w.found <- { w.found with sensors = true }
 let travels w = w.found <- { w.found with places = true; abilities = true }
 
 let note_text w s =
@@ -117,7 +117,7 @@ let called_method w at name k calls =
   let is_one_of = List.mem name in
   let reads_place = is_one_of of_places and reads_battery = is_one_of of_batteries in
   if reads_place then reads_places w;
-  if reads_battery then reads_batteries w;
+  if reads_battery then reads_sensors w;
   let given = if has map k then k lor text else k in
   (* The code in a map may be called by any name. *)
   let results = if name = "call" || is_one_of calling || has map k then calls given else nothing in
@@ -234,7 +234,7 @@ and applied w lambda at operation arguments =
     let k = value_of x in
     let shown = if has map k then k lor reading else reading in
     if List.mem name of_places then (reads_places w; shown)
-    else if List.mem name of_batteries then (reads_batteries w; shown)
+    else if List.mem name of_batteries then (reads_sensors w; shown)
     else k lor text
   | Method (name, names), es ->
     let ks = List.map value_of es in
@@ -284,7 +284,7 @@ and applied w lambda at operation arguments =
     if has vehicles k then uses_name w at;
     k
   | Builtin Position_of, es -> ignore (values es); reads_places w; reading
-  | Builtin Battery_of, es -> ignore (values es); reads_batteries w; reading
+  | Builtin (Sensor_of _ | Reading_of), es -> ignore (values es); reads_sensors w; reading
   | Builtin Eta, es -> ignore (values es); travels w; reading
   | Add_setting (name, _), so_far :: es ->
     let k = value_of so_far in
@@ -324,7 +324,7 @@ and said w lambda e =
 
 let of_program (program : program) ~asked =
   let found =
-    { names = None; readings = None; places = false; batteries = false; abilities = false; picks = false; texts = [] }
+    { names = None; readings = None; places = false; sensors = false; abilities = false; picks = false; texts = [] }
   in
   let w =
     { contents = Hashtbl.create 64; lambdas = Hashtbl.create 16; handlers = Hashtbl.create 8; grown = true; found }

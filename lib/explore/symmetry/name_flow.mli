@@ -11,7 +11,7 @@ type t = {
   (** where code puts a sensor's reading into a text, but to print it, or compares it with a vehicle *)
   places : bool;
   (** whether steps depend on where vehicles are: [position], a [region] to pick in, allocation of inline plans *)
-  batteries : bool;  (** whether they depend on batteries *)
+  sensors : bool;  (** whether they depend on what other sensors show: batteries, speeds, links, measurements *)
   abilities : bool;  (** whether they depend on how fast vehicles are and what that takes of their batteries *)
   picks : bool;  (** whether there is a [pick] *)
   texts : string list;  (** all texts in the program *)

@@ -64,13 +64,13 @@ let is_plain id =
 let key (options : Environment.options) world (flow : Name_flow.t) (s : World.vehicle_state) =
   let if_read is_read f = if is_read then Some (f ()) else None in
   let place = if_read flow.places (fun () -> (s.position, World.position world s)) in
-  let battery = if_read flow.batteries (fun () -> World.battery world s) in
+  let sensors = if_read flow.sensors (fun () -> World.sensors world s) in
   let abilities = if_read flow.abilities (fun () -> (s.cruise, s.drain)) in
   let endings = List.map (Environment.ending options s.id) flow.texts in
-  let is_odd = World.is_open world && (flow.places || flow.batteries) && not (is_plain s.id) in
+  let is_odd = World.is_open world && (flow.places || flow.sensors) && not (is_plain s.id) in
   let alone = if is_odd || List.mem s.id flow.texts then Some s.id else None in
   let may_be_late = Faults.is_possible options.faults.join && options.may_be_late s.id in
-  ((s.kind, s.payload, s.connected, may_be_late), place, (battery, abilities), endings, alone)
+  ((s.kind, s.payload, s.connected, may_be_late), place, (sensors, abilities), endings, alone)
 
 (* Vehicles and texts among what may be posted. *)
 let posted (options : Environment.options) =

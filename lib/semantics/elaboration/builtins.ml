@@ -61,7 +61,10 @@ let table : (string * t) list =
     ("consume", { (other (Pairs Consume)) with result = Truth });
     ("poll", { (other (Pairs Poll)) with result = Truth });
     ("position", these Position_of [ Vehicles ] ~result:Position ~reads_sensors:true);
-    ("battery", these Battery_of [ Vehicles ] ~result:Number ~reads_sensors:true);
+    ("battery", these (Sensor_of Battery) [ Vehicles ] ~result:Number ~reads_sensors:true);
+    ("speed", these (Sensor_of Speed) [ Vehicles ] ~result:Number ~reads_sensors:true);
+    ("connected", these (Sensor_of Connected) [ Vehicles ] ~result:Truth ~reads_sensors:true);
+    ("reading", these Reading_of [ Vehicles; String ] ~result:Number ~reads_sensors:true);
     ("eta", these Eta [ Vehicles; Position ] ~result:Number ~reads_sensors:true);
     ("location", location);
     ("area", these Area_of [ Position; Number ] ~result:Other);

@@ -11,7 +11,8 @@ let computing =
     "toString"; "toUpperCase"; "trim"; "unique"; "values" ]
 
 let procedures =
-  [ "task"; "imcPlan"; "action"; "condition"; "idle"; "location"; "area"; "position"; "battery"; "eta"; "poll" ]
+  [ "task"; "imcPlan"; "action"; "condition"; "idle"; "location"; "area"; "position"; "battery"; "speed"; "connected";
+    "reading"; "eta"; "poll" ]
 
 (* What surely only computes. [is_own x] is whether the program itself says what [x] is; [has_host], whether there may
    be objects of the supplier, whose members do what they like. *)

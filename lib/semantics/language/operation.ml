@@ -67,15 +67,15 @@ let own_method subject name =
   | _ -> None
 
 let sense context name vs =
-  match Reading.sensor name with
-  | Some sensor -> Procedures.sense context sensor vs
+  match Reading.subject name with
+  | Some subject -> Procedures.sense context subject vs
   | None -> of_result (Methods.property context.world (Vehicles vs) name)
 
 let call_method context name names arguments =
   match with_named names arguments with
   | Host subject :: arguments -> host_call context subject name (Some arguments)
   | Closure c :: arguments when name = "call" -> Enter (c, arguments)
-  | [ Vehicles vs ] when Reading.sensor name <> None -> sense context name vs
+  | [ Vehicles vs ] when Reading.subject name <> None -> sense context name vs
   | subject :: arguments -> (
       match own_method subject name, Iteration.find subject name arguments with
       | Some closure, _ -> Enter (closure, arguments)

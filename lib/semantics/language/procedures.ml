@@ -164,7 +164,7 @@ let looked context vs look =
     let rec ask world = match look world state with Ok x -> Value x | Error question -> Asks (question, ask) in
     ask context.world
 
-let sense context sensor vs = looked context vs (fun world -> Reading.look world sensor)
+let sense context subject vs = looked context vs (fun world -> Reading.look world subject)
 
 let travel context (p : platform_task) quantity vs =
   match looked context vs (fun world -> Travel.of_plan world p quantity) with
@@ -293,8 +293,10 @@ let apply context at operation arguments =
   | Poll [], [ x ] -> expected "a key, as in poll 'ready', or pairs, as in poll(ready: 1)" x
   | Poll keys, arguments -> with_wanted keys arguments (poll context)
   | Position_of, [ Vehicles vs ] -> sense context Position vs
-  | Battery_of, [ Vehicles vs ] -> sense context Battery vs
-  | (Position_of | Battery_of), [ x ] -> expected "a vehicle" x
+  | Sensor_of sensor, [ Vehicles vs ] -> sense context (Sensor sensor) vs
+  | Reading_of, [ Vehicles vs; String name ] -> sense context (Sensor (Measurement name)) vs
+  | Reading_of, [ Vehicles _; x ] -> expected "the name of a measurement, as in reading(v, 'Temperature')" x
+  | (Position_of | Sensor_of _), [ x ] | Reading_of, [ x; _ ] -> expected "a vehicle" x
   | Eta, [ Vehicles vs; Position p ] -> looked context vs (fun world s -> Travel.eta world s p)
   | Eta, [ Vehicles _; x ] -> expected "a position" x
   | Eta, [ x; _ ] -> expected "a vehicle" x
@@ -324,7 +326,7 @@ let apply context at operation arguments =
   | Is_host, [ x ] -> Value (Boolean (match x with Host _ -> true | _ -> false))
   | Math name, arguments -> mathematics name arguments
   | Geometry (name, keys), arguments -> of_result (Geometry.apply name keys arguments)
-  | ( ( Execute | Release | Set_connection_timeout | Ask | Message | Pause | Halt | Position_of | Battery_of
-      | Eta | Location_of | Area_of | Assert | Fail | Ignore | Propagate | Retry | Dismiss | Get_supplier | Interrupted
-      | Is_host | Is_there | Values_of ),
+  | ( ( Execute | Release | Set_connection_timeout | Ask | Message | Pause | Halt | Position_of | Sensor_of _
+      | Reading_of | Eta | Location_of | Area_of | Assert | Fail | Ignore | Propagate | Retry | Dismiss | Get_supplier
+      | Interrupted | Is_host | Is_there | Values_of ),
       _ ) -> Wrong (Printf.sprintf "wrong number of arguments, %d" (List.length arguments))

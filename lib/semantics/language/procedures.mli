@@ -19,8 +19,8 @@ val spins : string
 val of_result : (value, string) result -> Code.outcome
 (** The value, or the text of the fault. *)
 
-val sense : Code.context -> Reading.sensor -> vehicle list -> Code.outcome
-(** [sense x sensor vs] is what the sensor of the only vehicle of [vs] shows. *)
+val sense : Code.context -> Reading.subject -> vehicle list -> Code.outcome
+(** [sense x subject vs] is what that sensor of the only vehicle of [vs] shows. *)
 
 val travel : Code.context -> platform_task -> Travel.quantity -> vehicle list -> Code.outcome
 (** [travel x p q vs] is [q] of [p] for the only vehicle of [vs], from where it is. *)

@@ -1,23 +1,25 @@
 open Core
 module Ast = Dolphin_syntax.Ast
 
-type sensor = Battery | Position
+type subject = Position | Sensor of sensor
 
-let sensor = function
-  | "battery" | "getBattery" -> Some Battery
+let subject = function
+  | "battery" | "getBattery" -> Some (Sensor Battery)
   | "position" | "getPosition" -> Some Position
   | _ -> None
 
 let reading quantity text = Reading { quantity; text }
 
-let look world sensor (s : World.vehicle_state) =
-  match sensor with
-  | Battery -> (
-      match World.battery world s with
-      | None -> Ok (Unknown { sensor = "battery"; of_vehicle = s.id })
-      | Some (Shows share) -> Ok (Number share)
-      | Some (One_of xs) -> Error (World.charges s xs)
-      | Some Anything -> Ok (reading Amount (Printf.sprintf "battery(%s)" s.id)))
+let name = function Battery -> "battery" | Speed -> "speed" | Connected -> "connected" | Measurement name -> name
+
+let look world subject (s : World.vehicle_state) =
+  match subject with
+  | Sensor sensor -> (
+      match World.sensor world sensor s with
+      | None -> Ok (Unknown { sensor = name sensor; of_vehicle = s.id })
+      | Some (Shows x) -> Ok x
+      | Some (One_of xs) -> Error (World.values sensor s xs)
+      | Some Anything -> Ok (reading Amount (World.spell sensor s.id)))
   | Position -> (
       match World.position world s with
       | Shows p -> Ok (Core.Position p)

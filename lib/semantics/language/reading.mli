@@ -4,13 +4,13 @@
 
 open Core
 
-type sensor = Battery | Position
+type subject = Position | Sensor of sensor
 
-val sensor : string -> sensor option
-(** [sensor name] is the sensor that the property or method [name] of a vehicle looks at, if it is one. *)
+val subject : string -> subject option
+(** [subject name] is what the property or method [name] of a vehicle looks at, if it is a sensor. *)
 
-val look : World.t -> sensor -> World.vehicle_state -> (value, World.question) result
-(** [look w sensor s] is what the sensor of [s] shows: if that may be anything, a reading whose text names the
+val look : World.t -> subject -> World.vehicle_state -> (value, World.question) result
+(** [look w subject s] is what that sensor of [s] shows: if that may be anything, a reading whose text names the
     sensor; if the vehicle has not told it, {!Core.Unknown}. *)
 
 val is_reading : value -> bool

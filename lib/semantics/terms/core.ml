@@ -41,6 +41,9 @@ and reading = { quantity : quantity; text : string }
 (** What [sensor] of [of_vehicle] would show: ["battery"]. *)
 and unknown = { sensor : string; of_vehicle : vehicle }
 
+(** What tells of a vehicle, beside where it is; [Measurement] of a quantity that it measures. *)
+and sensor = Battery | Speed | Connected | Measurement of string
+
 and quantity = Amount | Place | Region | Words  (* a number, a position, an area, a string *)
 
 (** One line of a block of settings: [name positional, k: named]. *)
@@ -151,7 +154,8 @@ and builtin =
   | Poll of string option list                  (* [[]]: [poll 'k'] *)
   | Values_of                                   (* made by elaboration: of the pairs of a key, as a list *)
   | Position_of
-  | Battery_of
+  | Sensor_of of sensor
+  | Reading_of
   | Eta
   | Location_of
   | Area_of

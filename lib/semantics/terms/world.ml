@@ -2,12 +2,20 @@ module String_map = Map.Make (String)
 module Int_map = Map.Make (Int)
 module Position = Dolphin_geo.Position
 
+module Sensor_map = Map.Make (struct
+    type t = Core.vehicle * Core.sensor
+
+    let compare = Stdlib.compare
+  end)
+
 type vehicle_state = {
   id : Core.vehicle;
   kind : string;
   payload : string list;
   position : Position.t;
   battery : float option;
+  speed : float option;
+  readings : (string * float) list;
   connected : bool;
   unready : string option;
   cruise : float option;
@@ -17,7 +25,7 @@ type vehicle_state = {
 type assumption =
   | Late of Core.vehicle
   | Missing of Core.vehicle
-  | Charged of Core.vehicle * float
+  | Sensed of Core.sensor * Core.vehicle * Core.value
   | Placed of Core.vehicle * Position.t
   | Claim of string * bool
 
@@ -28,13 +36,13 @@ type t = {
   order : order;
   ranks : int String_map.t;
   states : vehicle_state Int_map.t;
-  batteries : float list String_map.t;  (* of those that are open: what they may show *)
+  sensors : Core.value list Sensor_map.t;  (* of those that are open: what they may show *)
   positions : Position.t list String_map.t;
   supposed : assumption list;  (* of sensors *)
 }
 
 let nobody order =
-  { order; ranks = String_map.empty; states = Int_map.empty; batteries = String_map.empty; positions = String_map.empty;
+  { order; ranks = String_map.empty; states = Int_map.empty; sensors = Sensor_map.empty; positions = String_map.empty;
     supposed = [] }
 
 let empty = nobody By_hearing
@@ -74,16 +82,24 @@ let carries devices state =
 
 (* {1 Open worlds} *)
 
+let spell (s : Core.sensor) v =
+  match s with
+  | Battery -> Printf.sprintf "battery(%s)" v
+  | Speed -> Printf.sprintf "speed(%s)" v
+  | Connected -> Printf.sprintf "connected(%s)" v
+  | Measurement name -> Printf.sprintf "reading(%s,'%s')" v name
+
 let pp_assumption ppf = function
   | Late v -> Format.fprintf ppf "%s comes late" v
   | Missing v -> Format.fprintf ppf "%s is missing" v
-  | Charged (v, x) -> Format.fprintf ppf "battery(%s) is %g" v x
+  | Sensed (s, v, x) -> Format.fprintf ppf "%s is %a" (spell s v) Value.pp (Value.canonical x)
   | Placed (v, p) -> Format.fprintf ppf "position(%s) is %a" v Position.pp p
   | Claim (text, holds) -> Format.fprintf ppf "%s is %b" text holds
 
-let open_battery v xs world = { world with batteries = String_map.add v xs world.batteries }
+let open_sensor s v xs world = { world with sensors = Sensor_map.add (v, s) xs world.sensors }
+let open_battery v xs = open_sensor Battery v (List.map (fun x -> Core.Number x) xs)
 let open_position v ps world = { world with positions = String_map.add v ps world.positions }
-let is_open world = not (String_map.is_empty world.batteries && String_map.is_empty world.positions)
+let is_open world = not (Sensor_map.is_empty world.sensors && String_map.is_empty world.positions)
 
 (* [v] with the state that [change] makes of its own, after all other vehicles. *)
 let last v change world =
@@ -97,7 +113,7 @@ let suppose assumed world =
   let one world = function
     | Late v -> last v Fun.id world
     | Missing v -> last v (fun state -> { state with connected = false }) world
-    | (Charged _ | Placed _ | Claim _) as assumption -> { world with supposed = assumption :: world.supposed }
+    | (Sensed _ | Placed _ | Claim _) as assumption -> { world with supposed = assumption :: world.supposed }
   in
   List.fold_left one world assumed
 
@@ -106,21 +122,34 @@ let suppose assumed world =
 type 'a shown = Shows of 'a | One_of of 'a list | Anything
 type question = assumption list
 
-let shown (state : vehicle_state) opened known supposed world =
-  match String_map.find_opt state.id opened with
+let shown opened known supposed world =
+  match opened with
   | None -> Shows known
   | Some [] -> Anything
   | Some xs -> ( match List.find_map supposed world.supposed with Some x -> Shows x | None -> One_of xs)
 
-let battery world state =
-  let supposed = function Charged (v, x) when v = state.id -> Some x | _ -> None in
-  Option.map (fun share -> shown state world.batteries share supposed world) state.battery
+let known (s : Core.sensor) state : Core.value option =
+  let number = Option.map (fun x -> Core.Number x) in
+  match s with
+  | Battery -> number state.battery
+  | Speed -> number state.speed
+  | Connected -> Some (Boolean state.connected)
+  | Measurement name -> number (List.assoc_opt name state.readings)
+
+let sensor world s state =
+  let supposed = function Sensed (s', v, x) when v = state.id && s' = s -> Some x | _ -> None in
+  let opened = Sensor_map.find_opt (state.id, s) world.sensors in
+  Option.map (fun x -> shown opened x supposed world) (known s state)
+
+let sensors world state =
+  let measured = List.map (fun (name, _) -> Core.Measurement name) state.readings in
+  List.map (fun s -> (s, sensor world s state)) (Core.Battery :: Speed :: Connected :: measured)
 
 let position world state =
   let supposed = function Placed (v, p) when v = state.id -> Some p | _ -> None in
-  shown state world.positions state.position supposed world
+  shown (String_map.find_opt state.id world.positions) state.position supposed world
 
-let charges state xs = List.map (fun x -> Charged (state.id, x)) xs
+let values s state xs = List.map (fun x -> Sensed (s, state.id, x)) xs
 let places state ps = List.map (fun p -> Placed (state.id, p)) ps
 
 let place world state =

@@ -7,6 +7,8 @@ type vehicle_state = {
   payload : string list;  (** the devices that it carries *)
   position : Dolphin_geo.Position.t;
   battery : float option;  (** what is left, from 0 (empty) to 1 (full); [None]: it has not told *)
+  speed : float option;  (** over the ground, in metres per second; [None]: it has not told *)
+  readings : (string * float) list;  (** what it has measured last, by quantity: ["Temperature"]; in order of these *)
   connected : bool;  (** whether it has a link *)
   unready : string option;
   (** what keeps it from being given a plan though it has a link, as a predicate: ["is in mode ERROR: leak"] *)
@@ -50,24 +52,27 @@ val carries : string list -> vehicle_state -> bool
 
 (** {1:open Worlds that leave something open}
 
-    A driver knows what sensors show. An analysis of all that may happen does not: in an {e open} world, the sensor of a
-    battery or position may show one of several values, or any value. The transition function then gives the transitions
+    A driver knows what sensors show. An analysis of all that may happen does not: in an {e open} world, a sensor may
+    show one of several values, or any value. The transition function then gives the transitions
     for all of them, each with what it assumes. Within one step a sensor does not change; in the next step it may show
     another value. *)
 
 type assumption =
   | Late of Core.vehicle  (** it was first heard of after all others so far *)
   | Missing of Core.vehicle  (** it is not in reach *)
-  | Charged of Core.vehicle * float  (** its battery shows this *)
+  | Sensed of Core.sensor * Core.vehicle * Core.value  (** this sensor of it shows this *)
   | Placed of Core.vehicle * Dolphin_geo.Position.t  (** it is seen there *)
   | Claim of string * bool  (** this comparison with what a sensor shows holds, or does not *)
 
 val pp_assumption : Format.formatter -> assumption -> unit
 (** ["battery(x8-02) is 0.2"], ["battery(x8-02) < 0.3 is true"], ["x8-02 is missing"]. *)
 
+val open_sensor : Core.sensor -> Core.vehicle -> Core.value list -> t -> t
+(** [open_sensor s v xs w] is [w] in which the sensor [s] of [v] shows one of [xs], whenever the program looks; if there
+    are none, any value. If [v] has not told it, it stays unknown. *)
+
 val open_battery : Core.vehicle -> float list -> t -> t
-(** [open_battery v xs w] is [w] in which the battery of [v] shows one of [xs], whenever the program looks; if there are
-    none, any value. If [v] has not told it, it stays unknown. *)
+(** [open_battery v xs] is [open_sensor Battery v] of the numbers [xs]. *)
 
 val open_position : Core.vehicle -> Dolphin_geo.Position.t list -> t -> t
 (** Likewise where [v] is seen. *)
@@ -86,8 +91,14 @@ type 'a shown =
   | One_of of 'a list  (** that is open: any of these *)
   | Anything
 
-val battery : t -> vehicle_state -> float shown option
-(** [battery w s] is what the battery of [s] shows; [None] if it has not told. *)
+val spell : Core.sensor -> Core.vehicle -> string
+(** ["battery(x8-02)"], ["reading(x8-02,'Temperature')"]: no two sensors are spelt alike. *)
+
+val sensor : t -> Core.sensor -> vehicle_state -> Core.value shown option
+(** [sensor w s state] is what that sensor of the vehicle shows; [None] if it has not told. *)
+
+val sensors : t -> vehicle_state -> (Core.sensor * Core.value shown option) list
+(** [sensors w state] is {!sensor} of all that the vehicle has. *)
 
 val position : t -> vehicle_state -> Dolphin_geo.Position.t shown
 (** [position w s] is where [s] is seen. *)
@@ -95,8 +106,8 @@ val position : t -> vehicle_state -> Dolphin_geo.Position.t shown
 type question = assumption list
 (** What is open, by what may be assumed instead: one of these, and no two of them. *)
 
-val charges : vehicle_state -> float list -> question
-(** [charges s xs] is the question which of [xs] the battery of [s] shows. *)
+val values : Core.sensor -> vehicle_state -> Core.value list -> question
+(** [values s state xs] is the question which of [xs] that sensor of the vehicle shows. *)
 
 val places : vehicle_state -> Dolphin_geo.Position.t list -> question
 (** [places s ps] is the question at which of [ps] [s] is seen. *)

@@ -15,9 +15,9 @@ module Calls = Test_support.Calls
 
 (* {1 Runs} *)
 
-(* The simulated fleet, in whose words the explorer speaks of failures. *)
+(* The simulated fleet, kept to fences, in the explorer's words of failures. *)
 module Platform = struct
-  include Simulator.Virtual
+  include Fenced.Make (Simulator.Virtual)
 
   let begins prefix text =
     String.length text >= String.length prefix && String.sub text 0 (String.length prefix) = prefix
@@ -29,6 +29,9 @@ module Platform = struct
       | (Vehicle _ | Task_done _ | Timer _ | Input _ | Quiet) as event -> event
     in
     Lwt.map translate (next p)
+
+  let create ~seed fences scenario =
+    make (Fence_guard.make fences) ~untold:[] (Simulator.Virtual.create ~seed scenario)
 end
 
 (* So many transitions of a run that does not end are enough. *)
@@ -36,19 +39,19 @@ let most_steps = 400
 
 exception Enough
 
-let run ?(until = infinity) ~seed scenario program =
+let run ?(until = infinity) ~seed scenario (program : Core.program) =
   let taken = ref [] and left = ref most_steps in
   let transition ~time ~cause:_ (t : Transition.t) =
     if !left = 0 || time > until then raise Enough;
     decr left;
     match t.label with Interrupt -> left := 0 | _ -> taken := t :: !taken
   in
-  let platform = Platform.create ~seed scenario in
+  let platform = Platform.create ~seed program.fences scenario in
   let observer : Observer.t = { Observer.nobody with transition } in
   let whole () =
     Driver.run (module Platform) platform ~observer ~host:(Answering.host scenario)
       ~console:(Answering.console scenario)
-      ~interruption:(fst (Lwt.wait ())) program
+      ~interruption:(fst (Lwt.wait ())) { program with fences = Fences.none }
   in
   (match Lwt_main.run (whole ()) with Ended _ | Stuck _ | Spins _ -> () | exception Enough -> ());
   List.rev !taken

@@ -6,8 +6,6 @@ module String_map = Map.Make (String)
 type t = { known : value String_map.t; own : string list; chart : string -> (value, string) result }
 (* [own]: what the program itself names, known or not. *)
 
-let none ~chart = { known = String_map.empty; own = []; chart }
-
 (* {1 What only computes} *)
 
 let computing_calls = [ "location"; "area"; "imcPlan"; "task"; "map" ]

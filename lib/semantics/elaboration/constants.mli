@@ -7,9 +7,6 @@ module Diagnostic = Dolphin_syntax.Diagnostic
 type t
 (** The variables of a program that are known so, and how maps are read. *)
 
-val none : chart:(string -> (Core.value, string) result) -> t
-(** No variable is known. *)
-
 val function_names : Ast.program -> string list
 (** The functions that it defines. *)
 

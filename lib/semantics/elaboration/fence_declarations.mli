@@ -1,13 +1,10 @@
-(** [fence inside harbour, margin: 20.m]: what programs and fleets declare by that word. *)
+(** [fence inside harbour, margin: 20.m]: what programs declare by that word. *)
 
 module Ast = Dolphin_syntax.Ast
 module Diagnostic = Dolphin_syntax.Diagnostic
 
 val word : string
 (** ["fence"]. *)
-
-val hint : string
-(** How it is written. *)
 
 val read :
   Constants.t -> Dolphin_syntax.Location.t -> Ast.argument list -> (Fences.fence, Diagnostic.t list) result

@@ -22,7 +22,6 @@ let make all =
 let none = make []
 let list fences = fences.all
 let is_none fences = fences.all = []
-let add a b = if is_none a then b else if is_none b then a else make (a.all @ b.all)
 
 let least_distance fences =
   let wider best fence =
@@ -32,17 +31,6 @@ let least_distance fences =
     | (Inside _ | Outside _ | Depth _ | Height _ | Distance _), _ -> best
   in
   List.fold_left wider None fences.all
-
-let compare_rule a b =
-  let rank = function Inside _ -> 0 | Outside _ -> 1 | Depth _ -> 2 | Height _ -> 3 | Distance _ -> 4 in
-  match a, b with
-  | Inside a, Inside b | Outside a, Outside b -> Area.compare a b
-  | Depth a, Depth b | Height a, Height b | Distance a, Distance b -> Float.compare a b
-  | (Inside _ | Outside _ | Depth _ | Height _ | Distance _), _ -> Int.compare (rank a) (rank b)
-
-let equal a b =
-  let same (a : fence) (b : fence) = compare_rule a.rule b.rule = 0 && a.margin = b.margin in
-  List.compare_lengths a.all b.all = 0 && List.for_all2 same a.all b.all
 
 (* {1 Words} *)
 

@@ -1,5 +1,5 @@
 (** What vehicles must not do: where plans may lead, and how near to each other vehicles may come. A program declares
-    fences, a fleet has some of its own. Nothing of this is part of the rules: a plan that breaks a fence fails, as
+    fences. Nothing of this is part of the rules: a plan that breaks a fence fails, as
     plans may. *)
 
 open Dolphin_geo
@@ -27,14 +27,8 @@ val is_none : t -> bool
 val make : fence list -> t
 val list : t -> fence list
 
-val add : t -> t -> t
-(** All of both, the first ones first. *)
-
 val least_distance : t -> fence option
 (** The greatest of the least distances between vehicles. *)
-
-val equal : t -> t -> bool
-(** Whether they are the same rules with the same margins, in the same order. *)
 
 (** {1 Plans} *)
 

@@ -37,11 +37,18 @@ let is_unsteady (v : Scenario.vehicle) = v.joins > 0. || v.leaves <> None || v.d
 let input (i : Scenario.input) : Environment.input =
   { key = i.key; rounds = i.rounds; times = i.times; certain = i.after <> None }
 
-let environment ~answers:given ~faults (scenario : Scenario.t) =
+(* What a platform does not start, or stops, for it breaks a fence, is to the program a task that fails. Which plans that
+   are depends on where vehicles are. *)
+let ending_within (fences : Fences.t) scenario v name : Environment.ending =
+  match ending scenario v name with
+  | Succeeds when not (Fences.is_none fences) -> May_fail
+  | (Succeeds | May_fail | Fails) as ending -> ending
+
+let environment ~answers:given ~faults (program : Core.program) (scenario : Scenario.t) =
   let unsteady = List.filter is_unsteady scenario.vehicles in
   let late = List.map (fun (v : Scenario.vehicle) -> v.id) (if unsteady = [] then scenario.vehicles else unsteady) in
   {
-    Environment.endings = ending scenario;
+    Environment.endings = ending_within program.fences scenario;
     plans = List.map (fun (p : Scenario.plan) -> p.name) scenario.plans;
     may_be_late = (fun v -> List.mem v late);
     answers = answers given scenario;

@@ -8,7 +8,7 @@ let starts (t : Transition.t) =
   List.filter_map (function Effect.Start (v, p) -> Some (p.task_site, v) | _ -> None) t.effects
 
 let run program scenario =
-  let options = Scenario_world.environment ~answers:[] ~faults:Faults.none scenario in
+  let options = Scenario_world.environment ~answers:[] ~faults:Faults.none program scenario in
   let world = Scenario_world.still scenario in
   let happens (t, _) = not (Environment.is_voluntary t) in
   let rec go n found configuration outside =

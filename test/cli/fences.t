@@ -209,3 +209,26 @@ that a handler may ignore. Trace and journal are those of any other run.
   [1]
   $ dolphin trace check late.dol late.run
   late.run: a run, of 25 transitions in 14:41; failed: stays failed on a: stopped: a and b are 28.5 m apart, at (41.185900, -8.705400): they break fence distance 30.m (late.dol:4) by 1.5 m
+
+To the explorer and to dolphin time any plan may fail where there are fences.
+
+  $ fenced kept <<'END'
+  > fence depth 50.m
+  > v = pick { type 'UUV' }
+  > execute task('drift')[v]
+  > END
+  $ cp late.fleet kept.fleet
+  $ dolphin explore kept.dol | grep '^no unhandled'
+  no unhandled error: violated after 5 steps: an error that nobody handles ends the program
+  no unhandled error: a shortest run in which an error that nobody handles ends the program
+  $ dolphin time kept.dol | head -3
+  completed: 10:00 at the earliest, 10:00 at the latest
+  failed: 0:00 at the earliest, 10:00 at the latest
+  task   vehicle  starts  ends   fails          where
+  $ sed 's/^fence.*//' kept.dol > open.dol; cp late.fleet open.fleet
+  $ dolphin explore open.dol | grep '^no unhandled'
+  no unhandled error: holds
+  $ dolphin time open.dol | head -3
+  completed: 10:00 at the earliest, 10:00 at the latest
+  task   vehicle  starts  ends   where
+  drift  a        0:00    10:00  open.dol:5

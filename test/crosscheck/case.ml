@@ -88,7 +88,7 @@ let scenario_beside path =
 
 let in_scenario name source program (scenario : Scenario.t) faults =
   { name; source; program; world = Scenario_world.world scenario;
-    environment = Scenario_world.environment ~answers:[] ~faults scenario;
+    environment = Scenario_world.environment ~answers:[] ~faults program scenario;
     plans = List.map (fun (p : Scenario.plan) -> p.name) scenario.plans;
     prompts = List.map (fun (a : Scenario.answer) -> a.prompt) scenario.answers;
     calls = List.map (fun (r : Scenario.reply) -> r.call) scenario.replies }

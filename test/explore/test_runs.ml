@@ -122,19 +122,19 @@ let is_unsteady (v : Scenario.vehicle) = v.joins > 0. || v.leaves <> None || v.d
 
 (* Links come and go where the fleet says so, and then only; nor do batteries run empty elsewhere, which makes tasks
    fail. *)
-let environment (scenario : Scenario.t) =
+let environment program (scenario : Scenario.t) =
   let is_drained (v : Scenario.vehicle) = v.drain > 1. in
   let where is_so : Faults.limit = if List.exists is_so scenario.vehicles then Any_number else Never in
   let faults : Faults.t =
     { Faults.none with fail = where is_drained; loss = where is_unsteady; join = where is_unsteady }
   in
-  Scenario_world.environment ~answers:[] ~faults scenario
+  Scenario_world.environment ~answers:[] ~faults program scenario
 
 let steps = ref 0
 
 let is_explored ?until ~seed scenario program =
   let taken = run ?until ~seed scenario program in
-  steps := !steps + follow (environment scenario) program (Scenario_world.world scenario) taken
+  steps := !steps + follow (environment program scenario) program (Scenario_world.world scenario) taken
 
 (* {1 Examples} *)
 

@@ -543,6 +543,14 @@ let run_code =
         {|{ s with bound = context.bound; tuples = context.tuples }|} );
     ]
 
+let fences =
+  in_file "lib/environment/scenario_world.ml" ~noticed_by:"time/test_recorded"
+    [
+      ( "no plan fails at a fence",
+        {|| Succeeds when not (Fences.is_none fences) -> May_fail|},
+        {|| Succeeds when not (Fences.is_none fences) -> Succeeds|} );
+    ]
+
 let pick_rules =
   in_file "lib/semantics/rules/pick_rules.ml" ~noticed_by:"semantics/test_rules"
     [
@@ -1076,7 +1084,7 @@ let all =
       vehicle_orbits; canonical_vehicles; bitstate; name_flow; liveness; later_picks; environment; picks; inputs;
       attendance;
       task_rules; local_step; run_code; answers_in_words; confirm; unknown; on_interrupt;
-      pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
+      fences; pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
       conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps;
       sets_with_events; driver; fair_cycles; limits;
       alike_values; division; arrangement; coverage; search_pattern; travel;

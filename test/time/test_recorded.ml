@@ -96,13 +96,9 @@ let check_example name () =
     | Error _ -> Alcotest.fail "the fleet is wrong"
   in
   let program = Test_support.Pure_run.compile_exn (read_file (Filename.concat folder (name ^ ".dol"))) in
-  (* What breaks a fence fails, at any time. *)
-  let faults =
-    if Fences.is_none program.fences then Dolphin_environment.Faults.none
-    else Result.get_ok (Dolphin_environment.Faults.of_string "fail")
-  in
   let options : Timed.options =
-    { environment = Scenario_world.environment ~answers:[] ~faults scenario; program;
+    { environment = Scenario_world.environment ~answers:[] ~faults:Dolphin_environment.Faults.none program scenario;
+      program;
       world = Scenario_world.world scenario; durations = Durations.of_scenario scenario }
   in
   if is_steady scenario then begin
@@ -125,8 +121,8 @@ let test_findings () =
       (Scenario.read ~file:"f" ("vehicle 'a', { type 'UUV' }\nplan 'p', { duration " ^ duration ^ " }\n")) in
   let program = Test_support.Pure_run.compile_exn "va = pick { id 'a' }\nexecute task('p')[va] >> idle(5)\n" in
   let options scenario : Timed.options =
-    { environment = Scenario_world.environment ~answers:[] ~faults:Dolphin_environment.Faults.none scenario; program;
-      world = Scenario_world.world scenario; durations = Durations.of_scenario scenario } in
+    { environment = Scenario_world.environment ~answers:[] ~faults:Dolphin_environment.Faults.none program scenario;
+      program; world = Scenario_world.world scenario; durations = Durations.of_scenario scenario } in
   let run = run ~seed:1 (fleet "50, 60") program in
   let found duration = List.map (fun (f : Recorded.finding) -> f.too_early) (follow (options (fleet duration)) run) in
   Alcotest.(check (list bool)) "as it is" [] (found "50, 60");

@@ -22,7 +22,8 @@ let sample ?until ?(runs = runs) ~jobs (program, fleet) =
 let time ((program : Program_file.t), (fleet : Fleet_file.t)) =
   let options : Timed.options =
     { environment =
-        Scenario_world.environment ~answers:[] ~faults:Dolphin_environment.Faults.none fleet.scenario;
+        Scenario_world.environment ~answers:[] ~faults:Dolphin_environment.Faults.none program.program
+          fleet.scenario;
       program = program.program; world = Scenario_world.world fleet.scenario;
       durations = Durations.of_scenario fleet.scenario }
   in

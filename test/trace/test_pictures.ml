@@ -185,7 +185,7 @@ let ways_of ~platform =
     let position : Dolphin_geo.Position.t = { latitude = 41. +. (time /. 1e4); longitude = -8.; height = 0. } in
     let state : Dolphin_semantics.World.vehicle_state =
       { id = "v"; kind = "UUV"; payload = []; position; battery = None; connected = true; unready = None;
-        cruise = None; drain = None } in
+        cruise = None; drain = None; speed = None; readings = [] } in
     Summary.add builder (Vehicle { time; state })
   in
   let start time plan ways =

@@ -35,7 +35,7 @@ let explore ~interrupted ~progress s (program : Program_file.t) (fleet : Fleet_f
   let* invariants = read_all "--invariant" (Dolphin_explore.Condition.of_string core) s.invariants in
   let* formulas = read_all "--ltl" (Dolphin_explore.Temporal.of_string core) s.formulas in
   let options : Search.options =
-    { environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
+    { environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults core fleet.scenario;
       reduction = s.reduction; compress = s.compress; walks = s.walks; bitstate = s.bitstate;
       search_again = Search.default.search_again;
       limits =

@@ -18,7 +18,7 @@ let run ~interrupted ~progress s (program : Program_file.t) (fleet : Fleet_file.
       timeout = s.timeout; clock = Unix.gettimeofday; interrupted; progress }
   in
   Timing.run ?deadline:s.deadline limits
-    { environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults fleet.scenario;
+    { environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults program.program fleet.scenario;
       program = program.program; world = Scenario_world.world fleet.scenario;
       durations = Dolphin_time.Durations.of_scenario fleet.scenario }
 

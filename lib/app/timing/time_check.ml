@@ -22,7 +22,8 @@ let usual_of (header : Dolphin_trace.Header.t) =
 
 let check ?tolerance (p : Program_file.t) (fleet : Fleet_file.t) path =
   let options : Timed.options =
-    { environment = Scenario_world.environment ~answers:[] ~faults:Dolphin_environment.Faults.none fleet.scenario;
+    { environment =
+        Scenario_world.environment ~answers:[] ~faults:Dolphin_environment.Faults.none p.program fleet.scenario;
       program = p.program; world = Scenario_world.still fleet.scenario;
       durations = Durations.of_scenario fleet.scenario }
   in

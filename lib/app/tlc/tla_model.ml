@@ -25,7 +25,7 @@ let times ~tick ~faults ~plans scenario world : Dolphin_tla.Times.t =
 
 let make ?tick ~answers ~faults (program : Program_file.t) (fleet : Fleet_file.t) =
   let scenario = fleet.scenario in
-  let environment = Scenario_world.environment ~answers ~faults scenario in
+  let environment = Scenario_world.environment ~answers ~faults program.program scenario in
   let world = Scenario_world.world scenario in
   let plans = List.map (fun (plan : Scenario.plan) -> plan.name) scenario.plans in
   let prompts = List.map (fun (answer : Scenario.answer) -> answer.prompt) scenario.answers in

@@ -232,7 +232,7 @@ let run ~read ~print ~columns (program : Program_file.t) (fleet : Fleet_file.t) 
   let s = { program; fleet; columns; print } in
   let world : Course.world =
     { program = program.program; world = Scenario_world.world fleet.scenario;
-      options = Scenario_world.environment ~answers ~faults fleet.scenario }
+      options = Scenario_world.environment ~answers ~faults program.program fleet.scenario }
   in
   let start = Course.start world in
   let* r = Option.fold ~none:(Ok start) ~some:(fun path -> recorded s path start) trace in

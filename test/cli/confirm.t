@@ -120,7 +120,7 @@ Without its limit, a question that nobody answers is waited for. How long, nobod
   $ sed 's/ within 30.minutes//' approval.dol > unlimited.dol
   $ dolphin time unlimited.dol --fleet approval.fleet | grep -A 1 latest
   completed: 5:00 at the earliest, no latest time
-  nobody knows how long it takes: an answer
+  nobody knows how long it takes: an answer to 'Retrieve noptilus-1?'
 
 A run whose time passes by itself takes answers by its socket, too, while nobody is at its terminal:
 

@@ -23,8 +23,8 @@ let outcome ?(faults = "") program scenario =
   let faults = if faults = "" then Faults.none else Result.get_ok (Faults.of_string faults) in
   let program = Test_support.Pure_run.compile_exn program in
   Timing.run Dolphin_checker.Limits.none
-    { environment = Scenario_world.environment ~answers:[] ~faults program scenario; program; world = Scenario_world.world scenario;
-      durations = Durations.of_scenario scenario }
+    { environment = Scenario_world.environment ~answers:[] ~faults program scenario; program;
+      world = Scenario_world.world scenario; durations = Durations.of_scenario scenario }
 
 let seconds (w : Timing.window) =
   (float w.earliest /. 1000., match w.latest with At n -> float n /. 1000. | Unbounded -> infinity)

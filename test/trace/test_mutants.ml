@@ -65,7 +65,7 @@ let alter random lines =
   let altered = String.mapi (fun k old -> if k = j then c else old) line in
   let without_time line =
     match Entry.of_string line with
-    | Ok (Transition t) -> Some (Entry.to_string (Transition { t with time = 0. }))
+    | Ok (Transition t) -> Some (Entry.to_string (Transition { t with time = 0.; ways = [] }))
     | Ok (Event e) -> Some (Entry.to_string (Event { e with time = 0. }))
     | Ok (End e) -> Some (Entry.to_string (End { e with time = 0. }))
     | Ok (Header _ | Partial _ | Label _ | Vehicle _ | Note _ | Resumed _) -> Some ""

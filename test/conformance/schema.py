@@ -11,7 +11,8 @@ import re
 import sys
 
 KNOWN = {"$schema", "$defs", "$ref", "title", "type", "properties", "required", "additionalProperties", "items",
-         "oneOf", "not", "enum", "const", "pattern", "minimum", "maximum", "minItems", "minProperties", "minLength"}
+         "oneOf", "not", "enum", "const", "pattern", "minimum", "maximum", "minItems", "maxItems",
+         "minProperties", "minLength"}
 TYPES = {"object": dict, "array": list, "string": str, "boolean": bool, "null": type(None)}
 DOCUMENTS = {}
 
@@ -81,6 +82,8 @@ def wrong(value, schema, path, at="$"):
     elif isinstance(value, list):
         if len(value) < schema.get("minItems", 0):
             found.append(f"{at}: there are too few items")
+        if len(value) > schema.get("maxItems", len(value)):
+            found.append(f"{at}: there are too many items")
         for i, x in enumerate(value):
             found += wrong(x, schema.get("items", {}), path, f"{at}[{i}]")
     elif isinstance(value, str):

@@ -39,11 +39,12 @@ The adapter dies: its vehicle loses its link, the next adapter says what became 
   $ grep -c '"start"' 'state of dies'
   1
 
-A stop that is never confirmed is named at the end. Ctrl-C.
+A stop that is never confirmed is named at the end. Ctrl-C, when the adapter has the order to start: one that is not
+sent yet is not sent then.
 
   $ sed 's/imcPlan(.a.)/imcPlan("b")/' m.dol > b.dol
   $ dolphin exec b.dol --journal 3.run --platform "$(with 'no stop')" > log 2>&1 & run=$!
-  $ until grep -qs 'starts b' log || ! kill -0 $run; do sleep 0.05; done; kill -INT $run; wait $run
+  $ until grep -qs '"start"' 'state of no stop' || ! kill -0 $run; do sleep 0.05; done; kill -INT $run; wait $run
   [130]
   $ sed 's/^ *[0-9]*:[0-9]* *//' log
   program     picks auv-1

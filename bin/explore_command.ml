@@ -110,7 +110,7 @@ let faults =
      when the program picks them: those that the fleet lets join, leave or drop, or if there are none, all; $(b,all) \
      of these. $(b,interrupt), which is not among $(b,all): the program may be interrupted at any time, as by Ctrl-C. \
      With $(b,=)$(i,N) at most $(i,N) times in one run: $(b,fail=1,loss=2). By default only those plans may fail of \
-     which the fleet says so."
+     which the fleet says so, or any in a program with fences."
   in
   Arg.(value & opt (conv ~docv:"FAULTS" (parse, Faults.pp)) Faults.none & info [ "faults" ] ~docv:"FAULTS" ~doc)
 

@@ -81,7 +81,7 @@ let timed =
 let tolerance =
   let doc =
     "With $(b,--timed), which it implies: $(docv) seconds more or less are nothing. By default 1, for links and clocks \
-     are not exact, and 0 for simulated runs as fast as they go, whose time is."
+     are not exact, and 0 for simulated runs as fast as they go, whose time is, unless they were resumed."
   in
   let parse text =
     match float_of_string_opt text with

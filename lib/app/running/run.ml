@@ -99,7 +99,7 @@ type t = {
   program : Program_file.t;
   scenario : Dolphin_scenario.Scenario.t;
   resumed : Resumed.t option;
-  fenced : Fence_guard.past option;  (* of what it resumes *)
+  fenced : Fence_guard.past option;  (* of what it resumes, if there are fences *)
 }
 
 let history r = Option.fold r.resumed ~none:[] ~some:(fun (resumed : Resumed.t) -> resumed.past.history)
@@ -120,7 +120,8 @@ let start_host r =
      | Error why -> Error (Error.Unavailable ("the supplier cannot be started: " ^ why)))
 
 (* What the platform knows of it: nothing of plans that were not started because of a fence. *)
-let past_of_platform r = Option.fold r.fenced ~none:[] ~some:(fun (past : Fence_guard.past) -> past.history)
+let past_of_platform r =
+  Option.fold r.fenced ~none:(history r) ~some:(fun (past : Fence_guard.past) -> past.history)
 
 let close_host = Option.fold ~none:Lwt.return_unit ~some:Host.close
 
@@ -357,7 +358,9 @@ let resumption front settings ~changed ~fleet program path =
          (path ^ ": this run has a supplier, which died with its console: name it again with --supplier"))
   else
     let seed = resumed.past.header.seed and scenario = fleet.scenario in
-    let fenced = Some (Fence_guard.replay program.program.fences resumed.past.history) in
+    let fences = program.program.fences in
+    let fenced =
+      if Fences.is_none fences then None else Some (Fence_guard.replay fences resumed.past.history) in
     log_start settings program fleet ~seed;
     Ok ({ front; settings; seed; program; scenario; resumed = Some resumed; fenced }, resumed)
 

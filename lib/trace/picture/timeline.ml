@@ -185,13 +185,10 @@ let gutter summary =
   let widest = List.fold_left (fun w v -> Float.max w (Svg.width ~size:12. v.id)) 46. summary.vehicles in
   Float.min 165. widest +. 16.
 
-(* Seconds of the day at which the run began, if its times are those of clocks on a wall. *)
+(* When the run began, in seconds since 1970, if its times are those of clocks on a wall. *)
 let began summary =
   match summary.clock, summary.header with
-  | Seconds, Some (h : Header.t) when h.platform <> "sim" || h.speed = Some 1. -> (
-      match Scanf.sscanf h.started "%_d-%_d-%_dT%2d:%2d:%2dZ" (fun h m s -> (3600 * h) + (60 * m) + s) with
-      | seconds -> Some (float_of_int seconds)
-      | exception (Scanf.Scan_failure _ | Failure _ | End_of_file) -> None)
+  | Seconds, Some (h : Header.t) when h.platform <> "sim" || h.speed = Some 1. -> Header.of_utc h.started
   | (Seconds | Steps), (Some _ | None) -> None
 
 let on_the_wall seconds =

@@ -16,8 +16,7 @@ module Make (P : Platform.S) = struct
 
   let drop s overtaken =
     s.held <- List.filter (fun told -> not (overtaken told)) s.held;
-    let still told = if Overtaken.unless overtaken told then Some told else None in
-    s.upcoming <- Option.bind s.upcoming still
+    s.upcoming <- Overtaken.left overtaken s.upcoming
 
   let carry_out s : Effect.t -> unit = function
     | Start (v, p) -> drop s (Overtaken.by_stop v); P.start s.platform v p

@@ -37,25 +37,21 @@ module Make (P : Platform.S) = struct
   (* Of what was told and not read yet, what a command has overtaken is dropped. *)
   let drop p overtaken =
     p.failures <- List.filter (fun event -> not (overtaken event)) p.failures;
-    match p.upcoming with
-    | Some event when not (Overtaken.unless overtaken event) -> p.upcoming <- None
-    | Some _ | None -> ()
+    p.upcoming <- Overtaken.left overtaken p.upcoming
 
-  let stop_platform p v =
+  let stop p v =
     drop p (Overtaken.by_stop v);
     if Fence_guard.is_under_way v p.guard then begin
       p.guard <- Fence_guard.over v p.guard;
       P.stop p.platform v
     end
 
-  let stop = stop_platform
-
   let cancel_timer p timer =
     drop p (Overtaken.by_cancel timer);
     P.cancel_timer p.platform timer
 
   let stop_and_fail p (v, why) =
-    stop_platform p v;
+    stop p v;
     fail p (v, why)
 
   let make guard ~untold platform =

@@ -8,3 +8,5 @@ let by_cancel timer : Platform.event -> bool = function
 
 let unless overtaken told =
   match Lwt.state told with Lwt.Return e -> not (overtaken e) | Fail _ | Sleep -> true
+
+let left overtaken upcoming = Option.bind upcoming (fun told -> if unless overtaken told then Some told else None)

@@ -13,3 +13,6 @@ val by_cancel : Residual.timer -> Platform.event -> bool
 val unless : (Platform.event -> bool) -> Platform.event Lwt.t -> bool
 (** [unless overtaken told] is whether [told] is still to be read: it has not resolved to an event that is
     [overtaken]. *)
+
+val left : (Platform.event -> bool) -> Platform.event Lwt.t option -> Platform.event Lwt.t option
+(** [left overtaken upcoming] is [upcoming], the event that was asked for, if it is still to be read. *)

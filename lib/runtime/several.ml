@@ -52,8 +52,7 @@ let set_timer s timer seconds =
 
 (* Of the events that platforms have told and nobody has read yet. *)
 let drop s overtaken =
-  let still told = if Overtaken.unless overtaken told then Some told else None in
-  Array.iter (fun one -> one.upcoming <- Option.bind one.upcoming still) s.parts
+  Array.iter (fun one -> one.upcoming <- Overtaken.left overtaken one.upcoming) s.parts
 
 let cancel_timer s timer =
   drop s (Overtaken.by_cancel timer);

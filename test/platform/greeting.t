@@ -38,7 +38,7 @@ Ctrl-C while an adapter takes its time to greet: all ends at once, nothing has b
 A run that is to be resumed and is not: its vehicles are not told to stop, and it can be resumed later.
 
   $ dolphin exec m.dol --journal m.run --platform "$quick" > log & run=$!
-  $ until grep -q 'starts long' log; do sleep 0.05; done; kill -KILL $run; wait $run 2> killed
+  $ until grep -qs '"start"' fleet.state || ! kill -0 $run; do sleep 0.05; done; kill -KILL $run; wait $run 2> killed
   [137]
   $ dolphin exec m.dol --resume m.run --platform "$quick" --platform false
   dolphin: the adapter 'false' ended with exit status 1 before it greeted
@@ -50,7 +50,7 @@ A run that is to be resumed and is not: its vehicles are not told to stop, and i
   0
   [1]
   $ dolphin exec m.dol --resume m.run --platform "$quick" > log & run=$!
-  $ until grep -qs 'has its link back' log; do sleep 0.05; done; kill -INT $run; wait $run
+  $ until grep -qs 'has its link back' log || ! kill -0 $run; do sleep 0.05; done; kill -INT $run; wait $run
   [130]
   $ grep -c '"kind":"stop"' fleet.state
   1

@@ -86,6 +86,7 @@ async function openProgram() {
 let parameters: { name: string; as: string; description?: string }[] = [];
 const settings = new Map<string, string>();
 
+let plansAsked = 0;
 async function loadWorld() {
   const fleet = $<HTMLSelectElement>("fleet").value;
   try {
@@ -103,10 +104,10 @@ async function loadWorld() {
   } catch { parameters = []; suggested = {}; map.setPlaces([]); }
   renderNow();
   changed();
-  if (!$("plans").hidden) await loadPlans(); else plans.forget();
+  if (!$("plans").hidden) await loadPlans();
+  else { plansAsked++; plans.forget(); }  // what is under way is of another program
 }
 
-let plansAsked = 0;
 async function loadPlans() {
   const number = ++plansAsked, fleet = $<HTMLSelectElement>("fleet").value;
   try {

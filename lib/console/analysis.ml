@@ -116,14 +116,15 @@ let arguments order ~witness =
   in
   of_kind @ Option.fold order.faults ~none:[] ~some:(fun faults -> [ "--faults=" ^ faults ])
 
+let inputs (program : Program_file.t) (fleet : Fleet_file.t) =
+  let set = List.concat_map (fun (name, value) -> [ "--set"; name ^ "=" ^ value ]) program.set in
+  let fleet = Option.fold fleet.path ~none:[] ~some:(fun path -> [ "--fleet"; path ]) in
+  fleet @ set @ [ "--"; program.path ]
+
 let start ~dolphin ~changed order (program : Program_file.t) (fleet : Fleet_file.t) =
   let witness = Filename.temp_file "dolphin-console" ".witness" in
   Sys.remove witness;
-  let fleet_options = Option.fold fleet.path ~none:[] ~some:(fun path -> [ "--fleet"; path ]) in
-  let set = List.concat_map (fun (name, value) -> [ "--set"; name ^ "=" ^ value ]) program.set in
-  let command =
-    (dolphin :: arguments order ~witness) @ fleet_options @ set @ [ "--"; program.path ]
-  in
+  let command = (dolphin :: arguments order ~witness) @ inputs program fleet in
   let process = Lwt_process.open_process_full (dolphin, Array.of_list command) in
   let finished, finish = Lwt.wait () in
   let e =

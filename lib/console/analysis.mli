@@ -13,6 +13,10 @@ type order = { kind : kind; faults : string option;  (** as of [--faults] *) sec
 
 type t
 
+val inputs : Program_file.t -> Fleet_file.t -> string list
+(** [inputs program fleet] is the arguments that name both, with the program's parameters, to any command of [dolphin]:
+    its last ones. *)
+
 val start : dolphin:string -> changed:(unit -> unit) -> order -> Program_file.t -> Fleet_file.t -> t
 (** [start ~dolphin ~changed order program fleet] asks the command [dolphin]. [changed] is called whenever {!to_json}
     has changed. *)

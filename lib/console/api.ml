@@ -180,8 +180,7 @@ let enact h found =
   match Option.bind (Hall.analysis h subject) Analysis.shown with
   | None -> refuse 409 "no-counterexample" "no run was found that could be carried out"
   | Some (program, fleet, witness) ->
-    let order = { Live_run.program; fleet; settings = { (Hall.settings h).run with speed } } in
-    Ok (started (Hall.begin_run h (fun ~id ~changed -> Live_run.enact ~id ~changed order witness)))
+    Ok (started (Hall.begin_run h (fun ~id ~changed -> Live_run.enact ~id ~changed ~speed program fleet witness)))
 
 let going_on h =
   match Hall.run h with

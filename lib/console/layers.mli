@@ -1,5 +1,5 @@
-(** The layers of the map: files of the folder that other programs have written. They are read beside the run, which
-    does not wait for them. *)
+(** The layers of the map: files of the folder that other programs have written. They are read in
+    threads of their own: the run goes on meanwhile, and waits for a moment at a time at most. *)
 
 open Exchange
 module Request = Dolphin_http.Request

@@ -169,7 +169,7 @@ let resume ~id ~changed ~journal order =
       let settings = { settings with recording = { settings.recording with journal = None } } in
       Run.resume front ~interruption settings ~changed:false ~fleet order.program journal)
 
-let enact ~id ~changed { program; fleet; settings = { speed; _ } } witness =
+let enact ~id ~changed ~speed program fleet witness =
   let order = { program; fleet; settings = { Run.simulated with speed } } in
   begin_ ~id ~changed ~enacts:witness.Dolphin_trace.Witness.property order (fun r front ~interruption ->
       Enacted_run.start front ~interruption ~speed ~follower:(follower r) program fleet witness)

@@ -14,9 +14,11 @@ val start : id:string -> changed:(unit -> unit) -> journal:string -> order -> t
 val resume : id:string -> changed:(unit -> unit) -> journal:string -> order -> t
 (** Likewise goes on with the run whose journal is [journal], and whose console died. *)
 
-val enact : id:string -> changed:(unit -> unit) -> order -> Dolphin_trace.Witness.t -> t
-(** Likewise carries out a counterexample on the simulated fleet, whatever the settings say of vehicles. It has no
-    journal. *)
+val enact :
+  id:string -> changed:(unit -> unit) -> speed:float option -> Program_file.t -> Fleet_file.t ->
+  Dolphin_trace.Witness.t -> t
+(** Likewise carries out a counterexample on the simulated fleet, [speed] times as fast as the clock; [None]: as fast as
+    it goes. It has no journal. *)
 
 val id : t -> string
 val feed : t -> Feed.t

@@ -1,4 +1,3 @@
-open Dolphin_app
 open Dolphin_json
 open Lwt.Infix
 open Exchange
@@ -45,14 +44,9 @@ let of_text ~vehicles text =
     match Yojson.Safe.from_string text with
     | `Assoc found -> Ok (`Assoc (("vehicles", vehicles) :: found))
     | _ | (exception Yojson.Json_error _) ->
-      no_plans (Printf.sprintf "no plans are found within %.0f seconds" longest)
+      no_plans (Printf.sprintf "dolphin plan has found none, or takes more than %.0f seconds" longest)
 
 let processes = Lwt_pool.create 1 (fun () -> Lwt.return_unit)
-
-let arguments (program : Program_file.t) (fleet : Fleet_file.t) =
-  let set = List.concat_map (fun (name, value) -> [ "--set"; name ^ "=" ^ value ]) program.set in
-  let fleet = Option.fold fleet.path ~none:[] ~some:(fun path -> [ "--fleet"; path ]) in
-  [ "plan"; "--json" ] @ fleet @ set @ [ "--"; program.path ]
 
 let order h found =
   let* path = get Field.text "program" found in
@@ -68,5 +62,5 @@ let list h found =
   | Error r -> Lwt.return (Error r)
   | Ok (program, fleet) ->
     let dolphin = (Hall.settings h).dolphin in
-    let ask () = printed dolphin (arguments program fleet) in
+    let ask () = printed dolphin ("plan" :: "--json" :: Analysis.inputs program fleet) in
     Lwt_pool.use processes ask >|= of_text ~vehicles:(known fleet.scenario)

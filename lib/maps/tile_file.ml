@@ -42,11 +42,8 @@ let with_database path f =
 let one_tile = "SELECT tile_data FROM tiles WHERE zoom_level = ? AND tile_column = ? AND tile_row = ?"
 let place zoom column row = List.map (fun n -> Sqlite3.Data.INT (Int64.of_int n)) [ zoom; column; row ]
 
-let starts_with prefix text =
-  let n = String.length prefix in
-  String.length text >= n && String.sub text 0 n = prefix
-
-let is_search step = starts_with "SEARCH" step && not (List.mem "AUTOMATIC" (String.split_on_char ' ' step))
+let is_search step =
+  String.starts_with ~prefix:"SEARCH" step && not (List.mem "AUTOMATIC" (String.split_on_char ' ' step))
 
 (* Without an index each tile takes a look at all of them; a view may even search without end. *)
 let is_quick db =
@@ -94,7 +91,7 @@ let read path =
 let kinds = [ ("\x89PNG\r\n", "image/png"); ("\xff\xd8\xff", "image/jpeg"); ("RIFF", "image/webp") ]
 
 let image bytes =
-  match List.find_opt (fun (first, _) -> starts_with first bytes) kinds with
+  match List.find_opt (fun (first, _) -> String.starts_with ~prefix:first bytes) kinds with
   | Some (_, kind) -> Ok (Some { kind; bytes })
   | None -> Error "this tile is no picture: neither png nor jpg nor webp"
 

@@ -70,10 +70,10 @@ let note_sensor t site sensor =
 
 (* Likewise at the property or method [name] of a vehicle, if it is a sensor. *)
 let note_member t site name =
-  match name with
-  | "battery" | "getBattery" -> note_sensor t site Battery
-  | "position" | "getPosition" -> t.reads_position <- true
-  | _ -> ()
+  match Reading.subject name with
+  | Some (Sensor sensor) -> note_sensor t site sensor
+  | Some Position -> t.reads_position <- true
+  | None -> ()
 
 (* Or at the readings of its argument. *)
 let note_reading t site = function

@@ -107,23 +107,24 @@ let calling =
   [ "each"; "eachWithIndex"; "collect"; "collectWithIndex"; "findAll"; "filter"; "find"; "inject"; "any"; "every";
     "count"; "times" ]
 
-let of_places = [ "getPosition"; "position" ]
-let of_batteries = [ "getBattery"; "battery" ]
+(* A property or method with this name may look at a sensor of a vehicle: places and batteries contain no vehicles. *)
+let looks w name =
+  match Reading.subject name with
+  | Some Position -> reads_places w; true
+  | Some (Sensor _) -> reads_sensors w; true
+  | None -> false
 
 (* [k] is the content of the subject and the arguments; [calls given] calls the code among them with [given]. *)
 let called_method w at name k calls =
-  (* Places and batteries contain no vehicles. *)
   let shown = if has map k then k lor reading else reading in
   let is_one_of = List.mem name in
-  let reads_place = is_one_of of_places and reads_battery = is_one_of of_batteries in
-  if reads_place then reads_places w;
-  if reads_battery then reads_sensors w;
+  let looks = looks w name in
   let given = if has map k then k lor text else k in
   (* The code in a map may be called by any name. *)
   let results = if name = "call" || is_one_of calling || has map k then calls given else nothing in
   (* [inject] passes results on. *)
   let results = if name = "inject" then calls (given lor results) else results in
-  if reads_place || reads_battery then shown lor results
+  if looks then shown lor results
   else if has map k && has vehicles k && is_one_of [ "get"; "contains"; "remove" ] then (uses_name w at; k)
   else if is_one_of of_numbers then results
   else if is_one_of of_texts then text lor results
@@ -233,9 +234,7 @@ and applied w lambda at operation arguments =
   | Property name, [ x ] ->
     let k = value_of x in
     let shown = if has map k then k lor reading else reading in
-    if List.mem name of_places then (reads_places w; shown)
-    else if List.mem name of_batteries then (reads_sensors w; shown)
-    else k lor text
+    if looks w name then shown else k lor text
   | Method (name, names), es ->
     let ks = List.map value_of es in
     let asks_how_far = Dolphin_semantics.Travel.quantity name <> None && List.compare_length_with es 1 > 0 in

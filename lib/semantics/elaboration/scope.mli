@@ -84,7 +84,7 @@ val is_looked_at : program -> string -> bool
 (** Whether code may consume or poll pairs with this key. *)
 
 val note_sensor : program -> unit
-(** Something looks at a position or a battery. *)
+(** Something looks at a sensor, or at a place. *)
 
 val reads_sensors : program -> bool
 

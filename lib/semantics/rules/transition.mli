@@ -62,8 +62,8 @@ val awaited : Configuration.t -> awaited list
     [pick] is among them, but not accepted while the pick can be met: then it must be. *)
 
 val depends_on_sensors : program -> Configuration.t -> bool
-(** [depends_on_sensors p c] is whether the positions and batteries of the world may matter to [c] or to what follows:
-    a driver then keeps them up to date. *)
+(** [depends_on_sensors p c] is whether what sensors of the world show may matter to [c] or to what follows: a
+    driver then keeps them up to date. *)
 
 val unknown : program -> World.t -> Configuration.t -> Fault.t list
 (** [unknown p w c] is what guards of [c] need to know that vehicles have not told: each such guard does not hold. *)

@@ -195,6 +195,6 @@ type program = {
   ordered_keys : Tuple_space.order;             (* keys that some [_] or pattern of [consume] takes the oldest of *)
   inputs : string list;                         (* keys of the pairs that the outside may post *)
   on_interrupt : lambda option;                 (* of the bound vehicles: what an interruption executes *)
-  reads_sensors : bool;                         (* some code may read positions or batteries *)
+  reads_sensors : bool;                         (* some code may read sensors, places included *)
   fences : Fences.t;                            (* what platforms hold vehicles to: no rule asks *)
 }

@@ -26,8 +26,7 @@ let only_ends : Residual.t -> Timed.item option = function
   | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ ->
     None
 
-let certainly_succeeds i v (p : Core.platform_task) =
-  match Environment.ending i.options.environment v p.name with Succeeds -> true | May_fail | Fails -> false
+let certainly_succeeds i v (p : Core.platform_task) = not (Environment.may_fail i.options.environment v p.name)
 
 (* [named] is what each component names. *)
 let is_named_again v named = List.length (List.filter (String.equal v) named) > 1

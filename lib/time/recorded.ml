@@ -20,7 +20,7 @@ let with_tolerance tolerance r = { r with tolerance }
 let is_timed (p : Timed.pending) =
   match p.item with Task _ | Timer _ -> true | Question _ | Answer | Reply | Posting _ -> false
 
-let is_lost why = String.length why >= 15 && String.sub why 0 15 = "connection lost"
+let is_lost = String.starts_with ~prefix:Dolphin_environment.Environment.loss
 
 (* Whether [item] must have ended by its bounds, and may not have ended before them. *)
 let judged (on : Transition.event option) (item : Timed.item) =

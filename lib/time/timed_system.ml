@@ -8,6 +8,14 @@ type date = At of int | Unbounded
 type moment = Happening.moment = Starts | Ends | Fails | Stopped
 type task = Happening.task = { name : string; vehicle : Core.vehicle; site : Core.site }
 type ending = Completed | Halted | Failed | Interrupted
+let ending_name = function
+  | Completed -> "completed"
+  | Halted -> "halted"
+  | Failed -> "failed"
+  | Interrupted -> "interrupted"
+
+let moment_name = function Starts -> "starts" | Ends -> "ends" | Fails -> "fails" | Stopped -> "stopped"
+
 type cycle = { from : int; last : int; back : Timed.step; in_no_time : bool }
 
 exception Broken = Timed_place.Broken

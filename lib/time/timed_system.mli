@@ -26,6 +26,9 @@ type date = At of int | Unbounded
 (** What happens to a task. *)
 type moment = Happening.moment = Starts | Ends | Fails | Stopped
 
+val moment_name : moment -> string
+(** In lower case: ["starts"]. *)
+
 type task = Happening.task = { name : string; vehicle : Core.vehicle; site : Core.site }
 
 val tasks : t -> (task * (moment * date) list) list
@@ -34,6 +37,9 @@ val tasks : t -> (task * (moment * date) list) list
 
 (** How runs end. *)
 type ending = Completed | Halted | Failed | Interrupted
+
+val ending_name : ending -> string
+(** In lower case: ["completed"]. *)
 
 val endings : t -> (ending * (date * int)) list
 (** Likewise the ends of runs, with the number of the state there. *)

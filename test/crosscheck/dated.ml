@@ -99,18 +99,6 @@ let window ~tick ~ticks (w : Timing.window) =
   | At latest when latest <= ticks * tick -> (in_ticks tick w.earliest, in_ticks tick latest)
   | At _ | Unbounded -> raise_notrace Unfit
 
-let ending : Timed_system.ending -> string = function
-  | Completed -> "completed"
-  | Halted -> "halted"
-  | Failed -> "failed"
-  | Interrupted -> "interrupted"
-
-let moment : Timed_system.moment -> string = function
-  | Starts -> "starts"
-  | Ends -> "ends"
-  | Fails -> "fails"
-  | Stopped -> "stopped"
-
 let moments ~tick ~ticks (program : Core.program) (o : Timing.outcome) =
   let place site =
     if site >= 0 && site < Array.length program.locations then
@@ -119,9 +107,11 @@ let moments ~tick ~ticks (program : Core.program) (o : Timing.outcome) =
   in
   let window = window ~tick ~ticks in
   let of_task ((task : Timing.task), windows) =
-    List.map (fun (m, w) -> ([ moment m; task.name; task.vehicle; place task.site ], window w)) windows in
+    let of_moment (m, w) = ([ Timed_system.moment_name m; task.name; task.vehicle; place task.site ], window w) in
+    List.map of_moment windows
+  in
   List.sort compare
-    (List.map (fun (e, w) -> ([ ending e ], window w)) o.endings @ List.concat_map of_task o.tasks)
+    (List.map (fun (e, w) -> ([ Timed_system.ending_name e ], window w)) o.endings @ List.concat_map of_task o.tasks)
 
 let limits states = { Dolphin_checker.Limits.none with max_states = Some states }
 

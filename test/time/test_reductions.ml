@@ -125,9 +125,9 @@ let pp_dates ppf (endings, tasks) =
     | At n -> Format.fprintf ppf "%d to %d" w.earliest n
     | Unbounded -> Format.fprintf ppf "%d or later" w.earliest
   in
-  let ending (e, w) = Format.fprintf ppf "%s %a; " (Dolphin_app.Time_report.ending e) window w in
+  let ending (e, w) = Format.fprintf ppf "%s %a; " (Timed_system.ending_name e) window w in
   let task ((t : Timing.task), windows) =
-    let moment (m, w) = Format.fprintf ppf "%s %a, " (Dolphin_app.Time_report.moment m) window w in
+    let moment (m, w) = Format.fprintf ppf "%s %a, " (Timed_system.moment_name m) window w in
     Format.fprintf ppf "%s on %s (%d): " t.name t.vehicle t.site;
     List.iter moment windows
   in

@@ -25,7 +25,8 @@ let any_end windows =
   match ends with [] -> None | first :: rest -> Some (List.fold_left both first rest)
 
 let row p ((task : Timing.task), windows) =
-  let moment m = Option.map (fun w -> Time_report.(moment m ^ " " ^ window w)) (List.assoc_opt m windows) in
+  let named m w = Timed_system.moment_name m ^ " " ^ Time_report.window w in
+  let moment m = Option.map (named m) (List.assoc_opt m windows) in
   let words = List.filter_map moment Time_report.moments in
   let place = Option.fold (Program_file.at p task.site) ~none:"" ~some:(fun at -> " (" ^ at ^ ")") in
   let tip = Printf.sprintf "%s on %s%s: %s" task.name task.vehicle place (String.concat ", " words) in
@@ -103,7 +104,7 @@ let limits ?deadline f (o : Timing.outcome) =
     [ Svg.line ~name (x, y -. 9.) (x, bottom); Svg.text ~name:text ~anchor (x +. dx, y) label ]
   in
   let of_ending (e, (w : Timing.window)) =
-    let name = Time_report.ending e in
+    let name = Timed_system.ending_name e in
     let limit word n = line "limit" (Printf.sprintf "%s %s %s" name word (Time_report.time n)) n in
     match w.latest with
     | At n when n = w.earliest -> [ limit "at" n ]
@@ -181,7 +182,7 @@ let document ~alone ?deadline p (o : Timing.outcome) =
 let svg ?deadline p o = Picture.to_file (document ~alone:true ?deadline p o)
 
 let html ?deadline p o =
-  let heads = "vehicle" :: "task" :: List.map Time_report.moment Time_report.moments @ [ "where" ] in
+  let heads = "vehicle" :: "task" :: List.map Timed_system.moment_name Time_report.moments @ [ "where" ] in
   let row ((task : Timing.task), windows) =
     let cell m = Option.fold (List.assoc_opt m windows) ~none:"" ~some:Time_report.window in
     let where = Option.value (Program_file.at p task.site) ~default:"" in

@@ -8,18 +8,6 @@ let time ms = Format.asprintf "%a" Bounds.pp_time ms
 
 (* {1 Names} *)
 
-let ending : Timed_system.ending -> string = function
-  | Completed -> "completed"
-  | Halted -> "halted"
-  | Failed -> "failed"
-  | Interrupted -> "interrupted"
-
-let moment : Timed_system.moment -> string = function
-  | Starts -> "starts"
-  | Ends -> "ends"
-  | Fails -> "fails"
-  | Stopped -> "stopped"
-
 let moments : Timed_system.moment list = [ Starts; Ends; Fails; Stopped ]
 
 (* What is awaited, and for whom it is to say how long it takes. *)
@@ -53,7 +41,7 @@ let window (w : Timing.window) =
 
 let print_ending (e, (w : Timing.window)) =
   let latest = match w.latest with At n -> time n ^ " at the latest" | Unbounded -> "no latest time" in
-  Printf.printf "%s: %s at the earliest, %s\n" (ending e) (time w.earliest) latest
+  Printf.printf "%s: %s at the earliest, %s\n" (Timed_system.ending_name e) (time w.earliest) latest
 
 let print_tasks (p : Program_file.t) (o : Timing.outcome) =
   let used = List.filter (fun m -> List.exists (fun (_, ws) -> List.mem_assoc m ws) o.tasks) moments in
@@ -63,7 +51,9 @@ let print_tasks (p : Program_file.t) (o : Timing.outcome) =
   in
   if o.tasks <> [] then
     List.iter print_endline
-      (Text_table.lines (("task" :: "vehicle" :: List.map moment used) @ [ "where" ]) (List.map row o.tasks))
+      (Text_table.lines
+         (("task" :: "vehicle" :: List.map Timed_system.moment_name used) @ [ "where" ])
+         (List.map row o.tasks))
 
 let print_columns (p : Program_file.t) (run : Timing.run) =
   let heads = if run.dates = [] then None else Some (List.map time run.dates) in
@@ -202,7 +192,7 @@ let json_of_run p (run : Timing.run) : Yojson.Safe.t =
 
 let to_json ?deadline p (o : Timing.outcome) : Yojson.Safe.t =
   let task ((t : Timing.task), windows) =
-    let window m = Option.map (fun w -> (moment m, json_of_window w)) (List.assoc_opt m windows) in
+    let window m = Option.map (fun w -> (Timed_system.moment_name m, json_of_window w)) (List.assoc_opt m windows) in
     let site = Option.fold ~none:`Null ~some:(fun s -> `String s) (Program_file.at p t.site) in
     `Assoc
       ([ ("task", `String t.name); ("vehicle", `String t.vehicle); ("at", site) ] @ List.filter_map window moments)
@@ -228,7 +218,7 @@ let to_json ?deadline p (o : Timing.outcome) : Yojson.Safe.t =
   `Assoc
     ([ ("verdict", `String verdict) ]
      @ optional "deadline" seconds deadline
-     @ [ ("ends", `Assoc (List.map (fun (e, w) -> (ending e, json_of_window w)) o.endings));
+     @ [ ("ends", `Assoc (List.map (fun (e, w) -> (Timed_system.ending_name e, json_of_window w)) o.endings));
          ("tasks", `List (List.map task o.tasks));
          ("within", `List (List.map within o.deadlines));
          ("unknown", `List (List.map (fun u -> `String (item p u)) o.unknown)) ]

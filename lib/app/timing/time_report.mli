@@ -18,8 +18,6 @@ val time : int -> string
 val window : Timing.window -> string
 (** ["4:00 to 7:00"]. *)
 
-val ending : Dolphin_time.Timed_system.ending -> string
-val moment : Dolphin_time.Timed_system.moment -> string
 val moments : Dolphin_time.Timed_system.moment list
 
 val item : Program_file.t -> Dolphin_time.Timed.pending -> string

@@ -208,14 +208,23 @@ Timely(ts) ==
   IN Only({ [ steps |-> Each(js, LAMBDA j : [ t |-> ts[j], due |-> dues[j] ]), urgent |-> holdsBack ] :
             js \in { IF holdsBack THEN urgent ELSE possible } })
 
-(* A tick may pass: something is still to come, and of each item that is awaited something may happen after it. *)
-MayTick(timely) ==
+(* After so many ticks, of each item that is awaited something may still happen. *)
+NoneIsOver(timely, ticks) ==
   LET steps == Range(timely.steps)
       items == { s.due[1] : s \in { s \in steps : s.due # << >> } }
-      mayCome(item) == \E s \in steps : s.due # << >> /\ s.due[1] = item /\ ~IsOver(s.due[2][2], Age(item) + 1)
-  IN /\ ~timely.urgent
-     /\ \E s \in steps : IsOwed(s.t.event)
-     /\ \A item \in items : mayCome(item)
+      mayCome(item) == \E s \in steps : s.due # << >> /\ s.due[1] = item /\ ~IsOver(s.due[2][2], Age(item) + ticks)
+  IN \A item \in items : mayCome(item)
+
+(* What may happen now. Nothing, if of an item nothing may happen any more: time has passed because a link might be
+   lost, and then another one was, with which the losses are counted up. That is no run. *)
+TakenNow(timely) ==
+  IF ~timely.urgent /\ ~NoneIsOver(timely, 0) THEN { } ELSE { s \in Range(timely.steps) : MayBeNow(s.due) }
+
+(* A tick may pass: something is still to come, and of each item that is awaited something may happen after it. *)
+MayTick(timely) ==
+  /\ ~timely.urgent
+  /\ \E s \in Range(timely.steps) : IsOwed(s.t.event)
+  /\ NoneIsOver(timely, 1)
 
 -----------------------------------------------------------------------------
 (* {1 Runs} *)
@@ -235,7 +244,7 @@ Step_(t) ==
 
 Take ==
   \E ts \in { Known(vars) } : \E timely \in { Timely(ts) } :
-    \E s \in Range(timely.steps) : MayBeNow(s.due) /\ Step_(s.t)
+    \E s \in TakenNow(timely) : Step_(s.t)
 
 Tick ==
   /\ now < Horizon
@@ -274,8 +283,7 @@ Moments ==
   EndingMoments \cup
   IF HasEnded THEN { }
   ELSE LET timely == Timely(Known(vars))
-           taken == { s \in Range(timely.steps) : MayBeNow(s.due) }
-       IN UNION { MomentsOf(s.t) : s \in taken }
+       IN UNION { MomentsOf(s.t) : s \in TakenNow(timely) }
           \cup (IF now = Horizon /\ MayTick(timely) THEN { << "goes on" >> } ELSE { })
           \cup (IF \E s \in Range(timely.steps) : IsOwed(s.t.event) THEN { } ELSE { << "stuck" >> })
 

@@ -71,6 +71,10 @@ let texts =
     ("the latest patience", a_loss, "setConnectionTimeout 5\nsetConnectionTimeout 6\n" ^ two ^ "execute task('p')[a]");
     ( "the order to a vehicle that is lost", a_loss,
       two ^ "setConnectionTimeout a, 5\nexecute (watch task('p')[a] onError { ignore() }) >> task('q')[a]" );
+    ( "one link is lost, and not the other", a_loss,
+      two ^ "c = pick { id 'c' }; setConnectionTimeout 5\n\
+             execute (task('p')[a] >> action { post x: 1 }) | (((watch task('q')[b] onError { ignore() })\n\
+             >> idle(0) >> task('r')[c]) until { poll x: 1 })" );
     ( "one who comes late", (", with latecomers", { Faults.none with join = Any_number }),
       "vs = pick { count 2; type 'UUV'; timeout 3 }\nexecute task('r')[vs[0]] >> task('q')[vs[1]]" );
     ( "at any time somebody leaves", (", with interruptions", { Faults.none with interrupt = true }),

@@ -191,19 +191,22 @@ let all ?(states = 20_000) ?(seconds = 60) (o : Timed.options) =
       | Some (clock, least, most) -> clock.since >= least && clock.since <= most
       | None -> true
     in
-    let take ((choice : Environment.choice), _) =
-      note_step s choice.transition;
-      reach (after o s choice)
-    in
-    List.iter take (List.filter may_be_now possible);
-    (* A second passes, if for everything that is awaited something may still happen then. *)
     let last clock =
       List.fold_left
         (fun last (_, due) -> match due with Some (c, _, most) when c == clock -> max last most | _ -> last)
         (-1) possible
     in
+    let waits = own = [] || waits_for_others in
+    (* Time has passed because something might be lost, and something else was lost: that is no run. *)
+    let is_overdue (_, clock) = match last clock with -1 -> false | most -> clock.since > most in
+    let take ((choice : Environment.choice), _) =
+      note_step s choice.transition;
+      reach (after o s choice)
+    in
+    if not (waits && List.exists is_overdue s.clocks) then List.iter take (List.filter may_be_now possible);
+    (* A second passes, if for everything that is awaited something may still happen then. *)
     let may_wait (_, clock) = match last clock with -1 -> true | most -> clock.since < most in
-    if (own = [] || waits_for_others) && possible <> [] && List.for_all may_wait s.clocks then begin
+    if waits && possible <> [] && List.for_all may_wait s.clocks then begin
       let later (what, clock) = (what, { clock with since = clock.since + 1 }) in
       if List.exists (fun (choice, _) -> not (Environment.is_voluntary choice.Environment.transition)) possible
       || Environment.owes o.environment o.program s.e

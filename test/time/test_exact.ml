@@ -118,6 +118,20 @@ let test_agreement () =
   Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
   Printf.printf "%d skipped, %d with runs that never end\n" !skipped !endless
 
+(* Where one link is lost, time has not passed because another one might have been. *)
+let test_one_loss () =
+  let text =
+    "va = pick { id 'a' }\nvb = pick { id 'b' }\nvc = pick { id 'c' }\n\
+     execute (watch task('p')[vb] onError { ignore() }) | { task('p') } | task('p')[va] | task('q')[vc]\n" in
+  let options : Timed.options =
+    { environment = List.assoc "with a loss" environments; program = Test_support.Pure_run.compile_exn text;
+      world = Generate.world; durations = durations 132 } in
+  match Enumeration.all options with
+  | None -> Alcotest.fail "too much to enumerate"
+  | Some expected ->
+    Alcotest.(check bool) "the same dates" true
+      (found (Timing.run Dolphin_checker.Limits.none options) = expected.dates)
+
 (* Without programs that end in each way, agreement says little. *)
 let test_variety () =
   Alcotest.(check int) "ways to end" 4 (Hashtbl.length reduced);
@@ -127,4 +141,5 @@ let test_variety () =
 let () =
   Alcotest.run "exact"
     [ ("random programs", [ Alcotest.test_case "zones and enumeration" `Quick test_agreement;
-                            Alcotest.test_case "variety" `Quick test_variety ]) ]
+                            Alcotest.test_case "variety" `Quick test_variety ]);
+      ("programs", [ Alcotest.test_case "one loss" `Quick test_one_loss ]) ]

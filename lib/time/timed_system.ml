@@ -42,6 +42,7 @@ type t = {
   mutable tasks : task list;  (* latest first *)
   mutable endings : (ending * (date * int)) list;
   mutable cycle : cycle option;
+  mutable returns : (int * int * move) list;  (* a move from one state leads to just another one that there was *)
   mutable stuck : int option;
   mutable unknown : Timed.pending list;
   deadlines : Core.site list ref;  (* of [within], latest first *)
@@ -160,7 +161,13 @@ let find_cycle t n move (place : Timed_place.t) zone =
 
 (* The number of the state that stands for [place] with [zone], to which [move] leads from state [n]. *)
 let arrive t n move (place : Timed_place.t) zone =
-  let including () = List.find_opt (fun m -> Zone.subset zone t.nodes.(m).zone) place.here in
+  let including () =
+    let found = List.find_opt (fun m -> Zone.subset zone t.nodes.(m).zone) place.here in
+    let return m =
+      if t.goal = Latest && Zone.equal zone t.nodes.(m).zone then t.returns <- (n, m, move) :: t.returns in
+    Option.iter return found;
+    found
+  in
   match find_cycle t n move place zone with
   | Some (m, by) when by > 0 && Zone.latest_date t.nodes.(m).zone <> None ->
     (* Once more and once more: at any later date. *)
@@ -198,8 +205,8 @@ let create ?(reduction = Inert_ends_and_likeness) goal options =
   in
   let places = Timed_place.places reduction options ~filled ~note in
   { goal; options; places; reduced = false; nodes = [||]; count = 0;
-    reserved = 0; moments = Hashtbl.create 100; tasks = []; endings = []; cycle = None; stuck = None; unknown = [];
-    deadlines; missed = Hashtbl.create 8 }
+    reserved = 0; moments = Hashtbl.create 100; tasks = []; endings = []; cycle = None; returns = [];
+    stuck = None; unknown = []; deadlines; missed = Hashtbl.create 8 }
 
 let visit t (v : via System.visitor) n = v.visit [| n lsl t.reserved |] 0 ()
 
@@ -292,7 +299,63 @@ let tasks t =
   List.rev_map moments t.tasks
 
 let endings t = List.sort Stdlib.compare t.endings
-let cycle t = t.cycle
+(* {2 Cycles that no run of the search goes round} *)
+
+(* A cycle in the graph of [successors], as the vertices on it with the edges that lead on from them. *)
+let cycle_in count successors =
+  let entered = Array.make count false and left = Array.make count false in
+  let rec around m = function
+    | (n, edge) :: _ when n = m -> [ (n, edge) ]
+    | step :: path -> step :: around m path
+    | [] -> assert false  (* [m] is on the path *)
+  in
+  (* [path]: from the latest vertex back; with each, the edges from it that are to be followed. *)
+  let rec go path = function
+    | [] -> None
+    | (n, []) :: stack -> left.(n) <- true; go (match path with [] -> [] | _ :: path -> path) stack
+    | (n, (m, edge) :: others) :: stack ->
+      let stack = (n, others) :: stack in
+      if left.(m) then go path stack
+      else if entered.(m) then Some (List.rev (around m ((n, edge) :: path)))
+      else enter ((n, edge) :: path) stack m
+  and enter path stack n =
+    entered.(n) <- true;
+    go path ((n, successors.(n)) :: stack)
+  in
+  let rec from n =
+    if n = count then None
+    else if entered.(n) then from (n + 1)
+    else match enter [] [] n with Some found -> Some found | None -> from (n + 1)
+  in
+  from 0
+
+(* Each state on it is all that the one before leads to, and no date grows: it is gone round in no time, or while time
+   does not matter. The search, which meets the states of a cycle in any order, need not have gone round it. *)
+let cycle_of_returns t =
+  let successors = Array.make t.count [] in
+  let follow n edge = successors.(n) <- edge :: successors.(n) in
+  for n = t.count - 1 downto 0 do
+    match t.nodes.(n) with { move = Some move; parent; _ } -> follow parent (n, move) | { move = None; _ } -> ()
+  done;
+  List.iter (fun (n, m, move) -> follow n (m, move)) t.returns;
+  match cycle_in t.count successors with
+  | None -> None
+  | Some _ when t.reduced -> raise Broken
+  | Some around ->
+    (* The states on it once more, as a run of the search. *)
+    let first = fst (List.hd around) in
+    let rec again parent = function
+      | [ (_, Step { step; _ }) ] ->
+        let in_no_time = Zone.latest_date t.nodes.(first).zone <> None in
+        Some { from = first; last = parent; back = step; in_no_time }
+      | (_, move) :: ((n, _) :: _ as rest) -> again (add t { (t.nodes.(n)) with parent; move = Some move }) rest
+      | [ (_, Rest _) ] | [] -> None
+    in
+    again first around
+
+let cycle t =
+  if t.cycle = None && t.returns <> [] then t.cycle <- cycle_of_returns t;
+  t.cycle
 let stuck t = t.stuck
 let unknown t = List.rev t.unknown
 

@@ -988,8 +988,11 @@ let timed_system =
         {|Latest -> Zone.reaching_down | Earliest -> Zone.reaching_up in|},
         {|Latest -> Zone.reaching_up | Earliest -> Zone.reaching_down in|} );
       ( "states include those that they do not",
-        {|let including () = List.find_opt (fun m -> Zone.subset zone t.nodes.(m).zone) place.here in|},
-        {|let including () = List.find_opt (fun _ -> true) place.here in|} );
+        {|List.find_opt (fun m -> Zone.subset zone t.nodes.(m).zone) place.here in|},
+        {|List.find_opt (fun _ -> true) place.here in|} );
+      ( "only what the search goes round is a cycle",
+        {|if t.cycle = None && t.returns <> [] then|},
+        {|if t.cycle <> None && t.returns <> [] then|} );
       ( "dates are forgotten",
         {|Latest -> Zone.reaching_down|},
         {|Latest -> Zone.at_any_date|} );

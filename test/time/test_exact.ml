@@ -118,19 +118,28 @@ let test_agreement () =
   Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
   Printf.printf "%d skipped, %d with runs that never end\n" !skipped !endless
 
-(* Where one link is lost, time has not passed because another one might have been. *)
-let test_one_loss () =
-  let text =
-    "va = pick { id 'a' }\nvb = pick { id 'b' }\nvc = pick { id 'c' }\n\
-     execute (watch task('p')[vb] onError { ignore() }) | { task('p') } | task('p')[va] | task('q')[vc]\n" in
+let compare_one environment seed text =
   let options : Timed.options =
-    { environment = List.assoc "with a loss" environments; program = Test_support.Pure_run.compile_exn text;
-      world = Generate.world; durations = durations 132 } in
+    { environment = List.assoc environment environments; program = Test_support.Pure_run.compile_exn text;
+      world = Generate.world; durations = durations seed } in
   match Enumeration.all options with
   | None -> Alcotest.fail "too much to enumerate"
   | Some expected ->
-    Alcotest.(check bool) "the same dates" true
-      (found (Timing.run Dolphin_checker.Limits.none options) = expected.dates)
+    let o = Timing.run Dolphin_checker.Limits.none options in
+    Alcotest.(check bool) "the same dates" true (found o = expected.dates);
+    Alcotest.(check bool) "whether some run never ends" expected.never_over (o.endless <> None)
+
+(* Where one link is lost, time has not passed because another one might have been. *)
+let test_one_loss () =
+  compare_one "with a loss" 132
+    "va = pick { id 'a' }\nvb = pick { id 'b' }\nvc = pick { id 'c' }\n\
+     execute (watch task('p')[vb] onError { ignore() }) | { task('p') } | task('p')[va] | task('q')[vc]\n"
+
+(* The search comes to both states of the rounds before it goes from one to the other. *)
+let test_round_in_no_time () =
+  compare_one "as planned" 396227
+    "va = pick { id 'a' }\npost x: 1\n\
+     execute (waitFor { true } then repeat task('p')[va] until { poll x: 1 }) | assert({ consume x: 1 }, 'a')\n"
 
 (* Without programs that end in each way, agreement says little. *)
 let test_variety () =
@@ -142,4 +151,5 @@ let () =
   Alcotest.run "exact"
     [ ("random programs", [ Alcotest.test_case "zones and enumeration" `Quick test_agreement;
                             Alcotest.test_case "variety" `Quick test_variety ]);
-      ("programs", [ Alcotest.test_case "one loss" `Quick test_one_loss ]) ]
+      ("programs", [ Alcotest.test_case "one loss" `Quick test_one_loss;
+                     Alcotest.test_case "a round in no time" `Quick test_round_in_no_time ]) ]

@@ -89,20 +89,9 @@ let json_of_waiting ({ what; at; lacking } : Waiting.t) : Yojson.Safe.t =
 type place_of_question = { at : string option; is_confirm : bool }
 
 let place_of_question n prompt =
-  let program = n.program.program in
-  let at site = Option.map place (Fault.location program (Fault.make site "")) in
-  match n.configuration.control with
-  | Waiting (m, Ask _) ->
-    let text = Option.value (Waiting.text program ~source:n.program.source (Machine.site m)) ~default:"" in
-    { at = at (Machine.site m); is_confirm = String.starts_with ~prefix:"confirm" text }
-  | Executing (_, r) ->
-    let asks found : Residual.t -> Core.site option = function
-      | Confirm c when found = None && c.prompt = prompt -> Some c.site
-      | _ -> found
-    in
-    let site = Residual.fold_active asks None r in
-    { at = Option.bind site at; is_confirm = site <> None }
-  | Waiting (_, (Pick _ | Pause _ | Execute _ | Host_call _)) | Script _ | Ended _ -> { at = None; is_confirm = false }
+  let { Program_file.program; source; _ } = n.program in
+  let found = Waiting.question program ~source n.configuration prompt in
+  { at = Option.map place found.at; is_confirm = found.is_confirm }
 
 let waiting n ~time =
   let { Program_file.program; source; _ } = n.program in

@@ -68,6 +68,25 @@ let of_guard program ~source world s (guard : Core.closure) =
     at = location program site;
     lacking = Option.map (fun text -> "not yet " ^ text) part }
 
+(* {1 Questions} *)
+
+type question = { at : Dolphin_syntax.Location.t option; is_confirm : bool }
+
+let question program ~source (c : Configuration.t) prompt =
+  match c.control with
+  | Waiting (m, Ask _) ->
+    let site = Machine.site m in
+    let words = Option.value (text program ~source site) ~default:"" in
+    { at = location program site; is_confirm = String.starts_with ~prefix:"confirm" words }
+  | Executing (_, r) ->
+    let asks found : Residual.t -> Core.site option = function
+      | Confirm c when found = None && c.prompt = prompt -> Some c.site
+      | _ -> found
+    in
+    let site = Residual.fold_active asks None r in
+    { at = Option.bind site (location program); is_confirm = site <> None }
+  | Waiting (_, (Pick _ | Pause _ | Execute _ | Host_call _)) | Script _ | Ended _ -> { at = None; is_confirm = false }
+
 (* {1 All of it} *)
 
 let of_request world (request : Code.request) at =

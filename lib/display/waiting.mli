@@ -13,6 +13,14 @@ type t = {
 val text : Core.program -> source:string -> Core.site -> string option
 (** [text program ~source site] is what stands at [site] of [source], the text of [program], in one line. *)
 
+type question = {
+  at : Dolphin_syntax.Location.t option;
+  is_confirm : bool;  (** it takes yes or no; others take any value *)
+}
+
+val question : Core.program -> source:string -> Configuration.t -> string -> question
+(** [question program ~source c prompt] is where [c] asks [prompt], and whether by [confirm]. *)
+
 val list : Core.program -> source:string -> World.t -> Configuration.t -> t list
 (** [list program ~source world c] is what [c] waits for in [world], each place of the program once, leftmost first.
     [source] is the text of [program]. The tasks of vehicles are not among it. *)

@@ -128,9 +128,9 @@ On a terminal, a line that is typed is an input; one that was typed before a que
   program     the program declares no input 'stay', only 'go'
   program     gets go:2
   program     consumes go:2
-  program     asks: How many? 3
-  program     asks: How far? 40
-  program     asks: How deep? 5
+  program     asks: How many? (a value: 2, 'text', yes or no) 3
+  program     asks: How far? (a value: 2, 'text', yes or no) 40
+  program     asks: How deep? (a value: 2, 'text', yes or no) 5
   program     says: 3, 40, 5
   program     ends
 

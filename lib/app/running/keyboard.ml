@@ -12,25 +12,35 @@ type t = {
 let longest = 65_536
 let end_of_input = Error "end of input"
 
-let tell k line =
+let is_there () =
+  match Unix.select [ Unix.stdin ] [] [] 0. with
+  | [], _, _ -> false
+  | _ -> true
+  | exception Unix.Unix_error (EINTR, _, _) -> false
+
+(* [asked] is the question that stood when the line was there. *)
+let tell k ~asked line =
   match k.question with
-  | Some waiting ->
+  | Some waiting when asked == k.question ->
     k.question <- None;
     Lwt.wakeup_later waiting line
-  | None -> ( match line with Ok text -> k.other text | Error _ -> ())
+  | Some _ | None -> ( match line with Ok text -> k.other text | Error _ -> ())
 
 (* A terminal hands out one line at a time. A job in the background that read would be stopped. *)
 let rec listen k =
   Lwt_unix.wait_read Lwt_unix.stdin >>= fun () ->
-  if Terminal.is_ours Unix.stdin then hear k else Lwt_unix.sleep 0.5 >>= fun () -> listen k
+  if not (Terminal.is_ours Unix.stdin) then Lwt_unix.sleep 0.5 >>= fun () -> listen k
+  else if is_there () then hear k ~asked:k.question
+  else listen k
 
-and hear k =
+(* While a line is being read, a question may come: the line is none of its answers. *)
+and hear k ~asked =
   Lines.next k.lines >>= function
-  | Line text -> tell k (Ok text); listen k
-  | Too_long -> tell k (Error (Printf.sprintf "the answer is longer than %d bytes" longest)); listen k
+  | Line text -> tell k ~asked (Ok text); listen k
+  | Too_long -> tell k ~asked (Error (Printf.sprintf "the answer is longer than %d bytes" longest)); listen k
   | End_of_input ->
     k.over <- true;
-    tell k end_of_input;
+    tell k ~asked:k.question end_of_input;
     Lwt.return_unit
 
 let start ~other =

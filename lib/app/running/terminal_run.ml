@@ -140,6 +140,14 @@ let rec typed_answer t keyboard =
   | Ok text when is_input t text -> offer t text; typed_answer t keyboard
   | reply -> Lwt.return reply
 
+(* For who types: what is read as an answer. *)
+let with_what_it_takes t prompt =
+  let { Program_file.program; source; _ } = t.program in
+  let yes_or_no = " (yes or no)" in
+  if t.keyboard = None || String.ends_with ~suffix:yes_or_no prompt then prompt
+  else if (Waiting.question program ~source t.configuration prompt).is_confirm then prompt ^ yes_or_no
+  else prompt ^ " (a value: 2, 'text', yes or no)"
+
 let person t : Questions.person =
   let typed = Console.scripted ~output:ignore ~answers:[] () in
   let answer prompt =
@@ -149,7 +157,7 @@ let person t : Questions.person =
   in
   let asked prompt =
     Option.iter Keyboard.settle t.keyboard;
-    Screen.ask t.screen (Log.question t.log ~time:(t.view.now ()) prompt)
+    Screen.ask t.screen (Log.question t.log ~time:(t.view.now ()) (with_what_it_takes t prompt))
   in
   { asked;
     answer;

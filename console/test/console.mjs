@@ -7,6 +7,7 @@ import { join } from "node:path";
 import { chromium } from "playwright-core";
 import accessibility from "./accessibility.mjs";
 import analyses from "./analyses.mjs";
+import imc from "./imc.mjs";
 import listen from "./listen.mjs";
 import maps from "./maps.mjs";
 import people from "./people.mjs";
@@ -254,6 +255,7 @@ await maps(all);
 await plans(all);
 await accessibility({ ...all, open, pictures });
 await listen({ ...all, dolphin, environment, browser, complaints });
+await imc({ ...all, home, dolphin, environment, browser, complaints });
 
 await test("all can be reached by keyboard, and all has a name", async () => {
   const nameless = await page.evaluate(() => [...document.querySelectorAll("button, input, select, [role=tab]")]

@@ -1,0 +1,71 @@
+// Vehicles that speak IMC, in another process over the loopback address: one is lost, and is back.
+import { spawn } from "node:child_process";
+import { mkdirSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+
+// Below the ports that systems give out by themselves, and apart from those of other tests.
+const first = 24700, discovery = `${first}-${first + 4}`;
+
+async function until(process, wanted) {
+  let said = "";
+  for await (const text of process.stdout) { said += text; const found = wanted.exec(said); if (found) return found; }
+  throw new Error("it ended, and said only: " + said);
+}
+
+export default async function ({ home, dolphin, environment, browser, test, same, over, complaints }) {
+  const folder = join(home, "real"), children = [];
+  mkdirSync(folder);
+  writeFileSync(join(folder, "lost.dol"), `input 'over'
+v = pick { type 'UUV'; timeout 5.min }
+execute until { poll over: true } run (watch task('survey')[v] onError { ignore() }) >> condition { poll never: 1 }
+`);
+  writeFileSync(join(folder, "real.fleet"), "vehicle 'lauv-1', { type 'UUV' }\nplan 'survey', { duration 1.hour }\n");
+  const start = (...args) => {
+    const child = spawn(dolphin, args, { env: environment, stdio: ["ignore", "pipe", "inherit"] });
+    children.push(child);
+    return child;
+  };
+
+  await test("a vehicle of IMC that is lost is an alarm, which stays until it was seen, also when the vehicle is back", async () => {
+    const vehicles = start("sim", join(folder, "real.fleet"), "--imc", "--announce", "0.5", "--contact", "0.2",
+      "--discovery-ports", discovery, "--port", String(first + 10), "--for", "600");
+    await until(vehicles, /lauv-1/);
+    const server = start("console", folder, "--imc-loopback", "--imc-discovery-ports", discovery, "--port", "0", "--no-browser");
+    const [, port] = await until(server, /127\.0\.0\.1:(\d+)/);
+    const page = await (await browser.newContext({ viewport: { width: 1440, height: 900 } })).newPage();
+    page.setDefaultTimeout(120000);
+    complaints(page);
+    await page.goto(`http://127.0.0.1:${port}/`);
+    await page.waitForFunction(() => location.hash === "#lost.dol");
+    same(await page.locator("#speed").isDisabled(), true, "vehicles of a network have no speed to choose");
+    await page.click("#run");
+    await page.waitForSelector("#log pre >> text=starts survey");
+    // Nothing is heard of it.
+    vehicles.kill("SIGSTOP");
+    await page.waitForSelector("#alarms li:has-text('lauv-1') >> text=no link");
+    await page.waitForSelector("#vehicles tr.bad >> text=lauv-1");
+    await page.waitForFunction(() => document.title.includes("▲"));
+    vehicles.kill("SIGCONT");
+    await page.waitForSelector("#alarms li:has-text('no link') >> text=until");
+    await page.fill("#input-over", "true");
+    await page.keyboard.press("Enter");
+    await over(page);
+    // No more alarms come, and those that came stay.
+    await page.reload();
+    await page.waitForSelector("#alarms li:has-text('no link') >> text=until");
+    while (await page.locator("#alarms").isVisible()) await page.locator("#alarms button >> text=/seen/i").last().click();
+    await page.waitForFunction(() => !document.title.includes("▲"));
+    await page.reload();
+    await over(page);
+    same(await page.locator("#alarms").isVisible(), false, "alarms that were seen");
+    await page.context().close();
+  });
+
+  for (const child of children.reverse()) {
+    if (child.exitCode !== null || child.signalCode !== null) continue;
+    const gone = new Promise((done) => child.on("exit", done));
+    child.kill("SIGCONT");
+    child.kill("SIGINT");
+    await gone;
+  }
+}

@@ -29,6 +29,8 @@ let run path set fleet adapters =
   let program = checked (Some path) (Program_file.load ~set path) in
   let chosen = Fleet_file.choose ~program:path fleet in
   let fleet = checked chosen (Fleet_file.load chosen) in
+  let within fleet program = checked (Some path) (Program_file.within fleet program) in
+  let program = match fleet with Some fleet -> Option.bind program (within fleet) | None -> program in
   let of_plans = match program, fleet with
     | Some p, Some f -> Dolphin_service.Plan_names.misspelt p.program f.scenario
     | _, _ -> []

@@ -1,8 +1,8 @@
 open Cmdliner
 open Dolphin_app
 
-(* On a network nobody answers for people or a supplier, unless that is asked for: of a fleet only the answers and
-   replies are used then. *)
+(* On a network nobody answers for people or a supplier, unless that is asked for: of a fleet only the answers, the
+   replies and the fences are used then. *)
 let fleet_of ~path ~sim ~named ~is_simulated =
   if is_simulated then Fleet_file.load_for ~program:path named
   else if sim <> None || named = None then Ok Fleet_file.nobody
@@ -115,6 +115,7 @@ let run () show path set sim fleet network adapters definition speed seed answer
   Report.result
     (let* program = Program_file.load_recorded ~set ~recorded:(settings_before ~follow:recorded ~resumed) path in
      let* fleet = if resumed = None then fleet_of ~path ~sim ~named ~is_simulated else Ok Fleet_file.nobody in
+     let* program = Program_file.within fleet program in
      let* () =
        match contradiction settings ~sim ~follow:recorded ~resumed ~changed with
        | Some why -> Error (Error.Bad_input why)

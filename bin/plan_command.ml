@@ -84,6 +84,7 @@ let run () (is_export, path, name) set fleet seed answers json adapters definiti
   Report.result
     (let* program = Program_file.load ~set path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
+     let* program = Program_file.within fleet program in
      let* definition = Definition_file.load definition in
      Report.diagnostics ~source:program.source program.warnings;
      let* () =

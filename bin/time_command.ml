@@ -50,6 +50,7 @@ let run path set fleet answers faults deadline fewest json trace drawing max_sta
     (let* () = Option.fold drawing ~none:(Ok ()) ~some:Drawing.check in
      let* question = Sweep.question ~set path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
+     let* question = Sweep.within fleet question in
      match question with
      | Several _ when fewest ->
        Error (Error.Bad_input "--fewest looks for the least fleet of one program: give --set no range with it")

@@ -53,6 +53,7 @@ let run path set fleet answers faults tick directory check compare strict limit 
     (let* task = task directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverage in
      let* program = Program_file.load ~set path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
+     let* program = Program_file.within fleet program in
      let* model = Tla_model.make ?tick ~answers ~faults program fleet in
      perform jar task program model)
 

@@ -36,6 +36,7 @@ let check_times program_path set path fleet tolerance =
   else
     let* p = Program_file.load_recorded ~set ~recorded:(Journal_file.settings path) program_path in
     let* fleet = Fleet_file.load_for ~program:program_path fleet in
+    let* p = Program_file.within fleet p in
     let* findings = Time_check.check ?tolerance p fleet path in
     List.iter print_endline findings;
     Ok (if findings = [] then Exit_status.Done else Failed)

@@ -19,7 +19,7 @@ let scenario n : Scenario.t =
     { name; duration = Some { least; most }; ending = Succeeds; place = None; only = [] }
   in
   { vehicles = List.init n vehicle; plans = [ plan "short" 0.5 1.5; plan "long" 600. 600. ]; answers = [];
-    replies = []; inputs = []; samples = [] }
+    replies = []; inputs = []; samples = []; fences = [] }
 
 (* {1 The vehicles' process} *)
 

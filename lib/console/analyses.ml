@@ -33,6 +33,7 @@ let start subject h found =
   in
   let* program = program h ~set path in
   let* fleet = fleet h ~program:program.path named in
+  let* program = Exchange.within fleet program in
   let dolphin = (Hall.settings h).dolphin in
   let changed () = Hall.changed h in
   Hall.set_analysis h subject (Analysis.start ~dolphin ~changed { kind; faults; seconds } program fleet);

@@ -157,6 +157,7 @@ let start h found =
   let simulated = Run.is_simulated settings in
   let* program = program h ~set path in
   let* fleet = if simulated || named <> None then fleet h ~program:program.path named else Ok Fleet_file.nobody in
+  let* program = within fleet program in
   let* () =
     if (not simulated) && speed <> None then bad "vehicles of a network are not simulated: their run has no speed"
     else Ok ()

@@ -68,6 +68,8 @@ let fleet h ~program named =
   let source = Option.fold path ~none:"" ~some:(fun path -> Result.value (Text_file.read path) ~default:"") in
   Result.map_error (of_error ~source) (Fleet_file.load path)
 
+let within fleet (p : Program_file.t) = Result.map_error (of_error ~source:p.source) (Program_file.within fleet p)
+
 (* The parameters that are set, each with the text of its value. *)
 let set found =
   match List.assoc_opt "set" found with

@@ -63,3 +63,6 @@ val program : Hall.t -> ?set:(string * string) list -> string -> (Program_file.t
 val fleet : Hall.t -> program:string -> string option -> (Fleet_file.t, refusal) result
 (** [fleet h ~program named] is the fleet in the file [named] of the folder, or that of the console, or the one beside
     [program]. *)
+
+val within : Fleet_file.t -> Program_file.t -> (Program_file.t, refusal) result
+(** {!Program_file.within}. *)

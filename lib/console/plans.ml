@@ -54,6 +54,7 @@ let order h found =
   let* set = set found in
   let* program = program h ~set path in
   let* fleet = fleet h ~program:program.path named in
+  let* program = within fleet program in
   if Lwt_pool.wait_queue_length processes >= most_waiting then refuse 503 "too-many" "too many ask for plans"
   else Ok (program, fleet)
 

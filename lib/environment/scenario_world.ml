@@ -39,9 +39,9 @@ let input (i : Scenario.input) : Environment.input =
 
 (* What is not started, or stopped, because it breaks a fence is to the program a task that fails. Which plans these are
    depends on where vehicles are. *)
-let ending_within (fences : Fences.t) scenario v name : Environment.ending =
+let ending_within (fences : Fences.t) (scenario : Scenario.t) v name : Environment.ending =
   match ending scenario v name with
-  | Succeeds when not (Fences.is_none fences) -> May_fail
+  | Succeeds when not (Fences.is_none fences && scenario.fences = []) -> May_fail
   | (Succeeds | May_fail | Fails) as ending -> ending
 
 let environment ~answers:given ~faults (program : Core.program) (scenario : Scenario.t) =

@@ -12,6 +12,6 @@ val still : Scenario.t -> Dolphin_semantics.World.t
 val environment :
   answers:string list -> faults:Faults.t -> Dolphin_semantics.Core.program -> Scenario.t -> Environment.options
 (** [environment ~answers ~faults p s] is what else may happen to [p]. Plans end as [s] says, and as [faults] do; if [p]
-    has fences any plan may fail, as one that breaks a fence does. Late may be the vehicles that join, leave or drop in
-    [s]; if none does, all. Each question is answered by any of [answers], or if there are none by what [s] answers;
-    calls of a supplier get what [s] replies. *)
+    or [s] has fences any plan may fail, as one that breaks a fence does. Late may be the vehicles that join, leave
+    or drop in [s]; if none does, all. Each question is answered by any of [answers], or if there are none by what [s]
+    answers; calls of a supplier get what [s] replies. *)

@@ -71,5 +71,6 @@ type t = {
   replies : reply list;
   inputs : input list;
   samples : sample list;  (** of the fields of quantities *)
+  fences : Dolphin_semantics.Fences.fence list;  (** what every program's vehicles must keep to *)
 }
 (** Vehicles, plans, prompts and calls are unique by their names; all are in the order of the file. *)

@@ -1,4 +1,5 @@
 open Dolphin_syntax
+open Dolphin_semantics
 open Ast
 open Entry
 
@@ -120,6 +121,8 @@ type state = {
   replies : reply named list;
   inputs : input list;
   samples : sample list;
+  fences : Fences.fence list;
+  constants : Constants.t;                      (* what fences may name: maps, and no variables *)
   unplaced : int;                               (* vehicles without a position *)
   faults : Diagnostic.t list;
 }
@@ -253,12 +256,24 @@ let field state (word : string located) quantity values =
     { state with samples = { quantity; value; place; time = Option.value time ~default:0. } :: state.samples }
   | _, _ -> add_fault state (Diagnostic.error word.at (usage "field"))
 
-let entries = [ "vehicle"; "plan"; "answer"; "reply"; "input"; "field" ]
+let fence state (word : string located) arguments =
+  let without_variables (d : Diagnostic.t) =
+    match d.code, d.hint with
+    | Unknown_name, None ->
+      { d with hint = Some "there are no variables in a fleet: write the area itself, or map('harbour.geojson').basin" }
+    | _, _ -> d
+  in
+  match Fence_declarations.read state.constants word.at arguments with
+  | Ok fence -> { state with fences = fence :: state.fences }
+  | Error found -> add_faults state (List.map without_variables found)
+
+let entries = [ "vehicle"; "plan"; "answer"; "reply"; "input"; "field"; "fence" ]
 
 let entry state (word : string located) arguments =
   let misused state = add_fault state (Diagnostic.error word.at (usage word.it)) in
   let positional = List.filter_map (function Positional e -> Some e | Named _ | Keyed _ -> None) arguments in
-  if List.length positional < List.length arguments then misused state
+  if word.it = Fence_declarations.word then fence state word arguments
+  else if List.length positional < List.length arguments then misused state
   else
     match word.it, positional with
     | _, { it = String ""; at } :: _ -> add_fault state (Diagnostic.error at "this name is empty")
@@ -276,7 +291,7 @@ let entry state (word : string located) arguments =
       let hint =
         match Diagnostic.suggest other entries with
         | Some near -> Printf.sprintf "did you mean '%s'?" near
-        | None -> "a fleet consists of vehicle, plan, answer, reply, input and field"
+        | None -> "a fleet consists of vehicle, plan, answer, reply, input, field and fence"
       in
       add_fault state (Diagnostic.error word.at (Printf.sprintf "there is no '%s' in a fleet" other) ~hint)
 
@@ -287,7 +302,7 @@ let statement state (s : statement) =
   | Expression { it = Variable word; at } -> entry state { it = word; at } []
   | _ ->
     add_fault state
-      (Diagnostic.error s.at "only vehicle, plan, answer, reply, input and field may stand in a fleet"
+      (Diagnostic.error s.at "only vehicle, plan, answer, reply, input, field and fence may stand in a fleet"
          ~hint:"as in vehicle 'x8-02', { type 'UAV' }")
 
 (* {1 All together} *)
@@ -324,10 +339,10 @@ let rec take n = function
   | x :: rest when n > 0 -> x :: take (n - 1) rest
   | _ -> []
 
-let read ~file source =
+let read ~chart ~file source =
   let* program = Parse.program ~file source in
-  let start = { source; vehicles = []; plans = []; answers = []; replies = []; inputs = []; samples = []; unplaced = 0;
-                faults = [] } in
+  let start = { source; vehicles = []; plans = []; answers = []; replies = []; inputs = []; samples = []; fences = [];
+                constants = Constants.of_program ~chart []; unplaced = 0; faults = [] } in
   let state = List.fold_left statement start program in
   let faults =
     repeated "vehicle" (fun (v : vehicle) -> v.id) state.vehicles
@@ -341,7 +356,7 @@ let read ~file source =
     Ok
       { Entry.vehicles = entries state.vehicles; plans = entries state.plans; answers = entries state.answers;
         replies = entries state.replies; inputs = List.rev state.inputs;
-        samples = List.rev state.samples }
+        samples = List.rev state.samples; fences = List.rev state.fences }
   else Error (take Parse.most_faults (List.sort Diagnostic.compare faults))
 
 let names_at word ~file source =

@@ -3,7 +3,9 @@
 
 open Dolphin_syntax
 
-val read : file:string -> string -> (Entry.t, Diagnostic.t list) result
+val read :
+  chart:(string -> (Dolphin_semantics.Core.value, string) result) -> file:string -> string ->
+  (Entry.t, Diagnostic.t list) result
 (** See {!Scenario.read}. *)
 
 val vehicles_at : file:string -> string -> (string * Location.t) list

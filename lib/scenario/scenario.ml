@@ -2,7 +2,8 @@ open Dolphin_semantics
 
 include Entry
 
-let read = Fleet_parser.read
+let no_chart _ = Error "no file can be read here"
+let read ?(chart = no_chart) ~file source = Fleet_parser.read ~chart ~file source
 let vehicles_at = Fleet_parser.vehicles_at
 let replies_at = Fleet_parser.replies_at
 
@@ -12,10 +13,13 @@ let equal_input (a : input) (b : input) =
   let equal_value x y = Value.compare x y = 0 in
   a.key = b.key && a.times = b.times && a.after = b.after && List.equal (List.equal equal_value) a.rounds b.rounds
 
+(* Areas are plain data. *)
+let equal_fence (a : Fences.fence) (b : Fences.fence) = a.rule = b.rule && a.margin = b.margin && a.text = b.text
+
 (* The rest is plain data without functions or cycles, and without numbers that are none. *)
 let equal (a : t) (b : t) =
   a.vehicles = b.vehicles && a.plans = b.plans && a.answers = b.answers && List.equal equal_reply a.replies b.replies
-  && List.equal equal_input a.inputs b.inputs && a.samples = b.samples
+  && List.equal equal_input a.inputs b.inputs && a.samples = b.samples && List.equal equal_fence a.fences b.fences
 
 let beside program = Filename.remove_extension program ^ ".fleet"
 
@@ -163,7 +167,8 @@ let pp ppf (s : t) =
   List.iter (pp_answer ppf) s.answers;
   List.iter (pp_reply ppf) s.replies;
   List.iter (pp_input ppf) s.inputs;
-  List.iter (pp_sample ppf) s.samples
+  List.iter (pp_sample ppf) s.samples;
+  List.iter (fun (fence : Fences.fence) -> Format.fprintf ppf "%s@\n" fence.text) s.fences
 
 (* {1 The default} *)
 
@@ -179,4 +184,4 @@ let default =
         underwater "noptilus-2" (at 41.18600 (-8.70720));
         underwater "noptilus-3" (at 41.18400 (-8.70760));
         vehicle "x8-02" "UAV" [ "Camera" ] (at 41.18450 (-8.70500)) 0.4 ];
-    plans = []; answers = []; replies = []; inputs = []; samples = [] }
+    plans = []; answers = []; replies = []; inputs = []; samples = []; fences = [] }

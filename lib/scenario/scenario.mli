@@ -9,10 +9,12 @@ end
 
 (** {1:reading Reading and writing} *)
 
-val read : file:string -> string -> (t, Dolphin_syntax.Diagnostic.t list) result
-(** [read ~file source] is the scenario that [source] describes, or what is wrong with it: at least one diagnostic and
-    at most {!Dolphin_syntax.Parse.most_faults}, in the order of the text. [file] is only a name. No text makes it
-    raise. *)
+val read :
+  ?chart:(string -> (Dolphin_semantics.Core.value, string) result) -> file:string -> string ->
+  (t, Dolphin_syntax.Diagnostic.t list) result
+(** [read ~chart ~file source] is the scenario that [source] describes, or what is wrong with it: at least one
+    diagnostic and at most {!Dolphin_syntax.Parse.most_faults}, in the order of the text. [file] is only a name. [chart]
+    is what [map] makes of a file in a fence; by default no file can be read. No text makes it raise. *)
 
 val vehicles_at : file:string -> string -> (string * Dolphin_syntax.Location.t) list
 (** [vehicles_at ~file source] is where [source], which {!read} reads, names each vehicle, by their ids. *)
@@ -24,6 +26,7 @@ val pp : Format.formatter -> t -> unit
 (** As a fleet file: [read ~file (Fmt.str "%a" pp s)] is [Ok s]. *)
 
 val equal : t -> t -> bool
+(** Wherever fences stand. *)
 
 val default : t
 (** The fleet that stands in where none is given: three UUVs, [noptilus-1] to [noptilus-3], and the UAV [x8-02], off
@@ -124,5 +127,8 @@ reply 'queue.await', task('survey1'), either(task('survey2'), fails('the queue i
 
     [field QUANTITY, NUMBER, at(...)], [field QUANTITY, NUMBER, at(...), after TIME]. A sample of a quantity, at a place
     and from a time on: {!Field.value} is what the quantity is elsewhere. Stands as often as there are samples.
+
+    [fence inside AREA, margin: LENGTH] and its like: as in programs
+    ({!Dolphin_semantics.Fence_declarations}), without variables. Every program is kept to it.
 
     Times without a unit are seconds. *)

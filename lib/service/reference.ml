@@ -299,6 +299,7 @@ let fleet_entries =
       "answer", "answer 'prompt', e1, e2", "What people answer to a prompt, one after another.";
       "input", "input 'key', x1, x2", "What may be posted with a key from outside, one value after another.";
       "field", "field 'Temperature', 12, at(41.185, -8.706)", "What a quantity is at a place, from a time on.";
+      "fence", "fence inside map('harbour.geojson').basin, margin: 20.m", "What vehicles must keep to, always.";
       "reply", "reply 'call', r1, r2", "What a supplier replies to a call, one after another." ]
 
 let of_vehicle =

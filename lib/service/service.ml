@@ -1,5 +1,7 @@
 open Dolphin_syntax
 module Elaborate = Dolphin_semantics.Elaborate
+module Fence_declarations = Dolphin_semantics.Fence_declarations
+module Fences = Dolphin_semantics.Fences
 module Scenario = Dolphin_scenario.Scenario
 
 type span = Occurrences.span = { start : int; stop : int }
@@ -16,18 +18,7 @@ type t = {
 
 let is_fleet file = Filename.check_suffix file ".fleet"
 
-let read ~file ?fleet source =
-  let ast = Parse.program ~file source in
-  let scenario = Option.bind fleet (fun { path; text } -> Result.to_option (Scenario.read ~file:path text)) in
-  let bindings =
-    match ast with
-    | Ok ast when not (is_fleet file) -> Occurrences.of_program ~source ast
-    | Ok _ | Error _ -> [] in
-  { file; source; fleet; scenario; ast; bindings }
-
-let source d = d.source
-
-(* {1 Diagnostics} *)
+(* {1 Files} *)
 
 let most_bytes = 64 * 1024 * 1024
 
@@ -41,13 +32,39 @@ let read_file path =
      | n -> Ok (really_input_string channel n)
      | exception (Sys_error _ | End_of_file) -> Error (path ^ " cannot be read"))
 
+let chart ast = Dolphin_charts.Charts.value (Dolphin_charts.Charts.read read_file ast)
+
+let read_fleet ~file source =
+  let ast = Result.value (Parse.program ~file source) ~default:[] in
+  Scenario.read ~chart:(chart ast) ~file source
+
+(* {1 Documents} *)
+
+let read ~file ?fleet source =
+  let ast = Parse.program ~file source in
+  let scenario = Option.bind fleet (fun { path; text } -> Result.to_option (read_fleet ~file:path text)) in
+  let bindings =
+    match ast with
+    | Ok ast when not (is_fleet file) -> Occurrences.of_program ~source ast
+    | Ok _ | Error _ -> [] in
+  { file; source; fleet; scenario; ast; bindings }
+
+let source d = d.source
+
+(* {1 Diagnostics} *)
+
 let elaborated d =
   let _, parsed = Include.program ~read:read_file ~file:d.file d.source in
   let elaborate ast =
-    Elaborate.program_with_charts ~chart:(Dolphin_charts.Charts.value (Dolphin_charts.Charts.read read_file ast))
-      ~source_name:d.file ast
+    let chart = chart ast in
+    let of_program (program, warnings) = (program, warnings, Elaborate.known_plans ~chart ast) in
+    Result.map of_program (Elaborate.program_with_charts ~chart ~source_name:d.file ast)
   in
   Result.bind parsed elaborate
+
+(* The operator's fences hold for each program. *)
+let of_fences (s : Scenario.t) plans =
+  if s.fences = [] then [] else Fence_declarations.broken (Fences.make s.fences) plans
 
 (* Of what is wrong in files that it includes, it is for their own documents to tell. *)
 let of_program d =
@@ -56,15 +73,16 @@ let of_program d =
   @@
   match elaborated d with
   | Error found -> found
-  | Ok (program, warnings) ->
-    warnings @ Option.fold d.scenario ~none:[] ~some:(Plan_names.misspelt program)
+  | Ok (program, warnings, plans) ->
+    let of_fleet s = of_fences s plans @ Plan_names.misspelt program s in
+    warnings @ Option.fold d.scenario ~none:[] ~some:of_fleet
 
 let diagnostics d =
   let found =
     match d.ast with
     | Error found -> found
     | Ok _ when is_fleet d.file ->
-      (match Scenario.read ~file:d.file d.source with Ok _ -> [] | Error found -> found)
+      (match read_fleet ~file:d.file d.source with Ok _ -> [] | Error found -> found)
     | Ok _ -> of_program d in
   List.stable_sort Diagnostic.compare found
 
@@ -330,6 +348,6 @@ let allocations (d : t) =
     if Location.file at = d.file then Some (at.start.pos_cnum, vehicles) else None
   in
   match d.scenario, elaborated d with
-  | Some scenario, Ok (program, _) when not (is_fleet d.file) ->
+  | Some scenario, Ok (program, _, _) when not (is_fleet d.file) ->
     List.filter_map own (Allocations.of_program program scenario)
   | _ -> []

@@ -232,3 +232,90 @@ To the explorer and to dolphin time any plan may fail where there are fences.
   completed: 10:00 at the earliest, 10:00 at the latest
   task   vehicle  starts  ends   where
   drift  a        0:00    10:00  open.dol:5
+
+The operator's fences stand in the fleet, and hold for every program: with its own, or without. Maps may name them.
+
+  $ cat > open.dol <<'END'
+  > v = pick { type 'UUV' }
+  > def to(name, north, east) { imcPlan { planName name; locate location(41.185, -8.706).displace(north, east); goTo() } }
+  > def tried(t) { watch t onError { e -> message e.message; ignore() } }
+  > execute tried(to('near', 100, 100)[v])
+  > execute tried(to('far', 700, 100)[v])
+  > END
+  $ cat > basin.geojson <<'END'
+  > {"type":"Feature","properties":{"name":"basin"},"geometry":{"type":"Polygon","coordinates":
+  >  [[[-8.706,41.185],[-8.700,41.185],[-8.700,41.188],[-8.706,41.188],[-8.706,41.185]]]}}
+  > END
+  $ cat > open.fleet <<'END'
+  > vehicle 'a', { type 'UUV'; at 41.1852, -8.7055 }
+  > fence inside map('basin.geojson').basin, margin: 5.m
+  > fence depth 12.m
+  > END
+  $ dolphin check open.dol
+  open.dol: no errors
+  open.fleet: no errors
+  $ dolphin exec open.dol --journal open.run | grep -A1 ' says'
+     1:04  program     says: far failed on a: not started: the way to 1.Goto breaks fence inside map('basin.geojson').basin, margin: 5.m (open.fleet:2) by 371.8 m, at (41.191303, -8.704808)
+     1:04  program     releases a
+  $ dolphin trace check open.dol open.run
+  open.run: a run, of 9 transitions in 1:04; completed
+
+Any plan may fail then: where nobody handles that, exploring says so.
+
+  $ printf "v = pick { type 'UUV' }\nexecute task('drift')[v]\n" > drift.dol
+  $ dolphin explore drift.dol --fleet open.fleet | grep 'unhandled'
+  no unhandled error: violated after 5 steps: an error that nobody handles ends the program
+  no unhandled error: a shortest run in which an error that nobody handles ends the program
+  $ grep -v fence open.fleet > free.fleet
+  $ dolphin explore drift.dol --fleet free.fleet | grep 'unhandled'
+  no unhandled error: holds
+
+What is known before the run is told with the program, of each command that takes a fleet.
+
+  $ cat > known.dol <<'END'
+  > v = pick { type 'UUV' }
+  > execute imcPlan { planName 'deep'; locate location(41.186, -8.705); z 20, Z.Units.DEPTH; goTo() }[v]
+  > END
+  $ dolphin check known.dol --fleet open.fleet
+  known.dol:2:90: error: plan 'deep': 1.Goto breaks fence depth 12.m (open.fleet:3) by 8.0 m
+    2 | execute imcPlan { planName 'deep'; locate location(41.186, -8.705); z 20, Z.Units.DEPTH; goTo() }[v]
+      |                                                                                          ^^^^^^
+  known.dol: 1 error
+  open.fleet: no errors
+  [2]
+  $ for c in exec explore time plan lts 'tla --output x'; do dolphin $c known.dol --fleet open.fleet 2>&1 | grep -c 'breaks fence depth 12.m (open.fleet:3)'; done
+  1
+  1
+  1
+  1
+  1
+  1
+  $ dolphin check known.dol
+  known.dol: no errors
+
+A fleet without fences: nothing stands against the plan.
+
+  $ dolphin exec known.dol --fleet free.fleet | tail -1
+     1:05  program     ends
+
+What is wrong with a fence of a fleet is told at its place; so are its variables, of which fleets have none.
+
+  $ echo "fence inside basin" > wrong.fleet; echo "fence outside map('nowhere.kml').rock" >> wrong.fleet
+  $ dolphin check open.dol --fleet wrong.fleet
+  wrong.fleet:1:14: error: unknown name 'basin'
+    1 | fence inside basin
+      |              ^^^^^
+      hint: there are no variables in a fleet: write the area itself, or map('harbour.geojson').basin
+  wrong.fleet:2:19: error: the map cannot be read: nowhere.kml: No such file or directory
+    2 | fence outside map('nowhere.kml').rock
+      |                   ^^^^^^^^^^^^^
+  wrong.fleet: 2 errors
+  open.dol: no errors
+  [2]
+
+The contents of a fleet's maps are part of it: a run is not resumed with others.
+
+  $ sed -i 's/41.188/41.189/g' basin.geojson
+  $ head -n 8 open.run > half.run; dolphin exec --resume half.run open.dol
+  dolphin: open.fleet: this is not the fleet that the run was on, or it has changed since
+  [2]

@@ -190,7 +190,7 @@ let fleet =
   let reply call : Scenario.reply = { call; rounds = Calls.replies call } in
   let replies = List.map reply Calls.names in
   let vehicles = List.map (fun v -> draining (steadily v)) vehicles in
-  return { Scenario.vehicles; plans; answers; replies; inputs = []; samples = [] }
+  return { Scenario.vehicles; plans; answers; replies; inputs = []; samples = []; fences = [] }
 
 let random_case =
   QCheck2.Gen.(

@@ -192,6 +192,16 @@ let one_reply : Reply.t QCheck2.Gen.t =
   in
   frequency [ (5, map Result.ok (value 2)); (1, map Result.error name) ]
 
+let some_fences =
+  lazy
+    (reads
+       {|fence inside Location.APDL ^ 2.km, margin: 20.m
+         fence outside polygon([Location.APDL, location(41.2, -8.7), location(41.2, -8.6)]) & (Location.APDL ^ 900)
+         fence depth 12.m
+         fence height 120, margin: 1.5
+         fence distance 50.feet|})
+    .fences
+
 let scenario =
   let open QCheck2.Gen in
   let amount = oneof [ float_range 0.001 1e6; map float_of_int (int_range 1 10_000) ] in
@@ -248,7 +258,8 @@ let scenario =
     return { Scenario.quantity = "Temperature"; value; place; time }
   in
   let* samples = list_size (int_range 1 3) sample in
-  return { Scenario.vehicles; plans; answers; replies; inputs; samples }
+  let* fences = list_size (int_bound 2) (oneofl (Lazy.force some_fences)) in
+  return { Scenario.vehicles; plans; answers; replies; inputs; samples; fences }
 
 (* {1 Fields} *)
 

@@ -1,4 +1,5 @@
 module Scenario = Dolphin_scenario.Scenario
+module Charts = Dolphin_charts.Charts
 
 type t = { path : string option; source : string; scenario : Scenario.t }
 
@@ -8,9 +9,12 @@ let choose ~program = function
     let beside = Scenario.beside program in
     if beside <> program && Sys.file_exists beside then Some beside else None
 
+(* Maps are part of a fleet, as of programs. *)
 let read path source =
-  match Scenario.read ~file:path source with
-  | Ok scenario -> Ok { path = Some path; source; scenario }
+  let read_map path = Result.map_error (fun e -> String.concat "; " (Error.sentences e)) (Text_file.read path) in
+  let charts = Charts.read read_map (Result.value (Dolphin_syntax.Parse.program ~file:path source) ~default:[]) in
+  match Scenario.read ~chart:(Charts.value charts) ~file:path source with
+  | Ok scenario -> Ok { path = Some path; source = source ^ Charts.identity charts; scenario }
   | Error found -> Error (Error.Bad_text { source; found })
 
 let load = function
@@ -21,5 +25,5 @@ let load_for ~program named = load (choose ~program named)
 
 let nobody =
   { path = None; source = "";
-    scenario = { vehicles = []; plans = []; answers = []; replies = []; inputs = []; samples = [] } }
+    scenario = { vehicles = []; plans = []; answers = []; replies = []; inputs = []; samples = []; fences = [] } }
 let header f = Option.map (fun path -> Dolphin_trace.Header.source ~path f.source) f.path

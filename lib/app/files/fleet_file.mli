@@ -2,7 +2,8 @@
 
 type t = {
   path : string option;  (** [None]: the built-in fleet *)
-  source : string;  (** its text; [""] for the built-in fleet *)
+  source : string;
+  (** its text, and behind it what tells apart the contents of its maps; [""] for the built-in fleet *)
   scenario : Dolphin_scenario.Scenario.t;
 }
 
@@ -17,7 +18,7 @@ val load_for : program:string -> string option -> (t, Error.t) result
 (** [load_for ~program named] is [load (choose ~program named)]. *)
 
 val nobody : t
-(** A fleet without vehicles, plans, answers and replies. *)
+(** A fleet in which there is nothing. *)
 
 val header : t -> Dolphin_trace.Header.source option
 (** The fleet as journals name it: by its path and the digest of its text. *)

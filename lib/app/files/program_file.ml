@@ -8,6 +8,7 @@ type t = {
   set : (string * string) list;
   program : Dolphin_semantics.Core.program;
   warnings : Diagnostic.t list;
+  plans : (Ast.expression * Dolphin_semantics.Inline_plan.t) list Lazy.t;
 }
 
 let ( let* ) = Result.bind
@@ -36,7 +37,18 @@ let load ?(set = []) path =
   let chart = Charts.value charts in
   let elaborated = Dolphin_semantics.Elaborate.program_with_charts ~chart ~source_name:path ast in
   let* program, warnings = wrong source elaborated in
-  Ok { path; source = source ^ Charts.identity charts; parameters; set; program; warnings }
+  Ok { path; source = source ^ Charts.identity charts; parameters; set; program; warnings;
+       plans = lazy (Dolphin_semantics.Elaborate.known_plans ~chart ast) }
+
+let within (fleet : Fleet_file.t) p =
+  let open Dolphin_semantics in
+  let own = Fences.list p.program.fences in
+  match List.filter (fun fence -> not (List.memq fence own)) fleet.scenario.fences with
+  | [] -> Ok p
+  | further -> (
+      match Fence_declarations.broken (Fences.make further) (Lazy.force p.plans) with
+      | [] -> Ok { p with program = { p.program with fences = Fences.make (own @ further) } }
+      | found -> Error (Error.Bad_text { source = p.source; found }))
 
 let load_recorded ~set ~recorded path =
   match set, recorded with

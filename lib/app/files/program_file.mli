@@ -10,11 +10,17 @@ type t = {
   set : (string * string) list;  (** those that were set, each with the text of its value *)
   program : Dolphin_semantics.Core.program;
   warnings : Diagnostic.t list;
+  plans : (Ast.expression * Dolphin_semantics.Inline_plan.t) list Lazy.t;
+  (** {!Dolphin_semantics.Elaborate.known_plans} *)
 }
 
 val load : ?set:(string * string) list -> string -> (t, Error.t) result
 (** [load ~set path] is the program in the file [path], parsed and elaborated, with what it includes
     ({!Dolphin_syntax.Include}) and its parameters [set] ({!Dolphin_syntax.Parameters.set}); none by default. *)
+
+val within : Fleet_file.t -> t -> (t, Error.t) result
+(** [within fleet p] is [p] with the fences of [fleet], besides its own; or which of its plans break one of these, as
+    far as that is known before it runs. *)
 
 val load_recorded :
   set:(string * string) list -> recorded:(string * string) list option -> string -> (t, Error.t) result

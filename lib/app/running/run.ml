@@ -331,6 +331,16 @@ let start front ~interruption (settings : settings) program (fleet : Fleet_file.
 
 let ( let* ) = Result.bind
 
+(* What plans were kept to is part of what happened. *)
+let fleet_of_network ~named (resumed : Resumed.t) =
+  match resumed.past.header.fleet, named with
+  | Some _, _ -> Resumed.fleet resumed ~named
+  | None, None -> Ok Fleet_file.nobody
+  | None, Some path ->
+    let* fleet = Fleet_file.load named in
+    if fleet.scenario.fences = [] then Ok fleet
+    else Error (Error.Bad_input (path ^ ": a run goes on with the fences that it began with, and it had no fleet"))
+
 (* The fleet and the settings with which a run is resumed: seed and speed are those of its journal. *)
 let as_before (settings : settings) ~fleet (resumed : Resumed.t) =
   let header = resumed.past.header in
@@ -342,8 +352,7 @@ let as_before (settings : settings) ~fleet (resumed : Resumed.t) =
     let speed = if settings.speed = None then header.speed else settings.speed in
     Result.map (fun fleet -> (fleet, { settings with speed })) (Resumed.fleet resumed ~named:fleet)
   | platform, false when platform = Networks.name (choice settings) ->
-    let fleet = if fleet = None then Ok Fleet_file.nobody else Fleet_file.load fleet in
-    Result.map (fun fleet -> (fleet, { settings with speed = None })) fleet
+    Result.map (fun fleet -> (fleet, { settings with speed = None })) (fleet_of_network ~named:fleet resumed)
   | platform, (true | false) ->
     refuse
       (Printf.sprintf "this run was on vehicles of a network, which will move again: say %s"
@@ -352,6 +361,7 @@ let as_before (settings : settings) ~fleet (resumed : Resumed.t) =
 let resumption front settings ~changed ~fleet program path =
   let* resumed = Resumed.read ~changed ~tell:front.replayed program path in
   let* fleet, settings = as_before settings ~fleet resumed in
+  let* program = Program_file.within fleet program in
   if settings.supplier = None && not (Replies.are_of fleet.scenario resumed.past.history) then
     Error
       (Error.Bad_input

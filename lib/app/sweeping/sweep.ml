@@ -34,6 +34,10 @@ let question ~set path =
     | (x, _) :: (y, _) :: _ ->
       Error (Error.Bad_input (Printf.sprintf "only one parameter may have a range of values, not both %s and %s" x y))
 
+let within fleet = function
+  | One program -> Result.map (fun p -> One p) (Program_file.within fleet program)
+  | Several s -> Ok (Several { s with load = (fun n -> Result.bind (s.load n) (Program_file.within fleet)) })
+
 let rows s ~interrupted ask =
   let rec ask_each found = function
     | value :: rest when not (interrupted ()) ->

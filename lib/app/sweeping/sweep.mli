@@ -9,6 +9,9 @@ val question : set:(string * string) list -> string -> (question, Error.t) resul
 (** [question ~set path] is the program in the file [path] with its parameters [set], of which one may have a range of
     values ({!Dolphin_syntax.Parameters.range}). *)
 
+val within : Fleet_file.t -> question -> (question, Error.t) result
+(** [within fleet q] is the same of {!Program_file.within} that fleet. *)
+
 type verdict = Dolphin_checker.Verdict.t = Holds | Violated | Inconclusive
 
 (** What was found for a value. *)

@@ -123,6 +123,8 @@ let fences program ~chart ast =
       List.iter (Scope.report program) (Fence_declarations.broken fences plans);
       fences
 
+let known_plans ~chart ast = Fence_declarations.plans (Constants.of_program ~chart ast) ast
+
 let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
   let ast = without_unused_prelude ast in
   let program =

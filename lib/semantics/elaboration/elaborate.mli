@@ -21,6 +21,11 @@ val program_with_charts :
 (** [program_with_charts ~chart ~source_name ast] is the same; [chart path] is what [map] makes of the file [path], or
     what is wrong with it. *)
 
+val known_plans :
+  chart:(string -> (Core.value, string) result) -> Dolphin_syntax.Ast.program ->
+  (Dolphin_syntax.Ast.expression * Inline_plan.t) list
+(** [known_plans ~chart ast] is the plans that are known before the program runs: {!Fence_declarations.plans}. *)
+
 val answer : Core.program -> string -> (Core.closure, string) result
 (** [answer p text] is the expression [text], to be evaluated with the variables of [p] in sight, or what is wrong with
     it in one sentence. [yes] and [y], [no] and [n], in small or large letters, are the truth values, whatever variables

@@ -43,9 +43,18 @@ there ends well in every run.
   vehicles for all tasks: holds
   note: no leftover tuples: violated after 15 steps: tuples are left when the program completes
 
-An AUV that samples comes to its end, and so does one with an escort; both stop if their vehicles are not there.
+A team that replaces who is lost, a patrol of 24 hours, an AUV that samples and one with an escort come to their ends
+whatever happens; they stop if their vehicles are not there.
 
-  $ for f in sampling.dol escort.dol; do dolphin explore --faults all $f | grep 'deadlock:\|^termination:\|^assertions:'; done
+  $ for f in replacement.dol rotation.dol sampling.dol escort.dol; do
+  >   dolphin explore --faults all $f | grep 'deadlock:\|^termination:\|^assertions:'
+  > done
+  no deadlock: holds
+  termination: holds
+  assertions: holds
+  no deadlock: holds
+  termination: holds
+  assertions: holds
   no deadlock: holds
   termination: holds
   assertions: holds

@@ -1,10 +1,16 @@
 #!/usr/bin/env python3
 """Inputs on the socket of a run: how long one takes to the step that it enables, and how many a second are taken.
 
-inputs.py DOLPHIN [SECONDS [RATE]]: of RATE inputs a second (1,000) for so many SECONDS (60), in a simulated run in real
-time, with a follower; and of 300 inputs, one after the other, the time from sending each to reading in the journal
-the step that took it. Nothing may be lost, and order must be kept.
+inputs.py DOLPHIN [SECONDS [RATE]]: in a simulated run in real time, and on a vehicle that speaks IMC over loopback,
+while the vehicle runs a plan:
+- of 300 inputs, one after the other, the time from sending each to reading in the journal the step that took it;
+- of RATE inputs a second (1,000) for so many SECONDS (60), how many were taken;
+- both again with 20 followers, one of which never reads, for a sixth of the time;
+- 10,000 malformed lines: each is answered by an error, and moves nothing.
+Nothing may be lost, order must be kept, and each follower that reads must see the whole journal. On a machine that is
+busy otherwise, the processor's time counts.
 """
+import hashlib
 import json
 import os
 import socket
@@ -17,13 +23,17 @@ import time
 
 PROGRAM = """
 input 'n', 'over'
-taken = 0
-while (taken < TIMES) {
-    execute condition { consume n: taken }
-    taken = taken + 1
-}
-execute condition { consume over: true }
+v = pick { type 'UUV' }
+message "starts"
+execute until { poll over: true } run (task('survey')[v] | repeat condition { consume n: _ })
 """
+FLEET = """
+vehicle 'lauv-1', { type 'UUV' }
+plan 'survey', { duration 10.hours }
+"""
+PORTS = "24300-24304"
+WRONG = ["", "nothing", "[1]", "{}", '{"request": "dance"}', '{"request": "post"}', "[" * 1000, "x" * 70000, "\x00",
+         '{"request": "post", "key": "other", "value": 1}', '{"request": "post", "key": "n", "value": {"task": "p"}}']
 
 
 def connect(path):
@@ -36,71 +46,167 @@ def post(lines, key, value):
     lines.write(json.dumps({"request": "post", "key": key, "value": value}) + "\n")
 
 
-def with_run(dolphin, times, f):
-    with tempfile.TemporaryDirectory() as folder:
-        program, journal = os.path.join(folder, "n.dol"), os.path.join(folder, "n.run")
-        with open(program, "w", encoding="utf-8") as file:
-            file.write(PROGRAM.replace("TIMES", str(times)))
-        run = subprocess.Popen([dolphin, "exec", program, "--speed", "1", "--journal", journal],
-                               stdout=subprocess.DEVNULL)
-        while not os.path.exists(journal + ".sock"):
+def over(path):
+    lines = connect(path)
+    post(lines, "over", True)
+    lines.flush()
+    lines.readline()
+
+
+def follow(path):
+    lines = connect(path)
+    lines.write('{"request": "follow"}\n')
+    lines.flush()
+    return lines
+
+
+class Run:
+    """A run with its journal, on a simulated vehicle, or on one of `dolphin sim --imc`."""
+
+    def __init__(self, dolphin, imc, folder):
+        self.journal = os.path.join(folder, "n.run")
+        self.path = self.journal + ".sock"
+        program, fleet = os.path.join(folder, "n.dol"), os.path.join(folder, "n.fleet")
+        for name, text in (program, PROGRAM), (fleet, FLEET):
+            with open(name, "w", encoding="utf-8") as file:
+                file.write(text)
+        self.vehicles = None
+        if imc:
+            self.vehicles = subprocess.Popen([dolphin, "sim", fleet, "--imc", "--discovery-ports", PORTS],
+                                             stdout=subprocess.DEVNULL)
+            where = ["--imc-loopback", "--imc-discovery-ports", PORTS]
+        else:
+            where = ["--speed", "1"]
+        self.run = subprocess.Popen([dolphin, "exec", program, "--journal", self.journal] + where,
+                                    stdout=subprocess.DEVNULL)
+        while not os.path.exists(self.path):
             time.sleep(0.01)
-        f(journal + ".sock")
-        status = run.wait()
-        with open(journal, encoding="utf-8") as file:
-            values = [e["value"] for e in map(json.loads, file) if e.get("event") == "input"]
-        assert status == 0 and values == list(range(times)) + [True], "something was lost, or out of order"
+        lines = follow(self.path)
+        while '"label":"start(lauv-1' not in lines.readline():
+            pass
+
+    def seconds(self):
+        """The processor's seconds that dolphin has taken."""
+        with open("/proc/%d/stat" % self.run.pid, encoding="utf-8") as file:
+            fields = file.read().rsplit(") ", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    def end(self, values):
+        over(self.path)
+        status = self.run.wait()
+        if self.vehicles:
+            self.vehicles.terminate()
+            self.vehicles.wait()
+        with open(self.journal, encoding="utf-8") as file:
+            found = [e["value"] for e in map(json.loads, file) if e.get("event") == "input"]
+        assert status == 0 and found == values + [True], "something was lost, or out of order"
 
 
-def latency(path):
-    follower, poster = connect(path), connect(path)
-    follower.write('{"request": "follow"}\n')
-    follower.flush()
-    took = []
-    for i in range(300):
+class Followers:
+    """Twenty, one of which never reads."""
+
+    def __init__(self, path):
+        self.deaf = follow(path)
+        self.seen = []
+        self.threads = [threading.Thread(target=self.read, args=(path,)) for _ in range(19)]
+        for thread in self.threads:
+            thread.start()
+
+    def read(self, path):
+        s = socket.socket(socket.AF_UNIX)
+        s.connect(path)
+        s.sendall(b'{"request": "follow"}\n')
+        seen, size = hashlib.sha256(), 0
+        while part := s.recv(65536):
+            seen.update(part)
+            size += len(part)
+        self.seen.append((size, seen.digest()))
+
+    def end(self):
+        for thread in self.threads:
+            thread.join()
+        assert len(set(self.seen)) == 1, "followers have seen different journals"
+
+
+def latency(run, begin, times, what):
+    follower, poster = follow(run.path), connect(run.path)
+
+    def one(i):
         label = '"label":"check(consume n:%d)"' % i
         start = time.perf_counter()
         post(poster, "n", i)
         poster.flush()
         while label not in follower.readline():
             pass
-        took.append(1000 * (time.perf_counter() - start))
-        poster.readline()
-    post(poster, "over", True)
-    poster.flush()
-    poster.readline()
-    took.sort()
-    print("input to the step that it enables: median %.2f ms, 99 of 100 under %.2f ms, longest %.2f ms"
-          % (statistics.median(took), took[297], took[-1]))
-
-
-def load(times, rate):
-    def run(path):
-        lines = connect(path)
-        replies = []
-        reader = threading.Thread(target=lambda: replies.extend(lines.readline() for _ in range(times)))
-        reader.start()
-        start = time.perf_counter()
-        for i in range(times):
-            wait = start + i / rate - time.perf_counter()
-            if wait > 0:
-                lines.flush()
-                time.sleep(wait)
-            post(lines, "n", i)
-        lines.flush()
-        reader.join()
         seconds = time.perf_counter() - start
-        assert all('"ok":true' in r for r in replies)
-        post(lines, "over", True)
+        poster.readline()
+        return 1000 * seconds
+
+    one(begin)  # the follower has read the journal so far
+    took = sorted(one(begin + i) for i in range(1, times))
+    print("  input to the step that it enables%s: median %.2f ms, 99 of 100 under %.2f ms, longest %.2f ms"
+          % (what, statistics.median(took), took[len(took) * 99 // 100], took[-1]))
+
+
+def load(run, begin, times, rate, what):
+    lines = connect(run.path)
+    replies = []
+    reader = threading.Thread(target=lambda: replies.extend(lines.readline() for _ in range(times)))
+    reader.start()
+    start, cpu = time.perf_counter(), run.seconds()
+    for i in range(times):
+        wait = start + i / rate - time.perf_counter()
+        if wait > 0:
+            lines.flush()
+            time.sleep(wait)
+        post(lines, "n", begin + i)
+    lines.flush()
+    reader.join()
+    seconds = time.perf_counter() - start
+    assert all('"ok":true' in r for r in replies)
+    print("  %d inputs in %.1f s, %.0f a second%s: none lost, in order; dolphin took %.2f ms of a processor for each"
+          % (times, seconds, times / seconds, what, 1000 * (run.seconds() - cpu) / times))
+
+
+def garbage(run, times):
+    lines = connect(run.path)
+    size = os.path.getsize(run.journal)
+
+    def send():
+        for i in range(times):
+            lines.write(WRONG[i % len(WRONG)] + "\n")
         lines.flush()
-        print("%d inputs in %.1f s, %.0f a second: none lost, in order" % (times, seconds, times / seconds))
-    return run
+
+    sender = threading.Thread(target=send)
+    start = time.perf_counter()
+    sender.start()
+    errors = sum("error" in json.loads(lines.readline()) for _ in range(times))
+    sender.join()
+    seconds = time.perf_counter() - start
+    moved = [line for line in open(run.journal, encoding="utf-8").read()[size:].splitlines() if '"input"' in line]
+    assert errors == times and not moved
+    print("  %d malformed lines in %.1f s: %d errors, nothing moved" % (times, seconds, errors))
+
+
+def all_of(dolphin, imc, seconds, rate):
+    print("on a vehicle that speaks IMC, over loopback:" if imc else "simulated, in real time:")
+    most, few = int(seconds * rate), int(seconds * rate / 6)
+    followed = " with 20 followers"
+    with tempfile.TemporaryDirectory() as folder:
+        run = Run(dolphin, imc, folder)
+        latency(run, 0, 300, "")
+        load(run, 300, most, rate, "")
+        followers = Followers(run.path)
+        latency(run, 300 + most, 300, followed)
+        load(run, 600 + most, few, rate, followed)
+        garbage(run, 10000)
+        run.end(list(range(600 + most + few)))
+        followers.end()
 
 
 if __name__ == "__main__":
     dolphin = os.path.abspath(sys.argv[1])
     seconds = float(sys.argv[2]) if len(sys.argv) > 2 else 60
     rate = float(sys.argv[3]) if len(sys.argv) > 3 else 1000
-    with_run(dolphin, 300, latency)
-    times = int(seconds * rate)
-    with_run(dolphin, times, load(times, rate))
+    for imc in False, True:
+        all_of(dolphin, imc, seconds, rate)

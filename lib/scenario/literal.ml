@@ -48,11 +48,7 @@ let in_unit n (name : string Ast.located) =
   match Operators.in_unit (Number n) name.it with
   | Ok value -> Ok (Number (Option.value (Value.to_number value) ~default:n, dimension name.it))
   | Error _ ->
-    error name.at "there is no unit '%s'" name.it
-      ~hint:
-        (match Diagnostic.suggest name.it Operators.unit_names with
-         | Some near -> Printf.sprintf "did you mean '%s'?" near
-         | None -> "units are m, km, seconds, min, hours, days, degrees, percent and the like")
+    error name.at "there is no unit '%s'" name.it ~hint:(Operators.unit_hint name.it)
 
 let rec read (e : Ast.expression) =
   match e.it with

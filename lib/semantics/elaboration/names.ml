@@ -43,7 +43,7 @@ let member env (whole : Ast.expression) subject (name : string Ast.located) safe
     if List.mem name.it sensor_members then Scope.note_sensor env.program;
     (match kind_of subject with
      | Number when Operators.unit_factor name.it = None ->
-       error env Unknown_unit name.at "there is no unit '%s'" name.it ?hint:(did_you_mean name.it Operators.unit_names)
+       error env Unknown_unit name.at "there is no unit '%s'" name.it ~hint:(Operators.unit_hint name.it)
      | _ -> ());
     Chart_calls.check_member env subject name;
     let subject = Checks.elaborate env subject in

@@ -263,6 +263,11 @@ let units =
 let unit_factor name = List.assoc_opt name units
 let unit_names = List.map fst units
 
+let unit_hint name =
+  match Dolphin_syntax.Diagnostic.suggest name unit_names with
+  | Some near -> Printf.sprintf "did you mean '%s'?" near
+  | None -> "units are m, km, seconds, min, hours, days, degrees, percent and the like"
+
 let in_unit n name =
   match n, unit_factor name with
   | Integer i, Some factor when Float.is_integer factor -> Ok (multiply i (int_of_float factor))

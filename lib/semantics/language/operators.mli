@@ -27,6 +27,9 @@ val unit_factor : string -> float option
 val unit_names : string list
 (** All names that {!unit_factor} knows. *)
 
+val unit_hint : string -> string
+(** [unit_hint name] is what to write where [name] is no unit. *)
+
 val in_unit : value -> string -> (value, string) result
 (** [in_unit n name] is [n.name]. *)
 

@@ -96,3 +96,23 @@ Links are there or not.
       |         ^^^^^^^^^^
   wrong.dol: 3 errors
   [2]
+
+Who is near another vehicle: either outcome for each, at each look.
+
+  $ cat > near.dol <<'END'
+  > include 'prelude'
+  > vs = pick { type 'UUV'; count 2 }
+  > execute waitFor { near(vs[0], vs, 500.m) == vs[1] } then task('t')
+  > assert { near(vs[0], vs, 500.m) == vs[1] }
+  > END
+  $ cat > near.fleet <<'END'
+  > vehicle 'a', { type 'UUV'; at 41.185, -8.706 }
+  > vehicle 'b', { type 'UUV'; at 41.186, -8.706 }
+  > plan 't', { duration 30 }
+  > END
+  $ dolphin exec near.dol | tail -1
+     0:30  program     ends
+  $ dolphin explore near.dol | grep 'assertions: viol\| if '
+  assertions: violated after 7 steps: near.dol:4:1: assertion failed
+      if position(a).distance(position(b)) > 500 is false
+      if position(a).distance(position(b)) > 500 is true

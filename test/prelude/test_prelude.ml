@@ -123,6 +123,10 @@ let told_of_themselves =
       ~ends:[ "completed"; broken; "failed: assertion failed" ] (with_failures "team(1, 2");
     holds "team: nobody may be out, if two are needed" ~failures:true ~ends:[ "completed"; broken ]
       (with_failures "team(2, 2");
+    holds "near: others only" "assert { near(vs[1], vs, 100.km) == vs[0] + vs[2] && near(vs[1], vs[1], 100.km).size() == 0 }";
+    holds "near: only as far as said"
+      "d = position(vs[0]).distance(position(vs[1]))\n\
+       assert { d > 0 && near(vs[0], vs[1], d) == vs[1] && near(vs[0], vs[1], d / 2).size() == 0 }";
     nothing "race: leaves nothing" "execute race([p, q, r])";
     nothing "barrier: leaves nothing" "execute par([p, q].collect { t -> t >> barrier('x', 2) })";
     nothing "team: leaves nothing" "execute team(1, 2, vs, [p, q]) { g -> g }" ]

@@ -307,4 +307,13 @@ let execution t (s : Timed.state) =
   | Executing _ | Script _ | Waiting _ | Ended _ -> None
 
 let leaves_alike t e (s : Timed.state) =
-  not (List.exists (fun (n, _) -> Hashtbl.mem e.renamed n) (in_space t s.configuration.shared.tuples))
+  let tuples = s.configuration.shared.tuples in
+  let left = List.map fst (in_space t tuples) in
+  let of_orbit = Hashtbl.create 16 in
+  let is_as_its_orbit n () all =
+    let orbit = Hashtbl.find e.pairs n and times = List.length (List.filter (Int.equal n) left) in
+    if not (Hashtbl.mem of_orbit orbit) then Hashtbl.add of_orbit orbit times;
+    all && times = Hashtbl.find of_orbit orbit
+    && (times = 0 || not (Tuples.is_ordered (Skeleton.key_of t.skeletons n) tuples))
+  in
+  Hashtbl.fold is_as_its_orbit e.renamed true

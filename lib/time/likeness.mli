@@ -26,7 +26,8 @@ val orbit : execution -> label -> label list
 (** [orbit e l] is the platform tasks that automorphisms make of [l], itself included. *)
 
 val leaves_alike : t -> execution -> Timed.state -> bool
-(** [leaves_alike t e s] is whether N in [s], where the task is over, has no pair that an automorphism renames. *)
+(** [leaves_alike t e s] is whether automorphisms leave N as it is in [s], where the task is over: of those pairs that
+    they rename into each other, it has none, or each equally often and in no order. *)
 
 (** {1:forms Forms} *)
 

@@ -174,13 +174,14 @@ let numbered xs =
   let known, numbers = List.fold_left number ([], []) xs in
   (List.rev_map fst known, List.rev numbers)
 
-(* The place of [state] with what [zone] becomes there, where [fresh] begins, and the clocks were those of [clocks] and
-   [rest_clock] before; and what is awaited in [state], in the order of its form. *)
-let reached t ~clocks ~rest_clock ~fresh execution state inert rest zone =
+(* The place of [state] by what is said of the rest, if there is one, with what [zone] becomes there, where [fresh]
+   begins, and the clocks were those of [clocks] and [rest_clock] before; and what is awaited in [state], in the order
+   of its form. *)
+let reached t ~clocks ~rest_clock ~fresh ~has_rest execution state inert zone =
   let with_clocks = with_clocks state inert in
   let origin item = if List.mem item fresh then None else List.assoc_opt item clocks in
   let origins, numbers = numbered (List.map origin with_clocks) in
-  let zone = Zone.rearranged (Array.of_list (origins @ if rest = No_rest then [] else [ rest_clock ])) zone in
+  let zone = Zone.rearranged (Array.of_list (origins @ if has_rest then [ rest_clock ] else [])) zone in
   let rec first clock k = if k = clock || Zone.are_equal k clock zone then k else first clock (k + 1) in
   let clocks = List.combine with_clocks (List.map (fun clock -> first clock 1) numbers) in
   let key, items =
@@ -195,12 +196,13 @@ let reached t ~clocks ~rest_clock ~fresh execution state inert rest zone =
   let in_order = List.filter_map with_clock items in
   let firsts, numbers = numbered (List.map snd in_order) in
   let clocks = List.map2 (fun (item, _) n -> (item, n)) in_order numbers in
-  let place = find t key state execution items inert rest clocks in
-  let last = if rest = No_rest then [] else [ Some (List.length origins + 1) ] in
+  let last = if has_rest then [ Some (List.length origins + 1) ] else [] in
   let zone = Zone.rearranged (Array.of_list (List.map Option.some firsts @ last)) zone in
-  match rest_clock, place.rest_clock with
-  | None, Some clock -> (place, items, Zone.freed clock zone)
-  | (None | Some _), _ -> (place, items, zone)
+  fun rest ->
+    let place = find t key state execution items inert rest clocks in
+    match rest_clock, place.rest_clock with
+    | None, Some clock -> (place, items, Zone.freed clock zone)
+    | (None | Some _), _ -> (place, items, zone)
 
 (* {1 The rest} *)
 

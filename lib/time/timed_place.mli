@@ -55,11 +55,12 @@ val enabling : t -> Zone.t -> Timed.step -> Zone.t option
 (** [enabling p z s] is those valuations of [z] in which [s] may be taken. *)
 
 val reached :
-  places -> clocks:(Timed.item * int) list -> rest_clock:int option -> fresh:Timed.item list ->
-  Likeness.execution option -> Timed.state -> Inert.item list -> rest -> Zone.t -> t * Timed.item list * Zone.t
-(** [reached ps ~clocks ~rest_clock ~fresh e s inert rest z] is the place of [s], which belongs to [e]; what is awaited
-    in [s], in the order of the place's [items]; and what [z] becomes there, if [fresh] begins, and the clocks were
-    those of [clocks] and [rest_clock]. *)
+  places -> clocks:(Timed.item * int) list -> rest_clock:int option -> fresh:Timed.item list -> has_rest:bool ->
+  Likeness.execution option -> Timed.state -> Inert.item list -> Zone.t -> rest -> t * Timed.item list * Zone.t
+(** [reached ps ~clocks ~rest_clock ~fresh ~has_rest e s inert z rest] is the place of [s], which belongs to [e]; what
+    is awaited in [s], in the order of the place's [items]; and what [z] becomes there, if [fresh] begins, and the
+    clocks were those of [clocks] and [rest_clock]. [has_rest] is whether [rest] is not [No_rest]: without [rest], it is
+    the work that is the same for all that may be said of it. *)
 
 (** {1:rest The rest} *)
 

@@ -215,7 +215,8 @@ let initial t v =
     let state = Timed.initial t.options in
     let fresh = List.map (fun (p : Timed.pending) -> p.item) state.pending in
     let place, _, zone =
-      Timed_place.reached t.places ~clocks:[] ~rest_clock:None ~fresh None state [] No_rest Zone.start in
+      Timed_place.reached t.places ~clocks:[] ~rest_clock:None ~fresh ~has_rest:false None state [] Zone.start No_rest
+    in
     match Timed_place.settled t.places place zone with
     | Some zone -> ignore (add t { place; zone; parent = -1; move = None })
     | None -> assert false  (* nothing is over at the start *)
@@ -236,16 +237,19 @@ let take t n (before : Timed_place.t) zone ({ step; inert; begun } as arrow : Ti
     note_missed t n zone before.state arrow;
     note_begun t execution zone step.next begun;
     if begun <> [] || execution <> None then note_reduced t;
+    let lasts = Timed_place.lasts before begun in
+    let has_rest = List.exists (fun (_, rest) -> rest <> Timed_place.No_rest) lasts in
+    let at =
+      let { Timed_place.clocks; rest_clock; _ } = before in
+      Timed_place.reached t.places ~clocks ~rest_clock ~fresh:step.fresh ~has_rest execution step.next inert zone
+    in
     let into (last, rest) =
-      let place, items, zone =
-        let { Timed_place.clocks; rest_clock; _ } = before in
-        Timed_place.reached t.places ~clocks ~rest_clock ~fresh:step.fresh execution step.next inert rest zone
-      in
+      let place, items, zone = at rest in
       let* zone = Timed_place.with_begun place begun last zone in
       let* zone = Timed_place.settled t.places place zone in
       Some (arrive t n (Step { step; begun; last; items }) place zone)
     in
-    List.filter_map into (Timed_place.lasts before begun)
+    List.filter_map into lasts
 
 (* The states that the end of the rest leads to. *)
 let end_rest t n (before : Timed_place.t) zone =
@@ -256,7 +260,9 @@ let end_rest t n (before : Timed_place.t) zone =
     Timed_place.check_left t.places before last.next;
     let into (zone, later) =
       let place, _, zone =
-        Timed_place.reached t.places ~clocks:[] ~rest_clock:None ~fresh:last.fresh None last.next [] No_rest zone in
+        Timed_place.reached t.places ~clocks:[] ~rest_clock:None ~fresh:last.fresh ~has_rest:false None last.next []
+          zone No_rest
+      in
       let* zone = Timed_place.settled t.places place zone in
       Some (arrive t n (Rest { steps; later }) place zone)
     in

@@ -965,8 +965,17 @@ let place =
   @ in_file "lib/explore/order/numeric.ml" ~noticed_by:"time/test_reductions"
     [
       ( "every variable is a number",
-        {|(not (is_new i)) || List.for_all go (assigned i)|},
-        {|(not (is_new i)) || List.for_all go (assigned i) || true|} );
+        {|List.for_all placed (Hashtbl.find_all t.globals i)|},
+        {|(List.for_all placed (Hashtbl.find_all t.globals i) || true)|} );
+      ( "every local is a number",
+        {|List.for_all known (in_local t within slot)|},
+        {|(List.for_all known (in_local t within slot) || true)|} );
+      ( "functions are called by their names alone",
+        {|is_function && List.compare_lengths calls (Hashtbl.find_all t.mentions lambda.id) = 0|},
+        {|is_function|} );
+      ( "parameters are not assigned to",
+        {|(if slot < lambda.parameters then given t lambda slot else []) @ Hashtbl.find_all t.locals (lambda.id, slot)|},
+        {|if slot < lambda.parameters then given t lambda slot else Hashtbl.find_all t.locals (lambda.id, slot)|} );
     ]
   @ in_file "lib/time/likeness.ml" ~noticed_by:"time/test_reductions"
     [
@@ -977,8 +986,11 @@ let place =
         {|(form (fun l' -> if l = l' then "!" else "")).text|},
         {|(form (fun l' -> ignore (l = l'); "")).text|} );
       ( "what is left in N may have any names",
-        {|  not (List.exists (fun (n, _) -> Hashtbl.mem e.renamed n)|},
-        {|  not (List.exists (fun (n, _) -> Hashtbl.mem e.renamed n && n < 0)|} );
+        {|    all && times = Hashtbl.find of_orbit orbit|},
+        {|    all|} );
+      ( "in what order alike tasks leave N makes no difference",
+        {|(times = 0 || not (Tuples.is_ordered (Skeleton.key_of t.skeletons n) tuples))|},
+        {|(times = times || not (Tuples.is_ordered (Skeleton.key_of t.skeletons n) tuples))|} );
     ]
 
 let timed_system =

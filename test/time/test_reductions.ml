@@ -159,38 +159,55 @@ let agrees case =
   end;
   true
 
-(* Which pair is left in N matters to what follows. *)
-let left =
+(* Which pairs are left in N, or in what order, matters to what follows. *)
+let left uav after =
   "UUVs = pick { count 3; type 'UUV' }\nUAV = pick { type 'UAV' }\n\
-   execute UUVs: (task('s1') >> action { post ready: 1 }) | (task('s2') >> action { post ready: 2 }), UAV: oneOf {\n\
-   when { consume ready: 1 } then task('v1')\nwhen { consume ready: 2 } then task('v2')\n}\n\
-   if (poll(ready: 2)) {\n  execute idle(5)\n}\n"
+   execute UUVs: (task('s1') >> action { post ready: 1 }) | (task('s2') >> action { post ready: 2 }), UAV: " ^ uav ^ "\n"
+  ^ after
+
+let one_of_two = "oneOf {\nwhen { consume ready: 1 } then task('v1')\nwhen { consume ready: 2 } then task('v2')\n}"
+
+let check_left ~alike uav after =
+  let case = (Mission (left uav after), (5, By_plan), ("as planned", answering)) in
+  let found = Timing.run Dolphin_checker.Limits.none (options case) in
+  Alcotest.(check bool) (after ^ ": the same is found") true (agrees case);
+  Alcotest.(check bool) (after ^ ": likeness is used") alike (found.reduction = Inert_ends_and_likeness)
 
 let test_left () =
-  let case = (Mission left, (5, By_plan), ("as planned", answering)) in
-  let found = Timing.run Dolphin_checker.Limits.none (options case) in
-  Alcotest.(check bool) "the same is found" true (agrees case);
-  Alcotest.(check bool) "likeness is given up" true (found.reduction <> Inert_ends_and_likeness)
+  check_left ~alike:false one_of_two "if (poll(ready: 2)) {\n  execute idle(5)\n}\n";
+  check_left ~alike:true "task('v')" "if (poll(ready: 2)) {\n  execute idle(5)\n}\n";
+  check_left ~alike:true "task('v')" "post ready: 1\nif (poll(ready: 2)) {\n  execute idle(5)\n}\n";
+  check_left ~alike:false "task('v')" "consume(ready: _)\nif (poll(ready: 2)) {\n  execute idle(5)\n}\n"
 
 (* {1 How times are written} *)
 
-let staying stay =
-  let copies = "(task('s#') >> action { post ready: # } >> idle(" ^ stay ^ "))" in
-  Printf.sprintf "UUVs = pick { count 3; type 'UUV' }\nUAV = pick { type 'UAV' }\nstay = 0.1.min\nlater = stay\n\
+let copies_of copy ~defined stay =
+  let copies = Str.global_replace (Str.regexp_string "STAY") stay copy in
+  Printf.sprintf "UUVs = pick { count 3; type 'UUV' }\nUAV = pick { type 'UAV' }\nstay = 0.1.min\nlater = stay\n%s\
                   execute UUVs: %s, UAV: allOf {\n%s\n}\n"
-    (numbered 3 " | " copies) (numbered 3 "\n" "  when { consume ready: # } then task('v#')")
+    defined (numbered 3 " | " copies) (numbered 3 "\n" "  when { consume ready: # } then task('v#')")
+
+let staying = copies_of "(task('s#') >> action { post ready: # } >> idle(STAY))" ~defined:""
+
+(* The time is the parameter of a function. *)
+let staying_by defined =
+  let work = "def work(i, t) {\n  task('s' + i) >> action { post ready: i } >> stay_for(t)\n}\n" in
+  copies_of "work(#, STAY)" ~defined:(defined ^ work)
 
 let found_of text = Timing.run Dolphin_checker.Limits.none (options (Mission text, (5, By_plan), ("as planned", answering)))
 
 let test_spellings () =
   let literal = found_of (staying "6") in
   Alcotest.(check bool) "all is used" true (literal.reduction = Inert_ends_and_likeness);
-  let check stay =
-    let found = found_of (staying stay) in
+  let check text stay =
+    let found = found_of (text stay) in
     Alcotest.(check int) stay literal.states found.states;
     Alcotest.(check bool) (stay ^ ", the same dates") true (found.endings = literal.endings)
   in
-  List.iter check [ "6.seconds"; "0.1.min"; "2 * 3"; "10 - 4"; "Math.max(2, 6)"; "stay"; "later"; "stay * 2 - 6" ]
+  let spellings = [ "6.seconds"; "0.1.min"; "2 * 3"; "10 - 4"; "Math.max(2, 6)"; "stay"; "later"; "stay * 2 - 6" ] in
+  List.iter (check staying) spellings;
+  List.iter (check (staying_by "def stay_for(t) {\n  idle(t)\n}\n")) spellings;
+  List.iter (check (staying_by "def stay_for(t) {\n  n = t + 1\n  n = n - 1\n  idle(n)\n}\n")) spellings
 
 (* {1 Code that looks} *)
 
@@ -228,10 +245,18 @@ let test_asks () =
   let asked x = "execute action { if (idle(" ^ x ^ ").size() > 0) { post a: 1 } }\n" in
   List.iter (asks true)
     [ asked "vs"; "ws = vs\n" ^ asked "ws"; "ws = vs - vs\n" ^ asked "ws"; asked "vs + vs"; "x = 1\nx = vs\n" ^ asked "x";
-      "m = [min: vs]\n" ^ asked "m.min"; asked "true ? vs : 5"; "def f(x) {\n  idle(x)\n}\nexecute f(1)\n" ];
+      "m = [min: vs]\n" ^ asked "m.min"; asked "true ? vs : 5";
+      "def f(x) {\n  idle(x)\n}\ndef g(x) {\n  f(x)\n}\nmessage f(1)\nmessage g(vs)\n";
+      "def f(x) {\n  idle(x)\n}\ng = f\nmessage f(1)\nmessage g(vs)\n";
+      "def f(x) {\n  idle(x)\n}\nmessage f(1)\nmessage ([vs].collect(f))\n";
+      "def f(x) {\n  x = vs\n  idle(x)\n}\nmessage f(1)\n";
+      "def f(x) {\n  n = 1\n  for (y in 1..2) { if (y == 2) { n = x } }\n  idle(n)\n}\nmessage f(vs)\n";
+      "def f(x) {\n  [1].collect { idle(x) }\n}\nmessage f(1)\n";
+      "message ([vs].collect { x -> idle(x) })\n" ];
   List.iter (asks false)
     [ "execute idle(1.min)\n"; "x = 2\ny = x * 3 + 1\nx = y\nexecute idle(y - x + 60.seconds)\n";
-      "execute idle(true ? 1.min : 2)\n" ]
+      "execute idle(true ? 1.min : 2)\n"; "def f(x) {\n  idle(x)\n}\nexecute f(1)\n";
+      "def f(n, x) {\n  n == 0 ? idle(x) : f(n - 1, x + 1)\n}\nexecute f(3, 1)\n" ]
 
 let test_agreement () =
   let test = QCheck2.Test.make ~count:programs ~print ~name:"what is left out makes no difference" case agrees in

@@ -416,12 +416,12 @@ let claims f = not (is_none f.claims)
 
 let exists_code p (program : program) =
   let found = ref false in
-  Code_walk.iter (fun e -> if p e.node then found := true) (Code_walk.pieces program);
+  Code_walk.iter_within (fun within e -> if p within e.node then found := true) (Code_walk.pieces program);
   !found
 
-let dismisses = exists_code (function Apply (Builtin Dismiss, _) -> true | _ -> false)
+let dismisses = exists_code (fun _ -> function Apply (Builtin Dismiss, _) -> true | _ -> false)
 
 let asks_held program =
   let is_number = Numeric.is_number program in
-  let asks_idle = function Apply (Builtin Make_idle, [ e ]) -> not (is_number e) | _ -> false in
+  let asks_idle within = function Apply (Builtin Make_idle, [ e ]) -> not (is_number within e) | _ -> false in
   exists_code asks_idle program || dismisses program

@@ -2,6 +2,7 @@
 
 open Dolphin_semantics
 
-val is_number : Core.program -> Core.expression -> bool
-(** [is_number p e] is whether [e], if it has a value, surely has a number: [10.min], [60 * 10], and variables of the
-    script to which nothing else is assigned. *)
+val is_number : Core.program -> Core.lambda -> Core.expression -> bool
+(** [is_number p l e] is whether [e], an expression of the code [l], if it has a value, surely has a number: [10.min],
+    [60 * 10], and variables to which nothing else is assigned; parameters too, of functions that are called by their
+    names alone, and by all of them with numbers. *)

@@ -20,15 +20,16 @@ let entering visit =
   let rec enter lambda =
     if not (List.memq lambda !seen) then begin
       seen := lambda :: !seen;
-      walk ~visit ~enter lambda.code
+      walk ~visit:(visit lambda) ~enter lambda.code
     end
   in
   enter
 
-let iter visit lambdas = List.iter (entering visit) lambdas
+let iter_within visit lambdas = List.iter (entering visit) lambdas
+let iter visit = iter_within (fun _ -> visit)
 
 let iter_called visit (program : program) =
-  let enter = entering visit in
+  let enter = entering (fun _ -> visit) in
   walk ~visit:ignore ~enter program.main.code;
   Option.iter enter program.on_interrupt;
   List.iter (fun (_, lambda) -> enter lambda) program.functions

@@ -9,6 +9,9 @@ val pieces : program -> lambda list
 val iter : (expression -> unit) -> lambda list -> unit
 (** [iter f ls] is [f] of the expressions of [ls], and of the code that they make or hold. *)
 
+val iter_within : (lambda -> expression -> unit) -> lambda list -> unit
+(** [iter_within f ls] is [f l e] for each expression [e] that [iter] has, where [l] is the code whose own it is. *)
+
 val iter_called : (expression -> unit) -> program -> unit
 (** [iter_called f p] is [f] of the expressions of code that others call: the functions of [p], and the closures that
     these and the script make or hold. *)

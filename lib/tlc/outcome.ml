@@ -51,7 +51,7 @@ let event r (e : Event.t) =
     update { so_far with generated; distinct; queue }
   | Depth n -> update { so_far with depth = Some (n - 1) }
   | Violation v when r.violation = None -> { r with violation = Some v }
-  | Behaviour when r.violation = None && r.troubles = [] -> { r with violation = Some Unnamed }
+  | Behaviour when r.violation = None && r.assertion = None && r.troubles = [] -> { r with violation = Some Unnamed }
   | State { number; action; text } when r.violation <> None ->
     { r with states = (number, { action; state = text }) :: r.states }
   | Stutters -> { r with repetition = Stays }

@@ -120,6 +120,10 @@ let verdicts () =
   check "gave up: x is \"open\""
     (version ^ "@!@!@STARTMSG 2111:1 @!@!@\nEvaluating invariant NoDeadlock failed.\n" ^ message_text 2132 0 assertion
      ^ "\n@!@!@ENDMSG 2111 @!@!@\n" ^ message_text 2121 1 "The behavior up to this point is:" ^ failure);
+  (* While TLC looked for what follows a state. *)
+  check "gave up: x is \"open\""
+    (version ^ message_text 2132 1 assertion ^ message_text 2121 1 "The behavior up to this point is:"
+     ^ message_text 2217 4 "1: <Initial predicate>\n/\\ x = 0\n");
   check "gave up: x is \"open\"" (version ^ "@!@!@STARTMSG 1000:1 @!@!@\n" ^ message_text 2132 0 assertion ^ failure);
   check "failed: Parsing or semantic analysis failed."
     (version ^ "Lexical error at line 6, column 164.\n" ^ message_text 3002 1 "Parsing or semantic analysis failed.");

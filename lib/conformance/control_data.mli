@@ -7,3 +7,14 @@ val of_control : Data.budget -> Configuration.control -> Data.json
 
 val control : Nodes.t -> Data.json -> Configuration.control
 (** @raise Data.Wrong if this program has no such control. *)
+
+(** {1:parts Their parts} *)
+
+val of_machine : Data.budget -> Machine.t -> Data.json
+(** @raise Data.Too_large, as {!of_residual} does. *)
+
+val machine : Nodes.t -> Data.json -> Machine.t
+(** @raise Data.Wrong, as {!residual} does. *)
+
+val of_residual : Data.budget -> Residual.t -> Data.json
+val residual : Nodes.t -> Data.json -> Residual.t

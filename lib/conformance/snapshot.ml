@@ -24,18 +24,19 @@ let variables (p : Core.program) (c : Configuration.t) =
 
 (* {1 The whole} *)
 
-let of_state (c : Configuration.t) : json =
-  let budget = budget () in
+let of_shared budget (s : Shared.t) : json list =
   let each = Value_data.of_value budget in
-  `List
-    [ Control_data.of_control budget c.control;
-      of_list (of_pair (fun i -> `Int i) each) (Store.bindings c.shared.store);
-      of_list (of_pair of_text (Value_data.of_platform_task budget)) (Vehicle_map.bindings c.shared.allocation);
-      of_list of_text c.shared.bound;
-      of_list (of_pair of_text (of_list each)) (Tuples.bindings c.shared.tuples) ]
+  [ of_list (of_pair (fun i -> `Int i) each) (Store.bindings s.store);
+    of_list (of_pair of_text (Value_data.of_platform_task budget)) (Vehicle_map.bindings s.allocation);
+    of_list of_text s.bound;
+    of_list (of_pair of_text (of_list each)) (Tuples.bindings s.tuples) ]
+
+let of_state budget (c : Configuration.t) : json =
+  let control = Control_data.of_control budget c.control in
+  `List (control :: of_shared budget c.shared)
 
 let to_json p (c : Configuration.t) =
-  match of_state c with
+  match of_state (budget ()) c with
   | exception Too_large -> Error "the configuration is too large to be written down"
   | state ->
     let task (v, (p : Core.platform_task)) = (v, of_text p.name) in
@@ -48,9 +49,8 @@ let to_json p (c : Configuration.t) =
 
 let post tuples (k, xs) = List.fold_left (fun tuples x -> Tuples.post k x tuples) tuples xs
 
-let state nodes (p : Core.program) (json : json) : Configuration.t =
-  match json with
-  | `List [ control; store; allocation; bound; tuples ] ->
+let shared nodes (p : Core.program) : json list -> Shared.t = function
+  | [ store; allocation; bound; tuples ] ->
     let variable json =
       let i, x = pair whole (Value_data.value nodes) json in
       if i < 0 || i >= Array.length p.global_names then wrong "the number of a variable" json else (i, x)
@@ -58,15 +58,17 @@ let state nodes (p : Core.program) (json : json) : Configuration.t =
     let add store (i, x) = Store.set i x store in
     let run map (v, p) = Vehicle_map.add v p map in
     let none = Tuples.empty p.ordered_keys in
+    { store = List.fold_left add Store.empty (list variable store);
+      allocation =
+        List.fold_left run Vehicle_map.empty (list (pair text (Value_data.platform_task nodes)) allocation);
+      bound = list text bound;
+      tuples = List.fold_left post none (list (pair text (list (Value_data.value nodes))) tuples) }
+  | parts -> wrong "what configurations share" (`List parts)
+
+let state nodes p : json -> Configuration.t = function
+  | `List (control :: parts) ->
     let control = Control_data.control nodes control in
-    let shared : Shared.t =
-      { store = List.fold_left add Store.empty (list variable store);
-        allocation =
-          List.fold_left run Vehicle_map.empty (list (pair text (Value_data.platform_task nodes)) allocation);
-        bound = list text bound;
-        tuples = List.fold_left post none (list (pair text (list (Value_data.value nodes))) tuples) }
-    in
-    { control; shared }
+    { control; shared = shared nodes p parts }
   | json -> wrong "the state of a configuration" json
 
 let of_json nodes p : json -> _ = function

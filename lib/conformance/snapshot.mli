@@ -10,3 +10,14 @@ val to_json : Core.program -> Configuration.t -> (Yojson.Safe.t, string) result
 val of_json : Nodes.t -> Core.program -> Yojson.Safe.t -> (Configuration.t, string) result
 (** [of_json nodes p json] is the configuration of [p] that [json] is: only its [state] is read. The error says
     what is wrong, in a sentence without a full stop. *)
+
+(** {1:data As data alone} *)
+
+val of_state : Data.budget -> Configuration.t -> Data.json
+(** The member [state]. @raise Data.Too_large, as {!of_shared} does. *)
+
+val state : Nodes.t -> Core.program -> Data.json -> Configuration.t
+(** @raise Data.Wrong, as {!shared} does. *)
+
+val of_shared : Data.budget -> Shared.t -> Data.json list
+val shared : Nodes.t -> Core.program -> Data.json list -> Shared.t

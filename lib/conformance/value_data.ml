@@ -5,6 +5,8 @@ open Data
 let of_text x : json = `String x
 let of_vehicles = of_list of_text
 
+let quantities = [ (Amount, "amount"); (Place, "place"); (Region, "region"); (Words, "words") ]
+
 (* {1 Writing} *)
 
 let of_platform_task budget (p : platform_task) : json =
@@ -33,7 +35,7 @@ let rec of_value budget (x : value) : json =
   | Closure c -> tagged "closure" [ of_closure budget c ]
   | Host name -> tagged "host" [ `String name ]
   | Settings settings -> tagged "settings" (List.map (of_setting budget) settings)
-  | Reading r -> tagged "reading" [ `String r.text ]
+  | Reading r -> tagged "reading" [ `String (List.assoc r.quantity quantities); `String r.text ]
   | Unknown u -> tagged "unknown" [ `String u.sensor; `String u.of_vehicle ]
 
 (* Texts stand for themselves, so what JSON has no number for needs a tag. *)
@@ -84,6 +86,12 @@ let platform_task _ : json -> platform_task = function
     { name = text name; task_site = whole site; plan = option Plan_data.inline plan }
   | json -> wrong "a platform task" json
 
+let quantity json =
+  let name = text json in
+  match List.find_opt (fun (_, name') -> String.equal name name') quantities with
+  | Some (quantity, _) -> quantity
+  | None -> wrong "a quantity that sensors show" json
+
 let rec value nodes (json : json) : value =
   let each = value nodes in
   match json with
@@ -112,6 +120,7 @@ let rec value nodes (json : json) : value =
   | `List [ `String "closure"; c ] -> Closure (closure nodes c)
   | `List [ `String "host"; name ] -> Host (text name)
   | `List [ `String "unknown"; sensor; v ] -> Unknown { sensor = text sensor; of_vehicle = text v }
+  | `List [ `String "reading"; q; spelt ] -> Reading { quantity = quantity q; text = text spelt }
   | `List (`String "settings" :: settings) -> Settings (List.map (setting nodes) settings)
   | json -> wrong "a value" json
 

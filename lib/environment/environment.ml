@@ -47,7 +47,7 @@ let may_fail options v name =
 
 (* Counted is only what has a bound, [asked] and [called] only as far as answers and replies depend on it: what makes no
    difference must not tell states apart. Vehicles, prompts and calls are in ascending order. *)
-type t = {
+type memory = {
   failed : int;
   losses : int;
   lost : Core.vehicle list;  (* and not heard of since *)
@@ -56,6 +56,11 @@ type t = {
   called : (string * int) list;  (* by name of the call *)
   sent : (int * int) list;  (* how often, by place among the inputs *)
 }
+
+type t = memory
+
+let memory e = e
+let of_memory e = e
 
 let initial = { failed = 0; losses = 0; lost = []; late = []; asked = []; called = []; sent = [] }
 

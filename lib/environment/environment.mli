@@ -80,6 +80,21 @@ val late : t -> Core.vehicle list
 val renamed : (Core.vehicle -> Core.vehicle) -> t -> t
 (** [renamed f e] is [e] with each vehicle [v] in it as [f v]; [f] is injective. *)
 
+(** What it is, as plain data. *)
+type memory = {
+  failed : int;
+  losses : int;
+  lost : Core.vehicle list;
+  late : Core.vehicle list;
+  asked : (string * int) list;  (** by prompt *)
+  called : (string * int) list;  (** by the name of the call *)
+  sent : (int * int) list;  (** by place among the inputs *)
+}
+
+val memory : t -> memory
+val of_memory : memory -> t
+(** [of_memory (memory e)] is [e]. *)
+
 (** {1:happens What may happen} *)
 
 val failure : string

@@ -209,6 +209,17 @@ let expansion =
         {|image (List.hd (Task_group.orbit_of_shared g shared))|} );
     ]
 
+let portable =
+  in_file "lib/explore/encoding/portable.ml" ~noticed_by:"explore/test_successors"
+    [
+      ( "states do not say what is shared",
+        {|    add_part buffer (shared_text t above);|},
+        {|    add_part buffer (shared_text t 0);|} );
+      ( "what a process met first is what stands there",
+        {|memoised t.members_read (path.id, text) read|},
+        {|memoised t.members_read (path.id, "") read|} );
+    ]
+
 let vehicle_orbits =
   in_file "lib/semantics/terms/world.ml" ~noticed_by:"reduction/test_told_apart"
     [
@@ -1095,7 +1106,7 @@ let search_pattern =
 let all =
   List.concat
     [ maps; missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups;
-      quotient; expansion;
+      quotient; expansion; portable;
       vehicle_orbits; canonical_vehicles; bitstate; name_flow; liveness; later_picks; environment; picks; inputs;
       attendance;
       task_rules; local_step; run_code; answers_in_words; confirm; unknown; on_interrupt;

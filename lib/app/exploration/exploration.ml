@@ -30,9 +30,11 @@ let read_all option of_string texts =
   in
   Dolphin_results.Results.map read texts
 
+let invariants program texts = read_all "--invariant" (Dolphin_explore.Condition.of_string program) texts
+
 let explore ~interrupted ~progress s (program : Program_file.t) (fleet : Fleet_file.t) =
   let core = program.program in
-  let* invariants = read_all "--invariant" (Dolphin_explore.Condition.of_string core) s.invariants in
+  let* invariants = invariants core s.invariants in
   let* formulas = read_all "--ltl" (Dolphin_explore.Temporal.of_string core) s.formulas in
   let options : Search.options =
     { environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults core fleet.scenario;

@@ -19,6 +19,10 @@ type settings = {
   formulas : string list;  (** of linear temporal logic ({!Dolphin_explore.Temporal}) *)
 }
 
+val invariants :
+  Dolphin_semantics.Core.program -> string list -> (Dolphin_explore.Condition.t list, Error.t) result
+(** [invariants program texts] is what [texts] spell, or the first that is wrong: {!Error.Bad_input}. *)
+
 val explore :
   interrupted:(unit -> bool) -> progress:(Dolphin_checker.Limits.progress -> unit) -> settings -> Program_file.t ->
   Fleet_file.t -> (Search.outcome, Error.t) result

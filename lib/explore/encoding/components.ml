@@ -87,6 +87,9 @@ let inner t path contexts body =
     Residuals.add path.inner key inside;
     inside
 
+(* Whatever stands in contexts, they are cut in the same ways. *)
+let in_contexts t path contexts = inner t path contexts (Residual.Parallel [ hole; hole ])
+
 let rec child t path r =
   match Residual.decompose r with
   | (_ :: _ as contexts), (Residual.Parallel rs as body) ->

@@ -42,6 +42,9 @@ val footprints : t -> makes:bool -> Component.component -> Step_footprints.t
 
 (** {1:nests Nests} *)
 
+val in_contexts : t -> Component.path -> Residual.context list -> Component.path
+(** [in_contexts t p ks] is where components stand that are in the contexts [ks], the innermost first, at [p]. *)
+
 val cuts : t -> Component.path -> Component.step array
 (** [cuts t p] is the steps of the contexts of nests whose inside is at [p], which some run reaches. *)
 

@@ -20,6 +20,9 @@ val outside : t -> int -> Environment.t
 
 val shareds : t -> Surroundings.Numbers.t
 
+val frame : t -> Machine.t -> Task_group.t option -> Layout.frame
+(** [frame t m g] is the frame of layouts in which [m] waits for a task with the symmetry [g]. *)
+
 val check_fit : t -> unit
 (** @raise Layouts.Outgrown if some number does not fit its field. *)
 

@@ -418,6 +418,22 @@ let quotient_state t g (c : Configuration.t) outside : Task_group.state option =
     Some (Task_group.state g rs (Surroundings.Numbers.number (Encoding.shareds t.encoding) shared))
   | Script _ | Waiting _ | Ended _ -> None
 
+(* {1 States for other processes} *)
+
+type portable = { space : t; texts : Portable.t }
+
+let portable codec t = { space = t; texts = Portable.create codec t.encoding t.components }
+let to_string p key = Portable.write p.texts key
+
+
+type source = State of int array | End of Configuration.t * Environment.t
+
+let of_string p text =
+  let key = Array.make (words p.space) 0 in
+  match Portable.read p.texts key text with None -> State key | Some (c, outside) -> End (c, outside)
+
+let place p key = Portable.place p.texts key
+
 (* {1 Findings} *)
 
 let used_task_symmetry t = Option.fold ~none:false ~some:Task_groups.is_used t.task_groups

@@ -88,6 +88,33 @@ val examine :
 val inputs_at : t -> Environment.t -> string list
 (** [inputs_at t e] is the keys of the inputs that may come where the environment remembers [e]. *)
 
+(** {1:portable States for other processes} *)
+
+type portable
+(** States as strings that are the same in every process ({!Portable}). *)
+
+val portable : Portable.codec -> t -> portable
+(** [portable codec t] is for a [t] without symmetry. *)
+
+val to_string : portable -> int array -> string
+(** [to_string p key] is the state [key]. What the codec raises is raised, by {!of_string} too. *)
+
+(** What a text stands for. *)
+type source =
+  | State of int array  (** a new vector *)
+  | End of Configuration.t * Environment.t
+  (** Which property an end breaks is known from what leads to it, so it gets no number here. *)
+
+val of_string : portable -> string -> source
+(** [of_string p text] is what [text] stands for.
+    @raise Portable.Wrong if it is not what {!to_string} gives for some state
+    @raise Outgrown *)
+
+val place : portable -> int array -> string
+(** [place p key] is a digest, of 16 bytes, of the place of the script at which state [key] is. Between two states in
+    which tasks execute it stays the same. A state graph has no cycle if its places have none, and no search of a part
+    of it {!goes_round}. *)
+
 (** {1:findings What was found on the way} *)
 
 val used_task_symmetry : t -> bool

@@ -272,6 +272,13 @@ let judged (options : options) program world =
   in
   explore { program; world; symmetry; started = options.limits.clock () } options
 
+let without_symmetry (options : options) program =
+  let options = relevant program (reducible program options) in
+  let reduction = if options.invariants = [] then Reduction.without_symmetry options.reduction else Whole in
+  { options with reduction }
+
+let space { environment; reduction; _ } program world = Space.create ~reduction environment program world
+
 (* {1 Values that are alike} *)
 
 (* The runs of [program], which go in step with those of [image]. *)

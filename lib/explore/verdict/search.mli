@@ -28,6 +28,12 @@ type options = {
 val default : options
 (** No limits, no reduction, the default environment. *)
 
+val without_symmetry : options -> Core.program -> options
+(** [without_symmetry o p] is [o] as {!run} searches [p] by it, but with nothing reduced by symmetry. *)
+
+val space : options -> Core.program -> World.t -> Space.t
+(** [space o p w] is the states that are searched by [o], which is {!without_symmetry}. *)
+
 (** {1:outcomes Outcomes} *)
 
 (** A run from the initial configuration. *)

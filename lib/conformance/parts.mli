@@ -1,0 +1,18 @@
+(** Configurations in parts, each as one text that is the same in every process: equal parts have equal texts. *)
+
+open Dolphin_semantics
+
+exception Too_large
+(** A part is too large to be written, as a task is that a loop doubles again and again. *)
+
+type 'a t = {
+  write : 'a -> string;  (** @raise Too_large *)
+  read : string -> ('a, string) result;  (** the error says what is wrong, in a sentence without a full stop *)
+}
+
+val machine : Nodes.t -> Machine.t t
+val residual : Nodes.t -> Residual.t t
+val shared : Nodes.t -> Core.program -> Shared.t t
+
+val configuration : Nodes.t -> Core.program -> Configuration.t t
+(** Of an end by an error, what kind of error it was is left out, as {!Configuration.compare_ending} does. *)

@@ -32,20 +32,23 @@ let print_named definition name found outcome : Exit_status.t =
         Failed
       | plans -> List.iter (show definition) plans; Done)
 
-let print_all found outcome : Exit_status.t =
+let print_all fences found outcome : Exit_status.t =
   tell_end outcome;
+  let told (b : Dolphin_semantics.Fences.breach) = "\n  " ^ b.message in
   let line (f : Inline_plans.found) =
     match f.plan with
-    | Some plan -> Format.asprintf "%a" Dolphin_semantics.Inline_plan.pp plan
+    | Some plan ->
+      Format.asprintf "%a%s" Dolphin_semantics.Inline_plan.pp plan
+        (Option.fold ~none:"" ~some:told (Inline_plans.broken fences f))
     | None -> f.name ^ " (by name)"
   in
   List.iter (fun f -> print_endline (line f)) found;
   Done
 
-let print_summary name found outcome : Exit_status.t =
+let print_summary fences name found outcome : Exit_status.t =
   match name, List.filter (fun (f : Inline_plans.found) -> name = None || name = Some f.name) found with
   | Some name, [] -> print_named None name found outcome
-  | (Some _ | None), chosen -> print_endline (Yojson.Safe.to_string (Inline_plans.summary chosen outcome)); Done
+  | (Some _ | None), chosen -> print_endline (Yojson.Safe.to_string (Inline_plans.summary fences chosen outcome)); Done
 
 (* What adapters say of the plans; one that gets them prints them as it gets them. *)
 let print_checked adapters name found =
@@ -93,11 +96,11 @@ let run () (is_export, path, name) set fleet seed answers json adapters definiti
        else Ok () in
      let found, outcome = Inline_plans.of_run program fleet ~seed ~answers in
      match adapters, name with
-     | _, _ when json -> Ok (print_summary name found outcome)
+     | _, _ when json -> Ok (print_summary program.program.fences name found outcome)
      | _, _ when is_export -> tell_end outcome; write_map export path name found
      | _ :: _, _ -> tell_end outcome; print_checked adapters name found
      | [], Some name -> Ok (print_named definition name found outcome)
-     | [], None -> Ok (print_all found outcome))
+     | [], None -> Ok (print_all program.program.fences found outcome))
 
 (* [export] before the program is a word of the command: a group of commands could not have a program there. *)
 let arguments =

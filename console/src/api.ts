@@ -24,6 +24,10 @@ export interface Waiting { time: number; for: { what: string; at?: string; lacki
 export type Pair = [number, number];
 // What the program's variables are on the map.
 export interface Place { name: string; position?: Pair; centre?: Pair; radius?: number; rings?: Pair[][] }
+export interface Fence {
+  fence: string; rule: "inside" | "outside" | "depth" | "height" | "distance"; margin?: number; metres?: number;
+  centre?: Pair; radius?: number; rings?: Pair[][];
+}
 export interface Way { vehicle: string; plan: string; path: Pair[] }
 
 // A page keeps its name when it is loaded again, and so its helm.

@@ -99,6 +99,7 @@ async function loadWorld() {
     if (!past && live.transitions === 0) {
       live = shown = new Run();
       map.reset();
+      live.fences = world.fences ?? [];
       for (const v of world.vehicles) live.add({ kind: "journal", line: { kind: "vehicle", time: 0, connected: true, ...v } });
     }
   } catch { parameters = []; suggested = {}; map.setPlaces([]); }

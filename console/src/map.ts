@@ -2,7 +2,7 @@
 // and a scale.
 
 import * as L from "leaflet";
-import type { Place, Way } from "./api";
+import type { Fence, Place, Way } from "./api";
 import type { Sketch } from "./plans";
 import { type Run, type Vehicle, clock, trouble } from "./model";
 import { h } from "./dom";
@@ -10,6 +10,7 @@ import { Measure } from "./measure";
 
 export interface PlanPlace { plan: string; latitude: number; longitude: number }
 
+const fenceColour = "#c0271a";
 const colours = ["#1769aa", "#b3470b", "#1b7f3b", "#8a3ab9", "#a8123e", "#00737d", "#7a5c00", "#5a5f66"];
 export const colour = (index: number) => colours[index % colours.length];
 
@@ -25,9 +26,11 @@ export class ChartMap {
   private net = L.layerGroup();
   private places = L.layerGroup();
   private program = L.layerGroup();  // what its variables are on the map
+  private fences = L.layerGroup();
+  private legend = h("ul", { class: "map-legend", hidden: true, "aria-label": "Fences" });
   private ways = L.layerGroup();
   private sketched = L.layerGroup();  // a plan before it runs
-  private drawn = { program: "", ways: "" };
+  private drawn = { program: "", ways: "", fences: "" };
   private following = h("button", { class: "map-button", type: "button", hidden: true });
   private shown = new Map<string, Shown>();
   private fitted = false;  // all that is known now is in view, or somebody has chosen the view
@@ -38,7 +41,7 @@ export class ChartMap {
     this.map = L.map(el, { center: [41.185, -8.706], zoom: 15, maxZoom: 21, minZoom: 2, attributionControl: false,
       zoomAnimation: false, fadeAnimation: false, preferCanvas: true });
     L.control.scale({ imperial: false }).addTo(this.map);
-    for (const layer of [this.net, this.program, this.ways, this.sketched, this.places]) layer.addTo(this.map);
+    for (const layer of [this.net, this.fences, this.program, this.ways, this.sketched, this.places]) layer.addTo(this.map);
     this.map.on("moveend resize", () => this.draw());
     this.map.on("dragstart", () => this.unfollow());
     for (const event of ["pointerdown", "wheel", "keydown"]) el.addEventListener(event, () => { this.chosen = true; });
@@ -52,6 +55,7 @@ export class ChartMap {
       return buttons;
     } });
     new Fit({ position: "topright" }).addTo(this.map);
+    new (L.Control.extend({ onAdd: () => this.legend }))({ position: "bottomleft" }).addTo(this.map);
     new ResizeObserver(() => this.map.invalidateSize({ animate: false })).observe(el);
     this.draw();
   }
@@ -102,6 +106,7 @@ export class ChartMap {
       const v = run.vehicles.get(id)!;
       if (v.samples.length) this.vehicle(run, v, colour(i));
     });
+    this.fenced(run.fences);
     this.charted(run.places);
     this.planned(run);
     if (!this.fitted && this.shown.size) { this.fitted = true; this.fit(); }
@@ -181,6 +186,23 @@ export class ChartMap {
     }
   }
 
+  // What vehicles must keep to: areas as lines, depths and the like only in the legend, where no map shows them.
+  private fenced(fences: Fence[]) {
+    const key = JSON.stringify(fences);
+    if (key === this.drawn.fences) return;
+    this.drawn.fences = key;
+    this.fences.clearLayers();
+    for (const f of fences) {
+      const look = { color: fenceColour, weight: 2, interactive: false, className: "fence", renderer: L.svg(),
+        ...(f.rule === "outside" ? { fillOpacity: 0.12 } : { fill: false, dashArray: "8 5" }) };
+      if (f.centre) L.circle(f.centre, { ...look, radius: f.radius! }).addTo(this.fences);
+      else if (f.rings) L.polygon(f.rings, look).addTo(this.fences);
+    }
+    this.legend.hidden = fences.length === 0;
+    this.legend.replaceChildren(...fences.map((f) => h("li", { class: f.rule, title: f.fence },
+      f.fence)));
+  }
+
   // The ways of plans that vehicles run now.
   private planned(run: Run) {
     const now: Way[] = [...run.ways.values()].filter((w) => run.allocation.get(w.vehicle) === w.plan);
@@ -210,6 +232,9 @@ export class ChartMap {
     for (const { at, names } of ends.values())
       L.marker(at, { interactive: false, keyboard: false,
         icon: L.divIcon({ className: "place of-plan", iconSize: [0, 0], html: h("span", {}, names.join(", ")) as any }) }).addTo(this.sketched);
+    if (plan.breaks?.at)
+      L.marker(plan.breaks.at, { interactive: false, keyboard: false, icon: L.divIcon({ className: "place of-breach", iconSize: [0, 0],
+        html: h("span", {}, "breaks a fence") as any }) }).addTo(this.sketched);
     this.unfollow();
     this.map.fitBounds(line.getBounds().pad(0.4), { animate: false, maxZoom: 18 });
   }

@@ -1,6 +1,6 @@
 // A run as its messages tell of it: what happened is added up, nothing is decided.
 
-import type { Json, LogLine, Place, Waiting, Way } from "./api";
+import type { Fence, Json, LogLine, Place, Waiting, Way } from "./api";
 
 export interface Task { plan: string; from: number; until: number | null; how: "runs" | "done" | "failed" | "stopped"; why?: string }
 export interface Sample { time: number; latitude: number; longitude: number; battery: number | null }
@@ -28,6 +28,7 @@ export class Run {
   log: LogLine[] = [];
   waiting: Waiting["for"] = [];
   places: Place[] = [];
+  fences: Fence[] = [];  // that the program or the fleet has
   ways = new Map<string, Way>();  // of each vehicle, that of the plan described for it last
   moves = true;  // of a run that was found nobody knows where its vehicles are
   time = 0;
@@ -56,6 +57,7 @@ export class Run {
 
   private journal(line: Json) {
     if (typeof line.time === "number") this.time = Math.max(this.time, line.time);
+    if (line.format) this.fences = line.fences ?? [];  // the first line
     switch (line.kind) {
       case "vehicle": return this.news(line);
       case "event":

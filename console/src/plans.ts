@@ -5,7 +5,7 @@ import { $, h } from "./dom";
 import { distance } from "./measure";
 import { clock } from "./model";
 
-export interface Sketch { from: Pair; maneuvers: { maneuver: string; points: Pair[] }[] }
+export interface Sketch { from: Pair; maneuvers: { maneuver: string; points: Pair[] }[]; breaks?: { why: string; at: Pair | null } | null }
 
 const degrees = (p: Pair) => p.map((x) => x.toFixed(5)).join(", ");
 const time = (seconds: number | null) => (seconds === null ? "without end" : clock(seconds));
@@ -39,7 +39,7 @@ export class Plans {
   private choose(key: string) {
     this.chosen = key;
     const plan = this.found?.plans.find((p: Json) => this.key(p) === key);
-    this.draw(plan?.way ?? null);
+    this.draw(plan?.way ? { ...plan.way, breaks: plan.breaks } : null);
     this.render();
   }
 
@@ -67,7 +67,8 @@ export class Plans {
     const key = this.key(p), on = key === this.chosen;
     const length = `: ${distance(p.way.metres)}, ${time(p.way.seconds)}`;
     return h("li", {}, h("button", { id: "plan-" + key.replace(/\W/g, "-"), "aria-pressed": String(on), title: "Shows its maneuvers, and its way on the map",
-      click: () => this.choose(on ? "" : key) }, p.plan), who, h("small", {}, length), on ? this.maneuvers(p.way) : null);
+      click: () => this.choose(on ? "" : key) }, p.plan), who, h("small", {}, length),
+      p.breaks ? h("p", { class: "trouble" }, p.breaks.why) : null, on ? this.maneuvers(p.way) : null);
   }
 
   private maneuvers(way: Json): Node {

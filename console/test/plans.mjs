@@ -89,4 +89,32 @@ plan 'deep', { only 'lauv-2' }
     await page.waitForFunction(() => !document.querySelector("path.sketch"));
     await page.click("#tab-source");
   });
+
+  await test("fences are on the map before a run, and a plan that breaks one shows where", async () => {
+    writeFileSync(join(folder, "fences.dol"), `fence outside location(41.1870, -8.7060) ^ 60
+fence depth 12.m
+def to(name, metres) { imcPlan { planName name; locate location(41.1850, -8.7060).displace(metres, 0); goTo() } }
+v = pick { id 'lauv-1' }
+execute to('near', 50)[v]
+execute watch to('across', 400)[v] onError { e -> ignore() }
+`);
+    writeFileSync(join(folder, "fences.fleet"), `vehicle 'lauv-1', { type 'UUV'; at 41.1850, -8.7060 }
+fence inside location(41.1850, -8.7060) ^ 1.km
+`);
+    const fences = async () => [await page.locator("path.fence").count(), (await page.locator(".map-legend li").allInnerTexts()).join("; ")].join(" ");
+    const all = "2 fence outside location(41.1870, -8.7060) ^ 60; fence depth 12.m; fence inside location(41.1850, -8.7060) ^ 1.km";
+    await page.reload();
+    await choose(page, "fences.dol");
+    await page.waitForSelector(".map-legend >> text=fence depth");
+    same(await fences(), all, "fences before the run");
+    await page.click("#tab-plans");
+    await plan("across").click();
+    await page.waitForSelector(".of-breach >> text=breaks a fence");
+    same((await text(page, "#plans .plans li:has-text('across')")).includes("breaks fence outside"), true, "it says what is broken");
+    same((await text(page, "#plans .plans li:has-text('near')")).includes("breaks"), false, "the other breaks none");
+    await picture(page, "fences");
+    await page.click("#tab-source");
+    await choose(page, "targets.dol");
+    await page.waitForFunction(() => document.querySelector(".map-legend").hidden && !document.querySelector("path.fence"));
+  });
 }

@@ -70,29 +70,31 @@ let to_json definition (plan : Inline_plan.t) =
       | None -> Dolphin_imc.Message.to_json message
       | Some d -> Dolphin_imc.Dynamic.message_to_json d message)
 
-(* {1 In short} *)
+let broken fences f = Option.bind f.plan (Fences.of_plan fences ~from:(Some f.from))
 
-let pair (p : Dolphin_geo.Position.t) : Yojson.Safe.t =
-  `List [ Canonical.number p.latitude; Canonical.number p.longitude ]
+(* {1 In short} *)
 
 let if_finite x : Yojson.Safe.t = if Float.is_finite x then Canonical.number x else `Null
 
 let maneuver (leg : Inline_plan.leg) : Yojson.Safe.t =
   `Assoc
-    [ ("maneuver", `String leg.named); ("points", `List (List.map pair leg.waypoints)); ("speed", if_finite leg.speed);
+    [ ("maneuver", `String leg.named); ("points", `List (List.map On_map.pair leg.waypoints)); ("speed", if_finite leg.speed);
       ("stays", if_finite leg.dwell) ]
 
 let way { from; speed; _ } plan : Yojson.Safe.t =
   let extent = Inline_plan.extent ~from ~speed plan in
   `Assoc
-    [ ("from", pair from); ("metres", if_finite extent.metres);
+    [ ("from", On_map.pair from); ("metres", if_finite extent.metres);
       ("seconds", if_finite (extent.moving +. extent.staying));
       ("maneuvers", `List (List.map maneuver (Inline_plan.path ~from ~speed plan))) ]
 
-let summary found (outcome : Driver.outcome) : Yojson.Safe.t =
+let summary fences found (outcome : Driver.outcome) : Yojson.Safe.t =
+  let breach (b : Fences.breach) : Yojson.Safe.t =
+    `Assoc [ ("why", `String b.message); ("at", Field.of_option On_map.pair b.place) ] in
   let plan f : Yojson.Safe.t =
     `Assoc
-      [ ("plan", `String f.name); ("vehicles", Field.texts f.vehicles); ("way", Field.of_option (way f) f.plan) ] in
+      [ ("plan", `String f.name); ("vehicles", Field.texts f.vehicles); ("way", Field.of_option (way f) f.plan);
+        ("breaks", Field.of_option breach (broken fences f)) ] in
   let unfinished =
     match outcome with
     | Ended Completed -> None

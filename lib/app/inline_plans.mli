@@ -20,9 +20,13 @@ val to_json : Dolphin_imc.Definition.t option -> Inline_plan.t -> Yojson.Safe.t
 (** [to_json definition plan] is the PlanSpecification that IMC vehicles get, by the user's definition of IMC if there
     is one; of a mission, the plan that adapters get. *)
 
-val summary : found list -> Dolphin_runtime.Driver.outcome -> Yojson.Safe.t
-(** [summary plans outcome] is what people and maps want of {!of_run}: [plans], each with [plan], its name, [vehicles]
-    and [way], [null] if vehicles know it by name; and [unfinished], why the run did not complete, or [null]. A way goes
-    [from] a place through [maneuvers], each with [maneuver], its name, [points], [speed] and [stays], the seconds at
-    its last point. It is [metres] long and takes [seconds]. What never ends is [null]; places are pairs of latitude and
-    longitude. *)
+val broken : Fences.t -> found -> Fences.breach option
+(** The fence that the plan breaks, where its vehicle is then. *)
+
+val summary : Fences.t -> found list -> Dolphin_runtime.Driver.outcome -> Yojson.Safe.t
+(** [summary fences plans outcome] is what people and maps want of {!of_run}: [plans], each with [plan], its name,
+    [vehicles], [way], [null] if vehicles know it by name, and [breaks], [null] or [why] it breaks a fence and [at]
+    which place, [null] if that is too deep or too high; and [unfinished], why the run did not complete, or [null]. A
+    way goes [from] a place through [maneuvers], each with [maneuver], its name, [points], [speed] and [stays], the
+    seconds at its last point. It is [metres] long and takes [seconds]. What never ends is [null]; places are pairs of
+    latitude and longitude. *)

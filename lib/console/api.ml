@@ -120,6 +120,7 @@ let world h r =
   let* program = program h path in
   let* fleet = fleet h ~program:program.path (Request.parameter r "fleet") in
   let fleet_path = Option.bind fleet.path (Folder.inside (folder h)) in
+  let fences = Dolphin_semantics.Fences.list program.program.fences @ fleet.scenario.fences in
   Ok
     (`Assoc
        [ ("inputs", texts program.program.inputs);
@@ -127,6 +128,7 @@ let world h r =
          ("parameters", `List (List.map parameter_of program.parameters));
          ("fleet", of_option (fun path -> `String path) fleet_path);
          ("vehicles", `List (List.map vehicle fleet.scenario.vehicles));
+         ("fences", `List (List.map On_map.fence fences));
          ("plans", `List (List.map plan fleet.scenario.plans)) ])
 
 (* {1 Runs} *)

@@ -1,19 +1,13 @@
 open Dolphin_semantics
-module Area = Dolphin_geo.Area
-module Position = Dolphin_geo.Position
-module Canonical = Dolphin_json.Canonical
+module On_map = Dolphin_json.On_map
 
 let most = 100
-
-let pair (p : Position.t) : Yojson.Safe.t = `List [ Canonical.number p.latitude; Canonical.number p.longitude ]
-let path ps : Yojson.Safe.t = `List (List.map pair ps)
 
 let rec charted name (x : Core.value) : Yojson.Safe.t list =
   let named members = [ `Assoc (("name", `String name) :: members) ] in
   match x with
-  | Position p -> named [ ("position", pair p) ]
-  | Area (Circle { centre; radius }) -> named [ ("centre", pair centre); ("radius", Canonical.number radius) ]
-  | Area (Shape shape) -> named [ ("rings", `List (List.map path (Area.rings shape))) ]
+  | Position p -> named [ ("position", On_map.pair p) ]
+  | Area area -> named (On_map.area area)
   | List xs ->
     let first = Array.sub xs 0 (min most (Array.length xs)) in
     let item i = charted (Printf.sprintf "%s[%d]" name i) in
@@ -28,7 +22,7 @@ let way world v ({ name; plan; task_site = _ } : Core.platform_task) : Yojson.Sa
   let of_legs from (legs : Inline_plan.leg list) =
     match List.concat_map (fun (leg : Inline_plan.leg) -> leg.waypoints) legs with
     | [] -> None
-    | points -> Some (`Assoc [ ("vehicle", `String v); ("plan", `String name); ("path", path (from :: points)) ])
+    | points -> Some (`Assoc [ ("vehicle", `String v); ("plan", `String name); ("path", On_map.path (from :: points)) ])
   in
   match plan, World.find v world with
   | Some plan, Some { position; _ } -> of_legs position (Inline_plan.path ~from:position ~speed:1. plan)

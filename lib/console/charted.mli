@@ -10,11 +10,3 @@ val places : Core.program -> Store.t -> Yojson.Safe.t
 val way : World.t -> Core.vehicle -> Core.platform_task -> Yojson.Safe.t option
 (** [way world v task] is the way of the plan that [task] describes, from where [v] is in [world]: [vehicle], [plan],
     [path]; [None] if it describes none, or has no way. *)
-
-(** {1 Points} *)
-
-val pair : Dolphin_geo.Position.t -> Yojson.Safe.t
-(** Latitude and longitude. *)
-
-val path : Dolphin_geo.Position.t list -> Yojson.Safe.t
-(** The list of their {!pair}s. *)

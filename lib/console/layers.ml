@@ -24,10 +24,10 @@ let beside f x = match x with Ok x -> Lwt_preemptive.detach f x | Error _ as e -
 let shape (name, outline) : json =
   let members : (string * json) list =
     match (outline : Map_file.outline) with
-    | Spot p -> [ ("position", Charted.pair p) ]
-    | Way ps -> [ ("line", Charted.path ps) ]
-    | Rings rings -> [ ("rings", `List (List.map Charted.path rings)) ]
-    | Round { centre; radius } -> [ ("centre", Charted.pair centre); ("radius", Canonical.number radius) ]
+    | Spot p -> [ ("position", On_map.pair p) ]
+    | Way ps -> [ ("line", On_map.path ps) ]
+    | Rings rings -> [ ("rings", `List (List.map On_map.path rings)) ]
+    | Round { centre; radius } -> [ ("centre", On_map.pair centre); ("radius", Canonical.number radius) ]
   in
   `Assoc (("name", `String name) :: members)
 

@@ -10,6 +10,7 @@ type t = {
   seed : int;
   speed : float option;
   started : string;
+  fences : Dolphin_semantics.Fences.fence list;
 }
 
 let format = "dolphin-journal"
@@ -57,7 +58,8 @@ let to_json h : Yojson.Safe.t =
          ("seed", `Int h.seed);
          ("speed", of_option Dolphin_json.Canonical.number h.speed);
          ("started", `String h.started) ]
-     @ of_order h.order)
+     @ of_order h.order
+     @ unless_empty "fences" (fun fences -> `List (List.map Dolphin_json.On_map.fence fences)) h.fences)
 
 let to_settings json =
   let add settings (x, value) =
@@ -92,4 +94,5 @@ let of_json json =
   let* seed = get whole "seed" found in
   let* speed = get (nullable number) "speed" found in
   let* started = get text "started" found in
-  Ok { program; fleet; platform; order; seed; speed; started }
+  let* fences = optional (list Dolphin_json.On_map.to_fence) ~default:[] "fences" found in
+  Ok { program; fleet; platform; order; seed; speed; started; fences }

@@ -15,6 +15,7 @@ type t = {
   seed : int;
   speed : float option;  (** of a simulation, times real time; [None]: as fast as it goes *)
   started : string;  (** by the clock of the console, in UTC: ["2026-03-01T12:00:00Z"] *)
+  fences : Dolphin_semantics.Fences.fence list;  (** that vehicles are kept to *)
 }
 
 val source : ?set:(string * string) list -> path:string -> string -> source

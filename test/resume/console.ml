@@ -17,7 +17,8 @@ let source = { Header.path = "mission.dol"; hash; set = [] }
 let started = "2026-03-01T12:00:00Z"
 
 let header : Header.t =
-  { program = source; fleet = None; platform = "imc"; order = Udp_platform.order; seed = 0; speed = None; started }
+  { program = source; fleet = None; platform = "imc"; order = Udp_platform.order; seed = 0; speed = None; started;
+    fences = [] }
 
 let die () =
   Unix.kill (Unix.getpid ()) Sys.sigkill;

@@ -261,6 +261,15 @@ let scenario =
   let* fences = list_size (int_bound 2) (oneofl (Lazy.force some_fences)) in
   return { Scenario.vehicles; plans; answers; replies; inputs; samples; fences }
 
+(* Fences as JSON, in journals and on maps. *)
+let fences_as_json () =
+  let again (fence : Dolphin_semantics.Fences.fence) =
+    let written fence = Dolphin_json.Canonical.to_string (Dolphin_json.On_map.fence fence) in
+    let read = Dolphin_json.On_map.to_fence (Yojson.Safe.from_string (written fence)) in
+    Alcotest.(check (result string string)) fence.text (Ok (written fence)) (Result.map written read)
+  in
+  List.iter again (Lazy.force some_fences)
+
 (* {1 Fields} *)
 
 let field_source =
@@ -314,6 +323,7 @@ let () =
       [ ("good", golden "good" true);
         ("bad", golden "bad" false);
         ("fields", [ Alcotest.test_case "by place and time" `Quick fields ]);
+        ("fences", [ case "as JSON" fences_as_json ]);
         ( "entries",
           [ case "defaults" defaults; case "default fleet" default_fleet; case "beside a program" beside;
             case "answers" answers; case "replies" replies; case "inputs" inputs; case "places of replies" replies_at;

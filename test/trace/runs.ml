@@ -78,7 +78,8 @@ let go ~seed ?period ~name ~source ~scenario host =
   let journal = Buffer.create 65536 in
   let its_source = Header.source ~path:name source in
   let header : Header.t =
-    { program = its_source; fleet = None; platform = "sim"; order = By_hearing; seed; speed = None; started }
+    { program = its_source; fleet = None; platform = "sim"; order = By_hearing; seed; speed = None; started;
+      fences = Fences.list program.fences }
   in
   let recorder = Recorder.make ?period program header (write_to journal) in
   let r = { name; program; hash = its_source.hash; journal = ""; scenario; seed; period; host } in

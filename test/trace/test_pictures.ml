@@ -62,8 +62,10 @@ let few_samples () =
 (* {1 Pictures} *)
 
 let is_self_contained name text =
-  let without_namespace = Str.global_replace (Str.regexp_string "http://www.w3.org/2000/svg") "" text in
-  let foreign = List.filter (fun part -> contains part without_namespace) [ "http"; "url("; "@import"; "<script" ] in
+  let without own text = Str.global_replace (Str.regexp_string own) "" text in
+  (* What the picture itself has. *)
+  let text = without "url(#chart)" (without "http://www.w3.org/2000/svg" text) in
+  let foreign = List.filter (fun part -> contains part text) [ "http"; "url("; "@import"; "<script" ] in
   if foreign <> [] then Alcotest.failf "%s has %s" name (String.concat ", " foreign)
 
 (* The two of the page itself, which say no other file. *)
@@ -90,7 +92,44 @@ let escaped () =
 let header ~platform : Header.t =
   { program = Header.source ~path:"mission.dol" ""; fleet = None; platform; order = By_hearing; seed = 7;
     speed = None;
-    started = "2026-03-01T12:00:00Z" }
+    started = "2026-03-01T12:00:00Z"; fences = [] }
+
+(* Areas are lines of the map, with what they mean below it; the pointer shows how they are declared. *)
+let fences () =
+  let area metres = Result.get_ok (Dolphin_geo.Area.circle { latitude = 41.; longitude = -8.; height = 0. } metres) in
+  let fence rule text : Dolphin_semantics.Fences.fence =
+    { rule; margin = 0.; text; at = Dolphin_syntax.Location.none } in
+  let picture fences =
+    let builder = Summary.create () in
+    let h = { (header ~platform:"imc") with fences } in
+    Summary.add builder (Header (Result.get_ok (Header.of_json (Header.to_json h))));
+    let see time latitude =
+      let position : Dolphin_geo.Position.t = { latitude; longitude = -8.; height = 0. } in
+      let state : Dolphin_semantics.World.vehicle_state =
+        { id = "v"; kind = "UUV"; payload = []; position; battery = None; speed = None; readings = []; connected = true;
+          unready = None; cruise = None; drain = None } in
+      Summary.add builder (Vehicle { time; state })
+    in
+    see 0. 41.;
+    let step : Step.t =
+      { rules = []; label = "bind(v)"; at = None; choice = 0; allocated = []; bound = [ "v" ]; released = [];
+        posted = []; consumed = []; requests = [ Bind [ "v" ] ] }
+    in
+    Summary.add builder (Transition { time = 0.; index = 0; step; ways = [] });
+    see 10. 41.001;
+    Picture.svg (Summary.finish builder)
+  in
+  let has what picture = Alcotest.(check bool) what true (contains what picture) in
+  let without = picture [ fence (Depth 12.) "fence depth 12.m" ] in
+  Alcotest.(check bool) "no line for a depth" false (contains "class=\"fence" without);
+  let inside = picture [ fence (Inside (area 100.)) "fence inside basin" ] in
+  List.iter (fun what -> has what inside) [ "class=\"fence\""; "<title>fence inside basin</title>"; "stay inside" ];
+  Alcotest.(check bool) "nothing to stay out of" false (contains "stay outside" inside);
+  let outside = picture [ fence (Outside (area 20.)) "fence outside rock" ] in
+  List.iter (fun what -> has what outside) [ "class=\"fence no-go\""; "stay outside" ];
+  let scale_of picture = contains "50 m" picture in
+  Alcotest.(check bool) "one that is far wider leaves the map as it is" (scale_of without)
+    (scale_of (picture [ fence (Inside (area 50_000.)) "fence inside sea" ]))
 
 let circumstances () =
   let head platform =
@@ -301,6 +340,7 @@ let () =
           case "all examples, without anything from outside" of_all_examples;
           case "texts are escaped" escaped;
           case "where it ran" circumstances;
+          case "fences" fences;
           case "batteries that are not known yet" unknown_batteries;
           case "names of many vehicles" many_names;
           case "pages that follow vehicles" followed;

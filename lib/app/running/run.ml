@@ -132,7 +132,8 @@ let header r (fleet : Fleet_file.t) : Header.t =
     order = (if is_simulated r.settings then Simulator.Virtual.order else Udp_platform.order);
     seed = r.seed;
     speed = r.settings.speed;
-    started = Recording.utc_now () }
+    started = Recording.utc_now ();
+    fences = Dolphin_semantics.Fences.list r.program.program.fences }
 
 (* {1 Platforms} *)
 

@@ -51,7 +51,7 @@ let at place = Format.asprintf ", at %a" Position.pp place
 
 (* {1 Plans} *)
 
-type breach = { fence : fence; maneuver : string option; message : string }
+type breach = { fence : fence; maneuver : string option; place : Position.t option; message : string }
 
 let told (part : Plan_room.part) = if part.is_transit then "the way to " ^ part.leg else part.leg
 
@@ -68,7 +68,7 @@ let without fences numbers =
 let rec on_ground fences parts =
   let breach (b : Fence.breach) =
     let part : Plan_room.part = List.nth parts b.stretch and fence = fences.on_ground.(b.rule) in
-    { fence; maneuver = (if part.is_transit then None else Some part.leg);
+    { fence; maneuver = (if part.is_transit then None else Some part.leg); place = Some b.at;
       message = broken (told part) fence b.by ^ at b.at }
   in
   match transit_rules fences parts, List.partition (fun (p : Plan_room.part) -> p.is_transit) parts with
@@ -94,7 +94,7 @@ let vertical fence (leg, (vertical : Plan_room.vertical)) =
     | (Depth _ | Height _), Not_told -> Some (unknown leg fence "it does not say how deep or high it is")
     | Depth _, Above _ | Height _, Below_surface _ | (Inside _ | Outside _ | Distance _), _ -> None
   in
-  Option.map (fun message -> { fence; maneuver = Some leg; message }) message
+  Option.map (fun message -> { fence; maneuver = Some leg; place = None; message }) message
 
 let of_plan fences ~from plan =
   let ups_and_downs () =

@@ -35,6 +35,7 @@ val least_distance : t -> fence option
 type breach = {
   fence : fence;
   maneuver : string option;  (** [None]: on the way to the plan *)
+  place : Position.t option;  (** [None]: it goes too deep or too high *)
   message : string;  (** what breaks which fence, where, and by how many metres: a sentence without a full stop *)
 }
 

@@ -41,6 +41,8 @@ let light =
 .planned { fill: none; stroke-width: 5; stroke-opacity: 0.24; stroke-linejoin: round; stroke-linecap: round; }
 .invented { stroke-dasharray: 5 3.5; stroke-linecap: butt; }
 .unseen { stroke-dasharray: 2 4; }
+.fence { fill: none; stroke: #b42318; stroke-width: 1.6; stroke-dasharray: 7 3; fill-rule: evenodd; }
+.fence.no-go { fill: #b42318; fill-opacity: 0.1; stroke-dasharray: none; }
 .key { fill: none; stroke: #5b6570; stroke-width: 1.4; }
 .key.planned { stroke-width: 5; stroke-opacity: 0.3; }
 .key.flown { stroke-width: 1.8; }
@@ -70,6 +72,7 @@ let dark =
 .silent { fill: #ff6b5e; }
 .first, .step { fill: #14181d; }
 .key { stroke: #9aa5b1; }
+.fence { stroke: #ff6b5e; } .fence.no-go { fill: #ff6b5e; }
 .last, .on-map { stroke: #14181d; }
 |}
 

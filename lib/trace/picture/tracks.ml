@@ -188,11 +188,59 @@ let names m vehicles ~x ~width ~y ~height =
   if List.length wanted > most_names then []
   else List.map label (Scale.spread ~least:line_height ~from:(y +. 12.) ~until:(y +. height -. 4.) wanted)
 
+(* {1 Fences} *)
+
+let fences summary = match summary.header with Some (h : Header.t) -> h.fences | None -> []
+
+let rims (fence : Dolphin_semantics.Fences.fence) =
+  match fence.rule with
+  | Inside (Circle { centre; radius }) | Outside (Circle { centre; radius }) ->
+    let corner i =
+      let angle = float_of_int i *. Float.pi /. 36. in
+      Wgs84.displace centre ~north:(radius *. cos angle) ~east:(radius *. sin angle)
+    in
+    [ List.init 72 corner ]
+  | Inside (Shape shape) | Outside (Shape shape) -> Area.rings shape
+  | Depth _ | Height _ | Distance _ -> []
+
+(* A fence that is much wider than what vehicles did would leave nothing of that to see: only its sides near it are on
+   the map then. *)
+let most_wider = 2.
+
+let in_view positions fences =
+  match fit positions ~x:0. ~y:0. ~width:1. ~height:1. with
+  | None -> []
+  | Some m ->
+    let is_near p =
+      let x, y = project m p in
+      Float.abs (x -. 0.5) <= most_wider /. 2. && Float.abs (y -. 0.5) <= most_wider /. 2. in
+    let whole fence = match List.concat (rims fence) with ps when List.for_all is_near ps -> ps | _ -> [] in
+    List.concat_map whole fences
+
+let draw_fences m summary ~x ~y ~width ~height =
+  let commands rim =
+    let point (x, y) = Svg.number x ^ "," ^ Svg.number y in
+    "M" ^ String.concat " L" (List.map point (thin (List.map (project m) rim))) ^ " Z"
+  in
+  let shape (fence : Dolphin_semantics.Fences.fence) =
+    match fence.rule, rims fence with
+    | (Depth _ | Height _ | Distance _), _ | _, [] -> []
+    | rule, rims ->
+      let name = match rule with Outside _ -> "fence no-go" | _ -> "fence" in
+      [ Svg.path ~name ~tip:fence.text (String.concat " " (List.map commands rims)) ]
+  in
+  match List.concat_map shape (fences summary) with
+  | [] -> []
+  | shapes ->
+    [ Svg.element "clipPath" [ ("id", "chart") ] [ Svg.rect ~x ~y ~width ~height () ];
+      Svg.element "g" [ ("clip-path", "url(#chart)") ] shapes ]
+
 let map_of summary ~x ~y ~width ~height =
   let planned (t : task) = match t.way with Some (Path ps) -> ps | Some By_name | None -> [] in
   let of_vehicle v =
     if v.samples = [] then [] else List.map (fun s -> s.position) v.samples @ List.concat_map planned v.tasks in
-  fit (List.concat_map of_vehicle summary.vehicles) ~x ~y ~width ~height
+  let positions = List.concat_map of_vehicle summary.vehicles in
+  fit (positions @ in_view positions (fences summary)) ~x ~y ~width ~height
 
 (* Where it stays, the first and the last moment are enough. *)
 let over_time m v =
@@ -224,12 +272,22 @@ let meanings summary =
     [ ("key flown invented", "invented by the simulator: it knows these plans by name only") ]
   else []
 
+(* Fences that are areas have a line each way; the others are nowhere on the map. *)
+let meanings_of_fences summary =
+  let has is_it = List.exists (fun (f : Dolphin_semantics.Fences.fence) -> is_it f.rule) (fences summary) in
+  let inside : Dolphin_semantics.Fences.rule -> bool = function
+    | Inside _ -> true | Outside _ | Depth _ | Height _ | Distance _ -> false in
+  let outside : Dolphin_semantics.Fences.rule -> bool = function
+    | Outside _ -> true | Inside _ | Depth _ | Height _ | Distance _ -> false in
+  (if has inside then [ ("fence", "fence: stay inside") ] else [])
+  @ if has outside then [ ("fence no-go", "fence: stay outside") ] else []
+
 let legend summary ~x ~y =
   let one (x, found) (name, text) =
     let line = Svg.line ~name (x, y -. 3.5) (x +. 20., y -. 3.5) in
     (x +. 40. +. Svg.width ~size:10. text, found @ [ line; Svg.text ~name:"axis" (x +. 26., y) text ])
   in
-  snd (List.fold_left one (x, []) (meanings summary))
+  snd (List.fold_left one (x, []) (meanings summary @ meanings_of_fences summary))
 
 let draw summary ~x ~y ~width ~height =
   let frame = Svg.rect ~name:"frame" ~x ~y ~width ~height () in
@@ -238,6 +296,7 @@ let draw summary ~x ~y ~width ~height =
     | None -> [ Svg.text ~name:"small" ~anchor:Middle (x +. (width /. 2.), y +. (height /. 2.)) "no positions" ]
     | Some m ->
       grid m ~x ~y ~width ~height
+      @ draw_fences m summary ~x ~y ~width ~height
       @ List.mapi (fun i v -> Style.group i (planned m i v)) summary.vehicles
       @ List.mapi (way summary m) summary.vehicles
       @ names m summary.vehicles ~x ~width ~y ~height

@@ -1,0 +1,19 @@
+(** What maps show, as JSON: places are pairs of latitude and longitude. *)
+
+open Dolphin_geo
+
+val pair : Position.t -> Yojson.Safe.t
+(** Its latitude and its longitude. *)
+
+val path : Position.t list -> Yojson.Safe.t
+(** The list of their {!pair}s. *)
+
+val area : Area.t -> Field.members
+(** [centre] and [radius], in metres; or [rings], its rims and those of its holes. *)
+
+val fence : Dolphin_semantics.Fences.fence -> Yojson.Safe.t
+(** The [fence] as it is declared, its [rule], ["inside"], ["outside"], ["depth"], ["height"] or ["distance"], its
+    [margin] if there is one; and the {!area}, or the [metres]. *)
+
+val to_fence : Yojson.Safe.t -> (Dolphin_semantics.Fences.fence, string) result
+(** What {!val-fence} writes, without its place in a text. *)

@@ -78,7 +78,7 @@ let if_finite x : Yojson.Safe.t = if Float.is_finite x then Canonical.number x e
 
 let maneuver (leg : Inline_plan.leg) : Yojson.Safe.t =
   `Assoc
-    [ ("maneuver", `String leg.named); ("points", `List (List.map On_map.pair leg.waypoints)); ("speed", if_finite leg.speed);
+    [ ("maneuver", `String leg.named); ("points", On_map.path leg.waypoints); ("speed", if_finite leg.speed);
       ("stays", if_finite leg.dwell) ]
 
 let way { from; speed; _ } plan : Yojson.Safe.t =

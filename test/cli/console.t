@@ -85,7 +85,7 @@ A program of ten lines starts a run, watches it, posts to it:
 The plans on the command line:
 
   $ dolphin plan --json plans.dol survey
-  {"plans":[{"plan":"survey","vehicles":["a"],"way":null}],"unfinished":null}
+  {"plans":[{"plan":"survey","vehicles":["a"],"way":null,"breaks":null}],"unfinished":null}
   $ dolphin plan --json plans.dol none
   dolphin: no vehicle is given a plan 'none'; inline plans are circles
   [1]

@@ -102,7 +102,7 @@ execute watch to('across', 400)[v] onError { e -> ignore() }
 fence inside location(41.1850, -8.7060) ^ 1.km
 `);
     const fences = async () => [await page.locator("path.fence").count(), (await page.locator(".map-legend li").allInnerTexts()).join("; ")].join(" ");
-    const all = "2 fence outside location(41.1870, -8.7060) ^ 60; fence depth 12.m; fence inside location(41.1850, -8.7060) ^ 1.km";
+    const all = "2 fence outside location(41.187, -8.706) ^ 60; fence depth 12.m; fence inside location(41.185, -8.706) ^ 1.km";
     await page.reload();
     await choose(page, "fences.dol");
     await page.waitForSelector(".map-legend >> text=fence depth");

@@ -5,10 +5,13 @@ let ( let* ) = Result.bind
 
 (* {1 One question, or several} *)
 
-let of_program (settings : Time_analysis.settings) (program : Program_file.t) fleet ~json ~trace ~drawing =
+let of_program (settings : Time_analysis.settings) (program : Program_file.t) fleet ~slack ~json ~trace ~drawing =
   let { Time_analysis.deadline; _ } = settings in
-  let ask ~interrupted ~progress = Time_analysis.run ~interrupted ~progress settings program fleet in
-  let outcome = Watched.search ~json ask in
+  let ask ~interrupted ~progress =
+    let outcome = Time_analysis.run ~interrupted ~progress settings program fleet in
+    (outcome, if slack then Some (Time_analysis.slacks ~interrupted ~progress settings program fleet outcome) else None)
+  in
+  let outcome, slacks = Watched.search ~json ask in
   let write path = Time_report.write_shown ?deadline program fleet path outcome in
   let traced = Option.fold trace ~none:(Ok ()) ~some:write in
   let draw drawing =
@@ -17,8 +20,8 @@ let of_program (settings : Time_analysis.settings) (program : Program_file.t) fl
       ~html:(fun () -> Time_picture.html ?deadline program outcome)
   in
   let drawn = Option.fold drawing ~none:(Ok ()) ~some:draw in
-  if json then print_endline (Yojson.Safe.to_string (Time_report.to_json ?deadline program outcome))
-  else Time_report.print ?deadline program outcome;
+  if json then print_endline (Yojson.Safe.to_string (Time_report.to_json ?deadline ?slacks program outcome))
+  else Time_report.print ?deadline ?slacks program outcome;
   let* () = traced in
   let* () = drawn in
   Ok (Exit_status.of_verdict (Time_analysis.Timing.verdict ?deadline outcome))
@@ -43,7 +46,9 @@ let of_fleets (settings : Time_analysis.settings) program fleet ~json =
   else Fewest.print ?deadline program fleet found;
   Exit_status.of_verdict (Fewest.verdict (fst found))
 
-let run path set fleet answers faults deadline fewest json trace drawing max_states max_depth max_memory timeout =
+let no_slack = Error.Bad_input "--slack is for one program and its whole fleet: give no --fewest, and --set no range"
+
+let run path set fleet answers faults deadline slack fewest json trace drawing max_states max_depth max_memory timeout =
   let settings : Time_analysis.settings =
     { answers; faults; deadline; max_states; max_depth; max_memory; timeout } in
   Report.result
@@ -52,6 +57,8 @@ let run path set fleet answers faults deadline fewest json trace drawing max_sta
      let* fleet = Fleet_file.load_for ~program:path fleet in
      let* question = Sweep.within fleet question in
      match question with
+     | Several _ when slack -> Error no_slack
+     | One _ when slack && fewest -> Error no_slack
      | Several _ when fewest ->
        Error (Error.Bad_input "--fewest looks for the least fleet of one program: give --set no range with it")
      | Several _ when trace <> None || drawing <> None ->
@@ -62,7 +69,7 @@ let run path set fleet answers faults deadline fewest json trace drawing max_sta
      | One program ->
        Report.diagnostics ~source:program.source program.warnings;
        if fewest then Ok (of_fleets settings program fleet ~json)
-       else of_program settings program fleet ~json ~trace ~drawing)
+       else of_program settings program fleet ~slack ~json ~trace ~drawing)
 
 let fewest =
   let doc =
@@ -71,6 +78,13 @@ let fewest =
      with a vehicle less. All smaller parts are looked at."
   in
   Arg.(value & flag & info [ "fewest" ] ~doc)
+
+let slack =
+  let doc =
+    "Also say of each task how much longer it may take, at its longest and in all its runs, before the latest end is \
+     later: $(b,any) if that does not depend on it. Each task takes a few more searches."
+  in
+  Arg.(value & flag & info [ "slack" ] ~doc)
 
 let deadline =
   let doc =
@@ -110,6 +124,10 @@ let man =
         time. What the program does by itself, answers and replies take none. Vehicles are there when they are picked.";
     `P "Of each $(b,within) of the program it says whether it is kept, or when it is missed, with a run in which it \
         is.";
+    `P "Of each vehicle that runs a task it says how much is left in its battery, at the least, at any time in any \
+        run. How much it takes to be under way, and to rest, is $(b,battery), $(b,drain) and $(b,charge) of the fleet; \
+        what is charged at rest is not counted on. If a battery runs empty in some run, that is shown, and the answer \
+        is violated; if that is not known, it is inconclusive.";
     `P "With $(b,--faults), a task fails at any time until it would be done; a vehicle that is not heard of fails its \
         task when its connection timeout is over; one that is late comes until the time-out of the $(b,pick).";
     `P "It prints a run that ends last, in columns with times, and the durations that its end depends on. If some run \
@@ -135,5 +153,5 @@ let command =
   Cmd.v info
     Term.(
       const run $ Options.program $ Options.set_range $ Options.fleet $ Explore_command.answers $ Explore_command.faults
-      $ deadline $ fewest $ json $ trace $ drawing
+      $ deadline $ slack $ fewest $ json $ trace $ drawing
       $ Explore_command.max_states $ Explore_command.max_depth $ Explore_command.max_memory $ Explore_command.timeout)

@@ -4,36 +4,15 @@ type t = {
   scenario : Scenario.vehicle;
   track : Track.t;
   since : float;                                (* when it set out on it *)
-  battery : float;                              (* then *)
-  rate : float;                                 (* what it gains a second *)
+  charge : Battery.t;
 }
 
-let hour = 3600.
-
-(* At rest most devices are off. *)
-let at_rest = 0.25
-
-let working (scenario : Scenario.vehicle) = -.scenario.drain /. hour
-
-let resting (scenario : Scenario.vehicle) =
-  if scenario.charge > 0. then scenario.charge /. hour else at_rest *. working scenario
-
 let make (scenario : Scenario.vehicle) =
-  { scenario; track = Track.stay scenario.position; since = 0.; battery = scenario.battery; rate = resting scenario }
+  { scenario; track = Track.stay scenario.position; since = 0.; charge = Battery.start scenario }
 
 let scenario v = v.scenario
-
-let empty_from v =
-  if v.battery <= 0. && v.rate <= 0. then v.since
-  else if v.rate < 0. then v.since -. (v.battery /. v.rate)
-  else infinity
-
-let full_from v = if v.rate > 0. then v.since +. ((1. -. v.battery) /. v.rate) else infinity
-
-let battery v ~at =
-  if at >= empty_from v then 0.
-  else if at >= full_from v then 1.
-  else Float.max 0. (Float.min 1. (v.battery +. (v.rate *. (at -. v.since))))
+let empty_from v = Battery.empty_from v.charge
+let battery v ~at = Battery.level v.charge ~at
 
 let position v ~at = Track.position v.track (at -. v.since)
 
@@ -50,9 +29,6 @@ let shown_battery v ~at =
     Some (nearest (fun a b -> Float.abs (a -. b)) (battery v ~at) v.scenario.batteries)
   else None
 
-let go v ~at track rate = { v with track; since = at; battery = battery v ~at; rate }
-let set_out v ~at track = go v ~at track (working v.scenario)
-let rest v ~at = go v ~at (Track.stay (position v ~at)) (resting v.scenario)
-
-let is_steady v ~at =
-  at -. v.since >= Track.still_from v.track && (v.rate = 0. || at >= empty_from v || at >= full_from v)
+let set_out v ~at track = { v with track; since = at; charge = Battery.set_out v.charge ~at }
+let rest v ~at = { v with track = Track.stay (position v ~at); since = at; charge = Battery.rest v.charge ~at }
+let is_steady v ~at = at -. v.since >= Track.still_from v.track && Battery.is_steady v.charge ~at

@@ -25,8 +25,7 @@ val position : t -> at:float -> Dolphin_geo.Position.t
 (** Where it is. *)
 
 val battery : t -> at:float -> float
-(** From 0 to 1: under way it falls by [drain] each hour; at rest it rises by [charge], or if that is 0 falls by a
-    quarter of [drain]. *)
+(** What is left of it, from 0 to 1: {!Battery.level}. *)
 
 val seen_at : t -> at:float -> Dolphin_geo.Position.t
 (** Where it is seen: at {!position}, or if the scenario gives several places, at the nearest of them. *)

@@ -3,7 +3,9 @@ type 'a bound = { sooner : int; later : int; by : int; due_to : 'a option }
 let at_most ?due_to later ~after by = { sooner = after; later; by; due_to }
 let at_least ?due_to later ~after by = { sooner = later; later = after; by = -by; due_to }
 
-(* No way around is negative, as the bounds can be met. *)
+exception Contradiction
+
+(* A shortest way has no more than [n] steps, unless a way around is negative. *)
 let latest n bounds =
   let dates = Array.make (n + 1) None and last = Array.make (n + 1) None in
   dates.(0) <- Some 0;
@@ -15,7 +17,9 @@ let latest n bounds =
       true
     | (Some _ | None), _ -> changed
   in
-  while List.fold_left relax false bounds do () done;
+  let rec rounds k =
+    if List.fold_left relax false bounds then if k > n then raise Contradiction else rounds (k + 1) in
+  rounds 0;
   (dates, last)
 
 (* Backwards in time. *)

@@ -13,8 +13,12 @@ val at_most : ?due_to:'a -> int -> after:int -> int -> 'a bound
 val at_least : ?due_to:'a -> int -> after:int -> int -> 'a bound
 (** [at_least later ~after:sooner by] is that [later] is [by] after [sooner] or more. *)
 
+exception Contradiction
+
 val latest : int -> 'a bound list -> int option array * 'a bound option array
 (** [latest n bounds] is the latest dates 0 to [n] that meet [bounds], date 0 being 0; [None] if there is no latest.
-    With each comes the last bound on a shortest way there. The bounds can be met. (Bellman and Ford) *)
+    With each comes the last bound on a shortest way there. (Bellman and Ford)
+    @raise Contradiction if no dates meet [bounds] *)
 
 val earliest : int -> 'a bound list -> int option array
+(** Likewise the earliest ones. *)

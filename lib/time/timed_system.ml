@@ -28,6 +28,8 @@ type move =
 
 type arrival = { move : move; into : Timed.state; items : Timed.item list; execution : Likeness.execution option }
 
+type edge = { source : int; target : int; by : move; working : Working.t }
+
 type node = { place : Timed_place.t; zone : Zone.t; parent : int; move : move option }
 
 type t = {
@@ -41,6 +43,8 @@ type t = {
   moments : (task * moment, date) Hashtbl.t;
   mutable tasks : task list;  (* latest first *)
   mutable endings : (ending * (date * int)) list;
+  mutable edges : edge list option;  (* latest first *)
+  mutable edge_count : int;
   mutable cycle : cycle option;
   mutable returns : (int * int * move) list;  (* a move from one state leads to just another one that there was *)
   mutable stuck : int option;
@@ -196,7 +200,7 @@ let widen t ~reserved =
 
 let numbers t key f = f (number t key.(0))
 
-let create ?(reduction = Inert_ends_and_likeness) goal options =
+let create ?(reduction = Inert_ends_and_likeness) ?(working = false) goal options =
   let filled = match goal with Latest -> Zone.reaching_down | Earliest -> Zone.reaching_up in
   let deadlines = ref [] in
   let note s =
@@ -206,6 +210,7 @@ let create ?(reduction = Inert_ends_and_likeness) goal options =
   let places = Timed_place.places reduction options ~filled ~note in
   { goal; options; places; reduced = false; nodes = [||]; count = 0;
     reserved = 0; moments = Hashtbl.create 100; tasks = []; endings = []; cycle = None; returns = [];
+    edges = (if working then Some [] else None); edge_count = 0;
     stuck = None; unknown = []; deadlines; missed = Hashtbl.create 8 }
 
 let visit t (v : via System.visitor) n = v.visit [| n lsl t.reserved |] 0 ()
@@ -227,6 +232,16 @@ let note_reduced t =
   if t.cycle <> None then raise Broken;
   t.reduced <- true
 
+(* More take more memory than what they tell is worth. *)
+let most_edges = 1_000_000
+
+let note_edge t source target by working =
+  let note edges =
+    t.edge_count <- t.edge_count + 1;
+    t.edges <- if t.edge_count > most_edges then None else Some ({ source; target; by; working } :: edges)
+  in
+  Option.iter note t.edges
+
 (* The states that [arrow] leads to from those valuations of state [n] that are in [zone]. *)
 let take t n (before : Timed_place.t) zone ({ step; inert; begun } as arrow : Timed_place.arrow) =
   match Timed_place.enabling before zone step with
@@ -243,11 +258,15 @@ let take t n (before : Timed_place.t) zone ({ step; inert; begun } as arrow : Ti
       let { Timed_place.clocks; rest_clock; _ } = before in
       Timed_place.reached t.places ~clocks ~rest_clock ~fresh:step.fresh ~has_rest execution step.next inert zone
     in
+    let working = if t.edges = None then [] else Working.of_step t.options before zone arrow execution in
     let into (last, rest) =
       let place, items, zone = at rest in
       let* zone = Timed_place.with_begun place begun last zone in
       let* zone = Timed_place.settled t.places place zone in
-      Some (arrive t n (Step { step; begun; last; items }) place zone)
+      let move = Step { step; begun; last; items } in
+      let target = arrive t n move place zone in
+      note_edge t n target move working;
+      Some target
     in
     List.filter_map into lasts
 
@@ -264,7 +283,10 @@ let end_rest t n (before : Timed_place.t) zone =
           zone No_rest
       in
       let* zone = Timed_place.settled t.places place zone in
-      Some (arrive t n (Rest { steps; later }) place zone)
+      let move = Rest { steps; later } in
+      let target = arrive t n move place zone in
+      note_edge t n target move [];
+      Some target
     in
     let ends = [ Timed_place.ends_now clock zone; Timed_place.ends_later clock zone ] in
     List.filter_map (fun found -> Option.bind found into) ends
@@ -373,6 +395,19 @@ let path t n =
     | { move = None; _ } -> found
   in
   back [] n
+
+let arrival_by t e =
+  let { state; items; execution; _ } : Timed_place.t = t.nodes.(e.target).place in
+  { move = e.by; into = state; items; execution }
+
+let edges t = t.edges
+let along t edges = List.map (arrival_by t) edges
+
+let ends t =
+  let is_end n = match t.nodes.(n).place.state.configuration.control with Ended _ -> true | _ -> false in
+  List.map (fun n -> (n, date t t.nodes.(n).zone)) (List.filter is_end (List.init t.count Fun.id))
+
+let count t = t.count
 
 let arrival t n ({ step; begun; inert = _ } : Timed_place.arrow) =
   let execution = Timed_place.execution_after t.places t.nodes.(n).place step.next in

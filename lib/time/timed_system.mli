@@ -15,8 +15,8 @@ exception Broken
 (** What is left out: docs/time.md. *)
 type reduction = Timed_place.reduction = Nothing | Inert_ends | Inert_ends_and_likeness
 
-val create : ?reduction:reduction -> goal -> Timed.options -> t
-(** [reduction] is all of it by default. *)
+val create : ?reduction:reduction -> ?working:bool -> goal -> Timed.options -> t
+(** [reduction] is all of it by default; [working] is whether there are {!edges}, by default not. *)
 
 (** {1:dates Dates} *)
 
@@ -87,6 +87,22 @@ type arrival = {
 
 val path : t -> int -> arrival list
 (** [path t n] leads to state [n]. *)
+
+(** A move from one state to what another stands for, and how long vehicles were under way with what it ends. *)
+type edge = { source : int; target : int; by : move; working : Working.t }
+
+val edges : t -> edge list option
+(** All of them: each run of the program goes along some, from state 0. [None] if they were not asked for, or are more
+    than a million. *)
+
+val along : t -> edge list -> arrival list
+(** [along t edges] is the moves along [edges], which are one after the other. Where a state stands for others it may be
+    that no run takes them all. *)
+
+val ends : t -> (int * date) list
+(** The states in which runs are over, each with its date. *)
+
+val count : t -> int
 
 val deadlines : t -> (Core.site * (date * arrival list) option) list
 (** The [within] that begin in some run, by their places, each with when it is missed, at the earliest or at the latest,

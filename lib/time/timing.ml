@@ -16,6 +16,8 @@ type reduction = Timed_system.reduction = Nothing | Inert_ends | Inert_ends_and_
 
 type task = Timed_system.task = { name : string; vehicle : Core.vehicle; site : Core.site }
 
+type battery = { vehicle : Core.vehicle; least : float; lowest : (float * run) option }
+
 type outcome = {
   endings : (Timed_system.ending * window) list;
   tasks : (task * (Timed_system.moment * window) list) list;
@@ -26,6 +28,7 @@ type outcome = {
   deadlines : (Core.site * (window * run) option) list;
   late : run option;
   failing : run option;
+  batteries : battery list;
   stopped : Limits.bound option;
   reduction : Timed_system.reduction;
   states : int;
@@ -105,13 +108,46 @@ let deadlines options early late =
   in
   List.map both (Timed_system.deadlines late)
 
-let find ~(reduction : reduction) ~started ?deadline limits options =
-  let search goal phase =
-    let search = Search.create ~phase ~started limits (Timed_system.create ~reduction goal options) in
-    Search.run search;
-    search
+(* {1 Batteries} *)
+
+(* Sums of shares may be off in their last digits. *)
+let slightly = 1e-9
+
+(* The bound is of a run if one has no more left: the last one, or one with the latest dates, or with the earliest. *)
+let battery options system tasks last ((v : Dolphin_scenario.Scenario.vehicle), least, way) =
+  let dated goal way =
+    match run_along goal options system (Timed_system.along system way) with
+    | run -> Some run
+    | exception (Timed_system.Broken | Dates.Contradiction) -> None
   in
-  let late = search Latest "latest dates" in
+  let along goal () = Option.bind way (dated goal) in
+  let rec lowest found = function
+    | [] -> found
+    | run :: runs -> (
+        match run () with
+        | None | Some { dates = []; _ } -> lowest found runs
+        | Some run -> (
+            let left = Batteries.left v run.steps run.dates in
+            match found with
+            | Some (known, _) when known <= left -> lowest found runs
+            | Some _ | None -> if left <= least +. slightly then Some (left, run) else lowest (Some (left, run)) runs))
+  in
+  if List.exists (fun ((task : task), _) -> task.vehicle = v.id) tasks then
+    let runs = [ (fun () -> last); along Timed_system.Latest; along Earliest ] in
+    Some { vehicle = v.id; least; lowest = lowest None runs }
+  else None
+
+let batteries options system tasks last vehicles =
+  List.filter_map (battery options system tasks last) (Batteries.least system vehicles)
+
+let search ?working ~reduction ~started limits options goal phase =
+  let search = Search.create ~phase ~started limits (Timed_system.create ?working ~reduction goal options) in
+  Search.run search;
+  search
+
+let find ~(reduction : reduction) ~started ?deadline ~vehicles limits options =
+  let search ?working = search ?working ~reduction ~started limits options in
+  let late = search ~working:(vehicles <> []) Latest "latest dates" in
   let early = search Earliest "earliest dates" in
   let late_system = Search.system late and early_system = Search.system early in
   let dates system = List.map (fun (e, (date, _)) -> (e, date)) (Timed_system.endings system) in
@@ -126,50 +162,91 @@ let find ~(reduction : reduction) ~started ?deadline limits options =
   let is_late date = match deadline with Some deadline -> is_later date (At deadline) | None -> false in
   let run_at goal system = Option.map (fun (_, n) -> run_to goal options system n) in
   let last_run = run_at Latest late_system last in
+  let endless = endless options late_system in
+  let stopped = match Search.stopped late with Some bound -> Some bound | None -> Search.stopped early in
+  let is_known = endless = None && stopped = None in
   { endings = windows (dates early_system) (dates late_system); tasks;
     last = last_run; first = run_at Earliest early_system (best is_sooner early_system);
-    endless = endless options late_system;
+    endless;
     unknown = Timed_system.unknown late_system;
     deadlines = deadlines options early_system late_system;
     late = (match last with Some (date, _) when is_late date -> last_run | Some _ | None -> None);
     failing = run_at Latest late_system (List.assoc_opt Timed_system.Failed (Timed_system.endings late_system));
-    stopped = (match Search.stopped late with Some bound -> Some bound | None -> Search.stopped early);
+    batteries = (if is_known then batteries options late_system tasks last_run vehicles else []);
+    stopped;
     reduction;
     states = Search.count late + Search.count early;
     depth = max (Search.depth late) (Search.depth early);
     seconds = limits.Limits.clock () -. started;
     bytes = max (Search.memory late) (Search.memory early) }
 
-let run ?(reduction = Inert_ends_and_likeness) ?deadline limits options =
+(* With less left out where more was unsound. *)
+let rec attempt find (reduction : reduction) =
+  try find reduction
+  with Timed_system.Broken -> attempt find (match reduction with Inert_ends_and_likeness -> Inert_ends | _ -> Nothing)
+
+let run ?(reduction = Inert_ends_and_likeness) ?deadline ?(vehicles = []) limits options =
   let started = limits.Limits.clock () in
-  let rec attempt reduction =
-    try find ~reduction ~started ?deadline limits options
-    with Timed_system.Broken -> attempt (match reduction with Inert_ends_and_likeness -> Inert_ends | _ -> Nothing)
+  attempt (fun reduction -> find ~reduction ~started ?deadline ~vehicles limits options) reduction
+
+let latest_end ~started limits options =
+  let find reduction =
+    let search = search ~reduction ~started limits options Latest "slack" in
+    let system = Search.system search in
+    match Search.stopped search, Timed_system.cycle system, Timed_system.stuck system, best is_later system with
+    | Some _, _, _, _ -> None
+    | None, None, None, Some (date, _) -> Some date
+    | None, _, _, _ -> Some Unbounded
   in
-  attempt reduction
+  attempt find Inert_ends_and_likeness
 
 let latest o =
   let later found (_, w) = match found with Some d when not (is_later w.latest d) -> found | _ -> Some w.latest in
   List.fold_left later None o.endings
 
+let slacks limits options o =
+  let started = limits.Limits.clock () in
+  match o.endless, o.stopped, latest o with
+  | None, None, Some (At n) ->
+    let slack (task, _) =
+      let found = Slack.of_task ~latest:(latest_end ~started limits) options n task in
+      Option.map (fun slack -> (task, slack)) found
+    in
+    List.filter_map slack o.tasks
+  | Some _, _, _ | None, Some _, _ | None, None, (Some Unbounded | None) -> []
+
 (* Of what has no latest date it is not known. *)
 let is_late ?deadline o = match deadline, latest o with Some n, Some (At m) -> m > n | _ -> false
 
-type shortfall = Never_ends | Fails | Late | Misses | Unknown
+let is_empty share = share < slightly
+let runs_empty b = match b.lowest with Some (share, _) -> is_empty share | None -> false
+let may_run_empty b = is_empty b.least
+
+type shortfall = Never_ends | Fails | Late | Misses | Empty | Unknown
 
 let shortfall ?deadline o =
   let latest = latest o in
-  let is_unknown = o.stopped <> None || latest = None || (deadline <> None && latest = Some Unbounded) in
+  let is_unknown =
+    o.stopped <> None || latest = None || (deadline <> None && latest = Some Unbounded)
+    || List.exists may_run_empty o.batteries in
   if o.endless <> None then Some Never_ends
   else if List.mem_assoc Timed_system.Failed o.endings then Some Fails
   else if is_late ?deadline o then Some Late
   else if List.exists (fun (_, missed) -> missed <> None) o.deadlines then Some Misses
+  else if List.exists runs_empty o.batteries then Some Empty
   else if is_unknown then Some Unknown
   else None
 
 type verdict = Dolphin_checker.Verdict.t = Holds | Violated | Inconclusive
 
-let verdict ?deadline o =
+let in_time ?deadline o =
   if o.endless <> None || is_late ?deadline o then Violated
   else if o.stopped <> None || latest o = Some Unbounded || latest o = None then Inconclusive
   else Holds
+
+let verdict ?deadline o =
+  match in_time ?deadline o with
+  | Violated -> Violated
+  | Holds | Inconclusive when List.exists runs_empty o.batteries -> Violated
+  | Holds when List.exists may_run_empty o.batteries -> Inconclusive
+  | (Holds | Inconclusive) as verdict -> verdict

@@ -18,6 +18,13 @@ type run = {
 type reduction = Timed_system.reduction = Nothing | Inert_ends | Inert_ends_and_likeness
 type task = Timed_system.task = { name : string; vehicle : Core.vehicle; site : Core.site }
 
+(** How much is left in a battery, at any time until the end of a run. *)
+type battery = {
+  vehicle : Core.vehicle;
+  least : float;  (** no run has less *)
+  lowest : (float * run) option;  (** a run, and the least that is left in it; that is [least] where it is exact *)
+}
+
 type outcome = {
   endings : (Timed_system.ending * window) list;  (** the ways in which runs end *)
   tasks : (task * (Timed_system.moment * window) list) list;  (** all that run in some run *)
@@ -29,6 +36,7 @@ type outcome = {
   (** the [within] of the program, each with when it is missed, and a run in which it is; [None]: it is kept *)
   late : run option;  (** one that is not over at the deadline *)
   failing : run option;  (** one that fails *)
+  batteries : battery list;  (** of vehicles that run a task, if all runs are known to end by some date *)
   stopped : Dolphin_checker.Limits.bound option;
   (** if there is a bound, dates are of the runs that were looked at *)
   reduction : reduction;  (** that was used in the end *)
@@ -38,12 +46,20 @@ type outcome = {
   bytes : int;
 }
 
-val run : ?reduction:reduction -> ?deadline:int -> Dolphin_checker.Limits.t -> Timed.options -> outcome
-(** [run ~deadline limits o] is what there is to know, within [limits]; [deadline] is in milliseconds. The
-    [reduction], all by default, makes no difference to the answers. *)
+val run :
+  ?reduction:reduction -> ?deadline:int -> ?vehicles:Dolphin_scenario.Scenario.vehicle list ->
+  Dolphin_checker.Limits.t -> Timed.options -> outcome
+(** [run ~deadline ~vehicles limits o] is what there is to know, within [limits]; [deadline] is in milliseconds; of
+    [vehicles], by default none, the batteries are looked at. The [reduction], all by default, makes no difference to
+    the answers, but for how close the bounds of batteries are. *)
 
 val latest : outcome -> date option
 (** [latest o] is when the last run is over; [None] if none that was looked at ends. *)
+
+val slacks : Dolphin_checker.Limits.t -> Timed.options -> outcome -> (task * Slack.t) list
+(** [slacks limits o outcome] is the slack of each task of [outcome], which is of [o], by searches of their own; without
+    those that are not found within [limits], each search for itself but for the time. [[]] if it is not known that all
+    runs end by some date. *)
 
 type verdict = Dolphin_checker.Verdict.t = Holds | Violated | Inconclusive
 
@@ -53,12 +69,23 @@ type shortfall =
   | Fails
   | Late  (** some run is not over at the deadline *)
   | Misses  (** a [within] *)
-  | Unknown  (** a bound was met, or nobody knows how long it takes *)
+  | Empty  (** a battery, in some run *)
+  | Unknown  (** a bound was met, nobody knows how long it takes, or a battery may be empty *)
 
 val shortfall : ?deadline:int -> outcome -> shortfall option
 (** [shortfall ~deadline o] is the first of these that is so; [None]: all runs end in time, none fails, and each
-    [within] is kept. Nobody need know how long all takes if there is no [deadline]. *)
+    [within] is kept, and no battery runs empty. Nobody need know how long all takes if there is no [deadline]. *)
+
+val in_time : ?deadline:int -> outcome -> verdict
+(** [in_time ~deadline o]: [Violated] if some run never ends, or ends after [deadline]; else [Inconclusive] if a bound
+    was met, or nobody knows when the last run is over; else [Holds]. *)
+
+val runs_empty : battery -> bool
+(** In some run. *)
+
+val may_run_empty : battery -> bool
+(** False only if it does in no run. *)
 
 val verdict : ?deadline:int -> outcome -> verdict
-(** [verdict ~deadline o]: [Violated] if some run never ends, or ends after [deadline]; else [Inconclusive] if a bound
-    was met, or nobody knows when the last run is over; else [Holds]. *)
+(** [verdict ~deadline o] is {!in_time}, with the batteries: [Violated] if one runs empty in some run, and
+    [Inconclusive] if it is not known of one. *)

@@ -52,6 +52,7 @@ let delayed z z' =
   go 0 0 0 max_int
 
 let earliest_date z = -get z zero date
+let most clock z = match get z (clock + 1) zero with n when n = unbounded -> None | n -> Some n
 let latest_date z = match get z date zero with n when n = unbounded -> None | n -> Some n
 
 let delay z =

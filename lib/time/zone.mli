@@ -34,6 +34,9 @@ val earliest_date : t -> int
 val latest_date : t -> int option
 (** [None]: no bound. *)
 
+val most : int -> t -> int option
+(** [most i z] is the greatest value of clock [i] in [z]; [None]: no bound. *)
+
 (** {1:operations Operations}
 
     Each as a set of valuations; [None] is the empty one. *)

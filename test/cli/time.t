@@ -1,7 +1,7 @@
 How long the paper's mission takes.
 
   $ timeless() { sed 's/[0-9.]* s, [0-9]* MiB/T/'; }
-  $ dolphin time ../../examples/rendezvous.dol | timeless | head -12
+  $ dolphin time ../../examples/rendezvous.dol | timeless | head -16
   completed: 15:55.125 at the earliest, 19:20.71 at the latest
   task     vehicle     starts        ends                    where
   survey1  noptilus-1  0:00          4:00 to 7:00            rendezvous.dol:18
@@ -13,7 +13,11 @@ How long the paper's mission takes.
   rv1      x8-02       4:00 to 9:40  4:40 to 11:00           rendezvous.dol:33
   rv2      x8-02       4:00 to 9:40  4:40 to 11:00           rendezvous.dol:35
   rv3      x8-02       4:00 to 9:40  4:40 to 11:00           rendezvous.dol:37
-  667 states, depth 32, T
+  vehicle     least battery
+  noptilus-1  96.9 %
+  noptilus-2  96.8 %
+  noptilus-3  96.7 %
+  x8-02       98.6 %
 
 A deadline that holds, and one that does not, with the run that breaks it.
 
@@ -37,6 +41,9 @@ A deadline that holds, and one that does not, with the run that breaks it.
   survey  a        0:00          4:00 to 7:00  relay.dol:3
   home    a        4:00 to 7:00  5:30 to 8:30  relay.dol:3
   visit   b        4:00 to 7:00  5:00 to 9:00  relay.dol:4
+  vehicle  least battery
+  a        98.5 %
+  b        99.3 %
   34 states, depth 13, T
   
   a run that ends last:
@@ -63,6 +70,9 @@ A deadline that holds, and one that does not, with the run that breaks it.
   survey  a        0:00          4:00 to 7:00  relay.dol:3
   home    a        4:00 to 7:00  5:30 to 8:30  relay.dol:3
   visit   b        4:00 to 7:00  5:00 to 9:00  relay.dol:4
+  vehicle  least battery
+  a        98.5 %
+  b        99.3 %
   34 states, depth 13, T
   
   a run that is not over at the deadline, 8:00:
@@ -86,6 +96,85 @@ A deadline that holds, and one that does not, with the run that breaks it.
   [1]
   $ dolphin time relay.dol --deadline soon 2>&1 | head -1
   dolphin: option '--deadline': 'soon' is no time such as 40.min or 90.seconds
+
+A battery that runs empty in some run, and one that must be charged in time, of which it is not known.
+
+  $ sed "s/vehicle 'a'.*/vehicle 'a', { type 'UUV'; battery 10.percent; drain 1 }/" relay.fleet > low.fleet
+  $ dolphin time relay.dol --fleet low.fleet --deadline 9.min | timeless
+  completed: 5:30 at the earliest, 9:00 at the latest
+  deadline 9:00: holds
+  task    vehicle  starts        ends          where
+  survey  a        0:00          4:00 to 7:00  relay.dol:3
+  home    a        4:00 to 7:00  5:30 to 8:30  relay.dol:3
+  visit   b        4:00 to 7:00  5:00 to 9:00  relay.dol:4
+  vehicle  least battery
+  a        runs empty
+  b        99.3 %
+  34 states, depth 13, T
+  
+  a run in which the battery of a runs empty:
+         program                      a              b             where
+  0:00   pick(1 vehicle with id 'a')                               relay.dol:1
+  0:00   picks a                                                   relay.dol:1
+  0:00   pick(1 vehicle with id 'b')                               relay.dol:2
+  0:00   picks b                                                   relay.dol:2
+  0:00   execute                                                   relay.dol:3
+  0:00                                starts survey                relay.dol:3
+  7:00                                ends survey                  relay.dol:3
+  7:00   act(post ready:1)                                         relay.dol:3
+  7:00                                starts home                  relay.dol:3
+  7:00   check(consume ready:1)                                    relay.dol:3
+  7:00                                               starts visit  relay.dol:4
+  8:30                                ends home                    relay.dol:3
+  9:00                                               ends visit    relay.dol:4
+  9:00   end
+  $ dolphin time relay.dol --fleet low.fleet --json | python3 -c '
+  > import json, sys
+  > o = json.load(sys.stdin)
+  > print(o["verdict"], o["shown"]["what"])
+  > for b in o["batteries"]: print(b["vehicle"], b["verdict"], b["least"], b["lowest"], b["run"]["dates"][-1])'
+  violated a run in which the battery of a runs empty
+  a violated 0.0 0.0 540
+  b holds 0.99375 0.99375 540
+  $ dolphin time relay.dol --fleet low.fleet --fewest | head -2
+  no fleet of these 2 vehicles will do
+  with all of them: battery empty
+  $ cat > rounds.dol << 'X'
+  > a = pick { id 'a' }
+  > execute repeat 4, (task('survey')[a] >> idle(20.min))
+  > X
+  $ sed "s/drain 1 /drain 15.percent; charge 60.percent /" low.fleet > charged.fleet
+  $ dolphin time rounds.dol --fleet charged.fleet | timeless | head -5
+  completed: 1:36:00 at the earliest, 1:48:00 at the latest
+  task    vehicle  starts           ends             where
+  survey  a        0:00 to 1:21:00  4:00 to 1:28:00  rounds.dol:2
+  vehicle  least battery
+  a        3 % or more; 8.2 % in some run
+  $ sed "s/battery 10/battery 5/" charged.fleet > lower.fleet
+  $ dolphin time rounds.dol --fleet lower.fleet | timeless | head -5
+  completed: 1:36:00 at the earliest, 1:48:00 at the latest
+  task    vehicle  starts           ends             where
+  survey  a        0:00 to 1:21:00  4:00 to 1:28:00  rounds.dol:2
+  vehicle  least battery
+  a        unknown; 3.2 % in some run
+  $ dolphin time rounds.dol --fleet lower.fleet > /dev/null
+  [3]
+
+How much longer each task may take before the latest end is later; that of the survey decides.
+
+  $ dolphin time relay.dol --slack | timeless | head -5
+  completed: 5:30 at the earliest, 9:00 at the latest
+  task    vehicle  starts        ends          slack  where
+  survey  a        0:00          4:00 to 7:00  0:00   relay.dol:3
+  home    a        4:00 to 7:00  5:30 to 8:30  0:30   relay.dol:3
+  visit   b        4:00 to 7:00  5:00 to 9:00  0:00   relay.dol:4
+  $ dolphin time relay.dol --slack --json | python3 -c '
+  > import json, sys
+  > print([t["slack"] for t in json.load(sys.stdin)["tasks"]])'
+  [0, 30, 0]
+  $ dolphin time relay.dol --slack --fewest
+  dolphin: --slack is for one program and its whole fleet: give no --fewest, and --set no range
+  [2]
 
 With failures, for programs.
 
@@ -112,6 +201,9 @@ A task that may not be done within its time.
   survey  a        0:00          4:00 to 5:00  5:00     within.dol:3
   home    a        4:00 to 5:00  5:30 to 6:30           within.dol:3
   visit   b        4:00 to 5:00  5:00 to 7:00           within.dol:4
+  vehicle  least battery
+  a        98.8 %
+  b        99.4 %
   36 states, depth 13, T
   
   a run in which a task is not done within its time:

@@ -961,6 +961,51 @@ let place =
         {|let key = (due, step.urgent, what,|},
         {|let key = (due, step.urgent, ignore what,|} );
     ]
+  @ in_file "lib/time/batteries.ml" ~noticed_by:"time/test_exact"
+    [
+      ( "a vehicle that is stopped goes on",
+        {|if is_over || is_stopped then|},
+        {|ignore is_stopped; if is_over then|} );
+    ]
+  @ in_file "lib/time/working.ml" ~noticed_by:"time/test_exact"
+    [
+      ( "tasks that are stopped take nothing",
+        {|    when ((not (is_awaited p.item)) || List.mem p.item step.fresh)|},
+        {|    when (not (is_awaited p.item)) && step.due <> None|} );
+      ( "inert ends take nothing",
+        {|Some (task.vehicle, i.most)|},
+        {|Some (task.vehicle, 0 * i.most)|} );
+    ]
+  @ in_file "lib/time/working.ml" ~noticed_by:"time/test_missions"
+    [
+      ( "rounds count once",
+        {|times n (longest cost v each)|},
+        {|times (min 1 n) (longest cost v each)|} );
+    ]
+  @ in_file "lib/time/longest.ml" ~noticed_by:"time/test_exact"
+    [
+      ( "the first way is taken for the longest",
+        {|    if way > longest.(w) then begin|},
+        {|    if longest.(w) < 0 && way > longest.(w) then begin|} );
+    ]
+  @ in_file "lib/scenario/battery.ml" ~noticed_by:"time/test_missions"
+    [
+      ( "rest takes nothing",
+        {|let at_rest = 0.25|},
+        {|let at_rest = 0.|} );
+      ( "charging is counted on",
+        {|if v.charge > 0. then 0. else unplugged v|},
+        {|if v.charge > 0. then resting v else unplugged v|} );
+    ]
+  @ in_file "lib/time/slack.ml" ~noticed_by:"time/test_missions"
+    [
+      ( "a task may take a millisecond too much",
+        {|if later - kept = 1 then kept|},
+        {|if later - kept = 1 then later|} );
+      ( "a task that is cut off counts with all its time",
+        {|  | None -> Some Any|},
+        {|  | None -> Some (By 0)|} );
+    ]
   @ in_file "lib/time/inert.ml" ~noticed_by:"time/test_reductions"
     [
       ( "a task that may fail is inert",

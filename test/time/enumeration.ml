@@ -3,7 +3,7 @@ open Dolphin_environment
 open Dolphin_time
 
 type moment = Ended of Timed_system.ending | Task of Timing.task * Timed_system.moment
-type t = { dates : (moment * (int * int)) list; never_over : bool }
+type t = { dates : (moment * (int * int)) list; never_over : bool; most : (Core.vehicle * int) list }
 
 (* What is awaited: a vehicle, a timer, an input, or what people and the supplier say. *)
 type awaited = Vehicle of string | Timer of int | Input of string | Word
@@ -17,16 +17,18 @@ type state = {
   clocks : (awaited * clock) list;  (* in order *)
   patience : (string option * int) list;
   now : int;
+  working : (Core.vehicle * int) list;  (* for so many seconds until now, if that is asked for; in order *)
 }
 
 module Table = Hashtbl.Make (struct
     type t = state
 
     let equal a b =
-      a.now = b.now && a.clocks = b.clocks && a.patience = b.patience && Environment.compare a.e b.e = 0
+      a.now = b.now && a.working = b.working && a.clocks = b.clocks && a.patience = b.patience
+      && Environment.compare a.e b.e = 0
       && Configuration.equal a.c b.c
 
-    let hash s = Hashtbl.hash (s.now, s.clocks, Configuration.hash s.c)
+    let hash s = Hashtbl.hash (s.now, s.working, s.clocks, Configuration.hash s.c)
   end)
 
 exception Too_much
@@ -110,7 +112,7 @@ let after o s (choice : Environment.choice) =
       List.fold_left (fun patience v -> (Some v, whole n) :: List.remove_assoc (Some v) patience) patience vs
     | _ -> patience
   in
-  { c = t.next; e = choice.outside; now = s.now;
+  { c = t.next; e = choice.outside; now = s.now; working = s.working;
     clocks = List.sort_uniq compare (List.map find (awaited o t.next choice.outside));
     patience = List.sort compare (List.fold_left set_patience s.patience t.effects) }
 
@@ -138,10 +140,17 @@ let due o s (choice : Environment.choice) =
     Some (c, 0, if comes_late choice.transition then c.most else 0)
   | None, _ -> None
 
-let all ?(states = 20_000) ?(seconds = 60) (o : Timed.options) =
+(* A second later. *)
+let tick ~working s =
+  let later (what, clock) = (what, { clock with since = clock.since + 1 }) in
+  let add v _ sums = (v, 1 + Option.value (List.assoc_opt v sums) ~default:0) :: List.remove_assoc v sums in
+  let sums = if working then Vehicle_map.fold add s.c.shared.allocation s.working else [] in
+  { s with now = s.now + 1; clocks = List.map later s.clocks; working = List.sort compare sums }
+
+let all ?(states = 20_000) ?(seconds = 60) ?(working = false) (o : Timed.options) =
   let seen = Table.create 1_000 and queue = Queue.create () in
   let edges = ref [] and following = ref [] in
-  let dates = Hashtbl.create 20 and never_over = ref false in
+  let dates = Hashtbl.create 20 and most = Hashtbl.create 3 and never_over = ref false in
   let note s moment =
     let least, most = Option.value (Hashtbl.find_opt dates moment) ~default:(s.now, s.now) in
     Hashtbl.replace dates moment (min least s.now, max most s.now)
@@ -170,6 +179,13 @@ let all ?(states = 20_000) ?(seconds = 60) (o : Timed.options) =
     in
     List.iter carry t.effects
   in
+  let note_most s =
+    let note (v, n) =
+      let known = Option.value (Hashtbl.find_opt most v) ~default:0 in
+      Hashtbl.replace most v (max known ((3 * n) + s.now))
+    in
+    List.iter note s.working
+  in
   let note_end s =
     match s.c.control with
     | Ended Completed -> note s (Ended Completed)
@@ -180,6 +196,7 @@ let all ?(states = 20_000) ?(seconds = 60) (o : Timed.options) =
   in
   let expand s =
     note_end s;
+    (match s.c.control with Ended _ -> note_most s | Script _ | Waiting _ | Executing _ -> ());
     let choices = List.of_seq (Environment.choices_on o.environment o.program o.world s.e s.c) in
     let timed = List.map (fun choice -> (choice, due o s choice)) choices in
     let is_own ((choice : Environment.choice), _) = choice.on = None && not (comes_late choice.transition) in
@@ -207,10 +224,9 @@ let all ?(states = 20_000) ?(seconds = 60) (o : Timed.options) =
     (* A second passes, if for everything that is awaited something may still happen then. *)
     let may_wait (_, clock) = match last clock with -1 -> true | most -> clock.since < most in
     if waits && possible <> [] && List.for_all may_wait s.clocks then begin
-      let later (what, clock) = (what, { clock with since = clock.since + 1 }) in
       if List.exists (fun (choice, _) -> not (Environment.is_voluntary choice.Environment.transition)) possible
       || Environment.owes o.environment o.program s.e
-      then reach { s with now = s.now + 1; clocks = List.map later s.clocks }
+      then reach (tick ~working s)
     end;
     match s.c.control with
     | Ended _ -> ()
@@ -220,7 +236,7 @@ let all ?(states = 20_000) ?(seconds = 60) (o : Timed.options) =
   in
   let start =
     let c = Configuration.initial o.program and e = Environment.initial in
-    { c; e; now = 0; patience = [];
+    { c; e; now = 0; patience = []; working = [];
       clocks = List.sort compare (List.map (fun k -> (Input k, posted o k)) (inputs o c e)) }
   in
   match
@@ -233,5 +249,6 @@ let all ?(states = 20_000) ?(seconds = 60) (o : Timed.options) =
   with
   | () ->
     let never_over = !never_over || is_cyclic (Array.of_list (List.rev !edges)) in
-    Some { dates = List.sort compare (List.of_seq (Hashtbl.to_seq dates)); never_over }
+    let sorted table = List.sort compare (List.of_seq (Hashtbl.to_seq table)) in
+    Some { dates = sorted dates; never_over; most = sorted most }
   | exception Too_much -> None

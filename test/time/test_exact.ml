@@ -118,6 +118,98 @@ let test_agreement () =
   Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
   Printf.printf "%d skipped, %d with runs that never end\n" !skipped !endless
 
+(* {1 Slack} *)
+
+let latest_of (expected : Enumeration.t) =
+  let is_end (moment, _) = match moment with Enumeration.Ended _ -> true | Task _ -> false in
+  List.fold_left (fun latest (_, (_, last)) -> max latest last) 0 (List.filter is_end expected.dates)
+
+(* With [task] so many seconds longer. *)
+let longer (o : Timed.options) (task : Timing.task) n =
+  let of_task v place (p : Core.platform_task) : Bounds.t =
+    match o.durations.task v place p with
+    | Within { least; most } when task = { name = p.name; vehicle = v; site = p.task_site } ->
+      Within { least; most = most + (1000 * n) }
+    | bounds -> bounds
+  in
+  { o with durations = { o.durations with task = of_task } }
+
+let tight = ref 0 and loose = ref 0
+
+(* A task may take as much longer as is said, and no second more. *)
+let slack_agrees (ast, seed, (_, environment)) =
+  let program = Posts.declared environment (Generate.compile ast) in
+  let options : Timed.options = { environment; program; world = Generate.world; durations = durations seed } in
+  match Enumeration.all options with
+  | None -> true
+  | Some { never_over = true; _ } -> true
+  | Some expected ->
+    let o = Timing.run Dolphin_checker.Limits.none options in
+    let latest = latest_of expected in
+    let ends_then task n =
+      match Enumeration.all (longer options task n) with
+      | None -> None
+      | Some e -> Some ((not e.never_over) && latest_of e = latest)
+    in
+    let check (task : Timing.task) n same =
+      if ends_then task n = Some (not same) then
+        QCheck2.Test.fail_reportf "%s on %s (%d) with %d s more" task.name task.vehicle task.site n
+    in
+    let compare ((task : Timing.task), (slack : Slack.t)) =
+      match slack with
+      | Any -> incr loose; check task 7 true
+      | By ms -> incr tight; check task (ms / 1000) true; check task ((ms / 1000) + 1) false
+    in
+    let slacks = Timing.slacks Dolphin_checker.Limits.none options o in
+    List.iter compare slacks;
+    List.length slacks = List.length o.tasks
+
+let test_slack () =
+  let programs = programs / 3 in
+  let test = QCheck2.Test.make ~count:programs ~print ~name:"slack and enumeration agree" case slack_agrees in
+  Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
+  Alcotest.(check bool) "some have slack, and some do not matter" true (!tight > 0 && !loose > 0)
+
+(* {1 Batteries} *)
+
+(* A second of work takes four parts in 40,000, one of rest takes one. *)
+let vehicles =
+  let vehicle v = Printf.sprintf "vehicle '%s', { type 'UUV'; drain 36.percent }\n" v in
+  match Dolphin_scenario.Scenario.read ~file:"batteries" (String.concat "" (List.map vehicle [ "a"; "b"; "c" ])) with
+  | Ok scenario -> scenario.vehicles
+  | Error _ -> failwith "the fleet is wrong"
+
+let exact = ref 0 and bounds = ref 0 and worked = ref 0
+
+(* No run has less left than is said; the run that is shown has no less than the least of all. *)
+let batteries_agree (ast, seed, (_, environment)) =
+  let program = Posts.declared environment (Generate.compile ast) in
+  let options : Timed.options = { environment; program; world = Generate.world; durations = durations seed } in
+  match Enumeration.all ~working:true options with
+  | None | Some { never_over = true; _ } -> true
+  | Some expected ->
+    let o = Timing.run ~vehicles Dolphin_checker.Limits.none options in
+    let check (b : Timing.battery) =
+      let parts = max (latest_of expected) (Option.value (List.assoc_opt b.vehicle expected.most) ~default:0) in
+      let left = 1. -. (float parts /. 40_000.) in
+      let is_bound = b.least <= left +. 1e-9 in
+      let is_reached = Option.fold b.lowest ~none:true ~some:(fun (lowest, _) -> lowest >= left -. 1e-9) in
+      if List.mem_assoc b.vehicle expected.most then incr worked;
+      incr (if Option.fold b.lowest ~none:false ~some:(fun (x, _) -> x -. b.least < 1e-9) then exact else bounds);
+      (is_bound && is_reached)
+      || QCheck2.Test.fail_reportf "%s: %g is least, %g or more is said, %g in a run" b.vehicle left b.least
+        (Option.fold b.lowest ~none:nan ~some:fst)
+    in
+    let is_told (v, _) = List.exists (fun (b : Timing.battery) -> b.vehicle = v) o.batteries in
+    let is_bounded = List.for_all (fun (_, (w : Timing.window)) -> w.latest <> Unbounded) o.endings in
+    List.for_all check o.batteries && ((not is_bounded) || List.for_all is_told expected.most)
+
+let test_batteries () =
+  let test = QCheck2.Test.make ~count:programs ~print ~name:"batteries and enumeration agree" case batteries_agree in
+  Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
+  Printf.printf "%d exact, %d bounds, of %d vehicles that work\n" !exact !bounds !worked;
+  Alcotest.(check bool) "most are exact" true (!worked > 0 && !exact > 3 * !bounds)
+
 let compare_one environment seed text =
   let options : Timed.options =
     { environment = List.assoc environment environments; program = Test_support.Pure_run.compile_exn text;
@@ -150,6 +242,8 @@ let test_variety () =
 let () =
   Alcotest.run "exact"
     [ ("random programs", [ Alcotest.test_case "zones and enumeration" `Quick test_agreement;
-                            Alcotest.test_case "variety" `Quick test_variety ]);
+                            Alcotest.test_case "variety" `Quick test_variety;
+                            Alcotest.test_case "slack" `Quick test_slack;
+                            Alcotest.test_case "batteries" `Quick test_batteries ]);
       ("programs", [ Alcotest.test_case "one loss" `Quick test_one_loss;
                      Alcotest.test_case "a round in no time" `Quick test_round_in_no_time ]) ]

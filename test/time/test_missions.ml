@@ -206,6 +206,73 @@ let test_deadline () =
   Alcotest.(check bool) "held" true (verdict 9_000 = Holds);
   Alcotest.(check bool) "broken by a millisecond" true (verdict 8_999 = Violated)
 
+(* The long way takes 9, the other one 2 + 3 + 1: each of its tasks may take 3 more. What is cut off when the other is
+   done may take any time; what runs twice, for 3 at most, may take half of the other 3 more. *)
+let test_slack () =
+  let slacks program =
+    let program = Test_support.Pure_run.compile_exn (both ^ program) in
+    let scenario = fleet (two ^ "plan 'p', { duration 5, 9 }\nplan 'q', { duration 2 }\nplan 'r', { duration 1, 3 }") in
+    let options : Timed.options =
+      { environment = Scenario_world.environment ~answers:[] ~faults:Faults.none program scenario; program;
+        world = Scenario_world.world scenario; durations = Durations.of_scenario scenario } in
+    let limits = Dolphin_checker.Limits.none in
+    let found = Timing.slacks limits options (Timing.run limits options) in
+    let text : Slack.t -> string = function Any -> "any" | By ms -> string_of_int ms in
+    List.sort compare (List.map (fun ((t : Timing.task), s) -> (t.vehicle ^ " " ^ t.name, text s)) found)
+  in
+  let check what expected program =
+    Alcotest.(check (list (pair string string))) what expected (slacks ("execute " ^ program ^ "\n")) in
+  check "two ways" [ ("a p", "0"); ("b q", "3000"); ("b r", "3000") ]
+    "task('p')[va] | task('q')[vb] >> task('r')[vb] >> idle(1)";
+  check "whatever is cut" [ ("a p", "any"); ("b r", "0") ]
+    "until { poll done: 1 } run task('p')[va] | task('r')[vb] >> action { post done: 1 }";
+  check "twice" [ ("a p", "0"); ("b r", "1500") ] "task('p')[va] | repeat 2, task('r')[vb]";
+  check "without end" [] "repeat task('p')[va]"
+
+(* Shares of an hour under way, 60 % with a, and a quarter of that at rest, but for b, which is charged then.
+   a: 10 min of p, 20 at rest, 10 of p take 10 + 5 + 10 %. b: 10 min of p take 10 %, wherever they are.
+   With a race, p is cut off after 5 min; with rounds, there are three. *)
+let test_batteries () =
+  let scenario =
+    fleet
+      "vehicle 'a', { type 'UUV'; battery 50.percent; drain 60.percent }\n\
+       vehicle 'b', { type 'UUV'; drain 60.percent; charge 600.percent }\n\
+       plan 'p', { duration 5.min, 10.min }\nplan 'q', { duration 5.min }" in
+  let found ?(faults = "") program =
+    let faults = if faults = "" then Faults.none else Result.get_ok (Faults.of_string faults) in
+    let program = Test_support.Pure_run.compile_exn (both ^ program) in
+    Timing.run ~vehicles:scenario.vehicles Dolphin_checker.Limits.none
+      { environment = Scenario_world.environment ~answers:[] ~faults program scenario; program;
+        world = Scenario_world.world scenario; durations = Durations.of_scenario scenario }
+  in
+  let tenths x = Float.to_int (Float.round (1000. *. x)) in
+  let check ?faults what expected program =
+    let o = found ?faults ("execute " ^ program ^ "\n") in
+    let left (b : Timing.battery) =
+      (b.vehicle, tenths b.least, Option.fold b.lowest ~none:(-1) ~some:(fun (x, _) -> tenths x)) in
+    Alcotest.(check (list (triple string int int))) what expected (List.map left o.batteries);
+    o
+  in
+  let ignored = List.iter ignore in
+  ignored
+    [ check "there and back" [ ("a", 250, 250) ] "task('p')[va] >> idle(20.min) >> task('p')[va]";
+      check "side by side" [ ("a", 375, 375); ("b", 900, 900) ] "task('p')[va] | task('p')[vb] >> idle(10.min)";
+      check "a race" [ ("a", 450, 450); ("b", 950, 950) ]
+        "until { poll done: 1 } run task('p')[va] | task('q')[vb] >> action { post done: 1 }";
+      check "rounds" [ ("a", 200, 200) ] "repeat 3, task('p')[va]";
+      check "a failure" ~faults:"fail=1" [ ("a", 200, 200) ] "repeat 3, task('p')[va]";
+      check "what is charged again is not counted on" [ ("b", 700, 900) ]
+        "repeat 3, (task('p')[vb] >> idle(20.min))" ];
+  let verdict program =
+    let o = found ("execute " ^ program ^ "\n") in
+    (Timing.verdict o = Violated, Timing.verdict o = Inconclusive, Timing.shortfall o) in
+  let verdicts = Alcotest.(check bool) in
+  verdicts "enough" true (verdict "repeat 4, task('p')[va]" = (false, false, None));
+  verdicts "not enough" true (verdict "repeat 5, task('p')[va]" = (true, false, Some Empty));
+  verdicts "enough if charged" true (verdict "repeat 10, (task('p')[vb] >> idle(20.min))" = (false, true, Some Unknown));
+  let o = found "execute repeat task('p')[va]\n" in
+  Alcotest.(check int) "nothing is said of runs without end" 0 (List.length o.batteries)
+
 (* [count _] takes its whole time-out; a vehicle that comes late may come until then. *)
 let test_picks () =
   let scenario = fleet two in
@@ -230,4 +297,4 @@ let () =
       ("by hand",
        [ case "the paper's mission" test_rendezvous; case "within" test_within; case "until" test_until;
          case "faults" test_faults; case "runs without end" test_endless; case "unknown durations" test_unknown;
-         case "deadlines" test_deadline; case "picks" test_picks; case "places" test_places ]) ]
+         case "deadlines" test_deadline; case "slack" test_slack; case "batteries" test_batteries; case "picks" test_picks; case "places" test_places ]) ]

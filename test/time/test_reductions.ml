@@ -134,13 +134,37 @@ let pp_dates ppf (endings, tasks) =
   List.iter ending endings;
   List.iter task tasks
 
+let batteries =
+  let vehicle v = Printf.sprintf "vehicle '%s', { type 'UUV'; drain 36.percent }\n" v in
+  match Dolphin_scenario.Scenario.read ~file:"batteries" (String.concat "" (List.map vehicle [ "a"; "b"; "c"; "d" ])) with
+  | Ok scenario -> scenario.vehicles
+  | Error _ -> failwith "the fleet is wrong"
+
+let close = ref 0 and loose = ref 0
+
+(* No bound is above what is left in any run that is shown. *)
+let check_batteries (outcomes : Timing.outcome list) =
+  let all = List.concat_map (fun (o : Timing.outcome) -> o.batteries) outcomes in
+  let check (b : Timing.battery) (c : Timing.battery) =
+    match c.lowest with
+    | Some (lowest, _) when b.vehicle = c.vehicle && lowest < b.least -. 1e-9 ->
+      QCheck2.Test.fail_reportf "%s: %g is left in a run, and %g or more is said" b.vehicle lowest b.least
+    | Some _ | None -> ()
+  in
+  let count (b : Timing.battery) =
+    let is_close = Option.fold b.lowest ~none:false ~some:(fun (lowest, _) -> lowest -. b.least < 1e-9) in
+    incr (if is_close then close else loose)
+  in
+  List.iter (fun b -> count b; List.iter (check b) all) all
+
 let agrees case =
   let options = options case in
-  let plain = Timing.run ~reduction:Nothing few options in
+  let run reduction limits = Timing.run ~reduction ~vehicles:batteries limits options in
+  let plain = run Timing.Nothing few in
   if plain.stopped <> None then incr skipped
   else begin
     let check name reduction =
-      let found = Timing.run ~reduction Dolphin_checker.Limits.none options in
+      let found = run reduction Dolphin_checker.Limits.none in
       let dates, kept, shown = answers plain and dates', kept', shown' = answers found in
       if dates <> dates' then
         QCheck2.Test.fail_reportf "%s: other dates: %a@.and not %a" name pp_dates dates' pp_dates dates;
@@ -154,6 +178,7 @@ let agrees case =
     in
     let inert = check "inert ends" Timing.Inert_ends in
     let all = check "inert ends and likeness" Inert_ends_and_likeness in
+    check_batteries [ plain; inert; all ];
     if inert.reduction <> Nothing && inert.states <> plain.states then incr with_inert;
     if all.reduction = Inert_ends_and_likeness && all.states <> inert.states then incr with_likeness
   end;
@@ -261,11 +286,13 @@ let test_asks () =
 let test_agreement () =
   let test = QCheck2.Test.make ~count:programs ~print ~name:"what is left out makes no difference" case agrees in
   Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
+  Printf.printf "%d bounds of batteries exact, %d not\n" !close !loose;
   Printf.printf "%d skipped; %d with other states by inert ends, %d by likeness\n" !skipped !with_inert !with_likeness
 
 let test_variety () =
   Alcotest.(check bool) "few are skipped" true (!skipped * 2 < programs);
-  Alcotest.(check bool) "some have other states" true (!with_inert * 20 > programs && !with_likeness * 20 > programs)
+  Alcotest.(check bool) "some have other states" true (!with_inert * 20 > programs && !with_likeness * 20 > programs);
+  Alcotest.(check bool) "most bounds of batteries are exact" true (!close > 2 * !loose)
 
 let () =
   Alcotest.run "reductions of time"

@@ -8,6 +8,7 @@ let shortfall : Timing.shortfall -> string = function
   | Fails -> "fails"
   | Late -> "late"
   | Misses -> "within missed"
+  | Empty -> "battery empty"
   | Unknown -> "inconclusive"
 
 let earliest (o : Timing.outcome) =

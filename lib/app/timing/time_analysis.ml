@@ -11,16 +11,23 @@ type settings = {
   timeout : float option;
 }
 
-let run ~interrupted ~progress s (program : Program_file.t) (fleet : Fleet_file.t) =
-  let limits : Dolphin_checker.Limits.t =
-    { max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory;
-      memory_taken = Memory.taken; memory_left = Memory.left;
-      timeout = s.timeout; clock = Unix.gettimeofday; interrupted; progress }
-  in
-  Timing.run ?deadline:s.deadline limits
-    { environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults program.program fleet.scenario;
-      program = program.program; world = Scenario_world.world fleet.scenario;
-      durations = Dolphin_time.Durations.of_scenario fleet.scenario }
+let limits ~interrupted ~progress s : Dolphin_checker.Limits.t =
+  { max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory;
+    memory_taken = Memory.taken; memory_left = Memory.left;
+    timeout = s.timeout; clock = Unix.gettimeofday; interrupted; progress }
+
+let options s (program : Program_file.t) (fleet : Fleet_file.t) : Dolphin_time.Timed.options =
+  { environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults program.program fleet.scenario;
+    program = program.program; world = Scenario_world.world fleet.scenario;
+    durations = Dolphin_time.Durations.of_scenario fleet.scenario }
+
+let run ~interrupted ~progress s program fleet =
+  let { Fleet_file.scenario; _ } = fleet in
+  let limits = limits ~interrupted ~progress s in
+  Timing.run ?deadline:s.deadline ~vehicles:scenario.vehicles limits (options s program fleet)
+
+let slacks ~interrupted ~progress s program fleet =
+  Timing.slacks (limits ~interrupted ~progress s) (options s program fleet)
 
 let duration text =
   let wrong = Error (Printf.sprintf "'%s' is no time such as 40.min or 90.seconds" text) in

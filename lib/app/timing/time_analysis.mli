@@ -17,6 +17,11 @@ val run :
   Fleet_file.t -> Timing.outcome
 (** [interrupted] and [progress] are as in {!Dolphin_checker.Limits}. *)
 
+val slacks :
+  interrupted:(unit -> bool) -> progress:(Dolphin_checker.Limits.progress -> unit) -> settings -> Program_file.t ->
+  Fleet_file.t -> Timing.outcome -> (Timing.task * Dolphin_time.Slack.t) list
+(** {!Timing.slacks} of what {!run} found, with the same settings. *)
+
 val duration : string -> (int, string) result
 (** [duration text] is the milliseconds that [text] spells, as fleets do: ["40.min"], ["90.seconds"], seconds without a
     unit; or what is wrong with it. *)

@@ -43,16 +43,21 @@ let print_ending (e, (w : Timing.window)) =
   let latest = match w.latest with At n -> time n ^ " at the latest" | Unbounded -> "no latest time" in
   Printf.printf "%s: %s at the earliest, %s\n" (Timed_system.ending_name e) (time w.earliest) latest
 
-let print_tasks (p : Program_file.t) (o : Timing.outcome) =
+let slack : Slack.t option -> string = function Some Any -> "any" | Some (By ms) -> time ms | None -> "unknown"
+
+(* Times of [slacks] are by how much longer a task may take before the latest end is later. *)
+let print_tasks ?slacks (p : Program_file.t) (o : Timing.outcome) =
   let used = List.filter (fun m -> List.exists (fun (_, ws) -> List.mem_assoc m ws) o.tasks) moments in
   let row ((task : Timing.task), windows) =
     let cell m = Option.fold ~none:"" ~some:window (List.assoc_opt m windows) in
-    (task.name :: task.vehicle :: List.map cell used) @ [ Program_file.line p task.site ]
+    let slack = Option.fold slacks ~none:[] ~some:(fun found -> [ slack (List.assoc_opt task found) ]) in
+    (task.name :: task.vehicle :: List.map cell used) @ slack @ [ Program_file.line p task.site ]
   in
+  let slack = if slacks = None then [] else [ "slack" ] in
   if o.tasks <> [] then
     List.iter print_endline
       (Text_table.lines
-         (("task" :: "vehicle" :: List.map Timed_system.moment_name used) @ [ "where" ])
+         (("task" :: "vehicle" :: List.map Timed_system.moment_name used) @ slack @ [ "where" ])
          (List.map row o.tasks))
 
 let print_columns (p : Program_file.t) (run : Timing.run) =
@@ -95,15 +100,21 @@ let goes_round p (run : Timing.run) =
 
 let missed (o : Timing.outcome) = List.find_map (fun (_, missed) -> Option.map snd missed) o.deadlines
 
-type shown = Endless of [ `Cycle | `In_no_time | `Stuck ] | Late | Missed | Last
+type shown = Endless of [ `Cycle | `In_no_time | `Stuck ] | Late | Missed | Empty of string | Last
+
+let empty (o : Timing.outcome) =
+  let run_of (b : Timing.battery) =
+    match b.lowest with Some (_, run) when Timing.runs_empty b -> Some (Empty b.vehicle, run) | Some _ | None -> None in
+  List.find_map run_of o.batteries
 
 let shown (o : Timing.outcome) =
-  match o.endless, o.late, missed o, o.last with
-  | Some (run, why), _, _, _ -> Some (Endless why, run)
-  | None, Some run, _, _ -> Some (Late, run)
-  | None, None, Some run, _ -> Some (Missed, run)
-  | None, None, None, Some ({ dates = _ :: _; _ } as run) when o.stopped = None -> Some (Last, run)
-  | None, None, None, (Some _ | None) -> None
+  match o.endless, o.late, missed o, empty o, o.last with
+  | Some (run, why), _, _, _, _ -> Some (Endless why, run)
+  | None, Some run, _, _, _ -> Some (Late, run)
+  | None, None, Some run, _, _ -> Some (Missed, run)
+  | None, None, None, Some found, _ -> Some found
+  | None, None, None, None, Some ({ dates = _ :: _; _ } as run) when o.stopped = None -> Some (Last, run)
+  | None, None, None, None, (Some _ | None) -> None
 
 let what ?deadline = function
   | Endless `Cycle -> "a run that may go on for ever"
@@ -112,6 +123,7 @@ let what ?deadline = function
   | Late ->
     "a run that is not over at the deadline" ^ Option.fold ~none:"" ~some:(fun n -> ", " ^ time n) deadline
   | Missed -> "a run in which a task is not done within its time"
+  | Empty v -> Printf.sprintf "a run in which the battery of %s runs empty" v
   | Last -> "a run that ends last"
 
 (* In the words of properties. *)
@@ -119,6 +131,7 @@ let breaks ?deadline = function
   | Endless _ -> "every run ends"
   | Late -> "deadline" ^ Option.fold ~none:"" ~some:(fun n -> " " ^ time n) deadline
   | Missed -> "within"
+  | Empty v -> "battery of " ^ v
   | Last -> ""
 
 let print_run ?deadline p (o : Timing.outcome) =
@@ -129,7 +142,7 @@ let print_run ?deadline p (o : Timing.outcome) =
     | Endless `Stuck -> Run_columns.print_waiting p run.steps
     | Late | Last -> print_chain p run
     | Endless (`Cycle | `In_no_time) -> Option.iter (Printf.printf "it goes round in %s\n") (goes_round p run)
-    | Missed -> ()
+    | Missed | Empty _ -> ()
   in
   Option.iter print (shown o)
 
@@ -146,7 +159,7 @@ let print_failing p run =
 
 let print_deadline ?deadline (o : Timing.outcome) =
   let say n =
-    Printf.printf "deadline %s: %s\n" (time n) (Dolphin_checker.Verdict.name (Timing.verdict ~deadline:n o)) in
+    Printf.printf "deadline %s: %s\n" (time n) (Dolphin_checker.Verdict.name (Timing.in_time ~deadline:n o)) in
   Option.iter say deadline
 
 let print_within p (o : Timing.outcome) (site, missed) =
@@ -161,7 +174,25 @@ let print_within p (o : Timing.outcome) (site, missed) =
 let print_unknown p (o : Timing.outcome) =
   List.iter (fun u -> Printf.printf "nobody knows how long it takes: %s%s\n" (item p u) (hint u)) o.unknown
 
-let print ?deadline p (o : Timing.outcome) =
+(* To a tenth of a percent, rounded down: never more than there is. *)
+let share x = Printf.sprintf "%g %%" (Float.floor ((x *. 1000.) +. 1e-6) /. 10.)
+
+(* A bound that is of no run that is known is said to be one. *)
+let battery (b : Timing.battery) =
+  match b.lowest with
+  | _ when Timing.runs_empty b -> "runs empty"
+  | Some (lowest, _) when share lowest = share b.least -> share b.least
+  | Some (lowest, _) when Timing.may_run_empty b -> Printf.sprintf "unknown; %s in some run" (share lowest)
+  | Some (lowest, _) -> Printf.sprintf "%s or more; %s in some run" (share b.least) (share lowest)
+  | None when Timing.may_run_empty b -> "unknown"
+  | None -> share b.least ^ " or more"
+
+let print_batteries (o : Timing.outcome) =
+  let row (b : Timing.battery) = [ b.vehicle; battery b ] in
+  if o.batteries <> [] then
+    List.iter print_endline (Text_table.lines ([ "vehicle"; "least battery" ]) (List.map row o.batteries))
+
+let print ?deadline ?slacks p (o : Timing.outcome) =
   (match o.stopped with
    | Some bound -> 
      Format.printf "inconclusive: %a; times are of the runs until then@." Dolphin_checker.Limits.pp_bound bound
@@ -171,7 +202,8 @@ let print ?deadline p (o : Timing.outcome) =
   print_deadline ?deadline o;
   List.iter (print_within p o) o.deadlines;
   print_unknown p o;
-  print_tasks p o;
+  print_tasks ?slacks p o;
+  print_batteries o;
   Printf.printf "%d states, depth %d, %.2f s, %d MiB\n" o.states o.depth o.seconds (o.bytes / 1024 / 1024);
   print_run ?deadline p o
 
@@ -190,12 +222,26 @@ let json_of_run p (run : Timing.run) : Yojson.Safe.t =
     [ ("run", `List (List.map label run.steps)); ("dates", `List (List.map seconds run.dates));
       ("cycle", `List (List.map label run.cycle)); ("chain", `List (List.map link run.chain)) ]
 
-let to_json ?deadline p (o : Timing.outcome) : Yojson.Safe.t =
+let json_of_slack : Slack.t option -> (string * Yojson.Safe.t) list = function
+  | Some Any -> [ ("slack", `String "any") ]
+  | Some (By ms) -> [ ("slack", seconds ms) ]
+  | None -> []
+
+let json_of_battery p (b : Timing.battery) : Yojson.Safe.t =
+  let lowest (share, run) = [ ("lowest", `Float share); ("run", json_of_run p run) ] in
+  let verdict =
+    if Timing.runs_empty b then "violated" else if Timing.may_run_empty b then "inconclusive" else "holds" in
+  `Assoc
+    ([ ("vehicle", `String b.vehicle); ("verdict", `String verdict); ("least", `Float b.least) ]
+     @ Option.fold b.lowest ~none:[] ~some:lowest)
+
+let to_json ?deadline ?(slacks = []) p (o : Timing.outcome) : Yojson.Safe.t =
   let task ((t : Timing.task), windows) =
     let window m = Option.map (fun w -> (Timed_system.moment_name m, json_of_window w)) (List.assoc_opt m windows) in
     let site = Option.fold ~none:`Null ~some:(fun s -> `String s) (Program_file.at p t.site) in
     `Assoc
-      ([ ("task", `String t.name); ("vehicle", `String t.vehicle); ("at", site) ] @ List.filter_map window moments)
+      ([ ("task", `String t.name); ("vehicle", `String t.vehicle); ("at", site) ]
+       @ List.filter_map window moments @ json_of_slack (List.assoc_opt t slacks))
   in
   let within (site, missed) =
     let place = Option.fold ~none:`Null ~some:(fun s -> `String s) (Program_file.at p site) in
@@ -221,6 +267,7 @@ let to_json ?deadline p (o : Timing.outcome) : Yojson.Safe.t =
      @ [ ("ends", `Assoc (List.map (fun (e, w) -> (Timed_system.ending_name e, json_of_window w)) o.endings));
          ("tasks", `List (List.map task o.tasks));
          ("within", `List (List.map within o.deadlines));
+         ("batteries", `List (List.map (json_of_battery p) o.batteries));
          ("unknown", `List (List.map (fun u -> `String (item p u)) o.unknown)) ]
      @ optional "last" (json_of_run p) o.last
      @ optional "first" (json_of_run p) o.first

@@ -2,9 +2,12 @@
 
 module Timing = Dolphin_time.Timing
 
-val print : ?deadline:int -> Program_file.t -> Timing.outcome -> unit
-(** For people: when runs are over and when tasks start and end, the run that ends last or breaks the [deadline], in
-    columns with times, what its end depends on, and what nobody knows. *)
+type slacks := (Timing.task * Dolphin_time.Slack.t) list
+
+val print : ?deadline:int -> ?slacks:slacks -> Program_file.t -> Timing.outcome -> unit
+(** For people: when runs are over and when tasks start and end, with their slacks if asked for, what is left in
+    batteries, the run that ends last, breaks the [deadline] or empties one, in columns with times, what its end depends
+    on, and what nobody knows. *)
 
 val print_run : ?deadline:int -> Program_file.t -> Timing.outcome -> unit
 (** Only the run, after a blank line and a word on what it is. *)
@@ -28,5 +31,5 @@ val write_shown :
 (** [write_shown ~deadline program fleet path o] writes the run that {!print} shows, if there is one, into the file
     [path], as {!Witness_file} does. *)
 
-val to_json : ?deadline:int -> Program_file.t -> Timing.outcome -> Yojson.Safe.t
+val to_json : ?deadline:int -> ?slacks:slacks -> Program_file.t -> Timing.outcome -> Yojson.Safe.t
 (** The same for programs; times in seconds. *)

@@ -1,0 +1,33 @@
+type t = { vehicle : Entry.vehicle; since : float; left : float; rate : float (* what it gains a second *) }
+
+let full = 1.
+let hour = 3600.
+
+(* At rest most devices are off. *)
+let at_rest = 0.25
+
+let under_way (v : Entry.vehicle) = -.v.drain /. hour
+let unplugged v = at_rest *. under_way v
+let resting (v : Entry.vehicle) = if v.charge > 0. then v.charge /. hour else unplugged v
+let start (v : Entry.vehicle) = { vehicle = v; since = 0.; left = v.battery; rate = resting v }
+
+let empty_from b =
+  if b.left <= 0. && b.rate <= 0. then b.since
+  else if b.rate < 0. then b.since -. (b.left /. b.rate)
+  else infinity
+
+let full_from b = if b.rate > 0. then b.since +. ((full -. b.left) /. b.rate) else infinity
+
+let level b ~at =
+  if at >= empty_from b then 0.
+  else if at >= full_from b then full
+  else Float.max 0. (Float.min full (b.left +. (b.rate *. (at -. b.since))))
+
+let go b ~at rate = { b with since = at; left = level b ~at; rate }
+let set_out b ~at = go b ~at (under_way b.vehicle)
+let rest b ~at = go b ~at (resting b.vehicle)
+let is_steady b ~at = b.rate = 0. || at >= empty_from b || at >= full_from b
+
+let least (v : Entry.vehicle) ~working ~until =
+  let at_rest = if v.charge > 0. then 0. else unplugged v *. (until -. working) in
+  v.battery +. (under_way v *. working) +. at_rest

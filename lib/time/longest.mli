@@ -1,0 +1,11 @@
+(** Longest ways in a graph without cycles. *)
+
+type 'edge graph
+
+val graph : int -> (int * int * 'edge) list -> 'edge graph option
+(** [graph n edges] has the vertices 0 to [n - 1], and each of [edges] from the first to the second. [None] if a cycle
+    is led to from 0. *)
+
+val ways : 'edge graph -> ('edge -> int) -> int array * (int -> 'edge list)
+(** [ways g length] is how long the longest way from 0 to each vertex is, or less than 0 if there is none; and such a
+    way to a vertex. Lengths are 0 or more, and a way with an edge of [max_int] is [max_int] long. *)

@@ -1,0 +1,14 @@
+(** For how long vehicles are under way, at most: from the start of a task until its end. *)
+
+open Dolphin_semantics
+
+type t = (Core.vehicle * int) list
+(** Milliseconds, in all, for each vehicle; {!unknown} if there is no bound. *)
+
+val unknown : int
+
+val of_step :
+  Timed.options -> Timed_place.t -> Zone.t -> Timed_place.arrow -> Likeness.execution option -> t
+(** [of_step o before zone arrow e] is what is counted with [arrow], which is taken in [zone] of [before] and leads to
+    the execution [e]: of the tasks that it ends, the greatest values of their clocks. Inert ends are counted as they
+    begin; tasks that automorphisms map to others, all at the beginning of the execution, as often as they may run. *)

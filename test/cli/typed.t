@@ -20,7 +20,7 @@ Who types at a terminal sees what each question takes. What was typed before a q
   > import os, pty, re, sys
   > pid, terminal = pty.fork()
   > if pid == 0:
-  >     os.environ["TERM"] = "dumb"
+  >     os.environ["TERM"] = sys.argv[1]
   >     os.execvp("dolphin", ["dolphin", "exec", "mission.dol", "--speed", "1", "--color", "never"])
   > text = ""
   > def until(what):
@@ -53,7 +53,12 @@ Who types at a terminal sees what each question takes. What was typed before a q
   > os.waitpid(pid, 0)
   > print("done")
   > END
-  $ timeout 120 python3 types.py
+  $ timeout 120 python3 types.py dumb
+  done
+
+So it is with a board under the log.
+
+  $ timeout 120 python3 types.py xterm
   done
 
 The programs that ran did what the semantics allows.

@@ -1,9 +1,9 @@
 open Lwt.Infix
-module Lines = Dolphin_runtime.Lines
 module Terminal = Dolphin_display.Terminal
 
 type t = {
-  lines : Lines.t;
+  input : Unix.file_descr;
+  begun : Buffer.t;  (* of a line whose end has not come *)
   other : string -> unit;
   mutable question : (string, string) result Lwt.u option;
   mutable over : bool;
@@ -18,50 +18,70 @@ let is_there () =
   | _ -> true
   | exception Unix.Unix_error (EINTR, _, _) -> false
 
-(* [asked] is the question that stood when the line was there. *)
-let tell k ~asked line =
+(* The terminal once more, so that to read never waits, whoever else reads there. *)
+let open_input () =
+  try Unix.openfile "/dev/stdin" [ O_RDONLY; O_NONBLOCK; O_CLOEXEC; O_NOCTTY ] 0 with Unix.Unix_error _ -> Unix.stdin
+
+(* At once, so that what is there before a question is told before it. *)
+let read k =
+  let text = Bytes.create 4096 in
+  match Unix.read k.input text 0 (Bytes.length text) with
+  | n -> Some (Bytes.sub_string text 0 n)
+  | exception Unix.Unix_error ((EINTR | EAGAIN | EWOULDBLOCK), _, _) -> None
+  | exception Unix.Unix_error _ -> Some ""
+
+let tell k line =
   match k.question with
-  | Some waiting when asked == k.question ->
+  | Some waiting ->
     k.question <- None;
     Lwt.wakeup_later waiting line
-  | Some _ | None -> ( match line with Ok text -> k.other text | Error _ -> ())
+  | None -> ( match line with Ok text -> k.other text | Error _ -> ())
+
+let rec tell_lines k = function
+  | [] -> Buffer.clear k.begun
+  | [ begun ] ->
+    Buffer.clear k.begun;
+    if String.length begun <= longest then Buffer.add_string k.begun begun
+    else tell k (Error (Printf.sprintf "the answer is longer than %d bytes" longest))
+  | line :: rest ->
+    tell k (Ok line);
+    tell_lines k rest
+
+let hear k =
+  match read k with
+  | None -> ()
+  | Some "" ->
+    k.over <- true;
+    tell k end_of_input
+  | Some text ->
+    Buffer.add_string k.begun text;
+    tell_lines k (String.split_on_char '\n' (Buffer.contents k.begun))
 
 (* A terminal hands out one line at a time. A job in the background that read would be stopped. *)
 let rec listen k =
   Lwt_unix.wait_read Lwt_unix.stdin >>= fun () ->
   if not (Terminal.is_ours Unix.stdin) then Lwt_unix.sleep 0.5 >>= fun () -> listen k
-  else if is_there () then hear k ~asked:k.question
-  else listen k
-
-(* While a line is being read, a question may come: the line is none of its answers. *)
-and hear k ~asked =
-  Lines.next k.lines >>= function
-  | Line text -> tell k ~asked (Ok text); listen k
-  | Too_long -> tell k ~asked (Error (Printf.sprintf "the answer is longer than %d bytes" longest)); listen k
-  | End_of_input ->
-    k.over <- true;
-    tell k ~asked:k.question end_of_input;
-    Lwt.return_unit
+  else begin
+    if is_there () then hear k;
+    if k.over then Lwt.return_unit else listen k
+  end
 
 let start ~other =
-  let k = { lines = Lines.make ~limit:longest Lwt_unix.stdin; other; question = None; over = false } in
+  let k = { input = open_input (); begun = Buffer.create 80; other; question = None; over = false } in
   Lwt.async (fun () -> listen k);
   k
 
 (* A line that is there was typed before now; what was begun is forgotten. *)
 let rec settle k =
-  if Terminal.is_ours Unix.stdin then
-    match Unix.select [ Unix.stdin ] [] [] 0. with
-    | [], _, _ -> ( try Unix.tcflush Unix.stdin TCIFLUSH with Unix.Unix_error _ -> ())
-    | _ -> (
-        let text = Bytes.create 4096 in
-        match Unix.read Unix.stdin text 0 (Bytes.length text) with
-        | 0 -> ()
-        | n ->
-          let lines = String.split_on_char '\n' (Bytes.sub_string text 0 n) in
-          List.iter (fun line -> if line <> "" then k.other line) lines;
-          settle k)
-    | exception Unix.Unix_error _ -> ()
+  if Terminal.is_ours Unix.stdin && not k.over then
+    if is_there () then begin
+      hear k;
+      settle k
+    end
+    else begin
+      Buffer.clear k.begun;
+      try Unix.tcflush Unix.stdin TCIFLUSH with Unix.Unix_error _ -> ()
+    end
 
 let answer k =
   if k.over then Lwt.return end_of_input

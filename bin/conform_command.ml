@@ -79,8 +79,8 @@ let man =
   [ `S Manpage.s_description;
     `P "$(tname) judges an implementation of Dolphin's semantics by the cases of a corpus. A case is a small program \
         with its world, and says what must hold: that the program is rejected, which run it has, which outcomes all \
-        of its runs have, what it may and may not do. Cases in $(i,must-fail/) say what does not hold: they pass if \
-        that is noticed.";
+        of its runs have, what it may and may not do, and when at the earliest and at the latest. Cases in \
+        $(i,must-fail/) say what does not hold: they pass if that is noticed.";
     `P "For each case that fails it says what was expected and what was seen; the last line counts. \
         $(i,conformance/INTERPRETING.md) describes cases and the step protocol.";
     `S Manpage.s_examples;

@@ -26,6 +26,8 @@ type expectation =
   | Deadlock of bool
   | Admits of step list
   | Forbids of step list
+  | Times of Timed_data.times
+  | Dated of { run : (int * Yojson.Safe.t) list; findings : Timed_data.finding list }
 
 type environment = {
   fails : string list;
@@ -33,6 +35,7 @@ type environment = {
   answers : (string * string list) list;
   replies : json list;
   interruption : bool;
+  faults : string;
 }
 
 type t = {
@@ -53,6 +56,8 @@ let kind = function
   | Deadlock _ -> "deadlock"
   | Admits _ -> "admits"
   | Forbids _ -> "forbids"
+  | Times _ -> "times"
+  | Dated _ -> "dated"
 
 (* {1 Members} *)
 
@@ -121,6 +126,14 @@ let outcome json =
   let* left = optional (sorted (list text)) ~default:[] "N" found in
   Ok { how; message; left }
 
+let times json = Result.bind (members_of [ "ends"; "tasks"; "endless"; "missed" ] json) Timed_data.times
+
+let dated json =
+  let* found = members_of [ "run"; "findings" ] json in
+  let* run = get (list Timed_data.dated) "run" found in
+  let* findings = optional Timed_data.findings ~default:[] "findings" found in
+  Ok (Dated { run; findings })
+
 let expectation (name, json) =
   let one make read = Result.map (fun x -> [ make x ]) (read json) in
   let several make read = Result.map (List.map make) (list read json) in
@@ -133,6 +146,8 @@ let expectation (name, json) =
      | "deadlock" -> one (fun b -> Deadlock b) truth
      | "admits" -> several (fun steps -> Admits steps) trace
      | "forbids" -> several (fun steps -> Forbids steps) trace
+     | "times" -> one (fun times -> Times times) times
+     | "dated" -> list dated json
      | _ -> Error "this expectation is not known")
 
 let expectations json =
@@ -145,16 +160,17 @@ let answers json =
   let* found = members json in
   Result.map List.rev (Results.map_values (list text) found)
 
-let nothing = { fails = []; may_fail = []; answers = []; replies = []; interruption = false }
+let nothing = { fails = []; may_fail = []; answers = []; replies = []; interruption = false; faults = "" }
 
 let environment json =
-  let* found = members_of [ "fails"; "mayFail"; "answers"; "replies"; "interruption" ] json in
+  let* found = members_of [ "fails"; "mayFail"; "answers"; "replies"; "interruption"; "faults" ] json in
   let* fails = optional (list text) ~default:[] "fails" found in
   let* may_fail = optional (list text) ~default:[] "mayFail" found in
   let* answers = optional answers ~default:[] "answers" found in
   let* replies = optional (list any) ~default:[] "replies" found in
   let* interruption = optional truth ~default:false "interruption" found in
-  Ok { fails; may_fail; answers; replies; interruption }
+  let* faults = optional text ~default:"" "faults" found in
+  Ok { fails; may_fail; answers; replies; interruption; faults }
 
 let of_json path json =
   let* found = members_of [ "title"; "covers"; "program"; "fleet"; "environment"; "expect"; "fails" ] json in

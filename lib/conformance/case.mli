@@ -28,6 +28,8 @@ type expectation =
   | Deadlock of bool
   | Admits of step list
   | Forbids of step list
+  | Times of Timed_data.times
+  | Dated of { run : (int * Yojson.Safe.t) list; findings : Timed_data.finding list }
 
 (** What may happen around a program all of whose runs are explored. *)
 type environment = {
@@ -36,6 +38,7 @@ type environment = {
   answers : (string * string list) list;  (** what may be answered, by prompt; nobody answers others *)
   replies : Yojson.Safe.t list;  (** what the host may reply; none: it fails *)
   interruption : bool;
+  faults : string;  (** as in [dolphin time --faults], for times *)
 }
 
 type t = {

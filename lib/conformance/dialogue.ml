@@ -78,6 +78,14 @@ let steps ask place events =
     awaited = read "step" (get (list any) "awaited" found);
     refused = read "step" (optional (list refusal) ~default:[] "refused" found) }
 
+let with_faults faults parts = match faults with "" -> parts | text -> ("faults", `String text) :: parts
+let times ask ~faults = read "times" (Timed_data.times (request ask "times" (with_faults faults [])))
+
+let dated ask ~faults run =
+  let event (at, event) = `Assoc [ ("at", `Int at); ("event", event) ] in
+  let found = request ask "dated" (with_faults faults [ ("run", `List (List.map event run)) ]) in
+  read "dated" (get Timed_data.findings "findings" found)
+
 (* {1 Configurations} *)
 
 let show what reader configuration =

@@ -39,6 +39,12 @@ val initial : ask -> program:string -> fleet:string -> (place, (string * int opt
 val steps : ask -> place -> json list option -> steps
 (** [steps ask place events] is what may happen on [events]; without them, on all awaited ends of tasks and timers. *)
 
+val times : ask -> faults:string -> Timed_data.times
+(** [times ask ~faults] is the dates of all runs of the program that {!initial} gave, with these faults; [""]: none. *)
+
+val dated : ask -> faults:string -> (int * json) list -> Timed_data.finding list
+(** [dated ask ~faults run] is what was over too early or too late in the run with these events and their dates. *)
+
 (** {1:configurations What a configuration shows} *)
 
 val ending : json -> (string * string option) option

@@ -40,6 +40,15 @@ let deadlock expected (all : Walks.all) =
   else if stuck then Error "expected none, and some run gets stuck"
   else Error "expected a run that gets stuck, and none does"
 
+(* {1 Times} *)
+
+let times expected seen = Option.fold ~none:(Ok ()) ~some:Result.error (Timed_data.difference expected seen)
+
+let findings expected seen =
+  if expected = seen then Ok ()
+  else
+    Error (Printf.sprintf "expected %s, seen %s" (Timed_data.show_findings expected) (Timed_data.show_findings seen))
+
 (* {1 Cases} *)
 
 let expectation ask (case : Case.t) start (e : Case.expectation) : Walks.found =
@@ -57,6 +66,12 @@ let expectation ask (case : Case.t) start (e : Case.expectation) : Walks.found =
     | Error codes -> nobody ("the program is rejected: " ^ show_codes codes)
     | Ok place -> walk ask place steps
   in
+  let timed check =
+    match start with
+    | Error codes -> nobody ("the program is rejected: " ^ show_codes codes)
+    | Ok _ -> (check (), Rules.empty)
+  in
+  let faults = case.environment.faults in
   match e with
   | Rejected codes -> ((match start with Error seen -> rejected codes seen | Ok _ -> rejected codes []), Rules.empty)
   | Trace steps -> along Walks.trace steps
@@ -64,6 +79,8 @@ let expectation ask (case : Case.t) start (e : Case.expectation) : Walks.found =
   | Forbids steps -> along Walks.forbids steps
   | Outcomes expected -> of_all (fun (all : Walks.all) -> outcomes expected all.outcomes)
   | Deadlock expected -> of_all (deadlock expected)
+  | Times expected -> timed (fun () -> times expected (Dialogue.times ask ~faults))
+  | Dated { run; findings = expected } -> timed (fun () -> findings expected (Dialogue.dated ask ~faults run))
 
 let covers (case : Case.t) rules =
   match List.filter (fun rule -> not (Rules.mem rule rules)) case.covers with

@@ -7,7 +7,7 @@ module Location = Dolphin_syntax.Location
 module Scenario = Dolphin_scenario.Scenario
 
 type json = Yojson.Safe.t
-type given = { program : Core.program; nodes : Nodes.t; world : World.t }
+type given = { program : Core.program; nodes : Nodes.t; world : World.t; scenario : Scenario.t }
 type t = { name : string; given : given option }
 
 let version = 1
@@ -25,17 +25,21 @@ type error =
   | Bad_world of string
   | Bad_event of string
   | Too_large of string
+  | Bad_faults of string
+  | Bad_run of string
 
 let explain = function
   | No_json why -> ("no-json", why)
   | Bad_request why -> ("bad-request", why)
   | Unknown_request name ->
-    ("unknown-request", Printf.sprintf "there is no request %S: there are hello, initial and step" name)
+    ("unknown-request", Printf.sprintf "there is no request %S: there are hello, initial, step, times and dated" name)
   | No_program -> ("no-program", "no program was given: initial comes first")
   | Bad_configuration why -> ("bad-configuration", why)
   | Bad_world why -> ("bad-world", why)
   | Bad_event why -> ("bad-event", why)
   | Too_large why -> ("too-large", why)
+  | Bad_faults why -> ("bad-faults", why)
+  | Bad_run why -> ("bad-run", why)
 
 let of_error error : members =
   let code, message = explain error in
@@ -71,7 +75,9 @@ let compile source =
 let inhabit source =
   match Scenario.read ~file:"fleet" source with
   | Error found -> rejected ~part:"fleet" found
-  | Ok scenario -> Ok (List.fold_left (fun w s -> World.add s w) World.empty (Scenario.states scenario))
+  | Ok scenario -> Ok scenario
+
+let world_of scenario = List.fold_left (fun w s -> World.add s w) World.empty (Scenario.states scenario)
 
 let of_world world : json = `List (List.map (fun s -> `Assoc (Entry.of_state s)) (World.vehicles world))
 
@@ -89,8 +95,9 @@ let initial o found =
   match compile source, inhabit fleet with
   | Error ds, Ok _ | Ok _, Error ds -> Ok ({ o with given = None }, [ ("rejected", `List ds) ])
   | Error ds, Error ds' -> Ok ({ o with given = None }, [ ("rejected", `List (ds @ ds')) ])
-  | Ok program, Ok world ->
-    let given = { program; nodes = Nodes.of_program program; world } in
+  | Ok program, Ok scenario ->
+    let world = world_of scenario in
+    let given = { program; nodes = Nodes.of_program program; world; scenario } in
     let* c = configuration program (Configuration.initial program) in
     Ok ({ o with given = Some given }, [ ("configuration", c); ("world", of_world world) ])
 
@@ -194,6 +201,32 @@ let step g found =
   | exception (Invalid_argument _ | Not_found | Failure _ | Stack_overflow) ->
     Error (Bad_configuration "its parts do not belong together")
 
+(* {1 Times} *)
+
+let faults found =
+  let bad result = error (fun why -> Bad_faults why) result in
+  match List.assoc_opt "faults" found with
+  | None | Some `Null -> Ok Dolphin_environment.Faults.none
+  | Some _ ->
+    let* spelled = bad (get text "faults" found) in
+    bad (Dolphin_environment.Faults.of_string spelled)
+
+let timed g : Timed_answers.given = { program = g.program; scenario = g.scenario }
+
+let times g found =
+  let* faults = faults found in
+  let* times = error (fun why -> Too_large why) (Timed_answers.times ~faults (timed g)) in
+  Ok (Timed_data.of_times times)
+
+let dated g found =
+  let* faults = faults found in
+  let* json = error (fun why -> Bad_request why) (get any "run" found) in
+  let* run = error (fun why -> Bad_event why) (list Timed_data.dated json) in
+  let event (at, json) = Result.map (fun event -> (at, event)) (Result.bind (members json) Event.of_members) in
+  let* run = error (fun why -> Bad_event why) (Results.map event run) in
+  let* findings = error (fun why -> Bad_run why) (Timed_answers.dated ~faults (timed g) run) in
+  Ok [ ("findings", Timed_data.of_findings findings) ]
+
 (* {1 Requests} *)
 
 let hello o : members =
@@ -204,8 +237,10 @@ let perform o found =
   match name, o.given with
   | "hello", _ -> Ok (o, hello o)
   | "initial", _ -> initial o found
-  | "step", None -> Error No_program
+  | ("step" | "times" | "dated"), None -> Error No_program
   | "step", Some g -> Result.map (fun reply -> (o, reply)) (step g found)
+  | "times", Some g -> Result.map (fun reply -> (o, reply)) (times g found)
+  | "dated", Some g -> Result.map (fun reply -> (o, reply)) (dated g found)
   | other, _ -> Error (Unknown_request other)
 
 let answer o (request : json) : t * json =

@@ -1,7 +1,7 @@
 This implementation passes the corpus, and notices what is wrong in the cases that must fail.
 
   $ dolphin conform ../../conformance
-  460 passed, 0 failed
+  512 passed, 0 failed
 
 So it does when it is asked as others are. A second runner, in Python, comes to the same verdicts, case by case.
 
@@ -9,11 +9,11 @@ So it does when it is asked as others are. A second runner, in Python, comes to 
   $ head -n 1 ours
   dolphin 0.1.0
   $ sed 1d ours > verdicts
-  $ cases=$(find ../../conformance/cases ../../conformance/must-fail -name '*.json' | LC_ALL=C sort)
+  $ cases=$(find ../../conformance/cases ../../conformance/must-fail ../../conformance/times -name '*.json' | LC_ALL=C sort)
   $ python3 runner.py 'dolphin step' $cases > python
   $ diff verdicts python
   $ tail -n 1 python
-  460 passed, 0 failed
+  512 passed, 0 failed
 
 Each rule of the semantics has a case that is about it, and takes it.
 
@@ -37,12 +37,12 @@ A rule that no case is about is told, and is a failure.
 Cases, requests and replies are as the schemas say.
 
   $ python3 schema.py ../../conformance/schema/case.schema.json $cases
-  460 checked, 0 wrong
+  512 checked, 0 wrong
   $ cat > talk << 'END'
   > #!/bin/sh
   > tee requests | dolphin step | tee replies
   > END
   $ chmod +x talk
-  $ dolphin conform --impl ./talk ../../conformance/cases/script ../../conformance/cases/wait ../../conformance/cases/rejected > /dev/null
+  $ dolphin conform --impl ./talk ../../conformance/cases/script ../../conformance/cases/wait ../../conformance/cases/rejected ../../conformance/times > /dev/null
   $ cat requests replies | python3 schema.py ../../conformance/schema/step.schema.json --lines | sed 's/^[0-9]*/N/'
   N checked, 0 wrong

@@ -225,6 +225,28 @@ def same_outcome(expected, seen):
     return same_ending(expected, seen) and sorted(expected.get("N", [])) == seen["N"]
 
 
+# Times
+
+
+def with_faults(environment):
+    return {"faults": environment["faults"]} if "faults" in environment else {}
+
+
+def same_times(expected, seen):
+    moments = {(task["task"], task["vehicle"]): task for task in seen.get("tasks", [])}
+    return (expected.get("ends", {}) == seen.get("ends", {})
+            and expected.get("endless", False) == seen.get("endless", False)
+            and sorted(expected.get("missed", [])) == sorted(seen.get("missed", []))
+            and all(moments.get((task["task"], task["vehicle"])) == task for task in expected.get("tasks", [])))
+
+
+def same_findings(expected, seen):
+    def key(finding):
+        return json.dumps(finding, sort_keys=True)
+
+    return sorted(expected, key=key) == sorted(seen, key=key)
+
+
 def check(walker, kind, expected, environment):
     if kind == "trace":
         walker.trace(expected)
@@ -242,6 +264,13 @@ def check(walker, kind, expected, environment):
         stuck = any(outcome["ending"] == "stuck" for outcome in walker.outcomes(environment))
         if stuck != expected:
             raise Wrong("deadlock")
+    elif kind == "times":
+        if not same_times(expected, walker.implementation.ask("times", **with_faults(environment))):
+            raise Wrong("there are other times")
+    elif kind == "dated":
+        reply = walker.implementation.ask("dated", run=expected["run"], **with_faults(environment))
+        if not same_findings(expected.get("findings", []), reply["findings"]):
+            raise Wrong("something else is too early or too late")
     else:
         raise Wrong(f"there is no expectation {kind}")
 
@@ -276,7 +305,7 @@ def judge(implementation, case):
             if "rejected" in reply:
                 failures.add(kind)
                 continue
-            for one in expected if kind in ("admits", "forbids") else [expected]:
+            for one in expected if kind in ("admits", "forbids", "dated") else [expected]:
                 walker = Walker(implementation, (reply["configuration"], reply["world"]))
                 try:
                     check(walker, kind, one, case.get("environment", {}))

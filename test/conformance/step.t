@@ -82,7 +82,7 @@ What cannot be answered has an error, and the next request its reply. Empty line
   $ dolphin step < requests
   {"error":{"code":"no-json","message":"Line 1, bytes 18-19: Unexpected end of input"}}
   {"error":{"code":"bad-request","message":"a request is an object"}}
-  {"id":[1],"error":{"code":"unknown-request","message":"there is no request \"jump\": there are hello, initial and step"}}
+  {"id":[1],"error":{"code":"unknown-request","message":"there is no request \"jump\": there are hello, initial, step, times and dated"}}
   {"error":{"code":"no-program","message":"no program was given: initial comes first"}}
   {"error":{"code":"bad-request","message":"\"program\" is 5, not a text"}}
   {"configuration":{"control":"script","end":null,"A":{},"B":[],"N":[],"store":{},"state":[["script",[["evaluate",3],3,[],[]]],[],[],[],[]]},"world":[]}
@@ -92,6 +92,40 @@ What cannot be answered has an error, and the next request its reply. Empty line
   {"error":{"code":"bad-event","message":"there are no events of kind \"rain\""}}
   {"transitions":[],"awaited":[],"refused":[{"event":{"event":"interruption"},"code":"not-awaited"}]}
   {"error":{"code":"bad-configuration","message":"B is not empty after the end"}}
+
+Questions about times have errors, too.
+
+  $ cat > requests << 'END'
+  > {"request": "times"}
+  > {"request": "initial", "program": "execute idle(3)", "fleet": ""}
+  > {"request": "times"}
+  > {"request": "times", "faults": "rain"}
+  > {"request": "times", "faults": 1}
+  > {"request": "dated"}
+  > {"request": "dated", "run": [{"event": {"event": "timer", "timer": 1}}]}
+  > {"request": "dated", "run": [{"at": 3000, "event": {"event": "rain"}}]}
+  > {"request": "dated", "run": [{"at": 3000, "event": {"event": "timer", "timer": 2}}]}
+  > {"request": "dated", "run": [{"at": 3000, "event": {"event": "answer", "text": "1"}}]}
+  > {"request": "dated", "run": [{"at": -1, "event": {"event": "timer", "timer": 1}}]}
+  > {"request": "dated", "run": [{"at": 2000, "event": {"event": "timer", "timer": 1}}]}
+  > {"request": "initial", "program": "while (true) { post a: 1 }", "fleet": ""}
+  > {"request": "dated", "run": []}
+  > END
+  $ dolphin step < requests | cut -c 1-160
+  {"error":{"code":"no-program","message":"no program was given: initial comes first"}}
+  {"configuration":{"control":"script","end":null,"A":{},"B":[],"N":[],"store":{},"state":[["script",[["evaluate",4],4,[],[]]],[],[],[],[]]},"world":[]}
+  {"ends":{"completed":[3000,3000]},"tasks":[],"endless":false,"missed":[]}
+  {"error":{"code":"bad-faults","message":"there is no fault 'rain': did you mean fail?"}}
+  {"error":{"code":"bad-faults","message":"\"faults\" is 1, not a text"}}
+  {"error":{"code":"bad-request","message":"\"run\" is missing"}}
+  {"error":{"code":"bad-event","message":"\"at\" is missing"}}
+  {"error":{"code":"bad-event","message":"there are no events of kind \"rain\""}}
+  {"error":{"code":"bad-run","message":"the end of timer 2 at 3000 is not awaited"}}
+  {"error":{"code":"bad-run","message":"the answer 1 at 3000 is not awaited"}}
+  {"error":{"code":"bad-run","message":"its dates go back"}}
+  {"findings":[{"at":2000,"timer":1,"too":"early"}]}
+  {"configuration":{"control":"script","end":null,"A":{},"B":[],"N":[],"store":{},"state":[["script",[["evaluate",5],5,[],[]]],[],[],[],[]]},"world":[]}
+  {"error":{"code":"bad-run","message":"it goes on by itself for ever"}}
 
 It ends when its input does.
 

@@ -1,0 +1,14 @@
+(** What the oracle says of times: [dolphin time] and [trace check --timed], of a program and a fleet. *)
+
+open Dolphin_semantics
+
+type given = { program : Core.program; scenario : Dolphin_scenario.Scenario.t }
+
+val times : faults:Dolphin_environment.Faults.t -> given -> (Timed_data.times, string) result
+(** [times ~faults g] is the earliest and latest dates of all runs; or why they are not found. *)
+
+val dated :
+  faults:Dolphin_environment.Faults.t -> given -> (int * Dolphin_trace.Event.t) list ->
+  (Timed_data.finding list, string) result
+(** [dated ~faults g run] is what of the run with these events, and their dates, was over too early or too late. What
+    happens by itself happens at once, leftmost first. The error says why it is no run. *)

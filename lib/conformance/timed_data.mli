@@ -1,0 +1,42 @@
+(** Dates in cases and in the step protocol, in milliseconds since the start: when runs end and tasks run, and which
+    tasks and timers of one run were not over when they should have been. *)
+
+type json = Yojson.Safe.t
+
+type window = { earliest : int; latest : int option  (** [None]: there is no latest *) }
+
+(** All tasks of one name on one vehicle. *)
+type task = { name : string; vehicle : string; moments : (string * window) list  (** by name, sorted: ["starts"] *) }
+
+type times = {
+  ends : (string * window) list;  (** by how runs end, sorted *)
+  tasks : task list;
+  endless : bool;  (** whether some run never ends *)
+  missed : int list;  (** the lines of what [within] is missed in some run, sorted *)
+}
+
+type ended = Vehicle of string | Timer of int
+
+(** Something that was over before it could be, or was not when it had to be. *)
+type finding = { at : int; ended : ended; too : string  (** ["early"] or ["late"] *) }
+
+(** {1:members As JSON has them}
+
+    Members that are not there are as in programs where nothing of that kind happens. *)
+
+val times : Dolphin_json.Field.members -> (times, string) result
+val of_times : times -> Dolphin_json.Field.members
+val findings : json -> (finding list, string) result
+val of_findings : finding list -> json
+
+val dated : json -> (int * json, string) result
+(** An event of a run, with its date, from an object with the members [at] and [event]. *)
+
+(** {1:comparison What differs} *)
+
+val difference : times -> times -> string option
+(** [difference expected seen] is what is otherwise in [seen], in a sentence without a full stop. Of tasks, only those
+    in [expected] are compared. *)
+
+val show_findings : finding list -> string
+(** ["a too late at 4000"]; or ["nothing"]. *)

@@ -113,7 +113,8 @@ let deadlines options early late =
 (* Sums of shares may be off in their last digits. *)
 let slightly = 1e-9
 
-(* The bound is of a run if one has no more left: the last one, or one with the latest dates, or with the earliest. *)
+(* The bound is of a run if one has no more left: the last one, or one with the latest dates, or with the earliest. Of
+   programs that look at sensors none is known to be one: what they see does not follow from the time. *)
 let battery options system tasks last ((v : Dolphin_scenario.Scenario.vehicle), least, way) =
   let dated goal way =
     match run_along goal options system (Timed_system.along system way) with
@@ -134,6 +135,7 @@ let battery options system tasks last ((v : Dolphin_scenario.Scenario.vehicle), 
   in
   if List.exists (fun ((task : task), _) -> task.vehicle = v.id) tasks then
     let runs = [ (fun () -> last); along Timed_system.Latest; along Earliest ] in
+    let runs = if options.Timed.program.reads_sensors then [] else runs in
     Some { vehicle = v.id; least; lowest = lowest None runs }
   else None
 

@@ -22,7 +22,9 @@ type task = Timed_system.task = { name : string; vehicle : Core.vehicle; site : 
 type battery = {
   vehicle : Core.vehicle;
   least : float;  (** no run has less *)
-  lowest : (float * run) option;  (** a run, and the least that is left in it; that is [least] where it is exact *)
+  lowest : (float * run) option;
+  (** a run, and the least that is left in it, which is [least] where it is exact; [None] if the program looks at
+      sensors *)
 }
 
 type outcome = {

@@ -270,6 +270,8 @@ let test_batteries () =
   verdicts "enough" true (verdict "repeat 4, task('p')[va]" = (false, false, None));
   verdicts "not enough" true (verdict "repeat 5, task('p')[va]" = (true, false, Some Empty));
   verdicts "enough if charged" true (verdict "repeat 10, (task('p')[vb] >> idle(20.min))" = (false, true, Some Unknown));
+  verdicts "not known, where the program looks" true
+    (verdict "until { battery(va) < 0.1 } run repeat 5, task('p')[va]" = (false, true, Some Unknown));
   let o = found "execute repeat task('p')[va]\n" in
   Alcotest.(check int) "nothing is said of runs without end" 0 (List.length o.batteries)
 

@@ -23,15 +23,13 @@ compare() {
   local width=22
   [ "$n" -ge 7 ] && width=26
   measure spin ./pan -m1000000 -w$width
-  row spin "SPIN -DNOREDUCE -O2 -DSAFETY -w$width" "$(awk '/states, stored/ { print $1 }' spin.out)"
+  row spin "SPIN -DNOREDUCE -O2 -DSAFETY -w$width" "$(spin_states spin)"
 
   if [ "$n" -le 6 ]; then
     "$here/murphi.sh" "$n" "$f" > model.m
-    rumur --threads 1 --deadlock-detection off --output rumur.c model.m
-    gcc -std=c11 -O3 -march=native -mcx16 -w -o rumur.exe rumur.c -lpthread -latomic 2> /dev/null \
-      || gcc -std=c11 -O3 -march=native -mcx16 -w -o rumur.exe rumur.c -lpthread
+    compile_rumur
     measure rumur ./rumur.exe
-    row rumur "rumur, 1 thread, -O3" "$(sed -n 's/^[^0-9]*\([0-9]*\) states.*/\1/p' rumur.out | tail -1)"
+    row rumur "rumur, 1 thread, -O3" "$(rumur_states rumur)"
   fi
 
   if [ "$n" -le 6 ] && [ "${TLC:-yes}" != no ]; then

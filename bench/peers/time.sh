@@ -10,27 +10,7 @@ TLC=no
 tools=rumur
 program=bin/dolphin.exe
 . "$(dirname "$0")/tools.sh"
-
-# What the arguments make of each number from 1 to N, joined by the second one.
-each() { for ((i = 1; i <= $1; i++)); do [ $i = 1 ] || printf '%b' "$2"; printf '%s' "${3//#/$i}"; done; }
-
-mission() {
-  {
-    printf "UUVs = pick { count %d; type 'UUV' }\nUAV = pick { type 'UAV' }\n" "$1"
-    echo "def work(i) { imcPlan('survey' + i) >> action { post ready: i } >> idle(10.min) }"
-    echo "execute UUVs: $(each "$1" ' | ' 'work(#)'), UAV: allOf {"
-    each "$1" '\n' "  when { consume ready: # } then imcPlan('visit#')"
-    printf '\n}\nrelease UUVs + UAV\n'
-  } > mission.dol
-  {
-    each "$1" '\n' "vehicle 'uuv-#', { type 'UUV' }"
-    printf "\nvehicle 'uav', { type 'UAV' }\n"
-    each "$1" '\n' "plan 'survey#', { duration 4.min, 7.min }"
-    echo
-    each "$1" '\n' "plan 'visit#', { duration 1.min, 2.min }"
-    echo
-  } > mission.fleet
-}
+. "$root/bench/time/paper.sh"
 
 # spin_model FLAG..., rumur_model [symmetric]: model.pml and model.m, compiled. Bounds are $earliest and $latest.
 spin_model() {
@@ -41,13 +21,8 @@ spin_model() {
 
 rumur_model() {
   "$here/time_murphi.sh" "$n" "$grain" "$earliest" "$latest" "${1:-}" > model.m
-  rumur --threads 1 --deadlock-detection off --output rumur.c model.m
-  gcc -std=c11 -O3 -march=native -mcx16 -w -o rumur.exe rumur.c -lpthread -latomic 2> /dev/null \
-    || gcc -std=c11 -O3 -march=native -mcx16 -w -o rumur.exe rumur.c -lpthread
+  compile_rumur
 }
-
-spin_states() { awk '/states, stored/ { print $1 }' "$1.out"; }
-rumur_states() { sed -n 's/^[^0-9]*\([0-9]*\) states.*/\1/p' "$1.out" | tail -1; }
 
 held() { grep -q "$2" "$work/$1.out" || { echo "$1: other bounds than $earliest to $latest" >&2; exit 1; }; }
 
@@ -69,7 +44,7 @@ peer() {
 compare() {
   n=$1 grain=$2
   cd "$work"
-  mission "$n"
+  mission "$n" 1.min 2.min
   measure explorer "$explorer" time mission.dol
   read -r earliest latest < \
     <(sed -n 's/^completed: \([0-9]*\):00 at the earliest, \([0-9]*\):00 at the latest/\1 \2/p' explorer.out)

@@ -27,6 +27,17 @@ measure() {
   /usr/bin/time -o "$work/$name.cost" -f '%U %S %M' "$@" > "$work/$name.out" 2> "$work/$name.err" || true
 }
 
+# model.m as rumur.exe
+compile_rumur() {
+  rumur --threads 1 --deadlock-detection off --output rumur.c model.m
+  gcc -std=c11 -O3 -march=native -mcx16 -w -o rumur.exe rumur.c -lpthread -latomic 2> /dev/null \
+    || gcc -std=c11 -O3 -march=native -mcx16 -w -o rumur.exe rumur.c -lpthread
+}
+
+# Of what `measure` ran by these names.
+spin_states() { awk '/states, stored/ { print $1 }' "$work/$1.out"; }
+rumur_states() { sed -n 's/^[^0-9]*\([0-9]*\) states.*/\1/p' "$work/$1.out" | tail -1; }
+
 heading() {
   echo "| tool                               |      states |    CPU s | B/state  |     MB | ours/it |"
   echo "| ---------------------------------- | ----------- | -------- | -------- | ------ | ------- |"

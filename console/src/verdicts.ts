@@ -10,6 +10,9 @@ interface Events { show: (found: Json) => void; goTo: (at: string) => void; canc
   enact: (s: "exploration" | "timing") => void }
 
 const mark = (verdict: string) => (verdict === "holds" ? "✓" : verdict === "violated" ? "✗" : "–");
+// What the battery of a vehicle has left; never more than it has.
+const left = (b: Json) => (b.verdict === "violated" ? "its battery runs empty in some run"
+  : b.verdict === "holds" ? `battery: ${Math.floor(b.least * 1000 + 1e-6) / 10} % at the least` : "whether its battery lasts is not known");
 const hints: Partial<Record<Subject, string>> = {
   exploration: "Explore looks at every run that the program can have in its fleet's world.",
   timing: "Time says when tasks and runs start and end, at the earliest and at the latest.",
@@ -85,10 +88,11 @@ export class Verdicts {
     const span = (w: Json) => (w.latest === null ? `${clock(w.earliest)} or later` : w.latest === w.earliest ? clock(w.latest)
       : `${clock(w.earliest)} to ${clock(w.latest)}`);
     const lines: Node[] = Object.entries<Json>(r.ends).map(([how, w]) => h("li", {}, h("b", {}, "◷"), ` ${how}: ${span(w)}`));
-    if (r.deadline !== undefined || r.endless) lines.push(h("li", { class: r.verdict }, h("b", {}, mark(r.verdict)),
-      r.deadline !== undefined ? ` over by ${clock(r.deadline)}: ${r.verdict}` : ` every run ends: ${r.verdict}`));
+    if (r.deadline !== undefined || r.endless) lines.push(h("li", { class: r["in time"] }, h("b", {}, mark(r["in time"])),
+      r.deadline !== undefined ? ` over by ${clock(r.deadline)}: ${r["in time"]}` : ` every run ends: ${r["in time"]}`));
     for (const w of r.within) lines.push(h("li", { class: w.missed ? "violated" : "holds" }, h("b", {}, w.missed ? "✗" : "✓"),
       this.place(w.at, w.missed ? ` within: missed, at ${span(w.missed)}` : " within: kept")));
+    for (const b of r.batteries) lines.push(h("li", { class: b.verdict }, h("b", {}, mark(b.verdict)), ` ${b.vehicle}: ${left(b)}`));
     for (const what of r.unknown) lines.push(h("li", {}, h("b", {}, "–"), ` nobody knows how long it takes: ${what.replace(/^.*\//, "")}`));
     if (r.bound) lines.push(h("li", {}, h("b", {}, "–"), ` inconclusive: ${r.bound}`));
     const chain = r.shown?.run.chain ?? [];

@@ -6,6 +6,7 @@ export default async function ({ page, test, same, text, choose, picture, phone 
     await page.click("#time");
     await page.waitForSelector("#found-timing >> text=completed: 15:55 to 19:20");
     same(await page.locator(".time-row").count(), 9, "tasks");
+    await page.waitForSelector("#found-timing .holds >> text=x8-02: battery: 98.6 % at the least");
     await picture(page, "time");
     await page.click("text=Step through a run that ends last");
     await page.waitForSelector("#banner >> text=A run that ends last");

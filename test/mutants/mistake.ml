@@ -794,6 +794,8 @@ let alike_values =
     [
       ("plans of the fleet end as all others", {|if may_name code.plans parts || not|}, {|if (may_name code.plans parts && false) || not|});
       ("inputs bring no values of their own", {|(Keys.union looked_into brought)|}, {|(Keys.diff looked_into (Keys.diff brought brought))|});
+      ("the task of an error names no plan", {|function 1 -> Other | _ -> Text|}, {|function 1 | 2 -> Other | _ -> Text|});
+      ("any key may be asked for by a name", {|  | Apply (Builtin (Poll []), _) -> true|}, {|  | Apply (Builtin (Poll []), _) -> false|});
       ("a name may be empty", {| || not (List.exists is_text parts) then raise|}, {| && List.exists is_text parts then raise|});
       ("a text of a value is posted", {|        | Some k, Value -> code.posted|}, {|        | Some k, (Value | Text) -> code.posted|});
       ("pairs that are asked for are not looked into", {|    | Some k, _ -> [ k ]|}, {|    | Some _, _ -> []|});

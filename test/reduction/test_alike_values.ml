@@ -16,6 +16,12 @@ let body =
       (3, "{ g -> watch task(\"survey_$g\") onError { why -> message why; post lost: g; ignore() } }");
       (3, "{ g -> visit(g) }");
       (2, "{ g -> task(\"survey_$g\") >> action { message \"done $g\"; post over: g } }");
+      (2, "{ g -> watch { task(\"survey_$g\") } onError { e -> message \"$e, ${e.vehicle}\"; retry() } }");
+      (1, "{ g -> watch { task(\"survey_$g\") } onError { e ->\n\
+           if (e.vehicle) { dismiss e.vehicle; post goal: g }\nignore() } }");
+      (2, "{ g -> watch task(\"survey_$g\") onError { why -> post goal: g; fail \"$why: $g is left\" } }");
+      (1, "{ g -> watch task(\"survey_$g\") onError { e -> last = e.task; ignore() } }");
+      (1, "{ g -> watch task(\"survey_$g\") onError { e -> post lost: e.vehicle; ignore() } }");
       (1, "{ g -> action { post over: g, lost: g } }");
       (1, "{ task('home') }");
       (1, "{ visit(it) }");
@@ -39,8 +45,8 @@ let worker =
   frequencyl
     [ (2, wait);
       (2, Printf.sprintf "(oneOf { when { %s } then %s\nwhen { count(goal: _) == 0 } then action { } })" guard body);
-      (2, Printf.sprintf "(repeat oneOf { when { %s } then %s\nwhen { count(goal: _) == 0 } then action { } }\n\
-                          until { count(goal: _) == 0 })" guard body);
+      (2, Printf.sprintf "(repeat oneOf { when { %s } then %s\nwhen { !poll('goal') } then action { } }\n\
+                          until { !poll('goal') })" guard body);
       (1, wait ^ " >> " ^ wait) ]
 
 let after =
@@ -133,6 +139,11 @@ let alike, apart =
     Alcotest.test_case name `Quick (fun () -> Alcotest.(check bool) name expected (uses ?environment source))
   in
   ( [ is true "posted again" (pool posting); is true "counted" (pool ~after:"message \"${count(goal: _)}\"" posting);
+      is true "asked for by its name" (pool ~after:"if (poll('goal')) { halt 'x' }" posting);
+      is true "the vehicle of an error is used, and its text is that of another"
+        (pool
+           "{ g -> watch { task(\"s_$g\") } onError { e ->\n\
+            if (e.vehicle) { dismiss e.vehicle; retry() } else fail \"$g: $e\" } }");
       is true "an input brings something else" ~environment:(bringing "x") (pool posting);
       is true "other plans are named" ~environment:(by_name "home" Fails) (pool posting) ],
     [ is false "a plan of such a name ends otherwise" ~environment:(by_name "s_2" Fails) (pool posting);
@@ -145,6 +156,9 @@ let alike, apart =
       is false "an input brings what it is posted with" ~environment:(bringing "seen")
         (pool "{ g -> action { post seen: g } }");
       is false "a name of nothing else" (pool "{ g -> task(\"$g\") }");
+      is false "asked for by a name that is computed" (pool ~after:"k = 'go' + 'al'\nif (poll(k)) { halt 'x' }" posting);
+      is false "the task of an error is kept"
+        (pool "{ g -> watch task(\"s_$g\") onError { e -> last = e.task; ignore() } }" |> ( ^ ) "last = 0\n");
       is false "the text of an error is posted"
         (pool "{ g -> watch task(\"s_$g\") onError { why -> post why: \"$why\"; ignore() } }");
       is false "the text of its error is posted further out"

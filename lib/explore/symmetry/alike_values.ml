@@ -13,6 +13,11 @@ module Keys = Set.Make (String)
 
 type given = Other | Value | Text | Task
 
+(* What the parameters of a handler are: the error's text, the vehicle that failed, which is the same whatever the value
+   is, and the name of what it ran. *)
+let of_error = function 1 -> Other | _ -> Text
+
+let bound (lambda : lambda) arguments = List.init lambda.parameters (fun slot -> (slot, arguments slot))
 let both a b = if a = Other then b else if b = Other || a = b then a else raise Looked_at
 
 type code = {
@@ -65,9 +70,9 @@ let rec value_of code e =
   | Return e ->
     code.returned <- both code.returned (value_of code e);
     Other
-  | Make_closure (lambda, captured) -> made code lambda captured ~argument:Other
+  | Make_closure (lambda, captured) -> made code lambda captured ~arguments:(fun _ -> Other)
   | Apply (Builtin Make_watch, [ t; { node = Make_closure (lambda, captured); _ } ]) ->
-    let t = value_of code t and handler = made code lambda captured ~argument:Text in
+    let t = value_of code t and handler = made code lambda captured ~arguments:of_error in
     task [ t; handler ]
   | Apply (operation, arguments) -> applied code operation arguments (List.map (value_of code) arguments)
 
@@ -78,12 +83,13 @@ and task given =
 
 
 (* Code with what it captures; it is run for what it does, or gives a task. *)
-and made code lambda captured ~argument =
+and made code lambda captured ~arguments =
   let captured = List.map (fun slot -> Option.value (List.assoc_opt slot code.slots) ~default:Other) captured in
-  if List.for_all (( = ) Other) captured && argument = Other then Other
+  let parameters = bound lambda arguments in
+  if List.for_all (( = ) Other) captured && List.for_all (fun (_, given) -> given = Other) parameters then Other
   else begin
     let inner = List.combine (Array.to_list lambda.captures) captured in
-    match body code lambda (List.init lambda.parameters (fun slot -> (slot, argument)) @ inner) with
+    match body code lambda (parameters @ inner) with
     | Other | Task -> if List.for_all (( = ) Other) captured then Other else Task
     | Value | Text -> raise Looked_at
   end
@@ -104,7 +110,7 @@ and applied code operation arguments given =
     | Builtin Platform_task, [ { node = Apply (Concatenate, parts); _ } ], [ Text ] ->
       let is_text part = match part.node with Constant (String text) -> text <> "" | _ -> false in
       if may_name code.plans parts || not (List.exists is_text parts) then raise Looked_at else Task
-    | Builtin (Message | Halt), [ _ ], [ Text ] -> Other
+    | Builtin (Message | Halt | Fail), [ _ ], [ Text ] -> Other
     | Builtin (Post keys), _, _ ->
       let post k given =
         match k, given with
@@ -126,9 +132,9 @@ and applied code operation arguments given =
     | _, _, _ -> raise Looked_at
 
 (* What [lambda] posts, of values that it gets. *)
-let posted_by plans lambda argument =
+let posted_by plans lambda arguments =
   let code = { slots = []; returned = Other; posted = Keys.empty; plans; inside = [] } in
-  match body code lambda (List.init lambda.parameters (fun slot -> (slot, argument))) with
+  match body code lambda (bound lambda arguments) with
   | Other | Task -> code.posted
   | Value | Text -> raise Looked_at
 
@@ -156,6 +162,13 @@ let looked_into e =
     if keys = [] || List.mem None keys || List.compare_lengths keys arguments <> 0 then raise Looked_at;
     []
   | _ -> []
+
+(* [poll 'k'] is [poll(k: _)]. *)
+let asks_some_key e =
+  match e.node with
+  | Apply (Builtin (Poll []), [ { node = Constant (String _); _ } ]) -> false
+  | Apply (Builtin (Poll []), _) -> true
+  | _ -> false
 
 (* Of [count(k: _)] only the number of pairs matters. *)
 let values_looked_into all =
@@ -192,7 +205,7 @@ let makers plans program =
     let taken = taken_by guard in
     match body.node with
     | Make_closure (lambda, captured) when captured = [] || Array.length lambda.captures = List.length captured -> (
-        match posted_by plans lambda Value with
+        match posted_by plans lambda (fun _ -> Value) with
         | posted -> (taken, Some posted)
         | exception Looked_at -> (taken, None))
     | _ -> (taken, None)
@@ -211,7 +224,7 @@ let check_handlers plans program =
   let check e =
     match e.node with
     | Apply (Builtin Make_watch, [ _; { node = Make_closure (lambda, _); _ } ]) ->
-      ignore (posted_by plans lambda Text)
+      ignore (posted_by plans lambda of_error)
     | Apply (Builtin Make_watch, _) -> raise Looked_at
     | _ -> ()
   in
@@ -223,8 +236,7 @@ let keys (options : Environment.options) program =
   let makers = makers plans program in
   let all = expressions program in
   let looked_into = Keys.of_list (List.concat_map looked_into all @ values_looked_into all) in
-  let asked_by_name = function { node = Apply (Builtin (Poll []), _); _ } -> true | _ -> false in
-  if List.exists asked_by_name all then raise Looked_at;
+  if List.exists asks_some_key all then raise Looked_at;
   (* A key is looked into, too, if its values are posted with one that is. *)
   let rec closed looked =
     let more looked (taken, posted) =

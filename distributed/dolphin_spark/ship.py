@@ -1,0 +1,31 @@
+"""Spark, with what the machines need: the command, the program and its fleet, and this package."""
+
+import os
+import sys
+import tempfile
+import zipfile
+
+
+def package():
+    """This package, as a file that Python imports from."""
+    here = os.path.dirname(os.path.abspath(__file__))
+    path = os.path.join(tempfile.mkdtemp(prefix="dolphin-"), "dolphin_spark.zip")
+    with zipfile.ZipFile(path, "w") as archive:
+        for name in sorted(os.listdir(here)):
+            if name.endswith(".py"):
+                archive.write(os.path.join(here, name), "dolphin_spark/" + name)
+    return path
+
+
+def context(master, files):
+    from pyspark import SparkConf, SparkContext
+    os.environ.setdefault("PYSPARK_PYTHON", sys.executable)
+    conf = SparkConf().setMaster(master).setAppName("dolphin explore").setIfMissing("spark.ui.enabled", "false")
+    conf.setIfMissing("spark.ui.showConsoleProgress", "false")
+    conf.setIfMissing("spark.driver.bindAddress", "127.0.0.1" if master.startswith("local") else "0.0.0.0")
+    spark = SparkContext(conf=conf)
+    spark.setLogLevel("ERROR")
+    spark.addPyFile(package())
+    for path in files:
+        spark.addFile(os.path.abspath(path))
+    return spark

@@ -1,0 +1,161 @@
+"""Explores a program on Apache Spark, breadth first: dolphin explore for what one machine does not hold. docs/scale.md
+tells when, and how."""
+
+import argparse
+import os
+import sys
+import tempfile
+import time
+
+from dolphin_spark.facts import places_may_cycle, prune
+from dolphin_spark.local import Local
+from dolphin_spark.successors import Inconclusive, Successors, pack
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+NOTES = ("no halt", "no leftover tuples")
+ERRORS = ("no unhandled error", "assertions", "vehicles for all tasks")
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("program", metavar="PROG")
+    parser.add_argument("--fleet", help="by default the file beside PROG")
+    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE")
+    parser.add_argument("--answers", metavar="ANSWERS", help="as dolphin explore takes them")
+    parser.add_argument("--faults")
+    parser.add_argument("--reduction", choices=["none", "por"], default="none")
+    parser.add_argument("--invariant", action="append", default=[], metavar="CONDITION")
+    parser.add_argument("--dolphin", default="dolphin", help="the command, which is sent to the machines")
+    parser.add_argument("--master", default="local[2]", help="of Spark: spark://HOST:7077, yarn, k8s://... (local[2])")
+    parser.add_argument("--partitions", type=int, default=16, help="by which states are spread (16)")
+    parser.add_argument("--width", type=int, default=5000,
+                        help="states that a level has before Spark takes over; until then one process searches (5000)")
+    parser.add_argument("--folder", help="where levels are kept: a folder, or a URL that all machines reach")
+    parser.add_argument("--resume", action="store_true", help="go on with the search in --folder")
+    return parser.parse_args()
+
+
+def main():
+    a = arguments()
+    dolphin = which(a.dolphin)
+    fleet = a.fleet or beside(a.program)
+    options = []
+    for name, values in (("--set", a.set), ("--invariant", a.invariant)):
+        for value in values:
+            options += [name, value]
+    for name, value in (("--answers", a.answers), ("--faults", a.faults), ("--reduction", a.reduction)):
+        if value is not None:
+            options += [name, value]
+    command = [dolphin, "successors", a.program] + (["--fleet", fleet] if fleet else []) + options
+    if a.resume and not a.folder:
+        sys.exit("--resume goes on with the search in a folder: give --folder")
+    began = time.time()
+    successors = Successors(command, len(a.invariant))
+    search = None
+    try:
+        local = Local(successors, a.invariant)
+        if not a.resume:
+            local.run(a.width)
+        if a.resume or local.frontier:
+            search = on_spark(a, dolphin, fleet, options, successors.greeting, local)
+        status = report(a, command, successors.greeting, search or local, began)
+    except Inconclusive as why:
+        print("inconclusive: %s" % why)
+        status = 3
+    except KeyboardInterrupt:
+        status = 130
+    sys.exit(status)
+
+
+def which(command):
+    from shutil import which as found
+    return os.path.abspath(found(command) or sys.exit("there is no %s: --dolphin says where it is" % command))
+
+
+def beside(program):
+    fleet = os.path.splitext(program)[0] + ".fleet"
+    return fleet if os.path.exists(fleet) else None
+
+
+def on_spark(a, dolphin, fleet, options, greeting, local):
+    from dolphin_spark import ship
+    from dolphin_spark.search import Search, Store
+    spark = ship.context(a.master, [dolphin, a.program] + ([fleet] if fleet else []))
+    folder = a.folder or tempfile.mkdtemp(prefix="dolphin-")
+    if "://" not in folder:
+        folder = "file://" + os.path.abspath(folder)
+    job = {"dolphin": os.path.basename(dolphin), "program": os.path.basename(a.program),
+           "fleet": os.path.basename(fleet) if fleet else None, "options": options, "greeting": greeting,
+           "conditions": a.invariant, "partitions": a.partitions}
+
+    def tell(search):
+        print("depth %d: %d states, frontier %d" % (search.depth, search.states, search.frontier), file=sys.stderr)
+
+    search = Search(spark, job, Store(spark, folder), tell)
+    if a.resume:
+        search.resume()
+    else:
+        search.begin(local)
+    search.run()
+    return search
+
+
+def termination(found):
+    if found.facts.rounds:
+        return "inconclusive: a task may go round by itself, which dolphin explore judges by fairness"
+    if not places_may_cycle(found.facts.places):
+        return "holds"
+    cyclic = bool(prune(found.edges)) if isinstance(found, Local) else found.may_cycle()
+    return "violated" if cyclic else "holds"
+
+
+def path(found, known, depth):
+    """The states from after the initial one up to that of `known`."""
+    states = []
+    while depth > 0:
+        _, parent, _, state = found.find(known, depth)
+        states.insert(0, state)
+        known, depth = parent, depth - 1
+    return states
+
+
+def report(a, command, greeting, found, began):
+    facts = found.facts
+    depth = len(found.levels) - 1 if isinstance(found, Local) else found.depth
+    verdicts = [("no deadlock", None), ("termination", termination(found))] + [(name, None) for name in ERRORS]
+    verdicts += [(name, None) for name in NOTES]
+    verdicts += [("invariant " + condition, None) for condition in a.invariant]
+    status = 0
+    for name, verdict in verdicts:
+        known = facts.first.get(name)
+        if verdict is None:
+            verdict = "holds" if known is None else "violated after %d step%s" % (known[0], "s" * (known[0] != 1))
+            if known is None and name.startswith("invariant") and facts.trouble:
+                verdict = "inconclusive: the condition cannot be told: " + facts.trouble
+        if name in NOTES:
+            if verdict == "holds":
+                continue
+            name = "note: " + name
+        elif verdict.startswith("violated"):
+            status = 1
+        elif verdict != "holds" and status == 0:
+            status = 3
+        print("%s: %s" % (name, verdict))
+    for line in sorted(facts.unreached or ()):
+        print("note: no run reaches %s" % line)
+    print("%d states, %d transitions, depth %d, %.1f s" % (found.states, facts.transitions, depth, time.time() - began))
+    sys.stdout.flush()
+    for name, (depth, known) in sorted(facts.first.items()):
+        if name not in NOTES:
+            print("\n%s: a run of %d steps" % (name, depth), flush=True)
+            show(command, greeting, path(found, known, depth))
+    return status
+
+
+def show(command, greeting, states):
+    import subprocess
+    subprocess.run(command + ["--run"], input=greeting + pack(states), check=False)
+
+
+if __name__ == "__main__":
+    main()

@@ -187,6 +187,28 @@ let bounds_within =
        Interruption);
   ]
 
+(* A hundred parts side by side: what is done for one state takes long, and so does looking for what is alike. *)
+let parts n task = "execute " ^ String.concat " | " (List.init n task)
+let stops_among name reduction task () =
+  let limits = { Limits.none with interrupted = interrupted_after 20 } in
+  let _, o = run ~options:{ (limited limits) with reduction } (parts 100 task) in
+  Alcotest.(check bool) (name ^ " are left") true (o.stopped = Some Interruption);
+  if o.states > 25 then Alcotest.failf "%s: %d states" name o.states
+
+let among =
+  let posts i = Printf.sprintf "action { post x: %d }" i in
+  let differ i = Printf.sprintf "action { post x%d: %d }" i i in
+  [ ("alike", stops_among "alike parts" Reduction.Symmetry posts);
+    ("by order", stops_among "parts" Reduction.Partial_order differ) ]
+
+(* The error of the last of so many parts is the second step of a shortest run. *)
+let shows_shortest n expected () =
+  let task i = if i = n - 1 then "(action { } >> action { 1 / 0 })" else Printf.sprintf "action { post x%d: 1 }" i in
+  let _, o = run ~options:{ options with reduction = Partial_order; search_again = 1_000 } (parts n task) in
+  match List.assoc Property.No_error o.verdicts with
+  | Violated { shortest; _ } -> Alcotest.(check bool) "shortest" expected shortest
+  | Holds | By_design _ | Unreached _ | Inconclusive _ -> Alcotest.fail "the error is not found"
+
 (* Found before the bound was met: still a violation. *)
 let test_violation_before_bound () =
   let environment = { options.environment with answers = (fun _ -> [ [ "1"; "2" ] ]) } in
@@ -225,6 +247,9 @@ let () =
       ("properties", List.map case verdicts);
       ("bounds", List.map case bounds);
       ("bounds within an expansion", List.map case bounds_within);
+      ("bounds among many parts", List.map case among);
+      ( "shortest runs",
+        List.map case [ ("of few parts", shows_shortest 8 true); ("of many parts", shows_shortest 64 false) ] );
       ( "around bounds",
         List.map case
           [ ("a violation before", test_violation_before_bound); ("just met", test_exact_bound);

@@ -22,6 +22,7 @@ type t = {
   labelling : Labelling.t option;
   task_groups : Task_groups.t option;
   vehicles : Canonical_vehicles.t option;
+  tick : (unit -> unit) ref;  (* while a state of the script is expanded, from which tasks begin: the visitor's *)
 }
 
 (* {1 Representatives} *)
@@ -42,6 +43,7 @@ let has_vehicle_symmetry t = t.vehicles <> None
 let expand_script t number (visitor : via System.visitor) =
   let c, outside = Encoding.script t.encoding number in
   let taken = ref 0 and goes_on = ref false in
+  t.tick := visitor.tick;
   let go ((next : Transition.t), outside) =
     visitor.tick ();
     incr taken;
@@ -53,6 +55,7 @@ let expand_script t number (visitor : via System.visitor) =
     Expansion.follows t.expansion number place
   in
   Seq.iter go (choices t outside c);
+  t.tick := ignore;
   if not (!goes_on || owes t outside) then visitor.rest ();
   !taken
 
@@ -162,8 +165,12 @@ let take_step t (x : Expansion.source) place step =
     if result >= 0 then go result else Expansion.take_dependent x place step
   | Dependent -> Expansion.take_dependent x place step
 
+(* From so many components on, what is done for one state takes so long that bounds are looked at before. *)
+let many_components = 64
+
 (* Components and nests, with their steps. *)
 let components t (x : Expansion.source) =
+  if Array.length x.layout.leaves >= many_components then x.visitor.tick ();
   let makes_in (nest : Layout.place) =
     match nest.inside with Some path -> path.makes | None -> false
   in
@@ -395,6 +402,11 @@ let state t key = Encoding.read t.encoding key
 let shared t key =
   if executes t key.(0) then Some (Layouts.shared t.layouts key.(0)) else None
 
+let breadth t key =
+  match Layouts.number t.layouts key.(0) with
+  | 0 -> 0
+  | number -> Array.length (Layouts.layout t.layouts number).families
+
 type view = Exact of Configuration.t * Environment.t | Up_to of Task_group.t * Task_group.state
 
 let view t key =
@@ -410,13 +422,14 @@ let view t key =
       | None -> exact ()
       | Some g -> Up_to (g, Quotient.state t.quotient g layout key (Layouts.shared t.layouts key.(0))))
 
-let quotient_state t g (c : Configuration.t) outside : Task_group.state option =
+(* What is shared is compared first: it takes less than to find the classes. *)
+let is_in_class t g (state : Task_group.state) (c : Configuration.t) outside =
   match c.control with
   | Executing (_, r) ->
-    let rs = match r with Parallel rs -> rs | r -> [ r ] in
-    let shared = Surroundings.make c.shared outside in
-    Some (Task_group.state g rs (Surroundings.Numbers.number (Encoding.shareds t.encoding) shared))
-  | Script _ | Waiting _ | Ended _ -> None
+    let rs = match r with Residual.Parallel rs -> rs | r -> [ r ] in
+    let shared = Surroundings.Numbers.value (Encoding.shareds t.encoding) state.shared in
+    Surroundings.equal (Surroundings.make c.shared outside) shared && Task_group.state g rs state.shared = state
+  | Script _ | Waiting _ | Ended _ -> false
 
 (* {1 States for other processes} *)
 
@@ -455,7 +468,8 @@ let create ?(reduction = Reduction.Whole) ?(symmetry = Symmetry.none) ?(asked = 
   let components = Components.create ?foreseen options program world in
   let shareds = Surroundings.Numbers.create () in
   let number = Surroundings.Numbers.number shareds and value = Surroundings.Numbers.value shareds in
-  let task_groups = Task_groups.create options program symmetry { number; value } in
+  let tick = ref ignore in
+  let task_groups = Task_groups.create ~tick:(fun () -> !tick ()) options program symmetry { number; value } in
   let vehicles =
     if Vehicle_orbits.is_none symmetry.vehicles then None
     else Some (Canonical_vehicles.create options program ~asked world symmetry)
@@ -467,4 +481,4 @@ let create ?(reduction = Reduction.Whole) ?(symmetry = Symmetry.none) ?(asked = 
   let steps = Memoised_steps.create ?observe components encoding and quotient = Quotient.create components encoding in
   let expansion = Expansion.create options components encoding steps quotient labelling in
   { options; reduction; program; world; components; encoding; layouts = Encoding.layouts encoding; steps; expansion;
-    quotient; labelling; task_groups; vehicles }
+    quotient; labelling; task_groups; vehicles; tick }

@@ -31,11 +31,14 @@ type view =
 
 val view : t -> int array -> view
 
-val quotient_state : t -> Task_group.t -> Configuration.t -> Environment.t -> Task_group.state option
-(** [quotient_state t g c e] is [c] with [e] as [g] sees it, if it executes a task of [g]. *)
+val is_in_class : t -> Task_group.t -> Task_group.state -> Configuration.t -> Environment.t -> bool
+(** [is_in_class t g s c e] is whether [c] with [e] executes a task of [g], and is [s] as [g] sees it. *)
 
 val shared : t -> int array -> int option
 (** [shared t key] is the number of the shared state of [key], if it executes a task. *)
+
+val breadth : t -> int array -> int
+(** [breadth t key] is how many components the task of [key] has; 0 if none executes. *)
 
 val unsettled : Core.program -> Fault.t -> Dolphin_checker.Limits.bound
 (** [unsettled p fault] is that nobody can list what follows some state of [p], because of [fault]: more than a

@@ -168,10 +168,14 @@ let add_all check found subtasks =
     exchanges = List.map fst exchanges @ found.exchanges;
   }
 
-let find context r ns =
+let find ~tick context r ns =
   if not (is_clear context r) then None
   else
-    let check = checked context (movable context r) r ns in
+    let is_movable = movable context r in
+    let check a b =
+      tick ();
+      checked context is_movable r ns a b
+    in
     let several subtasks = List.compare_length_with subtasks 1 > 0 in
     let candidates = List.filter several (List.concat_map by_key (subtasks context r)) in
     let found = List.fold_left (add_all check) none candidates in

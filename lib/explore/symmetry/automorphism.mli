@@ -17,8 +17,9 @@ type t = {
   exchanges : exchange list;  (** all that were checked *)
 }
 
-val find : Task_isomorphism.context -> Residual.t -> Tuples.t list -> t option
-(** [find c r ns] is the automorphisms of [r] that fix each of [ns]; [None] if there is none but the identity. *)
+val find : tick:(unit -> unit) -> Task_isomorphism.context -> Residual.t -> Tuples.t list -> t option
+(** [find ~tick c r ns] is the automorphisms of [r] that fix each of [ns]; [None] if there is none but the identity.
+    [tick] is called before each candidate is checked. *)
 
 val fixes : Skeleton.context -> t -> Tuples.t -> bool
 (** [fixes c a n] is whether each of [a.exchanges] leaves [n] as it is. *)

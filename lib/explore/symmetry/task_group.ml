@@ -241,20 +241,21 @@ let roles g classes shared =
   add (shared_signature g shared);
   Array.map (function ([] | [ _ ]) as few -> few | several -> List.sort Int.compare several) roles
 
-(* The permutation that sorts the blocks of each orbit by their roles. *)
+(* The permutation that sorts the blocks of each orbit by their roles. Of those with the same roles, blocks that are in
+   place stay there: so where one block changes its roles, few are moved, and few images are needed. *)
 let sorting g roles =
   let n = Array.length roles in
-  let order x y =
-    match Int.compare g.orbit.(x) g.orbit.(y) with
-    | 0 -> (match List.compare Int.compare roles.(x) roles.(y) with 0 -> Int.compare x y | order -> order)
-    | order -> order
-  in
-  let rec in_order x = x + 1 >= n || (order x (x + 1) < 0 && in_order (x + 1)) in
+  let compare_roles x y = List.compare Int.compare roles.(x) roles.(y) in
+  let order x y = match Int.compare g.orbit.(x) g.orbit.(y) with 0 -> compare_roles x y | order -> order in
+  let rec in_order x = x + 1 >= n || (order x (x + 1) <= 0 && in_order (x + 1)) in
   let p = Array.init n Fun.id in
   if not (in_order 0) then begin
     let blocks = Array.init n Fun.id in
-    Array.sort order blocks;
-    Array.iteri (fun place block -> p.(block) <- place) blocks
+    Array.stable_sort order blocks;
+    let is_in_place place = compare_roles place blocks.(place) = 0 in
+    let moved = List.filter (fun place -> not (is_in_place place)) (Array.to_list p) in
+    let to_move = List.stable_sort order moved in
+    List.iter2 (fun place block -> p.(block) <- place) moved to_move
   end;
   p
 

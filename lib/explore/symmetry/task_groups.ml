@@ -31,6 +31,7 @@ type task = { number : int; footprint : Footprint.t option }
 type group = { group : (Automorphism.t * Task_group.t) option; fixed : unit Spaces.t }
 
 type t = {
+  tick : unit -> unit;
   assumed : Symmetry.t;
   breaks : (Symmetry.execution * Tuples.t) list;
   context : Task_isomorphism.context;
@@ -43,9 +44,10 @@ type t = {
   handlers : (Label.label, Label.label list) Hashtbl.t;  (* the orbit of each, in all tasks *)
 }
 
-let create options program (assumed : Symmetry.t) shareds =
+let create ~tick options program (assumed : Symmetry.t) shareds =
   let with_breaks breaks =
     {
+      tick;
       assumed;
       breaks;
       context = Task_isomorphism.context options program;
@@ -98,7 +100,7 @@ let automorphisms f r number ns =
   match Starts.find_opt f.automorphisms (number, ns) with
   | Some found -> found
   | None ->
-    let found = Automorphism.find f.context r ns in
+    let found = Automorphism.find ~tick:f.tick f.context r ns in
     Starts.add f.automorphisms (number, ns) found;
     found
 

@@ -7,8 +7,9 @@ open Dolphin_environment
 
 type t
 
-val create : Environment.options -> Core.program -> Symmetry.t -> Task_group.shareds -> t option
-(** [create o p s n] is [None] if [s] exchanges no subtasks. *)
+val create : tick:(unit -> unit) -> Environment.options -> Core.program -> Symmetry.t -> Task_group.shareds -> t option
+(** [create ~tick o p s n] is [None] if [s] exchanges no subtasks. [tick] is called again and again where {!find} takes
+    long; what it raises, [find] raises. *)
 
 val find : t -> Residual.t -> Surroundings.t -> Task_group.t option
 (** [find f r s] is the group of [r], about to be executed with shared [s]; [None] if it is trivial. Groups are numbered

@@ -55,7 +55,7 @@ let follow graph g start ~from states after =
     let reached ((t : Transition.t), e) = if found = [] then Space.canonical space t.next e else (t.next, e) in
     let leads choice =
       let c, e = reached choice in
-      Space.quotient_state space g c e = Some wanted
+      Space.is_in_class space g wanted c e
     in
     let choice = take graph state leads ~from ~into:i in
     (reached choice, i, choice :: found)

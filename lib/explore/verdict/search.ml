@@ -145,6 +145,10 @@ let shown graph = function
   | Property.No_deadlock -> State_graph.deadlock graph
   | property -> State_graph.broken graph property
 
+(* Of [n] components each has steps, and each of these leads to a state with as many: so a large state counts as
+   several. *)
+let effort_of_state n = max 1 (n * n / 64)
+
 (* What a reduced search finds broken, the first of all states may show by a shortest run. *)
 let with_shortest_runs x (options : options) verdicts =
   let is_sought = function
@@ -160,8 +164,10 @@ let with_shortest_runs x (options : options) verdicts =
     let limits = { options.limits with max_states = Some most } in
     let x = { x with symmetry = Symmetry.without_tasks x.symmetry } in
     let graph = graph x { options with reduction = Whole; invariants = []; limits } in
-    let enough () = List.for_all (fun property -> shown graph property <> None) sought in
-    State_graph.run ~enough graph;
+    let effort = ref 0 in
+    let look i = effort := !effort + effort_of_state (State_graph.breadth graph i) in
+    let enough () = !effort >= most || List.for_all (fun property -> shown graph property <> None) sought in
+    State_graph.run ~look ~enough graph;
     let shorter (property, verdict) =
       match if List.mem property sought then shown graph property else None with
       | Some i -> (property, Violated (run_through graph ~shortest:true (State_graph.path graph i)))

@@ -12,6 +12,7 @@ include module type of Dolphin_checker.Breadth_first.Make (Space)
 val state : t -> int -> Configuration.t * Environment.t
 val view : t -> int -> Space.view
 val shared : t -> int -> int option
+val breadth : t -> int -> int
 
 val broken_by : t -> int -> Property.t option
 (** [broken_by t i] is the property that reaching state [i] breaks. *)

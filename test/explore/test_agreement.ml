@@ -14,6 +14,8 @@ let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | 
 
 let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]); replies = Calls.replies }
 
+let twice = Result.get_ok (Faults.of_string "all=2")
+
 let environments =
   [ ("as planned", answering);
     ("with failures", Environment.failing answering);
@@ -23,6 +25,7 @@ let environments =
     ("with latecomers", { answering with faults = { Faults.none with join = Any_number }; may_be_late = (fun v -> v <> "a") });
     ( "with all of it, once",
       { answering with faults = { Faults.none with fail = At_most 1; loss = At_most 1; join = At_most 1 } } );
+    ("with all of it, twice", { answering with faults = twice });
     ("with inputs", { answering with inputs = Posts.inputs });
     ("with a failure and an input", { (Environment.failing ~failures:1 answering) with inputs = Posts.once });
     ("with interruptions", { answering with faults = { Faults.none with interrupt = true } });

@@ -14,10 +14,13 @@ let limit = 1_000
 (* So large that a state of [limit] is left out in none of billions of programs. *)
 let bytes = 1 lsl 20
 
+let twice = Result.get_ok (Faults.of_string "all=2")
+
 let environments =
   let losing loss = { Environment.default with faults = { Faults.none with loss } } in
   [ ("as planned", Environment.default); ("with failures", Environment.failing Environment.default);
     ("with a failure", Environment.failing ~failures:1 Environment.default); ("with losses", losing Any_number);
+    ("with all faults, twice", { Environment.default with faults = twice });
     ("with interruptions", { Environment.default with faults = { Faults.none with interrupt = true } }) ]
 
 let case =

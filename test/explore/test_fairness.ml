@@ -70,10 +70,13 @@ let source =
   let* posts = oneofl [ ""; "post k: 1\n" ] in
   return (picks ^ posts ^ "execute " ^ String.concat " |\n        " parts)
 
+let twice = Result.get_ok (Faults.of_string "all=2")
+
 let environments =
   [ ("as planned", Environment.default);
     ("with failures", Environment.failing Environment.default);
-    ("with a failure", Environment.failing ~failures:1 Environment.default) ]
+    ("with a failure", Environment.failing ~failures:1 Environment.default);
+    ("with all faults, twice", { Environment.default with faults = twice }) ]
 
 (* {1 Steps} *)
 

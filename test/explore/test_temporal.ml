@@ -64,6 +64,8 @@ let formula =
 
 let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]) }
 
+let twice = Result.get_ok (Faults.of_string "all=2")
+
 let environments =
   [ ("as planned", answering); ("with failures", Environment.failing answering);
     ("with a failure", Environment.failing ~failures:1 answering);
@@ -71,6 +73,7 @@ let environments =
     ("with latecomers", { answering with faults = { Faults.none with join = Any_number }; may_be_late = (fun v -> v <> "a") });
     ( "with all of it, once",
       { answering with faults = { Faults.none with fail = At_most 1; loss = At_most 1; join = At_most 1 } } );
+    ("with all of it, twice", { answering with faults = twice });
     ("with inputs", { answering with inputs = Test_support.Posts.once });
     ("with interruptions", { answering with faults = { Faults.none with interrupt = true } });
     ("with failures and interruptions", { answering with faults = { Faults.none with fail = Any_number; interrupt = true } }) ]

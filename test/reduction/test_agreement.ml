@@ -57,6 +57,8 @@ let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [
 let failing_vehicle v : Environment.options =
   { answering with endings = (fun v' _ -> if v = v' then Environment.Fails else Succeeds) }
 
+let twice = Result.get_ok (Faults.of_string "all=2")
+
 let environments =
   [ ("as planned", answering);
     ("with failures", Environment.failing answering);
@@ -65,6 +67,7 @@ let environments =
     ("vehicle a fails", failing_vehicle "a");
     ("with losses", { answering with faults = { Faults.none with loss = Any_number } });
     ("with a failure and a loss", { answering with faults = { Faults.none with fail = At_most 1; loss = At_most 1 } });
+    ("with all faults, twice", { answering with faults = twice });
     ("with latecomers", { answering with faults = { Faults.none with join = Any_number }; may_be_late = (fun v -> v = "b") });
     ("with inputs", { answering with inputs = Posts.inputs });
     ("with an input", { answering with inputs = Posts.once });

@@ -69,10 +69,13 @@ let by_name name ending =
   let endings _ p = if p = name then ending else Environment.Succeeds in
   { Environment.default with plans = [ name ]; endings }
 
+let twice = Result.get_ok (Faults.of_string "all=2")
+
 let environments =
   [ ("as planned", Environment.default); ("with failures", Environment.failing Environment.default);
     ("with a failure", Environment.failing ~failures:1 Environment.default);
     ("with losses", { Environment.default with faults = { Faults.none with loss = Any_number } });
+    ("with all faults, twice", { Environment.default with faults = twice });
     ("with survey_1 failing", by_name "survey_1" Fails); ("with visit_2 that may fail", by_name "visit_2" May_fail);
     ("with survey_any failing", by_name "survey_any" Fails) ]
 

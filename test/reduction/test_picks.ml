@@ -23,6 +23,8 @@ let late join may_be_late : Environment.options =
 
 let every : Faults.t = { Faults.none with fail = Any_number; join = Any_number }
 
+let twice = Result.get_ok (Faults.of_string "all=2")
+
 let environments =
   [ ("as planned", answering);
     ("with answers that read variables", reading);
@@ -37,6 +39,7 @@ let environments =
     ("with two of those late", late (Faults.At_most 2) (fun v -> v = "a" || v = "c"));
     ("with all faults", { answering with faults = { every with loss = Any_number } });
     ("with all faults, and losses counted", { answering with faults = { every with loss = At_most 2 } });
+    ("with all faults, twice", { answering with faults = twice });
     ("with interruptions", { answering with faults = { Faults.none with interrupt = true } });
     ("vehicle b may fail", failing (fun v _ -> v = "b"));
     ("plan t may fail", failing (fun _ p -> p = "t"));

@@ -16,11 +16,15 @@ let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [
 let failing fails : Environment.options =
   { answering with endings = (fun v p -> if fails v p then May_fail else Succeeds) }
 
+let twice = Result.get_ok (Faults.of_string "all=2")
+
 let environments =
   [ ("as planned", answering);
     ("with failures", Environment.failing answering);
     ("with a failure", Environment.failing ~failures:1 answering);
     ("with losses", { answering with faults = { Faults.none with loss = Any_number } });
+    ("with two failures", Environment.failing ~failures:2 answering);
+    ("with all faults, twice", { answering with faults = twice });
     ("vehicle a may fail", failing (fun v _ -> v = "a"));
     ("plan p3 may fail", failing (fun _ p -> p = "p3"));
     ("with an input", { answering with inputs = Test_support.Posts.once });

@@ -978,12 +978,6 @@ let place =
         {|Some (task.vehicle, i.most)|},
         {|Some (task.vehicle, 0 * i.most)|} );
     ]
-  @ in_file "lib/time/working.ml" ~noticed_by:"time/test_missions"
-    [
-      ( "rounds count once",
-        {|times n (longest cost v each)|},
-        {|times (min 1 n) (longest cost v each)|} );
-    ]
   @ in_file "lib/time/longest.ml" ~noticed_by:"time/test_exact"
     [
       ( "the first way is taken for the longest",

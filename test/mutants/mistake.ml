@@ -561,6 +561,12 @@ let fences =
         {|| Succeeds when not (Fences.is_none fences && scenario.fences = []) -> May_fail|},
         {|| Succeeds when not (Fences.is_none fences && scenario.fences = []) -> Succeeds|} );
     ]
+  @ in_file "lib/runtime/fence_guard.ml" ~noticed_by:"runtime/test_runtime"
+    [
+      ( "vehicles are kept to fences at the start only",
+        {|      | Error why -> [ (v, "stopped: " ^ why) ]|},
+        {|      | Error _ -> []|} );
+    ]
 
 let pick_rules =
   in_file "lib/semantics/rules/pick_rules.ml" ~noticed_by:"semantics/test_rules"

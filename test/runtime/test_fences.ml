@@ -51,6 +51,29 @@ let refuses () =
   Platform_of_mock.start p "v1" (go_to 50.);
   asks mock [ "0 telemetry true"; "0 start v1 go" ]
 
+let plan_of kind metres : Core.platform_task =
+  match go_to metres with
+  | { plan = Some (Maneuvers ({ maneuvers = [ m ]; _ } as plan)); _ } as task ->
+    { task with plan = Some (Maneuvers { plan with maneuvers = [ { m with kind } ] }) }
+  | task -> task
+
+(* A circle takes its room, and so does the way to a plan. *)
+let looks_at_all () =
+  let loiter radius = plan_of (Loiter { duration = 60.; radius; direction = Clockwise }) 50. in
+  let mock = goes_on [ at 0. "v1" (-90.); at 1. "v2" 90. ] in
+  let p = fenced (Fences.make [ fence (Inside (circle 100.)) ]) mock in
+  Platform_of_mock.start p "v1" (loiter 60.);
+  tells p [ "failed v1 not started"; "saw v1"; "saw v2" ];
+  Platform_of_mock.start p "v1" (loiter 40.);
+  asks mock [ "0 telemetry true"; "1 start v1 go" ];
+  let mock = goes_on [ at 0. "v1" (-90.); at 1. "v2" 90. ] in
+  let p = fenced (Fences.make [ fence (Outside (circle 30.)) ]) mock in
+  tells p [ "saw v1"; "saw v2" ];
+  Platform_of_mock.start p "v1" (go_to 60.);
+  tells p [ "failed v1 not started" ];
+  Platform_of_mock.start p "v2" (go_to 60.);
+  asks mock [ "0 telemetry true"; "1 start v2 go" ]
+
 (* Who waits for what the platform tells has it, though something was refused meanwhile. *)
 let loses_nothing () =
   let mock = Mock.make [] in
@@ -110,6 +133,7 @@ let keeps_apart () =
 
 let suite =
   [ Alcotest.test_case "a plan beyond a fence is not started" `Quick refuses;
+    Alcotest.test_case "circles and ways to a plan take their room" `Quick looks_at_all;
     Alcotest.test_case "no event is lost" `Quick loses_nothing;
     Alcotest.test_case "a stop overtakes a failure" `Quick is_overtaken;
     Alcotest.test_case "who breaks a fence is stopped" `Quick stops;

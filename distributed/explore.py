@@ -53,12 +53,13 @@ def main():
     successors = Successors(command, len(a.invariant))
     search = None
     try:
-        local = Local(successors, a.invariant)
-        if not a.resume:
-            local.run(a.width)
-        if a.resume or local.frontier:
-            search = on_spark(a, dolphin, fleet, options, successors.greeting, local)
-        status = report(a, command, successors.greeting, search or local, began)
+        with tempfile.TemporaryDirectory(prefix="dolphin-") as scratch:
+            local = Local(successors, a.invariant)
+            if not a.resume:
+                local.run(a.width)
+            if a.resume or local.frontier:
+                search = on_spark(a, dolphin, fleet, options, successors.greeting, local, scratch)
+            status = report(a, command, successors.greeting, search or local, began)
     except Inconclusive as why:
         print("inconclusive: %s" % why)
         status = 3
@@ -77,11 +78,11 @@ def beside(program):
     return fleet if os.path.exists(fleet) else None
 
 
-def on_spark(a, dolphin, fleet, options, greeting, local):
+def on_spark(a, dolphin, fleet, options, greeting, local, scratch):
     from dolphin_spark import ship
     from dolphin_spark.search import Search, Store
-    spark = ship.context(a.master, [dolphin, a.program] + ([fleet] if fleet else []))
-    folder = a.folder or tempfile.mkdtemp(prefix="dolphin-")
+    spark = ship.context(a.master, [dolphin, a.program] + ([fleet] if fleet else []), scratch)
+    folder = a.folder or os.path.join(scratch, "levels")
     if "://" not in folder:
         folder = "file://" + os.path.abspath(folder)
     job = {"dolphin": os.path.basename(dolphin), "program": os.path.basename(a.program),

@@ -2,14 +2,13 @@
 
 import os
 import sys
-import tempfile
 import zipfile
 
 
-def package():
-    """This package, as a file that Python imports from."""
+def package(scratch):
+    """This package, as a file in the folder `scratch` that Python imports from."""
     here = os.path.dirname(os.path.abspath(__file__))
-    path = os.path.join(tempfile.mkdtemp(prefix="dolphin-"), "dolphin_spark.zip")
+    path = os.path.join(scratch, "dolphin_spark.zip")
     with zipfile.ZipFile(path, "w") as archive:
         for name in sorted(os.listdir(here)):
             if name.endswith(".py"):
@@ -17,7 +16,7 @@ def package():
     return path
 
 
-def context(master, files):
+def context(master, files, scratch):
     from pyspark import SparkConf, SparkContext
     os.environ.setdefault("PYSPARK_PYTHON", sys.executable)
     conf = SparkConf().setMaster(master).setAppName("dolphin explore").setIfMissing("spark.ui.enabled", "false")
@@ -25,7 +24,7 @@ def context(master, files):
     conf.setIfMissing("spark.driver.bindAddress", "127.0.0.1" if master.startswith("local") else "0.0.0.0")
     spark = SparkContext(conf=conf)
     spark.setLogLevel("ERROR")
-    spark.addPyFile(package())
+    spark.addPyFile(package(scratch))
     for path in files:
         spark.addFile(os.path.abspath(path))
     return spark

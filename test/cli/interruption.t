@@ -27,10 +27,10 @@ An interruption stops what runs and releases the vehicles. The run is paced, so 
 
 Other requests to terminate do the same.
 
-  $ dolphin exec long.dol --speed 1 > log.txt & run=$!
-  $ signal TERM 'starts right' log.txt
+  $ dolphin exec long.dol --speed 1 > again.txt & run=$!
+  $ signal TERM 'starts right' again.txt
   [130]
-  $ tail -1 log.txt | cut -c 10-
+  $ tail -1 again.txt | cut -c 10-
   program     is interrupted
 
 A script that loops without any effect can be interrupted, so can one that waits for an answer or for vehicles.

@@ -304,17 +304,21 @@ let print_polygons (a, b, points) =
   let pp = Fmt.(Dump.list (Dump.pair float float)) in
   Fmt.str "%a %a %a" pp a pp b pp points
 
-let probes = [ (0., 0.); (0.01, 0.); (-0.01, 0.); (0., 0.01); (0., -0.01) ]
+(* Metres from [p] to the side from [a] to [b]. *)
+let from_side (px, py) ((ax, ay), (bx, by)) =
+  let dx = bx -. ax and dy = by -. ay in
+  let square = (dx *. dx) +. (dy *. dy) in
+  let share = if square = 0. then 0. else (((px -. ax) *. dx) +. ((py -. ay) *. dy)) /. square in
+  let share = Float.max 0. (Float.min 1. share) in
+  Float.hypot (px -. ax -. (share *. dx)) (py -. ay -. (share *. dy))
+
+let sides corners = List.combine corners (List.tl corners @ [ List.hd corners ])
 
 (* Points near a rim may be on either side of it. *)
-let agrees (a, b, points) =
-  match polygon a, polygon b with
+let agrees (corners, corners', points) =
+  match polygon corners, polygon corners' with
   | Ok a, Ok b ->
-    let clear p =
-      let around = List.map (fun (x, y) -> place (fst p +. x, snd p +. y)) probes in
-      let same area = List.length (List.sort_uniq compare (List.map (Area.contains area) around)) = 1 in
-      same a && same b
-    in
+    let clear p = List.for_all (fun side -> from_side p side > 0.01) (sides corners @ sides corners') in
     let points = List.filter clear points in
     let holds f found =
       let has p =

@@ -561,6 +561,15 @@ let fences =
         {|| Succeeds when not (Fences.is_none fences && scenario.fences = []) -> May_fail|},
         {|| Succeeds when not (Fences.is_none fences && scenario.fences = []) -> Succeeds|} );
     ]
+  @ in_file "lib/geo/fence.ml" ~noticed_by:"geo/test_fence"
+    [
+      ( "fences have no margin",
+        {|Inside -> margin -. depth | Outside -> margin +. depth|},
+        {|Inside -> (0. *. margin) -. depth | Outside -> (0. *. margin) +. depth|} );
+      ( "fences inside keep out, and those outside in",
+        {|Inside -> margin -. depth | Outside -> margin +. depth|},
+        {|Inside -> margin +. depth | Outside -> margin -. depth|} );
+    ]
   @ in_file "lib/runtime/fence_guard.ml" ~noticed_by:"runtime/test_runtime"
     [
       ( "vehicles are kept to fences at the start only",

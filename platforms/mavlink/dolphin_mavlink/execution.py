@@ -310,6 +310,11 @@ class Execution:
             return self._heartbeat_in_run(now)
         if self.stage == "link" or self._resumes:
             return []
+        if self.stage == "hold" and v.mode in v.modes.after and v.mode not in self._known:
+            # The mission that it flew has ended before our order came: there is nothing to hold.
+            self._mode_before = v.mode
+            self._known.add(v.mode)
+            return self._upload(now)
         if v.mode not in self._known:
             return self._taken_over(now)
         if (

@@ -42,6 +42,23 @@ class Outcomes(Case):
                     self.ends(wires, request, "done")
                 self.assertEqual(len(vehicle.began), 3)
 
+    def test_a_mission_may_begin_before_the_vehicle_tells_that_it_goes_home_after_the_one_before(self):
+        for kind, px4 in KINDS:
+            with self.subTest(kind=kind, px4=px4):
+                vehicle, wires = one(kind, px4)
+                act = wires._act
+
+                def at_once():
+                    act()
+                    if wires.end_of("r1") is not None and not wires.said(None, "r2"):
+                        wires._act = act
+                        wires.start("r2", "mav-1", stored())
+
+                wires._act = at_once
+                wires.start("r1", "mav-1", stored())
+                self.ends(wires, "r2", "done")
+                self.assertEqual(len(vehicle.began), 2)
+
     def test_the_home_position_is_item_0_for_ardupilot_only(self):
         for px4, first in ((False, HOME), (True, way(5)[0].x)):
             vehicle, wires = one(px4=px4)

@@ -118,8 +118,8 @@ At a signal the run goes on with it, and has been interrupted.
 A second one stops it.
 
   $ sed -i 's/5.seconds/2.hours/' long.fleet
-  $ dolphin exec long.dol --fleet long.fleet --speed 1 --journal two.run > log.txt & run=$!
-  $ await() { until grep -q "$1" log.txt || ! kill -0 $run; do sleep 0.05; done; }
+  $ rm log.txt; dolphin exec long.dol --fleet long.fleet --speed 1 --journal two.run > log.txt & run=$!
+  $ await() { until grep -qs "$1" log.txt || ! kill -0 $run; do sleep 0.05; done; }
   $ await 'starts survey'; kill -TERM $run; await 'starts home'; kill -INT $run; wait $run
   [130]
   $ cut -c 10- log.txt
@@ -136,7 +136,7 @@ A second one stops it.
 
 So do two requests to stop, by the socket.
 
-  $ rm two.run; dolphin exec long.dol --fleet long.fleet --speed 1 --journal two.run > log.txt & run=$!
+  $ rm two.run log.txt; dolphin exec long.dol --fleet long.fleet --speed 1 --journal two.run > log.txt & run=$!
   $ await 'starts survey'; dolphin post two.run --stop; await 'starts home'; dolphin post two.run --stop; wait $run
   [130]
   $ tail -3 log.txt | cut -c 10-
@@ -146,7 +146,7 @@ So do two requests to stop, by the socket.
 
 A console that dies on the way home is resumed there. The next interruption is then the second one.
 
-  $ rm two.run; dolphin exec long.dol --fleet long.fleet --speed 1 --journal two.run > log.txt & run=$!
+  $ rm two.run log.txt; dolphin exec long.dol --fleet long.fleet --speed 1 --journal two.run > log.txt & run=$!
   $ await 'starts survey'; kill -INT $run; await 'starts home'; kill -KILL $run; wait $run 2> /dev/null
   [137]
   $ dolphin exec long.dol --resume two.run > log.txt & run=$!

@@ -12,7 +12,14 @@ async function serious(page) {
     .map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.target.join(" ") + " " + (n.any[0]?.message ?? "")).join("; ")}`).join("\n");
 }
 
+// Whoever takes longer than five seconds to load a page again has lost the helm.
+const takeHelm = (page) => page.evaluate(() => fetch("/api/helm", {
+  method: "POST", body: JSON.stringify({ want: "take" }),
+  headers: { "Content-Type": "application/json", "X-Dolphin-Client": sessionStorage.getItem("client") },
+}));
+
 export default async function ({ page: holder, open, test, same, choose, pictures }) {
+  await takeHelm(holder);
   for (const colorScheme of ["light", "dark"]) {
     const page = await open({ colorScheme });
     await page.click("#helm >> text=Ask for it");

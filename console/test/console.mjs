@@ -33,6 +33,9 @@ async function serve() {
   }
 }
 
+// Also where a test ends all of them.
+process.on("exit", () => server.kill("SIGKILL"));
+
 let passed = 0, failed = 0;
 const problems = [];
 async function test(name, f) {

@@ -1099,7 +1099,7 @@ let recorded =
     [
       ( "what takes too long is not seen",
         {|when must_be_over && date - began > most + r.tolerance -> finding false|},
-        {|when must_be_over && date - began > (10 * most) + tolerance -> finding false|} );
+        {|when must_be_over && date - began > (10 * most) + r.tolerance -> finding false|} );
       ( "what is over too soon is not seen",
         {|when must_have_run && date - began < least - r.tolerance -> finding true|},
         {|when must_have_run && date - began < min 0 least -> finding true|} );

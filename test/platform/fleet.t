@@ -40,3 +40,9 @@ A run that began without fences is not resumed with some.
   [2]
   $ resumed free | tail -1 | cut -c 10-
   program     ends
+
+The programs that ran did what the semantics allows.
+
+  $ for run in fenced free; do dolphin trace check m.dol $run.run | sed "s/, of [^;]*//"; done
+  fenced.run: a run; completed
+  free.run: a run; completed

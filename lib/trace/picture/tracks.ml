@@ -194,12 +194,7 @@ let fences summary = match summary.header with Some (h : Header.t) -> h.fences |
 
 let rims (fence : Dolphin_semantics.Fences.fence) =
   match fence.rule with
-  | Inside (Circle { centre; radius }) | Outside (Circle { centre; radius }) ->
-    let corner i =
-      let angle = float_of_int i *. Float.pi /. 36. in
-      Wgs84.displace centre ~north:(radius *. cos angle) ~east:(radius *. sin angle)
-    in
-    [ List.init 72 corner ]
+  | Inside (Circle _ as area) | Outside (Circle _ as area) -> [ Area.corners area ]
   | Inside (Shape shape) | Outside (Shape shape) -> Area.rings shape
   | Depth _ | Height _ | Distance _ -> []
 

@@ -23,8 +23,13 @@ def records(block):
         at += length
 
 
+def number_of(known):
+    """By which states are spread: evenly, as these are digests."""
+    return int.from_bytes(known[:8], "little")
+
+
 def partition_of(known, count):
-    return int.from_bytes(known[:8], "little") % count
+    return number_of(known) % count
 
 
 def batches(states, size=BATCH):

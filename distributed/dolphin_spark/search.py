@@ -9,7 +9,7 @@ from pyspark import StorageLevel
 
 from . import worker
 from .facts import Facts
-from .levels import record, records
+from .levels import number_of, record, records
 from .successors import Inconclusive
 
 
@@ -159,15 +159,15 @@ class Search:
         job = self.job
         blocks = self.spark.union([self.store.load(self.level(depth)) for depth in range(self.depth + 1)])
         edges = blocks.mapPartitions(worker.edges_of(job))
-        left = edges.partitionBy(job["partitions"], worker.partitioner).persist(StorageLevel.MEMORY_AND_DISK)
+        left = edges.partitionBy(job["partitions"], number_of).persist(StorageLevel.MEMORY_AND_DISK)
         count = left.filter(lambda x: x[1]).count()
         while count:
             edges = left
             alive = edges.filter(lambda x: x[1]).map(lambda x: (x[0], None))
             wanted = edges.flatMap(lambda x: [(target, x[0]) for target in x[1]])
-            kept = wanted.partitionBy(job["partitions"], worker.partitioner).join(alive)
+            kept = wanted.partitionBy(job["partitions"], number_of).join(alive)
             kept = kept.map(lambda x: (x[1][0], x[0]))
-            left = kept.groupByKey(job["partitions"], worker.partitioner).mapValues(tuple)
+            left = kept.groupByKey(job["partitions"], number_of).mapValues(tuple)
             left = left.persist(StorageLevel.MEMORY_AND_DISK)
             left.checkpoint()
             fewer = left.count()

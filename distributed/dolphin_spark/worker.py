@@ -67,10 +67,6 @@ def known(job, blocks):
     return [(partition, ("seen", (text, 0, []))) for partition, text in by_partition(found, job["partitions"])]
 
 
-def partitioner(digest):
-    return int.from_bytes(digest[:8], "little")
-
-
 def edges_of(job):
     """(digest, digests of what follows it) for the states of a frontier."""
 

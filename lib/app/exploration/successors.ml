@@ -4,6 +4,7 @@ open Dolphin_explore
 module Parts = Dolphin_conformance.Parts
 module Nodes = Dolphin_conformance.Nodes
 module Limits = Dolphin_checker.Limits
+module Field = Dolphin_json.Field
 
 type settings = {
   answers : string list;
@@ -45,12 +46,11 @@ let part (p : _ Parts.t) : _ Portable.part =
 
 let of_memory e =
   let { Environment.failed; losses; lost; late; asked; called; sent } = Environment.memory e in
-  let texts names = `List (List.map (fun name -> `String name) names) in
   let times name counted = `List (List.map (fun (x, n) -> `List [ name x; `Int n ]) counted) in
   let named name = `String name in
   Yojson.Safe.to_string
     (`List
-       [ `Int failed; `Int losses; texts lost; texts late; times named asked; times named called;
+       [ `Int failed; `Int losses; Field.texts lost; Field.texts late; times named asked; times named called;
          times (fun i -> `Int i) sent ])
 
 let memory text =
@@ -89,14 +89,13 @@ let codec program : Portable.codec =
 let protocol = 1
 
 let greeting_of ~version (settings : settings) (program : Program_file.t) (fleet : Fleet_file.t) =
-  let texts names = `List (List.map (fun text -> `String text) names) in
   let digest text = `String (Digest.to_hex (Digest.string text)) in
   let options =
     [ ("set", `Assoc (List.map (fun (x, value) -> (x, `String value)) program.set));
-      ("answers", texts settings.answers);
+      ("answers", Field.texts settings.answers);
       ("faults", `String (Fmt.str "%a" Faults.pp settings.faults));
       ("reduction", `String (if Reduction.by_order settings.reduction then "por" else "none"));
-      ("invariants", texts settings.invariants) ]
+      ("invariants", Field.texts settings.invariants) ]
   in
   Yojson.Safe.to_string
     (`Assoc

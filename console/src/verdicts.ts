@@ -88,8 +88,8 @@ export class Verdicts {
     const span = (w: Json) => (w.latest === null ? `${clock(w.earliest)} or later` : w.latest === w.earliest ? clock(w.latest)
       : `${clock(w.earliest)} to ${clock(w.latest)}`);
     const lines: Node[] = Object.entries<Json>(r.ends).map(([how, w]) => h("li", {}, h("b", {}, "◷"), ` ${how}: ${span(w)}`));
-    if (r.deadline !== undefined || r.endless) lines.push(h("li", { class: r["in time"] }, h("b", {}, mark(r["in time"])),
-      r.deadline !== undefined ? ` over by ${clock(r.deadline)}: ${r["in time"]}` : ` every run ends: ${r["in time"]}`));
+    if (r.deadline !== undefined || r.endless) lines.push(h("li", { class: r.inTime }, h("b", {}, mark(r.inTime)),
+      r.deadline !== undefined ? ` over by ${clock(r.deadline)}: ${r.inTime}` : ` every run ends: ${r.inTime}`));
     for (const w of r.within) lines.push(h("li", { class: w.missed ? "violated" : "holds" }, h("b", {}, w.missed ? "✗" : "✓"),
       this.place(w.at, w.missed ? ` within: missed, at ${span(w.missed)}` : " within: kept")));
     for (const b of r.batteries) lines.push(h("li", { class: b.verdict }, h("b", {}, mark(b.verdict)), ` ${b.vehicle}: ${left(b)}`));

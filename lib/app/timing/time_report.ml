@@ -264,7 +264,7 @@ let to_json ?deadline ?(slacks = []) p (o : Timing.outcome) : Yojson.Safe.t =
   `Assoc
     ([ ("verdict", `String verdict) ]
      @ optional "deadline" seconds deadline
-     @ [ ("in time", `String (Dolphin_checker.Verdict.name (Timing.in_time ?deadline o))) ]
+     @ [ ("inTime", `String (Dolphin_checker.Verdict.name (Timing.in_time ?deadline o))) ]
      @ [ ("ends", `Assoc (List.map (fun (e, w) -> (Timed_system.ending_name e, json_of_window w)) o.endings));
          ("tasks", `List (List.map task o.tasks));
          ("within", `List (List.map within o.deadlines));

@@ -85,9 +85,7 @@ let write_map (export : Export_options.t) path name found : (Exit_status.t, Erro
 let run () (is_export, path, name) set fleet seed answers json adapters definition (export : Export_options.t) =
   let is_export = is_export || export.format <> None || export.path <> None in
   Report.result
-    (let* program = Program_file.load ~set path in
-     let* fleet = Fleet_file.load_for ~program:path fleet in
-     let* program = Program_file.within fleet program in
+    (let* program, fleet = Program_file.load_with_fleet ~set ~fleet path in
      let* definition = Definition_file.load definition in
      Report.diagnostics ~source:program.source program.warnings;
      let* () =

@@ -4,11 +4,8 @@ open Dolphin_app
 let ( let* ) = Result.bind
 
 let load set fleet settings path =
-  let* program = Program_file.load ~set path in
-  let* fleet = Fleet_file.load_for ~program:path fleet in
-  let* program = Program_file.within fleet program in
-  let* successors = Successors.create ~version:Version.number settings program fleet in
-  Ok successors
+  let* program, fleet = Program_file.load_with_fleet ~set ~fleet path in
+  Successors.create ~version:Version.number settings program fleet
 
 let done_ result = Result.map (fun () -> Exit_status.Done) result
 

@@ -51,9 +51,7 @@ let perform jar task program ({ files; environment; world } : Tla_model.t) =
 let run path set fleet answers faults tick directory check compare strict limit jar workers distributed coverage =
   Report.result
     (let* task = task directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverage in
-     let* program = Program_file.load ~set path in
-     let* fleet = Fleet_file.load_for ~program:path fleet in
-     let* program = Program_file.within fleet program in
+     let* program, fleet = Program_file.load_with_fleet ~set ~fleet path in
      let* model = Tla_model.make ?tick ~answers ~faults program fleet in
      perform jar task program model)
 

@@ -34,9 +34,8 @@ let status path : Verdict.t -> (Exit_status.t, Error.t) result = function
 let check_times program_path set path fleet tolerance =
   if path = "-" then Error (Error.Bad_input "--timed reads the journal twice, so it must be a file")
   else
-    let* p = Program_file.load_recorded ~set ~recorded:(Journal_file.settings path) program_path in
-    let* fleet = Fleet_file.load_for ~program:program_path fleet in
-    let* p = Program_file.within fleet p in
+    let recorded = Journal_file.settings path in
+    let* p, fleet = Program_file.load_with_fleet ~set ?recorded ~fleet program_path in
     let* findings = Time_check.check ?tolerance p fleet path in
     List.iter print_endline findings;
     Ok (if findings = [] then Exit_status.Done else Failed)

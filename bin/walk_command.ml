@@ -19,9 +19,8 @@ let read prompt =
 
 let run path set fleet answers faults trace =
   Report.result
-    (let* program = Program_file.load_recorded ~set ~recorded:(Option.bind trace Witness_file.settings) path in
-     let* fleet = Fleet_file.load_for ~program:path fleet in
-     let* program = Program_file.within fleet program in
+    (let recorded = Option.bind trace Witness_file.settings in
+     let* program, fleet = Program_file.load_with_fleet ~set ?recorded ~fleet path in
      Report.diagnostics ~source:program.source program.warnings;
      let* () = Walk_session.run ~read ~print:print_endline ~columns program fleet ~answers ~faults ~trace in
      Ok Exit_status.Done)

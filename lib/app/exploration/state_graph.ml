@@ -29,9 +29,7 @@ let explored ~limit environment (program : Program_file.t) world =
   | exception Dolphin_environment.Environment.Unclear fault -> Error (Program_file.unsettled program fault)
 
 let of_program w path =
-  let* program = Program_file.load ~set:w.set path in
-  let* fleet = Fleet_file.load_for ~program:path w.fleet in
-  let* program = Program_file.within fleet program in
+  let* program, fleet = Program_file.load_with_fleet ~set:w.set ~fleet:w.fleet path in
   let environment = Scenario_world.environment ~answers:w.answers ~faults:w.faults program.program fleet.scenario in
   let* space = explored ~limit:w.limit environment program (Scenario_world.world fleet.scenario) in
   Ok (graph program.program space)

@@ -57,6 +57,12 @@ let load_recorded ~set ~recorded path =
     Error (Error.Bad_input "the recorded run has parameters of its own: leave out --set")
   | _, (Some _ | None) -> load ~set path
 
+let load_with_fleet ~set ?recorded ~fleet path =
+  let* program = load_recorded ~set ~recorded path in
+  let* fleet = Fleet_file.load_for ~program:path fleet in
+  let* program = within fleet program in
+  Ok (program, fleet)
+
 let header p = Dolphin_trace.Header.source ~set:p.set ~path:p.path p.source
 
 let location p site = Dolphin_semantics.(Fault.location p.program (Fault.make site ""))

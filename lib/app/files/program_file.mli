@@ -27,6 +27,12 @@ val load_recorded :
 (** [load_recorded ~set ~recorded path] is the program as a run had it that recorded what its parameters were set to,
     if there is one; to set others is an error. *)
 
+val load_with_fleet :
+  set:(string * string) list -> ?recorded:(string * string) list -> fleet:string option -> string ->
+  (t * Fleet_file.t, Error.t) result
+(** [load_with_fleet ~set ~recorded ~fleet path] is the program that {!load_recorded} loads, {!within} the fleet that
+    {!Fleet_file.load_for} chooses, and that fleet. *)
+
 val parse : string -> (Ast.program, Error.t) result
 (** [parse path] is the syntax tree of the program in the file [path], which need not elaborate. *)
 

@@ -43,10 +43,10 @@ class Spark(unittest.TestCase):
         for name, options in CASES:
             for reduction in ("none", "por"):
                 with self.subTest(name, options=options, reduction=reduction):
-                    options = options + ["--reduction", reduction]
-                    run = subprocess.run(command(name, "--width", "8", "--partitions", "2", *options),
+                    chosen = options + ["--reduction", reduction]
+                    run = subprocess.run(command(name, "--width", "8", "--partitions", "2", *chosen),
                                          stdout=subprocess.PIPE, text=True)
-                    self.agrees(run.stdout, expected(name, options))
+                    self.agrees(run.stdout, expected(name, chosen))
 
     def test_cycles(self):
         """Runs without end: what leads nowhere is taken away until cycles are left, or nothing."""

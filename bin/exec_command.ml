@@ -101,7 +101,7 @@ let check_sampling (s : Run.settings) show ~follow ~resumed ~keep =
 let sample (s : Run.settings) program fleet (sampling : Sampling_options.t) =
   let drawing = s.recording.drawing in
   let* () = Option.fold drawing ~none:(Ok ()) ~some:Drawing.check in
-  Sampling_options.run sampling ~drawing ~seed:(Option.value s.seed ~default:0) ~answers:s.answers program fleet
+  Sampling_options.run sampling ~drawing ~seed:s.seed ~answers:s.answers program fleet
 
 let run () show path set sim fleet network adapters definition speed seed answers supplier supplier_timeout journal keep
     drawing recorded resumed changed no_socket sampling =

@@ -1,7 +1,11 @@
 open Cmdliner
 open Dolphin_app
 
-type t = { runs : int option; until : float option; jobs : int option; json : bool }
+(* Made here, or read where they were made. *)
+type source = Made of { runs : int option; until : float option; jobs : int option } | Read of string
+
+type output = People | Json | Each
+type t = { source : source; output : output }
 
 let s_many = "MANY RUNS"
 
@@ -29,14 +33,35 @@ let jobs =
 let json =
   Arg.(value & flag & info [ "json" ] ~docs:s_many ~doc:"With $(b,--runs): print the answer as one JSON object.")
 
-let wanted =
-  let make runs until jobs json =
-    match runs, until with
-    | None, None when jobs <> None || json -> Error (`Msg "--jobs and --json go with --runs or --until")
-    | None, None -> Ok None
-    | _, _ -> Ok (Some { runs; until; jobs; json })
+let each =
+  let doc =
+    "With $(b,--runs): print a line of JSON for each run, in the order of seeds, in place of an answer about all of \
+     them. A header stands before them. $(i,docs/time.md) has their members."
   in
-  Term.term_result ~usage:true Term.(const make $ runs $ until $ jobs $ json)
+  Arg.(value & flag & info [ "each" ] ~docs:s_many ~doc)
+
+let runs_from =
+  let doc =
+    "Make no runs, but count those that $(b,--each) printed into the file $(docv), or, if it is $(b,-), on standard \
+     input: the outputs of several machines, put behind each other in the order of their seeds. $(i,PROG), the fleet, \
+     $(b,--set) and $(b,--answer) are those of the runs."
+  in
+  Arg.(value & opt (some string) None & info [ "runs-from" ] ~docs:s_many ~docv:"FILE" ~doc)
+
+let wanted =
+  let make runs until jobs json each from =
+    match from, runs, until with
+    | Some _, _, _ when runs <> None || until <> None || jobs <> None || each ->
+      Error (`Msg "--runs-from makes no runs: --runs, --until, --jobs and --each do not go with it")
+    | None, None, None when jobs <> None || json || each ->
+      Error (`Msg "--jobs, --json and --each go with --runs or --until")
+    | None, None, None -> Ok None
+    | _, _, _ when json && each -> Error (`Msg "--json is one answer, --each a line for each run: give one of them")
+    | _, _, _ ->
+      let source = match from with Some path -> Read path | None -> Made { runs; until; jobs } in
+      Ok (Some { source; output = (if json then Json else if each then Each else People) })
+  in
+  Term.term_result ~usage:true Term.(const make $ runs $ until $ jobs $ json $ each $ runs_from)
 
 (* {1 Runs} *)
 
@@ -50,27 +75,53 @@ let progress ~live ~most =
       Printf.eprintf "\r%d%s runs\027[K%!" n most
     end
 
-let run t ~drawing ~seed ~answers program fleet =
-  let live = Unix.isatty Unix.stderr && not t.json in
+let heed_interruption () =
   let interrupted = ref false in
   let interrupt = Sys.Signal_handle (fun _ -> interrupted := true) in
   List.iter (fun signal -> Sys.set_signal signal interrupt) [ Sys.sigint; Sys.sigterm ];
-  let settings : Sampling.settings =
-    { seed; runs = t.runs; until = t.until; jobs = Option.value t.jobs ~default:(Processors.count ()); answers }
-  in
-  let sampled =
-    Sampling.run ~interrupted:(fun () -> !interrupted) ~progress:(progress ~live ~most:t.runs) settings program fleet in
-  if live then prerr_string "\r\027[K";
-  let draw program s drawing =
-    Drawing.write_text drawing
-      ~svg:(fun () -> Sampling_picture.svg program s)
-      ~html:(fun () -> Sampling_picture.html program s)
-  in
+  fun () -> !interrupted
+
+let sampled t ~seed ~answers program fleet =
+  let header = Sample_lines.header ~version:Version.number ~answers program fleet in
+  match t.source with
+  | Read path -> Sampling.count ~answers (Sample_lines.read ~header path)
+  | Made { runs; until; jobs } ->
+    let live = Unix.isatty Unix.stderr && t.output = People in
+    let tell line = if t.output = Each then (print_string (line ()); print_char '\n') in
+    let each ~seed sample = tell (fun () -> Sample_lines.of_sample program ~seed sample) in
+    tell (fun () -> header);
+    let settings : Sampling.settings =
+      { seed = Option.value seed ~default:0; runs; until; jobs = Option.value jobs ~default:(Processors.count ());
+        answers }
+    in
+    let progress = progress ~live ~most:runs in
+    let s = Sampling.run ~interrupted:(heed_interruption ()) ~progress ~each settings program fleet in
+    if live then prerr_string "\r\027[K";
+    s
+
+let check t ~drawing ~seed =
+  match t with
+  | { source = Read _; _ } when seed <> None -> Error (Error.Bad_input "--runs-from makes no runs: --seed has no use")
+  | { output = Each; _ } when drawing <> None ->
+    Error (Error.Bad_input "--each prints runs and draws none: --runs-from draws what was printed")
+  | _ -> Ok ()
+
+let draw program s drawing =
+  Drawing.write_text drawing
+    ~svg:(fun () -> Sampling_picture.svg program s)
+    ~html:(fun () -> Sampling_picture.html program s)
+
+let print t program s =
+  match t.output with
+  | People -> Sampling_report.print program s
+  | Json -> print_endline (Yojson.Safe.to_string (Sampling_report.to_json program s))
+  | Each -> ()
+
+let run t ~drawing ~seed ~answers program fleet =
   let status (s : Sampling.t) =
     let drawn = Option.fold drawing ~none:(Ok ()) ~some:(draw program s) in
-    if t.json then print_endline (Yojson.Safe.to_string (Sampling_report.to_json program s))
-    else Sampling_report.print program s;
+    print t program s;
     let status : Exit_status.t = match s.stop with Interrupted _ -> Interrupted | All | Known -> Done in
     Result.map (fun () -> status) drawn
   in
-  Result.bind sampled status
+  Result.bind (check t ~drawing ~seed) (fun () -> Result.bind (sampled t ~seed ~answers program fleet) status)

@@ -7,6 +7,7 @@ import sys
 import tempfile
 import time
 
+from dolphin_spark import files
 from dolphin_spark.facts import places_may_cycle, prune
 from dolphin_spark.local import Local
 from dolphin_spark.successors import Inconclusive, Successors, pack
@@ -37,8 +38,8 @@ def arguments():
 
 def main():
     a = arguments()
-    dolphin = which(a.dolphin)
-    fleet = a.fleet or beside(a.program)
+    dolphin = files.command(a.dolphin)
+    fleet = a.fleet or files.beside(a.program)
     options = []
     for name, values in (("--set", a.set), ("--invariant", a.invariant)):
         for value in values:
@@ -68,26 +69,15 @@ def main():
     sys.exit(status)
 
 
-def which(command):
-    from shutil import which as found
-    return os.path.abspath(found(command) or sys.exit("there is no %s: --dolphin says where it is" % command))
-
-
-def beside(program):
-    fleet = os.path.splitext(program)[0] + ".fleet"
-    return fleet if os.path.exists(fleet) else None
-
-
 def on_spark(a, dolphin, fleet, options, greeting, local, scratch):
     from dolphin_spark import ship
     from dolphin_spark.search import Search, Store
-    spark = ship.context(a.master, [dolphin, a.program] + ([fleet] if fleet else []), scratch)
+    spark = ship.context("dolphin explore", a.master, [dolphin, a.program] + ([fleet] if fleet else []), scratch)
     folder = a.folder or os.path.join(scratch, "levels")
     if "://" not in folder:
         folder = "file://" + os.path.abspath(folder)
-    job = {"dolphin": os.path.basename(dolphin), "program": os.path.basename(a.program),
-           "fleet": os.path.basename(fleet) if fleet else None, "options": options, "greeting": greeting,
-           "conditions": a.invariant, "partitions": a.partitions}
+    job = files.job(dolphin, a.program, fleet, options)
+    job.update(greeting=greeting, conditions=a.invariant, partitions=a.partitions)
 
     def tell(search):
         print("depth %d: %d states, frontier %d" % (search.depth, search.states, search.frontier), file=sys.stderr)

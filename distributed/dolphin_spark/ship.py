@@ -16,10 +16,11 @@ def package(scratch):
     return path
 
 
-def context(master, files, scratch):
+def context(name, master, files, scratch):
     from pyspark import SparkConf, SparkContext
     os.environ.setdefault("PYSPARK_PYTHON", sys.executable)
-    conf = SparkConf().setMaster(master).setAppName("dolphin explore").setIfMissing("spark.ui.enabled", "false")
+    conf = SparkConf().setMaster(master).setAppName(name)
+    conf.setIfMissing("spark.ui.enabled", "false")
     conf.setIfMissing("spark.ui.showConsoleProgress", "false")
     conf.setIfMissing("spark.driver.bindAddress", "127.0.0.1" if master.startswith("local") else "0.0.0.0")
     spark = SparkContext(conf=conf)

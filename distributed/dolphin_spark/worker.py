@@ -1,28 +1,18 @@
 """What runs on the machines of a cluster: one filter for each process of Python, which lives from task to task."""
 
 import atexit
-import os
-import stat
 
+from . import files
 from .levels import by_partition, expand, merge, records
 from .successors import Successors
 
 _filters = {}
 
 
-def command_of(job):
-    """The command line of the filter, with the files where Spark has put them."""
-    from pyspark import SparkFiles
-    dolphin = SparkFiles.get(job["dolphin"])
-    os.chmod(dolphin, os.stat(dolphin).st_mode | stat.S_IXUSR)
-    fleet = ["--fleet", SparkFiles.get(job["fleet"])] if job["fleet"] else []
-    return [dolphin, "successors", SparkFiles.get(job["program"])] + fleet + job["options"]
-
-
 def filter_of(job):
     known = _filters.get(job["greeting"])
     if known is None or known.process.poll() is not None:
-        known = Successors(command_of(job), len(job["conditions"]), job["greeting"])
+        known = Successors(files.command_line(job, "successors"), len(job["conditions"]), job["greeting"])
         _filters[job["greeting"]] = known
         atexit.register(known.process.kill)
     return known

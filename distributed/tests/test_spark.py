@@ -1,4 +1,4 @@
-"""Searches on Spark: examples in local[2]; a driver that is killed, and the search resumed; a worker of a cluster on
+"""Searches and simulated runs on Spark: examples in local[2]; a driver that is killed, and the search resumed; a worker of a cluster on
 loopback that is killed on the way. Run by the Python that distributed/install prints. DOLPHIN is the command."""
 
 import json
@@ -13,6 +13,7 @@ import unittest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 EXPLORE = os.path.join(HERE, "..", "explore.py")
+RUNS = os.path.join(HERE, "..", "runs.py")
 DOLPHIN = os.environ.get("DOLPHIN", "dolphin")
 EXAMPLES = os.path.join(HERE, "..", "..", "examples")
 CASES = [("rendezvous", []), ("supplier", ["--faults", "fail=1"]), ("watch", ["--faults", "fail"]), ("rotation", [])]
@@ -47,6 +48,23 @@ class Spark(unittest.TestCase):
                     run = subprocess.run(command(name, "--width", "8", "--partitions", "2", *chosen),
                                          stdout=subprocess.PIPE, text=True)
                     self.agrees(run.stdout, expected(name, chosen))
+
+    def test_runs(self):
+        """Simulated runs made in parts are those of one process."""
+        options = [os.path.join(EXAMPLES, "goals.dol"), "--runs", "1000", "--seed", "7", "--json"]
+        spark = [sys.executable, RUNS, *options, "--dolphin", DOLPHIN, "--part", "30"]
+        found = [json.loads(subprocess.run(command, stdout=subprocess.PIPE).stdout)
+                 for command in (spark, [DOLPHIN, "exec", *options])]
+        for answer in found:
+            del answer["elapsed"]
+        self.assertEqual(found[0], found[1])
+
+    def test_runs_of_nothing(self):
+        """What is wrong with a program is told by Dolphin, before Spark begins."""
+        run = subprocess.run([sys.executable, RUNS, "none.dol", "--runs", "10", "--dolphin", DOLPHIN],
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.assertEqual((run.returncode, run.stdout), (2, ""))
+        self.assertEqual(run.stderr, "dolphin: none.dol: No such file or directory\n")
 
     def test_cycles(self):
         """Runs without end: what leads nowhere is taken away until cycles are left, or nothing."""

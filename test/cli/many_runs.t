@@ -56,6 +56,55 @@ The same, whoever makes them, and for programs.
   {'at': 'relay.dol:2:12', 'ran': 10, 'runs': 7}
   ['5%', '50%', '95%', 'first', 'histogram', 'last'] 18
 
+Each of them as a line: made in parts, on several machines perhaps, and counted together.
+
+  $ dolphin exec relay.dol --runs 250 --each > first
+  $ dolphin exec relay.dol --seed 250 --runs 150 --each --jobs 3 > second
+  $ head -2 first | sed 's/"version":"[^"]*"/"version":"..."/; s/"[0-9a-f]\{32\}"/"<digest>"/g; s/\("seconds":[0-9]*\)[.0-9]*/\1/'
+  {"dolphin":"runs","version":"...","program":"<digest>","fleet":"<digest>","set":{},"answers":[]}
+  {"seed":0,"end":"completed","seconds":394,"tasks":[{"task":"survey","vehicle":"a","at":"relay.dol:2:19","site":14,"began":2,"ended":1,"failed":1,"stopped":0},{"task":"home","vehicle":"a","at":"relay.dol:2:61","site":21,"began":1,"ended":1,"failed":0,"stopped":0}],"handlers":[{"at":"relay.dol:2:12","site":15,"ran":1}]}
+  $ tail -n +2 second | grep -m 1 -o '^.*"end":"failed".*"seconds"'
+  {"seed":282,"end":"failed","message":"home failed on a: plan failed","cause":"task","vehicle":"a","task":"home","at":"relay.dol:2:61","site":21,"seconds"
+  $ cat first second | dolphin exec relay.dol --runs-from - | timeless | diff one -
+  $ dolphin exec relay.dol --runs-from first --json --draw first.svg | grep -o '"runs":250,"seed":0'
+  "runs":250,"seed":0
+  $ grep -o '[0-9]* of 250 runs completed' first.svg
+  242 of 250 runs completed
+
+What is no such file, or lacks runs, is not counted.
+
+  $ cat second first | dolphin exec relay.dol --runs-from -
+  dolphin: standard input:153: the run with the seed 400 is to follow that with 399
+  [2]
+  $ grep -v '"seed":7,' first > gap; dolphin exec relay.dol --runs-from gap
+  dolphin: gap:9: the run with the seed 7 is to follow that with 6
+  [2]
+  $ tail -n +2 first | dolphin exec relay.dol --runs-from -
+  dolphin: standard input:1: before the first run there is to be the header: all that --each has printed
+  [2]
+  $ head -1 first | dolphin exec relay.dol --runs-from -
+  dolphin: standard input:2: there are no runs
+  [2]
+  $ cp relay.fleet other.fleet; echo "vehicle 'b', { type 'UUV' }" >> other.fleet
+  $ dolphin exec relay.dol --fleet other.fleet --runs-from first
+  dolphin: first:1: these are runs of another program, fleet or version of Dolphin, or with other parameters or answers
+  [2]
+  $ head -c 300 first | dolphin exec relay.dol --runs-from -
+  dolphin: standard input:2: this is no JSON
+  [2]
+  $ sed 's/"end":"completed"/"end":"well"/' first | dolphin exec relay.dol --runs-from -
+  dolphin: standard input:2: 'well' is no way in which a run ends
+  [2]
+  $ sed 's/"ended":1/"ended":"one"/' first | dolphin exec relay.dol --runs-from -
+  dolphin: standard input:2: "tasks" is "ended" is "one", not a whole number
+  [2]
+  $ dolphin exec relay.dol --runs-from none
+  dolphin: none: No such file or directory
+  [2]
+  $ dolphin exec relay.dol --runs-from .
+  dolphin: .: Is a directory
+  [2]
+
 One of them by itself.
 
   $ dolphin exec relay.dol --seed 17 | tail -1
@@ -93,7 +142,17 @@ What does not go together.
   $ dolphin exec relay.dol --until 1 2>&1 | head -1
   dolphin: option '--until': '1' is not a number between 0 and 0.5
   $ dolphin exec relay.dol --json 2>&1 | head -1
-  dolphin: --jobs and --json go with --runs or --until
+  dolphin: --jobs, --json and --each go with --runs or --until
+  $ dolphin exec relay.dol --runs-from first --runs 3 2>&1 | head -1
+  dolphin: --runs-from makes no runs: --runs, --until, --jobs and --each do not go with it
+  $ dolphin exec relay.dol --runs-from first --seed 3
+  dolphin: --runs-from makes no runs: --seed has no use
+  [2]
+  $ dolphin exec relay.dol --runs 3 --each --json 2>&1 | head -1
+  dolphin: --json is one answer, --each a line for each run: give one of them
+  $ dolphin exec relay.dol --runs 3 --each --draw runs.svg
+  dolphin: --each prints runs and draws none: --runs-from draws what was printed
+  [2]
   $ dolphin exec relay.dol --runs 3 --journal relay.run
   dolphin: of many runs (--runs, --until) there is one answer: of the other options only --fleet, --sim, --set, --seed, --answer and --draw go with them
   [2]

@@ -1138,6 +1138,14 @@ let sampled =
         {|    | Watch_ignore | Watch_propagate | Watch_halt|},
         {|    | Watch_ignore | Watch_halt|} );
     ]
+  @ in_file "lib/app/sampling/sample_lines.ml" ~noticed_by:"time/test_sampled"
+    [
+      ("times to the second", {|Canonical.number s.seconds|}, {|Canonical.number (Float.round s.seconds)|});
+      ( "tasks failed whoever had them",
+        {|("cause", `String "task"); ("vehicle", `String vehicle); ("task", `String task)|},
+        {|("cause", `String "task"); ("vehicle", `String ""); ("task", `String task)|} );
+      ("runs may be missing", {|when seed = last + 1 -> Ok ()|}, {|when seed > last -> Ok ()|});
+    ]
 
 let travel =
   in_file "lib/semantics/language/travel.ml" ~noticed_by:"plan/test_travel"

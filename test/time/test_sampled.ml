@@ -1,5 +1,6 @@
 (* Many simulated runs: those that end do so within the bounds that `dolphin time` gives, in a way that it knows of; how
-   many processes make them makes no difference. RUNS in the environment is how many there are, 20 by default. *)
+   many processes make them makes no difference, nor whether they are written as lines and read again. RUNS in the
+   environment is how many there are, 20 by default. *)
 
 open Dolphin_app
 open Dolphin_time
@@ -15,9 +16,34 @@ let load name =
   let path = Filename.concat folder (name ^ ".dol") in
   (ok (Program_file.load path), ok (Fleet_file.load_for ~program:path None))
 
-let sample ?until ?(runs = runs) ~jobs (program, fleet) =
+let sample ?until ?(runs = runs) ?(each = fun ~seed:_ _ -> ()) ~jobs (program, fleet) =
   let settings : Sampling.settings = { seed = 5; runs = Some runs; until; jobs; answers = [] } in
-  ok (Sampling.run ~interrupted:(fun () -> false) ~progress:ignore settings program fleet)
+  ok (Sampling.run ~interrupted:(fun () -> false) ~progress:ignore ~each settings program fleet)
+
+let without_time s = { s with Sampling.seconds = 0.; settings = { s.Sampling.settings with jobs = 0 } }
+
+(* Runs whose lines are written into a file, but for the [left_out]-th, and what comes of reading it. *)
+let by_lines ?left_out (program, fleet) =
+  let header = Sample_lines.header ~version:"test" ~answers:[] program fleet in
+  let path = Filename.temp_file "dolphin" ".runs" in
+  Fun.protect ~finally:(fun () -> Sys.remove path) (fun () ->
+      let channel = open_out_bin path in
+      let put line = output_string channel (line ^ "\n") in
+      put header;
+      let each ~seed run = if Some (seed - 5) <> left_out then put (Sample_lines.of_sample program ~seed run) in
+      let made = sample ~each ~jobs:2 (program, fleet) in
+      close_out channel;
+      (made, Sampling.count ~answers:[] (Sample_lines.read ~header path)))
+
+let sample_by_lines mission =
+  let made, read = by_lines mission in
+  Alcotest.(check bool) "read as they were made" true (without_time (ok read) = without_time made);
+  made
+
+let test_left_out () =
+  match by_lines ~left_out:(runs / 2) (load "goals") with
+  | _, Error (Error.Bad_input _) -> ()
+  | _, (Ok _ | Error _) -> Alcotest.fail "a run is missing"
 
 let time ((program : Program_file.t), (fleet : Fleet_file.t)) =
   let options : Timed.options =
@@ -63,12 +89,11 @@ let check_example name () =
   let _, (fleet : Fleet_file.t) as mission = load name in
   if is_steady fleet.scenario then begin
     let o = time mission in
-    if o.stopped = None && o.endless = None then check_bounds o (sample ~jobs:2 mission)
+    if o.stopped = None && o.endless = None then check_bounds o (sample_by_lines mission)
   end
 
 let test_processes () =
   let mission = load "goals" in
-  let without_time s = { s with Sampling.seconds = 0.; settings = { s.Sampling.settings with jobs = 0 } } in
   let one = without_time (sample ~jobs:1 mission) in
   List.iter
     (fun jobs -> Alcotest.(check bool) (string_of_int jobs) true (without_time (sample ~jobs mission) = one))
@@ -96,17 +121,17 @@ let test_counts () =
   write fleet "vehicle 'a', { type 'UUV' }\nplan 'bad', { duration 60; fails }\nplan 'good', { duration 60 }\n";
   let remove () = List.iter Sys.remove [ path; fleet ] in
   Fun.protect ~finally:remove (fun () ->
-      let s = sample ~runs:10 ~jobs:2 (ok (Program_file.load path), ok (Fleet_file.load_for ~program:path None)) in
+      let s = sample_by_lines (ok (Program_file.load path), ok (Fleet_file.load_for ~program:path None)) in
       let task (t : Sampling.task) =
         (t.task.name, [ t.counts.began; t.counts.ended; t.counts.failed; t.counts.stopped; t.failing ]) in
       Alcotest.(check (list (pair string (list int)))) "tasks"
-        [ ("bad", [ 30; 0; 30; 0; 10 ]); ("good", [ 10; 0; 0; 10; 0 ]) ]
+        [ ("bad", [ 3 * runs; 0; 3 * runs; 0; runs ]); ("good", [ runs; 0; 0; runs; 0 ]) ]
         (List.map task s.tasks);
       (* The inner handler runs three times, the outer one after the third. *)
-      Alcotest.(check (list (pair int int))) "handlers" [ (30, 10); (10, 10) ]
+      Alcotest.(check (list (pair int int))) "handlers" [ (3 * runs, runs); (runs, runs) ]
         (List.sort (fun a b -> compare b a) (List.map (fun (h : Sampling.handler) -> (h.ran, h.runs)) s.handlers));
       match s.endings with
-      | [ { ending = Halted "over"; runs = 10; seed = 5 } ] -> ()
+      | [ { ending = Halted "over"; runs = n; seed = 5 } ] when n = runs -> ()
       | _ -> Alcotest.fail "all halt")
 
 let () =
@@ -115,5 +140,6 @@ let () =
     [ ("examples", List.map case (Test_support.Examples.with_fleets ()));
       ("all of them",
        [ Alcotest.test_case "processes" `Quick test_processes; Alcotest.test_case "counts" `Quick test_counts;
+         Alcotest.test_case "a line is left out" `Quick test_left_out;
          Alcotest.test_case "many were compared" `Quick (fun () ->
              Alcotest.(check bool) "most" true (!compared > 20)) ]) ]

@@ -88,19 +88,18 @@ let codec program : Portable.codec =
 
 let protocol = 1
 
-let greeting_of ~version (settings : settings) (program : Program_file.t) (fleet : Fleet_file.t) =
-  let digest text = `String (Digest.to_hex (Digest.string text)) in
+let greeting_of ~version (settings : settings) program fleet =
   let options =
-    [ ("set", `Assoc (List.map (fun (x, value) -> (x, `String value)) program.set));
-      ("answers", Field.texts settings.answers);
+    [ ("answers", Field.texts settings.answers);
       ("faults", `String (Fmt.str "%a" Faults.pp settings.faults));
       ("reduction", `String (if Reduction.by_order settings.reduction then "por" else "none"));
       ("invariants", Field.texts settings.invariants) ]
   in
   Yojson.Safe.to_string
     (`Assoc
-       [ ("dolphin", `String "successors"); ("protocol", `Int protocol); ("version", `String version);
-         ("program", digest program.source); ("fleet", digest fleet.source); ("options", `Assoc options) ])
+       ([ ("dolphin", `String "successors"); ("protocol", `Int protocol) ]
+        @ Provenance.members ~version program fleet
+        @ [ ("options", `Assoc options) ]))
 
 let make ~greeting options (program : Program_file.t) world =
   let options = Search.without_symmetry options program.program in

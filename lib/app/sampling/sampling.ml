@@ -120,7 +120,7 @@ exception Refused of Error.t
 
 (* Runs count in the order of their seeds, so that nothing depends on which process was faster; [waiting] is those that
    came before their turn. *)
-let rec count_ready (settings : settings) tally waiting j =
+let rec count_ready ~each (settings : settings) tally waiting j =
   let seed = settings.seed + tally.count in
   match Hashtbl.find_opt waiting seed with
   | None -> Counting j
@@ -128,8 +128,9 @@ let rec count_ready (settings : settings) tally waiting j =
   | Some (Ok sample) ->
     Hashtbl.remove waiting seed;
     add tally seed sample;
+    each ~seed sample;
     (match after_run settings tally j with
-     | Counting j -> count_ready settings tally waiting j
+     | Counting j -> count_ready ~each settings tally waiting j
      | Stopped _ as stopped -> stopped)
 
 (* Those that are known after others that are not: an interruption leaves out those that take long. *)
@@ -138,20 +139,20 @@ let count_rest (settings : settings) tally waiting under_way j =
   let level = match settings.until with None -> level | Some _ -> Share.level_of_look ~level j in
   (Interrupted under_way, level)
 
-let follow ~interrupted ~progress settings workers tally =
+let follow ~interrupted ~progress ~each settings workers tally =
   let waiting = Hashtbl.create 1_000 in
   let rec go j =
     if interrupted () then count_rest settings tally waiting (Workers.under_way workers) j
     else begin
       List.iter (fun (seed, result) -> Hashtbl.replace waiting seed result) (Workers.next workers ~timeout:0.2);
-      let course = count_ready settings tally waiting j in
+      let course = count_ready ~each settings tally waiting j in
       progress tally.count;
       match course with Counting j -> go j | Stopped (stop, level) -> (stop, level)
     end
   in
   go 1
 
-let run ~interrupted ~progress (settings : settings) program fleet =
+let run ~interrupted ~progress ~each (settings : settings) program fleet =
   let began = Unix.gettimeofday () in
   let last = Option.map (fun n -> settings.seed + n - 1) settings.runs in
   let jobs = match settings.runs with Some n -> max 1 (min n settings.jobs) | None -> settings.jobs in
@@ -161,9 +162,23 @@ let run ~interrupted ~progress (settings : settings) program fleet =
   match
     Fun.protect
       ~finally:(fun () -> Workers.stop workers)
-      (fun () -> follow ~interrupted ~progress settings workers tally)
+      (fun () -> follow ~interrupted ~progress ~each settings workers tally)
   with
   | stop, level -> Ok (result settings tally ~level ~stop ~seconds:(Unix.gettimeofday () -. began))
   | exception Refused e -> Error e
   | exception Workers.Died seed ->
     Error (Error.Unavailable (Printf.sprintf "the process that simulated the run with the seed %d has died" seed))
+
+let count ~answers read =
+  let began = Unix.gettimeofday () in
+  let tally = nothing () and first = ref None in
+  let add ~seed sample =
+    if !first = None then first := Some seed;
+    add tally seed sample
+  in
+  let result () =
+    let settings =
+      { seed = Option.value !first ~default:0; runs = Some tally.count; until = None; jobs = 1; answers } in
+    result settings tally ~level ~stop:All ~seconds:(Unix.gettimeofday () -. began)
+  in
+  Result.map result (read ~add)

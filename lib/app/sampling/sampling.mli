@@ -49,8 +49,14 @@ val share : t -> int -> Dolphin_statistics.Share.interval
 (** [share s n] is the interval for the share of which [n] of the runs of [s] are a sample. *)
 
 val run :
-  interrupted:(unit -> bool) -> progress:(int -> unit) -> settings -> Program_file.t -> Fleet_file.t ->
-  (t, Error.t) result
-(** [run ~interrupted ~progress s program fleet] is the runs with the seeds from [s.seed] on; which ones depends neither
-    on [s.jobs] nor on chance, unless [interrupted ()] becomes true. [progress] is told how many there are. When it is
-    over, no process is left. *)
+  interrupted:(unit -> bool) -> progress:(int -> unit) -> each:(seed:int -> Sample.t -> unit) -> settings ->
+  Program_file.t -> Fleet_file.t -> (t, Error.t) result
+(** [run ~interrupted ~progress ~each s program fleet] is the runs with the seeds from [s.seed] on; which ones
+    depends neither on [s.jobs] nor on chance, unless [interrupted ()] becomes true. [progress] is told how many there
+    are, [each] each run, in the order of seeds, but not those that are known after others that an interruption left
+    out. When it is over, no process is left. *)
+
+val count :
+  answers:string list -> (add:(seed:int -> Sample.t -> unit) -> (unit, Error.t) result) -> (t, Error.t) result
+(** [count ~answers read] is likewise of the runs that [read ~add] gives to [add], in the order of their seeds, without
+    gaps. They were made with [answers]. *)

@@ -1,0 +1,5 @@
+(** What a result was made of, for those who put results together. *)
+
+val members : version:string -> Program_file.t -> Fleet_file.t -> Dolphin_json.Field.members
+(** The version of Dolphin, digests of the texts of program and fleet, and the parameters that were set. Results of
+    whose inputs one differs have other members. *)

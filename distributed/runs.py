@@ -21,7 +21,8 @@ def arguments():
     parser.add_argument("--draw", metavar="FILE", help="draw when runs are over, *.svg or *.html")
     parser.add_argument("--dolphin", default="dolphin", help="the command, which is sent to the machines")
     parser.add_argument("--master", default="local[2]", help="of Spark: spark://HOST:7077, yarn, k8s://... (local[2])")
-    parser.add_argument("--part", type=int, default=1000, metavar="N", help="runs that a machine makes at a time (1000)")
+    parser.add_argument("--part", type=int, default=1000, metavar="N",
+                        help="runs that a machine makes at a time (1000)")
     a = parser.parse_args()
     if a.runs < 1 or a.part < 1:
         parser.error("--runs and --part are greater than 0")

@@ -1,5 +1,6 @@
-"""Searches and simulated runs on Spark: examples in local[2]; a driver that is killed, and the search resumed; a worker of a cluster on
-loopback that is killed on the way. Run by the Python that distributed/install prints. DOLPHIN is the command."""
+"""Searches and simulated runs on Spark: examples in local[2]; a driver that is killed, and the search resumed; a worker
+of a cluster on loopback that is killed on the way. Run by the Python that distributed/install prints. DOLPHIN is the
+command."""
 
 import json
 import os

@@ -54,7 +54,7 @@ let expected =
 let deeds text = List.of_seq (Seq.map (fun json -> Yojson.Safe.to_string json) (Yojson.Safe.seq_from_string text))
 
 let mission ~python =
-  let first = 33000 + (Unix.getpid () mod 200 * 5) in
+  let first = Test_support.Ports.lease () in
   let ports = Printf.sprintf "%d-%d" first (first + 4) in
   let file suffix = Filename.temp_file "dolphin" suffix in
   let source = file ".dol" and did = file ".jsonl" and said = file ".txt" in

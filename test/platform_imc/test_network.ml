@@ -8,7 +8,7 @@ let contains text part =
   from 0
 
 (* Each test has ports of its own: others may run at the same time. *)
-let next_port = ref (31000 + (Unix.getpid () mod 200 * 100))
+let next_port = ref (Test_support.Ports.lease ())
 
 let ports () =
   next_port := !next_port + 2;

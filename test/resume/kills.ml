@@ -19,7 +19,7 @@ let sample n trials =
 let at_once = 10
 
 (* A process for each, so many at once; the numbers of those that are wrong. *)
-let run_all trials =
+let run_all ~ports trials =
   let failed = ref [] and running = Hashtbl.create 16 in
   let wait () =
     match Unix.wait () with
@@ -31,7 +31,7 @@ let run_all trials =
   let start number trial =
     if Hashtbl.length running >= at_once then wait ();
     let judge () =
-      match Trial.run trial ~number with
+      match Trial.run trial ~ports ~number with
       | Ok () -> 0
       | Error why -> Format.eprintf "%a:@.%s@." Trial.pp trial why; 1
     in
@@ -48,11 +48,12 @@ let burden n f =
   Fun.protect ~finally:(fun () -> List.iter Processes.stop burners) f
 
 let run ?(load = 0) how_many =
-  let lines = Trial.lines () in
+  let ports = Test_support.Ports.lease () in
+  let lines = Trial.lines ~ports in
   let trials = all lines in
   let trials = match how_many with Some n -> sample n trials | None -> trials in
   let began = Unix.gettimeofday () in
-  let failed = burden load (fun () -> run_all trials) in
+  let failed = burden load (fun () -> run_all ~ports trials) in
   let summary =
     Printf.sprintf "%d consoles killed, of a journal of %d lines: %d resumed rightly, %d not; %.0f s"
       (List.length trials) lines

@@ -12,13 +12,10 @@ let pp ppf t =
   Format.fprintf ppf "killed %a, %g s later resumed" death t.death t.pause;
   if t.again <> Never then Format.fprintf ppf ", killed %a" death t.again
 
-(* Below those that systems give out by themselves, and apart from those of the same tests elsewhere on this machine. *)
 let ports_of_one = 16
-let most_at_once = 40
 
-let port number =
-  let slot = Unix.getppid () mod 20 in
-  20000 + (((slot * most_at_once) + (number mod most_at_once)) * ports_of_one)
+(* Trials that run at once have numbers that are near each other. *)
+let port ~ports number = ports + (number mod (Test_support.Ports.count / ports_of_one) * ports_of_one)
 
 (* {1 What must be so afterwards} *)
 
@@ -85,9 +82,9 @@ let rec consoles ~port ~name pause number = function
         Unix.sleepf pause;
         consoles ~port ~name 0. (number + 1) others)
 
-let run t ~number =
+let run t ~ports ~number =
   in_folder number (fun name ->
-      let port = port number in
+      let port = port ~ports number in
       write (name "trial") (Format.asprintf "%a; trial %d, ports from %d@." pp t number port);
       let vehicles = Vehicles.start ~port ~log:(name "vehicles.log") in
       let went = consoles ~port ~name t.pause 1 [ t.death; t.again; Console.Never ] in
@@ -96,10 +93,11 @@ let run t ~number =
       let with_files why = Printf.sprintf "%s\n%s%s" why (read (name "run")) (read (name "vehicles.log")) in
       Result.map_error with_files checked)
 
-let lines () =
+let lines ~ports =
   let count name =
-    let vehicles = Vehicles.start ~port:(port 0) ~log:(name "vehicles.log") in
-    let ending = console ~port:(port 0) ~name Never in
+    let port = port ~ports 0 in
+    let vehicles = Vehicles.start ~port ~log:(name "vehicles.log") in
+    let ending = console ~port ~name Never in
     Processes.stop vehicles;
     let is_sample line = String.length line > 17 && String.sub line 0 17 = "{\"kind\":\"vehicle\"" in
     let counts line = line <> "" && not (is_sample line) in

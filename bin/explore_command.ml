@@ -48,7 +48,7 @@ let of_program settings (program : Program_file.t) fleet ~strict ~json ~period ~
   let* outcome = find_or_explore settings program fleet ~json ~period ~cache in
   let written = write_files files program fleet ~strict outcome in
   Result.iter_error Report.tell written;
-  if json then print_endline (Yojson.Safe.to_string (Exploration_report.to_json program.program outcome))
+  if json then print_endline (Yojson.Safe.to_string (Exploration_report.to_json program outcome))
   else Exploration_report.print ~strict program outcome;
   match written with
   | Ok () -> Ok (Exit_status.of_verdict (Exploration.verdict ~strict outcome))
@@ -278,6 +278,8 @@ let man =
     `I ("no unhandled error", "no fault, and no error of a task that nothing handles.");
     `I ("assertions", "no $(b,assert) of the program fails.");
     `I ("vehicles for all tasks", "every $(b,pick) and every $(b,execute) gets its vehicles.");
+    `P "If there is a $(b,fence distance), it also says which plans may run side by side whose ways come nearer to \
+        each other.";
     `P "Noted are also runs that call $(b,halt), tuples left over at the end, and code that no run reaches.";
     `P "What sensors show is open: of a condition such as $(b,battery\\(v\\) < 0.3) both outcomes are possible at each \
         look, or those for the values that the fleet gives; a run says what it assumes. All vehicles of the fleet are \

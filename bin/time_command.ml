@@ -128,6 +128,8 @@ let man =
         run. How much it takes to be under way, and to rest, is $(b,battery), $(b,drain) and $(b,charge) of the fleet; \
         what is charged at rest is not counted on. If a battery runs empty in some run, that is shown, and the answer \
         is violated; if that is not known, it is inconclusive.";
+    `P "If there is a $(b,fence distance), it says which plans may run at the same time whose ways come nearer to each \
+        other: then the answer is violated, and inconclusive if vehicles know such a plan by its name only.";
     `P "With $(b,--faults), a task fails at any time until it would be done; a vehicle that is not heard of fails its \
         task when its connection timeout is over; one that is late comes until the time-out of the $(b,pick).";
     `P "It prints a run that ends last, in columns with times, and the durations that its end depends on. If some run \

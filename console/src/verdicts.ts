@@ -77,7 +77,8 @@ export class Verdicts {
     const line = (v: Json) => h("li", { class: v.verdict.replace(/ .*/, "") }, h("b", {}, mark(v.verdict)), ` ${v.property}: ${v.verdict}`,
       cx && cx.property === v.property ? this.through("exploration", cx, "Step through it") : null);
     const named = cx && r.verdicts.some((v: Json) => v.property === cx.property);
-    return [h("ul", { class: "verdicts" }, ...r.verdicts.map(line)),
+    const pairs = r.verdicts.flatMap((v: Json) => v.pairs ?? []).map((p: Json) => this.pair(p));
+    return [h("ul", { class: "verdicts" }, ...r.verdicts.map(line), ...pairs),
       ...(cx && !named ? [this.through("exploration", cx, `Step through: ${cx.property || "a run"}`)] : []),
       h("p", { class: "hint" }, `${r.states} states, ${r.transitions} transitions, ${r.seconds.toFixed(2)} s`)];
   }
@@ -93,6 +94,8 @@ export class Verdicts {
     for (const w of r.within) lines.push(h("li", { class: w.missed ? "violated" : "holds" }, h("b", {}, w.missed ? "✗" : "✓"),
       this.place(w.at, w.missed ? ` within: missed, at ${span(w.missed)}` : " within: kept")));
     for (const b of r.batteries) lines.push(h("li", { class: b.verdict }, h("b", {}, mark(b.verdict)), ` ${b.vehicle}: ${left(b)}`));
+    if (r.apart) lines.push(h("li", { class: r.apart.verdict }, h("b", {}, mark(r.apart.verdict)), ` ${r.apart.fence}: ${r.apart.verdict}`),
+      ...r.apart.pairs.map((p: Json) => this.pair(p)));
     for (const what of r.unknown) lines.push(h("li", {}, h("b", {}, "–"), ` nobody knows how long it takes: ${what.replace(/^.*\//, "")}`));
     if (r.bound) lines.push(h("li", {}, h("b", {}, "–"), ` inconclusive: ${r.bound}`));
     const chain = r.shown?.run.chain ?? [];
@@ -101,6 +104,13 @@ export class Verdicts {
         chain.map((c: Json) => `${c.what.replace(/^.*\//, "")} (${clock(c.seconds)})`).join(", then "))] : []),
       ...(cx ? [this.through("timing", cx, `Step through ${r.shown?.what ?? "a run"}`)] : []),
       h("p", { class: "hint" }, `${r.states} states, ${r.seconds.toFixed(2)} s`)];
+  }
+
+  // Plans that may run side by side.
+  private pair(p: Json) {
+    const called = (x: Json) => `'${x.plan}' on ${x.vehicle}`;
+    const far = p.metres === null ? "nobody knows how near" : `${p.metres.toFixed(1)} m between ${p.one.maneuver} and ${p.other.maneuver}`;
+    return h("li", { class: p.metres === null ? "inconclusive" : "violated" }, this.place(p.one.at, ` ${called(p.one)} beside ${called(p.other)}: ${far}`));
   }
 
   private place(at: string | null, text: string) {

@@ -408,6 +408,7 @@ let ends t =
   List.map (fun n -> (n, date t t.nodes.(n).zone)) (List.filter is_end (List.init t.count Fun.id))
 
 let count t = t.count
+let state t n = t.nodes.(n).place.state
 
 let arrival t n ({ step; begun; inert = _ } : Timed_place.arrow) =
   let execution = Timed_place.execution_after t.places t.nodes.(n).place step.next in

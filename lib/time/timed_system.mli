@@ -104,6 +104,9 @@ val ends : t -> (int * date) list
 
 val count : t -> int
 
+val state : t -> int -> Timed.state
+(** [state t n] is what state [n], below {!count}, is. *)
+
 val deadlines : t -> (Core.site * (date * arrival list) option) list
 (** The [within] that begin in some run, by their places, each with when it is missed, at the earliest or at the latest,
     and what leads there; [None]: never. *)

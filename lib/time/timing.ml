@@ -18,6 +18,10 @@ type task = Timed_system.task = { name : string; vehicle : Core.vehicle; site : 
 
 type battery = { vehicle : Core.vehicle; least : float; lowest : (float * run) option }
 
+module Side_by_side = Dolphin_explore.Side_by_side
+
+type apart = { fence : string; pairs : Side_by_side.pair list; cut_short : Limits.bound option }
+
 type outcome = {
   endings : (Timed_system.ending * window) list;
   tasks : (task * (Timed_system.moment * window) list) list;
@@ -29,6 +33,7 @@ type outcome = {
   late : run option;
   failing : run option;
   batteries : battery list;
+  apart : apart option;
   stopped : Limits.bound option;
   reduction : Timed_system.reduction;
   states : int;
@@ -175,6 +180,7 @@ let find ~(reduction : reduction) ~started ?deadline ~vehicles limits options =
     late = (match last with Some (date, _) when is_late date -> last_run | Some _ | None -> None);
     failing = run_at Latest late_system (List.assoc_opt Timed_system.Failed (Timed_system.endings late_system));
     batteries = (if is_known then batteries options late_system tasks last_run vehicles else []);
+    apart = None;
     stopped;
     reduction;
     states = Search.count late + Search.count early;
@@ -187,9 +193,48 @@ let rec attempt find (reduction : reduction) =
   try find reduction
   with Timed_system.Broken -> attempt find (match reduction with Inert_ends_and_likeness -> Inert_ends | _ -> Nothing)
 
+(* {1 Plans side by side} *)
+
+(* Pairs that no run has at one time, whatever the times, need not be looked for. *)
+let untimed limits (options : Timed.options) =
+  Dolphin_explore.Search.(side_by_side { default with environment = options.environment; reduction = All; limits })
+    options.program options.world
+
+(* Ends that are inert leave A too, and states that are alike have other plans: so all is followed. *)
+let pairs ~started limits (options : Timed.options) ~candidates =
+  let beside = Side_by_side.create options.program.fences in
+  let system = Timed_system.create ~reduction:Nothing Latest options in
+  let search = Search.create ~phase:"looking for plans side by side" ~started limits system in
+  let seen = ref 0 in
+  let enough () =
+    while !seen < Timed_system.count system do
+      Side_by_side.see beside (Timed_system.state system !seen).configuration.shared.allocation;
+      incr seen
+    done;
+    Option.fold candidates ~none:false ~some:(fun candidates -> Side_by_side.seen_all ~candidates beside)
+  in
+  Search.run ~enough search;
+  ignore (enough ());
+  (Side_by_side.pairs beside, Search.stopped search)
+
+let apart ~started limits (options : Timed.options) =
+  let found (fence : Fences.fence) =
+    let pairs, cut_short =
+      match untimed limits options with
+      | [], stopped -> ([], stopped)
+      | candidates, None -> pairs ~started limits options ~candidates:(Some (List.length candidates))
+      | _, Some _ -> pairs ~started limits options ~candidates:None
+    in
+    { fence = fence.text; pairs; cut_short }
+  in
+  Option.map found (Fences.least_distance options.program.fences)
+
 let run ?(reduction = Inert_ends_and_likeness) ?deadline ?(vehicles = []) limits options =
   let started = limits.Limits.clock () in
-  attempt (fun reduction -> find ~reduction ~started ?deadline ~vehicles limits options) reduction
+  let found = attempt (fun reduction -> find ~reduction ~started ?deadline ~vehicles limits options) reduction in
+  match apart ~started limits options with
+  | None -> found
+  | Some _ as apart -> { found with apart; seconds = limits.clock () -. started }
 
 let latest_end ~started limits options =
   let find reduction =
@@ -224,22 +269,31 @@ let is_empty share = share < slightly
 let runs_empty b = match b.lowest with Some (share, _) -> is_empty share | None -> false
 let may_run_empty b = is_empty b.least
 
-type shortfall = Never_ends | Fails | Late | Misses | Empty | Unknown
+type verdict = Dolphin_checker.Verdict.t = Holds | Violated | Inconclusive
+
+let judge_apart a =
+  let is_near (p : Side_by_side.pair) = match p.nearness with Near _ -> true | Unknown -> false in
+  if List.exists is_near a.pairs then Violated
+  else if a.pairs <> [] || a.cut_short <> None then Inconclusive
+  else Holds
+
+let apart_is verdict o = Option.map judge_apart o.apart = Some verdict
+
+type shortfall = Never_ends | Fails | Late | Misses | Empty | Too_near | Unknown
 
 let shortfall ?deadline o =
   let latest = latest o in
   let is_unknown =
     o.stopped <> None || latest = None || (deadline <> None && latest = Some Unbounded)
-    || List.exists may_run_empty o.batteries in
+    || List.exists may_run_empty o.batteries || apart_is Inconclusive o in
   if o.endless <> None then Some Never_ends
   else if List.mem_assoc Timed_system.Failed o.endings then Some Fails
   else if is_late ?deadline o then Some Late
   else if List.exists (fun (_, missed) -> missed <> None) o.deadlines then Some Misses
   else if List.exists runs_empty o.batteries then Some Empty
+  else if apart_is Violated o then Some Too_near
   else if is_unknown then Some Unknown
   else None
-
-type verdict = Dolphin_checker.Verdict.t = Holds | Violated | Inconclusive
 
 let in_time ?deadline o =
   if o.endless <> None || is_late ?deadline o then Violated
@@ -249,6 +303,6 @@ let in_time ?deadline o =
 let verdict ?deadline o =
   match in_time ?deadline o with
   | Violated -> Violated
-  | Holds | Inconclusive when List.exists runs_empty o.batteries -> Violated
-  | Holds when List.exists may_run_empty o.batteries -> Inconclusive
+  | Holds | Inconclusive when List.exists runs_empty o.batteries || apart_is Violated o -> Violated
+  | Holds when List.exists may_run_empty o.batteries || apart_is Inconclusive o -> Inconclusive
   | (Holds | Inconclusive) as verdict -> verdict

@@ -27,6 +27,13 @@ type battery = {
       sensors *)
 }
 
+(** Plans side by side, if there is a least distance between vehicles. *)
+type apart = {
+  fence : string;  (** as it is declared *)
+  pairs : Dolphin_explore.Side_by_side.pair list;  (** those that may run at the same time *)
+  cut_short : Dolphin_checker.Limits.bound option;  (** there may be more of them *)
+}
+
 type outcome = {
   endings : (Timed_system.ending * window) list;  (** the ways in which runs end *)
   tasks : (task * (Timed_system.moment * window) list) list;  (** all that run in some run *)
@@ -39,6 +46,7 @@ type outcome = {
   late : run option;  (** one that is not over at the deadline *)
   failing : run option;  (** one that fails *)
   batteries : battery list;  (** of vehicles that run a task, if all runs are known to end by some date *)
+  apart : apart option;
   stopped : Dolphin_checker.Limits.bound option;
   (** if there is a bound, dates are of the runs that were looked at *)
   reduction : reduction;  (** that was used in the end *)
@@ -72,11 +80,14 @@ type shortfall =
   | Late  (** some run is not over at the deadline *)
   | Misses  (** a [within] *)
   | Empty  (** a battery, in some run *)
-  | Unknown  (** a bound was met, nobody knows how long it takes, or a battery may be empty *)
+  | Too_near  (** plans, in some run *)
+  | Unknown
+  (** a bound was met, nobody knows how long it takes, a battery may be empty, or it is not known how near plans come *)
 
 val shortfall : ?deadline:int -> outcome -> shortfall option
 (** [shortfall ~deadline o] is the first of these that is so; [None]: all runs end in time, none fails, and each
-    [within] is kept, and no battery runs empty. Nobody need know how long all takes if there is no [deadline]. *)
+    [within] is kept, no battery runs empty, and no plans come too near. Nobody need know how long all takes if there is
+    no [deadline]. *)
 
 val in_time : ?deadline:int -> outcome -> verdict
 (** [in_time ~deadline o]: [Violated] if some run never ends, or ends after [deadline]; else [Inconclusive] if a bound
@@ -88,6 +99,10 @@ val runs_empty : battery -> bool
 val may_run_empty : battery -> bool
 (** False only if it does in no run. *)
 
+val judge_apart : apart -> verdict
+(** [judge_apart a] is [Violated] if the ways of some pair come too near, and [Inconclusive] if that is not known of
+    one, or there may be more. *)
+
 val verdict : ?deadline:int -> outcome -> verdict
-(** [verdict ~deadline o] is {!in_time}, with the batteries: [Violated] if one runs empty in some run, and
-    [Inconclusive] if it is not known of one. *)
+(** [verdict ~deadline o] is {!in_time}, with the batteries and {!judge_apart}: [Violated] if a battery runs empty in
+    some run, and [Inconclusive] if it is not known of one. *)

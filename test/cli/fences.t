@@ -319,3 +319,125 @@ The contents of a fleet's maps are part of it: a run is not resumed with others.
   $ head -n 8 open.run > half.run; dolphin exec --resume half.run open.dol
   dolphin: open.fleet: this is not the fleet that the run was on, or it has changed since
   [2]
+
+Plans that may run side by side and come nearer than vehicles may: dolphin explore tells all pairs, dolphin time those that
+run at the same time. Of what nobody knows nothing is claimed.
+
+  $ cat > lanes.dol <<'EOF'
+  > quay = location 41.1850, -8.7060
+  > fence distance 30.m
+  > def lane(name, north) {
+  >     imcPlan {
+  >         planName name
+  >         locate quay.displace(north, 0)
+  >         speed 1.5, Speed.Units.METERS_PS
+  >         goTo()
+  >         goTo location: quay.displace(north, 300)
+  >     }
+  > }
+  > parameter gap = 20
+  > vs = pick { type 'UUV'; count 2 }
+  > def tried(t) { watch t onError { e -> ignore() } }
+  > execute tried(lane('south', 50)[vs[0]]) | tried(lane('north', 50 + gap)[vs[1]])
+  > EOF
+  $ cat > lanes.fleet <<'EOF'
+  > vehicle 'n1', { type 'UUV'; at 41.1852, -8.7055 }
+  > vehicle 'n2', { type 'UUV'; at 41.1852, -8.7055 }
+  > plan 'drift', { duration 10.min }
+  > EOF
+  $ explored() { dolphin explore "$@" > found; echo "status $?"; grep -A9 '^fence' found | sed 's/^[0-9]* states.*; \([0-9]* states for plans\)/\1/'; }
+  $ explored lanes.dol
+  status 1
+  fence distance 30.m: violated after 5 steps: plans run side by side whose ways come nearer to each other
+  13 states for plans side by side
+  
+  plans that may run side by side:
+    lanes.dol:4:5: plan 'south' on n1, beside lanes.dol:4:5: plan 'north' on n2: 20.0 m between 1.Goto and 1.Goto, at (41.185450, -8.706000)
+  
+  fence distance 30.m: a shortest run in which plans run side by side whose ways come nearer to each other
+      program                         n1            n2            where
+  1   pick(2 vehicles of type 'UUV')                              lanes.dol:13
+  2   picks n1, n2                                                lanes.dol:13
+  3   execute                                                     lanes.dol:15
+  4                                   starts south                lanes.dol:4
+  5                                                 starts north  lanes.dol:4
+  $ explored lanes.dol --set gap=40
+  status 0
+  fence distance 30.m: holds
+  13 states for plans side by side
+  $ dolphin explore lanes.dol --json | python3 -c '
+  > import json, sys
+  > v = json.load(sys.stdin)["verdicts"][-1]
+  > print(v["property"], v["verdict"], v["run"], json.dumps(v["pairs"]))'
+  fence distance 30.m violated ["pick(2 vehicles of type 'UUV')", 'bind(n1, n2)', 'execute', 'start(n1, south)', 'start(n2, north)'] [{"one": {"plan": "south", "vehicle": "n1", "at": "lanes.dol:4:5", "maneuver": "1.Goto"}, "other": {"plan": "north", "vehicle": "n2", "at": "lanes.dol:4:5", "maneuver": "1.Goto"}, "metres": 20.0, "latitude": 41.1854502, "longitude": -8.706}]
+  $ dolphin time lanes.dol | grep -A3 '^fence\|^plans'
+  fence distance 30.m: violated: plans run side by side whose ways come nearer to each other
+  task   vehicle  starts  ends                  fails             where
+  south  n1       0:00    3:30.191 to 4:16.901  0:00 to 4:16.901  lanes.dol:4
+  north  n2       0:00    3:38.153 to 4:26.632  0:00 to 4:26.632  lanes.dol:4
+  --
+  plans that may run side by side:
+    lanes.dol:4:5: plan 'south' on n1, beside lanes.dol:4:5: plan 'north' on n2: 20.0 m between 1.Goto and 1.Goto, at (41.185450, -8.706000)
+  
+  a run that ends last:
+  $ dolphin explore lanes.dol --sarif found.sarif --junit found.xml > found; grep -c least-distance found.sarif; grep -c 'type="fence distance 30.m"' found.xml
+  2
+  1
+
+By its order 'south' may run beside 'north', by time it is over before: so dolphin time finds nothing.
+
+  $ sed 's/| tried(/| idle(20.min) >> tried(/' lanes.dol > later.dol
+  $ explored later.dol --fleet lanes.fleet
+  status 1
+  fence distance 30.m: violated after 6 steps: plans run side by side whose ways come nearer to each other
+  16 states for plans side by side
+  
+  plans that may run side by side:
+    later.dol:4:5: plan 'south' on n1, beside later.dol:4:5: plan 'north' on n2: 20.0 m between 1.Goto and 1.Goto, at (41.185450, -8.706000)
+  
+  fence distance 30.m: a shortest run in which plans run side by side whose ways come nearer to each other
+      program                         n1            n2            where
+  1   pick(2 vehicles of type 'UUV')                              later.dol:13
+  2   picks n1, n2                                                later.dol:13
+  3   execute                                                     later.dol:15
+  4                                   starts south                later.dol:4
+  5   timeout                                                     later.dol:15
+  6                                                 starts north  later.dol:4
+  $ dolphin time later.dol --fleet lanes.fleet > found; echo "status $?"; grep '^fence' found
+  status 0
+  fence distance 30.m: holds
+
+Where vehicles know a plan by its name only, nobody knows how near it comes.
+
+  $ sed "s/lane('south', 50)/task('drift')/" lanes.dol > drift.dol
+  $ explored drift.dol --fleet lanes.fleet
+  status 3
+  fence distance 30.m: inconclusive, nobody knows how near 'drift' comes to 'north', which may run side by side
+  13 states for plans side by side
+  
+  plans that may run side by side:
+    drift.dol:15:15: plan 'drift' on n1, beside drift.dol:4:5: plan 'north' on n2: nobody knows how near
+  $ dolphin time drift.dol --fleet lanes.fleet > found; echo "status $?"; grep -A2 '^fence\|^plans' found
+  status 3
+  fence distance 30.m: inconclusive, plans run side by side, nobody knows how near
+  task   vehicle  starts  ends                  fails             where
+  drift  n1       0:00    10:00                 0:00 to 10:00     drift.dol:15
+  --
+  plans that may run side by side:
+    drift.dol:15:15: plan 'drift' on n1, beside drift.dol:4:5: plan 'north' on n2: nobody knows how near
+  
+
+One after the other they come as near as they like.
+
+  $ sed 's/ | tried/ >> tried/' lanes.dol > after.dol
+  $ explored after.dol --fleet lanes.fleet
+  status 0
+  fence distance 30.m: holds
+  9 states for plans side by side
+
+A bound that is met before all states were seen is told.
+
+  $ explored lanes.dol --set gap=40 --max-states 5
+  status 3
+  fence distance 30.m: inconclusive, the bound on states was met
+  6 states for plans side by side

@@ -569,6 +569,42 @@ let fences =
       ( "fences inside keep out, and those outside in",
         {|Inside -> margin -. depth | Outside -> margin +. depth|},
         {|Inside -> margin +. depth | Outside -> margin -. depth|} );
+      ( "circles are taken for their centres",
+        {|  let margin = margin +. radius in|},
+        {|  let margin = margin +. (0. *. radius) in|} );
+      ( "beside others, circles are taken for their centres",
+        {|let apart = piece.radius +. other.radius in|},
+        {|let apart = 0. *. (piece.radius +. other.radius) in|} );
+    ]
+  @ in_file "lib/semantics/terms/plan_room.ml" ~noticed_by:"runtime/test_runtime"
+    [
+      ( "nobody looks at ways to plans",
+        {|  | Some here -> parts_of_legs from (Inline_plan.path ~from:here ~speed:1. p)|},
+        {|  | Some _ -> anywhere p|} );
+    ]
+  @ in_file "lib/semantics/terms/fences.ml" ~noticed_by:"runtime/test_runtime"
+    [
+      ( "the least of the least distances holds",
+        {|when metres > least -> Some fence|},
+        {|when metres < least -> Some fence|} );
+    ]
+  @ in_file "lib/explore/verdict/side_by_side.ml" ~noticed_by:"reduction/test_side_by_side"
+    [
+      ( "of three plans side by side, two are seen",
+        {|    | one :: others -> List.iter (see_pair t one) others; each others|},
+        {|    | one :: others -> List.iter (see_pair t one) others|} );
+    ]
+  @ in_file "lib/explore/verdict/search.ml" ~noticed_by:"reduction/test_side_by_side"
+    [
+      ( "plans side by side are looked for by partial order",
+        {|seen x { options with reduction = Whole } x.program.fences ~enough in|},
+        {|seen x { options with reduction = Partial_order } x.program.fences ~enough in|} );
+    ]
+  @ in_file "lib/time/timing.ml" ~noticed_by:"time/test_exact"
+    [
+      ( "plans side by side are looked for without inert ends",
+        {|Timed_system.create ~reduction:Nothing Latest options in|},
+        {|Timed_system.create ~reduction:Inert_ends Latest options in|} );
     ]
   @ in_file "lib/runtime/fence_guard.ml" ~noticed_by:"runtime/test_runtime"
     [

@@ -43,7 +43,7 @@ let shows options program world property (run : Search.run) =
       match List.rev run.steps with
       | [] -> false
       | last :: _ -> there <> [] && Property.broken_by_end last.rules last.next = Some property)
-  | All_reached | Invariant _ | Formula _ -> false
+  | All_reached | Invariant _ | Formula _ | Apart _ -> false
 
 (* {1 Outcomes}
 

@@ -147,7 +147,7 @@ let tick ~working s =
   let sums = if working then Vehicle_map.fold add s.c.shared.allocation s.working else [] in
   { s with now = s.now + 1; clocks = List.map later s.clocks; working = List.sort compare sums }
 
-let all ?(states = 20_000) ?(seconds = 60) ?(working = false) (o : Timed.options) =
+let all ?(states = 20_000) ?(seconds = 60) ?(working = false) ?(look = ignore) (o : Timed.options) =
   let seen = Table.create 1_000 and queue = Queue.create () in
   let edges = ref [] and following = ref [] in
   let dates = Hashtbl.create 20 and most = Hashtbl.create 3 and never_over = ref false in
@@ -220,7 +220,10 @@ let all ?(states = 20_000) ?(seconds = 60) ?(working = false) (o : Timed.options
       note_step s choice.transition;
       reach (after o s choice)
     in
-    if not (waits && List.exists is_overdue s.clocks) then List.iter take (List.filter may_be_now possible);
+    if not (waits && List.exists is_overdue s.clocks) then begin
+      look s.c;
+      List.iter take (List.filter may_be_now possible)
+    end;
     (* A second passes, if for everything that is awaited something may still happen then. *)
     let may_wait (_, clock) = match last clock with -1 -> true | most -> clock.since < most in
     if waits && possible <> [] && List.for_all may_wait s.clocks then begin

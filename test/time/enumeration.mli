@@ -15,6 +15,7 @@ type t = {
       work takes, four a second of work, and one a second of rest *)
 }
 
-val all : ?states:int -> ?seconds:int -> ?working:bool -> Timed.options -> t option
-(** [None] if there are more states, or longer runs, than that. [most] is empty unless [working] is true; then states
-    differ in how long vehicles worked. *)
+val all :
+  ?states:int -> ?seconds:int -> ?working:bool -> ?look:(Configuration.t -> unit) -> Timed.options -> t option
+(** [look] is called with each configuration that a run comes to. [None] if there are more states, or longer runs, than
+    that. [most] is empty unless [working] is true; then states differ in how long vehicles worked. *)

@@ -170,6 +170,47 @@ let test_slack () =
   Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
   Alcotest.(check bool) "some have slack, and some do not matter" true (!tight > 0 && !loose > 0)
 
+(* {1 Plans side by side} *)
+
+module Side_by_side = Dolphin_explore.Side_by_side
+
+let distance : Fences.fence =
+  { rule = Distance 10.; margin = 0.; text = "fence distance 10.m"; at = Dolphin_syntax.Location.none }
+
+let together = ref 0 and apart = ref 0
+
+let names (pairs : Side_by_side.pair list) =
+  let key ((_, p) : _ * Core.platform_task) = (p.task_site, p.name) in
+  let pair (p : Side_by_side.pair) = List.sort compare [ key p.one; key p.other ] in
+  List.sort_uniq compare (List.map pair pairs)
+
+(* Nobody knows where these plans lead, so all that run at one time are told. *)
+let pairs_agree (ast, seed, (_, environment)) =
+  let program = { (Posts.declared environment (Generate.compile ast)) with fences = Fences.make [ distance ] } in
+  let options : Timed.options = { environment; program; world = Generate.world; durations = durations seed } in
+  let expected = Side_by_side.create program.fences in
+  match Enumeration.all ~look:(fun c -> Side_by_side.see expected c.shared.allocation) options with
+  | None | Some { never_over = true; _ } -> true
+  | Some _ ->
+    let limits = { Dolphin_checker.Limits.none with max_states = Some 5_000 } in
+    match (Timing.run limits options).apart with
+    | None -> false
+    | Some { cut_short = Some _; _ } -> true
+    | Some { pairs; _ } ->
+      let untimed, _ =
+        Dolphin_explore.Search.(side_by_side { default with environment; limits }) program options.world in
+      let found = names pairs in
+      together := !together + List.length found;
+      apart := !apart + List.length (names untimed) - List.length found;
+      found = names (Side_by_side.pairs expected)
+
+let test_pairs () =
+  let test = QCheck2.Test.make ~count:programs ~print ~name:"pairs and enumeration agree" case pairs_agree in
+  Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
+  Printf.printf "%d pairs at one time, %d by order alone\n" !together !apart;
+  Alcotest.(check bool) "some run at one time, some do not though they might by their order" true
+    (!together > 0 && !apart > 0)
+
 (* {1 Batteries} *)
 
 (* A second of work takes four parts in 40,000, one of rest takes one. *)
@@ -244,6 +285,7 @@ let () =
     [ ("random programs", [ Alcotest.test_case "zones and enumeration" `Quick test_agreement;
                             Alcotest.test_case "variety" `Quick test_variety;
                             Alcotest.test_case "slack" `Quick test_slack;
+                            Alcotest.test_case "plans side by side" `Quick test_pairs;
                             Alcotest.test_case "batteries" `Quick test_batteries ]);
       ("programs", [ Alcotest.test_case "one loss" `Quick test_one_loss;
                      Alcotest.test_case "a round in no time" `Quick test_round_in_no_time ]) ]

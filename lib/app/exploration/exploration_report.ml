@@ -19,8 +19,10 @@ let print_counts (o : Search.outcome) =
     | names -> "; reduced by " ^ String.concat ", " names
   in
   let for_formulas = if o.formula_states = 0 then "" else Printf.sprintf "; %d states for formulas" o.formula_states in
-  Printf.printf "%d states, %d transitions, depth %d, %.2f s, %d MiB%s%s\n" o.states o.transitions o.depth o.seconds
-    (mebibytes o.bytes) reduced for_formulas
+  let for_pairs =
+    if o.beside_states = 0 then "" else Printf.sprintf "; %d states for plans side by side" o.beside_states in
+  Printf.printf "%d states, %d transitions, depth %d, %.2f s, %d MiB%s%s%s\n" o.states o.transitions o.depth o.seconds
+    (mebibytes o.bytes) reduced for_formulas for_pairs
 
 let percent share = Printf.sprintf "%.3g%%" (100. *. share)
 
@@ -80,6 +82,7 @@ let print ~strict (program : Program_file.t) (o : Search.outcome) =
   print_counts o;
   Option.iter (print_sample ~seen:o.states) o.sample;
   Option.iter print_bitstate o.bitstate;
+  Beside_report.print program o.beside;
   List.iter (print_violation program) verdicts
 
 (* {1 For programs} *)
@@ -101,7 +104,8 @@ let json_of_run (run : Search.run) =
   [ ("shortest", `Bool run.shortest); ("run", labels run.steps); ("cycle", labels run.cycle) ]
   @ if assumptions = [] then [] else [ ("assumptions", `List assumptions) ]
 
-let to_json (program : Core.program) (o : Search.outcome) : Yojson.Safe.t =
+let to_json (p : Program_file.t) (o : Search.outcome) : Yojson.Safe.t =
+  let program = p.program in
   let verdict (property, verdict) =
     let name = `String (Property.name property) in
     let result, more =
@@ -122,7 +126,13 @@ let to_json (program : Core.program) (o : Search.outcome) : Yojson.Safe.t =
       | Inconclusive bound ->
         ("inconclusive", [ ("bound", `String (Format.asprintf "%a" Dolphin_checker.Limits.pp_bound bound)) ])
     in
-    `Assoc ([ ("property", name); ("verdict", `String result) ] @ more)
+    let pairs =
+      match (property : Property.t) with
+      | Apart _ -> [ ("states", `Int o.beside_states); ("pairs", Beside_report.json p o.beside) ]
+      | No_deadlock | Termination | No_error | Assertions | Vehicles | No_halt | No_leftover | All_reached | Invariant _
+      | Formula _ -> []
+    in
+    `Assoc ([ ("property", name); ("verdict", `String result) ] @ more @ pairs)
   in
   let sample (s : Dolphin_checker.Sample.summary) =
     `Assoc

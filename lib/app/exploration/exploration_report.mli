@@ -1,6 +1,5 @@
 (** What an exploration found, for people and for programs. *)
 
-open Dolphin_semantics
 module Search := Dolphin_explore.Search
 
 val print : strict:bool -> Program_file.t -> Search.outcome -> unit
@@ -10,7 +9,7 @@ val print : strict:bool -> Program_file.t -> Search.outcome -> unit
 val print_violations : strict:bool -> Program_file.t -> Search.outcome -> unit
 (** The counterexamples alone, each after a blank line. *)
 
-val to_json : Core.program -> Search.outcome -> Yojson.Safe.t
+val to_json : Program_file.t -> Search.outcome -> Yojson.Safe.t
 (** [to_json program o] is [o] as one object. *)
 
 val mebibytes : int -> int

@@ -55,6 +55,7 @@ let last_place rows = List.find_map (fun (row : Columns.row) -> row.at) (List.re
 let rule : Property.t -> string = function
   | Invariant _ -> "invariant"
   | Formula _ -> "formula"
+  | Apart _ -> "least-distance"
   | (No_deadlock | Termination | No_error | Assertions | Vehicles | No_halt | No_leftover | All_reached) as property ->
     String.map (function ' ' -> '-' | c -> c) (Property.name property)
 

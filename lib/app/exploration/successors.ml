@@ -337,7 +337,7 @@ let number_of_property : Property.t option -> int = function
   | Some Vehicles -> 3
   | Some No_halt -> 4
   | Some No_leftover -> 5
-  | Some (No_deadlock | Termination | All_reached | Invariant _ | Formula _) -> 0
+  | Some (No_deadlock | Termination | All_reached | Invariant _ | Formula _ | Apart _) -> 0
 
 let add_all buffer add items =
   add_number buffer (List.length items);

@@ -31,4 +31,4 @@ let print ~strict s rows =
 
 let to_json s rows =
   Sweep.to_json s
-    (fun (row : Search.outcome Sweep.row) -> Exploration_report.to_json row.program.program row.found) rows
+    (fun (row : Search.outcome Sweep.row) -> Exploration_report.to_json row.program row.found) rows

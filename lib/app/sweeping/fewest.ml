@@ -133,7 +133,7 @@ let print ?deadline program (fleet : Fleet_file.t) (found, looked_at) =
 let to_json ?deadline program (found, looked_at) : Yojson.Safe.t =
   let list vehicles = `List (List.map (fun v -> `String v) vehicles) in
   let outcome = function
-    | Property (_, o) -> [ ("explored", Exploration_report.to_json program.Program_file.program o) ]
+    | Property (_, o) -> [ ("explored", Exploration_report.to_json program o) ]
     | Time (_, o) -> [ ("timed", Time_report.to_json ?deadline program o) ]
     | Bound _ -> []
   in

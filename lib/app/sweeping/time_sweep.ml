@@ -9,6 +9,7 @@ let shortfall : Timing.shortfall -> string = function
   | Late -> "late"
   | Misses -> "within missed"
   | Empty -> "battery empty"
+  | Too_near -> "plans too near"
   | Unknown -> "inconclusive"
 
 let earliest (o : Timing.outcome) =

@@ -125,6 +125,7 @@ let head p ?deadline (o : Timing.outcome) =
     | Some Fails, _ -> ("some run fails", true)
     | Some Misses, _ -> ("some task is not done within its time", true)
     | Some Empty, _ -> ("some battery runs empty", true)
+    | Some Too_near, _ -> ("plans side by side come too near", true)
     | Some Unknown, _ -> ("inconclusive", true)
     | None, Some (At n) -> ("over at " ^ Time_report.time n ^ " at the latest", false)
     | None, (Some Unbounded | None) -> ("no latest time", false)

@@ -192,6 +192,17 @@ let print_batteries (o : Timing.outcome) =
   if o.batteries <> [] then
     List.iter print_endline (Text_table.lines ([ "vehicle"; "least battery" ]) (List.map row o.batteries))
 
+let print_apart (a : Timing.apart) =
+  let verdict = Timing.judge_apart a in
+  let why =
+    match verdict, a.cut_short with
+    | Violated, _ -> ": plans run side by side whose ways come nearer to each other"
+    | Inconclusive, Some bound -> Format.asprintf ", %a" Dolphin_checker.Limits.pp_bound bound
+    | Inconclusive, None -> ", plans run side by side, nobody knows how near"
+    | Holds, _ -> ""
+  in
+  Printf.printf "%s: %s%s\n" a.fence (Dolphin_checker.Verdict.name verdict) why
+
 let print ?deadline ?slacks p (o : Timing.outcome) =
   (match o.stopped with
    | Some bound -> 
@@ -201,10 +212,12 @@ let print ?deadline ?slacks p (o : Timing.outcome) =
   if o.endings = [] && o.stopped = None then print_endline "no run ends";
   print_deadline ?deadline o;
   List.iter (print_within p o) o.deadlines;
+  Option.iter print_apart o.apart;
   print_unknown p o;
   print_tasks ?slacks p o;
   print_batteries o;
   Printf.printf "%d states, depth %d, %.2f s, %d MiB\n" o.states o.depth o.seconds (o.bytes / 1024 / 1024);
+  Option.iter (fun (a : Timing.apart) -> Beside_report.print p a.pairs) o.apart;
   print_run ?deadline p o
 
 (* {1 For programs} *)
@@ -234,6 +247,13 @@ let json_of_battery p (b : Timing.battery) : Yojson.Safe.t =
   `Assoc
     ([ ("vehicle", `String b.vehicle); ("verdict", `String verdict); ("least", `Float b.least) ]
      @ Option.fold b.lowest ~none:[] ~some:lowest)
+
+let json_of_apart p (a : Timing.apart) : Yojson.Safe.t =
+  let bound b = ("bound", `String (Format.asprintf "%a" Dolphin_checker.Limits.pp_bound b)) in
+  `Assoc
+    ([ ("fence", `String a.fence); ("verdict", `String (Dolphin_checker.Verdict.name (Timing.judge_apart a)));
+       ("pairs", Beside_report.json p a.pairs) ]
+     @ Option.to_list (Option.map bound a.cut_short))
 
 let to_json ?deadline ?(slacks = []) p (o : Timing.outcome) : Yojson.Safe.t =
   let task ((t : Timing.task), windows) =
@@ -270,6 +290,7 @@ let to_json ?deadline ?(slacks = []) p (o : Timing.outcome) : Yojson.Safe.t =
          ("within", `List (List.map within o.deadlines));
          ("batteries", `List (List.map (json_of_battery p) o.batteries));
          ("unknown", `List (List.map (fun u -> `String (item p u)) o.unknown)) ]
+     @ optional "apart" (json_of_apart p) o.apart
      @ optional "last" (json_of_run p) o.last
      @ optional "first" (json_of_run p) o.first
      @ optional "endless" endless o.endless

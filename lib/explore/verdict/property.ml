@@ -3,6 +3,7 @@ open Dolphin_semantics
 type t = No_deadlock | Termination | No_error | Assertions | Vehicles | No_halt | No_leftover | All_reached
        | Invariant of string
        | Formula of string
+       | Apart of string
 
 let all = [ No_deadlock; Termination; No_error; Assertions; Vehicles; No_halt; No_leftover; All_reached ]
 
@@ -17,6 +18,7 @@ let name = function
   | All_reached -> "all code reached"
   | Invariant text -> "invariant " ^ text
   | Formula text -> "formula " ^ text
+  | Apart fence -> fence
 
 let question = function
   | No_deadlock -> "nothing can happen any more, and the program has not ended"
@@ -29,6 +31,7 @@ let question = function
   | All_reached -> "no run reaches this"
   | Invariant _ -> "it does not hold"
   | Formula _ -> "it does not hold"
+  | Apart _ -> "plans run side by side whose ways come nearer to each other"
 
 let pp ppf p = Format.pp_print_string ppf (name p)
 

@@ -15,6 +15,8 @@ type t =
   | All_reached  (** every task and every piece of code inside of tasks is used by some run *)
   | Invariant of string  (** this {!Condition} holds in every state *)
   | Formula of string  (** this formula of temporal logic holds of every run *)
+  | Apart of string
+  (** plans whose ways come nearer to each other than this fence lets vehicles never run side by side *)
 
 val all : t list
 (** Those that need not be given, in this order. *)

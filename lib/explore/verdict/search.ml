@@ -44,6 +44,7 @@ type outcome = {
   expanded : int;
   depth : int;
   formula_states : int;
+  beside_states : int;
   bytes : int;
   seconds : float;
   stopped : Limits.bound option;
@@ -52,6 +53,7 @@ type outcome = {
   alike_values : bool;
   sample : Sample.summary option;
   bitstate : Bitstate.summary option;
+  beside : Side_by_side.pair list;
   verdicts : (Property.t * verdict) list;
 }
 
@@ -135,7 +137,7 @@ let verdicts x (options : options) graph invariants =
       of_verdict run (State_graph.never graph property)
     | Termination -> termination x options graph ~shortest
     | All_reached -> unreached graph x.program
-    | Invariant _ | Formula _ -> invalid_arg "Search.verdicts"
+    | Invariant _ | Formula _ | Apart _ -> invalid_arg "Search.verdicts"
   in
   let given i = (Property.Invariant (Condition.to_string (Invariant.condition i)), invariant graph ~shortest i) in
   List.map (fun property -> (property, verdict property)) Property.all @ List.map given invariants
@@ -152,7 +154,7 @@ let effort_of_state n = max 1 (n * n / 64)
 (* What a reduced search finds broken, the first of all states may show by a shortest run. *)
 let with_shortest_runs x (options : options) verdicts =
   let is_sought = function
-    | (Property.Termination | Invariant _ | Formula _), _ -> false
+    | (Property.Termination | Invariant _ | Formula _ | Apart _), _ -> false
     | _, (Holds | By_design _ | Unreached _ | Inconclusive _) -> false
     | _, Violated { shortest; _ } -> not shortest
   in
@@ -215,6 +217,78 @@ let with_formulas x (options : options) found =
   in
   List.fold_left add found options.formulas
 
+(* {1 Plans side by side} *)
+
+let see_state beside graph i =
+  match (fst (State_graph.state graph i)).control with
+  | Executing _ -> Side_by_side.see beside (fst (State_graph.state graph i)).shared.allocation
+  | Script _ | Waiting _ | Ended _ -> ()
+
+(* The states of [options], as far as they are needed, until [enough]. *)
+let rec seen x (options : options) fences ~enough =
+  let beside = Side_by_side.create fences in
+  match
+    let graph = graph ~phase:"looking for plans side by side" x options in
+    let first = ref None in
+    let look i =
+      see_state beside graph i;
+      if !first = None && Side_by_side.first_near beside then first := Some i
+    in
+    State_graph.run ~look ~enough:(fun () -> enough beside) graph;
+    (graph, !first)
+  with
+  | graph, first -> (beside, graph, first)
+  | exception Symmetry.Broken symmetry -> seen { x with symmetry } options fences ~enough
+
+(* Which pairs there might be is known from fewer states: each plan that may run starts in one of them. *)
+let candidates x (options : options) =
+  if options.reduction = Whole then None
+  else
+    let all, graph, _ = seen x { options with reduction = Partial_order } x.program.fences ~enough:(fun _ -> false) in
+    if State_graph.stopped graph = None then Some (Side_by_side.candidates all, graph) else None
+
+let beside x (options : options) =
+  let options = { options with invariants = []; walks = None; bitstate = None } in
+  let vehicles =
+    if Reduction.by_symmetry options.reduction then Symmetry.find options.environment x.program ~asked:[] x.world
+    else Symmetry.none
+  in
+  let x = { x with symmetry = Symmetry.without_tasks vehicles } in
+  let whole enough =
+    let all, graph, first = seen x { options with reduction = Whole } x.program.fences ~enough in
+    (Side_by_side.pairs all, graph, first)
+  in
+  match candidates x options with
+  | Some (0, graph) -> ([], graph, None)
+  | Some (candidates, _) -> whole (Side_by_side.seen_all ~candidates)
+  | None -> whole (fun _ -> false)
+
+let of_unknown (pairs : Side_by_side.pair list) =
+  let is_unknown (p : Side_by_side.pair) = p.nearness = Unknown in
+  let why { Side_by_side.one = _, p; other = _, q; _ } : Limits.bound =
+    Unsettled (Printf.sprintf "nobody knows how near %s comes to %s, which may run side by side"
+                 (Side_by_side.name p) (Side_by_side.name q)) in
+  Option.map why (List.find_opt is_unknown pairs)
+
+let apart x (options : options) found =
+  match Fences.least_distance x.program.fences with
+  | None -> found
+  | Some fence ->
+    Gc.full_major ();
+    let pairs, graph, first = beside x options in
+    let verdict =
+      match first, State_graph.stopped graph, of_unknown pairs with
+      | Some i, _, _ -> Violated (run_through graph ~shortest:true (State_graph.path graph i))
+      | None, Some bound, _ | None, None, Some bound -> Inconclusive bound
+      | None, None, None -> Holds
+    in
+    { found with
+      verdicts = found.verdicts @ [ (Property.Apart fence.text, verdict) ];
+      beside = pairs;
+      beside_states = State_graph.count graph;
+      bytes = max found.bytes (State_graph.memory graph);
+      seconds = options.limits.clock () -. x.started }
+
 (* {1 Outcomes} *)
 
 let without_formulas x (options : options) =
@@ -237,6 +311,7 @@ let without_formulas x (options : options) =
     expanded = State_graph.expanded graph;
     depth = State_graph.depth graph;
     formula_states = 0;
+    beside_states = 0;
     bytes = State_graph.memory graph;
     seconds = options.limits.clock () -. x.started;
     stopped = State_graph.stopped graph;
@@ -245,6 +320,7 @@ let without_formulas x (options : options) =
     alike_values = false;
     sample = State_graph.sample graph;
     bitstate;
+    beside = [];
     verdicts;
   }
 
@@ -322,7 +398,14 @@ let run (options : options) program world =
   let options = relevant program (reducible program options) in
   let started = options.limits.clock () in
   let found = judged_with_alike_values options program world in
-  with_formulas { program; world; symmetry = Symmetry.none; started } options found
+  let x = { program; world; symmetry = Symmetry.none; started } in
+  apart x options (with_formulas x options found)
+
+let side_by_side (options : options) program world =
+  let options = relevant program (reducible program options) in
+  let x = { program; world; symmetry = Symmetry.none; started = options.limits.clock () } in
+  let pairs, graph, _ = beside x options in
+  (pairs, State_graph.stopped graph)
 
 (* {1 Text} *)
 

@@ -59,6 +59,7 @@ type outcome = {
   expanded : int;  (** states whose transitions were followed: all, if no bound was met *)
   depth : int;  (** most transitions of a shortest run to a state *)
   formula_states : int;  (** states that were explored for formulas, in all: see {!Dolphin_checker.Breadth_first} *)
+  beside_states : int;  (** states that were explored for plans side by side *)
   bytes : int;  (** of memory, as [max_memory] counts it: the most, if there are formulas *)
   seconds : float;
   stopped : Limits.bound option;
@@ -68,8 +69,14 @@ type outcome = {
   alike_values : bool;  (** whether values of N that no step depends on were taken for one ({!Alike_values}) *)
   sample : Sample.summary option;  (** what random walks came to *)
   bitstate : Bitstate.summary option;
-  verdicts : (Property.t * verdict) list;  (** for each of {!Property.all}, then for each invariant and formula *)
+  beside : Side_by_side.pair list;  (** plans that may run side by side, near each other, or nobody knows how near *)
+  verdicts : (Property.t * verdict) list;
+  (** for each of {!Property.all}, then for each invariant and formula, and for the least distance between vehicles if
+      the program has one *)
 }
+
+val side_by_side : options -> Core.program -> World.t -> Side_by_side.pair list * Limits.bound option
+(** [side_by_side o p w] is [beside] of {!run}, and the bound that was met, if not all states were visited. *)
 
 val run : options -> Core.program -> World.t -> outcome
 (** [run o p w] explores [p] in [w]. A property is said to hold only if all states were visited; a violation found

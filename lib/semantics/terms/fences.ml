@@ -105,6 +105,20 @@ let of_plan fences ~from plan =
   | Some breach -> Some breach
   | None -> ups_and_downs ()
 
+(* {1 Plans side by side} *)
+
+type near = { maneuver : string; other : string; place : Position.t; metres : float }
+
+let limit fence = match fence.rule with Distance metres -> metres | Inside _ | Outside _ | Depth _ | Height _ -> 0.
+let stretches parts = List.map (fun (part : Plan_room.part) -> part.stretch) parts
+
+let near fences parts others =
+  let meeting fence = Fence.nearest ~within:(limit fence) (stretches parts) (stretches others) in
+  let told (m : Fence.meeting) =
+    { maneuver = told (List.nth parts m.first); other = told (List.nth others m.second); place = m.place;
+      metres = m.distance } in
+  Option.map told (Option.bind (least_distance fences) meeting)
+
 (* {1 Vehicles} *)
 
 type beyond = (int * float) list
@@ -123,14 +137,11 @@ let of_vehicle fences ~since place =
 
 type under_way = { vehicle : string; plan : string; parts : Plan_room.part list }
 
-let limit fence = match fence.rule with Distance metres -> metres | Inside _ | Outside _ | Depth _ | Height _ -> 0.
-let stretches u = List.map (fun (part : Plan_room.part) -> part.stretch) u.parts
-
 let beside fences u others =
   let meeting fence =
     let nearest best other =
       let within = match best with Some (m, _) -> m.Fence.distance | None -> limit fence in
-      match Fence.nearest ~within (stretches u) (stretches other) with
+      match Fence.nearest ~within (stretches u.parts) (stretches other.parts) with
       | Some m -> Some (m, other)
       | None -> best
     in

@@ -46,6 +46,20 @@ val of_plan : t -> from:Position.t option -> Inline_plan.t -> breach option
     is unknown, only what does not depend on it is looked at. On the way to its plan a vehicle may come back from beyond
     a fence, or from within its margin. *)
 
+(** {1 Plans side by side} *)
+
+(** Where two plans come nearer to each other than the least distance between vehicles. *)
+type near = {
+  maneuver : string;  (** of the one plan *)
+  other : string;  (** of the other *)
+  place : Position.t;  (** on the way of the one *)
+  metres : float;  (** between the two *)
+}
+
+val near : t -> Plan_room.part list -> Plan_room.part list -> near option
+(** [near fences ps qs] is where the ways [ps] and [qs] are nearest to each other, whenever vehicles are there, if that
+    is nearer than the least distance. *)
+
 (** {1 Vehicles} *)
 
 type beyond

@@ -1,0 +1,11 @@
+(** Plans that may run side by side, near each other, in reports. *)
+
+module Side_by_side := Dolphin_explore.Side_by_side
+
+val line : Program_file.t -> Side_by_side.pair -> string
+(** [line program pair] is both plans with their places in the text, and how near they come, in one line. *)
+
+val print : Program_file.t -> Side_by_side.pair list -> unit
+(** A line for each, after an empty one; nothing if there are none. *)
+
+val json : Program_file.t -> Side_by_side.pair list -> Yojson.Safe.t

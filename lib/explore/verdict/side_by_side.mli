@@ -1,0 +1,47 @@
+(** Plans that run at the same time, on different vehicles, and what is known of how near their ways come to each other
+    ({!Dolphin_semantics.Fences.near}). Ways to plans are left aside: they begin wherever vehicles are.
+
+    docs/explorer.md says how they are found. *)
+
+open Dolphin_semantics
+
+(** How near two plans come. *)
+type nearness =
+  | Near of Fences.near  (** nearer than the least distance *)
+  | Unknown  (** the way of one of them is not known: vehicles know it by name, or it depends on where they are *)
+
+type pair = {
+  one : Core.vehicle * Core.platform_task;
+  other : Core.vehicle * Core.platform_task;  (** of no lesser site *)
+  nearness : nearness;
+}
+
+val name : Core.platform_task -> string
+(** ["'survey'"], as plans are called in reports. *)
+
+(** {1 Watching states} *)
+
+type t
+(** What has been seen so far. *)
+
+val create : Fences.t -> t
+val fence : t -> Fences.fence option
+(** The least distance between vehicles, if there is one. *)
+
+val see : t -> Core.platform_task Vehicle_map.t -> unit
+(** [see t a] takes note of all that run at the same time, each on its vehicle. *)
+
+val pairs : t -> pair list
+(** Those that were seen and are [Near] or [Unknown], each pair of plans once, with the vehicles that it was seen on
+    first; those that are [Near] before the others, by their sites. *)
+
+val first_near : t -> bool
+(** Whether one of {!pairs} is [Near]. *)
+
+(** {1 Candidates} *)
+
+val candidates : t -> int
+(** How many {!pairs} there would be if all that were seen ran at the same time. *)
+
+val seen_all : candidates:int -> t -> bool
+(** Whether {!pairs} are so many. *)

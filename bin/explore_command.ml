@@ -79,6 +79,7 @@ let run path set fleet answers faults strict json period files cache reduction c
      let* question = Sweep.question ~set path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
      let* question = Sweep.within fleet question in
+     List.iter Report.complain (Left_out.sentences settings.faults fleet);
      match question with
      | One program -> of_program settings program fleet ~strict ~json ~period ~files ~cache
      | Several sweep -> of_values settings sweep fleet ~strict ~json ~period ~files ~cache)

@@ -56,6 +56,7 @@ let run path set fleet answers faults deadline slack fewest json trace drawing m
      let* question = Sweep.question ~set path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
      let* question = Sweep.within fleet question in
+     List.iter Report.complain (Left_out.sentences faults fleet);
      match question with
      | Several _ when slack -> Error no_slack
      | One _ when slack && fewest -> Error no_slack

@@ -45,6 +45,7 @@ The explorer takes all of them.
 
   $ explore() { dolphin explore "$@" > result; status=$?; sed 's/, [0-9.]* s, [0-9]* MiB//' result; return $status; }
   $ explore ../../examples/supplier.dol --strict
+  dolphin: by the fleet these join late: x8-03; here they are there from the start, unless --faults has join
   no deadlock: holds
   termination: holds
   no unhandled error: holds
@@ -55,11 +56,16 @@ The explorer takes all of them.
   all code reached: holds
   46 states, 51 transitions, depth 38; reduced by partial order, symmetry of vehicles
   $ for reduction in none por symmetry all; do explore ../../examples/supplier.dol --reduction $reduction | tail -1; done
+  dolphin: by the fleet these join late: x8-03; here they are there from the start, unless --faults has join
   86 states, 101 transitions, depth 38
+  dolphin: by the fleet these join late: x8-03; here they are there from the start, unless --faults has join
   86 states, 101 transitions, depth 38; reduced by partial order
+  dolphin: by the fleet these join late: x8-03; here they are there from the start, unless --faults has join
   46 states, 51 transitions, depth 38; reduced by symmetry of vehicles
+  dolphin: by the fleet these join late: x8-03; here they are there from the start, unless --faults has join
   46 states, 51 transitions, depth 38; reduced by partial order, symmetry of vehicles
   $ explore ../../examples/supplier.dol --compress | tail -1
+  dolphin: by the fleet these join late: x8-03; here they are there from the start, unless --faults has join
   46 states, 51 transitions, depth 38; reduced by partial order, symmetry of vehicles
   $ dolphin lts ../../examples/supplier.dol | head -12
   des (0, 101, 86)

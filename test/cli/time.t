@@ -394,3 +394,24 @@ When tasks may run, as a picture: dark where a task runs in every run in which i
   $ dolphin time relay.dol --draw relay.svg --fewest
   dolphin: --trace and --draw do not go with --fewest
   [2]
+
+What the fleet says of who is there when is left out, and told.
+
+  $ cat > late.dol <<'END'
+  > v = pick { count 2 }
+  > execute imcPlan('survey')
+  > END
+  $ cat > late.fleet <<'END'
+  > vehicle 'a', { type 'UUV'; leaves 5.min }
+  > vehicle 'b', { type 'UUV'; joins 90.seconds }
+  > vehicle 'c', { type 'UUV'; drops 2.min, 1.min }
+  > plan 'survey', { duration 4.min, 7.min }
+  > END
+  $ dolphin time late.dol 2>&1 > /dev/null
+  dolphin: by the fleet these join late: b; here they are there from the start, unless --faults has join
+  dolphin: by the fleet these leave, or lose their links: a, c; here they stay, unless --faults has loss
+  $ dolphin time late.dol --faults join 2>&1 > /dev/null
+  dolphin: by the fleet these leave, or lose their links: a, c; here they stay, unless --faults has loss
+  $ dolphin explore late.dol --faults loss 2>&1 > /dev/null
+  dolphin: by the fleet these join late: b; here they are there from the start, unless --faults has join
+  [1]

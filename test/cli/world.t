@@ -121,6 +121,7 @@ Vehicles may be late or missing: those that join, leave or drop, or if the fleet
   > if (vs.size() == 1) { halt 'alone' }
   > END
   $ explore late.dol --strict
+  dolphin: by the fleet these join late: b; here they are there from the start, unless --faults has join
   no deadlock: holds
   termination: holds
   no unhandled error: holds
@@ -206,8 +207,10 @@ A lost vehicle stays bound. It is not there for a pick until something is heard 
 Faults have names and numbers.
 
   $ explore late.dol --strict --faults fail=1,join=0 | head -1
+  dolphin: by the fleet these join late: b; here they are there from the start, unless --faults has join
   no deadlock: holds
   $ explore late.dol --strict --faults all=0 | head -1
+  dolphin: by the fleet these join late: b; here they are there from the start, unless --faults has join
   no deadlock: holds
   $ explore late.dol --faults jion
   dolphin: option '--faults': there is no fault 'jion': did you mean join?

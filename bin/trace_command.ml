@@ -152,11 +152,12 @@ let show_command =
 
 (* {1 Draw} *)
 
-let draw path drawing =
+let draw path layers drawing =
   let summary = Summary.create () in
   Report.result
-    (let* () = Journal_file.iter (Summary.add summary) path in
-     match Drawing.write drawing (Summary.finish summary) with
+    (let* layers = Dolphin_results.Results.map Layer_file.read layers in
+     let* () = Journal_file.iter (Summary.add summary) path in
+     match Drawing.write drawing { (Summary.finish summary) with layers } with
      | Ok () -> Ok Exit_status.Done
      | Error e -> Report.tell e; Ok Exit_status.Bad_input)
 
@@ -165,15 +166,25 @@ let draw_command =
     let doc = "The file to draw in: $(i,*.svg) or $(i,*.html)." in
     Arg.(required & opt (some Options.drawing) None & info [ "o"; "output" ] ~docv:"FILE" ~doc)
   in
+  let layers =
+    let doc =
+      Printf.sprintf
+        "Draw what the map $(docv) has below the ways: a coast, an area of work. As for $(b,map) of programs, it is \
+         GeoJSON, KML, KMZ, GPX, a plan of QGroundControl or a mission of Neptus (%s). The option may be given several \
+         times."
+        (String.concat ", " Dolphin_maps.Map_file.formats)
+    in
+    Arg.(value & opt_all string [] & info [ "layer" ] ~docv:"FILE" ~doc)
+  in
   let man =
     [ `S Manpage.s_description;
       `P "$(tname) draws the journal $(i,RUN): the tasks of each vehicle over time, with what the program did; the \
-          ways of the vehicles; their batteries. The file needs nothing but itself, prints well, and follows the \
-          reader's choice of light or dark." ]
+          ways of the vehicles, planned and flown, on the maps that $(b,--layer) names; their batteries. The file \
+          needs nothing but itself, prints well, and follows the reader's choice of light or dark." ]
     @ Options.see_also
   in
   let exits = Options.exits [ Done; Bad_input; Bug ] in
-  Cmd.v (Cmd.info "draw" ~doc:"draw a journal" ~man ~exits) Term.(const draw $ journal 0 $ drawing)
+  Cmd.v (Cmd.info "draw" ~doc:"draw a journal" ~man ~exits) Term.(const draw $ journal 0 $ layers $ drawing)
 
 (* {1 Export} *)
 

@@ -182,7 +182,47 @@ Pictures are whole documents that need nothing else.
   $ sed 's/20..-..-..T..:..:..Z//' run.svg > a; sed 's/20..-..-..T..:..:..Z//' now.svg | diff a -
   $ dolphin trace draw rendezvous.run -o run.png 2>&1 | head -2
   dolphin: option '-o': 'run.png' ends neither in .svg nor in .html
-  Usage: dolphin trace draw [--output=FILE] [OPTION]… RUN
+  Usage: dolphin trace draw [--layer=FILE] [--output=FILE] [OPTION]… RUN
+
+Maps of other programs lie below the ways: names are tips and legends, what is far away is left out, and a coast with
+very many corners is not more than what is seen of it.
+
+  $ cat > chart.py <<'EOF'
+  > import json, math
+  > far = [[-8.75 + i / 2e6, 41.186 + 0.002 * math.sin(i / 9000)] for i in range(100000)]
+  > def feature(name, kind, at):
+  >     return {"type": "Feature", "properties": {"name": name}, "geometry": {"type": kind, "coordinates": at}}
+  > json.dump({"type": "FeatureCollection", "features": [
+  >     feature("the coast", "LineString", far), feature("R&D <buoy>", "Point", [-8.706, 41.185]),
+  >     feature("elsewhere", "Polygon", [[[10, 50], [11, 50], [11, 51], [10, 50]]])]}, open("harbour.geojson", "w"))
+  > EOF
+  $ python3 chart.py
+  $ echo '<kml><Placemark><name>work</name><Polygon><outerBoundaryIs><LinearRing><coordinates>-8.707,41.184 -8.705,41.184 -8.705,41.186 -8.707,41.184</coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark></kml>' > work.kml
+  $ dolphin exec ../../examples/fences.dol --journal fences.run > /dev/null
+  $ dolphin trace draw fences.run --layer harbour.geojson --layer work.kml -o layers.svg
+  $ cat > shown.py <<'EOF'
+  > import xml.etree.ElementTree as tree
+  > for e in tree.parse("layers.svg").iter():
+  >     if e.get("class", "").startswith("layer"):
+  >         corners = e.get("d", "").count("L")
+  >         print(e.tag.split("}")[1], e.get("class"), [t.text for t in e], "many" if corners > 2000 else corners > 100)
+  > EOF
+  $ python3 shown.py
+  path layer layer0 ['the coast'] True
+  circle layer layer0 spot ['R&D <buoy>'] False
+  path layer layer1 filled ['work'] False
+  line layer layer0 [] False
+  line layer layer1 [] False
+  $ dolphin trace draw fences.run --layer nowhere.kml -o layers.svg
+  dolphin: nowhere.kml: No such file or directory
+  [2]
+  $ echo '{"type": "Feature"' > broken.geojson
+  $ dolphin trace draw fences.run --layer broken.geojson -o layers.svg
+  dolphin: broken.geojson: line 2, bytes -1-0: this is no JSON: unexpected end of input
+  [2]
+  $ dolphin trace draw fences.run --layer fences.run -o layers.svg
+  dolphin: fences.run: a map ends in .geojson, .json, .kml, .kmz, .gpx, .plan, .nmap, .nmisz
+  [2]
 
 A journal that cannot be written stops the run, and the vehicles. If that can be seen before, nothing starts.
 

@@ -43,6 +43,11 @@ let light =
 .unseen { stroke-dasharray: 2 4; }
 .fence { fill: none; stroke: #b42318; stroke-width: 1.6; stroke-dasharray: 7 3; fill-rule: evenodd; }
 .fence.no-go { fill: #b42318; fill-opacity: 0.1; stroke-dasharray: none; }
+.layer { fill: none; stroke-width: 1.3; stroke-linejoin: round; fill-rule: evenodd; }
+.layer.filled, .layer.spot { fill-opacity: 0.1; }
+.layer0 { stroke: #8a6d3b; } .layer0.filled, .layer0.spot { fill: #8a6d3b; }
+.layer1 { stroke: #3b7a8a; } .layer1.filled, .layer1.spot { fill: #3b7a8a; }
+.layer2 { stroke: #6d5b8a; } .layer2.filled, .layer2.spot { fill: #6d5b8a; }
 .key { fill: none; stroke: #5b6570; stroke-width: 1.4; }
 .key.planned { stroke-width: 5; stroke-opacity: 0.3; }
 .key.flown { stroke-width: 1.8; }
@@ -74,6 +79,9 @@ let dark =
 .key { stroke: #9aa5b1; }
 .fence { stroke: #ff6b5e; } .fence.no-go { fill: #ff6b5e; }
 .last, .on-map { stroke: #14181d; }
+.layer0 { stroke: #c9a869; } .layer0.filled, .layer0.spot { fill: #c9a869; }
+.layer1 { stroke: #6db6c9; } .layer1.filled, .layer1.spot { fill: #6db6c9; }
+.layer2 { stroke: #a694c9; } .layer2.filled, .layer2.spot { fill: #a694c9; }
 |}
 
 let of_vehicle colour i pair =

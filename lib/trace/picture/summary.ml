@@ -29,6 +29,7 @@ type t = {
   vehicles : vehicle list;
   activities : (float * activity) list;
   ending : Request.ending option;
+  layers : Layer.t list;
 }
 
 (* A vehicle, as far as the journal has been read; lists are latest first. *)
@@ -195,7 +196,8 @@ let finish b =
     duration = until;
     vehicles = List.rev_map finished b.picked;
     activities = List.rev b.activities_so_far;
-    ending = b.its_ending }
+    ending = b.its_ending;
+    layers = [] }
 
 (* {1 Asking} *)
 

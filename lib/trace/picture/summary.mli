@@ -47,6 +47,7 @@ type t = {
   vehicles : vehicle list;  (** those that the program held, in the order in which it picked them *)
   activities : (float * activity) list;
   ending : Request.ending option;  (** [None]: the journal breaks off *)
+  layers : Layer.t list;  (** below the ways of the picture; a journal has none *)
 }
 
 (** {1:making Making} *)

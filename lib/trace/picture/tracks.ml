@@ -188,7 +188,7 @@ let names m vehicles ~x ~width ~y ~height =
   if List.length wanted > most_names then []
   else List.map label (Scale.spread ~least:line_height ~from:(y +. 12.) ~until:(y +. height -. 4.) wanted)
 
-(* {1 Fences} *)
+(* {1 Fences and layers} *)
 
 let fences summary = match summary.header with Some (h : Header.t) -> h.fences | None -> []
 
@@ -198,21 +198,24 @@ let rims (fence : Dolphin_semantics.Fences.fence) =
   | Inside (Shape shape) | Outside (Shape shape) -> Area.rings shape
   | Depth _ | Height _ | Distance _ -> []
 
-(* A fence that is much wider than what vehicles did would leave nothing of that to see: only its sides near it are on
-   the map then. *)
+(* A fence that is much wider than what vehicles did, or a coast, would leave nothing of that to see: only its sides
+   near it are on the map then. *)
 let most_wider = 2.
 
-let in_view positions fences =
+let in_view positions shapes =
   match fit positions ~x:0. ~y:0. ~width:1. ~height:1. with
   | None -> []
   | Some m ->
     let is_near p =
       let x, y = project m p in
       Float.abs (x -. 0.5) <= most_wider /. 2. && Float.abs (y -. 0.5) <= most_wider /. 2. in
-    let whole fence = match List.concat (rims fence) with ps when List.for_all is_near ps -> ps | _ -> [] in
-    List.concat_map whole fences
+    List.concat_map (fun shape -> if List.for_all is_near shape then shape else []) shapes
 
-let draw_fences m summary ~x ~y ~width ~height =
+let around summary =
+  List.map (fun fence -> List.concat (rims fence)) (fences summary) @ List.concat_map Layer.places summary.layers
+
+(* Layers below. *)
+let draw_below m summary ~x ~y ~width ~height =
   let commands rim =
     let point (x, y) = Svg.number x ^ "," ^ Svg.number y in
     "M" ^ String.concat " L" (List.map point (thin (List.map (project m) rim))) ^ " Z"
@@ -224,7 +227,8 @@ let draw_fences m summary ~x ~y ~width ~height =
       let name = match rule with Outside _ -> "fence no-go" | _ -> "fence" in
       [ Svg.path ~name ~tip:fence.text (String.concat " " (List.map commands rims)) ]
   in
-  match List.concat_map shape (fences summary) with
+  let layer = Layer.draw ~project:(project m) ~thin ~left:x ~right:(x +. width) ~top:y ~bottom:(y +. height) in
+  match List.concat (List.mapi layer summary.layers) @ List.concat_map shape (fences summary) with
   | [] -> []
   | shapes ->
     [ Svg.element "clipPath" [ ("id", "chart") ] [ Svg.rect ~x ~y ~width ~height () ];
@@ -235,7 +239,7 @@ let map_of summary ~x ~y ~width ~height =
   let of_vehicle v =
     if v.samples = [] then [] else List.map (fun s -> s.position) v.samples @ List.concat_map planned v.tasks in
   let positions = List.concat_map of_vehicle summary.vehicles in
-  fit (positions @ in_view positions (fences summary)) ~x ~y ~width ~height
+  fit (positions @ in_view positions (around summary)) ~x ~y ~width ~height
 
 (* Where it stays, the first and the last moment are enough. *)
 let over_time m v =
@@ -277,12 +281,15 @@ let meanings_of_fences summary =
   (if has inside then [ ("fence", "fence: stay inside") ] else [])
   @ if has outside then [ ("fence no-go", "fence: stay outside") ] else []
 
+let meanings_of_layers summary =
+  List.mapi (fun i (layer : Layer.t) -> (Layer.key i, Svg.fit 160. layer.name)) summary.layers
+
 let legend summary ~x ~y =
   let one (x, found) (name, text) =
     let line = Svg.line ~name (x, y -. 3.5) (x +. 20., y -. 3.5) in
     (x +. 40. +. Svg.width ~size:10. text, found @ [ line; Svg.text ~name:"axis" (x +. 26., y) text ])
   in
-  snd (List.fold_left one (x, []) (meanings summary @ meanings_of_fences summary))
+  snd (List.fold_left one (x, []) (meanings summary @ meanings_of_fences summary @ meanings_of_layers summary))
 
 let draw summary ~x ~y ~width ~height =
   let frame = Svg.rect ~name:"frame" ~x ~y ~width ~height () in
@@ -291,7 +298,7 @@ let draw summary ~x ~y ~width ~height =
     | None -> [ Svg.text ~name:"small" ~anchor:Middle (x +. (width /. 2.), y +. (height /. 2.)) "no positions" ]
     | Some m ->
       grid m ~x ~y ~width ~height
-      @ draw_fences m summary ~x ~y ~width ~height
+      @ draw_below m summary ~x ~y ~width ~height
       @ List.mapi (fun i v -> Style.group i (planned m i v)) summary.vehicles
       @ List.mapi (way summary m) summary.vehicles
       @ names m summary.vehicles ~x ~width ~y ~height

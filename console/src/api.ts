@@ -5,7 +5,7 @@ export type Json = any;
 export interface Question { number: number; prompt: string; kind: "value" | "truth"; at: string | null; refused: string | null }
 export interface Diagnostic {
   from: number; to: number; line: number; column: number; severity: "error" | "warning";
-  message: string; code: string; hint?: string;
+  message: string; code: string; hint?: string; file?: string;
 }
 export interface RunStatus {
   id: string; state: "running" | "stopping" | "over"; speed: number | null; simulated: boolean; inputs: string[];
@@ -90,7 +90,7 @@ export function listen(l: Listener) {
 }
 
 // A run that was, message by message.
-export async function replay(query: string, l: Pick<Listener, "journal" | "log" | "waiting" | "places" | "way">) {
+export async function replay(query: string, l: Pick<Listener, "journal" | "log" | "waiting" | "places" | "way"> & { program(path: string | null): void }) {
   const reply = await fetch("/api/replay?" + query);
   const text = await reply.text();
   if (!reply.ok) throw new Refusal("replay", JSON.parse(text).error.message, []);
@@ -98,7 +98,8 @@ export async function replay(query: string, l: Pick<Listener, "journal" | "log" 
     const event = /^event: (.*)$/m.exec(message)?.[1], data = /^data: (.*)$/m.exec(message)?.[1];
     if (!event || !data) continue;
     const json = JSON.parse(data);
-    if (event === "journal") l.journal(json);
+    if (event === "program") l.program(json.program);
+    else if (event === "journal") l.journal(json);
     else if (event === "log") l.log(json);
     else if (event === "waiting") l.waiting(json);
     else if (event === "places") l.places(json);

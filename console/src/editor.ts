@@ -2,7 +2,7 @@
 // says.
 
 import { EditorState, StateEffect, StateField } from "@codemirror/state";
-import { Decoration, type DecorationSet, EditorView, hoverTooltip, keymap, lineNumbers, highlightActiveLine, drawSelection } from "@codemirror/view";
+import { Decoration, type DecorationSet, EditorView, type Tooltip, hoverTooltip, keymap, showTooltip, lineNumbers, highlightActiveLine, drawSelection } from "@codemirror/view";
 import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
 import { StreamLanguage, HighlightStyle, syntaxHighlighting, bracketMatching, indentUnit } from "@codemirror/language";
 import { linter, lintGutter, lintKeymap } from "@codemirror/lint";
@@ -58,6 +58,7 @@ const look = EditorView.theme({
   "&.cm-focused .cm-selectionBackground, .cm-selectionBackground": { backgroundColor: "var(--select) !important" },
   ".cm-tooltip": { backgroundColor: "var(--panel)", color: "var(--text)", border: "1px solid var(--line)", maxWidth: "32rem" },
   ".cm-tooltip .hover": { padding: "4px 8px", whiteSpace: "pre-wrap" },
+  ".cm-signature": { padding: "2px 8px" },
   ".cm-here": { backgroundColor: "var(--here)" },
   ".cm-panels": { backgroundColor: "var(--panel)", color: "var(--text)" },
   ".cm-tooltip-autocomplete ul li[aria-selected]": { backgroundColor: "var(--accent)", color: "#fff" },
@@ -79,12 +80,62 @@ const here = StateField.define<DecorationSet>({
   provide: (f) => EditorView.decorations.from(f),
 });
 
+// How what is called is called, above the place where its arguments are written; Escape hides it until the next one.
+type Signature = Tooltip & { form: string };
+const setSignature = StateEffect.define<Signature | null>();
+const shownSignature = StateField.define<Signature | null>({
+  create: () => null,
+  update(shown, tr) {
+    for (const e of tr.effects) if (e.is(setSignature)) return e.value;
+    return shown && tr.docChanged ? { ...shown, pos: tr.changes.mapPos(shown.pos) } : shown;
+  },
+  provide: (f) => showTooltip.from(f),
+});
+
+type Asked = (path: string, text: string, at: number) => Promise<{ form: string; text: string } | null>;
+
+function signature(ask: Asked, path: () => string) {
+  let number = 0, hidden = "";
+  const show = async (view: EditorView) => {
+    const mine = ++number, at = view.state.selection.main.head;
+    await new Promise((done) => setTimeout(done, 150));
+    if (mine !== number || !path()) return;
+    const found = await ask(path(), view.state.doc.toString(), at).catch(() => null);
+    if (mine !== number) return;
+    if (found?.form !== hidden) hidden = "";
+    const wanted = found && !hidden && view.hasFocus ? found : null;
+    if (!wanted && !view.state.field(shownSignature)) return;
+    view.dispatch({ effects: setSignature.of(wanted && { form: wanted.form, pos: Math.min(at, view.state.doc.length), above: true, create: () => {
+      const dom = document.createElement("div"), form = document.createElement("b");
+      dom.className = "cm-signature";
+      form.textContent = wanted.form;
+      dom.append(form, " " + wanted.text);
+      return { dom };
+    } }) });
+  };
+  return [shownSignature,
+    // Where one types, and not wherever one looks.
+    EditorView.updateListener.of((u) => {
+      if (u.docChanged || (u.selectionSet && u.state.field(shownSignature))) void show(u.view);
+      else if (u.focusChanged && !u.view.hasFocus && u.state.field(shownSignature)) setTimeout(() => u.view.dispatch({ effects: setSignature.of(null) }));
+    }),
+    keymap.of([{ key: "Mod-Shift-Space", run: (view) => { hidden = ""; void show(view); return true; } },
+      { key: "Escape", run: (view) => {
+        const shown = view.state.field(shownSignature);
+        if (!shown) return false;
+        hidden = shown.form;
+        view.dispatch({ effects: setSignature.of(null) });
+        return true;
+      } }])];
+}
+
 export class Editor {
   view: EditorView;
   path = "";
   private shownLine: number | null = null;
 
-  constructor(el: HTMLElement, private events: { changed: () => void; checked: (found: Diagnostic[]) => void; save: () => void }) {
+  constructor(el: HTMLElement, private events: { changed: () => void; checked: (found: Diagnostic[]) => void; save: () => void;
+    elsewhere: (path: string, from: number, to: number) => void }) {
     const root = el.attachShadow({ mode: "open" });
     const place = document.createElement("div");
     const fill = new CSSStyleSheet();
@@ -102,7 +153,7 @@ export class Editor {
       EditorView.contentAttributes.of({ "aria-label": "source of the program", tabindex: "0" }),
       linter((view) => this.check(view), { delay: 300 }),
       autocompletion({ override: [(c) => this.complete(c)] }),
-      hoverTooltip((view, at) => this.hover(view, at)),
+      hoverTooltip((view, at) => this.hover(view, at)), signature((path, text, at) => post("signature", { path, text, at }), () => this.path),
       keymap.of([{ key: "Mod-s", preventDefault: true, run: () => { this.events.save(); return true; } },
         { key: "F12", run: (view) => { void this.define(view); return true; } },
         ...completionKeymap, ...searchKeymap, ...lintKeymap, ...historyKeymap, ...defaultKeymap, indentWithTab]),
@@ -163,7 +214,13 @@ export class Editor {
 
   private async define(view: EditorView) {
     const found = await post("definition", { path: this.path, text: this.text, at: view.state.selection.main.head }).catch(() => null);
-    if (found && this.path.endsWith(found.file))
-      view.dispatch({ selection: { anchor: found.from, head: found.to }, scrollIntoView: true });
+    if (!found) return;
+    if (found.file === this.path) this.select(found.from, found.to);
+    else this.events.elsewhere(found.file, found.from, found.to);
+  }
+
+  select(from: number, to: number) {
+    this.view.dispatch({ selection: { anchor: from, head: to }, effects: EditorView.scrollIntoView(from, { y: "center" }) });
+    this.view.focus();
   }
 }

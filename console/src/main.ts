@@ -7,7 +7,8 @@ import { Layers } from "./layers";
 import { ChartMap } from "./map";
 import { type Message, Run, clock } from "./model";
 import { VehicleTable } from "./vehicles";
-import { timeline } from "./timeline";
+import { beside, inWords, read as readPlace } from "./place";
+import { type Picked, happenings, timeline } from "./timeline";
 import { Plans } from "./plans";
 import { Alarms } from "./alarms";
 import { Dialog } from "./question";
@@ -15,7 +16,7 @@ import { mark as markTitle } from "./title";
 import { Verdicts } from "./verdicts";
 
 // A run that was, or one that explore found: gone through by steps.
-interface Past { title: string; messages: Message[]; index: number; steps: boolean; found: boolean }
+interface Past { title: string; program: string | null; messages: Message[]; index: number; steps: boolean; found: boolean }
 
 let status: Status | null = null;
 let live = new Run();
@@ -29,7 +30,8 @@ let watches = false;  // this page's link is for watching
 const map = new ChartMap($("map"), (id) => { $<HTMLSelectElement>("about").value = id; renderLog(true); });
 const table = new VehicleTable($("vehicles"), (id) => map.focus(id));
 const layers = new Layers(map, tell);
-const editor = new Editor($("editor"), { changed: () => setDirty(true), checked: showFaults, save });
+const editor = new Editor($("editor"), { changed: () => setDirty(true), checked: showFaults, save,
+  elsewhere: (path, from, to) => attempt(async () => { if (await openOther(path)) editor.select(from, to); })() });
 
 // What cannot be done is said, and goes by itself.
 let notice = 0;
@@ -49,7 +51,7 @@ function attempt(f: () => Promise<unknown>) {
   });
 }
 
-const dialog = new Dialog((answer) => attempt(() => post("run/answer", answer))(), goTo);
+const dialog = new Dialog((answer) => attempt(() => post("run/answer", answer))(), (at) => goTo(at, status?.run?.program ?? null));
 const verdicts = new Verdicts({ show: showFound, goTo, cancel: (subject) => attempt(() => ask("DELETE", subject, {}))(),
   graph: () => attempt(() => analyse("graph"))(), enact: (of) => attempt(() => enact(of))() });
 const plans = new Plans((sketch) => map.sketch(sketch));
@@ -78,6 +80,7 @@ async function openProgram() {
   const file = await get("file?path=" + encodeURIComponent(path));
   if (program() !== path) return; // another one was chosen meanwhile
   hash = file.hash;
+  verdicts.about(path, hash);
   editor.open(path, file.text);
   setDirty(false);
   await loadWorld();
@@ -85,6 +88,19 @@ async function openProgram() {
 
 let parameters: { name: string; as: string; description?: string }[] = [];
 const settings = new Map<string, string>();
+
+// Another file in the editor; whether it is there.
+async function openOther(path: string | null): Promise<boolean> {
+  if (path === null) return false;
+  if (path === editor.path) return true;
+  const select = $<HTMLSelectElement>("program");
+  if (![...select.options].some((o) => o.value === path)) return false;
+  if (dirty && !confirm("The text is not saved. Leave it?")) return false;
+  select.value = path;
+  showTab("source");
+  await openProgram();
+  return true;
+}
 
 let plansAsked = 0;
 async function loadWorld() {
@@ -136,6 +152,7 @@ async function save() {
     hash = (await ask("PUT", "file", { path: editor.path, text: editor.text, hash })).hash;
   }
   setDirty(false);
+  verdicts.about(program(), hash);
   await loadWorld();
 }
 
@@ -144,7 +161,7 @@ function showFaults(found: Diagnostic[]) {
   const count = (n: number, what: string) => (n ? `${n} ${what}${n > 1 ? "s" : ""}` : "");
   const text = [count(errors, "error"), count(warnings, "warning")].filter(Boolean).join(", ") || "no errors";
   $("faults").replaceChildren(h("span", { class: errors ? "trouble" : "" }, text),
-    found.length ? h("span", { class: "first" }, ` line ${found[0].line}: ${found[0].message}`) : "");
+    found.length ? h("span", { class: "first" }, ` ${found[0].file ? found[0].file + " " : ""}line ${found[0].line}: ${found[0].message}`) : "");
 }
 
 // {1 Runs and explorations}
@@ -177,7 +194,7 @@ async function analyse(subject: (typeof subjects)[number]) {
 }
 
 // A run that was found, step by step, from where the fleet stands.
-function showFound(cx: Json) {
+function showFound(cx: Json, program: string | null) {
   const messages: Message[] = [];
   for (const v of live.vehicles.values()) {
     const s = v.samples[0];
@@ -190,32 +207,42 @@ function showFound(cx: Json) {
       text: `${(cx.dated ? clock(step.time) : String(step.i + 1)).padStart(7)}  ${step.words || step.label}` } });
   }
   const what = cx.property ? `Counterexample: ${cx.property}` : "A run that ends last";
-  openPast({ title: what, messages, index: messages.length, steps: !cx.dated, found: true });
+  openPast({ title: what, program, messages, index: messages.length, steps: !cx.dated, found: true });
   showTab("source");
 }
 
-async function openReplay(name: string, what: string) {
+const dated = (name: string) => `${name.slice(0, 10)} ${name.slice(11, 13)}:${name.slice(13, 15)} UTC`;
+
+async function openReplay(query: string, title: string) {
   const messages: Message[] = [];
-  await replay("run=" + encodeURIComponent(name), {
+  let program: string | null = null;
+  await replay(query, {
+    program: (path) => { program = path; },
     journal: (line) => messages.push({ kind: "journal", line }),
     log: (line) => messages.push({ kind: "log", line }),
     waiting: (waiting) => messages.push({ kind: "waiting", waiting }),
     places: ({ places }) => messages.push({ kind: "places", places }),
     way: ({ way }) => messages.push({ kind: "way", way }),
   });
-  openPast({ title: `${what} of ${name.slice(0, 10)} ${name.slice(11, 13)}:${name.slice(13, 15)} UTC`, messages, index: messages.length, steps: false, found: false });
+  openPast({ title, program, messages, index: messages.length, steps: false, found: false });
 }
 
+const replayRun = (run: string, what: string) => openReplay("run=" + encodeURIComponent(run), `${what} of ${dated(run)}`);
+const replayJournal = (path: string) => openReplay("path=" + encodeURIComponent(path), path);
+
 async function renderRuns() {
-  const runs = (await get("runs")).runs;
+  const [{ runs }, { journals }] = await Promise.all([get("runs"), get("files")]);
   const row = (r: Json) => h("tr", {}, h("td", {}, r.program), h("td", {}, r.started.replace("T", " ").slice(0, 16)),
     h("td", { class: "number" }, clock(r.time)), h("td", { class: r.state === "completed" ? "" : "trouble" }, r.state),
-    h("td", {}, h("button", { click: attempt(() => openReplay(r.run, r.program)) }, "Replay"),
+    h("td", {}, h("button", { click: attempt(() => replayRun(r.run, r.program)) }, "Replay"),
       r.state === "broken off" ? h("button", { class: "main", click: attempt(() => resume(r)) }, "Resume") : null));
   $("runs").replaceChildren(runs.length
     ? h("table", {}, h("thead", {}, h("tr", {}, ...["program", "started (UTC)", "time", "end", ""].map((t) => h("th", { scope: "col" }, t)))),
         h("tbody", {}, ...runs.map(row)))
-    : h("p", { class: "empty" }, "No run of a program of this folder was kept yet."));
+    : h("p", { class: "empty" }, "No run of a program of this folder was kept yet."),
+    journals.length ? h("table", { id: "journals" }, h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "journals in this folder"), h("th", {}))),
+      h("tbody", {}, ...journals.map((path: string) => h("tr", {}, h("td", {}, path),
+        h("td", {}, h("button", { "aria-label": "Replay " + path, click: attempt(() => replayJournal(path)) }, "Replay")))))) : "");
   return runs;
 }
 
@@ -235,6 +262,7 @@ async function offerToResume() {
 
 function openPast(p: Past) {
   past = p;
+  unpick();
   map.reset();
   const slider = $<HTMLInputElement>("slider");
   slider.max = String(p.messages.length);
@@ -246,6 +274,7 @@ function openPast(p: Past) {
 function leavePast() {
   if (!past) return;
   past = null;
+  unpick();
   shown = live;
   map.reset();
   $("slider-row").hidden = true;
@@ -262,7 +291,7 @@ function seek(index: number) {
   for (let i = 0; i < past.index; i++) shown.add(past.messages[i]);
   $<HTMLInputElement>("slider").value = String(past.index);
   $("step").textContent = past.steps ? `step ${shown.transitions}: ${shown.label}` : clock(shown.time);
-  editor.show(shown.at ? Number(shown.at.split(":")[0]) : null, true);
+  showLine(shown.at, past.program);
   renderLog(true);
   changed();
 }
@@ -289,7 +318,57 @@ function list(name: string, items: (Node | string)[], empty: string) {
   return h("div", { class: "fact" }, h("h3", {}, name), items.length ? h("ul", {}, ...items.map((i) => h("li", {}, i))) : h("p", { class: "empty" }, empty));
 }
 
-function goTo(at: string | undefined) { if (at) editor.show(Number(at.split(":")[0]), true); }
+// Which program the places of what is shown are in.
+const shownProgram = () => (past ? past.program : status?.run?.program ?? null);
+
+// The line of [at] if its file is in the editor; else none.
+function showLine(at: string | null, of: string | null) {
+  const place = at === null ? null : readPlace(at);
+  const path = place && (place.file === null ? of : of === null ? null : beside(of, place.file));
+  editor.show(place && (path === editor.path || (of === null && place.file === null)) ? place.line : null, true);
+}
+
+// The same, and the file is opened if it is another one.
+function goTo(at: string | undefined, of: string | null) {
+  const place = at === undefined ? null : readPlace(at);
+  if (!place) return;
+  attempt(async () => {
+    const path = place.file === null ? of : of === null ? null : beside(of, place.file);
+    if (await openOther(path)) { showTab("source"); editor.show(place.line, true); }
+    else if (of === null && place.file === null) editor.show(place.line, true);
+    else tell(`${place.file ?? of}, line ${place.line}: this file is not shown here.`);
+  })();
+}
+
+// {2 What was picked on the timeline}
+
+let picked: Picked | null = null;
+
+function pick(p: Picked) {
+  picked = p;
+  const button = p.at === undefined ? "" : h("button", { class: "link", click: () => goTo(p.at, shownProgram()) }, inWords(p.at));
+  $("picked").replaceChildren(h("span", { class: "what" }, p.text), button, h("button", { "aria-label": "leave it", click: unpick }, "✕"));
+  $("picked").hidden = false;
+  if (p.at !== undefined) goTo(p.at, shownProgram());
+  map.past(shown, past?.found ? null : p.time, p.vehicle);
+  changed();
+}
+
+function unpick() {
+  if (!picked) return;
+  picked = null;
+  $("picked").hidden = true;
+  map.past(shown, null, null);
+  changed();
+}
+
+function pickNext(by: number) {
+  const all = happenings(shown, past?.steps ?? false), i = all.findIndex((p) => p.key === picked?.key);
+  const next = all[i < 0 ? (by > 0 ? 0 : all.length - 1) : Math.max(0, Math.min(i + by, all.length - 1))];
+  if (next) pick(next);
+}
+
+const placeOf = (d: Diagnostic) => `${d.file ? d.file + ":" : ""}${d.line}:${d.column}`;
 
 let nowKey = "";
 function renderNow() {
@@ -301,21 +380,28 @@ function renderNow() {
   const parts: Node[] = [];
   if (!past && run?.state === "over" && run.outcome)
     parts.push(h("p", { class: "outcome " + run.outcome.how }, `${run.program ?? "the run"}${run.counterexample !== null ? ", as the counterexample says" : ""}: ${run.outcome.text}`,
-      run.journal !== null ? h("button", { click: attempt(() => openReplay(run.journal!, run.program ?? "run")) }, "Replay") : null));
+      run.journal !== null ? h("button", { click: attempt(() => replayRun(run.journal!, run.program ?? "run")) }, "Replay") : null));
   if (!past && run?.outcome?.diagnostics.length)
-    parts.push(...run.outcome.diagnostics.map((d) => h("button", { class: "link trouble", click: () => goTo(`${d.line}:${d.column}`) }, `line ${d.line}: ${d.message}`)));
+    parts.push(...run.outcome.diagnostics.map((d) => h("button", { class: "link trouble", click: () => goTo(placeOf(d), run.program) }, `${inWords(placeOf(d))}: ${d.message}`)));
   if (going && run.question) parts.push(h("p", { class: "outcome asks" }, run.question.prompt,
     h("button", { class: "main", click: () => dialog.open() }, "Answer")));
   if (going && run.inputs.length) parts.push(inputs(run.inputs));
   if (!going && !past && parameters.length) parts.push(fields());
-  parts.push(list("Waits for", shown.waiting.map((w) => h("button", { class: "link", click: () => goTo(w.at) }, w.what,
-    w.lacking ? h("small", {}, ` ${w.lacking}`) : null, w.at ? h("small", {}, ` line ${w.at.split(":")[0]}`) : null)), going ? "nothing but its vehicles" : "nothing"));
+  parts.push(list("Waits for", shown.waiting.map((w) => h("button", { class: "link", click: () => goTo(w.at, shownProgram()) }, w.what,
+    w.lacking ? h("small", {}, ` ${w.lacking}`) : null, w.at ? h("small", {}, " " + inWords(w.at)) : null)), going ? "nothing but its vehicles" : "nothing"));
   parts.push(list("Tuple space N", shown.tuples, "empty"));
   parts.push(list("Allocated A", [...shown.allocation].map(([v, p]) => `${v}: ${p}`), "none"));
   parts.push(list("Bound B", shown.bound.size ? [[...shown.bound].join(", ")] : [], "none"));
-  const focused = document.activeElement?.id;
+  // What somebody is about to type stays, wherever else something has changed.
+  const focused = document.activeElement?.id, typed = [...$("now").querySelectorAll("input")]
+    .map(({ id, value, selectionStart, selectionEnd }) => ({ id, value, from: selectionStart, to: selectionEnd }));
   $("now").replaceChildren(...parts);
-  if (focused?.startsWith("input-") || focused?.startsWith("parameter-")) document.getElementById(focused)?.focus();
+  for (const { id, value, from, to } of typed) {
+    const field = document.getElementById(id) as HTMLInputElement | null;
+    if (!field || (id.startsWith("parameter-") && !settings.has(field.name))) continue;
+    field.value = value;
+    if (focused === id) { field.focus(); field.setSelectionRange(from, to); }
+  }
 }
 
 // What the fleet says may come is a button; anything else is typed.
@@ -339,7 +425,7 @@ function fields() {
   return h("div", { class: "fact" }, h("h3", {}, "Parameters"), ...parameters.map((p) => {
     const value = p.as.replace(/^[^=]*= /, "");
     return h("div", { class: "input" }, h("label", { for: "parameter-" + p.name, title: p.description ?? "" }, p.name),
-      h("input", { id: "parameter-" + p.name, placeholder: value, autocomplete: "off",
+      h("input", { id: "parameter-" + p.name, name: p.name, placeholder: value, autocomplete: "off",
         input: (e: Event) => { const t = (e.target as HTMLInputElement).value.trim(); if (t) settings.set(p.name, t); else settings.delete(p.name); } }));
   }));
 }
@@ -428,7 +514,7 @@ function changed() {
     renderLog();
     renderHead();
     alarms.show(status?.run?.id ?? "", live);
-    timeline($("timeline"), shown, past?.steps ?? false, goTo);
+    timeline($("timeline"), shown, past?.steps ?? false, picked?.key ?? null, pick);
   }), 100);
 }
 
@@ -473,7 +559,7 @@ listen({
   },
   reset() {
     live = new Run();
-    if (!past) { shown = live; map.reset(); renderLog(true); }
+    if (!past) { shown = live; unpick(); map.reset(); renderLog(true); }
     changed();
   },
   journal(line) { live.add({ kind: "journal", line }); if (!past) changed(); },
@@ -494,8 +580,12 @@ listen({
 $("program").addEventListener("change", attempt(async () => {
   if (dirty && !confirm("The text is not saved. Leave it?")) { $<HTMLSelectElement>("program").value = editor.path; return; }
   if (status?.run?.state === "over" || !status?.run) { live = new Run(); if (!past) shown = live; }
-  verdicts.forget();
   await openProgram();
+}));
+// The browser's way back and forth.
+window.addEventListener("hashchange", attempt(async () => {
+  const path = decodeURIComponent(location.hash.slice(1));
+  if (path && path !== program() && !(await openOther(path))) location.hash = program();
 }));
 $("fleet").addEventListener("change", attempt(loadWorld));
 $("run").addEventListener("click", attempt(startRun));
@@ -520,6 +610,10 @@ document.querySelector(".tabs")!.addEventListener("keydown", (e) => {
   const i = buttons.indexOf(document.activeElement as HTMLElement);
   if (key !== "ArrowRight" && key !== "ArrowLeft") return;
   buttons[(i + (key === "ArrowRight" ? 1 : buttons.length - 1)) % buttons.length].focus();
+});
+$("timeline").addEventListener("keydown", (e) => {
+  if (e.key === "ArrowRight" || e.key === "ArrowLeft") { e.preventDefault(); pickNext(e.key === "ArrowRight" ? 1 : -1); }
+  else if (e.key === "Escape") unpick();
 });
 window.addEventListener("resize", changed);
 window.addEventListener("beforeunload", (e) => { if (dirty) e.preventDefault(); });

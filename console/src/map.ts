@@ -4,7 +4,7 @@
 import * as L from "leaflet";
 import type { Fence, Place, Way } from "./api";
 import type { Sketch } from "./plans";
-import { type Run, type Vehicle, clock, trouble } from "./model";
+import { type Run, type Vehicle, clock, trouble, whereabouts } from "./model";
 import { h } from "./dom";
 import { Measure } from "./measure";
 
@@ -30,6 +30,7 @@ export class ChartMap {
   private legend = h("ul", { class: "map-legend", hidden: true, "aria-label": "Fences" });
   private ways = L.layerGroup();
   private sketched = L.layerGroup();  // a plan before it runs
+  private then = L.layerGroup();  // where vehicles were when something happened
   private drawn = { program: "", ways: "", fences: "" };
   private following = h("button", { class: "map-button", type: "button", hidden: true });
   private shown = new Map<string, Shown>();
@@ -41,7 +42,7 @@ export class ChartMap {
     this.map = L.map(el, { center: [41.185, -8.706], zoom: 15, maxZoom: 21, minZoom: 2, attributionControl: false,
       zoomAnimation: false, fadeAnimation: false, preferCanvas: true });
     L.control.scale({ imperial: false }).addTo(this.map);
-    for (const layer of [this.net, this.fences, this.program, this.ways, this.sketched, this.places]) layer.addTo(this.map);
+    for (const layer of [this.net, this.fences, this.program, this.ways, this.sketched, this.then, this.places]) layer.addTo(this.map);
     this.map.on("moveend resize", () => this.draw());
     this.map.on("dragstart", () => this.unfollow());
     for (const event of ["pointerdown", "wheel", "keydown"]) el.addEventListener(event, () => { this.chosen = true; });
@@ -128,11 +129,13 @@ export class ChartMap {
     s.track.setLatLngs(v.samples.map((p) => L.latLng(p.latitude, p.longitude)));
     const heading = headingOf(v), t = trouble(run, v), plan = run.allocation.get(v.id) ?? "";
     const age = run.moves ? run.time - v.heard : 0;
-    const key = [heading, t.rank, plan, Math.floor(age / 5)].join();
+    const key = [heading, t.rank, plan, Math.floor(age / 5), percent(last.battery)].join();
     if (key !== s.key) {
       s.key = key;
       s.size = null;
       const el = s.marker.getElement()!;
+      el.title = [v.id, v.kind, plan || "no task", v.connected ? "" : "no link", last.battery === null ? "" : `battery ${percent(last.battery)}`,
+        run.moves ? `heard ${clock(age)} ago` : ""].filter(Boolean).join(", ");
       el.replaceChildren(icon(tint, heading, !v.connected),
         h("span", { class: "name" + (t.rank > 0 ? " bad" : "") }, v.id, plan ? h("small", {}, plan) : null,
           t.rank > 0 ? h("small", {}, t.text) : age > 15 ? h("small", {}, `${clock(age)} old`) : null));
@@ -216,6 +219,20 @@ export class ChartMap {
       L.polyline(w.path, { color: colour(ids.indexOf(w.vehicle)), weight: 2, dashArray: "5 6", interactive: false }).addTo(this.ways);
   }
 
+  // Where vehicles were at [time], [first] of all; null: nowhere.
+  past(run: Run, time: number | null, first: string | null) {
+    this.then.clearLayers();
+    if (time === null) return;
+    [...run.vehicles.values()].forEach((v, i) => {
+      const s = whereabouts(v, time);
+      if (!s) return;
+      const at = L.latLng(s.latitude, s.longitude), says = `${v.id}, ${clock(time)}`;
+      L.marker(at, { interactive: false, keyboard: false, icon: L.divIcon({ className: "then", iconSize: [0, 0],
+        html: h("span", {}, v.id === first ? says : "") as any }) }).addTo(this.then).getElement()!.style.setProperty("--tint", colour(i));
+      if (v.id === first && !this.map.getBounds().contains(at)) { this.chosen = true; this.unfollow(); this.map.panTo(at, { animate: false }); }
+    });
+  }
+
   // The way of a plan from where its vehicle would begin, and where its maneuvers end; or none.
   sketch(plan: Sketch | null) {
     this.sketched.clearLayers();
@@ -271,6 +288,8 @@ function headingOf(v: Vehicle): number | null {
   }
   return null;
 }
+
+const percent = (battery: number | null) => (typeof battery === "number" ? Math.round(battery * 100) + " %" : "");
 
 function icon(tint: string, heading: number | null, lost: boolean): Element {
   const el = document.createElementNS("http://www.w3.org/2000/svg", "svg");

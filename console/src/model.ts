@@ -2,13 +2,13 @@
 
 import type { Fence, Json, LogLine, Place, Waiting, Way } from "./api";
 
-export interface Task { plan: string; from: number; until: number | null; how: "runs" | "done" | "failed" | "stopped"; why?: string }
+export interface Task { plan: string; from: number; until: number | null; how: "runs" | "done" | "failed" | "stopped"; why?: string; at?: string; step: number }
 export interface Sample { time: number; latitude: number; longitude: number; battery: number | null }
 export interface Vehicle {
   id: string; kind: string; payload: string[]; connected: boolean; unready: string | null;
   heard: number; samples: Sample[]; tasks: Task[]; silent: { from: number; until: number | null }[]; low: boolean;
 }
-export interface Mark { time: number; kind: "posted" | "consumed" | "said" | "asked" | "failed" | "input"; text: string; at?: string }
+export interface Mark { time: number; kind: "posted" | "consumed" | "said" | "asked" | "failed" | "input"; text: string; at?: string; step: number }
 // What somebody has to look at, also when it has passed.
 export interface Alarm { kind: "link" | "battery" | "failed"; time: number; vehicle: string; text: string; until: number | null }
 export const lowBattery = 0.2;
@@ -69,7 +69,7 @@ export class Run {
     }
   }
 
-  private mark(kind: Mark["kind"], text: string, at?: string) { this.marks.push({ time: this.time, kind, text, at }); }
+  private mark(kind: Mark["kind"], text: string, at?: string) { this.marks.push({ time: this.time, kind, text, at, step: this.transitions }); }
 
   private news(line: Json) {
     const v = this.vehicle(line.vehicle);
@@ -133,7 +133,7 @@ export class Run {
       else {
         this.end(id, "stopped");
         this.allocation.set(id, plan);
-        this.vehicle(id).tasks.push({ plan, from: this.time, until: null, how: "runs" });
+        this.vehicle(id).tasks.push({ plan, from: this.time, until: null, how: "runs", at: line.at, step: this.transitions });
       }
     }
     for (const id of line.B?.bound ?? []) { this.bound.add(id); this.vehicle(id); }
@@ -160,6 +160,13 @@ export function trouble(run: Run, v: Vehicle): { rank: number; text: string } {
   if (v.unready) return { rank: 2, text: v.unready };
   if (typeof battery === "number" && battery < lowBattery) return { rank: 1, text: "battery low" };
   return { rank: run.bound.has(v.id) ? 0 : -1, text: "" };
+}
+
+// Where a vehicle was, as far as it was heard of by then.
+export function whereabouts(v: Vehicle, time: number): Sample | null {
+  let found: Sample | null = null;
+  for (const s of v.samples) { if (s.time > time) break; found = s; }
+  return found;
 }
 
 export function clock(seconds: number): string {

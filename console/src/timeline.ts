@@ -1,7 +1,11 @@
-// Who ran what when: a row for each vehicle, and one for what the program did.
+// Who ran what when: a row for each vehicle, and one for what the program did. What happened can be picked, by pressing
+// it or by the arrow keys: then it is told in words, with its place in the program and on the map.
 
-import { type Mark, type Run, clock } from "./model";
+import { type Mark, type Run, type Task, type Vehicle, clock } from "./model";
 import { h, svg } from "./dom";
+
+// What was picked; vehicles are where they were then.
+export interface Picked { key: string; time: number; vehicle: string | null; text: string; at?: string; step: number }
 
 const row = 26, left = 118, top = 22;
 
@@ -10,7 +14,20 @@ const nice = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 144
 const letter: Record<Mark["kind"], string> =
   { posted: "+", consumed: "−", said: "“", asked: "?", failed: "!", input: "»" };
 
-export function timeline(el: HTMLElement, run: Run, steps: boolean, onMark: (at: string | undefined, time: number) => void) {
+const ofTask = (v: Vehicle, t: Task, i: number, steps: boolean): Picked => ({ key: `${v.id} ${i}`, time: t.from, vehicle: v.id, at: t.at, step: t.step,
+  text: `${v.id}: ${t.plan}, ${steps ? "step " + t.from : clock(t.from)}` +
+    (t.until === null ? ", runs" : ` to ${steps ? t.until : clock(t.until)}, ${t.how}`) + (t.why ? `: ${t.why}` : "") });
+
+const ofMark = (m: Mark, i: number, steps: boolean): Picked => ({ key: `program ${i}`, time: m.time, vehicle: null, at: m.at, step: m.step,
+  text: `${steps ? "step " + m.time : clock(m.time)} ${m.kind}: ${m.text}` });
+
+// All that can be picked, in its order.
+export function happenings(run: Run, steps: boolean): Picked[] {
+  const tasks = [...run.vehicles.values()].flatMap((v) => v.tasks.map((t, i) => ofTask(v, t, i, steps)));
+  return [...tasks, ...run.marks.map((m, i) => ofMark(m, i, steps))].sort((a, b) => a.time - b.time || a.step - b.step);
+}
+
+export function timeline(el: HTMLElement, run: Run, steps: boolean, picked: string | null, pick: (p: Picked) => void) {
   const vehicles = [...run.vehicles.values()].filter((v) => v.tasks.length > 0 || run.bound.has(v.id));
   const width = Math.max(320, el.clientWidth - 4), length = Math.max(run.time, 1);
   const x = (time: number) => left + 9 + (time / length) * (width - left - 24);
@@ -29,27 +46,26 @@ export function timeline(el: HTMLElement, run: Run, steps: boolean, onMark: (at:
     for (const gap of v.silent)
       parts.push(svg("rect", { x: x(gap.from), y: y + 1, width: Math.max(2, x(gap.until ?? run.time) - x(gap.from)), height: row - 3, class: "gap" },
         svg("title", {}, `${v.id}: no link`)));
-    for (const t of v.tasks) {
-      const from = x(t.from), to = x(t.until ?? run.time), wide = Math.max(3, to - from);
-      const says = `${v.id}: ${t.plan}, ${steps ? "step " + t.from : clock(t.from)}` +
-        (t.until === null ? ", runs" : ` to ${steps ? t.until : clock(t.until)}, ${t.how}`) + (t.why ? `: ${t.why}` : "");
-      parts.push(svg("rect", { x: from, y: y + 4, width: wide, height: row - 9, rx: 3, class: "task " + t.how }, svg("title", {}, says)));
+    v.tasks.forEach((t, n) => {
+      const from = x(t.from), to = x(t.until ?? run.time), wide = Math.max(3, to - from), one = ofTask(v, t, n, steps);
+      parts.push(svg("rect", { x: from, y: y + 4, width: wide, height: row - 9, rx: 3, class: "task " + t.how + (one.key === picked ? " picked" : ""),
+        // Pressing, and not clicking: the picture may be drawn anew in between.
+        pointerdown: () => pick(one) }, svg("title", {}, one.text)));
       if (wide > 30) parts.push(svg("text", { x: from + 5, y: y + 17, class: "plan " + t.how }, short(t.plan, Math.floor((wide - 8) / 6.4))));
-    }
+    });
   });
 
   const y = top + row * vehicles.length;
   parts.push(svg("text", { x: left - 8, y: y + 17, class: "who" }, "program"));
   let last = -99;
-  for (const mark of run.marks) {
-    const at = x(mark.time);
-    if (at - last < 3 && mark.kind !== "failed") continue;
+  run.marks.forEach((mark, i) => {
+    const at = x(mark.time), one = ofMark(mark, i, steps);
+    if (at - last < 3 && mark.kind !== "failed" && one.key !== picked) return;
     last = at;
-    parts.push(svg("g", { class: "mark " + mark.kind, transform: `translate(${at} ${y + 13})`,
-      // Pressing, and not clicking: the picture may be drawn anew in between.
-      pointerdown: () => onMark(mark.at, mark.time) },
-      svg("circle", { r: 8 }), svg("text", { y: 4 }, letter[mark.kind]), svg("title", {}, `${clock(mark.time)} ${mark.kind}: ${mark.text}`)));
-  }
+    parts.push(svg("g", { class: "mark " + mark.kind + (one.key === picked ? " picked" : ""), transform: `translate(${at} ${y + 13})`,
+      pointerdown: () => pick(one) },
+      svg("circle", { r: 8 }), svg("text", { y: 4 }, letter[mark.kind]), svg("title", {}, one.text)));
+  });
   const picture = svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img",
     "aria-label": `${vehicles.length} vehicles, ${clock(run.time)}` }, ...parts);
   el.replaceChildren(vehicles.length + run.marks.length ? picture : h("p", { class: "empty" }, "Nothing has happened yet."));

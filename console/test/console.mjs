@@ -10,6 +10,7 @@ import analyses from "./analyses.mjs";
 import imc from "./imc.mjs";
 import listen from "./listen.mjs";
 import maps from "./maps.mjs";
+import places from "./places.mjs";
 import people from "./people.mjs";
 import plans from "./plans.mjs";
 
@@ -256,6 +257,7 @@ await people(all);
 await analyses(all);
 await maps(all);
 await plans(all);
+await places({ ...all, dolphin, environment });
 await accessibility({ ...all, open, pictures });
 await listen({ ...all, dolphin, environment, browser, complaints });
 await imc({ ...all, home, dolphin, environment, browser, complaints });

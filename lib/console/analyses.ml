@@ -39,7 +39,13 @@ let start subject h found =
   Hall.set_analysis h subject (Analysis.start ~dolphin ~changed { kind; faults; seconds } program fleet);
   Ok (`Assoc [])
 
-let result subject h _ = Ok (of_option Analysis.to_json (Hall.analysis h subject))
+let to_json h a =
+  let path = Folder.inside (folder h) (Analysis.program a).path in
+  match Analysis.to_json a with
+  | `Assoc found -> `Assoc (("program", of_option (fun path -> `String path) path) :: found)
+  | json -> json
+
+let result subject h _ = Ok (of_option (to_json h) (Hall.analysis h subject))
 
 let cancel subject h _ =
   Option.iter Analysis.cancel (Hall.analysis h subject);

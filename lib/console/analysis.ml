@@ -12,6 +12,7 @@ type state = Running | Cancelled | Over of (Yojson.Safe.t, string) result
 type t = {
   order : order;
   program : Program_file.t;
+  hash : string;  (* of its file *)
   fleet : Fleet_file.t;
   process : Lwt_process.process_full;
   changed : unit -> unit;
@@ -24,6 +25,7 @@ type t = {
   mutable found : Witness.t option;
 }
 
+let program e = e.program
 let goes_on e = match e.state with Running -> true | Cancelled | Over _ -> false
 let finished e = Lwt.protected e.finished
 
@@ -127,8 +129,10 @@ let start ~dolphin ~changed order (program : Program_file.t) (fleet : Fleet_file
   let command = (dolphin :: arguments order ~witness) @ inputs program fleet in
   let process = Lwt_process.open_process_full (dolphin, Array.of_list command) in
   let finished, finish = Lwt.wait () in
+  let digest text = Digest.to_hex (Digest.string text) in
+  let hash = Result.fold (Text_file.read program.path) ~ok:digest ~error:(fun _ -> "") in
   let e =
-    { order; program; fleet; process; changed; witness; finished; finish; progress = ""; state = Running;
+    { order; program; hash; fleet; process; changed; witness; finished; finish; progress = ""; state = Running;
       steps = `Null; found = None }
   in
   let whole () =
@@ -157,4 +161,4 @@ let to_json e : Yojson.Safe.t =
     | Over (Ok json) -> ("over", [ ("result", json); ("counterexample", e.steps) ])
     | Over (Error why) -> ("failed", [ ("error", `String why) ])
   in
-  `Assoc ([ ("state", `String state); ("progress", `String e.progress) ] @ more)
+  `Assoc ([ ("hash", `String e.hash); ("state", `String state); ("progress", `String e.progress) ] @ more)

@@ -29,6 +29,8 @@ val finished : t -> unit Lwt.t
 val shown : t -> (Program_file.t * Fleet_file.t * Dolphin_trace.Witness.t) option
 (** The run that it shows, a counterexample perhaps, with the program and the fleet as they were then. *)
 
+val program : t -> Program_file.t
+
 val to_json : t -> Yojson.Safe.t
-(** How it goes; when it is over, the result as the command has it with [--json], and the run that it shows step by
-    step, each as a line of a journal with the words of the log. *)
+(** How it goes, and the hash of the program's file as it was read; when it is over, the result as the command has it
+    with [--json], and the run that it shows step by step, each as a line of a journal with the words of the log. *)

@@ -81,6 +81,10 @@ let at_place f h found =
   let* at = get whole "at" found in
   Ok (f d at)
 
+let definition h found =
+  let path file = of_option (fun path -> `String path) (Folder.inside (folder h) file) in
+  at_place (Documents.definition ~path) h found
+
 let format h found =
   let* d = document h found in
   Result.map_error (refusal 422 "faults") (Documents.format d)
@@ -353,7 +357,8 @@ let table =
     (("POST", "check"), Compute check);
     (("POST", "complete"), Compute (at_place Documents.complete));
     (("POST", "hover"), Compute (at_place Documents.hover));
-    (("POST", "definition"), Compute (at_place Documents.definition));
+    (("POST", "signature"), Compute (at_place Documents.signature));
+    (("POST", "definition"), Compute definition);
     (("POST", "format"), Compute format);
     (("GET", "world"), Look world);
     (("POST", "plans"), Compute_beside Plans.list);

@@ -34,22 +34,28 @@ let span source ({ start; stop } : Service.span) : (string * Yojson.Safe.t) list
 
 (* {1 Diagnostics} *)
 
-let diagnostic source (d : Diagnostic.t) : Yojson.Safe.t =
+let diagnostic ?file source (d : Diagnostic.t) : Yojson.Safe.t =
   let { Location.start; stop } = d.at in
   let hint = Option.fold d.hint ~none:[] ~some:(fun text -> [ ("hint", `String text) ]) in
+  let elsewhere =
+    match file, Location.file d.at with
+    | None, _ | Some _, "" -> []
+    | Some file, other when file = other -> []
+    | Some file, other -> [ ("file", `String (Dolphin_syntax.Include.from file other)) ]
+  in
   let severity = match d.severity with Error -> "error" | Warning -> "warning" in
   `Assoc
     (span source { start = max 0 start.pos_cnum; stop = max 0 stop.pos_cnum }
      @ [ ("line", `Int (Location.line d.at)); ("column", `Int (Location.column d.at)); ("severity", `String severity);
          ("message", `String d.message); ("code", `String (Diagnostic.code_name d.code)) ]
-     @ hint)
+     @ elsewhere @ hint)
 
 let diagnostics d = `List (List.map (diagnostic (Service.source d)) (Service.diagnostics d))
 
-let of_error ~source e =
+let of_error ~file ~source e =
   let plain text = Diagnostic.error Location.none text in
   let found = Dolphin_app.Error.diagnostics e @ List.map plain (Dolphin_app.Error.sentences e) in
-  `List (List.map (diagnostic source) found)
+  `List (List.map (diagnostic ~file source) found)
 
 (* {1 Writing} *)
 
@@ -76,9 +82,14 @@ let hover d offset : Yojson.Safe.t =
   | Some (at, text) -> `Assoc (span (Service.source d) at @ [ ("text", `String text) ])
   | None -> `Null
 
-let definition d offset : Yojson.Safe.t =
+let signature d offset : Yojson.Safe.t =
+  match Service.signature d (byte (Service.source d) offset) with
+  | Some { form; text; _ } -> `Assoc [ ("form", `String form); ("text", `String text) ]
+  | None -> `Null
+
+let definition ~path d offset : Yojson.Safe.t =
   match Service.definition d (byte (Service.source d) offset) with
-  | Some { file; source; span = at } -> `Assoc (("file", `String (Filename.basename file)) :: span source at)
+  | Some { file; source; span = at } -> `Assoc (("file", path file) :: span source at)
   | None -> `Null
 
 let format d =

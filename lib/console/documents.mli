@@ -8,10 +8,15 @@ val service : file:string -> fleet:Service.fleet option -> string -> Service.t
 val diagnostics : Service.t -> Yojson.Safe.t
 (** A list; each has [from], [to], [line], [column], [severity], [message], [code], perhaps [hint]. *)
 
-val of_error : source:string -> Dolphin_app.Error.t -> Yojson.Safe.t
-(** Likewise what a use case says of the text [source]. *)
+val of_error : file:string -> source:string -> Dolphin_app.Error.t -> Yojson.Safe.t
+(** Likewise what a use case says of the text [source] of [file]; what is wrong in another one has its [file], seen from
+    the folder of that. *)
 
 val complete : Service.t -> int -> Yojson.Safe.t
 val hover : Service.t -> int -> Yojson.Safe.t
-val definition : Service.t -> int -> Yojson.Safe.t
+val signature : Service.t -> int -> Yojson.Safe.t
+
+val definition : path:(string -> Yojson.Safe.t) -> Service.t -> int -> Yojson.Safe.t
+(** [path] is what a file is called on the wire. *)
+
 val format : Service.t -> (Yojson.Safe.t, string) result

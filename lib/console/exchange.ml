@@ -45,9 +45,9 @@ let folder h = (Hall.settings h).Hall.folder
 
 let file h path = Result.map_error (refusal 404 "not-found") (Folder.find (folder h) path)
 
-let of_error ~source e =
+let of_error ~file ~source e =
   let message = match Error.sentences e with [] -> "the text has faults" | found -> String.concat "; " found in
-  refusal ~more:[ ("diagnostics", Documents.of_error ~source e) ] 422 "faults" message
+  refusal ~more:[ ("diagnostics", Documents.of_error ~file ~source e) ] 422 "faults" message
 
 let text path = Result.map_error (fun e -> refusal 404 "not-found" (String.concat "; " (Error.sentences e)))
     (Text_file.read path)
@@ -56,7 +56,7 @@ let text path = Result.map_error (fun e -> refusal 404 "not-found" (String.conca
 let program h ?(set = []) path =
   let* full = file h path in
   let* source = text full in
-  Result.map_error (of_error ~source) (Program_file.load ~set full)
+  Result.map_error (of_error ~file:full ~source) (Program_file.load ~set full)
 
 let fleet h ~program named =
   let* named =
@@ -66,9 +66,10 @@ let fleet h ~program named =
   in
   let path = Fleet_file.choose ~program named in
   let source = Option.fold path ~none:"" ~some:(fun path -> Result.value (Text_file.read path) ~default:"") in
-  Result.map_error (of_error ~source) (Fleet_file.load path)
+  Result.map_error (of_error ~file:program ~source) (Fleet_file.load path)
 
-let within fleet (p : Program_file.t) = Result.map_error (of_error ~source:p.source) (Program_file.within fleet p)
+let within fleet (p : Program_file.t) =
+  Result.map_error (of_error ~file:p.path ~source:p.source) (Program_file.within fleet p)
 
 (* The parameters that are set, each with the text of its value. *)
 let set found =

@@ -206,12 +206,12 @@ let post r pairs =
 let sentence outcome = Format.asprintf "%a" Driver.pp_outcome outcome
 
 let of_outcome r outcome : Yojson.Safe.t =
-  let source = r.order.program.source in
+  let { Program_file.path = file; source; _ } = r.order.program in
   let how, text, trouble =
     match outcome with
     | Error (Error.Interrupted why) -> ("interrupted", why, `List [])
     | Error e ->
-      ("unavailable", String.concat "; " (Error.sentences e), Documents.of_error ~source e)
+      ("unavailable", String.concat "; " (Error.sentences e), Documents.of_error ~file ~source e)
     | Ok (outcome : Driver.outcome) ->
       let how =
         match outcome with
@@ -222,7 +222,7 @@ let of_outcome r outcome : Yojson.Safe.t =
         | Stuck _ | Spins _ -> "stuck"
       in
       let trouble = match Run.explain r.order.program outcome with
-        | Some e -> Documents.of_error ~source e | None -> `List [] in
+        | Some e -> Documents.of_error ~file ~source e | None -> `List [] in
       (how, sentence outcome, trouble)
   in
   `Assoc [ ("how", `String how); ("text", `String text); ("diagnostics", trouble) ]

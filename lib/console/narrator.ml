@@ -3,7 +3,6 @@ open Dolphin_trace
 open Dolphin_display
 module Program_file = Dolphin_app.Program_file
 module Canonical = Dolphin_json.Canonical
-module Location = Dolphin_syntax.Location
 
 type t = {
   program : Program_file.t;
@@ -19,7 +18,8 @@ let make (program : Program_file.t) feed =
   { program; feed; log = Log.start; world = World.empty; configuration = Configuration.initial program.program;
     places = `List []; told = [] }
 
-let tell n event json = Feed.add n.feed ~event (Canonical.to_string json)
+let tell_feed feed event json = Feed.add feed ~event (Canonical.to_string json)
+let tell n = tell_feed n.feed
 let entry n entry = Feed.add n.feed ~event:"journal" (Entry.to_string entry)
 
 let severity : Log.severity -> string = function
@@ -28,13 +28,15 @@ let severity : Log.severity -> string = function
   | Completed -> "completed"
   | Ordinary -> "ordinary"
 
-let text n kind ~time ?(about = []) text =
-  tell n "log"
+let text feed kind ~time ?(about = []) text =
+  tell_feed feed "log"
     (`Assoc
        [ ("time", Canonical.number time); ("severity", `String kind); ("about", Dolphin_json.Field.texts about);
          ("text", `String text) ])
 
-let line n ~time (l : Log.line) = text n (severity l.severity) ~time ~about:l.about l.text
+let line_on feed ~time (l : Log.line) = text feed (severity l.severity) ~time ~about:l.about l.text
+let line n = line_on n.feed
+let remark_on feed ~time what = line_on feed ~time (Log.remark Log.start ~time what)
 
 (* {1 On the map} *)
 
@@ -76,29 +78,29 @@ let news n ~time state =
   List.iter (line n ~time) lines
 
 let remark n ~time what = line n ~time (Log.remark n.log ~time what)
-let question n ~time prompt = text n "said" ~time (Log.question n.log ~time prompt)
+let question n ~time prompt = text n.feed "said" ~time (Log.question n.log ~time prompt)
 
 (* {1 What it waits for} *)
 
-let place (at : Location.t) = Printf.sprintf "%d:%d" (Location.line at) (Location.column at)
+let place n at = Step.text_of_place (Step.place_of n.program.program at)
 
-let json_of_waiting ({ what; at; lacking } : Waiting.t) : Yojson.Safe.t =
+let json_of_waiting n ({ what; at; lacking } : Waiting.t) : Yojson.Safe.t =
   let member name f = Option.fold ~none:[] ~some:(fun x -> [ (name, `String (f x)) ]) in
-  `Assoc ((("what", `String what) :: member "at" place at) @ member "lacking" Fun.id lacking)
+  `Assoc ((("what", `String what) :: member "at" (place n) at) @ member "lacking" Fun.id lacking)
 
 type place_of_question = { at : string option; is_confirm : bool }
 
 let place_of_question n prompt =
   let { Program_file.program; source; _ } = n.program in
   let found = Waiting.question program ~source n.configuration prompt in
-  { at = Option.map place found.at; is_confirm = found.is_confirm }
+  { at = Option.map (place n) found.at; is_confirm = found.is_confirm }
 
 let waiting n ~time =
   let { Program_file.program; source; _ } = n.program in
   let now = Waiting.list program ~source n.world n.configuration in
   if now <> n.told then begin
     n.told <- now;
-    tell n "waiting" (`Assoc [ ("time", Canonical.number time); ("for", `List (List.map json_of_waiting now)) ])
+    tell n "waiting" (`Assoc [ ("time", Canonical.number time); ("for", `List (List.map (json_of_waiting n) now)) ])
   end
 
 let replayed n (e : Entry.t) replay =

@@ -23,9 +23,15 @@ val news : t -> time:float -> World.vehicle_state -> unit
 val remark : t -> time:float -> string -> unit
 (** What is unusual. *)
 
+val remark_on : Feed.t -> time:float -> string -> unit
+(** The same on the feed of a run whose program nobody has. *)
+
 val question : t -> time:float -> string -> unit
 
-type place_of_question = { at : string option;  (** ["3:5"] *) is_confirm : bool  (** it takes yes or no *) }
+type place_of_question = {
+  at : string option;  (** ["3:5"], ["lib.dol:3:5"] *)
+  is_confirm : bool;  (** it takes yes or no *)
+}
 
 val place_of_question : t -> string -> place_of_question
 (** [place_of_question n prompt] is where the program, or a task that it executes, asks [prompt] now, and whether by

@@ -1,27 +1,49 @@
 open Dolphin_app
 open Dolphin_trace
 
+(* Where the program of a journal may be: where it was, seen from here or from the folder; or beside the journal, which
+   has come from another machine with it. *)
+let places folder ~journal path =
+  let root = Folder.root folder and name = Filename.basename path in
+  let relative = if Filename.is_relative path then [ Filename.concat root path ] else [] in
+  (path :: relative) @ [ Filename.concat (Filename.dirname journal) name; Filename.concat root name ]
+
 (* The program of a journal, as it was when it ran. *)
-let program_of folder (header : Header.t) =
-  match Folder.inside folder header.program.path with
-  | None -> None
-  | Some _ -> (
-      match Program_file.load ~set:header.program.set header.program.path with
-      | Ok program when (Program_file.header program).hash = header.program.hash -> Some program
-      | Ok _ | Error _ -> None)
+let program_of folder ~journal (header : Header.t) =
+  let { Header.path; hash; set } = header.program in
+  let unchanged path =
+    match Program_file.load ~set path with
+    | Ok program when (Program_file.header program).hash = hash -> Some program
+    | Ok _ | Error _ -> None
+  in
+  let here path = Option.bind (Folder.inside folder path) (fun _ -> unchanged path) in
+  List.find_map here (places folder ~journal path)
 
 type teller = Unknown | Plain | Whole of Narrator.t * Replay.t
 
 let plain feed entry = Feed.add feed ~event:"journal" (Entry.to_string entry)
 
-let rec tell_entry folder feed teller (entry : Entry.t) =
+(* Which program of the folder it was, so that one can look at what places mean. *)
+let tell_program folder feed program =
+  let path = Option.bind program (fun (p : Program_file.t) -> Folder.inside folder p.path) in
+  let json = `Assoc [ ("program", Dolphin_json.Field.of_option (fun path -> `String path) path) ] in
+  Feed.add feed ~event:"program" (Dolphin_json.Canonical.to_string json)
+
+(* That there is no log, and why. *)
+let lacks_program feed (header : Header.t) =
+  let what = Printf.sprintf "%s is not in this folder, or has changed: there is no log" header.program.path in
+  Narrator.remark_on feed ~time:0. what
+
+let rec tell_entry folder feed ~journal teller (entry : Entry.t) =
   match teller, entry with
   | Unknown, Header header -> (
-      match program_of folder header with
-      | None -> tell_entry folder feed Plain entry
+      let program = program_of folder ~journal header in
+      tell_program folder feed program;
+      match program with
+      | None -> plain feed entry; lacks_program feed header; Plain
       | Some program ->
         let replay = Replay.start ~hash:header.program.hash program.program in
-        tell_entry folder feed (Whole (Narrator.make program feed, replay)) entry)
+        tell_entry folder feed ~journal (Whole (Narrator.make program feed, replay)) entry)
   | Whole (narrator, replay), entry -> (
       match Replay.feed replay entry with
       | Ok replay -> Narrator.replayed narrator entry replay; Whole (narrator, replay)
@@ -35,6 +57,6 @@ let rec tell_entry folder feed teller (entry : Entry.t) =
 let tell folder ~id path =
   let feed = Feed.create ~run:id in
   let teller = ref Unknown in
-  match Journal_file.iter (fun entry -> teller := tell_entry folder feed !teller entry) path with
+  match Journal_file.iter (fun entry -> teller := tell_entry folder feed ~journal:path !teller entry) path with
   | Ok () -> Ok feed
   | Error e -> Feed.close feed; Error e

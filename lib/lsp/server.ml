@@ -98,6 +98,7 @@ let capabilities : json =
     [ "positionEncoding", `String "utf-16";
       "textDocumentSync", `Assoc [ "openClose", yes; "change", `Int 1 ];
       "completionProvider", `Assoc [ "triggerCharacters", `List [ `String "."; `String "'" ] ];
+      "signatureHelpProvider", `Assoc [ "triggerCharacters", `List [ `String "("; `String "," ] ];
       "hoverProvider", yes; "definitionProvider", yes; "referencesProvider", yes; "documentHighlightProvider", yes;
       "documentSymbolProvider", yes; "documentFormattingProvider", yes;
       "inlayHintProvider", yes;
@@ -124,6 +125,12 @@ let hover d offset : json =
   match Service.hover d offset with
   | None -> `Null
   | Some (span, text) -> `Assoc [ "contents", markdown text; "range", range (Service.source d) span ]
+
+let signature d offset : json =
+  match Service.signature d offset with
+  | None -> `Null
+  | Some { form; text; _ } ->
+    `Assoc [ "signatures", `List [ `Assoc [ "label", `String form; "documentation", markdown text ] ] ]
 
 let definition uri d offset : json =
   match Service.definition d offset with
@@ -202,6 +209,7 @@ let of_document s id name parameters =
     let offset = Text_position.to_offset (Service.source d) { line = at "line"; character = at "character" } in
     match name with
     | "textDocument/completion" -> answer id (completion d offset)
+    | "textDocument/signatureHelp" -> answer id (signature d offset)
     | "textDocument/hover" -> answer id (hover d offset)
     | "textDocument/definition" -> answer id (definition uri d offset)
     | "textDocument/references" -> answer id (references uri d offset parameters)

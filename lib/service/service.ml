@@ -151,12 +151,20 @@ let names_of_fleet d =
 
 let prelude_item (e : Prelude.entry) = { label = e.name; kind = Function; form = e.form; text = e.text }
 
+(* The files that a text includes, which need not be a program yet. *)
+let includes source =
+  let of_line line =
+    let line = String.trim line in
+    let rest = if String.starts_with ~prefix:"include " line then String.sub line 8 (String.length line - 8) else "" in
+    let rest = String.trim rest in
+    let n = String.length rest in
+    if n > 2 && (rest.[0] = '\'' || rest.[0] = '"') && rest.[n - 1] = rest.[0] then Some (String.sub rest 1 (n - 2))
+    else None
+  in
+  List.filter_map of_line (String.split_on_char '\n' source)
+
 (* What a program that includes the prelude, if it does, has of it. *)
-let of_prelude d =
-  let includes quote =
-    let line = Printf.sprintf "include %c%s%c" quote Prelude.name quote in
-    List.exists (fun text -> String.trim text = line) (String.split_on_char '\n' d.source) in
-  if includes '\'' || includes '"' then Prelude.entries else []
+let of_prelude d = if List.mem Prelude.name (includes d.source) then Prelude.entries else []
 
 (* What may follow [owner] and a point: what is called [owner.x], up to the next point. *)
 let constants_of owner =
@@ -288,13 +296,70 @@ let hover d offset =
     if found = [] then None else Some (span, String.concat "\n\n" found)
   | _, _, None -> None
 
+(* {1 Other files} *)
+
+(* What the files that it includes define for it. *)
+let included (d : t) : (place * Occurrences.binding) list =
+  let bindings path source =
+    let of_binding (b : Occurrences.binding) =
+      match b.kind with
+      | Function _ | Global _ -> Some ({ file = path; source; span = b.definition }, b)
+      | Local _ | Parameter -> None
+    in
+    match Parse.program ~file:path source with
+    | Ok ast -> List.filter_map of_binding (Occurrences.of_program ~source ast)
+    | Error _ -> []
+  in
+  let rec of_text (seen, found) file source =
+    let of_file (seen, found) name =
+      let path = Include.beside file name in
+      match if name = Prelude.name || List.mem path seen then Error path else read_file path with
+      | Ok source -> of_text (path :: seen, found @ bindings path source) path source
+      | Error _ -> (seen, found)
+    in
+    List.fold_left of_file (seen, found) (includes source)
+  in
+  snd (of_text ([ Include.beside d.file (Filename.basename d.file) ], []) d.file d.source)
+
+let in_included_file (d : t) x = List.find_opt (fun (_, (b : Occurrences.binding)) -> b.name = x) (included d)
+
 (* {1 Definitions and uses} *)
 
-let definition d offset =
-  match Occurrences.at d.bindings offset, text_at d.source offset with
-  | Some b, _ -> Some { file = d.file; source = d.source; span = b.definition }
-  | None, Some (_, text) -> in_fleet_file d text
-  | None, None -> None
+let definition (d : t) offset =
+  match Occurrences.at d.bindings offset, text_at d.source offset, name_at d.source offset with
+  | Some b, _, _ -> Some { file = d.file; source = d.source; span = b.definition }
+  | None, Some (_, text), _ -> in_fleet_file d text
+  | None, None, Some (_, x) -> Option.map fst (in_included_file d x)
+  | None, None, None -> None
+
+(* {1 Calls} *)
+
+let signature (d : t) offset =
+  let s = Surroundings.at d.source offset in
+  let own x =
+    let item form = { label = x; kind = Function; form; text = "A function of this program." } in
+    Option.map item (Surroundings.header d.source x)
+  in
+  let of_file x =
+    match in_included_file d x with
+    | Some ({ file; _ }, { kind = Function parameters; _ }) ->
+      let form = Printf.sprintf "%s(%s)" x (String.concat ", " parameters) in
+      Some { label = x; kind = Function; form; text = "A function of " ^ Filename.basename file ^ "." }
+    | Some (_, { kind = Global _ | Local _ | Parameter; _ }) | None -> None
+  in
+  let of_prelude x = Option.map prelude_item (List.find_opt (fun (e : Prelude.entry) -> e.name = x) (of_prelude d)) in
+  let of_language x =
+    let is_called (e : Reference.entry) =
+      match e.kind with
+      | Word | Procedure | Block | Setting | Maneuver | Member | Fleet_word -> true
+      | Constant -> String.contains e.form '('
+    in
+    Option.map item_of_entry (List.find_opt is_called (Reference.find x))
+  in
+  let first found x = match found with Some _ -> found | None -> x () in
+  let item x =
+    List.fold_left first (own x) [ (fun () -> of_prelude x); (fun () -> of_file x); (fun () -> of_language x) ] in
+  if s.comment then None else Option.bind s.call item
 
 let references d offset =
   match Occurrences.at d.bindings offset with

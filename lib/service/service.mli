@@ -29,6 +29,9 @@ type item = { label : string; kind : item_kind; form : string; text : string }
 val complete : t -> int -> span * item list
 (** [complete d offset] is the part of a name before [offset], and the names that may stand there. *)
 
+val signature : t -> int -> item option
+(** [signature d offset] is the function, procedure, maneuver or setting whose arguments are written at [offset]. *)
+
 val format : t -> (string, Diagnostic.t list) result
 (** {!Formatting.program}. *)
 
@@ -45,7 +48,7 @@ type place = { file : string; source : string; span : span }
 
 val definition : t -> int -> place option
 (** [definition d offset] is where what is named at [offset] gets its first value, or where the fleet describes the plan
-    or vehicle of this name. *)
+    or vehicle of this name; it may be in a file that the program includes. *)
 
 val references : t -> int -> span list
 (** [references d offset] is where the variable or function at [offset] is named, its definition first. *)

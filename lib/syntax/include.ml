@@ -21,6 +21,16 @@ let normal path =
 let beside file path =
   normal (if Filename.is_relative path then Filename.concat (Filename.dirname file) path else path)
 
+let from file path =
+  let parts path = List.filter (( <> ) "") (String.split_on_char '/' (normal path)) in
+  let rec beyond folder path =
+    match folder, path with
+    | part :: folder, part' :: (_ :: _ as path) when part = part' -> beyond folder path
+    | folder, path -> List.map (fun _ -> "..") folder @ path
+  in
+  if path = Prelude.file || Filename.is_relative file <> Filename.is_relative path then path
+  else String.concat "/" (beyond (parts (Filename.dirname file)) (parts path))
+
 let shifted by ({ start; stop } : Location.t) =
   let place (p : Lexing.position) = { p with pos_cnum = p.pos_cnum + by; pos_bol = p.pos_bol + by } in
   Location.make (place start, place stop)

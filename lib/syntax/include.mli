@@ -11,6 +11,10 @@ type whole = {
 val beside : string -> string -> string
 (** [beside file path] is the file that the text in [file] calls [path]. *)
 
+val from : string -> string -> string
+(** [from file path] is what a text in [file] calls the file [path]: such that [beside file (from file path)] is [path].
+    The prelude, and of a relative path and an absolute one, [path] as it is. *)
+
 val program :
   read:(string -> (string, string) result) ->
   file:string ->

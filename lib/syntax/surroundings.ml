@@ -110,6 +110,24 @@ let at source offset =
     builder = if frame.braces then Option.bind frame.opens Layout.builder else None;
     block = if frame.braces then frame.opens else None }
 
+let header source x =
+  let rec closed depth (tokens : Token.t list) =
+    match tokens with
+    | { token = LPAREN; _ } :: rest -> closed (depth + 1) rest
+    | { token = RPAREN; stop; _ } :: _ when depth = 1 -> Some stop.pos_cnum
+    | { token = RPAREN; _ } :: rest -> closed (depth - 1) rest
+    | _ :: rest -> closed depth rest
+    | [] -> None
+  in
+  let rec go (tokens : Token.t list) =
+    match tokens with
+    | { token = DEF; _ } :: ({ token = NAME y; start; _ } :: rest) when x = y ->
+      Option.map (fun stop -> String.sub source start.pos_cnum (stop - start.pos_cnum)) (closed 0 rest)
+    | _ :: rest -> go rest
+    | [] -> None
+  in
+  go (tokens source)
+
 let assigned source =
   let rec go names (tokens : Token.t list) =
     match tokens with

@@ -24,6 +24,9 @@ val assigned : string -> string list
 (** [assigned source] is the names that [source] seems to give a value to or define, each once, in the order of the
     text. *)
 
+val header : string -> string -> string option
+(** [header source f] is how [source] seems to define the function [f]: ["f(x, y)"]. *)
+
 val words : string list
 (** The words of the language's constructs. *)
 

@@ -1,11 +1,25 @@
 (** A transition, as journals have it: what can be told from outside, as plain texts. *)
 
 open Dolphin_semantics
+module Location = Dolphin_syntax.Location
+
+(** Where the program says something. *)
+type place = {
+  file : string option;  (** one that the program includes, seen from the program's folder; [None]: the program *)
+  line : int;
+  column : int;
+}
+
+val place_of : Core.program -> Location.t -> place
+(** [place_of p at] is the place [at] of [p]. *)
+
+val text_of_place : place -> string
+(** ["3:5"], ["lib/areas.dol:3:5"]. *)
 
 type t = {
   rules : string list;  (** the derivation, from the axiom outwards *)
   label : string;
-  at : (int * int) option;  (** line and column of the code that takes it *)
+  at : place option;  (** of the code that takes it *)
   choice : int;  (** see {!section:choice} *)
   allocated : (string * string option) list;  (** where A changed: the vehicle's task now, or none *)
   bound : string list;  (** that joined B *)
@@ -24,7 +38,8 @@ val of_transition : Core.program -> Configuration.t -> Transition.t -> t
 (** [of_transition p c t] is [t], taken from [c]. *)
 
 val same : places:bool -> t -> t -> bool
-(** [same ~places s s'] is whether [s] and [s'] are equal except for [choice], and unless [places] for [at]. *)
+(** [same ~places s s'] is whether [s] and [s'] are equal except for [choice], and unless [places] for [at]; of
+    [at] line and column count. *)
 
 val difference : places:bool -> t -> t -> string option
 (** [difference ~places expected found] is in what [found] is not {!same} as [expected], in a sentence without a full

@@ -214,7 +214,7 @@ let print ppf entries =
 let print_transitions ppf (entry : Entry.t) =
   match entry with
   | Transition { index; time; step; ways = _ } ->
-    let place = match step.at with Some (line, column) -> Printf.sprintf "%d:%d" line column | None -> "" in
+    let place = Option.fold ~none:"" ~some:Step.text_of_place step.at in
     Format.fprintf ppf "%6d  %*s  %-7s  %s  %s@\n" index clock_width (Phrase.time time) place
       (String.concat ", " step.rules) (Phrase.one_line step.label)
   | Header _ | Partial _ | Label _ | Vehicle _ | Event _ | Note _ | Resumed _ | End _ -> ()

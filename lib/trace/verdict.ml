@@ -64,7 +64,7 @@ let describe (entry : Entry.t) =
   | Vehicle { state; _ } -> "what is known of " ^ state.id
   | Event { event; _ } -> Format.asprintf "%a" Event.pp event
   | Transition { index; step; _ } ->
-    let at = match step.at with Some (line, column) -> Printf.sprintf ", at %d:%d" line column | None -> "" in
+    let at = Option.fold ~none:"" ~some:(fun at -> ", at " ^ Step.text_of_place at) step.at in
     Printf.sprintf "transition %d%s: %s" index at step.label
   | Note { vehicle; _ } -> "the platform's note on " ^ vehicle
   | Resumed _ -> "a resumption"

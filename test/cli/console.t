@@ -53,6 +53,7 @@ The console of a folder, on a port of its own, and all that docs/openapi.json de
   shapes: ['quay']
   tiles: {'minimum': 1, 'maximum': 1, 'bounds': [-9, 41, -8, 42], 'attribution': ''}
   a tile: 200 404
+  called: message x
   known: {'a': ['survey'], 'b': ['survey', 'deep']}
   plan: survey ['a'] by name None
   plan: circles ['b'] ['1.Goto 1 0', '2.Loiter 1 60', '3.Loiter 1 60', '4.StationKeeping 1 60'] 205

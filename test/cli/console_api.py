@@ -78,10 +78,11 @@ def main():
     for path in ["check", "format"]:
         ask("POST", path, document)
     ask("POST", "format", {"path": "mission.dol", "text": "(("})
-    for path in ["complete", "hover", "definition"]:
+    for path in ["complete", "hover", "signature", "definition"]:
         ask("POST", path, {**document, "at": 5})
     ask("POST", "hover", {**document, "at": document["text"].index("message") + 1})
     ask("POST", "definition", {**document, "at": document["text"].rindex("x")})
+    print("called:", ask("POST", "signature", {**document, "at": document["text"].index("message") + 8})[1]["form"])
     ask("GET", "world", query="?program=mission.dol")
     ask("GET", "world", query="?program=none.dol")
     ask("POST", "plans", {"program": "none.dol"})

@@ -44,6 +44,27 @@ Errors name the file and the line that they are of, at run time too.
   $ dolphin trace check mission.dol mission.run
   mission.run: a run, of 9 transitions in 1:00; failed: division by zero
 
+Places in a journal name the file, unless it is the program's own, seen from its folder.
+
+  $ grep -o '"at":"[^"]*"' mission.run | uniq
+  "at":"lib/limits.dol:2:1"
+  "at":"3:5"
+  "at":"4:1"
+  "at":"5:1"
+  "at":"lib/surveys.dol:2:48"
+  "at":"lib/limits.dol:5:5"
+  $ dolphin trace show mission.run --transitions | sed -n 1,2p
+       0      0:00  lib/limits.dol:2:1  MESSAGE  message 'limits'
+       1      0:00  3:5      PICK  pick(1 vehicle of type 'UUV')
+  $ (cd lib && dolphin exec ../mission.dol --fleet ../one.fleet --journal other.run 2> /dev/null | tail -1)
+     1:00  program     fails: division by zero
+  $ grep -o '"at":"[^"]*"' lib/other.run | uniq | grep lib | uniq
+  "at":"lib/limits.dol:2:1"
+  "at":"lib/surveys.dol:2:48"
+  "at":"lib/limits.dol:5:5"
+  $ dolphin trace check mission.dol lib/other.run | tail -1
+  lib/other.run: a run, of 9 transitions in 1:00; failed: division by zero
+
 What a journal was written with, is what was included as well.
 
   $ sed -i 's/rounds = 3/rounds = 4/' lib/limits.dol

@@ -26,7 +26,7 @@ A session with the language server, as an editor has it.
   > {"method": "exit"}
   > END
   error -32002: the first request is 'initialize'
-  capabilities completionProvider definitionProvider documentFormattingProvider documentHighlightProvider documentSymbolProvider hoverProvider inlayHintProvider positionEncoding referencesProvider renameProvider textDocumentSync
+  capabilities completionProvider definitionProvider documentFormattingProvider documentHighlightProvider documentSymbolProvider hoverProvider inlayHintProvider positionEncoding referencesProvider renameProvider signatureHelpProvider textDocumentSync
   error -32602: this document is not open
   diagnostics of m.dol
     1:26-1:26 unexpected end of the text
@@ -59,7 +59,7 @@ A program and its fleet: each tells of the other's changes. What was opened last
   > {"id": 3, "method": "shutdown"}
   > {"method": "exit"}
   > END
-  capabilities completionProvider definitionProvider documentFormattingProvider documentHighlightProvider documentSymbolProvider hoverProvider inlayHintProvider positionEncoding referencesProvider renameProvider textDocumentSync
+  capabilities completionProvider definitionProvider documentFormattingProvider documentHighlightProvider documentSymbolProvider hoverProvider inlayHintProvider positionEncoding referencesProvider renameProvider signatureHelpProvider textDocumentSync
   diagnostics of m%20x.fleet
     2:12-2:19 a plan has no setting 'durtion'
   hint: did you mean 'duration'?

@@ -251,6 +251,35 @@ let a_run _ port =
   holds "and told again" true (List.for_all (fun line -> List.mem line told) journal);
   Lwt_list.iter_s Client.leave [ first; late; back ]
 
+(* Journals of the folder: with the program beside them, and without one. *)
+let journals root port =
+  let run = Filename.concat root "home.run" in
+  Client.watch ~port "first" >>= fun first ->
+  Client.ask ~body:{|{"program": "short.dol"}|} ~port "/api/run" >>= fun r ->
+  status "started" 200 r.status;
+  Client.until first is_over >>= fun seen ->
+  Client.leave first >>= fun () ->
+  let lines = data (events "journal" seen) in
+  let path = Str.regexp {|"path":"[^"]*/short.dol"|} in
+  let elsewhere name =
+    List.map (Str.replace_first path (Printf.sprintf {|"path":"/elsewhere/%s"|} name)) lines in
+  let replayed () = Client.ask ~port "/api/replay?path=home.run" in
+  let told event (r : Client.reply) =
+    let blocks = Str.split (Str.regexp_string "\n\n") r.body in
+    List.length (List.filter (fun block -> List.mem ("event: " ^ event) (String.split_on_char '\n' block)) blocks) in
+  write run (String.concat "\n" (elsewhere "short.dol") ^ "\n");
+  replayed () >>= fun whole ->
+  status "told" 200 whole.status;
+  status "each line" (List.length lines) (told "journal" whole);
+  holds "with its log: the program lies beside it" true (told "log" whole >= 2);
+  write run (String.concat "\n" (elsewhere "other.dol") ^ "\n");
+  replayed () >>= fun plain ->
+  status "each line" (List.length lines) (told "journal" plain);
+  status "but for a program that is not there: one line that says so" 1 (told "log" plain);
+  write run "no journal\n";
+  replayed () >|= fun r ->
+  status "what is no journal" 422 r.status
+
 let question (m : Client.message) =
   m.event = "status" && member [ "run"; "question" ] (Yojson.Safe.from_string m.data) <> `Null
 
@@ -505,6 +534,6 @@ let () =
          slow "malformed requests" (console malformed); slow "tiles" tiles ]);
       ("files", [ slow "saving" (console saving); slow "texts under way" (console texts) ]);
       ("runs",
-       [ slow "a run" (console a_run); slow "answers and posts" (console answers_and_posts);
+       [ slow "a run" (console a_run); slow "journals of the folder" (console journals); slow "answers and posts" (console answers_and_posts);
          slow "what is asked" (console what_is_asked); slow "on the map" (console on_the_map);
          slow "stopped" (console stopped); slow "stuck" (console stuck); slow "faults" (console faults) ]) ]

@@ -4,9 +4,13 @@ module Builtins = Dolphin_semantics.Builtins
 let read source = Service.read ~file:"m.dol" source
 
 (* The program, with the offset of the mark [#] in it, which is taken out. *)
-let marked text =
+let split text =
   let at = String.index text '#' in
-  read (String.sub text 0 at ^ String.sub text (at + 1) (String.length text - at - 1)), at
+  String.sub text 0 at ^ String.sub text (at + 1) (String.length text - at - 1), at
+
+let marked text =
+  let source, at = split text in
+  read source, at
 
 let texts d spans =
   List.map (fun ({ start; stop } : Service.span) -> String.sub (Service.source d) start (stop - start)) spans
@@ -79,6 +83,48 @@ let completion =
     case "constants of two points" (completes "x = Speed.Units.R#" [ "RPM" ]);
     case "members" (completes "x = [1].#" [ "size"; "collect" ] ~absent:[ "execute" ]);
     case "not in comments" (completes "x = 1 // exe #" [] ~absent:[ "execute" ]) ]
+
+(* {1 Calls, and other files} *)
+
+let called ?(file = "m.dol") text form () =
+  let source, at = split text in
+  let found = Service.signature (Service.read ~file source) at in
+  Alcotest.(check (option string)) text form (Option.map (fun (i : Service.item) -> i.form) found)
+
+(* A program of two files, beside this test. *)
+let with_library f =
+  let path = Filename.temp_file "service" ".dol" in
+  let write path text =
+    let channel = open_out path in
+    output_string channel text;
+    close_out channel
+  in
+  write path "// Shared.\ndef tow(boat, metres) { message boat }\n";
+  Fun.protect ~finally:(fun () -> Sys.remove path) (fun () ->
+      f ~file:(Filename.concat (Filename.dirname path) "m.dol") ~library:path)
+
+let of_library text form () =
+  with_library (fun ~file ~library ->
+      called ~file (Printf.sprintf "include '%s'\n%s" (Filename.basename library) text) form ())
+
+let defined_elsewhere () =
+  with_library (fun ~file ~library ->
+      let source, at = split (Printf.sprintf "include '%s'\nto#w('a', 2)\n" (Filename.basename library)) in
+      match Service.definition (Service.read ~file source) at with
+      | Some { file; source; span } ->
+        Alcotest.(check string) "the file" library file;
+        Alcotest.(check string) "the name" "tow" (String.sub source span.start (span.stop - span.start))
+      | None -> Alcotest.fail "it is defined in the other file")
+
+let calls =
+  [ case "a function of the program" (called "def tow(boat, n) { n }\ntow('a', #" (Some "tow(boat, n)"));
+    case "of a file that it includes" (of_library "x = tow('a', #" (Some "tow(boat, metres)"));
+    case "not where nothing is called" (called "x = 1\n#" None);
+    case "not in comments" (called "message 1 // message #" None);
+    case "a procedure" (fun () ->
+        let source, at = split "message #" in
+        Alcotest.(check bool) "known" true (Service.signature (Service.read ~file:"m.dol" source) at <> None));
+    case "definitions in other files" defined_elsewhere ]
 
 (* {1 The reference} *)
 
@@ -165,7 +211,8 @@ let answered (text, (length, at)) =
   let text = String.sub text 0 (length mod (String.length text + 1)) in
   let d = Service.read ~file:"m.dol" ~fleet text in
   let at = at mod (String.length text + 1) in
-  ignore (Service.diagnostics d, Service.complete d at, Service.hover d at, Service.definition d at, Service.symbols d);
+  ignore (Service.diagnostics d, Service.complete d at, Service.hover d at, Service.definition d at);
+  ignore (Service.signature d at, Service.symbols d);
   ignore (Service.allocations d);
   let uses = Service.references d at in
   List.length (List.sort_uniq compare (texts d uses)) <= 1
@@ -180,6 +227,6 @@ let anywhere =
 
 let () =
   Alcotest.run "service"
-    [ "places", [ case "there and back" positions ]; "names", names; "completion", completion; "allocations", allocations;
+    [ "places", [ case "there and back" positions ]; "names", names; "completion", completion; "calls", calls; "allocations", allocations;
       "prelude", [ case "completion and hover" prelude ];
       "reference", [ case "is whole" documented; case "is highlighted" highlighted ]; "everywhere", [ anywhere ] ]

@@ -592,7 +592,7 @@ let fences =
     [
       ( "of three plans side by side, two are seen",
         {|    | one :: others -> List.iter (see_pair t one) others; each others|},
-        {|    | one :: others -> List.iter (see_pair t one) others|} );
+        {|    | one :: others -> List.iter (see_pair t one) others; each []|} );
     ]
   @ in_file "lib/explore/verdict/search.ml" ~noticed_by:"reduction/test_side_by_side"
     [
@@ -602,9 +602,9 @@ let fences =
     ]
   @ in_file "lib/time/timing.ml" ~noticed_by:"time/test_exact"
     [
-      ( "plans side by side are looked for without inert ends",
-        {|Timed_system.create ~reduction:Nothing Latest options in|},
-        {|Timed_system.create ~reduction:Inert_ends Latest options in|} );
+      ( "plans side by side are those by their order alone",
+        {|      | candidates, None -> pairs |},
+        {|      | candidates, None -> (fun (_, stopped) -> (candidates, stopped)) @@ pairs |} );
     ]
   @ in_file "lib/runtime/fence_guard.ml" ~noticed_by:"runtime/test_runtime"
     [

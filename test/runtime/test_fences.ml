@@ -131,6 +131,14 @@ let keeps_apart () =
   tells p [ "saw v2"; "failed v1 stopped"; "failed v2 stopped"; "saw v1" ];
   asks mock [ "0 telemetry true"; "2 start v1 go"; "2 start v2 go"; "3 stop v1"; "3 stop v2" ]
 
+(* Of several least distances the greatest holds. *)
+let keeps_the_greatest () =
+  let least distances = Fences.least_distance (Fences.make (List.map (fun d -> fence (Distance d)) distances)) in
+  let is_rule expected fence = Option.map (fun (f : Fences.fence) -> f.rule) fence = expected in
+  Alcotest.(check bool) "in any order" true
+    (List.for_all (fun ds -> is_rule (Some (Fences.Distance 20.)) (least ds)) [ [ 5.; 20. ]; [ 20.; 5. ]; [ 20. ] ]);
+  Alcotest.(check bool) "none" true (is_rule None (least []))
+
 let suite =
   [ Alcotest.test_case "a plan beyond a fence is not started" `Quick refuses;
     Alcotest.test_case "circles and ways to a plan take their room" `Quick looks_at_all;
@@ -139,4 +147,5 @@ let suite =
     Alcotest.test_case "who breaks a fence is stopped" `Quick stops;
     Alcotest.test_case "who rests is left alone" `Quick ignores_who_rests;
     Alcotest.test_case "who is beyond a fence may come back" `Quick lets_come_back;
-    Alcotest.test_case "vehicles under way keep apart" `Quick keeps_apart ]
+    Alcotest.test_case "vehicles under way keep apart" `Quick keeps_apart;
+    Alcotest.test_case "the greatest of the least distances holds" `Quick keeps_the_greatest ]

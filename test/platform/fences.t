@@ -1,0 +1,38 @@
+Fences over an adapter: what breaks one is not started; a vehicle that is seen beyond one is stopped, and its task fails.
+
+  $ cat > m.dol <<'EOF'
+  > quay = location 41.1850, -8.7060
+  > fence inside quay ^ 200.m
+  > def go(name, metres) { imcPlan { planName name; locate quay.displace(metres, 0); goTo() } }
+  > def tried(t) { watch t onError { e -> message e.message; ignore() } }
+  > v = pick { type 'UAV' }
+  > execute tried(go('near', 100)[v])
+  > execute tried(go('far', 300)[v])
+  > execute tried(task('drift')[v])
+  > execute go('home', 20)[v]
+  > execute task('drift')[v]
+  > EOF
+  $ cat > vehicles.fleet <<'EOF'
+  > vehicle 'uav-1', { type 'UAV'; at 41.1850, -8.7060; speed 20.0 }
+  > plan 'drift', { duration 10.min; at 41.3000, -8.7060 }
+  > EOF
+  $ timeout 300 dolphin exec m.dol --journal m.run --platform 'dolphin sim vehicles.fleet --platform --speed 20' > log 2> err
+  [1]
+  $ cut -c 10- log | sed 's/ by .*//'
+  program     picks uav-1
+  uav-1       starts near
+  uav-1       ends near
+  uav-1       starts far
+  uav-1       fails in far: not started: the way to 1.Goto breaks fence inside quay ^ 200.m (m.dol:2)
+  program     says: far failed on uav-1: not started: the way to 1.Goto breaks fence inside quay ^ 200.m (m.dol:2)
+  uav-1       starts drift
+  uav-1       fails in drift: stopped: the vehicle breaks fence inside quay ^ 200.m (m.dol:2)
+  program     says: drift failed on uav-1: stopped: the vehicle breaks fence inside quay ^ 200.m (m.dol:2)
+  uav-1       starts home
+  uav-1       ends home
+  uav-1       starts drift
+  uav-1       fails in drift: stopped: the vehicle breaks fence inside quay ^ 200.m (m.dol:2)
+  program     releases uav-1
+  program     fails: drift failed on uav-1: stopped: the vehicle breaks fence inside quay ^ 200.m (m.dol:2)
+  $ dolphin trace check m.dol m.run | sed 's/, of [^;]*;/;/; s/ by .*//'
+  m.run: a run; failed: drift failed on uav-1: stopped: the vehicle breaks fence inside quay ^ 200.m (m.dol:2)

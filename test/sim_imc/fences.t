@@ -1,0 +1,38 @@
+Fences over IMC: what breaks one is not started; a vehicle that is seen beyond one is stopped, and its task fails.
+
+  $ cat > quay.fleet <<'EOF'
+  > vehicle 'noptilus-1', { type 'UUV'; at 41.1850, -8.7060; speed 5.0 }
+  > plan 'drift', { duration 20.min; at 41.3000, -8.7060 }
+  > EOF
+  $ cat > m.dol <<'EOF'
+  > quay = location 41.1850, -8.7060
+  > fence inside quay ^ 200.m
+  > def go(name, metres) { imcPlan { planName name; locate quay.displace(metres, 0); goTo() } }
+  > def tried(t) { watch t onError { e -> message e.message; ignore() } }
+  > v = pick { type 'UUV'; timeout 1.min }
+  > execute tried(go('near', 50)[v])
+  > execute tried(go('far', 300)[v])
+  > execute task('drift')[v]
+  > EOF
+  $ dolphin sim quay.fleet --imc --speed 20 --announce 0.5 --contact 0.2 --discovery-ports 21900-21904 --port 21910 \
+  >   --log log.jsonl --for 300 > vehicles.txt & vehicles=$!
+  $ until [ -s vehicles.txt ]; do sleep 0.05; done
+  $ timeout 240 dolphin exec m.dol --imc-loopback --imc-discovery-ports 21900-21904 --journal m.run > log 2> err
+  [1]
+  $ kill $vehicles; wait $vehicles || true
+  $ cut -c 10- log | sed 's/ by .*//'
+  program     picks noptilus-1
+  noptilus-1  starts near
+  noptilus-1  ends near
+  noptilus-1  starts far
+  noptilus-1  fails in far: not started: the way to 1.Goto breaks fence inside quay ^ 200.m (m.dol:2)
+  program     says: far failed on noptilus-1: not started: the way to 1.Goto breaks fence inside quay ^ 200.m (m.dol:2)
+  noptilus-1  starts drift
+  noptilus-1  fails in drift: stopped: the vehicle breaks fence inside quay ^ 200.m (m.dol:2)
+  program     releases noptilus-1
+  program     fails: drift failed on noptilus-1: stopped: the vehicle breaks fence inside quay ^ 200.m (m.dol:2)
+  $ dolphin trace check m.dol m.run | sed 's/, of [^;]*;/;/; s/ by .*//'
+  m.run: a run; failed: drift failed on noptilus-1: stopped: the vehicle breaks fence inside quay ^ 200.m (m.dol:2)
+  $ grep -c '"plan":"far"' log.jsonl
+  0
+  [1]

@@ -69,8 +69,8 @@ let document h found =
   let* given = optional Field.text "text" found in
   let* source = match given with Some text -> short text | None -> text full in
   let of_fleet path = Option.map (fun text -> { Service.path; text }) (Result.to_option (Text_file.read path)) in
-  let fleet = Option.bind (Fleet_file.choose ~program:full (Hall.settings h).fleet) of_fleet in
-  Ok (Documents.service ~file:full ~fleet source)
+  let fleet = Option.bind (Exchange.fleet_path h ~program:full None) of_fleet in
+  Ok (Documents.service ~file:full ~fleet ~may_read:(Folder.may_read (folder h)) source)
 
 let check h found =
   let* d = document h found in

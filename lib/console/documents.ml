@@ -2,7 +2,7 @@ open Dolphin_service
 module Diagnostic = Dolphin_syntax.Diagnostic
 module Location = Dolphin_syntax.Location
 
-let service ~file ~fleet source = Service.read ~file ?fleet source
+let service ~file ~fleet ~may_read source = Service.read ~file ?fleet ~may_read source
 
 (* {1 Places} *)
 

@@ -3,7 +3,8 @@
 
 open Dolphin_service
 
-val service : file:string -> fleet:Service.fleet option -> string -> Service.t
+val service :
+  file:string -> fleet:Service.fleet option -> may_read:(string -> (unit, string) result) -> string -> Service.t
 
 val diagnostics : Service.t -> Yojson.Safe.t
 (** A list; each has [from], [to], [line], [column], [severity], [message], [code], perhaps [hint]. *)

@@ -56,17 +56,20 @@ let text path = Result.map_error (fun e -> refusal 404 "not-found" (String.conca
 let program h ?(set = []) path =
   let* full = file h path in
   let* source = text full in
-  Result.map_error (of_error ~file:full ~source) (Program_file.load ~set full)
+  Result.map_error (of_error ~file:full ~source) (Program_file.load ~set ~may_read:(Folder.may_read (folder h)) full)
+
+(* That of the command line may lie anywhere; a file beside the program is none if it is a link to elsewhere. *)
+let fleet_path h ~program named =
+  let is_here path = Folder.may_read (folder h) path = Ok () in
+  match named, (Hall.settings h).fleet with
+  | Some path, _ | None, Some path -> Some path
+  | None, None -> Option.bind (Fleet_file.choose ~program None) (fun path -> if is_here path then Some path else None)
 
 let fleet h ~program named =
-  let* named =
-    match named with
-    | Some path -> Result.map Option.some (file h path)
-    | None -> Ok (Hall.settings h).fleet
-  in
-  let path = Fleet_file.choose ~program named in
+  let* named = match named with Some path -> Result.map Option.some (file h path) | None -> Ok None in
+  let path = fleet_path h ~program named in
   let source = Option.fold path ~none:"" ~some:(fun path -> Result.value (Text_file.read path) ~default:"") in
-  Result.map_error (of_error ~file:program ~source) (Fleet_file.load path)
+  Result.map_error (of_error ~file:program ~source) (Fleet_file.load ~may_read:(Folder.may_read (folder h)) path)
 
 let within fleet (p : Program_file.t) =
   Result.map_error (of_error ~file:p.path ~source:p.source) (Program_file.within fleet p)

@@ -64,5 +64,8 @@ val fleet : Hall.t -> program:string -> string option -> (Fleet_file.t, refusal)
 (** [fleet h ~program named] is the fleet in the file [named] of the folder, or that of the console, or the one beside
     [program]. *)
 
+val fleet_path : Hall.t -> program:string -> string option -> string option
+(** [fleet_path h ~program named] is the file of the fleet that {!fleet} gives, if there is one. *)
+
 val within : Fleet_file.t -> Program_file.t -> (Program_file.t, refusal) result
 (** {!Program_file.within}. *)

@@ -92,6 +92,13 @@ let place f path =
     let* full = if folder = "." then Ok f.root else real f folder in
     if Sys.is_directory full then Ok (Filename.concat full (Filename.basename path)) else refuse path "no such folder"
 
+let may_read f path =
+  let is_inside = match Unix.realpath path with
+    | full -> from_root f full <> None
+    | exception Unix.Unix_error _ -> false
+  in
+  if is_inside then Ok () else Error (path ^ ": there is no such file in the folder of this console")
+
 let inside f path =
   match Unix.realpath path with
   | exception Unix.Unix_error _ -> None

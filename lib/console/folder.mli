@@ -26,5 +26,9 @@ val find : t -> string -> (string, string) result
 val place : t -> string -> (string, string) result
 (** [place f path] is likewise where the file [path] is or would be: its folder must be there. *)
 
+val may_read : t -> string -> (unit, string) result
+(** [may_read f path] says whether what a text names, a file to include or a map, may be read: not if it is elsewhere,
+    and the answer does not tell whether it is there. *)
+
 val inside : t -> string -> string option
 (** [inside f path] is the path from {!root} of the file with the path [path], if {!find} finds it. *)

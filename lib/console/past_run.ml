@@ -12,7 +12,7 @@ let places folder ~journal path =
 let program_of folder ~journal (header : Header.t) =
   let { Header.path; hash; set } = header.program in
   let unchanged path =
-    match Program_file.load ~set path with
+    match Program_file.load ~set ~may_read:(Folder.may_read folder) path with
     | Ok program when (Program_file.header program).hash = hash -> Some program
     | Ok _ | Error _ -> None
   in

@@ -9,6 +9,7 @@ type fleet = { path : string; text : string }
 
 type t = {
   file : string;
+  read : string -> (string, string) result;     (* a file that the text names *)
   source : string;
   fleet : fleet option;
   scenario : Scenario.t option;                 (* what the fleet says, if it can be read *)
@@ -32,31 +33,32 @@ let read_file path =
      | n -> Ok (really_input_string channel n)
      | exception (Sys_error _ | End_of_file) -> Error (path ^ " cannot be read"))
 
-let chart ast = Dolphin_charts.Charts.value (Dolphin_charts.Charts.read read_file ast)
+let chart read ast = Dolphin_charts.Charts.value (Dolphin_charts.Charts.read read ast)
 
-let read_fleet ~file source =
+let read_fleet read ~file source =
   let ast = Result.value (Parse.program ~file source) ~default:[] in
-  Scenario.read ~chart:(chart ast) ~file source
+  Scenario.read ~chart:(chart read ast) ~file source
 
 (* {1 Documents} *)
 
-let read ~file ?fleet source =
+let read ~file ?fleet ?(may_read = fun _ -> Ok ()) source =
+  let reads path = Result.bind (may_read path) (fun () -> read_file path) in
   let ast = Parse.program ~file source in
-  let scenario = Option.bind fleet (fun { path; text } -> Result.to_option (read_fleet ~file:path text)) in
+  let scenario = Option.bind fleet (fun { path; text } -> Result.to_option (read_fleet reads ~file:path text)) in
   let bindings =
     match ast with
     | Ok ast when not (is_fleet file) -> Occurrences.of_program ~source ast
     | Ok _ | Error _ -> [] in
-  { file; source; fleet; scenario; ast; bindings }
+  { file; read = reads; source; fleet; scenario; ast; bindings }
 
 let source d = d.source
 
 (* {1 Diagnostics} *)
 
 let elaborated d =
-  let _, parsed = Include.program ~read:read_file ~file:d.file d.source in
+  let _, parsed = Include.program ~read:d.read ~file:d.file d.source in
   let elaborate ast =
-    let chart = chart ast in
+    let chart = chart d.read ast in
     let of_program (program, warnings) = (program, warnings, Elaborate.known_plans ~chart ast) in
     Result.map of_program (Elaborate.program_with_charts ~chart ~source_name:d.file ast)
   in
@@ -82,7 +84,7 @@ let diagnostics d =
     match d.ast with
     | Error found -> found
     | Ok _ when is_fleet d.file ->
-      (match read_fleet ~file:d.file d.source with Ok _ -> [] | Error found -> found)
+      (match read_fleet d.read ~file:d.file d.source with Ok _ -> [] | Error found -> found)
     | Ok _ -> of_program d in
   List.stable_sort Diagnostic.compare found
 
@@ -313,7 +315,7 @@ let included (d : t) : (place * Occurrences.binding) list =
   let rec of_text (seen, found) file source =
     let of_file (seen, found) name =
       let path = Include.beside file name in
-      match if name = Prelude.name || List.mem path seen then Error path else read_file path with
+      match if name = Prelude.name || List.mem path seen then Error path else d.read path with
       | Ok source -> of_text (path :: seen, found @ bindings path source) path source
       | Error _ -> (seen, found)
     in

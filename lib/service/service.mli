@@ -10,9 +10,10 @@ type fleet = { path : string; text : string }
 type t
 (** A text under way, and what is known of it. *)
 
-val read : file:string -> ?fleet:fleet -> string -> t
-(** [read ~file ~fleet source] is the program [source], which would run with [fleet]; or the fleet [source], if [file]
-    ends in [.fleet]. [file] is only a name. *)
+val read : file:string -> ?fleet:fleet -> ?may_read:(string -> (unit, string) result) -> string -> t
+(** [read ~file ~fleet ~may_read source] is the program [source], which would run with [fleet]; or the fleet [source],
+    if [file] ends in [.fleet]. [file] is only a name. [may_read] says of each file that the text names, to include or
+    as a map, whether it may be read; by default all. *)
 
 val source : t -> string
 

@@ -181,7 +181,36 @@ let no_escape folder port =
   text "what is listed"
     ({|{"programs":["mission.dol","short.dol","wrong.dol"],|} ^ {|"fleets":["sub/other.fleet"],"journals":[],"layers":[]}|})
     (String.trim r.body);
-  Client.ask ~port "/../../etc/passwd" >|= fun r -> status "no page" 404 r.status
+  Client.ask ~port "/../../etc/passwd" >>= fun r ->
+  status "no page" 404 r.status;
+  (* Nor by what a text names, or a link beside it. *)
+  let told what path body =
+    Client.ask ~body ~port ("/api/" ^ path) >|= fun r ->
+    let has part = try ignore (Str.search_forward (Str.regexp_string part) r.body 0); true with Not_found -> false in
+    holds (what ^ ": what is there is not told: " ^ r.body) false (has "private" || has "secret");
+    r.body
+  in
+  let program text = write (Filename.concat folder "names.dol") text in
+  let outside = Filename.concat folder "../outside.dol" in
+  write outside "def secret(x) { private }\n";
+  program "include '../outside.dol'\nmessage secret(1)\n";
+  told "run" "run" {|{"program": "names.dol"}|} >>= fun there ->
+  Unix.unlink outside;
+  told "run" "run" {|{"program": "names.dol"}|} >>= fun gone ->
+  text "nor whether it is there" gone there;
+  write outside "def secret(x) { private }\n";
+  program "include 'up/../../outside.dol'\nx = map '../outside.dol'\n";
+  told "by a link" "run" {|{"program": "names.dol"}|} >>= fun _ ->
+  let typed = {|{"path": "names.dol", "text": "include '../outside.dol'\nsecret(", "at": 32}|} in
+  told "typed" "signature" typed >>= fun found ->
+  text "nothing is known of it" "null\n" found;
+  told "typed" "check" typed >>= fun _ ->
+  write (Filename.concat folder "../outside.fleet") "vehicle 'secret', { type 'UUV' }\n";
+  Unix.symlink "../outside.fleet" (Filename.concat folder "names.fleet");
+  program "message 'x'\n";
+  Client.ask ~port "/api/world?program=names.dol" >|= fun r ->
+  status "the program is read" 200 r.status;
+  holds "but not the fleet that a link leads to" true (member [ "fleet" ] (Client.json r) = `Null)
 
 let saving folder port =
   let put body = Client.ask ~verb:"PUT" ~body ~port "/api/file" in

@@ -11,8 +11,9 @@ val choose : program:string -> string option -> string option
 (** [choose ~program named] is the file of the fleet to use: [named] if there is one, else the file beside [program], if
     there is one. *)
 
-val load : string option -> (t, Error.t) result
-(** [load path] is the fleet in the file [path], or with [None] the built-in one. *)
+val load : ?may_read:(string -> (unit, string) result) -> string option -> (t, Error.t) result
+(** [load ~may_read path] is the fleet in the file [path], or with [None] the built-in one. [may_read] says of each map
+    that it names whether it may be read, by default all. *)
 
 val load_for : program:string -> string option -> (t, Error.t) result
 (** [load_for ~program named] is [load (choose ~program named)]. *)

@@ -14,9 +14,11 @@ type t = {
   (** {!Dolphin_semantics.Elaborate.known_plans} *)
 }
 
-val load : ?set:(string * string) list -> string -> (t, Error.t) result
-(** [load ~set path] is the program in the file [path], parsed and elaborated, with what it includes
-    ({!Dolphin_syntax.Include}) and its parameters [set] ({!Dolphin_syntax.Parameters.set}); none by default. *)
+val load :
+  ?set:(string * string) list -> ?may_read:(string -> (unit, string) result) -> string -> (t, Error.t) result
+(** [load ~set ~may_read path] is the program in the file [path], parsed and elaborated, with what it includes
+    ({!Dolphin_syntax.Include}) and its parameters [set] ({!Dolphin_syntax.Parameters.set}); none by default. [may_read]
+    says of each file that the text names whether it may be read, by default all. *)
 
 val within : Fleet_file.t -> t -> (t, Error.t) result
 (** [within fleet p] is [p] with the fences of [fleet], besides its own; or which of its plans break one of these, as

@@ -1,4 +1,5 @@
-(* Processor time for covering polygons of 1,000 corners, in any bearing, and for reading 10 MB of GeoJSON. *)
+(* Processor time for covering polygons of 1,000 corners, in any bearing, for reading 10 MB of GeoJSON, and for fences:
+   1,000 plans of 100 segments against 100 polygons, and how near 100 such plans come to each other. *)
 
 open Dolphin_geo
 
@@ -40,6 +41,48 @@ let cover (name, corners) spacing =
   in
   timed (Printf.sprintf "%s, every %g m" name spacing) found
 
+(* {1 Fences} *)
+
+(* Rows north of a place; areas of 12 corners beside them, of which none is entered, and others around all of them,
+   which none leaves. *)
+let rows n =
+  let from = Wgs84.displace Place.apdl ~north:(float_of_int (n * 10)) ~east:0. in
+  let corner i = Wgs84.displace from ~north:(float_of_int (i * 3)) ~east:(if i mod 2 = 0 then 0. else 400.) in
+  let corners = Array.init 101 corner in
+  List.init 100 (fun i -> { Fence.from = corners.(i); towards = corners.(i + 1); radius = 0. })
+
+let around_all =
+  let centre = Wgs84.displace Place.apdl ~north:5_000. ~east:200. in
+  let bay i =
+    let corner k = Wgs84.move centre ~bearing:(float_of_int k *. 30.) (float_of_int (7_000 + (i * 10))) in
+    { Fence.side = Inside; area = Result.get_ok (Area.polygon (List.init 12 corner)); margin = 20. }
+  in
+  List.init 50 bay
+
+let rocks =
+  let rock i =
+    let centre = Wgs84.displace Place.apdl ~north:(float_of_int (i * 200)) ~east:(-200.) in
+    let corner k = Wgs84.move centre ~bearing:(float_of_int k *. 30.) (if k mod 2 = 0 then 40. else 60.) in
+    { Fence.side = Outside; area = Result.get_ok (Area.polygon (List.init 12 corner)); margin = 20. }
+  in
+  List.init 50 rock
+
+let fences () =
+  let plans = List.init 1_000 rows in
+  timed "1,000 plans, 100 polygons" (fun () ->
+      let fences = Fence.make (rocks @ around_all) in
+      let broken = List.filter (fun plan -> Fence.breach fences plan <> None) plans in
+      Printf.sprintf "%d break one" (List.length broken));
+  let few = List.init 100 (fun i -> rows (i * 40)) in
+  timed "4,950 pairs of plans" (fun () ->
+      let rec near = function
+        | [] -> 0
+        | plan :: others ->
+          let is_near other = Fence.nearest ~within:50. plan other <> None in
+          List.length (List.filter is_near others) + near others
+      in
+      Printf.sprintf "%d come near" (near few))
+
 (* {1 Maps} *)
 
 let geojson bytes =
@@ -69,5 +112,6 @@ let import bytes =
       | Error why -> why)
 
 let () =
+  fences ();
   List.iter (fun polygon -> List.iter (cover polygon) [ 20.; 40.; 100. ]) polygons;
   import 10_000_000

@@ -198,15 +198,16 @@ Age(item) == now - awaited[item].since
 
 MayBeNow(due) == IF due = << >> THEN TRUE ELSE Age(due[1]) >= due[2][1] /\ ~IsOver(due[2][2], Age(due[1]))
 
-(* The transitions ts, each with when it is due, without those that never are. While something is urgent, nothing else
-   happens; but a pick waits for those that may come late. *)
+(* The transitions ts, each with when it is due, without those that never are. While something is urgent, only what
+   needs no event happens; but a pick waits for those that may come late. *)
 Timely(ts) ==
   LET dues == Each(ts, Due)
       possible == SelectSeq([ j \in DOMAIN ts |-> j ], LAMBDA j : IF dues[j] = << >> THEN TRUE ELSE dues[j][2] # << >>)
       urgent == SelectSeq(possible, LAMBDA j : IsUrgent(ts[j]))
+      own == SelectSeq(possible, LAMBDA j : ts[j].event = Program)
       holdsBack == urgent # << >> /\ \A j \in Range(possible) : ~ComesLate(ts[j])
   IN Only({ [ steps |-> Each(js, LAMBDA j : [ t |-> ts[j], due |-> dues[j] ]), urgent |-> holdsBack ] :
-            js \in { IF holdsBack THEN urgent ELSE possible } })
+            js \in { IF holdsBack THEN own ELSE possible } })
 
 (* After so many ticks, of each item that is awaited something may still happen. *)
 NoneIsOver(timely, ticks) ==

@@ -9,6 +9,7 @@ let at_rest = 0.25
 let under_way (v : Entry.vehicle) = -.v.drain /. hour
 let unplugged v = at_rest *. under_way v
 let resting (v : Entry.vehicle) = if v.charge > 0. then v.charge /. hour else unplugged v
+let rate v ~under_way:is_under_way = if is_under_way then under_way v else resting v
 let start (v : Entry.vehicle) = { vehicle = v; since = 0.; left = v.battery; rate = resting v }
 
 let empty_from b =

@@ -22,6 +22,9 @@ val empty_from : t -> float
 val is_steady : t -> at:float -> bool
 (** Whether it does not change any more from [at] on. *)
 
+val rate : Entry.vehicle -> under_way:bool -> float
+(** What it gains in a second, under way or at rest: less than 0 if it falls. *)
+
 val least : Entry.vehicle -> working:float -> until:float -> float
 (** [least v ~working ~until] is what is left at the time [until] of a vehicle that was under way for [working] seconds
     before, and was never charged: below 0 by what is missing. It is less if [working] or [until] is more. *)

@@ -4,18 +4,32 @@ module Battery = Dolphin_scenario.Battery
 
 let seconds ms = float ms /. 1000.
 
+let changes (v : Scenario.vehicle) (t : Transition.t) =
+  let is_over = match t.label with Done (w, _) | Fail (w, _, _) -> w = v.id | _ -> false in
+  let is_stopped = List.exists (function Effect.Stop w -> w = v.id | _ -> false) t.effects in
+  let starts = List.exists (function Effect.Start (w, _) -> w = v.id | _ -> false) t.effects in
+  (is_over || is_stopped, starts)
+
 (* Between two changes it goes one way: it is least at one of them. *)
 let left (v : Scenario.vehicle) steps dates =
   let change (b, least) (t : Transition.t) date =
     let at = seconds date in
-    let is_over = match t.label with Done (w, _) | Fail (w, _, _) -> w = v.id | _ -> false in
-    let is_stopped = List.exists (function Effect.Stop w -> w = v.id | _ -> false) t.effects in
-    let starts = List.exists (function Effect.Start (w, _) -> w = v.id | _ -> false) t.effects in
-    let b' = if is_over || is_stopped then Battery.rest b ~at else b in
+    let is_over, starts = changes v t in
+    let b' = if is_over then Battery.rest b ~at else b in
     ((if starts then Battery.set_out b' ~at else b'), Float.min least (Battery.level b ~at))
   in
   let b = Battery.start v in
   snd (List.fold_left2 change (b, Battery.level b ~at:0.) steps dates)
+
+let spans v steps =
+  let span under_way i j : Dates.span =
+    if Battery.rate v ~under_way > 0. then Short (i, j) else Long (i, j) in
+  let turn (k, since, under_way, found) t =
+    let is_over, starts = changes v t in
+    if is_over || starts then (k + 1, k, starts, span under_way since k :: found) else (k + 1, since, under_way, found)
+  in
+  let k, since, under_way, found = List.fold_left turn (1, 0, false, []) steps in
+  span under_way since (k - 1) :: found
 
 type way = Timed_system.edge list
 

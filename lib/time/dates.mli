@@ -22,3 +22,10 @@ val latest : int -> 'a bound list -> int option array * 'a bound option array
 
 val earliest : int -> 'a bound list -> int option array
 (** Likewise the earliest ones. *)
+
+(** What the time between two dates, by their numbers, should be. *)
+type span = Long of int * int | Short of int * int
+
+val stretched : int -> 'a bound list -> span list -> int option array
+(** [stretched n bounds spans] is dates that meet [bounds], in which each of [spans] in turn is as long, or as short, as
+    those before it in the list allow. *)

@@ -38,11 +38,12 @@ type t = {
   skeletons : Skeleton.context;
   constants : int Constants.t;
   executions : execution option States.t;
+  apart : Core.vehicle option;  (* it is like no other vehicle *)
   possible : bool;
 }
 
-let create (options : Timed.options) =
-  { options; skeletons = Skeleton.context options.program; constants = Constants.create 64;
+let create ?apart (options : Timed.options) =
+  { options; apart; skeletons = Skeleton.context options.program; constants = Constants.create 64;
     executions = States.create 8; possible = Inert.names_are_free options }
 
 let number e = e.number
@@ -284,9 +285,10 @@ let find_execution t (s : Timed.state) m r =
     let by_key, _ = classes (Skeleton.key_of t.skeletons) pairs in
     let form ?mark label =
       form_of t ?mark ~label ~orbit:(Hashtbl.find by_key) ~pairs ~color:(fun _ -> 0) ~colored:false [] s m r in
-    let of_label l = (form (fun l' -> if l = l' then "!" else "")).text in
+    let is_apart l = if t.apart = Some l.vehicle then "*" else "" in
+    let of_label l = (form (fun l' -> (if l = l' then "!" else "") ^ is_apart l')).text in
     let orbits, members = classes of_label (labels r) in
-    let pair_orbits, same = classes (fun n -> (form ~mark:n (fun _ -> "")).text) pairs in
+    let pair_orbits, same = classes (fun n -> (form ~mark:n is_apart).text) pairs in
     if has_several members || has_several same then begin
       let renamed = Hashtbl.create 16 in
       let note _ ns = if List.length ns > 1 then List.iter (fun n -> Hashtbl.replace renamed n ()) ns in

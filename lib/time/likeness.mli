@@ -6,7 +6,8 @@ open Dolphin_semantics
 
 type t
 
-val create : Timed.options -> t
+val create : ?apart:Core.vehicle -> Timed.options -> t
+(** [create ~apart o]: the tasks of [apart] are alike only among each other. *)
 
 (** {1:executions Executions} *)
 

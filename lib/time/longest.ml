@@ -2,34 +2,38 @@ type 'edge graph = { successors : (int * 'edge) list array; order : int list }
 
 exception Cycle
 
-(* The vertices that 0 leads to, each before those that it leads to. *)
-let order successors =
-  let n = Array.length successors in
+(* The vertices that 0 leads to, each before those that it leads to; [back ()] where that is not possible. *)
+let sorted ~back n successors =
   let entered = Array.make n false and left = Array.make n false in
   let rec go order = function
     | [] -> order
     | (v, []) :: stack ->
       left.(v) <- true;
       go (v :: order) stack
-    | (v, (w, _) :: others) :: stack ->
+    | (v, w :: others) :: stack ->
       let stack = (v, others) :: stack in
       if left.(w) then go order stack
-      else if entered.(w) then raise_notrace Cycle
+      else if entered.(w) then begin back (); go order stack end
       else begin
         entered.(w) <- true;
-        go order ((w, successors.(w)) :: stack)
+        go order ((w, successors w) :: stack)
       end
   in
   if n = 0 then []
   else begin
     entered.(0) <- true;
-    go [] [ (0, successors.(0)) ]
+    go [] [ (0, successors 0) ]
   end
+
+let order n successors = sorted ~back:ignore n successors
 
 let graph n edges =
   let successors = Array.make n [] in
   List.iter (fun (v, w, edge) -> successors.(v) <- (w, edge) :: successors.(v)) edges;
-  match order successors with order -> Some { successors; order } | exception Cycle -> None
+  let back () = raise_notrace Cycle in
+  match sorted ~back n (fun v -> List.map fst successors.(v)) with
+  | order -> Some { successors; order }
+  | exception Cycle -> None
 
 let ways g length =
   let n = Array.length g.successors in

@@ -2,6 +2,10 @@
 
 type 'edge graph
 
+val order : int -> (int -> int list) -> int list
+(** [order n successors] is those of the vertices 0 to [n - 1] that 0 leads to, each before those that it leads to, but
+    for one edge or more of each cycle. *)
+
 val graph : int -> (int * int * 'edge) list -> 'edge graph option
 (** [graph n edges] has the vertices 0 to [n - 1], and each of [edges] from the first to the second. [None] if a cycle
     is led to from 0. *)

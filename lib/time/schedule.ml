@@ -8,7 +8,8 @@ let bounds_of steps_of k (s : Timed.state) begun (step : Timed.step) =
   let from item = List.assoc item begun and due_to item = find item s in
   let at_most (item, most) = Dates.at_most ?due_to:(due_to item) k ~after:(from item) most in
   let order = Dates.at_least k ~after:(k - 1) 0 in
-  if step.urgent then [ order; Dates.at_most k ~after:(k - 1) 0 ]
+  let is_urgent (step : Timed.step) = step.urgent in
+  if is_urgent step || List.exists is_urgent (steps_of s) then [ order; Dates.at_most k ~after:(k - 1) 0 ]
   else
     let due =
       match step.due with
@@ -56,3 +57,7 @@ let make (goal : Timed_system.goal) options start steps =
     let dates, last = Dates.latest n bounds in
     Option.map (fun dates -> { dates = of_steps n dates; chain = chain last n }) (all_known dates)
   | Earliest -> Option.map (fun dates -> { dates = of_steps n dates; chain = [] }) (all_known (Dates.earliest n bounds))
+
+let stretched options start steps spans =
+  let n = List.length steps in
+  Option.map (of_steps n) (all_known (Dates.stretched n (all options start steps) spans))

@@ -17,6 +17,10 @@ val make : Timed_system.goal -> Timed.options -> Timed.state -> Timed.step list 
 (** [make goal o s steps] is the dates of the run [steps] from the initial state [s]. [None] if its end has no latest
     date. *)
 
+val stretched : Timed.options -> Timed.state -> Timed.step list -> Dates.span list -> int array option
+(** [stretched o s steps spans] is dates of that run with [spans] between its steps, which are numbered from 1, as
+    {!Dates.stretched} has them. *)
+
 (** {1:bounds Bounds} *)
 
 type walk

@@ -15,6 +15,7 @@ type item =
   | Answer
   | Reply
   | Posting of string
+  | Course of Core.vehicle
 
 type pending = { item : item; bounds : Bounds.t; task : Core.platform_task option; prompt : string option }
 
@@ -55,7 +56,8 @@ let is_same (a : item) (b : item) =
   | Timer m, Timer n | Question m, Question n -> Int.equal m n
   | Answer, Answer | Reply, Reply -> true
   | Posting k, Posting l -> String.equal k l
-  | (Task _ | Timer _ | Question _ | Answer | Reply | Posting _), _ -> false
+  | Course v, Course w -> String.equal v w
+  | (Task _ | Timer _ | Question _ | Answer | Reply | Posting _ | Course _), _ -> false
 
 let of_awaited : Transition.awaited -> item = function
   | End_of v -> Task v
@@ -245,15 +247,18 @@ let starts_without_moving step =
   match step.transition.effects with [ Start (_, p) ] -> Durations.moves p = None | _ -> false
 
 let all_steps o s =
+  let with_step (choice : Environment.choice) = (choice, step o s choice) in
   let choices =
     Environment.choices_on o.environment o.program o.world s.outside s.configuration
-    |> Seq.map (step o s) |> Seq.filter is_possible |> List.of_seq
+    |> Seq.map with_step |> Seq.filter (fun (_, step) -> is_possible step) |> List.of_seq
   in
-  match List.filter (fun step -> step.urgent) choices with
-  | [] -> choices
-  | _ when List.exists (fun step -> comes_late step.transition) choices ->
-    List.map (fun step -> { step with urgent = false }) choices
-  | urgent -> urgent
+  let all = List.map snd choices in
+  if not (List.exists (fun step -> step.urgent) all) then all
+  else if List.exists (fun step -> comes_late step.transition) all then
+    List.map (fun step -> { step with urgent = false }) all
+  else
+    let own ((choice : Environment.choice), step) = if choice.on = None then Some step else None in
+    List.filter_map own choices
 
 let steps o s =
   let steps = all_steps o s in

@@ -19,6 +19,8 @@ type item =
   | Answer
   | Reply
   | Posting of string  (** of a pair with this key *)
+  | Course of Core.vehicle
+  (** never in a {!state}: since when the battery of a vehicle that is observed goes as it does ({!Course}) *)
 
 type pending = {
   item : item;
@@ -54,8 +56,8 @@ type step = {
 }
 
 val steps : options -> state -> step list
-(** [steps o s] is what may happen in [s]. If some step is urgent, only such; of [START]s only the first, unless it
-    matters where its vehicle is: docs/time.md says why that is enough.
+(** [steps o s] is what may happen in [s]. If some step is urgent, only what needs no event; of [START]s only
+    the first, unless it matters where its vehicle is: docs/time.md says why that is enough.
     @raise Environment.Unclear *)
 
 val all_steps : options -> state -> step list

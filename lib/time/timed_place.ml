@@ -40,6 +40,7 @@ type places = {
   options : Timed.options;
   ends : Inert.t option;
   likeness : Likeness.t option;
+  course : Course.t option;
   filled : Zone.t -> Zone.t;
   note : Timed.state -> unit;
   table : t Table.t;
@@ -49,10 +50,11 @@ type reduction = Nothing | Inert_ends | Inert_ends_and_likeness
 
 exception Broken
 
-let places reduction options ~filled ~note =
-  { options; filled; note; table = Table.create 1_000;
+let places ?course reduction options ~filled ~note =
+  let apart = Option.map Course.vehicle course in
+  { options; course; filled; note; table = Table.create 1_000;
     ends = (if reduction = Nothing then None else Some (Inert.create options));
-    likeness = (if reduction = Inert_ends_and_likeness then Some (Likeness.create options) else None) }
+    likeness = (if reduction = Inert_ends_and_likeness then Some (Likeness.create ?apart options) else None) }
 
 let likeness t = t.likeness
 let add place number = place.here <- number :: place.here
@@ -63,7 +65,20 @@ let with_clocks (s : Timed.state) inert =
     match p.bounds with Within _ -> not (is_inert p) | Some_time | Never -> false in
   List.map (fun (p : Timed.pending) -> p.item) (List.filter has_clock s.pending)
 
-let inert t state = match t.ends with Some i -> Inert.of_state i state | None -> []
+(* The end of the vehicle that is observed is followed. *)
+let inert t state =
+  let is_observed (i : Inert.item) =
+    match t.course with Some c -> i.awaited = Task (Course.vehicle c) | None -> false in
+  match t.ends with
+  | Some i -> List.filter (fun i -> not (is_observed i)) (Inert.of_state i state)
+  | None -> []
+
+let course_item t = Option.map (fun c -> Timed.Course (Course.vehicle c)) t.course
+
+let fresh t before (step : Timed.step) =
+  match t.course with
+  | Some c when Course.turns c before step -> Timed.Course (Course.vehicle c) :: step.fresh
+  | Some _ | None -> step.fresh
 let is_among items (i : Inert.item) = List.exists (fun (j : Inert.item) -> j.awaited = i.awaited) items
 
 (* What is inert stays so until all is over, and is so from its beginning. *)
@@ -178,7 +193,8 @@ let numbered xs =
    begins, and the clocks were those of [clocks] and [rest_clock] before; and what is awaited in [state], in the order
    of its form. *)
 let reached t ~clocks ~rest_clock ~fresh ~has_rest execution state inert zone =
-  let with_clocks = with_clocks state inert in
+  let awaited = with_clocks state inert and course = Option.to_list (course_item t) in
+  let with_clocks = awaited @ course in
   let origin item = if List.mem item fresh then None else List.assoc_opt item clocks in
   let origins, numbers = numbered (List.map origin with_clocks) in
   let zone = Zone.rearranged (Array.of_list (origins @ if has_rest then [ rest_clock ] else [])) zone in
@@ -190,10 +206,10 @@ let reached t ~clocks ~rest_clock ~fresh ~has_rest execution state inert zone =
       let color item = match List.assoc_opt item clocks with Some clock -> Zone.role clock zone | None -> 0 in
       let { Likeness.text; items } = Likeness.form likeness e ~color ~colored:false inert state in
       (Alike text, items)
-    | (Some _ | None), _ -> (Exactly state, with_clocks)
+    | (Some _ | None), _ -> (Exactly state, awaited)
   in
   let with_clock item = Option.map (fun clock -> (item, clock)) (List.assoc_opt item clocks) in
-  let in_order = List.filter_map with_clock items in
+  let in_order = List.filter_map with_clock (items @ course) in
   let firsts, numbers = numbered (List.map snd in_order) in
   let clocks = List.map2 (fun (item, _) n -> (item, n)) in_order numbers in
   let last = if has_rest then [ Some (List.length origins + 1) ] else [] in

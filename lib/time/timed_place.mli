@@ -27,9 +27,17 @@ type reduction = Nothing | Inert_ends | Inert_ends_and_likeness
 exception Broken
 (** Something that was taken for inert is not, or for alike. *)
 
-val places : reduction -> Timed.options -> filled:(Zone.t -> Zone.t) -> note:(Timed.state -> unit) -> places
-(** [places r o ~filled ~note] has no place yet; [note] is called with the state of each new one, and zones are
-    [filled]. *)
+val places :
+  ?course:Course.t -> reduction -> Timed.options -> filled:(Zone.t -> Zone.t) -> note:(Timed.state -> unit) ->
+  places
+(** [places ~course r o ~filled ~note] has no place yet; [note] is called with the state of each new one, and zones are
+    [filled]. Zones have a clock for [course] besides; its vehicle is like no other, and its ends are not inert. *)
+
+val course_item : places -> Timed.item option
+(** What the clock of [course] is for. *)
+
+val fresh : places -> Timed.state -> Timed.step -> Timed.item list
+(** [fresh ps s step] is what begins with [step] of [s], the course included if it turns. *)
 
 val likeness : places -> Likeness.t option
 val add : t -> int -> unit

@@ -28,13 +28,15 @@ type move =
 
 type arrival = { move : move; into : Timed.state; items : Timed.item list; execution : Likeness.execution option }
 
-type edge = { source : int; target : int; by : move; working : Working.t }
+type passage = { under_way : bool; least : int; most : int option; turns : bool; seen : Course.range; binds : bool }
+type edge = { source : int; target : int; by : move; working : Working.t; passage : passage option }
 
 type node = { place : Timed_place.t; zone : Zone.t; parent : int; move : move option }
 
 type t = {
   goal : goal;
   options : Timed.options;
+  course : Course.t option;
   places : Timed_place.places;
   mutable reduced : bool;  (* whether anything was inert, or states might be alike *)
   mutable nodes : node array;
@@ -200,17 +202,17 @@ let widen t ~reserved =
 
 let numbers t key f = f (number t key.(0))
 
-let create ?(reduction = Inert_ends_and_likeness) ?(working = false) goal options =
+let create ?(reduction = Inert_ends_and_likeness) ?(working = false) ?course goal options =
   let filled = match goal with Latest -> Zone.reaching_down | Earliest -> Zone.reaching_up in
   let deadlines = ref [] in
   let note s =
     let add (_, site) = if not (List.mem site !deadlines) then deadlines := site :: !deadlines in
     List.iter add (Happening.deadlines s)
   in
-  let places = Timed_place.places reduction options ~filled ~note in
-  { goal; options; places; reduced = false; nodes = [||]; count = 0;
+  let places = Timed_place.places ?course reduction options ~filled ~note in
+  { goal; options; course; places; reduced = false; nodes = [||]; count = 0;
     reserved = 0; moments = Hashtbl.create 100; tasks = []; endings = []; cycle = None; returns = [];
-    edges = (if working then Some [] else None); edge_count = 0;
+    edges = (if working || course <> None then Some [] else None); edge_count = 0;
     stuck = None; unknown = []; deadlines; missed = Hashtbl.create 8 }
 
 let visit t (v : via System.visitor) n = v.visit [| n lsl t.reserved |] 0 ()
@@ -218,7 +220,8 @@ let visit t (v : via System.visitor) n = v.visit [| n lsl t.reserved |] 0 ()
 let initial t v =
   if t.count = 0 then begin
     let state = Timed.initial t.options in
-    let fresh = List.map (fun (p : Timed.pending) -> p.item) state.pending in
+    let awaited = List.map (fun (p : Timed.pending) -> p.item) state.pending in
+    let fresh = Option.to_list (Timed_place.course_item t.places) @ awaited in
     let place, _, zone =
       Timed_place.reached t.places ~clocks:[] ~rest_clock:None ~fresh ~has_rest:false None state [] Zone.start No_rest
     in
@@ -235,12 +238,32 @@ let note_reduced t =
 (* More take more memory than what they tell is worth. *)
 let most_edges = 1_000_000
 
-let note_edge t source target by working =
+let note_edge t source target by working passage =
   let note edges =
     t.edge_count <- t.edge_count + 1;
-    t.edges <- if t.edge_count > most_edges then None else Some ({ source; target; by; working } :: edges)
+    t.edges <- if t.edge_count > most_edges then None else Some ({ source; target; by; working; passage } :: edges)
   in
   Option.iter note t.edges
+
+(* How long the course has gone on in [zone], whose clocks are those of [place]. *)
+let since t (place : Timed_place.t) zone =
+  let clock = Option.bind (Timed_place.course_item t.places) (fun item -> List.assoc_opt item place.clocks) in
+  Option.fold clock ~none:(0, None) ~some:(fun clock -> (Zone.least clock zone, Zone.most clock zone))
+
+(* The course until something is done in [zone] of [before]: [step], or what does not matter to it. *)
+let passage t (before : Timed_place.t) zone step =
+  let of_course c =
+    let least, most = since t before zone in
+    let under_way = Course.is_under_way c before.state in
+    match step with
+    | None -> { under_way; least; most; turns = false; seen = Course.anything; binds = false }
+    | Some (step : Timed.step) ->
+      let is_first = Zone.latest_date zone = Some 0 in
+      let is_last = match step.next.configuration.control with Ended _ -> true | _ -> false in
+      { under_way; least; most; turns = Course.turns c before.state step; seen = Course.seen c before.state step;
+        binds = Course.is_newly_bound c step && not (is_first || is_last) }
+  in
+  Option.map of_course t.course
 
 (* The states that [arrow] leads to from those valuations of state [n] that are in [zone]. *)
 let take t n (before : Timed_place.t) zone ({ step; inert; begun } as arrow : Timed_place.arrow) =
@@ -256,16 +279,19 @@ let take t n (before : Timed_place.t) zone ({ step; inert; begun } as arrow : Ti
     let has_rest = List.exists (fun (_, rest) -> rest <> Timed_place.No_rest) lasts in
     let at =
       let { Timed_place.clocks; rest_clock; _ } = before in
-      Timed_place.reached t.places ~clocks ~rest_clock ~fresh:step.fresh ~has_rest execution step.next inert zone
+      let fresh = Timed_place.fresh t.places before.state step in
+      Timed_place.reached t.places ~clocks ~rest_clock ~fresh ~has_rest execution step.next inert zone
     in
-    let working = if t.edges = None then [] else Working.of_step t.options before zone arrow execution in
+    let working =
+      if t.edges = None || t.course <> None then [] else Working.of_step t.options before zone arrow execution in
+    let passage = passage t before zone (Some step) in
     let into (last, rest) =
       let place, items, zone = at rest in
       let* zone = Timed_place.with_begun place begun last zone in
       let* zone = Timed_place.settled t.places place zone in
       let move = Step { step; begun; last; items } in
       let target = arrive t n move place zone in
-      note_edge t n target move working;
+      note_edge t n target move working passage;
       Some target
     in
     List.filter_map into lasts
@@ -277,15 +303,20 @@ let end_rest t n (before : Timed_place.t) zone =
     let steps = Timed_place.ends_of_rest t.places before.state in
     let last = List.nth steps (List.length steps - 1) in
     Timed_place.check_left t.places before last.next;
+    let clocks =
+      let is_course (item, _) = Some item = Timed_place.course_item t.places in
+      List.filter is_course before.clocks
+    in
     let into (zone, later) =
+      let passage = passage t before zone None in
       let place, _, zone =
-        Timed_place.reached t.places ~clocks:[] ~rest_clock:None ~fresh:last.fresh ~has_rest:false None last.next []
-          zone No_rest
+        Timed_place.reached t.places ~clocks ~rest_clock:None ~fresh:last.fresh ~has_rest:false None last.next [] zone
+          No_rest
       in
       let* zone = Timed_place.settled t.places place zone in
       let move = Rest { steps; later } in
       let target = arrive t n move place zone in
-      note_edge t n target move [];
+      note_edge t n target move [] passage;
       Some target
     in
     let ends = [ Timed_place.ends_now clock zone; Timed_place.ends_later clock zone ] in
@@ -409,6 +440,18 @@ let ends t =
 
 let count t = t.count
 let state t n = t.nodes.(n).place.state
+
+let course t = t.course
+
+type stay = { under_way : bool; most : int option; waited : float }
+
+let stay t n =
+  let of_course c =
+    let { place; zone; _ } = t.nodes.(n) in
+    { under_way = Course.is_under_way c place.state; most = snd (since t place zone);
+      waited = Course.waited c place.state }
+  in
+  Option.map of_course t.course
 
 let arrival t n ({ step; begun; inert = _ } : Timed_place.arrow) =
   let execution = Timed_place.execution_after t.places t.nodes.(n).place step.next in

@@ -15,8 +15,9 @@ exception Broken
 (** What is left out: docs/time.md. *)
 type reduction = Timed_place.reduction = Nothing | Inert_ends | Inert_ends_and_likeness
 
-val create : ?reduction:reduction -> ?working:bool -> goal -> Timed.options -> t
-(** [reduction] is all of it by default; [working] is whether there are {!edges}, by default not. *)
+val create : ?reduction:reduction -> ?working:bool -> ?course:Course.t -> goal -> Timed.options -> t
+(** [reduction] is all of it by default; [working] is whether there are {!edges}, by default not; with [course], there
+    are too, each with its {!type-passage}. *)
 
 (** {1:dates Dates} *)
 
@@ -88,8 +89,18 @@ type arrival = {
 val path : t -> int -> arrival list
 (** [path t n] leads to state [n]. *)
 
+(** The course that is observed, until a move. *)
+type passage = {
+  under_way : bool;
+  least : int;  (** it has gone on for so many milliseconds at the least *)
+  most : int option;  (** and at the most; [None]: no bound *)
+  turns : bool;  (** whether the move turns it *)
+  seen : Course.range;  (** what the battery shows if the move is made *)
+  binds : bool;  (** whether its vehicle is bound or released with it in the course of the run *)
+}
+
 (** A move from one state to what another stands for, and how long vehicles were under way with what it ends. *)
-type edge = { source : int; target : int; by : move; working : Working.t }
+type edge = { source : int; target : int; by : move; working : Working.t; passage : passage option }
 
 val edges : t -> edge list option
 (** All of them: each run of the program goes along some, from state 0. [None] if they were not asked for, or are more
@@ -106,6 +117,18 @@ val count : t -> int
 
 val state : t -> int -> Timed.state
 (** [state t n] is what state [n], below {!count}, is. *)
+
+(** The course that is observed, in a state. *)
+type stay = {
+  under_way : bool;
+  most : int option;  (** it goes on for so many milliseconds at the most, to the end of what is spent there *)
+  waited : float;  (** {!Course.waited} *)
+}
+
+val course : t -> Course.t option
+
+val stay : t -> int -> stay option
+(** [stay t n] is for state [n]; [None]: nothing is observed. *)
 
 val deadlines : t -> (Core.site * (date * arrival list) option) list
 (** The [within] that begin in some run, by their places, each with when it is missed, at the earliest or at the latest,

@@ -1,5 +1,6 @@
 open Dolphin_semantics
 module Limits = Dolphin_checker.Limits
+module Scenario = Dolphin_scenario.Scenario
 module Search = Dolphin_checker.Breadth_first.Make (Timed_system)
 
 type date = Timed_system.date = At of int | Unbounded
@@ -113,49 +114,99 @@ let deadlines options early late =
   in
   List.map both (Timed_system.deadlines late)
 
+let search ?working ?course ~reduction ~started limits options goal phase =
+  let search = Search.create ~phase ~started limits (Timed_system.create ?working ?course ~reduction goal options) in
+  Search.run search;
+  search
+
 (* {1 Batteries} *)
 
 (* Sums of shares may be off in their last digits. *)
 let slightly = 1e-9
 
-(* The bound is of a run if one has no more left: the last one, or one with the latest dates, or with the earliest. Of
-   programs that look at sensors none is known to be one: what they see does not follow from the time. *)
-let battery options system tasks last ((v : Dolphin_scenario.Scenario.vehicle), least, way) =
-  let dated goal way =
+let is_empty share = share < slightly
+
+(* What was found of a battery: a bound, and the ways of a search that it may be of. *)
+type bounded = { bound : float; of_ways : (Timed_system.t * Timed_system.edge list) list }
+
+(* The same, from a search of its own that observes [v]: with charge, and with what is seen of the battery. *)
+let observed ~reduction ~started limits options (v : Scenario.vehicle) =
+  let course = Course.create options v.id in
+  let search = search ~course ~reduction ~started limits options Latest "batteries" in
+  let system = Search.system search in
+  let found (l : Levels.t) =
+    { bound = l.least; of_ways = List.map (fun way -> (system, way)) (Option.to_list l.way) } in
+  if Search.stopped search = None then Option.map found (Levels.of_vehicle system v) else None
+
+(* The run with least in its battery among [known] and those along the ways: with the latest dates, the earliest, and
+   those in which it is under way for long. It is looked for until one has no more than the bound. *)
+let lowest options (v : Scenario.vehicle) known { bound; of_ways } =
+  let along (system, way) goal () =
     match run_along goal options system (Timed_system.along system way) with
     | run -> Some run
     | exception (Timed_system.Broken | Dates.Contradiction) -> None
   in
-  let along goal () = Option.bind way (dated goal) in
+  let stretched (system, way) goal () =
+    match Unfold.run system goal options (Timed_system.along system way) with
+    | None -> None
+    | Some steps -> (
+        let ts = transitions steps in
+        match Schedule.stretched options (Timed_system.start system) steps (Batteries.spans v ts) with
+        | Some dates -> Some { steps = ts; dates = Array.to_list dates; cycle = []; chain = [] }
+        | None | (exception Dates.Contradiction) -> None)
+    | exception (Timed_system.Broken | Dates.Contradiction) -> None
+  in
+  let of_way way =
+    [ along way Timed_system.Latest; along way Earliest; stretched way Latest; stretched way Earliest ] in
   let rec lowest found = function
     | [] -> found
+    | _ when Option.fold found ~none:false ~some:(fun (left, _) -> left <= bound +. slightly) -> found
     | run :: runs -> (
-        match run () with
-        | None | Some { dates = []; _ } -> lowest found runs
-        | Some run -> (
-            let left = Batteries.left v run.steps run.dates in
-            match found with
-            | Some (known, _) when known <= left -> lowest found runs
-            | Some _ | None -> if left <= least +. slightly then Some (left, run) else lowest (Some (left, run)) runs))
+        match run (), found with
+        | (None | Some { dates = []; _ }), _ -> lowest found runs
+        | Some run, Some (known, _) when known <= Batteries.left v run.steps run.dates -> lowest found runs
+        | Some run, (Some _ | None) -> lowest (Some (Batteries.left v run.steps run.dates, run)) runs)
   in
-  if List.exists (fun ((task : task), _) -> task.vehicle = v.id) tasks then
-    let runs = [ (fun () -> last); along Timed_system.Latest; along Earliest ] in
-    let runs = if options.Timed.program.reads_sensors then [] else runs in
-    Some { vehicle = v.id; least; lowest = lowest None runs }
-  else None
+  lowest known (List.concat_map of_way of_ways)
 
-let batteries options system tasks last vehicles =
-  List.filter_map (battery options system tasks last) (Batteries.least system vehicles)
+(* Of programs that look at sensors no run is shown: what they see does not follow from the time. *)
+let battery options ~observed ~last ~is_known (v : Scenario.vehicle) first =
+  let is_shown = is_known && not options.Timed.program.reads_sensors in
+  let improved known found = if is_shown then lowest options v known found else None in
+  let of_last (run : run) = if run.dates = [] then None else Some (Batteries.left v run.steps run.dates, run) in
+  let known = if is_shown then Option.bind last of_last else None in
+  let known = Option.fold first ~none:known ~some:(improved known) in
+  let is_exact { bound; _ } = Option.fold known ~none:false ~some:(fun (left, _) -> left <= bound +. slightly) in
+  let with_ { bound; _ } lowest = Some { vehicle = v.id; least = bound; lowest } in
+  let may_be_closer = v.charge > 0. || options.program.reads_sensors in
+  match first with
+  | Some first when is_exact first || not may_be_closer -> with_ first known
+  | first -> (
+      match observed v, first with
+      | None, None -> None
+      | Some { bound; _ }, None when is_empty bound -> None
+      | None, Some first -> with_ first known
+      | Some found, first ->
+        let bound = Float.max found.bound (Option.fold first ~none:0. ~some:(fun first -> first.bound)) in
+        let found = { found with bound } in
+        with_ found (improved known found))
 
-let search ?working ~reduction ~started limits options goal phase =
-  let search = Search.create ~phase ~started limits (Timed_system.create ?working ~reduction goal options) in
-  Search.run search;
-  search
+let batteries options system ~observed ~tasks ~last ~is_known vehicles =
+  let of_bound (v, bound, way) = (v, { bound; of_ways = List.map (fun way -> (system, way)) (Option.to_list way) }) in
+  let bounds = if is_known then List.map of_bound (Batteries.least system vehicles) else [] in
+  let of_vehicle (v : Scenario.vehicle) =
+    if List.exists (fun ((task : task), _) -> task.vehicle = v.id) tasks then
+      battery options ~observed ~last ~is_known v (List.assq_opt v bounds)
+    else None
+  in
+  List.filter_map of_vehicle vehicles
+
+(* A search that observes a battery has more states than one that does not. More than so many times are not worth it. *)
+let most_observed = 10
 
 let find ~(reduction : reduction) ~started ?deadline ~vehicles limits options =
-  let search ?working = search ?working ~reduction ~started limits options in
-  let late = search ~working:(vehicles <> []) Latest "latest dates" in
-  let early = search Earliest "earliest dates" in
+  let late = search ~working:(vehicles <> []) ~reduction ~started limits options Latest "latest dates" in
+  let early = search ~reduction ~started limits options Earliest "earliest dates" in
   let late_system = Search.system late and early_system = Search.system early in
   let dates system = List.map (fun (e, (date, _)) -> (e, date)) (Timed_system.endings system) in
   let tasks =
@@ -172,6 +223,12 @@ let find ~(reduction : reduction) ~started ?deadline ~vehicles limits options =
   let endless = endless options late_system in
   let stopped = match Search.stopped late with Some bound -> Some bound | None -> Search.stopped early in
   let is_known = endless = None && stopped = None in
+  let observed =
+    let most = most_observed * (100 + Search.count late) in
+    let max_states = Some (Option.fold limits.max_states ~none:most ~some:(min most)) in
+    observed ~reduction ~started { limits with max_states } options
+  in
+  let batteries tasks last = batteries options late_system ~observed ~tasks ~last ~is_known in
   { endings = windows (dates early_system) (dates late_system); tasks;
     last = last_run; first = run_at Earliest early_system (best is_sooner early_system);
     endless;
@@ -179,7 +236,7 @@ let find ~(reduction : reduction) ~started ?deadline ~vehicles limits options =
     deadlines = deadlines options early_system late_system;
     late = (match last with Some (date, _) when is_late date -> last_run | Some _ | None -> None);
     failing = run_at Latest late_system (List.assoc_opt Timed_system.Failed (Timed_system.endings late_system));
-    batteries = (if is_known then batteries options late_system tasks last_run vehicles else []);
+    batteries = (if stopped = None then batteries tasks last_run vehicles else []);
     apart = None;
     stopped;
     reduction;
@@ -265,7 +322,6 @@ let slacks limits options o =
 (* Of what has no latest date it is not known. *)
 let is_late ?deadline o = match deadline, latest o with Some n, Some (At m) -> m > n | _ -> false
 
-let is_empty share = share < slightly
 let runs_empty b = match b.lowest with Some (share, _) -> is_empty share | None -> false
 let may_run_empty b = is_empty b.least
 

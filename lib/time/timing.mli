@@ -24,7 +24,7 @@ type battery = {
   least : float;  (** no run has less *)
   lowest : (float * run) option;
   (** a run, and the least that is left in it, which is [least] where it is exact; [None] if the program looks at
-      sensors *)
+      sensors, or if some run may not end by any date *)
 }
 
 (** Plans side by side, if there is a least distance between vehicles. *)
@@ -45,7 +45,8 @@ type outcome = {
   (** the [within] of the program, each with when it is missed, and a run in which it is; [None]: it is kept *)
   late : run option;  (** one that is not over at the deadline *)
   failing : run option;  (** one that fails *)
-  batteries : battery list;  (** of vehicles that run a task, if all runs are known to end by some date *)
+  batteries : battery list;
+  (** of vehicles that run a task; if some run may not end by any date, only those with a bound above 0 *)
   apart : apart option;
   stopped : Dolphin_checker.Limits.bound option;
   (** if there is a bound, dates are of the runs that were looked at *)

@@ -53,6 +53,7 @@ let delayed z z' =
 
 let earliest_date z = -get z zero date
 let most clock z = match get z (clock + 1) zero with n when n = unbounded -> None | n -> Some n
+let least clock z = match get z zero (clock + 1) with n when n = unbounded -> 0 | n -> max 0 (-n)
 let latest_date z = match get z date zero with n when n = unbounded -> None | n -> Some n
 
 let delay z =

@@ -37,6 +37,9 @@ val latest_date : t -> int option
 val most : int -> t -> int option
 (** [most i z] is the greatest value of clock [i] in [z]; [None]: no bound. *)
 
+val least : int -> t -> int
+(** [least i z] is the least value of clock [i] in [z], which is 0 or more in all of it. *)
+
 (** {1:operations Operations}
 
     Each as a set of valuations; [None] is the empty one. *)

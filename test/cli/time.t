@@ -97,7 +97,8 @@ A deadline that holds, and one that does not, with the run that breaks it.
   $ dolphin time relay.dol --deadline soon 2>&1 | head -1
   dolphin: option '--deadline': 'soon' is no time such as 40.min or 90.seconds
 
-A battery that runs empty in some run, and one that must be charged in time, of which it is not known.
+A battery that runs empty in some run, ones that are charged in time, one that the program looks at, and one of which it
+is not known.
 
   $ sed "s/vehicle 'a'.*/vehicle 'a', { type 'UUV'; battery 10.percent; drain 1 }/" relay.fleet > low.fleet
   $ dolphin time relay.dol --fleet low.fleet --deadline 9.min | timeless
@@ -149,15 +150,34 @@ A battery that runs empty in some run, and one that must be charged in time, of 
   task    vehicle  starts           ends             where
   survey  a        0:00 to 1:21:00  4:00 to 1:28:00  rounds.dol:2
   vehicle  least battery
-  a        3 % or more; 8.2 % in some run
+  a        8.2 %
   $ sed "s/battery 10/battery 5/" charged.fleet > lower.fleet
   $ dolphin time rounds.dol --fleet lower.fleet | timeless | head -5
   completed: 1:36:00 at the earliest, 1:48:00 at the latest
   task    vehicle  starts           ends             where
   survey  a        0:00 to 1:21:00  4:00 to 1:28:00  rounds.dol:2
   vehicle  least battery
-  a        unknown; 3.2 % in some run
-  $ dolphin time rounds.dol --fleet lower.fleet > /dev/null
+  a        3.2 %
+  $ cat > looks.dol << 'X'
+  > a = pick { id 'a' }
+  > execute a: (until { battery(a) < 0.09 } run task('survey')) >> task('home')
+  > X
+  $ dolphin time looks.dol --fleet charged.fleet | timeless | head -6
+  completed: 1:30 at the earliest, 8:30 at the latest
+  task    vehicle  starts        ends          stopped       where
+  survey  a        0:00          4:00 to 7:00  0:00 to 7:00  looks.dol:2
+  home    a        0:00 to 7:00  1:30 to 8:30                looks.dol:2
+  vehicle  least battery
+  a        8.6 % or more
+  $ sed "s/until { battery(a) < 0.09 } run/condition { battery(a) > 0.01 } >>/" looks.dol > waits.dol
+  $ sed "s/drain 15/drain 99/" charged.fleet > thirsty.fleet
+  $ dolphin time waits.dol --fleet thirsty.fleet | timeless | head -6
+  completed: 5:30 at the earliest, no latest time
+  task    vehicle  starts         ends           where
+  survey  a        0:00 or later  4:00 or later  waits.dol:2
+  home    a        4:00 or later  5:30 or later  waits.dol:2
+  20 states, depth 9, T
+  $ dolphin time waits.dol --fleet thirsty.fleet > /dev/null
   [3]
 
 How much longer each task may take before the latest end is later; that of the survey decides.

@@ -68,6 +68,8 @@ let texts =
     ("too few", no_fault, "v = pick { type 'USV'; timeout 4 }\nexecute task('q')[v]");
     ("a task that may fail", no_fault, two ^ "execute watch (task('r')[a] | task('p')[b]) onError { ignore() }");
     ("a posted pair", no_fault, "input 'x'\n" ^ two ^ "execute waitFor { consume x: _ } then task('p')[a]");
+    ( "a look at once", no_fault,
+      two ^ "execute until { battery(a) < 0.5 } run (action { halt 'h' } | task('p')[b])\nexecute task('q')[a]" );
     ("the latest patience", a_loss, "setConnectionTimeout 5\nsetConnectionTimeout 6\n" ^ two ^ "execute task('p')[a]");
     ( "the order to a vehicle that is lost", a_loss,
       two ^ "setConnectionTimeout a, 5\nexecute (watch task('p')[a] onError { ignore() }) >> task('q')[a]" );

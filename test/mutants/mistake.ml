@@ -982,6 +982,9 @@ let timed =
       ( "a lost link is noticed at once",
         {|    | Within { most; _ }, Within { least; _ } -> Within { least; most }|},
         {|    | Within { most; _ }, Within _ -> Within { least = 0; most }|} );
+      ( "no look ends a task at the moment at which something happens at once",
+        {|if choice.on = None then Some step else None in|},
+        {|if step.urgent then Some step else None in|} );
       ( "the order to a lost vehicle does not wait",
         {|if List.mem v (Environment.lost s.outside) then put_off silence bounds else bounds in|},
         {|ignore put_off; bounds in|} );
@@ -1017,8 +1020,8 @@ let place =
   @ in_file "lib/time/batteries.ml" ~noticed_by:"time/test_exact"
     [
       ( "a vehicle that is stopped goes on",
-        {|if is_over || is_stopped then|},
-        {|ignore is_stopped; if is_over then|} );
+        {|(is_over || is_stopped, starts)|},
+        {|ignore is_stopped; (is_over, starts)|} );
     ]
   @ in_file "lib/time/working.ml" ~noticed_by:"time/test_exact"
     [
@@ -1028,6 +1031,33 @@ let place =
       ( "inert ends take nothing",
         {|Some (task.vehicle, i.most)|},
         {|Some (task.vehicle, 0 * i.most)|} );
+    ]
+  @ in_file "lib/time/levels.ml" ~noticed_by:"time/test_exact"
+    [
+      ( "rest charges for as long as it may last",
+        {|if rate >= 0. then Float.max k.entry (after rate least k.low)|},
+        {|if rate >= 0. then Float.max k.entry (after rate (Option.value most ~default:least) k.low)|} );
+      ( "work takes its shortest time",
+        {|match most with Some ms -> after rate ms k.low|},
+        {|match most with Some ms -> after rate (min ms least) k.low|} );
+      ( "of several ways to a state the first is taken",
+        {|if b.low < a.low || b.high > a.high || b.entry < a.entry then|},
+        {|if b.high > a.high || (b.low < a.low && false) then|} );
+    ]
+  @ in_file "lib/time/course.ml" ~noticed_by:"time/test_exact"
+    [
+      ( "a comparison is taken for its opposite",
+        {|if is_less = holds then|},
+        {|if is_less <> holds then|} );
+      ( "one of several looks is taken for the only one",
+        {|not (List.exists (same step) (supposing c s text (not holds)))|},
+        {|not (List.exists (same step) (supposing c s text (not holds)) && false)|} );
+    ]
+  @ in_file "lib/time/course.ml" ~noticed_by:"time/test_missions"
+    [
+      ( "what was seen before is seen now",
+        {|if range = anything || is_now c s then|},
+        {|if range = anything || is_now c s || true then|} );
     ]
   @ in_file "lib/time/longest.ml" ~noticed_by:"time/test_exact"
     [
@@ -1086,8 +1116,8 @@ let place =
         {|text ending least most (s.label label)|},
         {|text ending (0 * least) (0 * most) (s.label label)|} );
       ( "all tasks are in one orbit",
-        {|(form (fun l' -> if l = l' then "!" else "")).text|},
-        {|(form (fun l' -> ignore (l = l'); "")).text|} );
+        {|(if l = l' then "!" else "")|},
+        {|(ignore (l = l'); "")|} );
       ( "what is left in N may have any names",
         {|    all && times = Hashtbl.find of_orbit orbit|},
         {|    all|} );

@@ -3,6 +3,7 @@ open Dolphin_environment
 open Dolphin_time
 
 type moment = Ended of Timed_system.ending | Task of Timing.task * Timed_system.moment
+type battery = { at_first : int; work : int; rest : int }
 type t = { dates : (moment * (int * int)) list; never_over : bool; most : (Core.vehicle * int) list }
 
 (* What is awaited: a vehicle, a timer, an input, or what people and the supplier say. *)
@@ -17,18 +18,18 @@ type state = {
   clocks : (awaited * clock) list;  (* in order *)
   patience : (string option * int) list;
   now : int;
-  working : (Core.vehicle * int) list;  (* for so many seconds until now, if that is asked for; in order *)
+  missing : (Core.vehicle * (int * int)) list;  (* now, and at the most until now; in order *)
 }
 
 module Table = Hashtbl.Make (struct
     type t = state
 
     let equal a b =
-      a.now = b.now && a.working = b.working && a.clocks = b.clocks && a.patience = b.patience
+      a.now = b.now && a.missing = b.missing && a.clocks = b.clocks && a.patience = b.patience
       && Environment.compare a.e b.e = 0
       && Configuration.equal a.c b.c
 
-    let hash s = Hashtbl.hash (s.now, s.working, s.clocks, Configuration.hash s.c)
+    let hash s = Hashtbl.hash (s.now, s.missing, s.clocks, Configuration.hash s.c)
   end)
 
 exception Too_much
@@ -112,7 +113,7 @@ let after o s (choice : Environment.choice) =
       List.fold_left (fun patience v -> (Some v, whole n) :: List.remove_assoc (Some v) patience) patience vs
     | _ -> patience
   in
-  { c = t.next; e = choice.outside; now = s.now; working = s.working;
+  { c = t.next; e = choice.outside; now = s.now; missing = s.missing;
     clocks = List.sort_uniq compare (List.map find (awaited o t.next choice.outside));
     patience = List.sort compare (List.fold_left set_patience s.patience t.effects) }
 
@@ -122,6 +123,11 @@ let patience (o : Timed.options) s v =
   | None, None -> snd (in_seconds o.durations.silence)
 
 let comes_late (t : Transition.t) = List.exists (function World.Late _ -> true | _ -> false) t.assumed
+
+(* What a sensor shows may go on not to let it happen. *)
+let is_open (t : Transition.t) =
+  t.assumed <> [] && (not (comes_late t))
+  && match t.rules with (Condition | Allof_when | Oneof_when | Until_cut | Assure_cut) :: _ -> true | _ -> false
 
 (* From how many to how many seconds, of which clock. *)
 let due o s (choice : Environment.choice) =
@@ -141,16 +147,21 @@ let due o s (choice : Environment.choice) =
   | None, _ -> None
 
 (* A second later. *)
-let tick ~working s =
+let tick ~batteries s =
   let later (what, clock) = (what, { clock with since = clock.since + 1 }) in
-  let add v _ sums = (v, 1 + Option.value (List.assoc_opt v sums) ~default:0) :: List.remove_assoc v sums in
-  let sums = if working then Vehicle_map.fold add s.c.shared.allocation s.working else [] in
-  { s with now = s.now + 1; clocks = List.map later s.clocks; working = List.sort compare sums }
+  let less (v, (missing, most)) =
+    let b = List.assoc v batteries in
+    let by = if Vehicle_map.mem v s.c.shared.allocation then b.work else -b.rest in
+    let missing = max 0 (missing + by) in
+    (v, (missing, max most missing))
+  in
+  { s with now = s.now + 1; clocks = List.map later s.clocks; missing = List.map less s.missing }
 
-let all ?(states = 20_000) ?(seconds = 60) ?(working = false) ?(look = ignore) (o : Timed.options) =
+let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _ _ world -> world) ?(look = ignore)
+    (o : Timed.options) =
   let seen = Table.create 1_000 and queue = Queue.create () in
   let edges = ref [] and following = ref [] in
-  let dates = Hashtbl.create 20 and most = Hashtbl.create 3 and never_over = ref false in
+  let dates = Hashtbl.create 20 and most = Hashtbl.create 3 and worked = Hashtbl.create 3 and never_over = ref false in
   let note s moment =
     let least, most = Option.value (Hashtbl.find_opt dates moment) ~default:(s.now, s.now) in
     Hashtbl.replace dates moment (min least s.now, max most s.now)
@@ -173,18 +184,18 @@ let all ?(states = 20_000) ?(seconds = 60) ?(working = false) ?(look = ignore) (
      | Fail (v, _, _) -> running v Fails
      | _ -> ());
     let carry : Effect.t -> unit = function
-      | Start (v, p) -> note s (Task (task v p, Timed_system.Starts))
+      | Start (v, p) ->
+        Hashtbl.replace worked v ();
+        note s (Task (task v p, Timed_system.Starts))
       | Stop v -> running v Stopped
       | _ -> ()
     in
     List.iter carry t.effects
   in
   let note_most s =
-    let note (v, n) =
-      let known = Option.value (Hashtbl.find_opt most v) ~default:0 in
-      Hashtbl.replace most v (max known ((3 * n) + s.now))
-    in
-    List.iter note s.working
+    let note (v, (_, n)) =
+      Hashtbl.replace most v (max n (Option.value (Hashtbl.find_opt most v) ~default:0)) in
+    List.iter note s.missing
   in
   let note_end s =
     match s.c.control with
@@ -197,10 +208,12 @@ let all ?(states = 20_000) ?(seconds = 60) ?(working = false) ?(look = ignore) (
   let expand s =
     note_end s;
     (match s.c.control with Ended _ -> note_most s | Script _ | Waiting _ | Executing _ -> ());
-    let choices = List.of_seq (Environment.choices_on o.environment o.program o.world s.e s.c) in
+    let world = List.fold_left (fun w (v, (missing, _)) -> show v missing w) o.world s.missing in
+    let choices = List.of_seq (Environment.choices_on o.environment o.program world s.e s.c) in
     let timed = List.map (fun choice -> (choice, due o s choice)) choices in
     let is_own ((choice : Environment.choice), _) = choice.on = None && not (comes_late choice.transition) in
-    let own = List.filter is_own timed in
+    let is_urgent (choice, due) = is_own (choice, due) && not (is_open choice.Environment.transition) in
+    let own = if List.exists is_urgent timed then List.filter is_own timed else [] in
     let waits_for_others = List.exists (fun ((c : Environment.choice), _) -> comes_late c.transition) timed in
     let possible = if own <> [] && not waits_for_others then own else timed in
     let may_be_now (_, due) =
@@ -229,7 +242,7 @@ let all ?(states = 20_000) ?(seconds = 60) ?(working = false) ?(look = ignore) (
     if waits && possible <> [] && List.for_all may_wait s.clocks then begin
       if List.exists (fun (choice, _) -> not (Environment.is_voluntary choice.Environment.transition)) possible
       || Environment.owes o.environment o.program s.e
-      then reach (tick ~working s)
+      then reach (tick ~batteries s)
     end;
     match s.c.control with
     | Ended _ -> ()
@@ -239,7 +252,8 @@ let all ?(states = 20_000) ?(seconds = 60) ?(working = false) ?(look = ignore) (
   in
   let start =
     let c = Configuration.initial o.program and e = Environment.initial in
-    { c; e; now = 0; patience = []; working = [];
+    { c; e; now = 0; patience = [];
+      missing = List.sort compare (List.map (fun (v, b) -> (v, (b.at_first, b.at_first))) batteries);
       clocks = List.sort compare (List.map (fun k -> (Input k, posted o k)) (inputs o c e)) }
   in
   match
@@ -253,5 +267,6 @@ let all ?(states = 20_000) ?(seconds = 60) ?(working = false) ?(look = ignore) (
   | () ->
     let never_over = !never_over || is_cyclic (Array.of_list (List.rev !edges)) in
     let sorted table = List.sort compare (List.of_seq (Hashtbl.to_seq table)) in
-    Some { dates = sorted dates; never_over; most = sorted most }
+    let works (v, _) = Hashtbl.mem worked v in
+    Some { dates = sorted dates; never_over; most = List.filter works (sorted most) }
   | exception Too_much -> None

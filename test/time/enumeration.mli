@@ -11,11 +11,19 @@ type t = {
   dates : (moment * (int * int)) list;  (** the earliest and the latest second *)
   never_over : bool;  (** some run gets stuck, or goes round for ever in no time *)
   most : (Core.vehicle * int) list;
-  (** the most that a run needs of the battery of a vehicle that works in some run: of a quarter of what a second of
-      work takes, four a second of work, and one a second of rest *)
+  (** the most that is missing at any time in the battery of a vehicle that works in some run *)
+}
+
+(** What is missing in a full battery, in parts. *)
+type battery = {
+  at_first : int;
+  work : int;  (** a second of it takes so many *)
+  rest : int;  (** a second of it gives so many, until none is missing; or takes them, if less than 0 *)
 }
 
 val all :
-  ?states:int -> ?seconds:int -> ?working:bool -> ?look:(Configuration.t -> unit) -> Timed.options -> t option
+  ?states:int -> ?seconds:int -> ?batteries:(Core.vehicle * battery) list ->
+  ?seen:(Core.vehicle -> int -> World.t -> World.t) -> ?look:(Configuration.t -> unit) -> Timed.options -> t option
 (** [look] is called with each configuration that a run comes to. [None] if there are more states, or longer runs, than
-    that. [most] is empty unless [working] is true; then states differ in how long vehicles worked. *)
+    that. [most] is of [batteries]: states differ in what is missing there, and the program looks at the world that
+    [seen] makes of this, by default the same always. *)

@@ -60,7 +60,8 @@ let pp_moment ppf : Enumeration.moment -> unit = function
     Format.fprintf ppf "%s on %s (%d) %s" t.name t.vehicle t.site
       (match m with Starts -> "starts" | Ends -> "ends" | Fails -> "fails" | Stopped -> "is stopped")
 
-let skipped = ref 0 and endless = ref 0 and reduced = Hashtbl.create 7
+let few = { Dolphin_checker.Limits.none with max_states = Some 5_000 }
+let skipped = ref 0 and endless = ref 0 and sensing = ref 0 and reduced = Hashtbl.create 7
 
 let seconds = function Timing.At n -> if n mod 1000 = 0 then n / 1000 else -1 | Unbounded -> max_int
 
@@ -83,11 +84,13 @@ let is_dated (o : Timing.outcome) (run : Timing.run) later =
 
 let agrees (ast, seed, (_, environment)) =
   let program = Posts.declared environment (Generate.compile ast) in
-  let options : Timed.options = { environment; program; world = Generate.world; durations = durations seed } in
+  let world = if program.reads_sensors then Generate.open_world else Generate.world in
+  let options : Timed.options = { environment; program; world; durations = durations seed } in
   match Enumeration.all options with
   | None -> incr skipped; true
   | Some expected ->
     let o = Timing.run Dolphin_checker.Limits.none options in
+    if program.reads_sensors then incr sensing;
     let say what moments =
       let one ppf (m, (a, b)) = Format.fprintf ppf "%a: %d to %d" pp_moment m a b in
       Format.asprintf "%s: %a" what (Format.pp_print_list ~pp_sep:(fun ppf () -> Format.fprintf ppf "; ") one) moments
@@ -113,10 +116,18 @@ let agrees (ast, seed, (_, environment)) =
       Option.fold ~none:true ~some:(dated true) o.last && Option.fold ~none:true ~some:(dated false) o.first in
     (not is_bounded) || all_dated ()
 
+let sensing_case =
+  let open QCheck2.Gen in
+  let* depth = int_range 0 2 in
+  let nested =
+    map (Generate.executing ~before:[ Generate.kept ]) (Generate.sensing_nested ~vehicles:Generate.vehicles ~depth) in
+  triple (frequency [ (1, Generate.sensing_program); (2, nested) ]) (int_bound 1_000_000) (oneofl environments)
+
 let test_agreement () =
-  let test = QCheck2.Test.make ~count:programs ~print ~name:"zones and enumeration agree" case agrees in
+  let cases = QCheck2.Gen.frequency [ (3, case); (1, sensing_case) ] in
+  let test = QCheck2.Test.make ~count:programs ~print ~name:"zones and enumeration agree" cases agrees in
   Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
-  Printf.printf "%d skipped, %d with runs that never end\n" !skipped !endless
+  Printf.printf "%d skipped, %d with runs that never end, %d that look at sensors\n" !skipped !endless !sensing
 
 (* {1 Slack} *)
 
@@ -213,48 +224,102 @@ let test_pairs () =
 
 (* {1 Batteries} *)
 
-(* A second of work takes four parts in 40,000, one of rest takes one. *)
-let vehicles =
-  let vehicle v = Printf.sprintf "vehicle '%s', { type 'UUV'; drain 36.percent }\n" v in
-  match Dolphin_scenario.Scenario.read ~file:"batteries" (String.concat "" (List.map vehicle [ "a"; "b"; "c" ])) with
-  | Ok scenario -> scenario.vehicles
+(* A second of work takes four parts in 40,000; of rest it takes one, or gives as many as are said. *)
+let parts = 40_000
+
+let fleet ~at_first ~charge =
+  let battery : Enumeration.battery = { at_first; work = 4; rest = (if charge = 0 then -1 else charge) } in
+  let percent n = 100. *. float n /. float parts in
+  let vehicle v =
+    Printf.sprintf "vehicle '%s', { type 'UUV'; drain 36.percent; battery %.12g.percent; charge %.12g.percent }\n" v
+      (100. -. percent at_first) (percent (3600 * charge))
+  in
+  let ids = [ "a"; "b"; "c" ] in
+  match Dolphin_scenario.Scenario.read ~file:"batteries" (String.concat "" (List.map vehicle ids)) with
+  | Ok scenario -> (scenario.vehicles, List.map (fun v -> (v, battery)) ids)
   | Error _ -> failwith "the fleet is wrong"
 
-let exact = ref 0 and bounds = ref 0 and worked = ref 0
+type tally = { mutable exact : int; mutable bounds : int; mutable worked : int }
 
 (* No run has less left than is said; the run that is shown has no less than the least of all. *)
-let batteries_agree (ast, seed, (_, environment)) =
+let batteries_agree tally (vehicles, batteries) (ast, seed, (_, environment)) =
   let program = Posts.declared environment (Generate.compile ast) in
   let options : Timed.options = { environment; program; world = Generate.world; durations = durations seed } in
-  match Enumeration.all ~working:true options with
+  match Enumeration.all ~batteries options with
   | None | Some { never_over = true; _ } -> true
   | Some expected ->
     let o = Timing.run ~vehicles Dolphin_checker.Limits.none options in
     let check (b : Timing.battery) =
-      let parts = max (latest_of expected) (Option.value (List.assoc_opt b.vehicle expected.most) ~default:0) in
-      let left = 1. -. (float parts /. 40_000.) in
-      let is_bound = b.least <= left +. 1e-9 in
-      let is_reached = Option.fold b.lowest ~none:true ~some:(fun (lowest, _) -> lowest >= left -. 1e-9) in
-      if List.mem_assoc b.vehicle expected.most then incr worked;
-      incr (if Option.fold b.lowest ~none:false ~some:(fun (x, _) -> x -. b.least < 1e-9) then exact else bounds);
-      (is_bound && is_reached)
-      || QCheck2.Test.fail_reportf "%s: %g is least, %g or more is said, %g in a run" b.vehicle left b.least
-        (Option.fold b.lowest ~none:nan ~some:fst)
+      match List.assoc_opt b.vehicle expected.most with
+      | None -> QCheck2.Test.fail_reportf "%s never works" b.vehicle
+      | Some missing ->
+        let left = 1. -. (float missing /. float parts) in
+        let is_bound = b.least <= left +. 1e-9 in
+        let is_reached = Option.fold b.lowest ~none:true ~some:(fun (lowest, _) -> lowest >= left -. 1e-9) in
+        tally.worked <- tally.worked + 1;
+        let is_exact = Option.fold b.lowest ~none:false ~some:(fun (x, _) -> x -. b.least < 1e-9) in
+        if is_exact then tally.exact <- tally.exact + 1
+        else tally.bounds <- tally.bounds + 1;
+        (is_bound && is_reached)
+        || QCheck2.Test.fail_reportf "%s: %.9g is least, %.9g or more is said, %.9g in a run" b.vehicle left b.least
+          (Option.fold b.lowest ~none:nan ~some:fst)
     in
     let is_told (v, _) = List.exists (fun (b : Timing.battery) -> b.vehicle = v) o.batteries in
     let is_bounded = List.for_all (fun (_, (w : Timing.window)) -> w.latest <> Unbounded) o.endings in
     List.for_all check o.batteries && ((not is_bounded) || List.for_all is_told expected.most)
 
-let test_batteries () =
-  let test = QCheck2.Test.make ~count:programs ~print ~name:"batteries and enumeration agree" case batteries_agree in
+let test_batteries ~at_first ~charge ~programs () =
+  let tally = { exact = 0; bounds = 0; worked = 0 } in
+  let property = batteries_agree tally (fleet ~at_first ~charge) in
+  let test = QCheck2.Test.make ~count:programs ~print ~name:"batteries and enumeration agree" case property in
   Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
-  Printf.printf "%d exact, %d bounds, of %d vehicles that work\n" !exact !bounds !worked;
-  Alcotest.(check bool) "most are exact" true (!worked > 0 && !exact > 3 * !bounds)
+  Printf.printf "%d exact, %d bounds, of %d vehicles that work\n" tally.exact tally.bounds tally.worked;
+  Alcotest.(check bool) "most are exact" true (tally.worked > 0 && tally.exact > 3 * tally.bounds)
+
+(* {2 What a program sees of its batteries} *)
+
+let with_battery v share world =
+  match World.find v world with Some s -> World.add { s with battery = Some share } world | None -> world
+
+let seen v missing = with_battery v (1. -. (float missing /. float parts))
+let looks = ref 0 and close = ref 0
+
+(* Batteries have some seconds of work more than the 30 % and 50 % that programs compare them with. In the enumeration,
+   the program sees what there is; here that is open. *)
+let looks_agree (ast, seed, (_, environment)) =
+  let left = if seed mod 2 = 0 then 0.3 else 0.5 in
+  let at_first = parts - int_of_float (left *. float parts) - (seed mod 30) in
+  let vehicles, batteries = fleet ~at_first ~charge:(if seed mod 3 = 0 then 6 else 0) in
+  let program = Posts.declared environment (Generate.compile ast) in
+  let world = List.fold_left (fun w (v, _) -> World.open_battery v [] w) Generate.world batteries in
+  let options world : Timed.options = { environment; program; world; durations = durations seed } in
+  match Enumeration.all ~batteries ~seen (options Generate.world) with
+  | None -> true
+  | Some expected ->
+    let o = Timing.run ~vehicles few (options world) in
+    let check (b : Timing.battery) =
+      match List.assoc_opt b.vehicle expected.most with
+      | None -> ()
+      | Some missing ->
+        let left = 1. -. (float missing /. float parts) in
+        if program.reads_sensors && b.least > 0. then incr (if left -. b.least < 0.001 then close else looks);
+        if b.least > left +. 1e-9 then
+          QCheck2.Test.fail_reportf "%s: %.9g is least, and %.9g or more is said" b.vehicle left b.least
+    in
+    List.iter check o.batteries;
+    true
+
+let test_looks () =
+  let programs = programs / 2 in
+  let test = QCheck2.Test.make ~count:programs ~print ~name:"no less than is said" sensing_case looks_agree in
+  Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
+  Printf.printf "%d bounds are close, %d are not\n" !close !looks
 
 let compare_one environment seed text =
+  let program = Test_support.Pure_run.compile_exn text in
+  let world = if program.reads_sensors then Generate.open_world else Generate.world in
   let options : Timed.options =
-    { environment = List.assoc environment environments; program = Test_support.Pure_run.compile_exn text;
-      world = Generate.world; durations = durations seed } in
+    { environment = List.assoc environment environments; program; world; durations = durations seed } in
   match Enumeration.all options with
   | None -> Alcotest.fail "too much to enumerate"
   | Some expected ->
@@ -274,11 +339,18 @@ let test_round_in_no_time () =
     "va = pick { id 'a' }\npost x: 1\n\
      execute (waitFor { true } then repeat task('p')[va] until { poll x: 1 }) | assert({ consume x: 1 }, 'a')\n"
 
+(* What a sensor shows may end a task at the moment at which something else happens at once. *)
+let test_look_at_once () =
+  compare_one "as planned" 0
+    "va = pick { id 'a' }\nvb = pick { id 'b' }\n\
+     execute until { battery(va) < 0.5 } run (action { halt 'h' } | task('p')[vb])\nexecute task('q')[va]\n"
+
 (* Without programs that end in each way, agreement says little. *)
 let test_variety () =
   Alcotest.(check int) "ways to end" 4 (Hashtbl.length reduced);
   Alcotest.(check bool) "few are skipped" true (!skipped * 2 < programs);
-  Alcotest.(check bool) "some never end" true (!endless > 0)
+  Alcotest.(check bool) "some never end" true (!endless > 0);
+  Alcotest.(check bool) "some look at sensors" true (!sensing > 0)
 
 let () =
   Alcotest.run "exact"
@@ -286,6 +358,12 @@ let () =
                             Alcotest.test_case "variety" `Quick test_variety;
                             Alcotest.test_case "slack" `Quick test_slack;
                             Alcotest.test_case "plans side by side" `Quick test_pairs;
-                            Alcotest.test_case "batteries" `Quick test_batteries ]);
+                            Alcotest.test_case "batteries" `Quick (test_batteries ~at_first:0 ~charge:0 ~programs);
+                            Alcotest.test_case "batteries that are charged" `Quick
+                              (test_batteries ~at_first:7 ~charge:3 ~programs:(programs / 2));
+                            Alcotest.test_case "batteries that are charged fast" `Quick
+                              (test_batteries ~at_first:20 ~charge:40 ~programs:(programs / 2));
+                            Alcotest.test_case "batteries that the program sees" `Quick test_looks ]);
       ("programs", [ Alcotest.test_case "one loss" `Quick test_one_loss;
+                     Alcotest.test_case "a look at once" `Quick test_look_at_once;
                      Alcotest.test_case "a round in no time" `Quick test_round_in_no_time ]) ]

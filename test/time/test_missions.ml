@@ -261,17 +261,27 @@ let test_batteries () =
         "until { poll done: 1 } run task('p')[va] | task('q')[vb] >> action { post done: 1 }";
       check "rounds" [ ("a", 200, 200) ] "repeat 3, task('p')[va]";
       check "a failure" ~faults:"fail=1" [ ("a", 200, 200) ] "repeat 3, task('p')[va]";
-      check "what is charged again is not counted on" [ ("b", 700, 900) ]
-        "repeat 3, (task('p')[vb] >> idle(20.min))" ];
+      check "charged again" [ ("b", 900, 900) ] "repeat 3, (task('p')[vb] >> idle(20.min))";
+      check "hardly charged" [ ("b", 817, 817) ] "task('p')[vb] >> idle(10.seconds) >> task('p')[vb]";
+      check "looked at" [ ("a", 350, -1) ]
+        "task('p')[va] >> action { if (battery(va) < 0.45) { halt 'low' } } >> task('p')[va]" ];
+  let kept =
+    found
+      "def f(v) {\n b = battery(v)\n task('p')[v] >> action { if (b < 0.45) { halt 'low' } } >> task('p')[v]\n}\n\
+       execute f(va)\n" in
+  Alcotest.(check (list int)) "what was seen before" [ 300 ]
+    (List.map (fun (b : Timing.battery) -> tenths b.least) kept.batteries);
   let verdict program =
     let o = found ("execute " ^ program ^ "\n") in
     (Timing.verdict o = Violated, Timing.verdict o = Inconclusive, Timing.shortfall o) in
   let verdicts = Alcotest.(check bool) in
   verdicts "enough" true (verdict "repeat 4, task('p')[va]" = (false, false, None));
   verdicts "not enough" true (verdict "repeat 5, task('p')[va]" = (true, false, Some Empty));
-  verdicts "enough if charged" true (verdict "repeat 10, (task('p')[vb] >> idle(20.min))" = (false, true, Some Unknown));
-  verdicts "not known, where the program looks" true
-    (verdict "until { battery(va) < 0.1 } run repeat 5, task('p')[va]" = (false, true, Some Unknown));
+  verdicts "enough if charged" true (verdict "repeat 10, (task('p')[vb] >> idle(20.min))" = (false, false, None));
+  verdicts "enough, as the program looks" true
+    (verdict "until { battery(va) < 0.1 } run repeat 5, task('p')[va]" = (false, false, None));
+  verdicts "not known, though the program looks" true
+    (verdict "repeat 5, (task('p')[va] >> action { if (battery(va) < 0.01) { halt 'low' } })" = (false, true, Some Unknown));
   let o = found "execute repeat task('p')[va]\n" in
   Alcotest.(check int) "nothing is said of runs without end" 0 (List.length o.batteries)
 

@@ -42,7 +42,8 @@ let copy =
       [ (3, "task('s#')"); (2, "task('s')"); (2, "idle(2)"); (1, "idle(3)"); (3, "action { post ready: # }");
         (1, "(waitFor { consume go: # } then task('g'))"); (1, "(during 3 run task('d#'))");
         (1, "(task('s#') within 2)"); (1, "action { post go: # }"); (1, "(idle(1) | task('p#'))");
-        (1, "(watch task('f#') onError { ignore() })"); (1, "action { post any: 0 }"); (1, "repeat(2) { task('r') }") ]
+        (1, "(watch task('f#') onError { ignore() })"); (1, "action { post any: 0 }"); (1, "repeat(2) { task('r') }");
+        (1, "repeat(3) { task('r') >> idle(1) }"); (1, "(repeat 2, (task('r#') >> idle(2)))") ]
   in
   map (String.concat " >> ") (list_size (int_range 1 4) part)
 
@@ -135,8 +136,10 @@ let pp_dates ppf (endings, tasks) =
   List.iter task tasks
 
 let batteries =
-  let vehicle v = Printf.sprintf "vehicle '%s', { type 'UUV'; drain 36.percent }\n" v in
-  match Dolphin_scenario.Scenario.read ~file:"batteries" (String.concat "" (List.map vehicle [ "a"; "b"; "c"; "d" ])) with
+  let vehicle (v, charge) =
+    Printf.sprintf "vehicle '%s', { type 'UUV'; drain 36.percent; battery 99.93.percent; charge %d.percent }\n" v charge in
+  let all = [ ("a", 0); ("b", 18); ("c", 0); ("d", 200) ] in
+  match Dolphin_scenario.Scenario.read ~file:"batteries" (String.concat "" (List.map vehicle all)) with
   | Ok scenario -> scenario.vehicles
   | Error _ -> failwith "the fleet is wrong"
 

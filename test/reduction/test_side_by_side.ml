@@ -62,6 +62,20 @@ let test_agreement () =
   Printf.printf "%d pairs, %d programs skipped\n" !told !skipped;
   Alcotest.(check bool) "some plans run side by side" true (!told > 0)
 
+(* What both searches see is the same code's. *)
+let test_three () =
+  let task name : Core.platform_task = { name; plan = None; task_site = 0 } in
+  let seen = Side_by_side.create (Fences.make [ distance ]) in
+  let add running (v, name) = Vehicle_map.add v (task name) running in
+  let running = List.fold_left add Vehicle_map.empty [ ("a", "p"); ("b", "q"); ("c", "r") ] in
+  Side_by_side.see seen running;
+  let both (p : Side_by_side.pair) = (Side_by_side.name (snd p.one), Side_by_side.name (snd p.other)) in
+  Alcotest.(check (list (pair string string)))
+    "each pair once" [ ("'p'", "'q'"); ("'p'", "'r'"); ("'q'", "'r'") ]
+    (List.sort compare (List.map both (Side_by_side.pairs seen)));
+  Alcotest.(check int) "each plan might also run twice" 6 (Side_by_side.candidates seen)
+
 let () =
   Alcotest.run "side by side"
-    [ ("random programs", [ Alcotest.test_case "both searches find the same pairs" `Quick test_agreement ]) ]
+    [ ("states", [ Alcotest.test_case "three plans have three pairs" `Quick test_three ]);
+      ("random programs", [ Alcotest.test_case "both searches find the same pairs" `Quick test_agreement ]) ]

@@ -204,7 +204,7 @@ Going == << "going" >>
 
 Started(M, S, mode, fuel) ==
   [ focus |-> M.focus, locals |-> M.locals, stack |-> M.stack, at |-> M.at,
-    store |-> S.store, B |-> S.B, N |-> S.N, sees |-> S.sees, beside |-> S.beside, around |-> S.around,
+    store |-> S.store, A |-> S.A, B |-> S.B, N |-> S.N, sees |-> S.sees, beside |-> S.beside, around |-> S.around,
     mode |-> mode, verdict |-> "propagate", deeds |-> << >>, fuel |-> fuel, stop |-> Going ]
 
 (* Slots are counted from 0 here, arguments from the last one backwards. *)
@@ -892,6 +892,8 @@ Procedure(m, op, xs) ==
        [] name = "sensor" -> Settle(m, OneVehicleValue(x, LAMBDA vehicle : SensorOf(vehicle, op.name)))
        [] name = "reading" ->
             Settle(m, OneVehicleValue(x, LAMBDA vehicle : SensorOf(vehicle, "reading " \o xs[2][2])))
+       [] name = "running" ->
+            Settle(m, OneVehicleValue(x, LAMBDA vehicle : Ok(Boolean(vehicle.id \in DOMAIN m.A))))
        [] name = "area" -> Settle(m, Around(x, xs[2]))
        [] name = "math" -> Settle(m, Mathematics(op.name, xs))
        [] name = "isThere" -> Result(m, Boolean(IsNumber(x) \/ Truth(x)))

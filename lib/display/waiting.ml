@@ -36,8 +36,8 @@ let fuel = 10_000
 (* Whether [e] holds in the place of the code of [guard]; [None] if that cannot be told. *)
 let holds program world (s : Shared.t) (guard : Core.closure) e =
   let context : Code.context =
-    { program; world; bound = s.bound; held = lazy []; needed = lazy []; store = s.store; tuples = s.tuples;
-      mode = Task_code; deeds = [] }
+    { program; world; allocation = s.allocation; bound = s.bound; held = lazy []; needed = lazy [];
+      store = s.store; tuples = s.tuples; mode = Task_code; deeds = [] }
   in
   let closure = { guard with lambda = { guard.lambda with code = e } } in
   match Machine.run ~fuel context (Machine.call closure []) with

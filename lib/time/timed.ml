@@ -262,7 +262,8 @@ let all_steps o s =
 
 let steps o s =
   let steps = all_steps o s in
-  match List.find_opt (fun step -> step.urgent && starts_without_moving step) steps with
+  let comes_first step = step.urgent && starts_without_moving step && not o.program.asks_running in
+  match List.find_opt comes_first steps with
   | Some start -> [ start ]
   | None -> steps
 

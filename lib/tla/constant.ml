@@ -42,8 +42,8 @@ let value program world e =
       lambda_site = e.site }
   in
   let context : Code.context =
-    { program; world; bound = []; held = lazy []; needed = lazy []; store = Store.empty; tuples = Tuples.empty No_key;
-      mode = Task_code; deeds = [] }
+    { program; world; allocation = Vehicle_map.empty; bound = []; held = lazy []; needed = lazy [];
+      store = Store.empty; tuples = Tuples.empty No_key; mode = Task_code; deeds = [] }
   in
   match Machine.run ~fuel context (Machine.call { lambda; captured = [||] } []) with
   | Decided (Finished x, _, _) -> Ok x

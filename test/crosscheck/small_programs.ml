@@ -68,6 +68,14 @@ let tasks =
        two ^ "execute ({ task('p') >> action { post x: 1 } >> idle(1.seconds) })[a] | ({ task('q') })[a]");
       ("a task to come holds its vehicle",
        two ^ "execute (idle(1.seconds) >> task('p')[a]) | { task('q') | task('r') } | condition { idle(a).isEmpty() }");
+      ("who runs: not before the start, not between two tasks, not after an error",
+       two ^ "execute watch ((task('p')[a] >> idle(1.seconds) >> task('p')[a]) | (condition { running(a) } \
+              >> condition { !running(a) } >> task('q')[b])) onError { message \"${running(a)} ${running(b)}\"; ignore() }\n\
+              message running(a)");
+      ("a condition that is not assured stops who runs, before handlers ask",
+       two ^ "execute watch (assure { !running(b) } run (task('p')[a] | task('q')[b])) onError { \
+              if (!running(a) && !running(b)) { message 'stopped' }\nignore() }\n\
+              execute watch action { running(a + b) } onError { e -> message e; ignore() }");
       ("no vehicle can ever run what is made", two ^ "execute watch ({ task('p') | task('q') }[b]) onError { ignore() }");
       ("code that makes a task does something",
        "def f() { post x: 1; idle(1.seconds) }\nexecute watch { f() } onError { why -> message why; ignore() }");

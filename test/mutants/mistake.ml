@@ -752,6 +752,41 @@ let unknown =
     [ ("ends free no vehicle", 
        {|let frees = if f.breaks && ignoring then Footprint.all_vehicles else lost step in|},
        {|let frees = if f.breaks && ignoring then Footprint.all_vehicles else (ignore (lost step); Footprint.empty.frees) in|} ) ]
+  @ in_file "lib/explore/order/footprint.ml" ~noticed_by:"reduction/test_traps"
+    [ ("to ask who runs is nobody's concern",
+       {|  | Builtin (Make_idle | Is_running), _ -> { breaking with claims = All; looks = true }|},
+       {|  | Builtin Make_idle, _ -> { breaking with claims = All; looks = true }|}) ]
+  @ in_file "lib/explore/order/step_footprints.ml" ~noticed_by:"reduction/test_traps"
+    [
+      ("nobody sees a task start", {|    | Start (_, v), _ -> turning c v|}, {|    | Start _, _ -> Footprint.empty|});
+      ( "nobody sees a task end while its vehicle is held",
+        {|  { (turning c v) with remembered;|},
+        {|  { Footprint.empty with remembered;|} );
+    ]
+  @ in_file "lib/semantics/rules/residual.ml" ~noticed_by:"reduction/test_traps"
+    [
+      ( "an error stops nobody beside",
+        {|    | Beside rs :: outer -> from (List.rev_append rs inside) found outer|},
+        {|    | Beside _ :: outer -> from inside found outer|} );
+      ( "a cut stops nobody before handlers ask",
+        {|  from (List.concat_map own around) [] (List.rev around)|},
+        {|  from (List.filter (fun _ -> false) (List.concat_map own around)) [] (List.rev around)|} );
+    ]
+  @ in_file "lib/explore/steps/memoised_steps.ml" ~noticed_by:"reduction/test_traps"
+    [ ("who runs is the same in all states", {|needed @ running t around) in|},
+       {|needed @ List.filter (fun _ -> false) (running t around)) in|}) ]
+  @ in_file "lib/semantics/rules/local_step.ml" ~noticed_by:"reduction/test_traps"
+    [ ("handlers see those run who were stopped beside", {|else without_tasks (Lazy.force inside) s in|},
+       {|else (ignore inside; s) in|}) ]
+  @ in_file "lib/semantics/language/procedures.ml" ~noticed_by:"semantics/test_language"
+    [ ("whoever is picked runs", {|Boolean (Vehicle_map.mem v.id context.allocation) in|},
+       {|Boolean (List.mem v.id context.bound) in|}) ]
+  @ in_file "lib/time/timed.ml" ~noticed_by:"time/test_exact"
+    [ ("tasks start first where code asks who runs", {|&& not o.program.asks_running in|},
+       {|&& (o.program.asks_running || true) in|}) ]
+  @ in_file "lib/explore/order/footprint.ml" ~noticed_by:"time/test_reductions"
+    [ ("ends are inert where code asks who runs", {|dismisses program || program.asks_running|},
+       {|dismisses program|}) ]
   @ in_file "lib/semantics/rules/local_step.ml" ~noticed_by:"semantics/test_language"
     [ ("assure fails when its guard is unknown", {|Value.truth x || Unknown.is x|}, {|Value.truth x|}) ]
   @ in_file "lib/semantics/language/machine.ml" ~noticed_by:"semantics/test_language"

@@ -180,6 +180,8 @@ let by_what_is_made =
       (handing ^ "{ u -> task(\"p$u\")[u] }");
     keeps "who is idle" [ No_deadlock; No_halt ]
       (one ^ "execute ({ task('p') })[v] | (waitFor { idle(v).isEmpty() } then action { halt 'h' })");
+    keeps "who runs" [ No_deadlock; No_halt ]
+      (one ^ "execute task('p')[v] | (waitFor { running(v) } then action { halt 'h' })");
     tells "the name of who is idle" [ No_halt ]
       (one ^ "execute action { if (idle(v).ids == ['C'.toLowerCase()]) { halt 'h' } }");
     tells "the name of who failed" ~environment:(Environment.failing plain) [ No_halt ]

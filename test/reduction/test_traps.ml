@@ -233,6 +233,24 @@ let traps =
         execute task('p')[a] | { task('q') >> action { x = 1 } } | { task('r') >> { idle(a).isEmpty() ? task('s') : task('t')[a - a] } }|};
     breaks "who is idle changes when a task ends" [ No_leftover ]
       {|execute task('p')[a] | action { if (idle(a).isEmpty()) { post y: 1 } }|};
+    breaks "who runs changes when a task starts" [ No_leftover ]
+      {|execute task('p')[a] | action { if (!running(a)) { post y: 1 } }|};
+    breaks "who runs changes when a task ends, though it is held for the next one" [ No_deadlock; No_leftover ]
+      {|execute (task('p')[a] >> task('q')[a]) | (condition { running(a) } >> action { if (!running(a)) { post y: 1 } })|};
+    breaks "who runs changes between two tasks of one vehicle" [ No_deadlock; No_leftover ]
+      {|execute (task('p')[a] >> task('q')[a]) |
+          (condition { running(a) } >> condition { !running(a) } >> condition { running(a) } >> action { post y: 1 })|};
+    breaks "who runs changes when a branch runs first" [ No_leftover ]
+      {|execute allOf { when { true } then task('p')[a] } | action { if (running(a)) { post y: 1 } }|};
+    breaks "an error stops who runs beside, before its handler asks" ~environment:failing [ No_error; No_halt ]
+      {|execute (watch (task('p')[a] | task('q')[b]) onError { if (!running(a) && !running(b)) { halt 'both' } }) |
+          task('r')[c]|};
+    breaks "an error stops nobody outside of the handler's watch" ~environment:failing [ No_error; No_halt ]
+      {|execute (watch task('p')[a] onError { if (running(b)) { halt 'runs' } }) | task('q')[b]|};
+    breaks "what is not assured is stopped before a handler asks" [ No_halt ]
+      {|execute watch (assure { !running(a) || !running(b) } run (task('p')[a] | task('q')[b]))
+          onError { if (!running(a) && !running(b)) { halt 'stopped' }
+                    ignore() }|};
     breaks "who is idle changes when a task is made" [ No_leftover ]
       {|execute ({ task('p') })[a] | action { if (idle(a).isEmpty()) { post y: 1 } }|};
     breaks "what is cut off holds nothing" [ No_deadlock ]

@@ -55,6 +55,7 @@ let program ?(reads_sensors = false) ?(globals = 0) script =
     inputs = [];
     on_interrupt = None;
     reads_sensors;
+    asks_running = false;
     fences = Dolphin_semantics.Fences.none }
 
 let on_interrupt t program =

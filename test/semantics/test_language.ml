@@ -249,6 +249,9 @@ let moments =
         let run = run "v = pick { count 2; type 'UUV' }\nt = task('p')\nexecute(t[v[0]] | t[v[1]])" in
         let started = List.filter (fun l -> String.length l > 5 && String.sub l 0 5 = "start") (Pure_run.labels run) in
         strings "both" [ "start(noptilus-1, p)"; "start(noptilus-2, p)" ] started);
+    case "who is picked, and waits for its turn, does not run" (fun () ->
+        let run = run "v = pick { id 'noptilus-1' }\nexecute((action { message running(v) }) >> task('p')[v])" in
+        strings "said" [ "false" ] (Pure_run.said run));
     case "captured when the closure is made" (fun () ->
         strings "said" [ "1"; "2"; "3" ]
           (Pure_run.said

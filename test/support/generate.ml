@@ -75,6 +75,12 @@ let some_idle =
   let idle = call "idle" [ Positional (variable "va") ] in
   expression (Unary (Not, call_method idle "isEmpty"))
 
+let some_running =
+  let running = call "running" [ Positional (variable "va") ] in
+  oneofl [ running; expression (Unary (Not, running)) ]
+
+let if_running yes = map (fun e -> code [ located (If (e, [ statement (post "y" 2) ], [])); statement yes ]) some_running
+
 (* Guards that do not ask who is idle. *)
 let guard_anywhere =
   frequency
@@ -88,7 +94,9 @@ let guard_anywhere =
 
 let plain_guard =
   frequency
-    [ (14, guard_anywhere); (1, map (fun e -> code [ statement (binary And some_idle e) ]) (taking "poll")) ]
+    [ (28, guard_anywhere); (2, map (fun e -> code [ statement (binary And some_idle e) ]) (taking "poll"));
+      (1, map2 (fun running e -> code [ statement (binary And running e) ]) some_running (taking "consume"));
+      (1, this (map (fun e -> [ e ]) some_running)) ]
 
 (* {2 Sensors} *)
 
@@ -145,6 +153,7 @@ let action_code ~sensing =
          (2, return (code [ statement (call "message" [ Positional (string "m") ]) ]));
          (2, this (map2 (fun a b -> [ a; b ]) posting posting));
          (1, map asserting (guard_of ~sensing));
+         (1, if_running (post "x" 2));
          (1, return (code [ statement division_by_zero ]));
          (1, return (code [ statement (call "fail" [ Positional (string "f") ]) ])) ])
 
@@ -168,7 +177,7 @@ let handler ~sensing =
   let sensed = if sensing then [ map (fun s -> code [ s ]) (deciding (call "ignore" [])) ] else [] in
   oneof
     (sensed
-     @ [ recovering; recovering; return (code [ no_arguments "ignore" ]);
+     @ [ recovering; recovering; return (code [ no_arguments "ignore" ]); if_running (call "ignore" []);
          return (code []);
          return (code [ no_arguments "propagate" ]);
          map (fun e -> code [ statement e; no_arguments "ignore" ]) posting;
@@ -541,14 +550,14 @@ let replicated_any =
 
 let printed p = Format.asprintf "%a" Print.program p
 
-(* Few of them make tasks, ask who is idle or dismiss: there is no symmetry of tasks then. *)
+(* Few of them make tasks, ask who is idle or runs, or dismiss: there is no symmetry of tasks then. *)
 let rec replicated_gen () =
   let* p = replicated_any in
   let words = List.filter (( <> ) "") (String.split_on_char ' ' (String.map (function '\n' -> ' ' | c -> c) (printed p))) in
   let text = String.concat " " words in
   let has part = replace ~by:"" part text <> text in
   let* keep = map (( = ) 0) (int_bound 5) in
-  if keep || not (has "idle(va)" || has "dismiss" || has "{ task" || has "w ->" || has "{ {") then return p else replicated_gen ()
+  if keep || not (has "idle(va)" || has "running(va)" || has "dismiss" || has "{ task" || has "w ->" || has "{ {") then return p else replicated_gen ()
 
 let replicated = replicated_gen ()
 

@@ -345,6 +345,13 @@ let test_look_at_once () =
     "va = pick { id 'a' }\nvb = pick { id 'b' }\n\
      execute until { battery(va) < 0.5 } run (action { halt 'h' } | task('p')[vb])\nexecute task('q')[va]\n"
 
+(* Whether the guard sees that a task has started makes a difference of seconds, so START comes not always first. *)
+let test_who_runs () =
+  compare_one "as planned" 7
+    "va = pick { id 'a' }\nvb = pick { id 'b' }\n\
+     execute task('p')[va] | (oneOf {\n when { !running(va) } then (task('q')[vb] >> task('q')[vb])\n\
+     when { running(va) } then idle(1)\n})\n"
+
 (* Without programs that end in each way, agreement says little. *)
 let test_variety () =
   Alcotest.(check int) "ways to end" 4 (Hashtbl.length reduced);
@@ -366,4 +373,5 @@ let () =
                             Alcotest.test_case "batteries that the program sees" `Quick test_looks ]);
       ("programs", [ Alcotest.test_case "one loss" `Quick test_one_loss;
                      Alcotest.test_case "a look at once" `Quick test_look_at_once;
-                     Alcotest.test_case "a round in no time" `Quick test_round_in_no_time ]) ]
+                     Alcotest.test_case "a round in no time" `Quick test_round_in_no_time;
+                     Alcotest.test_case "who runs" `Quick test_who_runs ]) ]

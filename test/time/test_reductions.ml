@@ -249,6 +249,8 @@ let asked vs =
 
 let looks =
   [ ("who is idle", asked "idle(UUVs)");
+    ("who runs", "idle(4) >> action { if (running(UAV)) { message 'it runs' } } >> task('v')");
+    ("who has not started yet", "oneOf {\n  when { !running(found[0]) } then task('v')\n  when { running(found[0]) } then idle(1)\n}");
     ("who of a variable is idle", asked "idle(found)");
     ("a battery", "until { battery(UAV) < 0.5 } run (task('v') >> task('v'))");
     ("a position", "until { position(UAV).distanceTo(location(41, -8)) < 5 } run (task('v') >> task('v'))");

@@ -179,9 +179,8 @@ let rec is_inert (scope : scope) e =
       | None -> false)
   | Apply
       ( Builtin
-          ( Post _ | Consume _ | Poll _ | Message | Math _ | Position_of | Sensor_of _ | Reading_of | Eta | Location_of
-          | Area_of
-          | Geometry _ ),
+          ( Post _ | Consume _ | Poll _ | Message | Math _ | Position_of | Sensor_of _ | Is_running | Reading_of | Eta
+          | Location_of | Area_of | Geometry _ ),
         _ )
   | Apply ((Unary _ | Make_range _ | Concatenate), _) -> true
   | Apply ((Binary _ | Make_list | Make_map _ | Element | Property _ | Method _), arguments) ->
@@ -274,7 +273,7 @@ and applied code scope operation arguments =
   | Method (("findAll" | "size"), _), e :: _ when lists_values e -> breaking
   | Builtin Message, [ _ ] -> empty
   | Builtin Make_idle, [ { node = Constant (Integer _ | Number _); _ } ] -> breaking
-  | Builtin Make_idle, _ -> { breaking with claims = All; looks = true }
+  | Builtin (Make_idle | Is_running), _ -> { breaking with claims = All; looks = true }
   | Builtin (Halt | Assert), _ -> { empty with halts = true }
   | Builtin (Ignore | Retry), _ -> { breaking with ignores = true }
   | Builtin Dismiss, _ -> { breaking with claims = All; frees = All; looks = true }
@@ -424,4 +423,4 @@ let dismisses = exists_code (fun _ -> function Apply (Builtin Dismiss, _) -> tru
 let asks_held program =
   let is_number = Numeric.is_number program in
   let asks_idle within = function Apply (Builtin Make_idle, [ e ]) -> not (is_number within e) | _ -> false in
-  exists_code asks_idle program || dismisses program
+  exists_code asks_idle program || dismisses program || program.asks_running

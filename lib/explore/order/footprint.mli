@@ -30,9 +30,9 @@ type t = {
   reads : Globals.t;
   writes : Globals.t;
   anything : bool;  (** nothing is known: code that cannot be seen may be called *)
-  claims : vehicles;  (** that it may come to hold, or looks whether they are held *)
-  frees : vehicles;  (** that may be held no longer after it *)
-  looks : bool;  (** what its code does may depend on what is held *)
+  claims : vehicles;  (** that it may come to hold, or looks whether they are held, or run a task *)
+  frees : vehicles;  (** that may be held no longer after it; if code asks who runs, whose task may start or end too *)
+  looks : bool;  (** what its code does may depend on what is held, or runs *)
   remembered : bool;  (** the outside may remember it, for a later [pick] *)
   breaks : bool;  (** it may be faulty, or fail *)
   halts : bool;  (** it may end the run, by [halt] or an assertion that fails *)
@@ -78,7 +78,8 @@ val claims : t -> bool
 (** [claims f] is whether it depends on which vehicles are held. *)
 
 val asks_held : Core.program -> bool
-(** [asks_held p] is whether what some code of [p] does may depend on what is held: [idle(V)], and [dismiss V]. *)
+(** [asks_held p] is whether what some code of [p] does may depend on what is held: [idle(V)], [dismiss V], and
+    [running(v)]. *)
 
 val dismisses : Core.program -> bool
 (** [dismisses p] is whether some handler of [p] may dismiss vehicles. *)

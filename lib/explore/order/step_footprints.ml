@@ -11,12 +11,19 @@ type t = {
 }
 
 type step = { index : int; source : Task_rules.step; event : Transition.event option }
-type context = { options : Environment.options; code : Footprint.code; makes : bool; asks_held : bool }
+type context = {
+  options : Environment.options;
+  code : Footprint.code;
+  makes : bool;
+  asks_held : bool;
+  asks_running : bool;
+}
 
 (* {1 Tasks made at their turn} *)
 
 let context options program =
-  { options; code = Footprint.code program; makes = false; asks_held = Footprint.asks_held program }
+  { options; code = Footprint.code program; makes = false; asks_held = Footprint.asks_held program;
+    asks_running = program.Core.asks_running }
 let with_holding c = { c with makes = true }
 let union = Footprint.union
 let all = List.fold_left union Footprint.empty
@@ -33,9 +40,12 @@ let of_refuted c g =
 (* What is free matters only where tasks are made, or asked for who is idle. *)
 let freed c vs = if c.makes || c.asks_held then Footprint.these vs else Footprint.these []
 
+(* Of the start or the end of a task of [v]: code that asks [running(v)] depends on it. *)
+let turning c v = if c.asks_running then { Footprint.empty with frees = Footprint.these [ v ] } else Footprint.empty
+
 let ending c (p : platform_task) v =
   let remembered = Environment.endings_remember c.options in
-  { Footprint.empty with remembered; breaks = Environment.may_fail c.options v p.name }
+  { (turning c v) with remembered; breaks = Environment.may_fail c.options v p.name }
 
 (* Of a question: it fails if it is not answered by yes. *)
 let answering c prompt =
@@ -137,7 +147,7 @@ let footprint c { source = Step { offer; continue; _ } as source; event; _ } =
     match offer, event with
     | End_of (p, v), Some (Vehicle_failed _) -> ending c p v
     | End_of (p, v), _ -> { (ending c p v) with breaks = false }
-    | Start _, _ -> Footprint.empty
+    | Start (_, v), _ -> turning c v
     | Expiry_of _, _ -> if is_error (continue ()) then breaking else Footprint.empty
     | Answer_to _, Some (Confirmed (_, Ok true)) -> Footprint.empty
     | Answer_to _, _ -> breaking

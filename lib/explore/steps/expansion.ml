@@ -199,7 +199,11 @@ let rec around x (place : Layout.place) =
     List.concat [ around x nest; inside; [ beside nest.children ] ]
 
 let outcome x place step =
-  if step.looks then Memoised_steps.look x.expansion.steps step ~around:(around x place) x.shared
+  if step.looks then
+    let around = around x place in
+    let asks_running = (Components.program x.expansion.components).asks_running in
+    let around = if asks_running then around @ [ Residual.Around (standing x place) ] else around in
+    Memoised_steps.look x.expansion.steps step ~around x.shared
   else Memoised_steps.outcome x.expansion.steps step x.shared
 
 let take_outcome x place (outcome : outcome) =

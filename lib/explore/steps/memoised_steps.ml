@@ -45,6 +45,10 @@ type taken = { local : Local_step.t; level : int; certain : bool }
 (* What [step] does, and at which level: several things, if it depends on sensors that may show this or that. *)
 let taken ?(around = []) t step s =
   let { Surroundings.shared; outside } = Surroundings.Numbers.value (Encoding.shareds t.encoding) s in
+  let shared =
+    if (program t).asks_running then { shared with allocation = Residual.allocation_around around }
+    else shared
+  in
   let source = Task_rules.among around (Components.escaping step) in
   let take () =
     match step.event with
@@ -124,6 +128,13 @@ let find ?around t step s =
   | [] -> { unknown_outcome with possible = false }
   | first :: rest -> outcome (List.map (outcome []) rest) first
 
+(* If code asks who runs: that, and what runs in each [watch]. *)
+let running t around =
+  if (program t).asks_running then
+    let all = List.map fst (Vehicle_map.bindings (Residual.allocation_around around)) in
+    all :: List.map (List.concat_map Residual.running) (Residual.inside_watches around)
+  else []
+
 let look t step ~around s =
   let table =
     match step.looked with
@@ -138,7 +149,7 @@ let look t step ~around s =
       List.map Residual.needed_around (around :: Residual.beyond_watches around)
     else []
   in
-  let key = (s, Residual.held around, Residual.timers_around around, needed) in
+  let key = (s, Residual.held around, Residual.timers_around around, needed @ running t around) in
   match Hashtbl.find_opt table key with
   | Some outcome -> outcome
   | None ->

@@ -121,8 +121,8 @@ let eval_in program world t (c : Configuration.t) =
     let set store (i, question) = Store.set i (Core.Boolean (answer_to c question)) store in
     let store = List.fold_left set c.shared.store t.questions in
     let context : Code.context =
-      { program; world; bound = c.shared.bound; held = lazy []; needed = lazy []; store;
-        tuples = c.shared.tuples; mode = Task_code; deeds = [] }
+      { program; world; allocation = c.shared.allocation; bound = c.shared.bound; held = lazy []; needed = lazy [];
+        store; tuples = c.shared.tuples; mode = Task_code; deeds = [] }
     in
     let answer ((stop : Machine.stop), _, (after : Code.context)) =
       match stop with

@@ -11,6 +11,7 @@ module By_running = Hashtbl.Make (struct
 type t = {
   valuations : Valuation.t;
   monitor : Monitor.t;
+  asks_running : bool;  (* functions that formulas may call ask which vehicles run a task *)
   questions : (string * string option) list;  (* which plans run *)
   mutable scripts : int array;  (* of configurations that execute nothing, by number; -1 if not known *)
   executing : int array ref By_running.t;  (* of the others: by answers to the questions, then by shared state *)
@@ -24,6 +25,7 @@ let create program world f =
   {
     valuations;
     monitor = Monitor.create ~holds:(Valuation.holds valuations) automaton;
+    asks_running = program.Core.asks_running;
     questions = List.sort_uniq Stdlib.compare (List.concat_map Proposition.running (Array.to_list propositions));
     scripts = [||];
     executing = By_running.create 16;
@@ -87,6 +89,7 @@ let state t encoding key =
     if known t.scripts above < 0 then t.scripts <- with_known t.scripts above (look ());
     t.scripts.(above)
   end
+  else if t.asks_running then look ()
   else begin
     let running = running t (Layouts.layout layouts number) key in
     let values =

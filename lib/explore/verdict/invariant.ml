@@ -11,7 +11,7 @@ type t = {
 }
 
 let create program world condition =
-  let only_shared = Condition.only_shared condition in
+  let only_shared = Condition.only_shared condition && not program.Core.asks_running in
   { program; world; condition; seen = Hashtbl.create 64; only_shared; broken = None; trouble = None }
 
 let condition t = t.condition

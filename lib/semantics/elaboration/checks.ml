@@ -108,6 +108,8 @@ let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expressio
     let hint =
       match e.it with
       | String name -> Some (Printf.sprintf "a plan is named by task('%s')" name)
+      | Call { callee = { it = Variable ("running" | "connected" as name); _ }; _ } when not (is_hidden env name) ->
+        Some (Format.asprintf "a task that waits for it is condition { %a }" Dolphin_syntax.Print.expression e)
       | Call { callee = { it = Variable name; _ }; _ } when Builtins.is_deed name && not (is_hidden env name) ->
         Some (Format.asprintf "what is done in a task is an action: action { %a }" Dolphin_syntax.Print.expression e)
       | Call { callee = { it = Variable name; _ }; _ } when Builtins.is_of_script name && not (is_hidden env name) ->
@@ -260,6 +262,7 @@ let check_in_maker env what at =
 let check_place env (builtin : Builtins.t) name at =
   if Builtins.changes name then check_in_maker env name at;
   if builtin.reads_sensors then Scope.note_sensor env.program;
+  (match builtin.arguments with These { operation = Is_running; _ } -> Scope.note_running env.program | _ -> ());
   match builtin.place with
   | Anywhere -> ()
   | Script_only -> check_in_script env name at

@@ -54,10 +54,10 @@ let elaborated constants (e : Ast.expression) =
 let run (lambda, locations, global_names, values) at =
   let program =
     { source_name = ""; locations; global_names; functions = []; main = lambda; ordered_keys = No_key; inputs = [];
-      on_interrupt = None; reads_sensors = false; fences = Fences.none } in
+      on_interrupt = None; reads_sensors = false; asks_running = false; fences = Fences.none } in
   let store = snd (List.fold_left (fun (i, store) x -> (i + 1, Store.set i x store)) (0, Store.empty) values) in
   let context : Code.context =
-    { program; world = World.empty; bound = []; held = lazy []; needed = lazy []; store;
+    { program; world = World.empty; allocation = Vehicle_map.empty; bound = []; held = lazy []; needed = lazy []; store;
       tuples = Tuples.empty No_key; mode = Task_code; deeds = [] } in
   let wrong at message = Error [ Diagnostic.error ~code:Bad_fence at message ] in
   match Machine.run ~fuel context (Machine.call { lambda; captured = [||] } []) with

@@ -171,6 +171,7 @@ let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
         inputs = List.map (fun (k : string Ast.located) -> k.it) (Scope.inputs program);
         on_interrupt = Scope.on_interrupt program;
         reads_sensors = Scope.reads_sensors program;
+        asks_running = Scope.asks_running program;
         fences;
       },
         reports )

@@ -28,11 +28,11 @@ let context : Code.context =
   let program =
     { source_name = ""; locations = [||]; global_names = [||]; functions = []; main; ordered_keys = No_key; inputs = [];
       on_interrupt = None;
-      reads_sensors = false; fences = Fences.none }
+      reads_sensors = false; asks_running = false; fences = Fences.none }
   in
   let tuples = Tuples.empty No_key in
-  { program; world = World.empty; bound = []; held = lazy []; needed = lazy []; store = Store.empty; tuples;
-    mode = Script; deeds = [] }
+  { program; world = World.empty; allocation = Vehicle_map.empty; bound = []; held = lazy []; needed = lazy [];
+    store = Store.empty; tuples; mode = Script; deeds = [] }
 
 let fault operation values =
   match operation with

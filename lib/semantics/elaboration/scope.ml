@@ -28,6 +28,7 @@ type program = {
   mutable all_ordered : bool;
   mutable texts : Location.t list;  (* where a text is wanted *)
   mutable reads_sensors : bool;
+  mutable asks_running : bool;
   mutable calls : call list;
   blocking : (string, string) Hashtbl.t;  (* function, and what it uses *)
 }
@@ -71,6 +72,7 @@ let create ?(first_site = 0) ?(variables = []) ?(parameters = []) ?(suppliers = 
       all_ordered = false;
       texts = [];
       reads_sensors = false;
+      asks_running = false;
       calls = [];
       blocking = Hashtbl.create 16;
     }
@@ -134,12 +136,14 @@ let ordered_keys program : Tuple_space.order =
 let note_text program at = program.texts <- at :: program.texts
 let wants_text program at = List.memq at program.texts
 let note_sensor program = program.reads_sensors <- true
+let note_running program = program.asks_running <- true
 let is_parameter program name = List.mem name program.parameters
 let chart program path = program.chart path
 let note_chart program name path keys = Hashtbl.replace program.charted name (path, keys)
 let find_chart program name = Hashtbl.find_opt program.charted name
 let is_supplier program name = List.mem name program.suppliers
 let reads_sensors program = program.reads_sensors
+let asks_running program = program.asks_running
 
 type code = {
   program : program;

@@ -86,7 +86,11 @@ val is_looked_at : program -> string -> bool
 val note_sensor : program -> unit
 (** Something looks at a sensor, or at a place. *)
 
+val note_running : program -> unit
+(** Something asks whether a vehicle runs a task. *)
+
 val reads_sensors : program -> bool
+val asks_running : program -> bool
 
 val note_text : program -> Location.t -> unit
 (** Only a text can stand there. *)

@@ -25,6 +25,7 @@ type mode =
 type context = {
   program : program;
   world : World.t;
+  allocation : platform_task Vehicle_map.t;     (* A *)
   bound : vehicle list;                         (* B, in pick order *)
   held : vehicle list Lazy.t;                   (* what is held from where the code stands *)
   needed : vehicle list Lazy.t;                 (* what is needed outside of the [watch] of a handler *)

@@ -60,17 +60,25 @@ let instead (handler : Residual.handler) t propagated recovered =
 let foreign_retry (handler : Residual.handler) =
   Fault.make handler.code.lambda.lambda_site "retry() was called for another handler than that in whose text it stands"
 
-(* What is held from where a step stands, and what is needed outside of each [watch] around it, the innermost first. *)
-type around = { held : vehicle list Lazy.t; beyond : vehicle list Lazy.t list Lazy.t }
+(* A [watch] around a step: what is needed outside of it, and what runs inside of it. *)
+type watch = { needed : vehicle list Lazy.t; inside : vehicle list Lazy.t }
+
+(* What is held from where a step stands, and each [watch] around it, the innermost first. *)
+type around = { held : vehicle list Lazy.t; watches : watch list Lazy.t }
 
 let around_step around =
-  let needed around = lazy (Residual.needed_around around) in
-  { held = lazy (Residual.held around); beyond = lazy (List.map needed (Residual.beyond_watches around)) }
+  let watch beyond inside =
+    { needed = lazy (Residual.needed_around beyond); inside = lazy (List.concat_map Residual.running inside) }
+  in
+  let watches = lazy (List.map2 watch (Residual.beyond_watches around) (Residual.inside_watches around)) in
+  { held = lazy (Residual.held around); watches }
+
+let nothing = { needed = lazy []; inside = lazy [] }
 
 (* The next [watch] has another [watch] inside. *)
-let beyond_next around =
-  let beyond = lazy (match Lazy.force around.beyond with [] -> [] | _ :: outer -> outer) in
-  (lazy (match Lazy.force around.beyond with [] -> [] | first :: _ -> Lazy.force first), { around with beyond })
+let next_watch around =
+  let watches = lazy (match Lazy.force around.watches with [] -> [] | _ :: outer -> outer) in
+  ((match Lazy.force around.watches with [] -> nothing | first :: _ -> first), { around with watches })
 
 (* [settle s derivation asked change] carries a change of the residual over to the shared part [s], handlers of errors
    included. [asked] are the effects so far. *)
@@ -85,7 +93,9 @@ let rec settle around program world s derivation asked (change : Task_rules.chan
   | Finished -> Decided (come_to Over)
   | Failed fault -> Decided (come_to (Ends (Failed fault)))
   | Handling { handler; fault; ignored; propagated; recovered } ->
-    let needed, outer = beyond_next around in
+    let { needed; inside }, outer = next_watch around in
+    (* The explorer takes steps of parts, whose changes do not know what they stop beside them. *)
+    let s = if Vehicle_map.is_empty s.allocation then s else without_tasks (Lazy.force inside) s in
     let handled { Run_code.world; outcome; mode } =
       match outcome, mode with
       | Halts (message, s, deeds), _ ->

@@ -345,21 +345,21 @@ let makes_tasks r =
   in
   fold_all makes false r
 
-type surrounding = Beside of t list | Inside of context
+type surrounding = Beside of t list | Inside of context | Around of t list
 
 let hole = Idle { timer = script_timer; seconds = 0. }
 
 let held around =
   let beside found = function
     | Beside rs -> List.fold_left (fold_all add_named) found rs
-    | Inside _ -> found
+    | Inside _ | Around _ -> found
   in
   Vehicle_set.elements (List.fold_left beside Vehicle_set.empty around)
 
 let needed_around around =
   let add found = function
     | Beside rs -> List.fold_left (fold_all add_named) found rs
-    | Inside (Holding _) -> found
+    | Inside (Holding _) | Around _ -> found
     | Inside context -> fold_all add_named found (within context hole)
   in
   Vehicle_set.elements (List.fold_left add Vehicle_set.empty around)
@@ -367,15 +367,34 @@ let needed_around around =
 let beyond_watches around =
   let rec from beyond = function
     | Inside (Watched_by _) :: outer -> from (List.rev outer :: beyond) outer
-    | (Inside _ | Beside _) :: outer -> from beyond outer
+    | (Inside _ | Beside _ | Around _) :: outer -> from beyond outer
     | [] -> List.rev beyond
   in
   from [] (List.rev around)
+
+let inside_watches around =
+  let rec from inside found = function
+    | Inside (Watched_by _) :: outer -> from inside (inside :: found) outer
+    | (Inside _ | Around _) :: outer -> from inside found outer
+    | Beside rs :: outer -> from (List.rev_append rs inside) found outer
+    | [] -> List.rev found
+  in
+  let own = function Around rs -> rs | Beside _ | Inside _ -> [] in
+  from (List.concat_map own around) [] (List.rev around)
+
+let allocation_around around =
+  let run found = function Running (p, v) -> Vehicle_map.add v p found | _ -> found in
+  let add found = function
+    | Beside rs | Around rs -> List.fold_left (fold_active run) found rs
+    | Inside _ -> found
+  in
+  List.fold_left add Vehicle_map.empty around
 
 let timers_around around =
   let add found = function
     | Beside rs -> List.fold_left (fold_all add_timer) found rs
     | Inside context -> fold_all add_timer found (within context hole)
+    | Around _ -> found
   in
   Timer_set.elements (Timer_set.remove script_timer (List.fold_left add Timer_set.empty around))
 

@@ -148,7 +148,10 @@ val makes_tasks : t -> bool
 (** [makes_tasks r] is whether tasks are made at their turn in [r], were made, or are to be; by handlers too. *)
 
 (** What is around a residual: what stands beside it in a [Parallel], or a context. Lists begin with the outermost. *)
-type surrounding = Beside of t list | Inside of context
+type surrounding =
+  | Beside of t list
+  | Inside of context
+  | Around of t list  (** what the step itself stands in, or cuts *)
 
 val held : surrounding list -> vehicle list
 (** [held around] is the vehicles that are held from what [around] is around: those named beside it. What follows it,
@@ -160,6 +163,13 @@ val needed_around : surrounding list -> vehicle list
 
 val beyond_watches : surrounding list -> surrounding list list
 (** [beyond_watches around] is what is around each [watch] of [around], the innermost [watch] first. *)
+
+val inside_watches : surrounding list -> t list list
+(** [inside_watches around] is what [around] has inside of each of its [watch]es, the innermost [watch] first: what is
+    cut off if an error comes to it. *)
+
+val allocation_around : surrounding list -> platform_task Vehicle_map.t
+(** [allocation_around around] is the tasks that run in what [around] names. *)
 
 val timers_around : surrounding list -> timer list
 (** [timers_around around] is the timers that [around] names, those to come included. *)

@@ -13,7 +13,8 @@ let fuel = 2_000_000
 let nobody = lazy []
 
 let context ?(held = nobody) ?(needed = nobody) program world (s : Shared.t) mode : Code.context =
-  { program; world; bound = s.bound; held; needed; store = s.store; tuples = s.tuples; mode; deeds = [] }
+  { program; world; allocation = s.allocation; bound = s.bound; held; needed; store = s.store;
+    tuples = s.tuples; mode; deeds = [] }
 
 let after (context : Code.context) (s : Shared.t) =
   { s with bound = context.bound; store = context.store; tuples = context.tuples }

@@ -155,6 +155,7 @@ and builtin =
   | Values_of                                   (* made by elaboration: of the pairs of a key, as a list *)
   | Position_of
   | Sensor_of of sensor
+  | Is_running                                  (* whether A has the vehicle *)
   | Reading_of
   | Eta
   | Location_of
@@ -196,5 +197,6 @@ type program = {
   inputs : string list;                         (* keys of the pairs that the outside may post *)
   on_interrupt : lambda option;                 (* of the bound vehicles: what an interruption executes *)
   reads_sensors : bool;                         (* some code may read sensors, places included *)
+  asks_running : bool;                          (* some code may ask which vehicles run a task *)
   fences : Fences.t;                            (* what platforms hold vehicles to: no rule asks *)
 }

@@ -33,8 +33,23 @@ let write_files files program fleet ~strict outcome =
   let sarif = write files.sarif (fun path -> Sarif.write ~strict ~version:Version.number program path outcome) in
   List.fold_left (fun found next -> if Result.is_error found then found else next) trace [ drawn; junit; sarif ]
 
+(* Whether states can go to [directory]. *)
+let check_spill (s : Exploration.settings) directory =
+  let wrong format = Printf.ksprintf (fun why -> Error (Error.Bad_input why)) format in
+  if s.max_memory = None then wrong "--spill is for states beyond a bound on memory: give --max-memory too"
+  else if s.compress then wrong "states on disk are not compressed: give --spill or --compress, not both"
+  else if s.walks <> None || s.bitstate <> None then
+    wrong "random walks and bitstate hashing keep no states on disk: give --spill without --sample and --bitstate"
+  else if not (Sys.file_exists directory) then wrong "--spill %s: there is no such directory" directory
+  else if not (Sys.is_directory directory) then wrong "--spill %s: this is no directory" directory
+  else
+    match Unix.access directory [ W_OK; X_OK ] with
+    | () -> Ok ()
+    | exception Unix.Unix_error (why, _, _) -> wrong "--spill %s: %s" directory (Unix.error_message why)
+
 let check_search (s : Exploration.settings) =
   let not_both what = Error (Error.Bad_input (what ^ ", not both")) in
+  let* () = Option.fold ~none:(Ok ()) ~some:(check_spill s) s.spill in
   match s.walks, s.bitstate, s.formulas with
   | Some _, Some _, _ -> not_both "random walks keep their states: give --sample or --bitstate"
   | Some _, None, _ :: _ -> not_both "random walks say nothing of a formula: give --sample or --ltl"
@@ -69,11 +84,11 @@ let of_values settings sweep fleet ~strict ~json ~period ~files ~cache =
     else Explore_sweep.print ~strict sweep rows;
     Ok (Exit_status.of_verdict (Sweep.verdict rows))
 
-let run path set fleet answers faults strict json period files cache reduction compress walks bitstate invariants
-    formulas max_states max_depth max_memory timeout =
+let run path set fleet answers faults strict json period files cache reduction compress spill walks bitstate
+    invariants formulas max_states max_depth max_memory timeout =
   let settings : Exploration.settings =
-    { answers; faults; reduction; compress; walks; bitstate; max_states; max_depth; max_memory; timeout; invariants;
-      formulas } in
+    { answers; faults; reduction; compress; spill; walks; bitstate; max_states; max_depth; max_memory; timeout;
+      invariants; formulas } in
   Report.result
     (let* () = check_search settings in
      let* question = Sweep.question ~set path in
@@ -230,6 +245,15 @@ let compress =
   in
   Arg.(value & flag & info [ "compress" ] ~doc)
 
+let spill =
+  let doc =
+    "Keep states that would take more memory than $(b,--max-memory) in a file of the directory $(docv), 8 bytes for \
+     each 62 bits of a state, up to what the disk holds. All of it is read at each depth of the search. The file has \
+     no name: nothing is left of it, however the search ends. A disk that is full is a bound that was met. Not with \
+     $(b,--compress), $(b,--sample) or $(b,--bitstate)."
+  in
+  Arg.(value & opt (some string) None & info [ "spill" ] ~docv:"DIR" ~doc)
+
 let positive = Options.whole ~docv:"N" "no number from 1 on"
 
 let walks =
@@ -296,7 +320,8 @@ let man =
     `Pre "  $(mname) $(tname) examples/rendezvous.dol\n  $(mname) $(tname) examples/rendezvous.dol --faults fail=1\n\
          \  $(mname) $(tname) mission.dol --invariant \"!(running('a') && running('b'))\"\n\
          \  $(mname) $(tname) mission.dol --ltl 'G (start(survey1) -> F done(survey1))'\n\
-         \  $(mname) $(tname) mission.dol --max-memory 8G --timeout 60" ]
+         \  $(mname) $(tname) mission.dol --max-memory 8G --timeout 60\n\
+         \  $(mname) $(tname) mission.dol --max-memory 2G --spill /var/tmp" ]
   @ Options.see_also
 
 let command =
@@ -307,5 +332,5 @@ let command =
   Cmd.v info
     Term.(
       const run $ Options.program $ Options.set_range $ Options.fleet $ answers $ faults $ strict $ json $ period
-      $ files $ cache $ reduction $ compress $ walks $ bitstate $ invariants $ formulas $ max_states $ max_depth
+      $ files $ cache $ reduction $ compress $ spill $ walks $ bitstate $ invariants $ formulas $ max_states $ max_depth
       $ max_memory $ timeout)

@@ -1,8 +1,9 @@
-(* fleet N F [MAX_STATES]: explores the program of the peers' models, N vehicles, F = 1 with failures, and prints one
-   line: states, transitions, depth, seconds of CPU, bytes a state as the explorer counts them. With REDUCTION=por,
-   symmetry or all in the environment the search is reduced, with COMPRESS=yes states are compressed. CONTEXT (watch,
-   ignore, during, until or then) says what stands around the task that is executed; plain has nothing. LTL is a formula
-   to be checked as well: a second line says how many states that took, and what comes of it. *)
+(* fleet N F [MAX_STATES]: explores the program of the peers' models, N vehicles, F = 1 with failures, and prints
+   one line: states, transitions, depth, seconds of CPU, bytes a state as the explorer counts them. With
+   REDUCTION=por, symmetry or all in the environment the search is reduced, with COMPRESS=yes states are compressed,
+   with MEMORY=MIB and SPILL=DIR those beyond so much memory are on disk. CONTEXT (watch, ignore, during, until or
+   then) says what stands around the task that is executed; plain has nothing. LTL is a formula to be checked as well:
+   a second line says how many states that took, and what comes of it. *)
 
 open Dolphin_environment
 open Dolphin_checker
@@ -61,10 +62,12 @@ let () =
     | Some _ | None -> Whole
   in
   let compress = Sys.getenv_opt "COMPRESS" <> None in
-  let limits = { Limits.none with max_states = argument 3; progress } in
+  let max_memory = Option.map (fun mib -> int_of_string mib lsl 20) (Sys.getenv_opt "MEMORY") in
+  let limits = { Limits.none with max_states = argument 3; max_memory; progress } in
   let program = Pure_run.compile_exn (program n) in
   let formulas = formulas program in
-  let options = { Search.default with environment; reduction; compress; limits; formulas } in
+  let spill = Sys.getenv_opt "SPILL" in
+  let options = { Search.default with environment; reduction; compress; spill; limits; formulas } in
   let o = Search.run options program (world n) in
   Printf.printf "%d states, %d transitions, depth %d, %.2f s, %.1f bytes a state%s\n" o.states o.transitions o.depth
     (Sys.time ())

@@ -71,8 +71,8 @@ end
 
 module Search = Breadth_first.Make (Vectors)
 
-let searched ?compress ?monitor ?(limits = Limits.none) system =
-  let search = Search.create ?compress ?monitor limits system in
+let searched ?compress ?spill ?monitor ?(limits = Limits.none) system =
+  let search = Search.create ?compress ?spill ?monitor limits system in
   Search.run search;
   search
 
@@ -110,8 +110,15 @@ let tables n =
   let p = power n in
   p.(0).(0) + p.(1).(1) + p.(2).(2)
 
-let test_philosophers ~compress n () =
-  let search = searched ~compress (philosophers n) in
+(* States go to disk at once, and stay: four fifths of the memory are always taken. *)
+let on_disk =
+  let max_memory = 1_000_000_000_000 in
+  { Limits.none with max_memory = Some max_memory; memory_taken = (fun () -> Some (max_memory / 5 * 4)) }
+
+let folder = Filename.get_temp_dir_name ()
+
+let test_philosophers ?compress ?spill ?limits n () =
+  let search = searched ?compress ?spill ?limits (philosophers n) in
   check_int "states" (tables n) (Search.count search);
   check_int "all are expanded" (Search.count search) (Search.expanded search);
   match Search.no_deadlock search with
@@ -130,8 +137,8 @@ let counter ?is_broken () =
 let range from upto = List.init (upto - from + 1) (fun i -> [ from + i ])
 
 (* Looking for the cycle expands states again, and may outgrow their encoding. *)
-let test_cycle ~outgrown () =
-  let search = searched (counter ()) in
+let test_cycle ?spill ?limits ~outgrown () =
+  let search = searched ?spill ?limits (counter ()) in
   (Search.system search).outgrown <- outgrown;
   check_int "states" 10 (Search.count search);
   check_int "transitions" 10 (Search.transitions search);
@@ -355,6 +362,25 @@ let test_violated text ~stem ~cycle () =
     check_states "cycle" cycle (numbers search (List.map fst around.cycle))
   | _, (Holds | Inconclusive _) -> Alcotest.failf "%s is not violated" text
 
+(* {1 Disk} *)
+
+let stopped search = Option.map (Format.asprintf "%a" Limits.pp_bound) (Search.stopped search)
+let check_stopped = Alcotest.(check (option string)) "stopped"
+
+let test_no_folder () =
+  let search = searched ~spill:"/nowhere" ~limits:on_disk (philosophers 5) in
+  check_stopped (Some "/nowhere: no file can be made there") (stopped search)
+
+let test_not_spilled () =
+  let limits = { on_disk with memory_taken = (fun () -> Some 999_000_000_000) } in
+  check_stopped (Some "the bound on memory was met") (stopped (searched ~limits (philosophers 5)))
+
+let test_bound_on_disk () =
+  let search = searched ~spill:folder ~limits:{ on_disk with max_states = Some 100 } (philosophers 8) in
+  check_stopped (Some "the bound on states was met") (stopped search);
+  let all = { on_disk with max_states = Some (tables 8) } in
+  check_stopped None (stopped (searched ~spill:folder ~limits:all (philosophers 8)))
+
 (* It rests at 3. *)
 let resting () = Vectors.make ~is_end:true [ 0 ] (function [ 3 ] -> [] | numbers -> [ List.map succ numbers ])
 
@@ -363,11 +389,17 @@ let () =
   Alcotest.run "search"
     [
       ( "philosophers",
-        [ case "five" (test_philosophers ~compress:false 5); case "eight" (test_philosophers ~compress:false 8);
-          case "eight, compressed" (test_philosophers ~compress:true 8) ] );
+        [ case "five" (test_philosophers 5); case "eight" (test_philosophers 8);
+          case "eight, compressed" (test_philosophers ~compress:true 8);
+          case "eight, on disk" (test_philosophers ~spill:folder ~limits:on_disk 8) ] );
+      ( "disk",
+        [ case "its cycle" (test_cycle ~spill:folder ~limits:on_disk ~outgrown:false);
+          case "its cycle, after outgrowing" (test_cycle ~spill:folder ~limits:on_disk ~outgrown:true);
+          case "no folder" test_no_folder; case "without, memory is a bound" test_not_spilled;
+          case "still a bound" test_bound_on_disk ] );
       ( "counter",
-        [ case "its cycle" (test_cycle ~outgrown:false);
-          case "its cycle, after outgrowing" (test_cycle ~outgrown:true);
+        [ case "its cycle" (fun () -> test_cycle ~outgrown:false ());
+          case "its cycle, after outgrowing" (fun () -> test_cycle ~outgrown:true ());
           case "a state that is reached" test_reached; case "bounds" test_bounds;
           case "a bound within an expansion" test_wide ] );
       ( "random walks",

@@ -795,6 +795,28 @@ Random walks: the same ones with the same seed. Only where they have been everyw
   dolphin: random walks say nothing of a formula: give --sample or --ltl, not both
   [2]
 
+States beyond a bound on memory go to disk. Here none do, and nothing is left there.
+
+  $ mkdir disk
+  $ explore ../../examples/rendezvous.dol --reduction none --max-memory 8G --spill disk | tail -1
+  2198 states, 7139 transitions, depth 35
+  $ ls disk
+  $ explore ../../examples/rendezvous.dol --spill disk
+  dolphin: --spill is for states beyond a bound on memory: give --max-memory too
+  [2]
+  $ explore ../../examples/rendezvous.dol --max-memory 1G --spill nowhere
+  dolphin: --spill nowhere: there is no such directory
+  [2]
+  $ explore ../../examples/rendezvous.dol --max-memory 1G --spill deadlock.dol
+  dolphin: --spill deadlock.dol: this is no directory
+  [2]
+  $ explore ../../examples/rendezvous.dol --max-memory 1G --spill disk --compress
+  dolphin: states on disk are not compressed: give --spill or --compress, not both
+  [2]
+  $ explore ../../examples/rendezvous.dol --max-memory 1G --spill disk --sample 10
+  dolphin: random walks and bitstate hashing keep no states on disk: give --spill without --sample and --bitstate
+  [2]
+
 Bitstate hashing: as many states where the bits are many, and nothing is said to hold; a violation is one, with its run.
 
   $ explore ../../examples/rendezvous.dol --reduction none --bitstate 64K

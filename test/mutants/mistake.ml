@@ -312,6 +312,24 @@ let bitstate =
   @ in_file "lib/checker/search/breadth_first.ml" ~noticed_by:"explore/test_bitstate"
     [ ("what waits keeps its encoding", {|Trail.rewrite deep.trail renewed;|}, {|ignore Trail.rewrite;|}) ]
 
+let disk =
+  in_file "lib/checker/store/on_disk.ml" ~noticed_by:"checker/test_states"
+    [
+      ("what is known is added again", {|Bytes.unsafe_set known i '\001'|}, {|Bytes.unsafe_set known i '\000'|});
+      ("parents on disk are counted from where memory began", {|(t.first_parent + Packed.parent|}, {|(0 + Packed.parent|});
+      ("one batch of a window is not looked at", {|first < t.window_states then|}, {|first < t.window_states - 200 then|});
+      ("an index of fewer states is used again", {|Some (states, index) when states = t.count -> index|},
+       {|Some (_, index) -> index|});
+    ]
+  @ in_file "lib/checker/store/disk_index.ml" ~noticed_by:"checker/test_states"
+    [ ("the index ends at the end of a window", {|if k = n then `Further|}, {|if k = n then `Found (-1)|}) ]
+  @ in_file "lib/checker/search/breadth_first.ml" ~noticed_by:"checker/test_search"
+    [ ("with a disk, memory is a bound nevertheless", {|Limits.Stop Memory when t.spill <> None ->
+      spill t;
+      look_around|}, {|Limits.Stop Memory when t.spill = None ->
+      spill t;
+      look_around|}) ]
+
 let name_flow =
   in_file "lib/explore/symmetry/name_flow.ml" ~noticed_by:"reduction/test_told_apart"
     [
@@ -1272,7 +1290,7 @@ let all =
   List.concat
     [ maps; missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups;
       quotient; expansion; portable;
-      vehicle_orbits; canonical_vehicles; bitstate; name_flow; liveness; later_picks; environment; picks; inputs;
+      vehicle_orbits; canonical_vehicles; bitstate; disk; name_flow; liveness; later_picks; environment; picks; inputs;
       attendance;
       task_rules; local_step; run_code; answers_in_words; confirm; unknown; on_interrupt;
       fences; pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;

@@ -7,6 +7,7 @@ type settings = {
   faults : Dolphin_environment.Faults.t;
   reduction : Dolphin_explore.Reduction.t;
   compress : bool;
+  spill : string option;
   walks : Search.walks option;
   bitstate : int option;
   max_states : int option;
@@ -38,7 +39,7 @@ let explore ~interrupted ~progress s (program : Program_file.t) (fleet : Fleet_f
   let* formulas = read_all "--ltl" (Dolphin_explore.Temporal.of_string core) s.formulas in
   let options : Search.options =
     { environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults core fleet.scenario;
-      reduction = s.reduction; compress = s.compress; walks = s.walks; bitstate = s.bitstate;
+      reduction = s.reduction; compress = s.compress; spill = s.spill; walks = s.walks; bitstate = s.bitstate;
       search_again = Search.default.search_again;
       limits =
         { max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory;

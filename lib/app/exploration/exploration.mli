@@ -9,6 +9,7 @@ type settings = {
   faults : Dolphin_environment.Faults.t;
   reduction : Dolphin_explore.Reduction.t;
   compress : bool;  (** less memory, more time *)
+  spill : string option;  (** the directory of what goes beyond [max_memory] *)
   walks : Dolphin_explore.Search.walks option;
   bitstate : int option;  (** bytes of bits by which states are told apart, in place of their set *)
   max_states : int option;

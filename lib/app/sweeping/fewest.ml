@@ -25,8 +25,8 @@ type t =
 (* {1 One fleet} *)
 
 let exploration (s : Time_analysis.settings) : Exploration.settings =
-  { answers = s.answers; faults = s.faults; reduction = All; compress = false; walks = None; bitstate = None;
-    max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory;
+  { answers = s.answers; faults = s.faults; reduction = All; compress = false; spill = None; walks = None;
+    bitstate = None; max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory;
     timeout = s.timeout; invariants = []; formulas = [] }
 
 let part (fleet : Fleet_file.t) vehicles =

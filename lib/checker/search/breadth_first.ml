@@ -34,7 +34,8 @@ module Make (S : System.S) = struct
     mutable stopped : Limits.bound option;
     mutable sample : Sample.t option;
     mutable deep : deep option;
-    guard : Limits.guard;
+    mutable guard : Limits.guard;
+    mutable spill : string option;  (* where states will go when there is too little memory *)
     fresh : int -> int -> unit;
     visitor : S.via System.visitor;
   }
@@ -84,12 +85,30 @@ module Make (S : System.S) = struct
      does. Twice as many states are foreseen. *)
   let stride = 4_096
 
-  let look_around ?(by = 2 * stride) t phase =
+  let rec look_around ?(by = 2 * stride) t phase =
     let growth = States.bytes_to_grow t.states ~by in
     let states =
       match t.deep with Some { bits; trail; _ } -> Bitstate.states bits + Trail.waiting trail | None -> count t
     in
-    Limits.look t.guard phase { states; expanded = expanded t; depth = t.depth; used = memory t; growth }
+    let measures = { Limits.states; expanded = expanded t; depth = t.depth; used = memory t; growth } in
+    try Limits.look t.guard phase measures
+    with Limits.Stop Memory when t.spill <> None ->
+      spill t;
+      look_around ~by t phase
+
+  (* From now on states take all the memory that they may, and no more of it. *)
+  and spill t =
+    let to_disk directory =
+      t.spill <- None;
+      t.guard <- Limits.guard ~started:(Limits.started t.guard) t.limits;
+      States.flush t.states ~fresh:t.fresh;
+      t.states <- States.spill t.states ~directory ~tick:(fun () -> look_around t t.phase)
+    in
+    Option.iter to_disk t.spill
+
+  (* What is left is for the parents of states on disk. *)
+  let before_spilling (limits : Limits.t) =
+    { limits with max_memory = Option.map (fun n -> n / 4 * 3) limits.max_memory }
 
   let ticker t phase =
     let ticks = ref 0 in
@@ -103,7 +122,7 @@ module Make (S : System.S) = struct
   let count_states t =
     match t.limits.max_states with
     | Some most when count t > most - batch ->
-      States.flush t.states ~fresh:t.fresh;
+      if not (States.is_on_disk t.states) then States.flush t.states ~fresh:t.fresh;
       if count t > max most 1 then raise (Limits.Stop States)
     | Some _ | None -> ()
 
@@ -158,6 +177,7 @@ module Make (S : System.S) = struct
     in
     let words = S.words t.system in
     t.states <- States.rewrite t.states ~words (if before = 0 then rewritten else with_set);
+    if States.is_on_disk t.states then Gc.full_major ();
     t.key <- Array.make words 0;
     fun old ->
       let fresh = Array.make words 0 in
@@ -174,13 +194,21 @@ module Make (S : System.S) = struct
     t.from <- first land mask t;
     t.key.(0) <- first land lnot (mask t)
 
+  (* Whether there is room to write the states anew. *)
+  let rec weigh_rewriting t =
+    let bytes = States.bytes_to_rewrite t.states ~words:(States.words t.states + 1) in
+    try Limits.weigh t.guard ~used:(memory t) bytes
+    with Limits.Stop Memory when t.spill <> None ->
+      spill t;
+      weigh_rewriting t
+
   let rec expanding t =
     match fetch t t.next; S.expand t.system t.key t.visitor with
     | taken -> taken
     | exception S.Outgrown ->
       flush t;
       (* Once this has begun it must not fail. *)
-      Limits.weigh t.guard ~used:(memory t) (States.bytes_to_rewrite t.states ~words:(States.words t.states + 1));
+      weigh_rewriting t;
       widen t;
       expanding t
 
@@ -191,12 +219,14 @@ module Make (S : System.S) = struct
     t.next <- i + 1;
     taken
 
-  let create ?(compress = false) ?monitor ?(phase = "exploring") ?started limits system =
-    let states = States.create ~compress ~words:1 and guard = Limits.guard ?started limits in
+  let create ?(compress = false) ?spill ?monitor ?(phase = "exploring") ?started limits system =
+    if compress && spill <> None then invalid_arg "Breadth_first.create: compressed states on disk";
+    let states = States.create ~compress ~words:1 in
+    let guard = Limits.guard ?started (if spill = None then limits else before_spilling limits) in
     let rec t =
       { system; limits; phase; monitor; reserved = 0; states; key = [| 0 |]; from = Monitor.start; next = 0; depth = -1;
         level_end = 0; transitions = 0; work = 0; allocated = 0.; deadlock = -1; violation = -1;
-        broken = Hashtbl.create 8; stopped = None; sample = None; deep = None; guard;
+        broken = Hashtbl.create 8; stopped = None; sample = None; deep = None; guard; spill;
         fresh = (fun i word -> arrived t i word);
         visitor = { visit; tick = (fun () -> look_around ~by:256 t t.phase); rest = (fun () -> rest t) } }
     and visit key action _ = arrive t key action in
@@ -383,20 +413,24 @@ module Make (S : System.S) = struct
     go ();
     raise (Limits.Stop Hashed)
 
-  (* Once there is no memory nothing can be added, not even what waits. *)
+  (* Once there is no memory nothing can be added, not even what waits; and what waits for the disk takes long. *)
   let run_by expand_all t =
-    let no_memory () =
+    let give_up bound =
       States.forget_waiting t.states;
-      t.stopped <- Some No_memory
+      t.stopped <- Some bound
     in
     let settle stopped =
       t.stopped <- stopped;
-      try flush t with Out_of_memory -> no_memory ()
+      if stopped = None || not (States.is_on_disk t.states) then flush t else States.forget_waiting t.states
     in
-    match expand_all () with
-    | () -> settle None
-    | exception Limits.Stop bound -> settle (Some bound)
-    | exception Out_of_memory -> no_memory ()
+    let settled expand_all =
+      match expand_all () with () -> settle None | exception Limits.Stop bound -> settle (Some bound)
+    in
+    match settled expand_all with
+    | () -> ()
+    | exception Limits.Stop bound -> give_up bound
+    | exception Out_of_memory -> give_up No_memory
+    | exception States.Disk_failed why -> give_up (Unsettled why)
 
   let run ?(look = ignore) ?(enough = fun () -> false) t = run_by (fun () -> expand_all t look enough) t
 
@@ -472,7 +506,8 @@ module Make (S : System.S) = struct
     | None -> (
         try verdict () with
         | Limits.Stop bound -> Inconclusive bound
-        | Out_of_memory -> Inconclusive No_memory)
+        | Out_of_memory -> Inconclusive No_memory
+        | States.Disk_failed why -> Inconclusive (Unsettled why))
 
   let reached t = function
     | Some i -> Violated (path t i)

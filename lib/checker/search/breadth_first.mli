@@ -28,9 +28,12 @@ module Make (S : System.S) : sig
   type t
 
   val create :
-    ?compress:bool -> ?monitor:Dolphin_ltl.Monitor.t -> ?phase:string -> ?started:float -> Limits.t -> S.t -> t
+    ?compress:bool -> ?spill:string -> ?monitor:Dolphin_ltl.Monitor.t -> ?phase:string -> ?started:float -> Limits.t ->
+    S.t -> t
   (** [create limits s] is the search of [s] with nothing but its initial state. [compress] is as for
-      {!States.create}, [false] by default. Under a monitor there may be no state at all. [phase] says what is being
+      {!States.create}, [false] by default. [spill] is a directory where states go, if they are not compressed, once
+      three quarters of [limits.max_memory] are taken; it is for {!run} alone, not for {!run_walks} or
+      {!run_bitstate}. Under a monitor there may be no state at all. [phase] says what is being
       done, in reports of progress. [started] is as for {!Limits.guard}. *)
 
   val run : ?look:(int -> unit) -> ?enough:(unit -> bool) -> t -> unit

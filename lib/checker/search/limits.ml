@@ -66,6 +66,8 @@ let guard ?started limits =
   { limits; started; reported = started; weighed = Float.neg_infinity;
     asked = Float.neg_infinity; unseen = 0 }
 
+let started g = g.started
+
 type measures = { states : int; expanded : int; depth : int; used : int; growth : int }
 
 (* What the process takes is not what it uses: code and what is free in the heap are beyond that, and memory that it

@@ -57,6 +57,8 @@ type guard
 val guard : ?started:float -> t -> guard
 (** [guard ~started t] looks after what started when [t.clock] showed [started]: now by default. *)
 
+val started : guard -> float
+
 (** How far a search has come. *)
 type measures = {
   states : int;

@@ -5,7 +5,7 @@ type words_of_chunk = (int, int_elt, c_layout) Array1.t
 type t = {
   words : int;
   mutable chunks : words_of_chunk array;
-  parents : Parents.t;
+  mutable parents : Parents.t;
   mutable count : int;
   mutable bare : bool;  (* whether the table has states, which are of one word, and not their numbers *)
   mutable table : words_of_chunk;
@@ -140,7 +140,8 @@ let resize t slots =
 let append t keys at ~parent =
   let i = t.count in
   let within = i land chunk_mask in
-  if within = 0 then t.chunks <- Array.append t.chunks [| Array1.create int c_layout (chunk_states * t.words) |];
+  if within = 0 && i lsr chunk_bits = Array.length t.chunks then
+    t.chunks <- Array.append t.chunks [| Array1.create int c_layout (chunk_states * t.words) |];
   let chunk = chunk t i and base = within * t.words in
   for w = 0 to t.words - 1 do
     Array1.unsafe_set chunk (base + w) (Array.unsafe_get keys (at + w))
@@ -228,6 +229,45 @@ let find t key =
   let h = hash t key in
   let slot = probe t t.table key 0 (tag_of h) (h land t.mask) in
   (t.table.{slot} land number_mask) - 1
+
+(* {1 Others' states} *)
+
+let number_of_entry entry = (entry land number_mask) - 1
+let entry_of h i = tag_of h lor (i + 1)
+let is_tagged h entry = entry land lnot number_mask = tag_of h
+let parents t = t.parents
+let room t = max 1 (min t.most (Array.length t.chunks * chunk_states) - (2 * most_waiting))
+let table t = t.table
+
+let clear t =
+  t.count <- 0;
+  t.bare <- false;
+  t.parents <- Parents.create ();
+  t.waiting.length <- 0;
+  Array1.fill t.table 0
+
+(* Where states wait to be added, others' states stand meanwhile. *)
+let members t source ~first ~n f =
+  number_all t;
+  let waiting = t.waiting and key = Array.make t.words 0 in
+  for k = 0 to n - 1 do
+    for w = 0 to t.words - 1 do
+      let word = Int64.to_int (Bytes.get_int64_le source (8 * (((first + k) * t.words) + w))) in
+      Array.unsafe_set key w word;
+      Array.unsafe_set waiting.keys ((k * t.words) + w) word
+    done;
+    Array.unsafe_set waiting.hashes k (hash t key)
+  done;
+  waiting.length <- n;
+  read_tables t;
+  read_states t;
+  for k = 0 to n - 1 do
+    let h = Array.unsafe_get waiting.hashes k in
+    let slot = probe t t.table waiting.keys (k * t.words) (tag_of h) (h land t.mask) in
+    let entry = Array1.unsafe_get t.table slot in
+    if entry <> 0 then f (number_of_entry entry)
+  done;
+  waiting.length <- 0
 
 let bytes_of_chunk t = chunk_states * 8 * t.words
 let bytes t = (Array.length t.chunks * bytes_of_chunk t) + (8 * (t.mask + 1)) + Parents.bytes t.parents

@@ -1,9 +1,12 @@
 (** A set of states, each a vector of a fixed number of words, that only grows. States are numbered from 0 in order of
     insertion, so the set is also the queue of a breadth-first search; each state knows its parent, the state that it
     was first reached from. All of it lives outside of OCaml's heap: uncompressed ({!Packed}), or in less memory and
-    more time ({!Tree}). *)
+    more time ({!Tree}), or on disk ({!On_disk}). *)
 
 type t
+
+exception Disk_failed of string
+(** Why. Only of states on disk; any function may raise it then. *)
 
 val create : compress:bool -> words:int -> t
 (** [create ~compress ~words] is an empty set of vectors of [words] words. No word may be [-1]. *)
@@ -20,7 +23,7 @@ val flush : t -> fresh:(int -> int -> unit) -> unit
 (** [flush t ~fresh] adds all that has been pushed. *)
 
 val find : t -> int array -> int
-(** [find t key] is the number of state [key], or [-1]. *)
+(** [find t key] is the number of state [key], or [-1]. On disk nothing may wait to be added. *)
 
 val load : t -> int -> int array -> unit
 (** [load t i key] puts the words of state [i] into [key]. *)
@@ -44,3 +47,13 @@ val rewrite : t -> words:int -> (int array -> int array -> unit) -> t
 (** [rewrite t ~words f] is the states of [t] in a new encoding, with the same numbers and parents: [f old fresh] puts
     the new words of [old] into [fresh], which is all 0. [f] must be injective, and nothing may wait to be added. [t]
     is used up. *)
+
+(** {1:disk On disk} *)
+
+val is_on_disk : t -> bool
+
+val spill : t -> directory:string -> tick:(unit -> unit) -> t
+(** [spill t ~directory ~tick] is [t] on disk, in a file of [directory] without a name. [t] is not compressed, nothing
+    waits to be added, and [t] is used up. From now on {!push} adds what is new only where there is no more room in the
+    memory that [t] had, or at {!flush}: that reads all states that there are. [tick] is called meanwhile; it may raise
+    something: then what has been pushed still waits. *)

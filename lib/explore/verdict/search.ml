@@ -8,6 +8,7 @@ type options = {
   environment : Environment.options;
   reduction : Reduction.t;
   compress : bool;
+  spill : string option;
   walks : walks option;
   bitstate : int option;
   search_again : int;
@@ -21,6 +22,7 @@ let default =
     environment = Environment.default;
     reduction = Whole;
     compress = false;
+    spill = None;
     walks = None;
     bitstate = None;
     search_again = 100_000;
@@ -63,9 +65,10 @@ type outcome = {
 type subject = { program : Core.program; world : World.t; symmetry : Symmetry.t; started : float }
 
 let graph ?labelling ?phase x (options : options) =
-  let { environment; reduction; compress; limits; invariants; _ } = options in
+  let { environment; reduction; compress; spill; limits; invariants; _ } = options in
   let space = Space.create ~reduction ~symmetry:x.symmetry ~asked:invariants ?labelling environment x.program x.world in
-  State_graph.create ~compress ?monitor:(Option.map Labelling.monitor labelling) ?phase ~started:x.started limits space
+  State_graph.create ~compress ?spill ?monitor:(Option.map Labelling.monitor labelling) ?phase ~started:x.started limits
+    space
 
 let broken_condition why : Limits.bound = Unsettled ("the condition cannot be told: " ^ why)
 
@@ -139,8 +142,17 @@ let verdicts x (options : options) graph invariants =
     | All_reached -> unreached graph x.program
     | Invariant _ | Formula _ | Apart _ -> invalid_arg "Search.verdicts"
   in
-  let given i = (Property.Invariant (Condition.to_string (Invariant.condition i)), invariant graph ~shortest i) in
-  List.map (fun property -> (property, verdict property)) Property.all @ List.map given invariants
+  (* A run that cannot be shown, for the disk fails or a bound is met, is not said to be. *)
+  let told verdict =
+    try verdict () with
+    | Limits.Stop bound -> Inconclusive bound
+    | States.Disk_failed why -> Inconclusive (Unsettled why)
+  in
+  let given i =
+    let verdict () = invariant graph ~shortest i in
+    (Property.Invariant (Condition.to_string (Invariant.condition i)), told verdict)
+  in
+  List.map (fun property -> (property, told (fun () -> verdict property))) Property.all @ List.map given invariants
 
 (* The first state that shows that [property] is violated. *)
 let shown graph = function
@@ -193,6 +205,7 @@ let formula x (options : options) f : verdict * int * int =
     | verdict -> verdict
     | exception Limits.Stop bound -> Inconclusive bound
     | exception Out_of_memory -> Inconclusive No_memory
+    | exception States.Disk_failed why -> Inconclusive (Unsettled why)
   in
   match
     let options = { options with reduction = Whole; invariants = [] } in

@@ -14,6 +14,9 @@ type options = {
   (** where there are invariants, only the symmetry of vehicles is used; where it matters which vehicle is lost
       ({!Later_picks}), no symmetry of tasks: states that it identifies may differ in that *)
   compress : bool;  (** keep states in less memory, in more time *)
+  spill : string option;
+  (** the directory where states go once they take three quarters of [limits.max_memory]; neither with [compress] nor
+      with [walks] or [bitstate] *)
   walks : walks option;  (** random walks in place of all states; formulas are not judged by walks *)
   bitstate : int option;
   (** bytes of an array of bits by which states are told apart in place of their set, without [walks]: states are

@@ -1,0 +1,19 @@
+(** A file of words of 8 bytes, without a name: it is gone when the process is. *)
+
+type t
+
+exception Failed of string
+
+val create : directory:string -> t
+(** @raise Failed as the others do *)
+
+val length : t -> int
+(** In words. *)
+
+val append : t -> int -> unit
+(** [append f x] appends the word [x]. *)
+
+val read : t -> at:int -> Bytes.t -> words:int -> unit
+(** [read f ~at b ~words] reads so many words, from the one at place [at] on. *)
+
+val close : t -> unit

@@ -62,6 +62,7 @@ whatever happens; they stop if their vehicles are not there.
   termination: holds
   assertions: holds
   $ dolphin explore --faults fail,loss scarce.dol | grep 'deadlock:\|^termination:\|^vehicles'
+  dolphin: by the fleet these join late: lauv-3; here they are there from the start, unless --faults has join
   no deadlock: holds
   termination: holds
   vehicles for all tasks: holds

@@ -146,6 +146,14 @@ let test_variety () =
   in
   List.iter enough Property.all
 
+(* Files of states have no name; the system tells which are open. *)
+let test_files () =
+  let descriptors = "/proc/self/fd" in
+  let target name = try Unix.readlink (Filename.concat descriptors name) with Unix.Unix_error _ -> "" in
+  let is_of_states path = List.mem "states" (String.split_on_char '.' (List.hd (String.split_on_char ' ' path))) in
+  let targets = List.map target (Array.to_list (Sys.readdir descriptors)) in
+  Alcotest.(check (list string)) "open files of states" [] (List.filter is_of_states targets)
+
 let () =
   Alcotest.run "agreement"
     [
@@ -153,5 +161,6 @@ let () =
         [
           Alcotest.test_case "packed and plain search agree" `Quick test_agreement;
           Alcotest.test_case "every property is broken by some" `Quick test_variety;
+          Alcotest.test_case "what was on disk is given back" `Quick test_files;
         ] );
     ]

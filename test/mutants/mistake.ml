@@ -1235,6 +1235,11 @@ let share =
       ("looks cost nothing", {|Float.of_int (j * (j + 1))|}, {|Float.of_int (j * j)|});
     ]
 
+let files_of_states =
+  in_file "lib/explore/verdict/search.ml" ~noticed_by:"explore/test_agreement"
+    [ ("files of states stay open", {|Fun.protect ~finally:(fun () -> State_graph.close graph) (fun () -> f graph)|},
+       {|f graph|}) ]
+
 let sampled =
   in_file "lib/app/sampling/sampling.ml" ~noticed_by:"time/test_sampled"
     [
@@ -1280,7 +1285,7 @@ let search_pattern =
 let all =
   List.concat
     [ maps; missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups;
-      quotient; expansion; portable;
+      quotient; expansion; portable; files_of_states;
       vehicle_orbits; canonical_vehicles; bitstate; disk; name_flow; liveness; later_picks; environment; picks; inputs;
       attendance;
       task_rules; local_step; run_code; answers_in_words; confirm; unknown; on_interrupt;

@@ -165,6 +165,8 @@ module Make (S : System.S) = struct
 
   (* {1 Expanding} *)
 
+  let large = 1 lsl 22
+
   (* The function that the result is makes of a vector in the old encoding one in the new. *)
   let widened t =
     let before = mask t in
@@ -176,8 +178,10 @@ module Make (S : System.S) = struct
       fresh.(0) <- fresh.(0) lor (old.(0) land before)
     in
     let words = S.words t.system in
+    let bytes = States.bytes t.states in
     t.states <- States.rewrite t.states ~words (if before = 0 then rewritten else with_set);
-    if States.is_on_disk t.states then Gc.full_major ();
+    (* Whoever spills has no memory for what was before. *)
+    if States.is_on_disk t.states && bytes >= large then Gc.full_major ();
     t.key <- Array.make words 0;
     fun old ->
       let fresh = Array.make words 0 in
@@ -235,6 +239,8 @@ module Make (S : System.S) = struct
     in
     begin_with ();
     t
+
+  let close t = States.close t.states
 
   let more t =
     t.next < count t

@@ -36,6 +36,10 @@ module Make (S : System.S) : sig
       {!run_bitstate}. Under a monitor there may be no state at all. [phase] says what is being
       done, in reports of progress. [started] is as for {!Limits.guard}. *)
 
+  val close : t -> unit
+  (** [close t] gives back what [t] has on disk. Only what needs no state may be asked of it then: {!count}, {!memory},
+      {!stopped} and the like. *)
+
   val run : ?look:(int -> unit) -> ?enough:(unit -> bool) -> t -> unit
   (** [run t] expands all states, until a bound is met, [enough ()] says so, or it {!is_violated}. [look i] is called
       before state [i] is expanded, in order. What [S.expand], [look] and [enough] raise is raised, {!Limits.Stop}

@@ -136,6 +136,10 @@ let find t key =
   in
   Disk_index.find index (Packed.hash t.pushed key) is_it
 
+let close t =
+  Disk_file.close t.file;
+  Option.iter (fun (_, index) -> Disk_index.close index) t.index
+
 (* {1 Memory} *)
 
 let bytes t = Packed.bytes t.pushed + Parents.bytes t.parents + window_bytes
@@ -173,6 +177,5 @@ let rewrite before ~words f =
     write t fresh
   in
   each { before with tick = ignore } renew;
-  Disk_file.close before.file;
-  Option.iter (fun (_, index) -> Disk_index.close index) before.index;
+  close before;
   t

@@ -31,3 +31,6 @@ val bytes : t -> int
 
 val forget_waiting : t -> unit
 val rewrite : t -> words:int -> (int array -> int array -> unit) -> t
+
+val close : t -> unit
+(** [close t] gives back what is on disk; [t] is of no use then. *)

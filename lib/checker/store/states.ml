@@ -67,3 +67,5 @@ let spill t ~directory ~tick =
   match t with
   | As_it_is s -> On_disk (On_disk.of_packed s ~directory ~tick)
   | Compressed _ | On_disk _ -> invalid_arg "States.spill: not as they are"
+
+let close = function On_disk s -> On_disk.close s | As_it_is _ | Compressed _ -> ()

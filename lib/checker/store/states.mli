@@ -57,3 +57,6 @@ val spill : t -> directory:string -> tick:(unit -> unit) -> t
     waits to be added, and [t] is used up. From now on {!push} adds what is new only where there is no more room in the
     memory that [t] had, or at {!flush}: that reads all states that there are. [tick] is called meanwhile; it may raise
     something: then what has been pushed still waits. *)
+
+val close : t -> unit
+(** [close t] gives back what is on disk; [t] is of no use then. *)

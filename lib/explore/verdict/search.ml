@@ -64,11 +64,12 @@ type outcome = {
 (* What is searched, and since when. *)
 type subject = { program : Core.program; world : World.t; symmetry : Symmetry.t; started : float }
 
-let graph ?labelling ?phase x (options : options) =
+let with_graph ?labelling ?phase x (options : options) f =
   let { environment; reduction; compress; spill; limits; invariants; _ } = options in
   let space = Space.create ~reduction ~symmetry:x.symmetry ~asked:invariants ?labelling environment x.program x.world in
-  State_graph.create ~compress ?spill ?monitor:(Option.map Labelling.monitor labelling) ?phase ~started:x.started limits
-    space
+  let monitor = Option.map Labelling.monitor labelling in
+  let graph = State_graph.create ~compress ?spill ?monitor ?phase ~started:x.started limits space in
+  Fun.protect ~finally:(fun () -> State_graph.close graph) (fun () -> f graph)
 
 let broken_condition why : Limits.bound = Unsettled ("the condition cannot be told: " ^ why)
 
@@ -76,6 +77,14 @@ let of_verdict run : _ Breadth_first.verdict -> verdict = function
   | Holds -> Holds
   | Violated found -> Violated (run found)
   | Inconclusive bound -> Inconclusive bound
+
+(* A run that cannot be shown, for a bound is met or the disk fails, is not said to be. *)
+let told verdict =
+  match verdict () with
+  | verdict -> verdict
+  | exception Limits.Stop bound -> Inconclusive bound
+  | exception Out_of_memory -> Inconclusive No_memory
+  | exception States.Disk_failed why -> Inconclusive (Unsettled why)
 
 (* {1 Verdicts} *)
 
@@ -101,16 +110,14 @@ let rec termination_of_rounds x (options : options) graph =
       | Ends -> Holds
       | Goes_on lasso | Spins lasso -> shown lasso
       | By_design { repeats; retries; left_by } -> By_design { repeats; retries; left_by }
-      | Unsure -> in_all_states x options
-      | exception Limits.Stop bound -> Inconclusive bound
-      | exception Out_of_memory -> Inconclusive No_memory)
+      | Unsure -> in_all_states x options)
 
 (* What partial order leaves out may be what is fair. *)
 and in_all_states x options =
   let options = { options with reduction = Whole; invariants = [] } in
-  let graph = graph ~phase:"looking for cycles" { x with symmetry = Symmetry.none } options in
-  State_graph.run graph;
-  termination_of_rounds x options graph
+  with_graph ~phase:"looking for cycles" { x with symmetry = Symmetry.none } options (fun graph ->
+      State_graph.run graph;
+      termination_of_rounds x options graph)
 
 let termination x options graph ~shortest =
   if Space.goes_round (State_graph.system graph) then termination_of_rounds x options graph
@@ -142,12 +149,6 @@ let verdicts x (options : options) graph invariants =
     | All_reached -> unreached graph x.program
     | Invariant _ | Formula _ | Apart _ -> invalid_arg "Search.verdicts"
   in
-  (* A run that cannot be shown, for the disk fails or a bound is met, is not said to be. *)
-  let told verdict =
-    try verdict () with
-    | Limits.Stop bound -> Inconclusive bound
-    | States.Disk_failed why -> Inconclusive (Unsettled why)
-  in
   let given i =
     let verdict () = invariant graph ~shortest i in
     (Property.Invariant (Condition.to_string (Invariant.condition i)), told verdict)
@@ -177,17 +178,18 @@ let with_shortest_runs x (options : options) verdicts =
     let most = Option.fold ~none:options.search_again ~some:(min options.search_again) max_states in
     let limits = { options.limits with max_states = Some most } in
     let x = { x with symmetry = Symmetry.without_tasks x.symmetry } in
-    let graph = graph x { options with reduction = Whole; invariants = []; limits } in
-    let effort = ref 0 in
-    let look i = effort := !effort + effort_of_state (State_graph.breadth graph i) in
-    let enough () = !effort >= most || List.for_all (fun property -> shown graph property <> None) sought in
-    State_graph.run ~look ~enough graph;
-    let shorter (property, verdict) =
-      match if List.mem property sought then shown graph property else None with
-      | Some i -> (property, Violated (run_through graph ~shortest:true (State_graph.path graph i)))
-      | None -> (property, verdict)
-    in
-    List.map shorter verdicts
+    with_graph x { options with reduction = Whole; invariants = []; limits } (fun graph ->
+        let effort = ref 0 in
+        let look i = effort := !effort + effort_of_state (State_graph.breadth graph i) in
+        let enough () = !effort >= most || List.for_all (fun property -> shown graph property <> None) sought in
+        State_graph.run ~look ~enough graph;
+        let shortest i = told (fun () -> Violated (run_through graph ~shortest:true (State_graph.path graph i))) in
+        let shorter (property, verdict) =
+          match Option.map shortest (if List.mem property sought then shown graph property else None) with
+          | Some (Violated _ as shorter) -> (property, shorter)
+          | Some (Holds | By_design _ | Unreached _ | Inconclusive _) | None -> (property, verdict)
+        in
+        List.map shorter verdicts)
 
 (* {1 Formulas} *)
 
@@ -201,17 +203,12 @@ let formula x (options : options) f : verdict * int * int =
       { steps = found.steps; cycle = found.cycle; shortest = false }
     in
     State_graph.run graph;
-    match of_verdict run (State_graph.formula graph) with
-    | verdict -> verdict
-    | exception Limits.Stop bound -> Inconclusive bound
-    | exception Out_of_memory -> Inconclusive No_memory
-    | exception States.Disk_failed why -> Inconclusive (Unsettled why)
+    let verdict = told (fun () -> of_verdict run (State_graph.formula graph)) in
+    (verdict, State_graph.count graph, State_graph.memory graph)
   in
   match
     let options = { options with reduction = Whole; invariants = [] } in
-    let graph = graph ~labelling ~phase:"exploring for formulas" { x with symmetry = Symmetry.none } options in
-    let verdict = judge graph in
-    (verdict, State_graph.count graph, State_graph.memory graph)
+    with_graph ~labelling ~phase:"exploring for formulas" { x with symmetry = Symmetry.none } options judge
   with
   | found -> found
   | exception Valuation.Broken why -> (Inconclusive (broken_condition why), 0, 0)
@@ -232,33 +229,45 @@ let with_formulas x (options : options) found =
 
 (* {1 Plans side by side} *)
 
+(* What a search has seen. *)
+type sight = {
+  beside : Side_by_side.t;
+  near : verdict option;  (* a run to the first state in which plans are near *)
+  stopped : Limits.bound option;
+  count : int;
+  memory : int;
+}
+
 let see_state beside graph i =
-  match (fst (State_graph.state graph i)).control with
-  | Executing _ -> Side_by_side.see beside (fst (State_graph.state graph i)).shared.allocation
+  let c, _ = State_graph.state graph i in
+  match c.Configuration.control with
+  | Executing _ -> Side_by_side.see beside c.shared.allocation
   | Script _ | Waiting _ | Ended _ -> ()
 
 (* The states of [options], as far as they are needed, until [enough]. *)
-let rec seen x (options : options) fences ~enough =
-  let beside = Side_by_side.create fences in
-  match
-    let graph = graph ~phase:"looking for plans side by side" x options in
+let rec seen x (options : options) ~enough =
+  let beside = Side_by_side.create x.program.fences in
+  let search graph =
     let first = ref None in
     let look i =
       see_state beside graph i;
       if !first = None && Side_by_side.first_near beside then first := Some i
     in
     State_graph.run ~look ~enough:(fun () -> enough beside) graph;
-    (graph, !first)
-  with
-  | graph, first -> (beside, graph, first)
-  | exception Symmetry.Broken symmetry -> seen { x with symmetry } options fences ~enough
+    let run i = told (fun () -> Violated (run_through graph ~shortest:true (State_graph.path graph i))) in
+    { beside; near = Option.map run !first; stopped = State_graph.stopped graph; count = State_graph.count graph;
+      memory = State_graph.memory graph }
+  in
+  match with_graph ~phase:"looking for plans side by side" x options search with
+  | sight -> sight
+  | exception Symmetry.Broken symmetry -> seen { x with symmetry } options ~enough
 
 (* Which pairs there might be is known from fewer states: each plan that may run starts in one of them. *)
 let candidates x (options : options) =
   if options.reduction = Whole then None
   else
-    let all, graph, _ = seen x { options with reduction = Partial_order } x.program.fences ~enough:(fun _ -> false) in
-    if State_graph.stopped graph = None then Some (Side_by_side.candidates all, graph) else None
+    let all = seen x { options with reduction = Partial_order } ~enough:(fun _ -> false) in
+    if all.stopped = None then Some (Side_by_side.candidates all.beside, all) else None
 
 let beside x (options : options) =
   let options = { options with invariants = []; walks = None; bitstate = None } in
@@ -268,11 +277,11 @@ let beside x (options : options) =
   in
   let x = { x with symmetry = Symmetry.without_tasks vehicles } in
   let whole enough =
-    let all, graph, first = seen x { options with reduction = Whole } x.program.fences ~enough in
-    (Side_by_side.pairs all, graph, first)
+    let all = seen x { options with reduction = Whole } ~enough in
+    (Side_by_side.pairs all.beside, all)
   in
   match candidates x options with
-  | Some (0, graph) -> ([], graph, None)
+  | Some (0, all) -> ([], all)
   | Some (candidates, _) -> whole (Side_by_side.seen_all ~candidates)
   | None -> whole (fun _ -> false)
 
@@ -288,24 +297,25 @@ let apart x (options : options) found =
   | None -> found
   | Some fence ->
     Gc.full_major ();
-    let pairs, graph, first = beside x options in
+    let pairs, all = beside x options in
     let verdict =
-      match first, State_graph.stopped graph, of_unknown pairs with
-      | Some i, _, _ -> Violated (run_through graph ~shortest:true (State_graph.path graph i))
+      match all.near, all.stopped, of_unknown pairs with
+      | Some near, _, _ -> near
       | None, Some bound, _ | None, None, Some bound -> Inconclusive bound
       | None, None, None -> Holds
     in
     { found with
       verdicts = found.verdicts @ [ (Property.Apart fence.text, verdict) ];
       beside = pairs;
-      beside_states = State_graph.count graph;
-      bytes = max found.bytes (State_graph.memory graph);
+      beside_states = all.count;
+      bytes = max found.bytes all.memory;
       seconds = options.limits.clock () -. x.started }
 
 (* {1 Outcomes} *)
 
 let without_formulas x (options : options) =
-  let graph = graph x options and invariants = List.map (Invariant.create x.program x.world) options.invariants in
+  with_graph x options @@ fun graph ->
+  let invariants = List.map (Invariant.create x.program x.world) options.invariants in
   let look i = List.iter (fun invariant -> Invariant.check invariant graph i) invariants in
   (match options.walks, options.bitstate with
    | Some { number; seed }, _ -> State_graph.run_walks ~look graph ~walks:number ~seed
@@ -417,8 +427,8 @@ let run (options : options) program world =
 let side_by_side (options : options) program world =
   let options = relevant program (reducible program options) in
   let x = { program; world; symmetry = Symmetry.none; started = options.limits.clock () } in
-  let pairs, graph, _ = beside x options in
-  (pairs, State_graph.stopped graph)
+  let pairs, all = beside x options in
+  (pairs, all.stopped)
 
 (* {1 Text} *)
 

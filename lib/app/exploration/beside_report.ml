@@ -31,12 +31,11 @@ let json_of_pair program (pair : Side_by_side.pair) : Yojson.Safe.t =
   match pair.nearness with
   | Unknown -> `Assoc (both None None @ [ ("metres", `Null) ])
   | Near near ->
-    (* To a millimetre, and nearly so on the ground. *)
-    let number ~decimals x : Yojson.Safe.t =
-      `Float (float_of_string (Printf.sprintf "%.*f" decimals x)) in
+    (* To a millimetre, and to a centimetre on the ground. *)
+    let number digits x : Yojson.Safe.t = `Float (Dolphin_maps.Map_text.rounded digits x) in
     `Assoc
       (both (Some near.maneuver) (Some near.other)
-       @ [ ("metres", number ~decimals:3 near.metres); ("latitude", number ~decimals:7 near.place.latitude);
-           ("longitude", number ~decimals:7 near.place.longitude) ])
+       @ [ ("metres", number 3 near.metres); ("latitude", number 7 near.place.latitude);
+           ("longitude", number 7 near.place.longitude) ])
 
 let json program pairs : Yojson.Safe.t = `List (List.map (json_of_pair program) pairs)

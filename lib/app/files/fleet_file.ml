@@ -11,14 +11,13 @@ let choose ~program = function
 
 (* Maps are part of a fleet, as of programs. *)
 let read ~may_read path source =
-  let text path = Result.map_error (fun e -> String.concat "; " (Error.sentences e)) (Text_file.read path) in
-  let read_map path = Result.bind (may_read path) (fun () -> text path) in
-  let charts = Charts.read read_map (Result.value (Dolphin_syntax.Parse.program ~file:path source) ~default:[]) in
+  let ast = Result.value (Dolphin_syntax.Parse.program ~file:path source) ~default:[] in
+  let charts = Charts.read (Text_file.read_named ~may_read) ast in
   match Scenario.read ~chart:(Charts.value charts) ~file:path source with
   | Ok scenario -> Ok { path = Some path; source = source ^ Charts.identity charts; scenario }
   | Error found -> Error (Error.Bad_text { source; found })
 
-let load ?(may_read = fun _ -> Ok ()) = function
+let load ?(may_read = Text_file.anything) = function
   | None -> Ok { path = None; source = ""; scenario = Scenario.default }
   | Some path -> Result.bind (Text_file.read path) (read ~may_read path)
 

@@ -25,13 +25,10 @@ let no_fleet path =
       (Error.Bad_input
          (Printf.sprintf "%s: this is a fleet: name a program, and the fleet by --fleet %s" path path))
 
-let anything _ = Ok ()
-
-let load ?(set = []) ?(may_read = anything) path =
+let load ?(set = []) ?(may_read = Text_file.anything) path =
   let* source = Text_file.read path in
   let* () = no_fleet path in
-  let text path = Result.map_error (fun e -> String.concat "; " (Error.sentences e)) (Text_file.read path) in
-  let read path = Result.bind (may_read path) (fun () -> text path) in
+  let read = Text_file.read_named ~may_read in
   let { Include.text = source; _ }, parsed = Include.program ~read ~file:path source in
   let* ast = wrong source parsed in
   let parameters = Parameters.of_program ast in

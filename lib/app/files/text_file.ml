@@ -31,6 +31,12 @@ let read path =
   else if Sys.file_exists path && Sys.is_directory path then bad path "this is a directory, not a file"
   else with_channel path (read_all path)
 
+let anything _ = Ok ()
+
+let read_named ~may_read path =
+  let text () = Result.map_error (fun e -> String.concat "; " (Error.sentences e)) (read path) in
+  Result.bind (may_read path) text
+
 let read_input () =
   match read_all "standard input" stdin with
   | result -> result

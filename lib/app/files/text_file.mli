@@ -3,6 +3,13 @@
 val read : string -> (string, Error.t) result
 (** [read path] is the contents of the file [path], at most 64 MB. The error, {!Error.Bad_input}, names the file. *)
 
+val anything : string -> (unit, string) result
+(** That any file may be read. *)
+
+val read_named : may_read:(string -> (unit, string) result) -> string -> (string, string) result
+(** [read_named ~may_read path] is {!read} of a file that a text names, if [may_read path] lets it; or why not, in
+    words. *)
+
 val read_input : unit -> (string, Error.t) result
 (** [read_input ()] is what standard input has up to its end, at most 64 MB. *)
 

@@ -75,7 +75,24 @@ let test_three () =
     (List.sort compare (List.map both (Side_by_side.pairs seen)));
   Alcotest.(check int) "each plan might also run twice" 6 (Side_by_side.candidates seen)
 
+(* Partial order alone would follow one plan of the one vehicle beside those of the other. *)
+let test_orders () =
+  let program =
+    Test_support.Pure_run.compile_exn
+      "vs = pick { count 2 }\nexecute (task('p') >> task('q'))[vs[0]] | (task('r') >> task('s'))[vs[1]]\n"
+  in
+  let program = { program with fences = Fences.make [ distance ] } in
+  let expected = [ [ "p"; "r" ]; [ "p"; "s" ]; [ "q"; "r" ]; [ "q"; "s" ] ] in
+  let check reduction =
+    let options = { Search.default with environment = answering; reduction; limits } in
+    let found, stopped = Search.side_by_side options program Generate.world in
+    Alcotest.(check bool) "all states were seen" true (stopped = None);
+    Alcotest.(check (list (list string))) "pairs" expected (List.map (List.map snd) (names found))
+  in
+  List.iter check [ Reduction.Whole; Partial_order; All ]
+
 let () =
   Alcotest.run "side by side"
-    [ ("states", [ Alcotest.test_case "three plans have three pairs" `Quick test_three ]);
+    [ ("states", [ Alcotest.test_case "three plans have three pairs" `Quick test_three;
+                   Alcotest.test_case "plans in any order" `Quick test_orders ]);
       ("random programs", [ Alcotest.test_case "both searches find the same pairs" `Quick test_agreement ]) ]
